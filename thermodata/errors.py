@@ -1,0 +1,85 @@
+"""Errors that say what, where, expected and got, and what to do."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from difflib import get_close_matches
+
+
+class ThermodataError(Exception):
+    """Base of every error that a user is meant to read.
+
+    exit_code: what the command line returns (2 wrong usage or file, 4 store busy or damaged, 1 anything else).
+    """
+
+    exit_code = 1
+
+    def __init__(
+        self,
+        what: str,
+        *,
+        where: str | None = None,
+        expected: str | None = None,
+        got: str | None = None,
+        hint: str | None = None,
+    ) -> None:
+        self.what, self.where, self.expected, self.got, self.hint = what, where, expected, got, hint
+        super().__init__(str(self))
+
+    def __str__(self) -> str:
+        lines = [self.what]
+        if self.where is not None:
+            lines.append(f"where: {self.where}")
+        if self.expected is not None or self.got is not None:
+            parts = [] if self.expected is None else [f"expected: {self.expected}"]
+            parts += [] if self.got is None else [f"got: {self.got}"]
+            lines.append(", ".join(parts))
+        if self.hint is not None:
+            lines.append(f"try: {self.hint}")
+        return "\n".join(lines)
+
+
+class UsageError(ThermodataError):
+    """Wrong command, option, name or file."""
+
+    exit_code = 2
+
+
+class SpecError(UsageError):
+    """A campaign or model file is wrong; `where` names file and line."""
+
+
+class FormatError(UsageError):
+    """A log file is not what it claims to be; `where` names file and place."""
+
+
+class CalibrationError(UsageError):
+    """A calibration contradicts itself or its declaration."""
+
+
+class PluginError(ThermodataError):
+    """A plugin broke its contract (its bug, not the data's)."""
+
+
+class StoreError(ThermodataError):
+    """The store is busy, damaged, full, or written by a newer version."""
+
+    exit_code = 4
+
+
+def nearest(word: str, choices: Sequence[str]) -> str | None:
+    """The choice most like `word`, or None where none is near."""
+    found = get_close_matches(word.lower(), [c.lower() for c in choices], n=1, cutoff=0.6)
+    return next((c for c in choices if c.lower() == found[0]), None) if found else None
+
+
+def unknown_name(kind: str, word: str, choices: Sequence[str], **more: str) -> UsageError:
+    """The refusal of a name, with the nearest right one and all the choices."""
+    close = nearest(word, choices)
+    return UsageError(
+        f"no {kind} '{word}'",
+        expected=", ".join(sorted(choices)) or "nothing: there is none",
+        got=word,
+        hint=f"did you mean '{close}'?" if close else None,
+        **more,
+    )

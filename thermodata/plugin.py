@@ -1,0 +1,191 @@
+"""The contracts of plugins: what a reader and an effect are, and what passes between them and the house.
+
+A plugin is a distribution with an entry point in `thermodata.reader` or `thermodata.effect`; see
+`thermodata.reader` and `thermodata.effect` for how they are found. No base class, no constructor arguments.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from types import MappingProxyType
+from typing import Any, Literal, Protocol, TypeAlias, runtime_checkable
+
+import numpy as np
+import numpy.typing as npt
+
+Int1D: TypeAlias = npt.NDArray[np.int64]
+Float1D: TypeAlias = npt.NDArray[np.float64]
+Float2D: TypeAlias = npt.NDArray[np.float64]
+Bool1D: TypeAlias = npt.NDArray[np.bool_]
+Array: TypeAlias = npt.NDArray[Any]
+
+HEAD_BYTES = 64 * 1024
+_NOTHING: Mapping[str, Any] = MappingProxyType({})
+
+
+# ---- readers -------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True, slots=True)
+class Head:
+    """All that a sniff sees of a file: `start` holds at most its first 64 KiB."""
+
+    name: str
+    size_bytes: int
+    start: bytes
+
+
+@dataclass(frozen=True, slots=True)
+class Source:
+    """What the campaign file declares about a source. Everything has a default: nothing declared.
+
+    timezone: IANA name for local times (None: the file's own zone, else UTC with a note).
+    table: the layout keys of `sources.*.table` as plain data (see schema.campaign.TableLayout).
+    options: any further keys for one reader.
+    """
+
+    name: str = ""
+    timezone: str | None = None
+    encoding: str | None = None
+    table: Mapping[str, Any] | None = None
+    topics: tuple[str, ...] = ()
+    options: Mapping[str, Any] = field(default_factory=lambda: _NOTHING)
+
+
+@dataclass(frozen=True, slots=True)
+class Scaling:
+    """A scaling that the file declares: applied when the raw layer becomes the tidy layer, never by a reader.
+
+    kind "linear": properties gain, offset (value = gain * raw + offset).
+    kind "ni": the NI_Scale[n]_* properties of the channel as TDMS stores them.
+    """
+
+    kind: Literal["linear", "ni"]
+    properties: Mapping[str, Any]
+
+
+@dataclass(frozen=True, slots=True)
+class Signal:
+    """One column of a stream. dtype is numpy's name ("float64", "int16", "bool") or "str" for text;
+    unit is the text as written in the file."""
+
+    name: str
+    stream: str
+    unit: str | None = None
+    dtype: str = "float64"
+    scaling: Scaling | None = None
+    properties: Mapping[str, str] = field(default_factory=lambda: _NOTHING)
+
+
+@dataclass(frozen=True, slots=True)
+class Recording:
+    """What a file holds, read without its bulk. complete: None where the format cannot tell."""
+
+    signals: tuple[Signal, ...]
+    clock: Literal["absolute", "relative"]
+    start_ns: int | None = None
+    complete: bool | None = None
+    notes: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Block:
+    """Consecutive rows of one stream. t_ns: shape (n,), UTC nanoseconds since 1970 (absolute) or since the
+    start (relative). values: signal name -> shape (n,), in the file's own dtype. flags: signal -> uint16."""
+
+    stream: str
+    t_ns: Int1D
+    values: Mapping[str, Array]
+    flags: Mapping[str, Array] | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Loss:
+    """A part of the file that could not be read."""
+
+    where: str
+    from_ns: int | None = None
+    to_ns: int | None = None
+    fraction: float | None = None
+    reason: str = ""
+
+
+@runtime_checkable
+class Reader(Protocol):
+    """Reads one log format. Never scales, flips, resamples or aligns; yields time as recorded."""
+
+    name: str
+
+    def sniff(self, head: Head) -> str | None:
+        """The reason for claiming the file, or None."""
+
+    def describe(self, path: Path, source: Source) -> Recording:
+        """What the file holds; reads no bulk data. Raises FormatError where it can't be read at all."""
+
+    def blocks(self, path: Path, source: Source) -> Iterator[Block | Loss]:
+        """The data, in bounded blocks; a Loss where a part is gone (the good part is still yielded)."""
+
+
+# ---- effects -------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True, slots=True)
+class Need:
+    """A driver that an effect needs. places: dotted, `{a}` an axis letter, `*` any one part; () any place."""
+
+    role: str
+    quantity: str
+    places: tuple[str, ...] = ()
+    optional: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Param:
+    """A nonlinear parameter (time constant, exponent)."""
+
+    name: str
+    unit: str
+    start: float
+    lower: float
+    upper: float
+    meaning: str
+
+
+@dataclass(frozen=True, slots=True)
+class Gain:
+    """A linear parameter. magnitude: plausible (smallest, largest) absolute value in `unit`."""
+
+    name: str
+    unit: str
+    magnitude: tuple[float, float]
+    sign: Literal["+", "-", "any"]
+    meaning: str
+
+
+@dataclass(frozen=True, slots=True)
+class Drivers:
+    """What an effect sees of one test, on one grid. t_s: shape (n,), uniform. values: role -> shape (n,),
+    temperatures relative to the start of the test; valid: role -> shape (n,)."""
+
+    t_s: Float1D
+    values: Mapping[str, Float1D]
+    valid: Mapping[str, Bool1D]
+    conditions: Mapping[str, float | str]
+
+
+@runtime_checkable
+class Effect(Protocol):
+    """One physical effect: drivers and nonlinear parameters in, one column a gain out."""
+
+    name: str
+    family: str
+    meaning: str
+    source: str
+    needs: tuple[Need, ...]
+    params: tuple[Param, ...]
+    gains: tuple[Gain, ...]
+
+    def basis(self, drivers: Drivers, p: Mapping[str, float]) -> Float2D:
+        """Shape (n, len(gains)): the contribution of each gain at 1, zero at rest."""

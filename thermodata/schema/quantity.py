@@ -1,0 +1,121 @@
+"""Quantities, canonical units, and the one sign convention.
+
+Sign: a displacement is positive when the tool centre point moves along the machine's + axis relative to
+the table. Every channel comes to it by data (the jump test, or the probe's facing), never by a stray minus.
+"""
+
+from __future__ import annotations
+
+import re
+from functools import lru_cache
+from typing import Any, Literal, get_args
+
+from thermodata.errors import UsageError, nearest
+
+Quantity = Literal[
+    "displacement", "tilt", "angle", "temperature", "temperature_difference", "rotational_speed", "feed",
+    "power", "load", "current", "torque", "position", "flow", "pressure", "humidity", "irradiance", "voltage",
+    "resistance", "state", "label",
+]
+QUANTITIES: tuple[str, ...] = get_args(Quantity)
+
+CANONICAL_UNIT: dict[str, str] = {
+    "displacement": "um", "tilt": "urad", "angle": "deg", "temperature": "degC", "temperature_difference": "K",
+    "rotational_speed": "rpm", "feed": "m/min", "power": "kW", "load": "%", "current": "A", "torque": "N m",
+    "position": "mm", "flow": "l/min", "pressure": "bar", "humidity": "%", "irradiance": "W/m2", "voltage": "V",
+    "resistance": "Ohm", "state": "1", "label": "1",
+}
+
+# What labs write -> what pint reads. Pint misreads several of the left side without a word (1/min as
+# 0.159 rpm, U/min as enzyme units, Grd C as coulombs), so the alias comes first. Keys are casefolded with
+# blanks removed; a unit that case distinguishes (mW / MW) stays out of this table.
+_ALIAS: dict[str, str] = {
+    "1/min": "rpm", "u/min": "rpm", "ot/min": "rpm", "ot./min": "rpm", "min-1": "rpm", "min^-1": "rpm",
+    "min⁻¹": "rpm", "rev/min": "rpm", "r/min": "rpm", "rpm": "rpm", "upm": "rpm",
+    "degc": "degC", "°c": "degC", "℃": "degC", "grdc": "degC", "celsius": "degC", "deg.c": "degC",
+    "gradc": "degC", "ºc": "degC", "degcelsius": "degC", "degreec": "degC", "degreescelsius": "degC",
+    "stc": "degC", "degf": "degF", "°f": "degF", "fahrenheit": "degF",
+    "um": "um", "µm": "um", "μm": "um", "micron": "um", "microns": "um", "micrometer": "um", "mikrometer": "um",
+    "urad": "urad", "µrad": "urad", "μrad": "urad", "um/m": "urad", "µm/m": "urad",
+    "deg": "deg", "°": "deg", "grad": "deg", "volts": "V", "volt": "V", "v": "V",
+    "%": "percent", "percent": "percent", "pct": "percent", "proz": "percent",
+    "nm": "N*m", "n·m": "N*m", "n*m": "N*m", "n.m": "N*m", "newtons": "N",
+    "w/m2": "W/m**2", "w/m²": "W/m**2", "w/m^2": "W/m**2",
+    "ohm": "ohm", "ω": "ohm", "ohms": "ohm", "l/min": "l/min", "lpm": "l/min",
+    "m/min": "m/min", "mm/min": "mm/min", "1": "dimensionless", "-": "dimensionless", "bool": "dimensionless",
+    "": "dimensionless", "none": "dimensionless", "0/1": "dimensionless", "on/off": "dimensionless",
+    "k": "K", "kelvin": "K", "amps": "A", "ampere": "A", "amp": "A",
+    "hours": "h", "hour": "h", "std": "h", "hod": "h", "secs": "s", "sec": "s", "sek": "s", "seconds": "s",
+    "minutes": "min", "minuten": "min",
+}
+_QUANTITY_TEXT = re.compile(r"^\s*([+-]?(?:\d+(?:[.,]\d*)?|[.,]\d+)(?:[eE][+-]?\d+)?)\s*(.*?)\s*$")
+
+
+def normal_unit(text: str) -> str:
+    """The unit in pint's spelling, from what a lab wrote."""
+    bare = re.sub(r"\s+", "", text).strip("[]()")
+    # "nm" in lower case is nanometres; torque is written with a capital N
+    if bare == "nm":
+        return "nm"
+    return _ALIAS.get(bare.casefold(), text.strip())
+
+
+@lru_cache(maxsize=1)
+def _registry() -> Any:
+    import pint
+
+    registry: Any = pint.UnitRegistry(autoconvert_offset_to_baseunit=False, cache_folder=None)
+    return registry
+
+
+@lru_cache(maxsize=4096)
+def linear_conversion(unit: str, target: str) -> tuple[float, float]:
+    """(factor, offset) with value_target = factor * value_unit + offset; UsageError where they don't convert."""
+    source, goal = normal_unit(unit), normal_unit(target)
+    if source == goal:
+        return 1.0, 0.0
+    try:
+        registry = _registry()
+        at_0 = float(registry.Quantity(0.0, source).to(goal).magnitude)
+        at_1 = float(registry.Quantity(1.0, source).to(goal).magnitude)
+    except Exception as error:
+        raise UsageError(
+            f"unit '{unit}' does not convert to '{target}'",
+            expected=f"a unit of the same kind as {target}",
+            got=unit,
+            hint="declare the channel's unit in the campaign file (unit: ...)",
+        ) from error
+    return at_1 - at_0, at_0
+
+
+def canonical(quantity: str) -> str:
+    """The canonical unit of a quantity."""
+    if quantity not in CANONICAL_UNIT:
+        close = nearest(quantity, QUANTITIES)
+        raise UsageError(f"no quantity '{quantity}'", expected=", ".join(QUANTITIES), got=quantity,
+                         hint=f"did you mean '{close}'?" if close else None)
+    return CANONICAL_UNIT[quantity]
+
+
+def split_value(text: str | float | int) -> tuple[float, str]:
+    """'9000 rpm' -> (9000.0, 'rpm'); a bare number has the unit ''. UsageError where there is no number."""
+    if isinstance(text, bool) or not isinstance(text, str | float | int):
+        raise UsageError("not a value with a unit", expected="for example '10 s'", got=repr(text))
+    if not isinstance(text, str):
+        return float(text), ""
+    match = _QUANTITY_TEXT.match(text)
+    if not match:
+        raise UsageError("not a value with a unit", expected="for example '10 s'", got=repr(text))
+    return float(match[1].replace(",", ".")), match[2]
+
+
+def value_in(text: str | float | int, unit: str) -> float:
+    """'10 min' in 's' -> 600.0. A bare number is taken only where it is 0, for 0 is 0 in any unit."""
+    value, written = split_value(text)
+    if not written:
+        if value == 0 or unit in ("1", "dimensionless"):
+            return value
+        raise UsageError("a value without a unit", expected=f"a unit, for example '{text} {unit}'", got=str(text),
+                         hint=f"write '{text} {unit}'")
+    factor, offset = linear_conversion(written, unit)
+    return factor * value + offset

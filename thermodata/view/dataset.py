@@ -1,0 +1,72 @@
+"""The data that models are fitted to: every test of a model on one uniform grid, masks beside the values.
+
+Plain frozen values: what makes them (from a store) is `view.load`, what uses them is `modelling` and `diagnosis`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+from thermodata.plugin import Bool1D, Float1D
+
+
+@dataclass(frozen=True, slots=True)
+class ChannelInfo:
+    """A channel as the campaign file describes it. unit is canonical; sign '+' once normalised, else 'unknown'."""
+
+    name: str
+    quantity: str
+    unit: str
+    at: str | None = None
+    axis: str | None = None
+    relative_to: str | None = None
+    source: str | None = None
+    sign: str = "+"
+    resolution: float | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class TestData:
+    """One test on a uniform grid of step_s.
+
+    t_s: shape (n,), seconds from the test's start; negative in the history before the test's window.
+    values: channel -> shape (n,) float64, canonical units, mean of the valid samples of the bin (states held),
+    NaN where there are none. valid: channel -> shape (n,). in_window: shape (n,), False in the history.
+    conditions: numbers in canonical units or text, machine attributes included. phases: name -> (from_s, to_s).
+    start_unix_s: UTC seconds of t_s == 0 (None for relative clocks), for hours of the day.
+    """
+
+    __test__ = False
+    campaign: str
+    test: str
+    kind: str
+    role: str
+    t_s: Float1D
+    values: Mapping[str, Float1D]
+    valid: Mapping[str, Bool1D]
+    in_window: Bool1D
+    conditions: Mapping[str, float | str] = field(default_factory=dict)
+    phases: Mapping[str, tuple[float, float]] = field(default_factory=dict)
+    start_state: str = "balance"
+    zero_s: float = 600.0
+    start_unix_s: float | None = None
+    machine: str = ""
+    channels: Mapping[str, ChannelInfo] = field(default_factory=dict)
+
+    @property
+    def key(self) -> tuple[str, str]:
+        return self.campaign, self.test
+
+
+@dataclass(frozen=True, slots=True)
+class Dataset:
+    """The tests of one or more campaigns on one step. channels: the union over tests, by name."""
+
+    step_s: float
+    tests: tuple[TestData, ...]
+    channels: Mapping[str, ChannelInfo]
+    data_version: str = ""
+
+    def test(self, campaign: str, test: str) -> TestData:
+        return next(t for t in self.tests if t.key == (campaign, test))
