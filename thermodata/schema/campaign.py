@@ -35,7 +35,7 @@ Um = Annotated[float, _in("um")]
 class Strict(BaseModel):
     """Unknown keys are refused; the loader names the nearest right one."""
 
-    model_config = ConfigDict(extra="forbid", frozen=True, populate_by_name=True)
+    model_config = ConfigDict(extra="forbid", frozen=True, populate_by_name=True, coerce_numbers_to_str=True)
 
 
 class Axis(Strict):

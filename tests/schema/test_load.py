@@ -1,0 +1,94 @@
+"""Campaign and model files: what the design shows loads; every mistake names its line and what is right."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from thermodata.errors import SpecError
+from thermodata.schema.load import load_campaign, parse_model
+
+EXAMPLE = Path(__file__).with_name("campaign.yaml")
+
+
+def test_the_example_of_the_design_loads() -> None:
+    campaign = load_campaign(EXAMPLE)
+    assert campaign.sources["ir"].clock.offset == -3.2
+    assert campaign.calibrations["jump_z"].moves == [100.0, -100.0]
+    assert campaign.tests[3].window == (0.0, 57600.0)
+    assert campaign.machine.axes["Y"].model_extra == {"preload": "2.1 kN"}
+
+
+@pytest.mark.parametrize(
+    ("right", "wrong", "line", "says"),
+    [
+        ("gain: 250", "gian: 250", 21, "did you mean 'gain'"),
+        ("quantity: tilt", "quantity: tilts", 17, "did you mean 'tilt'"),
+        ("dwell: 10 s", "dwell: 10", 20, "10 s"),
+        ("calibration: jump_z", "calibration: jump_y", 13, "did you mean 'jump_z'"),
+        ('measuring: "feed', 'mesuring: "feed', 25, "did you mean 'measuring'"),
+        ('files: "raw/{test}.csv"', 'files: "../{test}.csv"', 9, "leaves the campaign's folder"),
+        ("timezone: Europe/Prague}", "timezone: Europe/Prag}", 8, "Europe/Prague"),
+        ("window: [0 h, 16 h]", "window: [16 h, 1 h]", 27, "ends before"),
+        ("id: feed_z10", "id: SP9000", 25, "stands twice"),
+        ("source: daq, signal: n,", "source: dag, signal: n,", 16, "did you mean 'daq'"),
+        ("T_bearing_front:", "T__front:", 12, "T__front"),
+        ("  t03:", "  jump_z:", 22, "stands twice"),
+    ],
+)
+def test_a_mistake_names_its_line_and_the_right_word(
+    tmp_path: Path, right: str, wrong: str, line: int, says: str
+) -> None:
+    text = EXAMPLE.read_text()
+    assert right in text
+    path = tmp_path / "c.yaml"
+    path.write_text(text.replace(right, wrong, 1))
+    with pytest.raises(SpecError) as caught:
+        load_campaign(path)
+    assert f"c.yaml:{line}" in str(caught.value)
+    assert says in str(caught.value)
+
+
+def test_nested_aliases_do_not_fill_the_memory(tmp_path: Path) -> None:
+    lines = ["a0: &a0 [x, x, x, x, x, x, x, x, x, x]"]
+    lines += [f"a{i}: &a{i} [{', '.join([f'*a{i - 1}'] * 10)}]" for i in range(1, 9)]
+    path = tmp_path / "bomb.yaml"
+    path.write_text("\n".join(lines))
+    with pytest.raises(SpecError, match="too much"):
+        load_campaign(path)
+
+
+def _from_names(tmp_path: Path, extra: str = "") -> Path:
+    raw = tmp_path / "raw"
+    raw.mkdir()
+    for name in ("S3000_F500_07.csv", "S6000_F750_8.csv", "other.csv"):
+        (raw / name).write_text("x")
+    (tmp_path / "tests.csv").write_text("nr;air;speed\n7;21.5;3000\n8;22,5;6100\n")
+    path = tmp_path / "c.yaml"
+    path.write_text(
+        "schema: thermodata/campaign/1\nid: c\nsources: {nc: {reader: cnc}}\ntests_from:\n"
+        '  files: "raw/S{speed}_F{feed}_{nr}.csv"\n'
+        f"  table: {{file: tests.csv, key: nr, columns: {{air: air{extra}}}}}\n"
+        "  units: {speed: rpm, feed: mm/min, air: degC}\n  set: {kind: spindle, role: calibration}\n")
+    return path
+
+
+def test_conditions_come_from_file_names_and_the_table(tmp_path: Path) -> None:
+    tests = {t.id: t for t in load_campaign(_from_names(tmp_path)).tests}
+    assert set(tests) == {"S3000_F500_07", "S6000_F750_8"}
+    assert tests["S6000_F750_8"].conditions == {"speed": "6000 rpm", "feed": "750 mm/min", "air": "22.5 degC"}
+    assert tests["S3000_F500_07"].files == {"nc": "raw/S3000_F500_07.csv"}
+    assert tests["S3000_F500_07"].role == "calibration"
+
+
+def test_a_file_name_that_contradicts_the_table_is_an_error(tmp_path: Path) -> None:
+    with pytest.raises(SpecError, match="disagree on 'speed'"):
+        load_campaign(_from_names(tmp_path, ", speed: speed"))
+
+
+def test_a_model_names_its_nearest_right_key() -> None:
+    good = "schema: thermodata/model/1\nname: b\ncampaign: c\nresponse: {axis: Z, at: tcp}\neffects:\n  - {effect: lag}\n"
+    assert parse_model(good).campaign_ids == ("c",)
+    with pytest.raises(SpecError, match=r"model\.yaml:6.*\n.*\n.*did you mean 'drivers'"):
+        parse_model(good.replace("{effect: lag}", "{effect: lag, drivrs: {u: x}}"))

@@ -1,0 +1,137 @@
+"""Turns pydantic's complaints into errors with the file's line and the nearest right key."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any, TypeVar, get_args
+
+from pydantic import BaseModel, ValidationError
+
+from thermodata.errors import SpecError, nearest
+from thermodata.schema.lines import Document, Place, at_place, dotted_place
+
+M = TypeVar("M", bound=BaseModel)
+SHOWN = 8
+
+
+def validate(model: type[M], document: Document) -> M:
+    """The document as `model`; SpecError with every problem's line."""
+    try:
+        return model.model_validate(document.data)
+    except ValidationError as error:
+        problems = list(_problems(model, document, error))
+        raise _as_error(document, problems) from None
+
+
+def _as_error(document: Document, problems: list[SpecError]) -> SpecError:
+    first = problems[0]
+    if len(problems) == 1:
+        return first
+    others = "; ".join(f"{p.where}: {p.what}" + (f" ({p.hint})" if p.hint else "") for p in problems[1:SHOWN])
+    more = f"; and {len(problems) - SHOWN} more" if len(problems) > SHOWN else ""
+    return SpecError(f"{first.what} (the first of {len(problems)} problems)", where=first.where,
+                     expected=first.expected, got=first.got,
+                     hint=". ".join(filter(None, [first.hint, f"then also {others}{more}"])))
+
+
+def _problems(model: type[BaseModel], document: Document, error: ValidationError) -> Iterator[SpecError]:
+    seen: set[tuple[Place, str]] = set()
+    # a misspelt key is why another is missing: say it first
+    details = sorted(error.errors(), key=lambda detail: detail["type"] != "extra_forbidden")
+    for detail in details:
+        place, tags = _real_place(document.data, detail["loc"], detail["type"])
+        value = at_place(document.data, place)
+        # in a union each branch complains; a mapping never meant to be the text branch, and so on
+        if _other_branch(detail["type"], value, tags):
+            continue
+        kind = detail["type"]
+        if (place, kind) in seen:
+            continue
+        seen.add((place, kind))
+        yield _one(model, document, place, detail, tags)
+    if not seen:
+        detail = details[0]
+        place, tags = _real_place(document.data, detail["loc"], detail["type"])
+        yield _one(model, document, place, detail, tags)
+
+
+def _one(model: type[BaseModel], document: Document, place: Place, detail: Any, tags: tuple[str, ...]) -> SpecError:
+    where, kind = document.where(place), detail["type"]
+    name = place[-1] if place else ""
+    if kind == "extra_forbidden":
+        keys = sorted(_keys_at(model, place[:-1], tags))
+        close = nearest(str(name), keys)
+        return SpecError(f"unknown key '{name}'", where=where, expected="one of " + ", ".join(keys), got=str(name),
+                         hint=f"did you mean '{close}'?" if close else None)
+    if kind == "missing":
+        return SpecError(f"the key '{name}' is missing", where=document.where(place[:-1]),
+                         expected=f"{dotted_place(place)}: ...")
+    value = at_place(document.data, place)
+    message = str(detail["msg"]).removeprefix("Value error, ")
+    close = None
+    if kind == "literal_error":
+        choices = [c.strip("' ") for c in str(detail["ctx"]["expected"]).replace(" or ", ", ").split(",")]
+        close = nearest(str(value), choices)
+        return SpecError(f"'{name}' is not one of the allowed words", where=where,
+                         expected=", ".join(c for c in choices if c), got=repr(value),
+                         hint=f"did you mean '{close}'?" if close else None)
+    return SpecError(f"'{name}': {message}" if name != "" else message, where=where, got=_short(value))
+
+
+def _short(value: Any) -> str:
+    text = repr(value)
+    return text if len(text) <= 80 else text[:77] + "..."
+
+
+def _other_branch(kind: str, value: Any, tags: tuple[str, ...]) -> bool:
+    if isinstance(value, dict):
+        return kind in ("string_type", "list_type", "float_type", "int_type", "tuple_type") and bool(tags)
+    if isinstance(value, list):
+        return kind in ("string_type", "dict_type", "model_type") and bool(tags)
+    return kind in ("model_type", "list_type", "dict_type") and bool(tags) and value is not None
+
+
+def _real_place(data: Any, loc: tuple[str | int, ...], kind: str) -> tuple[Place, tuple[str, ...]]:
+    """The part of pydantic's path that stands in the file; what is left names union branches."""
+    place: list[str | int] = []
+    tags: list[str] = []
+    last = len(loc) - 1
+    for i, part in enumerate(loc):
+        value = at_place(data, place)
+        exists = (isinstance(value, dict) and part in value) or (
+            isinstance(value, list) and isinstance(part, int) and part < len(value))
+        if exists or (i == last and kind == "missing"):
+            place.append(part)
+        elif isinstance(part, str):
+            tags.append(part)
+    return tuple(place), tuple(tags)
+
+
+def _models_in(annotation: Any) -> Iterator[type[BaseModel]]:
+    if isinstance(annotation, type) and issubclass(annotation, BaseModel):
+        yield annotation
+    for argument in get_args(annotation):
+        yield from _models_in(argument)
+
+
+def _keys_at(model: type[BaseModel], place: Place, tags: tuple[str, ...]) -> set[str]:
+    models = [model]
+    for part in place:
+        found: list[type[BaseModel]] = []
+        named = False
+        for candidate in models:
+            for field_name, info in candidate.model_fields.items():
+                if part in (field_name, info.alias):
+                    found.extend(_models_in(info.annotation))
+                    named = True
+        # a part that names no field is a free key or an index inside the models at hand
+        if named:
+            models = found
+    chosen = [m for m in models if m.__name__ in tags or _kind_of(m) in tags] or models
+    return {info.alias or name for m in chosen for name, info in m.model_fields.items()}
+
+
+def _kind_of(model: type[BaseModel]) -> str | None:
+    info = model.model_fields.get("kind")
+    words = get_args(info.annotation) if info is not None else ()
+    return words[0] if len(words) == 1 else None

@@ -1,0 +1,142 @@
+"""YAML with the line of every key, read strictly: one document, no duplicate keys, bounded aliases."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import yaml
+
+from thermodata.errors import SpecError
+
+MAX_BYTES = 16 * 1024 * 1024
+MAX_NODES = 500_000
+MAX_DEPTH = 60
+
+Place = tuple[str | int, ...]
+
+
+@dataclass(slots=True)
+class Document:
+    """Plain data and where it stood: `line[place]` is the 1-based line of the key or item at that place."""
+
+    path: Path
+    data: Any
+    line: dict[Place, int] = field(default_factory=dict)
+
+    def where(self, place: Sequence[str | int]) -> str:
+        """`file:line (a.b[2])`, at the deepest known part of the place."""
+        known = tuple(place)
+        while known and known not in self.line:
+            known = known[:-1]
+        dotted = dotted_place(place)
+        return f"{self.path.name}:{self.line.get(known, 1)}" + (f" ({dotted})" if dotted else "")
+
+
+def dotted_place(place: Sequence[str | int]) -> str:
+    """('tests', 2, 'id') -> 'tests[2].id', counted from 0 as in JSON."""
+    text = ""
+    for part in place:
+        text += f"[{part}]" if isinstance(part, int) else (f".{part}" if text else part)
+    return text
+
+
+class _Loader(yaml.SafeLoader):
+    """Dates stay text: a campaign file has none, and 2026-03-01 may be an id."""
+
+
+_Loader.yaml_implicit_resolvers = {
+    key: [(tag, regexp) for tag, regexp in resolvers if tag != "tag:yaml.org,2002:timestamp"]
+    for key, resolvers in yaml.SafeLoader.yaml_implicit_resolvers.items()
+}
+
+
+def read_document(path: Path) -> Document:
+    """Parse a YAML file; SpecError names file and line where it is not one mapping of plain values."""
+    try:
+        raw = path.read_bytes()
+    except OSError as error:
+        raise SpecError(f"cannot read '{path}'", where=str(path), got=error.strerror or str(error),
+                        hint="give the path of the YAML file") from None
+    if len(raw) > MAX_BYTES:
+        raise SpecError("the file is too large for a YAML description", where=str(path),
+                        expected=f"under {MAX_BYTES} bytes", got=str(len(raw)))
+    try:
+        text = raw.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        raise SpecError("the file is not UTF-8", where=f"{path.name}, byte {error.start}",
+                        hint="save it as UTF-8") from None
+    return parse_document(text, path)
+
+
+def parse_document(text: str, path: Path) -> Document:
+    """The same from text; `path` is for messages and relative files."""
+    loader = _Loader(text)
+    try:
+        root = loader.get_single_node()
+        if root is None or not isinstance(root, yaml.MappingNode):
+            raise SpecError("the file holds no keys", where=f"{path.name}:1", expected="key: value lines")
+        document = Document(path, None)
+        document.data = _Builder(loader, document).build(root, (), 0)
+        return document
+    except (yaml.YAMLError, RecursionError) as error:
+        mark = getattr(error, "problem_mark", None)
+        line = f":{mark.line + 1}, column {mark.column + 1}" if mark else ""
+        raise SpecError("not valid YAML", where=f"{path.name}{line}",
+                        got=str(getattr(error, "problem", None) or type(error).__name__),
+                        hint="check indentation, quotes and brackets near that line") from None
+    finally:
+        loader.dispose()
+
+
+@dataclass(slots=True)
+class _Builder:
+    loader: _Loader
+    document: Document
+    count: int = 0
+
+    def build(self, node: yaml.Node, place: Place, depth: int) -> Any:
+        self.count += 1
+        name, line = self.document.path.name, node.start_mark.line + 1
+        # aliases may nest: a file of a few lines can describe more nodes than memory holds
+        if self.count > MAX_NODES or depth > MAX_DEPTH:
+            raise SpecError("the file describes too much", where=f"{name}:{line}",
+                            expected=f"at most {MAX_NODES} values and {MAX_DEPTH} levels")
+        self.document.line.setdefault(place, line)
+        if isinstance(node, yaml.MappingNode):
+            return self._mapping(node, place, depth)
+        if isinstance(node, yaml.SequenceNode):
+            return [self.build(item, (*place, i), depth + 1) for i, item in enumerate(node.value)]
+        try:
+            return self.loader.construct_object(node)
+        except (yaml.YAMLError, ValueError):
+            raise SpecError("a value that YAML cannot read", where=f"{name}:{line}", got=str(node.value)[:80],
+                            hint="put it in quotes") from None
+
+    def _mapping(self, node: yaml.MappingNode, place: Place, depth: int) -> dict[str, Any]:
+        result: dict[str, Any] = {}
+        name = self.document.path.name
+        for key_node, value_node in node.value:
+            line = key_node.start_mark.line + 1
+            if not isinstance(key_node, yaml.ScalarNode):
+                raise SpecError("a key must be a word", where=f"{name}:{line}")
+            key = str(key_node.value)
+            if key in result:
+                raise SpecError(f"the key '{key}' stands twice", where=f"{name}:{line}",
+                                got=f"first at line {self.document.line[(*place, key)]}",
+                                hint="keep one of them")
+            self.document.line[(*place, key)] = line
+            result[key] = self.build(value_node, (*place, key), depth + 1)
+        return result
+
+
+def at_place(data: Any, place: Sequence[str | int]) -> Any:
+    """The value at a place, or None."""
+    for part in place:
+        in_list = isinstance(data, list) and isinstance(part, int) and 0 <= part < len(data)
+        if not in_list and not (isinstance(data, Mapping) and part in data):
+            return None
+        data = data[part]
+    return data

@@ -1,0 +1,53 @@
+"""Reads campaign and model files: strict, with the line of every mistake."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+from thermodata.errors import SpecError
+from thermodata.schema.campaign import Campaign
+from thermodata.schema.crosscheck import check_campaign
+from thermodata.schema.explain import validate
+from thermodata.schema.lines import Document, parse_document, read_document
+from thermodata.schema.model import Model
+from thermodata.schema.tests_from import expand
+
+
+def load_campaign(path: Path | str) -> Campaign:
+    """A campaign file with `tests_from` expanded into `tests`; SpecError names file and line."""
+    document = read_document(Path(path))
+    _expect_schema(document, "thermodata/campaign/1")
+    campaign = validate(Campaign, document)
+    check_campaign(campaign, document)
+    if campaign.tests_from is not None:
+        campaign = expand(campaign, document)
+    return campaign
+
+
+def load_model(path: Path | str) -> Model:
+    """A model file; SpecError names file and line."""
+    document = read_document(Path(path))
+    return _model(document)
+
+
+def parse_model(text: str, name: str = "model.yaml") -> Model:
+    """A model from text, as `load_model` does from a file."""
+    return _model(parse_document(text, Path(name)))
+
+
+def _model(document: Document) -> Model:
+    _expect_schema(document, "thermodata/model/1")
+    return validate(Model, document)
+
+
+def _expect_schema(document: Document, expected: str) -> None:
+    got: Any = document.data.get("schema")
+    if got != expected:
+        kind = expected.split("/")[1]
+        other = isinstance(got, str) and got.startswith("thermodata/")
+        raise SpecError(
+            f"not a {kind} file" if not other else f"this is a '{got}' file",
+            where=document.where(("schema",)), expected=f"schema: {expected}",
+            got="no 'schema' key" if got is None else f"schema: {got}",
+            hint=f"start the file with 'schema: {expected}'" if got is None else None)
