@@ -1,0 +1,165 @@
+"""Text of instrument files: encodings, units in headers, decimal marks. Shared by every reader of text.
+
+Nothing is ever dropped: `errors="ignore"` turns "µm" into "m", a factor of a million.
+"""
+
+from __future__ import annotations
+
+import codecs
+import re
+from collections.abc import Iterable
+
+from thermodata.errors import FormatError
+from thermodata.reader.zone import local_to_utc_ns
+from thermodata.schema.quantity import _ALIAS
+
+__all__ = ["clean", "decimal_mark", "decode", "decode_head", "find_encoding", "local_to_utc_ns", "looks_like_unit",
+           "split_unit", "to_float"]
+
+_BOMS = ((codecs.BOM_UTF8, "utf-8-sig"), (codecs.BOM_UTF16_LE, "utf-16"), (codecs.BOM_UTF16_BE, "utf-16"))
+
+# Bytes that mean different things in cp1250 and cp1252, and which of the two makes sense of them in a log.
+# µ ° ± § ä ö ü ß é á í š ž are the same in both.
+_CENTRAL = dict.fromkeys("čěřůňďČĚŘŮŇĎŤťążćęŁłńőű".encode("cp1250"), 1)
+_WESTERN = dict.fromkeys("²¼½¾àãåÀÅÃ".encode("cp1252"), 2)
+_CUBIC = re.compile(rb"m\xb3(?![A-Za-z\x80-\xff])")        # m³ in cp1252, mł in cp1250
+
+
+def _single_byte(data: bytes) -> str:
+    """cp1250 or cp1252, by the letters that differ."""
+    undefined_1250 = any(b in data for b in (b"\x83", b"\x88", b"\x98"))
+    undefined_1252 = any(b in data for b in (b"\x8d", b"\x8f", b"\x9d"))
+    if undefined_1250 != undefined_1252:
+        return "cp1252" if undefined_1250 else "cp1250"
+    western = 3 * len(_CUBIC.findall(data)) + sum(w * data.count(bytes((b,))) for b, w in _WESTERN.items())
+    central = sum(w * data.count(bytes((b,))) for b, w in _CENTRAL.items())
+    return "cp1252" if western > central else "cp1250"
+
+
+def find_encoding(data: bytes, declared: str | None = None) -> tuple[str, str | None]:
+    """(encoding, note or None) of a file's bytes. Order: declared, byte order mark, UTF-8, UTF-16 without a
+    mark, then cp1250 or cp1252 by the letters that differ. FormatError: the declared one is unknown or fails,
+    or no single-byte encoding reads it."""
+    if declared is not None:
+        try:
+            name = codecs.lookup(declared).name
+        except LookupError:
+            raise FormatError(f"no encoding '{declared}'", expected="utf-8, cp1250, cp1252, utf-16, ...",
+                              got=declared) from None
+        _try(data, declared)
+        return ("utf-8-sig" if name == "utf-8" and data.startswith(codecs.BOM_UTF8) else declared), None
+    for mark, name in _BOMS:
+        if data.startswith(mark):
+            _try(data, name)
+            return name, None
+    head = data[:4096]
+    for start, name in ((1, "utf-16-le"), (0, "utf-16-be")):
+        if len(head) >= 4 and head[start::2].count(0) > 0.8 * len(head[start::2]) and not head[1 - start::2].count(0):
+            return name, f"no byte order mark; read as {name}"
+    try:
+        data.decode("utf-8")
+        return "utf-8", None
+    except UnicodeDecodeError as error:
+        name = _single_byte(data)
+        _try(data, name)
+        return name, f"not UTF-8 (byte {error.start}); read as {name}: declare encoding if that is wrong"
+
+
+def _try(data: bytes, encoding: str) -> str:
+    try:
+        return data.decode(encoding)
+    except UnicodeDecodeError as error:
+        raise FormatError(
+            "text does not decode", where=f"byte {error.start}", expected=encoding,
+            got=data[error.start:error.start + 4].hex(" "), hint="declare the source's encoding",
+        ) from None
+
+
+def decode(data: bytes, declared: str | None = None) -> tuple[str, str, str | None]:
+    """(text, encoding, note or None); see find_encoding. No byte is ever dropped or replaced."""
+    encoding, note = find_encoding(data, declared)
+    return _try(data, encoding), encoding, note
+
+
+def decode_head(start: bytes) -> str | None:
+    """The text of a file's first bytes (which may end inside a character), or None where it is binary."""
+    if start.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
+        return codecs.getincrementaldecoder("utf-16")("replace").decode(start)
+    if b"\0" in start[:4096]:
+        try:
+            encoding, _ = find_encoding(start[: len(start) // 2 * 2])
+        except FormatError:
+            return None
+        return start.decode(encoding, "replace") if encoding.startswith("utf-16") else None
+    try:
+        return codecs.getincrementaldecoder("utf-8-sig")().decode(start)
+    except UnicodeDecodeError:
+        control = sum(start.count(bytes((b,))) for b in range(1, 32) if b not in (9, 10, 12, 13, 26))
+        if control:
+            return None
+        return start.decode(_single_byte(start), "replace")
+
+
+# ---- units ---------------------------------------------------------------------------------------
+
+_BASE = (r"(?:[kMGmunµμcdh]?(?:m|g|s|A|V|W|K|N|Pa|Hz|J|C|F|bar|l|L|rad|Ohm|ohm|Ω|VA|Wh|mol|lm|lx|T)|min|h|d|rpm|RPM|"
+         r"inch|deg|U|rev|mas|arcsec|ppm|RH|dB|psi|inc|imp|1|bit|counts?|digits?)")
+_UNIT = re.compile(rf"^{_BASE}(?:\s?\^?-?[1-4]|[²³⁻¹]+)?(?:\s?[/*·.]\s?{_BASE}(?:\^?-?[1-4]|[²³⁻¹]+)?){{0,3}}$")
+_TRAILING = re.compile(r"^(?P<name>.*?)(?P<gap>\s*)"
+                       r"(?:\[(?P<square>[^\[\]]*)\]|\((?P<round>[^()]*)\)|(?P<fullwidth>（[^（）]*）))$", re.DOTALL)
+
+
+def looks_like_unit(text: str) -> bool:
+    """Whether a text reads as a unit: an alias (U/min, Grd C, °C) or SI symbols with / * and powers."""
+    bare = re.sub(r"\s+", "", text).strip("[]()")
+    if not bare or bare.isdigit():
+        return False
+    return bare.casefold() in _ALIAS or _UNIT.match(text.strip()) is not None
+
+
+def split_unit(header: str) -> tuple[str, str | None]:
+    """(name, unit or None): 'ch3(um)' -> ('ch3', 'um'), 'Temp [degC]' -> ('Temp', 'degC').
+
+    Brackets that hold no unit stay in the name: 'Excitation (Trigger)', 'nckServoData [u1; 1]', 'T[2]'.
+    """
+    header = header.strip()
+    match = _TRAILING.match(header)
+    if not match or not match["name"].strip():
+        return header, None
+    unit = (match["square"] or match["round"] or (match["fullwidth"] or "").strip("（）")).strip()
+    if looks_like_unit(unit):
+        return match["name"].strip(), unit
+    # a word of its own in square brackets is a unit that we don't know; an index or an address is none
+    if match["square"] and match["gap"] and re.match(r"^[^\W\d][^;,]{0,15}$", unit) and not re.match(r"^u\d", unit):
+        return match["name"].strip(), unit
+    return header, None
+
+
+def clean(cell: str) -> str:
+    """A cell without blanks, quotes and a stray byte order mark around it."""
+    return cell.strip().strip("\ufeff").strip().strip('"').strip()
+
+
+# ---- numbers -------------------------------------------------------------------------------------
+
+_POINT = re.compile(r"^[+-]?\d*\.\d+(?:[eE][+-]?\d+)?$|^[+-]?\d+\.\d*(?:[eE][+-]?\d+)?$")
+_COMMA = re.compile(r"^[+-]?\d*,\d+(?:[eE][+-]?\d+)?$|^[+-]?\d+,\d*(?:[eE][+-]?\d+)?$")
+
+
+def decimal_mark(cells: Iterable[str]) -> str | None:
+    """'.' or ',' by the number cells of a file's first data rows; None where none has a fraction.
+    FormatError where both occur, for then no choice is right."""
+    points = commas = 0
+    for cell in cells:
+        text = clean(cell)
+        points += _POINT.match(text) is not None
+        commas += _COMMA.match(text) is not None
+    if points and commas:
+        raise FormatError("numbers with a decimal point and with a decimal comma", expected="one of them",
+                          got=f"{points} with a point, {commas} with a comma", hint="declare table: {decimal: ...}")
+    return "." if points else "," if commas else None
+
+
+def to_float(text: str, decimal: str = ".") -> float:
+    """A number as instruments write it; ValueError where it is none."""
+    return float(text.strip().replace(",", ".") if decimal == "," else text)
