@@ -1,0 +1,49 @@
+"""The signal that a campaign file means: the name in the file, with what may be left out."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from difflib import get_close_matches
+
+from thermodata.errors import UsageError
+from thermodata.plugin import Signal
+from thermodata.reader.text import split_unit
+
+
+def _without_unit(name: str) -> str:
+    return split_unit(name)[0]
+
+
+def _last_part(name: str) -> str:
+    return name.rsplit("/", 1)[-1]
+
+
+_SPELLINGS: tuple[Callable[[str], str], ...] = (
+    lambda name: name,
+    _without_unit,
+    _last_part,
+    lambda name: _without_unit(_last_part(name)),
+)
+
+
+def match_signal(wanted: str, signals: Sequence[Signal]) -> Signal:
+    """The one signal that `wanted` names: exactly, then without the unit in brackets, then by the part after
+    the last '/'; each first with case, then without. A stream may be named before it: 'Eddy@2:Eddy/Z'.
+
+    UsageError: no such signal (with the nearest names), or several that the same spelling fits.
+    """
+    for fold in (str, str.casefold):
+        for spell in _SPELLINGS:
+            found = [s for s in signals if fold(spell(s.name)) == fold(wanted)]
+            found = found or [s for s in signals if fold(f"{s.stream}:{spell(s.name)}") == fold(wanted)]
+            if len(found) == 1:
+                return found[0]
+            if found:
+                names = ", ".join(f"{s.stream}:{s.name}" for s in found)
+                raise UsageError(f"signal '{wanted}' is ambiguous", expected="one signal", got=names,
+                                 hint=f"write '{found[0].name}' or '{found[0].stream}:{found[0].name}'")
+    names_by_fold = {spell(s.name).casefold(): s.name for s in signals for spell in reversed(_SPELLINGS)}
+    close = list(dict.fromkeys(names_by_fold[c] for c in get_close_matches(wanted.casefold(), names_by_fold, 3, 0.5)))
+    listed = [s.name for s in signals[:20]] + (["..."] if len(signals) > 20 else [])
+    raise UsageError(f"no signal '{wanted}' in the file", expected=", ".join(close or listed) or "the file has none",
+                     got=wanted, hint=f"did you mean '{close[0]}'?" if close else None)

@@ -1,0 +1,118 @@
+"""Which readers are installed, and which of them claims a file. Ours register exactly as anybody's."""
+
+from __future__ import annotations
+
+import warnings
+from functools import lru_cache
+from importlib.metadata import EntryPoint, entry_points
+from pathlib import Path
+
+from thermodata.errors import FormatError, UsageError, unknown_name
+from thermodata.plugin import HEAD_BYTES, Head, Reader
+
+GROUP = "thermodata.reader"
+INSTALL = "pip install thermodata-reader-crio thermodata-reader-cnc thermodata-reader-mcap thermodata-reader-table"
+
+
+def installed() -> dict[str, EntryPoint]:
+    """Entry points by name, without importing any of them; UsageError where two share a name."""
+    found: dict[str, EntryPoint] = {}
+    for point in entry_points(group=GROUP):
+        other = found.get(point.name)
+        if other is not None and other.value != point.value:
+            raise UsageError(f"two readers are called '{point.name}'", expected="one",
+                             got=f"{other.value} and {point.value}", hint="uninstall one of their distributions")
+        found[point.name] = point
+    return dict(sorted(found.items()))
+
+
+def _load(point: EntryPoint) -> Reader:
+    made = point.load()
+    candidate = made() if isinstance(made, type) else made
+    if not isinstance(candidate, Reader):
+        raise TypeError(f"{point.value} has no name, sniff, describe and blocks")
+    if candidate.name != point.name:
+        raise TypeError(f"{point.value} calls itself '{candidate.name}'")
+    return candidate
+
+
+@lru_cache(maxsize=1)
+def _all() -> tuple[dict[str, Reader], dict[str, str]]:
+    good: dict[str, Reader] = {}
+    bad: dict[str, str] = {}
+    for name, point in installed().items():
+        try:
+            good[name] = _load(point)
+        except Exception as error:  # a plugin may fail in any way; it must not take the house with it
+            bad[name] = f"{type(error).__name__}: {error}"
+            warnings.warn(f"reader '{name}' ({point.value}) does not load: {bad[name]}", stacklevel=3)
+    return good, bad
+
+
+def readers() -> dict[str, Reader]:
+    """The readers that load, by name. One that fails to import is a warning, and stands in failed_readers()."""
+    return dict(_all()[0])
+
+
+def failed_readers() -> dict[str, str]:
+    """Name -> error of the readers that are installed and do not load."""
+    return dict(_all()[1])
+
+
+def reload() -> None:
+    """Look again at what is installed."""
+    _all.cache_clear()
+
+
+def reader(name: str) -> Reader:
+    """The reader of this name. UsageError names the installed ones, or the command that installs some."""
+    good, bad = _all()
+    if name in good:
+        return good[name]
+    if name in bad:
+        raise UsageError(f"reader '{name}' is installed but does not load", got=bad[name])
+    if not good and not bad:
+        raise UsageError(f"no reader '{name}': none is installed", hint=INSTALL)
+    raise unknown_name("reader", name, list(good))
+
+
+def head(path: Path) -> Head:
+    """A file's first 64 KiB; UsageError where it cannot be read."""
+    try:
+        with path.open("rb") as file:
+            start = file.read(HEAD_BYTES)
+        return Head(path.name, path.stat().st_size, start)
+    except OSError as error:
+        raise UsageError(f"cannot read {path.name}", where=str(path), got=error.strerror or str(error)) from None
+
+
+def claims(path: Path | str) -> dict[str, str]:
+    """Reader -> its reason for claiming the file."""
+    start = head(Path(path))
+    found: dict[str, str] = {}
+    for name, each in readers().items():
+        try:
+            reason = each.sniff(start)
+        except Exception as error:  # a sniff that stumbles over a foreign file claims nothing
+            warnings.warn(f"reader '{name}' failed to sniff {start.name}: {type(error).__name__}: {error}",
+                          stacklevel=2)
+            continue
+        if reason is not None:
+            found[name] = reason
+    return found
+
+
+def sniff(path: Path | str) -> Reader:
+    """The one reader that claims the file. FormatError for none, or for several with the reason of each."""
+    path = Path(path)
+    found = claims(path)
+    if len(found) == 1:
+        return reader(next(iter(found)))
+    if not found:
+        names = ", ".join(readers())
+        raise FormatError(f"no reader claims {path.name}", where=str(path),
+                          expected=f"a file of one of: {names}" if names else "a reader; none is installed",
+                          hint=None if names else INSTALL)
+    reasons = " and ".join(f'{name} ("{why}")' for name, why in found.items())
+    raise FormatError(f"{reasons} claim {path.name}", where=str(path), expected="one reader",
+                      hint="set 'reader' in the campaign file's source")

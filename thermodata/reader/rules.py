@@ -1,0 +1,168 @@
+"""The rules of a reader's data, as functions with sentence names: used by the guard, the kit and the docs.
+
+Each takes what a reader said (its Recording) and one item that it yielded, and returns what is wrong, or None.
+A rule that is broken is a bug of the plugin; backward or duplicate time is a defect of the data and no rule here.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+
+import numpy as np
+
+from thermodata.plugin import Block, Loss, Recording
+
+BlockRule = Callable[[Recording, Block], str | None]
+LossRule = Callable[[Recording, Loss], str | None]
+RecordingRule = Callable[[Recording], str | None]
+_MAX_NS = np.int64(9_000_000_000_000_000_000)
+
+
+# ---- the recording -------------------------------------------------------------------------------
+
+
+def signal_names_are_unique_within_a_stream(recording: Recording) -> str | None:
+    seen: set[tuple[str, str]] = set()
+    for signal in recording.signals:
+        if (signal.stream, signal.name) in seen:
+            return f"signal '{signal.name}' is declared twice in stream '{signal.stream}'"
+        seen.add((signal.stream, signal.name))
+    return None
+
+
+def every_signal_has_a_name_a_stream_and_a_dtype(recording: Recording) -> str | None:
+    for signal in recording.signals:
+        if not signal.name or not signal.stream:
+            return f"a signal without name or stream: {signal.name!r} in {signal.stream!r}"
+        if signal.dtype != "str":
+            try:
+                kind = np.dtype(signal.dtype).kind
+            except TypeError:
+                return f"signal '{signal.name}' declares dtype {signal.dtype!r}, which numpy does not know"
+            if kind not in "biuf":
+                return f"signal '{signal.name}' declares dtype {signal.dtype!r}; numbers, bool or 'str' are allowed"
+    return None
+
+
+def the_clock_is_absolute_or_relative(recording: Recording) -> str | None:
+    if recording.clock not in ("absolute", "relative"):
+        return f"clock is {recording.clock!r}"
+    if recording.clock == "absolute" and recording.start_ns is None and recording.signals:
+        return "an absolute clock without start_ns"
+    return None
+
+
+# ---- a block -------------------------------------------------------------------------------------
+
+
+def the_stream_was_declared(recording: Recording, block: Block) -> str | None:
+    if block.stream not in {s.stream for s in recording.signals}:
+        return f"stream '{block.stream}' was not declared"
+    return None
+
+
+def time_is_int64_nanoseconds_in_one_dimension(recording: Recording, block: Block) -> str | None:
+    if not isinstance(block.t_ns, np.ndarray) or block.t_ns.dtype != np.int64 or block.t_ns.ndim != 1:
+        got = f"{getattr(block.t_ns, 'dtype', type(block.t_ns).__name__)} of shape {getattr(block.t_ns, 'shape', '?')}"
+        return f"t_ns is {got}, not int64 of shape (n,)"
+    if block.t_ns.size:
+        row = int(np.argmax(np.abs(block.t_ns)))
+        if not -_MAX_NS < block.t_ns[row] < _MAX_NS:
+            return f"t_ns at row {row} is {block.t_ns[row]}, no time"
+    return None
+
+
+def every_declared_signal_is_delivered_and_no_other(recording: Recording, block: Block) -> str | None:
+    declared = {s.name for s in recording.signals if s.stream == block.stream}
+    missing, extra = declared - set(block.values), set(block.values) - declared
+    if missing or extra:
+        return f"missing {sorted(missing)}, undeclared {sorted(extra)}"
+    return None
+
+
+def values_have_the_length_of_the_time(recording: Recording, block: Block) -> str | None:
+    for name, values in block.values.items():
+        if not isinstance(values, np.ndarray) or values.shape != block.t_ns.shape:
+            return f"'{name}' has shape {getattr(values, 'shape', type(values).__name__)}, time {block.t_ns.shape}"
+    return None
+
+
+def values_have_the_declared_dtype(recording: Recording, block: Block) -> str | None:
+    declared = {s.name: s.dtype for s in recording.signals if s.stream == block.stream}
+    for name, values in block.values.items():
+        wanted = declared.get(name)
+        if wanted == "str":
+            if values.dtype.kind == "U":
+                continue
+            if values.dtype.kind == "O":
+                row = next((i for i, v in enumerate(values) if not (v is None or isinstance(v, str))), None)
+                if row is None:
+                    continue
+                return f"'{name}' at row {row} is {type(values[row]).__name__}, declared str"
+            return f"'{name}' is {values.dtype}, declared str"
+        if wanted is not None and values.dtype != np.dtype(wanted):
+            return f"'{name}' is {values.dtype}, declared {wanted}"
+    return None
+
+
+def flags_are_uint16_of_delivered_signals(recording: Recording, block: Block) -> str | None:
+    for name, flags in (block.flags or {}).items():
+        if name not in block.values:
+            return f"flags of '{name}', which the block does not hold"
+        if not isinstance(flags, np.ndarray) or flags.dtype != np.uint16 or flags.shape != block.t_ns.shape:
+            return f"flags of '{name}' are {getattr(flags, 'dtype', '?')} {getattr(flags, 'shape', '?')}, not uint16 (n,)"
+    return None
+
+
+# ---- a loss --------------------------------------------------------------------------------------
+
+
+def a_loss_says_where_and_why(recording: Recording, loss: Loss) -> str | None:
+    return None if loss.where and loss.reason else "a loss without where or reason"
+
+
+def the_fraction_lost_is_between_0_and_1(recording: Recording, loss: Loss) -> str | None:
+    if loss.fraction is not None and not 0.0 <= loss.fraction <= 1.0:
+        return f"fraction {loss.fraction}"
+    return None
+
+
+def a_loss_does_not_end_before_it_starts(recording: Recording, loss: Loss) -> str | None:
+    if loss.from_ns is not None and loss.to_ns is not None and loss.to_ns < loss.from_ns:
+        return f"from {loss.from_ns} to {loss.to_ns}"
+    return None
+
+
+RECORDING_RULES: tuple[RecordingRule, ...] = (
+    signal_names_are_unique_within_a_stream,
+    every_signal_has_a_name_a_stream_and_a_dtype,
+    the_clock_is_absolute_or_relative,
+)
+BLOCK_RULES: tuple[BlockRule, ...] = (
+    the_stream_was_declared,
+    time_is_int64_nanoseconds_in_one_dimension,
+    every_declared_signal_is_delivered_and_no_other,
+    values_have_the_length_of_the_time,
+    values_have_the_declared_dtype,
+    flags_are_uint16_of_delivered_signals,
+)
+LOSS_RULES: tuple[LossRule, ...] = (
+    a_loss_says_where_and_why,
+    the_fraction_lost_is_between_0_and_1,
+    a_loss_does_not_end_before_it_starts,
+)
+
+
+def sentence(rule: Callable[..., object]) -> str:
+    """A rule's name as a sentence."""
+    return rule.__name__.replace("_", " ")
+
+
+def broken_rule(recording: Recording, item: Block | Loss) -> tuple[str, str] | None:
+    """(sentence, what is wrong) of the first rule that an item breaks, or None."""
+    rules: Iterable[Callable[..., str | None]] = BLOCK_RULES if isinstance(item, Block) else LOSS_RULES
+    for rule in rules:
+        wrong = rule(recording, item)
+        if wrong is not None:
+            return sentence(rule), wrong
+    return None
