@@ -1,0 +1,10 @@
+"""Physical effects: where they are found, what they can be bound to, and the lag that most of them share.
+
+An effect is a plugin (entry points of group `thermodata.effect`); see `thermodata.plugin.Effect`.
+"""
+
+from __future__ import annotations
+
+from thermodata.effect.registry import effect, effects, failed_effects
+
+__all__ = ["effect", "effects", "failed_effects"]

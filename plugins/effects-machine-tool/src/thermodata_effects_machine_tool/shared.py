@@ -1,0 +1,54 @@
+"""What most effects share: one driver, one first-order lag, one gain."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+from thermodata.effect.lag import lag, step_of
+from thermodata.plugin import Drivers, Float1D, Float2D, Gain, Need, Param
+
+# Speeds are divided by one fixed value and not by a test's own highest, or a gain would not carry over tests.
+REFERENCE_SPEED_RPM = 10_000.0
+REFERENCE_FEED_M_MIN = 10.0
+
+
+def tau(start: float, lower: float, upper: float, name: str = "tau", meaning: str = "time constant") -> Param:
+    return Param(name, "min", start, lower, upper, meaning)
+
+
+def gain(unit: str, smallest: float, largest: float, meaning: str, name: str = "gain") -> Gain:
+    return Gain(name, unit, (smallest, largest), "any", meaning)
+
+
+def exponent(start: float = 1.5) -> Param:
+    return Param("exponent", "1", start, 1.0, 2.5, "friction heat = |speed| ** exponent")
+
+
+def column(values: Float1D) -> Float2D:
+    """shape (n,) -> (n, 1)."""
+    return np.asarray(values, dtype=np.float64).reshape(-1, 1)
+
+
+def power_of(values: Float1D, reference: float, exponent: float) -> Float1D:
+    """(|values| / reference) ** exponent, shape (n,)."""
+    return np.asarray(np.abs(values / reference) ** exponent, dtype=np.float64)
+
+
+class Lagged:
+    """gain * F_tau{drive}. A subclass gives the attributes of the contract; `drive` is its first bound driver."""
+
+    name: str
+    family: str
+    meaning: str
+    source: str
+    needs: tuple[Need, ...]
+    params: tuple[Param, ...]
+    gains: tuple[Gain, ...]
+
+    def drive(self, drivers: Drivers, p: Mapping[str, float]) -> Float1D:
+        """shape (n,): what is lagged."""
+        return next(drivers.values[n.role] for n in self.needs if n.role in drivers.values)
+
+    def basis(self, drivers: Drivers, p: Mapping[str, float]) -> Float2D:
+        return column(lag(self.drive(drivers, p), p["tau"] * 60.0, step_of(drivers)))

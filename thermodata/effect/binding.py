@@ -1,0 +1,113 @@
+"""Which channels an effect can be driven by: by quantity and place, so that candidates and names come free."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Protocol
+
+from thermodata.effect.places import match
+from thermodata.plugin import Effect, Need
+
+ANY = "*"
+_NOT_DRIVERS = frozenset({"displacement", "tilt", "label"})
+
+
+class Described(Protocol):
+    """What binding asks of a channel (view.dataset.ChannelInfo has it)."""
+
+    @property
+    def quantity(self) -> str: ...
+
+    @property
+    def at(self) -> str | None: ...
+
+
+def bindings(effect: Effect, channels: Mapping[str, Described]) -> list[dict[str, str]]:
+    """Every set of channels that fits the effect's needs: role -> channel, each set once, in a stable order.
+
+    Rules. Needs that list equally many places (two or more) run in parallel: the n-th with the n-th, so that a
+    column bends by rear - front or left - right, never by rear - right. Where all needs are optional, exactly one
+    is taken (alternatives). Otherwise an optional need is taken where something fits it. A channel drives one role.
+    """
+    return [found for found, _ in _all(effect, channels)]
+
+
+def family_of(effect: Effect, binding: Mapping[str, str], channels: Mapping[str, Described]) -> str:
+    """The effect's family with the place's variables filled in: feed_{a} -> feed_z."""
+    if "{" not in effect.family:
+        return effect.family
+    variables: dict[str, str] = {}
+    for need in effect.needs:
+        info = channels.get(binding.get(need.role, ""))
+        for pattern in need.places:
+            variables |= match(pattern, info.at if info else None) or {}
+    family = effect.family
+    for name, value in variables.items():
+        family = family.replace(f"{{{name}}}", value)
+    return family.split("_{")[0] if "{" in family else family
+
+
+def candidate_id(effect: str, binding: Mapping[str, str]) -> str:
+    """'feed_screw:T_nut_Z'; channels in the order of the effect's roles, joined by commas."""
+    return f"{effect}:{','.join(binding.values())}" if binding else effect
+
+
+def _all(effect: Effect, channels: Mapping[str, Described]) -> Iterator[tuple[dict[str, str], dict[str, str]]]:
+    if not effect.needs:
+        yield {}, {}
+        return
+    seen: set[tuple[tuple[str, str], ...]] = set()
+    for needs in _alternatives(effect.needs):
+        for found, variables in _extend(needs, channels, {}, {}):
+            key = tuple(sorted(found.items()))
+            if found and key not in seen:
+                seen.add(key)
+                yield found, variables
+
+
+def _alternatives(needs: Sequence[Need]) -> Iterator[tuple[Need, ...]]:
+    if all(n.optional for n in needs):
+        for need in needs:
+            yield (Need(need.role, need.quantity, need.places),)
+        return
+    counts = {len(n.places) for n in needs if len(n.places) > 1}
+    parallel = len(counts) == 1 and sum(len(n.places) > 1 for n in needs) > 1
+    if not parallel:
+        yield tuple(needs)
+        return
+    for i in range(counts.pop()):
+        yield tuple(Need(n.role, n.quantity, n.places[i:i + 1] if len(n.places) > 1 else n.places, n.optional)
+                    for n in needs)
+
+
+def _extend(needs: Sequence[Need], channels: Mapping[str, Described], found: dict[str, str],
+            variables: dict[str, str]) -> Iterator[tuple[dict[str, str], dict[str, str]]]:
+    if not needs:
+        yield found, variables
+        return
+    need, rest = needs[0], needs[1:]
+    fitting = [(name, v) for name, info in channels.items()
+               if name not in found.values() and (v := _fits(need, info, variables)) is not None]
+    for name, v in fitting:
+        yield from _extend(rest, channels, {**found, need.role: name}, v)
+    if need.optional and not fitting:
+        yield from _extend(rest, channels, found, variables)
+
+
+def _fits(need: Need, info: Described, variables: Mapping[str, str]) -> dict[str, str] | None:
+    if need.quantity == ANY:
+        if info.quantity in _NOT_DRIVERS:
+            return None
+    elif info.quantity != need.quantity:
+        return None
+    if not need.places:
+        return dict(variables)
+    if info.at is None:
+        # a machine tool log without places: the one speed in it is the spindle's
+        spindle = info.quantity == "rotational_speed" and any(p.split(".")[0] == "spindle" for p in need.places)
+        return dict(variables) if spindle else None
+    for pattern in need.places:
+        hit = match(pattern, info.at, variables)
+        if hit is not None:
+            return hit
+    return None

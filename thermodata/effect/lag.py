@@ -1,0 +1,44 @@
+"""The first-order lag with unit gain, exact for inputs that run straight between samples.
+
+    tau dx/dt + x = u        u a ramp from u[k] to u[k+1]
+    x[k+1] = a x[k] + (1 - a) u[k] + (1 - tau/h (1 - a)) (u[k+1] - u[k]),   a = exp(-h/tau)
+
+A zero-order hold in its place shifts the answer by half a step, which a fit then hides in the time constant.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from thermodata.plugin import Drivers, Float1D
+
+
+def step_of(drivers: Drivers) -> float:
+    """The grid's step [s]; 1 where there is only one sample."""
+    t = drivers.t_s
+    return float((t[-1] - t[0]) / (len(t) - 1)) if len(t) > 1 else 1.0
+
+
+def ramp_coefficients(tau_s: float, step_s: float) -> tuple[float, float, float]:
+    """(a, b_new, b_old) of x[k+1] = a x[k] + b_new u[k+1] + b_old u[k]."""
+    r = step_s / tau_s
+    a = math.exp(-r)
+    held = -math.expm1(-r) / r if r > 1e-12 else 1.0
+    return a, 1.0 - held, held - a
+
+
+def lag(u: Float1D, tau_s: float, step_s: float, start: float = 0.0) -> Float1D:
+    """F_tau{u}: shape (n,) like u, same unit. tau_s, step_s [s]; start: the state at the first sample.
+
+    start = 0 is balance where u counts from the start of the test (temperatures) or is zero at rest (speed,
+    power, state). tau_s <= 0 is no lag at all.
+    """
+    if tau_s <= 0 or len(u) == 0:
+        return np.array(u, dtype=np.float64)
+    from scipy.signal import lfilter
+
+    a, new, old = ramp_coefficients(tau_s, step_s)
+    x, _ = lfilter([new, old], [1.0, -a], u, zi=[start - new * u[0]])
+    return np.asarray(x, dtype=np.float64)

@@ -1,0 +1,37 @@
+"""Dotted places and the patterns that effects name them with.
+
+`spindle.bearing` holds `spindle.bearing.front` (a place holds all that is below it); `*` is any one part;
+`{a}` is any one part too, the same in all needs of an effect (an axis letter).
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+
+_VARIABLE = re.compile(r"^\{(\w+)\}$")
+
+
+def match(pattern: str, place: str | None, known: Mapping[str, str] | None = None) -> dict[str, str] | None:
+    """The values of the pattern's variables where `place` lies at or below it, else None."""
+    if place is None:
+        return None
+    found = dict(known or {})
+    wanted, parts = pattern.lower().split("."), place.lower().split(".")
+    if wanted[-1] == "*":                                   # hall.* holds hall itself: one sensor named 'hall'
+        wanted = wanted[:-1]
+    if len(parts) < len(wanted):
+        return None
+    for want, part in zip(wanted, parts, strict=False):
+        variable = _VARIABLE.match(want)
+        if variable:
+            if found.setdefault(variable[1], part) != part:
+                return None
+        elif want not in ("*", part):
+            return None
+    return found
+
+
+def holds(place: str, other: str | None) -> bool:
+    """Whether `other` lies at or below `place`."""
+    return match(place, other) is not None

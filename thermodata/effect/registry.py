@@ -1,0 +1,61 @@
+"""The installed effects, by name. One that fails to load is a warning, never a crash."""
+
+from __future__ import annotations
+
+import warnings
+from functools import lru_cache
+from importlib.metadata import EntryPoint, entry_points
+
+from thermodata.errors import PluginError, UsageError, unknown_name
+from thermodata.plugin import Effect
+
+GROUP = "thermodata.effect"
+INSTALL = "pip install thermodata-effects-machine-tool"
+
+
+def effects() -> dict[str, Effect]:
+    """Every effect that loads, by name, in alphabetical order."""
+    return dict(_load()[0])
+
+
+def failed_effects() -> dict[str, str]:
+    """Entry points that did not load: name -> reason."""
+    return dict(_load()[1])
+
+
+def effect(name: str) -> Effect:
+    """One effect. UsageError names the installed ones and the nearest; with none installed, says what installs them."""
+    found, failed = _load()
+    if name in found:
+        return found[name]
+    if name in failed:
+        raise PluginError(f"effect '{name}' does not load", got=failed[name], hint="thermodata plugins")
+    if not found:
+        raise UsageError(f"no effect '{name}': no effects are installed", hint=INSTALL)
+    raise unknown_name("effect", name, list(found))
+
+
+@lru_cache(maxsize=1)
+def _load() -> tuple[dict[str, Effect], dict[str, str]]:
+    found: dict[str, Effect] = {}
+    failed: dict[str, str] = {}
+    for entry in sorted(entry_points(group=GROUP), key=lambda e: e.name):
+        try:
+            loaded = _one(entry)
+            if loaded.name in found:
+                raise PluginError(f"a second effect is named '{loaded.name}'", got=entry.value)
+            found[loaded.name] = loaded
+        except Exception as error:
+            failed[entry.name] = f"{type(error).__name__}: {error}"
+            warnings.warn(f"effect '{entry.name}' ({entry.value}) does not load: {error}", stacklevel=3)
+    return found, failed
+
+
+def _one(entry: EntryPoint) -> Effect:
+    target = entry.load()
+    made = target() if isinstance(target, type) else target
+    if not isinstance(made, Effect):
+        raise PluginError("not an effect", expected="the attributes of thermodata.plugin.Effect", got=repr(made))
+    if made.name != entry.name:
+        raise PluginError("entry point and effect differ in name", expected=entry.name, got=made.name)
+    return made
