@@ -1,0 +1,112 @@
+"""The group of commands. A command's module is imported when it is used, so that starting costs nothing."""
+
+from __future__ import annotations
+
+import os
+import sys
+import traceback
+import warnings
+from collections.abc import Sequence
+from importlib import import_module
+
+import click
+
+from thermodata import __version__
+from thermodata.errors import ThermodataError, unknown_name
+
+# Section of the help -> command -> module. The order is the order of the work.
+SECTIONS: dict[str, dict[str, str]] = {
+    "Start": {"demo": "demo", "init": "files", "sniff": "files", "preview": "files", "ingest": "ingest"},
+    "Look": {"tests": "look", "channels": "look", "calibrations": "look", "quality": "look", "trace": "look",
+             "sql": "query", "export": "take", "snapshot": "take"},
+    "Model": {"fit": "fitting", "compare": "fitting", "add": "fitting", "history": "fitting",
+              "portability": "fitting", "diagnose": "diagnosing", "report": "reporting", "workbench": "reporting"},
+    "Check": {"simulate": "simulating", "benchmark-diagnosis": "simulating"},
+    "Keep": {"plugins": "plugins", "schema": "schema", "forget": "remove", "gc": "remove"},
+}
+COMMANDS: dict[str, str] = {name: module for part in SECTIONS.values() for name, module in part.items()}
+
+
+class Commands(click.Group):
+    """Finds a command by name in its module; the attribute is the name with '_' for '-'."""
+
+    def list_commands(self, ctx: click.Context) -> list[str]:
+        return list(COMMANDS)
+
+    def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
+        if cmd_name not in COMMANDS:
+            return None
+        module = import_module(f"thermodata.cli.{COMMANDS[cmd_name]}")
+        found: click.Command = getattr(module, cmd_name.replace("-", "_") + "_command")
+        return found
+
+    def resolve_command(
+        self, ctx: click.Context, args: list[str]
+    ) -> tuple[str | None, click.Command | None, list[str]]:
+        if args and not args[0].startswith("-") and args[0] not in COMMANDS:
+            raise unknown_name("command", args[0], list(COMMANDS))
+        return super().resolve_command(ctx, args)
+
+    def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
+        for title, names in SECTIONS.items():
+            rows = []
+            for name in names:
+                command = self.get_command(ctx, name)
+                rows.append((name, command.get_short_help_str(formatter.width - 18) if command else ""))
+            with formatter.section(title):
+                formatter.write_dl([(name.ljust(12), text) for name, text in rows], col_max=20)
+
+
+@click.group(cls=Commands, context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 110})
+@click.option("--store", envvar="THERMODATA_STORE", default="thermodata.store", metavar="DIR",
+              help="The store's folder (or THERMODATA_STORE; default ./thermodata.store).")
+@click.version_option(__version__, prog_name="thermodata")
+@click.pass_context
+def cli(ctx: click.Context, store: str) -> None:
+    """Thermal test logs of machine tools: one store, SQL, models, and the physical effect that is missing.
+
+    Results go to stdout, talk to stderr; every command takes --json. Try: thermodata demo
+    """
+    ctx.obj = store
+
+
+def run(argv: Sequence[str] | None = None) -> int:
+    """Run, and turn what went wrong into 'error: ...' on stderr and an exit code."""
+    warnings.showwarning = _warn
+    try:
+        code = cli.main(args=None if argv is None else list(argv), prog_name="thermodata", standalone_mode=False)
+        sys.stdout.flush()
+        return code if isinstance(code, int) else 0
+    except ThermodataError as error:
+        return _fail(str(error), error.exit_code)
+    except click.UsageError as error:
+        where = f"\ntry: {error.ctx.command_path} --help" if error.ctx else ""
+        return _fail(error.format_message() + where, 2)
+    except click.ClickException as error:
+        return _fail(error.format_message(), 1)
+    except (KeyboardInterrupt, click.Abort):
+        return _fail("interrupted", 1)
+    except BrokenPipeError:
+        # the reader of stdout has gone (| head): that's its right; the interpreter must not flush again
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return 0
+    except OSError as error:
+        return _fail(f"{error.strerror or error}" + (f"\nwhere: {error.filename}" if error.filename else ""), 1)
+    except Exception as error:
+        if os.environ.get("THERMODATA_DEBUG"):
+            raise
+        last = traceback.extract_tb(error.__traceback__)[-1]
+        return _fail(f"a defect in thermodata: {type(error).__name__}: {error}\n"
+                     f"where: {last.filename}:{last.lineno} in {last.name}\n"
+                     "try: THERMODATA_DEBUG=1 shows the whole traceback", 1)
+
+
+def _warn(message: Warning | str, category: type[Warning], *where: object, **more: object) -> None:
+    """A warning as one line of talk; what third parties deprecate is none of the user's business."""
+    if category is UserWarning:
+        click.echo(click.style("warning: ", fg="yellow") + str(message), err=True)
+
+
+def _fail(message: str, code: int) -> int:
+    click.echo(click.style("error: ", fg="red", bold=True) + message, err=True)
+    return code

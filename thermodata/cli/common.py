@@ -1,0 +1,86 @@
+"""What every command shares: the store, --json, and the two ways of answering."""
+
+from __future__ import annotations
+
+import dataclasses
+import functools
+import json
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+if TYPE_CHECKING:
+    from thermodata.store import Store
+    from thermodata.view import StoreView
+
+
+@dataclass(frozen=True, slots=True)
+class Session:
+    """One call of the program: where the store is and how the answer is written."""
+
+    store_path: Path
+    as_json: bool
+
+    def store(self, *, create: bool = False) -> Store:
+        """The store; a UsageError names `ingest` where there is none yet."""
+        from thermodata.store import Store
+
+        return Store(self.store_path, create=create)
+
+    def view(self) -> StoreView:
+        from thermodata.view import StoreView
+
+        return StoreView(self.store_path)
+
+    def say(self, text: str = "") -> None:
+        """Talk, on stderr, and none of it where JSON was asked for."""
+        if not self.as_json:
+            click.echo(text, err=True)
+
+    def answer(self, payload: Any, text: Callable[[], str]) -> None:
+        """Data, on stdout: the payload as JSON, or its text."""
+        click.echo(json.dumps(plain(payload), indent=2, ensure_ascii=False, allow_nan=False)
+                   if self.as_json else text())
+
+
+def plain(value: Any) -> Any:
+    """Any result as JSON can hold it: models and dataclasses as mappings, NaN and infinity as null."""
+    if isinstance(value, float):
+        return value if math.isfinite(value) else None
+    if value is None or isinstance(value, str | int | bool):
+        return value
+    if hasattr(value, "model_dump"):
+        return plain(value.model_dump(mode="json", by_alias=True))
+    if dataclasses.is_dataclass(value) and not isinstance(value, type):
+        return {f.name: plain(getattr(value, f.name)) for f in dataclasses.fields(value)}
+    if isinstance(value, Mapping):
+        return {str(k): plain(v) for k, v in value.items()}
+    if hasattr(value, "tolist"):                      # numpy scalars and arrays
+        return plain(value.tolist())
+    if isinstance(value, list | tuple | set | frozenset):
+        return [plain(v) for v in value]
+    if hasattr(value, "isoformat"):
+        return value.isoformat()
+    return str(value)
+
+
+def command(name: str, **more: Any) -> Callable[[Callable[..., Any]], click.Command]:
+    """A click command whose first argument is the Session; --store and --json may stand after its name."""
+
+    def decorate(function: Callable[..., Any]) -> click.Command:
+        @functools.wraps(function)
+        def call(ctx: click.Context, /, *args: Any, **options: Any) -> Any:
+            store = options.pop("store_after") or ctx.find_root().obj or "thermodata.store"
+            return function(Session(Path(store), options.pop("as_json")), *args, **options)
+
+        made: Any = click.pass_context(call)
+        made = click.option("--json", "as_json", is_flag=True, help="Print JSON.")(made)
+        made = click.option("--store", "store_after", metavar="DIR", help="The store's folder.")(made)
+        finished: click.Command = click.command(name, **more)(made)
+        return finished
+
+    return decorate

@@ -1,0 +1,178 @@
+"""`demo`: the whole story on a simulated machine, from raw logs to the missing effect and back to a smaller error."""
+
+from __future__ import annotations
+
+import json
+import time
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import click
+
+from thermodata.cli.common import Session, command, plain
+from thermodata.cli.diagnosing import verdict_sentence
+from thermodata.cli.fitting import change, pooled
+from thermodata.cli.table import duration, fields, number
+from thermodata.errors import UsageError
+
+_MARK = "demo.json"          # a folder that holds it was made by a demo and may be made anew
+
+
+@dataclass(frozen=True, slots=True)
+class Step:
+    """Numbers the steps of the story on stderr."""
+
+    session: Session
+    began: float
+
+    def title(self, number_: int, text: str) -> None:
+        clock = click.style(f"{time.monotonic() - self.began:5.1f} s", dim=True)
+        self.session.say(f"{clock}  {click.style(f'{number_}/7', fg='cyan', bold=True)} {click.style(text, bold=True)}")
+
+    def line(self, text: str) -> None:
+        for part in text.splitlines():
+            self.session.say(f"             {part}")
+
+
+@command("demo")
+@click.argument("folder", default="thermodata-demo", metavar="[DIR]",
+                type=click.Path(path_type=Path, file_okay=False))
+@click.option("--hide", metavar="EFFECT", help="The hidden effect (default: the seed picks one); or none.")
+@click.option("--seed", default=1, show_default=True, type=click.IntRange(0), help="Another seed, another machine.")
+def demo_command(session: Session, folder: Path, hide: str | None, seed: int) -> None:
+    """Show the whole story on a simulated machine.
+
+    A thermal effect is hidden from the model; the machine logs TDMS, CNC and MCAP files into DIR (default
+    ./thermodata-demo); then: store, model, where it fails, what is missing, add it, the error afterwards, report.
+    """
+    began = time.monotonic()
+    hide = prepare(folder, hide, seed)
+    result = story(Step(session, began), folder, hide, seed)
+    result["seconds"] = round(time.monotonic() - began, 2)
+    session.answer(result, lambda: summary_text(result))
+
+
+def prepare(folder: Path, hide: str | None, seed: int) -> str:
+    """An empty folder and the effect to hide; an earlier demo is cleared, anything else refused."""
+    import random
+    import shutil
+
+    from thermodata.virtual import hideable
+
+    if hide is None:
+        hide = random.Random(seed).choice(sorted(hideable()))
+    if folder.is_dir() and any(folder.iterdir()):
+        if not (folder / _MARK).is_file():
+            raise UsageError("the folder is not empty and was not made by a demo", where=str(folder),
+                             expected="a new or empty folder, or an earlier demo's", hint="thermodata demo OTHER_DIR")
+        for name in json.loads((folder / _MARK).read_text(encoding="utf-8")).get("made", []):
+            made = folder / Path(name).name                    # only names that stand directly in the folder
+            if made.is_dir() and not made.is_symlink():
+                shutil.rmtree(made)
+            else:
+                made.unlink(missing_ok=True)
+    folder.mkdir(parents=True, exist_ok=True)
+    return hide
+
+
+def story(step: Step, folder: Path, hide: str, seed: int) -> dict[str, Any]:
+    """The seven steps; returns the demo's JSON without the seconds."""
+    from thermodata.diagnosis.run import diagnose
+    from thermodata.modelling.run import add, fit
+    from thermodata.report import build_report
+    from thermodata.schema.load import load_model
+    from thermodata.store import Store
+    from thermodata.store.ingest import ingest
+    from thermodata.virtual import simulate
+
+    # the mark comes first: an interrupted demo is still known as one
+    made = ["raw", "campaign.yaml", "models", "baseline.yaml", "truth.json", "thermodata.store", "report.html"]
+    (folder / _MARK).write_text(json.dumps({"hide": hide, "seed": seed, "made": made}), encoding="utf-8")
+
+    step.title(1, "A machine runs its tests and writes raw logs")
+    truth = plain(simulate(folder, hide=hide, seed=seed))
+    raw = [p for p in (folder / "raw").rglob("*") if p.is_file()]
+    kinds = ", ".join(f"{sum(p.suffix == s for p in raw)} {s[1:]}" for s in sorted({p.suffix for p in raw}))
+    step.line(f"{len(raw)} files ({kinds}), {sum(p.stat().st_size for p in raw) / 1e6:.0f} MB, in {folder / 'raw'}; "
+              "one physical effect is hidden from the model")
+
+    step.title(2, "ingest: raw and calibrated layers, by the campaign file")
+    store = Store(folder / "thermodata.store", create=True)
+    summary = plain(ingest(store, folder / "campaign.yaml").to_json())
+    flags = ", ".join(f"{n} {name}" for name, n in summary["flags"].items() if n) or "nothing"
+    step.line(f"{summary['tests']} tests, {summary['samples']:,} samples; flagged: {flags}".replace(",", " ", 0))
+    for row in summary["calibrations"]:
+        name = row.get("calibration") or row.get("name")
+        step.line(f"jump test {name}: {row.get('sign', '')}{number(abs(row['gain']))} {row.get('gain_unit', '')} "
+                  f"± {number(row.get('uncertainty_pct'), 2)} %, noise {number(row.get('noise_um'), 2)} um"
+                  if row.get("kind") == "jump" else
+                  f"{row.get('kind')} {name}: {number(row['gain'])} {row.get('gain_unit') or ''}")
+
+    step.title(3, "fit: the baseline model, with the effects that one would expect")
+    path = next(p for p in (folder / "baseline.yaml", folder / "models" / "baseline.yaml") if p.is_file())
+    base = plain(fit(store, load_model(path)))
+    effects = sorted({key.split(".")[0] for key in base["parameters"]})
+    step.line(f"{', '.join(effects)}; error {number(pooled(base['scores'], 'calibration'))} um in calibration, "
+              f"{number(pooled(base['scores'], 'verification'))} um in verification")
+
+    step.title(4, "compare: where it fails")
+    found = plain(diagnose(store, base["model"]))
+    for spot in found["weak_spots"][:3]:
+        step.line(f"{spot['test']}, {duration(spot['from_s'])} to {duration(spot['to_s'])}: "
+                  f"{number(spot['rmse_um'])} um ({spot['state']})")
+    if not found["weak_spots"]:
+        step.line("nowhere that stands out of the noise")
+
+    step.title(5, "diagnose: which effect is missing?")
+    step.line(verdict_sentence(found))
+    claimed = next((c for c in found["candidates"] if c["claimed"]), None)
+    if claimed and claimed["equivalent"]:
+        step.line(f"these tests can't tell it from: {', '.join(claimed['equivalent'])}")
+    if claimed:
+        step.line(claimed["why"])
+    if found["next_test"]:
+        step.line(f"next test: {found['next_test']}")
+
+    model, before, after = base["model"], pooled(base["scores"]), None
+    if claimed:
+        step.title(6, f"add {claimed['id']}, and compare again")
+        better = plain(add(store, base["model"], claimed["id"]))
+        model, before, after = better["model"], pooled(better["before"] or []), pooled(better["scores"])
+        step.line(f"all tests {number(before)} -> {number(after)} um ({change(before, after)})")
+        if claimed["locked_rmse_um_after"] is not None:
+            a, b = claimed["locked_rmse_um_before"], claimed["locked_rmse_um_after"]
+            step.line(f"tests that nobody had looked at {number(a)} -> {number(b)} um ({change(a, b)})")
+    else:
+        step.title(6, "add: nothing is added where the evidence does not suffice")
+
+    step.title(7, "report")
+    page = build_report(store, model, folder / "report.html")
+    step.line(str(page))
+    return {
+        "hidden": None if hide == "none" else truth.get("hidden", hide),
+        "found": claimed["effect"] if claimed else None,
+        "verdict": found["verdict"], "family": claimed["family"] if claimed else None,
+        "equivalents": claimed["equivalent"] if claimed else [],
+        "rmse_um_before": before, "rmse_um_after": after,
+        "locked_rmse_um_before": claimed["locked_rmse_um_before"] if claimed else None,
+        "locked_rmse_um_after": claimed["locked_rmse_um_after"] if claimed else None,
+        "model": model, "store": str(folder / "thermodata.store"), "report": str(page),
+    }
+
+
+def summary_text(result: dict[str, Any]) -> str:
+    """The end of the story."""
+    def pair(a: Any, b: Any) -> str:
+        return f"{number(a)} -> {number(b)} um" if b is not None else f"{number(a)} um"
+
+    rows = [("hidden", result["hidden"] or "nothing"),
+            ("found", result["found"] or f"nothing claimed ({result['verdict']})")]
+    if result["equivalents"]:
+        rows.append(("not told from", ", ".join(result["equivalents"])))
+    rows.append(("error", pair(result["rmse_um_before"], result["rmse_um_after"])))
+    if result["locked_rmse_um_after"] is not None:
+        rows.append(("locked tests", pair(result["locked_rmse_um_before"], result["locked_rmse_um_after"])))
+    rows += [("report", result["report"]), ("look around", f"thermodata --store {result['store']} tests"),
+             ("took", f"{result['seconds']:.0f} s")]
+    return "\n" + fields(rows)

@@ -1,0 +1,82 @@
+"""`diagnose`: which physical effect is missing."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import click
+
+from thermodata.cli.common import Session, command, plain
+from thermodata.cli.fitting import resolve
+from thermodata.cli.table import duration, number, table
+
+
+@command("diagnose")
+@click.argument("model")
+@click.option("--top", default=8, show_default=True, type=click.IntRange(1), help="Most candidates of the table.")
+def diagnose_command(session: Session, model: str, top: int) -> None:
+    """Say which physical effect MODEL misses.
+
+    Or that none is missing, or that these tests can't tell.
+
+    A candidate is claimed only if all evidence holds; locked tests are opened for claims only, and counted.
+    """
+    from thermodata.diagnosis.run import diagnose
+
+    store = session.store()
+    found = plain(diagnose(store, resolve(store, model)))
+    session.answer(found, lambda: diagnosis_text(found, top))
+
+
+def verdict_sentence(found: dict[str, Any]) -> str:
+    """The verdict in one sentence with its figures."""
+    claimed = next((c for c in found["candidates"] if c["claimed"]), None)
+    if found["verdict"] == "effect" and claimed:
+        text = (f"missing: {claimed['effect']} ({', '.join(claimed['drivers']) or 'no driver'}), "
+                f"{number(claimed['rmse_um_before'])} -> {number(claimed['rmse_um_after'])} um")
+        if claimed["locked_rmse_um_after"] is not None:
+            text += (f", locked tests {number(claimed['locked_rmse_um_before'])} -> "
+                     f"{number(claimed['locked_rmse_um_after'])} um")
+        return text
+    return {
+        "effect": "missing: an effect that the data point to",
+        "none": "no effect is missing: what is left is noise or too small to matter",
+        "unknown": "something is missing that no known effect with these channels explains",
+        "not_testable": "these tests can't tell which effect is missing",
+    }[found["verdict"]]
+
+
+def diagnosis_text(found: dict[str, Any], top: int = 8) -> str:
+    """A diagnosis for a person."""
+    share = found["explainable"]
+    head = verdict_sentence(found) + (
+        f"\nresidual {number(found['rmse_um'])} um, noise {number(found['noise_um'])} um"
+        + (f", {100 * share:.0f} % of it could be explained" if share is not None else ""))
+    parts = [head]
+    if found["candidates"]:
+        rows = [{**c, "claimed": "yes" if c["claimed"] else "", "drivers": c["drivers"]}
+                for c in found["candidates"][:top]]
+        parts.append(table(rows, [("rank", "#"), ("id", "candidate"), ("family", "family"), ("claimed", "claimed"),
+                                  ("p_value", "p"), ("rmse_um_before", "before [um]"),
+                                  ("rmse_um_after", "after [um]"), ("equivalent", "can't be told from")], widest=44))
+        first = found["candidates"][0]
+        if first["why"]:
+            parts.append(f"why {first['id']}: {first['why']}")
+    if found["weak_spots"]:
+        spots = [{**w, "span": f"{duration(w['from_s'])} – {duration(w['to_s'])}"} for w in found["weak_spots"][:top]]
+        parts.append("where the model fails\n" + table(spots, [
+            ("campaign", "campaign"), ("test", "test"), ("span", "when"), ("rmse_um", "RMSE [um]"),
+            ("state", "state")]))
+    if found["artefacts"]:
+        parts.append("artefacts\n" + "\n".join(
+            f"  ! {a['kind']} in {a['campaign']}/{a['test']} at {duration(a['at_s'])}: {number(a['size_um'])} um. "
+            f"{a['why']}" for a in found["artefacts"]))
+    if found["unknown"]:
+        hints = found["unknown"]
+        parts.append("what is left behaves like\n" + "\n".join(
+            f"  {name}: {', '.join(number(v) if isinstance(v, float) else str(v) for v in hints[key])}"
+            for name, key in (("time constants [h]", "time_constants_h"), ("hours of the day", "hours_of_day"),
+                              ("states", "states")) if hints[key]))
+    if found["next_test"]:
+        parts.append(f"next test: {found['next_test']}")
+    return "\n\n".join(parts)

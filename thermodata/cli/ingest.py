@@ -1,0 +1,65 @@
+"""`ingest`: raw files into the store."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import click
+
+from thermodata.cli.common import Session, command, plain
+from thermodata.cli.table import fields, table
+
+
+@command("ingest")
+@click.argument("campaign", type=click.Path(path_type=Path))
+def ingest_command(session: Session, campaign: Path) -> int:
+    """Bring CAMPAIGN.yaml and its raw files into the store.
+
+    Safe to repeat: files that did not change are not read again, and after an edit of the campaign file only
+    what depends on the edit is made anew. Exit code 3 says that a part of a file could not be read.
+    """
+    from thermodata.store.ingest import ingest
+
+    summary = plain(ingest(session.store(create=True), campaign, progress=session.say).to_json())
+    session.answer(summary, lambda: ingest_text(summary))
+    return 3 if summary.get("losses") else 0
+
+
+def ingest_text(summary: dict[str, Any]) -> str:
+    """The summary of an ingest for a person: counts, calibrations, flags, losses, notes."""
+    flags = {name: n for name, n in summary.get("flags", {}).items() if n}
+    parts = [fields([
+        ("campaign", summary["campaign"]), ("tests", summary["tests"]), ("files", summary["files"]),
+        ("samples", f"{_number(summary['samples'])}"), ("flagged", flags or "none"),
+        ("changed", summary.get("changed")), ("took", f"{summary['seconds']:.1f} s"),
+    ])]
+    if summary.get("calibrations"):
+        parts.append(calibrations_text(summary["calibrations"]))
+    for title, key in (("losses", "losses"), ("notes", "notes")):
+        if summary.get(key):
+            parts.append(title + "\n" + "\n".join(f"  - {_sentence(item)}" for item in summary[key]))
+    return "\n\n".join(parts)
+
+
+def calibrations_text(rows: list[dict[str, Any]]) -> str:
+    """Calibrations as a table; what failed follows with its advice."""
+    shown = [{**row, "calibration": row.get("calibration", row.get("name")),
+              "ok": all(c.get("passed", True) for c in row.get("checks") or [])} for row in rows]
+    text = table(shown, [("calibration", "calibration"), ("kind", "kind"), ("axis", "axis"), ("gain", "gain"),
+                         ("gain_unit", "unit"), ("sign", "sign"), ("uncertainty_pct", "± [%]"),
+                         ("noise_um", "noise [um]"), ("nonlinearity_pct", "nonlin. [%]"),
+                         ("drift_um", "drift [um]"), ("ok", "checks")])
+    failed = [f"  ! {row['calibration']}: {c['name']}: {c.get('advice', '')}"
+              for row in shown for c in row.get("checks") or [] if not c.get("passed", True)]
+    return "\n".join([text, *failed])
+
+
+def _number(value: Any) -> str:
+    return f"{value:,}".replace(",", " ") if isinstance(value, int) else str(value)
+
+
+def _sentence(item: Any) -> str:
+    if isinstance(item, dict):
+        return ", ".join(f"{k} {v}" for k, v in item.items() if v is not None)
+    return str(item)

@@ -1,0 +1,125 @@
+"""Looking into a store: tests, channels, calibrations, data quality, and where a result comes from."""
+
+from __future__ import annotations
+
+import json
+from typing import Any
+
+import click
+
+from thermodata.cli.common import Session, command
+from thermodata.cli.ingest import calibrations_text
+from thermodata.cli.table import duration, fields, table
+from thermodata.errors import UsageError, unknown_name
+from thermodata.report.records import records
+
+_campaign = click.option("--campaign", "-c", help="Only this campaign.")
+
+
+def rows_of(session: Session, query: str, campaign: str | None, order: str) -> list[dict[str, Any]]:
+    """Rows of a catalogue table, of one campaign where one is named; JSON columns decoded."""
+    view = session.view()
+    if campaign is not None:
+        names = [row["campaign"] for row in records(view, "select campaign from campaign order by 1")]
+        if campaign not in names:
+            raise unknown_name("campaign", campaign, names)
+    where = " where campaign = ?" if campaign is not None else ""
+    found = records(view, f"{query}{where} order by {order}", [campaign] if campaign is not None else None)
+    for row in found:
+        for key in ("conditions", "pose", "tool", "phases", "measuring", "sensor", "crosstalk", "checks", "detail",
+                    "notes"):
+            if isinstance(row.get(key), str) and row[key][:1] in ("{", "["):
+                row[key] = json.loads(row[key])
+    return found
+
+
+@command("tests")
+@_campaign
+def tests_command(session: Session, campaign: str | None) -> None:
+    """List the tests: kind, role, length and conditions."""
+    rows = rows_of(session, "select * from test", campaign, "campaign, test")
+    shown = [{**row, "length": duration(row["duration_s"]), "begin": str(row["start"] or "-")[:16]} for row in rows]
+    session.answer(rows, lambda: table(shown, [
+        ("campaign", "campaign"), ("test", "test"), ("kind", "kind"), ("role", "role"), ("begin", "start (UTC)"),
+        ("length", "length"), ("conditions", "conditions")]))
+
+
+@command("channels")
+@_campaign
+@click.option("--test", "-t", help="As they are in this test (default: each channel once).")
+def channels_command(session: Session, campaign: str | None, test: str | None) -> None:
+    """List the channels: quantity, unit, place, sign, origin."""
+    rows = rows_of(session, "select * from channel", campaign, "campaign, test, source, channel")
+    if test is not None:
+        if not any(row["test"] == test for row in rows):
+            raise unknown_name("test", test, sorted({row["test"] for row in rows}))
+        rows = [row for row in rows if row["test"] == test]
+    else:
+        rows = list({(row["campaign"], row["channel"]): row for row in rows}.values())
+    session.answer(rows, lambda: table(rows, [
+        ("campaign", "campaign"), ("channel", "channel"), ("quantity", "quantity"), ("unit", "unit"),
+        ("at", "at"), ("axis", "axis"), ("sign", "sign"), ("source", "source"), ("signal", "signal"),
+        ("raw_unit", "raw unit"), ("calibration", "calibration")], widest=36))
+
+
+@command("calibrations")
+@_campaign
+def calibrations_command(session: Session, campaign: str | None) -> None:
+    """Show the calibrations.
+
+    Signed sensitivity, uncertainty, noise, and what failed a check.
+    """
+    rows = rows_of(session, "select * from calibration", campaign, "campaign, calibration")
+    session.answer(rows, lambda: calibrations_text(rows) if rows else "no calibrations")
+
+
+@command("quality")
+@_campaign
+@click.option("--events", is_flag=True, help="Each event with its time, not the sums.")
+def quality_command(session: Session, campaign: str | None, events: bool) -> None:
+    """Show what was flagged.
+
+    Gaps, spikes, saturation, held and stuck values, suspect clocks; flagged rows are kept.
+    """
+    rows = rows_of(session, "select * from quality_event", campaign, "campaign, test, source, channel, from_s")
+    if not events:
+        sums: dict[tuple[str, ...], dict[str, Any]] = {}
+        for row in rows:
+            key = tuple(str(row[k]) for k in ("campaign", "test", "source", "channel", "flag"))
+            total = sums.setdefault(key, {**{k: row[k] for k in ("campaign", "test", "source", "channel", "flag")},
+                                          "events": 0, "n": 0, "from_s": row["from_s"], "to_s": row["to_s"]})
+            total["events"] += 1
+            total["n"] += row["n"] or 0
+            total["to_s"] = max((v for v in (total["to_s"], row["to_s"]) if v is not None), default=None)
+        rows = list(sums.values())
+    shown = [{**row, "first": duration(row["from_s"]), "last": duration(row["to_s"])} for row in rows]
+    columns = [("campaign", "campaign"), ("test", "test"), ("source", "source"), ("channel", "channel"),
+               ("flag", "flag"), ("n", "samples"), ("first", "from"), ("last", "to")]
+    columns += [("detail", "detail")] if events else [("events", "events")]
+    session.answer(rows, lambda: table(shown, columns) if rows else "nothing was flagged")
+
+
+@command("trace")
+@click.argument("what", nargs=-1, required=True, metavar="CAMPAIGN TEST [CHANNEL]")
+def trace_command(session: Session, what: tuple[str, ...]) -> None:
+    """Show where a value comes from.
+
+    Raw file, hash, reader, scaling, calibration, sign; of one channel or of all.
+
+    Also: trace MODEL, for the data and versions behind a model.
+    """
+    from thermodata.store.lifecycle import trace
+
+    if len(what) > 3:
+        raise UsageError("too many names", expected="CAMPAIGN TEST [CHANNEL]", got=" ".join(what))
+    found = trace(session.store(), *what)
+    session.answer(found, lambda: fields(_flat(found)))
+
+
+def _flat(value: Any, prefix: str = "") -> list[tuple[str, Any]]:
+    """A nested result as (dotted name, value) pairs."""
+    if isinstance(value, dict):
+        return [pair for k, v in value.items() for pair in _flat(v, f"{prefix}.{k}" if prefix else str(k))]
+    if isinstance(value, list) and any(isinstance(v, dict) for v in value):
+        return [pair for i, v in enumerate(value, 1) for pair in _flat(v, f"{prefix}[{i}]")]
+    return [(prefix, value)]

@@ -1,0 +1,64 @@
+"""`plugins`: what is installed, and what failed to load."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import click
+
+from thermodata.cli.common import Session, command
+from thermodata.cli.table import table
+from thermodata.errors import UsageError
+
+
+@command("plugins")
+@click.argument("action", required=False, type=click.Choice(["new"]))
+def plugins_command(session: Session, action: str | None) -> None:
+    """List the installed readers and effects.
+
+    With the distribution of each; failed ones with their error.
+    """
+    if action == "new":
+        raise UsageError("'plugins new' is not supported yet",
+                         hint="thermodata.plugin states both contracts; thermodata.testing holds the kits")
+    rows = installed()
+    session.answer(rows, lambda: table(rows, [
+        ("kind", "kind"), ("name", "name"), ("distribution", "distribution"), ("version", "version"),
+        ("about", "about"), ("error", "error")]))
+
+
+def installed() -> list[dict[str, Any]]:
+    """One row a plugin: kind, name, distribution, version, about, error (None where it loads)."""
+    from importlib.metadata import entry_points
+
+    from thermodata.effect import effects
+    from thermodata.reader import failed_readers, readers
+
+    loaded: dict[str, dict[str, Any]] = {"reader": dict(readers()), "effect": dict(effects())}
+    failed = {str(k): str(v) for k, v in dict(failed_readers()).items()}
+    origin = {(kind, point.name): point.dist for kind in loaded for point in entry_points(group=f"thermodata.{kind}")}
+    rows = []
+    for kind, plugins in loaded.items():
+        names = sorted(set(plugins) | {name for k, name in origin if k == kind and name in failed})
+        for name in names:
+            # an entry point may stand for several effects; those carry their module's distribution
+            dist = origin.get((kind, name)) or _distribution(plugins.get(name))
+            rows.append({"kind": kind, "name": name, "distribution": dist.name if dist else None,
+                         "version": dist.version if dist else None, "about": _about(plugins.get(name)),
+                         "error": failed.get(name) if kind == "reader" else None})
+    return rows
+
+
+def _about(plugin: Any) -> str | None:
+    text = getattr(plugin, "meaning", None) or getattr(plugin, "__doc__", None)
+    return str(text).strip().splitlines()[0] if text else None
+
+
+def _distribution(plugin: Any) -> Any:
+    from importlib.metadata import distribution, packages_distributions
+
+    if plugin is None:
+        return None
+    module = getattr(plugin, "__module__", None) or type(plugin).__module__
+    names = packages_distributions().get(module.split(".")[0], [])
+    return distribution(names[0]) if names else None

@@ -1,0 +1,82 @@
+"""`sql`: any question to the store, answered as a table, CSV or JSON."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+import sys
+from collections.abc import Iterator
+from typing import Any
+
+import click
+
+from thermodata.cli.common import Session, command, plain
+from thermodata.cli.table import table
+from thermodata.errors import UsageError
+
+_CHUNK = 10_000
+
+
+@command("sql")
+@click.argument("query", required=False)
+@click.option("--csv", "as_csv", is_flag=True, help="Print CSV, all rows.")
+@click.option("--rows", default=100, show_default=True, type=click.IntRange(1), help="Most rows of the table.")
+def sql_command(session: Session, query: str | None, as_csv: bool, rows: int) -> None:
+    """Ask the store in SQL.
+
+    Tables test, channel, model, ...; views sample, temperature, displacement, driver, residual, score, ...
+
+    Without QUERY it is read from stdin. Times t are UTC; t_s are seconds from the test's start.
+
+    \b
+      thermodata sql "from score where role = 'verification'"
+      thermodata sql "from binned('gantry', 'day1', '60 s')" --csv > day1.csv
+    """
+    if as_csv and session.as_json:
+        raise UsageError("--csv and --json exclude each other")
+    if query is None:
+        if sys.stdin.isatty():
+            raise UsageError("no query", hint='thermodata sql "select * from test"')
+        query = sys.stdin.read()
+    relation = session.view().sql(query)
+    if relation is None:
+        raise UsageError("the query answers nothing", expected="a SELECT", got=query.strip()[:80])
+    columns: list[str] = list(relation.columns)
+    if as_csv:
+        _write_csv(columns, _batches(relation))
+    elif session.as_json:
+        _write_json(columns, _batches(relation))
+    else:
+        found = relation.fetchmany(rows + 1)
+        click.echo(table([{str(i): v for i, v in enumerate(r)} for r in found[:rows]],
+                         [(str(i), name) for i, name in enumerate(columns)]))       # by position: names may repeat
+        if len(found) > rows:
+            session.say(f"the first {rows} rows; --rows N shows more, --csv all")
+
+
+def _batches(relation: Any) -> Iterator[list[tuple[Any, ...]]]:
+    while batch := relation.fetchmany(_CHUNK):
+        yield batch
+
+
+def _write_csv(columns: list[str], batches: Iterator[list[tuple[Any, ...]]]) -> None:
+    buffer = io.StringIO()
+    writer = csv.writer(buffer, lineterminator="\n")
+    writer.writerow(columns)
+    for batch in batches:
+        writer.writerows(batch)
+        click.echo(buffer.getvalue(), nl=False)
+        buffer.seek(0)
+        buffer.truncate()
+    click.echo(buffer.getvalue(), nl=False)
+
+
+def _write_json(columns: list[str], batches: Iterator[list[tuple[Any, ...]]]) -> None:
+    # one row a line, as it comes: a list of millions is never held
+    between = "["
+    for batch in batches:
+        for row in batch:
+            click.echo(between + json.dumps(plain(dict(zip(columns, row, strict=True))), ensure_ascii=False), nl=False)
+            between = ",\n "
+    click.echo("[]" if between == "[" else "]")

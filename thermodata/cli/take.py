@@ -1,0 +1,49 @@
+"""Taking data away: one self-contained DuckDB file, or a test as Parquet or CSV."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import click
+
+from thermodata.cli.common import Session, command, plain
+from thermodata.cli.table import fields
+from thermodata.errors import UsageError
+
+
+@command("snapshot")
+@click.argument("out", type=click.Path(path_type=Path, dir_okay=False), metavar="OUT.duckdb")
+def snapshot_command(session: Session, out: Path) -> None:
+    """Write the whole store as one DuckDB file.
+
+    Samples and all; it needs nothing beside it.
+    """
+    from thermodata.store.lifecycle import snapshot
+
+    if out.exists():
+        raise UsageError("the file exists", where=str(out), hint="name another file or delete it first")
+    snapshot(session.store(), out)
+    result = {"snapshot": str(out), "bytes": out.stat().st_size}
+    session.answer(result, lambda: fields(result.items()))
+
+
+@command("export")
+@click.argument("campaign")
+@click.argument("test")
+@click.argument("out", type=click.Path(path_type=Path, dir_okay=False))
+@click.option("--step", default="30 s", show_default=True, help="Means of this long; states are held.")
+@click.option("--format", "kind", type=click.Choice(["parquet", "csv", "mat", "mdf4"]),
+              help="Default: by the name of OUT.")
+@click.option("--force", is_flag=True, help="Replace OUT where it exists.")
+def export_command(session: Session, campaign: str, test: str, out: Path, step: str, kind: str | None,
+                   force: bool) -> None:
+    """Write one TEST as Parquet or CSV.
+
+    All sources together on a uniform grid; the name of OUT says the format.
+    """
+    from thermodata.export import export_test
+
+    if out.exists() and not force:
+        raise UsageError("the file exists", where=str(out), hint="--force replaces it")
+    result = plain(export_test(session.view(), campaign, test, out, step=step, kind=kind))
+    session.answer(result, lambda: fields(result.items()))
