@@ -31,14 +31,17 @@ CANONICAL_UNIT: dict[str, str] = {
 # blanks removed; a unit that case distinguishes (mW / MW) stays out of this table.
 _ALIAS: dict[str, str] = {
     "1/min": "rpm", "u/min": "rpm", "ot/min": "rpm", "ot./min": "rpm", "min-1": "rpm", "min^-1": "rpm",
-    "min⁻¹": "rpm", "rev/min": "rpm", "r/min": "rpm", "rpm": "rpm", "upm": "rpm",
+    "min⁻¹": "rpm", "rev/min": "rpm", "r/min": "rpm", "rpm": "rpm", "upm": "rpm", "tr/min": "rpm", "/min": "rpm",
+    "1/s": "turn/second", "u/s": "turn/second", "ot/s": "turn/second", "s-1": "turn/second", "s^-1": "turn/second",
+    "rev/s": "turn/second", "rps": "turn/second", "hz": "turn/second",
     "degc": "degC", "°c": "degC", "℃": "degC", "grdc": "degC", "celsius": "degC", "deg.c": "degC",
-    "gradc": "degC", "ºc": "degC", "degcelsius": "degC", "degreec": "degC", "degreescelsius": "degC",
+    "c": "degC", "c°": "degC", "°celsius": "degC", "gradc": "degC", "ºc": "degC", "degcelsius": "degC", "degreec": "degC", "degreescelsius": "degC",
     "stc": "degC", "degf": "degF", "°f": "degF", "fahrenheit": "degF",
     "um": "um", "µm": "um", "μm": "um", "micron": "um", "microns": "um", "micrometer": "um", "mikrometer": "um",
     "urad": "urad", "µrad": "urad", "μrad": "urad", "um/m": "urad", "µm/m": "urad",
     "deg": "deg", "°": "deg", "grad": "deg", "volts": "V", "volt": "V", "v": "V",
     "%": "percent", "percent": "percent", "pct": "percent", "proz": "percent",
+    "%rh": "percent", "rh%": "percent", "rh": "percent", "%r.h.": "percent", "%rf": "percent", "kw": "kW",
     "nm": "N*m", "n·m": "N*m", "n*m": "N*m", "n.m": "N*m", "newtons": "N",
     "w/m2": "W/m**2", "w/m²": "W/m**2", "w/m^2": "W/m**2",
     "ohm": "ohm", "ω": "ohm", "ohms": "ohm", "l/min": "l/min", "lpm": "l/min",
@@ -86,6 +89,29 @@ def linear_conversion(unit: str, target: str) -> tuple[float, float]:
             hint="declare the channel's unit in the campaign file (unit: ...)",
         ) from error
     return at_1 - at_0, at_0
+
+
+def delta_factor(unit: str, target: str) -> float:
+    """Factor of a difference: 1 K is 1 degC, 1 degF is 0.556 K. UsageError where they don't convert."""
+    return linear_conversion(unit, target)[0]
+
+
+def is_unit(text: str) -> bool:
+    """Whether the text is a unit at all (a lab's or pint's spelling)."""
+    try:
+        _registry().parse_units(normal_unit(text))
+    except Exception:
+        return False
+    return bool(text.strip())
+
+
+def compound_unit(left: str, operator: Literal["*", "/"], right: str) -> str:
+    """The unit of a product or quotient, '' where it has none; a temperature counts as a difference in it."""
+    registry = _registry()
+    a, b = (registry.parse_units({"degC": "K", "degF": "delta_degF"}.get(n, n) if (n := normal_unit(u)) else "")
+            for u in (left, right))
+    unit = a * b if operator == "*" else a / b
+    return "" if unit == registry.dimensionless else str(unit)
 
 
 def canonical(quantity: str) -> str:
