@@ -1,0 +1,23 @@
+"""Models: drivers, fitting, free-run prediction, scores. See `fit_model` and, with a store, `modelling.run`."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from thermodata.modelling.fit import fit_model
+    from thermodata.modelling.fitted import FittedModel, FittedResponse, FittedTerm
+
+__all__ = ["FittedModel", "FittedResponse", "FittedTerm", "fit_model"]
+
+
+def __getattr__(name: str) -> Any:
+    if name == "fit_model":
+        from thermodata.modelling.fit import fit_model
+
+        return fit_model
+    if name in __all__:
+        from thermodata.modelling import fitted
+
+        return getattr(fitted, name)
+    raise AttributeError(name)

@@ -1,0 +1,62 @@
+"""ARX: one-step regression for the coefficients, free run for everything that is said about them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from typing import cast
+
+import numpy as np
+
+from thermodata.errors import SpecError, UsageError
+from thermodata.modelling.drivers import step_s
+from thermodata.modelling.fitted import FittedTerm, fit_mask
+from thermodata.modelling.resolve import BoundResponse, BoundTerm
+from thermodata.modelling.transfer import FreeFunction, GivenFunction
+from thermodata.plugin import Effect
+from thermodata.view.dataset import TestData
+
+
+def placeholder(term: BoundTerm) -> BoundTerm:
+    """One lag in the place of the ARX function, while the other effects are found."""
+    return replace(term, effect=cast(Effect, FreeFunction("varpro", (1, 1))), _drivers={})
+
+
+def identify_arx(bound: BoundResponse, i: int, fitted: Mapping[int, FittedTerm], tests: Sequence[TestData],
+                 wanted: tuple[str, ...] | None) -> BoundResponse:
+    """The response with term i as an ARX function of what the other effects leave. orders: numerator, denominator.
+
+    y(k) = -b1 y(k-1) - ... + a0 u(k) + a1 u(k-1) + ... + one constant a test; least squares over all tests.
+    UsageError where the function is not stable.
+    """
+    term = bound.terms[i]
+    na, nb = term.spec.orders or (2, 2)
+    rows, targets = [], []
+    for j, test in enumerate(tests):
+        if not term.covers(test):
+            continue
+        rest = test.values[bound.channel_of(test)].copy()
+        for k, other in fitted.items():
+            if k != i:
+                rest = rest - other.contribution(test)
+        mask = fit_mask(bound, list(bound.terms), wanted, test)
+        u, span = term.drivers(test).values["u"], max(na - 1, nb)
+        past = [np.roll(rest, k) for k in range(1, nb + 1)] + [np.roll(u, k) for k in range(na)]
+        constants = [np.full(len(u), float(j == m)) for m in range(len(tests))]
+        good = np.logical_and.reduce([np.roll(mask, k) for k in range(nb + 1)]) & np.isfinite(rest)
+        good[:span] = False
+        rows.append(np.column_stack([*past, *constants])[good])
+        targets.append(rest[good])
+    x, y = np.concatenate(rows), np.concatenate(targets)
+    if len(y) < 4 * (na + nb):
+        raise UsageError("too few consecutive samples for an ARX function", where=term.id,
+                         expected=f"at least {4 * (na + nb)}", got=str(len(y)), hint="method: oe")
+    found = np.linalg.lstsq(x, y, rcond=None)[0]
+    try:
+        function = GivenFunction(found[nb:nb + na], [1.0, *-found[:nb]], step_s(tests[0]), where=term.id)
+    except SpecError as error:
+        raise UsageError("the ARX function is not stable", where=term.id, got=error.got,
+                         hint="method: oe, other orders, or a longer step") from None
+    spec = term.spec.model_copy(update={"fixed": {"gain": 1.0}})
+    made = replace(term, effect=cast(Effect, function), spec=spec, _drivers={})
+    return replace(bound, terms=tuple(made if k == i else t for k, t in enumerate(bound.terms)))

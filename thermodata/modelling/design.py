@@ -1,0 +1,96 @@
+"""The linear half of a fit: masked, centred columns of every term over all tests, kept by time constant.
+
+Each test is centred by itself (that is its free offset), and the state of every lag restarts at each test.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from thermodata.modelling.fitted import fit_mask
+from thermodata.modelling.resolve import BoundResponse, BoundTerm
+from thermodata.plugin import Bool1D, Float1D, Float2D, Param
+from thermodata.view.dataset import TestData
+
+KEPT = 4000                     # columns kept before the oldest go
+
+
+@dataclass(frozen=True)
+class Slot:
+    """A term in one group of tests: what has gains of its own. tests: places in Design.tests."""
+
+    term: int
+    group: str
+    tests: tuple[int, ...]
+
+
+@dataclass
+class Nonlinear:
+    """A parameter that the search moves, in the slots that share it. Searched as log(value) where log is set."""
+
+    param: Param
+    slots: tuple[int, ...]
+    lower: float
+    upper: float
+    start: float
+    log: bool
+
+    def inside(self, x: float) -> float:
+        value = float(np.exp(x)) if self.log else float(x)
+        return min(max(value, self.lower), self.upper)
+
+    def outside(self, value: float) -> float:
+        return float(np.log(value)) if self.log else float(value)
+
+
+class Design:
+    """What stays the same while a fit searches: tests, masks, centred response, slots."""
+
+    def __init__(self, bound: BoundResponse, terms: Sequence[BoundTerm], tests: Sequence[TestData],
+                 wanted: tuple[str, ...] | None) -> None:
+        self.bound, self.terms, self.tests = bound, tuple(terms), tuple(tests)
+        self.masks: list[Bool1D] = [fit_mask(bound, list(terms), wanted, t) for t in tests]
+        self.counts = [int(m.sum()) for m in self.masks]
+        edges = np.concatenate([[0], np.cumsum(self.counts)])
+        self.parts = [slice(int(a), int(b)) for a, b in zip(edges[:-1], edges[1:], strict=True)]
+        self.n = int(edges[-1])
+        self.y: Float1D = np.concatenate(
+            [_centred(t.values[bound.channel_of(t)][m]) for t, m in zip(tests, self.masks, strict=True)]
+            or [np.zeros(0)])
+        self.slots = tuple(self._slots())
+        self._kept: dict[tuple[int, tuple[float, ...]], Float2D] = {}
+
+    def _slots(self) -> list[Slot]:
+        slots = []
+        for i, term in enumerate(self.terms):
+            groups: dict[str, list[int]] = {}
+            for j, test in enumerate(self.tests):
+                if term.covers(test) and self.counts[j]:
+                    groups.setdefault(term.group(test) if term.spec.gain_by else "", []).append(j)
+            slots += [Slot(i, g, tuple(js)) for g, js in groups.items()]
+        return slots
+
+    def names(self, slot: int) -> list[str]:
+        return [p.name for p in self.terms[self.slots[slot].term].effect.params]
+
+    def columns(self, slot: int, params: Mapping[str, float]) -> Float2D:
+        """shape (n, gains): masked, centred a test, zero in tests outside the slot."""
+        key = (slot, tuple(params[name] for name in self.names(slot)))
+        kept = self._kept.get(key)
+        if kept is None:
+            term = self.terms[self.slots[slot].term]
+            kept = np.zeros((self.n, len(term.effect.gains)), order="F")
+            for j in self.slots[slot].tests:
+                full = term.columns(self.tests[j], params)[self.masks[j]]
+                kept[self.parts[j]] = full - full.mean(axis=0)
+            if len(self._kept) >= KEPT:
+                self._kept.clear()
+            self._kept[key] = kept
+        return kept
+
+
+def _centred(values: Float1D) -> Float1D:
+    return values - values.mean() if len(values) else values

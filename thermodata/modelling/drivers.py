@@ -1,0 +1,127 @@
+"""The drivers that an effect sees of one test: channels or expressions on the test's grid, gaps filled.
+
+Temperatures count from the start of the record (history included): a constant is the offset's business, and a
+lag that starts at zero is then in balance. Quantities that are zero at rest (speed, power, state) stay as they are.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+
+from thermodata.effect.binding import ANY
+from thermodata.errors import UsageError, unknown_name
+from thermodata.plugin import Bool1D, Drivers, Effect, Float1D
+from thermodata.view.dataset import TestData
+
+# zero means at rest; everything else has an arbitrary zero and counts from the start of the record
+ZERO_AT_REST = frozenset({
+    "rotational_speed", "feed", "power", "load", "current", "torque", "flow", "state", "irradiance",
+})
+FILL_S = 1800.0                 # a driver may be missing this long before what it predicts stops counting
+START_S = 300.0                 # the start value is a mean of at most this, while the driver does not move
+
+
+def make_drivers(test: TestData, effect: Effect, binding: Mapping[str, str]) -> Drivers:
+    """binding: role -> channel name or expression ("T_a - T_b"). UsageError where the test lacks a channel."""
+    values: dict[str, Float1D] = {}
+    valid: dict[str, Bool1D] = {}
+    quantity = {need.role: need.quantity for need in effect.needs}
+    for role, text in binding.items():
+        raw, good, relative = evaluate(test, text)
+        if quantity.get(role) == "position":                # an effect that names position means the coordinate
+            relative = False
+        values[role], valid[role] = prepare(raw, good, step_s(test), relative)
+    return Drivers(test.t_s, values, valid, test.conditions)
+
+
+def names_of(text: str) -> tuple[str, ...]:
+    """The channels that a driver expression reads, in alphabetical order."""
+    if text.isidentifier():
+        return (text,)
+    from thermodata.calibration.expression import parse
+
+    return tuple(sorted(parse(text).names))
+
+
+def has_drivers(test: TestData, binding: Mapping[str, str]) -> bool:
+    """Whether the test has all that the binding reads, with at least one valid sample each."""
+    return all(name in test.values and bool(np.any(_good(test, name)))
+               for text in binding.values() for name in names_of(text))
+
+
+def evaluate(test: TestData, text: str) -> tuple[Float1D, Bool1D, bool]:
+    """(values, valid, relative) of a channel or expression, shapes (n,); NaN where not valid."""
+    names = names_of(text)
+    for name in names:
+        if name not in test.values:
+            raise unknown_name("channel", name, list(test.values), where=f"test {test.campaign}/{test.test}")
+    good = np.logical_and.reduce([_good(test, name) for name in names]) if names else np.ones(len(test.t_s), bool)
+    relative = not names or not all(_quantity(test, name) in ZERO_AT_REST for name in names)
+    if text.isidentifier():
+        raw = np.asarray(test.values[text], dtype=np.float64)
+    else:
+        from thermodata.calibration.expression import parse
+
+        found = parse(text).evaluate({name: test.values[name] for name in names},
+                                     {name: _unit(test, name) for name in names})
+        raw = np.broadcast_to(np.asarray(found, dtype=np.float64), test.t_s.shape)
+    return np.where(good, raw, np.nan), good & np.isfinite(raw), relative
+
+
+def prepare(raw: Float1D, good: Bool1D, step: float, relative: bool) -> tuple[Float1D, Bool1D]:
+    """Gaps filled by straight lines (ends held), counted from the start; and where the filling is short enough."""
+    if not good.any():
+        raise UsageError("a driver has no valid sample")
+    index = np.arange(len(raw))
+    known = index[good]
+    filled = raw.copy() if good.all() else np.interp(index, known, raw[good])
+    if good.all():
+        near = good
+    else:
+        before = known[np.clip(np.searchsorted(known, index, side="right") - 1, 0, None)]
+        after = known[np.clip(np.searchsorted(known, index), None, len(known) - 1)]
+        reach = np.maximum(np.abs(index - before), np.abs(after - index)) * step
+        near = good | (reach <= FILL_S)
+    if relative:
+        filled = filled - start_value(raw[good], step)
+    return filled, near
+
+
+def start_value(values: Float1D, step: float) -> float:
+    """The value at the start: a mean over the first minutes as long as it does not move more than its noise.
+
+    A longer mean of a temperature that already rises would put the lag out of balance by that much.
+    """
+    most = max(1, min(int(START_S / step), len(values)))
+    if most == 1:
+        return float(values[0])
+    bends = np.diff(values, n=2) if len(values) > 3 else np.zeros(1)
+    noise = 1.4826 * float(np.median(np.abs(bends))) / np.sqrt(6.0)
+    count = 1
+    while count < most and abs(values[count] - values[:count].mean()) <= 2.0 * noise + 1e-12:
+        count += 1
+    return float(values[:count].mean())
+
+
+def step_s(test: TestData) -> float:
+    """The grid's step [s]."""
+    t = test.t_s
+    return float((t[-1] - t[0]) / (len(t) - 1)) if len(t) > 1 else 1.0
+
+
+def _good(test: TestData, name: str) -> Bool1D:
+    valid = test.valid.get(name)
+    finite = np.isfinite(test.values[name])
+    return finite if valid is None else finite & valid
+
+
+def _quantity(test: TestData, name: str) -> str:
+    info = test.channels.get(name)
+    return info.quantity if info else ANY
+
+
+def _unit(test: TestData, name: str) -> str:
+    info = test.channels.get(name)
+    return info.unit if info else ""

@@ -1,0 +1,70 @@
+"""The parameters of a fitted model as a table of value, unit and interval."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+from thermodata.schema.result import Parameter
+
+if TYPE_CHECKING:
+    from thermodata.modelling.fitted import FittedModel, FittedResponse, FittedTerm, Values
+
+Z95 = 1.96
+
+
+def parameters(model: FittedModel) -> dict[str, Parameter]:
+    """See FittedModel.parameters."""
+    found: dict[str, Parameter] = {}
+    for response in model.responses:
+        prefix = f"{response.name}/" if len(model.responses) > 1 else ""
+        for term in response.terms:
+            found |= {prefix + name: p for name, p in term_parameters(response, term).items()}
+    return found
+
+
+def term_parameters(response: FittedResponse, term: FittedTerm) -> dict[str, Parameter]:
+    """'effect.parameter' of one term; parameters that groups share appear once."""
+    found: dict[str, Parameter] = {}
+    for group, values in term.groups.items():
+        tag = f"[{group}]" if term.bound.spec.gain_by else ""
+        own = {p.name for p in term.effect.params
+               if term.bound.spec.gain_by and term.bound.spec.shared and p.name not in term.bound.spec.shared}
+        for param in term.effect.params:
+            if param.name in values.silent:
+                continue
+            name = f"{term.id}.{param.name}{tag if param.name in own else ''}"
+            found.setdefault(name, _parameter(values.params[param.name], param.unit, param.name, values))
+        for gain in term.effect.gains:
+            unit = gain_unit(response, term, gain.unit)
+            found[f"{term.id}.{gain.name}{tag}"] = _parameter(values.gains[gain.name], unit, gain.name, values)
+    return found
+
+
+def gain_unit(response: FittedResponse, term: FittedTerm, unit: str) -> str:
+    """um/u -> the response's unit over the driver's; um -> the response's unit (a response may be no displacement)."""
+    if unit.endswith("/u"):
+        unit = f"um/{driver_unit(response, term)}"
+    if unit == "um" or unit.startswith("um/"):
+        unit = response.unit + unit[2:]
+    return unit
+
+
+def driver_unit(response: FittedResponse, term: FittedTerm) -> str:
+    """K for a temperature or a difference of temperatures, else the channel's unit."""
+    from thermodata.modelling.drivers import names_of
+
+    text = term.binding.get("u", "")
+    units = {response.bound.units.get(name, "1") for name in (names_of(text) if text else ())}
+    units = {"K" if u == "degC" else u for u in units}
+    return units.pop() if len(units) == 1 else "1"
+
+
+def _parameter(value: float, unit: str, name: str, values: Values) -> Parameter:
+    sd = values.sd.get(name)
+    if sd is None:
+        return Parameter(value=value, unit=unit)
+    if name in values.log_names and value > 0:
+        spread = math.exp(min(Z95 * sd, 50.0))
+        return Parameter(value=value, unit=unit, low=value / spread, high=value * spread)
+    return Parameter(value=value, unit=unit, low=value - Z95 * sd, high=value + Z95 * sd)

@@ -1,0 +1,131 @@
+"""Variable projection: the search over time constants, with the gains solved for at every point.
+
+First a coarse grid, one parameter after the other (a sweep), then Levenberg-Marquardt with bounds
+(scipy.optimize.least_squares) on the residual that is left after the gains are solved. A grid alone is not enough:
+what a wrong time constant leaves behind looks like a missing effect.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from thermodata.modelling.design import Design, Nonlinear
+from thermodata.modelling.solve import solve_gains, squared_error
+from thermodata.plugin import Float1D, Float2D
+
+GRID = 9
+SWEEPS = 4
+
+
+@dataclass
+class Problem:
+    """A design with what is searched and what is held. held[slot]: fixed parameters by name;
+    low, high: shape (columns,), equal where a gain is held. silent[slot]: parameters
+    that change nothing with the slot's drivers."""
+
+    design: Design
+    free: list[Nonlinear]
+    held: list[dict[str, float]]
+    low: Float1D
+    high: Float1D
+    silent: list[frozenset[str]]
+
+    def __post_init__(self) -> None:
+        self.widths = [len(self.design.terms[s.term].effect.gains) for s in self.design.slots]
+        self.starts = np.concatenate([[0], np.cumsum(self.widths)]).astype(int)
+
+    def params(self, x: Float1D) -> list[dict[str, float]]:
+        """Parameters of every slot at a point of the search."""
+        found = [dict(h) for h in self.held]
+        for value, nonlinear in zip(x, self.free, strict=True):
+            for slot in nonlinear.slots:
+                found[slot][nonlinear.param.name] = nonlinear.inside(float(value))
+        return found
+
+    def matrix(self, x: Float1D) -> Float2D:
+        """shape (n, columns)."""
+        blocks = [self.design.columns(s, p) for s, p in enumerate(self.params(x))]
+        return np.concatenate(blocks, axis=1) if blocks else np.zeros((self.design.n, 0))
+
+    def gains(self, matrix: Float2D) -> Float1D:
+        return solve_gains(matrix.T @ matrix, matrix.T @ self.design.y, self.low, self.high)
+
+    def residual(self, x: Float1D) -> Float1D:
+        """shape (n,): what is left once the gains are solved."""
+        matrix = self.matrix(x)
+        return self.design.y - matrix @ self.gains(matrix)
+
+    def start(self) -> Float1D:
+        return np.array([f.outside(f.start) for f in self.free], dtype=np.float64)
+
+
+def search(problem: Problem, sweep: bool = True) -> Float1D:
+    """The point with the least squared error; shape (free parameters,)."""
+    x = problem.start()
+    if not len(x) or not problem.design.n:
+        return x
+    if sweep:
+        x = _sweeps(problem, x)
+    return _refine(problem, x)
+
+
+def _sweeps(problem: Problem, x: Float1D) -> Float1D:
+    """Coordinate descent over a grid that narrows once it stops moving."""
+    ends = [(f.outside(f.lower), f.outside(f.upper)) for f in problem.free]
+    width = np.array([b - a for a, b in ends])
+    best = np.inf
+    for sweep in range(2 * SWEEPS):
+        fine = sweep >= SWEEPS
+        before = x.copy()
+        for i, (a, b) in enumerate(ends):
+            reach = width[i] / (GRID - 1)
+            points = (np.linspace(x[i] - reach, x[i] + reach, 5) if fine else np.linspace(a, b, GRID))
+            x, best = _along(problem, x, i, np.clip(points, a, b), best)
+        if len(x) == 1 and fine:
+            break
+        if np.allclose(x, before):
+            if fine:
+                break
+            width = width / 2 if sweep == 0 else width
+    return x
+
+
+def _along(problem: Problem, x: Float1D, i: int, points: Float1D, best: float) -> tuple[Float1D, float]:
+    """The best of some values of one parameter; only its own columns of the Gram matrix are made anew."""
+    design, nonlinear = problem.design, problem.free[i]
+    matrix = problem.matrix(x)
+    gram, cross, total = matrix.T @ matrix, matrix.T @ design.y, float(design.y @ design.y)
+    places = np.concatenate([np.arange(problem.starts[s], problem.starts[s + 1]) for s in nonlinear.slots])
+    rest = np.setdiff1d(np.arange(matrix.shape[1]), places)
+    if not np.isfinite(best):
+        best = squared_error(total, gram, cross, solve_gains(gram, cross, problem.low, problem.high))
+    out = x
+    for value in points:
+        trial = x.copy()
+        trial[i] = value
+        params = problem.params(trial)
+        own = np.concatenate([design.columns(s, params[s]) for s in nonlinear.slots], axis=1)
+        g, c = gram.copy(), cross.copy()
+        g[np.ix_(places, places)] = own.T @ own
+        g[np.ix_(places, rest)] = own.T @ matrix[:, rest]
+        g[np.ix_(rest, places)] = g[np.ix_(places, rest)].T
+        c[places] = own.T @ design.y
+        error = squared_error(total, g, c, solve_gains(g, c, problem.low, problem.high))
+        if error < best * (1 - 1e-9):
+            best, out = error, trial
+    return out, best
+
+
+def _refine(problem: Problem, x: Float1D) -> Float1D:
+    from scipy.optimize import least_squares
+
+    low = np.array([f.outside(f.lower) for f in problem.free])
+    high = np.array([f.outside(f.upper) for f in problem.free])
+    margin = 1e-6 * (high - low)
+    inside = np.clip(x, low + margin, high - margin)
+    found = least_squares(problem.residual, inside, bounds=(low, high), method="trf", diff_step=1e-5,
+                          x_scale=high - low, xtol=1e-7, ftol=1e-9, gtol=1e-12, max_nfev=60)
+    at_x = problem.residual(x)
+    return np.asarray(found.x) if 2 * found.cost <= float(at_x @ at_x) else x

@@ -1,0 +1,148 @@
+"""Transfer functions as effects: identified (oe, varpro), or given by their coefficients.
+
+A free function is kept as time constants and gains, never as a polynomial of z: an OE(2,2) at 1 s needs nine
+decimals, its time constants three. Its poles are real, between 0 and 1 (heat flow does not ring), hence stable.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping, Sequence
+from itertools import pairwise
+
+import numpy as np
+
+from thermodata.effect.lag import lag, step_of
+from thermodata.errors import SpecError
+from thermodata.plugin import Drivers, Float1D, Float2D, Gain, Need, Param
+
+NAME = "transfer_function"
+MOST = 4
+SOURCE = "papers 000-004: y(k) = [a0 u(k) + a1 u(k-1) + ... - b1 y(k-1) - ...] / b0"
+_ANY = (Need("u", "*"),)
+_COEFFICIENT = re.compile(r"^(a|b|num|den)(\d+)$")
+_INF = float("inf")
+
+
+class FreeFunction:
+    """Identified from the data. oe: `orders[0]` numerator and `orders[1]` denominator coefficients;
+    varpro: a sum of `orders[1]` lags. basis: shape (n, len(gains))."""
+
+    family = "generic"
+    source = SOURCE
+
+    def __init__(self, method: str, orders: tuple[int, int]) -> None:
+        if not (1 <= orders[0] <= MOST and 1 <= orders[1] <= MOST):
+            raise SpecError("orders of a transfer function", expected=f"two whole numbers from 1 to {MOST}",
+                            got=str(list(orders)))
+        self.method, self.orders = method, orders
+        self.name, self.needs = NAME, _ANY
+        self.meaning = f"{method} {orders[0]},{orders[1]}: real poles as time constants, gains linear"
+        starts = np.geomspace(10.0, 300.0, orders[1]) if orders[1] > 1 else [60.0]
+        names = [f"tau_{i + 1}" for i in range(orders[1])] if orders[1] > 1 else ["tau"]
+        self.params = tuple(Param(n, "min", float(s), 0.5, 2880.0, "time constant of a pole")
+                            for n, s in zip(names, starts, strict=True))
+        if method == "varpro":
+            gains = [f"gain_{i + 1}" for i in range(orders[1])] if orders[1] > 1 else ["gain"]
+        else:
+            gains = ["gain"] + [f"lead_{j}" for j in range(1, orders[0])]
+        self.gains = tuple(Gain(n, "um/u", (0.0, _INF), "any", "gain at rest" if n == "gain" else "gain")
+                           for n in gains)
+
+    def basis(self, drivers: Drivers, p: Mapping[str, float]) -> Float2D:
+        u, step = drivers.values["u"], step_of(drivers)
+        taus = [p[param.name] * 60.0 for param in self.params]
+        if self.method == "varpro":
+            return np.column_stack([lag(u, t, step) for t in taus])
+        slow = u
+        for t in taus:
+            slow = lag(slow, t, step)
+        # numerator in powers of the difference operator (1 - 1/q), which spans the same functions as powers
+        # of 1/q but leaves the columns apart; each is scaled to the size of the one before
+        columns = [slow]
+        for j in range(1, self.orders[0]):
+            columns.append(np.diff(columns[-1], prepend=columns[-1][0]) * taus[min(j, len(taus)) - 1] / step)
+        return np.column_stack(columns)
+
+
+class GivenFunction:
+    """Coefficients as printed: a0.. over b0.. at `sample_s`, or num0.. over den0.. of s (highest power first,
+    time in `time_s` seconds). One gain: 1 for the function as printed, free for `g` times the function."""
+
+    name = NAME
+    family = "generic"
+    source = SOURCE
+    needs = _ANY
+    params: tuple[Param, ...] = ()
+    gains = (Gain("gain", "1", (0.0, _INF), "any", "factor on the printed function"),)
+
+    def __init__(self, num: Sequence[float], den: Sequence[float], sample_s: float | None, time_s: float = 1.0,
+                 where: str | None = None) -> None:
+        self.num, self.den = np.asarray(num, float), np.asarray(den, float)
+        self.sample_s, self.time_s = sample_s, time_s
+        self.meaning = f"given function, {len(num)} over {len(den)} coefficients"
+        if not len(self.num) or not len(self.den) or self.den[0] == 0:
+            raise SpecError("a transfer function without a leading denominator coefficient", where=where)
+        if sample_s is not None and sample_s <= 0:
+            raise SpecError("the sample time of a transfer function is positive", where=where, got=f"{sample_s}")
+        self._stable(where)
+
+    @property
+    def gain_at_rest(self) -> float:
+        """um per unit of the driver."""
+        if self.sample_s is None:
+            return float(self.num[-1] / self.den[-1])
+        return float(self.num.sum() / self.den.sum())
+
+    def basis(self, drivers: Drivers, p: Mapping[str, float]) -> Float2D:
+        return self.simulate(drivers.t_s, drivers.values["u"]).reshape(-1, 1)
+
+    def simulate(self, t_s: Float1D, u: Float1D) -> Float1D:
+        """Free run from balance: shape (n,) on the grid t_s [s]."""
+        from scipy.signal import cont2discrete, lfilter
+
+        if self.sample_s is not None:
+            fine = np.arange(t_s[0], t_s[-1] + self.sample_s / 2, self.sample_s)
+            y = lfilter(self.num, self.den, np.interp(fine, t_s, u))
+            return np.asarray(np.interp(t_s, fine, y), dtype=np.float64)
+        step = (t_s[1] - t_s[0]) / self.time_s if len(t_s) > 1 else 1.0
+        num, den, _ = cont2discrete((self.num, self.den), step, method="foh")
+        return np.asarray(lfilter(np.ravel(num), den, u), dtype=np.float64)
+
+    def _stable(self, where: str | None) -> None:
+        poles = np.roots(self.den)
+        bad = poles[poles.real >= 0] if self.sample_s is None else poles[np.abs(poles) >= 1]
+        if len(bad):
+            raise SpecError("the transfer function is not stable: its free run grows without end", where=where,
+                            expected="poles inside the unit circle" if self.sample_s else "poles left of zero",
+                            got=", ".join(f"{p:.9g}" for p in bad),
+                            hint="give its coefficients with more digits, or identify it from data")
+
+
+def given(fixed: Mapping[str, float], where: str | None = None) -> GivenFunction | None:
+    """The function that `fixed` spells out (a0, a1, b0, b1, ... or num0, den0, ...), or None where it doesn't."""
+    lists: dict[str, dict[int, float]] = {}
+    for name, value in fixed.items():
+        hit = _COEFFICIENT.match(name)
+        if hit:
+            lists.setdefault(hit[1], {})[int(hit[2])] = value
+    if not lists:
+        return None
+    for name, numbers in lists.items():
+        order = sorted(numbers)
+        if order[0] not in (0, 1) or any(b - a != 1 for a, b in pairwise(order)):
+            raise SpecError(f"coefficients {name}0, {name}1, ... with a hole", where=where, got=str(order))
+    if "num" in lists or "den" in lists:
+        return GivenFunction(_run(lists.get("num", {})), _run(lists.get("den", {})), None,
+                             fixed.get("time_s", 1.0), where)
+    den = lists.get("b", {})
+    return GivenFunction(_run(lists.get("a", {})), _run({0: 1.0, **den}), fixed.get("sample_s", 1.0), where=where)
+
+
+def is_coefficient(name: str) -> bool:
+    """Whether a key of `fixed` belongs to a given function rather than to a parameter."""
+    return name in ("sample_s", "time_s") or _COEFFICIENT.match(name) is not None
+
+
+def _run(numbers: Mapping[int, float]) -> list[float]:
+    return [numbers[i] for i in sorted(numbers)]
