@@ -22,7 +22,7 @@ create table source (campaign varchar not null, test varchar not null, source va
                      notes json);
 create table channel (campaign varchar not null, test varchar not null, channel varchar not null, source varchar,
                       stream varchar, signal varchar, quantity varchar not null, unit varchar not null,
-                      raw_unit varchar, axis varchar, at varchar, relative_to varchar, sign varchar not null,
+                      raw_unit varchar, axis varchar, "at" varchar, relative_to varchar, sign varchar not null,
                       calibration varchar, dtype varchar not null, sensor json, notes varchar);
 create table file (campaign varchar not null, test varchar not null, source varchar not null, stream varchar not null,
                    layer varchar not null, part varchar not null, key varchar not null, path varchar not null,
@@ -47,7 +47,7 @@ create table prediction (campaign varchar not null, test varchar not null, model
 create table finding (campaign varchar not null, test varchar not null, model varchar not null, kind varchar not null,
                       rank integer, payload json not null, created_at timestamp not null);
 create table locked_look (campaign varchar not null, test varchar not null, model varchar not null,
-                          reason varchar not null, at timestamp not null);
+                          reason varchar not null, "at" timestamp not null);
 """
 # file.layer: raw | tidy. file.part: test | history (the recording before a window, for lags) | calibration.
 # A raw row's source_path is relative to the campaign file; path is relative to the store. finding.kind:
