@@ -66,8 +66,9 @@ def time_is_int64_nanoseconds_in_one_dimension(recording: Recording, block: Bloc
         got = f"{getattr(block.t_ns, 'dtype', type(block.t_ns).__name__)} of shape {getattr(block.t_ns, 'shape', '?')}"
         return f"t_ns is {got}, not int64 of shape (n,)"
     if block.t_ns.size:
-        row = int(np.argmax(np.abs(block.t_ns)))
-        if not -_MAX_NS < block.t_ns[row] < _MAX_NS:
+        for row in (int(np.argmin(block.t_ns)), int(np.argmax(block.t_ns))):
+            if -_MAX_NS < block.t_ns[row] < _MAX_NS:
+                continue
             return f"t_ns at row {row} is {block.t_ns[row]}, no time"
     return None
 
@@ -110,7 +111,8 @@ def flags_are_uint16_of_delivered_signals(recording: Recording, block: Block) ->
         if name not in block.values:
             return f"flags of '{name}', which the block does not hold"
         if not isinstance(flags, np.ndarray) or flags.dtype != np.uint16 or flags.shape != block.t_ns.shape:
-            return f"flags of '{name}' are {getattr(flags, 'dtype', '?')} {getattr(flags, 'shape', '?')}, not uint16 (n,)"
+            got = f"{getattr(flags, 'dtype', '?')} of shape {getattr(flags, 'shape', '?')}"
+            return f"flags of '{name}' are {got}, not uint16 of shape (n,)"
     return None
 
 
