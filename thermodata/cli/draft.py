@@ -106,9 +106,9 @@ def draft(campaign: str, files: Sequence[RawFile], ignored: Sequence[tuple[str, 
         several = len({s.stream for s in g.signals}) > 1
         for signal in g.signals:
             name, found = channel_name(signal.name, taken), guess(signal.name, signal.unit, signal.dtype)
+            moves = found.quantity == "displacement"
             if moves:
                 displacements.append((name, found.axis, g, signal))
-            moves = found.quantity == "displacement"
             jump = f"jump_{name}" if moves and found.axis and _jump_for(signal, calibrations) else None
             keys = {"source": g.source, "signal": signal.name, "quantity": found.quantity, "unit": found.unit,
                     "axis": found.axis, "at": found.at,

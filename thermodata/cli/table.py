@@ -2,29 +2,12 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
+from thermodata.report.words import number
+
 Column = tuple[str, str]          # (key of the row, heading)
-
-
-def number(value: Any, digits: int = 3) -> str:
-    """A number as an engineer reads it: `digits` significant figures, never an exponent between 1e-4 and 1e7."""
-    if value is None:
-        return "-"
-    if isinstance(value, bool) or not isinstance(value, int | float):
-        return str(value)
-    if isinstance(value, int):
-        return str(value)
-    if math.isnan(value):
-        return "-"
-    if value == 0 or math.isinf(value):
-        return f"{value:g}"
-    size = math.floor(math.log10(abs(value)))
-    if not -4 <= size < 7:
-        return f"{value:.{digits - 1}e}"
-    return f"{value:.{max(0, digits - 1 - size)}f}"
 
 
 def cell(value: Any) -> str:
@@ -65,12 +48,3 @@ def fields(pairs: Iterable[tuple[str, Any]]) -> str:
     shown = [(name, cell(value)) for name, value in pairs]
     width = max((len(name) for name, _ in shown), default=0)
     return "\n".join(f"{name.ljust(width)}  {value}" for name, value in shown)
-
-
-def duration(seconds: float | None) -> str:
-    """'14.0 h', '25 min', '8 s'."""
-    if seconds is None or math.isnan(seconds):
-        return "-"
-    if abs(seconds) >= 5400:
-        return f"{seconds / 3600:.1f} h"
-    return f"{seconds / 60:.0f} min" if abs(seconds) >= 120 else f"{seconds:.3g} s"

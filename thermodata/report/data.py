@@ -1,0 +1,93 @@
+"""All that a report shows, as plain values: collected from a store, or made by hand in tests."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any
+
+from thermodata.plugin import Float1D
+from thermodata.schema.result import Check, Diagnosis, Parameter, Score, WeakSpot
+
+
+@dataclass(frozen=True, slots=True)
+class Curve:
+    """One channel of a test on a uniform grid. values: shape (n,), NaN where nothing was measured."""
+
+    name: str
+    unit: str
+    values: Float1D
+
+
+@dataclass(frozen=True, slots=True)
+class TestPart:
+    """One response in one test, on a uniform grid of step_s from start_s [s]; all arrays have shape (n,).
+
+    lanes: operating state (speed, feed, flags); drivers: what the effects were given. phases: name -> (from, to) [s].
+    """
+
+    __test__ = False
+    campaign: str
+    test: str
+    kind: str
+    role: str
+    response: str
+    start_s: float
+    step_s: float
+    measured: Float1D
+    predicted: Float1D
+    residual: Float1D
+    contributions: tuple[Curve, ...] = ()
+    drivers: tuple[Curve, ...] = ()
+    lanes: tuple[Curve, ...] = ()
+    conditions: dict[str, Any] = field(default_factory=dict)
+    phases: dict[str, tuple[float, float]] = field(default_factory=dict)
+
+
+@dataclass(frozen=True, slots=True)
+class Version:
+    """One version of the model. added: the effect that it has more than its parent. *_um: pooled RMSE [um]."""
+
+    model: str
+    name: str
+    added: str | None
+    all_um: float | None
+    calibration_um: float | None
+    verification_um: float | None
+    stale: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class ReportData:
+    """A model, its scores and curves, and what was diagnosed.
+
+    diagnosis: of this model; reason: of its parent, which says why the last effect was added. versions: oldest first.
+    looks: how often each locked test was opened. calibrations: rows of the catalogue's table.
+    """
+
+    model: str
+    name: str
+    campaigns: tuple[str, ...]
+    machine: str
+    responses: tuple[str, ...]
+    unit: str
+    effects: tuple[str, ...]
+    created: str
+    parameters: dict[str, Parameter]
+    scores: list[Score]
+    checks: list[Check]
+    before: list[Score]
+    tests: tuple[TestPart, ...]
+    versions: tuple[Version, ...]
+    diagnosis: Diagnosis | None = None
+    reason: Diagnosis | None = None
+    calibrations: tuple[dict[str, Any], ...] = ()
+    looks: dict[str, int] = field(default_factory=dict)
+    stale: bool = False
+
+    @property
+    def weak_spots(self) -> list[WeakSpot]:
+        return self.diagnosis.weak_spots if self.diagnosis else []
+
+    @property
+    def added(self) -> str | None:
+        return self.versions[-1].added if self.versions else None

@@ -1,0 +1,67 @@
+"""Figures and verdicts in words, the same in the terminal and on the page."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from thermodata.schema.result import Diagnosis, Score
+
+
+def number(value: Any, digits: int = 3) -> str:
+    """A number as an engineer reads it: `digits` significant figures, no exponent between 1e-4 and 1e7; '-' for none."""
+    if value is None:
+        return "-"
+    if isinstance(value, bool) or not isinstance(value, int | float):
+        return str(value)
+    if isinstance(value, int):
+        return str(value)
+    if math.isnan(value):
+        return "-"
+    if value == 0 or math.isinf(value):
+        return f"{value:g}"
+    size = math.floor(math.log10(abs(value)))
+    if not -4 <= size < 7:
+        return f"{value:.{digits - 1}e}"
+    return f"{value:.{max(0, digits - 1 - size)}f}"
+
+
+def duration(seconds: float | None) -> str:
+    """'14.0 h', '25 min', '8 s'."""
+    if seconds is None or math.isnan(seconds):
+        return "-"
+    if abs(seconds) >= 5400:
+        return f"{seconds / 3600:.1f} h"
+    return f"{seconds / 60:.0f} min" if abs(seconds) >= 120 else f"{seconds:.3g} s"
+
+
+def change(before: float | None, after: float | None) -> str:
+    """'-62 %'; '-' where either is missing."""
+    return f"{100 * (after / before - 1):+.0f} %" if before and after is not None else "-"
+
+
+def pooled(scores: list[Score], *roles: str) -> float | None:
+    """Root mean square [um] over whole tests of these roles (none named: all), each sample counted once."""
+    rows = [s for s in scores if s.phase == "all" and (not roles or s.role in roles) and s.rmse_um is not None]
+    n = sum(s.n for s in rows)
+    return math.sqrt(sum(s.n * (s.rmse_um or 0.0) ** 2 for s in rows) / n) if n else None
+
+
+def verdict_sentence(found: Diagnosis) -> str:
+    """The verdict in one sentence with its figures."""
+    claimed = next((c for c in found.candidates if c.claimed), None)
+    if found.verdict == "effect" and claimed:
+        drivers = f" ({', '.join(claimed.drivers)})" if claimed.drivers else ""
+        text = (f"missing: {claimed.effect}{drivers}, error {number(claimed.rmse_um_before)} -> "
+                f"{number(claimed.rmse_um_after)} um")
+        if claimed.locked_rmse_um_after is not None:
+            text += (f", locked tests {number(claimed.locked_rmse_um_before)} -> "
+                     f"{number(claimed.locked_rmse_um_after)} um")
+        return text
+    return {
+        "effect": "missing: an effect that the data point to",
+        "none": "no effect is missing: what is left is noise, or too small to matter",
+        "unknown": "something is missing that no known effect with these channels explains",
+        "not_testable": "these tests can't tell which effect is missing",
+    }[found.verdict]
