@@ -1,0 +1,143 @@
+"""What the views are made from: the tidy files in groups of equal columns, read from the catalogue's tables."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+from thermodata.schema.quantity import CANONICAL_UNIT
+from thermodata.store.connection import literal
+
+if TYPE_CHECKING:
+    import duckdb
+
+# what a model explains; every other quantity can drive one
+RESPONSES = ("displacement", "tilt", "angle")
+HELD_QUANTITIES = ("state", "label")
+SCHEDULE = "schedule"
+
+
+@dataclass(frozen=True, slots=True)
+class Column:
+    """A channel's column of a group. held: its last value stands until the next one; text: no number."""
+
+    name: str
+    quantity: str
+    unit: str
+    held: bool
+    text: bool
+    comment: str
+
+
+@dataclass(frozen=True, slots=True)
+class Group:
+    """The tidy files of one (campaign, source, stream): equal columns, so one read_parquet serves them all.
+
+    name: unique suffix for views and macros. paths: test -> its files, relative to the store.
+    """
+
+    campaign: str
+    source: str
+    stream: str
+    name: str
+    columns: tuple[Column, ...]
+    paths: Mapping[str, tuple[str, ...]]
+
+    @property
+    def files(self) -> list[str]:
+        return sorted({path for paths in self.paths.values() for path in paths})
+
+
+@dataclass(frozen=True, slots=True)
+class Catalogue:
+    """campaigns: id -> unique suffix for macros. channels: campaign -> names in the campaign file's order."""
+
+    campaigns: Mapping[str, str]
+    groups: tuple[Group, ...]
+    channels: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+
+    def of(self, campaign: str) -> list[Group]:
+        return [g for g in self.groups if g.campaign == campaign]
+
+
+class Namer:
+    """Plain identifiers from any text, unique ignoring case as DuckDB's are."""
+
+    def __init__(self) -> None:
+        self._taken: set[str] = set()
+
+    def __call__(self, *parts: str) -> str:
+        bare = re.sub(r"[^A-Za-z0-9]+", "_", "_".join(parts)).strip("_") or "x"
+        name, number = bare, 1
+        while name.lower() in self._taken:
+            number += 1
+            name = f"{bare}_{number}"
+        self._taken.add(name.lower())
+        return name
+
+
+def read_catalogue(con: duckdb.DuckDBPyConnection) -> Catalogue:
+    """The campaigns and the groups of tidy files that views show (not the histories before windows)."""
+    rows = con.execute(
+        "select campaign, source, stream, test, path from file where layer = 'tidy' and part = 'test' "
+        "order by campaign, source, stream, test, path").fetchall()
+    known = con.execute("select campaign from campaign union select campaign from test union "
+                        "select campaign from file order by 1").fetchall()
+    described = _described(con)
+    namer, campaign_namer = Namer(), Namer()
+    campaigns = {campaign: campaign_namer(campaign) for (campaign,) in known}
+    files: dict[tuple[str, str, str], dict[str, list[str]]] = {}
+    for campaign, source, stream, test, path in rows:
+        files.setdefault((campaign, source, stream), {}).setdefault(test, []).append(path)
+    streams: dict[tuple[str, str], int] = {}
+    for campaign, source, _ in files:
+        streams[campaign, source] = streams.get((campaign, source), 0) + 1
+    groups = []
+    for (campaign, source, stream), tests in files.items():
+        paths = {test: tuple(p) for test, p in tests.items()}
+        first = next(iter(paths.values()))[0]
+        suffix = (campaign, source, stream) if streams[campaign, source] > 1 else (campaign, source)
+        groups.append(Group(campaign, source, stream, namer(*suffix),
+                            _columns(con, first, source, described.get(campaign, {})), paths))
+    order = {c: _ordered(described.get(c, {}), [g for g in groups if g.campaign == c]) for c in campaigns}
+    return Catalogue(campaigns, tuple(groups), order)
+
+
+def _described(con: duckdb.DuckDBPyConnection) -> dict[str, dict[str, tuple[str, str, str]]]:
+    """campaign -> channel -> (quantity, unit, comment), in the order of the table."""
+    rows = con.execute(
+        "select campaign, channel, first(quantity order by rowid), first(unit order by rowid), "
+        "first(axis order by rowid), first(\"at\" order by rowid), first(relative_to order by rowid), "
+        "first(sign order by rowid) from channel group by campaign, channel order by min(rowid)").fetchall()
+    found: dict[str, dict[str, tuple[str, str, str]]] = {}
+    for campaign, channel, quantity, unit, axis, at, relative_to, sign in rows:
+        words = [f"[{unit}] {quantity}"]
+        words += [f"axis {axis}"] if axis else []
+        words += [f"at {at}"] if at else []
+        words += [f"relative to {relative_to}"] if relative_to else []
+        words += ["sign unknown"] if sign == "unknown" else []
+        found.setdefault(campaign, {})[channel] = (quantity, unit, ", ".join(words))
+    return found
+
+
+def _columns(con: duckdb.DuckDBPyConnection, path: str, source: str,
+             described: Mapping[str, tuple[str, str, str]]) -> tuple[Column, ...]:
+    """The channels of a tidy file: the columns that have a flag column."""
+    types = {name: kind for name, kind, *_ in con.execute(
+        f"describe select * from read_parquet([{literal(path)}], hive_partitioning = false)").fetchall()}
+    columns = []
+    for name, kind in types.items():
+        if f"{name}__flag" not in types:
+            continue
+        text = kind == "VARCHAR"
+        quantity, unit, comment = described.get(name, ("label" if text else "", "", ""))
+        held = text or quantity in HELD_QUANTITIES or source == SCHEDULE
+        columns.append(Column(name, quantity, unit or CANONICAL_UNIT.get(quantity, ""), held, text, comment))
+    return tuple(columns)
+
+
+def _ordered(described: Iterable[str], groups: Iterable[Group]) -> tuple[str, ...]:
+    present = {column.name: None for group in groups for column in group.columns}
+    return tuple([n for n in described if n in present] + [n for n in present if n not in set(described)])

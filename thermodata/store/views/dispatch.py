@@ -1,0 +1,58 @@
+"""How a macro finds its files: names are looked up in constant maps, and `query` runs the text that they give.
+
+A table macro can't look its files up in a table, but DuckDB folds a lookup in a constant map before it opens
+anything: one file is opened instead of a thousand (4 ms instead of 20). Names reach the text only as literals.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+
+from thermodata.store.connection import literal, quoted
+from thermodata.store.views.catalogue import Catalogue, Group
+from thermodata.store.views.wide import file_list
+
+_SHOWN = 30
+
+
+def lookup_macros(catalogue: Catalogue, tests: Mapping[str, Iterable[str]]) -> Iterator[str]:
+    """Scalar macros: `sql_text` quotes, `files_<group>` and `known_<campaign>` give arguments as SQL text."""
+    yield "create macro sql_text(x) as '''' || replace(cast(x as varchar), '''', '''''') || ''''"
+    for group in catalogue.groups:
+        entries = ", ".join(f"{literal(test)}: {literal(file_list(paths) + ', true')}"
+                            for test, paths in group.paths.items())
+        # a test without this stream reads no row of another test's file
+        fallback = literal(file_list([group.files[0]]) + ", false")
+        yield (f"create macro {quoted('files_' + group.name)}(test) as "
+               f"coalesce((map {{{entries}}})[cast(test as varchar)], {fallback})")
+    for campaign, suffix in catalogue.campaigns.items():
+        names = sorted(tests.get(campaign, ()))
+        refusal = refuse("no test ", "test", f" in campaign '{campaign}'", names)
+        yield (f"create macro {quoted('known_' + suffix)}(test) as case when list_contains("
+               f"{file_list(names)}::varchar[], cast(test as varchar)) then sql_text(test) else {refusal} end")
+
+
+def files_call(group: Group) -> str:
+    """The text of two arguments, a list of files and whether they are the test's, for `from_files`."""
+    return f"{quoted('files_' + group.name)}(test)"
+
+
+def from_files(files: str, own: str) -> str:
+    """A FROM item over the two arguments of `files_call`."""
+    return f"(select * from read_parquet({files}, hive_partitioning = false) where {own}) r"
+
+
+def by_campaign(cases: Mapping[str, str], empty: str) -> str:
+    """A CASE over the macro parameter `campaign`; in a store without campaigns the empty query."""
+    if not cases:
+        return literal(empty)
+    listed = " ".join(f"when {literal(name)} then {text}" for name, text in cases.items())
+    return f"case cast(campaign as varchar) {listed} else {refuse('no campaign ', 'campaign', '', cases)} end"
+
+
+def refuse(before: str, parameter: str, after: str, choices: Iterable[str]) -> str:
+    """An `error` call that names the choices."""
+    names = list(choices)
+    shown = ", ".join(names[:_SHOWN]) + (f" and {len(names) - _SHOWN} more" if len(names) > _SHOWN else "")
+    tail = f"'{after}; there is: {shown or 'none'}"
+    return f"error({literal(before + chr(39))} || coalesce(cast({parameter} as varchar), 'NULL') || {literal(tail)})"

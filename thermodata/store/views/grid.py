@@ -1,0 +1,169 @@
+"""`aligned` and `binned`: all sources of a test on one grid.
+
+The grid is taken from the sources' own extent: point k stands at k * step from the test's start.
+
+`binned` is for fitting. Bin k holds the samples of [k * step, (k + 1) * step); a measurement is the mean of its
+valid ones. States, labels and schedules are held: the last valid value in the bin or before it. Where a source
+is slower than the step (period over half a step), empty bins between valid ones are interpolated linearly, over
+at most INTERPOLATED_PERIODS of the source's period; every other bin without a valid sample is NULL.
+
+`aligned` is for looking. Each point shows the last sample at or before it, whatever its flag (beside it as
+`<channel>__flag`); a measurement older than AGED_PERIODS of its source's period, and the step, is NULL.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+
+from thermodata.schema.flag import INVALID
+from thermodata.store.connection import literal, quoted
+from thermodata.store.views.catalogue import Catalogue, Column, Group
+from thermodata.store.views.dispatch import by_campaign, files_call, from_files
+
+INTERPOLATED_PERIODS = 3.5
+AGED_PERIODS = 3.5
+MAX_POINTS = 20_000_000
+# 30 us on a grid of 30 s: times such as 29.999999999 belong to the point that they mean
+_SLACK = 1e-6
+_EMPTY = ("select null::varchar as campaign, null::varchar as test, null::timestamp_ns as t, "
+          "null::double as t_s limit 0")
+
+STEP = f"""create macro step_seconds(step) as case
+  when coalesce(try_cast(cast(step as varchar) as double), epoch(try_cast(cast(step as varchar) as interval))) > 0
+  then coalesce(try_cast(cast(step as varchar) as double), epoch(try_cast(cast(step as varchar) as interval)))
+  else error({literal("no step '")} || coalesce(cast(step as varchar), 'NULL') ||
+             {literal("'; a step is positive: '30 s', INTERVAL '1 minute', or seconds")}) end"""
+
+
+def grid_macros(catalogue: Catalogue) -> Iterator[str]:
+    """The statements that make both macros: one a campaign, and the dispatcher."""
+    yield STEP
+    for kind, body in (("binned", _binned), ("aligned", _aligned)):
+        cases = {}
+        for campaign, suffix in catalogue.campaigns.items():
+            groups = [g for g in catalogue.of(campaign) if g.columns]
+            if not groups:
+                cases[campaign] = literal(_EMPTY)
+                continue
+            name = quoted(f"{kind}_{suffix}")
+            files = "".join(f", p__files_{i}, p__own_{i}" for i in range(len(groups)))
+            yield (f"create macro {name}(p__test, p__step{files}) as table "
+                   + body(campaign, groups, catalogue.channels[campaign]))
+            arguments = " || ', ' || ".join(files_call(g) for g in groups)
+            cases[campaign] = (f"({literal(f'select * from {name}(')} || {quoted('known_' + suffix)}(test) || ', ' || "
+                               f"cast(step_seconds(step) as varchar) || ', ' || {arguments} || ')')")
+        yield f"create macro {kind}_query(campaign, test, step) as {by_campaign(cases, _EMPTY)}"
+        yield (f"create macro {kind}(campaign, test, step := '30 s') as table "
+               f"select * from query({kind}_query(campaign, test, step))")
+
+
+def _source(i: int) -> str:
+    return from_files(f"p__files_{i}", f"p__own_{i}")
+
+
+def _grid(campaign: str, groups: list[Group]) -> str:
+    """CTEs: e__i extent and period of each source, e the test's, g the grid."""
+    extents = []
+    for i, group in enumerate(groups):
+        # the declared period first: a gap stretches the mean one
+        declared = (f"(select any_value(q.step_s) from source q where q.campaign = {literal(campaign)} "
+                    f"and q.test = p__test and q.source = {literal(group.source)} "
+                    f"and q.stream = {literal(group.stream)})")
+        extents.append(
+            f"e__{i} as (select min(r.t_s) as a, max(r.t_s) as b, "
+            f"min(epoch_ns(r.t) - cast(round(r.t_s * 1e9) as bigint)) as t0, "
+            f"coalesce({declared}, (max(r.t_s) - min(r.t_s)) / nullif(count(*) - 1, 0), 0) as period "
+            f"from {_source(i)})")
+    union = " union all ".join(f"select a, b, t0 from e__{i}" for i in range(len(groups)))
+    points = f"cast(floor(a / p__step + {_SLACK}) as bigint), cast(floor(b / p__step + {_SLACK}) as bigint)"
+    return (f"{', '.join(extents)}, e as (select min(a) as a, max(b) as b, min(t0) as t0 from ({union})), "
+            f"g as (select t0, unnest(generate_series({points})) as k from (select * from e where "
+            f"case when (b - a) / p__step > {MAX_POINTS} then error('the step is too small for this test: over "
+            f"{MAX_POINTS} points') else a is not null end))")
+
+
+def _head(campaign: str, table: str) -> str:
+    return (f"{literal(campaign)} as campaign, p__test as test, "
+            f"make_timestamp_ns({table}.t0 + cast(round({table}.k * p__step * 1e9) as bigint)) as t, "
+            f"{table}.k * p__step as t_s")
+
+
+def _valid(column: Column) -> str:
+    value, flag = f"r.{quoted(column.name)}", f"r.{quoted(column.name + '__flag')}"
+    number = "" if column.text else f" and not isnan(cast({value} as double))"
+    return f"filter (where {value} is not null and ({flag} & {int(INVALID)}) = 0{number})"
+
+
+def _bin(column: Column) -> str:
+    value = f"r.{quoted(column.name)}"
+    mean = f"arg_max({value}, r.t_s)" if column.held else f"avg(cast({value} as double))"
+    return f"{mean} {_valid(column)} as {quoted(column.name)}"
+
+
+def _filled(i: int, column: Column) -> str:
+    """Window expressions for a column of source i: its last and next bins that hold a value."""
+    value, n = f"s__{i}.{quoted(column.name)}", f"{i}__{column.name}"
+    last = f"last_value({value} ignore nulls) over before as {quoted('pv__' + n)}"
+    if column.held:
+        return last
+    at = f"case when {value} is not null then g.k end"
+    return (f"{value} as {quoted('v__' + n)}, {last}, "
+            f"last_value({at} ignore nulls) over before as {quoted('pk__' + n)}, "
+            f"first_value({value} ignore nulls) over behind as {quoted('nv__' + n)}, "
+            f"first_value({at} ignore nulls) over behind as {quoted('nk__' + n)}")
+
+
+def _value(i: int, column: Column) -> str:
+    n = f"{i}__{column.name}"
+    v, pv, pk, nv, nk = (f"w.{quoted(f'{what}__{n}')}" for what in ("v", "pv", "pk", "nv", "nk"))
+    if column.held:
+        return pv
+    return (f"case when {v} is not null then {v} when {nk} - {pk} <= w.reach__{i} "
+            f"then {pv} + ({nv} - {pv}) * (w.k - {pk}) / ({nk} - {pk}) end")
+
+
+def _binned(campaign: str, groups: list[Group], channels: tuple[str, ...]) -> str:
+    bins = [f"s__{i} as (select cast(floor(r.t_s / p__step + {_SLACK}) as bigint) as b__k, "
+            f"{', '.join(_bin(c) for c in g.columns)} from {_source(i)} group by 1)" for i, g in enumerate(groups)]
+    reach = ", ".join(f"(select case when period > p__step / 2 then {INTERPOLATED_PERIODS} * period / p__step "
+                      f"else 0 end from e__{i}) as reach__{i}" for i in range(len(groups)))
+    windows = ", ".join(_filled(i, c) for i, g in enumerate(groups) for c in g.columns)
+    joins = " ".join(f"left join s__{i} on s__{i}.b__k = g.k" for i in range(len(groups)))
+    out = _by_channel(groups, channels, _value)
+    return (f"with {_grid(campaign, groups)}, {', '.join(bins)}, "
+            f"w as (select g.k, g.t0, {reach}, {windows} from g {joins} window "
+            f"before as (order by g.k rows between unbounded preceding and current row), "
+            f"behind as (order by g.k rows between current row and unbounded following)) "
+            f"select {_head(campaign, 'w')}, {', '.join(out)} from w order by w.k")
+
+
+def _aligned(campaign: str, groups: list[Group], channels: tuple[str, ...]) -> str:
+    def value(i: int, column: Column) -> str:
+        bare = f"s__{i}.{quoted(column.name)}"
+        return bare if column.held else f"case when {fresh(i)} then {bare} end"
+
+    def flag(i: int, column: Column) -> str:
+        bare = f"s__{i}.{quoted(column.name + '__flag')}"
+        return bare if column.held else f"case when {fresh(i)} then {bare} end"
+
+    def fresh(i: int) -> str:
+        return (f"g.k * p__step - s__{i}.t_s < "
+                f"(select greatest({AGED_PERIODS} * period, p__step) from e__{i})")
+
+    joins = " ".join(f"asof left join (select * from {_source(i)}) s__{i} "
+                     f"on g.k * p__step + {_SLACK} >= s__{i}.t_s" for i in range(len(groups)))
+    values = _by_channel(groups, channels, value)
+    flags = _by_channel(groups, channels, flag, "__flag")
+    out = ", ".join(text for pair in zip(values, flags, strict=True) for text in pair)
+    return f"with {_grid(campaign, groups)} select {_head(campaign, 'g')}, {out} from g {joins} order by g.k"
+
+
+def _by_channel(groups: list[Group], channels: tuple[str, ...], expression: Callable[[int, Column], str],
+                suffix: str = "") -> list[str]:
+    """One expression a channel; a channel that moved between sources comes from whichever has it."""
+    out = []
+    for channel in channels:
+        found = [expression(i, c) for i, g in enumerate(groups) for c in g.columns if c.name == channel]
+        text = found[0] if len(found) == 1 else f"coalesce({', '.join(found)})"
+        out.append(f"{text} as {quoted(channel + suffix)}")
+    return out

@@ -1,0 +1,128 @@
+"""The views over tests' phases and quality, and over models: residuals, scores, findings, history."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+from thermodata.store.connection import literal
+from thermodata.store.views.wide import file_list
+
+if TYPE_CHECKING:
+    import duckdb
+
+PHASE = """create view phase as
+select p.campaign, p.test, p.entry.key as phase, p.entry.value[1] as from_s, p.entry.value[2] as to_s
+from (select campaign, test, unnest(map_entries(cast(phases as map(varchar, double[])))) as entry
+      from test where phases is not null and json_type(phases) = 'OBJECT') p
+order by all"""
+
+QUALITY = """create view quality as
+select campaign, test, source, channel, lower(flag) as flag, from_s, to_s, n, detail from quality_event"""
+
+GAP = """create view gap as
+select campaign, test, source, channel, from_s, to_s, to_s - from_s as duration_s, detail
+from quality_event where lower(flag) = 'gap'"""
+
+SCORE = """create view score as
+select campaign, test, model, role, response, phase, fit, rmse_um, ptp_um, ptp_residual_um, max_um, n
+from score_row"""
+
+WEAK_SPOT = """create view weak_spot as
+select coalesce(nullif(campaign, ''), payload->>'$.campaign') as campaign,
+       coalesce(nullif(test, ''), payload->>'$.test') as test, model, rank,
+       cast(payload->>'$.from_s' as double) as from_s, cast(payload->>'$.to_s' as double) as to_s,
+       cast(payload->>'$.rmse_um' as double) as rmse_um, payload->>'$.state' as state
+from finding where kind = 'weak_spot'"""
+
+_NUMBERS = ("p_value", "rmse_um_before", "rmse_um_after", "fit_before", "fit_after", "locked_rmse_um_before",
+            "locked_rmse_um_after")
+CANDIDATE = f"""create view candidate as
+select campaign, test, model, coalesce(rank, cast(payload->>'$.rank' as integer)) as rank, payload->>'$.id' as id,
+       payload->>'$.effect' as effect, payload->>'$.family' as family,
+       cast(payload->'$.drivers' as varchar[]) as drivers, cast(payload->>'$.claimed' as boolean) as claimed,
+       {', '.join(f"cast(payload->>'$.{name}' as double) as {name}" for name in _NUMBERS)},
+       payload->'$.parameters' as parameters, cast(payload->'$.equivalent' as varchar[]) as equivalent,
+       payload->>'$.why' as why
+from finding where kind = 'candidate'"""
+
+ARTEFACT = """create view artefact as
+select coalesce(nullif(campaign, ''), payload->>'$.campaign') as campaign,
+       coalesce(nullif(test, ''), payload->>'$.test') as test, model, payload->>'$.kind' as kind,
+       cast(payload->>'$.at_s' as double) as at_s, cast(payload->>'$.size_um' as double) as size_um,
+       payload->>'$.why' as why
+from finding where kind = 'artefact'"""
+
+DIAGNOSIS = """create view diagnosis as
+select campaign, test, model, payload->>'$.response' as response, payload->>'$.verdict' as verdict,
+       cast(payload->>'$.noise_um' as double) as noise_um, cast(payload->>'$.rmse_um' as double) as rmse_um,
+       cast(payload->>'$.explainable' as double) as explainable, payload->>'$.next_test' as next_test,
+       payload, created_at
+from finding where kind = 'diagnosis'"""
+
+# a model without tests of a role has NULL there; several tests pool by their samples
+_POOLED = ", ".join(
+    f"sqrt(sum(s.rmse_um * s.rmse_um * s.n) filter (where s.role = '{role}') / "
+    f"nullif(sum(s.n) filter (where s.role = '{role}' and s.rmse_um is not null), 0)) as rmse_um_{role}, "
+    f"avg(s.fit) filter (where s.role = '{role}') as fit_{role}"
+    for role in ("calibration", "verification", "locked"))
+HISTORY = f"""create view history as
+with recursive chain as (
+  select model, model as root, 1 as version from model
+  where parent is null or parent not in (select model from model)
+  union
+  select m.model, c.root, c.version + 1 from model m join chain c on m.parent = c.model),
+errors as (select s.model, s.response, count(distinct (s.campaign, s.test)) as tests, {_POOLED}
+           from score_row s where s.phase = 'all' group by s.model, s.response)
+select m.name, c.version, m.model, m.parent, c.root, m.created_at, m.stale, m.campaigns,
+       coalesce(e.response, m.response) as response, e.* exclude (model, response)
+from model m join chain c on c.model = m.model left join errors e on e.model = m.model
+order by c.root, c.version, m.created_at, response"""
+
+PORTABILITY = """create view portability as
+select coalesce(nullif(campaign, ''), payload->>'$.campaign') as campaign,
+       coalesce(nullif(test, ''), payload->>'$.test') as test, model,
+       coalesce(payload->>'$.machine', (select any_value(q.machine) from machine q
+         where q.campaign = finding.campaign and q.test = finding.test)) as machine,
+       payload->>'$.role' as role, payload->>'$.response' as response, payload->>'$.phase' as phase,
+       cast(payload->>'$.fit' as double) as fit, cast(payload->>'$.rmse_um' as double) as rmse_um,
+       cast(payload->>'$.ptp_um' as double) as ptp_um,
+       cast(payload->>'$.ptp_residual_um' as double) as ptp_residual_um,
+       cast(payload->>'$.max_um' as double) as max_um, cast(payload->>'$.n' as bigint) as n, payload
+from finding where kind = 'portability'"""
+
+_COMMENTS = {
+    "phase": {"from_s": "[s] from the start of the test", "to_s": "[s] from the start of the test"},
+    "gap": {"from_s": "[s] from the start of the test", "to_s": "[s] from the start of the test", "duration_s": "[s]"},
+    "quality": {"from_s": "[s] from the start of the test", "to_s": "[s] from the start of the test"},
+    "score": {"fit": "[%] free run, not clipped", "rmse_um": "[um]", "ptp_um": "[um] peak to peak, measured",
+              "ptp_residual_um": "[um] peak to peak", "max_um": "[um]"},
+    "residual": {"t_s": "[s] from the start of the test", "measured": "in channel.unit", "predicted": "in channel.unit",
+                 "residual": "measured - predicted, in channel.unit"},
+    "weak_spot": {"from_s": "[s] from the start of the test", "to_s": "[s] from the start of the test",
+                  "rmse_um": "[um]"},
+    "history": {"rmse_um_calibration": "[um]", "rmse_um_verification": "[um]", "rmse_um_locked": "[um]",
+                "fit_calibration": "[%]", "fit_verification": "[%]", "fit_locked": "[%]"},
+}
+
+
+def result_views(con: duckdb.DuckDBPyConnection) -> Iterator[str]:
+    """The statements that make the views over tables, and `residual` over the prediction files."""
+    yield from (PHASE, QUALITY, GAP, SCORE, WEAK_SPOT, CANDIDATE, ARTEFACT, DIAGNOSIS, HISTORY, PORTABILITY)
+    paths = [path for (path,) in con.execute("select distinct path from prediction order by path").fetchall()]
+    yield _residual(paths)
+    for view, columns in _COMMENTS.items():
+        for column, comment in columns.items():
+            yield f"comment on column {view}.{column} is {literal(comment)}"
+
+
+def _residual(paths: list[str]) -> str:
+    head = "create view residual as select p.campaign, p.test, p.model, p.response, "
+    names = ("t_s double", "measured double", "predicted double", "residual double", "valid boolean")
+    if not paths:
+        empty = ", ".join(f"null::{n.split()[1]} as {n.split()[0]}" for n in names)
+        return f"{head}{empty} from prediction p limit 0"
+    columns = ", ".join(f"r.{n.split()[0]}" for n in names)
+    return (f"{head}{columns} from read_parquet({file_list(paths)}, filename = true, hive_partitioning = false) r "
+            f"join (select q.*, f.prefix || q.path as filename from prediction q cross join search_prefix f) p "
+            f"on p.filename = r.filename")
