@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 
@@ -55,7 +56,7 @@ class Design:
         self.masks: list[Bool1D] = [fit_mask(bound, list(terms), wanted, t) for t in tests]
         self.counts = [int(m.sum()) for m in self.masks]
         edges = np.concatenate([[0], np.cumsum(self.counts)])
-        self.parts = [slice(int(a), int(b)) for a, b in zip(edges[:-1], edges[1:], strict=True)]
+        self.parts = [slice(int(a), int(b)) for a, b in pairwise(edges)]
         self.n = int(edges[-1])
         self.y: Float1D = np.concatenate(
             [_centred(t.values[bound.channel_of(t)][m]) for t, m in zip(tests, self.masks, strict=True)]

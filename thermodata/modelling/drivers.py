@@ -54,19 +54,22 @@ def has_drivers(test: TestData, binding: Mapping[str, str]) -> bool:
 def evaluate(test: TestData, text: str) -> tuple[Float1D, Bool1D, bool]:
     """(values, valid, relative) of a channel or expression, shapes (n,); NaN where not valid."""
     names = names_of(text)
+    if not names:
+        raise UsageError(f"the driver '{text}' reads no channel", expected="a channel or an expression of channels")
     for name in names:
         if name not in test.values:
             raise unknown_name("channel", name, list(test.values), where=f"test {test.campaign}/{test.test}")
-    good = np.logical_and.reduce([_good(test, name) for name in names]) if names else np.ones(len(test.t_s), bool)
-    relative = not names or not all(_quantity(test, name) in ZERO_AT_REST for name in names)
+    good = np.asarray(np.logical_and.reduce([_good(test, name) for name in names]))
+    relative = not all(_quantity(test, name) in ZERO_AT_REST for name in names)
     if text.isidentifier():
         raw = np.asarray(test.values[text], dtype=np.float64)
     else:
         from thermodata.calibration.expression import parse
 
-        found = parse(text).evaluate({name: test.values[name] for name in names},
-                                     {name: _unit(test, name) for name in names})
-        raw = np.broadcast_to(np.asarray(found, dtype=np.float64), test.t_s.shape)
+        tree = parse(text)
+        found = tree.evaluate({name: test.values[name] for name in names}, {name: _unit(test, name) for name in names})
+        raw = np.asarray(found, dtype=np.float64)
+        relative = relative and not tree.logical            # a condition is a state: zero is off
     return np.where(good, raw, np.nan), good & np.isfinite(raw), relative
 
 

@@ -30,8 +30,9 @@ def fit_model(spec: Model, data: Dataset, *, base: Path | None = None, uncertain
     roles, bound = resolve(spec, data, base)
     wanted = None if spec.phases is None else tuple(spec.phases)
     responses, skipped = [], list[str]()
+    keys = (*roles.calibrate, *roles.verify) if spec.in_sample else roles.calibrate
     for response in bound:
-        usable, why = _usable(response, [data.test(*key) for key in roles.calibrate])
+        usable, why = _usable(response, [data.test(*key) for key in keys])
         skipped += why
         fitted = fit_response(response, usable, wanted, data, uncertainty=uncertainty)
         responses.append(replace(fitted, calibrate=frozenset(roles.calibrate)))

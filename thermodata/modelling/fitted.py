@@ -79,7 +79,8 @@ class FittedTerm:
         found = self.values(test)
         if found is None or not self.bound.covers(test):
             return np.zeros(len(test.t_s))
-        return self.columns(test) @ np.array([found.gains[g.name] for g in self.effect.gains])
+        gains = np.array([found.gains[g.name] for g in self.effect.gains])
+        return np.asarray(self.columns(test) @ gains, dtype=np.float64)
 
     def can_predict(self, test: TestData) -> bool:
         return not self.bound.covers(test) or (self.bound.has(test) and self.values(test) is not None)

@@ -51,13 +51,16 @@ def gain_unit(response: FittedResponse, term: FittedTerm, unit: str) -> str:
 
 
 def driver_unit(response: FittedResponse, term: FittedTerm) -> str:
-    """K for a temperature or a difference of temperatures, else the channel's unit."""
-    from thermodata.modelling.drivers import names_of
-
+    """K for a temperature or a difference of temperatures, else the unit of the channel or expression."""
     text = term.binding.get("u", "")
-    units = {response.bound.units.get(name, "1") for name in (names_of(text) if text else ())}
-    units = {"K" if u == "degC" else u for u in units}
-    return units.pop() if len(units) == 1 else "1"
+    units = response.bound.units
+    if text.isidentifier():
+        unit: str | None = units.get(text)
+    else:
+        from thermodata.calibration.expression import parse
+
+        unit = parse(text).unit({name: units.get(name, "1") for name in parse(text).names})
+    return "K" if unit == "degC" else unit or "1"
 
 
 def _parameter(value: float, unit: str, name: str, values: Values) -> Parameter:

@@ -55,7 +55,7 @@ def activity(test: TestData) -> Bool1D | None:
     # a pause for a measurement is no cooling phase
     step = float(test.t_s[1] - test.t_s[0]) if len(test.t_s) > 1 else 1.0
     for a, b in runs(~working):
-        if 0 < a and b < len(working) and (b - a) * step < SHORTEST_S:
+        if a > 0 and b < len(working) and (b - a) * step < SHORTEST_S:
             working[a:b] = True
     return working
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -85,9 +86,10 @@ def _bounds(term: FittedTerm) -> list[Check]:
             value = values.params[param.name]
             for end in (low, high):
                 if abs(value - end) <= 1e-3 * (abs(end) if low > 0 else high - low):
-                    found.append(Check(name=f"at_bound:{term.id}.{param.name}{tag}", value=value, threshold=end,
-                                       passed=False, advice=f"{param.meaning} stands at its bound {end:g} {param.unit}: "
-                                       "another effect may be behind it, or the bound is wrong"))
+                    found.append(Check(
+                        name=f"at_bound:{term.id}.{param.name}{tag}", value=value, threshold=end, passed=False,
+                        advice=f"{param.meaning} stands at its bound {end:g} {param.unit}: another effect may be "
+                        "behind it, or the bound is wrong"))
     return found
 
 
@@ -125,7 +127,7 @@ def _second_lag(term: FittedTerm) -> list[Check]:
     if len(taus) < 2 or term.effect.family == "ambient":
         return []
     values = sorted(term.params[n] for n in taus)
-    ratio = min(b / a for a, b in zip(values[:-1], values[1:], strict=True))
+    ratio = min(b / a for a, b in pairwise(values))
     unsure = max((term.sd.get(n, 0.0) for n in taus), default=0.0)
     passed = ratio > 1.5 and unsure < 1.0
     return [Check(name=f"lags_apart:{term.id}", value=ratio, threshold=1.5, passed=passed,

@@ -92,4 +92,4 @@ def _robust(jacobian: Float2D, residual: Float1D, parts: list[slice]) -> Float1D
             meat += moving.T @ moving / span
     n, k = jacobian.shape
     cover = bread @ meat @ bread * n / max(1, n - k - len(parts))
-    return np.sqrt(np.maximum(np.diag(cover), 0.0)) / size
+    return np.asarray(np.sqrt(np.maximum(np.diag(cover), 0.0)) / size, dtype=np.float64)

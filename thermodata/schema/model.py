@@ -58,6 +58,7 @@ class Model(Strict):
     phases: list[str] | None = None
     step: Annotated[Seconds, Field(gt=0)] = 30.0
     effects: list[EffectSpec] = []
+    in_sample: bool = False                                # verify_on is fitted too, and its scores say so (set by add)
     notes: str = ""
 
     @field_validator("response")

@@ -1,0 +1,101 @@
+"""How far a model carries over to other machines: the gain g, and the class after the rule of the thesis."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import asdict, dataclass
+from typing import Literal
+
+import numpy as np
+
+from thermodata.modelling.fitted import FittedModel, FittedResponse
+from thermodata.modelling.phases import phases
+from thermodata.modelling.score import fit_percent, peak_sum
+from thermodata.plugin import Bool1D, Float1D
+from thermodata.view.dataset import Dataset, TestData
+
+Verdict = Literal["portable", "with_correction", "not_portable"]
+END_S = 1800.0                  # the end of heating is a mean over this long
+
+
+@dataclass(frozen=True)
+class Portability:
+    """One test. g: least squares; g_end: from the end of heating (one point: noisier). fit_* [%], ptp_* [response's
+    unit] as printed in the thesis (|max| + |min|): measured, residual without (n) and with (c) the gain."""
+
+    campaign: str
+    test: str
+    machine: str
+    role: str
+    response: str
+    g: float | None
+    g_end: float | None
+    fit_n: float | None
+    fit_c: float | None
+    ptp_measured: float
+    ptp_n: float
+    ptp_c: float
+    verdict: Verdict
+
+    def to_json(self) -> dict[str, object]:
+        return asdict(self)
+
+
+def portability(fitted: FittedModel, data: Dataset, *, locked: bool = False) -> list[Portability]:
+    """A row a test and response, over all tests that the model can predict, of whatever role (locked only if asked)."""
+    found = []
+    for test in data.tests:
+        role = fitted.roles.role(test.key)
+        if role == "locked" and not locked:
+            continue
+        found += [_carry(r, test, role) for r in fitted.responses if r.can_predict(test) and r.mask(test).any()]
+    return found
+
+
+def classify(g: float | None, fit_n: float | None, fit_c: float | None, ptp_measured: float, ptp_n: float,
+             ptp_c: float) -> Verdict:
+    """Portable: |g - 1| <= 0.1, uncorrected FIT > 80 and the peak to peak falls. Not portable: no g, g outside
+    0.33..3, corrected FIT < 20, or the peak to peak rises. Else with correction. Source: paper 000."""
+    if g is None or not math.isfinite(g) or fit_c is None:
+        return "not_portable"
+    # a printed gain of 1.1 is 1.1, whatever its binary fraction
+    if abs(g - 1.0) <= 0.1 + 1e-9 and fit_n is not None and fit_n > 80 and ptp_n < ptp_measured:
+        return "portable"
+    if g < 0.33 or g > 3.0 or fit_c < 20 or ptp_c > ptp_measured:
+        return "not_portable"
+    return "with_correction"
+
+
+def gain_least_squares(measured: Float1D, predicted: Float1D) -> float | None:
+    """g of measured = g predicted + constant; None where the prediction does not move."""
+    p = predicted - predicted.mean()
+    power = float(p @ p)
+    return float(p @ (measured - measured.mean())) / power if power > 1e-12 * max(1, len(p)) else None
+
+
+def _carry(response: FittedResponse, test: TestData, role: str) -> Portability:
+    mask = response.mask(test)
+    measured, predicted = response.measured(test), response.predict(test)
+    first = mask & (test.t_s < test.t_s[np.argmax(mask)] + max(test.zero_s, 1e-9))
+    y, p = measured - measured[first].mean(), predicted - predicted[first].mean()
+    g = gain_least_squares(y[mask], p[mask])
+    corrected = y - (1.0 if g is None else g) * p
+    plain = y - p
+    numbers = (peak_sum(y[mask]), peak_sum(plain[mask]), peak_sum(corrected[mask]))
+    fit_n, fit_c = fit_percent(y[mask], plain[mask]), fit_percent(y[mask], corrected[mask])
+    return Portability(test.campaign, test.test, test.machine, role, response.name, g,
+                       _end_of_heating(response, test, mask, y, p), fit_n, fit_c, *numbers,
+                       classify(g, fit_n, fit_c, *numbers))
+
+
+def _end_of_heating(response: FittedResponse, test: TestData, mask: Bool1D, y: Float1D, p: Float1D) -> float | None:
+    found = phases(test, response.bound.channel_of(test))
+    warm = [found[name] for name in ("heating", "steady") if name in found]
+    if not warm:
+        return None
+    last = np.flatnonzero(np.logical_or.reduce(warm) & mask)
+    if not len(last):
+        return None
+    end = mask & (test.t_s > test.t_s[last[-1]] - END_S) & (test.t_s <= test.t_s[last[-1]])
+    below = float(p[end].mean()) if end.any() else 0.0
+    return float(y[end].mean()) / below if abs(below) > 1e-9 else None
