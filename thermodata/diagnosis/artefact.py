@@ -1,0 +1,102 @@
+"""Artefacts of the measurement, looked for within a test: steps of a probe, and drift.
+
+They do not transfer between tests, so leave-one-test-out cannot see them. A step that a command explains
+(speed, feed, a switch) is no artefact: centrifugal shifts look like steps.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from thermodata.diagnosis.problem import Block, Problem
+from thermodata.plugin import Float1D
+from thermodata.schema.result import Artefact
+from thermodata.view.dataset import TestData
+
+SIDE_S = 1200.0
+COMMAND_S = 600.0
+Z_LIMIT = 9.0
+
+
+@dataclass(frozen=True, slots=True)
+class Step:
+    test: TestData
+    at_s: float
+    size: float
+    z: float
+
+
+def find_steps(problem: Problem) -> list[Step]:
+    """Sudden offsets in the residual that no command explains, at most three a test.
+
+    The jump between neighbouring samples must exceed Z_LIMIT times the robust size of all jumps over the same
+    span, and the level before and after must differ by as much for SIDE_S.
+    """
+    steps = []
+    for block in problem.blocks:
+        steps += [s for s in _steps_in(block, problem) if not _commanded(block.test, s.at_s, problem.step_s)]
+    return sorted(steps, key=lambda s: -s.z)
+
+
+def _steps_in(block: Block, problem: Problem) -> list[Step]:
+    r, t = block.residual, block.t_s
+    side = max(4, int(SIDE_S / problem.step_s))
+    if len(r) < 3 * side:
+        return []
+    found: list[Step] = []
+    blocked = np.zeros(len(r), dtype=bool)
+    for _ in range(3):
+        score, size = _step_score(r, t, side)
+        score[blocked] = 0.0
+        i = int(np.argmax(score))
+        if score[i] < Z_LIMIT or abs(size[i]) < max(3 * problem.noise, 0.5):
+            break
+        found.append(Step(block.test, float((t[i - 1] + t[i]) / 2), float(size[i]), float(score[i])))
+        r = r - np.where(np.arange(len(r)) >= i, size[i], 0.0)
+        blocked[max(0, i - side // 2):i + side // 2] = True
+    return found
+
+
+def _step_score(r: Float1D, t: Float1D, side: int) -> tuple[Float1D, Float1D]:
+    """For a step before each sample: how far the extrapolations of both sides lie apart, by robust scale."""
+    m = len(r)
+    size = np.zeros(m)
+    near = max(2, side // 3)
+    for i in range(side, m - side):
+        # lines on both sides, so that a slope is not taken for a step
+        left, right = r[i - side:i], r[i:i + side]
+        a = np.polyfit(t[i - side:i] - t[i], left, 1)
+        b = np.polyfit(t[i:i + side] - t[i], right, 1)
+        by_line = b[1] - a[1]
+        by_level = right[:near].mean() - left[-near:].mean()
+        size[i] = by_line if abs(by_line) < abs(by_level) else by_level
+        if by_line * by_level < 0:
+            size[i] = 0.0
+    # a step happens between two samples; a steep rise takes several
+    jump = np.abs(np.diff(r, prepend=r[0]))
+    sharp = jump > 0.4 * np.abs(size)
+    used = size[side:m - side]
+    scale = 1.4826 * float(np.median(np.abs(used - np.median(used)))) + 1e-9
+    return np.where(sharp, np.abs(size) / scale, 0.0), size
+
+
+def _commanded(test: TestData, at_s: float, step_s: float) -> bool:
+    """Whether a speed, feed, power or switch changed within COMMAND_S of the time."""
+    near = np.abs(test.t_s - at_s) <= COMMAND_S + step_s
+    for name, info in test.channels.items():
+        if info.quantity not in ("rotational_speed", "feed", "power", "state", "load", "flow") or name not in test.values:
+            continue
+        values = test.values[name]
+        whole, part = values[np.isfinite(values)], values[near & np.isfinite(values)]
+        if len(part) and len(whole) and np.ptp(whole) > 0 and np.ptp(part) > 0.2 * np.ptp(whole):
+            return True
+    return False
+
+
+def as_artefacts(steps: list[Step], unit: str) -> list[Artefact]:
+    return [Artefact(kind="step", campaign=s.test.campaign, test=s.test.test, at_s=s.at_s, size_um=s.size,
+                     why=f"the displacement jumps by {s.size:+.1f} {unit} between two samples, {s.z:.0f} times the usual "
+                         "change, and stays; no speed, feed or switch changed: a probe or fixture slipped")
+            for s in steps]

@@ -1,0 +1,92 @@
+"""The candidates: every effect of the library, bound to every set of channels that fits what it needs."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from itertools import product
+
+import numpy as np
+
+from thermodata.effect.binding import bindings, candidate_id, family_of
+from thermodata.modelling.drivers import make_drivers
+from thermodata.plugin import Effect, Float1D, Float2D, Param
+from thermodata.schema.quantity import linear_conversion
+from thermodata.view.dataset import ChannelInfo, TestData
+
+GENERIC = "generic"
+# A gain this many times beyond the plausible range is not that effect.
+BEYOND = 1.5
+
+
+@dataclass(frozen=True, slots=True)
+class CandidateEffect:
+    """An effect and the channels it would be driven by. family: with the axis that its channels sit on."""
+
+    effect: Effect
+    binding: Mapping[str, str]
+    family: str
+
+    @property
+    def channels(self) -> tuple[str, ...]:
+        return tuple(self.binding.values())
+
+    @property
+    def id(self) -> str:
+        return candidate_id(self.effect.name, self.binding)
+
+    def columns(self, test: TestData, p: Mapping[str, float]) -> Float2D:
+        """Shape (n, gains); zero where the test lacks a channel."""
+        if any(c not in test.values or not np.isfinite(test.values[c]).any() for c in self.channels):
+            return np.zeros((len(test.t_s), len(self.effect.gains)))
+        return self.effect.basis(make_drivers(test, self.effect, self.binding), p)
+
+    @property
+    def limit(self) -> Float1D:
+        return np.array([gain.magnitude[1] * BEYOND for gain in self.effect.gains])
+
+    @property
+    def signs(self) -> tuple[str, ...]:
+        return tuple(gain.sign for gain in self.effect.gains)
+
+
+def candidates(
+    library: Mapping[str, Effect], channels: Mapping[str, ChannelInfo], present: Iterable[tuple[str, frozenset[str]]],
+    response: str,
+) -> list[CandidateEffect]:
+    """What could be missing. present: (effect name, its channels) of the model's terms. A plain lag stands for
+    channels that no named effect covers; artefacts are looked for within tests, not here."""
+    have = set(present)
+    usable = {n: c for n, c in channels.items() if n != response and c.quantity not in ("displacement", "tilt", "label")}
+    named, generic = [], []
+    for effect in library.values():
+        if effect.family == "artefact" or not effect.needs:
+            continue
+        for binding in bindings(effect, usable):
+            candidate = CandidateEffect(effect, binding, family_of(effect, binding, channels))
+            if (effect.name, frozenset(candidate.channels)) not in have:
+                (generic if effect.family == GENERIC else named).append(candidate)
+    covered = {c for candidate in named for c in candidate.channels}
+    covered |= {c for _, names in have for c in names}
+    return named + [g for g in generic if not covered.issuperset(g.channels)]
+
+
+def grid(params: Iterable[Param], step_s: float) -> list[dict[str, float]]:
+    """Points of the nonlinear parameters: time constants evenly in their logarithm, others evenly."""
+    params = tuple(params)
+    if not params:
+        return [{}]
+    count = {1: 10, 2: 5}.get(len(params), 3)
+    axes = []
+    for p in params:
+        seconds = _seconds(p.unit)
+        lower = max(p.lower, step_s / 4 / seconds) if seconds else p.lower
+        if seconds or p.lower > 0 and p.upper / p.lower > 10:
+            axes.append(np.geomspace(max(lower, 1e-9), max(p.upper, lower), count))
+        else:
+            axes.append(np.linspace(p.lower, p.upper, min(count, 4)))
+    return [{p.name: float(v) for p, v in zip(params, values, strict=True)} for values in product(*axes)]
+
+
+def _seconds(unit: str) -> float | None:
+    return linear_conversion(unit, "s")[0] if unit in ("s", "min", "h") else None

@@ -1,0 +1,77 @@
+"""One fitted response, investigated: the problem, the ranked candidates, the steps, the weak spots, the judgement."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from thermodata.diagnosis.artefact import Step, find_steps
+from thermodata.diagnosis.candidates import candidates
+from thermodata.diagnosis.judge import Judgement, judge
+from thermodata.diagnosis.problem import Problem, build_problem
+from thermodata.diagnosis.rank import Scored, rank
+from thermodata.diagnosis.weak import weak_spots
+from thermodata.modelling.drivers import names_of
+from thermodata.modelling.fitted import FittedResponse, FittedTerm
+from thermodata.plugin import Effect, Float2D
+from thermodata.schema.result import WeakSpot
+from thermodata.view.dataset import Dataset, TestData
+
+# half-width, in the logarithm, of the difference quotient that lets a known time constant move
+TANGENT = 0.1
+
+
+@dataclass(frozen=True, slots=True)
+class Investigation:
+    problem: Problem
+    ranked: list[Scored]
+    steps: list[Step]
+    spots: list[WeakSpot]
+    judgement: Judgement
+
+
+def investigate(fitted: FittedResponse, data: Dataset, tests: Sequence[TestData],
+                library: Mapping[str, Effect], seed: int = 0) -> Investigation:
+    """tests: those that take part in the choice (never the locked ones)."""
+    info = data.channels[fitted.name]
+    problem = build_problem(data, tests, fitted.name, info.unit, measured=fitted.measured,
+                            residual=fitted.residual, mask=fitted.mask, base=lambda test: base_columns(fitted, test))
+    steps = find_steps(problem)
+    at: dict[tuple[str, str], list[float]] = {}
+    for step in steps:
+        at.setdefault(step.test.key, []).append(step.at_s)
+    problem = problem.split(at)
+    present = [(t.effect.name, frozenset(n for text in t.binding.values() for n in names_of(text))) for t in fitted.terms]
+    ranked = rank(problem, candidates(library, data.channels, present, fitted.name), seed)
+    whole = np.concatenate(problem.response_blocks) if problem.blocks else np.zeros(1)
+    spread = float(np.sqrt(np.mean(whole**2)))
+    spots = weak_spots([(t, fitted.residual(t), fitted.mask(t)) for t in tests], problem.noise)
+    return Investigation(problem, ranked, steps, spots, judge(problem, ranked, spread))
+
+
+def base_columns(fitted: FittedResponse, test: TestData) -> Float2D:
+    """What the fitted model can still do in this test, shape (n, k): its gains, and its time constants to first order.
+
+    The known effects are refitted together with each candidate: a base model held fixed leaves residuals that any
+    slow channel explains, which raises false claims to a third.
+    """
+    columns = [c for term in fitted.terms for c in _term_columns(term, test)]
+    return np.column_stack(columns) if columns else np.zeros((len(test.t_s), 0))
+
+
+def _term_columns(term: FittedTerm, test: TestData) -> list[Float2D]:
+    found = term.values(test)
+    if found is None or not term.bound.covers(test):
+        return [np.zeros((len(test.t_s), len(term.effect.gains)))]
+    columns = [term.columns(test)]
+    gains = np.array([found.gains[g.name] for g in term.effect.gains])
+    for param in term.effect.params:
+        value = found.params[param.name]
+        up = {**found.params, param.name: min(value * np.exp(TANGENT), param.upper)}
+        down = {**found.params, param.name: max(value * np.exp(-TANGENT), param.lower)}
+        if up[param.name] > down[param.name]:
+            change = term.bound.columns(test, up) - term.bound.columns(test, down)
+            columns.append((change @ gains)[:, None])
+    return columns

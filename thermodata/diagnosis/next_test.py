@@ -1,0 +1,50 @@
+"""Which test to run, or which sensor to add, so that the next diagnosis can say more."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+from thermodata.diagnosis.candidates import CandidateEffect
+from thermodata.diagnosis.rank import Scored
+from thermodata.view.dataset import ChannelInfo
+
+# share of worlds in which an effect could be claimed, by number of tests (measured on simulated machines)
+CLAIMED_BY_TESTS = ((3, "36 %"), (8, "83 %"), (16, "94 %"))
+ENOUGH_TESTS = 8
+
+_PROTOCOL = {
+    "rotational_speed": "short pulses of speed (5 min on, 10 min off) at two speeds",
+    "feed": "one axis moving alone at two feeds, with heating and cooling",
+    "power": "cutting at two loads, and the same path as an air cut",
+    "state": "switching it on and off while all else rests",
+    "temperature": "a test in which the one is heated and the other is not",
+    "flow": "switching it on and off while all else rests",
+}
+
+
+def to_separate(chosen: Scored, twins: Sequence[Scored], channels: Mapping[str, ChannelInfo]) -> str | None:
+    """The advice where several candidates explain the same."""
+    if not twins:
+        return None
+    other = twins[0].candidate
+    mine = chosen.candidate
+    if _places(mine, channels) and _places(mine, channels) == _places(other, channels):
+        return (f"{mine.id} and {other.id} have their sensors at the same place: not separable by another test; add a "
+                f"sensor nearer to the source of heat")
+    own = [c for c in mine.channels if c not in other.channels] or list(mine.channels)
+    quantity = channels[own[0]].quantity if own and own[0] in channels else "temperature"
+    how = _PROTOCOL.get(quantity, _PROTOCOL["temperature"])
+    return f"to tell {mine.id} from {other.id}: {how}"
+
+
+def to_find(tests: int) -> str | None:
+    """The advice where nothing could be claimed."""
+    if tests < ENOUGH_TESTS:
+        found = next(share for n, share in reversed(CLAIMED_BY_TESTS) if n <= tests or n == 3)
+        return (f"{tests} tests took part; about {found} of missing effects can be claimed with so few, "
+                f"83 % with 8: add tests that each heat one source alone (spindle, one axis, table, hall air)")
+    return None
+
+
+def _places(candidate: CandidateEffect, channels: Mapping[str, ChannelInfo]) -> set[str | None]:
+    return {channels[c].at for c in candidate.channels if c in channels} - {None}

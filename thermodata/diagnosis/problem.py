@@ -1,0 +1,129 @@
+"""The question that a diagnosis asks, as plain arrays: what the model leaves over, and what the model can still do.
+
+Every test keeps only its measured samples, averaged to a coarse step, in order ("compressed"). Columns are
+computed on the full grid first, so that lags see the time that was not measured.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from thermodata.plugin import Bool1D, Float1D, Float2D, Int1D
+from thermodata.view.dataset import Dataset, TestData
+
+TARGET_ROWS = 9000
+
+
+@dataclass(frozen=True, slots=True)
+class Block:
+    """One test, compressed. residual: shape (m,), of the fitted model, in the response's unit. base: shape
+    (m, k), what the model can still do (its gains, and its nonlinear parameters to first order). t_s: shape (m,).
+    segment: shape (m,), one free offset each. response: shape (m,), measured, offsets removed. group: shape (n,),
+    the compressed row of every row of the grid, -1 where it does not count."""
+
+    test: TestData
+    t_s: Float1D
+    response: Float1D
+    residual: Float1D
+    base: Float2D
+    segment: Int1D
+    group: Int1D
+    weight: Float1D
+    size: int
+
+    def compress(self, columns: Float2D) -> Float2D:
+        """Columns on the full grid, shape (n, k), to this block's samples, shape (m, k), free offsets removed."""
+        return center(_group_mean(columns, self.group, self.weight, self.size), self.segment)
+
+
+@dataclass(frozen=True, slots=True)
+class Problem:
+    """All tests of one response. step_s: of the compressed samples. noise: short-term noise of the response."""
+
+    response: str
+    unit: str
+    step_s: float
+    blocks: tuple[Block, ...]
+    noise: float
+
+    @property
+    def response_blocks(self) -> list[Float1D]:
+        return [b.response for b in self.blocks]
+
+    @property
+    def rows(self) -> int:
+        return sum(len(b.t_s) for b in self.blocks)
+
+    def split(self, at: dict[tuple[str, str], list[float]]) -> Problem:
+        """The same with further free offsets: after each of the times (s) found in a test."""
+        blocks = []
+        for block in self.blocks:
+            times = at.get(block.test.key, [])
+            segment = np.searchsorted(np.sort(np.asarray(times, dtype=float)), block.t_s, side="right").astype(np.int64)
+            blocks.append(replace(block, segment=segment, residual=center(block.residual[:, None], segment)[:, 0],
+                                  base=center(block.base, segment)))
+        return replace(self, blocks=tuple(blocks))
+
+
+def center(columns: Float2D, segment: Int1D) -> Float2D:
+    """Columns, shape (m, k), minus their mean in each segment."""
+    if not len(segment):
+        return columns
+    count = np.bincount(segment).astype(float)
+    result = np.array(columns, dtype=np.float64, copy=True)
+    for j in range(result.shape[1]):
+        mean = np.bincount(segment, weights=result[:, j]) / np.maximum(count, 1)
+        result[:, j] -= mean[segment]
+    return result
+
+
+def _group_mean(columns: Float2D, group: Int1D, weight: Float1D, size: int) -> Float2D:
+    used = group >= 0
+    result = np.empty((size, columns.shape[1]))
+    count = np.bincount(group[used], weights=weight[used], minlength=size)
+    for j in range(columns.shape[1]):
+        result[:, j] = np.bincount(group[used], weights=columns[used, j] * weight[used], minlength=size) / count
+    return result
+
+
+Base = Callable[[TestData], Float2D]
+
+
+def build_problem(
+    data: Dataset, tests: Sequence[TestData], response: str, unit: str, *,
+    measured: Callable[[TestData], Float1D], residual: Callable[[TestData], Float1D], mask: Callable[[TestData], Bool1D], base: Base,
+) -> Problem:
+    """Compress every test. measured(test), residual(test): shape (n,); mask(test): shape (n,), the samples that count."""
+    masks = {t.key: mask(t) for t in tests}
+    total = sum(int(m.sum()) for m in masks.values())
+    every = max(1, -(-total // TARGET_ROWS))
+    blocks, noises = [], []
+    for test in tests:
+        keep = masks[test.key]
+        if keep.sum() < 10:
+            continue
+        bins = np.arange(len(test.t_s)) // every
+        names, group_of_kept = np.unique(bins[keep], return_inverse=True)
+        group = np.full(len(test.t_s), -1, dtype=np.int64)
+        group[keep] = group_of_kept
+        weight, size = keep.astype(float), len(names)
+        left = residual(test)
+        noises.append(_short_noise(left[keep]))
+        segment = np.zeros(size, dtype=np.int64)
+        block = Block(test, _group_mean(test.t_s[:, None], group, weight, size)[:, 0], np.empty(0), np.empty(0),
+                      np.empty((0, 0)), segment, group, weight, size)
+        both = block.compress(np.nan_to_num(np.column_stack([measured(test), left])))
+        blocks.append(replace(block, response=both[:, 0], residual=both[:, 1], base=block.compress(base(test))))
+    noise = float(np.median(noises)) if noises else float("nan")
+    return Problem(response, unit, data.step_s * every, tuple(blocks), noise)
+
+
+def _short_noise(values: Float1D) -> float:
+    """Standard deviation of the noise between neighbouring samples, robust (second differences)."""
+    if len(values) < 8:
+        return float("nan")
+    second = np.diff(values, 2)
+    return float(np.median(np.abs(second - np.median(second))) * 1.4826 / np.sqrt(6.0))

@@ -1,0 +1,92 @@
+"""Weak spots: windows where the residual stands out of its noise, ranked by what they cost."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from thermodata.plugin import Bool1D, Float1D
+from thermodata.schema.result import WeakSpot
+from thermodata.view.dataset import TestData
+
+WINDOW_S = 1800.0
+STANDS_OUT = 1.3
+SHOWN = 12
+
+
+@dataclass(frozen=True, slots=True)
+class _Window:
+    test: TestData
+    start: int
+    stop: int
+    sse: float
+    n: int
+
+
+def weak_spots(tests: Sequence[tuple[TestData, Float1D, Bool1D]], noise: float) -> list[WeakSpot]:
+    """tests: (test, residual of shape (n,), mask of shape (n,)). noise: floor of the response, in its unit.
+
+    A window stands out where its RMS exceeds both three times the noise and 1.3 times the RMS of all; windows
+    that touch are one spot; spots are ranked by squared error.
+    """
+    total = sum(float(np.sum(r[m] ** 2)) for _, r, m in tests)
+    count = sum(int(m.sum()) for _, _, m in tests)
+    if not count:
+        return []
+    floor = max(3.0 * noise if np.isfinite(noise) else 0.0, STANDS_OUT * float(np.sqrt(total / count)))
+    spots: list[_Window] = []
+    for test, residual, mask in tests:
+        spots += _windows(test, residual, mask, floor)
+    spots.sort(key=lambda w: -w.sse)
+    return [WeakSpot(campaign=w.test.campaign, test=w.test.test, from_s=float(w.test.t_s[w.start]),
+                     to_s=float(w.test.t_s[w.stop - 1]), rmse_um=float(np.sqrt(w.sse / w.n)),
+                     state=describe_state(w.test, w.start, w.stop)) for w in spots[:SHOWN]]
+
+
+def _windows(test: TestData, residual: Float1D, mask: Bool1D, floor: float) -> list[_Window]:
+    if len(test.t_s) < 2:
+        return []
+    width = max(2, round(WINDOW_S / float(test.t_s[1] - test.t_s[0])))
+    found: list[_Window] = []
+    for start in range(0, len(residual), width):
+        stop = min(start + width, len(residual))
+        m = mask[start:stop]
+        n = int(m.sum())
+        sse = float(np.sum(residual[start:stop][m] ** 2))
+        if n == 0 or np.sqrt(sse / n) < floor:
+            continue
+        if found and found[-1].stop == start:
+            last = found.pop()
+            found.append(_Window(test, last.start, stop, last.sse + sse, last.n + n))
+        else:
+            found.append(_Window(test, start, stop, sse, n))
+    return found
+
+
+def describe_state(test: TestData, start: int, stop: int) -> str:
+    """What the machine did in rows start:stop, in words: speeds, feeds, what was on, which way the air went."""
+    words: list[str] = []
+    for name, info in test.channels.items():
+        values = test.values.get(name)
+        if values is None:
+            continue
+        part = values[start:stop]
+        part = part[np.isfinite(part)]
+        if not len(part):
+            continue
+        if info.quantity in ("rotational_speed", "feed", "power"):
+            level = float(np.median(np.abs(part)))
+            if level > 0.01 * float(np.nanmax(np.abs(values))):
+                words.append(f"{name} {level:.3g} {info.unit}")
+        elif info.quantity == "state" and float(part.mean()) > 0.5:
+            words.append(f"{name} on")
+        elif info.quantity == "temperature" and (info.at or "").startswith("hall"):
+            rise = float(part[-1] - part[0])
+            if abs(rise) > 0.3:
+                words.append(f"{name} {'rising' if rise > 0 else 'falling'}")
+    if not any("speed" in w or "rpm" in w for w in words) and any(
+            c.quantity == "rotational_speed" for c in test.channels.values()):
+        words.insert(0, "spindle at rest")
+    return ", ".join(words) if words else "idle"
