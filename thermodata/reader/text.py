@@ -8,14 +8,16 @@ from __future__ import annotations
 import codecs
 import re
 from collections.abc import Iterable
+from pathlib import Path
 
 from thermodata.errors import FormatError
 from thermodata.reader.zone import local_to_utc_ns
 from thermodata.schema.quantity import _ALIAS
 
-__all__ = ["clean", "decimal_mark", "decode", "decode_head", "find_encoding", "local_to_utc_ns", "looks_like_unit",
-           "split_unit", "to_float"]
+__all__ = ["clean", "decimal_mark", "decode", "decode_head", "file_encoding", "find_encoding", "last_line_is_whole",
+           "local_to_utc_ns", "looks_like_unit", "split_unit", "to_float"]
 
+_PART = 4 * 1024 * 1024
 _BOMS = ((codecs.BOM_UTF8, "utf-8-sig"), (codecs.BOM_UTF16_LE, "utf-16"), (codecs.BOM_UTF16_BE, "utf-16"))
 
 # Bytes that mean different things in cp1250 and cp1252, and which of the two makes sense of them in a log.
@@ -63,6 +65,39 @@ def find_encoding(data: bytes, declared: str | None = None) -> tuple[str, str | 
         name = _single_byte(data)
         _try(data, name)
         return name, f"not UTF-8 (byte {error.start}); read as {name}: declare encoding if that is wrong"
+
+
+def file_encoding(path: Path, declared: str | None = None) -> tuple[str, str | None]:
+    """find_encoding() of a whole file in constant memory: UTF-8 is checked to its last byte, the single-byte
+    encodings by the first bytes that are not UTF-8 and what surrounds them."""
+    with path.open("rb") as file:
+        start = file.read(_PART)
+        if declared is not None or start.startswith(tuple(mark for mark, _ in _BOMS)) or b"\0" in start[:4096]:
+            return find_encoding(start[: len(start) // 2 * 2] if len(start) == _PART else start, declared) \
+                if len(start) < _PART or declared is None else (declared, None)
+        decoder = codecs.getincrementaldecoder("utf-8")()
+        part = start
+        while part:
+            try:
+                decoder.decode(part)
+            except UnicodeDecodeError:
+                encoding, note = find_encoding(start if part is start else start + part)
+                return (encoding, note) if encoding != "utf-8" else ("cp1252", "not UTF-8; read as cp1252")
+            part = file.read(_PART)
+        try:
+            decoder.decode(b"", final=True)
+        except UnicodeDecodeError:
+            return "utf-8", "the file ends inside a character"
+    return "utf-8", None
+
+
+def last_line_is_whole(line: str, before: str, delimiter: str) -> bool:
+    """Whether a last line without a line end looks whole: as many fields as the one before, and as many digits
+    after the last mark of its last field. A cut "12.5" of "12.53" would pass for a value."""
+    if line.count(delimiter) != before.count(delimiter):
+        return False
+    a, b = (re.split(r"[.,]", text.rstrip().rsplit(delimiter, 1)[-1]) for text in (line, before))
+    return len(a) == len(b) and (len(a) == 1 or len(a[-1]) == len(b[-1]))
 
 
 def _try(data: bytes, encoding: str) -> str:
