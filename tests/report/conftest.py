@@ -42,7 +42,8 @@ def part(test: str, role: str, seed: int, hours: float = 14.0, complete: bool = 
     return TestPart(
         "demo", test, "mixed", role, "dZ", 0.0, 30.0, measured, predicted, measured - predicted,
         tuple(Curve(k, "um", v) for k, v in terms),
-        (Curve("T_bearing", "degC", 20 + bearing), Curve("T_nut_Z", "degC", 20 + nut), Curve("T_hall", "degC", 20 + hall)),
+        (Curve("T_bearing", "degC", 20 + bearing), Curve("T_nut_Z", "degC", 20 + nut),
+         Curve("T_hall", "degC", 20 + hall)),
         (Curve("spindle_speed", "rpm", speed), Curve("feed_Z", "m/min", feed),
          Curve("coolant_on", "1", (speed > 0).astype(float))),
         {"speed": 9000.0, "axis": "Z"}, {"heating": (1800.0, 28800.0), "cooling": (28800.0, 50400.0)})
@@ -56,8 +57,8 @@ def score(test: str, role: str, rmse: float, model: str = "b2", phase: str = "al
 def diagnosis(verdict: str = "effect") -> Diagnosis:
     def candidate(rank: int, effect: str, drivers: list[str], after: float, claimed: bool) -> Candidate:
         return Candidate(
-            rank=rank, id=f"{effect}:{'+'.join(drivers)}", effect=effect, family="feed_z", drivers=drivers, claimed=claimed,
-            p_value=0.004 * rank, rmse_um_before=4.2, rmse_um_after=after, fit_before=41.0, fit_after=88.0,
+            rank=rank, id=f"{effect}:{'+'.join(drivers)}", effect=effect, family="feed_z", drivers=drivers,
+            claimed=claimed, p_value=0.004 * rank, rmse_um_before=4.2, rmse_um_after=after, fit_before=41.0, fit_after=88.0,
             locked_rmse_um_before=4.6 if claimed else None, locked_rmse_um_after=0.95 if claimed else None,
             parameters={"k": Parameter(value=3.1, unit="um/K", low=2.8, high=3.4)},
             equivalent=["feed_motor:T_motor_Z"] if claimed else [],
@@ -66,7 +67,7 @@ def diagnosis(verdict: str = "effect") -> Diagnosis:
 
     return Diagnosis(
         model="b1", response="dZ", verdict=verdict, noise_um=0.7, rmse_um=4.2, explainable=0.93,
-        weak_spots=[WeakSpot(campaign="demo", test="day1", from_s=11000, to_s=24000, rmse_um=6.1, state="feed on, 9000 rpm"),
+        weak_spots=[WeakSpot(campaign="demo", test="day1", from_s=11000, to_s=24000, rmse_um=6.1, state="feed, 9000 rpm"),
                     WeakSpot(campaign="demo", test="etve", from_s=13000, to_s=20000, rmse_um=4.4, state="feed on")],
         candidates=[candidate(1, "feed_screw", ["T_nut_Z"], 0.9, verdict == "effect"),
                     candidate(2, "feed_motor", ["T_motor_Z"], 1.3, False),
@@ -85,15 +86,16 @@ def data() -> ReportData:
     before = [score("etve", "calibration", 4.1, "b1"), score("sp9000", "calibration", 4.0, "b1"),
               score("day1", "verification", 4.6, "b1")]
     return ReportData(
-        "b2f00dfeed1234", "baseline", ("demo",), "138", ("dZ",), "um", ("spindle_bearing", "ambient_frame", "feed_screw"),
-        "2026-03-02", {
+        "b2f00dfeed1234", "baseline", ("demo",), "138", ("dZ",), "um",
+        ("spindle_bearing", "ambient_frame", "feed_screw"), "2026-03-02", {
             "spindle_bearing.k": Parameter(value=-2.41, unit="um/K", low=-2.5, high=-2.3),
             "spindle_bearing.tau": Parameter(value=0.66, unit="h", low=0.6, high=0.7),
             "feed_screw.k": Parameter(value=3.12, unit="um/K", low=2.8, high=3.4),
             "ambient_frame.k": Parameter(value=-1.2, unit="um/K")},
         after, [Check(name="collinear", value=0.97, threshold=0.95, passed=False, advice="Fix one of the two.")],
         before, tests,
-        (Version("b1", "baseline", None, 4.24, 4.05, 4.6), Version("b2f00dfeed1234", "baseline", "feed_screw", 0.94, .85, 1.1)),
+        (Version("b1", "baseline", None, 4.24, 4.05, 4.6),
+         Version("b2f00dfeed1234", "baseline", "feed_screw", 0.94, .85, 1.1)),
         None, diagnosis(),
         ({"campaign": "demo", "calibration": "jump_z", "kind": "jump", "axis": "Z", "gain": 50.3, "gain_unit": "um/V",
           "sign": "-", "uncertainty_pct": 0.8, "noise_um": 0.2, "nonlinearity_pct": 0.4, "drift_um": 0.1,

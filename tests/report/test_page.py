@@ -31,7 +31,7 @@ def test_a_page_holds_everything_and_asks_the_network_for_nothing(data: ReportDa
     assert len(page) < 8_000_000
     figures = {key: json.loads(text) for key, text in _FIGURE.findall(page)}
     assert set(figures) == {"overview", "waterfall", "test0", "test1", "test2"}
-    for text in ("With feed_screw", "day2 1 time", "jump_z", "um/K", "collinear", "feed_motor:T_motor_Z"):
+    for text in ("With feed_screw", "day2 1 time", "jump_z", "µm/K", "collinear", "feed_motor:T_motor_Z"):
         assert text in body(page)
 
 
@@ -41,7 +41,7 @@ def test_the_headline_says_what_the_added_effect_did(data: ReportData) -> None:
 
 def test_without_a_parent_the_headline_is_the_verdict(blind: ReportData) -> None:
     _keep(render(blind), "before")
-    assert headline(blind).startswith("Missing: feed_screw (T_nut_Z), error 4.20 → 0.900 um")
+    assert headline(blind).startswith("Missing: feed_screw (T_nut_Z), error 4.20 -> 0.900 um")
 
 
 def test_weak_spots_are_shaded_in_their_own_test_only(blind: ReportData) -> None:
@@ -62,5 +62,5 @@ def test_texts_from_data_can_not_break_the_page(data: ReportData) -> None:
 
 
 def test_a_model_without_tests_or_diagnosis_still_has_a_page(data: ReportData) -> None:
-    bare = dataclasses.replace(data, tests=(), scores=[], before=[], versions=(), reason=None, calibrations=(), looks={})
+    bare = dataclasses.replace(data, tests=(), scores=[], before=[], versions=(), reason=None, calibrations=())
     assert "No predictions are stored" in render(bare)

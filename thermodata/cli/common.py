@@ -9,7 +9,7 @@ import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, cast
 
 import click
 
@@ -77,7 +77,7 @@ def command(name: str, **more: Any) -> Callable[[Callable[..., Any]], click.Comm
             store = options.pop("store_after") or ctx.find_root().obj or "thermodata.store"
             return function(Session(Path(store), options.pop("as_json")), *args, **options)
 
-        made: Any = click.pass_context(call)
+        made: Any = click.pass_context(cast(Any, call))
         made = click.option("--json", "as_json", is_flag=True, help="Print JSON.")(made)
         made = click.option("--store", "store_after", metavar="DIR", help="The store's folder.")(made)
         finished: click.Command = click.command(name, **more)(made)

@@ -11,10 +11,9 @@ from typing import Any
 import click
 
 from thermodata.cli.common import Session, command, plain
-from thermodata.cli.diagnosing import verdict_sentence
-from thermodata.cli.fitting import change, pooled
-from thermodata.cli.table import duration, fields, number
+from thermodata.cli.table import fields
 from thermodata.errors import UsageError
+from thermodata.report.words import change, duration, number, pooled, verdict_sentence
 
 _MARK = "demo.json"          # a folder that holds it was made by a demo and may be made anew
 
@@ -111,37 +110,37 @@ def story(step: Step, folder: Path, hide: str, seed: int) -> dict[str, Any]:
 
     step.title(3, "fit: the baseline model, with the effects that one would expect")
     path = next(p for p in (folder / "baseline.yaml", folder / "models" / "baseline.yaml") if p.is_file())
-    base = plain(fit(store, load_model(path)))
-    effects = sorted({key.split(".")[0] for key in base["parameters"]})
-    step.line(f"{', '.join(effects)}; error {number(pooled(base['scores'], 'calibration'))} um in calibration, "
-              f"{number(pooled(base['scores'], 'verification'))} um in verification")
+    base = fit(store, load_model(path))
+    effects = sorted({key.split(".")[0] for key in base.parameters})
+    step.line(f"{', '.join(effects)}; error {number(pooled(base.scores, 'calibration'))} um in calibration, "
+              f"{number(pooled(base.scores, 'verification'))} um in verification")
 
     step.title(4, "compare: where it fails")
-    found = plain(diagnose(store, base["model"]))
-    for spot in found["weak_spots"][:3]:
-        step.line(f"{spot['test']}, {duration(spot['from_s'])} to {duration(spot['to_s'])}: "
-                  f"{number(spot['rmse_um'])} um ({spot['state']})")
-    if not found["weak_spots"]:
+    found = diagnose(store, base.model)
+    for spot in found.weak_spots[:3]:
+        step.line(f"{spot.test}, {duration(spot.from_s)} to {duration(spot.to_s)}: "
+                  f"{number(spot.rmse_um)} um ({spot.state})")
+    if not found.weak_spots:
         step.line("nowhere that stands out of the noise")
 
     step.title(5, "diagnose: which effect is missing?")
     step.line(verdict_sentence(found))
-    claimed = next((c for c in found["candidates"] if c["claimed"]), None)
-    if claimed and claimed["equivalent"]:
-        step.line(f"these tests can't tell it from: {', '.join(claimed['equivalent'])}")
+    claimed = next((c for c in found.candidates if c.claimed), None)
+    if claimed and claimed.equivalent:
+        step.line(f"these tests can't tell it from: {', '.join(claimed.equivalent)}")
     if claimed:
-        step.line(claimed["why"])
-    if found["next_test"]:
-        step.line(f"next test: {found['next_test']}")
+        step.line(claimed.why)
+    if found.next_test:
+        step.line(f"next test: {found.next_test}")
 
-    model, before, after = base["model"], pooled(base["scores"]), None
+    model, before, after = base.model, pooled(base.scores), None
     if claimed:
-        step.title(6, f"add {claimed['id']}, and compare again")
-        better = plain(add(store, base["model"], claimed["id"]))
-        model, before, after = better["model"], pooled(better["before"] or []), pooled(better["scores"])
+        step.title(6, f"add {claimed.id}, and compare again")
+        better = add(store, base.model, claimed.id)
+        model, before, after = better.model, pooled(better.before or []), pooled(better.scores)
         step.line(f"all tests {number(before)} -> {number(after)} um ({change(before, after)})")
-        if claimed["locked_rmse_um_after"] is not None:
-            a, b = claimed["locked_rmse_um_before"], claimed["locked_rmse_um_after"]
+        if claimed.locked_rmse_um_after is not None:
+            a, b = claimed.locked_rmse_um_before, claimed.locked_rmse_um_after
             step.line(f"tests that nobody had looked at {number(a)} -> {number(b)} um ({change(a, b)})")
     else:
         step.title(6, "add: nothing is added where the evidence does not suffice")
@@ -151,12 +150,12 @@ def story(step: Step, folder: Path, hide: str, seed: int) -> dict[str, Any]:
     step.line(str(page))
     return {
         "hidden": None if hide == "none" else truth.get("hidden", hide),
-        "found": claimed["effect"] if claimed else None,
-        "verdict": found["verdict"], "family": claimed["family"] if claimed else None,
-        "equivalents": claimed["equivalent"] if claimed else [],
+        "found": claimed.effect if claimed else None,
+        "verdict": found.verdict, "family": claimed.family if claimed else None,
+        "equivalents": claimed.equivalent if claimed else [],
         "rmse_um_before": before, "rmse_um_after": after,
-        "locked_rmse_um_before": claimed["locked_rmse_um_before"] if claimed else None,
-        "locked_rmse_um_after": claimed["locked_rmse_um_after"] if claimed else None,
+        "locked_rmse_um_before": claimed.locked_rmse_um_before if claimed else None,
+        "locked_rmse_um_after": claimed.locked_rmse_um_after if claimed else None,
         "model": model, "store": str(folder / "thermodata.store"), "report": str(page),
     }
 

@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING
 
 import click
 
-from thermodata.cli.common import Session, command, plain
+from thermodata.cli.common import Session, command
 from thermodata.cli.fitting import resolve
-from thermodata.cli.table import duration, number, table
+from thermodata.cli.table import table
+from thermodata.report.words import duration, number, verdict_sentence
+
+if TYPE_CHECKING:
+    from thermodata.schema.result import Diagnosis
 
 
 @command("diagnose")
@@ -24,59 +28,42 @@ def diagnose_command(session: Session, model: str, top: int) -> None:
     from thermodata.diagnosis.run import diagnose
 
     store = session.store()
-    found = plain(diagnose(store, resolve(store, model)))
+    found = diagnose(store, resolve(store, model))
     session.answer(found, lambda: diagnosis_text(found, top))
 
 
-def verdict_sentence(found: dict[str, Any]) -> str:
-    """The verdict in one sentence with its figures."""
-    claimed = next((c for c in found["candidates"] if c["claimed"]), None)
-    if found["verdict"] == "effect" and claimed:
-        text = (f"missing: {claimed['effect']} ({', '.join(claimed['drivers']) or 'no driver'}), "
-                f"{number(claimed['rmse_um_before'])} -> {number(claimed['rmse_um_after'])} um")
-        if claimed["locked_rmse_um_after"] is not None:
-            text += (f", locked tests {number(claimed['locked_rmse_um_before'])} -> "
-                     f"{number(claimed['locked_rmse_um_after'])} um")
-        return text
-    return {
-        "effect": "missing: an effect that the data point to",
-        "none": "no effect is missing: what is left is noise or too small to matter",
-        "unknown": "something is missing that no known effect with these channels explains",
-        "not_testable": "these tests can't tell which effect is missing",
-    }[found["verdict"]]
-
-
-def diagnosis_text(found: dict[str, Any], top: int = 8) -> str:
+def diagnosis_text(found: Diagnosis, top: int = 8) -> str:
     """A diagnosis for a person."""
-    share = found["explainable"]
+    share = found.explainable
     head = verdict_sentence(found) + (
-        f"\nresidual {number(found['rmse_um'])} um, noise {number(found['noise_um'])} um"
+        f"\nresidual {number(found.rmse_um)} um, noise {number(found.noise_um)} um"
         + (f", {100 * share:.0f} % of it could be explained" if share is not None else ""))
     parts = [head]
-    if found["candidates"]:
-        rows = [{**c, "claimed": "yes" if c["claimed"] else "", "drivers": c["drivers"]}
-                for c in found["candidates"][:top]]
+    if found.candidates:
+        rows = [{**c.model_dump(), "claimed": "yes" if c.claimed else ""}
+                for c in found.candidates[:top]]
         parts.append(table(rows, [("rank", "#"), ("id", "candidate"), ("family", "family"), ("claimed", "claimed"),
                                   ("p_value", "p"), ("rmse_um_before", "before [um]"),
                                   ("rmse_um_after", "after [um]"), ("equivalent", "can't be told from")], widest=44))
-        first = found["candidates"][0]
-        if first["why"]:
-            parts.append(f"why {first['id']}: {first['why']}")
-    if found["weak_spots"]:
-        spots = [{**w, "span": f"{duration(w['from_s'])} – {duration(w['to_s'])}"} for w in found["weak_spots"][:top]]
+        first = found.candidates[0]
+        if first.why:
+            parts.append(f"why {first.id}: {first.why}")
+    if found.weak_spots:
+        spots = [{**w.model_dump(), "span": f"{duration(w.from_s)} – {duration(w.to_s)}"}
+                 for w in found.weak_spots[:top]]
         parts.append("where the model fails\n" + table(spots, [
             ("campaign", "campaign"), ("test", "test"), ("span", "when"), ("rmse_um", "RMSE [um]"),
             ("state", "state")]))
-    if found["artefacts"]:
+    if found.artefacts:
         parts.append("artefacts\n" + "\n".join(
-            f"  ! {a['kind']} in {a['campaign']}/{a['test']} at {duration(a['at_s'])}: {number(a['size_um'])} um. "
-            f"{a['why']}" for a in found["artefacts"]))
-    if found["unknown"]:
-        hints = found["unknown"]
+            f"  ! {a.kind} in {a.campaign}/{a.test} at {duration(a.at_s)}: {number(a.size_um)} um. "
+            f"{a.why}" for a in found.artefacts))
+    if found.unknown:
+        hints = found.unknown.model_dump()
         parts.append("what is left behaves like\n" + "\n".join(
             f"  {name}: {', '.join(number(v) if isinstance(v, float) else str(v) for v in hints[key])}"
             for name, key in (("time constants [h]", "time_constants_h"), ("hours of the day", "hours_of_day"),
                               ("states", "states")) if hints[key]))
-    if found["next_test"]:
-        parts.append(f"next test: {found['next_test']}")
+    if found.next_test:
+        parts.append(f"next test: {found.next_test}")
     return "\n\n".join(parts)

@@ -8,11 +8,14 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from thermodata.cli.common import Session, command, plain
-from thermodata.cli.table import number, table
+from thermodata.cli.table import table
 from thermodata.errors import UsageError
+from thermodata.report.words import change, number, pooled
 
 if TYPE_CHECKING:
+    from thermodata.schema.result import FitResult, Parameter, Score
     from thermodata.store import Store
+    from thermodata.store.models import StoredModel
 
 
 def resolve(store: Store, ref: str) -> str:
@@ -38,7 +41,7 @@ def fit_command(session: Session, model: str) -> None:
 
     store = session.store()
     spec = load_model(Path(model)) if Path(model).is_file() or model.endswith((".yaml", ".yml")) else None
-    result = plain(fit(store, spec if spec is not None else find_model(store, model).spec))
+    result = fit(store, spec if spec is not None else find_model(store, model).spec)
     session.answer(result, lambda: fit_text(result))
 
 
@@ -54,9 +57,10 @@ def compare_command(session: Session, models: tuple[str, ...]) -> None:
     from thermodata.modelling.run import compare
 
     store = session.store()
-    results = [plain(r) for r in compare(store, [resolve(store, ref) for ref in models])]
-    payload = results[0] if len(results) == 1 else {
-        **results[0], "scores": [s for r in results for s in r["scores"]], "models": results}
+    results = compare(store, [resolve(store, ref) for ref in models])
+    payload: dict[str, Any] = plain(results[0])
+    if len(results) > 1:
+        payload |= {"scores": [s for r in results for s in r.scores], "models": results}
     session.answer(payload, lambda: compare_text(results))
 
 
@@ -71,7 +75,7 @@ def add_command(session: Session, model: str, candidate: str) -> None:
     from thermodata.modelling.run import add
 
     store = session.store()
-    result = plain(add(store, resolve(store, model), candidate))
+    result = add(store, resolve(store, model), candidate)
     session.answer(result, lambda: "\n\n".join([before_after_text(result), fit_text(result, scores=False)]))
 
 
@@ -96,9 +100,9 @@ def portability_command(session: Session, model: str) -> None:
                      hint="fit one model over several campaigns (campaigns: [...]) and compare the scores by test")
 
 
-def version(stored: Any) -> dict[str, Any]:
+def version(stored: StoredModel) -> dict[str, Any]:
     """One version of a model as a row: what it added and its pooled errors by role [um]."""
-    scores = plain(stored.result)["scores"]
+    scores = stored.result.scores
     effects = [e.id or e.effect for e in stored.spec.effects]
     return {"name": stored.name, "model": stored.model, "parent": stored.parent, "effects": effects,
             "added": effects[-1] if stored.parent and effects else None, "stale": stored.stale,
@@ -106,80 +110,70 @@ def version(stored: Any) -> dict[str, Any]:
             "verification_rmse_um": pooled(scores, "verification"), "locked_rmse_um": pooled(scores, "locked")}
 
 
-def pooled(scores: list[dict[str, Any]], role: str | None = None) -> float | None:
-    """Root mean square [um] over whole tests of a role (None: all), each sample counted once."""
-    rows = [s for s in scores if s["phase"] == "all" and role in (None, s["role"]) and s["rmse_um"] is not None]
-    n = sum(s["n"] for s in rows)
-    return float((sum(s["n"] * s["rmse_um"] ** 2 for s in rows) / n) ** 0.5) if n else None
-
-
-def fit_text(result: dict[str, Any], *, scores: bool = True) -> str:
+def fit_text(result: FitResult, *, scores: bool = True) -> str:
     """A fit for a person: id, scores of whole tests, parameters, checks that failed."""
-    parent = f", from {result['parent']}" if result["parent"] else ""
-    parts = [f"{result['name']}  {result['model']}{parent}"]
+    parent = f", from {result.parent}" if result.parent else ""
+    parts = [f"{result.name}  {result.model}{parent}"]
     if scores:
-        parts.append(scores_text(result["scores"]))
-    parameters = [{"parameter": k, "value": p["value"], "unit": p["unit"], "range": span(p)}
-                  for k, p in result["parameters"].items()]
+        parts.append(scores_text(result.scores))
+    parameters = [{"parameter": k, "value": p.value, "unit": p.unit, "range": span(p)}
+                  for k, p in result.parameters.items()]
     if parameters:
         parts.append(table(parameters, [("parameter", "parameter"), ("value", "value"), ("unit", "unit"),
                                         ("range", "95 %")]))
-    failed = [c for c in result["checks"] if not c["passed"]]
+    failed = [c for c in result.checks if not c.passed]
     if failed:
         parts.append("worth a look\n" + "\n".join(
-            f"  ! {c['name']}: {number(c['value'])} (limit {number(c['threshold'])}). {c['advice']}" for c in failed))
+            f"  ! {c.name}: {number(c.value)} (limit {number(c.threshold)}). {c.advice}" for c in failed))
     return "\n\n".join(parts)
 
 
-def span(parameter: dict[str, Any]) -> str:
+def span(parameter: Parameter) -> str:
     """'0.9 … 1.2', or '-' where the uncertainty is not known."""
-    low, high = parameter["low"], parameter["high"]
+    low, high = parameter.low, parameter.high
     return "-" if low is None or high is None else f"{number(low)} … {number(high)}"
 
 
-def scores_text(scores: list[dict[str, Any]], phases: bool = False) -> str:
+def scores_text(scores: list[Score], phases: bool = False) -> str:
     """Scores as a table, whole tests only unless phases are asked for."""
-    rows = [s for s in scores if phases or s["phase"] == "all"]
-    many = len({s["response"] for s in rows}) > 1
+    shown = [s for s in scores if phases or s.phase == "all"]
+    many = len({s.response for s in shown}) > 1
     columns = [("campaign", "campaign"), ("test", "test"), ("role", "role")]
     columns += [("response", "response")] if many else []
     columns += [("phase", "phase")] if phases else []
-    return table(rows, [*columns, ("fit", "FIT [%]"), ("rmse_um", "RMSE [um]"), ("max_um", "max [um]"),
-                        ("ptp_um", "PTP measured [um]"), ("ptp_residual_um", "PTP left [um]"), ("n", "n")])
+    columns += [("fit", "FIT [%]"), ("rmse_um", "RMSE [um]"), ("max_um", "max [um]"),
+                ("ptp_um", "PTP measured [um]"), ("ptp_residual_um", "PTP left [um]"), ("n", "n")]
+    return table([s.model_dump() for s in shown], columns)
 
 
-def compare_text(results: list[dict[str, Any]]) -> str:
+def compare_text(results: list[FitResult]) -> str:
     """One model: its scores by test and phase. Several: RMSE and FIT beside each other, a row a test."""
     if len(results) == 1:
-        head = f"{results[0]['name']}  {results[0]['model']}"
-        return "\n\n".join([head, scores_text(results[0]["scores"], phases=True)])
+        head = f"{results[0].name}  {results[0].model}"
+        return "\n\n".join([head, scores_text(results[0].scores, phases=True)])
     rows: dict[tuple[str, ...], dict[str, Any]] = {}
     columns = [("campaign", "campaign"), ("test", "test"), ("role", "role"), ("phase", "phase")]
     for result in results:
-        label = f"{result['name']} {result['model'][:6]}"
-        columns += [(f"rmse {result['model']}", f"{label} RMSE [um]"), (f"fit {result['model']}", "FIT [%]")]
-        for s in result["scores"]:
-            key = tuple(str(s[k]) for k in ("campaign", "test", "response", "phase"))
-            row = rows.setdefault(key, {k: s[k] for k in ("campaign", "test", "role", "phase")})
-            row[f"rmse {result['model']}"], row[f"fit {result['model']}"] = s["rmse_um"], s["fit"]
+        label = f"{result.name} {result.model[:6]}"
+        columns += [(f"rmse {result.model}", f"{label} RMSE [um]"), (f"fit {result.model}", "FIT [%]")]
+        for s in result.scores:
+            key = (s.campaign, s.test, s.response, s.phase)
+            row = rows.setdefault(key, {"campaign": s.campaign, "test": s.test, "role": s.role, "phase": s.phase})
+            row[f"rmse {result.model}"], row[f"fit {result.model}"] = s.rmse_um, s.fit
     return table(list(rows.values()), columns)
 
 
-def before_after_text(result: dict[str, Any]) -> str:
+def before_after_text(result: FitResult) -> str:
     """What an added effect did, a row a test; roles pooled below."""
-    before = {(s["campaign"], s["test"], s["response"], s["phase"]): s for s in result["before"] or []}
-    rows = []
-    for s in result["scores"]:
-        old = before.get((s["campaign"], s["test"], s["response"], s["phase"]))
-        if s["phase"] == "all" and old:
-            rows.append({**s, "before": old["rmse_um"], "change": change(old["rmse_um"], s["rmse_um"])})
-    for role in dict.fromkeys(s["role"] for s in rows):
-        a, b = pooled(result["before"] or [], role), pooled(result["scores"], role)
+    before = {(s.campaign, s.test, s.response, s.phase): s for s in result.before or []}
+    rows: list[dict[str, Any]] = []
+    for s in result.scores:
+        old = before.get((s.campaign, s.test, s.response, s.phase))
+        if s.phase == "all" and old:
+            rows.append({**s.model_dump(), "before": old.rmse_um, "change": change(old.rmse_um, s.rmse_um)})
+    for role in dict.fromkeys(row["role"] for row in rows):
+        a, b = pooled(result.before or [], role), pooled(result.scores, role)
         rows.append({"test": "all", "role": role, "before": a, "rmse_um": b, "change": change(a, b)})
     return table(rows, [("campaign", "campaign"), ("test", "test"), ("role", "role"), ("before", "before [um]"),
                         ("rmse_um", "after [um]"), ("change", "change")])
 
-
-def change(before: float | None, after: float | None) -> str:
-    """'-62 %'; '-' where either is missing."""
-    return f"{100 * (after / before - 1):+.0f} %" if before and after is not None else "-"

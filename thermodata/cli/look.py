@@ -9,9 +9,10 @@ import click
 
 from thermodata.cli.common import Session, command
 from thermodata.cli.ingest import calibrations_text
-from thermodata.cli.table import duration, fields, table
+from thermodata.cli.table import fields, table
 from thermodata.errors import UsageError, unknown_name
 from thermodata.report.records import records
+from thermodata.report.words import duration
 
 _campaign = click.option("--campaign", "-c", help="Only this campaign.")
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -16,7 +17,7 @@ from thermodata.report.words import duration, number
 from thermodata.schema.result import WeakSpot
 
 Figure = dict[str, Any]
-_GAP, _TOP, _BOTTOM = 16, 34, 44          # [px]
+_GAP, _TOP, _BOTTOM = 18, 50, 44          # [px]
 
 
 @dataclass(slots=True)
@@ -44,7 +45,7 @@ class _Panels:
                 "nticks": max(2, height // 34), "tickfont": {"size": 11, "color": colour.MUTED}, **axis}
             made["annotations"].append({
                 "text": title, "xref": "paper", "yref": "paper", "x": 0, "y": high, "xanchor": "left",
-                "yanchor": "bottom" if height > 60 else "top", "showarrow": False, "bgcolor": "rgba(255,255,255,.75)",
+                "yanchor": "bottom", "showarrow": False,
                 "font": {"size": 11.5 if height > 60 else 10.5, "color": colour.INK if height > 60 else colour.MUTED}})
             top -= height + _GAP
         made["xaxis"] = {
@@ -60,7 +61,8 @@ def base_layout(height: int) -> Figure:
     """What all figures share."""
     return {
         "height": height, "margin": {"l": 56, "r": 14, "t": _TOP, "b": _BOTTOM, "pad": 0}, "autosize": True,
-        "paper_bgcolor": colour.PAPER, "plot_bgcolor": colour.PAPER, "font": {"family": colour.FONT, "color": colour.INK},
+        "paper_bgcolor": colour.PAPER, "plot_bgcolor": colour.PAPER,
+        "font": {"family": colour.FONT, "color": colour.INK},
         "hoverlabel": {"font": {"family": colour.FONT, "size": 12}}, "dragmode": "zoom",
         "legend": {"orientation": "h", "x": 1, "xanchor": "right", "y": 1, "yanchor": "bottom", "font": {"size": 11}}}
 
@@ -78,7 +80,8 @@ def test_figure(
     def line(values: Float1D, axis: str, name: str, tint: str, unit_: str, **more: Any) -> None:
         panels.traces.append({
             "type": "scatter", "mode": "lines", "x0": x0, "dx": step_h, "y": packed(block_mean(values, size)),
-            "yaxis": axis, "name": name, "connectgaps": False, "hovertemplate": f"{name} %{{y:.4~g}} {unit_}<extra></extra>",
+            "yaxis": axis, "name": name, "connectgaps": False,
+            "hovertemplate": f"{name} %{{y:.4~g}} {unit_}<extra></extra>",
             **{"line": {"color": tint, "width": 1.6}, **more}})
 
     top = panels.add(f"<b>{part.response}</b> [{unit}]", 230)
@@ -101,22 +104,21 @@ def test_figure(
         _lane(panels, lane, line)
     layout = panels.layout(span)
     _place_legends(layout, panels)
-    layout["shapes"] += [_shade(w.from_s / 3600, w.to_s / 3600, colour.faint(colour.WEAK, 0.16), "y2 domain") for w in weak]
-    layout["shapes"] += [{**s, "yref": "y domain"} for s in layout["shapes"] if s["yref"] == "y2 domain"]
     for w in weak:
-        layout["annotations"].append({
-            "x": (w.from_s + w.to_s) / 7200, "y": 1, "xref": "x", "yref": "y2 domain", "yanchor": "top", "showarrow": False,
-            "text": f"{number(w.rmse_um, 2)} {unit}", "hovertext": f"{w.state}, {duration(w.to_s - w.from_s)}",
-            "font": {"size": 10, "color": "#92400e"}})
+        begin, end = w.from_s / 3600, w.to_s / 3600
+        layout["shapes"] += [_shade(begin, end, "y domain"), _shade(begin, end, "y2 domain")]
+        layout["annotations"].append(_note(
+            f"{number(w.rmse_um, 2)} {unit}", (begin + end) / 2, 1, "y2 domain", "#92400e",
+            hovertext=f"{w.state}, {duration(w.to_s - w.from_s)}"))
     if noise_um:
         layout["shapes"] += [{"type": "line", "xref": "paper", "x0": 0, "x1": 1, "yref": "y2", "y0": y, "y1": y,
-                              "line": {"color": colour.MUTED, "width": 1, "dash": "dot"}} for y in (noise_um, -noise_um)]
-    for name, (begin, end) in part.phases.items():
-        layout["shapes"].append({"type": "line", "xref": "x", "x0": begin / 3600, "x1": begin / 3600, "yref": "y domain",
-                                 "y0": 0, "y1": 1, "line": {"color": "#cbd5e1", "width": 1, "dash": "dash"}})
-        layout["annotations"].append({"text": name, "x": (begin + end) / 7200, "xref": "x", "y": 0, "yref": "y domain",
-                                      "yanchor": "bottom", "showarrow": False,
-                                      "font": {"size": 10.5, "color": colour.MUTED}})
+                              "line": {"color": colour.MUTED, "width": 1, "dash": "dot"}}
+                             for y in (noise_um, -noise_um)]
+    for name, (from_s, to_s) in part.phases.items():
+        begin, end = from_s / 3600, to_s / 3600
+        layout["shapes"].append({"type": "line", "xref": "x", "x0": begin, "x1": begin, "yref": "y domain", "y0": 0,
+                                 "y1": 1, "line": {"color": "#cbd5e1", "width": 1, "dash": "dash"}})
+        layout["annotations"].append(_note(name, (begin + end) / 2, 0, "y domain", colour.MUTED))
     return {"data": panels.traces, "layout": layout}
 
 
@@ -144,21 +146,23 @@ def _place_legends(layout: Figure, panels: _Panels) -> None:
             layout[key] = {**layout["legend"], "y": domain[1], "bgcolor": "rgba(255,255,255,.75)"}
 
 
-def _shade(x0: float, x1: float, fill: str, yref: str) -> dict[str, Any]:
+def _shade(x0: float, x1: float, yref: str) -> dict[str, Any]:
     return {"type": "rect", "xref": "x", "x0": x0, "x1": x1, "yref": yref, "y0": 0, "y1": 1,
-            "fillcolor": fill, "line": {"width": 0}, "layer": "below"}
+            "fillcolor": colour.faint(colour.WEAK, 0.16), "line": {"width": 0}, "layer": "below"}
+
+
+def _note(text: str, x: float, y: int, yref: str, tint: str, **more: Any) -> dict[str, Any]:
+    """A small text inside a panel, at its top (y 1) or bottom (y 0)."""
+    return {"text": text, "x": x, "xref": "x", "y": y, "yref": yref, "yanchor": "top" if y else "bottom",
+            "showarrow": False, "font": {"size": 10.5, "color": tint}, **more}
 
 
 def overview_figure(parts: Sequence[TestPart], unit: str) -> Figure:
     """The residual of every test as one coloured strip each, over hours: where the model fails, at a glance."""
-    columns = 400
-    longest = max(p.step_s * len(p.residual) for p in parts)
-    rows = []
-    for p in parts:
-        size = max(1, int(np.ceil(longest / columns / p.step_s)))
-        strip = block_mean(p.residual, size)[:columns]
-        rows.append(np.pad(strip, (0, columns - len(strip)), constant_values=np.nan))
-    z = np.array(rows)
+    size = block_size(max(len(p.residual) for p in parts), 400)
+    strips = [block_mean(p.residual, size) for p in parts]
+    columns, dx_h = max(len(s) for s in strips), parts[0].step_s * size / 3600       # a model has one step
+    z = np.array([np.pad(s, (0, columns - len(s)), constant_values=np.nan) for s in strips])
     seen = np.abs(z[np.isfinite(z)])
     limit = float(np.quantile(seen, 0.99)) if len(seen) else 1.0
     names = [p.test if len({q.campaign for q in parts}) == 1 else f"{p.campaign}/{p.test}" for p in parts]
@@ -171,7 +175,7 @@ def overview_figure(parts: Sequence[TestPart], unit: str) -> Figure:
         "tickfont": {"size": 11, "color": colour.MUTED}, "showgrid": False, "zeroline": False})
     scale = [[0, "#2166ac"], [0.25, "#92c5de"], [0.5, "#f7f7f7"], [0.75, "#f4a582"], [1, "#b2182b"]]
     return {"data": [{
-        "type": "heatmap", "z": packed(z), "y": names, "x0": longest / columns / 7200, "dx": longest / columns / 3600,
+        "type": "heatmap", "z": packed(z), "y": names, "x0": dx_h / 2, "dx": dx_h,
         "zmid": 0, "zmin": -limit, "zmax": limit, "ygap": 5, "colorscale": scale, "hoverongaps": False,
         "hovertemplate": f"%{{y}}, %{{x:.1f}} h: %{{z:.2f}} {unit}<extra></extra>",
         "colorbar": {"title": {"text": unit, "font": {"size": 11}}, "thickness": 10, "outlinewidth": 0,
@@ -182,21 +186,23 @@ def waterfall_figure(versions: Sequence[Version], noise_um: float | None, unit: 
     """The error of the first version, what each added effect took from it, and what is left."""
     kept = [v for v in versions if v.all_um is not None]
     errors = [v.all_um for v in kept if v.all_um is not None]
-    steps = [b - a for a, b in zip(errors, errors[1:], strict=False)]
+    steps = [b - a for a, b in pairwise(errors)]
     names = [kept[0].name, *(f"+ {v.added or v.name}" for v in kept[1:]), "now"]
-    layout = base_layout(300)
-    layout.update(showlegend=False, margin={"l": 50, "r": 14, "t": 18, "b": 40}, bargap=0.45,
-                  yaxis={"title": {"text": f"RMSE of all tests [{unit}]", "font": {"size": 11.5, "color": colour.MUTED}},
+    layout = base_layout(250)
+    layout.update(showlegend=False, margin={"l": 50, "r": 14, "t": 18, "b": 40},
+                  yaxis={"title": {"text": f"RMSE [{unit}]", "font": {"size": 11.5, "color": colour.MUTED}},
                          "gridcolor": colour.GRID, "rangemode": "tozero", "tickfont": {"size": 11}},
                   xaxis={"type": "category", "tickfont": {"size": 12}}, shapes=[], annotations=[])
     if noise_um:
         layout["shapes"].append({"type": "line", "xref": "paper", "x0": 0, "x1": 1, "y0": noise_um, "y1": noise_um,
                                  "line": {"color": colour.MUTED, "width": 1, "dash": "dot"}})
         layout["annotations"].append({"text": "noise", "xref": "paper", "x": 1, "y": noise_um, "yanchor": "bottom",
-                                      "xanchor": "right", "showarrow": False, "font": {"size": 10.5, "color": colour.MUTED}})
+                                      "xanchor": "right", "showarrow": False,
+                                      "font": {"size": 10.5, "color": colour.MUTED}})
     texts = [number(errors[0]), *(f"{'+' if s > 0 else '−'}{number(abs(s))}" for s in steps), number(errors[-1])]
     return {"data": [{
-        "type": "waterfall", "x": names, "y": [errors[0], *steps, errors[-1]], "text": texts, "textposition": "outside",
+        "type": "waterfall", "x": names, "y": [errors[0], *steps, errors[-1]], "text": texts, "textposition": "auto",
+        "insidetextfont": {"color": "#ffffff"}, "textangle": 0, "width": [0.36] * len(texts),
         "measure": ["absolute", *("relative" for _ in steps), "total"], "cliponaxis": False,
         "connector": {"line": {"color": "#cbd5e1", "width": 1}}, "hovertemplate": "%{x}: %{text}<extra></extra>",
         "decreasing": {"marker": {"color": colour.GOOD}}, "increasing": {"marker": {"color": colour.RESIDUAL}},

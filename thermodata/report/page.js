@@ -11,7 +11,8 @@
       // the panels' titles need the line for themselves: legends move below the plot's top
       ["legend", "legend2", "legend3"].forEach(function (k) { if (figure.layout[k]) figure.layout[k].yanchor = "top"; });
     }
-    Plotly.newPlot(box, figure.data, figure.layout, config);
+    var bar = box.dataset.figure.indexOf("test") === 0;      // only the figures of tests are worth the tools
+    Plotly.newPlot(box, figure.data, figure.layout, Object.assign({displayModeBar: bar ? "hover" : false}, config));
   }
   var boxes = document.querySelectorAll("[data-figure]");
   function all() { boxes.forEach(draw); }

@@ -12,7 +12,7 @@ from thermodata import __version__
 from thermodata.report.colour import effect_colours
 from thermodata.report.data import ReportData, TestPart
 from thermodata.report.figures import Figure, overview_figure, test_figure, waterfall_figure
-from thermodata.report.words import change, duration, number, pooled, verdict_sentence
+from thermodata.report.words import change, duration, number, pooled, typeset, verdict_sentence
 
 if TYPE_CHECKING:
     from thermodata.store import Store
@@ -41,19 +41,19 @@ def render(data: ReportData) -> str:
 
     here = files("thermodata.report")
     environment = jinja2.Environment(autoescape=True, trim_blocks=True, lstrip_blocks=True)
-    environment.filters.update(number=number, duration=duration)
+    environment.filters.update(number=lambda v, d=3: typeset(number(v, d)), duration=duration, typeset=typeset)
     template = environment.from_string((here / "page.html.j2").read_text(encoding="utf-8"))
     colours = effect_colours([*data.effects, *(c.name for t in data.tests for c in t.contributions)])
     figures = _figures(data, colours)
     return template.render(
-        data=data, unit=data.unit, version=__version__, colours=colours, figures=figures,
+        data=data, unit=typeset(data.unit), version=__version__, colours=colours, figures=figures,
         json={key: Markup(_script_json(figure)) for key, figure in figures.items()},
         css=Markup((here / "page.css").read_text(encoding="utf-8")),
         js=Markup((here / "page.js").read_text(encoding="utf-8")), plotly=Markup(get_plotlyjs()),
         overview="overview" in figures, waterfall="waterfall" in figures, weak=data.weak_spots,
-        headline=headline(data), sentences=_sentences(data), tiles=tiles(data),
-        verdict=_capital(verdict_sentence(data.diagnosis)) if data.diagnosis else "",
-        reason=_capital(verdict_sentence(data.reason)) if data.reason else "",
+        headline=typeset(headline(data)), sentences=[typeset(line) for line in _sentences(data)], tiles=tiles(data),
+        verdict=typeset(_capital(verdict_sentence(data.diagnosis))) if data.diagnosis else "",
+        reason=typeset(_capital(verdict_sentence(data.reason))) if data.reason else "",
         tests=[_test(data, part, f"test{i}") for i, part in enumerate(data.tests)],
         parameters=[{"effect": key.rpartition(".")[0] or key, "name": key.rpartition(".")[2], **p.model_dump()}
                     for key, p in data.parameters.items()],
@@ -65,13 +65,13 @@ def _figures(data: ReportData, colours: dict[str, str]) -> dict[str, Figure]:
     noise = next((d.noise_um for d in (data.diagnosis, data.reason) if d and d.noise_um), None)
     made: dict[str, Figure] = {}
     if data.tests:
-        made["overview"] = overview_figure(data.tests, data.unit)
+        made["overview"] = overview_figure(data.tests, typeset(data.unit))
     if len(data.versions) > 1 and sum(v.all_um is not None for v in data.versions) > 1:
-        made["waterfall"] = waterfall_figure(data.versions, noise, data.unit)
+        made["waterfall"] = waterfall_figure(data.versions, noise, typeset(data.unit))
     for i, part in enumerate(data.tests):
         weak = [w for w in data.weak_spots if (w.campaign, w.test) == (part.campaign, part.test)
                 and data.diagnosis is not None and part.response in (data.diagnosis.response, *data.responses[:1])]
-        made[f"test{i}"] = test_figure(part, weak, colours, noise, data.unit)
+        made[f"test{i}"] = test_figure(part, weak, colours, noise, typeset(data.unit))
     return made
 
 
@@ -82,13 +82,15 @@ def _script_json(figure: Figure) -> str:
 
 def headline(data: ReportData) -> str:
     """The page's first sentence: what was added and what it did, or the verdict, or the plain error."""
-    before, after = pooled(data.before, "calibration", "verification"), pooled(data.scores, "calibration", "verification")
+    roles = ("calibration", "verification")
+    before, after = pooled(data.before, *roles), pooled(data.scores, *roles)
     if data.added and before and after is not None:
+        if after >= before:
+            return f"{data.added} does not lower the error: {number(before)} -> {number(after)} {data.unit}"
         return (f"With {data.added} the error of {', '.join(data.responses)} falls from {number(before)} to "
-                f"{number(after)} {data.unit} ({change(before, after)})"
-                if after < before else f"{data.added} does not lower the error: {number(before)} → {number(after)} {data.unit}")
+                f"{number(after)} {data.unit} ({change(before, after)})")
     if data.diagnosis:
-        return _capital(verdict_sentence(data.diagnosis)).replace("->", "→")
+        return _capital(verdict_sentence(data.diagnosis))
     return f"{data.name} follows {', '.join(data.responses)} to {number(after)} {data.unit}"
 
 
@@ -101,7 +103,7 @@ def _sentences(data: ReportData) -> list[str]:
         if claimed and claimed.equivalent:
             lines.append(f"These tests can't tell it from {', '.join(claimed.equivalent)}.")
     if data.added and data.diagnosis:
-        lines.append("Now: " + verdict_sentence(data.diagnosis).replace("->", "→") + ".")
+        lines.append("Now: " + verdict_sentence(data.diagnosis) + ".")
     return lines
 
 
@@ -123,16 +125,17 @@ def tiles(data: ReportData) -> list[dict[str, str]]:
                      "badge": "", "tone": "", "note": f"worst {number(fits[0])} %, best {number(fits[-1])} %"})
     found = data.diagnosis or data.reason
     if found and found.noise_um:
-        share = f"{100 * found.explainable:.0f} % of the residual could be explained" if found.explainable is not None else ""
-        made.append({"what": "Noise of the measurement", "was": "", "value": number(found.noise_um), "unit": data.unit,
-                     "badge": "", "tone": "", "note": share})
+        share = found.explainable
+        note = f"{100 * share:.0f} % of the residual could be explained" if share is not None else ""
+        made.append(_tile("Noise of the measurement", None, found.noise_um, data.unit, note))
     return made
 
 
 def _tile(what: str, before: float | None, after: float, unit: str, note: str) -> dict[str, str]:
     better = before is not None and after < before
-    return {"what": what, "was": number(before) if before is not None else "", "value": number(after), "unit": unit,
-            "badge": change(before, after) if before is not None else "", "tone": "good" if better else "bad", "note": note}
+    return {"what": what, "was": number(before) if before is not None else "", "value": number(after),
+            "unit": typeset(unit), "badge": typeset(change(before, after)) if before is not None else "",
+            "tone": "good" if better else "bad", "note": note}
 
 
 def _locked(data: ReportData) -> tuple[float | None, float] | None:
@@ -160,7 +163,8 @@ def _test(data: ReportData, part: TestPart, key: str) -> dict[str, Any]:
     length = duration(part.step_s * len(part.measured))
     facts = f"RMSE {number(row.rmse_um)} {data.unit} · FIT {number(row.fit)} %" if row else ""
     return {"part": part, "key": key, "title": title if len(data.responses) == 1 else f"{title} · {part.response}",
-            "about": " · ".join(filter(None, [part.kind.replace("_", " "), length, conditions])), "facts": facts}
+            "about": " · ".join(filter(None, [part.kind.replace("_", " "), length, conditions])),
+            "facts": typeset(facts)}
 
 
 def _score_rows(data: ReportData) -> dict[str, Any]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
@@ -10,7 +11,7 @@ if TYPE_CHECKING:
 
 
 def number(value: Any, digits: int = 3) -> str:
-    """A number as an engineer reads it: `digits` significant figures, no exponent between 1e-4 and 1e7; '-' for none."""
+    """`digits` significant figures, no exponent between 1e-4 and 1e7; '-' for none."""
     if value is None:
         return "-"
     if isinstance(value, bool) or not isinstance(value, int | float):
@@ -25,6 +26,12 @@ def number(value: Any, digits: int = 3) -> str:
     if not -4 <= size < 7:
         return f"{value:.{digits - 1}e}"
     return f"{value:.{max(0, digits - 1 - size)}f}"
+
+
+def typeset(text: str) -> str:
+    """A terminal's text as a page shows it: 'um' as 'µm', '->' as an arrow, hyphens before digits as minus."""
+    text = re.sub(r"\bum\b", "µm", text).replace("->", "→")
+    return re.sub(r"(?<![\w.])-(?=\d)", "−", text)
 
 
 def duration(seconds: float | None) -> str:
