@@ -95,7 +95,9 @@ def prepare(raw: Float1D, good: Bool1D, step: float, relative: bool) -> tuple[Fl
 def start_value(values: Float1D, step: float) -> float:
     """The value at the start: a mean over the first minutes as long as it does not move more than its noise.
 
-    A longer mean of a temperature that already rises would put the lag out of balance by that much.
+    A longer mean of a temperature that already rises would put the lag out of balance by that much. Where it moves
+    from the first samples on, a line through them goes back half a step: a sample is the mean of its bin, and the
+    test starts at the bin's start.
     """
     most = max(1, min(int(START_S / step), len(values)))
     if most == 1:
@@ -105,6 +107,8 @@ def start_value(values: Float1D, step: float) -> float:
     count = 1
     while count < most and abs(values[count] - values[:count].mean()) <= 2.0 * noise + 1e-12:
         count += 1
+    if count < 3 <= len(values):
+        return float((13.0 * values[0] + 4.0 * values[1] - 5.0 * values[2]) / 12.0)
     return float(values[:count].mean())
 
 

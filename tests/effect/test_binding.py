@@ -1,0 +1,98 @@
+"""Which channels fit which effect: by quantity, place and letter."""
+
+from __future__ import annotations
+
+import pytest
+
+from thermodata.effect import effect
+from thermodata.effect.binding import bindings, candidate_id, family_of
+from thermodata.effect.places import match
+from thermodata.view.dataset import ChannelInfo
+
+CHANNELS = {c.name: c for c in (
+    ChannelInfo("dZ", "displacement", "um", "tcp", "Z"),
+    ChannelInfo("T_front", "temperature", "degC", "spindle.bearing.front"),
+    ChannelInfo("T_rear", "temperature", "degC", "spindle.bearing.rear"),
+    ChannelInfo("T_motor", "temperature", "degC", "spindle.motor"),
+    ChannelInfo("n", "rotational_speed", "rpm", "spindle"),
+    ChannelInfo("n_table", "rotational_speed", "rpm", "table"),
+    ChannelInfo("T_nut_z", "temperature", "degC", "axis.z.nut"),
+    ChannelInfo("T_nut_x", "temperature", "degC", "axis.x.nut"),
+    ChannelInfo("T_motor_z", "temperature", "degC", "axis.z.motor"),
+    ChannelInfo("feed_z", "feed", "m/min", "axis.z"),
+    ChannelInfo("pos_x", "position", "mm", "axis.x"),
+    ChannelInfo("T_top", "temperature", "degC", "hall.top"),
+    ChannelInfo("T_low", "temperature", "degC", "hall.bottom"),
+    ChannelInfo("T_cf", "temperature", "degC", "column.front"),
+    ChannelInfo("T_cr", "temperature", "degC", "column.rear"),
+    ChannelInfo("T_cl", "temperature", "degC", "column.left"),
+    ChannelInfo("T_cool", "temperature", "degC", "coolant.supply"),
+    ChannelInfo("cool_on", "state", "1", "coolant.supply"),
+    ChannelInfo("T_somewhere", "temperature", "degC"),
+    ChannelInfo("P", "power", "kW", "spindle"),
+    ChannelInfo("remark", "label", "1"),
+)}
+
+
+@pytest.mark.parametrize(("name", "expected"), [
+    ("spindle_bearing", [{"temperature": "T_front"}, {"temperature": "T_rear"}]),
+    ("spindle_motor", [{"temperature": "T_motor"}]),
+    ("spindle_friction", [{"speed": "n"}]),
+    ("centrifugal_shift", [{"speed": "n"}]),
+    ("ambient_frame", [{"temperature": "T_top"}, {"temperature": "T_low"}]),
+    ("vertical_gradient", [{"top": "T_top", "bottom": "T_low"}]),
+    ("feed_screw", [{"temperature": "T_nut_z"}, {"temperature": "T_nut_x"}, {"feed": "feed_z"}]),
+    ("feed_motor", [{"temperature": "T_motor_z"}]),
+    ("screw_growth", [{"temperature": "T_nut_x", "position": "pos_x"}]),
+    ("table_bearing", [{"speed": "n_table"}]),
+    ("tool_elongation", []),
+    ("cutting_power", [{"power": "P"}]),
+    ("coolant", [{"state": "cool_on"}]),
+    ("coolant_temperature", [{"temperature": "T_cool"}]),
+    ("column_bending", [{"warm_side": "T_cr", "cold_side": "T_cf"}]),
+    ("drift", [{}]),
+])
+def test_channels_are_found_by_quantity_and_place(name: str, expected: list[dict[str, str]]) -> None:
+    assert bindings(effect(name), CHANNELS) == expected
+
+
+def test_a_plain_lag_takes_every_driver_and_no_response() -> None:
+    bound = {b["u"] for b in bindings(effect("lag"), CHANNELS)}
+    assert "T_somewhere" in bound
+    assert bound == set(CHANNELS) - {"dZ", "remark"}
+
+
+def test_a_speed_without_a_place_is_the_spindles() -> None:
+    channels = {"speed": ChannelInfo("speed", "rotational_speed", "rpm"),
+                "T1": ChannelInfo("T1", "temperature", "degC")}
+    assert bindings(effect("centrifugal_shift"), channels) == [{"speed": "speed"}]
+    assert bindings(effect("table_bearing"), channels) == []
+    assert bindings(effect("spindle_bearing"), channels) == []
+
+
+def test_sides_of_the_column_pair_up() -> None:
+    both = CHANNELS | {"T_right": ChannelInfo("T_right", "temperature", "degC", "column.right")}
+    found = [(b["warm_side"], b["cold_side"]) for b in bindings(effect("column_bending"), both)]
+    assert found == [("T_cr", "T_cf"), ("T_cl", "T_right")]
+
+
+def test_the_family_names_the_axis() -> None:
+    screw = effect("feed_screw")
+    assert family_of(screw, {"temperature": "T_nut_x"}, CHANNELS) == "feed_x"
+    assert family_of(screw, {"feed": "feed_z"}, CHANNELS) == "feed_z"
+    assert family_of(screw, {"temperature": "T_somewhere"}, CHANNELS) == "feed"
+    assert candidate_id("feed_screw", {"temperature": "T_nut_x"}) == "feed_screw:T_nut_x"
+
+
+@pytest.mark.parametrize(("pattern", "place", "fits"), [
+    ("spindle.bearing", "spindle.bearing.front", True),
+    ("spindle.bearing", "spindle", False),
+    ("spindle.bearing", "spindle.bearings", False),
+    ("hall.*", "hall", True),
+    ("hall.*", "hall.top", True),
+    ("axis.{a}.nut", "axis.z.nut", True),
+    ("axis.{a}.nut", "axis.z.motor", False),
+    ("floor", None, False),
+])
+def test_a_place_holds_what_is_below_it(pattern: str, place: str | None, fits: bool) -> None:
+    assert (match(pattern, place) is not None) is fits

@@ -1,0 +1,125 @@
+"""Every installed effect passes the kit; every rule of the kit catches the effect that breaks it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+import pytest
+
+from thermodata.effect import effects
+from thermodata.errors import PluginError
+from thermodata.plugin import Drivers, Float2D, Gain, Need, Param
+from thermodata.testing import effect as kit
+
+
+@pytest.mark.parametrize("name", sorted(effects()))
+def test_the_installed_effect_keeps_the_contract(name: str) -> None:
+    assert kit.faults(effects()[name]) == {}
+
+
+class Good:
+    name = "good"
+    family = "test"
+    meaning = "k u a"
+    source = "made up"
+    needs: tuple[Need, ...] = (Need("u", "temperature"),)
+    params: tuple[Param, ...] = (Param("a", "1", 1.0, 0.5, 2.0, "a factor"),)
+    gains: tuple[Gain, ...] = (Gain("gain", "um/K", (0, 10), "any", "k"),)
+
+    def basis(self, drivers: Drivers, p: Mapping[str, float]) -> Float2D:
+        return (drivers.values["u"] * p["a"]).reshape(-1, 1)
+
+
+class NoGain(Good):
+    gains = ()
+
+    def basis(self, drivers: Drivers, p: Mapping[str, float]) -> Float2D:
+        return np.zeros((len(drivers.t_s), 0))
+
+
+class TwiceTheName(Good):
+    gains = (Gain("a", "um/K", (0, 10), "any", "k"),)
+
+
+class NoSuchQuantity(Good):
+    needs = (Need("u", "warmth"),)
+
+
+class StartsOutside(Good):
+    params = (Param("a", "1", 3.0, 0.5, 2.0, "a factor"),)
+
+
+class Flat(Good):
+    def basis(self, drivers: Drivers, p: Mapping[str, float]) -> Float2D:
+        return drivers.values["u"] * p["a"]
+
+
+class Blows(Good):
+    def basis(self, drivers: Drivers, p: Mapping[str, float]) -> Float2D:
+        with np.errstate(divide="ignore", invalid="ignore"):
+            return super().basis(drivers, p) / np.float64(2.0 - p["a"])
+
+
+class NeverRests(Good):
+    def basis(self, drivers: Drivers, p: Mapping[str, float]) -> Float2D:
+        return super().basis(drivers, p) + 1.0
+
+
+class Deaf(Good):
+    def basis(self, drivers: Drivers, p: Mapping[str, float]) -> Float2D:
+        return np.zeros((len(drivers.t_s), 1))
+
+
+class Prophet(Good):
+    def basis(self, drivers: Drivers, p: Mapping[str, float]) -> Float2D:
+        return super().basis(drivers, p)[::-1].copy()
+
+
+class Forgetful(Good):
+    calls = 0
+
+    def basis(self, drivers: Drivers, p: Mapping[str, float]) -> Float2D:
+        type(self).calls += 1
+        return super().basis(drivers, p) * type(self).calls
+
+
+class Meddler(Good):
+    def basis(self, drivers: Drivers, p: Mapping[str, float]) -> Float2D:
+        out = super().basis(drivers, p)
+        drivers.values["u"][:] += 1.0
+        return out
+
+
+class Idle(Good):
+    def basis(self, drivers: Drivers, p: Mapping[str, float]) -> Float2D:
+        return drivers.values["u"].reshape(-1, 1).copy()
+
+
+def test_a_good_effect_passes() -> None:
+    kit.check_effect(Good())
+
+
+@pytest.mark.parametrize(("broken", "rule"), [
+    (NoGain, kit.it_has_all_that_the_contract_names),
+    (TwiceTheName, kit.its_names_are_unique),
+    (NoSuchQuantity, kit.it_needs_quantities_that_exist),
+    (StartsOutside, kit.its_bounds_hold_its_start),
+    (Flat, kit.it_gives_one_column_a_gain),
+    (Blows, kit.it_is_finite_at_every_bound),
+    (NeverRests, kit.it_is_zero_at_rest),
+    (Deaf, kit.it_answers_to_its_drivers),
+    (Prophet, kit.it_does_not_look_ahead),
+    (Forgetful, kit.it_says_the_same_twice),
+    (Meddler, kit.it_says_the_same_twice),
+    (Idle, kit.every_parameter_changes_something),
+])
+def test_each_rule_catches_its_broken_twin(broken: type[Good], rule: kit.Rule) -> None:
+    assert rule.__name__ in kit.faults(broken())
+    with pytest.raises(PluginError, match=rule.__name__):
+        kit.check_effect(broken())
+
+
+def test_every_rule_has_a_broken_twin() -> None:
+    marks = test_each_rule_catches_its_broken_twin.pytestmark  # type: ignore[attr-defined]
+    assert {rule for _, rule in marks[0].args[1]} == set(kit.RULES)

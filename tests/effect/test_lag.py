@@ -1,0 +1,53 @@
+"""The lag against closed forms: steps, ramps, and what a wrong step size would show."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from thermodata.effect.lag import lag
+
+
+def test_a_ramp_is_exact_at_any_step() -> None:
+    tau = 1200.0
+    for step in (1.0, 60.0, 1800.0):
+        t = np.arange(0.0, 36000.0, step)
+        exact = t - tau * (1.0 - np.exp(-t / tau))
+        assert np.allclose(lag(t, tau, step), exact, rtol=1e-10, atol=1e-6)
+
+
+def test_a_held_input_is_reached_to_63_percent_after_one_time_constant() -> None:
+    u = np.ones(121)
+    x = lag(u, 3600.0, 60.0)
+    # the input jumps before the first sample, the state starts in balance
+    assert x[0] == 0.0
+    assert x[60] == pytest.approx(1.0 - np.exp(-1.0), rel=1e-9)
+
+
+def test_the_state_at_the_start_is_kept_and_fades() -> None:
+    x = lag(np.zeros(61), 3600.0, 60.0, start=5.0)
+    assert x[0] == pytest.approx(5.0)
+    assert x[60] == pytest.approx(5.0 / np.e)
+
+
+def test_splitting_a_record_and_carrying_the_state_changes_nothing() -> None:
+    u = np.random.default_rng(0).normal(size=400).cumsum()
+    whole = lag(u, 900.0, 60.0)
+    first = lag(u[:200], 900.0, 60.0)
+    second = lag(u[199:], 900.0, 60.0, start=float(first[-1]))
+    assert np.allclose(np.concatenate([first, second[1:]]), whole)
+
+
+def test_no_lag_and_nothing() -> None:
+    assert np.array_equal(lag(np.arange(3.0), 0.0, 60.0), [0, 1, 2])
+    assert lag(np.zeros(0), 10.0, 60.0).shape == (0,)
+
+
+def test_the_same_curve_sampled_coarser_gives_the_same_answer() -> None:
+    t = np.arange(0, 86400, 60.0)
+    u = np.interp(t, [0, 20000, 40000, 86400], [0, 5, 1, 3])
+    coarse = lag(u[::10], 5400.0, 600.0)
+    corners = np.isin(t[::10], [20000.0, 40000.0])
+    # the corners at 20000 s and 40000 s lie between coarse samples; the rest runs straight
+    assert not corners.any()
+    assert np.max(np.abs(coarse - lag(u, 5400.0, 60.0)[::10])) < 0.01

@@ -1,0 +1,187 @@
+"""The kit for effects: one call checks a plugin's effect against the contract of `thermodata.plugin.Effect`.
+
+    from thermodata.testing.effect import check_effect
+
+    def test_my_effect() -> None:
+        check_effect(MyEffect())
+
+Each rule is a function whose name is the sentence; `faults` returns what does not hold, `check_effect` raises it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import replace
+from itertools import product
+
+import numpy as np
+
+from thermodata.errors import PluginError
+from thermodata.plugin import Drivers, Effect, Float1D, Need
+from thermodata.schema.quantity import QUANTITIES
+
+STEP_S = 60.0
+_BINARY = frozenset({"state"})
+_TOP = {"rotational_speed": 9000.0, "feed": 15.0, "power": 8.0, "position": 500.0, "temperature": 15.0}
+Rule = Callable[[Effect], Iterator[str]]
+
+
+def check_effect(effect: Effect) -> None:
+    """Raises PluginError with every rule that the effect breaks."""
+    found = faults(effect)
+    if found:
+        raise PluginError(f"effect '{getattr(effect, 'name', effect)}' breaks its contract",
+                          got="; ".join(f"{rule}: {why}" for rule, why in found.items()))
+
+
+def faults(effect: Effect) -> dict[str, str]:
+    """Broken rule -> what happened. A rule that can't be checked because the effect raises is broken."""
+    found: dict[str, str] = {}
+    for rule in RULES:
+        try:
+            why = next(rule(effect), None)
+        except Exception as error:
+            why = f"{type(error).__name__}: {error}"
+        if why is not None:
+            found[rule.__name__] = why
+    return found
+
+
+def it_has_all_that_the_contract_names(effect: Effect) -> Iterator[str]:
+    if not isinstance(effect, Effect):
+        yield "an attribute or method of thermodata.plugin.Effect is missing"
+    for text in ("name", "family", "meaning", "source"):
+        if not isinstance(getattr(effect, text, None), str) or not getattr(effect, text):
+            yield f"'{text}' is no text"
+    if not effect.name.isidentifier():
+        yield f"the name '{effect.name}' is no identifier"
+    if not effect.gains:
+        yield "it has no gain, so it can contribute nothing"
+
+
+def its_names_are_unique(effect: Effect) -> Iterator[str]:
+    names = [p.name for p in effect.params] + [g.name for g in effect.gains]
+    if len(set(names)) < len(names):
+        yield f"parameters and gains share a name: {names}"
+    roles = [n.role for n in effect.needs]
+    if len(set(roles)) < len(roles):
+        yield f"roles repeat: {roles}"
+
+
+def it_needs_quantities_that_exist(effect: Effect) -> Iterator[str]:
+    for need in effect.needs:
+        if need.quantity != "*" and need.quantity not in QUANTITIES:
+            yield f"no quantity '{need.quantity}'"
+
+
+def its_bounds_hold_its_start(effect: Effect) -> Iterator[str]:
+    for p in effect.params:
+        if not (np.isfinite([p.lower, p.start, p.upper]).all() and p.lower <= p.start <= p.upper and p.lower < p.upper):
+            yield f"{p.name}: {p.lower} <= {p.start} <= {p.upper} does not hold"
+    for g in effect.gains:
+        if not 0 <= g.magnitude[0] <= g.magnitude[1] or g.sign not in ("+", "-", "any"):
+            yield f"{g.name}: magnitude {g.magnitude}, sign {g.sign!r}"
+
+
+def it_gives_one_column_a_gain(effect: Effect) -> Iterator[str]:
+    for drivers in _variants(effect):
+        for n in (len(drivers.t_s), 2, 1):
+            columns = effect.basis(_cut(drivers, n), _start(effect))
+            if not isinstance(columns, np.ndarray) or columns.shape != (n, len(effect.gains)):
+                yield f"{n} samples gave shape {np.shape(columns)}, not {(n, len(effect.gains))}"
+            elif columns.dtype != np.float64:
+                yield f"dtype {columns.dtype}, not float64"
+
+
+def it_is_finite_at_every_bound(effect: Effect) -> Iterator[str]:
+    for drivers in _variants(effect):
+        for corner in product(*((p.lower, p.upper) for p in effect.params)):
+            p = {q.name: value for q, value in zip(effect.params, corner, strict=True)}
+            if not np.isfinite(effect.basis(drivers, p)).all():
+                yield f"not finite at {p}"
+
+
+def it_is_zero_at_rest(effect: Effect) -> Iterator[str]:
+    if not effect.needs:
+        return
+    for drivers in _variants(effect):
+        rest = replace(drivers, values={r: np.zeros_like(v) for r, v in drivers.values.items()})
+        if np.any(effect.basis(rest, _start(effect)) != 0):
+            yield "with all drivers at rest it still contributes"
+
+
+def it_answers_to_its_drivers(effect: Effect) -> Iterator[str]:
+    for drivers in _variants(effect):
+        columns = effect.basis(drivers, _start(effect))
+        for gain, column in zip(effect.gains, columns.T, strict=True):
+            if not np.any(column):
+                yield f"the column of '{gain.name}' is zero whatever drives it"
+
+
+def it_does_not_look_ahead(effect: Effect) -> Iterator[str]:
+    for drivers in _variants(effect):
+        cut = len(drivers.t_s) // 2
+        late = {r: np.concatenate([v[:cut], v[cut:] * 0.3 + 1.0]) for r, v in drivers.values.items()}
+        before = effect.basis(drivers, _start(effect))[:cut]
+        after = effect.basis(replace(drivers, values=late), _start(effect))[:cut]
+        if not np.allclose(before, after, rtol=1e-9, atol=1e-9):
+            yield "what comes later changes what came before"
+
+
+def it_says_the_same_twice(effect: Effect) -> Iterator[str]:
+    for drivers in _variants(effect):
+        kept = {r: v.copy() for r, v in drivers.values.items()}
+        first = np.array(effect.basis(drivers, _start(effect)))
+        effect.basis(_cut(drivers, len(drivers.t_s) // 2), _start(effect))
+        if not np.array_equal(first, effect.basis(drivers, _start(effect))):
+            yield "a second call with the same drivers gives something else"
+        if any(not np.array_equal(kept[r], v) for r, v in drivers.values.items()):
+            yield "it changes its drivers"
+
+
+def every_parameter_changes_something(effect: Effect) -> Iterator[str]:
+    silent = {p.name for p in effect.params}
+    for drivers in _variants(effect):
+        for p in effect.params:
+            low, high = (effect.basis(drivers, {**_start(effect), p.name: end}) for end in (p.lower, p.upper))
+            if not np.allclose(low, high):
+                silent.discard(p.name)
+    if silent:
+        yield f"no driver makes {sorted(silent)} matter"
+
+
+RULES: tuple[Rule, ...] = (
+    it_has_all_that_the_contract_names, its_names_are_unique, it_needs_quantities_that_exist,
+    its_bounds_hold_its_start, it_gives_one_column_a_gain, it_is_finite_at_every_bound, it_is_zero_at_rest,
+    it_answers_to_its_drivers, it_does_not_look_ahead, it_says_the_same_twice, every_parameter_changes_something,
+)
+
+
+def _variants(effect: Effect) -> Iterator[Drivers]:
+    """Drivers that move, for each way to satisfy the needs (where all are optional: one at a time)."""
+    if effect.needs and all(n.optional for n in effect.needs):
+        for need in effect.needs:
+            yield _drivers((need,))
+    else:
+        yield _drivers(effect.needs)
+
+
+def _drivers(needs: tuple[Need, ...], n: int = 720) -> Drivers:
+    t = np.arange(n, dtype=np.float64) * np.float64(STEP_S)
+    values: dict[str, Float1D] = {}
+    for i, need in enumerate(needs):
+        top = _TOP.get(need.quantity, 1.0)
+        switched = np.repeat(np.arange(n // 90 + 1) % (2 + i) > 0, 90)[:n].astype(np.float64)
+        wave = np.sin(2 * np.pi * t / (86400.0 / (2 + i))) ** 2
+        values[need.role] = top * (switched if need.quantity in _BINARY or "speed" in need.quantity
+                                   else 0.5 * wave + 0.5 * switched * wave)
+    return Drivers(t, values, {r: np.ones(n, bool) for r in values}, {})
+
+
+def _cut(drivers: Drivers, n: int) -> Drivers:
+    return Drivers(drivers.t_s[:n], {r: v[:n] for r, v in drivers.values.items()},
+                   {r: v[:n] for r, v in drivers.valid.items()}, drivers.conditions)
+
+
+def _start(effect: Effect) -> Mapping[str, float]:
+    return {p.name: p.start for p in effect.params}
