@@ -29,7 +29,8 @@ create table file (campaign varchar not null, test varchar not null, source varc
                    source_path varchar, sha256 varchar, bytes bigint, rows bigint, columns json, losses json,
                    added_at timestamp not null);
 create table quality_event (campaign varchar not null, test varchar not null, source varchar, channel varchar,
-                            flag varchar not null, from_s double, to_s double, n bigint, detail varchar);
+                            flag varchar not null, from_s double, to_s double, n bigint, detail varchar,
+                            stream varchar);
 create table calibration (campaign varchar not null, calibration varchar not null, kind varchar not null, axis varchar,
                           gain double, gain_unit varchar, offset_value double, sign varchar,
                           uncertainty_pct double, noise_um double, nonlinearity_pct double, drift_um double,

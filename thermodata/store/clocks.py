@@ -1,0 +1,127 @@
+"""The clock of each source of a test: declared offsets, and offsets estimated from what two sources both logged."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from pathlib import Path
+
+from thermodata.calibration.result import CalibrationResult
+from thermodata.errors import SpecError, ThermodataError, unknown_name
+from thermodata.plugin import Array, Int1D
+from thermodata.store.files import key_of
+from thermodata.store.plan import SourcePlan, TestPlan
+from thermodata.store.series import TestSeries
+from thermodata.store.timeline import Clock, Span, bases
+
+
+def clocks_of(store: Path, plan: TestPlan, calibrations: Mapping[str, CalibrationResult],
+              known: Mapping[str, Clock]) -> dict[str, Clock]:
+    """The clocks of a test's sources. known: estimates of earlier runs by their key, for estimating reads data."""
+    base, notes = bases(plan)
+    plan.notes += notes
+    found: dict[str, Clock] = {}
+    for name in _ordered(plan):
+        source = plan.sources[name]
+        spec = source.spec.clock
+        declared = Clock(round((spec.offset or 0.0) * 1e9), spec.drift_ppm or 0.0, base[name])
+        found[name] = declared
+        there = plan.sources.get(spec.align_to) if spec.align_to else None
+        if spec.align_to is None or not source.raws:
+            continue
+        if there is None or not there.raws:
+            found[name] = Clock(declared.offset_ns, declared.drift_ppm, declared.base_ns, True,
+                                notes=(f"clock not aligned: source '{spec.align_to}' has no data in this test",))
+            continue
+        key = _key(plan, source, there, found[there.name], declared, calibrations)
+        found[name] = known.get(key) or _estimate(store, plan, source, there, found, calibrations, key)
+    return found
+
+
+def clock_to_json(clock: Clock) -> str:
+    """For the table `source`."""
+    return json.dumps([*clock.notes, *([{"clock_key": clock.key, "offset_ns": clock.offset_ns,
+                                         "drift_ppm": clock.drift_ppm, "base_ns": clock.base_ns,
+                                         "suspect": clock.suspect}] if clock.key else [])])
+
+
+def clock_from_json(text: str | None) -> Clock | None:
+    """The estimate that an earlier run kept, or None."""
+    items = json.loads(text or "[]")
+    kept = next((i for i in items if isinstance(i, dict) and "clock_key" in i), None)
+    if kept is None:
+        return None
+    return Clock(kept["offset_ns"], kept["drift_ppm"], kept["base_ns"], kept["suspect"], kept["clock_key"],
+                 tuple(i for i in items if isinstance(i, str)))
+
+
+def _ordered(plan: TestPlan) -> list[str]:
+    """Each source after the one that it is aligned to; SpecError for a circle or an unknown name."""
+    done: list[str] = []
+
+    def visit(name: str, above: tuple[str, ...]) -> None:
+        if name in done:
+            return
+        if name in above:
+            raise SpecError("the clocks are aligned in a circle", where=f"sources.{name}.clock.align_to",
+                            got=" -> ".join((*above, name)))
+        there = plan.campaign.sources[name].clock.align_to
+        if there is not None:
+            if there not in plan.campaign.sources:
+                raise unknown_name("source", there, list(plan.campaign.sources), where=f"sources.{name}.clock.align_to")
+            visit(there, (*above, name))
+        if name in plan.sources:
+            done.append(name)
+
+    for name in plan.sources:
+        visit(name, ())
+    return done
+
+
+def _key(plan: TestPlan, source: SourcePlan, there: SourcePlan, other: Clock, declared: Clock,
+         calibrations: Mapping[str, CalibrationResult]) -> str:
+    names = [n for pair in source.spec.clock.by for n in (pair.here, pair.there)]
+    channels = [repr((n, plan.bound.get(n))) for n in names]
+    used = [repr(calibrations.get(c)) for n in names if n in plan.bound
+            for c in _listed(plan.bound[n].channel.calibration)]
+    return key_of("clock 1", repr([r.key for r in source.raws]), repr([r.key for r in there.raws]),
+                  source.spec.clock.model_dump_json(), repr((other.offset_ns, other.drift_ppm, other.base_ns)),
+                  repr(declared), *channels, *used)
+
+
+def _estimate(store: Path, plan: TestPlan, source: SourcePlan, there: SourcePlan, clocks: dict[str, Clock],
+              calibrations: Mapping[str, CalibrationResult], key: str) -> Clock:
+    from thermodata.calibration.clock import estimate_offset
+
+    declared = clocks[source.name]
+    series = TestSeries(store, plan, clocks, Span(0, None, None, False, False), calibrations)
+    best = None
+    reasons: list[str] = []
+    for pair in source.spec.clock.by:
+        try:
+            for name in (pair.here, pair.there):
+                if name not in plan.bound:
+                    raise SpecError(f"no channel '{name}' in this test")
+            estimate = estimate_offset(*_column(series, pair.here), *_column(series, pair.there))
+        except ThermodataError as error:
+            reasons.append("; ".join(str(error).splitlines()))
+            continue
+        if best is None or abs(estimate.correlation) > abs(best.correlation):
+            best = estimate
+    if best is None:
+        why = "; ".join(reasons) or "'by' names no pair of channels"
+        return Clock(declared.offset_ns, declared.drift_ppm, declared.base_ns, True, key,
+                     (f"clock not aligned to '{there.name}': {why}",))
+    note = (f"clock aligned to '{there.name}': {best.offset_ns / 1e9:+.3f} s, uncertainty "
+            f"{best.uncertainty_ns / 1e9:.3f} s, correlation {best.correlation:.3f}")
+    return Clock(declared.offset_ns + int(best.offset_ns), declared.drift_ppm, declared.base_ns, False, key, (note,))
+
+
+def _column(series: TestSeries, name: str) -> tuple[Int1D, Array]:
+    bound = series.plan.bound[name]
+    t_ns = series.timeline((bound.source, bound.stream)).t_ns
+    return t_ns, series.values(bound, 0, len(t_ns))[0]
+
+
+def _listed(names: str | list[str] | None) -> list[str]:
+    return [names] if isinstance(names, str) else list(names or [])

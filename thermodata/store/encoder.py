@@ -1,0 +1,82 @@
+"""A Parquet file in the making: encoding runs beside whoever makes the data, in one thread."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Mapping
+from pathlib import Path
+from queue import Queue
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+if TYPE_CHECKING:
+    import pyarrow as pa
+
+COMPRESSION = "lz4"
+
+
+class Encoder:
+    """A ParquetWriter that works in its own thread, two row groups behind at most."""
+
+    def __init__(self, part: Path, schema: pa.Schema) -> None:
+        import pyarrow as pa
+        import pyarrow.parquet as pq
+
+        self.part, self.schema = part, schema
+        # only text and flags repeat themselves so much that a dictionary pays
+        repeats = [f.name for f in schema if pa.types.is_string(f.type) or f.name.endswith("__flag")]
+        times = [f.name for f in schema if f.name in ("t_ns", "t", "t_s")]
+        self._writer = pq.ParquetWriter(part, schema, compression=COMPRESSION, use_dictionary=repeats or False,
+                                        write_statistics=times)
+        self._queue: Queue[pa.Table | None] = Queue(maxsize=2)
+        self._error: BaseException | None = None
+        self._thread = threading.Thread(target=self._run, name="raw-parquet", daemon=True)
+        self._thread.start()
+
+    def put(self, table: pa.Table) -> None:
+        if self._error is not None:
+            raise self._error
+        self._queue.put(table)
+
+    def _run(self) -> None:
+        while (table := self._queue.get()) is not None:
+            if self._error is None:
+                try:
+                    self._writer.write_table(table, row_group_size=max(1, table.num_rows))
+                except BaseException as error:
+                    self._error = error
+
+    def _join(self) -> None:
+        self._queue.put(None)
+        self._thread.join()
+
+    def close(self, meta: Mapping[str, str]) -> None:
+        self._join()
+        if self._error is None:
+            self._writer.add_key_value_metadata(dict(meta))
+        self._writer.close()
+        if self._error is not None:
+            raise self._error
+
+    def abandon(self) -> None:
+        self._join()
+        self._writer.close()
+        self.part.unlink(missing_ok=True)
+
+    def widened(self, schema: pa.Schema) -> Encoder:
+        """A new file with more columns that begins with what this one holds (rare: a flag in mid-file)."""
+        import pyarrow as pa
+        import pyarrow.parquet as pq
+
+        self.close({})
+        wider = Encoder(self.part.with_name(f".w{self.part.name}"), schema)
+        with pq.ParquetFile(self.part) as old:
+            for i in range(old.num_row_groups):
+                table = old.read_row_group(i)
+                for name in schema.names:
+                    if name not in table.column_names:
+                        table = table.append_column(name, pa.array(np.zeros(table.num_rows, np.uint16)))
+                wider.put(table.select(schema.names).cast(schema))
+        self.part.unlink()
+        return wider

@@ -1,0 +1,58 @@
+"""The store's format: newer ones are refused, older ones are brought up after a backup."""
+
+from __future__ import annotations
+
+import shutil
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from thermodata.errors import StoreError
+from thermodata.store.ddl import FORMAT
+
+if TYPE_CHECKING:
+    import duckdb
+
+# format -> the SQL that makes the next one of it
+STEPS: dict[int, str] = {}
+
+
+def check_format(con: duckdb.DuckDBPyConnection, path: Path, prefix: str = "") -> int:
+    """The store's format; StoreError where it is newer than this program, or where it is no store at all."""
+    import duckdb
+
+    try:
+        found = con.execute(f"select format, created_by from {prefix}store").fetchone()
+    except duckdb.CatalogException:
+        found = None
+    if found is None:
+        raise StoreError("this database is not a store", where=str(path), expected="a table 'store' with one row",
+                         got="none")
+    version, made_by = int(found[0]), str(found[1])
+    if version > FORMAT:
+        raise StoreError("the store was written by a newer version", where=str(path),
+                         expected=f"store format {FORMAT} or older", got=f"format {version}, made by {made_by}",
+                         hint=f"install a thermodata that knows store format {version}")
+    return version
+
+
+def migrate(con: duckdb.DuckDBPyConnection, folder: Path,
+            reopen: Callable[[], duckdb.DuckDBPyConnection]) -> duckdb.DuckDBPyConnection:
+    """Brings an older catalogue to this format, keeping the old file beside it; returns an open connection."""
+    version = check_format(con, folder)
+    if version == FORMAT:
+        return con
+    missing = [v for v in range(version, FORMAT) if v not in STEPS]
+    if missing:
+        raise StoreError("the store's format is too old", where=str(folder), got=f"format {version}",
+                         expected=f"format {FORMAT}", hint="ingest the campaigns into a new store")
+    # closed first: a copy through another descriptor would drop DuckDB's lock on the open file
+    con.close()
+    shutil.copyfile(folder / "catalog.duckdb", folder / f"catalog.format{version}.duckdb.backup")
+    con = reopen()
+    con.execute("begin transaction")
+    for step in range(version, FORMAT):
+        con.execute(STEPS[step])
+    con.execute(f"update store set format = {FORMAT}")
+    con.execute("commit")
+    return con

@@ -1,0 +1,159 @@
+"""One raw Parquet file in the making: blocks of one stream in, row groups of bounded size out."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from thermodata.errors import PluginError
+from thermodata.plugin import Array, Block, Signal
+from thermodata.store.encoder import Encoder
+from thermodata.store.files import publish, temporary
+
+if TYPE_CHECKING:
+    import pyarrow as pa
+
+GROUP_VALUES = 2_000_000      # values in a row group: 16 MB of float64, whatever the number of columns
+GROUP_ROWS = 250_000
+
+
+class StreamWriter:
+    """Writes the blocks of one stream; encoding runs beside the reader in one thread.
+
+    A column `<signal>__flag` appears with the first block that flags the signal.
+    """
+
+    def __init__(self, target: Path, signals: list[Signal]) -> None:
+        self.target, self.signals = target, signals
+        self.columns = _column_names(signals)
+        self.flagged: set[str] = set()
+        self.rows, self.first_ns, self.last_ns, self.step_ns = 0, 0, 0, 0
+        self._group_rows = max(1000, min(GROUP_ROWS, GROUP_VALUES // (len(signals) + 1)))
+        self._waiting: list[Block] = []
+        self._waiting_rows = 0
+        self._encoder: Encoder | None = None
+        self._steps: list[int] = []
+
+    def add(self, block: Block) -> None:
+        """Takes a block; the reader may not change its arrays afterwards."""
+        n = len(block.t_ns)
+        if n == 0:
+            return
+        low, high = int(block.t_ns.min()), int(block.t_ns.max())
+        self.first_ns = min(self.first_ns, low) if self.rows else low
+        self.last_ns = max(self.last_ns, high) if self.rows else high
+        if n > 1 and len(self._steps) < 64:
+            self._steps.append(int(np.median(np.diff(block.t_ns[:4096]))))
+        self.rows += n
+        for start in range(0, n, self._group_rows):
+            part = block if n <= self._group_rows else _slice(block, start, start + self._group_rows)
+            self._waiting.append(part)
+            self._waiting_rows += len(part.t_ns)
+            if self._waiting_rows >= self._group_rows:
+                self._flush()
+
+    def finish(self, meta: Mapping[str, Any]) -> None:
+        """Writes what waits and makes the file appear."""
+        self._flush()
+        self.step_ns = int(np.median(self._steps)) if self._steps else 0
+        assert self._encoder is not None
+        self._encoder.close({"thermodata": json.dumps(dict(meta))})
+        publish(self._encoder.part, self.target)
+        self._encoder = None
+
+    def discard(self) -> None:
+        """Drops an unfinished file; nothing where it is finished."""
+        if self._encoder is not None:
+            self._encoder.abandon()
+            self._encoder = None
+
+    def _flush(self) -> None:
+        if not self._waiting:
+            return
+        blocks, self._waiting, self._waiting_rows = self._waiting, [], 0
+        new = {name for b in blocks for name in (b.flags or {}) if name in self.columns} - self.flagged
+        if new:
+            self.flagged |= new
+            if self._encoder is not None:
+                self._encoder = self._encoder.widened(self._schema())
+        if self._encoder is None:
+            self.target.parent.mkdir(exist_ok=True)
+            self._encoder = Encoder(temporary(self.target), self._schema())
+        self._encoder.put(self._table(blocks))
+
+    def _schema(self) -> pa.Schema:
+        import pyarrow as pa
+
+        fields = [pa.field("t_ns", pa.int64(), nullable=False)]
+        for signal in self.signals:
+            fields.append(pa.field(self.columns[signal.name], arrow_type(signal)))
+            if signal.name in self.flagged:
+                fields.append(pa.field(f"{self.columns[signal.name]}__flag", pa.uint16()))
+        return pa.schema(fields)
+
+    def _table(self, blocks: list[Block]) -> pa.Table:
+        import pyarrow as pa
+
+        schema, arrays = self._schema(), [_chunks([b.t_ns for b in blocks], pa.int64())]
+        for signal in self.signals:
+            kind = arrow_type(signal)
+            parts = [b.values.get(signal.name) for b in blocks]
+            arrays.append(pa.chunked_array(
+                [pa.nulls(len(b.t_ns), kind) if v is None else _arrow(v, kind, signal)
+                 for b, v in zip(blocks, parts, strict=True)], type=kind))
+            if signal.name in self.flagged:
+                arrays.append(_chunks([_flags(b, signal.name) for b in blocks], pa.uint16()))
+        return pa.Table.from_arrays(arrays, schema=schema)
+
+
+def arrow_type(signal: Signal) -> pa.DataType:
+    """The column type of a signal: the file's own."""
+    import pyarrow as pa
+
+    if signal.dtype == "str":
+        return pa.string()
+    try:
+        return pa.from_numpy_dtype(np.dtype(signal.dtype).newbyteorder("="))
+    except (TypeError, NotImplementedError, pa.ArrowNotImplementedError) as error:
+        raise PluginError(f"signal '{signal.name}' has a dtype that cannot be stored", expected="a number or 'str'",
+                          got=signal.dtype) from error
+
+
+def _arrow(values: Array, kind: pa.DataType, signal: Signal) -> pa.Array:
+    import pyarrow as pa
+
+    if signal.dtype == "str":
+        return pa.array([None if v is None else str(v) for v in values.tolist()], type=kind)
+    native = values.dtype.newbyteorder("=")
+    return pa.array(np.ascontiguousarray(values, dtype=native), type=kind)
+
+
+def _chunks(parts: list[Array], kind: pa.DataType) -> pa.ChunkedArray:
+    import pyarrow as pa
+
+    return pa.chunked_array([pa.array(np.ascontiguousarray(p)) for p in parts], type=kind)
+
+
+def _flags(block: Block, name: str) -> Array:
+    given = (block.flags or {}).get(name)
+    return np.zeros(len(block.t_ns), np.uint16) if given is None else np.asarray(given).astype(np.uint16)
+
+
+def _slice(block: Block, start: int, stop: int) -> Block:
+    return Block(block.stream, block.t_ns[start:stop], {k: v[start:stop] for k, v in block.values.items()},
+                 None if block.flags is None else {k: v[start:stop] for k, v in block.flags.items()})
+
+
+def _column_names(signals: list[Signal]) -> dict[str, str]:
+    taken, names = {"t_ns"}, {}
+    for signal in signals:
+        name = signal.name or "unnamed"
+        while name.lower() in taken or f"{name}__flag".lower() in taken:
+            name += "_"
+        names[signal.name] = name
+        taken |= {name.lower(), f"{name}__flag".lower()}
+    return names
