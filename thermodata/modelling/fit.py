@@ -12,6 +12,7 @@ from thermodata.errors import UsageError
 from thermodata.modelling.arx import identify_arx, placeholder
 from thermodata.modelling.design import Design, Nonlinear
 from thermodata.modelling.fitted import FittedModel, FittedResponse, FittedTerm, Values, has_response
+from thermodata.modelling.orders import choose_orders, open_orders
 from thermodata.modelling.quality import checks
 from thermodata.modelling.resolve import BoundResponse, BoundTerm, Key, resolve
 from thermodata.modelling.search import Problem, search
@@ -43,6 +44,8 @@ def fit_response(bound: BoundResponse, tests: Sequence[TestData], wanted: tuple[
                  data: Dataset | None = None, *, uncertainty: bool = True) -> FittedResponse:
     """Fit one response to some tests (all must have its drivers). data: where effects that are identified first
     find their own tests (default: among `tests`)."""
+    for i in open_orders(bound):
+        bound = choose_orders(bound, i, tests, lambda b: fit_response(b, tests, wanted, data))
     bound, arx = _with_placeholders(bound)
     held: dict[int, FittedTerm] = {}
     for own, members in _stages(bound.terms):

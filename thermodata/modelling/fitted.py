@@ -83,7 +83,10 @@ class FittedTerm:
         return np.asarray(self.columns(test) @ gains, dtype=np.float64)
 
     def can_predict(self, test: TestData) -> bool:
-        return not self.bound.covers(test) or (self.bound.has(test) and self.values(test) is not None)
+        """A gain a test (gain_by: test) is nothing to an unseen test; any other unknown group is a refusal."""
+        if not self.bound.covers(test):
+            return True
+        return self.bound.has(test) and (self.bound.spec.gain_by == "test" or self.values(test) is not None)
 
 
 @dataclass(frozen=True)
