@@ -1,3 +1,76 @@
-"""Reader of tables: CSV, XLSX and Parquet."""
+"""Reader of tables: CSV and other delimited text, XLSX and Parquet, with a layout that is declared or found."""
 
 from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+from types import ModuleType
+
+from thermodata.errors import FormatError, ThermodataError
+from thermodata.plugin import Block, Head, Loss, Recording, Source
+
+
+class Reader:
+    """One row a time, one column a signal; the layout is `sources.*.table` of the campaign file."""
+
+    name = "table"
+
+    def sniff(self, head: Head) -> str | None:
+        if head.start[:4] == b"PAR1":
+            return "Parquet: the file starts with 'PAR1'"
+        if head.start[:4] == b"PK\x03\x04":
+            return "XLSX: a ZIP file that holds a workbook" if b"xl/" in head.start or b"[Content_Types]" in head.start \
+                else None
+        return _sniff_text(head)
+
+    def describe(self, path: Path, source: Source) -> Recording:
+        recording: Recording = _format(path).describe(path, source)
+        return recording
+
+    def blocks(self, path: Path, source: Source) -> Iterator[Block | Loss]:
+        found: Iterator[Block | Loss] = _format(path).blocks(path, source)
+        return found
+
+
+# Text files that are tables at first sight, and have readers of their own
+_OTHERS = ("LabVIEW Measurement", "/Nck/", "%[GLOBAL]", "ScopeName", "SampleTime", "<?xml", "* ", "TagName")
+
+
+def _sniff_text(head: Head) -> str | None:
+    from thermodata.reader.text import decode_head
+    from thermodata_reader_table.delimited import head_rows
+    from thermodata_reader_table.layout import find
+
+    text = decode_head(head.start)
+    if not text or any(word in text[:2000] for word in _OTHERS):
+        return None
+    found = head_rows(text.lstrip("\ufeff"), head.size_bytes <= len(head.start), None)
+    if found is None or found[0] == "|":
+        return None
+    delimiter, rows = found
+    try:
+        layout = find(rows, None, head.name)
+    except ThermodataError:
+        return None
+    if layout.first == 0:
+        return None                                  # without a header, nothing says what the columns are
+    shown = {"\t": "tab"}.get(delimiter, f"'{delimiter}'")
+    return f"table: cells separated by {shown}, time in column '{layout.names[layout.time[0]]}'"
+
+
+def _format(path: Path) -> ModuleType:
+    with path.open("rb") as file:
+        start = file.read(4)
+    if not start:
+        raise FormatError("an empty file", where=path.name, expected="a table")
+    if start == b"PAR1":
+        from thermodata_reader_table import parquet
+
+        return parquet
+    if start == b"PK\x03\x04":
+        from thermodata_reader_table import workbook
+
+        return workbook
+    from thermodata_reader_table import delimited
+
+    return delimited

@@ -1,0 +1,190 @@
+"""How a table lies on its page: preamble, header rows, units, time columns. Declared, or found in its first rows."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from thermodata.errors import FormatError, UsageError, nearest
+from thermodata.reader.text import clean, looks_like_unit, split_unit
+from thermodata_reader_table.stamps import is_date, is_time_of_day
+
+Cell = Any   # text, or what a workbook holds: numbers, bool, datetime, date, time
+SECONDS = {"s": 1.0, "sec": 1.0, "sek": 1.0, "seconds": 1.0, "min": 60.0, "minutes": 60.0, "h": 3600.0, "hod": 3600.0,
+           "std": 3600.0, "hours": 3600.0, "d": 86400.0, "days": 86400.0, "ms": 1e-3, "us": 1e-6, "µs": 1e-6, "ns": 1e-9}
+_TIME_WORDS = re.compile(
+    r"^(time|t|zeit|čas|cas|temps|tiempo|tempo|datum|date|dátum|uhrzeit|timestamp|date[ _]?time|datetime|zeitstempel|"
+    r"elapsed([ _]?time)?|時間|时间|日時|日期|時刻|rel(ative)?[ _.]?time|t_s|time_s)\.?:?$", re.IGNORECASE)
+_NUMBER = re.compile(r"^[+-]?(\d+([.,]\d*)?|[.,]\d+)([eE][+-]?\d+)?$")
+_WORDS = {"nan", "inf", "-inf", "true", "false", "---", "-", "n/a", "#n/a", "null", ""}
+
+
+@dataclass(frozen=True)
+class Layout:
+    """first: rows before the data (preamble, header, units). names: header of each column as in the file, without
+    blanks around it. time: columns, from 0. seconds: of one unit of a relative time; None for dates."""
+
+    first: int
+    names: tuple[str, ...]
+    units: tuple[str | None, ...]
+    time: tuple[int, ...]
+    seconds: float | None
+    form: str | None
+    notes: tuple[str, ...] = ()
+
+
+def is_number(cell: Cell) -> bool:
+    if isinstance(cell, str):
+        return _NUMBER.match(cell.strip()) is not None
+    return isinstance(cell, int | float)
+
+
+def _is_stamp(cell: Cell) -> bool:
+    if isinstance(cell, str):
+        return is_date(cell) or is_time_of_day(cell)
+    return not isinstance(cell, int | float) and hasattr(cell, "isoformat")
+
+
+def _is_data(row: Sequence[Cell], width: int) -> bool:
+    """Numbers or dates in half of the filled cells, and no fewer cells than the table has."""
+    filled = [c for c in row if not (isinstance(c, str) and c.strip().lower() in _WORDS) and c is not None]
+    values = sum(is_number(c) or _is_stamp(c) for c in filled)
+    return bool(filled) and values * 2 >= len(filled) and values >= 1 and len(row) >= min(width, 2)
+
+
+def find(rows: Sequence[Sequence[Cell]], declared: Mapping[str, Any] | None, where: str) -> Layout:
+    """The layout of a table from its first rows (some hundred suffice). declared: the campaign file's `table`.
+
+    FormatError where no data, or no time column, can be found.
+    """
+    said = {k: v for k, v in (declared or {}).items() if v is not None}
+    skip = int(said.get("skip_rows", 0))
+    body = list(rows[skip:])
+    width = max((len(r) for r in body), default=0)
+    header = said.get("header_rows")
+    first = skip + int(header) if header is not None else _first_data(body, width, where) + skip
+    units_row = said.get("units_row")
+    if units_row is not None and header is not None and int(units_row) > first:
+        first = int(units_row)
+    heads, units = _heads(rows[skip:first], width, None if units_row is None else int(units_row) - 1 - skip)
+    names = _unique(heads)
+    data = [list(r) + [""] * (width - len(r)) for r in rows[first:first + 200]]
+    if not data:
+        raise FormatError("a table without data rows", where=where, expected=f"data after row {first}")
+    time, seconds, form, notes = _time(said.get("time") or {}, names, units, data, where)
+    return Layout(first, tuple(names), tuple(units), time, seconds, form, tuple(notes))
+
+
+def _first_data(body: Sequence[Sequence[Cell]], width: int, where: str) -> int:
+    for i, row in enumerate(body):
+        if _is_data(row, width) and all(_is_data(r, width) or not any(r) for r in body[i + 1:i + 3]):
+            return i
+    raise FormatError("no data rows found", where=where, expected="rows of numbers and times",
+                      hint="declare table: {header_rows: ..., skip_rows: ...}")
+
+
+def _heads(rows: Sequence[Sequence[Cell]], width: int, units_row: int | None) -> tuple[list[str], list[str | None]]:
+    """Names and units from the rows before the data; rows that do not span the table are preamble."""
+    texts = [[clean(str(c)) if c is not None else "" for c in r] + [""] * (width - len(r)) for r in rows]
+    units: list[str | None] = [None] * width
+    if units_row is not None and 0 <= units_row < len(texts):
+        units = [u.strip("[]() ") or None for u in texts.pop(units_row)]
+    spanning = [r for r in texts if sum(map(bool, r)) * 2 > width or len(texts) == 1]
+    if units_row is None and len(spanning) >= 2:
+        filled = [c for c in spanning[-1] if c]
+        if sum(looks_like_unit(c) or c.startswith("[") for c in filled) * 2 > len(filled):
+            units = [u.strip("[]() ") or None for u in spanning.pop()]
+    names = spanning[-1] if spanning else [""] * width
+    if len(spanning) >= 2:
+        # two rows of names: the group above is written once, over the first of its columns
+        above, group = [], ""
+        for cell in spanning[-2]:
+            group = cell or group
+            above.append(group)
+        if len(set(names)) < len(names):
+            names = [f"{a}/{n}" if a and n and a != n else n or a for a, n in zip(above, names, strict=True)]
+    found = [split_unit(n)[1] for n in names]
+    return names, [u or f for u, f in zip(units, found, strict=True)]
+
+
+def _unique(names: Sequence[str]) -> list[str]:
+    out: list[str] = []
+    for i, name in enumerate(names):
+        base = name or f"column {i + 1}"
+        new, k = base, 2
+        while new in out:
+            new, k = f"{base}#{k}", k + 1
+        out.append(new)
+    return out
+
+
+def _column(wanted: int | str, names: Sequence[str], where: str) -> int:
+    if isinstance(wanted, int):
+        if not 1 <= wanted <= len(names):
+            raise FormatError(f"no column {wanted}", where=where, expected=f"1 to {len(names)}", got=str(wanted))
+        return wanted - 1
+    for fold in (str, str.casefold):
+        hits = [i for i, n in enumerate(names) if fold(wanted) in (fold(n), fold(split_unit(n)[0]))]
+        if len(hits) == 1:
+            return hits[0]
+    close = nearest(wanted, names)
+    raise UsageError(f"no time column '{wanted}'", where=where, expected=", ".join(names[:30]), got=wanted,
+                     hint=f"did you mean '{close}'?" if close else None)
+
+
+def _time(said: Mapping[str, Any], names: list[str], units: list[str | None], data: list[list[Cell]],
+          where: str) -> tuple[tuple[int, ...], float | None, str | None, list[str]]:
+    wanted, unit, form = said.get("column"), said.get("unit"), said.get("format")
+    if wanted is not None:
+        columns = tuple(_column(w, names, where) for w in (wanted if isinstance(wanted, list | tuple) else [wanted]))
+    else:
+        columns = _find_time(names, units, data, where)
+    cells = [row[columns[0]] for row in data]
+    numeric = sum(map(is_number, cells)) * 2 > len(cells)
+    notes: list[str] = []
+    if form is not None or (not numeric and unit is None):
+        return columns, None, form, notes
+    text = unit or units[columns[0]]
+    if text is None:
+        text = "s"
+        notes.append(f"time column '{names[columns[0]]}' has no unit: taken as seconds; declare table: {{time: "
+                     "{unit: ...}} if that is wrong")
+    seconds = SECONDS.get(str(text).strip().lower())
+    if seconds is None:
+        raise FormatError(f"unknown unit of time '{text}'", where=where, expected=", ".join(SECONDS), got=str(text))
+    return columns, seconds, None, notes
+
+
+def _find_time(names: list[str], units: list[str | None], data: list[list[Cell]], where: str) -> tuple[int, ...]:
+    width = len(names)
+
+    def share(column: int, test: Any) -> float:
+        cells = [r[column] for r in data if r[column] not in ("", None)]
+        return sum(bool(test(c)) for c in cells) / len(cells) if cells else 0.0
+
+    def dated(c: Cell) -> bool:
+        return is_date(c) if isinstance(c, str) else hasattr(c, "year")
+
+    def clocked(c: Cell) -> bool:
+        return is_time_of_day(c) if isinstance(c, str) else hasattr(c, "hour") and not hasattr(c, "year")
+
+    words = [i for i in range(width) if _TIME_WORDS.match(split_unit(names[i])[0].strip())]
+    dates = [i for i in range(width) if share(i, dated) > 0.8]
+    clocks = [i for i in range(width) if share(i, clocked) > 0.8]
+    if dates:
+        first = next((i for i in dates if i in words), dates[0])
+        sample = next(r[first] for r in data if r[first] not in ("", None))
+        has_clock = ":" in sample if isinstance(sample, str) else hasattr(sample, "hour") and (
+            not clocks or any(r[first] and r[first].hour + r[first].minute + r[first].second for r in data))
+        return (first,) if has_clock or not clocks else (first, clocks[0])
+    if clocks:
+        return (clocks[0],)
+    numbers = [i for i in words if share(i, is_number) > 0.8]
+    if numbers:
+        return (numbers[0],)
+    if (units[0] or "").strip().lower() in SECONDS and share(0, is_number) > 0.8:
+        return (0,)
+    raise FormatError("no time column found", where=where, expected="a column of dates, or one called time or with s, "
+                      "min or h as its unit", got=", ".join(names[:12]), hint="declare table: {time: {column: 1, unit: s}}")
