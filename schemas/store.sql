@@ -17,14 +17,15 @@ create table source (campaign varchar not null, test varchar not null, source va
                      notes json);
 create table channel (campaign varchar not null, test varchar not null, channel varchar not null, source varchar,
                       stream varchar, signal varchar, quantity varchar not null, unit varchar not null,
-                      raw_unit varchar, axis varchar, at varchar, relative_to varchar, sign varchar not null,
+                      raw_unit varchar, axis varchar, "at" varchar, relative_to varchar, sign varchar not null,
                       calibration varchar, dtype varchar not null, sensor json, notes varchar);
 create table file (campaign varchar not null, test varchar not null, source varchar not null, stream varchar not null,
                    layer varchar not null, part varchar not null, key varchar not null, path varchar not null,
                    source_path varchar, sha256 varchar, bytes bigint, rows bigint, columns json, losses json,
                    added_at timestamp not null);
 create table quality_event (campaign varchar not null, test varchar not null, source varchar, channel varchar,
-                            flag varchar not null, from_s double, to_s double, n bigint, detail varchar);
+                            flag varchar not null, from_s double, to_s double, n bigint, detail varchar,
+                            stream varchar);
 create table calibration (campaign varchar not null, calibration varchar not null, kind varchar not null, axis varchar,
                           gain double, gain_unit varchar, offset_value double, sign varchar,
                           uncertainty_pct double, noise_um double, nonlinearity_pct double, drift_um double,
@@ -42,4 +43,4 @@ create table prediction (campaign varchar not null, test varchar not null, model
 create table finding (campaign varchar not null, test varchar not null, model varchar not null, kind varchar not null,
                       rank integer, payload json not null, created_at timestamp not null);
 create table locked_look (campaign varchar not null, test varchar not null, model varchar not null,
-                          reason varchar not null, at timestamp not null);
+                          reason varchar not null, "at" timestamp not null);

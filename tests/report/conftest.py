@@ -58,7 +58,8 @@ def diagnosis(verdict: str = "effect") -> Diagnosis:
     def candidate(rank: int, effect: str, drivers: list[str], after: float, claimed: bool) -> Candidate:
         return Candidate(
             rank=rank, id=f"{effect}:{'+'.join(drivers)}", effect=effect, family="feed_z", drivers=drivers,
-            claimed=claimed, p_value=0.004 * rank, rmse_um_before=4.2, rmse_um_after=after, fit_before=41.0, fit_after=88.0,
+            claimed=claimed, p_value=0.004 * rank, rmse_um_before=4.2, rmse_um_after=after, fit_before=41.0,
+            fit_after=88.0,
             locked_rmse_um_before=4.6 if claimed else None, locked_rmse_um_after=0.95 if claimed else None,
             parameters={"k": Parameter(value=3.1, unit="um/K", low=2.8, high=3.4)},
             equivalent=["feed_motor:T_motor_Z"] if claimed else [],
@@ -67,7 +68,7 @@ def diagnosis(verdict: str = "effect") -> Diagnosis:
 
     return Diagnosis(
         model="b1", response="dZ", verdict=verdict, noise_um=0.7, rmse_um=4.2, explainable=0.93,
-        weak_spots=[WeakSpot(campaign="demo", test="day1", from_s=11000, to_s=24000, rmse_um=6.1, state="feed, 9000 rpm"),
+        weak_spots=[WeakSpot(campaign="demo", test="day1", from_s=11000, to_s=24000, rmse_um=6.1, state="feed on"),
                     WeakSpot(campaign="demo", test="etve", from_s=13000, to_s=20000, rmse_um=4.4, state="feed on")],
         candidates=[candidate(1, "feed_screw", ["T_nut_Z"], 0.9, verdict == "effect"),
                     candidate(2, "feed_motor", ["T_motor_Z"], 1.3, False),

@@ -77,10 +77,10 @@ def command(name: str, **more: Any) -> Callable[[Callable[..., Any]], click.Comm
             store = options.pop("store_after") or ctx.find_root().obj or "thermodata.store"
             return function(Session(Path(store), options.pop("as_json")), *args, **options)
 
-        made: Any = click.pass_context(cast(Any, call))
+        made: Any = click.pass_context(call)
         made = click.option("--json", "as_json", is_flag=True, help="Print JSON.")(made)
         made = click.option("--store", "store_after", metavar="DIR", help="The store's folder.")(made)
-        finished: click.Command = click.command(name, **more)(made)
+        finished: click.Command = cast(Any, click.command(name, **more))(made)
         return finished
 
     return decorate

@@ -110,7 +110,7 @@ def story(step: Step, folder: Path, hide: str, seed: int) -> dict[str, Any]:
 
     step.title(3, "fit: the baseline model, with the effects that one would expect")
     path = next(p for p in (folder / "baseline.yaml", folder / "models" / "baseline.yaml") if p.is_file())
-    base = fit(store, load_model(path))
+    base = fit(store, load_model(path), base=path.parent)
     effects = sorted({key.split(".")[0] for key in base.parameters})
     step.line(f"{', '.join(effects)}; error {number(pooled(base.scores, 'calibration'))} um in calibration, "
               f"{number(pooled(base.scores, 'verification'))} um in verification")

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import re
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import PurePosixPath
 
 from thermodata.cli.naming import channel_name, guess, words
@@ -57,7 +57,15 @@ def group(files: Sequence[RawFile]) -> list[Group]:
         source = reader if names[reader] == 1 else f"{reader}{names[reader]}"
         template, tests = template_of([str(f.path) for f in members])
         groups.append(Group(source, reader, tuple(members), template, tests))
-    return groups
+    every = {str(f.path) for f in files}
+    ids = {test for g in groups for test in g.tests}
+    return [g if _holds(g, ids, every) else replace(g, template=None) for g in groups]
+
+
+def _holds(group: Group, ids: set[str], every: set[str]) -> bool:
+    """Whether the template names, for every test of the campaign, a file of this group or none at all."""
+    return group.template is not None and all(
+        (path := group.template.replace("{test}", test)) not in every or group.tests.get(test) == path for test in ids)
 
 
 def is_calibration(path: PurePosixPath) -> bool:
@@ -117,7 +125,8 @@ def draft(campaign: str, files: Sequence[RawFile], ignored: Sequence[tuple[str, 
             stream = f"stream {signal.stream}" if several else ""
             note = "; ".join(filter(None, ["? " + ", ".join(doubts) if doubts else "", stream]))
             flow = ", ".join(f"{k}: {_text(v)}" for k, v in keys.items() if v is not None)
-            lines.append(f"  {name}: {{{flow}}}" + (f"   # {note}" if note else ""))
+            mark = "  " if found.quantity else "# "
+            lines.append(f"{mark}{name}: {{{flow}}}" + (f"   # {note}" if note else ""))
     jumps = [(name, axis, g, s, f) for name, axis, g, s in displacements
              if axis and (f := _jump_for(s, calibrations))]
     if jumps:

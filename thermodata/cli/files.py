@@ -70,7 +70,10 @@ def find_raw(folder: Path) -> tuple[list[RawFile], list[tuple[str, str]]]:
 @command("sniff")
 @click.argument("files", nargs=-1, required=True, type=_FILE, metavar="FILE...")
 def sniff_command(session: Session, files: tuple[Path, ...]) -> int:
-    """Say which reader claims each FILE, and why. Exit code 2 where none or several do."""
+    """Say which reader claims each FILE, and why.
+
+    Exit code 2 where none or several do.
+    """
     from thermodata.reader import claims, readers
 
     rows: list[dict[str, Any]] = []

@@ -9,13 +9,11 @@ import click
 
 from thermodata.cli.common import Session, command, plain
 from thermodata.cli.table import table
-from thermodata.errors import UsageError
 from thermodata.report.words import change, number, pooled
 
 if TYPE_CHECKING:
     from thermodata.schema.result import FitResult, Parameter, Score
     from thermodata.store import Store
-    from thermodata.store.models import StoredModel
 
 
 def resolve(store: Store, ref: str) -> str:
@@ -24,7 +22,7 @@ def resolve(store: Store, ref: str) -> str:
         from thermodata.modelling.run import fit
         from thermodata.schema.load import load_model
 
-        return fit(store, load_model(Path(ref))).model
+        return fit(store, load_model(Path(ref)), base=Path(ref).parent).model
     return ref
 
 
@@ -40,8 +38,11 @@ def fit_command(session: Session, model: str) -> None:
     from thermodata.store.models import find_model
 
     store = session.store()
-    spec = load_model(Path(model)) if Path(model).is_file() or model.endswith((".yaml", ".yml")) else None
-    result = fit(store, spec if spec is not None else find_model(store, model).spec)
+    if model.endswith((".yaml", ".yml")) or Path(model).is_file():
+        result = fit(store, load_model(Path(model)), base=Path(model).parent)
+    else:
+        stored = find_model(store, model)
+        result = fit(store, stored.spec, parent=stored.parent)
     session.answer(result, lambda: fit_text(result))
 
 
@@ -83,31 +84,37 @@ def add_command(session: Session, model: str, candidate: str) -> None:
 @click.argument("model")
 def history_command(session: Session, model: str) -> None:
     """Show the versions that led to MODEL, and their errors."""
+    from thermodata.report.collect import versions
     from thermodata.store.models import model_chain
 
     store = session.store()
-    chain = [version(m) for m in model_chain(store, resolve(store, model))]
+    stored = model_chain(store, resolve(store, model))
+    chain = [{"model": v.model, "name": v.name, "parent": m.parent, "added": v.added, "rmse_um": v.all_um,
+              "calibration_rmse_um": v.calibration_um, "verification_rmse_um": v.verification_um, "stale": v.stale}
+             for v, m in zip(versions(stored), stored, strict=True)]
     session.answer(chain, lambda: table(chain, [
-        ("name", "name"), ("model", "model"), ("added", "added"), ("calibration_rmse_um", "calibration [um]"),
-        ("verification_rmse_um", "verification [um]"), ("stale", "stale")]))
+        ("name", "name"), ("model", "model"), ("added", "added"), ("rmse_um", "RMSE [um]"),
+        ("calibration_rmse_um", "calibration [um]"), ("verification_rmse_um", "verification [um]"),
+        ("stale", "stale")]))
 
 
 @command("portability")
 @click.argument("model")
 def portability_command(session: Session, model: str) -> None:
-    """Test how MODEL transfers to other machines."""
-    raise UsageError("'portability' is not supported yet",
-                     hint="fit one model over several campaigns (campaigns: [...]) and compare the scores by test")
+    """Say how MODEL transfers to other tests and machines.
 
+    The gain g that fits the model to each, the error without (n) and with (c) it, and the class: portable,
+    with_correction, not_portable.
+    """
+    from thermodata.modelling.run import transfer
 
-def version(stored: StoredModel) -> dict[str, Any]:
-    """One version of a model as a row: what it added and its pooled errors by role [um]."""
-    scores = stored.result.scores
-    effects = [e.id or e.effect for e in stored.spec.effects]
-    return {"name": stored.name, "model": stored.model, "parent": stored.parent, "effects": effects,
-            "added": effects[-1] if stored.parent and effects else None, "stale": stored.stale,
-            "calibration_rmse_um": pooled(scores, "calibration"),
-            "verification_rmse_um": pooled(scores, "verification"), "locked_rmse_um": pooled(scores, "locked")}
+    store = session.store()
+    rows = [plain(row) for row in transfer(store, resolve(store, model))]
+    session.answer(rows, lambda: table(rows, [
+        ("campaign", "campaign"), ("test", "test"), ("machine", "machine"), ("role", "role"), ("g", "g"),
+        ("g_end", "g at end of heating"), ("fit_n", "FIT n [%]"), ("fit_c", "FIT c [%]"),
+        ("ptp_measured", "PTP measured [um]"), ("ptp_n", "PTP n [um]"), ("ptp_c", "PTP c [um]"),
+        ("verdict", "class")]))
 
 
 def fit_text(result: FitResult, *, scores: bool = True) -> str:

@@ -6,8 +6,9 @@ import re
 import unicodedata
 from dataclasses import dataclass
 
+from thermodata.errors import UsageError
 from thermodata.schema.campaign import RESERVED_NAMES
-from thermodata.schema.quantity import CANONICAL_UNIT, normal_unit
+from thermodata.schema.quantity import CANONICAL_UNIT, linear_conversion, normal_unit
 
 # Quantity -> words in its names (stems: diacritics and case are gone before matching).
 _WORDS: tuple[tuple[str, str], ...] = (
@@ -74,11 +75,16 @@ _PLACES: tuple[tuple[str, str], ...] = (
 )
 
 
+_WITHOUT_UNIT = frozenset({"label", "state", "tilt", "angle"})        # pint converts any bare number to these
+_NAME_KNOWS_BETTER = {("position", "displacement"), ("temperature_difference", "temperature")}
+
+
 @dataclass(frozen=True, slots=True)
 class Guess:
-    """quantity and unit as they would stand in a campaign file; doubts: what a person should look at."""
+    """quantity (None: there is none for the unit) and unit as they would stand in a campaign file; doubts: what a
+    person should look at."""
 
-    quantity: str
+    quantity: str | None
     unit: str | None
     at: str | None
     axis: str | None
@@ -99,18 +105,28 @@ def guess(name: str, unit: str | None, dtype: str = "float64") -> Guess:
     normal = normal_unit(unit) if unit else None
     by_name = next((quantity for quantity, pattern in _WORDS if re.search(pattern, text)), None)
     by_unit = _BY_UNIT.get(normal) if normal else None
+    quantity: str | None
     if dtype == "str":
         quantity = "label"
     elif dtype == "bool" or (by_name == "state" and by_unit is None):
         quantity = "state"
-    elif by_unit and not (by_unit == "position" and by_name == "displacement") and not (
-            by_unit == "temperature_difference" and by_name == "temperature"):
+    elif normal in ("V", "mV"):
+        # only probes are commonly logged in volts; anything else in volts needs a calibration first
+        quantity = "displacement" if by_name == "displacement" else "voltage"
+        if quantity == "voltage":
+            doubts.append("what does it measure? then: calibration")
+    elif by_unit and (by_unit, by_name) not in _NAME_KNOWS_BETTER:
         quantity = by_unit
-    elif by_name:
+    elif by_name and (normal is None or _converts(normal, by_name)):
         quantity = by_name
-    else:
-        quantity = "state" if normal is None and dtype != "float64" else "voltage"
+    elif normal in (None, "dimensionless"):
+        quantity = "state" if normal or dtype.startswith(("int", "uint")) else "voltage"
         doubts.append("quantity?")
+    else:
+        quantity = next((q for q in CANONICAL_UNIT if q not in _WITHOUT_UNIT and _converts(normal, q)), None)
+        doubts.append("quantity?" if quantity else f"no quantity has the unit {unit}")
+    if quantity is None:
+        return Guess(None, unit, None, None, tuple(doubts))
     letter = re.search(r"(?:^|\s)(?:[a-z]{0,4}\s)?([xyzabc])\d?(?:\s|$)|\b(?:d|pos|feed|nut|ax)([xyzabc])\b", text)
     axis = (letter[1] or letter[2]) if letter else None
     place = next((place for place, pattern in _PLACES if re.search(pattern, text)), None)
@@ -131,6 +147,14 @@ def guess(name: str, unit: str | None, dtype: str = "float64") -> Guess:
         doubts.append("unit?")
     return Guess(quantity, None if quantity in ("state", "label") else unit, place,
                  axis.upper() if axis and quantity in ("displacement", "tilt") else None, tuple(doubts))
+
+
+def _converts(unit: str, quantity: str) -> bool:
+    try:
+        linear_conversion(unit, CANONICAL_UNIT[quantity])
+    except UsageError:
+        return False
+    return True
 
 
 def channel_name(signal: str, taken: set[str]) -> str:

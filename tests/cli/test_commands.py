@@ -1,0 +1,128 @@
+from __future__ import annotations
+
+import re
+import subprocess
+import sys
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+import click
+import pytest
+
+from thermodata.cli.app import COMMANDS, Commands, cli
+from thermodata.errors import StoreError
+
+from .conftest import Said
+
+Say = Callable[..., Said]
+CONTRACT = set("demo init sniff preview ingest calibrations tests channels quality trace sql snapshot export fit compare "
+               "portability diagnose add history report workbench simulate benchmark-diagnosis plugins schema forget "
+               "gc".split())
+
+
+def commands() -> list[tuple[str, click.Command]]:
+    group = cli
+    assert isinstance(group, Commands)
+    found = [(name, group.get_command(click.Context(group), name)) for name in COMMANDS]
+    return [(name, command) for name, command in found if command is not None]
+
+
+def test_every_command_of_the_contract_is_there() -> None:
+    assert set(COMMANDS) == CONTRACT
+    assert {name for name, _ in commands()} == CONTRACT
+
+
+@pytest.mark.parametrize(("name", "command"), commands())
+def test_every_command_is_documented(name: str, command: click.Command) -> None:
+    assert command.name == name
+    first = (command.help or "").strip().split("\n\n")[0]
+    assert re.match(r"[A-Z].*\.$", first, re.S), f"{name}: a help that starts with a sentence"
+    assert len(first) <= 75, f"{name}: the first sentence is the line in 'thermodata --help'"
+    for parameter in command.params:
+        if isinstance(parameter, click.Option):
+            assert parameter.help, f"{name} {parameter.opts}: an option without help"
+
+
+@pytest.mark.parametrize(("name", "command"), commands())
+def test_every_command_answers_json(name: str, command: click.Command) -> None:
+    assert any("--json" in p.opts for p in command.params)
+
+
+def test_help_starts_fast() -> None:
+    def once() -> float:
+        begin = time.perf_counter()
+        subprocess.run([sys.executable, "-c", "import sys; from thermodata.cli import main; sys.exit(main(['--help']))"],
+                       check=True, capture_output=True)
+        return time.perf_counter() - begin
+
+    assert min(once() for _ in range(3)) < 0.5
+
+
+def test_help_imports_nothing_heavy() -> None:
+    code = ("import sys; from thermodata.cli import main; main(['--help']); "
+            "print([m for m in ('duckdb','pandas','scipy','plotly','pyarrow','nptdms','pint','pydantic') "
+            "if m in sys.modules], file=sys.stderr)")
+    assert subprocess.run([sys.executable, "-c", code], capture_output=True, text=True).stderr.strip() == "[]"
+
+
+def test_an_unknown_command_names_the_nearest(say: Say) -> None:
+    said = say("diagnos", "x")
+    assert (said.code, said.out) == (2, "")
+    assert said.err.startswith("error: no command 'diagnos'")
+    assert "did you mean 'diagnose'?" in said.err
+
+
+@pytest.mark.parametrize("words", [["fit"], ["fit", "a", "b", "c"], ["tests", "--nope"], ["report"]])
+def test_wrong_usage_is_2_and_says_where_help_is(say: Say, words: list[str]) -> None:
+    said = say(*words)
+    assert (said.code, said.out) == (2, "")
+    assert said.err.startswith("error: ")
+    assert "--help" in said.err
+
+
+@pytest.mark.parametrize("command", [["tests"], ["fit", "baseline"], ["sql", "select 1"], ["gc"], ["report", "x"]])
+def test_without_a_store_the_hint_is_ingest(say: Say, tmp_path: Path, command: list[str]) -> None:
+    said = say("--store", tmp_path / "none", *command)
+    assert said.code == 2
+    assert f"where: {tmp_path / 'none'}" in said.err
+    assert "thermodata ingest" in said.err
+    assert not (tmp_path / "none").exists()
+
+
+def test_the_store_may_stand_after_the_command_or_in_the_environment(
+    say: Say, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    assert str(tmp_path / "after") in say("tests", "--store", tmp_path / "after").err
+    monkeypatch.setenv("THERMODATA_STORE", str(tmp_path / "variable"))
+    assert str(tmp_path / "variable") in say("tests").err
+
+
+@pytest.mark.parametrize(("error", "code", "text"), [
+    (StoreError("the store is busy", where="s", expected="a turn", got="60 s", hint="again"), 4,
+     "error: the store is busy\nwhere: s\nexpected: a turn, got: 60 s\ntry: again\n"),
+    (KeyboardInterrupt(), 1, "error: interrupted\n"),
+    (PermissionError(13, "Permission denied", "x.tdms"), 1, "error: Permission denied\nwhere: x.tdms\n"),
+])
+def test_errors_become_lines_and_codes(
+    say: Say, monkeypatch: pytest.MonkeyPatch, error: BaseException, code: int, text: str
+) -> None:
+    def fail(*_: object) -> None:
+        raise error
+
+    monkeypatch.setattr("thermodata.cli.plugins.installed", fail)
+    said = say("plugins")
+    assert (said.code, said.out, said.err.lstrip("\n")) == (code, "", text)      # click ends the line of ^C
+
+
+def test_a_defect_says_so_and_keeps_the_traceback_for_debugging(say: Say, monkeypatch: pytest.MonkeyPatch) -> None:
+    def fail() -> None:
+        raise KeyError("x")
+
+    monkeypatch.setattr("thermodata.cli.plugins.installed", fail)
+    said = say("plugins")
+    assert said.code == 1
+    assert said.err.startswith("error: a defect in thermodata: KeyError: 'x'")
+    monkeypatch.setenv("THERMODATA_DEBUG", "1")
+    with pytest.raises(KeyError):
+        say("plugins")

@@ -1,0 +1,57 @@
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+import pytest
+
+from thermodata.cli.common import plain
+from thermodata.cli.table import table
+from thermodata.report.words import change, duration, number, typeset
+
+
+@pytest.mark.parametrize(("value", "text"), [
+    (12.345, "12.3"), (0.0123456, "0.0123"), (1234.5, "1234"), (-0.5, "-0.500"), (0.0, "0"), (None, "-"),
+    (float("nan"), "-"), (float("inf"), "inf"), (7, "7"), (1.5e9, "1.50e+09"), (2e-6, "2.00e-06"), (True, "True"),
+])
+def test_numbers_have_three_figures(value: object, text: str) -> None:
+    assert number(value) == text
+
+
+@pytest.mark.parametrize(("seconds", "text"), [(36000.0, "10.0 h"), (1500.0, "25 min"), (8.0, "8 s"), (None, "-")])
+def test_durations_read_well(seconds: float | None, text: str) -> None:
+    assert duration(seconds) == text
+
+
+def test_a_change_is_a_share_of_what_was() -> None:
+    assert (change(4.0, 1.0), change(1.0, 1.5), change(None, 1.0), change(0.0, 1.0)) == ("-75 %", "+50 %", "-", "-")
+
+
+def test_a_page_typesets_units_and_minus() -> None:
+    assert typeset("-2.4 um/K -> 1 um, jump-z") == "−2.4 µm/K → 1 µm, jump-z"
+
+
+def test_a_table_aligns_numbers_right_and_texts_left() -> None:
+    rows = [{"test": "a", "rmse": 1.0, "n": 5}, {"test": "longer", "rmse": None, "n": 12345}]
+    assert table(rows, [("test", "test"), ("rmse", "RMSE [um]"), ("n", "n")]).splitlines() == [
+        "test    RMSE [um]      n",
+        "──────  ─────────  ─────",
+        "a            1.00      5",
+        "longer          -  12345",
+    ]
+
+
+def test_a_table_cuts_long_texts_and_keeps_one_line_a_row() -> None:
+    lines = table([{"a": "x" * 100, "b": "two\nlines"}], [("a", "a"), ("b", "b")], widest=10).splitlines()
+    assert lines[-1] == "xxxxxxxxx…  two lines"
+
+
+def test_json_knows_no_nan_and_takes_anything() -> None:
+    @dataclass
+    class Row:
+        a: float
+        b: object
+
+    found = plain({"x": [Row(math.nan, np.float64(2.5)), Row(math.inf, np.array([1, 2]))], 3: (True, None)})
+    assert found == {"x": [{"a": None, "b": 2.5}, {"a": None, "b": [1, 2]}], "3": [True, None]}
