@@ -18,8 +18,8 @@ from thermodata.calibration.nodes import (
     AnyOf,
     Arithmetic,
     Comparison,
+    Constant,
     Every,
-    Literal_,
     Name,
     Negative,
     Node,
@@ -65,7 +65,7 @@ class Evaluation:
 
     def of(self, node: Node) -> Value:
         match node:
-            case Literal_(value, unit):
+            case Constant(value, unit):
                 return Number(value, unit, not unit, f"{value:g} {unit}".strip(), True)
             case Name(name):
                 return self._name(name)

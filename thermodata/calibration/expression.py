@@ -233,12 +233,12 @@ class _Parser:
         if words and words.split("/")[0] not in _WORDS:
             self.at = match.start("unit") + len(words)
             self._next()
-            return nodes.Literal_(value, words)
+            return nodes.Constant(value, words)
         self._next()
         if self.kind == "name" and self.token not in _WORDS:
             raise self._fail(f"'{self.token}' after a number is not a unit", "an operator or a unit",
                              hint=f"write '{value:g} * {self.token}'")
-        return nodes.Literal_(value, "")
+        return nodes.Constant(value, "")
 
 
 __all__ = ["Expression", "parse"]

@@ -10,7 +10,7 @@ Comparator = Literal["<", "<=", ">", ">=", "==", "!="]
 
 
 @dataclass(frozen=True, slots=True)
-class Literal_:
+class Constant:
     """A number; unit "" where it has none: it then takes the unit of what it meets."""
 
     value: float
@@ -62,4 +62,4 @@ class Not:
     of: Node
 
 
-Node = Literal_ | Name | Negative | Absolute | Arithmetic | Comparison | Every | AnyOf | Not
+Node = Constant | Name | Negative | Absolute | Arithmetic | Comparison | Every | AnyOf | Not
