@@ -16,7 +16,9 @@ from thermodata.modelling.resolve import BoundResponse, BoundTerm
 from thermodata.plugin import Bool1D, Float1D, Float2D, Param
 from thermodata.view.dataset import TestData
 
-KEPT = 4000                     # columns kept before the oldest go
+KEPT = 2000                     # columns kept before they all go
+GRID = 9                        # first look at a time constant or an exponent
+MOMENTS = 145                   # first look at a moment: its error has no slope to follow
 
 
 @dataclass(frozen=True)
@@ -38,6 +40,7 @@ class Nonlinear:
     upper: float
     start: float
     log: bool
+    points: int = GRID
 
     def inside(self, x: float) -> float:
         value = float(np.exp(x)) if self.log else float(x)

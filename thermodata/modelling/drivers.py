@@ -105,7 +105,7 @@ def start_value(values: Float1D, step: float) -> float:
     bends = np.diff(values, n=2) if len(values) > 3 else np.zeros(1)
     noise = 1.4826 * float(np.median(np.abs(bends))) / np.sqrt(6.0)
     count = 1
-    while count < most and abs(values[count] - values[:count].mean()) <= 2.0 * noise + 1e-12:
+    while count < most and abs(values[count] - values[:count].mean()) <= 3.0 * noise + 1e-12:
         count += 1
     if count < 3 <= len(values):
         return float((13.0 * values[0] + 4.0 * values[1] - 5.0 * values[2]) / 12.0)

@@ -10,7 +10,7 @@ import numpy as np
 
 from thermodata.errors import UsageError
 from thermodata.modelling.arx import identify_arx, placeholder
-from thermodata.modelling.design import Design, Nonlinear
+from thermodata.modelling.design import GRID, MOMENTS, Design, Nonlinear
 from thermodata.modelling.fitted import FittedModel, FittedResponse, FittedTerm, Values, has_response
 from thermodata.modelling.orders import choose_orders, open_orders
 from thermodata.modelling.quality import checks
@@ -170,10 +170,14 @@ def make_problem(design: Design, held: Mapping[int, FittedTerm]) -> Problem:
 def _add(design: Design, term: BoundTerm, param: Param, slots: tuple[int, ...], free: list[Nonlinear],
          fixed: list[dict[str, float]]) -> None:
     lower, upper = term.spec.bounds.get(param.name, (param.lower, param.upper))
+    moment = param.unit == "min" and param.lower <= 0
+    if moment and param.name not in term.spec.bounds:
+        ends = [design.tests[j].t_s[-1] / 60.0 for s in slots for j in design.slots[s].tests]
+        upper = min(upper, max(ends))
     start = term.spec.start.get(param.name, min(max(param.start, lower), upper))
     if _matters(design, term, param, slots, (lower, upper)):
         log = lower > 0 and upper / lower > 5
-        free.append(Nonlinear(param, slots, lower, upper, start, log))
+        free.append(Nonlinear(param, slots, lower, upper, start, log, MOMENTS if moment else GRID))
     else:
         for s in slots:
             fixed[s][param.name] = start

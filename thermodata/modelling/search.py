@@ -15,8 +15,8 @@ from thermodata.modelling.design import Design, Nonlinear
 from thermodata.modelling.solve import solve_gains, squared_error
 from thermodata.plugin import Float1D, Float2D
 
-GRID = 9
 SWEEPS = 4
+HALVINGS = 3
 
 
 @dataclass
@@ -72,23 +72,22 @@ def search(problem: Problem, sweep: bool = True) -> Float1D:
 
 
 def _sweeps(problem: Problem, x: Float1D) -> Float1D:
-    """Coordinate descent over a grid that narrows once it stops moving."""
-    ends = [(f.outside(f.lower), f.outside(f.upper)) for f in problem.free]
-    width = np.array([b - a for a, b in ends])
+    """Coordinate descent over the whole range until nothing moves, then over ever smaller neighbourhoods."""
+    low = np.array([f.outside(f.lower) for f in problem.free])
+    high = np.array([f.outside(f.upper) for f in problem.free])
     best = np.inf
-    for sweep in range(2 * SWEEPS):
-        fine = sweep >= SWEEPS
-        before = x.copy()
-        for i, (a, b) in enumerate(ends):
-            reach = width[i] / (GRID - 1)
-            points = (np.linspace(x[i] - reach, x[i] + reach, 5) if fine else np.linspace(a, b, GRID))
-            x, best = _along(problem, x, i, np.clip(points, a, b), best)
-        if len(x) == 1 and fine:
+    for _ in range(SWEEPS):
+        before = x
+        for i, f in enumerate(problem.free):
+            x, best = _along(problem, x, i, np.linspace(low[i], high[i], f.points), best)
+        if len(x) == 1 or np.array_equal(x, before):
             break
-        if np.allclose(x, before):
-            if fine:
-                break
-            width = width / 2 if sweep == 0 else width
+    reach = np.array([(b - a) / (f.points - 1) for a, b, f in zip(low, high, problem.free, strict=True)])
+    for _ in range(HALVINGS):
+        reach = reach / 2
+        for i in range(len(x)):
+            near = np.array([x[i] - reach[i], x[i] + reach[i]])
+            x, best = _along(problem, x, i, np.clip(near, low[i], high[i]), best)
     return x
 
 

@@ -66,8 +66,9 @@ class FreeFunction:
 
 
 class GivenFunction:
-    """Coefficients as printed: a0.. over b0.. at `sample_s`, or num0.. over den0.. of s (highest power first,
-    time in `time_s` seconds). One gain: 1 for the function as printed, free for `g` times the function."""
+    """Coefficients as printed: a0.. over b0.. at `sample_s`, or num0.. over den0.. of s, num0 + num1 s + num2 s^2
+    (paper 001 prints K1 + K2 s + K3 s^2; time in `time_s` seconds). One gain: 1 for the function as printed, free
+    for `g` times the function."""
 
     name = NAME
     family = "generic"
@@ -81,8 +82,11 @@ class GivenFunction:
         self.num, self.den = np.asarray(num, float), np.asarray(den, float)
         self.sample_s, self.time_s = sample_s, time_s
         self.meaning = f"given function, {len(num)} over {len(den)} coefficients"
-        if not len(self.num) or not len(self.den) or self.den[0] == 0:
+        lead = 0 if sample_s is not None else -1
+        if not len(self.num) or not len(self.den) or self.den[lead] == 0:
             raise SpecError("a transfer function without a leading denominator coefficient", where=where)
+        if sample_s is None and len(self.num) > len(self.den):
+            raise SpecError("a transfer function with more numerator than denominator coefficients", where=where)
         if sample_s is not None and sample_s <= 0:
             raise SpecError("the sample time of a transfer function is positive", where=where, got=f"{sample_s}")
         self._stable(where)
@@ -91,8 +95,10 @@ class GivenFunction:
     def gain_at_rest(self) -> float:
         """um per unit of the driver."""
         if self.sample_s is None:
-            return float(self.num[-1] / self.den[-1])
-        return float(self.num.sum() / self.den.sum())
+            rest, full = self.num[0], self.den[0]
+        else:
+            rest, full = self.num.sum(), self.den.sum()
+        return float(rest / full) if full != 0 else float("inf")
 
     def basis(self, drivers: Drivers, p: Mapping[str, float]) -> Float2D:
         return self.simulate(drivers.t_s, drivers.values["u"]).reshape(-1, 1)
@@ -106,11 +112,11 @@ class GivenFunction:
             y = lfilter(self.num, self.den, np.interp(fine, t_s, u))
             return np.asarray(np.interp(t_s, fine, y), dtype=np.float64)
         step = (t_s[1] - t_s[0]) / self.time_s if len(t_s) > 1 else 1.0
-        num, den, _ = cont2discrete((self.num, self.den), step, method="foh")
+        num, den, _ = cont2discrete((self.num[::-1], self.den[::-1]), step, method="foh")
         return np.asarray(lfilter(np.ravel(num), den, u), dtype=np.float64)
 
     def _stable(self, where: str | None) -> None:
-        poles = np.roots(self.den)
+        poles = np.roots(self.den if self.sample_s is not None else self.den[::-1])
         bad = poles[poles.real >= 0] if self.sample_s is None else poles[np.abs(poles) >= 1]
         if len(bad):
             raise SpecError("the transfer function is not stable: its free run grows without end", where=where,
