@@ -1,0 +1,233 @@
+"""A world: one machine, one hall, one campaign, and the truth about each effect. `dataset` is its fast path.
+
+The displacement at the tool centre point is a sum of contributions, each an integral over the cells of one part
+(elongation, bending) or a function of speed (the centrifugal shift); a contribution belongs to one effect of the
+library. None is a first-order lag: a fitted sum of lags leaves what a distributed machine leaves.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from thermodata.errors import UsageError, nearest
+from thermodata.plugin import Float1D, Float2D
+from thermodata.schema.model import EffectSpec, Model, Response
+from thermodata.view.dataset import Dataset
+from thermodata.virtual.catalogue import EFFECTS, drivers_of
+from thermodata.virtual.hall import BOUNDARIES, Hall, air, smooth
+from thermodata.virtual.losses import spindle_power
+from thermodata.virtual.machine import Machine, build
+from thermodata.virtual.plan import AXES, MAX_SPEED, Operation, make_plan
+from thermodata.virtual.sensors import Sensor, make_sensors
+from thermodata.virtual.thermal import run
+
+POOL = tuple(k for k in EFFECTS if k not in ("spindle_bearing", "ambient_frame"))
+DETECTABLE_UM, DETECTABLE_LOCKED_UM = 2.7, 2.3
+
+
+@dataclass(frozen=True)
+class Run:
+    """One test as it was. readings: channel -> shape (n,) on the grid of 10 s. contributions: effect -> (3, n) [um]
+    along X, Y, Z from the start of the test. displacement: (3, n) with the probes' slow noise [um]."""
+
+    op: Operation
+    start_unix_s: float
+    readings: dict[str, Float1D]
+    contributions: dict[str, Float2D]
+    displacement: Float2D
+
+
+@dataclass(frozen=True)
+class World:
+    """present: all effects that the machine has, the hidden one among them. levers: effect -> (3,) along X, Y, Z."""
+
+    seed: int
+    hide: str
+    axis: str
+    machine: Machine
+    hall: Hall
+    sensors: tuple[Sensor, ...]
+    present: tuple[str, ...]
+    levers: dict[str, Float1D]
+    noise_um: float
+    white_um: float
+    runs: tuple[Run, ...]
+
+    @property
+    def campaign(self) -> str:
+        return f"virtual-{self.seed}"
+
+    @property
+    def machine_id(self) -> str:
+        return f"V{100 + self.seed % 900}"
+
+    @property
+    def response(self) -> str:
+        return f"d{self.axis}"
+
+    @property
+    def axis_index(self) -> int:
+        return AXES.index(self.axis)
+
+    @cached_property
+    def rms_um(self) -> dict[str, dict[str, float]]:
+        """effect -> test -> standard deviation of its contribution to the response over the measured samples [um]."""
+        return {e: {r.op.id: float(np.std(r.contributions[e][self.axis_index][r.op.measuring])) for r in self.runs}
+                for e in self.present}
+
+    def baseline(self, *, without: str | None = None) -> Model:
+        """The model of the lab: every effect of the world but the hidden one (or but `without`)."""
+        gone = self.hide if without is None else without
+        effects = [EffectSpec(effect=e, drivers=dict(drivers_of(e, self.axis))) for e in self.present if e != gone]
+        return Model(schema="thermodata/model/1", name="baseline", campaign=self.campaign,
+                     response=Response.model_validate({"axis": self.axis, "at": "tcp"}), effects=effects)
+
+
+def make_world(hide: str = "none", seed: int = 0, *, tests: int | None = None, hours: float = 12.0,
+               measured: bool = True) -> World:
+    """Simulates a campaign. measured=False leaves out the sensors that drive the hidden effect.
+
+    UsageError for an unknown effect, fewer than two tests or less than two hours.
+    """
+    if hide != "none" and hide not in EFFECTS:
+        close = nearest(hide, [*EFFECTS, "none"])
+        raise UsageError(f"no effect '{hide}' to hide", expected=", ".join([*EFFECTS, "none"]), got=hide,
+                         hint=f"did you mean '{close}'?" if close else None)
+    if tests is not None and not 2 <= tests <= 40:
+        raise UsageError("a campaign needs a test to learn from and a locked one", expected="2 to 40 tests",
+                         got=str(tests))
+    if not 2.0 <= hours <= 96.0:
+        raise UsageError("tests of this length tell nothing about heat", expected="2 to 96 h", got=f"{hours} h")
+    rng = np.random.default_rng([seed, 7919, sum(map(ord, hide))])
+    axis = _axis(rng, hide)
+    present = _present(rng, hide, axis)
+    ops = make_plan(rng, axis, hours, tests)
+    machine = build(rng, ops[0].home)
+    hall = Hall.draw(rng)
+    sensors = _sensors(rng, present, AXES[axis], hide if not measured else None)
+    starts = _starts(rng, len(ops), hours)
+    outside = [air(hall, op, hour, day, rng) for op, (day, hour) in zip(ops, starts, strict=True)]
+    cells = [s for s in sensors if isinstance(s.cell, tuple)]
+    growing = [e for e in present if e != "centrifugal_shift"]
+    observe = np.zeros((len(cells) + len(growing), machine.network.size))
+    for row, s in enumerate(cells):
+        assert isinstance(s.cell, tuple)
+        observe[row, machine.cells[s.cell[0]][s.cell[1]]] = 1.0
+    for row, e in enumerate(growing, start=len(cells)):
+        observe[row] = machine.growth[_part(e, AXES[axis])]
+    seen = run(machine, ops, outside, observe, rng)
+    units: list[dict[str, Float1D]] = []
+    for op, field in zip(ops, seen, strict=True):
+        unit = {e: field[row] - field[row, 0] for row, e in enumerate(growing, start=len(cells))}
+        if "centrifugal_shift" in present:
+            unit["centrifugal_shift"] = (op.speed / MAX_SPEED) ** 2
+        units.append(unit)
+    levers = {e: _lever(rng, e, axis, [u[e] for u in units], ops) for e in present}
+    noise, white = float(rng.uniform(0.3, 0.5)), float(rng.uniform(0.1, 0.25))
+    runs = []
+    for op, field, unit, boundary, (day, hour) in zip(ops, seen, units, outside, starts, strict=True):
+        contributions = {e: levers[e][:, None] * unit[e] for e in present}
+        total = np.sum(list(contributions.values()), axis=0)
+        total = total + np.stack([smooth(rng, op.n, noise, float(rng.uniform(600, 2400))) for _ in range(3)])
+        true = {s.name: field[row] for row, s in enumerate(cells)}
+        readings = {s.name: s.read(_true(s, true, boundary, op), rng) for s in sensors}
+        runs.append(Run(op, EPOCH_S + 86_400.0 * day + 3600.0 * hour, readings, contributions, total))
+    return World(seed, hide, AXES[axis], machine, hall, sensors, present, levers, noise, white, tuple(runs))
+
+
+def dataset(hide: str = "none", seed: int = 0, step_s: float = 60.0, *, tests: int | None = None,
+            hours: float = 12.0, measured: bool = True) -> tuple[Dataset, Model]:
+    """The data that the logs of this world give after ingest, and the lab's baseline model; no files are written.
+
+    Sensor noise and resolution are in it; displacements are in um along the machine's axes.
+    """
+    from thermodata.virtual.binned import to_dataset
+
+    world = make_world(hide, seed, tests=tests, hours=hours, measured=measured)
+    return to_dataset(world, step_s), world.baseline()
+
+
+EPOCH_S = 1_771_801_200.0                                   # 2026-02-23 00:00 in Prague
+
+
+def _axis(rng: np.random.Generator, hide: str) -> int:
+    if hide in ("column_bending", "vertical_gradient"):
+        return 1 if rng.random() < 0.6 else 2
+    if hide != "none" and EFFECTS[hide].only_z:
+        return 2
+    return 1 if rng.random() < 0.12 else 2
+
+
+def _present(rng: np.random.Generator, hide: str, axis: int) -> tuple[str, ...]:
+    """Four to six effects beside the hidden one; no two of one family, the hidden one's excepted."""
+    chosen = ["spindle_bearing", "ambient_frame"]
+    taken = {EFFECTS[e].family for e in chosen if e != hide}
+    wanted = int(rng.integers(4, 7)) + (hide in chosen)
+    for e in rng.permutation(list(POOL)):
+        if len(chosen) >= wanted:
+            break
+        h = EFFECTS[str(e)]
+        if e == hide or h.family in taken or (h.only_z and axis != 2):
+            continue
+        taken.add(h.family)
+        chosen.append(str(e))
+    if hide != "none" and hide not in chosen:
+        chosen.append(hide)
+    return tuple(chosen)
+
+
+def _sensors(rng: np.random.Generator, present: tuple[str, ...], axis: str, blind: str | None) -> tuple[Sensor, ...]:
+    needed = frozenset(c for e in present for c in drivers_of(e, axis).values())
+    sensors = make_sensors(rng, needed)
+    if blind is None or blind == "none":
+        return sensors
+    kept = frozenset(c for e in present if e != blind for c in drivers_of(e, axis).values())
+    gone = frozenset(drivers_of(blind, axis).values()) - kept
+    return tuple(s for s in sensors if s.name not in gone)
+
+
+def _starts(rng: np.random.Generator, tests: int, hours: float) -> list[tuple[int, float]]:
+    """(day, local hour) of each test: in the morning or in the evening, with a night to soak between."""
+    pitch = max(2, int(np.ceil((hours + 10) / 24)))
+    return [(i * pitch, float(rng.choice([6.5, 7.5, 8.5, 18.0])) + float(rng.integers(0, 6)) / 6) for i in range(tests)]
+
+
+def _part(effect: str, axis: str) -> str:
+    return f"{effect}_{axis.lower()}" if effect in ("feed_screw", "feed_motor") else effect
+
+
+def _true(sensor: Sensor, cells: dict[str, Float1D], boundary: Float2D, op: Operation) -> Float1D:
+    if sensor.name in cells:
+        return cells[sensor.name]
+    if isinstance(sensor.cell, str):
+        return np.asarray(boundary[BOUNDARIES.index(sensor.cell)])
+    name, _, letter = sensor.name.partition("_")
+    if name == "feed":
+        return np.asarray(op.feed[AXES.index(letter)])
+    if name == "pos":
+        return np.asarray(op.position[AXES.index(letter)])
+    plain = {"spindle_speed": op.speed, "table_speed": op.table_speed, "coolant_on": op.coolant,
+             "pump_on": op.pump, "door_open": op.door}
+    return plain[sensor.name] if sensor.name in plain else spindle_power(op)
+
+
+def _lever(rng: np.random.Generator, effect: str, axis: int, unit: list[Float1D], ops: list[Operation]) -> Float1D:
+    """How the machine's geometry carries an effect to the tool centre point, along X, Y, Z.
+
+    Drawn so that the effect matters as much as the lab would notice: in its best test, in three tests, in the
+    locked one.
+    """
+    h = EFFECTS[effect]
+    spread = np.array([float(np.std(u[op.measuring])) for u, op in zip(unit, ops, strict=True)])
+    ranked = np.sort(spread)[::-1]
+    third = ranked[min(2, len(ranked) - 1)]
+    locked = max(s for s, op in zip(spread, ops, strict=True) if op.role == "locked")
+    size = max(float(rng.uniform(*h.rms_um)) / ranked[0], DETECTABLE_UM / max(third, 1e-9),
+               DETECTABLE_LOCKED_UM / max(locked, 1e-9))
+    size = min(size, 40.0 / ranked[0])
+    lever = size * np.array(h.axes) * rng.uniform(0.5, 1.0, 3) * rng.choice([-1.0, 1.0], 3)
+    lever[axis] = size * rng.choice([-1.0, 1.0])
+    return np.asarray(lever)
