@@ -33,7 +33,7 @@ class Column:
 
 @dataclass(frozen=True, slots=True)
 class Group:
-    """The tidy files of one (campaign, source, stream): equal columns, so one read_parquet serves them all.
+    """Tidy files of one (campaign, source, stream) with equal columns, so one read_parquet serves them all.
 
     name: unique suffix for views and macros. paths: test -> its files, relative to the store.
     """
@@ -81,24 +81,25 @@ class Namer:
 def read_catalogue(con: duckdb.DuckDBPyConnection) -> Catalogue:
     """The campaigns and the groups of tidy files that views show (not the histories before windows)."""
     rows = con.execute(
-        "select campaign, source, stream, test, path from file where layer = 'tidy' and part = 'test' "
-        "order by campaign, source, stream, test, path").fetchall()
+        "select campaign, source, stream, test, path, columns->>'$.channels' from file "
+        "where layer = 'tidy' and part = 'test' order by campaign, source, stream, test, path").fetchall()
     known = con.execute("select campaign from campaign union select campaign from test union "
                         "select campaign from file order by 1").fetchall()
     described = _described(con)
     namer, campaign_namer = Namer(), Namer()
     campaigns = {campaign: campaign_namer(campaign) for (campaign,) in known}
-    files: dict[tuple[str, str, str], dict[str, list[str]]] = {}
-    for campaign, source, stream, test, path in rows:
-        files.setdefault((campaign, source, stream), {}).setdefault(test, []).append(path)
-    streams: dict[tuple[str, str], int] = {}
-    for campaign, source, _ in files:
-        streams[campaign, source] = streams.get((campaign, source), 0) + 1
+    files: dict[tuple[str, str, str, str | None], dict[str, list[str]]] = {}
+    # files made before a campaign's channels changed stand in their own group: their columns differ
+    for campaign, source, stream, test, path, channels in rows:
+        files.setdefault((campaign, source, stream, channels), {}).setdefault(test, []).append(path)
+    streams: dict[tuple[str, str], set[str]] = {}
+    for campaign, source, stream, _ in files:
+        streams.setdefault((campaign, source), set()).add(stream)
     groups = []
-    for (campaign, source, stream), tests in files.items():
+    for (campaign, source, stream, _), tests in files.items():
         paths = {test: tuple(p) for test, p in tests.items()}
         first = next(iter(paths.values()))[0]
-        suffix = (campaign, source, stream) if streams[campaign, source] > 1 else (campaign, source)
+        suffix = (campaign, source, stream) if len(streams[campaign, source]) > 1 else (campaign, source)
         groups.append(Group(campaign, source, stream, namer(*suffix),
                             _columns(con, first, source, described.get(campaign, {})), paths))
     order = {c: _ordered(described.get(c, {}), [g for g in groups if g.campaign == c]) for c in campaigns}

@@ -42,12 +42,29 @@ def from_files(files: str, own: str) -> str:
     return f"(select * from read_parquet({files}, hive_partitioning = false) where {own}) r"
 
 
-def by_campaign(cases: Mapping[str, str], empty: str) -> str:
-    """A CASE over the macro parameter `campaign`; in a store without campaigns the empty query."""
-    if not cases:
-        return literal(empty)
-    listed = " ".join(f"when {literal(name)} then {text}" for name, text in cases.items())
-    return f"case cast(campaign as varchar) {listed} else {refuse('no campaign ', 'campaign', '', cases)} end"
+def known_call(catalogue: Catalogue, campaign: str) -> str:
+    """The text of the macro parameter `test` as a literal, or an error that names the campaign's tests."""
+    return f"{quoted('known_' + catalogue.campaigns[campaign])}(test)"
+
+
+def dispatcher(catalogue: Catalogue, name: str, parameters: Mapping[str, str | None],
+               texts: Mapping[str, str | None], empty: str) -> Iterator[str]:
+    """The table macro `name(campaign, parameters...)`: it runs the text that the campaign's expression gives.
+
+    parameters: name -> default, or None. texts: campaign -> SQL over the parameters that gives the text of a
+    query, or None for the `empty` query. Two steps, so that only one campaign's maps are ever expanded.
+    """
+    inner = ", ".join(parameters)
+    outer = ", ".join(p if default is None else f"{p} := {default}" for p, default in parameters.items())
+    passed = " || ', ' || ".join(f"sql_text({p})" for p in parameters)
+    cases = []
+    for campaign, text in texts.items():
+        own = quoted(f"{name}_in_{catalogue.campaigns[campaign]}")
+        yield f"create macro {own}({inner}) as table select * from query({text or literal(empty)})"
+        cases.append(f"when {literal(campaign)} then {literal(f'select * from {own}(')} || {passed} || ')'")
+    choice = (f"case cast(campaign as varchar) {' '.join(cases)} "
+              f"else {refuse('no campaign ', 'campaign', '', texts)} end" if cases else literal(empty))
+    yield f"create macro {quoted(name)}(campaign, {outer}) as table select * from query({choice})"
 
 
 def refuse(before: str, parameter: str, after: str, choices: Iterable[str]) -> str:

@@ -18,7 +18,7 @@ from collections.abc import Callable, Iterator
 from thermodata.schema.flag import INVALID
 from thermodata.store.connection import literal, quoted
 from thermodata.store.views.catalogue import Catalogue, Column, Group
-from thermodata.store.views.dispatch import by_campaign, files_call, from_files
+from thermodata.store.views.dispatch import dispatcher, files_call, from_files, known_call
 
 INTERPOLATED_PERIODS = 3.5
 AGED_PERIODS = 3.5
@@ -39,22 +39,20 @@ def grid_macros(catalogue: Catalogue) -> Iterator[str]:
     """The statements that make both macros: one a campaign, and the dispatcher."""
     yield STEP
     for kind, body in (("binned", _binned), ("aligned", _aligned)):
-        cases = {}
+        texts: dict[str, str | None] = {}
         for campaign, suffix in catalogue.campaigns.items():
             groups = [g for g in catalogue.of(campaign) if g.columns]
+            texts[campaign] = None
             if not groups:
-                cases[campaign] = literal(_EMPTY)
                 continue
-            name = quoted(f"{kind}_{suffix}")
+            name = quoted(f"{kind}_grid_{suffix}")
             files = "".join(f", p__files_{i}, p__own_{i}" for i in range(len(groups)))
             yield (f"create macro {name}(p__test, p__step{files}) as table "
                    + body(campaign, groups, catalogue.channels[campaign]))
             arguments = " || ', ' || ".join(files_call(g) for g in groups)
-            cases[campaign] = (f"({literal(f'select * from {name}(')} || {quoted('known_' + suffix)}(test) || ', ' || "
-                               f"cast(step_seconds(step) as varchar) || ', ' || {arguments} || ')')")
-        yield f"create macro {kind}_query(campaign, test, step) as {by_campaign(cases, _EMPTY)}"
-        yield (f"create macro {kind}(campaign, test, step := '30 s') as table "
-               f"select * from query({kind}_query(campaign, test, step))")
+            texts[campaign] = (f"{literal(f'select * from {name}(')} || {known_call(catalogue, campaign)} || ', ' || "
+                               f"cast(step_seconds(step) as varchar) || '::double, ' || {arguments} || ')'")
+        yield from dispatcher(catalogue, kind, {"test": None, "step": "'30 s'"}, texts, _EMPTY)
 
 
 def _source(i: int) -> str:
@@ -88,16 +86,20 @@ def _head(campaign: str, table: str) -> str:
             f"{table}.k * p__step as t_s")
 
 
-def _valid(column: Column) -> str:
+def bin_index(step: str) -> str:
+    """SQL of the bin that a row r belongs to."""
+    return f"cast(floor(r.t_s / {step} + {_SLACK}) as bigint)"
+
+
+def bin_value(column: Column) -> str:
+    """SQL of a column's value in a bin: the mean of the valid samples, or the last of them where it is held."""
     value, flag = f"r.{quoted(column.name)}", f"r.{quoted(column.name + '__flag')}"
-    number = "" if column.text else f" and not isnan(cast({value} as double))"
-    return f"filter (where {value} is not null and ({flag} & {int(INVALID)}) = 0{number})"
-
-
-def _bin(column: Column) -> str:
-    value = f"r.{quoted(column.name)}"
-    mean = f"arg_max({value}, r.t_s)" if column.held else f"avg(cast({value} as double))"
-    return f"{mean} {_valid(column)} as {quoted(column.name)}"
+    if column.held:
+        good = "" if column.text else f" and not isnan(cast({value} as double))"
+        return f"arg_max({value}, r.t_s) filter (where {value} is not null and ({flag} & {int(INVALID)}) = 0{good})"
+    # a CASE inside the mean: twice as fast as FILTER
+    number = f"cast({value} as double)"
+    return f"avg(case when ({flag} & {int(INVALID)}) = 0 and not isnan({number}) then {number} end)"
 
 
 def _filled(i: int, column: Column) -> str:
@@ -123,8 +125,10 @@ def _value(i: int, column: Column) -> str:
 
 
 def _binned(campaign: str, groups: list[Group], channels: tuple[str, ...]) -> str:
-    bins = [f"s__{i} as (select cast(floor(r.t_s / p__step + {_SLACK}) as bigint) as b__k, "
-            f"{', '.join(_bin(c) for c in g.columns)} from {_source(i)} group by 1)" for i, g in enumerate(groups)]
+    bins = []
+    for i, group in enumerate(groups):
+        values = ", ".join(f"{bin_value(c)} as {quoted(c.name)}" for c in group.columns)
+        bins.append(f"s__{i} as (select {bin_index('p__step')} as b__k, {values} from {_source(i)} group by 1)")
     reach = ", ".join(f"(select case when period > p__step / 2 then {INTERPOLATED_PERIODS} * period / p__step "
                       f"else 0 end from e__{i}) as reach__{i}" for i in range(len(groups)))
     windows = ", ".join(_filled(i, c) for i, g in enumerate(groups) for c in g.columns)

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator
 
 from thermodata.store.connection import literal, quoted
 from thermodata.store.views.catalogue import RESPONSES, Catalogue, Column, Group
-from thermodata.store.views.dispatch import by_campaign, files_call, from_files, refuse
+from thermodata.store.views.dispatch import dispatcher, files_call, from_files, known_call, refuse
 from thermodata.store.views.wide import wide_name
 
 _EMPTY = ("select null::varchar as campaign, null::varchar as test, null::varchar as source, "
@@ -55,29 +55,32 @@ def signal_macros(catalogue: Catalogue) -> Iterator[str]:
         value = " ".join(f"when {literal(c.name)} then cast(r.{quoted(c.name)} as double)" for c in columns)
         flag = " ".join(f"when {literal(c.name)} then r.{quoted(c.name + '__flag')}" for c in columns)
         yield (
-            f"create macro {quoted('signal_' + group.name)}(p__test, p__channel, p__files, p__own) as table "
-            f"select * from (select {literal(group.campaign)} as campaign, p__test as test, "
-            f"{literal(group.source)} as source, p__channel as channel, r.t, r.t_s, "
+            f"create macro {quoted('signal_' + group.name)}(p__channel, p__files, p__own) as table "
+            f"select * from (select {literal(group.source)} as source, r.t, r.t_s, "
             f"case p__channel {value} end as value, cast(case p__channel {flag} end as usmallint) as flag "
             f"from {from_files('p__files', 'p__own')}) where value is not null or flag is not null")
-    cases = {campaign: _channel_case(catalogue, campaign) for campaign in catalogue.campaigns}
-    yield f"create macro signal_query(campaign, test, channel) as {by_campaign(cases, _EMPTY)}"
-    yield ("create macro signal(campaign, test, channel) as table "
-           "select * from query(signal_query(campaign, test, channel))")
+    texts = {campaign: _signal_text(catalogue, campaign) for campaign in catalogue.campaigns}
+    yield from dispatcher(catalogue, "signal", {"test": None, "channel": None}, texts, _EMPTY)
 
 
-def _channel_case(catalogue: Catalogue, campaign: str) -> str:
-    """SQL that gives the text of the query for one campaign, by channel."""
-    known = f"{quoted('known_' + catalogue.campaigns[campaign])}(test)"
-    cases = {}
-    for channel in catalogue.channels[campaign]:
-        groups = [g for g in catalogue.of(campaign) if any(c.name == channel and not c.text for c in g.columns)]
-        calls = [f"{literal('select * from ' + quoted('signal_' + g.name) + '(')} || {known} || ', ' || "
-                 f"sql_text(channel) || ', ' || {files_call(g)} || ')'" for g in groups]
-        if calls:
-            cases[channel] = " || ' union all ' || ".join(calls)
-    if not cases:
-        return literal(_EMPTY)
-    listed = " ".join(f"when {literal(name)} then {text}" for name, text in cases.items())
-    refusal = refuse("no channel of numbers ", "channel", f" in campaign '{campaign}'", cases)
-    return f"(case cast(channel as varchar) {listed} else {refusal} end)"
+def _signal_text(catalogue: Catalogue, campaign: str) -> str | None:
+    """SQL over the parameters test and channel that gives the text of the query. Each group's files are looked
+    up in one place only: every mention of the lookup costs its map."""
+    channels: dict[str, None] = {}
+    parts = []
+    for group in catalogue.of(campaign):
+        names = [c.name for c in group.columns if not c.text]
+        if names:
+            channels.update(dict.fromkeys(names))
+            parts.append(f"case when cast(channel as varchar) in ({', '.join(map(literal, names))}) then "
+                         f"{literal('select * from ' + quoted('signal_' + group.name) + '(')} || "
+                         f"sql_text(channel) || ', ' || {files_call(group)} || ')' end")
+    if not parts:
+        return None
+    refusal = refuse("no channel of numbers ", "channel", f" in campaign '{campaign}'",
+                     [c for c in catalogue.channels[campaign] if c in channels])
+    head = literal(f"select {literal(campaign)} as campaign, ")
+    return (f"case when cast(channel as varchar) in ({', '.join(map(literal, channels))}) then "
+            f"{head} || {known_call(catalogue, campaign)} || ' as test, source, ' || sql_text(channel) || "
+            f"' as channel, t, t_s, value, flag from (' || concat_ws(' union all ', {', '.join(parts)}) || ')' "
+            f"else {refusal} end")

@@ -1,0 +1,114 @@
+"""Bin means of many tests at once: one aggregate query for each group of files, spread over the cores."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from thermodata.plugin import Float1D, Int1D
+from thermodata.store.connection import quoted
+from thermodata.store.views.catalogue import Column, Group, read_catalogue
+from thermodata.store.views.grid import bin_index, bin_value
+from thermodata.store.views.wide import file_list
+
+if TYPE_CHECKING:
+    import duckdb
+
+Key = tuple[str, str]
+
+
+@dataclass(frozen=True, slots=True)
+class Series:
+    """One channel of one test in the bins that have a valid sample.
+
+    k: shape (n,), increasing bin numbers. value: shape (n,). period_s: of its source. held: a state.
+    """
+
+    k: Int1D
+    value: Float1D
+    held: bool
+    period_s: float
+
+
+@dataclass(slots=True)
+class Binned:
+    """One test: its extent in bins over all sources, the time of t_s == 0, and its channels."""
+
+    first: int
+    last: int
+    zero_ns: int
+    series: dict[str, Series] = field(default_factory=dict)
+
+
+def bin_tests(con: duckdb.DuckDBPyConnection, campaigns: Sequence[str], step_s: float,
+              wanted: Callable[[str], bool]) -> dict[Key, Binned]:
+    """(campaign, test) -> Binned, of every test that has tidy files; histories before windows included."""
+    found: dict[Key, Binned] = {}
+    history = _histories(con)
+    periods = {tuple(row[:4]): row[4] for row in con.execute(
+        "select campaign, test, source, stream, max(step_s) from source group by all").fetchall()}
+    for group in read_catalogue(con).groups:
+        if group.campaign in campaigns:
+            _bin_group(con, group, step_s, wanted, history, periods, found)
+    return found
+
+
+def _histories(con: duckdb.DuckDBPyConnection) -> dict[tuple[str, ...], list[str]]:
+    rows = con.execute("select campaign, test, source, stream, path from file where layer = 'tidy' "
+                       "and part = 'history' order by path").fetchall()
+    found: dict[tuple[str, ...], list[str]] = {}
+    for *key, path in rows:
+        found.setdefault(tuple(key), []).append(path)
+    return found
+
+
+def _bin_group(con: duckdb.DuckDBPyConnection, group: Group, step_s: float, wanted: Callable[[str], bool],
+               history: dict[tuple[str, ...], list[str]], periods: dict[tuple[str, ...], float | None],
+               found: dict[Key, Binned]) -> None:
+    owners, files = [], []
+    for test, paths in group.paths.items():
+        for path in (*history.get((group.campaign, test, group.source, group.stream), ()), *paths):
+            owners.append(test)
+            files.append(path)
+    columns = [c for c in group.columns if not c.text and wanted(c.name)]
+    # file_index instead of filename: hashing a number a row instead of a text is twice as fast
+    values = "".join(f", {bin_value(c)} as {quoted(c.name)}" for c in columns)
+    result = con.execute(
+        f"select file_index as file__index, {bin_index(repr(float(step_s)))} as bin__k, count(*) as rows__n, "
+        f"min(epoch_ns(r.t) - cast(round(r.t_s * 1e9) as bigint)) as zero__ns{values} "
+        f"from read_parquet({file_list(files)}, hive_partitioning = false) r group by 1, 2 order by 1, 2").fetchnumpy()
+    numbers = {name: np.ma.filled(array.astype(float), np.nan) if name not in ("file__index", "bin__k", "zero__ns")
+               else np.ma.getdata(array).astype(np.int64) for name, array in result.items()}
+    by_test: dict[str, list[slice]] = {}
+    index = numbers["file__index"]
+    for i, test in enumerate(owners):
+        start, stop = np.searchsorted(index, [i, i + 1])
+        if stop > start:
+            by_test.setdefault(test, []).append(slice(int(start), int(stop)))
+    for test, slices in by_test.items():
+        _collect(found, group, test, slices, columns, numbers, step_s,
+                 periods.get((group.campaign, test, group.source, group.stream)))
+
+
+def _collect(found: dict[Key, Binned], group: Group, test: str, slices: Sequence[slice], columns: Iterable[Column],
+             numbers: dict[str, Float1D | Int1D], step_s: float, period: float | None) -> None:
+    k, rows = (np.concatenate([numbers[name][s] for s in slices]) for name in ("bin__k", "rows__n"))
+    zero_ns = min(int(numbers["zero__ns"][s].min()) for s in slices)
+    binned = found.setdefault((group.campaign, test), Binned(int(k.min()), int(k.max()), zero_ns))
+    binned.first, binned.last = min(binned.first, int(k.min())), max(binned.last, int(k.max()))
+    binned.zero_ns = min(binned.zero_ns, zero_ns)
+    if not period:
+        period = float((k.max() - k.min() + 1) * step_s / rows.sum())
+    for column in columns:
+        value = np.concatenate([numbers[column.name][s] for s in slices]).astype(float)
+        good = np.isfinite(value)
+        series = Series(k[good].astype(np.int64), value[good], column.held, period)
+        old = binned.series.get(column.name)
+        # a channel in two groups is another source's empty column in one of them
+        if old is None or series.k.size > old.k.size:
+            binned.series[column.name] = series
+
+

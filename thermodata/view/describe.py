@@ -1,0 +1,85 @@
+"""What the catalogue says about tests and channels, as plain values."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, Any
+
+from thermodata.errors import ThermodataError
+from thermodata.schema.quantity import linear_conversion, split_value
+from thermodata.store.conditions import plain_value
+from thermodata.view.dataset import ChannelInfo
+
+if TYPE_CHECKING:
+    import duckdb
+
+
+def describe_tests(con: duckdb.DuckDBPyConnection, campaigns: Sequence[str]) -> list[dict[str, Any]]:
+    """Rows of the tests, in the order of the table: kind, role, clock, conditions, phases, ..., machine.
+
+    conditions hold numbers in canonical units or text: the machine's attributes, `pose.*` and `tool.*`, and the
+    test's own conditions, which win.
+    """
+    rows = con.execute(
+        "select t.campaign, t.test, t.kind, t.role, t.clock, t.conditions, t.pose, t.tool, t.phases, t.zero_s, "
+        "t.start_state, m.machine, m.attributes from test t left join "
+        "(select campaign, test, any_value(machine) as machine, any_value(attributes) as attributes "
+        "from machine group by all) m on m.campaign = t.campaign and m.test = t.test "
+        "where list_contains(?, t.campaign) order by list_position(?, t.campaign), t.rowid",
+        [list(campaigns), list(campaigns)]).fetchall()
+    found = []
+    for campaign, test, kind, role, clock, conditions, pose, tool, phases, zero_s, state, machine, attributes in rows:
+        found.append({
+            "campaign": campaign, "test": test, "kind": kind, "role": role, "clock": clock,
+            "conditions": {**flat(_json(attributes)), **flat(_json(pose), "pose."), **flat(_json(tool), "tool."),
+                           **flat(_json(conditions))},
+            "phases": {str(name): (float(a), float(b)) for name, (a, b) in _json(phases).items()},
+            "zero_s": 600.0 if zero_s is None else zero_s, "start_state": state or "balance",
+            "machine": machine or ""})
+    return found
+
+
+def flat(values: Mapping[str, Any], prefix: str = "") -> dict[str, float | str]:
+    """Nested values under dotted names; numbers and truth values as float, values with units in canonical ones."""
+    out: dict[str, float | str] = {}
+    for name, value in values.items():
+        if isinstance(value, dict):
+            out.update(flat(value, f"{prefix}{name}."))
+            continue
+        plain = plain_value(value if isinstance(value, str | int | float) or value is None else json.dumps(value))
+        if plain is not None:
+            out[prefix + name] = float(plain) if isinstance(plain, bool) else plain
+    return out
+
+
+def channel_infos(con: duckdb.DuckDBPyConnection,
+                  campaigns: Sequence[str]) -> dict[tuple[str, str], dict[str, ChannelInfo]]:
+    """(campaign, test) -> channel -> ChannelInfo, as in that test, in the campaign's order; texts left out."""
+    rows = con.execute(
+        'select campaign, test, channel, quantity, unit, "at", axis, relative_to, source, sign, sensor, raw_unit '
+        "from channel where list_contains(?, campaign) and quantity <> 'label' order by rowid",
+        [list(campaigns)]).fetchall()
+    found: dict[tuple[str, str], dict[str, ChannelInfo]] = {}
+    for campaign, test, name, quantity, unit, at, axis, relative_to, source, sign, sensor, raw_unit in rows:
+        resolution = _json(sensor).get("resolution")
+        found.setdefault((campaign, test), {})[name] = ChannelInfo(
+            name, quantity, unit, at, axis, relative_to, source, sign, _resolution(resolution, unit, raw_unit))
+    return found
+
+
+def _resolution(text: Any, unit: str, raw_unit: str | None) -> float | None:
+    """A sensor's resolution in the channel's unit, or None where that takes a calibration."""
+    if text is None:
+        return None
+    try:
+        number, written = split_value(text)
+        factor, _ = linear_conversion(written or raw_unit or unit, unit)
+    except ThermodataError:
+        return None
+    return abs(factor * number)
+
+
+def _json(text: str | None) -> dict[str, Any]:
+    value = json.loads(text) if text else {}
+    return value if isinstance(value, dict) else {}

@@ -1,0 +1,110 @@
+"""From a store to the data that models are fitted to: every test on one uniform, anti-aliased grid.
+
+A bin's value is the mean of its valid samples, states are held, and bin k stands at t_s = k * step_s, its start.
+Drivers (every quantity but displacement, tilt and angle) are interpolated over gaps of up to BRIDGE_S, or
+INTERPOLATED_PERIODS of a slow source, and carry their nearest value that far at both ends: a filter over them
+can't run through a hole. A response is NaN and invalid wherever its bin has no valid sample, so nothing made up
+is ever fitted or scored. A history before the window comes first, with negative t_s and in_window False.
+"""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Collection, Iterable, Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from thermodata.errors import UsageError, unknown_name
+from thermodata.plugin import Bool1D, Float1D
+from thermodata.store.views.catalogue import RESPONSES
+from thermodata.view.bins import Binned, Series, bin_tests
+from thermodata.view.dataset import ChannelInfo, Dataset, TestData
+from thermodata.view.describe import channel_infos, describe_tests
+from thermodata.view.fill import bridge, hold, on_grid, reach_bins
+
+if TYPE_CHECKING:
+    from thermodata.store import Store
+
+MAX_BINS = 20_000_000
+
+
+def load_dataset(store: Store | str | Path, campaigns: str | Sequence[str], step_s: float,
+                 channels: Collection[str] | None = None) -> Dataset:
+    """All tests of the campaigns that have data, in the order of the campaign files.
+
+    step_s: [s] of the grid, > 0. channels: only these (default: all that are numbers).
+    Raises UsageError for a step that is not positive, and for a campaign or channel that the store has not.
+    """
+    if not step_s > 0 or not np.isfinite(step_s):
+        raise UsageError("a step is positive", expected="seconds, for example 30", got=str(step_s))
+    wanted = [campaigns] if isinstance(campaigns, str) else list(dict.fromkeys(campaigns))
+    with _opened(store).reader() as con:
+        versions = dict(con.execute("select campaign, data_version from campaign").fetchall())
+        for campaign in wanted:
+            if campaign not in versions:
+                raise unknown_name("campaign", campaign, list(versions))
+        infos = channel_infos(con, wanted)
+        _check_channels(channels, infos)
+        only = None if channels is None else set(channels)
+        binned = bin_tests(con, wanted, step_s, lambda name: only is None or name in only)
+        tests = tuple(_test_data(row, binned[row["campaign"], row["test"]], infos, step_s)
+                      for row in describe_tests(con, wanted) if (row["campaign"], row["test"]) in binned)
+    union: dict[str, ChannelInfo] = {}
+    for test in tests:
+        for name, info in test.channels.items():
+            union.setdefault(name, info)
+    return Dataset(float(step_s), tests, union, _version([(c, versions[c]) for c in wanted]))
+
+
+def _opened(store: Store | str | Path) -> Store:
+    from thermodata.store import Store
+
+    return Store(store) if isinstance(store, str | Path) else store
+
+
+def _check_channels(channels: Collection[str] | None, infos: Mapping[tuple[str, str], Mapping[str, Any]]) -> None:
+    known = {name for table in infos.values() for name in table}
+    for name in channels or ():
+        if name not in known:
+            raise unknown_name("channel", name, sorted(known))
+
+
+def _version(versions: Iterable[tuple[str, str]]) -> str:
+    listed = sorted(versions)
+    if len(listed) == 1:
+        return listed[0][1]
+    return hashlib.sha256(repr(listed).encode()).hexdigest()[:32]
+
+
+def _test_data(row: Mapping[str, Any], binned: Binned, infos: Mapping[tuple[str, str], Mapping[str, ChannelInfo]],
+               step_s: float) -> TestData:
+    size = binned.last - binned.first + 1
+    if size > MAX_BINS:
+        raise UsageError(f"a step of {step_s:g} s makes {size} points of test '{row['test']}'",
+                         expected=f"at most {MAX_BINS}", hint="choose a longer step")
+    known = infos.get((row["campaign"], row["test"]), {})
+    names = [n for n in known if n in binned.series] + [n for n in binned.series if n not in known and not known]
+    channels = {n: known.get(n, ChannelInfo(n, "displacement", "um", sign="unknown")) for n in names}
+    t_s: Float1D = np.arange(binned.first, binned.last + 1, dtype=np.float64) * np.float64(step_s)
+    values: dict[str, Float1D] = {}
+    valid: dict[str, Bool1D] = {}
+    for name in names:
+        values[name], valid[name] = _on_grid(binned.series[name], binned, channels[name].quantity, size, step_s)
+    return TestData(
+        campaign=row["campaign"], test=row["test"], kind=row["kind"], role=row["role"], t_s=t_s, values=values,
+        valid=valid, in_window=t_s >= -1e-9, conditions=row["conditions"], phases=row["phases"],
+        start_state=row["start_state"], zero_s=row["zero_s"],
+        start_unix_s=None if row["clock"] == "relative" else binned.zero_ns / 1e9,
+        machine=row["machine"], channels=channels)
+
+
+def _on_grid(series: Series, binned: Binned, quantity: str, size: int, step_s: float) -> tuple[Float1D, Bool1D]:
+    value = on_grid(series.k, series.value, binned.first, size)
+    if series.held:
+        value = hold(value)
+        return value, np.isfinite(value)
+    if quantity not in RESPONSES:
+        value = bridge(value, reach_bins(series.period_s, step_s))
+    return value, np.isfinite(value)

@@ -1,0 +1,112 @@
+"""`StoreView`: SQL over a store, and the answers that are asked for most often."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from thermodata.errors import StoreError, UsageError, unknown_name
+from thermodata.store import Store
+from thermodata.store.connection import literal
+
+if TYPE_CHECKING:
+    import duckdb
+
+    from thermodata.view.dataset import Dataset
+
+
+class StoreView:
+    """Read-only. Relations see the store as of their making, hold no lock, and give .df(), .to_arrow_table(), .pl()
+    and .fetchall().
+
+    store: its folder, or a Store. UsageError where there is none.
+    """
+
+    def __init__(self, store: Store | str | Path = "thermodata.store") -> None:
+        self.store = store if isinstance(store, Store) else Store(Path(store))
+
+    def __repr__(self) -> str:
+        return f"StoreView({str(self.store.path)!r})"
+
+    @property
+    def path(self) -> Path:
+        """The store's folder."""
+        return self.store.path
+
+    def sql(self, query: str, params: Sequence[Any] | dict[str, Any] | None = None) -> duckdb.DuckDBPyRelation:
+        """The relation of a query over the store's tables, views and macros (design, section 7).
+
+        params: values of `?` or `$name`. UsageError where DuckDB refuses the query, with its reason;
+        StoreError where a file is gone.
+        """
+        import duckdb
+
+        con = self.store.connect()
+        try:
+            relation = con.sql(query, params=params) if params is not None else con.sql(query)
+        except duckdb.IOException as error:
+            raise StoreError("a file of the store can't be read", where=str(self.path), got=str(error).strip(),
+                             hint="put the file back, or forget its test and ingest it again") from error
+        except duckdb.Error as error:
+            raise UsageError("the query fails", got=str(error).strip()) from error
+        if relation is None:
+            raise UsageError("the query gives no table", expected="SELECT, FROM, DESCRIBE or SHOW", got=query)
+        return relation
+
+    def signal(self, campaign: str, test: str, channel: str) -> duckdb.DuckDBPyRelation:
+        """One channel of one test: campaign, test, source, channel, t, t_s, value, flag."""
+        return self._macro("signal", campaign, test, channel)
+
+    def binned(self, campaign: str, test: str, step: str | float = "30 s") -> duckdb.DuckDBPyRelation:
+        """One row a bin: means of the valid samples, states held. step: '30 s' or seconds."""
+        return self._macro("binned", campaign, test, str(step))
+
+    def aligned(self, campaign: str, test: str, step: str | float = "30 s") -> duckdb.DuckDBPyRelation:
+        """One row a point: each channel's last sample and its flag. step: '30 s' or seconds."""
+        return self._macro("aligned", campaign, test, str(step))
+
+    def residual(self, model: str, campaign: str | None = None, test: str | None = None,
+                 response: str | None = None) -> duckdb.DuckDBPyRelation:
+        """Measured and predicted of a model. model: its id, a unique prefix of it, or a name (the newest version)."""
+        given = {"model": self.model_id(model), "campaign": campaign, "test": test, "response": response}
+        where = " and ".join(f"{name} = {literal(value)}" for name, value in given.items() if value is not None)
+        return self.sql(f"select * from residual where {where} order by campaign, test, response, t_s")
+
+    def model_id(self, ref: str) -> str:
+        """The id of a model from its id, a unique prefix, or a name (the newest version of that name)."""
+        with self.store.reader() as con:
+            rows = con.execute("select model, name from model order by created_at, rowid").fetchall()
+        if ref in (ids := [model for model, _ in rows]):
+            return ref
+        named = [str(model) for model, name in rows if name == ref]
+        if named:
+            return named[-1]
+        begun = [str(model) for model in ids if model.startswith(ref)] if ref else []
+        if len(begun) > 1:
+            raise UsageError(f"'{ref}' begins several models", expected=", ".join(begun), got=ref)
+        if not begun:
+            raise unknown_name("model", ref, [*dict.fromkeys(str(name) for _, name in rows), *ids])
+        return begun[0]
+
+    def tests(self, campaign: str | None = None) -> duckdb.DuckDBPyRelation:
+        """The table `test`."""
+        return self.sql(f"select * from test{_where(campaign)}")
+
+    def channels(self, campaign: str | None = None) -> duckdb.DuckDBPyRelation:
+        """The table `channel`: one row a test and channel, with unit, place, axis and sign."""
+        return self.sql(f"select * from channel{_where(campaign)}")
+
+    def dataset(self, campaigns: str | Sequence[str], step_s: float = 30.0,
+                channels: Collection[str] | None = None) -> Dataset:
+        """All tests of the campaigns on one grid; see `view.load.load_dataset`."""
+        from thermodata.view.load import load_dataset
+
+        return load_dataset(self.store, campaigns, step_s, channels)
+
+    def _macro(self, name: str, *arguments: str) -> duckdb.DuckDBPyRelation:
+        return self.sql(f"select * from {name}({', '.join(map(literal, arguments))})")
+
+
+def _where(campaign: str | None) -> str:
+    return "" if campaign is None else f" where campaign = {literal(campaign)}"
