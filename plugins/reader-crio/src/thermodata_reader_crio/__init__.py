@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from pathlib import Path
+from types import ModuleType
 
 from thermodata.plugin import Block, Head, Loss, Recording, Source
 from thermodata.reader.text import decode_head
@@ -26,13 +27,16 @@ class Reader:
         return None
 
     def describe(self, path: Path, source: Source) -> Recording:
-        return _format(path).describe(path, source)
+        recording: Recording = _format(path).describe(path, source)
+        return recording
 
     def blocks(self, path: Path, source: Source) -> Iterator[Block | Loss]:
-        return _format(path).blocks(path, source)
+        found: Iterator[Block | Loss] = _format(path).blocks(path, source)
+        return found
 
 
-def _format(path: Path):  # type: ignore[no-untyped-def]  # one of two modules with the same two functions
+def _format(path: Path) -> ModuleType:
+    """One of two modules with the same two functions."""
     with path.open("rb") as file:
         start = file.read(4)
     if start.lstrip(b"\xef\xbb\xbf\xff\xfe")[:1] == b"L":

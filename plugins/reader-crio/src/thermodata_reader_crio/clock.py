@@ -54,4 +54,5 @@ def waveform(properties: Mapping[str, Any]) -> Waveform | None:
         start_ns = None
     offset = properties.get("wf_start_offset", 0.0)
     usable = isinstance(offset, int | float) and math.isfinite(offset) and abs(offset) < 1e9
-    return Waveform(start_ns, round(Fraction(repr(float(offset))) * _BILLION) if usable else 0, step_ns(float(increment)))
+    offset_ns = round(Fraction(repr(float(offset))) * _BILLION) if usable else 0
+    return Waveform(start_ns, offset_ns, step_ns(float(increment)))

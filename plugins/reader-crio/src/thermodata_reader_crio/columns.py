@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import BinaryIO
+from typing import BinaryIO, Literal
 
 import numpy as np
 
@@ -206,7 +206,7 @@ def _fetch(file: BinaryIO, cuts):  # type: ignore[no-untyped-def]
     size = extent_end - extent_start
     base = np.cumsum(size) - size
     buffer = np.empty(int(size.sum()), np.uint8)
-    view = memoryview(buffer)
+    view = memoryview(buffer.data)
     for at, begin, count in zip(base.tolist(), extent_start.tolist(), size.tolist(), strict=True):
         file.seek(begin)
         if file.readinto(view[at:at + count]) != count:  # type: ignore[attr-defined]
@@ -231,7 +231,7 @@ def _values(buffer: Array, place: Int1D, cut: tuple[Int1D, Int1D, Int1D], column
                                                 writeable=False)
         out[done:done + k * rows] = block.reshape(k * rows, item)
         done += k * rows
-    order = ">" if column.big_endian else "<"
+    order: Literal["<", ">"] = ">" if column.big_endian else "<"
     if column.dtype == "V16":
         return _timestamps(out.reshape(-1), order)
     native = np.dtype(column.dtype)

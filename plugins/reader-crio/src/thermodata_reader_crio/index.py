@@ -16,6 +16,7 @@ from thermodata.errors import FormatError
 LEAD_IN = 28
 META, NEW_LIST, RAW, INTERLEAVED, BIG_ENDIAN = 1 << 1, 1 << 2, 1 << 3, 1 << 5, 1 << 6
 UNKNOWN_END = 0xFFFFFFFFFFFFFFFF
+MOST = 1 << 48      # values or bytes a chunk; more is damage, and would overflow
 NO_DATA, SAME_DATA = 0xFFFFFFFF, 0
 FORMAT_CHANGING, DIGITAL_LINE = 0x1269, 0x126A
 CLOCK = ("wf_start_time", "wf_start_offset", "wf_increment")
@@ -106,8 +107,8 @@ class Index:
     segments: int = 0
 
 
-class _Damage(Exception):
-    pass
+class DamageError(Exception):
+    """What makes the rest of the file unreadable."""
 
 
 class _Walk:
@@ -159,7 +160,7 @@ class _Walk:
                 active[path] = False
             elif header == SAME_DATA:
                 if path not in self.last:
-                    raise _Damage(f"{path} repeats an index that it never had")
+                    raise DamageError(f"{path} repeats an index that it never had")
                 active[path] = True
             else:
                 found = read.daqmx(header) if header in (FORMAT_CHANGING, DIGITAL_LINE) else read.raw_index(header)
@@ -194,7 +195,7 @@ class _Cursor:
 
     def take(self, n: int) -> bytes:
         if n > len(self.data) - self.at:
-            raise _Damage(f"a field of {n} bytes in metadata that ends after {len(self.data) - self.at}")
+            raise DamageError(f"a field of {n} bytes in metadata that ends after {len(self.data) - self.at}")
         self.at += n
         return self.data[self.at - n:self.at]
 
@@ -231,36 +232,39 @@ class _Cursor:
             return name, self.number(codes[kind])
         if kind in _SIZE:
             return name, self.take(_SIZE[kind]).hex()
-        raise _Damage(f"property '{name}' has the unknown type 0x{kind:X}")
+        raise DamageError(f"property '{name}' has the unknown type 0x{kind:X}")
 
     def raw_index(self, header: int) -> RawIndex:
         if header not in (20, 28):
-            raise _Damage(f"a raw data index of length {header}")
+            raise DamageError(f"a raw data index of length {header}")
         kind, dimension, n = self.u32(), self.u32(), int(self.number("Q"))
         if dimension != 1:
-            raise _Damage(f"a raw data index of dimension {dimension}")
+            raise DamageError(f"a raw data index of dimension {dimension}")
+        nbytes = int(self.number("Q")) if kind == STRING else 0
+        if max(n, nbytes) > MOST:
+            raise DamageError(f"a chunk of {n} values")
         if kind == STRING:
-            return RawIndex(kind, n, int(self.number("Q")))
+            return RawIndex(kind, n, nbytes)
         if kind not in _SIZE:
-            raise _Damage(f"the unknown data type 0x{kind:X}")
+            raise DamageError(f"the unknown data type 0x{kind:X}")
         return RawIndex(kind, n, n * _SIZE[kind])
 
     def daqmx(self, header: int) -> RawIndex:
         kind, dimension, n, count = self.u32(), self.u32(), int(self.number("Q")), self.u32()
         if dimension != 1:
-            raise _Damage(f"a DAQmx index of dimension {dimension}")
+            raise DamageError(f"a DAQmx index of dimension {dimension}")
         scalers = []
         for _ in range(count):
             code, buffer, offset = self.u32(), self.u32(), self.u32()
             self.number("I" if header == FORMAT_CHANGING else "B")
             scale_id = self.u32()
             if code not in DAQMX_NUMPY:
-                raise _Damage(f"the unknown DAQmx type {code}")
+                raise DamageError(f"the unknown DAQmx type {code}")
             bit = None if header == FORMAT_CHANGING else offset % 8
             scalers.append(Scaler(scale_id, DAQMX_NUMPY[code], buffer, offset if bit is None else offset // 8, bit))
         widths = tuple(self.u32() for _ in range(self.u32()))
-        if not scalers:
-            raise _Damage("a DAQmx index without a scaler")
+        if not scalers or n > MOST:
+            raise DamageError("a DAQmx index without a scaler" if not scalers else f"a chunk of {n} values")
         return RawIndex(kind, n, 0, tuple(scalers), widths)
 
 
@@ -283,21 +287,23 @@ class Timestamp:
 
 
 def _check(layout: Layout) -> None:
+    if layout.objects and layout.chunk_bytes >= 1 << 62:
+        raise DamageError("a chunk of impossible size")
     mixed = {bool(index.scalers) for _, index in layout.objects}
     if len(mixed) > 1:
-        raise _Damage("DAQmx and plain channels in one segment")
+        raise DamageError("DAQmx and plain channels in one segment")
     if layout.daqmx:
         if len({index.widths for _, index in layout.objects}) > 1:
-            raise _Damage("DAQmx channels with different buffers in one segment")
+            raise DamageError("DAQmx channels with different buffers in one segment")
         for path, index in layout.objects:
             for scaler in index.scalers:
                 if scaler.buffer >= len(index.widths) or \
                         scaler.offset + int(scaler.dtype[1:]) > index.widths[scaler.buffer]:
-                    raise _Damage(f"{path} lies outside its DAQmx buffer")
+                    raise DamageError(f"{path} lies outside its DAQmx buffer")
     elif layout.interleaved and (
         len({index.n for _, index in layout.objects}) > 1 or any(i.type == STRING for _, i in layout.objects)
     ):
-        raise _Damage("interleaved channels of different lengths, or of text")
+        raise DamageError("interleaved channels of different lengths, or of text")
 
 
 def walk(path: Path) -> Index:
@@ -311,7 +317,7 @@ def walk(path: Path) -> Index:
             try:
                 if not _segment(file, state):
                     break
-            except _Damage as error:
+            except DamageError as error:
                 index.damage = f"byte {index.good_end}: {error}"
                 break
             index.segments += 1
@@ -328,30 +334,30 @@ def _segment(file: BinaryIO, state: _Walk) -> bool:
     file.seek(start)
     lead = file.read(LEAD_IN)
     if len(lead) < LEAD_IN:
-        raise _Damage(f"the file ends inside a lead-in, after {len(lead)} of {LEAD_IN} bytes")
+        raise DamageError(f"the file ends inside a lead-in, after {len(lead)} of {LEAD_IN} bytes")
     if lead[:4] != b"TDSm":
-        raise _Damage(f"no lead-in: expected 'TDSm', got {lead[:4]!r}")
+        raise DamageError(f"no lead-in: expected 'TDSm', got {lead[:4]!r}")
     toc = struct.unpack("<I", lead[4:8])[0]
     version, to_next, to_raw = struct.unpack((">" if toc & BIG_ENDIAN else "<") + "IQQ", lead[8:])
     if version not in (4712, 4713):
-        raise _Damage(f"TDMS version {version}, known are 4712 and 4713")
+        raise DamageError(f"TDMS version {version}, known are 4712 and 4713")
     data = start + LEAD_IN + to_raw
     end = index.size + 1 if to_next == UNKNOWN_END else start + LEAD_IN + to_next
     if end < data:
-        raise _Damage("a segment that ends before its data starts")
+        raise DamageError("a segment that ends before its data starts")
     if data > index.size:
-        raise _Damage(f"the file ends inside metadata, {data - index.size} bytes short")
+        raise DamageError(f"the file ends inside metadata, {data - index.size} bytes short")
     if toc & META:
         state.metadata(file.read(to_raw), toc)
     elif state.layout < 0:
-        raise _Damage("a first segment without metadata")
+        raise DamageError("a first segment without metadata")
     cut = end > index.size
     if cut:
         index.expected_end = None if to_next == UNKNOWN_END else end
     if toc & RAW:
         layout = index.layouts[state.layout]
         if layout.interleaved != bool(toc & INTERLEAVED) or layout.big_endian != bool(toc & BIG_ENDIAN):
-            raise _Damage("raw data in another byte order than its metadata")
+            raise DamageError("raw data in another byte order than its metadata")
         _pieces(state, data, min(end, index.size), cut)
     index.good_end = min(end, index.size)
     if cut:
@@ -364,7 +370,7 @@ def _pieces(state: _Walk, data: int, end: int, cut: bool) -> None:
     chunk = state.chunk_bytes[state.layout]
     if chunk == 0:
         if end > data and not cut:
-            raise _Damage(f"{end - data} bytes of raw data that no channel claims")
+            raise DamageError(f"{end - data} bytes of raw data that no channel claims")
         return
     chunks, tail = divmod(end - data, chunk)
     if chunks or tail or cut:

@@ -78,9 +78,14 @@ def _header(lines: Iterator[tuple[int, str]], path: Path) -> Layout:
                   keys.get("Multi_Headings", "No").strip() == "Yes", keys.get("Date", ""), keys.get("Time", ""))
 
 
+def _rows_a_block(source: Source) -> int:
+    return max(1, int(source.options.get("block_rows", _ROWS)))
+
+
 def _scan(path: Path, source: Source) -> Iterator[Layout | Packet | tuple[int, list[str]] | Loss]:
     """Header, then each packet and its rows as (line number of the first, lines); a Loss where the file was cut."""
     encoding, _ = file_encoding(path, source.encoding)
+    limit = _rows_a_block(source)
     with path.open(encoding=encoding, newline="\n", errors="strict") as file:
         lines = ((i, text.rstrip("\r\n") if text.endswith("\n") else text + "\0") for i, text in enumerate(file, 1))
         layout = _header(lines, path)
@@ -117,7 +122,7 @@ def _scan(path: Path, source: Source) -> Iterator[Layout | Packet | tuple[int, l
             if not rows:
                 first = number
             rows.append(text)
-            if len(rows) >= _ROWS:
+            if len(rows) >= limit:
                 yield first, rows
                 rows = []
         if rows:
@@ -191,7 +196,7 @@ class _Streams:
 
 
 def describe(path: Path, source: Source) -> Recording:
-    encoding, note = file_encoding(path, source.encoding)
+    _, note = file_encoding(path, source.encoding)
     notes = [note] if note else []
     streams, signals, start = _Streams(), dict[tuple[str, str], Signal](), None
     layout: Layout | None = None
@@ -295,8 +300,7 @@ def _packet_blocks(table: _Table, cells: list[list[str]], packet: Packet, layout
         samples = packet.key("Samples", lead)
         if len(_groups(packet)) > 1 and samples.isdigit():
             keep &= np.arange(done, done + n) < int(samples)
-        if packet.multi and any(not np.array_equal(table.columns[packet.columns[i] - 1], table.columns[packet.x[lead] or 0],
-                                                   equal_nan=True) for i in group):
+        if packet.multi and not _same_x(table, packet, group):
             raise FormatError("channels with equal headings and different X columns", where=f"line {packet.line}",
                               got=", ".join(packet.names[i] for i in group))
         t_ns = _times(table, packet, layout, source, lead, done, n, notes)
@@ -305,6 +309,11 @@ def _packet_blocks(table: _Table, cells: list[list[str]], packet: Packet, layout
             texts = [row[packet.comment] if packet.comment < len(row) else "" for row in cells]
             values["Comment"] = np.array(texts, object)[keep]
         yield Block(stream, t_ns[keep], values)
+
+
+def _same_x(table: _Table, packet: Packet, group: list[int]) -> bool:
+    x = [table.columns[packet.columns[i] - 1] for i in group]
+    return all(np.array_equal(other, x[0], equal_nan=True) for other in x[1:])
 
 
 def _times(table: _Table, packet: Packet, layout: Layout, source: Source, lead: int, done: int, n: int,

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -98,7 +98,7 @@ def names(path: str) -> tuple[str, ...]:
     return tuple(part.replace("''", "'") for part in _PATH.findall(path))
 
 
-def scaling(layers: list[Mapping[str, Any]], where: str) -> Scaling | None:
+def scaling(layers: Sequence[Mapping[str, Any]], where: str) -> Scaling | None:
     """The NI scaling that a channel, its group or the file declares. FormatError for a scale of a type that
     nobody here knows: volts must not pass for micrometres."""
     for properties in layers:
@@ -198,7 +198,7 @@ def _same_clock(a: Channel, b: Channel) -> bool:
         if i != j or x.step != y.step or (x.start_ns is None) != (y.start_ns is None):
             return False
         apart = abs((x.start_ns or 0) + x.offset_ns - (y.start_ns or 0) - y.offset_ns)
-        if apart and apart >= min(_SAME_SCAN_NS, x.step / 2):
+        if apart and apart >= min(_SAME_SCAN_NS, float(x.step) / 2):
             return False
     return True
 
@@ -228,7 +228,7 @@ def _streams(group: str, channels: list[Channel], index: Index, source: Source, 
             parts.append([c])
         else:
             fit.append(c)
-    found = []
+    found: list[Stream] = []
     used: set[str] = set()
     for part in parts:
         time = None

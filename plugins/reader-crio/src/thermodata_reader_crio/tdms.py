@@ -53,7 +53,7 @@ def blocks(path: Path, source: Source) -> Iterator[Block | Loss]:
         for stream in file.streams:
             shift = origin if absolute and not stream.absolute else 0
             rows = stream.rows if stream.time is None else min(stream.rows, stream.time.length)
-            size = max(1, BLOCK_VALUES // (len(stream.channels) + 1))
+            size = max(1, int(source.options.get("block_rows", BLOCK_VALUES // (len(stream.channels) + 1))))
             for first in range(0, rows, size):
                 last = min(rows, first + size)
                 block = _block(handle, stream, first, last, shift)

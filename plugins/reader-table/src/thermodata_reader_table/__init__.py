@@ -19,8 +19,8 @@ class Reader:
         if head.start[:4] == b"PAR1":
             return "Parquet: the file starts with 'PAR1'"
         if head.start[:4] == b"PK\x03\x04":
-            return "XLSX: a ZIP file that holds a workbook" if b"xl/" in head.start or b"[Content_Types]" in head.start \
-                else None
+            workbook = b"xl/" in head.start or b"[Content_Types]" in head.start
+            return "XLSX: a ZIP file that holds a workbook" if workbook else None
         return _sniff_text(head)
 
     def describe(self, path: Path, source: Source) -> Recording:

@@ -94,6 +94,9 @@ def open_sheet(path: Path, source: Source) -> Sheet:
     delimiter, rows = found
     if rows and len(rows[0]) <= 2 and text[:4].lower() == "sep=":
         rows[0] = [""]
+    cut = _cut(path, encoding, delimiter)
+    if cut and len(data) < _HEAD_BYTES:
+        rows.pop()
     layout = find(rows, said, path.name)
     width = len(layout.names)
     body = [r + [""] * (width - len(r)) for r in rows[layout.first:]]
@@ -101,7 +104,7 @@ def open_sheet(path: Path, source: Source) -> Sheet:
     decimal = said.get("decimal") or (decimal_mark(numbers) if delimiter != "," else ".") or "."
     kinds = tuple(_kind(layout, i, [r[i] for r in body]) for i in range(width))
     notes = [*([note] if note else []), *layout.notes]
-    return Sheet(encoding, delimiter, decimal, layout, kinds, '"' in text, tuple(notes), _cut(path, encoding, delimiter))
+    return Sheet(encoding, delimiter, decimal, layout, kinds, '"' in text, tuple(notes), cut)
 
 
 def _kind(layout: Layout, column: int, cells: list[str]) -> str:
@@ -203,7 +206,7 @@ def _all_stamps(path: Path, sheet: Sheet, source: Source, rows: int) -> stamps.S
 def blocks(path: Path, source: Source) -> Iterator[Block | Loss]:
     sheet = open_sheet(path, source)
     layout, width = sheet.layout, len(sheet.layout.names)
-    rows = max(1, _BLOCK_VALUES // (width + _SPARE))
+    rows = max(1, int(source.options.get("block_rows", _BLOCK_VALUES // (width + _SPARE))))
     t_ns = _all_stamps(path, sheet, source, rows).t_ns
     total = t_ns.size - (1 if sheet.cut else 0)
     at, bad_times, bad_cells = 0, 0, dict[str, list[str]]()

@@ -12,8 +12,9 @@ from thermodata.reader.text import clean, looks_like_unit, split_unit
 from thermodata_reader_table.stamps import is_date, is_time_of_day
 
 Cell = Any   # text, or what a workbook holds: numbers, bool, datetime, date, time
-SECONDS = {"s": 1.0, "sec": 1.0, "sek": 1.0, "seconds": 1.0, "min": 60.0, "minutes": 60.0, "h": 3600.0, "hod": 3600.0,
-           "std": 3600.0, "hours": 3600.0, "d": 86400.0, "days": 86400.0, "ms": 1e-3, "us": 1e-6, "µs": 1e-6, "ns": 1e-9}
+SECONDS = {"s": 1.0, "sec": 1.0, "sek": 1.0, "seconds": 1.0, "min": 60.0, "minutes": 60.0, "h": 3600.0,
+           "hod": 3600.0, "std": 3600.0, "hours": 3600.0, "d": 86400.0, "days": 86400.0, "ms": 1e-3, "us": 1e-6,
+           "µs": 1e-6, "ns": 1e-9}
 _TIME_WORDS = re.compile(
     r"^(time|t|zeit|čas|cas|temps|tiempo|tempo|datum|date|dátum|uhrzeit|timestamp|date[ _]?time|datetime|zeitstempel|"
     r"elapsed([ _]?time)?|時間|时间|日時|日期|時刻|rel(ative)?[ _.]?time|t_s|time_s)\.?:?$", re.IGNORECASE)
@@ -186,5 +187,6 @@ def _find_time(names: list[str], units: list[str | None], data: list[list[Cell]]
         return (numbers[0],)
     if (units[0] or "").strip().lower() in SECONDS and share(0, is_number) > 0.8:
         return (0,)
-    raise FormatError("no time column found", where=where, expected="a column of dates, or one called time or with s, "
-                      "min or h as its unit", got=", ".join(names[:12]), hint="declare table: {time: {column: 1, unit: s}}")
+    raise FormatError("no time column found", where=where, got=", ".join(names[:12]),
+                      expected="a column of dates, or one called time or with s, min or h as its unit",
+                      hint="declare table: {time: {column: 1, unit: s}}")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -20,6 +21,18 @@ _ROWS = 250_000
 _PER_SECOND = {"s": 1, "ms": 10**3, "us": 10**6, "ns": 10**9}
 
 
+@contextmanager
+def _ours(path: Path) -> Iterator[None]:
+    """pyarrow raises several unrelated classes for a damaged file; all of them mean the same."""
+    import pyarrow as pa
+
+    try:
+        yield
+    except (pa.ArrowException, OSError, ValueError, OverflowError) as error:
+        raise FormatError("not a readable Parquet file", where=path.name,
+                          got=(str(error).splitlines() or ["?"])[0]) from None
+
+
 class Table:
     """An open file: its schema, and which columns hold the time."""
 
@@ -27,14 +40,17 @@ class Table:
         import pyarrow.parquet as pq
 
         self.path, self.source = path, source
-        try:
+        with _ours(path):
             self.file = pq.ParquetFile(path)
-        except Exception as error:  # pyarrow raises several unrelated classes for a damaged file
-            raise FormatError("not a readable Parquet file", where=path.name, got=str(error).splitlines()[0]) from None
-        self.schema = self.file.schema_arrow
+            self.schema = self.file.schema_arrow
         self.names = [str(n).strip() for n in self.schema.names]
         self.notes: list[str] = []
         self.time, self.seconds = self._find()
+
+    def batches(self, rows: int) -> Iterator[Any]:
+        """Record batches; FormatError where a damaged part is met."""
+        with _ours(self.path):
+            yield from self.file.iter_batches(rows)
 
     def _find(self) -> tuple[int, float | None]:
         import pyarrow.types as pt
@@ -53,7 +69,7 @@ class Table:
             elif "t_ns" in self.names:
                 column, unit = self.names.index("t_ns"), "ns"
             else:
-                head = next(self.file.iter_batches(100), None)
+                head = next(self.batches(100), None)
                 rows = [list(r.values()) for r in head.to_pylist()] if head is not None else []
                 column = _find_time(self.names, units, rows, self.path.name)[0]
         if pt.is_timestamp(self.schema.field(column).type):
@@ -109,8 +125,9 @@ class Table:
 
 def describe(path: Path, source: Source) -> Recording:
     table = Table(path, source)
-    head = next(table.file.iter_batches(1000), None)
-    found = table.times(head.column(table.time)) if head is not None else stamps.Stamps(np.zeros(0, np.int64), table.seconds is None, ())
+    head = next(table.batches(1000), None)
+    nothing = stamps.Stamps(np.zeros(0, np.int64), table.seconds is None, ())
+    found = nothing if head is None else table.times(head.column(table.time))
     good = found.t_ns[found.t_ns != NAT]
     signals = tuple(Signal(n, STREAM, split_unit(n)[1], table.dtype(i))
                     for i, n in enumerate(table.names) if i != table.time)
@@ -120,14 +137,18 @@ def describe(path: Path, source: Source) -> Recording:
 
 def blocks(path: Path, source: Source) -> Iterator[Block | Loss]:
     table = Table(path, source)
-    times = table.times(table.file.read(columns=[table.schema.names[table.time]]).column(0)).t_ns
+    with _ours(path):
+        column = table.file.read(columns=[table.schema.names[table.time]]).column(0)
+    times = table.times(column).t_ns
     at = missing = 0
-    for batch in table.file.iter_batches(max(1000, min(_ROWS, 1_000_000 // max(1, len(table.names))))):
+    columns = [(i, n, table.dtype(i)) for i, n in enumerate(table.names) if i != table.time]
+    size = max(1, int(source.options.get("block_rows", min(_ROWS, 1_000_000 // len(table.names)))))
+    for batch in table.batches(size):
         t_ns = times[at:at + batch.num_rows]
         good = t_ns != NAT
         at += batch.num_rows
         missing += int((~good).sum())
-        values = {n: _values(batch.column(i), table.dtype(i))[good] for i, n in enumerate(table.names) if i != table.time}
+        values = {name: _values(batch.column(i), dtype)[good] for i, name, dtype in columns}
         yield Block(STREAM, t_ns[good], values)
     if missing:
         yield Loss(path.name, None, None, missing / at, f"{missing} rows without a time")

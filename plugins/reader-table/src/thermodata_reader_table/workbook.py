@@ -133,9 +133,8 @@ class Table:
         self.notes = list(self.layout.notes)
         self.losses: list[Loss] = []
         said = (source.table or {}).get("decimal")
-        self.decimal = said or decimal_mark(
-            c for i, col in enumerate(self.columns) if i not in self.layout.time for c in col[:200] if isinstance(c, str)
-        ) or "."
+        columns = [c for i, c in enumerate(self.columns) if i not in self.layout.time]
+        self.decimal = said or decimal_mark(c for col in columns for c in col[:200] if isinstance(c, str)) or "."
         self.times = self._times(source, path)
         self.values: dict[str, Array] = {}
         for i, name in enumerate(self.layout.names):
@@ -191,7 +190,7 @@ def _joined(cells: tuple[Any, ...]) -> Any:
     if len(cells) == 1:
         cell = cells[0]
         if isinstance(cell, dt.time):
-            return dt.timedelta(hours=cell.hour, minutes=cell.minute, seconds=cell.second, microseconds=cell.microsecond)
+            return dt.datetime.combine(dt.date.min, cell) - dt.datetime.min
         if isinstance(cell, dt.date) and not isinstance(cell, dt.datetime):
             return dt.datetime.combine(cell, dt.time())
         return cell
@@ -200,8 +199,7 @@ def _joined(cells: tuple[Any, ...]) -> Any:
         midnight = dt.datetime(day.year, day.month, day.day)
         if isinstance(clock, dt.timedelta):
             return midnight + clock
-        return midnight + dt.timedelta(hours=clock.hour, minutes=clock.minute, seconds=clock.second,
-                                       microseconds=clock.microsecond)
+        return dt.datetime.combine(midnight.date(), clock.time() if isinstance(clock, dt.datetime) else clock)
     return " ".join(str(c).strip() for c in cells)
 
 
@@ -226,7 +224,7 @@ def blocks(path: Path, source: Source) -> Iterator[Block | Loss]:
     if not good.any():
         raise FormatError("no row holds a time", where=path.name,
                           hint="declare table: {time: {column: ..., unit: ...}}")
-    size = max(1, _BLOCK_VALUES // max(1, len(table.values)))
+    size = max(1, int(source.options.get("block_rows", _BLOCK_VALUES // max(1, len(table.values)))))
     for first in range(0, t_ns.size, size):
         part = good[first:first + size]
         yield Block(STREAM, t_ns[first:first + size][part],
