@@ -132,8 +132,9 @@ def _applied(values: Float1D, unit: str, calibration: CalibrationResult, where: 
         try:
             offset *= delta_factor(written, unit)
         except UsageError as error:
-            raise CalibrationError(f"calibration '{calibration.name}': its offset is in {written}, the channel in {unit}",
-                                   where=where, expected=unit, got=written) from error
+            raise CalibrationError(
+                f"calibration '{calibration.name}': its offset is in {written}, the channel in {unit}", where=where,
+                expected=unit, got=written) from error
     return values * calibration.gain + offset, unit
 
 

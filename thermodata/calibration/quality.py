@@ -1,0 +1,165 @@
+"""Quality flags of one stream: what is wrong with its time, and with each column. Vectorised throughout.
+
+Each finder is conservative: what may be real is left alone, and said. Flagged rows are kept.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from thermodata.calibration.quality_time import TimeFlags, time_flags
+from thermodata.calibration.quality_value import (
+    RunStats,
+    held_runs,
+    offset_steps,
+    run_stats,
+    spikes,
+)
+from thermodata.plugin import Array, Bool1D, Float1D, Int1D
+from thermodata.schema.flag import Flag
+
+# Quantities whose readings carry noise, so that an exactly constant stretch is suspicious ...
+_ANALOG = frozenset({"displacement", "tilt", "temperature", "temperature_difference", "voltage", "resistance",
+                     "humidity", "irradiance", "pressure"})
+# ... and which can't leave and come back within a few samples. (Position, speed, power and flow can.)
+_INERT = frozenset({"displacement", "tilt", "temperature", "temperature_difference", "humidity"})
+_MOST_EVENTS = 50
+
+
+@dataclass(frozen=True, slots=True)
+class ColumnInput:
+    """A column. values: shape (n,), in the canonical unit (text for a label). flags: those that it already has
+    (from the reader and from `calibrate`), kept and reported. range: (low, high) in the canonical unit."""
+
+    values: Array
+    quantity: str
+    flags: Array | None = None
+    range: tuple[float, float] | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class QualityEvent:
+    """A stretch with one flag. channel None: the whole stream. times [ns] of its first and last sample; n samples."""
+
+    channel: str | None
+    flag: str
+    from_ns: int
+    to_ns: int
+    n: int
+    detail: str = ""
+
+
+def flag_stream(
+    t_ns: Int1D, columns: Mapping[str, ColumnInput]
+) -> tuple[dict[str, Array], list[QualityEvent]]:
+    """(channel -> uint16 flags, shape (n,); events in order of time, at most 50 a channel and flag).
+
+    t_ns: shape (n,), as recorded; need not be in order: times that go back or stand still are flagged.
+    """
+    t_ns = np.asarray(t_ns)
+    time = time_flags(t_ns)
+    events = [QualityEvent(None, *event) for event in time.events]
+    stats = {name: run_stats(x) for name, c in columns.items() if (x := _analog(c)) is not None}
+    flags: dict[str, Array] = {}
+    for name, column in columns.items():
+        own = _column(name, column, t_ns, time, stats, columns)
+        own_flags, own_events = own
+        flags[name] = own_flags | time.flags
+        events += own_events
+    events.sort(key=lambda e: (e.from_ns, e.channel or ""))
+    return flags, events
+
+
+def _analog(column: ColumnInput) -> Float1D | None:
+    if column.quantity not in _ANALOG or column.values.dtype.kind not in "iuf" or len(column.values) < 3:
+        return None
+    return np.asarray(column.values, dtype=np.float64)
+
+
+def _column(name: str, column: ColumnInput, t_ns: Int1D, time: TimeFlags, stats: Mapping[str, RunStats],
+            columns: Mapping[str, ColumnInput]) -> tuple[Array, list[QualityEvent]]:
+    n = len(t_ns)
+    flags = np.zeros(n, np.uint16) if column.flags is None else column.flags.astype(np.uint16)
+    if column.values.shape != t_ns.shape or flags.shape != t_ns.shape:
+        raise ValueError(f"column '{name}': shape {column.values.shape}, flags {flags.shape}, time {t_ns.shape}")
+    events: list[QualityEvent] = []
+    if column.values.dtype.kind == "f":
+        missing = ~np.isfinite(column.values)
+        if missing.any():
+            flags[missing] |= np.uint16(Flag.OUT_OF_RANGE)
+            events += _events(name, "out_of_range", missing, t_ns, "no number")
+            after = np.flatnonzero(missing[:-1] & ~missing[1:]) + 1
+            flags[after] |= np.uint16(Flag.GAP)
+        if column.range is not None:
+            flags |= _outside(column.values, *column.range)
+    for flag in (Flag.OUT_OF_RANGE, Flag.SATURATED):
+        hit = (flags & np.uint16(flag)) != 0
+        if hit.any():
+            numbers = hit & np.isfinite(column.values) if column.values.dtype.kind == "f" else hit
+            events += _events(name, str(flag.name).lower(), numbers, t_ns, "")
+    if name in stats:
+        x = np.asarray(column.values, dtype=np.float64)
+        others = {k: columns[k].values for k in stats if k != name}
+        for start, stop, stuck, why in held_runs(x, t_ns, stats[name], others, stats):
+            flag = Flag.STUCK if stuck else Flag.HELD
+            flags[start:stop] |= np.uint16(flag)
+            events.append(_event(name, str(flag.name).lower(), t_ns, start, stop, why))
+        if column.quantity in _INERT:
+            events += _mark_spikes(name, x, flags, t_ns, stats[name])
+        if column.quantity == "temperature":
+            for start, stop, size in offset_steps(x, flags, time.flags, stats[name]):
+                flags[start:stop] |= np.uint16(Flag.OFFSET)
+                events.append(_event(name, "offset", t_ns, start, stop, f"a step of {size:+.1f} within one sample"))
+    return flags, _capped(events)
+
+
+def _mark_spikes(name: str, x: Float1D, flags: Array, t_ns: Int1D, stats: RunStats) -> list[QualityEvent]:
+    hit, many = spikes(x, stats)
+    where = np.flatnonzero(hit)
+    if many and len(where):
+        return [QualityEvent(name, "spike", int(t_ns[where[0]]), int(t_ns[where[-1]]), len(where),
+                             f"not flagged: {100 * len(where) / len(x):.1f} % of the samples stand out for 1 to 3 "
+                             "samples: measuring phases? say when with 'measuring'")]
+    flags[hit] |= np.uint16(Flag.SPIKE)
+    return _events(name, "spike", hit, t_ns, "")
+
+
+def _outside(x: Array, low: float, high: float) -> Array:
+    edge = 5e-4 * (high - low)
+    flags = np.zeros(len(x), np.uint16)
+    with np.errstate(invalid="ignore"):
+        beyond = (x < low - edge) | (x > high + edge)
+        at_edge = ((x <= low + edge) | (x >= high - edge)) & ~beyond
+    flags[beyond], flags[at_edge] = np.uint16(Flag.OUT_OF_RANGE), np.uint16(Flag.SATURATED)
+    return flags
+
+
+def _event(name: str, flag: str, t_ns: Int1D, start: int, stop: int, detail: str) -> QualityEvent:
+    return QualityEvent(name, flag, int(t_ns[start]), int(t_ns[stop - 1]), stop - start, detail)
+
+
+def _events(name: str, flag: str, hit: Bool1D, t_ns: Int1D, detail: str) -> list[QualityEvent]:
+    """One event a stretch of True; the last of too many stands for the rest."""
+    edges = np.flatnonzero(np.diff(np.concatenate([[0], hit.view(np.int8), [0]])))
+    starts, stops = edges[::2], edges[1::2]
+    found = [_event(name, flag, t_ns, int(a), int(b), detail)
+             for a, b in zip(starts[:_MOST_EVENTS - 1], stops[:_MOST_EVENTS - 1], strict=True)]
+    if len(starts) >= _MOST_EVENTS:
+        a, b = int(starts[_MOST_EVENTS - 1]), int(stops[-1])
+        rest = int((stops - starts)[_MOST_EVENTS - 1:].sum())
+        found.append(QualityEvent(name, flag, int(t_ns[a]), int(t_ns[b - 1]), rest,
+                                  f"{len(starts) - _MOST_EVENTS + 1} further stretches"))
+    return found
+
+
+def _capped(events: Iterable[QualityEvent]) -> list[QualityEvent]:
+    kept: list[QualityEvent] = []
+    seen: dict[str, int] = {}
+    for event in events:
+        seen[event.flag] = seen.get(event.flag, 0) + 1
+        if seen[event.flag] <= _MOST_EVENTS:
+            kept.append(event)
+    return kept

@@ -1,0 +1,169 @@
+"""What is wrong with a column's values: held and stuck readings, spikes, sudden offsets.
+
+All of it leans on one look at the differences of neighbours (RunStats): how fine the readings are, how noisy,
+and how often neighbours are equal by chance.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from thermodata.plugin import Array, Bool1D, Float1D
+from thermodata.schema.flag import Flag
+
+_LEAST_HELD = 10                                          # samples
+_LEAST_HELD_S = 5.0
+_SPIKE = 10.0                                             # of the noise of a difference
+_REACH = 8
+_OFFSET_K = 5.0
+_MANY_SPIKES = 0.005
+
+
+@dataclass(frozen=True, slots=True)
+class RunStats:
+    """starts, lengths: of the runs of equal readings of 10 samples and more. step: the typical difference of
+    neighbours where they differ; finest: the smallest one. chance: of equal neighbours, outside those runs.
+    alternates: how often the difference changes its sign there (noise 2/3, a smooth curve 0)."""
+
+    starts: Array
+    lengths: Array
+    step: float
+    finest: float
+    chance: float
+    alternates: float
+
+    @property
+    def float_like(self) -> bool:
+        """Fine enough for an exact repetition to mean something: not a reading in whole kelvin."""
+        return self.finest > 0 and self.step >= 2.5 * self.finest and self.chance < 0.5
+
+
+def run_stats(x: Float1D) -> RunStats:
+    """One pass over the differences of x, shape (n,); NaN parts runs."""
+    d = np.diff(x)
+    equal = d == 0
+    edges = np.flatnonzero(np.diff(np.concatenate([[0], equal.view(np.int8), [0]])))
+    starts, lengths = edges[::2], edges[1::2] - edges[::2] + 1
+    long = lengths >= _LEAST_HELD
+    starts, lengths = starts[long], lengths[long]
+    within = int((lengths - 1).sum())
+    outside = len(d) - within
+    chance = (int(equal.sum()) - within) / outside if outside else 1.0
+    moving = d[~equal & np.isfinite(d)]
+    if len(moving) < 10:
+        return RunStats(starts, lengths, 0.0, 0.0, 1.0, 0.0)
+    if len(moving) > 50_000:                              # a sample of whole stretches is enough, and far quicker
+        blocks = np.linspace(0, len(moving) - 500, 100).astype(np.int64)
+        moving = moving[(blocks[:, None] + np.arange(500)).ravel()]
+    size = np.abs(moving)
+    # rounding makes equal steps differ in the last bits: the finest step is a low quantile, not the minimum
+    finest = float(np.quantile(size, 0.01))
+    turns = float(np.mean(moving[1:] * moving[:-1] < 0))
+    return RunStats(starts, lengths, float(np.median(size)), finest, chance, turns)
+
+
+def held_runs(x: Float1D, t_ns: Array, own: RunStats, others: Mapping[str, Array],
+              stats: Mapping[str, RunStats]) -> Iterator[tuple[int, int, bool, str]]:
+    """(start, stop, stuck, why) of exactly constant stretches that chance can't explain.
+
+    The channel must be fine-grained, and either noisy of its own, or jump where it is released while others moved
+    (the drift that nobody saw). Stuck: it got there by a jump, so it is no reading that was held.
+    """
+    if not own.float_like or not len(own.starts):
+        return
+    # expected number of such runs by chance under 1/1000
+    least = np.log(1e-3 / len(x)) / np.log(max(own.chance, 1e-3)) * 1.5
+    for start, length in zip(own.starts.tolist(), own.lengths.tolist(), strict=True):
+        stop = start + length
+        if length < max(_LEAST_HELD, least) or (t_ns[stop - 1] - t_ns[start]) < _LEAST_HELD_S * 1e9:
+            continue
+        jump_in = abs(x[start] - x[start - 1]) if start else 0.0
+        jump_out = abs(x[stop] - x[stop - 1]) if stop < len(x) else 0.0
+        moved = [k for k, s in stats.items() if k in others and s.float_like and _moves(others[k], start, stop)]
+        if own.alternates < 0.2 and not (moved and jump_out > 8 * own.step):
+            continue
+        stuck = bool(jump_in > max(50 * own.step, 1e-12)) and jump_in > 0.2 * _spread(x, start)
+        why = f"exactly {x[start]:.6g} for {length} samples"
+        if moved:
+            why += f" while {', '.join(moved[:3])} moved"
+        yield start, stop, stuck, why
+
+
+def _moves(x: Array, start: int, stop: int) -> bool:
+    part = x[start:min(stop, start + 2000)]
+    return bool(np.mean(part[1:] != part[:-1]) > 0.2)
+
+
+def _spread(x: Float1D, before: int) -> float:
+    past = x[max(0, before - 2000):before]
+    past = past[np.isfinite(past)]
+    return float(np.ptp(past)) if len(past) else 0.0
+
+
+def spikes(x: Float1D, own: RunStats) -> tuple[Bool1D, bool]:
+    """(where 1 to 3 samples stand out from their neighbours on both sides, whether there are too many to be
+    spikes). Only where a difference is far beyond the noise are neighbours looked at."""
+    n = len(x)
+    hit: Bool1D = np.zeros(n, dtype=bool)
+    if own.step <= 0 or n < 2 * _REACH + 1:
+        return hit, False
+    noise = max(own.step, 2.0 * own.finest)
+    with np.errstate(invalid="ignore"):
+        jumps = np.flatnonzero(np.abs(np.diff(x)) > _SPIKE * noise)
+    if not len(jumps):
+        return hit, False
+    near = np.unique(np.clip((jumps[:, None] + np.array([1, 2, 3, 0, -1, -2])).ravel(), 0, n - 1))
+    if len(near) > 0.2 * n + 1000:
+        near = near[:: int(len(near) / (0.2 * n + 1000)) + 1]
+    offsets = np.concatenate([np.arange(-_REACH, -2), np.arange(3, _REACH + 1)])
+    around = x[np.clip(near[:, None] + offsets, 0, n - 1)]
+    half = len(offsets) // 2
+    fine = np.isfinite(around)
+    enough = (fine[:, :half].sum(axis=1) >= 3) & (fine[:, half:].sum(axis=1) >= 3)
+    near, around = near[enough], around[enough]
+    if not len(near):
+        return hit, False
+    left, right = np.nanmedian(around[:, :half], axis=1), np.nanmedian(around[:, half:], axis=1)
+    middle = (left + right) / 2
+    spread = np.nanmedian(np.abs(around - np.where(np.arange(2 * half) < half, left[:, None], right[:, None])), axis=1)
+    height = np.abs(x[near] - middle)
+    with np.errstate(invalid="ignore"):
+        out = (height > np.maximum(_SPIKE * noise, 10 * spread)) & (np.abs(left - right) < 0.3 * height)
+    hit[near[out]] = True
+    edges = np.flatnonzero(np.diff(np.concatenate([[0], hit.view(np.int8), [0]])))
+    for a, b in zip(edges[::2].tolist(), edges[1::2].tolist(), strict=True):
+        if b - a > 3:
+            hit[a:b] = False
+    count = int(hit.sum())
+    return hit, count > max(10, _MANY_SPIKES * n)
+
+
+def offset_steps(x: Float1D, flags: Array, of_time: Array, own: RunStats) -> Iterator[tuple[int, int, float]]:
+    """(start, stop, size) where a temperature steps by more than 5 K within one sample and stays there: thermal
+    mass forbids it, a failing sensor or a changed plug does it. Ends at a step back, or at the end."""
+    if own.step <= 0:
+        return
+    ignored = Flag.SPIKE | Flag.STUCK | Flag.OUT_OF_RANGE | Flag.HELD
+    rows = np.flatnonzero((flags & np.uint16(ignored)) == 0)
+    if len(rows) < 40:
+        return
+    y = x[rows]
+    d = np.diff(y)
+    # over a gap the temperature may have gone anywhere
+    jumps = np.flatnonzero((np.abs(d) > max(_OFFSET_K, 40 * own.step)) & ((of_time[rows[1:]] & int(Flag.GAP)) == 0)
+                           & (np.diff(rows) <= 5))
+    open_at, size = -1, 0.0
+    for j in jumps.tolist():
+        before, after = y[max(0, j - 20):j + 1], y[j + 1:j + 21]
+        if len(before) < 5 or len(after) < 5 or abs(np.median(after) - np.median(before)) < 0.7 * abs(d[j]):
+            continue
+        if open_at >= 0 and abs(d[j] + size) < 0.5 * abs(size):
+            yield int(rows[open_at]), int(rows[j]) + 1, size
+            open_at = -1
+        elif open_at < 0:
+            open_at, size = j + 1, float(d[j])
+    if open_at >= 0:
+        yield int(rows[open_at]), len(x), size
