@@ -19,8 +19,8 @@ def candidate_spec(candidate: str, channels: Mapping[str, Described]) -> EffectS
         if channel not in channels:
             raise unknown_name("channel", channel, list(channels), where=f"candidate '{candidate}'")
     choices = bindings(found, channels)
-    fitting = [c for c in choices if not given or list(c.values()) == given or sorted(c.values()) == sorted(given)]
-    if len(fitting) == 1 or (fitting and given):
+    fitting = [c for c in choices if list(c.values()) == given or not given]
+    if len(fitting) == 1:
         return EffectSpec(effect=name, drivers=dict(fitting[0]))
     if len(given) == len(found.needs):                      # a channel without a place, named on purpose
         return EffectSpec(effect=name, drivers={n.role: c for n, c in zip(found.needs, given, strict=True)})

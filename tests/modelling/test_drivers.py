@@ -1,0 +1,81 @@
+"""Drivers: relative to the start, gaps filled, and honest about what was filled."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from thermodata.effect import effect
+from thermodata.errors import UsageError
+from thermodata.modelling.drivers import has_drivers, make_drivers, names_of, start_value
+from thermodata.view.dataset import Dataset
+
+from .conftest import make_test
+
+
+def test_temperatures_count_from_the_start_and_speeds_from_zero() -> None:
+    test = make_test(1, "calibration")
+    warmth = make_drivers(test, effect("lag"), {"u": "T_nut"}).values["u"]
+    assert abs(warmth[:5].mean()) < 0.05
+    assert np.allclose(warmth - warmth[100], test.values["T_nut"] - test.values["T_nut"][100])
+    assert np.array_equal(make_drivers(test, effect("lag"), {"u": "speed"}).values["u"], test.values["speed"])
+
+
+def test_a_difference_of_two_temperatures_is_a_driver() -> None:
+    test = make_test(1, "calibration")
+    found = make_drivers(test, effect("lag"), {"u": "T_nut - T_hall"}).values["u"]
+    plain = test.values["T_nut"] - test.values["T_hall"]
+    assert np.allclose(found - found[7], plain - plain[7])
+    assert names_of("T_nut - T_hall") == ("T_hall", "T_nut")
+
+
+def test_a_condition_is_a_state() -> None:
+    test = make_test(1, "calibration")
+    found = make_drivers(test, effect("lag"), {"u": "speed > 1000 rpm"}).values["u"]
+    assert set(np.unique(found)) == {0.0, 1.0}
+    assert found.sum() == (test.values["speed"] > 1000).sum()
+
+
+def test_gaps_are_bridged_by_a_straight_line_and_long_ones_do_not_count() -> None:
+    test = make_test(1, "calibration")
+    ramp = test.t_s / 3600.0
+    broken = ramp.copy()
+    broken[100:110] = np.nan
+    good = np.ones(len(ramp), bool)
+    good[300:400] = False
+    broken[300:400] = 1e6
+    test = replace(test, values={**test.values, "T_nut": broken}, valid={**test.valid, "T_nut": good})
+    found = make_drivers(test, effect("lag"), {"u": "T_nut"})
+    assert np.allclose(found.values["u"], ramp - ramp[0], atol=0.01)
+    assert found.valid["u"][100:110].all()
+    assert not found.valid["u"][350]
+
+
+def test_ends_are_held() -> None:
+    test = make_test(1, "calibration")
+    values = np.full(len(test.t_s), 25.0)
+    values[:50], values[50:60] = np.nan, 22.0
+    test = replace(test, values={**test.values, "T_nut": values})
+    found = make_drivers(test, effect("lag"), {"u": "T_nut"}).values["u"]
+    assert not found[:60].any()
+    assert np.allclose(found[60:], 3.0)
+
+
+def test_a_test_without_the_channel_says_so(world: Dataset) -> None:
+    test = make_test(1, "calibration")
+    assert not has_drivers(test, {"u": "T_tool"})
+    dead = replace(test, values={**test.values, "T_nut": np.full(len(test.t_s), np.nan)})
+    assert not has_drivers(dead, {"u": "T_nut"})
+    with pytest.raises(UsageError, match="no channel 'T_tool'"):
+        make_drivers(test, effect("lag"), {"u": "T_tool"})
+
+
+def test_the_start_value_is_a_mean_only_while_nothing_moves() -> None:
+    noise = np.random.default_rng(0).normal(0, 0.05, 200)
+    assert start_value(20 + noise, 60.0) == pytest.approx(20.0, abs=0.06)
+    # heating from the first second on: bins of 60 s have their middle 30 s later
+    rising = 20 + 0.4 * (np.arange(200) + 0.5)
+    assert start_value(rising + noise, 60.0) == pytest.approx(20.0, abs=0.2)
+    assert start_value(np.array([21.0]), 60.0) == 21.0
