@@ -91,7 +91,7 @@ def test_a_draft_loads_and_marks_its_questions(tmp_path: Path) -> None:
     assert made.sources["crio"].files == "raw/{test}_daq.tdms"
     assert {c.quantity for c in made.channels.values()} == {"displacement", "temperature", "rotational_speed", "state",
                                                             "label"}
-    assert [line for line in text.splitlines() if "T14:" in line][0].endswith("# ? at: where on the machine?")
+    assert next(line for line in text.splitlines() if "T14:" in line).endswith("# ? at: where on the machine?")
     assert "# not used: notes.txt" in text
 
 

@@ -33,7 +33,7 @@ def test_a_page_typesets_units_and_minus() -> None:
 
 
 def test_a_table_aligns_numbers_right_and_texts_left() -> None:
-    rows = [{"test": "a", "rmse": 1.0, "n": 5}, {"test": "longer", "rmse": None, "n": 12345}]
+    rows: list[dict[str, object]] = [{"test": "a", "rmse": 1.0, "n": 5}, {"test": "longer", "rmse": None, "n": 12345}]
     assert table(rows, [("test", "test"), ("rmse", "RMSE [um]"), ("n", "n")]).splitlines() == [
         "test    RMSE [um]      n",
         "──────  ─────────  ─────",

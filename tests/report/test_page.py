@@ -41,7 +41,7 @@ def test_the_headline_says_what_the_added_effect_did(data: ReportData) -> None:
 
 def test_without_a_parent_the_headline_is_the_verdict(blind: ReportData) -> None:
     _keep(render(blind), "before")
-    assert headline(blind).startswith("Missing: feed_screw (T_nut_Z), error 4.20 -> 0.900 um")
+    assert headline(blind) == "dZ misses feed_screw (T_nut_Z)"
 
 
 def test_weak_spots_are_shaded_in_their_own_test_only(blind: ReportData) -> None:

@@ -8,6 +8,7 @@ import json
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from decimal import Decimal
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, cast
 
@@ -49,8 +50,8 @@ class Session:
 
 def plain(value: Any) -> Any:
     """Any result as JSON can hold it: models and dataclasses as mappings, NaN and infinity as null."""
-    if isinstance(value, float):
-        return value if math.isfinite(value) else None
+    if isinstance(value, float | Decimal):
+        return float(value) if math.isfinite(value) else None
     if value is None or isinstance(value, str | int | bool):
         return value
     if hasattr(value, "model_dump"):
@@ -63,8 +64,8 @@ def plain(value: Any) -> Any:
         return plain(value.tolist())
     if isinstance(value, list | tuple | set | frozenset):
         return [plain(v) for v in value]
-    if hasattr(value, "isoformat"):
-        return value.isoformat()
+    if hasattr(value, "isoformat"):                   # times; what is no time (NaT) differs from itself
+        return value.isoformat() if value == value else None
     return str(value)
 
 

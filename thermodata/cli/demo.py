@@ -57,10 +57,10 @@ def prepare(folder: Path, hide: str | None, seed: int) -> str:
     import random
     import shutil
 
-    from thermodata.virtual import hideable
+    from thermodata.virtual.catalogue import HIDEABLE
 
     if hide is None:
-        hide = random.Random(seed).choice(sorted(hideable()))
+        hide = random.Random(seed).choice(sorted(HIDEABLE))
     if folder.is_dir() and any(folder.iterdir()):
         if not (folder / _MARK).is_file():
             raise UsageError("the folder is not empty and was not made by a demo", where=str(folder),

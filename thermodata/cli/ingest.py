@@ -23,21 +23,22 @@ def ingest_command(session: Session, campaign: Path) -> int:
 
     summary = plain(ingest(session.store(create=True), campaign, progress=session.say).to_json())
     session.answer(summary, lambda: ingest_text(summary))
-    return 3 if summary.get("losses") else 0
+    return 3 if summary["losses"] else 0
 
 
 def ingest_text(summary: dict[str, Any]) -> str:
     """The summary of an ingest for a person: counts, calibrations, flags, losses, notes."""
-    flags = {name: n for name, n in summary.get("flags", {}).items() if n}
+    flags = {name: n for name, n in summary["flags"].items() if n}
     parts = [fields([
         ("campaign", summary["campaign"]), ("tests", summary["tests"]), ("files", summary["files"]),
         ("samples", f"{_number(summary['samples'])}"), ("flagged", flags or "none"),
-        ("changed", summary.get("changed")), ("took", f"{summary['seconds']:.1f} s"),
+        ("new", f"{summary['read']} files read, {summary['made']} streams made" if summary["changed"] else "nothing"),
+        *([("stale models", summary["stale"])] if summary["stale"] else []), ("took", f"{summary['seconds']:.1f} s"),
     ])]
-    if summary.get("calibrations"):
+    if summary["calibrations"]:
         parts.append(calibrations_text(summary["calibrations"]))
     for title, key in (("losses", "losses"), ("notes", "notes")):
-        if summary.get(key):
+        if summary[key]:
             parts.append(title + "\n" + "\n".join(f"  - {_sentence(item)}" for item in summary[key]))
     return "\n\n".join(parts)
 

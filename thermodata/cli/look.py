@@ -123,4 +123,4 @@ def _flat(value: Any, prefix: str = "") -> list[tuple[str, Any]]:
         return [pair for k, v in value.items() for pair in _flat(v, f"{prefix}.{k}" if prefix else str(k))]
     if isinstance(value, list) and any(isinstance(v, dict) for v in value):
         return [pair for i, v in enumerate(value, 1) for pair in _flat(v, f"{prefix}[{i}]")]
-    return [(prefix, value)]
+    return [(prefix, str(value) if isinstance(value, float) else value)]      # all digits: this is the record

@@ -40,15 +40,13 @@ def sql_command(session: Session, query: str | None, as_csv: bool, rows: int) ->
             raise UsageError("no query", hint='thermodata sql "select * from test"')
         query = sys.stdin.read()
     relation = session.view().sql(query)
-    if relation is None:
-        raise UsageError("the query answers nothing", expected="a SELECT", got=query.strip()[:80])
     columns: list[str] = list(relation.columns)
     if as_csv:
         _write_csv(columns, _batches(relation))
     elif session.as_json:
         _write_json(columns, _batches(relation))
     else:
-        found = relation.fetchmany(rows + 1)
+        found = relation.limit(rows + 1).fetchall()
         click.echo(table([{str(i): v for i, v in enumerate(r)} for r in found[:rows]],
                          [(str(i), name) for i, name in enumerate(columns)]))       # by position: names may repeat
         if len(found) > rows:
@@ -56,8 +54,10 @@ def sql_command(session: Session, query: str | None, as_csv: bool, rows: int) ->
 
 
 def _batches(relation: Any) -> Iterator[list[tuple[Any, ...]]]:
-    while batch := relation.fetchmany(_CHUNK):
-        yield batch
+    # DuckDB 2 renamed the streaming result; nothing else yields a relation's rows without running it again
+    stream = relation.to_arrow_reader if hasattr(relation, "to_arrow_reader") else relation.fetch_record_batch
+    for batch in stream(_CHUNK):
+        yield list(zip(*(column.to_pylist() for column in batch.columns), strict=True))
 
 
 def _write_csv(columns: list[str], batches: Iterator[list[tuple[Any, ...]]]) -> None:

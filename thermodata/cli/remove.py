@@ -19,8 +19,7 @@ def forget_command(session: Session, campaign: str, test: str | None) -> None:
     from thermodata.store.lifecycle import forget
 
     gone = plain(forget(session.store(), campaign, test))
-    payload = gone if isinstance(gone, dict) else {"campaign": campaign, "test": test, "removed": gone}
-    session.answer(payload, lambda: fields(payload.items()))
+    session.answer(gone, lambda: fields(gone.items()))
 
 
 @command("gc")
@@ -31,5 +30,4 @@ def gc_command(session: Session, grace: str) -> None:
     from thermodata.store.lifecycle import gc
 
     gone = plain(gc(session.store(), grace_s=value_in(grace, "s")))
-    payload = gone if isinstance(gone, dict) else {"removed": gone}
-    session.answer(payload, lambda: fields(payload.items()))
+    session.answer(gone, lambda: fields(gone.items()))

@@ -161,8 +161,9 @@ def _looks(store: Store, models: Sequence[str]) -> dict[str, int]:
     return {f"{row['campaign']}/{row['test']}": int(row["n"]) for row in rows}
 
 
-def _rows(store: Store, query: str, params: Sequence[Any] | None = None) -> list[dict[str, Any]]:
+def _rows(store: Store, query: str, params: Sequence[Any] = ()) -> list[dict[str, Any]]:
+    from thermodata.store.connection import fetch
+
     with store.reader() as con:
-        relation = con.execute(query, params)
-        names = [column[0] for column in relation.description]
-        return [dict(zip(names, row, strict=True)) for row in relation.fetchall()]
+        found: list[dict[str, Any]] = fetch(con, query, params)
+    return found

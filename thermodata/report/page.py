@@ -90,6 +90,9 @@ def headline(data: ReportData) -> str:
         return (f"With {data.added} the error of {', '.join(data.responses)} falls from {number(before)} to "
                 f"{number(after)} {data.unit} ({change(before, after)})")
     if data.diagnosis:
+        claimed = next((c for c in data.diagnosis.candidates if c.claimed), None)
+        if claimed:
+            return f"{', '.join(data.responses)} misses {claimed.effect} ({', '.join(claimed.drivers) or 'no driver'})"
         return _capital(verdict_sentence(data.diagnosis))
     return f"{data.name} follows {', '.join(data.responses)} to {number(after)} {data.unit}"
 
@@ -102,8 +105,8 @@ def _sentences(data: ReportData) -> list[str]:
             lines.append(claimed.why)
         if claimed and claimed.equivalent:
             lines.append(f"These tests can't tell it from {', '.join(claimed.equivalent)}.")
-    if data.added and data.diagnosis:
-        lines.append("Now: " + verdict_sentence(data.diagnosis) + ".")
+    if data.diagnosis:
+        lines.append(("Now: " if data.added else "") + _capital(verdict_sentence(data.diagnosis)) + ".")
     return lines
 
 

@@ -4,9 +4,13 @@ from __future__ import annotations
 
 from typing import Annotated, Any, Literal
 
-from pydantic import Field, field_validator, model_validator
+from pydantic import Field, PlainSerializer, field_validator, model_validator
 
 from thermodata.schema.campaign import Seconds, Strict
+
+
+# a model written as JSON is a model file again, and there a time has a unit
+_WITH_UNIT = PlainSerializer(lambda s: f"{s:.12g} s", return_type=str, when_used="json")
 
 
 class Response(Strict):
@@ -56,7 +60,7 @@ class Model(Strict):
     verify_on: list[str] | None = None
     locked: list[str] | None = None
     phases: list[str] | None = None
-    step: Annotated[Seconds, Field(gt=0)] = 30.0
+    step: Annotated[Seconds, Field(gt=0), _WITH_UNIT] = 30.0
     effects: list[EffectSpec] = []
     in_sample: bool = False                                # verify_on is fitted too, and its scores say so (set by add)
     notes: str = ""

@@ -1,0 +1,164 @@
+"""Every command on a small real store: raw CSV to the added effect."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pyarrow.parquet as pq
+import pytest
+
+from .conftest import TESTS, Said, write_campaign
+
+Say = Callable[..., Said]
+SCORE = {"model", "campaign", "test", "role", "response", "phase", "fit", "rmse_um", "ptp_um", "ptp_residual_um",
+         "max_um", "n"}
+FIT = {"model", "name", "parent", "campaigns", "response", "parameters", "scores", "checks", "before"}
+
+
+@pytest.fixture
+def ask(say: Say, campaign: Path) -> Say:
+    """Runs a command on the campaign's store; it must succeed."""
+
+    def run(*words: object) -> Said:
+        said = say("--store", campaign / "thermodata.store", *words)
+        assert said.code == 0, said.err
+        return said
+
+    return run
+
+
+@pytest.fixture
+def data(ask: Say) -> Callable[..., Any]:
+    def run(*words: object) -> Any:
+        return json.loads(ask(*words, "--json").out)
+
+    return run
+
+
+def test_ingest_again_changes_nothing(data: Callable[..., Any], campaign: Path) -> None:
+    summary = data("ingest", campaign / "campaign.yaml")
+    assert summary["changed"] is False
+    assert (summary["tests"], summary["files"], summary["losses"]) == (4, 4, [])
+
+
+def test_a_broken_file_is_a_loss_and_code_3(say: Say, tmp_path: Path) -> None:
+    path = write_campaign(tmp_path / "c")
+    (tmp_path / "c" / "raw" / "heat2.csv").write_bytes(b"\x00\x01\x02 not a table")
+    said = say("--store", tmp_path / "s", "ingest", path, "--json")
+    assert said.code == 3
+    assert any("heat2" in json.dumps(loss) for loss in json.loads(said.out)["losses"])
+
+
+def test_looking(ask: Say, data: Callable[..., Any]) -> None:
+    assert {row["test"]: row["role"] for row in data("tests")} == TESTS
+    assert {row["channel"]: row["unit"] for row in data("channels")}["T_nut_Z"] == "degC"
+    assert data("calibrations")[0]["sign"] == "+"
+    assert isinstance(data("quality"), list)
+    assert "heat1" in ask("tests").out
+    assert "axis.z.nut" in ask("channels", "--test", "day1").out
+    assert "raw/day1.csv" in ask("trace", "small", "day1", "dZ").out
+
+
+def test_an_unknown_campaign_or_test_names_the_known_ones(say: Say, campaign: Path) -> None:
+    store = campaign / "thermodata.store"
+    said = say("--store", store, "tests", "-c", "smal")
+    assert said.code == 2
+    assert "did you mean 'small'?" in said.err
+    said = say("--store", store, "channels", "-t", "day7")
+    assert said.code == 2
+    assert "day1" in said.err
+
+
+def test_sql_gives_clean_csv_and_typed_json(ask: Say, data: Callable[..., Any]) -> None:
+    query = "select test, t_s, value, t from sample where channel = 'T_nut_Z' order by test, t_s"
+    rows = list(csv.reader(io.StringIO(ask("sql", query, "--csv").out)))
+    assert rows[0] == ["test", "t_s", "value", "t"]
+    assert len(rows) == 1 + 4 * 360
+    assert (rows[1][0], float(rows[2][1])) == ("day1", 60.0)
+    assert data("sql", "select 1.5::decimal(4, 2) as a, null as b, [1, 2] as c") == [{"a": 1.5, "b": None, "c": [1, 2]}]
+    assert data("sql", "select 1 where false") == []
+    assert ask("sql", "select 1 as a, 'x' as a").out.splitlines()[0].split() == ["a", "a"]
+
+
+def test_a_long_table_is_cut_and_says_so(ask: Say) -> None:
+    said = ask("sql", "from sample", "--rows", 3)
+    assert len(said.out.splitlines()) == 5
+    assert "--csv" in said.err
+
+
+def test_wrong_sql_is_a_usage_error(say: Say, campaign: Path) -> None:
+    said = say("--store", campaign / "thermodata.store", "sql", "selec 1")
+    assert said.code == 2
+    assert "selec" in said.err
+
+
+def test_export_writes_a_uniform_grid(data: Callable[..., Any], say: Say, campaign: Path, tmp_path: Path) -> None:
+    found = data("export", "small", "day1", tmp_path / "d.parquet", "--step", "5 min")
+    table = pq.read_table(tmp_path / "d.parquet")
+    assert table.num_rows == found["rows"] == 72
+    assert json.loads(table.schema.metadata[b"thermodata.units"])["dZ"] == "um"
+    data("export", "small", "day1", tmp_path / "d.csv")
+    assert "dZ [um]" in (tmp_path / "d.csv").read_text().splitlines()[0]
+    again = say("--store", campaign / "thermodata.store", "export", "small", "day1", tmp_path / "d.csv")
+    assert (again.code, "--force" in again.err) == (2, True)
+    assert [p.name for p in tmp_path.iterdir() if p.name.endswith(".part")] == []
+
+
+def test_fit_add_and_history(data: Callable[..., Any], ask: Say, campaign: Path) -> None:
+    base = data("fit", campaign / "baseline.yaml")
+    assert set(base) == FIT
+    assert set(base["scores"][0]) == SCORE
+    assert base["before"] is None
+    assert {s["test"] for s in base["scores"]} == {"heat1", "heat2", "day1"}, "locked tests stay closed"
+
+    better = data("add", base["model"], "feed_screw:T_nut_Z")
+    assert better["parent"] == base["model"]
+    assert [s["model"] for s in better["before"]] == [base["model"]] * len(better["before"])
+
+    def rmse(rows: list[dict[str, Any]]) -> float:
+        return max(s["rmse_um"] for s in rows if s["phase"] == "all")
+
+    assert rmse(better["before"]) > 2.0
+    assert rmse(better["scores"]) < 0.5, "what is left is the 0.3 um of noise"
+
+    chain = data("history", better["model"])
+    assert [v["added"] for v in chain] == [None, "feed_screw"]
+    both = data("compare", base["model"], better["model"])
+    assert {s["model"] for s in both["scores"]} == {base["model"], better["model"]}
+    assert [m["model"] for m in both["models"]] == [base["model"], better["model"]]
+    for words in (["compare", base["model"]], ["compare", base["model"], better["model"]], ["history", better["model"]],
+                  ["fit", campaign / "baseline.yaml"], ["portability", base["model"]]):
+        assert "RMSE" in ask(*words).out or "class" in ask(*words).out
+
+
+def test_a_report_of_a_version_tells_what_it_changed(data: Callable[..., Any], ask: Say, campaign: Path,
+                                                     tmp_path: Path) -> None:
+    base = data("fit", campaign / "baseline.yaml")
+    better = data("add", base["model"], "feed_screw:T_nut_Z")
+    found = data("report", better["model"], "-o", tmp_path / "r.html")
+    page = (tmp_path / "r.html").read_text(encoding="utf-8")
+    assert found["bytes"] == len(page.encode())
+    assert "With feed_screw the error of dZ falls from" in page
+    assert 'id="test2"' in page
+    assert 'id="waterfall"' in page
+    assert "none was opened" in page
+
+
+def test_a_snapshot_needs_nothing_beside_it(ask: Say, tmp_path: Path) -> None:
+    ask("snapshot", tmp_path / "s.duckdb")
+    assert (tmp_path / "s.duckdb").stat().st_size > 100_000
+
+
+def test_forget_then_gc(say: Say, tmp_path: Path) -> None:
+    path, store = write_campaign(tmp_path / "c"), tmp_path / "s"
+    assert say("--store", store, "ingest", path).code == 0
+    assert say("--store", store, "forget", "small", "day2", "--json").code == 0
+    assert {r["test"] for r in json.loads(say("--store", store, "tests", "--json").out)} == set(TESTS) - {"day2"}
+    assert json.loads(say("--store", store, "gc", "--grace", "0 s", "--json").out)["removed"] > 0
+    assert say("--store", store, "forget", "small", "day2").code == 2
+    assert (tmp_path / "c" / "raw" / "day2.csv").exists()
