@@ -40,18 +40,19 @@ class Sensor:
         return np.asarray(value, dtype=np.float64)
 
 
-def make_sensors(rng: np.random.Generator, needed: frozenset[str]) -> tuple[Sensor, ...]:
-    """The sensors of one lab: those that are `needed`, the usual ones, and some by chance."""
+def make_sensors(rng: np.random.Generator) -> tuple[tuple[Sensor, ...], frozenset[str]]:
+    """Every sensor that a lab could place, and the names of those that this one has left out unless needed."""
     fine = float(rng.choice([0.01, 0.02, 0.05]))
     whole = bool(rng.random() < 0.25)                      # some controls show whole kelvin only
     rows: list[Sensor] = []
+    spare: set[str] = set()
 
     def pt(name: str, at: str, body: str, cell: int, usual: float = 1.0) -> None:
-        keep = rng.random() < usual
+        if rng.random() >= usual:
+            spare.add(name)
         serial, offset = f"PT-{rng.integers(1000, 9999)}", float(rng.normal(0, 0.1))
-        if keep or name in needed:
-            rows.append(Sensor(name, "daq", "temperature", "degC", at, (body, cell), float(rng.uniform(0.008, 0.02)),
-                               fine, serial, offset))
+        rows.append(Sensor(name, "daq", "temperature", "degC", at, (body, cell), float(rng.uniform(0.008, 0.02)),
+                           fine, serial, offset))
 
     def own(name: str, at: str, body: str, cell: int) -> None:
         rows.append(Sensor(name, "nc", "temperature", "degC", at, (body, cell), 0.02,
@@ -88,4 +89,4 @@ def make_sensors(rng: np.random.Generator, needed: frozenset[str]) -> tuple[Sens
     state("coolant_on", "state", "1", "coolant")
     state("pump_on", "state", "1", "hydraulics")
     state("door_open", "state", "1", "hall.door")
-    return tuple(rows)
+    return tuple(rows), frozenset(spare)

@@ -18,14 +18,12 @@ from thermodata.schema.model import EffectSpec, Model, Response
 from thermodata.view.dataset import Dataset
 from thermodata.virtual.catalogue import EFFECTS, drivers_of
 from thermodata.virtual.hall import BOUNDARIES, Hall, air, smooth
+from thermodata.virtual.levers import draw_levers
 from thermodata.virtual.losses import spindle_power
 from thermodata.virtual.machine import Machine, build
 from thermodata.virtual.plan import AXES, MAX_SPEED, Operation, make_plan
 from thermodata.virtual.sensors import Sensor, make_sensors
 from thermodata.virtual.thermal import run
-
-POOL = tuple(k for k in EFFECTS if k not in ("spindle_bearing", "ambient_frame"))
-DETECTABLE_UM, DETECTABLE_LOCKED_UM = 2.7, 2.3
 
 
 @dataclass(frozen=True)
@@ -103,15 +101,14 @@ def make_world(hide: str = "none", seed: int = 0, *, tests: int | None = None, h
         raise UsageError("tests of this length tell nothing about heat", expected="2 to 96 h", got=f"{hours} h")
     rng = np.random.default_rng([seed, 7919, sum(map(ord, hide))])
     axis = _axis(rng, hide)
-    present = _present(rng, hide, axis)
     ops = make_plan(rng, axis, hours, tests)
     machine = build(rng, ops[0].home)
     hall = Hall.draw(rng)
-    sensors = _sensors(rng, present, AXES[axis], hide if not measured else None)
+    sensors, spare = make_sensors(rng)
     starts = _starts(rng, len(ops), hours)
     outside = [air(hall, op, hour, day, rng) for op, (day, hour) in zip(ops, starts, strict=True)]
     cells = [s for s in sensors if isinstance(s.cell, tuple)]
-    growing = [e for e in present if e != "centrifugal_shift"]
+    growing = [e for e in EFFECTS if e != "centrifugal_shift"]
     observe = np.zeros((len(cells) + len(growing), machine.network.size))
     for row, s in enumerate(cells):
         assert isinstance(s.cell, tuple)
@@ -122,10 +119,11 @@ def make_world(hide: str = "none", seed: int = 0, *, tests: int | None = None, h
     units: list[dict[str, Float1D]] = []
     for op, field in zip(ops, seen, strict=True):
         unit = {e: field[row] - field[row, 0] for row, e in enumerate(growing, start=len(cells))}
-        if "centrifugal_shift" in present:
-            unit["centrifugal_shift"] = (op.speed / MAX_SPEED) ** 2
+        unit["centrifugal_shift"] = (op.speed / MAX_SPEED) ** 2
         units.append(unit)
-    levers = {e: _lever(rng, e, axis, [u[e] for u in units], ops) for e in present}
+    levers = draw_levers(rng, hide, axis, units, ops)
+    present = tuple(levers)
+    sensors = _placed(sensors, spare, present, AXES[axis], hide if not measured else None)
     noise, white = float(rng.uniform(0.3, 0.5)), float(rng.uniform(0.1, 0.25))
     runs = []
     for op, field, unit, boundary, (day, hour) in zip(ops, seen, units, outside, starts, strict=True):
@@ -161,31 +159,14 @@ def _axis(rng: np.random.Generator, hide: str) -> int:
     return 1 if rng.random() < 0.12 else 2
 
 
-def _present(rng: np.random.Generator, hide: str, axis: int) -> tuple[str, ...]:
-    """Four to six effects beside the hidden one; no two of one family, the hidden one's excepted."""
-    chosen = ["spindle_bearing", "ambient_frame"]
-    taken = {EFFECTS[e].family for e in chosen if e != hide}
-    wanted = int(rng.integers(4, 7)) + (hide in chosen)
-    for e in rng.permutation(list(POOL)):
-        if len(chosen) >= wanted:
-            break
-        h = EFFECTS[str(e)]
-        if e == hide or h.family in taken or (h.only_z and axis != 2):
-            continue
-        taken.add(h.family)
-        chosen.append(str(e))
-    if hide != "none" and hide not in chosen:
-        chosen.append(hide)
-    return tuple(chosen)
-
-
-def _sensors(rng: np.random.Generator, present: tuple[str, ...], axis: str, blind: str | None) -> tuple[Sensor, ...]:
+def _placed(sensors: tuple[Sensor, ...], spare: frozenset[str], present: tuple[str, ...], axis: str,
+            blind: str | None) -> tuple[Sensor, ...]:
+    """The sensors of this lab: the usual ones and what the effects of the machine need, without those of `blind`."""
     needed = frozenset(c for e in present for c in drivers_of(e, axis).values())
-    sensors = make_sensors(rng, needed)
-    if blind is None or blind == "none":
-        return sensors
-    kept = frozenset(c for e in present if e != blind for c in drivers_of(e, axis).values())
-    gone = frozenset(drivers_of(blind, axis).values()) - kept
+    gone = spare - needed
+    if blind is not None and blind != "none":
+        kept = frozenset(c for e in present if e != blind for c in drivers_of(e, axis).values())
+        gone |= frozenset(drivers_of(blind, axis).values()) - kept
     return tuple(s for s in sensors if s.name not in gone)
 
 
@@ -212,22 +193,3 @@ def _true(sensor: Sensor, cells: dict[str, Float1D], boundary: Float2D, op: Oper
     plain = {"spindle_speed": op.speed, "table_speed": op.table_speed, "coolant_on": op.coolant,
              "pump_on": op.pump, "door_open": op.door}
     return plain[sensor.name] if sensor.name in plain else spindle_power(op)
-
-
-def _lever(rng: np.random.Generator, effect: str, axis: int, unit: list[Float1D], ops: list[Operation]) -> Float1D:
-    """How the machine's geometry carries an effect to the tool centre point, along X, Y, Z.
-
-    Drawn so that the effect matters as much as the lab would notice: in its best test, in three tests, in the
-    locked one.
-    """
-    h = EFFECTS[effect]
-    spread = np.array([float(np.std(u[op.measuring])) for u, op in zip(unit, ops, strict=True)])
-    ranked = np.sort(spread)[::-1]
-    third = ranked[min(2, len(ranked) - 1)]
-    locked = max(s for s, op in zip(spread, ops, strict=True) if op.role == "locked")
-    size = max(float(rng.uniform(*h.rms_um)) / ranked[0], DETECTABLE_UM / max(third, 1e-9),
-               DETECTABLE_LOCKED_UM / max(locked, 1e-9))
-    size = min(size, 40.0 / ranked[0])
-    lever = size * np.array(h.axes) * rng.uniform(0.5, 1.0, 3) * rng.choice([-1.0, 1.0], 3)
-    lever[axis] = size * rng.choice([-1.0, 1.0])
-    return np.asarray(lever)
