@@ -12,7 +12,7 @@ from thermodata.plugin import Array, Int1D
 from thermodata.store.files import key_of
 from thermodata.store.plan import SourcePlan, TestPlan
 from thermodata.store.series import TestSeries
-from thermodata.store.timeline import Clock, Span, bases
+from thermodata.store.timeline import Clock, Span, bases, first_ns
 
 
 def clocks_of(store: Path, plan: TestPlan, calibrations: Mapping[str, CalibrationResult],
@@ -112,9 +112,12 @@ def _estimate(store: Path, plan: TestPlan, source: SourcePlan, there: SourcePlan
         why = "; ".join(reasons) or "'by' names no pair of channels"
         return Clock(declared.offset_ns, declared.drift_ppm, declared.base_ns, True, key,
                      (f"clock not aligned to '{there.name}': {why}",))
-    note = (f"clock aligned to '{there.name}': {best.offset_ns / 1e9:+.3f} s, uncertainty "
-            f"{best.uncertainty_ns / 1e9:.3f} s, correlation {best.correlation:.3f}")
-    return Clock(declared.offset_ns + int(best.offset_ns), declared.drift_ppm, declared.base_ns, False, key, (note,))
+    note = (f"clock aligned to '{there.name}': {best.offset_ns / 1e9:+.3f} s, drift {best.drift_ppm:+.1f} ppm, "
+            f"uncertainty {best.uncertainty_ns / 1e9:.3f} s, correlation {best.correlation:.3f}")
+    # the estimate's offset holds at its own origin, a Clock's at the first recorded time
+    first = first_ns(source) + declared.offset_ns + declared.base_ns
+    offset = declared.offset_ns + best.offset_ns + round((first - best.origin_ns) * best.drift_ppm * 1e-6)
+    return Clock(offset, declared.drift_ppm + best.drift_ppm, declared.base_ns, False, key, (note,))
 
 
 def _column(series: TestSeries, name: str) -> tuple[Int1D, Array]:

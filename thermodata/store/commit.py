@@ -45,7 +45,7 @@ class Planned:
         return key_of(*(f"{t}:{version_of(self.rows, t)}" for t in sorted(self.rows["test"])))
 
 
-class Vanished(Exception):
+class VanishedError(Exception):
     """A file that the plan relies on was removed meanwhile."""
 
 
@@ -75,17 +75,19 @@ def nothing_new(planned: Planned, known: Known) -> bool:
 def commit(con: duckdb.DuckDBPyConnection, store: Path, planned: Planned, known: Known, now: datetime) -> list[str]:
     """Brings the campaign's rows to the plan inside the caller's transaction; returns the models gone stale.
 
-    known: the state within this same transaction. Raises Vanished where a planned file isn't there.
+    known: the state within this same transaction. Raises VanishedError where a planned file isn't there.
     """
     missing = [p for p in planned.paths() if not (store / p).exists()]
     if missing:
-        raise Vanished(missing[0])
+        raise VanishedError(missing[0])
     campaign = planned.campaign.id
     changed = changes(planned, known)
-    stale = {t for t in changed if version_of(planned.rows, t) != version_of(known.rows, t) and known.rows["test"].get(t)}
+    stale = {t for t in changed if known.rows["test"].get(t)
+             and version_of(planned.rows, t) != version_of(known.rows, t)}
     for table in BY_TEST:
         if changed:
-            con.execute(f"delete from {table} where campaign = ? and list_contains(?, test)", [campaign, sorted(changed)])
+            con.execute(f"delete from {table} where campaign = ? and list_contains(?, test)",
+                        [campaign, sorted(changed)])
         insert(con, table, [r for t in sorted(changed) for r in planned.rows[table].get(t, [])])
     con.execute("update test set start = make_timestamp_ns(start_ns) where campaign = ? and start_ns is not null "
                 "and start is null", [campaign])

@@ -98,7 +98,7 @@ def insert(con: duckdb.DuckDBPyConnection, table: str, rows: Iterable[Mapping[st
         return 0
     found = con.execute(f"select column_name, data_type from information_schema.columns where table_name = "
                         f"{literal(table)} and table_schema = 'main' order by ordinal_position").fetchall()
-    types = {name: kind for name, kind in found}
+    types = dict(found)
     names = [name for name in types if name in listed[0]]
     data = _arrow(listed, names, types)
     con.register("incoming_rows", data)

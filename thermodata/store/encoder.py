@@ -48,8 +48,9 @@ class Encoder:
                     self._error = error
 
     def _join(self) -> None:
-        self._queue.put(None)
-        self._thread.join()
+        if self._thread.is_alive():
+            self._queue.put(None)
+            self._thread.join()
 
     def close(self, meta: Mapping[str, str]) -> None:
         self._join()

@@ -12,7 +12,7 @@ from typing import Any
 from thermodata.errors import StoreError
 from thermodata.schema.load import load_campaign
 from thermodata.store.calibrations import evaluate
-from thermodata.store.commit import Planned, Vanished, commit, nothing_new
+from thermodata.store.commit import Planned, VanishedError, commit, nothing_new
 from thermodata.store.gather import Gatherer, loss_row
 from thermodata.store.known import BY_TEST, Row, read_known
 from thermodata.store.make import make_tests
@@ -61,7 +61,7 @@ def ingest(store: Store, campaign_path: Path | str, progress: Callable[[str], No
     for attempt in range(_ATTEMPTS):
         try:
             return _ingest(store, Path(campaign_path), progress or (lambda _: None))
-        except Vanished as error:
+        except VanishedError as error:
             if attempt == _ATTEMPTS - 1:
                 raise StoreError("files of the store vanish while they are being made", where=str(store.path),
                                  got=str(error), hint="end the other program that cleans this store") from error

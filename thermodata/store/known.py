@@ -32,7 +32,7 @@ class Known:
     clocks: dict[str, Clock] = field(default_factory=dict)
 
     def raw_rows(self, test: str, source: str) -> list[RawStream]:
-        """The raw streams that the catalogue lists for a test's source ('' and a calibration's name for a jump test)."""
+        """The raw streams that the catalogue lists for a test's source ('' and its name for a calibration)."""
         return [RawStream.from_row(r) for r in self.rows["file"].get(test, [])
                 if r["layer"] == "raw" and r["source"] == source]
 

@@ -21,7 +21,6 @@ from thermodata.store.gather import loss_row
 from thermodata.store.keys import member_key
 from thermodata.store.known import BY_TEST, Known, Row
 from thermodata.store.plan import SCHEDULE, TestPlan
-from thermodata.store.quality import Quality
 from thermodata.store.series import Member, TestSeries
 from thermodata.store.tidy import TidyResult, write_member
 from thermodata.store.timeline import span
@@ -88,9 +87,7 @@ def _make_test(store: Path, plan: TestPlan, columns: Mapping[Member, Columns],
             _count_kept(made, kept, test)
             continue
         say(f"{test}: {member[0]}/{member[1]}")
-        quality = Quality(series, member)
-        result = write_member(series, member, columns[member], key, quality)
-        result.problems += quality.problems
+        result = write_member(series, member, columns[member], key)
         made.made += 1
         files += _tidy_rows(campaign, test, member, result, store, now)
         events += [{"campaign": campaign, "test": test, "source": member[0], "stream": member[1],
@@ -101,7 +98,7 @@ def _make_test(store: Path, plan: TestPlan, columns: Mapping[Member, Columns],
         row.setdefault("added_at", now)
     _add(made, test, "file", files)
     _add(made, test, "quality_event", events)
-    _add(made, test, "test", [make_rows.test_row(plan, clocks, where)])
+    _add(made, test, "test", [make_rows.test_row(plan, where, _duration(plan, files))])
     _add(made, test, "machine", [make_rows.machine_row(plan.campaign, plan)])
     _add(made, test, "source", make_rows.source_rows(plan, clocks))
     _add(made, test, "channel", make_rows.channel_rows(plan, calibrations))
@@ -119,10 +116,21 @@ def _still_there(path: Path) -> bool:
     return True
 
 
+def _duration(plan: TestPlan, files: Sequence[Row]) -> float | None:
+    """How long the recording is [s]: that of its reference sources, as far as they were tidied."""
+    ends = {r["source"]: json.loads(r["columns"])["to_s"] for r in files
+            if r["layer"] == "tidy" and r["part"] == "test"}
+    if plan.test.window is not None and ends:
+        a, b = plan.test.window
+        return float(min(b - a, max(ends.values())))
+    wanted = [ends[s.name] for s in plan.reference if s.name in ends] or list(ends.values())
+    return max(wanted, default=None)
+
+
 def _tidy_rows(campaign: str, test: str, member: Member, result: TidyResult, store: Path, now: datetime) -> list[Row]:
     rows: list[Row] = []
     for file in result.files:
-        meta: dict[str, Any] = {"channels": file.columns}
+        meta: dict[str, Any] = {"channels": file.columns, "to_s": file.to_s}
         if file is result.files[-1]:
             meta |= {"samples": result.samples, "flags": dict(result.flags), "problems": result.problems}
         rows.append({

@@ -112,7 +112,7 @@ def bind(plan: TestPlan) -> None:
             try:
                 raw, signal, unit = find_signal(source.raws, channel.signal)
             except UsageError as error:
-                plan.problems.append(f"channel '{name}' in test '{plan.test.id}': " + "; ".join(str(error).splitlines()))
+                plan.problems.append(f"channel '{name}': " + "; ".join(str(error).splitlines()))
                 continue
             plan.bound[name] = Bound(name, channel, source.name, raw.stream, signal, channel.unit or unit)
     for name, channel in channels.items():

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -14,11 +14,11 @@ from thermodata.plugin import Array, Bool1D, Int1D
 from thermodata.schema.flag import Flag
 from thermodata.schema.quantity import canonical
 from thermodata.store.keys import MEASURED
-from thermodata.store.plan import Bound
+from thermodata.store.plan import SCHEDULE
 from thermodata.store.series import Member, TestSeries
 
-# more events of one kind than this say nothing that their number doesn't
-MOST_EVENTS = 200
+if TYPE_CHECKING:
+    from thermodata.store.tidy import Column
 
 
 @dataclass(frozen=True, slots=True)
@@ -33,46 +33,38 @@ class Event:
     detail: str | None = None
 
 
-class Quality:
-    """Flags the columns of one stream of a test."""
+def flagged(series: TestSeries, member: Member, t_ns: Int1D, made: Mapping[str, Column],
+            problems: list[str]) -> list[Event]:
+    """Adds flags to the columns of one stream and returns the events; flags that are there are kept.
 
-    def __init__(self, series: TestSeries, member: Member) -> None:
-        self.series, self.member = series, member
-        self.problems: list[str] = []
-        self._when: tuple[Int1D, Bool1D | None] | None = None
+    problems: gets the reason where `measuring` can't be evaluated.
+    """
+    from thermodata.calibration.quality import ColumnInput, flag_stream
 
-    def column(self, bound: Bound, t_ns: Int1D, values: Array, flags: Array) -> tuple[Array, list[Event]]:
-        """(flags, events) of a calibrated column; flags of its calibration and of the reader are kept."""
-        try:
-            from thermodata.calibration.quality import ColumnInput, flag_stream
-        except ImportError:
-            events = []
-        else:
-            found, events = flag_stream(t_ns, {bound.name: ColumnInput(values=values, flags=flags, channel=bound.channel)})
-            flags = found[bound.name]
-        if bound.channel.quantity in MEASURED and self.series.plan.test.measuring is not None:
-            mask = self.measuring(bound, t_ns, values, flags)
-            if mask is not None:
-                flags = flags | np.where(mask, np.uint16(0), np.uint16(Flag.NOT_MEASURING))
-        return flags, [self._event(e) for e in events[:MOST_EVENTS]]
-
-    def measuring(self, bound: Bound, t_ns: Int1D, values: Array, flags: Array) -> Bool1D | None:
-        """Where the test measures with this channel, shape (n,); None where that can't be told."""
-        test = self.series.plan.test
-        try:
-            operands: dict[str, Array] = {}
-            for name in measuring_names(test.measuring):
-                if name in self.series.plan.bound:
-                    operands[name] = self.series.sampled(name, t_ns)[0]
-            units = {n: canonical(self.series.plan.bound[n].channel.quantity) for n in operands}
-            return measuring_mask(t_ns, test.measuring, {**operands}, units, {bound.name: flags})
-        except ThermodataError as error:
-            self.problems.append(f"test '{test.id}', measuring: " + "; ".join(str(error).splitlines()))
-            return None
-
-    def stream(self, here: Sequence[Bound], t_ns: Int1D) -> list[Event]:
-        """Events of the stream as a whole."""
+    if member[0] == SCHEDULE or not made:
         return []
+    found, events = flag_stream(t_ns, {
+        n: ColumnInput(values=c.values, quantity=c.bound.channel.quantity, flags=c.flags) for n, c in made.items()})
+    zero = series.span.zero_ns
+    listed = [Event(e.channel, e.flag, (e.from_ns - zero) / 1e9, (e.to_ns - zero) / 1e9, e.n, e.detail or None)
+              for e in events]
+    for name, column in made.items():
+        column.flags = found[name]
+        if column.bound.channel.quantity in MEASURED and series.plan.test.measuring is not None:
+            mask = _measuring(series, name, column, t_ns, problems)
+            if mask is not None:
+                column.flags = column.flags | np.where(mask, np.uint16(0), np.uint16(Flag.NOT_MEASURING))
+    return listed
 
-    def _event(self, event: Any) -> Event:
-        return event
+
+def _measuring(series: TestSeries, name: str, column: Column, t_ns: Int1D, problems: list[str]) -> Bool1D | None:
+    """Where the test measures with this channel, shape (n,); None where that can't be told."""
+    test = series.plan.test
+    try:
+        operands: dict[str, Array] = {
+            n: series.sampled(n, t_ns)[0] for n in measuring_names(test.measuring) if n in series.plan.bound}
+        units = {n: canonical(series.plan.bound[n].channel.quantity) for n in operands}
+        return measuring_mask(t_ns, test.measuring, operands, units, {name: column.flags})
+    except ThermodataError as error:
+        problems.append("measuring: " + "; ".join(str(error).splitlines()))
+        return None

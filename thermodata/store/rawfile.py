@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from thermodata.errors import PluginError
-from thermodata.plugin import Array, Block, Signal
+from thermodata.plugin import Array, Block, Int1D, Signal
 from thermodata.store.encoder import Encoder
 from thermodata.store.files import publish, temporary
 
@@ -19,6 +19,7 @@ if TYPE_CHECKING:
 
 GROUP_VALUES = 2_000_000      # values in a row group: 16 MB of float64, whatever the number of columns
 GROUP_ROWS = 250_000
+JITTER_NS = 1_000_000_000     # a backward step up to this is disorder; a longer one is a clock that was reset
 
 
 class StreamWriter:
@@ -37,15 +38,14 @@ class StreamWriter:
         self._waiting_rows = 0
         self._encoder: Encoder | None = None
         self._steps: list[int] = []
+        self._reset = False
 
     def add(self, block: Block) -> None:
         """Takes a block; the reader may not change its arrays afterwards."""
         n = len(block.t_ns)
         if n == 0:
             return
-        low, high = int(block.t_ns.min()), int(block.t_ns.max())
-        self.first_ns = min(self.first_ns, low) if self.rows else low
-        self.last_ns = max(self.last_ns, high) if self.rows else high
+        self._extent(block.t_ns)
         if n > 1 and len(self._steps) < 64:
             self._steps.append(int(np.median(np.diff(block.t_ns[:4096]))))
         self.rows += n
@@ -55,6 +55,21 @@ class StreamWriter:
             self._waiting_rows += len(part.t_ns)
             if self._waiting_rows >= self._group_rows:
                 self._flush()
+
+    def _extent(self, t_ns: Int1D) -> None:
+        """Where the recording begins and ends: up to a reset of its clock, for what follows may mean anything."""
+        if self._reset:
+            return
+        highest = np.maximum.accumulate(t_ns)
+        if self.rows:
+            highest = np.maximum(highest, self.last_ns)
+        behind = np.flatnonzero(highest - t_ns > JITTER_NS)
+        if behind.size:
+            self._reset, t_ns = True, t_ns[:behind[0]]
+        if len(t_ns):
+            low, high = int(t_ns.min()), int(t_ns.max())
+            self.first_ns = min(self.first_ns, low) if self.rows else low
+            self.last_ns = max(self.last_ns, high) if self.rows else high
 
     def finish(self, meta: Mapping[str, Any]) -> None:
         """Writes what waits and makes the file appear."""

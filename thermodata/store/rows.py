@@ -17,23 +17,18 @@ from thermodata.store.conditions import plain_value, plain_values
 from thermodata.store.known import Row
 from thermodata.store.plan import SCHEDULE, Bound, SourcePlan, TestPlan
 from thermodata.store.raw import RawStream
-from thermodata.store.timeline import Clock, Span, is_relative, last_ns
+from thermodata.store.timeline import Clock, Span, is_relative
 
 
-def test_row(plan: TestPlan, clocks: Mapping[str, Clock], span: Span) -> Row:
+def test_row(plan: TestPlan, span: Span, duration_s: float | None) -> Row:
     """Row of `test`. phases are moved to t_s, which counts from the window where there is one."""
     test = plan.test
-    ends = [int(clocks[s.name].correct(np.array([last_ns(s)]), last_ns(s))[0]) for s in plan.reference]
-    duration = None
-    if ends:
-        end = max(ends) if span.to_ns is None else min(max(ends), span.to_ns)
-        duration = max(0.0, (end - span.zero_ns) / 1e9)
     shift = test.window[0] if test.window is not None else 0.0
     measuring: Any = test.measuring.model_dump(mode="json", by_alias=True) if isinstance(test.measuring, Measuring) \
         else test.measuring
     return {
         "campaign": plan.campaign.id, "test": test.id, "kind": test.kind, "role": test.role,
-        "start_ns": None if span.relative else span.zero_ns, "duration_s": duration,
+        "start_ns": None if span.relative else span.zero_ns, "duration_s": duration_s,
         "clock": "relative" if span.relative else "absolute",
         "conditions": _json(plain_values(dict(test.conditions))), "pose": _json(plain_values(dict(test.pose))),
         "tool": None if test.tool is None else _json(plain_values(test.tool.model_dump(exclude_none=True))),

@@ -11,7 +11,6 @@ import numpy as np
 from thermodata.calibration.result import CalibrationResult
 from thermodata.errors import UsageError
 from thermodata.plugin import Array, Float1D, Int1D, Loss
-from thermodata.schema.flag import Flag
 from thermodata.schema.quantity import canonical
 from thermodata.store import derive, schedule
 from thermodata.store.plan import SCHEDULE, Bound, TestPlan
@@ -154,7 +153,8 @@ class TestSeries:
             found, marks = self.values(other, start, stop) if (other.source, other.stream) == member \
                 else self.sampled(name, t)
             values[name], flags = found, flags | marks
-        return derive.evaluate(bound, values, {n: canonical(self.plan.bound[n].channel.quantity) for n in values}), flags
+        units = {n: canonical(self.plan.bound[n].channel.quantity) for n in values}
+        return derive.evaluate(bound, values, units), flags
 
     def _scheduled(self, bound: Bound, t_ns: Int1D) -> tuple[Array, Array]:
         times, values = schedule.steps(bound.name, bound.channel, self.plan.test)
@@ -173,8 +173,8 @@ class TestSeries:
         end = max(ends, default=begin)
         changes = [schedule.steps(b.name, b.channel, self.plan.test)[0] for b in self.plan.bound.values()
                    if b.channel.schedule is not None]
-        all_changes = np.rint(np.concatenate(changes) * 1e9).astype(np.int64) + begin if changes else np.empty(0, np.int64)
-        return schedule.grid(begin, end, all_changes)
+        at = np.concatenate(changes) if changes else np.empty(0)
+        return schedule.grid(begin, end, np.rint(at * 1e9).astype(np.int64) + begin)
 
     def losses(self) -> list[tuple[Member, Loss]]:
         """What the joints of the streams seen so far lost."""
@@ -183,15 +183,3 @@ class TestSeries:
 
 def _stored(plan: TestPlan) -> list[Member]:
     return [(s.name, stream) for s in plan.sources.values() for stream in s.streams]
-
-
-def invalid(flags: Array) -> Array:
-    """Where a sample doesn't count, shape (n,) bool."""
-    from thermodata.schema.flag import INVALID
-
-    return np.asarray((flags & np.uint16(INVALID)) != 0)
-
-
-def not_measuring(flags: Array, mask: Array) -> Array:
-    """Flags with NOT_MEASURING where the mask is False."""
-    return np.asarray(flags | np.where(mask, np.uint16(0), np.uint16(Flag.NOT_MEASURING)))

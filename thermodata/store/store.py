@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import secrets
 import threading
 from collections.abc import Callable, Iterator
@@ -61,6 +62,11 @@ class Store:
     def connect(self) -> duckdb.DuckDBPyConnection:
         """As `reader`, for callers that close it themselves."""
         return connection.cursor_of(self._fresh())
+
+    def private_copy(self) -> duckdb.DuckDBPyConnection:
+        """A copy of the catalogue that nobody else sees, for work that attaches databases. The caller closes it."""
+        with catalogue_lock(self.path, exclusive=False, timeout_s=self.timeout_s):
+            return self._copied()
 
     @property
     def generation(self) -> int:
@@ -177,10 +183,8 @@ def regenerate_views(con: duckdb.DuckDBPyConnection, folder: Path) -> None:
 def _rollback(con: duckdb.DuckDBPyConnection) -> None:
     import duckdb
 
-    try:
+    with contextlib.suppress(duckdb.Error):      # the failure may have ended the transaction already
         con.execute("rollback")
-    except duckdb.Error:      # the failure may have ended the transaction already
-        pass
 
 
 def _version() -> str:

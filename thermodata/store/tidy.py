@@ -16,14 +16,16 @@ from thermodata.schema.flag import Flag
 from thermodata.store.encoder import Encoder
 from thermodata.store.files import publish, temporary
 from thermodata.store.plan import Bound
-from thermodata.store.quality import Event, Quality
+from thermodata.store.quality import Event, flagged
 from thermodata.store.series import Member, TestSeries
 
 if TYPE_CHECKING:
     import pyarrow as pa
 
 GROUP_VALUES = 1_000_000
-HELD_VALUES = 40_000_000       # up to here a stream's values stay in memory between flagging and writing [320 MB]
+# a day at 10 Hz of 40 channels is 35 M values: flagged as a whole [320 MB]; longer streams go piece by piece
+SEGMENT_VALUES = 40_000_000
+Columns = Sequence[tuple[str, bool]]
 
 
 @dataclass(slots=True)
@@ -35,6 +37,7 @@ class TidyFile:
     key: str
     rows: int
     columns: list[str]
+    to_s: float = 0.0          # of the last row
 
 
 @dataclass(slots=True)
@@ -48,15 +51,16 @@ class TidyResult:
 
 
 @dataclass(slots=True)
-class _Column:
+class Column:
+    """A calibrated channel on some rows: values and uint16 flags, shape (n,)."""
+
     bound: Bound
-    values: Array | None           # None: read again when it is written
+    values: Array
     flags: Array
 
 
-def write_member(series: TestSeries, member: Member, columns: Sequence[tuple[str, bool]], key: str,
-                 quality: Quality) -> TidyResult:
-    """Makes the tidy files of one stream of a test.
+def write_member(series: TestSeries, member: Member, columns: Columns, key: str) -> TidyResult:
+    """Makes the tidy files of one stream of a test, in memory bounded by SEGMENT_VALUES.
 
     columns: (channel, is text) of the campaign's stream, in the campaign's order; one that this test lacks is NULL.
     A channel that can't be calibrated is NULL and a problem; the others are written.
@@ -64,84 +68,100 @@ def write_member(series: TestSeries, member: Member, columns: Sequence[tuple[str
     result = TidyResult()
     line, rows = series.timeline(member), series.rows(member)
     result.losses += line.losses
-    t_ns = line.t_ns[rows.history:rows.stop]
-    if not len(t_ns):
-        result.problems.append(f"test '{series.plan.test.id}': no rows of '{member[0]}' lie in the test's window")
+    if rows.history == rows.stop:
+        result.problems.append(f"no rows of '{member[0]}' lie in the test's window")
         return result
     here = [b for b in series.plan.bound.values() if (b.source, b.stream) == member]
-    hold = len(t_ns) * len(here) <= HELD_VALUES
-    made = _flagged(series, here, rows.history, rows.stop, t_ns, quality, hold, result)
-    for part, start, stop in (("history", rows.history, rows.start), ("test", rows.start, rows.stop)):
-        if start == stop:
-            continue
-        name = f"{key}.parquet" if part == "test" else f"{key}.history.parquet"
-        _write(series, t_ns, made, columns, rows.history, start, stop, name)
-        result.files.append(TidyFile(part, f"tidy/{name}", key, stop - start, [c for c, _ in columns]))
-    _count(result, made, rows.start - rows.history, rows.stop - rows.history)
+    step = max(4096, SEGMENT_VALUES // max(1, len(here)))
+    parts = [_Part(series, name, columns, key, a, b)
+             for name, a, b in (("history", rows.history, rows.start), ("test", rows.start, rows.stop)) if a < b]
+    try:
+        for start in range(rows.history, rows.stop, step):
+            stop = min(start + step, rows.stop)
+            t_ns = line.t_ns[start:stop]
+            made = _calibrated(series, here, start, stop, result)
+            result.events += flagged(series, member, t_ns, made, result.problems)
+            for part in parts:
+                part.add(t_ns, made, start, stop)
+            _count(result, made, max(rows.start - start, 0))
+        result.files += [part.finish() for part in parts]
+    finally:
+        for part in parts:
+            part.discard()
+    result.problems = list(dict.fromkeys(result.problems))
     return result
 
 
-def _flagged(series: TestSeries, here: Sequence[Bound], start: int, stop: int, t_ns: Int1D, quality: Quality,
-             hold: bool, result: TidyResult) -> dict[str, _Column]:
-    def one(bound: Bound) -> tuple[_Column, list[Event]] | str:
+def _calibrated(series: TestSeries, here: Sequence[Bound], start: int, stop: int,
+                result: TidyResult) -> dict[str, Column]:
+    def one(bound: Bound) -> Column | str:
         try:
             values, flags = series.values(bound, start, stop)
         except ThermodataError as error:
-            return f"channel '{bound.name}' in test '{series.plan.test.id}': " + "; ".join(str(error).splitlines())
-        flags, events = quality.column(bound, t_ns, values, flags)
-        return _Column(bound, values if hold else None, flags), events
+            return f"channel '{bound.name}': " + "; ".join(str(error).splitlines())
+        return Column(bound, values, flags)
 
-    made: dict[str, _Column] = {}
+    made: dict[str, Column] = {}
     with ThreadPoolExecutor(2) as pool:
         for bound, answer in zip(here, pool.map(one, here), strict=True):
             if isinstance(answer, str):
                 result.problems.append(answer)
             else:
-                made[bound.name] = answer[0]
-                result.events += answer[1]
-    result.events += quality.stream(here, t_ns)
+                made[bound.name] = answer
     return made
 
 
-def _write(series: TestSeries, t_ns: Int1D, made: dict[str, _Column], columns: Sequence[tuple[str, bool]],
-           base: int, start: int, stop: int, name: str) -> None:
-    """Rows start to stop of the timeline, in row groups; base: the timeline row of t_ns[0]."""
-    import pyarrow as pa
+class _Part:
+    """One tidy file in the making: rows start to stop of the timeline."""
 
-    schema = tidy_schema(columns)
-    target = series.store / "tidy" / name
-    target.parent.mkdir(exist_ok=True)
-    step = max(2048, GROUP_VALUES // (len(columns) + 1))
-    encoder = Encoder(temporary(target), schema)
-    try:
-        for a in range(start, stop, step):
-            b = min(a + step, stop)
-            t = t_ns[a - base:b - base]
-            arrays: list[Any] = [pa.array(t.view("datetime64[ns]")), pa.array(series.t_s(t))]
-            for channel, is_text in columns:
-                arrays += _pair(series, made.get(channel), is_text, a, b, base)
-            encoder.put(pa.Table.from_arrays(arrays, schema=schema))
-        encoder.close({})
-    except BaseException:
-        encoder.abandon()
-        raise
-    publish(encoder.part, target)
+    def __init__(self, series: TestSeries, name: str, columns: Columns, key: str, start: int, stop: int) -> None:
+        self.series, self.name, self.columns, self.key, self.start, self.stop = series, name, columns, key, start, stop
+        self.target = series.store / "tidy" / (f"{key}.parquet" if name == "test" else f"{key}.{name}.parquet")
+        self.schema = tidy_schema(columns)
+        self._encoder: Encoder | None = None
+        self._to_s = 0.0
+
+    def add(self, t_ns: Int1D, made: dict[str, Column], start: int, stop: int) -> None:
+        """Takes those of the rows start to stop that are this part's, in row groups."""
+        import pyarrow as pa
+
+        if self._encoder is None:
+            self.target.parent.mkdir(exist_ok=True)
+            self._encoder = Encoder(temporary(self.target), self.schema)
+        step = max(2048, GROUP_VALUES // (len(self.columns) + 1))
+        for a in range(max(start, self.start), min(stop, self.stop), step):
+            b = min(a + step, stop, self.stop)
+            here = slice(a - start, b - start)
+            t = t_ns[here]
+            self._to_s = float(self.series.t_s(t[-1:])[0])
+            arrays: list[Any] = [pa.array(t.view("datetime64[ns]")), pa.array(self.series.t_s(t))]
+            for channel, is_text in self.columns:
+                column = made.get(channel)
+                kind = pa.string() if is_text else pa.float64()
+                if column is None:
+                    arrays += [pa.nulls(b - a, kind), pa.nulls(b - a, pa.uint16())]
+                else:
+                    # no value is NULL, not NaN: SQL's means and counts leave it out
+                    arrays += [pa.array(column.values[here], type=kind, from_pandas=True),
+                               pa.array(column.flags[here])]
+            self._encoder.put(pa.Table.from_arrays(arrays, schema=self.schema))
+
+    def finish(self) -> TidyFile:
+        assert self._encoder is not None
+        self._encoder.close({})
+        publish(self._encoder.part, self.target)
+        self._encoder = None
+        return TidyFile(self.name, f"tidy/{self.target.name}", self.key, self.stop - self.start,
+                        [c for c, _ in self.columns], self._to_s)
+
+    def discard(self) -> None:
+        """Drops an unfinished file; nothing where it is finished."""
+        if self._encoder is not None:
+            self._encoder.abandon()
+            self._encoder = None
 
 
-def _pair(series: TestSeries, column: _Column | None, is_text: bool, a: int, b: int, base: int) -> list[Any]:
-    import pyarrow as pa
-
-    kind = pa.string() if is_text else pa.float64()
-    if column is None:
-        return [pa.nulls(b - a, kind), pa.nulls(b - a, pa.uint16())]
-    values = column.values[a - base:b - base] if column.values is not None else \
-        series.values(column.bound, a, b)[0]
-    # no value is NULL, not NaN: SQL's means and counts leave it out
-    array = pa.array(values, type=kind, from_pandas=True)
-    return [array, pa.array(column.flags[a - base:b - base])]
-
-
-def tidy_schema(columns: Sequence[tuple[str, bool]]) -> pa.Schema:
+def tidy_schema(columns: Columns) -> pa.Schema:
     """t, t_s, and for each channel `<channel>` and `<channel>__flag`."""
     import pyarrow as pa
 
@@ -152,13 +172,12 @@ def tidy_schema(columns: Sequence[tuple[str, bool]]) -> pa.Schema:
     return pa.schema(fields)
 
 
-def _count(result: TidyResult, made: dict[str, _Column], start: int, stop: int) -> None:
+def _count(result: TidyResult, made: dict[str, Column], start: int) -> None:
+    """Counts samples and flags of the test's own rows, those from `start` on."""
     for column in made.values():
-        flags = column.flags[start:stop]
-        result.samples += stop - start
-        if not flags.any():
-            continue
-        seen = int(np.bitwise_or.reduce(flags))
+        flags = column.flags[start:]
+        result.samples += len(flags)
+        seen = int(np.bitwise_or.reduce(flags)) if len(flags) else 0
         for flag in Flag:
             if flag and seen & flag:
                 result.flags[(flag.name or "").lower()] += int(np.count_nonzero(flags & np.uint16(flag)))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
@@ -11,9 +12,9 @@ from thermodata.plugin import Array, Bool1D, Int1D, Loss
 from thermodata.schema.flag import Flag
 from thermodata.store.plan import SourcePlan, TestPlan
 from thermodata.store.raw import RawStream
+from thermodata.store.rawfile import JITTER_NS
 from thermodata.store.rawread import read_column
 
-JITTER_S = 1.0       # a backward step up to this is put in order; a longer one is a clock that was reset
 
 
 @dataclass(frozen=True, slots=True)
@@ -140,7 +141,8 @@ def span(plan: TestPlan, clocks: dict[str, Clock]) -> Span:
     """Where a test begins and ends; its recording begins with its reference sources."""
     sources = plan.reference
     begin = min((int(clocks[s.name].correct(np.array([first_ns(s)]), first_ns(s))[0]) for s in sources), default=0)
-    relative = not sources or all(is_relative(s) and not clocks[s.name].base_ns for s in plan.sources.values() if s.raws)
+    with_data = [s for s in plan.sources.values() if s.raws]
+    relative = not sources or all(is_relative(s) and not clocks[s.name].base_ns for s in with_data)
     if plan.test.window is None:
         return Span(begin, None, None, False, relative)
     a, b = (begin + round(x * 1e9) for x in plan.test.window)
@@ -150,13 +152,13 @@ def span(plan: TestPlan, clocks: dict[str, Clock]) -> Span:
 def build(store: Path, raws: list[RawStream], clock: Clock, *, resets_allowed: bool) -> Timeline:
     """Joins the files of one stream in time order and puts their rows in order.
 
-    Rows that step back by up to JITTER_S are sorted in and flagged. A longer step back is a reset clock: what
+    Rows that step back by up to JITTER_NS are sorted in and flagged. A longer step back is a reset clock: what
     follows is moved behind what came before where resets are allowed, else it is lost with a reason.
     """
     ordered = sorted(raws, key=lambda r: (_start_of(r) + r.first_ns,))
     notes: list[str] = []
     if len(ordered) > 1 and all(r.clock == "relative" and r.start_ns is None for r in ordered) and any(
-            b.first_ns <= a.last_ns for a, b in zip(ordered, ordered[1:], strict=False)):
+            b.first_ns <= a.last_ns for a, b in pairwise(ordered)):
         ordered = list(raws)
         notes.append("relative files that overlap: joined end to end in the order of their names")
         end = None
@@ -182,7 +184,7 @@ def build(store: Path, raws: list[RawStream], clock: Clock, *, resets_allowed: b
 def _in_order(line: Timeline, back: Int1D, resets_allowed: bool) -> Timeline:
     t = line.t_ns
     highest = np.maximum.accumulate(t)
-    jumps = [int(i) for i in back if highest[i - 1] - t[i] > JITTER_S * 1e9]
+    jumps = [int(i) for i in back if highest[i - 1] - t[i] > JITTER_NS]
     losses: list[Loss] = []
     notes = list(line.notes)
     keep = len(t)

@@ -1,0 +1,187 @@
+"""The store itself: turns at the catalogue, copies, formats, damage, and being moved about."""
+
+from __future__ import annotations
+
+import shutil
+import signal
+import subprocess
+import sys
+import threading
+import time
+from pathlib import Path
+
+import pytest
+from store_fakes import daq, write_campaign, write_log
+
+from thermodata.errors import StoreError, UsageError
+from thermodata.store import Store
+from thermodata.store.ingest import ingest
+from thermodata.store.lifecycle import gc
+
+WORKER = Path(__file__).parent / "worker.py"
+
+
+def worker(*arguments: object) -> subprocess.Popen[str]:
+    return subprocess.Popen([sys.executable, str(WORKER), *map(str, arguments)], stdout=subprocess.PIPE,
+                            stderr=subprocess.PIPE, text=True)
+
+
+@pytest.fixture
+def filled(tmp_path: Path) -> Store:
+    store = Store(tmp_path / "store", create=True)
+    ingest(store, write_campaign(tmp_path / "lab"))
+    return store
+
+
+def count(store: Store, what: str) -> int:
+    with store.reader() as con:
+        found = con.execute(f"select count(*) from {what}").fetchone()
+    assert found is not None
+    return int(found[0])
+
+
+def test_a_missing_store_is_a_usage_error_that_says_how_to_make_one(tmp_path: Path) -> None:
+    with pytest.raises(UsageError, match="ingest"):
+        Store(tmp_path / "nowhere")
+    assert not (tmp_path / "nowhere").exists()
+
+
+def test_a_reader_keeps_its_copy_while_a_writer_commits(filled: Store) -> None:
+    with filled.reader() as con:
+        before = con.execute("select count(*) from test").fetchone()
+        with Store(filled.path).write() as other:
+            other.execute("delete from test where test = 'one'")
+        assert con.execute("select count(*) from test").fetchone() == before == (2,)
+    assert count(filled, "test") == 1
+
+
+def test_a_failed_write_leaves_everything_as_it_was(filled: Store) -> None:
+    with pytest.raises(RuntimeError, match="half way"), filled.write() as con:
+        con.execute("delete from test")
+        raise RuntimeError("half way")
+    assert count(filled, "test") == 2
+    assert count(Store(filled.path), "test") == 2
+
+
+def test_views_and_macros_are_in_the_copy(filled: Store) -> None:
+    with filled.reader() as con:
+        assert con.execute("select count(*) from signal('shop', 'one', 'dZ')").fetchone() == (1200,)
+        assert con.execute("select count(*) from sample where test = 'one' and channel = 'T_a'").fetchone() == (1200,)
+        assert con.execute("select current_setting('asof_loop_join_threshold')::int").fetchone() == (0,)
+
+
+def test_a_moved_store_works(filled: Store, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    moved = tmp_path / "ein anderer 'Ort'"
+    shutil.move(filled.path, moved)
+    monkeypatch.chdir("/")
+    store = Store(moved)
+    assert count(store, "sample") == 7460
+    assert ingest(store, tmp_path / "lab/campaign.yaml").changed is False
+
+
+def test_duckdb_alone_opens_the_catalogue_from_inside_the_folder(filled: Store) -> None:
+    done = subprocess.run(
+        [sys.executable, "-c", "import duckdb; print(duckdb.connect('catalog.duckdb', read_only=True)"
+                               ".execute('select count(*) from displacement').fetchone())"],
+        cwd=filled.path, capture_output=True, text=True, check=True)
+    assert done.stdout.strip() == "(2400,)"
+
+
+def test_a_newer_store_is_refused_with_the_format_needed(filled: Store) -> None:
+    with filled.write() as con:
+        con.execute("update store set format = 99, created_by = 'thermodata 9.9'")
+    for attempt in (lambda: count(Store(filled.path), "test"), lambda: Store(filled.path).write().__enter__()):
+        with pytest.raises(StoreError, match=r"99.*9\.9") as error:
+            attempt()
+        assert error.value.exit_code == 4
+
+
+@pytest.mark.parametrize("harm", ["garbage", "cut", "empty"])
+def test_a_damaged_catalogue_is_a_store_error(filled: Store, harm: str) -> None:
+    path = filled.path / "catalog.duckdb"
+    data = path.read_bytes()
+    path.write_bytes({"garbage": b"no database" * 1000, "cut": data[:4096], "empty": b"x"}[harm])
+    with pytest.raises(StoreError) as error:
+        count(Store(filled.path), "test")
+    assert error.value.where is not None
+    assert "catalog.duckdb" in error.value.where
+
+
+def test_a_busy_store_says_so_after_its_timeout(filled: Store) -> None:
+    impatient = Store(filled.path, timeout_s=0.2)
+    with filled.write() as con:
+        con.execute("select 1")
+        with pytest.raises(StoreError, match="busy"):
+            impatient.private_copy()
+
+
+def test_writers_and_readers_at_once(filled: Store) -> None:
+    """Each write is counted once, and none starves beside readers that never pause."""
+    stop, failures = threading.Event(), []
+    start = count(filled, "locked_look")
+
+    def write(n: int) -> None:
+        try:
+            store = Store(filled.path)
+            for _ in range(n):
+                with store.write() as con:
+                    con.execute("insert into locked_look values ('shop', 'one', 'm', 'r', now())")
+        except Exception as error:
+            failures.append(error)
+
+    def read() -> None:
+        try:
+            while not stop.is_set():
+                Store(filled.path).private_copy().close()
+        except Exception as error:
+            failures.append(error)
+
+    writers = [threading.Thread(target=write, args=(6,)) for _ in range(2)]
+    readers = [threading.Thread(target=read) for _ in range(2)]
+    for thread in (*readers, *writers):
+        thread.start()
+    for thread in writers:
+        thread.join(30)
+    stop.set()
+    for thread in readers:
+        thread.join(30)
+    assert failures == []
+    assert count(filled, "locked_look") == start + 12
+
+
+def test_two_processes_ingest_while_one_reads(tmp_path: Path) -> None:
+    store = Store(tmp_path / "store", create=True)
+    first = write_campaign(tmp_path / "a")
+    text = first.read_text().replace("id: shop", "id: other")
+    second = write_campaign(tmp_path / "b", text)
+    running = [worker("ingest", store.path, first), worker("ingest", store.path, second),
+               worker("ingest", store.path, first), worker("read", store.path, 20)]
+    for process in running:
+        out, err = process.communicate(timeout=60)
+        assert process.returncode == 0, out + err
+    assert count(store, "campaign") == 2
+    assert count(store, "sample") == 2 * 7460
+
+
+def test_kill_9_at_any_moment_leaves_a_store_that_works(tmp_path: Path) -> None:
+    campaign = write_campaign(tmp_path / "lab", logs=False)
+    for test in ("one", "two"):
+        write_log(campaign.parent / f"raw/{test}_a.npz", daq(20_000, seed=len(test)))
+    whole = Store(tmp_path / "whole", create=True)
+    ingest(whole, campaign)
+    expected = count(whole, "sample")
+    for delay in (0.0, 0.03, 0.08, 0.15, 0.25):
+        folder = tmp_path / f"store{delay}"
+        process = worker("ingest", folder, campaign)
+        assert process.stdout is not None
+        process.stdout.readline()
+        time.sleep(delay)
+        process.send_signal(signal.SIGKILL)
+        process.wait()
+        store = Store(folder)
+        assert count(store, "sample") in (0, expected)       # nothing by halves
+        ingest(store, campaign)
+        assert count(store, "sample") == expected
+        gc(store, grace_s=0)
+        assert not [p for p in folder.rglob("*") if p.name.endswith(".tmp")]
+        assert count(store, "sample") == expected

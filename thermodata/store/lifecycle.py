@@ -1,0 +1,98 @@
+"""The end of things in a store: forgetting, cleaning, and taking everything away as one file."""
+
+from __future__ import annotations
+
+import time
+from pathlib import Path
+from typing import Any
+
+from thermodata.errors import StoreError, unknown_name
+from thermodata.store.commit import drop_results, mark_stale
+from thermodata.store.connection import fetch
+from thermodata.store.files import TEMPORARY
+from thermodata.store.known import BY_TEST
+from thermodata.store.snapshot import snapshot
+from thermodata.store.store import Store
+from thermodata.store.trace import trace
+
+LAYERS = ("raw", "tidy", "model")
+_OF_MODEL = ("fit", "score_row", "prediction", "finding", "locked_look")
+
+
+def forget(store: Store, campaign: str, test: str | None = None) -> dict[str, Any]:
+    """Removes a campaign, or one test of it, with all that derives from it: calibrations, results, and (with the
+    campaign) the models fitted to it. Models that used a forgotten test are marked stale.
+
+    The bytes go with the next `gc`. Source files outside the store are never touched. UsageError for a name that
+    isn't there.
+    """
+    with store.write() as con:
+        names = [r["campaign"] for r in fetch(con, "select campaign from campaign")]
+        if campaign not in names:
+            raise unknown_name("campaign", campaign, names)
+        tests = [r["test"] for r in fetch(con, "select test from test where campaign = ? order by 1", [campaign])]
+        if test is not None and test not in tests:
+            raise unknown_name("test", test, tests)
+        gone = tests if test is None else [test]
+        stale: list[str] = []
+        models: list[str] = []
+        if test is None:
+            models = [r["model"] for r in fetch(con, "select model from model where list_contains(campaigns, ?)",
+                                                [campaign])]
+            for table in (*BY_TEST, "calibration", "campaign"):
+                con.execute(f"delete from {table} where campaign = ?", [campaign])
+            for table in ("prediction", "score_row", "finding", "locked_look"):
+                con.execute(f"delete from {table} where campaign = ?", [campaign])
+            for model in models:
+                for table in (*_OF_MODEL, "model"):
+                    con.execute(f"delete from {table} where model = ?", [model])
+        else:
+            stale = mark_stale(con, campaign, {test})
+            for table in BY_TEST:
+                con.execute(f"delete from {table} where campaign = ? and test = ?", [campaign, test])
+            drop_results(con, campaign, {test})
+            con.execute("update campaign set data_version = data_version || '-' where campaign = ?", [campaign])
+    return {"campaign": campaign, "test": test, "tests": gone, "models": models, "stale": stale}
+
+
+def gc(store: Store, grace_s: float = 3600.0) -> dict[str, Any]:
+    """Deletes the files that nothing refers to and that are older than `grace_s` [s], unfinished ones too.
+
+    The grace protects what an ingest running meanwhile has written and not yet committed.
+    """
+    with store.reader() as con:
+        kept = {r["path"] for r in fetch(con, "select path from file union select path from prediction")}
+    limit = time.time() - grace_s
+    removed, freed, young = 0, 0, 0
+    for path in _files(store.path):
+        if path.relative_to(store.path).as_posix() in kept:
+            continue
+        try:
+            status = path.stat()
+            if status.st_mtime > limit:
+                young += 1
+                continue
+            path.unlink()
+        except FileNotFoundError:
+            continue
+        except OSError as error:
+            raise StoreError("a file cannot be deleted", where=str(path), got=str(error)) from error
+        removed, freed = removed + 1, freed + status.st_size
+    for folder in sorted((store.path / "model").glob("*/")):
+        if folder.is_dir() and not any(folder.iterdir()):
+            folder.rmdir()
+    return {"removed": removed, "bytes": freed, "too_young": young}
+
+
+def _files(store: Path) -> list[Path]:
+    """Files of the layers, and unfinished ones at the top; never a link, never what isn't ours."""
+    found = [p for p in store.iterdir() if TEMPORARY.match(p.name) and p.is_file() and not p.is_symlink()]
+    for layer in LAYERS:
+        for path in (store / layer).rglob("*"):
+            ours = path.suffix == ".parquet" or TEMPORARY.match(path.name)
+            if ours and path.is_file() and not path.is_symlink():
+                found.append(path)
+    return found
+
+
+__all__ = ["forget", "gc", "snapshot", "trace"]
