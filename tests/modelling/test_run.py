@@ -1,0 +1,112 @@
+"""From a store and back: fit, look again, add an effect, carry over. The logs are plain CSV files."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+import yaml
+
+from thermodata.errors import UsageError
+from thermodata.modelling import run
+from thermodata.schema.model import EffectSpec
+from thermodata.schema.result import Candidate, Diagnosis
+from thermodata.store import Store
+from thermodata.store.ingest import ingest
+from thermodata.store.models import find_model, model_chain, save_diagnosis
+from thermodata.view.dataset import Dataset
+
+from .conftest import CHANNELS, EFFECTS, TRUTH, Spec
+
+
+@pytest.fixture(scope="module")
+def store(world: Dataset, tmp_path_factory: pytest.TempPathFactory) -> Store:
+    folder = tmp_path_factory.mktemp("campaign")
+    (folder / "raw").mkdir()
+    for test in world.tests:
+        lines = [";".join(["t [s]", *CHANNELS])]
+        table = np.column_stack([test.t_s, *(test.values[n] for n in CHANNELS)])
+        lines += [";".join(f"{v:.6f}" for v in row) for row in table]
+        (folder / "raw" / f"{test.test}.csv").write_text("\n".join(lines) + "\n")
+    units = {"displacement": "um", "temperature": "degC", "rotational_speed": "rpm", "state": "1"}
+    channels = {c.name: {"source": "log", "signal": c.name, "quantity": c.quantity, "unit": units[c.quantity],
+                         "at": c.at} for c in CHANNELS.values()}
+    channels["dZ"]["axis"] = "Z"
+    campaign = {"schema": "thermodata/campaign/1", "id": "c", "machine": {"id": "m1", "spindle": "SP1"},
+                "sources": {"log": {"reader": "table", "files": "raw/{test}.csv", "table": {
+                    "delimiter": ";", "decimal": ".", "header_rows": 1, "time": {"column": 1, "unit": "s"}}}},
+                "channels": channels,
+                "tests": [{"id": t.test, "kind": "spectrum", "role": t.role} for t in world.tests]}
+    (folder / "campaign.yaml").write_text(yaml.safe_dump(campaign))
+    made = Store(folder / "store", create=True)
+    ingest(made, folder / "campaign.yaml")
+    return made
+
+
+def test_a_fit_is_kept_with_its_scores_and_contributions(store: Store, spec: Spec) -> None:
+    result = run.fit(store, spec(*EFFECTS))
+    for name, truth in TRUTH.items():
+        assert result.parameters[name].value == pytest.approx(truth, rel=0.05), name
+    assert find_model(store, result.model).result == result
+    assert run.fit(store, spec(*EFFECTS)).model == result.model
+    with store.reader() as con:
+        rows = con.execute("select test, count(*), avg(abs(residual)) from residual where model = ? and valid "
+                           "group by test order by test", [result.model]).fetchall()
+        roles = con.execute("select distinct role from score where model = ? order by 1", [result.model]).fetchall()
+    assert [r[0] for r in rows] == [f"t{k}" for k in range(7)]
+    assert all(n == 721 and error < 0.6 for _, n, error in rows)
+    assert roles == [("calibration",), ("verification",)]
+    again = run.load(store, result.model[:8])
+    assert again.identity == result.model
+    assert again.fitted.parameters()["coolant.tau"].value == pytest.approx(result.parameters["coolant.tau"].value)
+
+
+def test_adding_the_missing_effect_makes_the_error_fall(store: Store, spec: Spec) -> None:
+    parent = run.fit(store, spec(*(e for e in EFFECTS if e != "feed_screw"), name="short"))
+    grown = run.add(store, "short", "feed_screw:T_nut")
+    assert grown.parent == parent.model
+    assert grown.before is not None
+    before = {s.test: s.rmse_um for s in grown.before if s.phase == "all"}
+    after = {s.test: s.rmse_um for s in grown.scores if s.phase == "all"}
+    assert set(before) == set(after) == {f"t{k}" for k in range(7)}
+    for test, value in after.items():
+        old = before[test]
+        assert value is not None
+        assert old is not None
+        assert value < 0.5 * old
+    assert {s.role for s in grown.scores} == {"calibration", "verification (in-sample)"}
+    assert [m.model for m in model_chain(store, grown.model)] == [parent.model, grown.model]
+    # the newest version goes by the name
+    assert find_model(store, "short").model == grown.model
+
+
+def test_a_candidate_goes_by_its_rank(store: Store, spec: Spec) -> None:
+    parent = run.fit(store, spec("spindle_bearing", name="bare"))
+    with pytest.raises(UsageError, match="no diagnosis"):
+        run.add(store, parent.model, 1)
+    found = Candidate(rank=1, id="coolant:coolant_on", effect="coolant", family="coolant", drivers=["coolant_on"],
+                      claimed=True, p_value=0.01, rmse_um_before=5.0, rmse_um_after=3.0, fit_before=50.0,
+                      fit_after=70.0)
+    save_diagnosis(store, parent.model, Diagnosis(
+        model=parent.model, response="dZ", verdict="effect", noise_um=0.3, rmse_um=5.0, explainable=0.9, weak_spots=[],
+        candidates=[found], artefacts=[]))
+    with pytest.raises(UsageError, match="no candidate of rank 7"):
+        run.add(store, parent.model, "7")
+    assert "coolant.tau" in run.add(store, parent.model, "1").parameters
+    direct = run.add(store, parent.model, EffectSpec(effect="ambient_frame"))
+    assert "ambient_frame.gain" in direct.parameters
+
+
+def test_models_are_compared_on_the_same_tests(store: Store, spec: Spec) -> None:
+    a, b = run.fit(store, spec(*EFFECTS)), run.fit(store, spec("spindle_bearing", name="bare"))
+    first, second = run.compare(store, [a.model, b.model])
+    assert [s.test for s in first.scores] == [s.test for s in second.scores]
+    assert first.scores[0].rmse_um is not None
+    assert second.scores[0].rmse_um is not None
+    assert first.scores[0].rmse_um < second.scores[0].rmse_um
+
+
+def test_carrying_over(store: Store, spec: Spec) -> None:
+    rows = run.transfer(store, run.fit(store, spec(*EFFECTS)).model)
+    assert {r.machine for r in rows} == {"m1"}
+    assert all(r.g == pytest.approx(1.0, abs=0.1) for r in rows)
+    assert all(r.verdict == "portable" for r in rows)
