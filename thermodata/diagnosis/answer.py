@@ -81,15 +81,16 @@ def _diagnosis(found: Investigation, judgement: Judgement, confirmation: Confirm
         noise_um=problem.noise if np.isfinite(problem.noise) else None, rmse_um=before,
         explainable=None if best is None else float(np.clip(max(s.drop for s in ranked), 0.0, 1.0)),
         weak_spots=found.spots,
-        candidates=[_candidate(i + 1, s, s is claimed, problem, confirmation if s is claimed else None,
+        candidates=[_candidate(i + 1, s, s is claimed, found, confirmation if s is claimed else None,
                                equivalents(s, ranked) if i < 5 else [], judgement) for i, s in enumerate(order[:SHOWN])],
         artefacts=steps,
         unknown=characterise(problem, found.spots) if judgement.verdict == "unknown" else None,
         next_test=advice)
 
 
-def _candidate(rank: int, s: Scored, claimed: bool, problem: Problem, confirmation: Confirmation | None,
+def _candidate(rank: int, s: Scored, claimed: bool, found: Investigation, confirmation: Confirmation | None,
                twins: Sequence[Scored], judgement: Judgement) -> Candidate:
+    problem = found.problem
     energy = float(sum(np.sum(y**2) for y in problem.response_blocks))
     return Candidate(
         rank=rank, id=s.candidate.id, effect=s.candidate.effect.name, family=s.candidate.family,
@@ -99,10 +100,11 @@ def _candidate(rank: int, s: Scored, claimed: bool, problem: Problem, confirmati
         locked_rmse_um_before=confirmation.before if confirmation else None,
         locked_rmse_um_after=confirmation.after if confirmation else None,
         parameters=confirmation.parameters if confirmation else {},
-        equivalent=[t.candidate.id for t in twins], why=_why(s, claimed, problem, confirmation, judgement))
+        equivalent=[t.candidate.id for t in twins], why=_why(s, claimed, found, confirmation, judgement))
 
 
-def _why(s: Scored, claimed: bool, problem: Problem, confirmation: Confirmation | None, judgement: Judgement) -> str:
+def _why(s: Scored, claimed: bool, found: Investigation, confirmation: Confirmation | None, judgement: Judgement) -> str:
+    problem = found.problem
     numbers = (f"on left-out tests the error falls from {_rmse(s.sse_before, problem):.2f} to "
                f"{_rmse(s.sse_after, problem):.2f} {problem.unit}; it would act with {s.size:.1f} {problem.unit} RMS")
     if claimed:
@@ -110,7 +112,7 @@ def _why(s: Scored, claimed: bool, problem: Problem, confirmation: Confirmation 
         if confirmation and confirmation.before is not None and confirmation.after is not None:
             locked = f"; on the locked tests from {confirmation.before:.2f} to {confirmation.after:.2f} {problem.unit}"
         return f"{numbers}; chance does as well in {s.p_value:.1%} of surrogate residuals{locked}"
-    failed = passes(s)
+    failed = passes(s, problem.rows, found.spread, found.families)
     if not failed and judgement.claimed is None:
         return f"{numbers}; {judgement.reason}"
     return f"{numbers}; not claimed: " + ("; ".join(failed) if failed else "the claimed effect explains it better")

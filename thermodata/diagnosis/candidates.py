@@ -8,13 +8,18 @@ from itertools import product
 
 import numpy as np
 
+from thermodata.diagnosis.loto import Priors
 from thermodata.effect.binding import bindings, candidate_id, family_of
 from thermodata.modelling.drivers import make_drivers
-from thermodata.plugin import Effect, Float1D, Float2D, Param
+from thermodata.plugin import Effect, Float2D, Param
 from thermodata.schema.quantity import linear_conversion
 from thermodata.view.dataset import ChannelInfo, TestData
 
 GENERIC = "generic"
+NOT_DRIVERS = frozenset({"displacement", "tilt", "label"})
+TIME_UNITS = ("s", "min", "h")
+# a distributed machine also acts with these multiples of an effect's time constant
+SLACK_FACTORS = (0.2, 5.0)
 # A gain this many times beyond the plausible range is not that effect.
 BEYOND = 1.5
 
@@ -42,12 +47,22 @@ class CandidateEffect:
         return self.effect.basis(make_drivers(test, self.effect, self.binding), p)
 
     @property
-    def limit(self) -> Float1D:
-        return np.array([gain.magnitude[1] * BEYOND for gain in self.effect.gains])
+    def priors(self) -> Priors:
+        """Of the gains: from the plausible magnitudes of the effect, and the sign where geometry fixes it."""
+        limit = np.array([gain.magnitude[1] * BEYOND for gain in self.effect.gains])
+        return Priors(limit, np.array([0.0 if g.sign == "+" else -b for g, b in zip(self.effect.gains, limit, strict=True)]),
+                      np.array([0.0 if g.sign == "-" else b for g, b in zip(self.effect.gains, limit, strict=True)]))
+
+    def slack_params(self, p: Mapping[str, float]) -> list[dict[str, float]]:
+        """The parameters of the same effect acting faster and slower (see `investigate.slack_columns`)."""
+        return [{**p, param.name: p[param.name] * factor} for param in self.effect.params
+                if param.unit in TIME_UNITS for factor in SLACK_FACTORS]
 
     @property
-    def signs(self) -> tuple[str, ...]:
-        return tuple(gain.sign for gain in self.effect.gains)
+    def refines(self) -> tuple[str, ...]:
+        """Effects that this one is a refinement of: it is asked for only where the model has one of them."""
+        found: tuple[str, ...] = getattr(self.effect, "refines", ())
+        return found
 
 
 def candidates(
@@ -57,15 +72,21 @@ def candidates(
     """What could be missing. present: (effect name, its channels) of the model's terms. A plain lag stands for
     channels that no named effect covers; artefacts are looked for within tests, not here."""
     have = set(present)
-    usable = {n: c for n, c in channels.items() if n != response and c.quantity not in ("displacement", "tilt", "label")}
-    named, generic = [], []
+    lagged = {names for effect, names in have if library.get(effect) is None or library[effect].family == GENERIC}
+    usable = {n: c for n, c in channels.items() if n != response and c.quantity not in NOT_DRIVERS}
+    named: list[CandidateEffect] = []
+    generic: list[CandidateEffect] = []
     for effect in library.values():
         if effect.family == "artefact" or not effect.needs:
             continue
         for binding in bindings(effect, usable):
             candidate = CandidateEffect(effect, binding, family_of(effect, binding, channels))
-            if (effect.name, frozenset(candidate.channels)) not in have:
-                (generic if effect.family == GENERIC else named).append(candidate)
+            names = frozenset(candidate.channels)
+            if (effect.name, names) in have or names in lagged:
+                continue
+            if candidate.refines and not any(e in candidate.refines and n & names for e, n in have):
+                continue
+            (generic if effect.family == GENERIC else named).append(candidate)
     covered = {c for candidate in named for c in candidate.channels}
     covered |= {c for _, names in have for c in names}
     return named + [g for g in generic if not covered.issuperset(g.channels)]
@@ -89,4 +110,4 @@ def grid(params: Iterable[Param], step_s: float) -> list[dict[str, float]]:
 
 
 def _seconds(unit: str) -> float | None:
-    return linear_conversion(unit, "s")[0] if unit in ("s", "min", "h") else None
+    return linear_conversion(unit, "s")[0] if unit in TIME_UNITS else None

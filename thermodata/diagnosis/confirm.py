@@ -20,15 +20,22 @@ MUST_FALL = 0.02
 
 @dataclass(frozen=True, slots=True)
 class Confirmation:
-    """Errors on the locked tests, None where there are none; parameters of the added effect."""
+    """Errors on the locked tests, None where there are none; parameters of the added effect.
+
+    before, after: as scored, from the mean of the first samples on. shape_before, shape_after: with a free offset a
+    test, which is what decides: one unlucky zero must not hide that the shape fits.
+    """
 
     before: float | None
     after: float | None
+    shape_before: float | None
+    shape_after: float | None
     parameters: dict[str, Parameter]
 
     @property
     def holds(self) -> bool:
-        return self.before is None or self.after is None or self.after < (1 - MUST_FALL) * self.before
+        before, after = self.shape_before, self.shape_after
+        return before is None or after is None or after < (1 - MUST_FALL) * before
 
 
 def extended(spec: Model, candidate: CandidateEffect) -> Model:
@@ -57,11 +64,16 @@ def confirm(spec: Model, index: int, data: Dataset, candidate: CandidateEffect, 
     usable = [t for t in locked if ours.can_predict(t) and theirs.can_predict(t)]
     known = set(base.parameters())
     found = {name: p for name, p in more.parameters().items() if name not in known}
-    return Confirmation(rmse(ours, usable), rmse(theirs, usable), found)
+    return Confirmation(rmse(ours, usable), rmse(theirs, usable), rmse(ours, usable, free=True),
+                        rmse(theirs, usable, free=True), found)
 
 
-def rmse(fitted: FittedResponse, tests: Sequence[TestData]) -> float | None:
-    """Free-run error over all samples that count, in the response's unit; None where there are none."""
+def rmse(fitted: FittedResponse, tests: Sequence[TestData], *, free: bool = False) -> float | None:
+    """Free-run error over all samples that count, in the response's unit; None where there are none.
+
+    free: with the best offset for each test, instead of the one from its first samples.
+    """
     parts = [fitted.residual(t)[fitted.mask(t)] for t in tests]
+    parts = [p - p.mean() if free and len(p) else p for p in parts]
     whole = np.concatenate(parts) if parts else np.empty(0)
     return float(np.sqrt(np.mean(whole**2))) if len(whole) else None

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from thermodata.diagnosis.artefact import Step, find_steps
-from thermodata.diagnosis.candidates import candidates
+from thermodata.diagnosis.candidates import SLACK_FACTORS, TIME_UNITS, candidates
 from thermodata.diagnosis.judge import Judgement, judge
 from thermodata.diagnosis.problem import Problem, build_problem
 from thermodata.diagnosis.rank import Scored, rank
@@ -30,6 +30,8 @@ class Investigation:
     steps: list[Step]
     spots: list[WeakSpot]
     judgement: Judgement
+    spread: float                           # RMS of the response about its offsets
+    families: frozenset[str]                # of the model's effects
 
 
 def investigate(fitted: FittedResponse, data: Dataset, tests: Sequence[TestData],
@@ -37,18 +39,20 @@ def investigate(fitted: FittedResponse, data: Dataset, tests: Sequence[TestData]
     """tests: those that take part in the choice (never the locked ones)."""
     info = data.channels[fitted.name]
     problem = build_problem(data, tests, fitted.name, info.unit, measured=fitted.measured,
-                            residual=fitted.residual, mask=fitted.mask, base=lambda test: base_columns(fitted, test))
+                            residual=fitted.residual, mask=fitted.mask, base=lambda test: base_columns(fitted, test),
+                            slack=lambda test: slack_columns(fitted, test))
     steps = find_steps(problem)
     at: dict[tuple[str, str], list[float]] = {}
     for step in steps:
         at.setdefault(step.test.key, []).append(step.at_s)
     problem = problem.split(at)
     present = [(t.effect.name, frozenset(n for text in t.binding.values() for n in names_of(text))) for t in fitted.terms]
+    families = frozenset(t.family for t in fitted.terms)
     ranked = rank(problem, candidates(library, data.channels, present, fitted.name), seed)
     whole = np.concatenate(problem.response_blocks) if problem.blocks else np.zeros(1)
     spread = float(np.sqrt(np.mean(whole**2)))
     spots = weak_spots([(t, fitted.residual(t), fitted.mask(t)) for t in tests], problem.noise)
-    return Investigation(problem, ranked, steps, spots, judge(problem, ranked, spread))
+    return Investigation(problem, ranked, steps, spots, judge(problem, ranked, spread, families), spread, families)
 
 
 def base_columns(fitted: FittedResponse, test: TestData) -> Float2D:
@@ -75,3 +79,25 @@ def _term_columns(term: FittedTerm, test: TestData) -> list[Float2D]:
             change = term.bound.columns(test, up) - term.bound.columns(test, down)
             columns.append((change @ gains)[:, None])
     return columns
+
+
+def slack_columns(fitted: FittedResponse, test: TestData) -> Float2D:
+    """How a known effect may differ from its one time constant, shape (n, k), each column in the response's unit.
+
+    A machine is distributed: the same heat also acts faster and slower than the fitted lag. That is no missing
+    effect, so the base model may have it, at a price (see `loto.Engine`).
+    """
+    columns = []
+    for term in fitted.terms:
+        found = term.values(test)
+        for param in term.effect.params:
+            if param.unit not in TIME_UNITS:
+                continue
+            for factor in SLACK_FACTORS:
+                if found is None or not term.bound.covers(test):
+                    columns.append(np.zeros(len(test.t_s)))
+                    continue
+                gains = np.array([found.gains[g.name] for g in term.effect.gains])
+                other = {**found.params, param.name: found.params[param.name] * factor}
+                columns.append((term.bound.columns(test, other) - term.columns(test)) @ gains)
+    return np.column_stack(columns) if columns else np.zeros((len(test.t_s), 0))

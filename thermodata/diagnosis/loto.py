@@ -27,12 +27,17 @@ class Fold:
 @dataclass(frozen=True, slots=True)
 class Drop:
     """before, after: shape (tests, 1 + surrogates), squared error of each left-out test. best: the grid point
-    that the whole data choose; gain: shape (k,), there."""
+    that the whole data choose; gains: shape (grid points, c)."""
 
     before: Float2D
     after: Float2D
     best: int
-    gain: Float1D
+    gains: Float2D
+
+    @property
+    def gain(self) -> Float1D:
+        result: Float1D = self.gains[self.best]
+        return result
 
     @property
     def relative(self) -> Float1D:
@@ -41,14 +46,25 @@ class Drop:
         return result
 
 
+@dataclass(frozen=True, slots=True)
+class Priors:
+    """Of a candidate's gains, shapes (c,): standard deviation (infinite: free), and bounds."""
+
+    spread: Float1D
+    lower: Float1D
+    upper: Float1D
+
+
 class Engine:
     """The base model and residuals of all tests; scores candidates against them.
 
     base: a test's columns (m, k). residuals: a test's (m, 1 + surrogates). noise_var: variance of the residual,
     the scale of the priors: a gain is drawn to 0 as if measured once with its largest plausible magnitude.
+    price: shape (k,), 1 / (prior standard deviation)^2 of each base column's coefficient, 0 where it is free.
     """
 
-    def __init__(self, base: Sequence[Float2D], residuals: Sequence[Float2D], noise_var: float) -> None:
+    def __init__(self, base: Sequence[Float2D], residuals: Sequence[Float2D], noise_var: float, price: Float1D) -> None:
+        self.price = np.diag(price * noise_var)
         self.base, self.residuals, self.noise_var = list(base), list(residuals), noise_var
         self.n = len(self.base)
         self.gram = np.stack([b.T @ b for b in self.base])
@@ -62,7 +78,7 @@ class Engine:
         gram, cross = self.gram[keep].sum(axis=0), self.cross[keep].sum(axis=0)
         scale = np.trace(self.gram.sum(axis=0)) / max(1, gram.shape[0])
         # columns that a fold's training tests do not excite must not blow up in the test that is left out
-        inverse = np.linalg.pinv(gram + 1e-6 * np.diag(np.diag(self.gram.sum(axis=0)) + 1e-12 * scale), hermitian=True)
+        inverse = np.linalg.pinv(gram + self.price + 1e-6 * np.diag(np.diag(self.gram.sum(axis=0)) + 1e-12 * scale), hermitian=True)
         theta = inverse @ cross
         rows = keep if left_out is None else [left_out]
         sse = np.zeros(self.energy.shape[1])
@@ -75,14 +91,13 @@ class Engine:
     def before(self) -> Float2D:
         return np.stack([fold.sse for fold in self.folds])
 
-    def score(self, grid: Sequence[Sequence[Float2D]], limit: Float1D, signs: Sequence[str]) -> Drop:
-        """grid: for each grid point, a test's candidate columns (m, c). limit: shape (c,), largest plausible
-        gain; signs: '+', '-' or 'any' for each gain."""
+    def score(self, grid: Sequence[Sequence[Float2D]], priors: Priors) -> Drop:
+        """grid: for each grid point, a test's candidate columns (m, c)."""
         points = [self._moments(columns) for columns in grid]
-        after = np.stack([self._left_out(i, points, limit, signs) for i in range(self.n)])
-        gains, reductions = zip(*(self._gain(self.total, p, None, limit, signs) for p in points), strict=True)
+        after = np.stack([self._left_out(i, points, priors) for i in range(self.n)])
+        gains, reductions = zip(*(self._gain(self.total, p, None, priors) for p in points), strict=True)
         best = int(np.argmax([r[0] for r in reductions]))
-        return Drop(self.before, after, best, gains[best][:, 0])
+        return Drop(self.before, after, best, np.stack([g[:, 0] for g in gains]))
 
     def _moments(self, columns: Sequence[Float2D]) -> tuple[Float2D, Float2D, Float2D]:
         cc = np.stack([c.T @ c for c in columns])
@@ -91,31 +106,25 @@ class Engine:
         return cc, bc, cr
 
     def _gain(self, fold: Fold, moments: tuple[Float2D, Float2D, Float2D], left_out: int | None,
-              limit: Float1D, signs: Sequence[str]) -> tuple[Float2D, Float1D]:
+              priors: Priors) -> tuple[Float2D, Float1D]:
         """Gains, shape (c, 1 + surrogates), and the fall of the training error, shape (1 + surrogates,)."""
         keep = [i for i in range(self.n) if i != left_out]
         cc, bc, cr = (m[keep].sum(axis=0) for m in moments)
         u = fold.inverse @ bc
-        d = cc - bc.T @ u + np.diag(self.noise_var / limit**2)
+        d = cc - bc.T @ u + np.diag(self.noise_var / priors.spread**2)
         e = cr - bc.T @ fold.theta
         gain = np.linalg.solve(d, e)
-        bound = limit[:, None]
-        gain = np.clip(gain, -bound, bound)
-        for j, sign in enumerate(signs):
-            if sign == "+":
-                gain[j] = np.maximum(gain[j], 0.0)
-            elif sign == "-":
-                gain[j] = np.minimum(gain[j], 0.0)
+        gain = np.clip(gain, priors.lower[:, None], priors.upper[:, None])
         reduction = 2 * np.einsum("ij,ij->j", gain, e) - np.einsum("ij,ij->j", gain, d @ gain)
         return gain, reduction
 
-    def _left_out(self, i: int, points: Sequence[tuple[Float2D, Float2D, Float2D]], limit: Float1D,
-                  signs: Sequence[str]) -> Float1D:
+    def _left_out(self, i: int, points: Sequence[tuple[Float2D, Float2D, Float2D]],
+                  priors: Priors) -> Float1D:
         fold = self.folds[i]
         best = np.full(self.energy.shape[1], -np.inf)
         chosen = fold.sse.copy()
         for moments in points:
-            gain, reduction = self._gain(fold, moments, i, limit, signs)
+            gain, reduction = self._gain(fold, moments, i, priors)
             cc, bc, cr = moments
             u = fold.inverse @ (bc.sum(axis=0) - bc[i])
             h = cr[i] - bc[i].T @ fold.theta - u.T @ (self.cross[i] - self.gram[i] @ fold.theta)

@@ -20,7 +20,7 @@ TARGET_ROWS = 9000
 @dataclass(frozen=True, slots=True)
 class Block:
     """One test, compressed. residual: shape (m,), of the fitted model, in the response's unit. base: shape
-    (m, k), what the model can still do (its gains, and its nonlinear parameters to first order). t_s: shape (m,).
+    (m, k), what the model can still do (its gains, and its nonlinear parameters to first order). slack: shape (m, s), what it may do at a price. t_s: shape (m,).
     segment: shape (m,), one free offset each. response: shape (m,), measured, offsets removed. group: shape (n,),
     the compressed row of every row of the grid, -1 where it does not count."""
 
@@ -29,6 +29,7 @@ class Block:
     response: Float1D
     residual: Float1D
     base: Float2D
+    slack: Float2D
     segment: Int1D
     group: Int1D
     weight: Float1D
@@ -64,7 +65,7 @@ class Problem:
             times = at.get(block.test.key, [])
             segment = np.searchsorted(np.sort(np.asarray(times, dtype=float)), block.t_s, side="right").astype(np.int64)
             blocks.append(replace(block, segment=segment, residual=center(block.residual[:, None], segment)[:, 0],
-                                  base=center(block.base, segment)))
+                                  base=center(block.base, segment), slack=center(block.slack, segment)))
         return replace(self, blocks=tuple(blocks))
 
 
@@ -94,7 +95,7 @@ Base = Callable[[TestData], Float2D]
 
 def build_problem(
     data: Dataset, tests: Sequence[TestData], response: str, unit: str, *,
-    measured: Callable[[TestData], Float1D], residual: Callable[[TestData], Float1D], mask: Callable[[TestData], Bool1D], base: Base,
+    measured: Callable[[TestData], Float1D], residual: Callable[[TestData], Float1D], mask: Callable[[TestData], Bool1D], base: Base, slack: Base,
 ) -> Problem:
     """Compress every test. measured(test), residual(test): shape (n,); mask(test): shape (n,), the samples that count."""
     masks = {t.key: mask(t) for t in tests}
@@ -114,9 +115,10 @@ def build_problem(
         noises.append(_short_noise(left[keep]))
         segment = np.zeros(size, dtype=np.int64)
         block = Block(test, _group_mean(test.t_s[:, None], group, weight, size)[:, 0], np.empty(0), np.empty(0),
-                      np.empty((0, 0)), segment, group, weight, size)
+                      np.empty((0, 0)), np.empty((0, 0)), segment, group, weight, size)
         both = block.compress(np.nan_to_num(np.column_stack([measured(test), left])))
-        blocks.append(replace(block, response=both[:, 0], residual=both[:, 1], base=block.compress(base(test))))
+        blocks.append(replace(block, response=both[:, 0], residual=both[:, 1], base=block.compress(base(test)),
+                              slack=block.compress(slack(test))))
     noise = float(np.median(noises)) if noises else float("nan")
     return Problem(response, unit, data.step_s * every, tuple(blocks), noise)
 

@@ -12,14 +12,16 @@ from dataclasses import dataclass
 import numpy as np
 
 from thermodata.diagnosis.candidates import CandidateEffect, grid
-from thermodata.diagnosis.loto import Drop, Engine
+from thermodata.diagnosis.loto import Drop, Engine, Priors
 from thermodata.diagnosis.problem import Problem
 from thermodata.diagnosis.whiten import fit_ar, surrogates, whiten
-from thermodata.plugin import Float1D
+from thermodata.plugin import Float1D, Float2D
 
 SURROGATES = 199
 # autocorrelated residuals are worth far fewer samples than they have; the prior of a gain is scaled so
 PRIOR_SAMPLES = 30.0
+# how much of a known effect may act with another time constant (prior standard deviation)
+SLACK_SHARE = 0.5
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,35 +52,57 @@ def rank(problem: Problem, candidates: Sequence[CandidateEffect], seed: int = 0)
     ar = fit_ar([b.residual for b in problem.blocks])
     series = [np.column_stack([b.residual, surrogates(b.residual, SURROGATES, rng)]) for b in problem.blocks]
     noise_var = float(np.mean(np.concatenate([b.residual for b in problem.blocks]) ** 2)) * PRIOR_SAMPLES
-    raw = Engine([b.base for b in problem.blocks], series, noise_var)
+    base = [np.hstack([b.base, b.slack]) for b in problem.blocks]
+    first = problem.blocks[0]
+    price = np.concatenate([np.zeros(first.base.shape[1]), np.full(first.slack.shape[1], SLACK_SHARE**-2)])
+    raw = Engine(base, series, noise_var, price)
     white_series = [whiten(s, ar) for s in series]
     white_var = float(np.mean(np.concatenate([w[:, 0] for w in white_series]) ** 2)) * PRIOR_SAMPLES
-    white = Engine([whiten(b.base, ar) for b in problem.blocks], white_series, white_var)
+    white = Engine([whiten(b, ar) for b in base], white_series, white_var, price)
 
     scored: list[Scored] = []
     top_raw = np.full(SURROGATES, -np.inf)
     top_white = np.full(SURROGATES, -np.inf)
-    drops: list[tuple[Drop, Drop]] = []
     for candidate in candidates:
         points = grid(candidate.effect.params, problem.step_s)
-        columns = [[b.compress(candidate.columns(b.test, p)) for b in problem.blocks] for p in points]
-        if not any(np.ptp(c) > 0 for c in columns[len(columns) // 2]):
+        plain_columns = [_columns(problem, candidate, p) for p in points]
+        if not any(np.ptp(c) > 0 for c in plain_columns[len(plain_columns) // 2]):
             continue
-        limit, signs = candidate.limit, candidate.signs
-        plain = raw.score(columns, limit, signs)
-        whitened = white.score([[whiten(c, ar) for c in point] for point in columns], limit, signs)
+        first = raw.score(plain_columns, candidate.priors)
+        columns, priors = _with_slack(problem, candidate, points, plain_columns, first)
+        plain = raw.score(columns, priors)
+        whitened = white.score([[whiten(c, ar) for c in point] for point in columns], priors)
         top_raw = np.maximum(top_raw, plain.relative[1:])
         top_white = np.maximum(top_white, whitened.relative[1:])
-        drops.append((plain, whitened))
-        shape, size = _shape(raw, problem, columns[plain.best], plain.gain)
-        scored.append(Scored(candidate, points[plain.best], plain.gain, float(plain.relative[0]),
+        shape, size = _shape(raw, columns[plain.best], plain.gain)
+        scored.append(Scored(candidate, points[plain.best], plain.gain[:len(candidate.effect.gains)], float(plain.relative[0]),
                              float(whitened.relative[0]), 1.0, 1.0, plain.before[:, 0], plain.after[:, 0], shape, size))
     return _order(scored, top_raw, top_white)
 
 
-def _shape(engine: Engine, problem: Problem, columns: Sequence[np.ndarray], gain: Float1D) -> tuple[Float1D, float]:
+def _columns(problem: Problem, candidate: CandidateEffect, p: Mapping[str, float]) -> list[Float2D]:
+    return [b.compress(candidate.columns(b.test, p)) for b in problem.blocks]
+
+
+def _with_slack(problem: Problem, candidate: CandidateEffect, points: Sequence[Mapping[str, float]],
+                columns: list[list[Float2D]], first: Drop) -> tuple[list[list[Float2D]], Priors]:
+    """A candidate may act as distributed as the known effects may: by a share of what its gains alone explain."""
+    priors = candidate.priors
+    count = len(candidate.slack_params(points[0]))
+    if not count:
+        return columns, priors
+    extended = []
+    for p, own, gain in zip(points, columns, first.gains, strict=True):
+        others = [_columns(problem, candidate, q) for q in candidate.slack_params(p)]
+        extended.append([np.column_stack([c, *((o[i] - c) @ gain for o in others)]) for i, c in enumerate(own)])
+    share, free = np.full(count, SLACK_SHARE), np.full(count, np.inf)
+    return extended, Priors(np.concatenate([priors.spread, share]), np.concatenate([priors.lower, -free]),
+                            np.concatenate([priors.upper, free]))
+
+
+def _shape(engine: Engine, columns: Sequence[Float2D], gain: Float1D) -> tuple[Float1D, float]:
     whole = np.concatenate([c @ gain for c in columns])
-    base = np.vstack([b.base for b in problem.blocks])
+    base = np.vstack(engine.base)
     u = engine.total.inverse @ (base.T @ whole)
     left = whole - base @ u
     length = float(np.linalg.norm(left))

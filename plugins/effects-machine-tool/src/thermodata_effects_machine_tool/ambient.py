@@ -24,6 +24,7 @@ class AmbientFrame(Lagged):
 
 class AmbientSkin:
     name = "ambient_skin"
+    refines = ("ambient_frame",)
     family = "ambient"
     meaning = "thin parts follow the hall's air before the frame does: k (F_fast{dT} - F_slow{dT}); door events"
     source = "modelling.md section 5, row 9"

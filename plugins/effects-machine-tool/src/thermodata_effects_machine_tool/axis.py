@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 import numpy as np
+
 from thermodata.effect.lag import lag, step_of
 from thermodata.plugin import Drivers, Float1D, Float2D, Need
 
-from .shared import REFERENCE_FEED_M_MIN, Lagged, column, exponent, gain, power_of, tau
+from .shared import REFERENCE_FEED_M_MIN, Lagged, exponent, gain, power_of, tau
 
 
 class FeedScrew(Lagged):
@@ -39,6 +40,7 @@ class FeedMotor(Lagged):
 
 class ScrewGrowth:
     name = "screw_growth"
+    refines = ("feed_screw",)
     family = "feed_{a}"
     meaning = "growth of a screw without a scale, with position: alpha x dT and the fixed end's alpha x0 dT"
     source = "modelling.md section 5, row 15"

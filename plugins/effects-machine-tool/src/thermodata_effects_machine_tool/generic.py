@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 import numpy as np
+
 from thermodata.plugin import Drivers, Float2D, Need, Param
 
 from .shared import Lagged, column, gain, tau
@@ -24,6 +25,7 @@ class Lag(Lagged):
 
 class Static:
     name = "static"
+    refines = ("lag",)
     family = "generic"
     meaning = "a plain gain without a lag: k u"
     source = "paper 001, eq. 1: k (T_spindle - T_base)"

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 import numpy as np
+
 from thermodata.effect.lag import lag, step_of
 from thermodata.plugin import Drivers, Float1D, Float2D, Gain, Need, Param
 

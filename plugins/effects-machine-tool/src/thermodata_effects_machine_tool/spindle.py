@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 import numpy as np
+
 from thermodata.effect.lag import lag, step_of
 from thermodata.plugin import Drivers, Float1D, Float2D, Need
 
@@ -23,6 +24,7 @@ class SpindleBearing(Lagged):
 
 class SpindleBearing2:
     name = "spindle_bearing_2"
+    refines = ("spindle_bearing",)
     family = "spindle"
     meaning = "growth of the spindle in two modes: k1 F_fast{dT} + k2 F_slow{dT}; two slopes in cooling"
     source = "modelling.md section 5, row 1; papers 000, 002 (second-order functions)"
@@ -76,6 +78,7 @@ class SpindleHeatingCooling:
     """The state follows tau_on while the spindle turns and tau_off while it stands: air moves heat."""
 
     name = "spindle_heating_cooling"
+    refines = ("spindle_bearing",)
     family = "spindle"
     meaning = "heating that differs from cooling: k F{dT} with tau_on while the spindle turns, else tau_off"
     source = "modelling.md section 5, row 5; paper 001 (separate functions for heating and cooling)"
@@ -103,6 +106,7 @@ class SpeedDependentGain:
     """Two gains, k and k beta: T acts more or less where the spindle turns."""
 
     name = "speed_dependent_gain"
+    refines = ("spindle_bearing",)
     family = "spindle"
     meaning = "the gain of the bearing temperature depends on the speed: k F{dT (n/10000 rpm)}"
     source = "modelling.md section 5, row 26"
