@@ -33,8 +33,8 @@ create table calibration (campaign varchar not null, calibration varchar not nul
 create table model (model varchar primary key, name varchar not null, parent varchar, campaigns varchar[] not null,
                     response varchar not null, spec json not null, data_version varchar not null,
                     stale boolean not null, created_at timestamp not null, result json not null);
-create table fit (model varchar not null, response varchar, parameter varchar not null, value double not null, unit varchar,
-                  low double, high double);
+create table fit (model varchar not null, response varchar, parameter varchar not null, value double not null,
+                  unit varchar, low double, high double);
 create table score_row (campaign varchar not null, test varchar not null, model varchar not null, role varchar,
                         response varchar, phase varchar, fit double, rmse_um double, ptp_um double,
                         ptp_residual_um double, max_um double, n bigint);

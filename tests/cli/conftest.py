@@ -36,7 +36,7 @@ id: small
 machine: {id: "138", description: test machine}
 sources: {log: {reader: table, files: "raw/{test}.csv"}}
 channels:
-  dZ: {source: log, signal: dZ, quantity: displacement, unit: um, axis: Z, at: tcp, relative_to: table, calibration: probe}
+  dZ: {source: log, signal: dZ, quantity: displacement, unit: um, axis: Z, at: tcp, calibration: probe}
   T_bearing: {source: log, signal: T_bearing, quantity: temperature, unit: degC, at: spindle.bearing.front}
   T_nut_Z: {source: log, signal: T_nut_Z, quantity: temperature, unit: degC, at: axis.z.nut}
   T_hall: {source: log, signal: T_hall, quantity: temperature, unit: degC, at: hall.bottom}

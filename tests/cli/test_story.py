@@ -121,7 +121,7 @@ def test_fit_add_and_history(data: Callable[..., Any], ask: Say, campaign: Path)
     assert [s["model"] for s in better["before"]] == [base["model"]] * len(better["before"])
 
     def rmse(rows: list[dict[str, Any]]) -> float:
-        return max(s["rmse_um"] for s in rows if s["phase"] == "all")
+        return float(max(s["rmse_um"] for s in rows if s["phase"] == "all"))
 
     assert rmse(better["before"]) > 2.0
     assert rmse(better["scores"]) < 0.5, "what is left is the 0.3 um of noise"

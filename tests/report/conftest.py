@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Literal
+
 import numpy as np
 import pytest
 
@@ -30,7 +32,7 @@ def part(test: str, role: str, seed: int, hours: float = 14.0, complete: bool = 
     rng = np.random.default_rng(seed)
     n = int(hours * 120)
     t_h = np.arange(n) / 120
-    speed = 9000.0 * ((t_h > 0.5) & (t_h < 8)) * (0.5 + 0.5 * (np.floor(t_h) % 2 == seed % 2))
+    speed: Float1D = 9000.0 * ((t_h > 0.5) & (t_h < 8)) * (0.5 + 0.5 * (np.floor(t_h) % 2 == seed % 2))
     feed = 10.0 * ((t_h > 3) & (t_h < 6))
     bearing, nut = 12 * lagged(speed / 9000, 1800), 6 * lagged(feed / 10, 3600)
     hall = 1.5 * np.sin(2 * np.pi * t_h / 24 + seed)
@@ -44,8 +46,8 @@ def part(test: str, role: str, seed: int, hours: float = 14.0, complete: bool = 
         tuple(Curve(k, "um", v) for k, v in terms),
         (Curve("T_bearing", "degC", 20 + bearing), Curve("T_nut_Z", "degC", 20 + nut),
          Curve("T_hall", "degC", 20 + hall)),
-        (Curve("spindle_speed", "rpm", speed), Curve("feed_Z", "m/min", feed),
-         Curve("coolant_on", "1", (speed > 0).astype(float))),
+        (Curve("spindle_speed", "rpm", speed), Curve("feed_Z", "m/min", feed.astype(np.float64)),
+         Curve("coolant_on", "1", (speed > 0).astype(np.float64))),
         {"speed": 9000.0, "axis": "Z"}, {"heating": (1800.0, 28800.0), "cooling": (28800.0, 50400.0)})
 
 
@@ -54,7 +56,7 @@ def score(test: str, role: str, rmse: float, model: str = "b2", phase: str = "al
                  rmse_um=rmse, ptp_um=38.0, ptp_residual_um=6 * rmse, max_um=3 * rmse, n=1650)
 
 
-def diagnosis(verdict: str = "effect") -> Diagnosis:
+def diagnosis(verdict: Literal["effect", "none"] = "effect") -> Diagnosis:
     def candidate(rank: int, effect: str, drivers: list[str], after: float, claimed: bool) -> Candidate:
         return Candidate(
             rank=rank, id=f"{effect}:{'+'.join(drivers)}", effect=effect, family="feed_z", drivers=drivers,
@@ -111,4 +113,5 @@ def blind(data: ReportData) -> ReportData:
 
     tests = tuple(part(t.test, t.role, i + 1, complete=False) for i, t in enumerate(data.tests))
     return dataclasses.replace(data, model="b1", effects=data.effects[:2], tests=tests, scores=data.before, before=[],
-                               versions=data.versions[:1], diagnosis=diagnosis(), reason=None, looks={})
+                               versions=data.versions[:1], diagnosis=diagnosis(), reason=None, looks={},
+                               weak={"dZ": diagnosis().weak_spots})

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import click
 
 from thermodata.cli.common import Session, command
-from thermodata.cli.fitting import resolve
+from thermodata.cli.fitting import resolve, spots_text
 from thermodata.cli.table import table
 from thermodata.report.words import duration, number, verdict_sentence
 
@@ -49,11 +49,7 @@ def diagnosis_text(found: Diagnosis, top: int = 8) -> str:
         if first.why:
             parts.append(f"why {first.id}: {first.why}")
     if found.weak_spots:
-        spots = [{**w.model_dump(), "span": f"{duration(w.from_s)} – {duration(w.to_s)}"}
-                 for w in found.weak_spots[:top]]
-        parts.append("where the model fails\n" + table(spots, [
-            ("campaign", "campaign"), ("test", "test"), ("span", "when"), ("rmse_um", "RMSE [um]"),
-            ("state", "state")]))
+        parts.append(spots_text(found.weak_spots, most=top))
     if found.artefacts:
         parts.append("artefacts\n" + "\n".join(
             f"  ! {a.kind} in {a.campaign}/{a.test} at {duration(a.at_s)}: {number(a.size_um)} um. "

@@ -9,10 +9,10 @@ import click
 
 from thermodata.cli.common import Session, command, plain
 from thermodata.cli.table import table
-from thermodata.report.words import change, number, pooled
+from thermodata.report.words import base_role, change, duration, number, pooled
 
 if TYPE_CHECKING:
-    from thermodata.schema.result import FitResult, Parameter, Score
+    from thermodata.schema.result import FitResult, Parameter, Score, WeakSpot
     from thermodata.store import Store
 
 
@@ -53,16 +53,22 @@ def compare_command(session: Session, models: tuple[str, ...]) -> None:
 
     By test and phase, each MODEL beside the others, and where the first fails.
 
-    With several models the JSON is that of the first, with the scores of all, and all of them in "models".
+    With several models the JSON is that of the first, with the scores of all, and all of them in "models";
+    "weak_spots" has those of the first, by response.
     """
-    from thermodata.modelling.run import compare
+    from thermodata.modelling.run import compare, load
+    from thermodata.report.spots import weak_spots_of
+    from thermodata.store.models import load_diagnosis
 
     store = session.store()
     results = compare(store, [resolve(store, ref) for ref in models])
-    payload: dict[str, Any] = plain(results[0])
+    loaded = load(store, results[0].model)
+    weak = weak_spots_of(loaded, (load_diagnosis(store, m) for m in (loaded.parent, loaded.identity) if m))
+    payload: dict[str, Any] = {**plain(results[0]), "weak_spots": weak}
     if len(results) > 1:
         payload |= {"scores": [s for r in results for s in r.scores], "models": results}
-    session.answer(payload, lambda: compare_text(results))
+    session.answer(payload, lambda: "\n\n".join([compare_text(results), *(
+        spots_text(found, response) for response, found in weak.items() if found)]))
 
 
 @command("add")
@@ -170,6 +176,14 @@ def compare_text(results: list[FitResult]) -> str:
     return table(list(rows.values()), columns)
 
 
+def spots_text(spots: list[WeakSpot], response: str = "", most: int = 8) -> str:
+    """Weak spots as a table: where, when, how much, and what the machine did."""
+    rows = [{**w.model_dump(), "span": f"{duration(w.from_s)} – {duration(w.to_s)}"} for w in spots[:most]]
+    title = f"where the model of {response} fails" if response else "where the model fails"
+    return f"{title}\n" + table(rows, [("campaign", "campaign"), ("test", "test"), ("span", "when"),
+                                       ("rmse_um", "RMSE [um]"), ("state", "state")], widest=80)
+
+
 def before_after_text(result: FitResult) -> str:
     """What an added effect did, a row a test; roles pooled below."""
     before = {(s.campaign, s.test, s.response, s.phase): s for s in result.before or []}
@@ -178,7 +192,7 @@ def before_after_text(result: FitResult) -> str:
         old = before.get((s.campaign, s.test, s.response, s.phase))
         if s.phase == "all" and old:
             rows.append({**s.model_dump(), "before": old.rmse_um, "change": change(old.rmse_um, s.rmse_um)})
-    for role in dict.fromkeys(row["role"] for row in rows):
+    for role in dict.fromkeys(base_role(row["role"]) for row in rows):
         a, b = pooled(result.before or [], role), pooled(result.scores, role)
         rows.append({"test": "all", "role": role, "before": a, "rmse_um": b, "change": change(a, b)})
     return table(rows, [("campaign", "campaign"), ("test", "test"), ("role", "role"), ("before", "before [um]"),

@@ -10,7 +10,7 @@ import click
 from thermodata.cli.common import Session, command
 from thermodata.cli.ingest import calibrations_text
 from thermodata.cli.table import fields, table
-from thermodata.errors import UsageError, unknown_name
+from thermodata.errors import unknown_name
 from thermodata.report.records import records
 from thermodata.report.words import duration
 
@@ -101,19 +101,20 @@ def quality_command(session: Session, campaign: str | None, events: bool) -> Non
 
 
 @command("trace")
-@click.argument("what", nargs=-1, required=True, metavar="CAMPAIGN TEST [CHANNEL]")
-def trace_command(session: Session, what: tuple[str, ...]) -> None:
+@click.argument("what", metavar="CAMPAIGN|MODEL")
+@click.argument("test", required=False)
+@click.argument("channel", required=False)
+@click.option("--at", metavar="TIME", help="One sample, for example '2.5 h' from the start of the test.")
+def trace_command(session: Session, what: str, test: str | None, channel: str | None, at: str | None) -> None:
     """Show where a value comes from.
 
-    Raw file, hash, reader, scaling, calibration, sign; of one channel or of all.
-
-    Also: trace MODEL, for the data and versions behind a model.
+    Of a TEST or of one CHANNEL: raw file, hash, reader, scaling, calibration, sign. Of a MODEL: its data and
+    the versions behind it.
     """
+    from thermodata.schema.quantity import value_in
     from thermodata.store.lifecycle import trace
 
-    if len(what) > 3:
-        raise UsageError("too many names", expected="CAMPAIGN TEST [CHANNEL]", got=" ".join(what))
-    found = trace(session.store(), *what)
+    found = trace(session.store(), what, test, channel, t_s=None if at is None else value_in(at, "s"))
     session.answer(found, lambda: fields(_flat(found)))
 
 

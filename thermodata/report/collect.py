@@ -11,6 +11,7 @@ import numpy as np
 
 from thermodata.plugin import Bool1D, Float1D
 from thermodata.report.data import Curve, ReportData, TestPart, Version
+from thermodata.report.spots import weak_spots_of
 from thermodata.report.words import pooled
 
 if TYPE_CHECKING:
@@ -32,6 +33,7 @@ def collect(store: Store, ref: str) -> ReportData:
     chain = model_chain(store, stored.model)
     loaded = load(store, stored.model)
     diagnosis = load_diagnosis(store, stored.model)
+    reason = load_diagnosis(store, stored.parent) if stored.parent else None
     responses = tuple(r.name for r in loaded.fitted.responses)
     result = stored.result
     before = result.before or (chain[-2].result.scores if len(chain) > 1 else [])
@@ -42,7 +44,7 @@ def collect(store: Store, ref: str) -> ReportData:
         created=_created(store, stored.model), parameters=result.parameters, scores=result.scores,
         checks=result.checks, before=before, tests=tuple(_tests(store, stored.model, loaded)),
         versions=versions(chain), diagnosis=diagnosis,
-        reason=load_diagnosis(store, stored.parent) if stored.parent else None,
+        reason=reason, weak=weak_spots_of(loaded, (reason, diagnosis)),
         calibrations=tuple(_calibrations(store, stored.spec.campaign_ids)),
         looks=_looks(store, [m.model for m in chain]), stale=stored.stale)
 
@@ -161,7 +163,7 @@ def _looks(store: Store, models: Sequence[str]) -> dict[str, int]:
     return {f"{row['campaign']}/{row['test']}": int(row["n"]) for row in rows}
 
 
-def _rows(store: Store, query: str, params: Sequence[Any] = ()) -> list[dict[str, Any]]:
+def _rows(store: Store, query: str, params: list[Any] | None = None) -> list[dict[str, Any]]:
     from thermodata.store.connection import fetch
 
     with store.reader() as con:

@@ -61,7 +61,8 @@ class ReportData:
     """A model, its scores and curves, and what was diagnosed.
 
     diagnosis: of this model; reason: of its parent, which says why the last effect was added. versions: oldest first.
-    looks: how often each locked test was opened. calibrations: rows of the catalogue's table.
+    looks: how often each locked test was opened. calibrations: rows of the catalogue's table. weak: weak spots by
+    response.
     """
 
     model: str
@@ -82,11 +83,8 @@ class ReportData:
     reason: Diagnosis | None = None
     calibrations: tuple[dict[str, Any], ...] = ()
     looks: dict[str, int] = field(default_factory=dict)
+    weak: dict[str, list[WeakSpot]] = field(default_factory=dict)
     stale: bool = False
-
-    @property
-    def weak_spots(self) -> list[WeakSpot]:
-        return self.diagnosis.weak_spots if self.diagnosis else []
 
     @property
     def added(self) -> str | None:

@@ -12,7 +12,7 @@ from thermodata import __version__
 from thermodata.report.colour import effect_colours
 from thermodata.report.data import ReportData, TestPart
 from thermodata.report.figures import Figure, overview_figure, test_figure, waterfall_figure
-from thermodata.report.words import change, duration, number, pooled, typeset, verdict_sentence
+from thermodata.report.words import base_role, change, duration, number, pooled, typeset, verdict_sentence
 
 if TYPE_CHECKING:
     from thermodata.store import Store
@@ -41,7 +41,8 @@ def render(data: ReportData) -> str:
 
     here = files("thermodata.report")
     environment = jinja2.Environment(autoescape=True, trim_blocks=True, lstrip_blocks=True)
-    environment.filters.update(number=lambda v, d=3: typeset(number(v, d)), duration=duration, typeset=typeset)
+    environment.filters.update(base_role=base_role, duration=duration, typeset=typeset,
+                               number=lambda value, digits=3: typeset(number(value, digits)))
     template = environment.from_string((here / "page.html.j2").read_text(encoding="utf-8"))
     colours = effect_colours([*data.effects, *(c.name for t in data.tests for c in t.contributions)])
     figures = _figures(data, colours)
@@ -50,7 +51,8 @@ def render(data: ReportData) -> str:
         json={key: Markup(_script_json(figure)) for key, figure in figures.items()},
         css=Markup((here / "page.css").read_text(encoding="utf-8")),
         js=Markup((here / "page.js").read_text(encoding="utf-8")), plotly=Markup(get_plotlyjs()),
-        overview="overview" in figures, waterfall="waterfall" in figures, weak=data.weak_spots,
+        overview="overview" in figures, waterfall="waterfall" in figures,
+        weak=sorted((w for found in data.weak.values() for w in found), key=lambda w: -w.rmse_um),
         headline=typeset(headline(data)), sentences=[typeset(line) for line in _sentences(data)], tiles=tiles(data),
         verdict=typeset(_capital(verdict_sentence(data.diagnosis))) if data.diagnosis else "",
         reason=typeset(_capital(verdict_sentence(data.reason))) if data.reason else "",
@@ -69,8 +71,7 @@ def _figures(data: ReportData, colours: dict[str, str]) -> dict[str, Figure]:
     if len(data.versions) > 1 and sum(v.all_um is not None for v in data.versions) > 1:
         made["waterfall"] = waterfall_figure(data.versions, noise, typeset(data.unit))
     for i, part in enumerate(data.tests):
-        weak = [w for w in data.weak_spots if (w.campaign, w.test) == (part.campaign, part.test)
-                and data.diagnosis is not None and part.response in (data.diagnosis.response, *data.responses[:1])]
+        weak = [w for w in data.weak.get(part.response, ()) if (w.campaign, w.test) == (part.campaign, part.test)]
         made[f"test{i}"] = test_figure(part, weak, colours, noise, typeset(data.unit))
     return made
 
@@ -116,7 +117,7 @@ def tiles(data: ReportData) -> list[dict[str, str]]:
     for role, what in (("calibration", "Error in calibration tests"), ("verification", "Error in verification tests")):
         after, before = pooled(data.scores, role), pooled(data.before, role)
         if after is not None:
-            in_sample = role == "verification" and bool(data.before)
+            in_sample = any("in-sample" in s.role for s in data.scores if base_role(s.role) == role)
             note = "took part in choosing the effect" if in_sample else "RMSE, free-run"
             made.append(_tile(what, before, after, data.unit, note))
     locked = _locked(data)

@@ -48,9 +48,15 @@ def change(before: float | None, after: float | None) -> str:
     return f"{100 * (after / before - 1):+.0f} %" if before and after is not None else "-"
 
 
+def base_role(role: str) -> str:
+    """'verification (in-sample)' -> 'verification': the role that the campaign gave a test."""
+    return role.partition(" ")[0]
+
+
 def pooled(scores: list[Score], *roles: str) -> float | None:
     """Root mean square [um] over whole tests of these roles (none named: all), each sample counted once."""
-    rows = [s for s in scores if s.phase == "all" and (not roles or s.role in roles) and s.rmse_um is not None]
+    rows = [s for s in scores if s.phase == "all" and s.rmse_um is not None
+            and (not roles or base_role(s.role) in roles)]
     n = sum(s.n for s in rows)
     return math.sqrt(sum(s.n * (s.rmse_um or 0.0) ** 2 for s in rows) / n) if n else None
 
