@@ -26,7 +26,7 @@ SHOWN = 15
 @dataclass(frozen=True, slots=True)
 class Answer:
     diagnosis: Diagnosis
-    locked: tuple[TestData, ...]            # the locked tests that were looked at
+    locked: tuple[TestData, ...]  # the locked tests that were looked at
 
 
 def answer(fitted: FittedModel, data: Dataset, library: Mapping[str, Effect], model_id: str, seed: int = 0) -> Answer:
@@ -42,9 +42,13 @@ def answer(fitted: FittedModel, data: Dataset, library: Mapping[str, Effect], mo
         locked = [t for t in fitted.tests(data, "locked") if response.can_predict(t)]
         confirmation = confirm(fitted.spec, index, data, judgement.claimed.candidate, usable, locked)
         if not confirmation.holds:
-            judgement = Judgement("unknown", None, f"{judgement.claimed.candidate.id} explains the open tests, but on the "
-                                  f"locked ones the error does not fall ({confirmation.before:.2f} -> "
-                                  f"{confirmation.after:.2f} {response.unit})")
+            judgement = Judgement(
+                "unknown",
+                None,
+                f"{judgement.claimed.candidate.id} explains the open tests, but on the "
+                f"locked ones the error does not fall ({confirmation.before:.2f} -> "
+                f"{confirmation.after:.2f} {response.unit})",
+            )
     return Answer(_diagnosis(found, judgement, confirmation, data, model_id), tuple(locked))
 
 
@@ -62,8 +66,9 @@ def _worst(fitted: FittedModel, tests: Sequence[TestData]) -> int:
     return int(np.argmax(left))
 
 
-def _diagnosis(found: Investigation, judgement: Judgement, confirmation: Confirmation | None, data: Dataset,
-               model_id: str) -> Diagnosis:
+def _diagnosis(
+    found: Investigation, judgement: Judgement, confirmation: Confirmation | None, data: Dataset, model_id: str
+) -> Diagnosis:
     problem, ranked = found.problem, found.ranked
     claimed = judgement.claimed
     order = list(ranked)
@@ -77,36 +82,70 @@ def _diagnosis(found: Investigation, judgement: Judgement, confirmation: Confirm
     if claimed is None and judgement.verdict != "none":
         advice = next_test.to_find(len(problem.blocks))
     return Diagnosis(
-        model=model_id, response=problem.response, verdict=judgement.verdict,
-        noise_um=problem.noise if np.isfinite(problem.noise) else None, rmse_um=before,
+        model=model_id,
+        response=problem.response,
+        verdict=judgement.verdict,
+        noise_um=problem.noise if np.isfinite(problem.noise) else None,
+        rmse_um=before,
         explainable=None if best is None else float(np.clip(max(s.drop for s in ranked), 0.0, 1.0)),
         weak_spots=found.spots,
-        candidates=[_candidate(i + 1, s, s is claimed, found, confirmation if s is claimed else None,
-                               equivalents(s, ranked) if i < 5 else [], judgement) for i, s in enumerate(order[:SHOWN])],
+        candidates=[
+            _candidate(
+                i + 1,
+                s,
+                s is claimed,
+                found,
+                confirmation if s is claimed else None,
+                equivalents(s, ranked) if i < 5 else [],
+                judgement,
+            )
+            for i, s in enumerate(order[:SHOWN])
+        ],
         artefacts=steps,
         unknown=characterise(problem, found.spots) if judgement.verdict == "unknown" else None,
-        next_test=advice)
+        next_test=advice,
+    )
 
 
-def _candidate(rank: int, s: Scored, claimed: bool, found: Investigation, confirmation: Confirmation | None,
-               twins: Sequence[Scored], judgement: Judgement) -> Candidate:
+def _candidate(
+    rank: int,
+    s: Scored,
+    claimed: bool,
+    found: Investigation,
+    confirmation: Confirmation | None,
+    twins: Sequence[Scored],
+    judgement: Judgement,
+) -> Candidate:
     problem = found.problem
     energy = float(sum(np.sum(y**2) for y in problem.response_blocks))
     return Candidate(
-        rank=rank, id=s.candidate.id, effect=s.candidate.effect.name, family=s.candidate.family,
-        drivers=list(s.candidate.channels), claimed=claimed, p_value=s.p_value,
-        rmse_um_before=_rmse(s.sse_before, problem), rmse_um_after=_rmse(s.sse_after, problem),
-        fit_before=_fit(s.sse_before, energy), fit_after=_fit(s.sse_after, energy),
+        rank=rank,
+        id=s.candidate.id,
+        effect=s.candidate.effect.name,
+        family=s.candidate.family,
+        drivers=list(s.candidate.channels),
+        claimed=claimed,
+        p_value=s.p_value,
+        rmse_um_before=_rmse(s.sse_before, problem),
+        rmse_um_after=_rmse(s.sse_after, problem),
+        fit_before=_fit(s.sse_before, energy),
+        fit_after=_fit(s.sse_after, energy),
         locked_rmse_um_before=confirmation.before if confirmation else None,
         locked_rmse_um_after=confirmation.after if confirmation else None,
         parameters=confirmation.parameters if confirmation else {},
-        equivalent=[t.candidate.id for t in twins], why=_why(s, claimed, found, confirmation, judgement))
+        equivalent=[t.candidate.id for t in twins],
+        why=_why(s, claimed, found, confirmation, judgement),
+    )
 
 
-def _why(s: Scored, claimed: bool, found: Investigation, confirmation: Confirmation | None, judgement: Judgement) -> str:
+def _why(
+    s: Scored, claimed: bool, found: Investigation, confirmation: Confirmation | None, judgement: Judgement
+) -> str:
     problem = found.problem
-    numbers = (f"on left-out tests the error falls from {_rmse(s.sse_before, problem):.2f} to "
-               f"{_rmse(s.sse_after, problem):.2f} {problem.unit}; it would act with {s.size:.1f} {problem.unit} RMS")
+    numbers = (
+        f"on left-out tests the error falls from {_rmse(s.sse_before, problem):.2f} to "
+        f"{_rmse(s.sse_after, problem):.2f} {problem.unit}; it would act with {s.size:.1f} {problem.unit} RMS"
+    )
     if claimed:
         locked = ""
         if confirmation and confirmation.before is not None and confirmation.after is not None:

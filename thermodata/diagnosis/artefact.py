@@ -55,38 +55,54 @@ def _steps_in(block: Block, problem: Problem) -> list[Step]:
             break
         found.append(Step(block.test, float((t[i - 1] + t[i]) / 2), float(size[i]), float(score[i])))
         r = r - np.where(np.arange(len(r)) >= i, size[i], 0.0)
-        blocked[max(0, i - side // 2):i + side // 2] = True
+        blocked[max(0, i - side // 2) : i + side // 2] = True
     return found
 
 
 def _step_score(r: Float1D, t: Float1D, side: int) -> tuple[Float1D, Float1D]:
-    """For a step before each sample: how far the extrapolations of both sides lie apart, by robust scale."""
+    """For a step before each sample: how far the extrapolations of both sides lie apart, by robust scale.
+
+    Lines on both sides, so that a slope is not taken for a step; and means of the near thirds, so that a bend is not.
+    """
     m = len(r)
-    size = np.zeros(m)
     near = max(2, side // 3)
-    for i in range(side, m - side):
-        # lines on both sides, so that a slope is not taken for a step
-        left, right = r[i - side:i], r[i:i + side]
-        a = np.polyfit(t[i - side:i] - t[i], left, 1)
-        b = np.polyfit(t[i:i + side] - t[i], right, 1)
-        by_line = b[1] - a[1]
-        by_level = right[:near].mean() - left[-near:].mean()
-        size[i] = by_line if abs(by_line) < abs(by_level) else by_level
-        if by_line * by_level < 0:
-            size[i] = 0.0
+    left, right = _lines(r, t, side)
+    size = np.zeros(m)
+    inner = np.arange(side, m - side + 1)
+    total = np.concatenate([[0.0], np.cumsum(r)])
+    by_line = right[inner] - left[inner - side]
+    by_level = (total[inner + near] - 2 * total[inner] + total[inner - near]) / near
+    smaller = np.where(np.abs(by_line) < np.abs(by_level), by_line, by_level)
+    inner_size = np.where(by_line * by_level > 0, smaller, 0.0)
+    used = inner < m
+    size[inner[used]] = inner_size[used]
     # a step happens between two samples; a steep rise takes several
     jump = np.abs(np.diff(r, prepend=r[0]))
     sharp = jump > 0.4 * np.abs(size)
-    used = size[side:m - side]
-    scale = 1.4826 * float(np.median(np.abs(used - np.median(used)))) + 1e-9
+    scale = 1.4826 * float(np.median(np.abs(inner_size - np.median(inner_size)))) + 1e-9
     return np.where(sharp, np.abs(size) / scale, 0.0), size
+
+
+def _lines(r: Float1D, t: Float1D, side: int) -> tuple[Float1D, Float1D]:
+    """Straight lines through each run of `side` samples: (value one sample after its end, value at its start)."""
+    from numpy.lib.stride_tricks import sliding_window_view
+
+    y, x = sliding_window_view(r, side), sliding_window_view(t, side)
+    x_mean, y_mean = x.mean(axis=1), y.mean(axis=1)
+    dx = x - x_mean[:, None]
+    slope = np.einsum("ij,ij->i", dx, y) / np.maximum(np.einsum("ij,ij->i", dx, dx), 1e-300)
+    step = np.median(np.diff(t))
+    return y_mean + slope * (x[:, -1] + step - x_mean), y_mean + slope * (x[:, 0] - x_mean)
 
 
 def _commanded(test: TestData, at_s: float, step_s: float) -> bool:
     """Whether a speed, feed, power or switch changed within COMMAND_S of the time."""
     near = np.abs(test.t_s - at_s) <= COMMAND_S + step_s
     for name, info in test.channels.items():
-        if info.quantity not in ("rotational_speed", "feed", "power", "state", "load", "flow") or name not in test.values:
+        if (
+            info.quantity not in ("rotational_speed", "feed", "power", "state", "load", "flow")
+            or name not in test.values
+        ):
             continue
         values = test.values[name]
         whole, part = values[np.isfinite(values)], values[near & np.isfinite(values)]
@@ -96,7 +112,15 @@ def _commanded(test: TestData, at_s: float, step_s: float) -> bool:
 
 
 def as_artefacts(steps: list[Step], unit: str) -> list[Artefact]:
-    return [Artefact(kind="step", campaign=s.test.campaign, test=s.test.test, at_s=s.at_s, size_um=s.size,
-                     why=f"the displacement jumps by {s.size:+.1f} {unit} between two samples, {s.z:.0f} times the usual "
-                         "change, and stays; no speed, feed or switch changed: a probe or fixture slipped")
-            for s in steps]
+    return [
+        Artefact(
+            kind="step",
+            campaign=s.test.campaign,
+            test=s.test.test,
+            at_s=s.at_s,
+            size_um=s.size,
+            why=f"the displacement jumps by {s.size:+.1f} {unit} between two samples, {s.z:.0f} times the usual "
+            "change, and stays; no speed, feed or switch changed: a probe or fixture slipped",
+        )
+        for s in steps
+    ]

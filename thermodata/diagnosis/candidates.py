@@ -10,8 +10,8 @@ import numpy as np
 
 from thermodata.diagnosis.loto import Priors
 from thermodata.effect.binding import bindings, candidate_id, family_of
-from thermodata.modelling.drivers import make_drivers
-from thermodata.plugin import Effect, Float2D, Param
+from thermodata.modelling.drivers import has_drivers, make_drivers
+from thermodata.plugin import Drivers, Effect, Float2D, Param
 from thermodata.schema.quantity import linear_conversion
 from thermodata.view.dataset import ChannelInfo, TestData
 
@@ -40,23 +40,32 @@ class CandidateEffect:
     def id(self) -> str:
         return candidate_id(self.effect.name, self.binding)
 
-    def columns(self, test: TestData, p: Mapping[str, float]) -> Float2D:
-        """Shape (n, gains); zero where the test lacks a channel."""
-        if any(c not in test.values or not np.isfinite(test.values[c]).any() for c in self.channels):
-            return np.zeros((len(test.t_s), len(self.effect.gains)))
-        return self.effect.basis(make_drivers(test, self.effect, self.binding), p)
+    def drivers(self, test: TestData) -> Drivers | None:
+        """What the effect sees of a test; None where the test lacks a channel."""
+        return make_drivers(test, self.effect, self.binding) if has_drivers(test, self.binding) else None
+
+    def columns(self, drivers: Drivers | None, size: int, p: Mapping[str, float]) -> Float2D:
+        """Shape (size, gains); zero where there are no drivers."""
+        return np.zeros((size, len(self.effect.gains))) if drivers is None else self.effect.basis(drivers, p)
 
     @property
     def priors(self) -> Priors:
         """Of the gains: from the plausible magnitudes of the effect, and the sign where geometry fixes it."""
         limit = np.array([gain.magnitude[1] * BEYOND for gain in self.effect.gains])
-        return Priors(limit, np.array([0.0 if g.sign == "+" else -b for g, b in zip(self.effect.gains, limit, strict=True)]),
-                      np.array([0.0 if g.sign == "-" else b for g, b in zip(self.effect.gains, limit, strict=True)]))
+        return Priors(
+            limit,
+            np.array([0.0 if g.sign == "+" else -b for g, b in zip(self.effect.gains, limit, strict=True)]),
+            np.array([0.0 if g.sign == "-" else b for g, b in zip(self.effect.gains, limit, strict=True)]),
+        )
 
     def slack_params(self, p: Mapping[str, float]) -> list[dict[str, float]]:
         """The parameters of the same effect acting faster and slower (see `investigate.slack_columns`)."""
-        return [{**p, param.name: p[param.name] * factor} for param in self.effect.params
-                if param.unit in TIME_UNITS for factor in SLACK_FACTORS]
+        return [
+            {**p, param.name: p[param.name] * factor}
+            for param in self.effect.params
+            if param.unit in TIME_UNITS
+            for factor in SLACK_FACTORS
+        ]
 
     @property
     def refines(self) -> tuple[str, ...]:
@@ -66,7 +75,9 @@ class CandidateEffect:
 
 
 def candidates(
-    library: Mapping[str, Effect], channels: Mapping[str, ChannelInfo], present: Iterable[tuple[str, frozenset[str]]],
+    library: Mapping[str, Effect],
+    channels: Mapping[str, ChannelInfo],
+    present: Iterable[tuple[str, frozenset[str]]],
     response: str,
 ) -> list[CandidateEffect]:
     """What could be missing. present: (effect name, its channels) of the model's terms. A plain lag stands for
@@ -102,7 +113,7 @@ def grid(params: Iterable[Param], step_s: float) -> list[dict[str, float]]:
     for p in params:
         seconds = _seconds(p.unit)
         lower = max(p.lower, step_s / 4 / seconds) if seconds else p.lower
-        if seconds or p.lower > 0 and p.upper / p.lower > 10:
+        if seconds or (p.lower > 0 and p.upper / p.lower > 10):
             axes.append(np.geomspace(max(lower, 1e-9), max(p.upper, lower), count))
         else:
             axes.append(np.linspace(p.lower, p.upper, min(count, 4)))

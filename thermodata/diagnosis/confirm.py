@@ -46,14 +46,21 @@ def extended(spec: Model, candidate: CandidateEffect) -> Model:
 
 def on_all_open(spec: Model, tests: Sequence[TestData], locked: Sequence[TestData]) -> Model:
     """The model calibrated on every test that took part in the choice; the locked ones stay locked."""
+
     def names(some: Sequence[TestData]) -> list[str]:
         return [f"{t.campaign}/{t.test}" for t in some]
 
     return spec.model_copy(update={"calibrate_on": names(tests), "verify_on": [], "locked": names(locked)})
 
 
-def confirm(spec: Model, index: int, data: Dataset, candidate: CandidateEffect, tests: Sequence[TestData],
-            locked: Sequence[TestData]) -> Confirmation:
+def confirm(
+    spec: Model,
+    index: int,
+    data: Dataset,
+    candidate: CandidateEffect,
+    tests: Sequence[TestData],
+    locked: Sequence[TestData],
+) -> Confirmation:
     """Fit without and with the candidate on all open tests, and score both on the locked ones.
 
     index: of the response among the model's responses.
@@ -64,8 +71,9 @@ def confirm(spec: Model, index: int, data: Dataset, candidate: CandidateEffect, 
     usable = [t for t in locked if ours.can_predict(t) and theirs.can_predict(t)]
     known = set(base.parameters())
     found = {name: p for name, p in more.parameters().items() if name not in known}
-    return Confirmation(rmse(ours, usable), rmse(theirs, usable), rmse(ours, usable, free=True),
-                        rmse(theirs, usable, free=True), found)
+    return Confirmation(
+        rmse(ours, usable), rmse(theirs, usable), rmse(ours, usable, free=True), rmse(theirs, usable, free=True), found
+    )
 
 
 def rmse(fitted: FittedResponse, tests: Sequence[TestData], *, free: bool = False) -> float | None:

@@ -30,23 +30,34 @@ class Investigation:
     steps: list[Step]
     spots: list[WeakSpot]
     judgement: Judgement
-    spread: float                           # RMS of the response about its offsets
-    families: frozenset[str]                # of the model's effects
+    spread: float  # RMS of the response about its offsets
+    families: frozenset[str]  # of the model's effects
 
 
-def investigate(fitted: FittedResponse, data: Dataset, tests: Sequence[TestData],
-                library: Mapping[str, Effect], seed: int = 0) -> Investigation:
+def investigate(
+    fitted: FittedResponse, data: Dataset, tests: Sequence[TestData], library: Mapping[str, Effect], seed: int = 0
+) -> Investigation:
     """tests: those that take part in the choice (never the locked ones)."""
     info = data.channels[fitted.name]
-    problem = build_problem(data, tests, fitted.name, info.unit, measured=fitted.measured,
-                            residual=fitted.residual, mask=fitted.mask, base=lambda test: base_columns(fitted, test),
-                            slack=lambda test: slack_columns(fitted, test))
+    problem = build_problem(
+        data,
+        tests,
+        fitted.name,
+        info.unit,
+        measured=fitted.measured,
+        residual=fitted.residual,
+        mask=fitted.mask,
+        base=lambda test: base_columns(fitted, test),
+        slack=lambda test: slack_columns(fitted, test),
+    )
     steps = find_steps(problem)
     at: dict[tuple[str, str], list[float]] = {}
     for step in steps:
         at.setdefault(step.test.key, []).append(step.at_s)
     problem = problem.split(at)
-    present = [(t.effect.name, frozenset(n for text in t.binding.values() for n in names_of(text))) for t in fitted.terms]
+    present = [
+        (t.effect.name, frozenset(n for text in t.binding.values() for n in names_of(text))) for t in fitted.terms
+    ]
     families = frozenset(t.family for t in fitted.terms)
     ranked = rank(problem, candidates(library, data.channels, present, fitted.name), seed)
     whole = np.concatenate(problem.response_blocks) if problem.blocks else np.zeros(1)

@@ -17,16 +17,16 @@ from thermodata.diagnosis.rank import Scored
 
 Verdict = Literal["effect", "none", "unknown", "not_testable"]
 
-TRIED = 3                       # only the best few may be claimed
-P_LIMIT = 0.02                  # against the best of all candidates on surrogate residuals
-DROP_LIMIT = 0.15               # fall of the squared error on left-out tests
-FAMILY_DROP_LIMIT = 0.4         # the same for an effect whose family the model has: it may only refine what is known
-SHARE_LIMIT = 0.03              # what the effect explains, as a share of the response's spread: less is not worth a name
-TWIN_COSINE = 0.9               # contributions this alike can't be told apart
-TWIN_SSE = 1.15                 # nor candidates whose left-out errors differ by less, if they act alike at all
-SIMPLER_SSE = 1.05              # a simpler twin is preferred where it costs no more than this
+TRIED = 3  # only the best few may be claimed
+P_LIMIT = 0.02  # against the best of all candidates on surrogate residuals
+DROP_LIMIT = 0.15  # fall of the squared error on left-out tests
+FAMILY_DROP_LIMIT = 0.4  # the same for an effect whose family the model has: it may only refine what is known
+SHARE_LIMIT = 0.03  # least share of the response's spread that is worth a name
+TWIN_COSINE = 0.9  # contributions this alike can't be told apart
+TWIN_SSE = 1.15  # nor candidates whose left-out errors differ by less, if they act alike at all
+SIMPLER_SSE = 1.05  # a simpler twin is preferred where it costs no more than this
 TWIN_SSE_COSINE = 0.6
-SMALL_SHARE = 0.05              # a residual under this share of the response's spread is left alone
+SMALL_SHARE = 0.05  # a residual under this share of the response's spread is left alone
 NOISE_TIMES = 3.0
 
 
@@ -49,7 +49,9 @@ def passes(scored: Scored, rows: int, spread: float, families: frozenset[str]) -
     limit = FAMILY_DROP_LIMIT if known else DROP_LIMIT
     if scored.drop < limit:
         why = ", for the model has its family already" if known else ""
-        failed.append(f"the squared error on left-out tests falls by {max(scored.drop, 0):.0%} only (limit {limit:.0%}{why})")
+        failed.append(
+            f"the squared error on left-out tests falls by {max(scored.drop, 0):.0%} only (limit {limit:.0%}{why})"
+        )
     elif explained(scored, rows) < SHARE_LIMIT * spread:
         failed.append(f"it explains {explained(scored, rows):.2g} of {spread:.2g} RMS (limit {SHARE_LIMIT:.0%})")
     if scored.white_drop <= 0:
@@ -65,9 +67,12 @@ def explained(scored: Scored, rows: int) -> float:
 def judge(problem: Problem, ranked: Sequence[Scored], spread: float, families: frozenset[str]) -> Judgement:
     """spread: RMS of the response about its offsets, in its unit. families: those of the model's effects."""
     if len(problem.blocks) < 2:
-        return Judgement("not_testable", None,
-                         f"{len(problem.blocks)} test with measured samples; an effect is claimed only where it also "
-                         "predicts a test that it was not fitted to, so at least two are needed")
+        return Judgement(
+            "not_testable",
+            None,
+            f"{len(problem.blocks)} test with measured samples; an effect is claimed only where it also "
+            "predicts a test that it was not fitted to, so at least two are needed",
+        )
     if not ranked:
         return Judgement("not_testable", None, "no effect of the library fits the channels that were logged")
     good = [s for s in ranked[:TRIED] if not passes(s, problem.rows, spread, families)]
@@ -77,20 +82,32 @@ def judge(problem: Problem, ranked: Sequence[Scored], spread: float, families: f
     floor = max(NOISE_TIMES * problem.noise if np.isfinite(problem.noise) else 0.0, SMALL_SHARE * spread)
     best = ranked[0]
     if rmse <= floor:
-        return Judgement("none", None,
-                         f"the error on left-out tests, {rmse:.2g} {problem.unit}, is at the floor of "
-                         f"{floor:.2g} {problem.unit} (noise, and {SMALL_SHARE:.0%} of the response)")
-    return Judgement("unknown", None,
-                     f"{rmse:.2g} {problem.unit} remain on left-out tests, above the floor of {floor:.2g}, and nothing "
-                     f"logged explains them: the best, {best.candidate.id}, fails because " + " and ".join(passes(best, problem.rows, spread, families)))
+        return Judgement(
+            "none",
+            None,
+            f"the error on left-out tests, {rmse:.2g} {problem.unit}, is at the floor of "
+            f"{floor:.2g} {problem.unit} (noise, and {SMALL_SHARE:.0%} of the response)",
+        )
+    return Judgement(
+        "unknown",
+        None,
+        f"{rmse:.2g} {problem.unit} remain on left-out tests, above the floor of {floor:.2g}, and nothing "
+        f"logged explains them: the best, {best.candidate.id}, fails because "
+        + " and ".join(passes(best, problem.rows, spread, families)),
+    )
 
 
 def simplest(good: Sequence[Scored]) -> Scored:
     """The first, unless one that acts alike explains as much from fewer channels or with a name."""
     first = good[0]
-    alike = [first, *(s for s in good[1:] if _alike(first, s) and s.sse_after.sum() < SIMPLER_SSE * first.sse_after.sum())]
-    return min(alike, key=lambda s: (s.candidate.family == GENERIC, len(s.candidate.channels), bool(s.candidate.refines),
-                                     s.order))
+    alike = [
+        first,
+        *(s for s in good[1:] if _alike(first, s) and s.sse_after.sum() < SIMPLER_SSE * first.sse_after.sum()),
+    ]
+    return min(
+        alike,
+        key=lambda s: (s.candidate.family == GENERIC, len(s.candidate.channels), bool(s.candidate.refines), s.order),
+    )
 
 
 def equivalents(chosen: Scored, ranked: Sequence[Scored]) -> list[Scored]:
@@ -102,5 +119,4 @@ def _alike(a: Scored, b: Scored) -> bool:
     cosine = abs(float(a.shape @ b.shape))
     if b.drop < DROP_LIMIT:
         return False
-    return cosine > TWIN_COSINE or (
-        cosine > TWIN_SSE_COSINE and b.sse_after.sum() < TWIN_SSE * a.sse_after.sum())
+    return cosine > TWIN_COSINE or (cosine > TWIN_SSE_COSINE and b.sse_after.sum() < TWIN_SSE * a.sse_after.sum())

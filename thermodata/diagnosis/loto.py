@@ -78,13 +78,18 @@ class Engine:
         gram, cross = self.gram[keep].sum(axis=0), self.cross[keep].sum(axis=0)
         scale = np.trace(self.gram.sum(axis=0)) / max(1, gram.shape[0])
         # columns that a fold's training tests do not excite must not blow up in the test that is left out
-        inverse = np.linalg.pinv(gram + self.price + 1e-6 * np.diag(np.diag(self.gram.sum(axis=0)) + 1e-12 * scale), hermitian=True)
+        inverse = np.linalg.pinv(
+            gram + self.price + 1e-6 * np.diag(np.diag(self.gram.sum(axis=0)) + 1e-12 * scale), hermitian=True
+        )
         theta = inverse @ cross
         rows = keep if left_out is None else [left_out]
         sse = np.zeros(self.energy.shape[1])
         for i in rows:
-            sse += self.energy[i] - 2 * np.einsum("ij,ij->j", theta, self.cross[i]) + np.einsum(
-                "ij,ij->j", theta, self.gram[i] @ theta)
+            sse += (
+                self.energy[i]
+                - 2 * np.einsum("ij,ij->j", theta, self.cross[i])
+                + np.einsum("ij,ij->j", theta, self.gram[i] @ theta)
+            )
         return Fold(inverse, theta, sse)
 
     @property
@@ -105,8 +110,9 @@ class Engine:
         cr = np.stack([c.T @ r for c, r in zip(columns, self.residuals, strict=True)])
         return cc, bc, cr
 
-    def _gain(self, fold: Fold, moments: tuple[Float2D, Float2D, Float2D], left_out: int | None,
-              priors: Priors) -> tuple[Float2D, Float1D]:
+    def _gain(
+        self, fold: Fold, moments: tuple[Float2D, Float2D, Float2D], left_out: int | None, priors: Priors
+    ) -> tuple[Float2D, Float1D]:
         """Gains, shape (c, 1 + surrogates), and the fall of the training error, shape (1 + surrogates,)."""
         keep = [i for i in range(self.n) if i != left_out]
         cc, bc, cr = (m[keep].sum(axis=0) for m in moments)
@@ -118,8 +124,7 @@ class Engine:
         reduction = 2 * np.einsum("ij,ij->j", gain, e) - np.einsum("ij,ij->j", gain, d @ gain)
         return gain, reduction
 
-    def _left_out(self, i: int, points: Sequence[tuple[Float2D, Float2D, Float2D]],
-                  priors: Priors) -> Float1D:
+    def _left_out(self, i: int, points: Sequence[tuple[Float2D, Float2D, Float2D]], priors: Priors) -> Float1D:
         fold = self.folds[i]
         best = np.full(self.energy.shape[1], -np.inf)
         chosen = fold.sse.copy()

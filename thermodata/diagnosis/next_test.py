@@ -29,8 +29,10 @@ def to_separate(chosen: Scored, twins: Sequence[Scored], channels: Mapping[str, 
     other = twins[0].candidate
     mine = chosen.candidate
     if _places(mine, channels) and _places(mine, channels) == _places(other, channels):
-        return (f"{mine.id} and {other.id} have their sensors at the same place: not separable by another test; add a "
-                f"sensor nearer to the source of heat")
+        return (
+            f"{mine.id} and {other.id} have their sensors at the same place: not separable by another test; add a "
+            f"sensor nearer to the source of heat"
+        )
     own = [c for c in mine.channels if c not in other.channels] or list(mine.channels)
     quantity = channels[own[0]].quantity if own and own[0] in channels else "temperature"
     how = _PROTOCOL.get(quantity, _PROTOCOL["temperature"])
@@ -41,8 +43,10 @@ def to_find(tests: int) -> str | None:
     """The advice where nothing could be claimed."""
     if tests < ENOUGH_TESTS:
         found = next(share for n, share in reversed(CLAIMED_BY_TESTS) if n <= tests or n == 3)
-        return (f"{tests} tests took part; about {found} of missing effects can be claimed with so few, "
-                f"83 % with 8: add tests that each heat one source alone (spindle, one axis, table, hall air)")
+        return (
+            f"{tests} tests took part; about {found} of missing effects can be claimed with so few, "
+            f"83 % with 8: add tests that each heat one source alone (spindle, one axis, table, hall air)"
+        )
     return None
 
 

@@ -20,7 +20,8 @@ TARGET_ROWS = 9000
 @dataclass(frozen=True, slots=True)
 class Block:
     """One test, compressed. residual: shape (m,), of the fitted model, in the response's unit. base: shape
-    (m, k), what the model can still do (its gains, and its nonlinear parameters to first order). slack: shape (m, s), what it may do at a price. t_s: shape (m,).
+    (m, k), what the model can still do (its gains, and its nonlinear parameters to first order). slack:
+    shape (m, s), what it may do at a price. t_s: shape (m,).
     segment: shape (m,), one free offset each. response: shape (m,), measured, offsets removed. group: shape (n,),
     the compressed row of every row of the grid, -1 where it does not count."""
 
@@ -64,8 +65,15 @@ class Problem:
         for block in self.blocks:
             times = at.get(block.test.key, [])
             segment = np.searchsorted(np.sort(np.asarray(times, dtype=float)), block.t_s, side="right").astype(np.int64)
-            blocks.append(replace(block, segment=segment, residual=center(block.residual[:, None], segment)[:, 0],
-                                  base=center(block.base, segment), slack=center(block.slack, segment)))
+            blocks.append(
+                replace(
+                    block,
+                    segment=segment,
+                    residual=center(block.residual[:, None], segment)[:, 0],
+                    base=center(block.base, segment),
+                    slack=center(block.slack, segment),
+                )
+            )
         return replace(self, blocks=tuple(blocks))
 
 
@@ -94,10 +102,18 @@ Base = Callable[[TestData], Float2D]
 
 
 def build_problem(
-    data: Dataset, tests: Sequence[TestData], response: str, unit: str, *,
-    measured: Callable[[TestData], Float1D], residual: Callable[[TestData], Float1D], mask: Callable[[TestData], Bool1D], base: Base, slack: Base,
+    data: Dataset,
+    tests: Sequence[TestData],
+    response: str,
+    unit: str,
+    *,
+    measured: Callable[[TestData], Float1D],
+    residual: Callable[[TestData], Float1D],
+    mask: Callable[[TestData], Bool1D],
+    base: Base,
+    slack: Base,
 ) -> Problem:
-    """Compress every test. measured(test), residual(test): shape (n,); mask(test): shape (n,), the samples that count."""
+    """Compress every test. measured, residual, mask (the samples that count): of a test, shape (n,)."""
     masks = {t.key: mask(t) for t in tests}
     total = sum(int(m.sum()) for m in masks.values())
     every = max(1, -(-total // TARGET_ROWS))
@@ -114,11 +130,28 @@ def build_problem(
         left = residual(test)
         noises.append(_short_noise(left[keep]))
         segment = np.zeros(size, dtype=np.int64)
-        block = Block(test, _group_mean(test.t_s[:, None], group, weight, size)[:, 0], np.empty(0), np.empty(0),
-                      np.empty((0, 0)), np.empty((0, 0)), segment, group, weight, size)
+        block = Block(
+            test,
+            _group_mean(test.t_s[:, None], group, weight, size)[:, 0],
+            np.empty(0),
+            np.empty(0),
+            np.empty((0, 0)),
+            np.empty((0, 0)),
+            segment,
+            group,
+            weight,
+            size,
+        )
         both = block.compress(np.nan_to_num(np.column_stack([measured(test), left])))
-        blocks.append(replace(block, response=both[:, 0], residual=both[:, 1], base=block.compress(base(test)),
-                              slack=block.compress(slack(test))))
+        blocks.append(
+            replace(
+                block,
+                response=both[:, 0],
+                residual=both[:, 1],
+                base=block.compress(base(test)),
+                slack=block.compress(slack(test)),
+            )
+        )
     noise = float(np.median(noises)) if noises else float("nan")
     return Problem(response, unit, data.step_s * every, tuple(blocks), noise)
 

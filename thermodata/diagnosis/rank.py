@@ -15,7 +15,7 @@ from thermodata.diagnosis.candidates import CandidateEffect, grid
 from thermodata.diagnosis.loto import Drop, Engine, Priors
 from thermodata.diagnosis.problem import Problem
 from thermodata.diagnosis.whiten import fit_ar, surrogates, whiten
-from thermodata.plugin import Float1D, Float2D
+from thermodata.plugin import Drivers, Float1D, Float2D
 
 SURROGATES = 199
 # autocorrelated residuals are worth far fewer samples than they have; the prior of a gain is scaled so
@@ -65,27 +65,49 @@ def rank(problem: Problem, candidates: Sequence[CandidateEffect], seed: int = 0)
     top_white = np.full(SURROGATES, -np.inf)
     for candidate in candidates:
         points = grid(candidate.effect.params, problem.step_s)
-        plain_columns = [_columns(problem, candidate, p) for p in points]
+        drivers = [candidate.drivers(b.test) for b in problem.blocks]
+        plain_columns = [_columns(problem, candidate, drivers, p) for p in points]
         if not any(np.ptp(c) > 0 for c in plain_columns[len(plain_columns) // 2]):
             continue
-        first = raw.score(plain_columns, candidate.priors)
-        columns, priors = _with_slack(problem, candidate, points, plain_columns, first)
+        rough = raw.score(plain_columns, candidate.priors)
+        columns, priors = _with_slack(problem, candidate, drivers, points, plain_columns, rough)
         plain = raw.score(columns, priors)
         whitened = white.score([[whiten(c, ar) for c in point] for point in columns], priors)
         top_raw = np.maximum(top_raw, plain.relative[1:])
         top_white = np.maximum(top_white, whitened.relative[1:])
         shape, size = _shape(raw, columns[plain.best], plain.gain)
-        scored.append(Scored(candidate, points[plain.best], plain.gain[:len(candidate.effect.gains)], float(plain.relative[0]),
-                             float(whitened.relative[0]), 1.0, 1.0, plain.before[:, 0], plain.after[:, 0], shape, size))
+        scored.append(
+            Scored(
+                candidate,
+                points[plain.best],
+                plain.gain[: len(candidate.effect.gains)],
+                float(plain.relative[0]),
+                float(whitened.relative[0]),
+                1.0,
+                1.0,
+                plain.before[:, 0],
+                plain.after[:, 0],
+                shape,
+                size,
+            )
+        )
     return _order(scored, top_raw, top_white)
 
 
-def _columns(problem: Problem, candidate: CandidateEffect, p: Mapping[str, float]) -> list[Float2D]:
-    return [b.compress(candidate.columns(b.test, p)) for b in problem.blocks]
+def _columns(
+    problem: Problem, candidate: CandidateEffect, drivers: Sequence[Drivers | None], p: Mapping[str, float]
+) -> list[Float2D]:
+    return [b.compress(candidate.columns(d, len(b.test.t_s), p)) for b, d in zip(problem.blocks, drivers, strict=True)]
 
 
-def _with_slack(problem: Problem, candidate: CandidateEffect, points: Sequence[Mapping[str, float]],
-                columns: list[list[Float2D]], first: Drop) -> tuple[list[list[Float2D]], Priors]:
+def _with_slack(
+    problem: Problem,
+    candidate: CandidateEffect,
+    drivers: Sequence[Drivers | None],
+    points: Sequence[Mapping[str, float]],
+    columns: list[list[Float2D]],
+    first: Drop,
+) -> tuple[list[list[Float2D]], Priors]:
     """A candidate may act as distributed as the known effects may: by a share of what its gains alone explain."""
     priors = candidate.priors
     count = len(candidate.slack_params(points[0]))
@@ -93,11 +115,14 @@ def _with_slack(problem: Problem, candidate: CandidateEffect, points: Sequence[M
         return columns, priors
     extended = []
     for p, own, gain in zip(points, columns, first.gains, strict=True):
-        others = [_columns(problem, candidate, q) for q in candidate.slack_params(p)]
+        others = [_columns(problem, candidate, drivers, q) for q in candidate.slack_params(p)]
         extended.append([np.column_stack([c, *((o[i] - c) @ gain for o in others)]) for i, c in enumerate(own)])
     share, free = np.full(count, SLACK_SHARE), np.full(count, np.inf)
-    return extended, Priors(np.concatenate([priors.spread, share]), np.concatenate([priors.lower, -free]),
-                            np.concatenate([priors.upper, free]))
+    return extended, Priors(
+        np.concatenate([priors.spread, share]),
+        np.concatenate([priors.lower, -free]),
+        np.concatenate([priors.upper, free]),
+    )
 
 
 def _shape(engine: Engine, columns: Sequence[Float2D], gain: Float1D) -> tuple[Float1D, float]:
@@ -118,9 +143,12 @@ def _order(scored: list[Scored], top_raw: Float1D, top_white: Float1D) -> list[S
     by_white = np.argsort(np.argsort([-s.white_drop for s in scored]))
     count = len(top_raw) + 1
     result = [
-        replace(s, order=float(by_raw[i] + by_white[i] + 0.01 * by_raw[i]),
-                p_value=float((1 + np.sum(top_raw >= s.drop)) / count),
-                white_p_value=float((1 + np.sum(top_white >= s.white_drop)) / count))
+        replace(
+            s,
+            order=float(by_raw[i] + by_white[i] + 0.01 * by_raw[i]),
+            p_value=float((1 + np.sum(top_raw >= s.drop)) / count),
+            white_p_value=float((1 + np.sum(top_white >= s.white_drop)) / count),
+        )
         for i, s in enumerate(scored)
     ]
     return sorted(result, key=lambda s: s.order)

@@ -12,9 +12,12 @@ from thermodata.schema.result import Unknown, WeakSpot
 
 
 def characterise(problem: Problem, spots: Sequence[WeakSpot]) -> Unknown:
-    """Time constants from the decay of the autocorrelation, hours of the day that stand out, states of the weak spots."""
-    return Unknown(time_constants_h=_time_constants(problem), hours_of_day=_hours(problem),
-                   states=list(dict.fromkeys(s.state for s in spots[:5])))
+    """How fast the autocorrelation decays, which hours of the day stand out, the states of the weak spots."""
+    return Unknown(
+        time_constants_h=_time_constants(problem),
+        hours_of_day=_hours(problem),
+        states=list(dict.fromkeys(s.state for s in spots[:5])),
+    )
 
 
 def _time_constants(problem: Problem) -> list[float]:
@@ -54,7 +57,9 @@ def _hours(problem: Problem) -> list[float]:
     rms = float(np.sqrt(np.mean(np.concatenate([r for _, r in days]) ** 2)))
     found = []
     for h in range(24):
-        means = [float(r[(hour >= h) & (hour < h + 1)].mean()) for hour, r in days if ((hour >= h) & (hour < h + 1)).any()]
+        means = [
+            float(r[(hour >= h) & (hour < h + 1)].mean()) for hour, r in days if ((hour >= h) & (hour < h + 1)).any()
+        ]
         if len(means) >= 3 and abs(np.mean(means)) > rms and abs(np.sum(np.sign(means))) >= 0.8 * len(means):
             found.append(float(h))
     return found

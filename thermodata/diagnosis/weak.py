@@ -40,9 +40,17 @@ def weak_spots(tests: Sequence[tuple[TestData, Float1D, Bool1D]], noise: float) 
     for test, residual, mask in tests:
         spots += _windows(test, residual, mask, floor)
     spots.sort(key=lambda w: -w.sse)
-    return [WeakSpot(campaign=w.test.campaign, test=w.test.test, from_s=float(w.test.t_s[w.start]),
-                     to_s=float(w.test.t_s[w.stop - 1]), rmse_um=float(np.sqrt(w.sse / w.n)),
-                     state=describe_state(w.test, w.start, w.stop)) for w in spots[:SHOWN]]
+    return [
+        WeakSpot(
+            campaign=w.test.campaign,
+            test=w.test.test,
+            from_s=float(w.test.t_s[w.start]),
+            to_s=float(w.test.t_s[w.stop - 1]),
+            rmse_um=float(np.sqrt(w.sse / w.n)),
+            state=describe_state(w.test, w.start, w.stop),
+        )
+        for w in spots[:SHOWN]
+    ]
 
 
 def _windows(test: TestData, residual: Float1D, mask: Bool1D, floor: float) -> list[_Window]:
@@ -87,6 +95,7 @@ def describe_state(test: TestData, start: int, stop: int) -> str:
             if abs(rise) > 0.3:
                 words.append(f"{name} {'rising' if rise > 0 else 'falling'}")
     if not any("speed" in w or "rpm" in w for w in words) and any(
-            c.quantity == "rotational_speed" for c in test.channels.values()):
+        c.quantity == "rotational_speed" for c in test.channels.values()
+    ):
         words.insert(0, "spindle at rest")
     return ", ".join(words) if words else "idle"

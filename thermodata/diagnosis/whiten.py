@@ -18,21 +18,20 @@ def fit_ar(residuals: Sequence[Float1D], order: int = ORDER) -> Float1D:
     for x in residuals:
         if len(x) <= 2 * order:
             continue
-        rows.append(np.column_stack([x[order - 1 - j:len(x) - 1 - j] for j in range(order)]))
+        rows.append(np.column_stack([x[order - 1 - j : len(x) - 1 - j] for j in range(order)]))
         goals.append(x[order:])
     if not rows:
         return np.zeros(order)
     X, y = np.vstack(rows), np.concatenate(goals)
     gram = X.T @ X
     gram[np.diag_indices_from(gram)] *= 1 + 1e-9
-    coefficients: Float1D = np.linalg.lstsq(gram, X.T @ y, rcond=None)[0]
-    return coefficients
+    return np.asarray(np.linalg.lstsq(gram, X.T @ y, rcond=None)[0], dtype=np.float64)
 
 
 def whiten(columns: Float2D, ar: Float1D) -> Float2D:
     """Columns, shape (m, k), filtered by 1 - sum a z^-j; the first len(ar) rows, whose past is unknown, are 0."""
     result: Float2D = lfilter(np.concatenate([[1.0], -ar]), [1.0], columns, axis=0)
-    result[:len(ar)] = 0.0
+    result[: len(ar)] = 0.0
     return result
 
 
@@ -50,6 +49,6 @@ def surrogates(residual: Float1D, count: int, rng: np.random.Generator) -> Float
     shuffled -= shuffled.mean(axis=0)
     # the half that is kept may by chance hold less than half of the energy: every surrogate is as large as the residual
     size = np.sqrt(np.mean(shuffled**2, axis=0))
-    target = np.sqrt(np.mean((residual - residual.mean())**2))
+    target = np.sqrt(np.mean((residual - residual.mean()) ** 2))
     result: Float2D = shuffled * (target / np.where(size > 0, size, 1.0))
     return result

@@ -1,0 +1,26 @@
+"""Diagnosis with a store: load the model and its tests, answer, keep the answer, count the looks at locked tests."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from thermodata.diagnosis.answer import answer
+from thermodata.effect import effects
+from thermodata.modelling.run import load
+from thermodata.schema.result import Diagnosis
+
+if TYPE_CHECKING:
+    from thermodata.store import Store
+
+
+def diagnose(store: Store, ref: str) -> Diagnosis:
+    """Which effect is missing in a model of the store (an id, a unique prefix or a name)."""
+    from thermodata.store.models import count_locked_look, save_diagnosis
+
+    model = load(store, ref)
+    found = answer(model.fitted, model.data, effects(), model.identity)
+    if found.locked:
+        claimed = next((c.id for c in found.diagnosis.candidates if c.claimed), "a claim that did not hold")
+        count_locked_look(store, model.identity, [t.key for t in found.locked], f"confirming {claimed}")
+    save_diagnosis(store, model.identity, found.diagnosis)
+    return found.diagnosis
