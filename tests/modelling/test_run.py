@@ -110,3 +110,5 @@ def test_carrying_over(store: Store, spec: Spec) -> None:
     assert {r.machine for r in rows} == {"m1"}
     assert all(r.g == pytest.approx(1.0, abs=0.1) for r in rows)
     assert all(r.verdict == "portable" for r in rows)
+    with store.reader() as con:
+        assert con.execute("select count(distinct test) from portability").fetchone() == (7,)

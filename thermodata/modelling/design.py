@@ -16,7 +16,7 @@ from thermodata.modelling.resolve import BoundResponse, BoundTerm
 from thermodata.plugin import Bool1D, Float1D, Float2D, Param
 from thermodata.view.dataset import TestData
 
-KEPT = 2000                     # columns kept before they all go
+KEPT_BYTES = 256 * 2**20        # of columns, before they all go
 GRID = 9                        # first look at a time constant or an exponent
 MOMENTS = 145                   # first look at a moment: its error has no slope to follow
 
@@ -90,7 +90,7 @@ class Design:
             for j in self.slots[slot].tests:
                 full = term.columns(self.tests[j], params)[self.masks[j]]
                 kept[self.parts[j]] = full - full.mean(axis=0)
-            if len(self._kept) >= KEPT:
+            if (len(self._kept) + 1) * kept.nbytes > KEPT_BYTES:
                 self._kept.clear()
             self._kept[key] = kept
         return kept

@@ -21,6 +21,7 @@ from thermodata.schema.model import Driver, EffectSpec, Model, Place, Response
 from thermodata.view.dataset import ChannelInfo, Dataset, TestData
 
 Key = tuple[str, str]
+KEPT_TESTS = 1024               # drivers a term keeps; changed copies of tests count too
 
 
 @dataclass(frozen=True)
@@ -55,7 +56,7 @@ class BoundTerm:
         """Made once a test; a changed copy of a test is another test."""
         kept = self._drivers.get(id(test))
         if kept is None or kept[0] is not test:
-            if len(self._drivers) > 256:
+            if len(self._drivers) >= KEPT_TESTS:
                 self._drivers.clear()
             kept = self._drivers[id(test)] = (test, make_drivers(test, self.effect, self._binding_of(test)))
         return kept[1]

@@ -83,9 +83,13 @@ def add(store: Store, ref: str, candidate: str | int | EffectSpec) -> FitResult:
 
 
 def transfer(store: Store, ref: str) -> list[Portability]:
-    """How far the model carries over to each test and machine of its campaigns."""
+    """How far the model carries over to each test and machine of its campaigns; kept as findings of the model."""
+    from thermodata.store.models import save_findings
+
     model = load(store, ref)
-    return portability(model.fitted, model.data)
+    rows = portability(model.fitted, model.data)
+    save_findings(store, model.identity, "portability", [(r.campaign, r.test, r.to_json()) for r in rows])
+    return rows
 
 
 def _candidate(store: Store, model: str, spec: Model, candidate: str | int) -> EffectSpec:
