@@ -10,6 +10,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from thermodata.store.arrow import to_arrow
+
 if TYPE_CHECKING:
     import pyarrow as pa
 
@@ -67,7 +69,6 @@ class Encoder:
 
     def widened(self, schema: pa.Schema) -> Encoder:
         """A new file with more columns that begins with what this one holds (rare: a flag in mid-file)."""
-        import pyarrow as pa
         import pyarrow.parquet as pq
 
         self.close({})
@@ -77,7 +78,7 @@ class Encoder:
                 table = old.read_row_group(i)
                 for name in schema.names:
                     if name not in table.column_names:
-                        table = table.append_column(name, pa.array(np.zeros(table.num_rows, np.uint16)))
+                        table = table.append_column(name, to_arrow(np.zeros(table.num_rows, np.uint16)))
                 wider.put(table.select(schema.names).cast(schema))
         self.part.unlink()
         return wider

@@ -11,6 +11,7 @@ import numpy as np
 
 from thermodata.errors import PluginError
 from thermodata.plugin import Array, Block, Int1D, Signal
+from thermodata.store.arrow import to_arrow
 from thermodata.store.encoder import Encoder
 from thermodata.store.files import publish, temporary
 
@@ -113,15 +114,15 @@ class StreamWriter:
     def _table(self, blocks: list[Block]) -> pa.Table:
         import pyarrow as pa
 
-        schema, arrays = self._schema(), [_chunks([b.t_ns for b in blocks], pa.int64())]
+        schema, arrays = self._schema(), [pa.chunked_array([to_arrow(b.t_ns) for b in blocks])]
         for signal in self.signals:
             kind = arrow_type(signal)
             parts = [b.values.get(signal.name) for b in blocks]
             arrays.append(pa.chunked_array(
-                [pa.nulls(len(b.t_ns), kind) if v is None else _arrow(v, kind, signal)
+                [pa.nulls(len(b.t_ns), kind) if v is None else to_arrow(v)
                  for b, v in zip(blocks, parts, strict=True)], type=kind))
             if signal.name in self.flagged:
-                arrays.append(_chunks([_flags(b, signal.name) for b in blocks], pa.uint16()))
+                arrays.append(pa.chunked_array([to_arrow(_flags(b, signal.name)) for b in blocks]))
         return pa.Table.from_arrays(arrays, schema=schema)
 
 
@@ -136,21 +137,6 @@ def arrow_type(signal: Signal) -> pa.DataType:
     except (TypeError, NotImplementedError, pa.ArrowNotImplementedError) as error:
         raise PluginError(f"signal '{signal.name}' has a dtype that cannot be stored", expected="a number or 'str'",
                           got=signal.dtype) from error
-
-
-def _arrow(values: Array, kind: pa.DataType, signal: Signal) -> pa.Array:
-    import pyarrow as pa
-
-    if signal.dtype == "str":
-        return pa.array([None if v is None else str(v) for v in values.tolist()], type=kind)
-    native = values.dtype.newbyteorder("=")
-    return pa.array(np.ascontiguousarray(values, dtype=native), type=kind)
-
-
-def _chunks(parts: list[Array], kind: pa.DataType) -> pa.ChunkedArray:
-    import pyarrow as pa
-
-    return pa.chunked_array([pa.array(np.ascontiguousarray(p)) for p in parts], type=kind)
 
 
 def _flags(block: Block, name: str) -> Array:

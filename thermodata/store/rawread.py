@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from pathlib import Path
 
-import numpy as np
-
 from thermodata.errors import StoreError
 from thermodata.plugin import Array
+from thermodata.store.arrow import to_numpy
 
 
 def read_column(path: Path, column: str, start: int, stop: int) -> Array:
@@ -32,9 +31,4 @@ def read_column(path: Path, column: str, start: int, stop: int) -> Array:
         raise StoreError("a file of the store cannot be read", where=str(path), got=str(error).splitlines()[0],
                          hint="forget the campaign and ingest it again") from error
     part = chunked.slice(start - first, stop - start)
-    if pa.types.is_string(part.type):
-        found: Array = np.asarray(part.to_pylist(), dtype=object)
-        return found
-    if part.null_count:
-        return np.asarray(part.cast(pa.float64()).to_numpy(), dtype=np.float64)
-    return np.asarray(part.to_numpy())
+    return to_numpy(part)

@@ -13,6 +13,7 @@ import numpy as np
 from thermodata.errors import ThermodataError
 from thermodata.plugin import Array, Int1D, Loss
 from thermodata.schema.flag import Flag
+from thermodata.store.arrow import to_arrow
 from thermodata.store.encoder import Encoder
 from thermodata.store.files import publish, temporary
 from thermodata.store.plan import Bound
@@ -134,16 +135,14 @@ class _Part:
             here = slice(a - start, b - start)
             t = t_ns[here]
             self._to_s = float(self.series.t_s(t[-1:])[0])
-            arrays: list[Any] = [pa.array(t.view("datetime64[ns]")), pa.array(self.series.t_s(t))]
+            arrays: list[Any] = [to_arrow(t.view("datetime64[ns]")), to_arrow(self.series.t_s(t))]
             for channel, is_text in self.columns:
                 column = made.get(channel)
                 kind = pa.string() if is_text else pa.float64()
                 if column is None:
                     arrays += [pa.nulls(b - a, kind), pa.nulls(b - a, pa.uint16())]
                 else:
-                    # no value is NULL, not NaN: SQL's means and counts leave it out
-                    arrays += [pa.array(column.values[here], type=kind, from_pandas=True),
-                               pa.array(column.flags[here])]
+                    arrays += [to_arrow(column.values[here], nan_is_null=True), to_arrow(column.flags[here])]
             self._encoder.put(pa.Table.from_arrays(arrays, schema=self.schema))
 
     def finish(self) -> TidyFile:

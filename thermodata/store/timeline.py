@@ -16,7 +16,6 @@ from thermodata.store.rawfile import JITTER_NS
 from thermodata.store.rawread import read_column
 
 
-
 @dataclass(frozen=True, slots=True)
 class Clock:
     """The correction of one source's clock. base_ns: what a relative clock counts from."""
