@@ -96,3 +96,14 @@ class Builder:
 def build(tmp_path: Path) -> Callable[..., Builder]:
     """build(folder="store") -> Builder."""
     return lambda folder="store": Builder(tmp_path / folder)
+
+
+@pytest.fixture(scope="module")
+def build_once(tmp_path_factory: pytest.TempPathFactory) -> Callable[..., Builder]:
+    """As `build`, for stores that the tests of a module only read."""
+    return lambda folder="store": Builder(tmp_path_factory.mktemp("once") / folder)
+
+
+@pytest.fixture(scope="module")
+def empty_store(tmp_path_factory: pytest.TempPathFactory) -> Store:
+    return Store(tmp_path_factory.mktemp("empty") / "store", create=True)

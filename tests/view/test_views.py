@@ -30,9 +30,9 @@ def sql(store: Store, query: str, *params: object) -> list[tuple]:
         return con.execute(query, list(params)).fetchall() if params else con.execute(query).fetchall()
 
 
-@pytest.fixture
-def small(build: Build) -> Store:
-    b = build()
+@pytest.fixture(scope="module")
+def small(build_once: Build) -> Store:
+    b = build_once()
     b.test("c", "a", phases='{"heating": [0, 30], "odd \'$.name\\"": [30, 60]}')
     b.test("c", "b")
     b.test("c", "nothing")
@@ -49,10 +49,16 @@ def small(build: Build) -> Store:
     return b.store()
 
 
+@pytest.fixture
+def own(small: Store, tmp_path: Path) -> Store:
+    """A copy of `small` that a test may change."""
+    return Store(shutil.copytree(small.path, tmp_path / "own"))
+
+
 @pytest.mark.parametrize("view", [*VIEWS, "gap", "quality", "weak_spot", "candidate", "history", "portability",
                                   "artefact", "diagnosis", "wide"])
-def test_an_empty_store_has_every_view_empty_and_typed(build: Build, view: str) -> None:
-    with build().store().reader() as con:
+def test_an_empty_store_has_every_view_empty_and_typed(empty_store: Store, view: str) -> None:
+    with empty_store.reader() as con:
         relation = con.sql(f"select * from {view}")
         assert relation.fetchall() == []
         if view in VIEWS:
@@ -60,8 +66,8 @@ def test_an_empty_store_has_every_view_empty_and_typed(build: Build, view: str) 
 
 
 @pytest.mark.parametrize("macro", ["signal('c', 't', 'x')", "aligned('c', 't', '1 s')", "binned('c', 't', 30)"])
-def test_macros_of_an_empty_store_are_empty(build: Build, macro: str) -> None:
-    assert sql(build().store(), f"select * from {macro}") == []
+def test_macros_of_an_empty_store_are_empty(empty_store: Store, macro: str) -> None:
+    assert sql(empty_store, f"select * from {macro}") == []
 
 
 def test_sample_is_long_over_numeric_channels(small: Store) -> None:
@@ -219,20 +225,20 @@ def test_findings_and_history(build: Build) -> None:
     assert sql(store, "select machine, campaign, test, rmse_um from portability") == [("139", "d", "t", 7.0)]
 
 
-def test_views_follow_the_tables(small: Store) -> None:
-    with small.write() as con:
+def test_views_follow_the_tables(own: Store) -> None:
+    with own.write() as con:
         con.execute("delete from file where test = 'a'")
-    assert sql(small, "select distinct test from sample") == [("b",)]
-    with small.write() as con:
+    assert sql(own, "select distinct test from sample") == [("b",)]
+    with own.write() as con:
         con.execute("delete from file")
-    assert sql(small, "select count(*) from sample") == [(0,)]
-    assert sql(small, 'select count(*) from wide') == [(0,)]
+    assert sql(own, "select count(*) from sample") == [(0,)]
+    assert sql(own, 'select count(*) from wide') == [(0,)]
 
 
-def test_a_moved_store_works_also_from_inside_its_folder(small: Store, tmp_path: Path,
+def test_a_moved_store_works_also_from_inside_its_folder(own: Store, tmp_path: Path,
                                                          monkeypatch: pytest.MonkeyPatch) -> None:
     moved = tmp_path / "elsewhere"
-    shutil.move(small.path, moved)
+    shutil.move(own.path, moved)
     assert sql(Store(moved), "select count(*) from sample where test = 'a'") == [(15,)]
     monkeypatch.chdir(moved)
     con = duckdb.connect("catalog.duckdb", read_only=True)
@@ -244,8 +250,8 @@ def test_a_moved_store_works_also_from_inside_its_folder(small: Store, tmp_path:
         con.close()
 
 
-def test_a_lost_file_is_named(small: Store) -> None:
-    for path in (small.path / "tidy").iterdir():
+def test_a_lost_file_is_named(own: Store) -> None:
+    for path in (own.path / "tidy").iterdir():
         path.unlink()
-    with small.reader() as con, pytest.raises(StoreError, match="can't be read"):
-        regenerate(con, small.path)
+    with own.reader() as con, pytest.raises(StoreError, match="can't be read"):
+        regenerate(con, own.path)

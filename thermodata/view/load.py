@@ -3,8 +3,9 @@
 A bin's value is the mean of its valid samples, states are held, and bin k stands at t_s = k * step_s, its start.
 Drivers (every quantity but displacement, tilt and angle) are interpolated over gaps of up to BRIDGE_S, or
 INTERPOLATED_PERIODS of a slow source, and carry their nearest value that far at both ends: a filter over them
-can't run through a hole. A response is NaN and invalid wherever its bin has no valid sample, so nothing made up
-is ever fitted or scored. A history before the window comes first, with negative t_s and in_window False.
+can't run through a hole. Those three are NaN and invalid wherever a bin has no valid sample, so no displacement
+that was made up is ever fitted or scored. A history before the window comes first, with negative t_s and
+in_window False.
 """
 
 from __future__ import annotations

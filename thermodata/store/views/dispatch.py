@@ -17,7 +17,8 @@ _SHOWN = 30
 
 def lookup_macros(catalogue: Catalogue, tests: Mapping[str, Iterable[str]]) -> Iterator[str]:
     """Scalar macros: `sql_text` quotes, `files_<group>` and `known_<campaign>` give arguments as SQL text."""
-    yield "create macro sql_text(x) as '''' || replace(cast(x as varchar), '''', '''''') || ''''"
+    yield ("create macro sql_text(x) as "
+           "coalesce('''' || replace(cast(x as varchar), '''', '''''') || '''', 'null')")
     for group in catalogue.groups:
         entries = ", ".join(f"{literal(test)}: {literal(file_list(paths) + ', true')}"
                             for test, paths in group.paths.items())
