@@ -72,5 +72,5 @@ def air(hall: Hall, op: Operation, hour: float, day: int, rng: np.random.Generat
     bottom = mean - 0.5 * top_extra - drop + smooth(rng, op.n, 0.04, 240.0)
     top = mean + 0.5 * top_extra - 0.15 * drop + smooth(rng, op.n, 0.04, 240.0)
     floor = np.full(op.n, hall.mean - 1.5) + 0.02 * day + 0.1 * _lagged(mean - mean[0], 12 * 3600.0)
-    fluid = _lagged(middle, 3 * 3600.0) - hall.wet_bulb
+    fluid = _lagged(middle, 2400.0) - hall.wet_bulb
     return np.stack([bottom, middle, top, floor, fluid])

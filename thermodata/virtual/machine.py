@@ -179,11 +179,11 @@ def _table(b: Builder, sources: dict[str, dict[int, float]], r: Draw) -> None:
 
 
 def _fluids(b: Builder, sources: dict[str, dict[int, float]], r: Draw) -> None:
-    chiller = b.body("chiller", r(2.6e5, 3.4e5))
+    chiller = b.body("chiller", r(3.4e5, 4.4e5))
     b.link(chiller, b.cells["stator"], r(38, 52))
     b.link(chiller, b.cells["housing"][3:6], r(4, 7))
     b.air(chiller, "hall.bottom", r(6, 10))
-    jacket = b.body("jacket", r(1.0e4, 1.5e4), 3, r(60, 90))
+    jacket = b.body("jacket", r(0.7e4, 1.1e4), 3, r(60, 90))
     b.link(chiller, jacket, r(28, 40))
     b.air(jacket, "hall.middle", r(0.2, 0.5))
     sources["chiller"] = {int(chiller[0]): 1.0}

@@ -14,7 +14,7 @@ import numpy as np
 
 from thermodata.errors import UsageError, nearest
 from thermodata.plugin import Float1D, Float2D
-from thermodata.schema.model import EffectSpec, Model, Response
+from thermodata.schema.model import Model
 from thermodata.view.dataset import Dataset
 from thermodata.virtual.catalogue import EFFECTS, drivers_of
 from thermodata.virtual.hall import BOUNDARIES, Hall, air, smooth
@@ -79,9 +79,10 @@ class World:
     def baseline(self, *, without: str | None = None) -> Model:
         """The model of the lab: every effect of the world but the hidden one (or but `without`)."""
         gone = self.hide if without is None else without
-        effects = [EffectSpec(effect=e, drivers=dict(drivers_of(e, self.axis))) for e in self.present if e != gone]
-        return Model(schema="thermodata/model/1", name="baseline", campaign=self.campaign,
-                     response=Response.model_validate({"axis": self.axis, "at": "tcp"}), effects=effects)
+        return Model.model_validate({
+            "schema": "thermodata/model/1", "name": "baseline", "campaign": self.campaign,
+            "response": {"axis": self.axis, "at": "tcp"}, "step": "60 s",
+            "effects": [{"effect": e, "drivers": drivers_of(e, self.axis)} for e in self.present if e != gone]})
 
 
 def make_world(hide: str = "none", seed: int = 0, *, tests: int | None = None, hours: float = 12.0,
