@@ -14,7 +14,7 @@ import numpy as np
 from thermodata.plugin import Float1D
 
 _CELLS_PER_DWELL = 40
-_WINDOW, _GAP = 8, 2                                      # in cells: a fifth and a twentieth of a dwell
+_WINDOW, _GAP = 0.2, 0.05                                 # of a dwell
 _TOLERANCE = 0.30                                         # a probe may be this nonlinear and still be matched
 _MOST_STEPS = 80
 
@@ -74,16 +74,18 @@ def cells(t_s: Float1D, volts: Float1D, dwell_s: float) -> tuple[Float1D, Float1
 def find_steps(t_s: Float1D, volts: Float1D, dwell_s: float) -> tuple[list[Step], float]:
     """All significant steps in order of time, and the noise of a cell [V]. volts: finite, t_s: increasing."""
     t, v = cells(t_s, volts, dwell_s)
-    window = min(_WINDOW, max(2, len(v) // 8))
-    if len(v) < 2 * window + _GAP + 1:
+    cell = float(np.median(np.diff(t)))
+    window, gap = max(2, round(_WINDOW * dwell_s / cell)), max(1, round(_GAP * dwell_s / cell))
+    if len(v) < 2 * window + gap + 1:
         return [], 0.0
     noise = _noise(v)
     medians = np.median(np.lib.stride_tricks.sliding_window_view(v, window), axis=1)
-    jump = medians[window + _GAP:] - medians[:-(window + _GAP)]
-    centre = np.arange(len(jump)) + window + _GAP // 2
-    # a drift adds the same to every difference; its own scatter is what a step must stand out of
+    jump = medians[window + gap:] - medians[:-(window + gap)]
+    centre = np.arange(len(jump)) + window + gap // 2
+    # a drift adds the same to every difference; its own scatter is what a step must stand out of (the 30 %
+    # quantile, for where moves follow each other closely up to half of the differences hold a step)
     jump = jump - np.median(jump)
-    scatter = 1.4826 * float(np.median(np.abs(jump)))
+    scatter = float(np.quantile(np.abs(jump), 0.3)) / 0.385
     threshold = max(6.0 * noise / np.sqrt(window), 8.0 * scatter, 1e-12 * float(np.abs(v).max() or 1.0))
     order = np.argsort(-np.abs(jump), kind="stable")
     order = order[np.abs(jump[order]) > threshold]
@@ -92,10 +94,10 @@ def find_steps(t_s: Float1D, volts: Float1D, dwell_s: float) -> tuple[list[Step]
     for k in order.tolist():
         if not taken[k]:
             found.append(k)
-            taken[max(0, k - window - _GAP):k + window + _GAP + 1] = True
+            taken[max(0, k - window - gap):k + window + gap + 1] = True
         if len(found) >= _MOST_STEPS:
             break
-    return [_step(t, v, int(centre[k]), float(jump[k]), window) for k in sorted(found)], noise
+    return [_step(t, v, int(centre[k]), float(jump[k]), window, gap) for k in sorted(found)], noise
 
 
 def _noise(v: Float1D) -> float:
@@ -103,10 +105,10 @@ def _noise(v: Float1D) -> float:
     return 1.4826 * float(np.median(np.abs(second - np.median(second)))) / np.sqrt(6.0) if len(v) > 4 else 0.0
 
 
-def _step(t: Float1D, v: Float1D, centre: int, size: float, window: int) -> Step:
+def _step(t: Float1D, v: Float1D, centre: int, size: float, window: int, gap: int) -> Step:
     """Its middle and ramp: where the voltage crosses 5, 50 and 95 % of the way."""
     a, b = max(0, centre - window), min(len(v), centre + window + 1)
-    before, after = np.median(v[a:max(a + 1, centre - _GAP)]), np.median(v[min(b - 1, centre + _GAP):b])
+    before, after = np.median(v[a:max(a + 1, centre - gap)]), np.median(v[min(b - 1, centre + gap):b])
     rise = after - before
     if rise == 0:
         return Step(float(t[centre]), size, float(t[centre]), float(t[centre]))

@@ -153,17 +153,25 @@ def offset_steps(x: Float1D, flags: Array, of_time: Array, own: RunStats) -> Ite
     y = x[rows]
     d = np.diff(y)
     # over a gap the temperature may have gone anywhere
-    jumps = np.flatnonzero((np.abs(d) > max(_OFFSET_K, 40 * own.step)) & ((of_time[rows[1:]] & int(Flag.GAP)) == 0)
-                           & (np.diff(rows) <= 5))
+    near = ((of_time[rows[1:]] & int(Flag.GAP)) == 0) & (np.diff(rows) <= 5)
+    jumps = np.flatnonzero(near & (np.abs(d) > max(_OFFSET_K, 40 * own.step) / 2))
     open_at, size = -1, 0.0
     for j in jumps.tolist():
-        before, after = y[max(0, j - 20):j + 1], y[j + 1:j + 21]
-        if len(before) < 5 or len(after) < 5 or abs(np.median(after) - np.median(before)) < 0.7 * abs(d[j]):
-            continue
-        if open_at >= 0 and abs(d[j] + size) < 0.5 * abs(size):
-            yield int(rows[open_at]), int(rows[j]) + 1, size
-            open_at = -1
-        elif open_at < 0:
+        if open_at >= 0:
+            if abs(d[j] + size) < 0.5 * abs(size):
+                yield int(rows[open_at]), int(rows[j]) + 1, size
+                open_at = -1
+        elif abs(d[j]) > max(_OFFSET_K, 40 * own.step) and _stays(y, d, j):
             open_at, size = j + 1, float(d[j])
     if open_at >= 0:
         yield int(rows[open_at]), len(x), size
+
+
+def _stays(y: Float1D, d: Float1D, j: int) -> bool:
+    """Whether the step after row j lasts, and stands out of the changes around it."""
+    before, after = y[max(0, j - 20):j + 1], y[j + 1:j + 21]
+    if len(before) < 5 or len(after) < 5 or abs(np.median(after) - np.median(before)) < 0.7 * abs(d[j]):
+        return False
+    around = np.abs(np.concatenate([d[max(0, j - 200):j], d[j + 1:j + 201]]))
+    around = around[around > 0]
+    return not len(around) or bool(abs(d[j]) > 3 * np.quantile(around, 0.9))

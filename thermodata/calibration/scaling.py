@@ -7,6 +7,7 @@ logs a warning on a scale type that it doesn't know and hands back the raw count
 from __future__ import annotations
 
 import re
+import warnings
 from collections.abc import Mapping
 from types import SimpleNamespace
 from typing import Any
@@ -137,6 +138,8 @@ def _check_graph(properties: Mapping[str, Any], count: int, channel: str | None)
 def _ni(scaling: Scaling) -> Any:
     from nptdms.scaling import get_scaling
 
+    # npTDMS fills below 0 degC afterwards what its square root leaves open
+    warnings.filterwarnings("ignore", message="'where' used without 'out'", category=UserWarning)
     return get_scaling(scaling.properties, {}, {})
 
 
