@@ -80,7 +80,7 @@ def _diagnosis(
     steps = as_artefacts(found.steps, problem.unit)
     advice = next_test.to_separate(claimed, twins, data.channels) if claimed else None
     if claimed is None and judgement.verdict != "none":
-        advice = next_test.to_find(len(problem.blocks))
+        advice = next_test.to_find(len({b.test.key for b in problem.blocks}))
     return Diagnosis(
         model=model_id,
         response=problem.response,

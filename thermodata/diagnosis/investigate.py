@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from thermodata.diagnosis.artefact import Step, find_steps
-from thermodata.diagnosis.candidates import SLACK_FACTORS, TIME_UNITS, candidates
+from thermodata.diagnosis.candidates import GENERIC, SLACK_FACTORS, TIME_UNITS, candidates
 from thermodata.diagnosis.judge import Judgement, judge
 from thermodata.diagnosis.problem import Problem, build_problem
 from thermodata.diagnosis.rank import Scored, rank
@@ -58,7 +58,7 @@ def investigate(
     present = [
         (t.effect.name, frozenset(n for text in t.binding.values() for n in names_of(text))) for t in fitted.terms
     ]
-    families = frozenset(t.family for t in fitted.terms)
+    families = frozenset(t.family for t in fitted.terms) - {GENERIC}
     ranked = rank(problem, candidates(library, data.channels, present, fitted.name), seed)
     whole = np.concatenate(problem.response_blocks) if problem.blocks else np.zeros(1)
     spread = float(np.sqrt(np.mean(whole**2)))

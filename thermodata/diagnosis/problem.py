@@ -15,11 +15,15 @@ from thermodata.plugin import Bool1D, Float1D, Float2D, Int1D
 from thermodata.view.dataset import Dataset, TestData
 
 TARGET_ROWS = 9000
+MIN_ROWS = 10
+FEW_TESTS = 3
+FOLDS_WANTED = 4
+PART_ROWS = 100
 
 
 @dataclass(frozen=True, slots=True)
 class Block:
-    """One test, compressed. residual: shape (m,), of the fitted model, in the response's unit. base: shape
+    """One test, or a part of one in time, compressed. residual: shape (m,), of the fitted model, in the response's unit. base: shape
     (m, k), what the model can still do (its gains, and its nonlinear parameters to first order). slack:
     shape (m, s), what it may do at a price. t_s: shape (m,).
     segment: shape (m,), one free offset each. response: shape (m,), measured, offsets removed. group: shape (n,),
@@ -117,43 +121,44 @@ def build_problem(
     masks = {t.key: mask(t) for t in tests}
     total = sum(int(m.sum()) for m in masks.values())
     every = max(1, -(-total // TARGET_ROWS))
+    usable = [t for t in tests if masks[t.key].sum() >= MIN_ROWS]
     blocks, noises = [], []
-    for test in tests:
-        keep = masks[test.key]
-        if keep.sum() < 10:
-            continue
-        bins = np.arange(len(test.t_s)) // every
-        names, group_of_kept = np.unique(bins[keep], return_inverse=True)
-        group = np.full(len(test.t_s), -1, dtype=np.int64)
-        group[keep] = group_of_kept
-        weight, size = keep.astype(float), len(names)
+    for test in usable:
         left = residual(test)
-        noises.append(_short_noise(left[keep]))
-        segment = np.zeros(size, dtype=np.int64)
-        block = Block(
-            test,
-            _group_mean(test.t_s[:, None], group, weight, size)[:, 0],
-            np.empty(0),
-            np.empty(0),
-            np.empty((0, 0)),
-            np.empty((0, 0)),
-            segment,
-            group,
-            weight,
-            size,
-        )
-        both = block.compress(np.nan_to_num(np.column_stack([measured(test), left])))
-        blocks.append(
-            replace(
-                block,
-                response=both[:, 0],
-                residual=both[:, 1],
-                base=block.compress(base(test)),
-                slack=block.compress(slack(test)),
+        noises.append(_short_noise(left[masks[test.key]]))
+        both, own, spare = np.nan_to_num(np.column_stack([measured(test), left])), base(test), slack(test)
+        for keep in _parts(masks[test.key], len(usable)):
+            bins = np.arange(len(test.t_s)) // every
+            names, group_of_kept = np.unique(bins[keep], return_inverse=True)
+            group = np.full(len(test.t_s), -1, dtype=np.int64)
+            group[keep] = group_of_kept
+            empty, none = np.empty(0), np.empty((0, 0))
+            segment = np.zeros(len(names), dtype=np.int64)
+            block = Block(test, empty, empty, empty, none, none, segment, group, keep.astype(float), len(names))
+            y = block.compress(both)
+            t_s = _group_mean(test.t_s[:, None], group, block.weight, block.size)[:, 0]
+            blocks.append(
+                replace(
+                    block,
+                    t_s=t_s,
+                    response=y[:, 0],
+                    residual=y[:, 1],
+                    base=block.compress(own),
+                    slack=block.compress(spare),
+                )
             )
-        )
     noise = float(np.median(noises)) if noises else float("nan")
     return Problem(response, unit, data.step_s * every, tuple(blocks), noise)
+
+
+def _parts(mask: Bool1D, tests: int) -> list[Bool1D]:
+    """Where tests are few, parts of one in time stand for tests: each with an offset of its own, left out in turn."""
+    count = min(-(-FOLDS_WANTED // tests), int(mask.sum()) // PART_ROWS) if tests < FEW_TESTS else 1
+    if count < 2:
+        return [mask]
+    rank = np.cumsum(mask) - 1
+    part = rank * count // int(mask.sum())
+    return [mask & (part == i) for i in range(count)]
 
 
 def _short_noise(values: Float1D) -> float:

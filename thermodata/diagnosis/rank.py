@@ -22,6 +22,8 @@ SURROGATES = 199
 PRIOR_SAMPLES = 30.0
 # how much of a known effect may act with another time constant (prior standard deviation)
 SLACK_SHARE = 0.5
+# a contribution may be this many times as large as the response
+LARGEST_TIMES = 3.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,7 +38,6 @@ class Scored:
     drop: float
     white_drop: float
     p_value: float
-    white_p_value: float
     sse_before: Float1D
     sse_after: Float1D
     shape: Float1D
@@ -60,6 +61,7 @@ def rank(problem: Problem, candidates: Sequence[CandidateEffect], seed: int = 0)
     white_var = float(np.mean(np.concatenate([w[:, 0] for w in white_series]) ** 2)) * PRIOR_SAMPLES
     white = Engine([whiten(b, ar) for b in base], white_series, white_var, price)
 
+    largest = max(float(np.abs(y).max()) for y in problem.response_blocks)
     scored: list[Scored] = []
     top_raw = np.full(SURROGATES, -np.inf)
     top_white = np.full(SURROGATES, -np.inf)
@@ -69,8 +71,9 @@ def rank(problem: Problem, candidates: Sequence[CandidateEffect], seed: int = 0)
         plain_columns = [_columns(problem, candidate, drivers, p) for p in points]
         if not any(np.ptp(c) > 0 for c in plain_columns[len(plain_columns) // 2]):
             continue
-        rough = raw.score(plain_columns, candidate.priors)
-        columns, priors = _with_slack(problem, candidate, drivers, points, plain_columns, rough)
+        priors = _no_larger_than(candidate.priors, plain_columns, largest)
+        rough = raw.score(plain_columns, priors)
+        columns, priors = _with_slack(problem, candidate, priors, drivers, points, plain_columns, rough)
         plain = raw.score(columns, priors)
         whitened = white.score([[whiten(c, ar) for c in point] for point in columns], priors)
         top_raw = np.maximum(top_raw, plain.relative[1:])
@@ -83,7 +86,6 @@ def rank(problem: Problem, candidates: Sequence[CandidateEffect], seed: int = 0)
                 plain.gain[: len(candidate.effect.gains)],
                 float(plain.relative[0]),
                 float(whitened.relative[0]),
-                1.0,
                 1.0,
                 plain.before[:, 0],
                 plain.after[:, 0],
@@ -100,16 +102,24 @@ def _columns(
     return [b.compress(candidate.columns(d, len(b.test.t_s), p)) for b, d in zip(problem.blocks, drivers, strict=True)]
 
 
+def _no_larger_than(priors: Priors, columns: list[list[Float2D]], largest: float) -> Priors:
+    """Bounds that also keep a contribution from being larger than the whole response: huge terms that cancel are not
+    physics, and a gain without a plausible magnitude of its own needs some bound."""
+    reach = np.max([np.abs(np.vstack(point)).max(axis=0) for point in columns], axis=0)
+    cap = LARGEST_TIMES * largest / np.maximum(reach, 1e-300)
+    return Priors(np.minimum(priors.spread, cap), np.maximum(priors.lower, -cap), np.minimum(priors.upper, cap))
+
+
 def _with_slack(
     problem: Problem,
     candidate: CandidateEffect,
+    priors: Priors,
     drivers: Sequence[Drivers | None],
     points: Sequence[Mapping[str, float]],
     columns: list[list[Float2D]],
     first: Drop,
 ) -> tuple[list[list[Float2D]], Priors]:
     """A candidate may act as distributed as the known effects may: by a share of what its gains alone explain."""
-    priors = candidate.priors
     count = len(candidate.slack_params(points[0]))
     if not count:
         return columns, priors
@@ -142,13 +152,11 @@ def _order(scored: list[Scored], top_raw: Float1D, top_white: Float1D) -> list[S
     by_raw = np.argsort(np.argsort([-s.drop for s in scored]))
     by_white = np.argsort(np.argsort([-s.white_drop for s in scored]))
     count = len(top_raw) + 1
-    result = [
-        replace(
-            s,
-            order=float(by_raw[i] + by_white[i] + 0.01 * by_raw[i]),
-            p_value=float((1 + np.sum(top_raw >= s.drop)) / count),
-            white_p_value=float((1 + np.sum(top_white >= s.white_drop)) / count),
-        )
-        for i, s in enumerate(scored)
-    ]
+    result = []
+    for i, s in enumerate(scored):
+        raw_p = (1 + np.sum(top_raw >= s.drop)) / count
+        white_p = (1 + np.sum(top_white >= s.white_drop)) / count
+        # two looks at one question: the better one counts, doubled
+        p_value = float(min(1.0, 2 * min(raw_p, white_p)))
+        result.append(replace(s, order=float(by_raw[i] + by_white[i] + 0.01 * by_raw[i]), p_value=p_value))
     return sorted(result, key=lambda s: s.order)
