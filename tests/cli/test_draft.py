@@ -86,6 +86,7 @@ def test_a_draft_loads_and_marks_its_questions(tmp_path: Path) -> None:
     made = load_campaign(tmp_path / "campaign.yaml")
     assert isinstance(made, Campaign)
     assert [t.id for t in made.tests] == ["etve", "day1"] or [t.id for t in made.tests] == ["day1", "etve"]
+    assert {t.id: t.role for t in made.tests} == {"etve": "calibration", "day1": "verification"}
     assert made.channels["Eddy_Z"].calibration == "jump_Eddy_Z"
     assert made.calibrations["jump_Eddy_Z"].kind == "jump"
     assert made.sources["crio"].files == "raw/{test}_daq.tdms"

@@ -46,6 +46,32 @@ def test_ingest_again_changes_nothing(data: Callable[..., Any], campaign: Path) 
     assert (summary["tests"], summary["files"], summary["losses"]) == (4, 4, [])
 
 
+def test_a_draft_of_real_files_ingests_as_it_is(say: Say, tmp_path: Path) -> None:
+    path = write_campaign(tmp_path / "c")
+    path.unlink()
+    (tmp_path / "c" / "notes.txt").write_text("nothing that a reader knows")
+    made = json.loads(say("init", tmp_path / "c", "--json").out)
+    assert made["files"] == 4
+    assert [i["file"] for i in made["ignored"]] == ["notes.txt"]
+    again = say("init", tmp_path / "c")
+    assert (again.code, "--force" in again.err) == (2, True)
+    said = say("--store", tmp_path / "s", "ingest", path, "--json")
+    assert said.code == 0, said.err
+    assert json.loads(said.out)["tests"] == 4
+
+
+def test_sniff_and_preview(say: Say, tmp_path: Path) -> None:
+    write_campaign(tmp_path / "c")
+    log, other = tmp_path / "c" / "raw" / "day1.csv", tmp_path / "c" / "baseline.yaml"
+    assert json.loads(say("sniff", log, "--json").out)[0]["reader"] == "table"
+    assert say("sniff", log, other).code == 2
+    found = json.loads(say("preview", log, "--rows", 2, "--json").out)
+    assert {s["signal"] for s in found["signals"]} >= {"dZ [um]", "T_nut_Z [degC]"}
+    assert [len(rows) for rows in found["first_rows"].values()] == [2]
+    assert "T_nut_Z" in say("preview", log).out
+    assert "no reader 'tabel'" in say("preview", log, "--reader", "tabel").err
+
+
 def test_a_broken_file_is_a_loss_and_code_3(say: Say, tmp_path: Path) -> None:
     path = write_campaign(tmp_path / "c")
     (tmp_path / "c" / "raw" / "heat2.csv").write_bytes(b"\x00\x01\x02 not a table")
@@ -107,6 +133,10 @@ def test_export_writes_a_uniform_grid(data: Callable[..., Any], say: Say, campai
     again = say("--store", campaign / "thermodata.store", "export", "small", "day1", tmp_path / "d.csv")
     assert (again.code, "--force" in again.err) == (2, True)
     assert [p.name for p in tmp_path.iterdir() if p.name.endswith(".part")] == []
+    wrong = say("--store", campaign / "thermodata.store", "export", "small", "day9", tmp_path / "e.csv")
+    assert (wrong.code, "did you mean 'day" in wrong.err) == (2, True)
+    later = say("--store", campaign / "thermodata.store", "export", "small", "day1", tmp_path / "e.mf4")
+    assert (later.code, "not supported yet" in later.err) == (2, True)
 
 
 def test_fit_add_and_history(data: Callable[..., Any], ask: Say, campaign: Path) -> None:
@@ -162,3 +192,29 @@ def test_forget_then_gc(say: Say, tmp_path: Path) -> None:
     assert json.loads(say("--store", store, "gc", "--grace", "0 s", "--json").out)["removed"] > 0
     assert say("--store", store, "forget", "small", "day2").code == 2
     assert (tmp_path / "c" / "raw" / "day2.csv").exists()
+
+
+def test_diagnose_add_by_rank_and_report(say: Say, tmp_path: Path) -> None:
+    path, store = write_campaign(tmp_path / "c"), tmp_path / "s"
+    assert say("--store", store, "ingest", path).code == 0
+    base = json.loads(say("--store", store, "fit", tmp_path / "c" / "baseline.yaml", "--json").out)["model"]
+    found = json.loads(say("--store", store, "diagnose", base, "--json").out)
+    assert set(found) == {"model", "response", "verdict", "noise_um", "rmse_um", "explainable", "weak_spots",
+                          "candidates", "artefacts", "unknown", "next_test"}
+    assert found["verdict"] == "effect"
+    first = found["candidates"][0]
+    assert (first["effect"], first["claimed"]) == ("feed_screw", True)
+    assert first["locked_rmse_um_after"] < 0.5 * first["locked_rmse_um_before"]
+    text = say("--store", store, "diagnose", base).out
+    assert text.startswith("missing: feed_screw (T_nut_Z)")
+    assert "where the model" in text
+
+    better = json.loads(say("--store", store, "add", base, "1", "--json").out)
+    assert better["parent"] == base
+    assert say("--store", store, "add", base, "99").code == 2
+    assert say("--store", store, "report", better["model"], "-o", tmp_path / "r.html").code == 0
+    page = (tmp_path / "r.html").read_text(encoding="utf-8")
+    assert "Why feed_screw was added" in page
+    assert "Locked tests were opened for this model and its ancestors: small/day2" in page
+    assert say("--store", store, "report", base, "-o", tmp_path / "b.html").code == 0
+    assert "dZ misses feed_screw (T_nut_Z)" in (tmp_path / "b.html").read_text(encoding="utf-8")

@@ -18,6 +18,8 @@ _KINDS = (("etve", r"\b(etve|idle|ambient|klid|ruhe|umgebung)\b"), ("spectrum", 
           ("linear_axis", r"\b(feed|linear|axis|vorschub|posuv|[xyz]\d+)\b"),
           ("spindle", r"\b(spindle|spindel|vreten\w*|sp\d+|s\d{3,5}|rpm\d*|\d+ ?rpm)\b"),
           ("mixed", r"\b(day|mixed|den|tag)\w*\b"))
+_ROLES = (("locked", r"\b(locked|secret|geheim)\b"),
+          ("verification", r"\b(verif\w*|valid\w*|overe\w*|pruf\w*|day|den|tag)\w*\b"))
 
 
 @dataclass(frozen=True, slots=True)
@@ -63,8 +65,9 @@ def group(files: Sequence[RawFile]) -> list[Group]:
 
 
 def _holds(group: Group, ids: set[str], every: set[str]) -> bool:
-    """Whether the template names, for every test of the campaign, a file of this group or none at all."""
-    return group.template is not None and all(
+    """Whether the template names, for every test of the campaign, a file of this group or none at all; a source
+    that only one of many tests has is better named there."""
+    return group.template is not None and (len(group.tests) > 1 or len(ids) == 1) and all(
         (path := group.template.replace("{test}", test)) not in every or group.tests.get(test) == path for test in ids)
 
 
@@ -146,7 +149,8 @@ def _tests(groups: Sequence[Group]) -> list[str]:
         kind = next((kind for kind, pattern in _KINDS if re.search(pattern, words(test))), "other")
         files = {g.source: g.tests[test] for g in groups if test in g.tests and g.template is None}
         extra = ", files: {" + ", ".join(f"{k}: {_text(v)}" for k, v in files.items()) + "}" if files else ""
-        lines.append(f"  - {{id: {_text(test)}, kind: {kind}, role: calibration{extra}}}   # ? kind, role, conditions")
+        role = next((role for role, pattern in _ROLES if re.search(pattern, words(test))), "calibration")
+        lines.append(f"  - {{id: {_text(test)}, kind: {kind}, role: {role}{extra}}}   # ? kind, role, conditions")
     return lines
 
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from thermodata.errors import UsageError
+from thermodata.errors import UsageError, unknown_name
 
 if TYPE_CHECKING:
     from thermodata.view import StoreView
@@ -39,6 +39,12 @@ def export_test(
     if kind not in FORMATS:
         raise UsageError("the file's name does not say the format", where=str(out),
                          expected=".parquet or .csv", got=out.suffix or "no suffix", hint="--format parquet")
+    known = [str(row[0]) for row in view.sql("select test from test where campaign = ?", [campaign]).fetchall()]
+    if not known:
+        campaigns = view.sql("select campaign from campaign").fetchall()
+        raise unknown_name("campaign", campaign, [str(row[0]) for row in campaigns])
+    if test not in known:
+        raise unknown_name("test", test, known)
     table: Any = view.binned(campaign, test, step=step).to_arrow_table()
     units = _units(view, campaign, test, table.column_names)
     out.parent.mkdir(parents=True, exist_ok=True)

@@ -42,7 +42,7 @@ class _Panels:
             low, high = max(0.0, (top - height) / inner), min(1.0, top / inner)
             made["yaxis" if i == 1 else f"yaxis{i}"] = {
                 "domain": [low, high], "anchor": "x", "gridcolor": colour.GRID, "zeroline": False,
-                "nticks": max(2, height // 34), "tickfont": {"size": 11, "color": colour.MUTED}, **axis}
+                "nticks": max(3, height // 26), "tickfont": {"size": 11, "color": colour.MUTED}, **axis}
             made["annotations"].append({
                 "text": title, "xref": "paper", "yref": "paper", "x": 0, "y": high, "xanchor": "left",
                 "yanchor": "bottom", "showarrow": False,

@@ -103,7 +103,7 @@ def _sentences(data: ReportData) -> list[str]:
     if data.added and data.reason:
         claimed = next((c for c in data.reason.candidates if c.claimed), None)
         if claimed and claimed.why:
-            lines.append(claimed.why)
+            lines.append(_capital(claimed.why) + ("" if claimed.why.endswith(".") else "."))
         if claimed and claimed.equivalent:
             lines.append(f"These tests can't tell it from {', '.join(claimed.equivalent)}.")
     if data.diagnosis:
