@@ -1,0 +1,29 @@
+"""Reader of MCAP recordings: each topic a stream, each leaf of its messages a signal `/topic.field.sub`."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+
+from thermodata.plugin import Block, Head, Loss, Recording, Source
+
+MAGIC = b"\x89MCAP0\r\n"
+
+
+class Reader:
+    """JSON messages through Arrow; ROS 2 (cdr) and protobuf where their packages are installed."""
+
+    name = "mcap"
+
+    def sniff(self, head: Head) -> str | None:
+        return "MCAP: the file starts with its magic bytes" if head.start.startswith(MAGIC) else None
+
+    def describe(self, path: Path, source: Source) -> Recording:
+        from thermodata_reader_mcap import recording
+
+        return recording.describe(path, source)
+
+    def blocks(self, path: Path, source: Source) -> Iterator[Block | Loss]:
+        from thermodata_reader_mcap import recording
+
+        return recording.blocks(path, source)

@@ -1,0 +1,200 @@
+"""A recording's messages in the order of the file, with its channels and schemas, and what is damaged."""
+
+from __future__ import annotations
+
+import mmap
+import struct
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, suppress
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from thermodata.errors import FormatError
+from thermodata.plugin import Loss
+from thermodata_reader_mcap.chunk import ChunkError, records
+from thermodata_reader_mcap.walk import (
+    ATTACHMENT,
+    CHANNEL,
+    CHUNK,
+    MAGIC,
+    MESSAGE,
+    SCHEMA,
+    Damage,
+    Record,
+    chunk_head,
+    data_section,
+)
+
+_RECORD = struct.Struct("<BQ")
+_MESSAGE = struct.Struct("<HIQQ")
+_RECORD_MESSAGE = struct.Struct("<BQHIQQ")
+LATEST_NS = 9_000_000_000_000_000_000
+
+
+@dataclass(frozen=True, slots=True)
+class Schema:
+    name: str
+    encoding: str
+    data: bytes
+
+
+@dataclass(frozen=True, slots=True)
+class Channel:
+    topic: str
+    encoding: str
+    schema: Schema | None
+
+
+@dataclass(slots=True)
+class Batch:
+    """Messages of one channel: payloads, and log and publish time of each [ns]."""
+
+    payloads: list[memoryview] = field(default_factory=list)
+    log_ns: list[int] = field(default_factory=list)
+    publish_ns: list[int] = field(default_factory=list)
+
+
+@dataclass(slots=True)
+class Content:
+    """What a walk has met so far."""
+
+    name: str
+    size: int
+    channels: dict[int, Channel] = field(default_factory=dict)
+    schemas: dict[int, Schema] = field(default_factory=dict)
+    attachments: int = 0
+    pending: int = 0                 # bytes of messages taken since the batches were emptied
+    last_ns: int | None = None
+
+    def loss(self, start: int, stop: int, reason: str, from_ns: int | None = None, to_ns: int | None = None) -> Loss:
+        """A loss of bytes of the file, dated by the chunk or by the last message before."""
+        first = self.last_ns if from_ns is None else from_ns
+        last = to_ns if to_ns is None or first is None or to_ns >= first else None
+        return Loss(f"{self.name} byte {start}", first, last, min(1.0, (stop - start) / max(1, self.size)), reason)
+
+
+@contextmanager
+def opened(path: Path) -> Iterator[memoryview]:
+    """The file's bytes, mapped; FormatError where it is empty or no MCAP."""
+    with path.open("rb") as file:
+        start = file.read(len(MAGIC))
+        if start != MAGIC:
+            raise FormatError("not an MCAP file", where=path.name, expected=repr(MAGIC), got=repr(start))
+        mapped = mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ)
+    view = memoryview(mapped)
+    try:
+        yield view
+    finally:
+        with suppress(BufferError):          # a payload that somebody still holds points into it
+            view.release()
+            mapped.close()
+
+
+Pick = Callable[[int], bool]
+
+
+def walk(view: memoryview, content: Content, into: dict[int, Batch], full: Callable[[], bool],
+         wanted: Pick | None = None) -> Iterator[Loss | None]:
+    """Walks the data section: messages go `into` a batch a channel; yields None whenever full() says that the
+    batches should be emptied, and each loss. wanted(k): whether to open the k-th chunk (default: all)."""
+    number = -1
+    for record in data_section(view):
+        if isinstance(record, Damage):
+            yield None
+            yield content.loss(record.start, record.stop, record.reason)
+        elif record.opcode == CHUNK:
+            number += 1
+            if wanted is not None and not wanted(number):
+                continue
+            loss = _chunk(view, record, content, into, number)
+            if loss is not None:
+                yield None
+                yield loss
+        elif record.cut:
+            yield None
+            yield content.loss(record.start - 9, record.stop, "the file ends inside a record: it was cut")
+        else:
+            _one(view, record, content, into)
+        if full():
+            yield None
+
+
+def _chunk(view: memoryview, record: Record, content: Content, into: dict[int, Batch], number: int) -> Loss | None:
+    head = chunk_head(view, record)
+    if head is None:
+        return content.loss(record.start - 9, record.stop, f"chunk {number}: its header contradicts itself or is cut")
+    times = (head.start_ns, head.end_ns) if head.start_ns <= head.end_ns < LATEST_NS else (None, None)
+    try:
+        inner = records(view, head, record.cut)
+    except ChunkError as error:
+        return content.loss(record.start - 9, record.stop, f"chunk {number}: {error}", *times)
+    content.pending += len(inner)
+    used = _messages(inner, content, into)
+    if record.cut:
+        missing = 1 - used / head.size if head.size else 0.0
+        first = content.last_ns if used else times[0]
+        return content.loss(record.start - 9 + round((record.stop - record.start) * (1 - missing)), record.stop,
+                            f"chunk {number}: the file ends inside it; {100 * missing:.0f} % of the chunk is lost",
+                            first, times[1])
+    if used != len(inner):
+        return content.loss(record.start - 9, record.stop, f"chunk {number}: a record in it runs past its end", *times)
+    return None
+
+
+def _messages(inner: memoryview, content: Content, into: dict[int, Batch]) -> int:
+    """Takes the records of a chunk; returns how many bytes of whole records there were."""
+    at, size, unpack, last = 0, len(inner), _RECORD_MESSAGE.unpack_from, content.last_ns
+    while at + 31 <= size:
+        opcode, length, channel, _, log_ns, publish_ns = unpack(inner, at)
+        stop = at + 9 + length
+        if stop > size:
+            break
+        if opcode == MESSAGE and length >= 22:
+            batch = into.get(channel)
+            if batch is None:
+                batch = into.setdefault(channel, Batch())
+            batch.payloads.append(inner[at + 31:stop])
+            batch.log_ns.append(log_ns)
+            batch.publish_ns.append(publish_ns)
+            last = log_ns
+        else:
+            _one(inner, Record(opcode, at + 9, stop), content, into)
+        at = stop
+    while at + 9 <= size:                        # short records at the very end
+        opcode, length = _RECORD.unpack_from(inner, at)
+        if at + 9 + length > size:
+            break
+        _one(inner, Record(opcode, at + 9, at + 9 + length), content, into)
+        at += 9 + length
+    content.last_ns = last
+    return at
+
+
+def _one(view: memoryview, record: Record, content: Content, into: dict[int, Batch]) -> None:
+    body = view[record.start:record.stop]
+    if record.opcode == MESSAGE and len(body) >= 22:
+        channel, _, log_ns, publish_ns = _MESSAGE.unpack_from(body)
+        batch = into.setdefault(channel, Batch())
+        batch.payloads.append(body[22:])
+        batch.log_ns.append(log_ns)
+        batch.publish_ns.append(publish_ns)
+        content.pending += len(body)
+        content.last_ns = log_ns
+    elif record.opcode == SCHEMA:
+        (number,) = struct.unpack_from("<H", body)
+        name, at = _text(body, 2)
+        encoding, at = _text(body, at)
+        (size,) = struct.unpack_from("<I", body, at)
+        content.schemas[number] = Schema(name, encoding, bytes(body[at + 4:at + 4 + size]))
+    elif record.opcode == CHANNEL:
+        number, schema = struct.unpack_from("<HH", body)
+        topic, at = _text(body, 4)
+        encoding, _ = _text(body, at)
+        content.channels[number] = Channel(topic, encoding, content.schemas.get(schema))
+    elif record.opcode == ATTACHMENT:
+        content.attachments += 1
+
+
+def _text(body: memoryview, at: int) -> tuple[str, int]:
+    (size,) = struct.unpack_from("<I", body, at)
+    return bytes(body[at + 4:at + 4 + size]).decode("utf-8", "replace"), at + 4 + size
