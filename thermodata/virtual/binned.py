@@ -13,8 +13,10 @@ from thermodata.virtual.world import Run, World
 
 def to_dataset(world: World, step_s: float) -> Dataset:
     """Every test on a grid of step_s [s], a multiple of 10 s."""
+    # the campaign file declares the resolution of temperatures only
     infos = {s.name: ChannelInfo(s.name, s.quantity, CANONICAL_UNIT[s.quantity], at=s.at, source=s.source,
-                                 resolution=s.resolution or None) for s in world.sensors}
+                                 resolution=s.resolution if s.quantity == "temperature" else None)
+             for s in world.sensors}
     for a in AXES:
         infos[f"d{a}"] = ChannelInfo(f"d{a}", "displacement", "um", at="tcp", axis=a, relative_to="table", source="daq")
     tests = tuple(_test(world, r, step_s, infos, i) for i, r in enumerate(world.runs))
@@ -40,7 +42,7 @@ def _test(world: World, run: Run, step_s: float, infos: dict[str, ChannelInfo], 
         mean = np.where(mask, x, 0.0).sum(axis=1) / np.maximum(count, 1)
         values[f"d{a}"] = np.where(count > 0, mean, np.nan)
         valid[f"d{a}"] = count > 0
-    conditions: dict[str, float | str] = {"machine": world.machine_id}
+    conditions: dict[str, float | str] = {"spindle": world.spindle}
     for key, text in op.conditions.items():
         unit = {"speed": "rpm", "table_speed": "rpm", "feed": "m/min"}.get(key)
         conditions[key] = value_in(text, unit) if unit else text

@@ -30,10 +30,10 @@ def campaign_file(world: World, book: Logbook) -> dict[str, Any]:
         "schema": "thermodata/campaign/1",
         "id": world.campaign,
         "machine": {"id": world.machine_id, "description": "simulated 5-axis upper-gantry milling centre",
-                    "spindle": f"SP{1 + world.seed % 3}"},
+                    "spindle": world.spindle},
         "sources": {
             "daq": {"reader": "crio", "files": "raw/{test}.tdms"},
-            "nc": {"reader": "cnc", "files": "raw/{test}.csv", "timezone": ZONE,
+            "nc": {"reader": "cnc", "files": "raw/{test}.csv", "timezone": ZONE, "encoding": "cp1250",
                    "clock": {"offset": f"{book.nc_offset_s} s"}},
             "rec": {"reader": "mcap", "files": "raw/{test}.mcap", "clock": {"offset": f"{book.rec_offset_s} s"}},
         },

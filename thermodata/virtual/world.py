@@ -63,6 +63,10 @@ class World:
         return f"V{100 + self.seed % 900}"
 
     @property
+    def spindle(self) -> str:
+        return f"SP{1 + self.seed % 3}"
+
+    @property
     def response(self) -> str:
         return f"d{self.axis}"
 
