@@ -1,9 +1,12 @@
 from __future__ import annotations
 
+import shutil
 import sys
 from pathlib import Path
 
 import pytest
+
+from thermodata.store import Store
 
 sys.path.insert(0, str(Path(__file__).parent))
 
@@ -17,3 +20,41 @@ def npz_reader(monkeypatch: pytest.MonkeyPatch) -> None:
 
     monkeypatch.setattr(gather, "find_reader", lambda name: store_fakes.NpzReader())
     store_fakes.NpzReader.reads = 0
+
+
+@pytest.fixture(scope="session")
+def _made(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """An empty store, and a campaign with the store that holds it; each test gets copies."""
+    import store_fakes
+
+    import thermodata.store.gather as gather
+    from thermodata.store.ingest import ingest
+
+    folder = tmp_path_factory.mktemp("made")
+    Store(folder / "empty", create=True)
+    campaign = store_fakes.write_campaign(folder / "lab")
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(gather, "find_reader", lambda name: store_fakes.NpzReader())
+        ingest(Store(folder / "filled", create=True), campaign)
+    return folder
+
+
+@pytest.fixture
+def store(tmp_path: Path, _made: Path) -> Store:
+    """An empty store."""
+    shutil.copytree(_made / "empty", tmp_path / "store")
+    return Store(tmp_path / "store")
+
+
+@pytest.fixture
+def campaign(tmp_path: Path, _made: Path) -> Path:
+    """A campaign file with the logs of its two tests."""
+    shutil.copytree(_made / "lab", tmp_path / "lab")
+    return tmp_path / "lab/campaign.yaml"
+
+
+@pytest.fixture
+def filled(tmp_path: Path, _made: Path, campaign: Path) -> Store:
+    """A store that holds the campaign."""
+    shutil.copytree(_made / "filled", tmp_path / "store")
+    return Store(tmp_path / "store")

@@ -16,16 +16,6 @@ from thermodata.store import Store
 from thermodata.store.ingest import ingest
 
 
-@pytest.fixture
-def store(tmp_path: Path) -> Store:
-    return Store(tmp_path / "store", create=True)
-
-
-@pytest.fixture
-def campaign(tmp_path: Path) -> Path:
-    return write_campaign(tmp_path / "lab")
-
-
 def rows(store: Store, query: str, *params: Any) -> list[tuple[Any, ...]]:
     with store.reader() as con:
         return con.execute(query, list(params)).fetchall()
@@ -59,14 +49,14 @@ def test_values_are_calibrated_into_canonical_units(store: Store, campaign: Path
                        "where test = 'one'") == [(START_NS, 1199.0, "9000.0")]
 
 
-def test_labels_stay_text(store: Store, campaign: Path) -> None:
-    ingest(store, campaign)
+def test_labels_stay_text(filled: Store, campaign: Path) -> None:
+    store = filled
     assert rows(store, "select message, count(*) from wide_shop_nc where test = 'one' group by 1 order by 1") \
         == [("RUN", 60), ("STOP", 70)]
 
 
-def test_the_raw_layer_keeps_the_files_own_types(store: Store, campaign: Path) -> None:
-    ingest(store, campaign)
+def test_the_raw_layer_keeps_the_files_own_types(filled: Store, campaign: Path) -> None:
+    store = filled
     path = rows(store, "select path from file where layer = 'raw' and test = 'one' and source = 'daq'")[0][0]
     import pyarrow.parquet as pq
 
@@ -89,8 +79,8 @@ def test_the_same_again_changes_nothing(store: Store, campaign: Path) -> None:
     assert sorted((p, p.read_bytes()) for p in store.path.rglob("*.parquet")) == files
 
 
-def test_an_edit_makes_anew_only_what_it_touches_without_the_source_files(store: Store, campaign: Path) -> None:
-    ingest(store, campaign)
+def test_an_edit_makes_anew_only_what_it_touches_without_the_source_files(filled: Store, campaign: Path) -> None:
+    store = filled
     for path in (campaign.parent / "raw").iterdir():
         path.unlink()
     old = {r[0]: r[1] for r in rows(store, "select source || test, key from file where layer = 'tidy'")}
@@ -104,16 +94,16 @@ def test_an_edit_makes_anew_only_what_it_touches_without_the_source_files(store:
     assert any("raw copy" in note for note in summary.notes)
 
 
-def test_words_are_no_reason_to_make_anything_anew(store: Store, campaign: Path) -> None:
-    ingest(store, campaign)
+def test_words_are_no_reason_to_make_anything_anew(filled: Store, campaign: Path) -> None:
+    store = filled
     edit(campaign, "at: spindle}\n  T_b", "at: spindle.motor, notes: warm}\n  T_b")
     summary = ingest(store, campaign)
     assert (summary.changed, summary.made) == (True, 0)
     assert rows(store, "select distinct \"at\" from channel where channel = 'T_a'") == [("spindle.motor",)]
 
 
-def test_a_changed_file_supersedes_its_rows(store: Store, campaign: Path) -> None:
-    ingest(store, campaign)
+def test_a_changed_file_supersedes_its_rows(filled: Store, campaign: Path) -> None:
+    store = filled
     write_log(campaign.parent / "raw/one_a.npz", daq(n=700, seed=9))
     ingest(store, campaign)
     assert len(column(store, "one", "dZ")["value"]) == 700
@@ -155,8 +145,8 @@ def test_several_files_are_joined_in_the_order_of_time(store: Store, tmp_path: P
 
 
 def test_a_window_cuts_a_recording_and_keeps_its_history(store: Store, campaign: Path) -> None:
-    edit(campaign, "- {id: two,", "- {id: late, files: {daq: raw/two_a.npz}, window: [10 min, 15 min], history: recording,"
-                                  " phases: {all: [10 min, 12 min]}}\n  - {id: two,")
+    edit(campaign, "- {id: two,", "- {id: late, files: {daq: raw/two_a.npz}, window: [10 min, 15 min], "
+                                  "history: recording, phases: {all: [10 min, 12 min]}}\n  - {id: two,")
     ingest(store, campaign)
     found = column(store, "late", "dZ")
     assert found["t_s"].tolist() == list(np.arange(300.0))
@@ -251,7 +241,8 @@ def write_jump(folder: Path) -> None:
     t = np.arange(400) * 0.1
     volts = 5 - 0.1 * ((t >= 12) & (t < 26)) * 100 / 1.0 / 10     # 1 V a 100 um, falling as the axis moves up
     rng = np.random.default_rng(5)
-    write_log(folder / "raw/jump.npz", {"main": {"t_ns": times(400, 0.1), "Z": volts + 1e-4 * rng.standard_normal(400)}})
+    volts += 1e-4 * rng.standard_normal(400)
+    write_log(folder / "raw/jump.npz", {"main": {"t_ns": times(400, 0.1), "Z": volts}})
 
 
 def test_a_jump_test_gives_the_signed_gain(store: Store, campaign: Path) -> None:
@@ -293,16 +284,16 @@ def test_a_link_out_of_the_folder_is_refused(store: Store, campaign: Path, tmp_p
     assert len(column(store, "one", "dZ")["value"]) == 1200
 
 
-def test_a_test_taken_out_of_the_campaign_file_is_gone(store: Store, campaign: Path) -> None:
-    ingest(store, campaign)
+def test_a_test_taken_out_of_the_campaign_file_is_gone(filled: Store, campaign: Path) -> None:
+    store = filled
     campaign.write_text("\n".join(line for line in campaign.read_text().splitlines() if "id: two" not in line))
     ingest(store, campaign)
     assert rows(store, "select distinct test from sample") == [("one",)]
     assert rows(store, "select distinct test from file") == [("one",)]
 
 
-def test_two_campaigns_share_a_store_and_equal_files(store: Store, campaign: Path, tmp_path: Path) -> None:
-    ingest(store, campaign)
+def test_two_campaigns_share_a_store_and_equal_files(filled: Store, campaign: Path, tmp_path: Path) -> None:
+    store = filled
     other = write_campaign(tmp_path / "lab2", CAMPAIGN.replace("id: shop", "id: shop2"))
     NpzReader.reads = 0
     ingest(store, other)

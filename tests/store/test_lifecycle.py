@@ -9,24 +9,12 @@ from pathlib import Path
 
 import duckdb
 import pytest
-from store_fakes import daq, write_campaign
+from store_fakes import daq
 
 from thermodata.errors import UsageError
 from thermodata.store import Store
 from thermodata.store.ingest import ingest
 from thermodata.store.lifecycle import forget, gc, snapshot, trace
-
-
-@pytest.fixture
-def lab(tmp_path: Path) -> Path:
-    return write_campaign(tmp_path / "lab")
-
-
-@pytest.fixture
-def filled(tmp_path: Path, lab: Path) -> Store:
-    store = Store(tmp_path / "store", create=True)
-    ingest(store, lab)
-    return store
 
 
 def test_a_forgotten_test_leaves_no_row_and_no_file(filled: Store) -> None:
@@ -40,11 +28,11 @@ def test_a_forgotten_test_leaves_no_row_and_no_file(filled: Store) -> None:
     assert gc(filled, grace_s=0)["removed"] == before - len(list(filled.path.rglob("*.parquet"))) > 0
 
 
-def test_a_forgotten_campaign_comes_back_by_ingest(filled: Store, lab: Path) -> None:
+def test_a_forgotten_campaign_comes_back_by_ingest(filled: Store, campaign: Path) -> None:
     forget(filled, "shop")
     gc(filled, grace_s=0)
     assert not list(filled.path.rglob("*.parquet"))
-    assert ingest(filled, lab).changed
+    assert ingest(filled, campaign).changed
     with filled.reader() as con:
         assert con.execute("select count(*) from displacement").fetchone() == (2400,)
 
@@ -96,9 +84,9 @@ QUESTIONS = (
 )
 
 
-def test_a_sample_is_traced_to_file_hash_and_row(filled: Store, lab: Path) -> None:
+def test_a_sample_is_traced_to_file_hash_and_row(filled: Store, campaign: Path) -> None:
     found = trace(filled, "shop", "two", "dZ", 123.0)
-    source = lab.parent / "raw/two_a.npz"
+    source = campaign.parent / "raw/two_a.npz"
     assert found["files"][0]["sha256"] == hashlib.sha256(source.read_bytes()).hexdigest()
     place = found["sample"]["raw"]
     assert (place["source_path"], place["row"]) == ("raw/two_a.npz", 123)

@@ -117,7 +117,7 @@ def save_diagnosis(store: Store, model: str, diagnosis: Diagnosis) -> None:
         add("candidate", candidate, rank=candidate.rank)
     for i, artefact in enumerate(diagnosis.artefacts, 1):
         add("artefact", artefact, artefact.campaign, artefact.test, i)
-    with store.write() as con:
+    with store.write(views=False) as con:
         _must_exist(con, model)
         con.execute("delete from finding where model = ? and kind in "
                     "('diagnosis', 'weak_spot', 'candidate', 'artefact')", [model])
@@ -135,7 +135,7 @@ def load_diagnosis(store: Store, model: str) -> Diagnosis | None:
 def save_findings(store: Store, model: str, kind: str, rows: Iterable[tuple[str, str, Mapping[str, Any]]]) -> None:
     """Keeps findings of another kind ("portability"): (campaign, test, payload), in place of the earlier ones."""
     now = _now()
-    with store.write() as con:
+    with store.write(views=False) as con:
         _must_exist(con, model)
         con.execute("delete from finding where model = ? and kind = ?", [model, kind])
         insert(con, "finding", [{"campaign": c, "test": t, "model": model, "kind": kind, "rank": i,
@@ -146,7 +146,7 @@ def save_findings(store: Store, model: str, kind: str, rows: Iterable[tuple[str,
 def count_locked_look(store: Store, model: str, tests: Iterable[tuple[str, str]], reason: str) -> None:
     """Writes down that the locked tests ((campaign, test)) were looked at, and why."""
     now = _now()
-    with store.write() as con:
+    with store.write(views=False) as con:
         insert(con, "locked_look", [{"campaign": c, "test": t, "model": model, "reason": reason, "at": now}
                                     for c, t in tests])
 

@@ -120,9 +120,11 @@ class Store:
     # ---- writing ---------------------------------------------------------------------------------
 
     @contextmanager
-    def write(self) -> Iterator[duckdb.DuckDBPyConnection]:
+    def write(self, *, views: bool = True) -> Iterator[duckdb.DuckDBPyConnection]:
         """One transaction on the catalogue, alone. On success the views are made anew and all becomes visible
-        at once; on an exception nothing does. Bulk goes to Parquet before this is entered."""
+        at once; on an exception nothing does. Bulk goes to Parquet before this is entered.
+
+        views: False where neither files nor tests nor channels change. Not to be entered twice in one thread."""
         with self._guard, catalogue_lock(self.path, exclusive=True, timeout_s=self.timeout_s):
             con = connection.catalogue(self.path)
             try:
@@ -132,7 +134,8 @@ class Store:
                 try:
                     yield con
                     con.execute("update store set generation = generation + 1")
-                    regenerate_views(con, self.path)
+                    if views:
+                        regenerate_views(con, self.path)
                     # before the commit: who sees the new mark waits for this turn to end, whoever dies in
                     # between causes one needless refresh; the other order could leave a stale copy in use
                     write_text(self.path / _MARK, secrets.token_hex(8))
