@@ -63,6 +63,21 @@ def test_finds_the_signed_sensitivity(moves: list[float], more: dict) -> None:
     assert len(result.detail["plateaus"]) == len(moves) + 1
 
 
+@pytest.mark.parametrize("moves", [[100, -100], [20, -10, 50, -60], [50, 50, 50]])
+@pytest.mark.parametrize("dwell", [3.0, 4.0, 30.0, 60.0])
+def test_a_wrong_dwell_is_told_and_does_no_harm(moves: list[float], dwell: float) -> None:
+    result = jump(moves, recording(moves, dwell=dwell, lead=2 * dwell, tail=2 * dwell), dwell="10 s")
+    assert result.gain == pytest.approx(-25.0, rel=0.01)
+    assert failed(result) == {"dwell_s"}
+
+
+@pytest.mark.parametrize("drift", [0.0, 0.05])
+def test_moves_that_take_as_long_as_the_plateaus(drift: float) -> None:
+    moves = [50, 100, -50, -100]
+    data = recording(moves, dwell=5.0, ramp=2.0, rate=100.0, noise_v=0.001, drift=drift, uneven=0.0)
+    assert jump(moves, data, dwell="5 s").gain == pytest.approx(-25.0, rel=0.01)
+
+
 def test_noise_drift_and_uncertainty_are_those_of_the_recording() -> None:
     moves = [100, -100, 100, -100]
     data = recording(moves, drift=0.02, noise_v=0.01, seed=3)

@@ -46,8 +46,7 @@ def evaluate_jump(
     moves = _checked_moves(name, spec)
     probes = dict(others or {})
     t_s, v, probes = _clean(name, np.asarray(t_ns), np.asarray(volts), probes)
-    steps, _ = find_steps(t_s, v, spec.dwell)
-    match = match_moves(steps, moves, spec.dwell)
+    steps, match = _matched(t_s, v, moves, spec.dwell)
     if match is None:
         raise _not_found(name, spec, moves, steps, t_s, probes)
     if match.rivals:
@@ -74,6 +73,17 @@ def evaluate_jump(
                 "drift_um_per_h": None if fit.drift_um_per_s is None else fit.drift_um_per_s * 3600.0,
                 "plateaus": [_row(p, level, rest) for p, level, rest in zip(found, levels, fit.residual_um,
                                                                             strict=True)]})
+
+
+def _matched(t_s: Float1D, v: Float1D, moves: list[float], dwell_s: float) -> tuple[list[Step], Match | None]:
+    """(steps, those that are the moves); a staircase that goes much faster than declared is looked for too."""
+    steps, _ = find_steps(t_s, v, dwell_s)
+    match = match_moves(steps, moves, dwell_s)
+    if match is None and len(moves) > 1:
+        finer, _ = find_steps(t_s, v, dwell_s / 3)
+        match = match_moves(finer, moves, dwell_s / 3)
+        steps = steps if match is None else finer
+    return steps, match
 
 
 def _checked_moves(name: str, spec: JumpCalibration) -> list[float]:

@@ -31,7 +31,7 @@ def fit_plateaus(found: list[Plateau], levels_um: Float1D, move_uncertainty_um: 
     """Weighted least squares of level = offset + gain * volts - drift * time over the plateaus.
 
     With three plateaus or more, and positions that don't just follow time, drift is a term of the regression. On
-    a staircase it is taken from the slopes within the plateaus. With two plateaus it is None.
+    a staircase, or with one move, it is taken from the slopes within the plateaus, where these agree; else None.
 
     The uncertainty joins the scatter about the line (or, with nothing left over, the plateaus' noise) with the
     axis's positioning over the span: that one is systematic, so more plateaus don't make it smaller.
@@ -44,10 +44,8 @@ def fit_plateaus(found: list[Plateau], levels_um: Float1D, move_uncertainty_um: 
     sigma = np.hypot(per_volt * error_v, max(move_uncertainty_um, 1e-9) / np.sqrt(2.0))
 
     regressed = len(found) >= 3 and abs(float(np.corrcoef(levels_um, t)[0, 1])) < _COLLINEAR
-    drift_v: float | None = None
-    if not regressed and len(found) >= 3:
-        slopes = np.array([p.slope for p in found])
-        drift_v = float(np.median(slopes))
+    drift_v, drift_error = (None, 0.0) if regressed else _drift_within(found)
+    if drift_v is not None:
         v = v - drift_v * t
     columns = [np.ones_like(v), v] + ([t] if regressed else [])
     beta, covariance, rest = _weighted(np.column_stack(columns), levels_um, sigma)
@@ -59,13 +57,24 @@ def fit_plateaus(found: list[Plateau], levels_um: Float1D, move_uncertainty_um: 
     noise_v = np.sqrt(np.mean([p.noise**2 for p in found]))
     noise_part = abs(gain) * float(np.sqrt(np.mean(error_v**2))) * np.sqrt(2.0) / span
     scatter = float(np.sqrt(covariance[1, 1])) / abs(gain) if freedom > 0 else 0.0
-    uncertainty = 100.0 * float(np.sqrt(scatter**2 + noise_part**2 + (move_uncertainty_um / span) ** 2))
+    drift_part = abs(gain) * drift_error * float(np.ptp(t)) / span
+    uncertainty = 100.0 * float(np.sqrt(scatter**2 + noise_part**2 + drift_part**2 + (move_uncertainty_um / span) ** 2))
     nonlinear = freedom > 0 and len(np.unique(levels_um)) >= 3
     length = max(p.to_s for p in found) - min(p.from_s for p in found)
     return JumpFit(
         gain=gain, offset=-gain * float(v[0]), uncertainty_pct=uncertainty, noise_um=abs(gain) * float(noise_v),
         nonlinearity_pct=100.0 * float(np.max(np.abs(rest))) / span if nonlinear else None,
         drift_um=None if drift is None else drift * length, drift_um_per_s=drift, residual_um=rest, span_um=span)
+
+
+def _drift_within(found: list[Plateau]) -> tuple[float | None, float]:
+    """(drift [V/s] by the slopes within the plateaus, its standard error); None where it is not significant."""
+    slopes = np.array([p.slope for p in found])
+    length = np.array([max(2 / 3 * (p.to_s - p.from_s), 1e-9) for p in found])
+    own = np.array([p.noise * np.sqrt(12.0 / max(p.n, 1)) for p in found]) / length
+    error = float(max(np.sqrt(np.mean(own**2)), np.std(slopes, ddof=1)) / np.sqrt(len(found)))
+    drift = float(np.average(slopes, weights=1.0 / np.maximum(own, 1e-12) ** 2))
+    return (drift, error) if abs(drift) > 3 * error else (None, error)
 
 
 def answer(found: list[Plateau], levels_um: Float1D) -> float:

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from thermodata.plugin import Float1D
+from thermodata.plugin import Bool1D, Float1D
 
 _CELLS_PER_DWELL = 40
 _WINDOW, _GAP = 0.2, 0.05                                 # of a dwell
@@ -87,17 +87,39 @@ def find_steps(t_s: Float1D, volts: Float1D, dwell_s: float) -> tuple[list[Step]
     jump = jump - np.median(jump)
     scatter = float(np.quantile(np.abs(jump), 0.3)) / 0.385
     threshold = max(6.0 * noise / np.sqrt(window), 8.0 * scatter, 1e-12 * float(np.abs(v).max() or 1.0))
+    tolerance = 4.0 * noise / np.sqrt(window)
     order = np.argsort(-np.abs(jump), kind="stable")
-    order = order[np.abs(jump[order]) > threshold]
     taken = np.zeros(len(jump), dtype=bool)
-    found: list[int] = []
-    for k in order.tolist():
+    found: list[Step] = []
+    for k in order[np.abs(jump[order]) > threshold].tolist():
         if not taken[k]:
-            found.append(k)
-            taken[max(0, k - window - gap):k + window + gap + 1] = True
+            # on a slow ramp the difference has a flat top, with ripples of the cells
+            ripple = max(tolerance, 0.05 * abs(float(jump[k])))
+            low, high = _flanks(jump * np.sign(jump[k]), k, threshold, ripple, window + gap, taken)
+            taken[low:high + 1] = True
+            # at the flank's foot the window on the far side just touches the ramp
+            reach = window + gap // 2 - 1
+            found.append(_step(t, v, int(centre[low]) + reach, int(centre[high]) - reach, int(centre[k]), window))
         if len(found) >= _MOST_STEPS:
             break
-    return [_step(t, v, int(centre[k]), float(jump[k]), window, gap) for k in sorted(found)], noise
+    return sorted((s for s in found if s.size != 0), key=lambda s: s.t_s), noise
+
+
+def _flanks(height: Float1D, peak: int, threshold: float, tolerance: float, least: int,
+            taken: Bool1D) -> tuple[int, int]:
+    """The first and last row of a step around its peak: as far as it falls, so that a slow ramp is one step, and
+    at least as far as the windows that make a sharp one."""
+    ends = []
+    for way in (-1, 1):
+        i, lowest = peak, float(height[peak])
+        while 0 <= i + way < len(height) and not taken[i + way]:
+            following = float(height[i + way])
+            if following > lowest + tolerance or (following < threshold and abs(i + way - peak) > least):
+                break
+            lowest = min(lowest, following)
+            i += way
+        ends.append(i)
+    return ends[0], ends[1]
 
 
 def _noise(v: Float1D) -> float:
@@ -105,20 +127,22 @@ def _noise(v: Float1D) -> float:
     return 1.4826 * float(np.median(np.abs(second - np.median(second)))) / np.sqrt(6.0) if len(v) > 4 else 0.0
 
 
-def _step(t: Float1D, v: Float1D, centre: int, size: float, window: int, gap: int) -> Step:
-    """Its middle and ramp: where the voltage crosses 5, 50 and 95 % of the way."""
-    a, b = max(0, centre - window), min(len(v), centre + window + 1)
-    before, after = np.median(v[a:max(a + 1, centre - gap)]), np.median(v[min(b - 1, centre + gap):b])
-    rise = after - before
-    if rise == 0:
-        return Step(float(t[centre]), size, float(t[centre]), float(t[centre]))
-    way = (v[a:b] - before) / rise
-    low = a + int(np.flatnonzero(way < 0.05)[-1]) if (way < 0.05).any() and (way < 0.05)[0] else a
-    above = np.flatnonzero(way > 0.95)
-    above = above[above + a > low] if len(above) else above
-    high = a + int(above[0]) if len(above) else b - 1
-    low = min(low, high)
-    return Step(float((t[low] + t[high]) / 2), float(rise), float(t[low]), float(t[high]))
+def _step(t: Float1D, v: Float1D, low: int, high: int, centre: int, window: int) -> Step:
+    """Its size, middle and ramp, where the voltage leaves 5 % and reaches 95 % of the way. low, high: the ramp's ends
+    to a cell or two."""
+    low, high = min(max(low, 0), centre), max(min(high, len(v) - 1), centre)
+    before = float(np.median(v[max(0, low - window):max(low, 1)]))
+    after = float(np.median(v[min(high + 1, len(v) - 1):high + 1 + window]))
+    size = after - before
+    if size == 0:
+        return Step(float(t[centre]), 0.0, float(t[centre]), float(t[centre]))
+    a, b = max(0, low - window), min(len(v), high + 1 + window)
+    way = (v[a:b] - before) / size
+    middle = int(np.argmax(way > 0.5))
+    below, above = np.flatnonzero(way[:middle + 1] < 0.05), np.flatnonzero(way[middle:] > 0.95)
+    start = a + (int(below[-1]) if len(below) else 0)
+    stop = a + middle + int(above[0]) if len(above) else b - 1
+    return Step(float((t[start] + t[stop]) / 2), size, float(t[start]), float(t[stop]))
 
 
 def match_moves(steps: list[Step], moves_um: list[float], dwell_s: float) -> Match | None:
