@@ -79,3 +79,15 @@ def test_the_start_value_is_a_mean_only_while_nothing_moves() -> None:
     rising = 20 + 0.4 * (np.arange(200) + 0.5)
     assert start_value(rising + noise, 60.0) == pytest.approx(20.0, abs=0.2)
     assert start_value(np.array([21.0]), 60.0) == 21.0
+
+
+def test_a_chiller_starts_from_the_mean_of_its_cycle() -> None:
+    noise = np.random.default_rng(1).normal(0, 0.01, 300)
+    minutes = np.arange(300)
+    hunting = 24.0 + 0.6 * np.sin(2 * np.pi * (minutes / 20.0 - 0.1)) + noise
+    assert start_value(hunting, 60.0) == pytest.approx(24.0, abs=0.1)
+    # pulses from cold go up and down too, but they start at the bottom
+    pulses = 22.0 + 3.0 * np.sin(np.pi * minutes / 30.0) ** 2 + noise
+    assert start_value(pulses, 60.0) == pytest.approx(22.0, abs=0.1)
+    # and noise on something slow is no cycle
+    assert start_value(22.0 + minutes / 300.0 + noise, 60.0) == pytest.approx(22.0, abs=0.05)

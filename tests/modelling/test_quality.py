@@ -70,7 +70,9 @@ def _one_lag(seed: int, slow: bool) -> TestData:
     rng = np.random.default_rng(seed)
     n = 721
     t = np.arange(n) * 60.0
-    u = lag(np.repeat(rng.choice([0.0, 10.0], 13), 60)[:n], 900, 60)
+    heat = np.repeat(rng.choice([0.0, 10.0], 13), 60)[:n]
+    heat[:10] = 0.0
+    u = lag(heat, 900, 60)
     white = rng.normal(0, 1, n)
     noise = white * 0.5 if not slow else lag(white, 1800, 60.0) * 4
     values = {"y": 2 * lag(u, 3600, 60) + noise, "T": 20 + u}
@@ -91,9 +93,9 @@ def test_intervals_hold_the_truth_though_the_residual_hangs_together(spec: Spec)
         count += 1
         inside += gain.low <= 2.0 <= gain.high
         widths.append(gain.high - gain.low)
-    # a nominal 95 %: intervals made for white noise would hold it in under half of the worlds
+    # nominal 95 %; over 100 worlds 90-94 % were measured
     assert count >= 28
-    assert inside / count >= 0.75
+    assert inside / count >= 0.8
     assert np.mean(widths) < 3.0
 
 

@@ -20,6 +20,10 @@ ZERO_AT_REST = frozenset({
     "rotational_speed", "feed", "power", "load", "current", "torque", "flow", "state", "irradiance",
 })
 FILL_S = 1800.0                 # a driver may be missing this long before what it predicts stops counting
+CYCLE_S = 7200.0                # a driver that changes sides TURNS times within this long goes in cycles
+TURNS = 4
+BAND = 0.15                     # of its range, about its mean: no side
+EDGE = 0.08                     # of its range: where a start is a start
 START_S = 300.0                 # the start value is a mean of at most this, while the driver does not move
 
 
@@ -102,14 +106,37 @@ def start_value(values: Float1D, step: float) -> float:
     most = max(1, min(int(START_S / step), len(values)))
     if most == 1:
         return float(values[0])
-    bends = np.diff(values, n=2) if len(values) > 3 else np.zeros(1)
-    noise = 1.4826 * float(np.median(np.abs(bends))) / np.sqrt(6.0)
+    cycle = _cycle_mean(values[: int(CYCLE_S / step) + 1])
+    if cycle is not None:
+        return cycle
+    noise = _noise(values)
     count = 1
     while count < most and abs(values[count] - values[:count].mean()) <= 3.0 * noise + 1e-12:
         count += 1
     if count < 3 <= len(values):
         return float((13.0 * values[0] + 4.0 * values[1] - 5.0 * values[2]) / 12.0)
     return float(values[:count].mean())
+
+
+def _cycle_mean(values: Float1D) -> float | None:
+    """The mean of a driver that goes up and down from the start (a chiller): its balance is not where the record
+    happened to cut its cycle. None for one that starts at an end of its range: there the start is a start."""
+    if len(values) < 8:
+        return None
+    low, high, mean = float(values.min()), float(values.max()), float(values.mean())
+    span = high - low
+    inside = low + EDGE * span < values[0] < high - EDGE * span
+    if not inside or span < 2.0 / EDGE * _noise(values):
+        return None
+    sides = np.sign(values - mean) * (np.abs(values - mean) > BAND * span)
+    turns = int(np.count_nonzero(np.diff(sides[sides != 0])))
+    return mean if turns >= TURNS else None
+
+
+def _noise(values: Float1D) -> float:
+    """Standard deviation of white noise on something smooth."""
+    bends = np.diff(values, n=2) if len(values) > 3 else np.zeros(1)
+    return 1.4826 * float(np.median(np.abs(bends))) / float(np.sqrt(6.0))
 
 
 def step_s(test: TestData) -> float:

@@ -79,7 +79,8 @@ def _robust(jacobian: Float2D, residual: Float1D, parts: list[slice]) -> Float1D
     unit = jacobian / size
     bread = np.linalg.pinv(unit.T @ unit, rcond=1e-12)
     scores = unit * residual[:, None]
-    width = int(np.ceil(2 * memory(residual, parts)))
+    span_of_memory = memory(residual, parts)
+    width = int(np.ceil(2 * span_of_memory))
     meat = np.zeros((len(size), len(size)))
     for part in parts:
         own = scores[part]
@@ -91,5 +92,9 @@ def _robust(jacobian: Float2D, residual: Float1D, parts: list[slice]) -> Float1D
             moving = total[span:] - total[:-span]
             meat += moving.T @ moving / span
     n, k = jacobian.shape
-    cover = bread @ meat @ bread * n / max(1, n - k - len(parts))
+    # what the window cuts off (a quarter, were the correlation exponential), and what k parameters and a free mean
+    # a test take out of n / memory independent samples; without these, 95 % intervals hold the truth in 80 %
+    free = n / span_of_memory
+    lost = 1.0 - span_of_memory / (2 * max(width, 1)) if span_of_memory > 1.5 else 1.0
+    cover = bread @ meat @ bread / lost * free / max(0.25 * free, free - k - len(parts))
     return np.asarray(np.sqrt(np.maximum(np.diag(cover), 0.0)) / size, dtype=np.float64)

@@ -1,0 +1,81 @@
+"""The kit on every effect of this plugin, and the physics of those that are more than one lag."""
+
+from __future__ import annotations
+
+from importlib.metadata import entry_points
+
+import numpy as np
+import pytest
+from thermodata_effects_machine_tool.ambient import AmbientSkin
+from thermodata_effects_machine_tool.axis import FeedScrew, ScrewGrowth
+from thermodata_effects_machine_tool.generic import Step, WarmStart
+from thermodata_effects_machine_tool.spindle import CentrifugalShift, SpindleFriction, SpindleHeatingCooling
+
+from thermodata.effect.lag import lag
+from thermodata.plugin import Drivers
+from thermodata.testing.effect import check_effect
+
+PACKAGE = "thermodata_effects_machine_tool"
+OURS = sorted((e for e in entry_points(group="thermodata.effect") if e.value.startswith(PACKAGE)), key=lambda e: e.name)
+T = np.arange(0.0, 36000.0, 60.0)
+
+
+def _drivers(**values: np.ndarray) -> Drivers:
+    return Drivers(T, values, {k: np.ones(len(T), bool) for k in values}, {})
+
+
+@pytest.mark.parametrize("entry", OURS, ids=lambda e: e.name)
+def test_it_keeps_the_contract(entry: object) -> None:
+    check_effect(entry.load()())  # type: ignore[attr-defined]
+
+
+def test_a_centrifugal_shift_is_quadratic_at_once_and_forgets_the_direction() -> None:
+    speed = np.where(T < 6000, 0.0, np.where(T < 12000, 5000.0, -10000.0))
+    column = CentrifugalShift().basis(_drivers(speed=speed), {})[:, 0]
+    assert (column[0], column[100], column[200]) == (0.0, 0.25, 1.0)
+
+
+def test_friction_without_a_sensor_settles_at_a_power_of_the_speed() -> None:
+    speed = np.full(len(T), 5000.0)
+    column = SpindleFriction().basis(_drivers(speed=speed), {"tau": 30.0, "exponent": 2.0})[:, 0]
+    assert column[-1] == pytest.approx(0.25, rel=1e-3)
+
+
+def test_heating_and_cooling_each_have_their_time_constant() -> None:
+    on = T < 18000
+    u = np.where(on, 10.0, 0.0)
+    drivers = _drivers(temperature=u, speed=np.where(on, 3000.0, 0.0))
+    column = SpindleHeatingCooling().basis(drivers, {"tau_on": 20.0, "tau_off": 100.0})[:, 0]
+    assert column[100] == pytest.approx(10 * (1 - np.exp(-100 * 60 / 1200)), rel=0.01)
+    late = np.argmax(T >= 18000 + 6000)
+    assert column[late] == pytest.approx(10 * np.exp(-1.0), rel=0.02)
+    same = SpindleHeatingCooling().basis(drivers, {"tau_on": 45.0, "tau_off": 45.0})[:, 0]
+    assert np.allclose(same, lag(u, 2700.0, 60.0))
+
+
+def test_skin_is_gone_once_the_frame_has_followed() -> None:
+    p = {"tau_fast": 10.0, "tau_slow": 100.0}
+    column = AmbientSkin().basis(_drivers(temperature=np.full(len(T), 4.0)), p)[:, 0]
+    assert column.max() > 2.5
+    assert column[-1] < 0.02
+
+
+def test_a_screw_grows_with_position() -> None:
+    p = {"tau": 1.0}
+    near, far = (ScrewGrowth().basis(_drivers(temperature=np.full(len(T), 2.0), position=np.full(len(T), x)), p)[-1]
+                 for x in (100.0, 600.0))
+    assert near == pytest.approx([0.2, 2.0])
+    assert far == pytest.approx([1.2, 2.0])
+
+
+def test_the_feed_stands_in_for_a_nut_without_a_sensor() -> None:
+    p = {"tau": 30.0, "exponent": 1.0}
+    by_feed = FeedScrew().basis(_drivers(feed=np.full(len(T), -5.0)), p)
+    assert by_feed[-1, 0] == pytest.approx(0.5, rel=1e-3)
+
+
+def test_a_step_stands_and_a_warm_start_fades() -> None:
+    step = Step().basis(_drivers(), {"at": 100.0})[:, 0]
+    assert (step[99], step[100], step[-1]) == (0.0, 1.0, 1.0)
+    warm = WarmStart().basis(_drivers(), {"tau": 60.0})[:, 0]
+    assert (warm[0], warm[60]) == (1.0, pytest.approx(np.exp(-1)))
