@@ -1,0 +1,148 @@
+"""Models in the store: kept, found by what one types, gone stale, and what was found out about them."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import pyarrow as pa
+import pytest
+
+from thermodata.errors import StoreError, UsageError
+from thermodata.schema.model import Model
+from thermodata.schema.result import Artefact, Candidate, Diagnosis, FitResult, Parameter, Score, WeakSpot
+from thermodata.store import Store
+from thermodata.store.ingest import ingest
+from thermodata.store.lifecycle import forget, gc, trace
+from thermodata.store.models import (
+    count_locked_look,
+    find_model,
+    load_diagnosis,
+    locked_looks,
+    model_chain,
+    save_diagnosis,
+    save_findings,
+    save_fit,
+)
+
+SPEC: dict[str, Any] = {"schema": "thermodata/model/1", "name": "base", "campaign": "shop",
+                        "response": {"axis": "Z", "at": "tcp"}, "step": "30 s", "effects": [{"effect": "lag"}]}
+
+
+def fit(model: str, name: str = "base", parent: str | None = None,
+        tests: tuple[str, ...] = ("one", "two")) -> FitResult:
+    return FitResult(
+        model=model, name=name, parent=parent, campaigns=["shop"], response="dZ", checks=[],
+        parameters={"lag.tau": Parameter(value=1800.0, unit="s", low=1700.0, high=None)},
+        scores=[Score(model=model, campaign="shop", test=t, role="calibration", response="dZ", phase="all", fit=80.0,
+                      rmse_um=1.5, ptp_um=30.0, ptp_residual_um=4.0, max_um=3.0, n=40) for t in tests])
+
+
+def save(store: Store, model: str, name: str = "base", parent: str | None = None,
+         tests: tuple[str, ...] = ("one", "two")) -> str:
+    table = pa.table({"t_s": [0.0, 30.0], "measured": [0.0, 1.0], "predicted": [0.0, 0.5], "residual": [0.0, 0.5],
+                      "valid": [True, True], "c__lag": [0.0, 0.5]})
+    return save_fit(store, spec=Model.model_validate(SPEC | {"name": name}), result=fit(model, name, parent, tests),
+                    parent=parent, predictions={("shop", t, "dZ"): table for t in tests}, data_version="v")
+
+
+def test_a_fit_comes_back_as_it_was_saved(filled: Store) -> None:
+    assert save(filled, "abc123") == "abc123"
+    found = find_model(filled, "abc123")
+    assert found.result == fit("abc123")
+    assert found.spec == Model.model_validate(SPEC)
+    assert (found.name, found.parent, found.stale) == ("base", None, False)
+    with filled.reader() as con:
+        assert con.execute("select test, t_s, residual from residual where model = 'abc123' order by all").fetchall() \
+            == [("one", 0.0, 0.0), ("one", 30.0, 0.5), ("two", 0.0, 0.0), ("two", 30.0, 0.5)]
+        assert con.execute("select parameter, value, unit, low, high from fit").fetchall() \
+            == [("lag.tau", 1800.0, "s", 1700.0, None)]
+        assert con.execute("select count(*) from score where model = 'abc123'").fetchone() == (2,)
+
+
+def test_saving_again_replaces_and_keeps_the_place_in_history(filled: Store) -> None:
+    save(filled, "m1")
+    save(filled, "m2", parent="m1")
+    save(filled, "m1", tests=("one",))
+    assert find_model(filled, "base").model == "m2"
+    assert [s.test for s in find_model(filled, "m1").result.scores] == ["one"]
+    with filled.reader() as con:
+        assert con.execute("select count(*) from score_row where model = 'm1'").fetchone() == (1,)
+    assert [m.model for m in model_chain(filled, "m2")] == ["m1", "m2"]
+
+
+def test_a_model_is_found_by_id_prefix_or_name(filled: Store) -> None:
+    save(filled, "abc111")
+    save(filled, "abc222", "other")
+    assert find_model(filled, "abc2").model == "abc222"
+    assert find_model(filled, "other").model == "abc222"
+    with pytest.raises(UsageError, match=r"abc111, abc222|abc222, abc111"):
+        find_model(filled, "abc")
+    with pytest.raises(UsageError, match="did you mean 'other'"):
+        find_model(filled, "othr")
+    with pytest.raises(UsageError):
+        find_model(filled, "")
+
+
+def test_an_edit_makes_only_the_fits_stale_that_used_the_test(filled: Store, campaign: Path) -> None:
+    save(filled, "both")
+    save(filled, "first", tests=("one",))
+    text = campaign.read_text()
+    campaign.write_text(text.replace("heating: [0 s, 600 s]", "heating: [0 s, 300 s]"))
+    summary = ingest(filled, campaign)
+    assert summary.stale == ["both"]
+    assert (find_model(filled, "both").stale, find_model(filled, "first").stale) == (True, False)
+    campaign.write_text(text.replace("spindle, role: verification", "spindle, notes: hm, role: verification"))
+    save(filled, "both")
+    ingest(filled, campaign)
+    assert find_model(filled, "both").stale        # the phases changed back
+    campaign.write_text(campaign.read_text().replace("notes: hm", "notes: well"))
+    save(filled, "both")
+    assert ingest(filled, campaign).stale == []    # words only
+
+
+DIAGNOSIS = Diagnosis(
+    model="m1", response="dZ", verdict="effect", noise_um=0.2, rmse_um=1.5, explainable=0.9, next_test=None,
+    weak_spots=[WeakSpot(campaign="shop", test="one", from_s=0.0, to_s=600.0, rmse_um=2.0, state="heating")],
+    candidates=[Candidate(rank=1, id="lag:T_a", effect="lag", family="generic", drivers=["T_a"], claimed=True,
+                          p_value=0.001, rmse_um_before=1.5, rmse_um_after=0.4, fit_before=50.0, fit_after=90.0)],
+    artefacts=[Artefact(kind="step", campaign="shop", test="two", at_s=30.0, size_um=5.0, why="a slip")])
+
+
+def test_a_diagnosis_is_kept_whole_and_in_rows(filled: Store) -> None:
+    assert load_diagnosis(filled, "m1") is None
+    save(filled, "m1")
+    for _ in range(2):
+        save_diagnosis(filled, "m1", DIAGNOSIS)
+    assert load_diagnosis(filled, "m1") == DIAGNOSIS
+    with filled.reader() as con:
+        assert con.execute("select kind, count(*) from finding group by 1 order by 1").fetchall() \
+            == [("artefact", 1), ("candidate", 1), ("diagnosis", 1), ("weak_spot", 1)]
+        assert con.execute("select test, from_s, state from weak_spot").fetchall() == [("one", 0.0, "heating")]
+        assert con.execute("select effect, drivers, claimed from candidate").fetchall() == [("lag", ["T_a"], True)]
+    save_findings(filled, "m1", "portability", [("shop", "one", {"rmse_um": 3.0, "machine": "139"})])
+    with filled.reader() as con:
+        assert con.execute("select test, payload->>'$.machine' from finding where kind = 'portability'").fetchall() \
+            == [("one", "139")]
+    with pytest.raises(StoreError, match="m9"):
+        save_diagnosis(filled, "m9", DIAGNOSIS)
+
+
+def test_looks_at_locked_tests_are_counted(filled: Store) -> None:
+    for _ in range(2):
+        count_locked_look(filled, "m1", [("shop", "two")], "claim of lag:T_a")
+    assert (locked_looks(filled, "shop", "two"), locked_looks(filled, "shop", "one")) == (2, 0)
+
+
+def test_forgetting_takes_what_was_fitted(filled: Store) -> None:
+    save(filled, "m1")
+    save_diagnosis(filled, "m1", DIAGNOSIS)
+    assert forget(filled, "shop", "two")["stale"] == ["m1"]
+    with filled.reader() as con:
+        assert con.execute("select distinct test from residual").fetchall() == [("one",)]
+    assert trace(filled, "m1")["files"][0]["source_path"] == "raw/one_a.npz"
+    assert forget(filled, "shop")["models"] == ["m1"]
+    with pytest.raises(UsageError):
+        find_model(filled, "m1")
+    gc(filled, grace_s=0)
+    assert list((filled.path / "model").iterdir()) == []
