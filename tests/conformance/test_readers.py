@@ -93,7 +93,8 @@ def xlsx(path: Path) -> Source:
     types = "application/vnd.openxmlformats-package.relationships+xml"
     with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as book:
         book.writestr("[Content_Types].xml", '<Types xmlns="http://schemas.openxmlformats.org/package/2006/'
-                      f'content-types"><Default Extension="rels" ContentType="{types}"/><Default Extension="xml" ContentType="application/xml"/></Types>')
+                      f'content-types"><Default Extension="rels" ContentType="{types}"/><Default Extension="xml" '
+                      'ContentType="application/xml"/></Types>')
         book.writestr("_rels/.rels", f'<Relationships xmlns="{relations}"><Relationship Id="r1" '
                       f'Target="xl/workbook.xml" Type="{office}/officeDocument"/></Relationships>')
         book.writestr("xl/workbook.xml", f'<workbook xmlns="{main}" xmlns:r="{office}"><sheets>'

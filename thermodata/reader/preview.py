@@ -1,0 +1,124 @@
+"""What would be ingested: header, units, start, rate, gaps and first rows of a file. Stores nothing."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from thermodata.plugin import Block, Loss, Reader, Signal, Source
+from thermodata.reader.guard import described, guarded
+from thermodata.reader.registry import claims, sniff
+
+FIRST_ROWS = 5
+_GAP_FACTOR = 3.0   # an interval of more than so many usual ones is a gap
+
+
+@dataclass
+class _Stream:
+    """What is kept of a stream while its blocks pass: no values but the first rows."""
+
+    rows: int = 0
+    first: int | None = None
+    last: int | None = None
+    backward: int = 0
+    repeated: int = 0
+    step_ns: float | None = None
+    gaps: int = 0
+    largest: int = 0
+    head: list[dict[str, Any]] = field(default_factory=list)
+
+    def add(self, block: Block, absolute: bool) -> None:
+        t = block.t_ns
+        joined = t if self.last is None else np.concatenate(([self.last], t))
+        steps = np.diff(joined)
+        self.first = int(t[0]) if self.first is None else self.first
+        self.backward += int((steps < 0).sum())
+        self.repeated += int((steps == 0).sum())
+        ahead = steps[steps > 0]
+        if self.step_ns is None and ahead.size:
+            self.step_ns = float(np.median(ahead))
+        if self.step_ns is not None and ahead.size:
+            self.gaps += int((ahead > _GAP_FACTOR * self.step_ns).sum())
+            self.largest = max(self.largest, int(ahead.max()))
+        for i in range(min(t.size, FIRST_ROWS - len(self.head))):
+            values = {name: _plain(column[i]) for name, column in block.values.items()}
+            self.head.append({"t": when(int(t[i]), absolute), **values})
+        self.rows += t.size
+        self.last = int(t[-1])
+
+
+def preview(path: Path | str, source: Source | None = None, reader: Reader | None = None) -> dict[str, Any]:
+    """A file as plain data, ready for JSON. reader: which one (default: the one that claims the file).
+
+    Keys: file, size_bytes, reader, reason, clock, start, complete, notes, losses, and streams, each with stream,
+    rows, start, end, duration_s, step_s, rate_hz, gaps, largest_step_s, backward, repeated, signals (name, unit,
+    dtype, scaling) and first_rows. Values that do not apply are None. Errors: those of sniff and of the reader.
+    """
+    path = Path(path)
+    source = source or Source()
+    chosen = reader if reader is not None else sniff(path)
+    said = described(chosen, path, source)
+    absolute = said.clock == "absolute"
+    streams: dict[str, _Stream] = {s.stream: _Stream() for s in said.signals}
+    losses: list[Loss] = []
+    for item in guarded(chosen, path, source, said):
+        if isinstance(item, Loss):
+            losses.append(item)
+        else:
+            streams[item.stream].add(item, absolute)
+    return {
+        "file": path.name,
+        "size_bytes": path.stat().st_size,
+        "reader": chosen.name,
+        "reason": claims(path).get(chosen.name),
+        "clock": said.clock,
+        "start": None if said.start_ns is None else when(said.start_ns, absolute),
+        "complete": said.complete,
+        "notes": list(said.notes),
+        "losses": [{"where": x.where, "reason": x.reason, "fraction": x.fraction,
+                    "from": None if x.from_ns is None else when(x.from_ns, absolute),
+                    "to": None if x.to_ns is None else when(x.to_ns, absolute)} for x in losses],
+        "streams": [_shown(name, stream, [s for s in said.signals if s.stream == name], absolute)
+                    for name, stream in streams.items()],
+    }
+
+
+def _shown(name: str, stream: _Stream, signals: list[Signal], absolute: bool) -> dict[str, Any]:
+    step = None if stream.step_ns is None else stream.step_ns / 1e9
+    return {
+        "stream": name,
+        "rows": stream.rows,
+        "start": None if stream.first is None else when(stream.first, absolute),
+        "end": None if stream.last is None else when(stream.last, absolute),
+        "duration_s": None if stream.first is None or stream.last is None else (stream.last - stream.first) / 1e9,
+        "step_s": step,
+        "rate_hz": None if not step else 1.0 / step,
+        "gaps": stream.gaps,
+        "largest_step_s": stream.largest / 1e9 if stream.largest else None,
+        "backward": stream.backward,
+        "repeated": stream.repeated,
+        "signals": [{"name": s.name, "unit": s.unit, "dtype": s.dtype,
+                     "scaling": None if s.scaling is None else s.scaling.kind} for s in signals],
+        "first_rows": stream.head,
+    }
+
+
+def when(t_ns: int, absolute: bool) -> str | float:
+    """A time for people: ISO in UTC, or seconds of a relative clock."""
+    if not absolute:
+        return t_ns / 1e9
+    return str(np.datetime64(t_ns, "ns")).rstrip("0").rstrip(".") + "Z" if t_ns % 1_000_000_000 else \
+        str(np.datetime64(t_ns // 1_000_000_000, "s")) + "Z"
+
+
+def _plain(value: Any) -> Any:
+    """A value that JSON knows; NaN is None."""
+    if isinstance(value, np.generic):
+        value = value.item()
+    return None if isinstance(value, float) and not np.isfinite(value) else value
+
+
+__all__ = ["FIRST_ROWS", "preview", "when"]
