@@ -153,6 +153,16 @@ def test_hostile_names_stay_names(build: Build) -> None:
     assert sql(store, "select count(*) from test") == [(len(HOSTILE),)]
 
 
+@pytest.mark.parametrize("folder", ["a [1]", "st*r", " padded ", "per%cent", "~home", "../b"])
+def test_any_folder_may_be_a_store(build: Build, folder: str) -> None:
+    b = build(folder)
+    b.test("c", "a")
+    b.tidy("c", "a", [0.0], {"dZ": [1.0]})
+    store = b.store()
+    assert sql(store, "select value from sample") == [(1.0,)]
+    assert sql(store, "select value from signal('c', 'a', 'dZ')") == [(1.0,)]
+
+
 def test_names_that_sanitise_alike_get_their_own_views(build: Build) -> None:
     b = build()
     for campaign in ("a-b", "a_b", "A.b"):
@@ -211,7 +221,8 @@ def test_findings_and_history(build: Build) -> None:
                                   "claimed": True, "p_value": None, "rmse_um_before": 4, "equivalent": [],
                                   "parameters": {}, "why": "it's"}, rank=1)
     b.finding("m1", "diagnosis", {"verdict": "effect", "response": "dZ"})
-    b.finding("m1", "portability", {"machine": "139", "campaign": "d", "test": "t", "rmse_um": 7})
+    b.finding("m1", "portability", {"machine": "139", "campaign": "d", "test": "t", "role": "none",
+                                    "response": "dZ", "g": 0.5, "fit_n": None, "verdict": "portable"})
     store = b.store()
     assert sql(store, "select version, model, rmse_um_calibration, round(rmse_um_verification, 6), rmse_um_locked, "
                       "tests from history") == [
@@ -222,7 +233,8 @@ def test_findings_and_history(build: Build) -> None:
     assert sql(store, "select rank, id, drivers, claimed, p_value, rmse_um_before, why from candidate") == [
         (1, "x", ["T1"], True, None, 4.0, "it's")]
     assert sql(store, "select verdict from diagnosis") == [("effect",)]
-    assert sql(store, "select machine, campaign, test, rmse_um from portability") == [("139", "d", "t", 7.0)]
+    assert sql(store, "select machine, campaign, test, g, fit_n, verdict from portability") == [
+        ("139", "d", "t", 0.5, None, "portable")]
 
 
 def test_views_follow_the_tables(own: Store) -> None:

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from thermodata.store.connection import literal
-from thermodata.store.views.wide import file_list
+from thermodata.store.views.wide import file_list, prefix
 
 if TYPE_CHECKING:
     import duckdb
@@ -79,16 +79,13 @@ select m.name, c.version, m.model, m.parent, c.root, m.created_at, m.stale, m.ca
 from model m join chain c on c.model = m.model left join errors e on e.model = m.model
 order by c.root, c.version, m.created_at, response"""
 
-PORTABILITY = """create view portability as
+_TRANSFER = ("g", "g_end", "fit_n", "fit_c", "ptp_measured", "ptp_n", "ptp_c")
+PORTABILITY = f"""create view portability as
 select coalesce(nullif(campaign, ''), payload->>'$.campaign') as campaign,
-       coalesce(nullif(test, ''), payload->>'$.test') as test, model,
-       coalesce(payload->>'$.machine', (select any_value(q.machine) from machine q
-         where q.campaign = finding.campaign and q.test = finding.test)) as machine,
-       payload->>'$.role' as role, payload->>'$.response' as response, payload->>'$.phase' as phase,
-       cast(payload->>'$.fit' as double) as fit, cast(payload->>'$.rmse_um' as double) as rmse_um,
-       cast(payload->>'$.ptp_um' as double) as ptp_um,
-       cast(payload->>'$.ptp_residual_um' as double) as ptp_residual_um,
-       cast(payload->>'$.max_um' as double) as max_um, cast(payload->>'$.n' as bigint) as n, payload
+       coalesce(nullif(test, ''), payload->>'$.test') as test, model, payload->>'$.machine' as machine,
+       payload->>'$.role' as role, payload->>'$.response' as response,
+       {', '.join(f"cast(payload->>'$.{name}' as double) as {name}" for name in _TRANSFER)},
+       payload->>'$.verdict' as verdict
 from finding where kind = 'portability'"""
 
 _COMMENTS = {
@@ -99,6 +96,9 @@ _COMMENTS = {
               "ptp_residual_um": "[um] peak to peak", "max_um": "[um]"},
     "residual": {"t_s": "[s] from the start of the test", "measured": "in channel.unit", "predicted": "in channel.unit",
                  "residual": "measured - predicted, in channel.unit"},
+    "portability": {"g": "[1] gain that fits the test best", "g_end": "[1] from the end of heating",
+                    "fit_n": "[%] as it is", "fit_c": "[%] with the gain", "ptp_measured": "in the response's unit",
+                    "ptp_n": "residual as it is", "ptp_c": "residual with the gain"},
     "weak_spot": {"from_s": "[s] from the start of the test", "to_s": "[s] from the start of the test",
                   "rmse_um": "[um]"},
     "history": {"rmse_um_calibration": "[um]", "rmse_um_verification": "[um]", "rmse_um_locked": "[um]",
@@ -124,5 +124,5 @@ def _residual(paths: list[str]) -> str:
         return f"{head}{empty} from prediction p limit 0"
     columns = ", ".join(f"r.{n.split()[0]}" for n in names)
     return (f"{head}{columns} from read_parquet({file_list(paths)}, filename = true, hive_partitioning = false) r "
-            f"join (select q.*, f.prefix || q.path as filename from prediction q cross join search_prefix f) p "
+            f"join (select q.*, p.prefix || q.path as filename from prediction q cross join {prefix(paths[0])}) p "
             f"on p.filename = r.filename")
