@@ -1,0 +1,36 @@
+"""The signal that a campaign file means."""
+
+from __future__ import annotations
+
+import pytest
+
+from thermodata.errors import UsageError
+from thermodata.plugin import Signal
+from thermodata.reader.match import match_signal
+
+SIGNALS = [Signal(n, s) for n, s in [
+    ("Eddy/Z", "Eddy"), ("Eddy/Y", "Eddy"), ("Temp/T01 [degC]", "Temp"), ("ch3(um)", "table"), ("CH3", "table"),
+    ("fast/Z", "fast"), ("nActSpeed", "nc"),
+]]
+
+
+@pytest.mark.parametrize(("wanted", "found"), [
+    ("Eddy/Z", "Eddy/Z"), ("Y", "Eddy/Y"), ("Temp/T01", "Temp/T01 [degC]"), ("T01", "Temp/T01 [degC]"),
+    ("ch3(um)", "ch3(um)"), ("ch3", "ch3(um)"), ("CH3", "CH3"), ("eddy/z", "Eddy/Z"), ("nactspeed", "nActSpeed"),
+    ("fast:Z", "fast/Z"),
+])
+def test_exact_then_without_unit_then_the_last_part_then_any_case(wanted: str, found: str) -> None:
+    assert match_signal(wanted, SIGNALS).name == found
+
+
+def test_two_that_fit_are_an_error_with_both() -> None:
+    with pytest.raises(UsageError) as caught:
+        match_signal("Z", SIGNALS)
+    assert "Eddy:Eddy/Z, fast:fast/Z" in str(caught.value)
+
+
+def test_none_that_fits_names_the_nearest() -> None:
+    with pytest.raises(UsageError, match="did you mean 'nActSpeed'"):
+        match_signal("nActSped", SIGNALS)
+    with pytest.raises(UsageError, match="the file has none"):
+        match_signal("x", [])

@@ -1,0 +1,48 @@
+"""The preview of a file."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+
+from thermodata.plugin import Block, Head, Loss, Recording, Signal, Source
+from thermodata.reader.preview import preview
+
+S = 1_000_000_000
+START = np.datetime64("2026-03-01T08:00:00", "ns").astype(np.int64).item()
+
+
+class Fake:
+    """10 rows of 1 s, a hole of 60 s, a repeated row and a step back, in blocks of 4."""
+
+    name = "fake"
+
+    def sniff(self, head: Head) -> str | None:
+        return "always"
+
+    def describe(self, path: Path, source: Source) -> Recording:
+        return Recording((Signal("T", "s", "degC"),), "absolute", START, False, ("a note",))
+
+    def blocks(self, path: Path, source: Source) -> Iterator[Block | Loss]:
+        t = START + S * np.array([0, 1, 2, 3, 63, 64, 64, 65, 60, 66])
+        v = np.array([np.nan, *range(1, 10)], float)
+        for i in range(0, 10, 4):
+            yield Block("s", t[i:i + 4], {"T": v[i:i + 4]})
+        yield Loss("byte 9", START + 66 * S, None, 0.25, "cut")
+
+
+def test_preview_says_start_rate_gaps_and_first_rows(tmp_path: Path) -> None:
+    path = tmp_path / "x.log"
+    path.write_bytes(b"x")
+    found = preview(path, reader=Fake())
+    stream = found["streams"][0]
+    assert found["start"] == "2026-03-01T08:00:00Z"
+    assert (stream["rows"], stream["step_s"], stream["rate_hz"]) == (10, 1.0, 1.0)
+    assert (stream["gaps"], stream["largest_step_s"], stream["backward"], stream["repeated"]) == (2, 60.0, 1, 1)
+    assert stream["first_rows"][0] == {"t": "2026-03-01T08:00:00Z", "T": None}
+    assert len(stream["first_rows"]) == 5
+    assert found["losses"][0]["fraction"] == 0.25
+    json.dumps(found, allow_nan=False)

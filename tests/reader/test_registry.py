@@ -1,0 +1,124 @@
+"""Which readers there are, and which one claims a file."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from importlib.metadata import EntryPoint
+from pathlib import Path
+
+import pytest
+
+from thermodata.errors import FormatError, UsageError
+from thermodata.plugin import Head
+from thermodata.reader import registry
+
+
+class Fake:
+    def __init__(self, name: str, magic: bytes) -> None:
+        self.name, self.magic = name, magic
+
+    def sniff(self, head: Head) -> str | None:
+        return f"starts with {self.magic!r}" if head.start.startswith(self.magic) else None
+
+    def describe(self, *_: object) -> None: ...
+
+    def blocks(self, *_: object) -> None: ...
+
+
+class One(Fake):
+    def __init__(self) -> None:
+        super().__init__("one", b"A")
+
+
+class Two(Fake):
+    def __init__(self) -> None:
+        super().__init__("two", b"AB")
+
+
+class Stumbling(Fake):
+    def __init__(self) -> None:
+        super().__init__("stumbling", b"")
+
+    def sniff(self, head: Head) -> str | None:
+        raise IndexError("too short")
+
+
+CLASSES = {"one": One, "two": Two, "stumbling": Stumbling}
+
+
+@pytest.fixture
+def install(monkeypatch: pytest.MonkeyPatch) -> Iterator[object]:
+    """install("one", "missing") as if distributions had these entry points."""
+    def put(*names: str) -> None:
+        points = [EntryPoint(n, f"module_{n}:Reader", registry.GROUP) for n in names]
+        monkeypatch.setattr(registry, "entry_points", lambda group: points)
+        registry.reload()
+
+    def load(point: EntryPoint) -> object:
+        if point.name not in CLASSES:
+            raise ModuleNotFoundError(f"No module named '{point.module}'")
+        return CLASSES[point.name]()
+
+    monkeypatch.setattr(registry, "_load", load)
+    yield put
+    registry.reload()
+
+
+def write(tmp_path: Path, content: bytes) -> Path:
+    path = tmp_path / "x.dat"
+    path.write_bytes(content)
+    return path
+
+
+def test_one_claim_is_the_reader(install, tmp_path: Path) -> None:  # type: ignore[no-untyped-def]
+    install("one", "two")
+    assert registry.sniff(write(tmp_path, b"AC")).name == "one"
+    assert registry.claims(write(tmp_path, b"AC")) == {"one": "starts with b'A'"}
+
+
+def test_two_claims_are_an_error_with_both_reasons(install, tmp_path: Path) -> None:  # type: ignore[no-untyped-def]
+    install("one", "two")
+    with pytest.raises(FormatError) as caught:
+        registry.sniff(write(tmp_path, b"ABC"))
+    assert """one ("starts with b'A'") and two ("starts with b'AB'") claim x.dat""" in caught.value.what
+    assert "set 'reader'" in str(caught.value)
+
+
+def test_no_claim_names_the_readers(install, tmp_path: Path) -> None:  # type: ignore[no-untyped-def]
+    install("one", "two")
+    with pytest.raises(FormatError, match="one, two"):
+        registry.sniff(write(tmp_path, b"zzz"))
+
+
+def test_a_sniff_that_fails_claims_nothing(install, tmp_path: Path) -> None:  # type: ignore[no-untyped-def]
+    install("one", "stumbling")
+    with pytest.warns(UserWarning, match="stumbling"):
+        assert registry.claims(write(tmp_path, b"A")) == {"one": "starts with b'A'"}
+
+
+def test_a_reader_that_does_not_import_is_a_warning(install) -> None:  # type: ignore[no-untyped-def]
+    install("one", "missing")
+    with pytest.warns(UserWarning, match="reader 'missing'"):
+        assert list(registry.readers()) == ["one"]
+    assert "No module named" in registry.failed_readers()["missing"]
+    with pytest.raises(UsageError, match="does not load"):
+        registry.reader("missing")
+
+
+def test_an_unknown_name_is_answered_with_the_installed_ones(install) -> None:  # type: ignore[no-untyped-def]
+    install("one", "two")
+    with pytest.raises(UsageError) as caught:
+        registry.reader("onee")
+    assert "one, two" in str(caught.value)
+    assert "did you mean 'one'" in str(caught.value)
+
+
+def test_none_installed_says_which_command_installs(install) -> None:  # type: ignore[no-untyped-def]
+    install()
+    with pytest.raises(UsageError, match="pip install thermodata-reader-crio"):
+        registry.reader("crio")
+
+
+def test_an_unreadable_file_is_a_usage_error(tmp_path: Path) -> None:
+    with pytest.raises(UsageError, match=r"cannot read nowhere\.tdms"):
+        registry.head(tmp_path / "nowhere.tdms")
