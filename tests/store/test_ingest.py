@@ -313,3 +313,10 @@ def test_relative_clocks_that_overlap_are_joined_end_to_end(store: Store, tmp_pa
     assert found["t_s"].tolist() == list(np.arange(200.0))
     np.testing.assert_allclose(found["value"][:100], daq(100, seed=0)["main"]["T1"])
     assert rows(store, "select clock, start from test where test = 'one'") == [("relative", None)]
+
+
+def test_tests_stand_in_the_order_of_the_campaign_file(filled: Store, campaign: Path) -> None:
+    edit(campaign, "- {id: two,", "- {id: a, kind: other}\n  - {id: two,")
+    write_log(campaign.parent / "raw/a_a.npz", daq(100, seed=7))
+    ingest(filled, campaign)
+    assert rows(filled, "select test from test order by rowid") == [("one",), ("a",), ("two",)]

@@ -85,10 +85,12 @@ def commit(con: duckdb.DuckDBPyConnection, store: Path, planned: Planned, known:
     stale = {t for t in changed if known.rows["test"].get(t)
              and version_of(planned.rows, t) != version_of(known.rows, t)}
     for table in BY_TEST:
-        if changed:
-            con.execute(f"delete from {table} where campaign = ? and list_contains(?, test)",
-                        [campaign, sorted(changed)])
-        insert(con, table, [r for t in sorted(changed) for r in planned.rows[table].get(t, [])])
+        # the table `test` keeps the order of the campaign file, so all of its rows are written each time
+        tests = list(planned.rows[table]) if table == "test" else [t for t in planned.rows[table] if t in changed]
+        gone = changed | set(known.rows[table] if table == "test" else ())
+        if gone:
+            con.execute(f"delete from {table} where campaign = ? and list_contains(?, test)", [campaign, sorted(gone)])
+        insert(con, table, [r for t in tests for r in planned.rows[table][t]])
     con.execute("update test set start = make_timestamp_ns(start_ns) where campaign = ? and start_ns is not null "
                 "and start is null", [campaign])
     con.execute("delete from calibration where campaign = ?", [campaign])
@@ -96,8 +98,7 @@ def commit(con: duckdb.DuckDBPyConnection, store: Path, planned: Planned, known:
     con.execute("delete from campaign where campaign = ?", [campaign])
     insert(con, "campaign", [{"campaign": campaign, "spec": planned.spec, "spec_hash": key_of(planned.spec),
                               "path": str(planned.path), "ingested_at": now, "data_version": planned.data_version()}])
-    gone = stale - set(planned.rows["test"])
-    drop_results(con, campaign, gone)
+    drop_results(con, campaign, stale - set(planned.rows["test"]))
     return mark_stale(con, campaign, stale)
 
 
