@@ -11,8 +11,8 @@ from itertools import pairwise
 
 import numpy as np
 
+from thermodata.modelling.bound import BoundResponse, BoundTerm
 from thermodata.modelling.fitted import fit_mask
-from thermodata.modelling.resolve import BoundResponse, BoundTerm
 from thermodata.plugin import Bool1D, Float1D, Float2D, Param
 from thermodata.view.dataset import TestData
 

@@ -8,8 +8,9 @@ from typing import Any
 
 import numpy as np
 
+from thermodata.modelling.bound import BoundResponse, BoundTerm
 from thermodata.modelling.phases import phases
-from thermodata.modelling.resolve import BoundResponse, BoundTerm, Key, Roles
+from thermodata.modelling.roles import Key, Roles
 from thermodata.plugin import Bool1D, Effect, Float1D, Float2D
 from thermodata.schema.model import Model
 from thermodata.schema.result import Check, Parameter

@@ -10,8 +10,8 @@ from typing import cast
 import numpy as np
 
 from thermodata.errors import UsageError
+from thermodata.modelling.bound import BoundResponse, BoundTerm
 from thermodata.modelling.fitted import FittedResponse
-from thermodata.modelling.resolve import BoundResponse, BoundTerm
 from thermodata.modelling.score import fit_percent
 from thermodata.modelling.transfer import MOST, NAME, FreeFunction
 from thermodata.plugin import Effect

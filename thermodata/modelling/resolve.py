@@ -3,132 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any, cast
-
-import numpy as np
 
 from thermodata.effect import effect as find_effect
 from thermodata.effect.binding import ANY, bindings, family_of
 from thermodata.effect.places import holds
 from thermodata.errors import SpecError, UsageError, unknown_name
 from thermodata.modelling import prediction, transfer
-from thermodata.modelling.drivers import has_drivers, make_drivers, names_of
-from thermodata.plugin import Bool1D, Drivers, Effect, Float2D
+from thermodata.modelling.bound import BoundResponse, BoundTerm
+from thermodata.modelling.drivers import names_of
+from thermodata.modelling.roles import Roles, find_tests, resolve_roles
+from thermodata.plugin import Effect
 from thermodata.schema.model import Driver, EffectSpec, Model, Place, Response
-from thermodata.view.dataset import ChannelInfo, Dataset, TestData
-
-Key = tuple[str, str]
-KEPT_TESTS = 1024               # drivers a term keeps; changed copies of tests count too
-
-
-@dataclass(frozen=True)
-class BoundTerm:
-    """An effect on its channels. bindings: campaign -> role -> channel or expression (names may differ)."""
-
-    id: str
-    effect: Effect
-    spec: EffectSpec
-    bindings: Mapping[str, Mapping[str, str]]
-    family: str
-    only: frozenset[Key] | None = None                      # the tests it exists in; None: all
-    calibrate: frozenset[Key] | None = None                 # identified on these first, then held
-    _drivers: dict[int, tuple[TestData, Drivers]] = field(default_factory=dict, repr=False, compare=False)
-
-    @property
-    def binding(self) -> Mapping[str, str]:
-        return next(iter(self.bindings.values()), {})
-
-    def covers(self, test: TestData) -> bool:
-        return self.only is None or test.key in self.only
-
-    def has(self, test: TestData) -> bool:
-        """Whether the test has what the term reads (a term that does not cover a test needs nothing there)."""
-        if not self.covers(test):
-            return True
-        if isinstance(self.effect, prediction.Prediction):
-            return self.effect.has(test)
-        return has_drivers(test, self._binding_of(test))
-
-    def drivers(self, test: TestData) -> Drivers:
-        """Made once a test; a changed copy of a test is another test."""
-        kept = self._drivers.get(id(test))
-        if kept is None or kept[0] is not test:
-            if len(self._drivers) >= KEPT_TESTS:
-                self._drivers.clear()
-            kept = self._drivers[id(test)] = (test, make_drivers(test, self.effect, self._binding_of(test)))
-        return kept[1]
-
-    def columns(self, test: TestData, params: Mapping[str, float]) -> Float2D:
-        """shape (n, gains); zeros where the term does not cover the test."""
-        if not self.covers(test):
-            return np.zeros((len(test.t_s), len(self.effect.gains)))
-        if isinstance(self.effect, prediction.Prediction):
-            return self.effect.column(test)
-        return self.effect.basis(self.drivers(test), params)
-
-    def known(self, test: TestData) -> Bool1D | None:
-        """Where all drivers were measured, or nearly; None: everywhere."""
-        if not self.covers(test):
-            return None
-        if isinstance(self.effect, prediction.Prediction):
-            return np.isfinite(self.effect.column(test)[:, 0])
-        if not self.effect.needs:
-            return None
-        masks = list(self.drivers(test).valid.values())
-        out = masks[0].copy()
-        for mask in masks[1:]:
-            out &= mask
-        return out
-
-    def group(self, test: TestData) -> str:
-        """The value that its gain belongs to ('' where one gain serves all)."""
-        by = self.spec.gain_by
-        if by is None:
-            return ""
-        name = by.removeprefix("conditions.")
-        if by in ("test", "machine", "campaign"):
-            return str(getattr(test, by))
-        if name not in test.conditions:
-            raise unknown_name("condition", name, [*test.conditions, "test", "machine", "campaign"],
-                               where=f"gain_by of effect '{self.id}', test {test.campaign}/{test.test}")
-        value = test.conditions[name]
-        return f"{value:g}" if isinstance(value, float | int) else str(value)
-
-    def _binding_of(self, test: TestData) -> Mapping[str, str]:
-        found = self.bindings.get(test.campaign)
-        return self.binding if found is None else found
-
-
-@dataclass(frozen=True)
-class BoundResponse:
-    """name: its channel (in the first campaign); channels: campaign -> channel."""
-
-    name: str
-    unit: str
-    channels: Mapping[str, str]
-    terms: tuple[BoundTerm, ...]
-    units: Mapping[str, str] = field(default_factory=dict)  # of every channel, by name
-
-    def channel_of(self, test: TestData) -> str:
-        return self.channels.get(test.campaign, self.name)
-
-
-@dataclass(frozen=True)
-class Roles:
-    """Keys (campaign, test) by what they are used for; a test has one role."""
-
-    calibrate: tuple[Key, ...]
-    verify: tuple[Key, ...]
-    locked: tuple[Key, ...]
-
-    def role(self, key: Key) -> str:
-        for name, keys in (("calibration", self.calibrate), ("verification", self.verify), ("locked", self.locked)):
-            if key in keys:
-                return name
-        return "none"
+from thermodata.view.dataset import ChannelInfo, Dataset
 
 
 def resolve(spec: Model, data: Dataset, base: Path | None = None) -> tuple[Roles, tuple[BoundResponse, ...]]:
@@ -143,44 +32,6 @@ def resolve(spec: Model, data: Dataset, base: Path | None = None) -> tuple[Roles
                                        bind_terms(spec.effects, data, by_campaign, base),
                                        {n: i.unit for infos in by_campaign.values() for n, i in infos.items()}))
     return roles, tuple(responses)
-
-
-def resolve_roles(spec: Model, data: Dataset) -> Roles:
-    """Named tests, else by the tests' own roles. SpecError where nothing is left to calibrate on or roles overlap."""
-    explicit = {name: None if names is None else find_tests(names, data, name)
-                for name, names in (("calibrate_on", spec.calibrate_on), ("verify_on", spec.verify_on),
-                                    ("locked", spec.locked))}
-    taken: dict[Key, str] = {}
-    for name, keys in explicit.items():
-        for key in keys or ():
-            if taken.setdefault(key, name) != name:
-                raise SpecError(f"test '{'/'.join(key)}' has two roles", where=f"model '{spec.name}'",
-                                got=f"{taken[key]} and {name}", hint="a locked or verification test is not fitted to")
-
-    def default(role: str) -> tuple[Key, ...]:
-        return tuple(t.key for t in data.tests if t.role == role and t.key not in taken)
-
-    found = [default(role) if explicit[name] is None else explicit[name] or ()
-             for name, role in (("calibrate_on", "calibration"), ("verify_on", "verification"), ("locked", "locked"))]
-    if not found[0]:
-        raise SpecError("no test to calibrate on", where=f"model '{spec.name}'",
-                        expected="calibrate_on: [...], or tests with role: calibration",
-                        got=", ".join(f"{t.test} ({t.role})" for t in data.tests) or "no tests at all")
-    return Roles(*found)
-
-
-def find_tests(names: Sequence[str], data: Dataset, where: str) -> tuple[Key, ...]:
-    """Each as 'test', or 'campaign/test' where several campaigns have it."""
-    found: list[Key] = []
-    for name in names:
-        hits = [t.key for t in data.tests if name in (t.test, f"{t.campaign}/{t.test}")]
-        if not hits:
-            raise unknown_name("test", name, [t.test for t in data.tests], where=where)
-        if len(hits) > 1:
-            raise SpecError(f"test '{name}' is in several campaigns", where=where,
-                            expected=" or ".join("/".join(h) for h in hits))
-        found.append(hits[0])
-    return tuple(dict.fromkeys(found))
 
 
 def find_response(response: Response, channels: Mapping[str, ChannelInfo], campaign: str) -> str:

@@ -1,0 +1,65 @@
+"""Which tests a model is fitted to, checked on, and kept away from."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from thermodata.errors import SpecError, unknown_name
+from thermodata.schema.model import Model
+from thermodata.view.dataset import Dataset
+
+Key = tuple[str, str]
+
+
+@dataclass(frozen=True)
+class Roles:
+    """Keys (campaign, test) by what they are used for; a test has one role."""
+
+    calibrate: tuple[Key, ...]
+    verify: tuple[Key, ...]
+    locked: tuple[Key, ...]
+
+    def role(self, key: Key) -> str:
+        for name, keys in (("calibration", self.calibrate), ("verification", self.verify), ("locked", self.locked)):
+            if key in keys:
+                return name
+        return "none"
+
+
+def resolve_roles(spec: Model, data: Dataset) -> Roles:
+    """Named tests, else by the tests' own roles. SpecError where nothing is left to calibrate on or roles overlap."""
+    explicit = {name: None if names is None else find_tests(names, data, name)
+                for name, names in (("calibrate_on", spec.calibrate_on), ("verify_on", spec.verify_on),
+                                    ("locked", spec.locked))}
+    taken: dict[Key, str] = {}
+    for name, keys in explicit.items():
+        for key in keys or ():
+            if taken.setdefault(key, name) != name:
+                raise SpecError(f"test '{'/'.join(key)}' has two roles", where=f"model '{spec.name}'",
+                                got=f"{taken[key]} and {name}", hint="a locked or verification test is not fitted to")
+
+    def default(role: str) -> tuple[Key, ...]:
+        return tuple(t.key for t in data.tests if t.role == role and t.key not in taken)
+
+    found = [default(role) if explicit[name] is None else explicit[name] or ()
+             for name, role in (("calibrate_on", "calibration"), ("verify_on", "verification"), ("locked", "locked"))]
+    if not found[0]:
+        raise SpecError("no test to calibrate on", where=f"model '{spec.name}'",
+                        expected="calibrate_on: [...], or tests with role: calibration",
+                        got=", ".join(f"{t.test} ({t.role})" for t in data.tests) or "no tests at all")
+    return Roles(*found)
+
+
+def find_tests(names: Sequence[str], data: Dataset, where: str) -> tuple[Key, ...]:
+    """Each as 'test', or 'campaign/test' where several campaigns have it."""
+    found: list[Key] = []
+    for name in names:
+        hits = [t.key for t in data.tests if name in (t.test, f"{t.campaign}/{t.test}")]
+        if not hits:
+            raise unknown_name("test", name, [t.test for t in data.tests], where=where)
+        if len(hits) > 1:
+            raise SpecError(f"test '{name}' is in several campaigns", where=where,
+                            expected=" or ".join("/".join(h) for h in hits))
+        found.append(hits[0])
+    return tuple(dict.fromkeys(found))
