@@ -29,7 +29,7 @@ def test_a_change_is_a_share_of_what_was() -> None:
 
 
 def test_a_page_typesets_units_and_minus() -> None:
-    assert typeset("-2.4 um/K -> 1 um, jump-z") == "−2.4 µm/K → 1 µm, jump-z"
+    assert typeset("-2.4 um/K -> 1 um, jump-z") == "−2.4\u00a0µm/K → 1\u00a0µm, jump-z"
 
 
 def test_a_table_aligns_numbers_right_and_texts_left() -> None:

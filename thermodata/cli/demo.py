@@ -57,7 +57,7 @@ def prepare(folder: Path, hide: str | None, seed: int) -> str:
     import random
     import shutil
 
-    from thermodata.virtual.catalogue import HIDEABLE
+    from thermodata.virtual import HIDEABLE
 
     if hide is None:
         hide = random.Random(seed).choice(sorted(HIDEABLE))
@@ -77,19 +77,14 @@ def prepare(folder: Path, hide: str | None, seed: int) -> str:
 
 def story(step: Step, folder: Path, hide: str, seed: int) -> dict[str, Any]:
     """The seven steps; returns the demo's JSON without the seconds."""
-    from thermodata.diagnosis.run import diagnose
-    from thermodata.modelling.run import add, fit
-    from thermodata.report import build_report
-    from thermodata.schema.load import load_model
-    from thermodata.store import Store
-    from thermodata.store.ingest import ingest
-    from thermodata.virtual import simulate
-
     # the mark comes first: an interrupted demo is still known as one
-    made = ["raw", "campaign.yaml", "models", "baseline.yaml", "truth.json", "thermodata.store", "report.html"]
+    made = ["raw", "campaign.yaml", "baseline.yaml", "truth", "thermodata.store", "report.html"]
     (folder / _MARK).write_text(json.dumps({"hide": hide, "seed": seed, "made": made}), encoding="utf-8")
 
+    # imports stand where they are needed: the first line of the story comes at once
     step.title(1, "A machine runs its tests and writes raw logs")
+    from thermodata.virtual import simulate
+
     truth = plain(simulate(folder, hide=hide, seed=seed))
     raw = [p for p in (folder / "raw").rglob("*") if p.is_file()]
     kinds = ", ".join(f"{sum(p.suffix == s for p in raw)} {s[1:]}" for s in sorted({p.suffix for p in raw}))
@@ -97,10 +92,14 @@ def story(step: Step, folder: Path, hide: str, seed: int) -> dict[str, Any]:
               "one physical effect is hidden from the model")
 
     step.title(2, "ingest: raw and calibrated layers, by the campaign file")
+    from thermodata.store import Store
+    from thermodata.store.ingest import ingest
+
     store = Store(folder / "thermodata.store", create=True)
     summary = plain(ingest(store, folder / "campaign.yaml").to_json())
-    flags = ", ".join(f"{n} {name}" for name, n in summary["flags"].items() if n) or "nothing"
-    step.line(f"{summary['tests']} tests, {summary['samples']:,} samples; flagged: {flags}".replace(",", " ", 0))
+    flags = ", ".join(f"{name.replace('_', ' ')} {100 * n / max(summary['samples'], 1):.2g} %"
+                      for name, n in summary["flags"].items() if n) or "nothing"
+    step.line(f"{summary['tests']} tests, {summary['samples'] / 1e6:.1f} million samples; flagged: {flags}")
     for row in summary["calibrations"]:
         name = row.get("calibration") or row.get("name")
         step.line(f"jump test {name}: {row.get('sign', '')}{number(abs(row['gain']))} {row.get('gain_unit', '')} "
@@ -109,13 +108,17 @@ def story(step: Step, folder: Path, hide: str, seed: int) -> dict[str, Any]:
                   f"{row.get('kind')} {name}: {number(row['gain'])} {row.get('gain_unit') or ''}")
 
     step.title(3, "fit: the baseline model, with the effects that one would expect")
-    path = next(p for p in (folder / "baseline.yaml", folder / "models" / "baseline.yaml") if p.is_file())
-    base = fit(store, load_model(path), base=path.parent)
+    from thermodata.modelling.run import add, fit
+    from thermodata.schema.load import load_model
+
+    base = fit(store, load_model(folder / "baseline.yaml"), base=folder)
     effects = sorted({key.split(".")[0] for key in base.parameters})
     step.line(f"{', '.join(effects)}; error {number(pooled(base.scores, 'calibration'))} um in calibration, "
               f"{number(pooled(base.scores, 'verification'))} um in verification")
 
     step.title(4, "compare: where it fails")
+    from thermodata.diagnosis.run import diagnose
+
     found = diagnose(store, base.model)
     for spot in found.weak_spots[:3]:
         step.line(f"{spot.test}, {duration(spot.from_s)} to {duration(spot.to_s)}: "
@@ -146,6 +149,8 @@ def story(step: Step, folder: Path, hide: str, seed: int) -> dict[str, Any]:
         step.title(6, "add: nothing is added where the evidence does not suffice")
 
     step.title(7, "report")
+    from thermodata.report import build_report
+
     page = build_report(store, model, folder / "report.html")
     step.line(str(page))
     return {

@@ -87,7 +87,7 @@ def describe_state(test: TestData, start: int, stop: int) -> str:
         if info.quantity in ("rotational_speed", "feed", "power"):
             level = float(np.median(np.abs(part)))
             if level > 0.01 * float(np.nanmax(np.abs(values))):
-                words.append(f"{name} {level:.3g} {info.unit}")
+                words.append(f"{name} {level:.0f} {info.unit}" if level >= 100 else f"{name} {level:.2g} {info.unit}")
         elif info.quantity == "state" and float(part.mean()) > 0.5:
             words.append(f"{name} on")
         elif info.quantity == "temperature" and (info.at or "").startswith("hall"):

@@ -5,14 +5,15 @@ from __future__ import annotations
 import json
 from collections.abc import Iterable, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 
 from thermodata.plugin import Bool1D, Float1D
 from thermodata.report.data import Curve, ReportData, TestPart, Version
 from thermodata.report.spots import weak_spots_of
-from thermodata.report.words import pooled
+from thermodata.report.words import base_role, pooled
+from thermodata.schema.result import Score
 
 if TYPE_CHECKING:
     from thermodata.modelling.run import Loaded
@@ -21,6 +22,8 @@ if TYPE_CHECKING:
     from thermodata.view.dataset import TestData
 
 _LANES = ("rotational_speed", "feed", "power", "load", "state", "flow")
+_ROLES = ("calibration", "verification", "locked")
+Part = TypeVar("Part", TestPart, Score)
 _MOST_LANES, _MOST_DRIVERS = 6, 8
 
 
@@ -41,12 +44,17 @@ def collect(store: Store, ref: str) -> ReportData:
         model=stored.model, name=stored.name, campaigns=stored.spec.campaign_ids, machine=_machines(loaded),
         responses=responses, unit=next((r.unit for r in loaded.fitted.responses), "um"),
         effects=tuple(t.id for t in loaded.fitted.responses[0].terms) if responses else (),
-        created=_created(store, stored.model), parameters=result.parameters, scores=result.scores,
-        checks=result.checks, before=before, tests=tuple(_tests(store, stored.model, loaded)),
+        created=_created(store, stored.model), parameters=result.parameters, scores=_by_role(result.scores),
+        checks=result.checks, before=before, tests=tuple(_by_role(_tests(store, stored.model, loaded))),
         versions=versions(chain), diagnosis=diagnosis,
         reason=reason, weak=weak_spots_of(loaded, (reason, diagnosis)),
         calibrations=tuple(_calibrations(store, stored.spec.campaign_ids)),
         looks=_looks(store, [m.model for m in chain]), stale=stored.stale)
+
+
+def _by_role(rows: Iterable[Part]) -> list[Part]:
+    """In the order of the work: calibration, verification, the rest; within a role as they came."""
+    return sorted(rows, key=lambda r: _ROLES.index(base_role(r.role)) if base_role(r.role) in _ROLES else len(_ROLES))
 
 
 def versions(chain: Sequence[StoredModel]) -> tuple[Version, ...]:

@@ -77,19 +77,23 @@ def test_figure(
     span = (part.start_s / 3600, (part.start_s + part.step_s * len(part.measured)) / 3600)
     panels = _Panels()
 
-    def line(values: Float1D, axis: str, name: str, tint: str, unit_: str, **more: Any) -> None:
+    def line(values: Float1D, axis: str, name: str, tint: str, unit_: str, mode: str = "lines", **more: Any) -> None:
         panels.traces.append({
-            "type": "scatter", "mode": "lines", "x0": x0, "dx": step_h, "y": packed(block_mean(values, size)),
+            "type": "scatter", "mode": mode, "x0": x0, "dx": step_h, "y": packed(block_mean(values, size)),
             "yaxis": axis, "name": name, "connectgaps": False,
             "hovertemplate": f"{name} %{{y:.4~g}} {unit_}<extra></extra>",
             **{"line": {"color": tint, "width": 1.6}, **more}})
 
     top = panels.add(f"<b>{part.response}</b> [{unit}]", 230)
-    line(part.measured, top, "measured", colour.MEASURED, unit, line={"color": colour.MEASURED, "width": 1.5})
+    # a machine that is measured now and then gives points; a line would hide where it was not measured
+    sparse = bool(np.mean(np.isfinite(part.residual)) < 0.9)
+    dots: dict[str, Any] = {"mode": "markers"} if sparse else {}
+    line(part.measured, top, "measured", colour.MEASURED, unit, line={"color": colour.MEASURED, "width": 1.5},
+         marker={"color": colour.MEASURED, "size": 3}, **dots)
     line(part.predicted, top, "model", colour.MODEL, unit, line={"color": colour.MODEL, "width": 2.2})
-    below = panels.add(f"<b>residual</b>, measured - model [{unit}]", 130)
+    below = panels.add(f"<b>residual</b>, measured - model [{unit}]", 130, zeroline=True, zerolinecolor="#cbd5e1")
     line(part.residual, below, "residual", colour.RESIDUAL, unit, showlegend=False,
-         line={"color": colour.RESIDUAL, "width": 1.3}, fill="tozeroy", fillcolor=colour.faint(colour.RESIDUAL, 0.08))
+         line={"color": colour.RESIDUAL, "width": 1.3}, marker={"color": colour.RESIDUAL, "size": 3}, **dots)
     if part.contributions:
         axis = panels.add(f"<b>contributions</b> of the effects [{unit}]", 170)
         for curve in part.contributions:

@@ -31,6 +31,7 @@ def number(value: Any, digits: int = 3) -> str:
 def typeset(text: str) -> str:
     """A terminal's text as a page shows it: 'um' as 'µm', '->' as an arrow, hyphens before digits as minus."""
     text = re.sub(r"\bum\b", "µm", text).replace("->", "→")
+    text = re.sub(r"(?<=\d) (?=%|µm|rpm)", "\u00a0", text)          # a number stays with its unit
     return re.sub(r"(?<![\w.])-(?=\d)", "−", text)
 
 
