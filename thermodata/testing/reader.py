@@ -104,7 +104,10 @@ def _same(a: Data, b: Data, what: str) -> None:
 
 
 def it_is_made_without_arguments_and_has_a_name(case: Case) -> None:
-    reader = case.make()
+    try:
+        reader = case.make()
+    except TypeError as error:
+        raise AssertionError(f"not made without arguments: {error}") from error
     assert isinstance(reader, Reader), "a reader has name, sniff, describe and blocks"
     assert isinstance(reader.name, str), "name is text"
     assert reader.name, "name is empty"
@@ -132,7 +135,10 @@ def a_sniff_survives_any_head(case: Case, path: Path, source: Source) -> None:
     rng = np.random.default_rng(0)
     for n in sorted({0, 1, 2, 3, 4, 7, 16, 27, 28, 100, 1000, len(whole.start) // 2}):
         for start in (whole.start[:n], whole.start[:n] + rng.bytes(200), rng.bytes(n)):
-            reason = reader.sniff(Head(path.name, len(start), start))
+            try:
+                reason = reader.sniff(Head(path.name, len(start), start))
+            except Exception as error:
+                raise AssertionError(f"sniff raised {error!r} at a head of {len(start)} bytes") from error
             assert reason is None or isinstance(reason, str), f"sniff returned {type(reason).__name__}"
 
 
@@ -346,8 +352,8 @@ def check_reader(
     for check in reader_checks(make, good_files, claims=claims, block_rows=block_rows):
         try:
             check()
-        except AssertionError as error:
-            failed.append(f"{check}: {error}")
+        except Exception as error:
+            failed.append(f"{check}: {error if isinstance(error, AssertionError) else repr(error)}")
     assert not failed, "\n".join(failed)
 
 

@@ -1,0 +1,221 @@
+"""The kit of readers against a good reader of thirty lines, and against readers that are broken on purpose."""
+
+from __future__ import annotations
+
+import struct
+import threading
+from collections.abc import Callable, Iterator
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from thermodata.errors import FormatError
+from thermodata.plugin import Block, Head, Loss, Recording, Signal, Source
+from thermodata.testing import reader as kit
+
+MAGIC = b"PAIRLOG1"
+PAIR = struct.Struct("<qd")
+
+
+class Good:
+    """A third party's reader: a magic word, a count, then pairs of time [ns] and value."""
+
+    name = "pairs"
+
+    def sniff(self, head: Head) -> str | None:
+        return "starts with PAIRLOG1" if head.start.startswith(MAGIC) else None
+
+    def describe(self, path: Path, source: Source) -> Recording:
+        pairs, count = self.read(path)
+        return Recording((Signal("T", "main", "degC"),), "relative", None, len(pairs) == count)
+
+    def blocks(self, path: Path, source: Source) -> Iterator[Block | Loss]:
+        pairs, count = self.read(path)
+        size = int(source.options.get("block_rows", 100))
+        for i in range(0, len(pairs), size):
+            t, v = zip(*pairs[i:i + size], strict=True)
+            yield Block("main", np.array(t, np.int64), {"T": np.array(v)})
+        if len(pairs) < count:
+            yield Loss("end of file", pairs[-1][0] if pairs else None, None, 1 - len(pairs) / count, "cut")
+
+    def read(self, path: Path) -> tuple[list[tuple[int, float]], int]:
+        data = path.read_bytes()
+        if not data.startswith(MAGIC) or len(data) < 12:
+            raise FormatError("no pair log", where=path.name)
+        body = data[12:]
+        pairs = list(PAIR.iter_unpack(body[: len(body) // PAIR.size * PAIR.size]))
+        good = [p for p in pairs if abs(p[0]) < 2**62]
+        return good, int.from_bytes(data[8:12], "little")
+
+
+class ClaimsAll(Good):
+    def sniff(self, head: Head) -> str | None:
+        return "looks like a log"
+
+
+class ClaimsNothing(Good):
+    def sniff(self, head: Head) -> str | None:
+        return None
+
+
+class SniffStumbles(Good):
+    def sniff(self, head: Head) -> str | None:
+        struct.unpack("<8sI", head.start[:12])
+        return super().sniff(head)
+
+
+class WantsArguments(Good):
+    def __init__(self, folder: str) -> None:
+        pass
+
+
+class FloatTime(Good):
+    def blocks(self, path: Path, source: Source) -> Iterator[Block | Loss]:
+        for b in super().blocks(path, source):
+            yield replace(b, t_ns=b.t_ns.astype(float)) if isinstance(b, Block) else b
+
+
+class NeverDelivers(Good):
+    def describe(self, path: Path, source: Source) -> Recording:
+        said = super().describe(path, source)
+        return replace(said, signals=(*said.signals, Signal("speed", "other", "rpm")))
+
+
+class StartsElsewhere(Good):
+    def describe(self, path: Path, source: Source) -> Recording:
+        return replace(super().describe(path, source), clock="absolute", start_ns=10**18)
+
+
+class Remembers(Good):
+    """Keeps its place between calls."""
+
+    def __init__(self) -> None:
+        self.reads = 0
+
+    def blocks(self, path: Path, source: Source) -> Iterator[Block | Loss]:
+        self.reads += 1
+        for b in super().blocks(path, source):
+            yield replace(b, values={"T": b.values["T"] + self.reads}) if isinstance(b, Block) else b
+
+
+class Shares(Good):
+    """Two threads share one buffer."""
+
+    def __init__(self) -> None:
+        self.users = 0
+        self.lock = threading.Lock()
+        self.met = threading.Barrier(2)
+
+    def blocks(self, path: Path, source: Source) -> Iterator[Block | Loss]:
+        with self.lock:
+            self.users += 1
+        try:
+            self.met.wait(0.3)
+        except threading.BrokenBarrierError:
+            self.met.reset()
+        crowded = self.users > 1
+        for b in super().blocks(path, source):
+            yield replace(b, values={"T": b.values["T"] * 0}) if isinstance(b, Block) and crowded else b
+        with self.lock:
+            self.users -= 1
+
+
+class SeamLosesARow(Good):
+    def blocks(self, path: Path, source: Source) -> Iterator[Block | Loss]:
+        for i, b in enumerate(super().blocks(path, source)):
+            cut = isinstance(b, Block) and i > 0
+            yield Block(b.stream, b.t_ns[1:], {"T": b.values["T"][1:]}) if cut else b
+
+
+class LeavesAnIndex(Good):
+    def describe(self, path: Path, source: Source) -> Recording:
+        path.with_suffix(".idx").write_bytes(b"index")
+        return super().describe(path, source)
+
+
+class InventsOutOfNothing(Good):
+    def read(self, path: Path) -> tuple[list[tuple[int, float]], int]:
+        return ([(0, 0.0)], 1) if path.stat().st_size == 0 else super().read(path)
+
+
+class CrashesOnGarbage(Good):
+    def read(self, path: Path) -> tuple[list[tuple[int, float]], int]:
+        assert path.read_bytes()[:8] == MAGIC
+        return super().read(path)
+
+
+class SilentAboutCuts(Good):
+    def blocks(self, path: Path, source: Source) -> Iterator[Block | Loss]:
+        return (b for b in super().blocks(path, source) if isinstance(b, Block))
+
+
+class TakesHalfAValue(Good):
+    """Fills the last, cut pair up with zeros."""
+
+    def read(self, path: Path) -> tuple[list[tuple[int, float]], int]:
+        pairs, count = super().read(path)
+        rest = path.read_bytes()[12:][len(pairs) * PAIR.size:]
+        return ([*pairs, PAIR.unpack(rest.ljust(PAIR.size, b"\0"))] if len(rest) > 9 else pairs), count
+
+
+class CrashesOnDamage(Good):
+    def read(self, path: Path) -> tuple[list[tuple[int, float]], int]:
+        pairs, count = super().read(path)
+        return pairs, [0] * 50 and count if count <= len(pairs) + 50 else [][count]
+
+
+BROKEN: dict[type, Callable[..., None]] = {
+    ClaimsAll: kit.it_claims_no_file_of_another_format,
+    ClaimsNothing: kit.it_claims_its_own_file_and_says_why,
+    SniffStumbles: kit.a_sniff_survives_any_head,
+    FloatTime: kit.its_data_follow_the_rules,
+    NeverDelivers: kit.every_declared_signal_arrives,
+    StartsElsewhere: kit.an_absolute_recording_starts_when_it_says,
+    Remembers: kit.reading_again_gives_the_same,
+    Shares: kit.threads_read_the_same,
+    SeamLosesARow: kit.the_size_of_blocks_changes_nothing,
+    LeavesAnIndex: kit.the_file_and_its_folder_stay_as_they_were,
+    InventsOutOfNothing: kit.an_empty_file_is_refused_or_holds_nothing,
+    CrashesOnGarbage: kit.garbage_is_refused_or_holds_nothing,
+    SilentAboutCuts: kit.a_cut_file_keeps_its_good_part_and_says_what_is_gone,
+    TakesHalfAValue: kit.a_cut_file_keeps_its_good_part_and_says_what_is_gone,
+    CrashesOnDamage: kit.damage_never_escapes_as_a_foreign_error,
+}
+
+
+@pytest.fixture
+def file(tmp_path: Path) -> tuple[Path, Source]:
+    path = tmp_path / "a.pairs"
+    pairs = [PAIR.pack(i * 1_000_000_000, 20 + i / 3) for i in range(12)]
+    path.write_bytes(MAGIC + len(pairs).to_bytes(4, "little") + b"".join(pairs))
+    return path, Source()
+
+
+def test_a_good_reader_passes_everything(file: tuple[Path, Source]) -> None:
+    kit.check_reader(Good, [file], block_rows="block_rows")
+
+
+@pytest.mark.parametrize("broken", BROKEN, ids=lambda c: c.__name__)
+def test_a_broken_reader_is_caught_by_the_check_for_it(broken: type, file: tuple[Path, Source]) -> None:
+    case = kit.Case(broken, (file,), (), "block_rows")
+    check = BROKEN[broken]
+    with pytest.raises(AssertionError):
+        kit.Check(check, case, file if check in kit.FILE_CHECKS else None)()
+
+
+def test_a_reader_that_wants_arguments_is_caught(file: tuple[Path, Source]) -> None:
+    with pytest.raises(AssertionError, match="without arguments"):
+        kit.it_is_made_without_arguments_and_has_a_name(kit.Case(WantsArguments, (file,)))
+
+
+def test_every_check_has_a_broken_twin() -> None:
+    covered = {*BROKEN.values(), kit.it_is_made_without_arguments_and_has_a_name}
+    assert covered == {*kit.CASE_CHECKS, *kit.FILE_CHECKS}
+
+
+def test_check_reader_lists_all_that_failed(file: tuple[Path, Source]) -> None:
+    with pytest.raises(AssertionError) as caught:
+        kit.check_reader(ClaimsAll, [file])
+    assert "it claims no file of another format: claims a file of TDMS" in str(caught.value)
