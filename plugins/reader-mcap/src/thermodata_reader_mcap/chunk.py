@@ -14,7 +14,7 @@ class ChunkError(Exception):
     """A chunk that cannot be trusted; the message says why."""
 
 
-def records(view: memoryview, head: ChunkHead, cut: bool) -> memoryview:
+def records(view: memoryview, head: ChunkHead, cut: bool) -> bytes:
     """The chunk's records. cut: the file ends inside the chunk; what is there is decompressed as far as it goes.
 
     ChunkError: unknown compression, damaged data, or a checksum that differs.
@@ -23,11 +23,11 @@ def records(view: memoryview, head: ChunkHead, cut: bool) -> memoryview:
     if head.size > _MOST:
         raise ChunkError(f"claims {head.size} bytes")
     if head.compression == "":
-        data = stored
+        data = bytes(stored)
     elif head.compression == "zstd":
-        data = memoryview(_zstd(stored, head.size, cut))
+        data = _zstd(stored, head.size, cut)
     elif head.compression == "lz4":
-        data = memoryview(_lz4(stored, cut))
+        data = _lz4(stored, cut)
     else:
         raise ChunkError(f"compression '{head.compression}' is not known")
     if cut:
@@ -51,7 +51,7 @@ def _zstd(stored: memoryview, size: int, cut: bool) -> bytes:
 
 
 def _lz4(stored: memoryview, cut: bool) -> bytes:
-    import lz4.frame
+    import lz4.frame  # type: ignore[import-untyped]
 
     if not cut:
         try:

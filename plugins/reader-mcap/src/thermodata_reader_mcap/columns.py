@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from thermodata.plugin import Array
+from thermodata.plugin import Array, Int1D
 from thermodata_reader_mcap.leaves import MOST_ELEMENTS, Leaf, Path, path_name
 
 if TYPE_CHECKING:
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 _GAP = np.uint16(1)
 _SMALL = 32
-Decode = Callable[[memoryview], Any]
+Decode = Callable[[bytes], Any]
 
 
 @dataclass(frozen=True, slots=True)
@@ -34,9 +34,9 @@ class Topic:
 
 @dataclass(slots=True)
 class Columns:
-    """Columns of consecutive messages. kept: which messages are in. wrong: (message, name, expected, got)."""
+    """Columns of consecutive messages. kept: which of them are in, shape (n,); wrong: (message, name, expected, got)."""
 
-    kept: list[int]
+    kept: Int1D
     values: dict[str, Array]
     flags: dict[str, Array]
     wrong: list[tuple[int, str, str, str]] = field(default_factory=list)
@@ -46,7 +46,7 @@ class _OddError(Exception):
     """Messages that Arrow does not read with the topic's schema."""
 
 
-def columns(topic: Topic, payloads: Sequence[memoryview], at: int = 0) -> Iterator[Columns]:
+def columns(topic: Topic, payloads: Sequence[bytes], at: int = 0) -> Iterator[Columns]:
     """The payloads as columns, in order; `at` is the place of the first one in its batch. What Arrow refuses is
     halved until only a few messages are left to go one by one."""
     if not payloads:
@@ -67,7 +67,7 @@ def columns(topic: Topic, payloads: Sequence[memoryview], at: int = 0) -> Iterat
 # ---- Arrow ---------------------------------------------------------------------------------------
 
 
-def _by_arrow(topic: Topic, payloads: Sequence[memoryview], at: int) -> Columns:
+def _by_arrow(topic: Topic, payloads: Sequence[bytes], at: int) -> Columns:
     import pyarrow as pa
     import pyarrow.compute as pc
     import pyarrow.json as pj
@@ -77,7 +77,7 @@ def _by_arrow(topic: Topic, payloads: Sequence[memoryview], at: int) -> Columns:
     if topic.wrapped:
         text = b'{"":' + text + b"}"
     if text.count(b"\n") != len(payloads) - 1:              # a payload with line ends between its tokens
-        text = b"\n".join(bytes(p).replace(b"\n", b" ").replace(b"\r", b" ") for p in payloads)
+        text = b"\n".join(p.replace(b"\n", b" ").replace(b"\r", b" ") for p in payloads)
         if topic.wrapped:
             raise _OddError
     longest = max(map(len, payloads)) + 8
@@ -97,13 +97,14 @@ def _by_arrow(topic: Topic, payloads: Sequence[memoryview], at: int) -> Columns:
     for path, count in _arrays(topic).items():
         longest = pc.max(pc.list_value_length(_leaf_column(table, path, done))).as_py() or 0
         if count < min(longest, MOST_ELEMENTS):
-            wrong.append((at, path_name(topic.name, (*path[topic.wrapped:], count)), "nothing, by the first messages", "a field"))
+            name = path_name(topic.name, (*path[topic.wrapped:], count))
+            wrong.append((at, name, "nothing, by the first messages", "a field"))
     for leaf in topic.leaves:
         column = _leaf_column(table, ("", *leaf.path) if topic.wrapped else leaf.path, done)
         values[leaf.name], missing = _numpy(column, leaf.dtype)
         if missing is not None:
             flags[leaf.name] = missing
-    return Columns(list(range(at, at + len(payloads))), values, flags, wrong)
+    return Columns(np.arange(at, at + len(payloads)), values, flags, wrong)
 
 
 def arrow_schema(topic: Topic) -> pa.Schema:
@@ -198,21 +199,22 @@ def _unexpected(got: Any, wanted: Any, path: Path = ()) -> Iterator[Path]:
 # ---- one by one ----------------------------------------------------------------------------------
 
 
-def _one_by_one(topic: Topic, payloads: Sequence[memoryview], at: int) -> Columns:
+def _one_by_one(topic: Topic, payloads: Sequence[bytes], at: int) -> Columns:
     known = {leaf.path for leaf in topic.leaves}
     cells: list[list[Any]] = [[] for _ in topic.leaves]
-    result = Columns([], {}, {})
+    kept: list[int] = []
+    result = Columns(np.empty(0, np.int64), {}, {})
     for k, payload in enumerate(payloads, at):
         try:
             message = topic.decode(payload)
         except Exception as error:                          # a decoder may stumble over anything
-            got = bytes(payload[:60]).decode("utf-8", "replace")
+            got = payload[:60].decode("utf-8", "replace")
             result.wrong.append((k, "", "a message", f"{type(error).__name__}: {str(error)[:80]}; {got!r}"))
             continue
         if not topic.wrapped and not isinstance(message, Mapping):
             result.wrong.append((k, "", "an object", repr(message)[:60]))
             continue
-        result.kept.append(k)
+        kept.append(k)
         for leaf, column in zip(topic.leaves, cells, strict=True):
             value = at_path(message, leaf.path)
             good = as_dtype(value, leaf.dtype)
@@ -221,6 +223,7 @@ def _one_by_one(topic: Topic, payloads: Sequence[memoryview], at: int) -> Column
             column.append(good)
         result.wrong += [(k, path_name(topic.name, path), "nothing, by the first messages", "a field")
                          for path in paths(message) if path not in known]
+    result.kept = np.array(kept, np.int64)
     for leaf, column in zip(topic.leaves, cells, strict=True):
         result.values[leaf.name], missing = as_array(column, leaf.dtype)
         if missing is not None:

@@ -9,6 +9,9 @@ from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field
 from pathlib import Path
 
+import numpy as np
+import numpy.typing as npt
+
 from thermodata.errors import FormatError
 from thermodata.plugin import Loss
 from thermodata_reader_mcap.chunk import ChunkError, records
@@ -26,8 +29,6 @@ from thermodata_reader_mcap.walk import (
 )
 
 _RECORD = struct.Struct("<BQ")
-_MESSAGE = struct.Struct("<HIQQ")
-_RECORD_MESSAGE = struct.Struct("<BQHIQQ")
 LATEST_NS = 9_000_000_000_000_000_000
 
 
@@ -47,11 +48,16 @@ class Channel:
 
 @dataclass(slots=True)
 class Batch:
-    """Messages of one channel: payloads, and log and publish time of each [ns]."""
+    """Messages of one channel: payloads, and parts of their log and publish times [ns], uint64."""
 
-    payloads: list[memoryview] = field(default_factory=list)
-    log_ns: list[int] = field(default_factory=list)
-    publish_ns: list[int] = field(default_factory=list)
+    payloads: list[bytes] = field(default_factory=list)
+    log_ns: list[npt.NDArray[np.uint64]] = field(default_factory=list)
+    publish_ns: list[npt.NDArray[np.uint64]] = field(default_factory=list)
+
+    def times(self) -> tuple[npt.NDArray[np.uint64], npt.NDArray[np.uint64]]:
+        """All log and publish times, shape (n,) each."""
+        none = [np.empty(0, np.uint64)]
+        return np.concatenate(self.log_ns or none), np.concatenate(self.publish_ns or none)
 
 
 @dataclass(slots=True)
@@ -141,57 +147,71 @@ def _chunk(view: memoryview, record: Record, content: Content, into: dict[int, B
     return None
 
 
-def _messages(inner: memoryview, content: Content, into: dict[int, Batch]) -> int:
+def _messages(inner: bytes, content: Content, into: dict[int, Batch]) -> int:
     """Takes the records of a chunk; returns how many bytes of whole records there were."""
-    at, size, unpack, last = 0, len(inner), _RECORD_MESSAGE.unpack_from, content.last_ns
-    while at + 31 <= size:
-        opcode, length, channel, _, log_ns, publish_ns = unpack(inner, at)
+    at, size, unpack = 0, len(inner), _RECORD.unpack_from
+    found: list[int] = []
+    add = found.append
+    while at + 9 <= size:
+        opcode, length = unpack(inner, at)
         stop = at + 9 + length
         if stop > size:
             break
         if opcode == MESSAGE and length >= 22:
-            batch = into.get(channel)
-            if batch is None:
-                batch = into.setdefault(channel, Batch())
-            batch.payloads.append(inner[at + 31:stop])
-            batch.log_ns.append(log_ns)
-            batch.publish_ns.append(publish_ns)
-            last = log_ns
+            add(at)
         else:
-            _one(inner, Record(opcode, at + 9, stop), content, into)
+            _one(memoryview(inner), Record(opcode, at + 9, stop), content, into)
         at = stop
-    while at + 9 <= size:                        # short records at the very end
-        opcode, length = _RECORD.unpack_from(inner, at)
-        if at + 9 + length > size:
-            break
-        _one(inner, Record(opcode, at + 9, at + 9 + length), content, into)
-        at += 9 + length
-    content.last_ns = last
+    if found:
+        _take(inner, np.array(found, np.int64), content, into)
     return at
+
+
+def _take(inner: bytes, at: npt.NDArray[np.int64], content: Content, into: dict[int, Batch]) -> None:
+    """Puts the messages whose records begin at these places into the batches of their channels."""
+    data = np.frombuffer(inner, np.uint8)
+    heads = data[at[:, None] + np.arange(31)]
+    channels = np.ascontiguousarray(heads[:, 9:11]).view("<u2")[:, 0]
+    starts, stops = at + 31, at + 9 + np.ascontiguousarray(heads[:, 1:9]).view("<i8")[:, 0]
+    log_ns = np.ascontiguousarray(heads[:, 15:23]).view("<u8")[:, 0]
+    publish_ns = np.ascontiguousarray(heads[:, 23:31]).view("<u8")[:, 0]
+    content.last_ns = int(log_ns[-1])
+    targets: dict[int, tuple[Batch, list[int]]] = {}
+    for channel in np.unique(channels).tolist():
+        batch = into.setdefault(channel, Batch())
+        targets.setdefault(id(batch), (batch, []))[1].append(channel)
+    for batch, members in targets.values():
+        mine = slice(None) if len(targets) == 1 else np.isin(channels, members)
+        batch.payloads += [inner[a:b] for a, b in zip(starts[mine].tolist(), stops[mine].tolist(), strict=True)]
+        batch.log_ns.append(log_ns[mine])
+        batch.publish_ns.append(publish_ns[mine])
 
 
 def _one(view: memoryview, record: Record, content: Content, into: dict[int, Batch]) -> None:
     body = view[record.start:record.stop]
     if record.opcode == MESSAGE and len(body) >= 22:
-        channel, _, log_ns, publish_ns = _MESSAGE.unpack_from(body)
-        batch = into.setdefault(channel, Batch())
-        batch.payloads.append(body[22:])
-        batch.log_ns.append(log_ns)
-        batch.publish_ns.append(publish_ns)
         content.pending += len(body)
-        content.last_ns = log_ns
-    elif record.opcode == SCHEMA:
+        _take(bytes(view[record.start - 9:record.stop]), np.zeros(1, np.int64), content, into)
+        return
+    try:
+        _definition(body, record.opcode, content)
+    except struct.error:                         # shorter than its kind: a damaged definition defines nothing
+        return
+
+
+def _definition(body: memoryview, opcode: int, content: Content) -> None:
+    if opcode == SCHEMA:
         (number,) = struct.unpack_from("<H", body)
         name, at = _text(body, 2)
         encoding, at = _text(body, at)
         (size,) = struct.unpack_from("<I", body, at)
         content.schemas[number] = Schema(name, encoding, bytes(body[at + 4:at + 4 + size]))
-    elif record.opcode == CHANNEL:
+    elif opcode == CHANNEL:
         number, schema = struct.unpack_from("<HH", body)
         topic, at = _text(body, 4)
         encoding, _ = _text(body, at)
-        content.channels[number] = Channel(topic, encoding, content.schemas.get(schema))
-    elif record.opcode == ATTACHMENT:
+        content.channels[number] = Channel(topic or f"channel {number}", encoding, content.schemas.get(schema))
+    elif opcode == ATTACHMENT:
         content.attachments += 1
 
 

@@ -16,10 +16,10 @@ class UnsupportedError(Exception):
     """An encoding that nothing installed reads; the message says what would."""
 
 
-def decoder(channel: Channel) -> Callable[[memoryview], Any]:
+def decoder(channel: Channel) -> Callable[[bytes], Any]:
     """The function from payload to Python values (dict, list, numbers, bool, text). UnsupportedError."""
     if channel.encoding == "json":
-        return lambda payload: json.loads(bytes(payload))
+        return json.loads
     if channel.encoding == "cdr" and channel.schema is not None and channel.schema.encoding == "ros2msg":
         return _ros2(channel)
     if channel.encoding == "protobuf" and channel.schema is not None:
@@ -39,7 +39,7 @@ def _from(factory: Any, channel: Channel) -> Callable[[bytes], Any]:
     return made
 
 
-def _ros2(channel: Channel) -> Callable[[memoryview], Any]:
+def _ros2(channel: Channel) -> Callable[[bytes], Any]:
     try:
         from mcap_ros2.decoder import DecoderFactory
     except ImportError:
@@ -50,10 +50,10 @@ def _ros2(channel: Channel) -> Callable[[memoryview], Any]:
         raise
     except Exception as error:                              # its parser of message definitions
         raise UnsupportedError(f"the schema does not read: {type(error).__name__}: {error}") from None
-    return lambda payload: _plain(made(bytes(payload)))
+    return lambda payload: _plain(made(payload))
 
 
-def _protobuf(channel: Channel) -> Callable[[memoryview], Any]:
+def _protobuf(channel: Channel) -> Callable[[bytes], Any]:
     try:
         from mcap_protobuf.decoder import DecoderFactory
     except ImportError:
@@ -64,7 +64,7 @@ def _protobuf(channel: Channel) -> Callable[[memoryview], Any]:
         raise
     except Exception as error:
         raise UnsupportedError(f"the schema does not read: {type(error).__name__}: {error}") from None
-    return lambda payload: _message(made(bytes(payload)))
+    return lambda payload: _message(made(payload))
 
 
 def _missing(encoding: str) -> str:

@@ -7,10 +7,12 @@ from collections.abc import Iterable
 from dataclasses import dataclass, field, replace
 from fnmatch import fnmatchcase
 
+import numpy as np
+
 from thermodata.errors import FormatError
 from thermodata.plugin import Source
 from thermodata_reader_mcap.columns import Topic
-from thermodata_reader_mcap.content import Batch, Channel, Content, walk
+from thermodata_reader_mcap.content import LATEST_NS, Batch, Channel, Content, walk
 from thermodata_reader_mcap.decoders import UnsupportedError, decoder
 from thermodata_reader_mcap.leaves import find_leaves, json_schema
 from thermodata_reader_mcap.walk import CHUNK, MESSAGE_INDEX, Damage, chunk_head, data_section
@@ -98,20 +100,26 @@ def plan(view: memoryview, name: str, source: Source) -> Plan:
         if problem:
             unsupported[topic] = problem
         topics.update(made)
-        if made and any(batches[n].log_ns != batches[n].publish_ns for n in filled):
+        if made and any(_differ(batches[n]) for n in filled):
             publish.add(topic)
     if unsupported and not topics:
         listed = "; ".join(f"{t}: {why}" for t, why in unsupported.items())
-        raise FormatError("no topic of this recording can be read", where=name, expected="json, cdr or protobuf messages",
-                          got=listed)
+        raise FormatError("no topic of this recording can be read", where=name,
+                          expected="json, cdr or protobuf messages", got=listed)
     notes += [f"topic '{t}' is not read: {why}" for t, why in unsupported.items()]
     if content.attachments:
         notes.append(f"{content.attachments} attachments are not read")
-    times = [t for n in topics for t in batches[n].log_ns]
-    relative = bool(times) and max(times) < EARLIEST_NS
+    times = np.concatenate([np.empty(0, np.uint64), *(batches[n].times()[0] for n in topics)])
+    times = times[times < LATEST_NS]
+    relative = times.size > 0 and int(times.max()) < EARLIEST_NS
     if relative:
         notes.append("log times count from the start of the recording")
-    return Plan(topics, frozenset(publish), unsupported, min(times) if times else None, relative, notes)
+    return Plan(topics, frozenset(publish), unsupported, int(times.min()) if times.size else None, relative, notes)
+
+
+def _differ(batch: Batch) -> bool:
+    log_ns, publish_ns = batch.times()
+    return not np.array_equal(log_ns, publish_ns)
 
 
 def _refuse_missing(source: Source, channels: Iterable[Channel], name: str) -> None:
@@ -150,10 +158,10 @@ def _topic(name: str, channels: dict[int, Channel], batches: dict[int, Batch], a
     return {n: replace(t, leaves=leaves, wrapped=wrapped) for n, t in made.items()}, problem
 
 
-def _decoded(decode: object, payloads: list[memoryview]) -> tuple[list[object], bool]:
+def _decoded(decode: object, payloads: list[bytes]) -> tuple[list[object], bool]:
     """Sampled messages as Python values, and whether they are all."""
     size = sum(map(len, payloads))
-    step = 1 if size <= _DECODED else -(-2 * size // _DECODED)
+    step = 1 if size <= _DECODED else -(-4 * size // _DECODED)
     result = []
     for payload in [*payloads[::step], *(payloads[-1:] if step > 1 else [])]:
         try:

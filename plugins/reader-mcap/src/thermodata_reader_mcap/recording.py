@@ -77,7 +77,7 @@ class _Writer:
             if not batch.payloads or id(batch) in done:
                 continue
             done.add(id(batch))
-            payloads, logs, publishes = batch.payloads, batch.log_ns, batch.publish_ns
+            payloads, (logs, publishes) = batch.payloads, batch.times()
             batch.payloads, batch.log_ns, batch.publish_ns = [], [], []
             topic = self._topic(number)
             if topic is None:
@@ -85,8 +85,8 @@ class _Writer:
                 continue
             step = max(1, len(payloads) * BATCH // max(1, sum(map(len, payloads))))
             for at in range(0, len(payloads), step):
-                yield from self._blocks(topic, Batch(payloads[at:at + step], logs[at:at + step],
-                                                     publishes[at:at + step]))
+                part = slice(at, at + step)
+                yield from self._blocks(topic, payloads[part], logs[part], publishes[part])
 
     def _topic(self, number: int) -> Topic | None:
         """What a channel's messages are; a channel that came late may belong to a topic that is known."""
@@ -104,17 +104,15 @@ class _Writer:
         self.plan.topics[number] = topic
         return topic
 
-    def _blocks(self, topic: Topic, batch: Batch) -> Iterator[Block | Loss]:
-        raw = np.array(batch.log_ns, np.uint64)
+    def _blocks(self, topic: Topic, payloads: list[bytes], raw: Array, publish: Array) -> Iterator[Block | Loss]:
         late = raw >= LATEST_NS
-        for part in columns(topic, batch.payloads):
-            kept = np.array(part.kept, np.int64)
+        for part in columns(topic, payloads):
+            kept = part.kept
             good = ~late[kept]
             t_ns: Int1D = raw[kept].astype(np.int64)
             values, flags = dict(part.values), dict(part.flags)
             if topic.name in self.plan.publish:
-                publish = np.array([batch.publish_ns[k] for k in part.kept], np.uint64)
-                values[publish_name(topic)] = publish.astype(np.int64)
+                values[publish_name(topic)] = publish[kept].astype(np.int64)
             if not good.all():
                 t_ns, values, flags = t_ns[good], _only(values, good), _only(flags, good)
                 yield from self._wrong(topic, int(kept[~good][0]), "", "a log time", "2262 or later", None)

@@ -70,14 +70,14 @@ def data_section(view: memoryview) -> Iterator[Record | Damage]:
             at = stop
             continue
         following = next_chunk(view, at + 1)
-        if plausible and following is None and (opcode != CHUNK or chunk_head(view, Record(opcode, at + 9, size, True))):
-            yield Record(opcode, at + 9, size, cut=True)
+        cut = Record(opcode, at + 9, size, cut=True)
+        if plausible and following is None and (opcode != CHUNK or chunk_head(view, cut) is not None):
+            yield cut
             return
         stop = size if following is None else following
         yield Damage(at, stop, f"no record at byte {at} (opcode {opcode}, length {length})")
         at = stop
-    if size > len(MAGIC):
-        yield Damage(size, size, "the file ends without the end of its data: it was cut")
+    yield Damage(size, size, "the file ends without the end of its data: it was cut")
 
 
 def chunk_head(view: memoryview, record: Record) -> ChunkHead | None:
@@ -101,7 +101,7 @@ def next_chunk(view: memoryview, at: int) -> int | None:
     data = view.obj if hasattr(view.obj, "find") else bytes(view)
     best: int | None = None
     for mark in _COMPRESSIONS:
-        found = data.find(mark, at + 37)  # type: ignore[union-attr]
+        found = data.find(mark, at + 37)
         while found >= 0:
             start = found - 37
             if view[start] == CHUNK:
@@ -110,7 +110,7 @@ def next_chunk(view: memoryview, at: int) -> int | None:
                 if stop <= len(view) and chunk_head(view, Record(CHUNK, start + 9, stop)) is not None:
                     best = start if best is None else min(best, start)
                     break
-            found = data.find(mark, found + 1)  # type: ignore[union-attr]
+            found = data.find(mark, found + 1)
     return best
 
 
