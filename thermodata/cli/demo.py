@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import time
 from dataclasses import dataclass
 from pathlib import Path
@@ -15,7 +14,8 @@ from thermodata.cli.table import fields
 from thermodata.errors import UsageError
 from thermodata.report.words import change, duration, number, pooled, verdict_sentence
 
-_MARK = "demo.json"          # a folder that holds it was made by a demo and may be made anew
+_MARK = ".thermodata-demo"          # a folder that holds it was made by a demo and may be made anew
+_MADE = ("raw", "campaign.yaml", "baseline.yaml", "truth", "thermodata.store", "report.html")
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,7 +38,7 @@ class Step:
 @click.argument("folder", default="thermodata-demo", metavar="[DIR]",
                 type=click.Path(path_type=Path, file_okay=False))
 @click.option("--hide", metavar="EFFECT", help="The hidden effect (default: the seed picks one); or none.")
-@click.option("--seed", default=1, show_default=True, type=click.IntRange(0), help="Another seed, another machine.")
+@click.option("--seed", default=3, show_default=True, type=click.IntRange(0), help="Another seed, another machine.")
 def demo_command(session: Session, folder: Path, hide: str | None, seed: int) -> None:
     """Show the whole story on a simulated machine.
 
@@ -65,8 +65,7 @@ def prepare(folder: Path, hide: str | None, seed: int) -> str:
         if not (folder / _MARK).is_file():
             raise UsageError("the folder is not empty and was not made by a demo", where=str(folder),
                              expected="a new or empty folder, or an earlier demo's", hint="thermodata demo OTHER_DIR")
-        for name in json.loads((folder / _MARK).read_text(encoding="utf-8")).get("made", []):
-            made = folder / Path(name).name                    # only names that stand directly in the folder
+        for made in (folder / name for name in _MADE):
             if made.is_dir() and not made.is_symlink():
                 shutil.rmtree(made)
             else:
@@ -78,8 +77,7 @@ def prepare(folder: Path, hide: str | None, seed: int) -> str:
 def story(step: Step, folder: Path, hide: str, seed: int) -> dict[str, Any]:
     """The seven steps; returns the demo's JSON without the seconds."""
     # the mark comes first: an interrupted demo is still known as one
-    made = ["raw", "campaign.yaml", "baseline.yaml", "truth", "thermodata.store", "report.html"]
-    (folder / _MARK).write_text(json.dumps({"hide": hide, "seed": seed, "made": made}), encoding="utf-8")
+    (folder / _MARK).write_text(f"thermodata demo --hide {hide} --seed {seed}\n", encoding="utf-8")
 
     # imports stand where they are needed: the first line of the story comes at once
     step.title(1, "A machine runs its tests and writes raw logs")

@@ -17,7 +17,7 @@ from thermodata.report.words import duration, number
 from thermodata.schema.result import WeakSpot
 
 Figure = dict[str, Any]
-_GAP, _TOP, _BOTTOM = 18, 50, 44          # [px]
+_GAP, _TOP, _BOTTOM = 22, 50, 44          # [px]
 
 
 @dataclass(slots=True)
@@ -64,7 +64,7 @@ def base_layout(height: int) -> Figure:
         "paper_bgcolor": colour.PAPER, "plot_bgcolor": colour.PAPER,
         "font": {"family": colour.FONT, "color": colour.INK},
         "hoverlabel": {"font": {"family": colour.FONT, "size": 12}}, "dragmode": "zoom",
-        "legend": {"orientation": "h", "x": 1, "xanchor": "right", "y": 1, "yanchor": "bottom", "font": {"size": 11}}}
+        "legend": {"orientation": "h", "x": 1, "xanchor": "right", "y": 1, "yanchor": "bottom", "font": {"size": 11}, "bgcolor": "rgba(0,0,0,0)"}}
 
 
 def test_figure(
@@ -147,7 +147,7 @@ def _place_legends(layout: Figure, panels: _Panels) -> None:
         axis = next((t["yaxis"] for t in panels.traces if t.get("legend") == key), None)
         if axis is not None:
             domain = layout["yaxis" + axis[1:]]["domain"]
-            layout[key] = {**layout["legend"], "y": domain[1], "bgcolor": "rgba(255,255,255,.75)"}
+            layout[key] = {**layout["legend"], "y": domain[1]}
 
 
 def _shade(x0: float, x1: float, yref: str) -> dict[str, Any]:

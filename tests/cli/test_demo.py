@@ -1,0 +1,82 @@
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from functools import partial
+from pathlib import Path
+
+import pytest
+
+import thermodata.virtual
+from thermodata.cli.demo import prepare
+from thermodata.errors import UsageError
+
+from .conftest import Said
+
+Say = Callable[..., Said]
+KEYS = {"hidden", "found", "verdict", "family", "equivalents", "rmse_um_before", "rmse_um_after",
+        "locked_rmse_um_before", "locked_rmse_um_after", "model", "store", "report", "seconds"}
+
+
+@pytest.fixture
+def small(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A machine with few and short tests: the story's mechanics, not its findings."""
+    monkeypatch.setattr(thermodata.virtual, "simulate", partial(thermodata.virtual.simulate, tests=4, hours=4.0,
+                                                                rate_hz=0.1))
+
+
+@pytest.mark.usefixtures("small")
+def test_the_story_runs_and_runs_again_in_its_folder(say: Say, tmp_path: Path) -> None:
+    folder = tmp_path / "demo"
+    said = say("demo", folder, "--hide", "feed_screw", "--json")
+    assert said.code == 0, said.err
+    assert said.err == "", "with --json the story is not told"
+    result = json.loads(said.out)
+    assert set(result) == KEYS
+    assert result["hidden"] == "feed_screw"
+    assert (result["found"] is None) == (result["rmse_um_after"] is None)
+    assert Path(result["report"]).stat().st_size > 1_000_000
+
+    (folder / "mine.txt").write_text("kept")
+    said = say("demo", folder, "--hide", "none")
+    assert said.code == 0, said.err
+    assert "7/7 report" in said.err
+    assert "hidden" in said.out
+    assert (folder / "mine.txt").read_text() == "kept", "only what a demo made is cleared"
+
+
+def test_a_folder_with_other_things_is_refused_untouched(tmp_path: Path) -> None:
+    (tmp_path / "campaign.yaml").write_text("measured for months")
+    with pytest.raises(UsageError, match="not made by a demo"):
+        prepare(tmp_path, None, 1)
+    assert (tmp_path / "campaign.yaml").read_text() == "measured for months"
+
+
+def test_a_link_in_a_demos_folder_is_removed_not_followed(tmp_path: Path) -> None:
+    outside = tmp_path / "outside"
+    outside.mkdir()
+    (outside / "data").write_text("x")
+    folder = tmp_path / "demo"
+    folder.mkdir()
+    (folder / "raw").symlink_to(outside)
+    (folder / ".thermodata-demo").touch()
+    prepare(folder, "none", 1)
+    assert not (folder / "raw").exists()
+    assert (outside / "data").read_text() == "x"
+
+
+def test_the_seed_picks_what_is_hidden(tmp_path: Path) -> None:
+    picked = {prepare(tmp_path / str(seed), None, seed) for seed in range(8)}
+    assert len(picked) > 2
+    assert prepare(tmp_path / "again", None, 3) == prepare(tmp_path / "3", None, 3)
+
+
+def test_an_unknown_effect_is_named(say: Say, tmp_path: Path) -> None:
+    said = say("demo", tmp_path / "d", "--hide", "feed_scrw")
+    assert said.code == 2
+    assert "feed_screw" in said.err
+
+
+def test_simulate_refuses_a_folder_with_files(say: Say, tmp_path: Path) -> None:
+    (tmp_path / "x").write_text("")
+    assert say("simulate", tmp_path).code == 2
