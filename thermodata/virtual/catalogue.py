@@ -44,7 +44,7 @@ _ALL = {
                               {"temperature": "T_table_bearing"}, (0.2, 0.2, 1), (6, 12)),
     "tool_elongation": Hideable("tool and holder grow", "tool", {"temperature": "T_tool"}, (0, 0, 1), (5, 10), True),
     "cutting_power": Hideable("the part is heated by cutting", "cutting",
-                              {"power": "spindle_power"}, (0.3, 0.3, 1), (5, 10)),
+                              {"power": "spindle_power"}, (0.3, 0.3, 1), (6, 12)),
     "coolant": Hideable("plates that the cutting fluid wets are cooled", "coolant",
                         {"state": "coolant_on"}, (0.4, 0.5, 1), (4, 8)),
     "coolant_temperature": Hideable("the sleeve that the chiller feeds follows its temperature", "coolant",
@@ -54,7 +54,7 @@ _ALL = {
     "column_bending": Hideable("the column bends: the cabinet heats its rear side", "column",
                                {"warm_side": "T_column_rear", "cold_side": "T_column_front"}, (0.1, 1, 0.5), (5, 10)),
     "probe_temperature": Hideable("the holder of the probes grows", "probe",
-                                  {"temperature": "T_fixture"}, (0.5, 0.6, 1), (4, 6)),
+                                  {"temperature": "T_fixture"}, (0.5, 0.6, 1), (3.5, 5)),
 }
 EFFECTS: Mapping[str, Hideable] = MappingProxyType(_ALL)
 HIDEABLE: Mapping[str, str] = MappingProxyType({name: h.meaning for name, h in _ALL.items()})

@@ -21,13 +21,13 @@ def source_powers(machine: Machine, op: Operation) -> dict[str, Float1D]:
         "bearing_front": h["front"] * n ** h["bearing_exponent"],
         "bearing_rear": h["rear"] * n ** h["bearing_exponent"],
         # a motor turns badly at low speed: magnetising losses are there as soon as it turns
-        "motor": h["motor_base"] * turning + h["motor"] * n**1.2 + 45.0 * op.cutting,
+        "motor": h["motor_base"] * turning + h["motor"] * n**1.2 + 90.0 * op.cutting,
         "sleeve": h["sleeve"] * n ** h["sleeve_exponent"],
         "tool": h["tool"] * op.cutting,
-        "part": h["part"] * (op.cutting + 0.5 * idle_power(op)),
+        "part": h["part"] * (op.cutting + 0.7 * idle_power(op)),
         "table": h["table"] * (np.abs(op.table_speed) / 500.0) ** h["table_exponent"],
         "windage": h["windage"] * n**1.8,
-        "cabinet": h["cabinet"] * (0.25 + 0.35 * op.drives + 0.4 * n + 0.04 * op.cutting + 0.02 * op.feed.sum(axis=0)),
+        "cabinet": h["cabinet"] * (0.25 + 0.35 * op.drives + 0.4 * n + 0.08 * op.cutting + 0.02 * op.feed.sum(axis=0)),
         "pump": h["pump"] * op.pump,
     }
     for i, a in enumerate("xyz"):
@@ -46,7 +46,7 @@ def source_powers(machine: Machine, op: Operation) -> dict[str, Float1D]:
 def idle_power(op: Operation) -> Float1D:
     """What the spindle draws without cutting [kW]."""
     n = np.abs(op.speed) / MAX_SPEED
-    return np.asarray(0.08 * (n > 0) + 0.55 * n**1.5)
+    return np.asarray(0.04 * (n > 0) + 0.3 * n**1.5)
 
 
 def spindle_power(op: Operation) -> Float1D:

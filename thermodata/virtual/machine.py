@@ -74,8 +74,8 @@ def build(rng: np.random.Generator, home: Float1D) -> Machine:
     heat = {"front": r(190, 300), "rear": r(120, 200), "bearing_exponent": r(1.35, 1.7), "motor_base": r(130, 220),
             "motor": r(350, 600), "sleeve": r(70, 110), "sleeve_exponent": r(1.7, 2.3), "nut": r(42, 62),
             "screw": r(26, 40), "feed_motor": r(45, 80), "holding": r(12, 22), "table": r(220, 340),
-            "table_exponent": r(1.3, 1.6), "cabinet": r(110, 170), "pump": r(220, 320), "windage": r(8, 12),
-            "tool": r(1.6, 2.6), "part": r(90, 140), "copper": 0.0039, "viscosity": r(0.012, 0.02)}
+            "table_exponent": r(1.3, 1.6), "cabinet": r(110, 170), "pump": r(220, 320), "windage": r(12, 16),
+            "tool": r(3.2, 5.2), "part": r(180, 280), "copper": 0.0039, "viscosity": r(0.012, 0.02)}
     return Machine(network, b.cells, into, growth, length, start, r(0.4, 0.8),
                    {"splash": r(11, 15), "probe": r(0.2, 0.35), "tool": r(0.3, 0.6)},
                    r(1300, 1700), r(1.2, 1.7), heat)

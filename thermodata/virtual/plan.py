@@ -88,12 +88,19 @@ def _etve(op: Operation, rng: np.random.Generator) -> None:
     op.phases = {"idle": (0.0, op.n * STEP_S)}
 
 
-def _constant(speed: float, until: float) -> Maker:
+def _constant(speed: float, until: float, then: float = 0.0) -> Maker:
+    """Heating at one speed, perhaps a while at a second one, and cooling."""
     def make(op: Operation, rng: np.random.Generator) -> None:
         op.speed[op.span(0.02, until)] = speed
         op.conditions = {"speed": f"{speed:.0f} rpm"}
         end = op.span(0.02, until).stop * STEP_S
-        op.phases = {"heating": (0.0, end), "cooling": (end, op.n * STEP_S)}
+        op.phases = {"heating": (0.0, end)}
+        if then:
+            second = op.span(until, until + 0.2)
+            op.speed[second] = then
+            op.phases["second"] = (end, second.stop * STEP_S)
+            end = second.stop * STEP_S
+        op.phases["cooling"] = (end, op.n * STEP_S)
     return make
 
 
@@ -129,7 +136,7 @@ def _table(op: Operation, rng: np.random.Generator) -> None:
 def _cutting(op: Operation, rng: np.random.Generator) -> None:
     """Heavy and light cuts, wet and dry, and air cuts between them."""
     start = 0.03
-    for power, wet in ((6.0, False), (3.0, True), (0.0, False), (5.0, True), (7.0, False)):
+    for power, wet in ((3.0, False), (1.5, True), (0.0, False), (2.5, True), (3.5, False)):
         stop = start + float(rng.uniform(0.11, 0.15))
         op.cut(op.span(start, stop), float(rng.choice([2500, 3500, 4500])), power, wet, rng)
         start = stop + float(rng.uniform(0.01, 0.05))
@@ -161,7 +168,7 @@ def _mixed(axis: int) -> Maker:
             elif name == "feed":
                 op.move(part, axis, float(rng.uniform(8, 16)), 160.0, 300.0, 50.0)
             elif name == "cut":
-                op.cut(part, float(rng.choice([3000, 5000])), float(rng.uniform(4, 7)), bool(rng.random() < 0.6), rng)
+                op.cut(part, float(rng.choice([3000, 5000])), float(rng.uniform(2, 3.5)), bool(rng.random() < 0.6), rng)
             elif name == "table":
                 op.table_speed[part] = float(rng.uniform(300, 500))
                 op.pump[part] = 1.0
@@ -185,7 +192,7 @@ def make_plan(rng: np.random.Generator, axis: int, hours: float, tests: int | No
     every: list[tuple[int, str, str, str, Maker]] = [
         (3, "etve", "etve", "calibration", _etve),
         (6, f"sp{low:.0f}", "spindle", "calibration", _constant(low, 0.6)),
-        (1, f"sp{high:.0f}", "spindle", "calibration", _constant(high, 0.55)),
+        (1, f"sp{high:.0f}", "spindle", "calibration", _constant(high, 0.42, float(rng.choice([4000, 5000, 6000])))),
         (5, "spectrum", "spectrum", "verification", _spectrum),
         (4, f"feed_{letter}", "linear_axis", "calibration", _feed(axis, (round(feed, 1), round(feed * 0.5, 1)))),
         (7, "table", "rotary_axis", "calibration", _table),
