@@ -10,6 +10,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from threadpoolctl import threadpool_limits
 
 from thermodata.diagnosis.candidates import CandidateEffect, grid
 from thermodata.diagnosis.loto import Drop, Engine, Priors
@@ -49,6 +50,12 @@ def rank(problem: Problem, candidates: Sequence[CandidateEffect], seed: int = 0)
     """Best first. Needs at least two tests; an empty list otherwise."""
     if len(problem.blocks) < 2 or not candidates:
         return []
+    # thousands of small products: threads of the linear algebra library would wait for each other
+    with threadpool_limits(1):
+        return _rank(problem, candidates, seed)
+
+
+def _rank(problem: Problem, candidates: Sequence[CandidateEffect], seed: int) -> list[Scored]:
     rng = np.random.default_rng(seed)
     ar = fit_ar([b.residual for b in problem.blocks])
     series = [np.column_stack([b.residual, surrogates(b.residual, SURROGATES, rng)]) for b in problem.blocks]
