@@ -78,6 +78,8 @@ def test_the_start_value_is_a_mean_only_while_nothing_moves() -> None:
     # heating from the first second on: bins of 60 s have their middle 30 s later
     rising = 20 + 0.4 * (np.arange(200) + 0.5)
     assert start_value(rising + noise, 60.0) == pytest.approx(20.0, abs=0.2)
+    slow = 20 + 2.0 * (np.arange(40) + 0.5)
+    assert start_value(slow, 300.0) == pytest.approx(20.0, abs=1e-9)
     assert start_value(np.array([21.0]), 60.0) == 21.0
 
 

@@ -103,9 +103,9 @@ def start_value(values: Float1D, step: float) -> float:
     from the first samples on, a line through them goes back half a step: a sample is the mean of its bin, and the
     test starts at the bin's start.
     """
-    most = max(1, min(int(START_S / step), len(values)))
-    if most == 1:
+    if len(values) < 3:
         return float(values[0])
+    most = min(max(3, int(START_S / step)), len(values))
     cycle = _cycle_mean(values[: int(CYCLE_S / step) + 1])
     if cycle is not None:
         return cycle
@@ -113,7 +113,7 @@ def start_value(values: Float1D, step: float) -> float:
     count = 1
     while count < most and abs(values[count] - values[:count].mean()) <= 3.0 * noise + 1e-12:
         count += 1
-    if count < 3 <= len(values):
+    if count < 3:
         return float((13.0 * values[0] + 4.0 * values[1] - 5.0 * values[2]) / 12.0)
     return float(values[:count].mean())
 
