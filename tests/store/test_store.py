@@ -182,3 +182,29 @@ def test_kill_9_at_any_moment_leaves_a_store_that_works(tmp_path: Path) -> None:
         gc(store, grace_s=0)
         assert not [p for p in folder.rglob("*") if p.name.endswith(".tmp")]
         assert count(store, "sample") == expected
+
+
+def test_a_path_with_a_comma_is_refused_with_the_reason(tmp_path: Path) -> None:
+    with pytest.raises(StoreError, match="comma"):
+        Store(tmp_path / "a,b", create=True)
+
+
+def test_a_full_disk_is_a_store_error_and_leaves_nothing(store: Store, campaign: Path,
+                                                         monkeypatch: pytest.MonkeyPatch) -> None:
+    import pyarrow.parquet as pq
+
+    def full(*args: object, **kwargs: object) -> None:
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(pq.ParquetWriter, "write_table", full)
+    with pytest.raises(StoreError, match="No space left"):
+        ingest(store, campaign)
+    assert count(store, "test") == 0
+    assert not list(store.path.rglob("*.tmp"))
+
+
+def test_a_missing_parquet_file_is_made_again(filled: Store, campaign: Path) -> None:
+    for path in filled.path.rglob("*.parquet"):
+        path.unlink()
+    assert ingest(filled, campaign).losses == []
+    assert count(filled, "sample") == 7460

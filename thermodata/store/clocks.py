@@ -10,6 +10,7 @@ from thermodata.calibration.result import CalibrationResult
 from thermodata.errors import SpecError, ThermodataError, unknown_name
 from thermodata.plugin import Array, Int1D
 from thermodata.store.files import key_of
+from thermodata.store.keys import channel_text
 from thermodata.store.plan import SourcePlan, TestPlan
 from thermodata.store.series import TestSeries
 from thermodata.store.timeline import Clock, Span, bases, first_ns
@@ -42,7 +43,7 @@ def clock_to_json(clock: Clock) -> str:
     """For the table `source`."""
     return json.dumps([*clock.notes, *([{"clock_key": clock.key, "offset_ns": clock.offset_ns,
                                          "drift_ppm": clock.drift_ppm, "base_ns": clock.base_ns,
-                                         "suspect": clock.suspect}] if clock.key else [])])
+                                         "suspect": clock.suspect, "notes": list(clock.notes)}] if clock.key else [])])
 
 
 def clock_from_json(text: str | None) -> Clock | None:
@@ -52,7 +53,7 @@ def clock_from_json(text: str | None) -> Clock | None:
     if kept is None:
         return None
     return Clock(kept["offset_ns"], kept["drift_ppm"], kept["base_ns"], kept["suspect"], kept["clock_key"],
-                 tuple(i for i in items if isinstance(i, str)))
+                 tuple(kept["notes"]))
 
 
 def _ordered(plan: TestPlan) -> list[str]:
@@ -81,12 +82,10 @@ def _ordered(plan: TestPlan) -> list[str]:
 def _key(plan: TestPlan, source: SourcePlan, there: SourcePlan, other: Clock, declared: Clock,
          calibrations: Mapping[str, CalibrationResult]) -> str:
     names = [n for pair in source.spec.clock.by for n in (pair.here, pair.there)]
-    channels = [repr((n, plan.bound.get(n))) for n in names]
-    used = [repr(calibrations.get(c)) for n in names if n in plan.bound
-            for c in _listed(plan.bound[n].channel.calibration)]
+    channels = [channel_text(plan.bound[n], calibrations) if n in plan.bound else n for n in names]
     return key_of("clock 1", repr([r.key for r in source.raws]), repr([r.key for r in there.raws]),
                   source.spec.clock.model_dump_json(), repr((other.offset_ns, other.drift_ppm, other.base_ns)),
-                  repr(declared), *channels, *used)
+                  repr(declared), *channels)
 
 
 def _estimate(store: Path, plan: TestPlan, source: SourcePlan, there: SourcePlan, clocks: dict[str, Clock],
@@ -124,7 +123,3 @@ def _column(series: TestSeries, name: str) -> tuple[Int1D, Array]:
     bound = series.plan.bound[name]
     t_ns = series.timeline((bound.source, bound.stream)).t_ns
     return t_ns, series.values(bound, 0, len(t_ns))[0]
-
-
-def _listed(names: str | list[str] | None) -> list[str]:
-    return [names] if isinstance(names, str) else list(names or [])

@@ -61,9 +61,6 @@ def create_catalogue(path: Path) -> None:
 
 def settle(con: duckdb.DuckDBPyConnection, folder: Path) -> None:
     """Global settings, for a cursor doesn't inherit those of its session."""
-    if "," in str(folder):
-        raise StoreError("a store's path holds no comma", where=str(folder),
-                         hint="DuckDB separates search paths by commas: move or rename the folder")
     con.execute(f"set global file_search_path = {literal(str(folder))}")
     con.execute("set enable_progress_bar = false")
     # an ASOF join of a few probes falls back to a nested loop that takes 12-20 s instead of 20 ms
@@ -75,7 +72,7 @@ def settle(con: duckdb.DuckDBPyConnection, folder: Path) -> None:
 def damaged(path: Path, error: Exception) -> StoreError:
     """The refusal of a catalogue that DuckDB can't open."""
     text = str(error).strip().splitlines()[0]
-    busy = "lock" in text.lower() or "being used" in text.lower()
+    busy = any(word in text.lower() for word in ("lock on file", "being used", "different configuration"))
     return StoreError(
         "the catalogue is open in another program" if busy else "the catalogue is damaged",
         where=str(path), expected="a DuckDB database of this program", got=text,

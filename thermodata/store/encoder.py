@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import threading
 from collections.abc import Mapping
 from pathlib import Path
@@ -10,6 +11,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from thermodata.errors import StoreError
 from thermodata.store.arrow import to_arrow
 
 if TYPE_CHECKING:
@@ -37,9 +39,15 @@ class Encoder:
         self._thread.start()
 
     def put(self, table: pa.Table) -> None:
+        self._check()
+        self._queue.put(table)
+
+    def _check(self) -> None:
+        if isinstance(self._error, OSError):
+            raise StoreError("the store cannot be written", where=str(self.part), got=str(self._error),
+                             hint="is the disk full?") from self._error
         if self._error is not None:
             raise self._error
-        self._queue.put(table)
 
     def _run(self) -> None:
         while (table := self._queue.get()) is not None:
@@ -58,13 +66,16 @@ class Encoder:
         self._join()
         if self._error is None:
             self._writer.add_key_value_metadata(dict(meta))
-        self._writer.close()
-        if self._error is not None:
-            raise self._error
+        try:
+            self._writer.close()
+        except OSError as error:
+            self._error = self._error or error
+        self._check()
 
     def abandon(self) -> None:
         self._join()
-        self._writer.close()
+        with contextlib.suppress(OSError):
+            self._writer.close()
         self.part.unlink(missing_ok=True)
 
     def widened(self, schema: pa.Schema) -> Encoder:

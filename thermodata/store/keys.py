@@ -33,7 +33,7 @@ def member_key(plan: TestPlan, member: Member, columns: Sequence[tuple[str, bool
     members = {(b.source, b.stream) for b in used.values()} | {member}
     parts = [TIDY_VERSION, repr(member), repr(list(columns)), repr(span), repr(measuring)]
     for name in sorted(used):
-        parts.append(_channel(used[name], calibrations))
+        parts.append(channel_text(used[name], calibrations))
     for source, stream in sorted(members):
         if source in plan.sources:
             found = plan.sources[source]
@@ -60,7 +60,8 @@ def _collect(plan: TestPlan, bound: Bound, into: dict[str, Bound]) -> None:
                 _collect(plan, plan.bound[name], into)
 
 
-def _channel(bound: Bound, calibrations: Mapping[str, CalibrationResult]) -> str:
+def channel_text(bound: Bound, calibrations: Mapping[str, CalibrationResult]) -> str:
+    """A channel's origin, unit and calibrations as text: all that its values depend on beside the raw data."""
     # a place, a note or a role changes the catalogue's row, never the values
     data = bound.channel.model_dump(mode="json", exclude={"at", "relative_to", "notes"})
     named = bound.channel.calibration

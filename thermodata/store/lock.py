@@ -67,10 +67,12 @@ def catalogue_lock(folder: Path, *, exclusive: bool, timeout_s: float = 60.0) ->
 
 
 def _open(path: Path) -> int:
+    flags = getattr(os, "O_CLOEXEC", 0)
     try:
-        return os.open(path, os.O_RDWR | os.O_CREAT | getattr(os, "O_CLOEXEC", 0), 0o666)
-    except PermissionError:
-        return os.open(path, os.O_RDONLY | getattr(os, "O_CLOEXEC", 0))    # a store that may only be read
+        try:
+            return os.open(path, os.O_RDWR | os.O_CREAT | flags, 0o666)
+        except OSError:
+            return os.open(path, os.O_RDONLY | flags)    # a store that may only be read
     except OSError as error:
         raise StoreError("the store's lock file cannot be opened", where=str(path), got=str(error)) from error
 

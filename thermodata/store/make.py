@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import Any
 
 from thermodata.calibration.result import CalibrationResult
-from thermodata.errors import StoreError, ThermodataError
+from thermodata.errors import SpecError, StoreError, ThermodataError
 from thermodata.plugin import Loss
 from thermodata.store import rows as make_rows
 from thermodata.store.clocks import clocks_of
@@ -48,7 +48,7 @@ def make_tests(store: Path, plans: Sequence[TestPlan], calibrations: Mapping[str
     for plan in plans:
         try:
             _make_test(store, plan, columns, calibrations, known, now, say, made)
-        except StoreError:
+        except (StoreError, SpecError):
             raise
         except ThermodataError as error:
             made.losses.append(loss_row("; ".join(str(error).splitlines()), test=plan.test.id))
@@ -103,7 +103,7 @@ def _make_test(store: Path, plan: TestPlan, columns: Mapping[Member, Columns],
     _add(made, test, "source", make_rows.source_rows(plan, clocks))
     _add(made, test, "channel", make_rows.channel_rows(plan, calibrations))
     made.notes += [f"{test}, {name}: {n}" for name, clock in clocks.items() for n in clock.notes]
-    made.notes += [f"{test}: {n}" for s in plan.sources.values() for r in s.raws for n in r.notes]
+    made.notes += [f"{r.source_path}: {n}" for s in plan.sources.values() for r in s.raws for n in r.notes]
     made.losses += [loss_row(n, test=test, source=name) for name, clock in clocks.items()
                     for n in clock.notes if clock.suspect]
 

@@ -11,6 +11,7 @@ from thermodata.plugin import Signal
 from thermodata.reader.match import match_signal
 from thermodata.reader.text import split_unit
 from thermodata.schema.campaign import Campaign, Channel, SourceSpec, Test
+from thermodata.store import schedule
 from thermodata.store.raw import RawStream
 
 SCHEDULE = "schedule"
@@ -104,6 +105,11 @@ def bind(plan: TestPlan) -> None:
     channels = effective(plan.campaign, plan.test)
     for name, channel in channels.items():
         if channel.schedule is not None:
+            try:
+                schedule.steps(name, channel, plan.test)
+            except UsageError as error:
+                plan.problems.append(f"channel '{name}': " + "; ".join(str(error).splitlines()))
+                continue
             plan.bound[name] = Bound(name, channel, SCHEDULE, SCHEDULE)
         elif channel.signal is not None and channel.source is not None:
             source = plan.sources.get(channel.source)

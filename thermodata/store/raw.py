@@ -153,7 +153,14 @@ def read_raw(store: Path, path: Path, source_path: str, sha256: str, reader: Rea
     if not made:
         raise FormatError("the file holds no data", where=source_path,
                           expected="at least one row", got="; ".join(x.reason for x in losses) or "none")
-    return [dataclasses.replace(m, losses=tuple(losses)) if i == 0 else m for i, m in enumerate(made)]
+    made[0] = dataclasses.replace(made[0], losses=tuple(losses))
+    return [_as_kept(m) for m in made]
+
+
+def _as_kept(raw: RawStream) -> RawStream:
+    """As the catalogue will give it back: keys made from either must be the same."""
+    row = {name: getattr(raw, name) for name in ("key", "path", "source_path", "sha256", "bytes", "rows")}
+    return RawStream.from_row(row | {"columns": raw.to_json(), "losses": raw.losses_json()})
 
 
 def _finish(store: Path, writer: StreamWriter, stream: str, key: str, path: Path, source_path: str, sha256: str,

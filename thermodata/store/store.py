@@ -38,6 +38,9 @@ class Store:
         self.timeout_s = timeout_s
         self._guard = threading.RLock()
         self._copy: tuple[str, duckdb.DuckDBPyConnection] | None = None
+        if "," in str(self.path):
+            raise StoreError("a store's path holds no comma", where=str(self.path),
+                             hint="DuckDB separates search paths by commas: move or rename the folder")
         if not (self.path / CATALOGUE).exists():
             if not create:
                 raise UsageError("there is no store here", where=str(self.path), expected=CATALOGUE,
