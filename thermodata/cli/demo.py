@@ -87,7 +87,7 @@ def story(step: Step, folder: Path, hide: str, seed: int) -> dict[str, Any]:
     raw = [p for p in (folder / "raw").rglob("*") if p.is_file()]
     kinds = ", ".join(f"{sum(p.suffix == s for p in raw)} {s[1:]}" for s in sorted({p.suffix for p in raw}))
     step.line(f"{len(raw)} files ({kinds}), {sum(p.stat().st_size for p in raw) / 1e6:.0f} MB, in {folder / 'raw'}; "
-              "one physical effect is hidden from the model")
+              "what the model lacks, if anything, nobody tells it")
 
     step.title(2, "ingest: raw and calibrated layers, by the campaign file")
     from thermodata.store import Store

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from pathlib import Path
+from typing import Any
 
 import click
 
 from thermodata.cli.common import Session, command, plain
-from thermodata.cli.table import fields
-from thermodata.errors import UsageError
+from thermodata.cli.table import fields, table
+from thermodata.errors import UsageError, unknown_name
 
 
 @command("simulate")
@@ -29,10 +31,39 @@ def simulate_command(session: Session, folder: Path, hide: str, seed: int) -> No
 
 
 @command("benchmark-diagnosis")
-def benchmark_diagnosis_command(session: Session) -> None:
-    """Run the blind benchmark of the diagnosis."""
-    raise UsageError("'benchmark-diagnosis' is not supported yet",
-                     hint="thermodata demo --seed N runs one blind case from raw files to the verdict")
+@click.option("--hide", multiple=True, metavar="EFFECT", help="Hide this effect, or none (default: each in turn).")
+@click.option("--seeds", default=1, show_default=True, type=click.IntRange(1), help="Machines for each.")
+@click.option("--first-seed", default=0, show_default=True, type=click.IntRange(0), help="The first seed.")
+@click.option("--not-logged", is_flag=True, help="Leave the channels of the hidden effect out of the log.")
+def benchmark_diagnosis_command(session: Session, hide: tuple[str, ...], seeds: int, first_seed: int,
+                                not_logged: bool) -> None:
+    """Run the blind benchmark of the diagnosis.
+
+    Simulated machines with one effect hidden, or none; the truth is used for marking only.
+    """
+    from thermodata.virtual import HIDEABLE
+    from thermodata.virtual.benchmark import benchmark
+
+    choices = [*HIDEABLE, "none"]
+    for name in hide:
+        if name not in choices:
+            raise unknown_name("effect to hide", name, choices)
+    trials = []
+    for trial in benchmark(hide or choices, range(first_seed, first_seed + seeds), logged=not not_logged):
+        trials.append(plain(trial.to_json()))
+        session.say(f"{trial.hidden} {trial.seed}: {trial.outcome} ({trial.found or trial.verdict})")
+    result = {"summary": marks(trials), "trials": trials}
+    session.answer(result, lambda: table(trials, [
+        ("hidden", "hidden"), ("seed", "seed"), ("found", "found"), ("outcome", "outcome"),
+        ("rmse_um_before", "before [um]"), ("rmse_um_after", "after [um]"),
+        ("locked_rmse_um_before", "locked before [um]"), ("locked_rmse_um_after", "locked after [um]"),
+        ("seconds", "s")]) + "\n\n" + fields(result["summary"].items()))
+
+
+def marks(trials: list[dict[str, Any]]) -> dict[str, int]:
+    """How many machines, how many claims, and how each trial ended."""
+    ends = Counter(str(trial["outcome"]) for trial in trials)
+    return {"machines": len(trials), "claims": sum(trial["found"] is not None for trial in trials), **ends}
 
 
 def empty_folder(folder: Path) -> None:

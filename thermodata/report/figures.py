@@ -64,7 +64,8 @@ def base_layout(height: int) -> Figure:
         "paper_bgcolor": colour.PAPER, "plot_bgcolor": colour.PAPER,
         "font": {"family": colour.FONT, "color": colour.INK},
         "hoverlabel": {"font": {"family": colour.FONT, "size": 12}}, "dragmode": "zoom",
-        "legend": {"orientation": "h", "x": 1, "xanchor": "right", "y": 1, "yanchor": "bottom", "font": {"size": 11}, "bgcolor": "rgba(0,0,0,0)"}}
+        "legend": {"orientation": "h", "x": 1, "xanchor": "right", "y": 1, "yanchor": "bottom",
+                   "font": {"size": 11}, "bgcolor": "rgba(0,0,0,0)"}}
 
 
 def test_figure(

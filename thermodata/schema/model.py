@@ -8,7 +8,6 @@ from pydantic import Field, PlainSerializer, field_validator, model_validator
 
 from thermodata.schema.campaign import Seconds, Strict
 
-
 # a model written as JSON is a model file again, and there a time has a unit
 _WITH_UNIT = PlainSerializer(lambda s: f"{s:.12g} s", return_type=str, when_used="json")
 
