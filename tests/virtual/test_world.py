@@ -110,7 +110,7 @@ def test_a_copy_of_a_known_effect_is_not_its_own() -> None:
 
 
 @pytest.mark.parametrize(("kwargs", "word"), [
-    ({"hide": "feed_scerw"}, "feed_screw"), ({"tests": 1}, "locked"), ({"hours": 0.5}, "heat")])
+    ({"hide": "feed_scerw"}, "feed_screw"), ({"tests": 1}, "locked"), ({"seed": -1}, "seed"), ({"hours": 0.5}, "heat")])
 def test_what_cannot_be_simulated_is_refused(kwargs: dict[str, object], word: str) -> None:
     with pytest.raises(UsageError, match=word):
         make_world(**kwargs)                                # type: ignore[arg-type]

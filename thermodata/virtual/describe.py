@@ -53,7 +53,7 @@ def _test(op: Operation) -> dict[str, Any]:
     if op.conditions:
         row["conditions"] = dict(op.conditions)
     if op.phases:
-        row["phases"] = {k: [f"{a / 3600:g} h", f"{b / 3600:g} h"] for k, (a, b) in op.phases.items()}
+        row["phases"] = {k: [f"{a:g} s", f"{b:g} s"] for k, (a, b) in op.phases.items()}
     if not op.measuring.all():
         travels = [i for i in range(3) if (op.feed[i] > 0).any()]
         terms = [f"feed_{AXES[i]} == 0 and abs(pos_{AXES[i]} - {op.home[i]:g}) < 0.05" for i in travels]

@@ -9,7 +9,7 @@ from scipy.sparse import csr_matrix
 
 from thermodata.plugin import Float1D, Float2D
 from thermodata.virtual.losses import COPPER, VISCOUS, source_powers
-from thermodata.virtual.machine import SCREW_CELLS, Machine
+from thermodata.virtual.machine import Machine
 from thermodata.virtual.network import Stepper
 from thermodata.virtual.plan import STEP_S, Operation
 
@@ -89,5 +89,3 @@ def _at_rest(machine: Machine, outside: Float2D, setpoint: Float1D) -> Float2D:
     answer = machine.network.steady(unit, np.zeros_like(outside))
     return np.asarray(base + answer * (setpoint - base[chiller]) / answer[chiller])
 
-
-__all__ = ["SCREW_CELLS", "SOAK_STEPS", "run"]

@@ -99,6 +99,8 @@ def make_world(hide: str = "none", seed: int = 0, *, tests: int | None = None, h
         close = nearest(hide, [*EFFECTS, "none"])
         raise UsageError(f"no effect '{hide}' to hide", expected=", ".join([*EFFECTS, "none"]), got=hide,
                          hint=f"did you mean '{close}'?" if close else None)
+    if seed < 0:
+        raise UsageError("a seed is a whole number from 0", expected="0, 1, 2, ...", got=str(seed))
     if tests is not None and not 2 <= tests <= 40:
         raise UsageError("a campaign needs a test to learn from and a locked one", expected="2 to 40 tests",
                          got=str(tests))
