@@ -225,9 +225,13 @@ def a_cut_file_keeps_its_good_part_and_says_what_is_gone(case: Case, path: Path,
     whole = load(case.make(), path, source)
     with tempfile.TemporaryDirectory() as folder:
         cut_path = Path(folder) / path.name
+        readable = 0
         for cut in _cuts(len(content)):
             cut_path.write_bytes(content[:cut])
-            _refused_or(case, cut_path, source, partial(_part, whole=whole, what=f"{path.name} cut at {cut}"))
+            data = _refused_or(case, cut_path, source, partial(_part, whole=whole, what=f"{path.name} cut at {cut}"))
+            assert data is not None or not readable, \
+                f"{path.name} cut at {cut} is refused, though a file cut at {readable} is read"
+            readable = cut if data is not None and data.t_ns else readable
 
 
 def damage_never_escapes_as_a_foreign_error(case: Case, path: Path, source: Source) -> None:
@@ -264,15 +268,16 @@ def _cuts(size: int) -> list[int]:
     return sorted({c for c in [*near, *rng.integers(1, size, MAX_CUTS - len(near)).tolist()] if 0 < c < size})
 
 
-def _refused_or(case: Case, path: Path, source: Source, then: Callable[[Data], None]) -> None:
-    """The reader refuses the file with one of our errors, or `then` judges what it gave."""
+def _refused_or(case: Case, path: Path, source: Source, then: Callable[[Data], None]) -> Data | None:
+    """The reader refuses the file with one of our errors (None), or `then` judges what it gave."""
     try:
         data = load(case.make(), path, source)
     except PluginError as error:
         raise AssertionError(f"{path.name} ({path.stat().st_size} bytes): {error}") from error
     except ThermodataError:
-        return
+        return None
     then(data)
+    return data
 
 
 def _part(part: Data, whole: Data, what: str) -> None:

@@ -315,12 +315,13 @@ def walk(path: Path) -> Index:
     with path.open("rb") as file:
         while index.good_end < size:
             try:
-                if not _segment(file, state):
-                    break
+                whole = _segment(file, state)
             except DamageError as error:
                 index.damage = f"byte {index.good_end}: {error}"
                 break
             index.segments += 1
+            if not whole:
+                break
     if not index.segments:
         raise FormatError("not a readable TDMS file", where=f"{path.name} {index.damage or 'byte 0'}",
                           expected="a lead-in, its metadata and raw data", got=f"a file of {size} bytes")

@@ -21,7 +21,8 @@ KNOWN_SCALES = ("Linear", "Polynomial", "RTD", "Strain", "Table", "Thermistor", 
                 "AdvancedAPI")
 _SCALE_TYPE = re.compile(r"^NI_Scale\[(\d+)\]_Scale_Type$")
 _PATH = re.compile(r"'((?:[^']|'')*)'")
-_TIME_NAME = re.compile(r"^(time|t|zeit|čas|cas|timestamp|elapsed( time)?|x_?value)$", re.IGNORECASE)
+# "t" is a time, "T" a temperature
+_TIME_NAME = re.compile(r"^(t|(?i:time|zeit|čas|cas|timestamp|elapsed( time)?|x_?value))$")
 _SECONDS = {"s": 1.0, "sec": 1.0, "seconds": 1.0, "min": 60.0, "h": 3600.0, "ms": 1e-3, "us": 1e-6, "µs": 1e-6}
 _SAME_SCAN_NS = 1_000_000   # channels of one scan may start up to this apart (a multiplexed converter)
 

@@ -44,7 +44,7 @@ def _sniff_text(head: Head) -> str | None:
     text = decode_head(head.start)
     if not text or any(word in text[:2000] for word in _OTHERS):
         return None
-    found = head_rows(text.lstrip("\ufeff"), head.size_bytes <= len(head.start), None)
+    found = head_rows(text.lstrip("\ufeff"), None)
     if found is None or found[0] == "|":
         return None
     delimiter, rows = found

@@ -53,21 +53,22 @@ def find_delimiter(lines: list[str]) -> str | None:
     which may be a decimal mark."""
     if lines and lines[0].lower().startswith("sep=") and len(lines[0].strip()) == 5:
         return lines[0].strip()[-1]
-    body = [line for line in lines if line.strip()][-100:]
+    body = [line for line in lines if line.strip()]
+    body = body[len(body) // 3:][-100:]                  # preamble has other lengths
     best: tuple[float, str] | None = None
     for delimiter in DELIMITERS:
         counts = [len(split(line, delimiter)) for line in body]
         common = max(set(counts), key=counts.count) if counts else 0
         share = counts.count(common) / len(counts) if counts else 0.0
-        if common >= 2 and share > 0.7 and (best is None or share > best[0] + 0.2):
+        if common >= 2 and share > 0.6 and (best is None or share > best[0] + 0.2):
             best = (share, delimiter)
     return best[1] if best else None
 
 
-def head_rows(text: str, whole: bool, declared: str | None) -> tuple[str, list[list[str]]] | None:
-    """(delimiter, rows) of a file's first text; a last line that the head cuts is left out."""
+def head_rows(text: str, declared: str | None) -> tuple[str, list[list[str]]] | None:
+    """(delimiter, rows) of a file's first text; a last line without an end, which may be cut, is left out."""
     lines = text.splitlines()
-    if not whole and lines and not text.endswith(("\n", "\r")):
+    if len(lines) > 2 and not text.endswith(("\n", "\r")):
         lines.pop()
     lines = lines[:2000]
     delimiter = declared or find_delimiter(lines)
@@ -87,7 +88,7 @@ def open_sheet(path: Path, source: Source) -> Sheet:
     text = data.decode(encoding, "replace") if source.encoding or encoding.startswith("utf-16") else \
         (decode_head(data) if encoding.startswith("utf-8") else data.decode(encoding))
     text = (text or "").lstrip("\ufeff")
-    found = head_rows(text, len(data) < _HEAD_BYTES, said.get("delimiter"))
+    found = head_rows(text, said.get("delimiter"))
     if found is None:
         raise FormatError("no delimiter gives lines of equal length", where=path.name,
                           expected="; tab , or |", hint="declare table: {delimiter: ...}")
@@ -95,8 +96,6 @@ def open_sheet(path: Path, source: Source) -> Sheet:
     if rows and len(rows[0]) <= 2 and text[:4].lower() == "sep=":
         rows[0] = [""]
     cut = _cut(path, encoding, delimiter)
-    if cut and len(data) < _HEAD_BYTES:
-        rows.pop()
     layout = find(rows, said, path.name)
     width = len(layout.names)
     body = [r + [""] * (width - len(r)) for r in rows[layout.first:]]

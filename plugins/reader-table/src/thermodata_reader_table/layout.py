@@ -15,9 +15,10 @@ Cell = Any   # text, or what a workbook holds: numbers, bool, datetime, date, ti
 SECONDS = {"s": 1.0, "sec": 1.0, "sek": 1.0, "seconds": 1.0, "min": 60.0, "minutes": 60.0, "h": 3600.0,
            "hod": 3600.0, "std": 3600.0, "hours": 3600.0, "d": 86400.0, "days": 86400.0, "ms": 1e-3, "us": 1e-6,
            "µs": 1e-6, "ns": 1e-9}
+# "t" is a time, "T" a temperature
 _TIME_WORDS = re.compile(
-    r"^(time|t|zeit|čas|cas|temps|tiempo|tempo|datum|date|dátum|uhrzeit|timestamp|date[ _]?time|datetime|zeitstempel|"
-    r"elapsed([ _]?time)?|時間|时间|日時|日期|時刻|rel(ative)?[ _.]?time|t_s|time_s)\.?:?$", re.IGNORECASE)
+    r"^(t|(?i:time|zeit|čas|cas|temps|tiempo|tempo|datum|date|dátum|uhrzeit|timestamp|date[ _]?time|datetime|"
+    r"zeitstempel|elapsed([ _]?time)?|時間|时间|日時|日期|時刻|rel(ative)?[ _.]?time|t_s|time_s))\.?:?$")
 _NUMBER = re.compile(r"^[+-]?(\d+([.,]\d*)?|[.,]\d+)([eE][+-]?\d+)?$")
 _WORDS = {"nan", "inf", "-inf", "true", "false", "---", "-", "n/a", "#n/a", "null", ""}
 
@@ -49,10 +50,10 @@ def _is_stamp(cell: Cell) -> bool:
 
 
 def _is_data(row: Sequence[Cell], width: int) -> bool:
-    """Numbers or dates in half of the filled cells, and no fewer cells than the table has."""
+    """Numbers or dates in a third of the filled cells, and as many cells as the table has, or one fewer."""
     filled = [c for c in row if not (isinstance(c, str) and c.strip().lower() in _WORDS) and c is not None]
     values = sum(is_number(c) or _is_stamp(c) for c in filled)
-    return bool(filled) and values * 2 >= len(filled) and values >= 1 and len(row) >= min(width, 2)
+    return values >= 1 and values * 3 >= len(filled) and len(row) >= width - 1 and (len(filled) > 1 or width <= 2)
 
 
 def find(rows: Sequence[Sequence[Cell]], declared: Mapping[str, Any] | None, where: str) -> Layout:
@@ -63,24 +64,33 @@ def find(rows: Sequence[Sequence[Cell]], declared: Mapping[str, Any] | None, whe
     said = {k: v for k, v in (declared or {}).items() if v is not None}
     skip = int(said.get("skip_rows", 0))
     body = list(rows[skip:])
-    width = max((len(r) for r in body), default=0)
+    width = _width(body)
+    body = [r[:width] for r in body]
     header = said.get("header_rows")
     first = skip + int(header) if header is not None else _first_data(body, width, where) + skip
     units_row = said.get("units_row")
     if units_row is not None and header is not None and int(units_row) > first:
         first = int(units_row)
-    heads, units = _heads(rows[skip:first], width, None if units_row is None else int(units_row) - 1 - skip)
+    row_of_units = None if units_row is None else int(units_row) - 1 - skip
+    heads, units = _heads([r[:width] for r in rows[skip:first]], width, row_of_units)
     names = _unique(heads)
-    data = [list(r) + [""] * (width - len(r)) for r in rows[first:first + 200]]
+    data = [list(r[:width]) + [""] * (width - len(r)) for r in rows[first:first + 200]]
     if not data:
         raise FormatError("a table without data rows", where=where, expected=f"data after row {first}")
     time, seconds, form, notes = _time(said.get("time") or {}, names, units, data, where)
     return Layout(first, tuple(names), tuple(units), time, seconds, form, tuple(notes))
 
 
+def _width(body: Sequence[Sequence[Cell]]) -> int:
+    """Cells of most rows of the second half, where preamble is rare; the larger of two that are as frequent."""
+    lengths = [len(r) for r in body[len(body) // 2:] if any(c not in ("", None) for c in r)]
+    return max(set(lengths), key=lambda n: (lengths.count(n), n), default=0)
+
+
 def _first_data(body: Sequence[Sequence[Cell]], width: int, where: str) -> int:
     for i, row in enumerate(body):
-        if _is_data(row, width) and all(_is_data(r, width) or not any(r) for r in body[i + 1:i + 3]):
+        following = [r for r in body[i + 1:i + 11] if any(c not in ("", None) for c in r)]
+        if _is_data(row, width) and sum(_is_data(r, width) for r in following) * 2 >= len(following):
             return i
     raise FormatError("no data rows found", where=where, expected="rows of numbers and times",
                       hint="declare table: {header_rows: ..., skip_rows: ...}")
@@ -182,10 +192,10 @@ def _find_time(names: list[str], units: list[str | None], data: list[list[Cell]]
         return (first,) if has_clock or not clocks else (first, clocks[0])
     if clocks:
         return (clocks[0],)
-    numbers = [i for i in words if share(i, is_number) > 0.8]
+    numbers = [i for i in words if share(i, is_number) > 0.6]
     if numbers:
         return (numbers[0],)
-    if (units[0] or "").strip().lower() in SECONDS and share(0, is_number) > 0.8:
+    if (units[0] or "").strip().lower() in SECONDS and share(0, is_number) > 0.6:
         return (0,)
     raise FormatError("no time column found", where=where, got=", ".join(names[:12]),
                       expected="a column of dates, or one called time or with s, min or h as its unit",

@@ -8,6 +8,7 @@ import struct
 import zipfile
 import zlib
 from collections.abc import Iterator
+from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
@@ -24,6 +25,7 @@ STREAM = "table"
 MAX_UNPACKED = 1 << 30
 MAX_CELLS = 60_000_000
 _BLOCK_VALUES = 1_000_000
+_SMALL = 8_000_000
 _CELL = re.compile(rb'<(?:\w+:)?c [^>]*?r="([A-Z]{1,3})(\d{1,7})"')
 
 
@@ -94,10 +96,17 @@ def _column(letters: bytes) -> int:
 
 
 def _rows(path: Path, source: Source) -> tuple[list[list[Any]], str]:
+    """Rows of the wanted sheet, and its name. Small workbooks are kept: describing and reading follow each other."""
+    status = path.stat()
+    key = (str(path.resolve()), status.st_mtime_ns, status.st_size, (source.table or {}).get("sheet"))
+    return (_kept if status.st_size < _SMALL else _load)(*key)
+
+
+def _load(name: str, mtime_ns: int, size: int, wanted: int | str | None) -> tuple[list[list[Any]], str]:
     import python_calamine
 
+    path = Path(name)
     check_size(path)
-    wanted = (source.table or {}).get("sheet")
     try:
         book = python_calamine.CalamineWorkbook.from_path(str(path))
     except Exception as error:  # calamine has many error classes, all of which mean: not this file
@@ -106,21 +115,24 @@ def _rows(path: Path, source: Source) -> tuple[list[list[Any]], str]:
     if isinstance(wanted, str):
         if wanted not in names:
             raise UsageError(f"no sheet '{wanted}'", where=path.name, expected=", ".join(names), got=wanted)
-        name = wanted
+        sheet = wanted
     else:
         number = 1 if wanted is None else int(wanted)
         if not 1 <= number <= len(names):
             raise UsageError(f"no sheet {number}", where=path.name, expected=f"1 to {len(names)}", got=str(number))
-        name = names[number - 1]
+        sheet = names[number - 1]
     try:
-        rows = book.get_sheet_by_name(name).to_python(skip_empty_area=False)
+        rows = book.get_sheet_by_name(sheet).to_python(skip_empty_area=False)
     except Exception as error:
-        raise FormatError(f"sheet '{name}' cannot be read", where=path.name, got=str(error)) from None
+        raise FormatError(f"sheet '{sheet}' cannot be read", where=path.name, got=str(error)) from None
     if not rows:
-        raise FormatError(f"sheet '{name}' is empty", where=path.name, expected="a table")
+        raise FormatError(f"sheet '{sheet}' is empty", where=path.name, expected="a table")
     while rows and not any(c not in ("", None) for c in rows[-1]):
         rows.pop()
-    return rows, name
+    return rows, sheet
+
+
+_kept = lru_cache(maxsize=1)(_load)
 
 
 class Table:

@@ -1,0 +1,104 @@
+"""Workbooks and Parquet: the real one, dates, and files made to take all memory."""
+
+from __future__ import annotations
+
+import zipfile
+from pathlib import Path
+
+import numpy as np
+import pytest
+from thermodata_reader_table import Reader, workbook
+
+from thermodata.errors import FormatError, UsageError
+from thermodata.plugin import Source
+from thermodata.testing.reader import load
+
+REAL = Path(__file__).parents[4] / "shared" / "data" / "fl_thermal" / "data.xlsx"
+real = pytest.mark.skipif(not REAL.is_file(), reason="the folder of real files is not there")
+
+
+@real
+def test_the_real_spindle_test_is_found_without_a_declaration() -> None:
+    data = load(Reader(), REAL, Source())
+    names = [s.name for s in data.recording.signals]
+    assert names[:2] == ["spindle(RPM)", "ch1(um)"]
+    assert [s.unit for s in data.recording.signals] == ["RPM"] + ["um"] * 5 + ["°C"] * 16
+    np.testing.assert_array_equal(data.t_ns["table"], np.arange(11_115) * 15_000_000_000)
+    assert data.recording.clock == "relative"
+    assert data.values["table", "ch3(um)"][0] == 0.106198061
+    assert data.losses == ()
+
+
+@real
+def test_the_same_as_declared_and_sheets_by_number_and_name() -> None:
+    time = {"column": 1, "unit": "s"}
+    found = load(Reader(), REAL, Source())
+    for sheet in (1, "工作表1"):
+        said = load(Reader(), REAL, Source(table={"sheet": sheet, "header_rows": 1, "time": time}))
+        np.testing.assert_array_equal(said.values["table", "t16(°C)"], found.values["table", "t16(°C)"])
+    with pytest.raises(UsageError, match="no sheet 2"):
+        load(Reader(), REAL, Source(table={"sheet": 2}))
+
+
+def bomb(path: Path, members: dict[str, bytes]) -> Path:
+    with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as book:
+        for name, content in members.items():
+            book.writestr(name, content)
+    return path
+
+
+def test_a_workbook_that_unpacks_to_too_much_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(workbook, "MAX_UNPACKED", 10_000_000)
+    path = bomb(tmp_path / "x.xlsx", {"xl/workbook.xml": b"<a/>", "xl/worksheets/sheet1.xml": b" " * 20_000_000})
+    assert path.stat().st_size < 100_000
+    with pytest.raises(FormatError, match="unpacks to more than"):
+        Reader().describe(path, Source())
+
+
+def test_a_header_that_lies_about_the_size_does_not_help(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(workbook, "MAX_UNPACKED", 1_000_000)
+    path = bomb(tmp_path / "x.xlsx", {"xl/worksheets/sheet1.xml": b" " * 2_000_000})
+    size = (2_000_000).to_bytes(4, "little")
+    path.write_bytes(path.read_bytes().replace(size, (1000).to_bytes(4, "little")))
+    with pytest.raises(FormatError, match="unpacks to more than"):
+        workbook.check_size(path)
+
+
+def test_two_cells_far_apart_are_refused(tmp_path: Path) -> None:
+    sheet = b'<row r="1"><c r="A1"><v>1</v></c></row><row r="1048576"><c r="XFD1048576"><v>1</v></c></row>'
+    path = bomb(tmp_path / "x.xlsx", {"xl/workbook.xml": b"<a/>", "xl/worksheets/sheet1.xml": sheet})
+    with pytest.raises(FormatError, match="absurd area"):
+        Reader().describe(path, Source())
+
+
+def test_a_zip_without_a_workbook_is_refused(tmp_path: Path) -> None:
+    path = bomb(tmp_path / "x.xlsx", {"readme.txt": b"hello"})
+    with pytest.raises(FormatError, match="not a readable workbook"):
+        Reader().describe(path, Source())
+
+
+def test_parquet_keeps_dtypes_and_takes_local_and_utc_times(tmp_path: Path) -> None:
+    import pyarrow as pa
+    import pyarrow.parquet as pq
+
+    t = np.datetime64("2026-03-01T08:00:00", "ns") + np.arange(3) * np.timedelta64(1, "s")
+    columns = {"T [degC]": np.arange(3, dtype=np.float32), "n": pa.array([1, None, 3]),
+               "i": np.arange(3, dtype=np.int16), "mode": ["a", None, "c"]}
+    for zone, hour in ((None, 7), ("UTC", 8)):
+        path = tmp_path / f"{zone}.parquet"
+        pq.write_table(pa.table({"time": pa.array(t, pa.timestamp("ns", zone)), **columns}), path)
+        data = load(Reader(), path, Source(timezone="Europe/Prague"))
+        assert {s.name: s.dtype for s in data.recording.signals} == {
+            "T [degC]": "float32", "n": "float64", "i": "int16", "mode": "str"}
+        assert data.t_ns["table"][0] == np.datetime64(f"2026-03-01T{hour:02}:00", "ns").astype(np.int64)
+        np.testing.assert_array_equal(data.values["table", "n"], [1, np.nan, 3])
+        assert list(data.values["table", "mode"]) == ["a", "", "c"]
+
+
+def test_parquet_with_nanoseconds_of_its_own(tmp_path: Path) -> None:
+    import pyarrow as pa
+    import pyarrow.parquet as pq
+
+    path = tmp_path / "x.parquet"
+    pq.write_table(pa.table({"t_ns": np.array([0, 2**53 + 1]), "T": [1.0, 2.0]}), path)
+    np.testing.assert_array_equal(load(Reader(), path, Source()).t_ns["table"], [0, 2**53 + 1])
