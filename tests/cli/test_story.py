@@ -85,7 +85,7 @@ def test_looking(ask: Say, data: Callable[..., Any]) -> None:
     assert {row["channel"]: row["unit"] for row in data("channels")}["T_nut_Z"] == "degC"
     assert data("calibrations")[0]["sign"] == "+"
     assert isinstance(data("quality"), list)
-    assert "heat1" in ask("tests").out
+    assert "speed 9000 rpm" in ask("tests").out
     assert "axis.z.nut" in ask("channels", "--test", "day1").out
     assert "raw/day1.csv" in ask("trace", "small", "day1", "dZ").out
 

@@ -9,6 +9,7 @@ import click
 
 from thermodata.cli.common import Session, command, plain
 from thermodata.cli.table import table
+from thermodata.errors import UsageError
 from thermodata.report.words import base_role, change, duration, number, pooled
 
 if TYPE_CHECKING:
@@ -18,12 +19,20 @@ if TYPE_CHECKING:
 
 def resolve(store: Store, ref: str) -> str:
     """MODEL as the store knows it: a path is fitted (or found, where that fit exists), a name stays one."""
-    if ref.endswith((".yaml", ".yml")) or Path(ref).is_file():
-        from thermodata.modelling.run import fit
-        from thermodata.schema.load import load_model
+    if not (ref.endswith((".yaml", ".yml")) or Path(ref).is_file()):
+        return ref
+    from thermodata.modelling.result import model_id
+    from thermodata.modelling.run import fit, load_data
+    from thermodata.schema.load import load_model
+    from thermodata.store.models import find_model
 
-        return fit(store, load_model(Path(ref)), base=Path(ref).parent).model
-    return ref
+    spec = load_model(Path(ref))
+    if not any(e.file for e in spec.effects):        # a file's content is known to the fit only
+        try:
+            return find_model(store, model_id(spec, load_data(store, spec).data_version)).model
+        except UsageError:
+            pass
+    return fit(store, spec, base=Path(ref).parent).model
 
 
 @command("fit")

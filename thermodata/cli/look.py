@@ -11,7 +11,7 @@ from thermodata.cli.common import Session, command
 from thermodata.cli.ingest import calibrations_text
 from thermodata.cli.table import fields, table
 from thermodata.errors import unknown_name
-from thermodata.report.records import records
+from thermodata.report.records import records, written_conditions
 from thermodata.report.words import duration
 
 _campaign = click.option("--campaign", "-c", help="Only this campaign.")
@@ -39,7 +39,10 @@ def rows_of(session: Session, query: str, campaign: str | None, order: str) -> l
 def tests_command(session: Session, campaign: str | None) -> None:
     """List the tests: kind, role, length and conditions."""
     rows = rows_of(session, "select * from test", campaign, "campaign, test")
-    shown = [{**row, "length": duration(row["duration_s"]), "begin": str(row["start"] or "-")[:16]} for row in rows]
+    specs = records(session.view(), "select spec from campaign")
+    written = written_conditions(row["spec"] for row in specs)
+    shown = [{**row, "length": duration(row["duration_s"]), "begin": str(row["start"] or "-")[:16],
+              "conditions": written.get((row["campaign"], row["test"]), row["conditions"])} for row in rows]
     session.answer(rows, lambda: table(shown, [
         ("campaign", "campaign"), ("test", "test"), ("kind", "kind"), ("role", "role"), ("begin", "start (UTC)"),
         ("length", "length"), ("conditions", "conditions")]))

@@ -52,12 +52,12 @@ def benchmark_diagnosis_command(session: Session, hide: tuple[str, ...], seeds: 
     for trial in benchmark(hide or choices, range(first_seed, first_seed + seeds), logged=not not_logged):
         trials.append(plain(trial.to_json()))
         session.say(f"{trial.hidden} {trial.seed}: {trial.outcome} ({trial.found or trial.verdict})")
-    result = {"summary": marks(trials), "trials": trials}
-    session.answer(result, lambda: table(trials, [
+    summary = marks(trials)
+    session.answer({"summary": summary, "trials": trials}, lambda: table(trials, [
         ("hidden", "hidden"), ("seed", "seed"), ("found", "found"), ("outcome", "outcome"),
         ("rmse_um_before", "before [um]"), ("rmse_um_after", "after [um]"),
         ("locked_rmse_um_before", "locked before [um]"), ("locked_rmse_um_after", "locked after [um]"),
-        ("seconds", "s")]) + "\n\n" + fields(result["summary"].items()))
+        ("seconds", "s")]) + "\n\n" + fields(summary.items()))
 
 
 def marks(trials: list[dict[str, Any]]) -> dict[str, int]:

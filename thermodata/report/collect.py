@@ -11,6 +11,7 @@ import numpy as np
 
 from thermodata.plugin import Bool1D, Float1D
 from thermodata.report.data import Curve, ReportData, TestPart, Version
+from thermodata.report.records import written_conditions
 from thermodata.report.spots import weak_spots_of
 from thermodata.report.words import base_role, pooled
 from thermodata.schema.result import Score
@@ -76,8 +77,7 @@ def _tests(store: Store, model: str, loaded: Loaded) -> Iterable[TestPart]:
     """A part for every stored prediction, in the order of the data."""
     rows = _rows(store, "select campaign, test, response, path from prediction where model = ?", [model])
     paths = {(r["campaign"], r["test"], r["response"]): store.path / r["path"] for r in rows}
-    conditions = {(r["campaign"], r["test"]): json.loads(r["conditions"] or "{}")
-                  for r in _rows(store, "select campaign, test, conditions from test")}
+    conditions = written_conditions(r["spec"] for r in _rows(store, "select spec from campaign"))
     drivers = _driver_names(loaded)
     for test in loaded.data.tests:
         for response in loaded.fitted.responses:

@@ -167,7 +167,7 @@ def _test(data: ReportData, part: TestPart, key: str) -> dict[str, Any]:
     length = duration(part.step_s * len(part.measured))
     facts = f"RMSE {number(row.rmse_um)} {data.unit} · FIT {number(row.fit)} %" if row else ""
     return {"part": part, "key": key, "title": title if len(data.responses) == 1 else f"{title} · {part.response}",
-            "about": " · ".join(filter(None, [part.kind.replace("_", " "), length, conditions])),
+            "about": typeset(" · ".join(filter(None, [part.kind.replace("_", " "), length, conditions]))),
             "facts": typeset(facts)}
 
 
