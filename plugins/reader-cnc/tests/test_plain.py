@@ -14,6 +14,7 @@ from thermodata.errors import FormatError
 from thermodata.plugin import Block, Head, Loss, Recording, Source
 from thermodata.reader.guard import described, guarded
 from thermodata.reader.registry import head
+from thermodata.testing.reader import reader_checks
 
 PRAGUE = Source(timezone="Europe/Prague")
 HEADER = "Datum;Čas;T1 [°C];nActSpeed;Program\n;;°C;1/min;\n"
@@ -161,7 +162,8 @@ def test_blank_cells_booleans_and_big_integers(tmp_path: Path) -> None:
     assert values["count"] == [big, big + 1, big + 2, big + 3, 0, big + 5]
     flagged = next(item for item in guarded(Reader(), path, PRAGUE) if isinstance(item, Block)).flags
     assert flagged is not None
-    assert {k: v.tolist() for k, v in flagged.items()} == {"door": [0, 0, 0, 0, 1, 0], "count": [0, 0, 0, 0, 1, 0]}
+    assert {k: v.tolist() for k, v in flagged.items()} == {
+        "door": [0, 0, 0, 0, 128, 0], "count": [0, 0, 0, 0, 128, 0]}
 
 
 def test_separate_milliseconds_belong_to_the_time(tmp_path: Path) -> None:
@@ -283,3 +285,14 @@ def test_other_files_are_not_claimed(text: str) -> None:
 @pytest.mark.parametrize("start", [b"TDSm\x0e\0\0\0", b"\x89MCAP0\r\n", b"PK\x03\x04", bytes(range(256)) * 20])
 def test_binary_files_are_not_claimed(start: bytes) -> None:
     assert Reader().sniff(Head("x.bin", len(start), start)) is None
+
+
+@pytest.fixture(scope="module")
+def sample(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return write(tmp_path_factory.mktemp("kit"), HEADER + "\n".join(rows(40)) + "\n")
+
+
+@pytest.mark.parametrize("number", range(len(reader_checks(Reader, [(Path("x"), PRAGUE)]))))
+def test_it_keeps_the_rules_of_readers(sample: Path, number: int) -> None:
+    claims = ["SHDR", "MTCONNECT", "TWINCAT", "SCO", "TRACE_XML", "TRACE_CSV"]
+    reader_checks(Reader, [(sample, PRAGUE)], claims=claims)[number]()

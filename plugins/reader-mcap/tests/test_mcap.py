@@ -108,7 +108,7 @@ def test_integers_beyond_a_float_stay_exact_with_and_without_gaps(tmp_path: Path
     assert {s.name: s.dtype for s in recording.signals} == {"/c.n": "int64", "/c.u": "uint64"}
     assert values["/c.n"] == [big + k if k != 7 else 0 for k in range(20)]
     assert values["/c.u"] == [2**63 + k if k != 7 else 0 for k in range(20)]
-    assert flags["/c.n"] == flags["/c.u"] == [int(k == 7) for k in range(20)]
+    assert flags["/c.n"] == flags["/c.u"] == [128 * (k == 7) for k in range(20)]
 
 
 def test_missing_and_null_fields_are_nan(tmp_path: Path) -> None:

@@ -109,11 +109,11 @@ def find_layout(lines: Sequence[str], rest: Sequence[str], declared: Mapping[str
 def _delimiter(lines: Sequence[str]) -> str | None:
     """The first of ';', tab, comma, '|' that cuts most of the last lines into equally many cells."""
     last = [line for line in lines[len(lines) // 2:] if line.strip()][-500:]
-    for share in (0.8, 0.4):
-        for delimiter in DELIMITERS:
-            counts = Counter(line.count(delimiter) for line in last if delimiter in line)
-            if counts and counts.most_common(1)[0][1] >= share * len(last):
-                return delimiter
+    last = last[:-1] if len(last) > 1 else last            # which may be cut
+    for delimiter in DELIMITERS:
+        counts = Counter(line.count(delimiter) for line in last if delimiter in line)
+        if counts and counts.most_common(1)[0][1] >= 0.5 * len(last):
+            return delimiter
     return None
 
 

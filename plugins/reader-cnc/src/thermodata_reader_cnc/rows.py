@@ -10,6 +10,7 @@ import numpy as np
 from thermodata.plugin import Array, Block, Int1D, Loss
 from thermodata.reader.text import clean, last_line_is_whole
 from thermodata.reader.zone import NAT
+from thermodata.schema.flag import Flag
 from thermodata_reader_cnc import when
 from thermodata_reader_cnc.cells import as_bool, as_float, as_int
 from thermodata_reader_cnc.chunks import Chunk
@@ -23,7 +24,7 @@ if TYPE_CHECKING:
     from thermodata_reader_cnc.plain import Plan
 
 _SMALL = 16 * 1024
-_GAP = np.uint16(1)
+_MISSING = np.uint16(Flag.NOT_MEASURING)      # no NaN in integers and booleans: 0, and not valid
 _Part = tuple[Int1D, dict[str, Array], dict[str, Array]]
 
 
@@ -156,7 +157,7 @@ class RowReader:
                 missing = np.array([c is None for c in cells], bool)
                 values[column.name] = np.array([0 if c is None else c for c in cells], np.dtype(column.dtype))
                 if missing.any():
-                    flags[column.name] = missing * _GAP
+                    flags[column.name] = missing * _MISSING
         return np.array(times, np.int64), values, flags
 
     def _row(self, text: str, line: int, row: int) -> tuple[int, list[Any]] | None:
@@ -248,7 +249,7 @@ def _numpy(column: pa.ChunkedArray, dtype: str) -> tuple[Array, Array | None]:
         return _text(column), None
     if dtype == "float64" or not column.null_count:
         return column.to_numpy().astype(dtype, copy=False), None
-    flags = column.is_null().to_numpy().astype(np.uint16) * _GAP
+    flags = column.is_null().to_numpy().astype(np.uint16) * _MISSING
     return column.fill_null(False if dtype == "bool" else 0).to_numpy().astype(dtype, copy=False), flags
 
 

@@ -9,6 +9,7 @@ from __future__ import annotations
 from thermodata.errors import FormatError
 from thermodata.plugin import Head
 from thermodata.reader.text import decode_head
+from thermodata_reader_cnc import mtconnect, shdr
 from thermodata_reader_cnc.layout import find_layout
 
 NAMES = {";": "';'", "\t": "tabs"}
@@ -19,11 +20,16 @@ def claim(head: Head) -> tuple[str, str] | None:
     text = decode_head(head.start)
     if text is None or not text.strip():
         return None
+    if text.lstrip("\ufeff \r\n").startswith("<"):
+        reason = mtconnect.claims(text)
+        return None if reason is None else ("mtconnect", reason)
     lines = [line.rstrip("\r") for line in text.lstrip("\ufeff").split("\n")]
     if head.size_bytes > len(head.start) and len(lines) > 1:
         lines.pop()                                       # the head ends inside a line
     if lines[0].startswith("LabVIEW"):
         return None
+    if (reason := shdr.claims(lines)) is not None:
+        return "shdr", reason
     return _plain(lines, head.name)
 
 

@@ -10,12 +10,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from thermodata.plugin import Array, Int1D
+from thermodata.schema.flag import Flag
 from thermodata_reader_mcap.leaves import MOST_ELEMENTS, Leaf, Path, path_name
 
 if TYPE_CHECKING:
     import pyarrow as pa
 
-_GAP = np.uint16(1)
+_MISSING = np.uint16(Flag.NOT_MEASURING)      # no NaN in integers and booleans: 0, and not valid
 _SMALL = 32
 Decode = Callable[[bytes], Any]
 
@@ -34,7 +35,7 @@ class Topic:
 
 @dataclass(slots=True)
 class Columns:
-    """Columns of consecutive messages. kept: which of them are in, shape (n,); wrong: (message, name, expected, got)."""
+    """Columns of consecutive messages. kept: which are in, shape (n,); wrong: (message, name, expected, got)."""
 
     kept: Int1D
     values: dict[str, Array]
@@ -174,7 +175,7 @@ def _numpy(column: pa.Array, dtype: str) -> tuple[Array, Array | None]:
         return column.to_numpy(zero_copy_only=False), None
     if dtype == "float64" or not column.null_count:
         return column.to_numpy(zero_copy_only=False).astype(dtype, copy=False), None
-    flags = column.is_null().to_numpy(zero_copy_only=False).astype(np.uint16) * _GAP
+    flags = column.is_null().to_numpy(zero_copy_only=False).astype(np.uint16) * _MISSING
     filled = column.fill_null(False if dtype == "bool" else 0)
     return filled.to_numpy(zero_copy_only=False).astype(dtype, copy=False), flags
 
@@ -286,4 +287,4 @@ def as_array(cells: list[Any], dtype: str) -> tuple[Array, Array | None]:
         return np.array([math.nan if c is None else c for c in cells], np.float64), None
     missing = np.array([c is None for c in cells], bool)
     values = np.array([0 if c is None else c for c in cells], np.dtype(dtype))
-    return values, missing * _GAP if missing.any() else None
+    return values, missing * _MISSING if missing.any() else None

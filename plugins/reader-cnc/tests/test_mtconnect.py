@@ -1,0 +1,173 @@
+"""Logs of changes: SHDR of an adapter, stream documents of an agent."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from thermodata_reader_cnc import Reader
+
+from thermodata.errors import FormatError
+from thermodata.plugin import Head, Source
+from thermodata.reader.registry import head
+from thermodata.testing.reader import Data, load, reader_checks
+
+REAL = Path(__file__).resolve().parents[4] / "shared" / "data" / "mtconnect"
+needs_real = pytest.mark.skipif(not REAL.exists(), reason="shared/data/mtconnect is not here")
+SHDR = """2026-03-02T08:00:00.000000Z|avail|AVAILABLE|S1speed|0|Xpos|1.5|Prog|A 1
+* adapterVersion: 2
+2026-03-02T08:00:00.000000Z|Tspindle|20.5|path|1.0 2.0 3.0
+2026-03-02T08:00:01.500000Z|system|NORMAL||||
+2026-03-02T08:00:02.000000Z|S1speed|3000
+2026-03-02T08:00:02.000000Z|@ASSET@|4711|CuttingTool|--multiline--AB
+<CuttingTool><a>1|2|3</a></CuttingTool>
+--multiline--AB
+2026-03-02T08:00:03.250000Z|Tspindle|UNAVAILABLE|Xpos|2.5
+2026-03-02T08:00:04.000000Z|Tspindle|21.5|path|4.0 5.0 6.0
+2026-03-02T08:00:05.000000Z|note|17|a message
+"""
+T0 = int(np.datetime64("2026-03-02T08:00:00", "ns").astype(np.int64))
+
+
+def written(tmp_path: Path, text: str, name: str) -> Path:
+    path = tmp_path / name
+    path.write_bytes(text.encode())
+    return path
+
+
+def column(data: Data, name: str) -> list[object]:
+    return list(data.values["nc", name].tolist())
+
+
+def test_values_are_held_until_they_change(tmp_path: Path) -> None:
+    path = written(tmp_path, SHDR, "log.txt")
+    assert "SHDR" in (Reader().sniff(head(path)) or "")
+    data = load(Reader(), path, Source())
+    assert not data.losses
+    assert ((data.t_ns["nc"] - T0) / 1e9).tolist() == [0, 1.5, 2, 3.25, 4, 5]
+    np.testing.assert_array_equal(column(data, "Tspindle"), [20.5, 20.5, 20.5, np.nan, 21.5, 21.5])
+    assert column(data, "S1speed") == [0, 0, 3000, 3000, 3000, 3000]
+    assert column(data, "Xpos") == [1.5, 1.5, 1.5, 2.5, 2.5, 2.5]
+    assert column(data, "path[2]") == [3, 3, 3, 3, 6, 6]
+    assert column(data, "Prog") == ["A 1"] * 6
+    assert column(data, "system") == [None] + ["NORMAL"] * 5
+    assert column(data, "note") == [None] * 5 + ["a message"]
+
+
+def test_bad_lines_are_named_and_the_rest_is_kept(tmp_path: Path) -> None:
+    lines = SHDR.splitlines(keepends=True)
+    lines.insert(4, "garbage\n")
+    lines.insert(6, "2026-13-02T08:00:02.000000Z|S1speed|1\n")
+    data = load(Reader(), written(tmp_path, "".join(lines) + "2026-03-02T08:00:06Z|S1sp", "log.txt"), Source())
+    assert {loss.where for loss in data.losses} == {"log.txt line 5", "log.txt last line", "time stamps"}
+    assert data.t_ns["nc"].size == 6
+    assert data.recording.complete is False
+
+
+def test_blocks_of_a_long_log_hold_over_their_borders(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    from thermodata_reader_cnc import events
+
+    path = written(tmp_path, SHDR + "".join(
+        f"2026-03-02T09:{k // 60:02d}:{k % 60:02d}.000Z|S1speed|{k}\n" for k in range(3000)), "log.txt")
+    whole = load(Reader(), path, Source())
+    monkeypatch.setattr(events, "_MOST_VALUES", 1)
+    small = load(Reader(), path, Source())
+    assert column(whole, "S1speed") == column(small, "S1speed")
+    assert set(column(small, "Xpos")[5:]) == {2.5}
+
+
+@needs_real
+def test_a_real_log_of_an_okuma() -> None:
+    data = load(Reader(), REAL / "okuma.txt", Source())
+    assert data.t_ns["nc"].size > 10_000
+    assert 300 < (data.t_ns["nc"][-1] - data.t_ns["nc"][0]) / 1e9 < 600
+    speed = np.array(column(data, "S1speed"), float)
+    assert np.nanmax(speed) > 100
+    assert len(data.values) > 80
+    assert all("line" in loss.where for loss in data.losses)
+
+
+def document(instance: int, first: int, last: int, items: str) -> str:
+    return (f'<?xml version="1.0" encoding="UTF-8"?>\n<MTConnectStreams xmlns="urn:mtconnect.org:MTConnectStreams:1.5">'
+            f'<Header instanceId="{instance}" firstSequence="{first}" lastSequence="{last}" nextSequence="{last + 1}"/>'
+            f'<Streams><DeviceStream name="M1"><ComponentStream component="Rotary" name="C" componentId="c">'
+            f'<Samples>{items}</Samples></ComponentStream></DeviceStream></Streams></MTConnectStreams>\n')
+
+
+def item(sequence: int, second: float, value: object, name: str = "Stemp") -> str:
+    at = f"2026-03-02T08:00:{second:06.3f}Z"
+    return (f'<Temperature dataItemId="{name.lower()}" name="{name}" sequence="{sequence}" timestamp="{at}">{value}'
+            "</Temperature>")
+
+
+def test_documents_are_put_in_the_agents_order_each_observation_once(tmp_path: Path) -> None:
+    log = (document(7, 1, 4, item(3, 2, 22) + item(1, 0, 20) + item(2, 1, 21) + item(4, 2.5, 5, "Sload"))
+           + document(7, 1, 6, item(3, 2, 22) + item(5, 3, 23) + item(6, 4, "UNAVAILABLE")))
+    path = written(tmp_path, log, "streams.xml")
+    assert "MTConnect" in (Reader().sniff(head(path)) or "")
+    data = load(Reader(), path, Source())
+    assert not data.losses
+    assert data.recording.complete is None
+    assert ((data.t_ns["nc"] - T0) / 1e9).tolist() == [0, 1, 2, 2.5, 3, 4]
+    np.testing.assert_array_equal(column(data, "Stemp"), [20, 21, 22, 22, 23, np.nan])
+    np.testing.assert_array_equal(column(data, "Sload"), [np.nan, np.nan, np.nan, 5, 5, 5])
+    assert data.recording.signals[0].properties["component"] == "C"
+
+
+def test_missing_sequences_are_a_loss_and_a_restart_repeats_nothing(tmp_path: Path) -> None:
+    log = (document(7, 1, 2, item(1, 0, 20) + item(2, 1, 21)) + document(7, 9, 10, item(9, 5, 25) + item(10, 6, 26))
+           + document(8, 1, 2, item(1, 6, 26) + item(2, 7, 27)))
+    data = load(Reader(), written(tmp_path, log, "streams.xml"), Source())
+    assert column(data, "Stemp") == [20, 21, 25, 26, 27]
+    assert len(data.losses) == 1
+    assert "sequences 3 to 8 are lost" in data.losses[0].reason
+
+
+def test_a_cut_document_keeps_its_whole_observations(tmp_path: Path) -> None:
+    log = document(7, 1, 2, item(1, 0, 20) + item(2, 1, 21)) + document(7, 1, 4, item(3, 2, 22) + item(4, 3, 23))
+    data = load(Reader(), written(tmp_path, log[:log.rindex("23<") + 1], "streams.xml"), Source())
+    assert column(data, "Stemp") == [20, 21, 22]
+    assert data.recording.complete is False
+    assert "cut" in data.losses[-1].reason
+
+
+def test_entities_are_not_expanded(tmp_path: Path) -> None:
+    bomb = '<!DOCTYPE x [<!ENTITY a "aaaa"><!ENTITY b "&a;&a;&a;">]>'
+    text = document(7, 1, 2, item(1, 0, 20)).replace("<MTConnectStreams", bomb + "<MTConnectStreams", 1)
+    path = written(tmp_path, text.replace(">20<", ">&b;<"), "streams.xml")
+    with pytest.raises(FormatError):
+        load(Reader(), path, Source())
+
+
+@needs_real
+def test_a_real_document_of_a_mazak() -> None:
+    data = load(Reader(), REAL / "Current-Mazak-1.5.xml", Source())
+    kinds = {s.name: s.dtype for s in data.recording.signals}
+    assert (kinds["Stemp"], kinds["crfunc"], kinds["S3temp"]) == ("float64", "str", "float64")
+    assert column(data, "Stemp")[-1] == 24
+    assert np.isnan(column(data, "S3temp")).all()
+    assert load(Reader(), REAL / "Current-Simple.xml", Source()).values["nc", "comms_cond"].tolist() == [
+        "FAULT", "NORMAL"]
+
+
+@pytest.mark.parametrize("text", ["<MTConnectDevices/>", '<?xml version="1.0"?><traceOther/>', "a|b|c\n1|2|3\n"])
+def test_other_text_is_not_claimed(text: str) -> None:
+    assert Reader().sniff(Head("x.xml", len(text), text.encode())) is None
+
+
+@pytest.fixture(scope="module")
+def samples(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Path]:
+    folder = tmp_path_factory.mktemp("kit")
+    log = "".join(document(7, 1, 3 * k, "".join(item(s, s, 20 + s) for s in range(3 * k - 2, 3 * k + 1)))
+                  for k in range(1, 9))
+    return {"shdr": written(folder, SHDR, "log.txt"), "xml": written(folder, log, "streams.xml")}
+
+
+CLAIMS = ["SHDR", "MTCONNECT", "TWINCAT", "SCO", "TRACE_XML", "TRACE_CSV"]
+
+
+@pytest.mark.parametrize("number", range(len(reader_checks(Reader, [(Path("x"), Source())]))))
+@pytest.mark.parametrize("kind", ["shdr", "xml"])
+def test_they_keep_the_rules_of_readers(samples: dict[str, Path], kind: str, number: int) -> None:
+    reader_checks(Reader, [(samples[kind], Source())], claims=CLAIMS)[number]()
