@@ -320,3 +320,44 @@ def test_tests_stand_in_the_order_of_the_campaign_file(filled: Store, campaign: 
     write_log(campaign.parent / "raw/a_a.npz", daq(100, seed=7))
     ingest(filled, campaign)
     assert rows(filled, "select test from test order by rowid") == [("one",), ("a",), ("two",)]
+
+
+def test_a_long_stream_goes_piece_by_piece_with_the_same_values(
+        store: Store, campaign: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    import pyarrow.parquet as pq
+
+    from thermodata.store import encoder, rawfile, tidy
+
+    whole = Store(tmp_path / "whole", create=True)
+    ingest(whole, campaign)
+    monkeypatch.setattr(tidy, "SEGMENT_VALUES", 1)
+    monkeypatch.setattr(tidy, "GROUP_VALUES", 1)
+    monkeypatch.setattr(rawfile, "GROUP_ROWS", 100)
+    assert encoder.COMPRESSION
+    write_log(campaign.parent / "raw/one_a.npz", daq(9000))
+    ingest(store, campaign)
+    ingest(whole, campaign)
+    for channel in ("dZ", "T_a", "T_b"):
+        for key, values in column(whole, "one", channel).items():
+            np.testing.assert_array_equal(column(store, "one", channel)[key], values, err_msg=f"{channel} {key}")
+    path, = rows(store, "select path from file where layer = 'tidy' and test = 'one' and source = 'daq'")[0]
+    groups = pq.ParquetFile(store.path / path).metadata
+    assert max(groups.row_group(i).num_rows for i in range(groups.num_row_groups)) <= 2048
+
+
+def test_a_channel_may_be_overridden_or_absent_in_one_test(store: Store, campaign: Path) -> None:
+    edit(campaign, "- {id: two, ", '- {id: two, channels: {T_b: {absent: true}, T_a: {signal: T2, at: ram}}, ')
+    assert ingest(store, campaign).losses == []
+    np.testing.assert_array_equal(column(store, "two", "T_a")["value"], daq(seed=1)["main"]["T2"].astype(float))
+    assert rows(store, "select test from channel where channel = 'T_b'") == [("one",)]
+    counted = rows(store, "select test, count(T_b) from wide_shop_daq group by 1 order by 1")
+    assert counted == [("one", 1200), ("two", 0)]
+
+
+def test_a_unit_in_brackets_may_be_left_out_and_is_the_unit(store: Store, campaign: Path) -> None:
+    log = daq(100)
+    log["main"]["Temp(degF)"] = log["main"].pop("T1")
+    write_log(campaign.parent / "raw/one_a.npz", log)
+    edit(campaign, "signal: T1,", "signal: Temp,")
+    ingest(store, campaign)
+    np.testing.assert_allclose(column(store, "one", "T_a")["value"], (daq(100)["main"]["T1"] - 32) / 1.8)
