@@ -56,6 +56,13 @@ def test_day_and_month_that_could_be_either_are_refused_unless_declared(tmp_path
     assert data.t_ns["table"][0] == utc("2026-04-03T06:00:00")
 
 
+def test_the_day_may_show_far_down(tmp_path: Path) -> None:
+    rows = [f"03/{1 + i // 1440:02}/2026 {i // 60 % 24:02}:{i % 60:02}:00;{i}" for i in range(20_000)]
+    data = read(tmp_path, "time;T [degC]\n" + "\n".join(rows) + "\n", timezone="UTC")
+    assert data.recording.start_ns == utc("2026-03-01")
+    assert set(np.diff(data.t_ns["table"]).tolist()) == {60 * S}
+
+
 def test_date_and_time_columns_join_and_the_repeated_hour_is_resolved(tmp_path: Path) -> None:
     rows = [("26.10.2025", f"{h:02}:{m:02}:00") for h, m in
             [(1, 30), (2, 0), (2, 30), (2, 0), (2, 30), (3, 0)]]
@@ -86,6 +93,17 @@ def test_text_columns_empty_cells_and_words_among_numbers(tmp_path: Path) -> Non
     np.testing.assert_array_equal(data.values["table", "door"], [1, 0, 1, 1, 1])
     assert list(data.values["table", "note"]) == ["start", "ok", "ok", "", ""]
     assert [x.reason for x in data.losses] == ["1 cells are no numbers, such as 'broken'"]
+
+
+def test_one_word_far_down_a_column_of_numbers_costs_one_cell(tmp_path: Path) -> None:
+    n = 60_000
+    rows = [f"{i};{i / 4}".replace(".", ",") for i in range(n)]
+    rows[45_000] = "45000;broken"
+    data = read(tmp_path, "time [s];T\n" + "\n".join(rows) + "\n")
+    values = data.values["table", "T"]
+    assert np.flatnonzero(np.isnan(values)).tolist() == [45_000]
+    np.testing.assert_array_equal(np.delete(values, 45_000), np.delete(np.arange(n) / 4, 45_000))
+    assert data.losses[0].reason == "1 cells are no numbers, such as 'broken'"
 
 
 def test_a_temperature_called_t_is_no_time(tmp_path: Path) -> None:

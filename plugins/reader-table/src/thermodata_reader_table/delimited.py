@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -152,20 +153,33 @@ def _first_stamps(path: Path, sheet: Sheet, source: Source) -> stamps.Stamps:
     chunk = next(_chunks(path, sheet, 2000), None)
     if chunk is None:
         return stamps.Stamps(np.zeros(0, np.int64), sheet.layout.seconds is None, ())
-    return _stamps(sheet, chunk, source, path.name)
+    try:
+        return _stamps(sheet, chunk, source, path.name)
+    except FormatError:
+        # which number is the day may show further down only
+        return _all_stamps(path, sheet, source, 2000)
 
 
 def _chunks(path: Path, sheet: Sheet, rows: int) -> Iterator[Any]:
-    """DataFrames of text, one column a position; column `width + i` holds cells that a line has too many."""
+    """DataFrames, one column a position: numbers where pandas reads all of a part's cells as such, else text;
+    an empty cell is NaN. Column `width + i` holds cells that a line has too many."""
     import pandas as pd
 
     width = len(sheet.layout.names)
+    # columns of numbers and words are told as a Loss; pandas' own warning about them would come besides
+    warnings.filterwarnings("ignore", category=pd.errors.DtypeWarning)
+    # pandas before 3 rounds the last digit unless told not to
+    exact: dict[str, Any] = {} if int(pd.__version__.split(".")[0]) >= 3 else {"float_precision": "round_trip"}
+    text = {i: str for i, kind in enumerate(sheet.kinds) if kind == "str"}
+    if sheet.layout.seconds is None:
+        text |= dict.fromkeys(sheet.layout.time, str)
     try:
         with pd.read_csv(
-            path, sep=sheet.delimiter, header=None, names=list(range(width + _SPARE)), index_col=False, dtype=str,
-            skiprows=sheet.layout.first, encoding=sheet.encoding, keep_default_na=False, na_filter=False,
+            path, sep=sheet.delimiter, header=None, names=list(range(width + _SPARE)), index_col=False, dtype=text,
+            skiprows=sheet.layout.first, encoding=sheet.encoding, keep_default_na=False, na_values=[""],
+            decimal=sheet.decimal,
             quoting=0 if sheet.quoted else 3, skip_blank_lines=True, chunksize=rows, encoding_errors="strict",
-            engine="c", low_memory=True, on_bad_lines="error",
+            engine="c", low_memory=True, on_bad_lines="error", **exact,
         ) as reader:
             yield from reader
     except pd.errors.EmptyDataError:
@@ -178,14 +192,14 @@ def _chunks(path: Path, sheet: Sheet, rows: int) -> Iterator[Any]:
 def _stamps(sheet: Sheet, chunk: Any, source: Source, where: str) -> stamps.Stamps:
     layout = sheet.layout
     if layout.seconds is not None:
-        seconds, _ = _floats(chunk[layout.time[0]].to_numpy(object), sheet.decimal)
+        seconds, _ = _floats(chunk[layout.time[0]].to_numpy(), sheet.decimal)
         good = np.isfinite(seconds) & (np.abs(seconds * layout.seconds) < 9e9)
         t_ns = np.full(seconds.size, NAT, np.int64)
         t_ns[good] = np.rint(seconds[good] * (layout.seconds * 1e9)).astype(np.int64)
         return stamps.Stamps(t_ns, False, ())
-    cells = chunk[layout.time[0]]
+    cells = chunk[layout.time[0]].fillna("")
     for column in layout.time[1:]:
-        cells = cells.str.strip() + " " + chunk[column].str.strip()
+        cells = cells.str.strip() + " " + chunk[column].fillna("").str.strip()
     return stamps.parse(cells.tolist(), source.timezone, layout.form, where)
 
 
@@ -214,13 +228,13 @@ def blocks(path: Path, source: Source) -> Iterator[Block | Loss]:
         t = t_ns[at:at + len(chunk)]
         good = (t != NAT) & (np.arange(at, at + len(chunk)) < total)
         spare = chunk.iloc[:, width:]
-        good &= ~(spare != "").any(axis=1).to_numpy()
+        good &= ~spare.notna().any(axis=1).to_numpy()
         bad_times += int((~good).sum()) - (1 if at + len(chunk) > total else 0)
         values: dict[str, Array] = {}
         for i, name in enumerate(layout.names):
             if i in layout.time:
                 continue
-            cells = chunk[i].to_numpy(object)
+            cells = chunk[i].to_numpy()
             if sheet.kinds[i] == "str":
                 values[name] = np.array([clean(c) if isinstance(c, str) else "" for c in cells], object)[good]
                 continue
@@ -246,12 +260,11 @@ def blocks(path: Path, source: Source) -> Iterator[Block | Loss]:
 
 
 def _floats(cells: Array, decimal: str) -> tuple[Array, list[str]]:
-    """Numbers of a column of texts; empty cells are NaN, and so are cells that are no numbers, which are named."""
-    try:
+    """Numbers of a column; empty cells are NaN, and so are cells that are no numbers, which are named."""
+    if cells.dtype.kind in "biuf":
         return cells.astype(np.float64), []
-    except (ValueError, TypeError):
-        pass
-    texts = [c.strip() if isinstance(c, str) else "" for c in cells]
+    # pandas reads a part of such a column as numbers where that part holds no word; NaN is an empty cell
+    texts = [c.strip() if isinstance(c, str) else "" if c != c else repr(float(c)) for c in cells.tolist()]
     if decimal == ",":
         texts = [c.replace(",", ".") for c in texts]
     try:
