@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from thermodata.plugin import Int1D
-from thermodata_reader_crio.index import Timestamp
+from thermodata_reader_crio.metadata import Timestamp
 
 _BILLION = 1_000_000_000
 

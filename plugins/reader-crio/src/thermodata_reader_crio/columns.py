@@ -14,9 +14,10 @@ from typing import BinaryIO, Literal
 import numpy as np
 
 from thermodata.plugin import Array, Int1D
-from thermodata_reader_crio.index import DAQMX_NUMPY, NUMPY, STRING, Index, Layout, Piece
+from thermodata_reader_crio.index import Index, Piece
+from thermodata_reader_crio.metadata import NUMPY, STRING, Layout
 
-__all__ = ["DAQMX_NUMPY", "Column", "columns", "read"]
+__all__ = ["Column", "columns", "read"]
 
 _GAP_BYTES = 16 * 1024   # a hole up to this size is cheaper to read over than to seek over
 

@@ -15,7 +15,8 @@ from thermodata.plugin import Array, Int1D, Scaling, Signal, Source
 from thermodata.reader.text import split_unit
 from thermodata_reader_crio.clock import Waveform, waveform
 from thermodata_reader_crio.columns import Column, columns
-from thermodata_reader_crio.index import CLOCK, TIMESTAMP, Index, Layout, walk
+from thermodata_reader_crio.index import Index, walk
+from thermodata_reader_crio.metadata import CLOCK, TIMESTAMP, Layout
 
 KNOWN_SCALES = ("Linear", "Polynomial", "RTD", "Strain", "Table", "Thermistor", "Thermocouple", "Add", "Subtract",
                 "AdvancedAPI")
