@@ -10,6 +10,7 @@ import re
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Any
 from xml.etree import ElementTree as ET
 
 from thermodata.errors import FormatError
@@ -120,16 +121,16 @@ def _cut(body: bytes, place: str, names: Names) -> Document | None:
     """What of a cut document is whole."""
     if b"<!DOCTYPE" in body or b"<!ENTITY" in body:
         return None
-    parser = ET.XMLPullParser(events=("start", "end"))
+    parser: Any = ET.XMLPullParser(events=("start", "end"))
     root: ET.Element | None = None
     whole: set[ET.Element] = set()
     try:
         parser.feed(body)
         for event, element in parser.read_events():
             if event == "start" and root is None:
-                root = element  # type: ignore[assignment]
+                root = element
             if event == "end":
-                whole.add(element)  # type: ignore[arg-type]
+                whole.add(element)
     except ET.ParseError:
         pass
     return None if root is None else _read(root, place, names, whole)

@@ -9,7 +9,7 @@ from __future__ import annotations
 from thermodata.errors import FormatError
 from thermodata.plugin import Head
 from thermodata.reader.text import decode_head
-from thermodata_reader_cnc import mtconnect, shdr
+from thermodata_reader_cnc import mtconnect, shdr, twincat
 from thermodata_reader_cnc.layout import find_layout
 
 NAMES = {";": "';'", "\t": "tabs"}
@@ -28,8 +28,9 @@ def claim(head: Head) -> tuple[str, str] | None:
         lines.pop()                                       # the head ends inside a line
     if lines[0].startswith("LabVIEW"):
         return None
-    if (reason := shdr.claims(lines)) is not None:
-        return "shdr", reason
+    for form, claims in (("shdr", shdr.claims), ("twincat", twincat.claims)):
+        if (reason := claims(lines)) is not None:
+            return form, reason
     return _plain(lines, head.name)
 
 
