@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from dataclasses import asdict, dataclass, replace
+from dataclasses import asdict, dataclass
 from time import perf_counter
 from typing import Any, Literal
 
@@ -11,7 +11,6 @@ from thermodata.diagnosis.answer import answer
 from thermodata.effect import effects
 from thermodata.modelling.fit import fit_model
 from thermodata.schema.result import Diagnosis
-from thermodata.view.dataset import Dataset
 from thermodata.virtual.world import dataset
 
 Outcome = Literal["right", "equivalent", "family", "wrong", "abstained", "false claim"]
@@ -46,12 +45,8 @@ def benchmark(
     library = effects()
     for seed in seeds:
         for hide in hides:
-            data, spec = dataset(hide, seed, step_s=step_s)
+            data, spec = dataset(hide, seed, step_s, measured=logged)
             family = library[hide].family if hide in library else hide
-            if not logged and hide != NONE:
-                data = _without(
-                    data, hide, {name for e in spec.effects for name in e.drivers.values() if isinstance(name, str)}
-                )
             start = perf_counter()
             found = answer(fit_model(spec, data, uncertainty=False), data, library, "benchmark").diagnosis
             yield _trial(hide, seed, logged, family, found, perf_counter() - start)
@@ -84,25 +79,3 @@ def _trial(hide: str, seed: int, logged: bool, family: str, found: Diagnosis, se
         claimed.locked_rmse_um_after if claimed else None,
         seconds,
     )
-
-
-def _without(data: Dataset, hide: str, kept: set[str]) -> Dataset:
-    """The same data as if nobody had logged what drives the hidden effect, nor anything on the same part."""
-    places = {c.split(".")[0] for c in _places(hide)}
-    gone = {
-        n
-        for n, c in data.channels.items()
-        if c.quantity != "displacement" and n not in kept and (c.at or "").split(".")[0] in places
-    }
-
-    def strip(channels: Any) -> Any:
-        return {n: v for n, v in channels.items() if n not in gone}
-
-    tests = tuple(
-        replace(t, values=strip(t.values), valid=strip(t.valid), channels=strip(t.channels)) for t in data.tests
-    )
-    return replace(data, tests=tests, channels=strip(data.channels))
-
-
-def _places(hide: str) -> list[str]:
-    return [place for need in effects()[hide].needs for place in need.places]
