@@ -51,16 +51,17 @@ def lvm(path: Path) -> Source:
 
 
 def csv(path: Path) -> Source:
-    head = "Měření teplot\nDatum;Uhrzeit;T1 [°C];n (U/min);Bemerkung\n"
-    rows = "".join(f"01.03.2026;08:{i // 6:02}:{i % 6}0;{20 + i / 8:.3f};{100 * i};{'ok' if i % 5 else ''}\n".replace(
-        ".", ",").replace("01,03,2026", "01.03.2026") for i in range(60))
+    head = "Měření teplot\nČas [s];T1 [°C];n (U/min);Bemerkung\n"
+    rows = "".join(f"{10 * i};{20 + i / 8:.3f};{100 * i};{'ok' if i % 5 else ''}\n".replace(".", ",")
+                   for i in range(60))
     path.write_bytes((head + rows).encode("cp1250"))
     return PRAGUE
 
 
-def csv_seconds(path: Path) -> Source:
-    path.write_text("time [s],T1 [degC],state\n" + "".join(f"{i}.5,{20 + i / 8:.3f},s{i:03}\n" for i in range(40)))
-    return Source()
+def csv_dates(path: Path) -> Source:
+    path.write_text("time,T1 [degC],state\n" + "".join(
+        f"2026-03-01 08:00:{i:02}.5,{20 + i / 8:.3f},s{i:03}\n" for i in range(40)))
+    return PRAGUE
 
 
 def parquet(path: Path) -> Source:
@@ -107,7 +108,7 @@ def xlsx(path: Path) -> Source:
 
 
 MAKERS: dict[str, tuple[str, Callable[[Path], Source]]] = {
-    "a.tdms": ("crio", tdms), "a.lvm": ("crio", lvm), "a.csv": ("table", csv), "b.csv": ("table", csv_seconds),
+    "a.tdms": ("crio", tdms), "a.lvm": ("crio", lvm), "a.csv": ("table", csv), "b.csv": ("table", csv_dates),
     "a.parquet": ("table", parquet), "a.xlsx": ("table", xlsx),
 }
 CLAIMS = {"crio": ("TDMS", "LVM"), "table": ("XLSX", "PARQUET", "CSV")}

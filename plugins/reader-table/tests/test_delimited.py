@@ -152,6 +152,7 @@ def test_utf16_of_a_spreadsheet(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("text", [
     "LabVIEW Measurement\t\nWriter_Version\t2\n", "2009-06-15T00:00:00|power|ON\n2009-06-15T00:00:01|Xabs|1\n",
+    "Datum;T [°C]\n1.3.2026 8:00:00;20,5\n1.3.2026 8:00:10;20,6\n",       # a control's
     "Dear reader,\nthe probe, as said, failed.\nYours, N.\n", "1;2;3\n4;5;6\n",
 ])
 def test_text_that_is_no_table_is_not_claimed(text: str) -> None:

@@ -54,6 +54,10 @@ def _sniff_text(head: Head) -> str | None:
         return None
     if layout.first == 0:
         return None                                  # without a header, nothing says what the columns are
+    if layout.seconds is None and delimiter in (";", "\t"):
+        # local dates between ';' or tabs are how controls export; the cnc reader claims them. Named in the campaign
+        # file, this reader takes such a table just as well.
+        return None
     shown = {"\t": "tab"}.get(delimiter, f"'{delimiter}'")
     return f"table: cells separated by {shown}, time in column '{layout.names[layout.time[0]]}'"
 
