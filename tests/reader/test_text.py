@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from thermodata.errors import FormatError
-from thermodata.reader.text import decimal_mark, decode, decode_head, split_unit
+from thermodata.reader.text import decimal_mark, decode, decode_head, last_line_is_whole, split_unit
 
 
 @pytest.mark.parametrize(
@@ -81,3 +81,11 @@ def test_decimal_mark_from_the_data() -> None:
     assert decimal_mark(["1", "2"]) is None
     with pytest.raises(FormatError, match="a decimal point and with a decimal comma"):
         decimal_mark(["1,5", "2.5"])
+
+
+@pytest.mark.parametrize(("line", "before", "whole"), [
+    ("3;12.75", "2;12.50", True), ("3;12,75", "2;9,50", True), ("3;12.7", "2;12.50", False), ("3", "2;12.50", False),
+    ("3;100", "2;900", False), ("3;o", "2;ok", False), ("3;", "2;", False),
+])
+def test_a_last_line_without_end_is_trusted_only_where_nothing_can_be_missing(line: str, before: str, whole: bool) -> None:
+    assert last_line_is_whole(line, before, ";") is whole
