@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+
 from thermodata.effect.lag import lag
 from thermodata.schema.model import EffectSpec, Model, Response
 from thermodata.view.dataset import ChannelInfo, Dataset, TestData

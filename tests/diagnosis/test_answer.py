@@ -6,6 +6,7 @@ from dataclasses import replace
 from typing import Any
 
 import numpy as np
+
 from thermodata.diagnosis.answer import answer
 from thermodata.effect import effects
 from thermodata.effect.lag import lag
@@ -30,9 +31,11 @@ def test_a_missing_screw_is_named_with_its_axis_and_holds_on_the_locked_test(spe
     best = found.candidates[0]
     assert found.verdict == "effect"
     assert (best.effect, best.family, best.drivers, best.claimed) == ("feed_screw", "feed_x", ["T_nut_X"], True)
-    assert best.rmse_um_after is not None and best.rmse_um_before is not None
+    assert best.rmse_um_after is not None
+    assert best.rmse_um_before is not None
     assert best.rmse_um_after < 0.3 * best.rmse_um_before
-    assert best.locked_rmse_um_after is not None and best.locked_rmse_um_before is not None
+    assert best.locked_rmse_um_after is not None
+    assert best.locked_rmse_um_before is not None
     assert best.locked_rmse_um_after < 0.4 * best.locked_rmse_um_before
     assert best.parameters["feed_screw.gain"].value == np.float64(best.parameters["feed_screw.gain"].value)
     assert 1.5 < best.parameters["feed_screw.gain"].value < 2.5
@@ -58,7 +61,8 @@ def test_a_cause_that_was_not_logged_stays_unknown(spec: Model) -> None:
 
     found = diagnosis(make_data(unlogged), spec)
     assert found.verdict == "unknown"
-    assert found.unknown is not None and found.unknown.time_constants_h
+    assert found.unknown is not None
+    assert found.unknown.time_constants_h
     assert not any(c.claimed for c in found.candidates)
 
 
@@ -83,7 +87,8 @@ def test_a_slipped_probe_is_an_artefact_and_does_not_hide_the_effect(spec: Model
     found = diagnosis(replace(data, tests=tuple(tests)), spec)
     steps = [a for a in found.artefacts if a.test == broken.test]
     assert len(steps) == 1
-    assert steps[0].size_um is not None and abs(steps[0].size_um - 6.0) < 1.0
+    assert steps[0].size_um is not None
+    assert abs(steps[0].size_um - 6.0) < 1.0
     assert found.candidates[0].effect == "feed_screw"
 
 

@@ -88,7 +88,10 @@ def test_a_file_name_that_contradicts_the_table_is_an_error(tmp_path: Path) -> N
 
 
 def test_a_model_names_its_nearest_right_key() -> None:
-    good = "schema: thermodata/model/1\nname: b\ncampaign: c\nresponse: {axis: Z, at: tcp}\neffects:\n  - {effect: lag}\n"
+    good = (
+        "schema: thermodata/model/1\nname: b\ncampaign: c\nresponse: {axis: Z, at: tcp}\neffects:\n"
+        "  - {effect: lag}\n"
+    )
     assert parse_model(good).campaign_ids == ("c",)
     with pytest.raises(SpecError, match=r"model\.yaml:6.*\n.*\n.*did you mean 'drivers'"):
         parse_model(good.replace("{effect: lag}", "{effect: lag, drivrs: {u: x}}"))

@@ -23,11 +23,13 @@ PART_ROWS = 100
 
 @dataclass(frozen=True, slots=True)
 class Block:
-    """One test, or a part of one in time, compressed. residual: shape (m,), of the fitted model, in the response's unit. base: shape
-    (m, k), what the model can still do (its gains, and its nonlinear parameters to first order). slack:
-    shape (m, s), what it may do at a price. t_s: shape (m,).
-    segment: shape (m,), one free offset each. response: shape (m,), measured, offsets removed. group: shape (n,),
-    the compressed row of every row of the grid, -1 where it does not count."""
+    """One test, or a part of one in time, compressed.
+
+    t_s: shape (m,). response, residual: shape (m,), measured and left over by the fitted model, in the response's
+    unit, free offsets removed. base: shape (m, k), what the model can still do (its gains, and its nonlinear
+    parameters to first order). slack: shape (m, s), what it may do at a price. segment: shape (m,), one free offset
+    each. group: shape (n,), the compressed row of every row of the grid, -1 where it does not count.
+    """
 
     test: TestData
     t_s: Float1D
