@@ -29,7 +29,7 @@ def lab(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, World]:
 def test_the_campaign_and_model_files_load_strictly(lab: tuple[Path, World]) -> None:
     folder, world = lab
     campaign = load_campaign(folder / "campaign.yaml")
-    model = load_model(folder / "baseline.yaml")
+    model = load_model(folder / "model.yaml")
     assert [t.id for t in campaign.tests] == [r.op.id for r in world.runs]
     assert model == world.baseline()
     assert {e.effect for e in model.effects} == set(world.present) - {"feed_screw"}
@@ -40,7 +40,7 @@ def test_the_campaign_and_model_files_load_strictly(lab: tuple[Path, World]) -> 
 
 def test_nothing_that_the_lab_has_tells_the_truth(lab: tuple[Path, World]) -> None:
     folder, _ = lab
-    text = (folder / "campaign.yaml").read_text(encoding="utf-8") + (folder / "baseline.yaml").read_text("utf-8")
+    text = (folder / "campaign.yaml").read_text(encoding="utf-8") + (folder / "model.yaml").read_text("utf-8")
     assert "truth" not in text
     assert "feed_screw" not in text
     truth = json.loads((folder / "truth" / "truth.json").read_text(encoding="utf-8"))

@@ -15,7 +15,7 @@ from thermodata.errors import UsageError
 from thermodata.report.words import change, duration, number, pooled, verdict_sentence
 
 _MARK = ".thermodata-demo"          # a folder that holds it was made by a demo and may be made anew
-_MADE = ("raw", "campaign.yaml", "baseline.yaml", "truth", "thermodata.store", "report.html")
+_MADE = ("raw", "campaign.yaml", "model.yaml", "truth", "thermodata.store", "report.html")
 
 
 @dataclass(frozen=True, slots=True)
@@ -109,7 +109,7 @@ def story(step: Step, folder: Path, hide: str, seed: int) -> dict[str, Any]:
     from thermodata.modelling.run import add, fit
     from thermodata.schema.load import load_model
 
-    base = fit(store, load_model(folder / "baseline.yaml"), base=folder)
+    base = fit(store, load_model(folder / "model.yaml"), base=folder)
     effects = sorted({key.split(".")[0] for key in base.parameters})
     step.line(f"{', '.join(effects)}; error {number(pooled(base.scores, 'calibration'))} um in calibration, "
               f"{number(pooled(base.scores, 'verification'))} um in verification")

@@ -43,7 +43,7 @@ class Truth:
 
 def simulate(folder: Path, hide: str = "none", seed: int = 0, *, tests: int | None = None, hours: float = 12.0,
              rate_hz: float = 0.5, measured: bool = True, progress: Callable[[str], None] | None = None) -> Truth:
-    """Simulates a campaign into `folder`: raw/, campaign.yaml, baseline.yaml, and truth/ apart.
+    """Simulates a campaign into `folder`: raw/, campaign.yaml, model.yaml, and truth/ apart.
 
     hide: an effect of `HIDEABLE`, which the machine has and the baseline lacks, or "none". rate_hz: of the cRIO.
     measured=False: the hidden effect's drivers aren't logged either. Raises UsageError for an unknown effect and
@@ -71,11 +71,11 @@ def simulate(folder: Path, hide: str = "none", seed: int = 0, *, tests: int | No
         _write_truth(folder / "truth" / f"{run.op.id}.parquet", run, world)
         say(f"{run.op.id}: {hours:g} h")
     _yaml(folder / "campaign.yaml", campaign_file(world, book))
-    _yaml(folder / "baseline.yaml", model_file(world))
+    _yaml(folder / "model.yaml", model_file(world))
     truth = truth_file(world, book)
     (folder / "truth" / "truth.json").write_text(json.dumps(truth, indent=1), encoding="utf-8")
     return Truth(truth["hidden"], truth["family"], truth["drivers"], world.response, world.noise_um, world.present,
-                 world.rms_um, seed, world.campaign, str(folder / "campaign.yaml"), str(folder / "baseline.yaml"))
+                 world.rms_um, seed, world.campaign, str(folder / "campaign.yaml"), str(folder / "model.yaml"))
 
 
 def _yaml(path: Path, data: Mapping[str, Any]) -> None:
