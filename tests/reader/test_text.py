@@ -87,5 +87,5 @@ def test_decimal_mark_from_the_data() -> None:
     ("3;12.75", "2;12.50", True), ("3;12,75", "2;9,50", True), ("3;12.7", "2;12.50", False), ("3", "2;12.50", False),
     ("3;100", "2;900", False), ("3;o", "2;ok", False), ("3;", "2;", False),
 ])
-def test_a_last_line_without_end_is_trusted_only_where_nothing_can_be_missing(line: str, before: str, whole: bool) -> None:
+def test_a_last_line_without_end_is_trusted_where_nothing_can_be_missing(line: str, before: str, whole: bool) -> None:
     assert last_line_is_whole(line, before, ";") is whole
