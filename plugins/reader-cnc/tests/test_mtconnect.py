@@ -164,7 +164,7 @@ def samples(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Path]:
     return {"shdr": written(folder, SHDR, "log.txt"), "xml": written(folder, log, "streams.xml")}
 
 
-CLAIMS = ["SHDR", "MTCONNECT", "TWINCAT", "SCO", "TRACE_XML", "TRACE_CSV"]
+CLAIMS = ["SHDR", "MTCONNECT", "TWINCAT", "SCO", "TRACE_XML", "TRACE_CSV", "OPCUA"]
 
 
 @pytest.mark.parametrize("number", range(len(reader_checks(Reader, [(Path("x"), Source())]))))

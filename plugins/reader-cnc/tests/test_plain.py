@@ -220,10 +220,12 @@ def test_a_cut_last_row_is_a_loss(tmp_path: Path, cut: str) -> None:
     assert losses[0].fraction == pytest.approx(len(cut) / path.stat().st_size)
 
 
-def test_a_whole_last_row_without_line_end_is_kept(tmp_path: Path) -> None:
-    path = write(tmp_path, damaged(rows(300))[:-1])
-    recording, t_ns, _, losses = read(path)
-    assert (recording.complete, t_ns.size, losses) == (None, 300, [])
+def test_a_last_row_without_line_end_is_kept_where_its_last_digits_prove_it(tmp_path: Path) -> None:
+    text = "Time;n;T\n" + "".join(f"2026-03-02 08:00:{k:02d};{k};{k},25\n" for k in range(20))
+    recording, t_ns, _, losses = read(write(tmp_path, text[:-1]))
+    assert (recording.complete, t_ns.size, losses) == (None, 20, [])
+    recording, t_ns, _, losses = read(write(tmp_path, text[:-2]))
+    assert (recording.complete, t_ns.size, len(losses)) == (False, 19, 1)
 
 
 def test_nul_bytes_of_a_power_cut_cost_one_loss(tmp_path: Path) -> None:
@@ -294,5 +296,5 @@ def sample(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.mark.parametrize("number", range(len(reader_checks(Reader, [(Path("x"), PRAGUE)]))))
 def test_it_keeps_the_rules_of_readers(sample: Path, number: int) -> None:
-    claims = ["SHDR", "MTCONNECT", "TWINCAT", "SCO", "TRACE_XML", "TRACE_CSV"]
+    claims = ["SHDR", "MTCONNECT", "TWINCAT", "SCO", "TRACE_XML", "TRACE_CSV", "OPCUA"]
     reader_checks(Reader, [(sample, PRAGUE)], claims=claims)[number]()

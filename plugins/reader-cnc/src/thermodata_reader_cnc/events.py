@@ -116,8 +116,9 @@ def recording(found: Plan, first: str | None, source: Source, properties: dict[s
 class HeldTable:
     """Collects events into blocks of rows. Events that share a time stamp and stand together share a row."""
 
-    def __init__(self, found: Plan, source: Source, complain: Callable[[Event, str], Iterator[Loss]]) -> None:
-        self.plan, self.complain = found, complain
+    def __init__(self, found: Plan, source: Source, complain: Callable[[Event, str], Iterator[Loss]],
+                 stream: str = STREAM) -> None:
+        self.plan, self.complain, self.stream = found, complain, stream
         self.clock = LocalClock(source.timezone)
         self._columns = {t.name: t for each in found.values() for t in each}
         self._state: dict[str, Any] = {n: None if t.dtype == "str" else np.nan for n, t in self._columns.items()}
@@ -181,7 +182,7 @@ class HeldTable:
             yield Loss("time stamps", reason=f"{int((~good).sum())} do not read, first '{self._times[row][:40]}'")
         self._times = []
         if good.any():
-            yield Block(STREAM, t_ns[good], values)
+            yield Block(self.stream, t_ns[good], values)
 
 
 def _value(target: Target, text: str, words: list[str]) -> tuple[Any, bool]:

@@ -9,7 +9,7 @@ from __future__ import annotations
 from thermodata.errors import FormatError
 from thermodata.plugin import Head
 from thermodata.reader.text import decode_head
-from thermodata_reader_cnc import mtconnect, shdr, twincat
+from thermodata_reader_cnc import mtconnect, opcua, sco, shdr, twincat
 from thermodata_reader_cnc.layout import find_layout
 
 NAMES = {";": "';'", "\t": "tabs"}
@@ -28,7 +28,8 @@ def claim(head: Head) -> tuple[str, str] | None:
         lines.pop()                                       # the head ends inside a line
     if lines[0].startswith("LabVIEW"):
         return None
-    for form, claims in (("shdr", shdr.claims), ("twincat", twincat.claims)):
+    for form, claims in (("shdr", shdr.claims), ("twincat", twincat.claims), ("sco", sco.claims),
+                         ("opcua", opcua.claims)):
         if (reason := claims(lines)) is not None:
             return form, reason
     return _plain(lines, head.name)

@@ -164,8 +164,8 @@ def blocks(path: Path, source: Source) -> Iterator[Block | Loss]:
                     yield block
         if tail.strip() not in (b"", b"EOF"):
             text = tail.decode("utf-8", "replace")
-            losses.add(line + data.count(b"\n"), f"the last row has no line end and may be cut: '{text[:60]}'", len(tail),
-                       last.size)
+            losses.add(line + data.count(b"\n"), f"the last row has no line end and may be cut: '{text[:60]}'",
+                       len(tail), last.size)
         yield from losses.dated(last)
     yield from losses.rest()
 

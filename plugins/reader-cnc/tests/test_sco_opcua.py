@@ -1,0 +1,102 @@
+"""TNCscope recordings and OPC UA logs."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from thermodata_reader_cnc import Reader
+
+from thermodata.errors import FormatError
+from thermodata.plugin import Scaling, Source
+from thermodata.reader.registry import head
+from thermodata.testing.reader import load, reader_checks
+
+CLAIMS = ["SHDR", "MTCONNECT", "TWINCAT", "SCO", "TRACE_XML", "TRACE_CSV", "OPCUA"]
+GLOBAL = "%[GLOBAL]\r\n%VERSION=1\r\n%DATE=02.03.2026\r\n%TIME=09:00:00\r\n%\r\n"
+
+
+def curve(name: str, axis: str, count: int, cycle: int, unit: str = "mm", more: str = "") -> str:
+    return (f"%[CURVE]\r\n%CHANNELTYPE={name}\r\n%AXISTYPE={axis}\r\n%DIMENSION={unit}\r\n%COUNT={count}\r\n"
+            f"%CYCLETIME={cycle}\r\n{more}%\r\n")
+
+
+def scope(rows: int = 20, start: str = GLOBAL) -> str:
+    data = "".join(f"{k / 8:.3f};{k};{k * 2 if k < rows // 2 else ''}\r\n" for k in range(rows))
+    return (start + curve("s actual", "X", rows, 3000) + curve("v actual", "X", rows, 3000, "mm/min", "%FACTOR=0.5\r\n")
+            + curve("T", "S", rows // 2, 6000, "°C") + "%[DATA]\r\n" + data)
+
+
+def written(tmp_path: Path, text: str, name: str, encoding: str = "utf-8") -> Path:
+    path = tmp_path / name
+    path.write_bytes(text.encode(encoding))
+    return path
+
+
+@pytest.mark.parametrize("encoding", ["utf-8", "cp1252"])
+def test_curves_of_one_cycle_time_are_a_stream(tmp_path: Path, encoding: str) -> None:
+    path = written(tmp_path, scope(), "a.sco", encoding)
+    assert "TNCscope" in (Reader().sniff(head(path)) or "")
+    data = load(Reader(), path, Source(timezone="Europe/Prague"))
+    assert not data.losses
+    assert data.recording.start_ns == np.datetime64("2026-03-02T08:00:00", "ns").astype(np.int64)
+    assert [(s.name, s.stream, s.unit) for s in data.recording.signals] == [
+        ("s actual X", "scope_3000us", "mm"), ("v actual X", "scope_3000us", "mm/min"), ("T S", "scope_6000us", "°C")]
+    assert data.recording.signals[1].scaling == Scaling("linear", {"gain": 0.5, "offset": 0.0})
+    assert np.diff(data.t_ns["scope_3000us"]).tolist() == [3_000_000] * 19
+    assert np.diff(data.t_ns["scope_6000us"]).tolist() == [6_000_000] * 9
+    assert data.values["scope_3000us", "s actual X"].tolist() == [k / 8 for k in range(20)]
+    assert data.values["scope_6000us", "T S"].tolist() == [k * 2.0 for k in range(10)]
+
+
+def test_fewer_values_than_announced_are_a_loss(tmp_path: Path) -> None:
+    text = scope(start="%[GLOBAL]\r\n%VERSION=1\r\n%\r\n")
+    data = load(Reader(), written(tmp_path, text[:text.rindex("\r\n", 0, -40) + 2], "a.sco"), Source())
+    assert data.recording.clock == "relative"
+    assert any("announces 20 values" in loss.reason for loss in data.losses)
+
+
+def test_columns_that_do_not_fit_are_refused(tmp_path: Path) -> None:
+    text = GLOBAL + curve("s", "X", 2, 3000) + "%[DATA]\r\n1;2;3;4\r\n1;2;3;4\r\n"
+    with pytest.raises(FormatError, match="columns do not fit"):
+        load(Reader(), written(tmp_path, text, "a.sco"), Source())
+
+
+OPC = "DateTime,TagName,TagVal,TagQuality\n"
+
+
+def test_opc_values_are_held_and_bad_ones_are_none(tmp_path: Path) -> None:
+    path = written(tmp_path, OPC + "".join((
+        "2026-03-02 08:00:00,T1,20.5,192\n", "2026-03-02 08:00:00,speed,1000,192\n", "2026-03-02 08:00:05,T1,21,192\n",
+        "2026-03-02 08:00:06,T1,0,0x80000000\n", "2026-03-02 08:00:07,mode,AUTO,Good\n", "garbage\n")), "opc.csv")
+    assert "OPC UA" in (Reader().sniff(head(path)) or "")
+    data = load(Reader(), path, Source(timezone="Europe/Prague"))
+    assert data.recording.start_ns == np.datetime64("2026-03-02T07:00:00", "ns").astype(np.int64)
+    np.testing.assert_array_equal(data.values["nc", "T1"], [20.5, 21, np.nan, np.nan])
+    assert data.values["nc", "speed"].tolist() == [1000] * 4
+    assert data.values["nc", "mode"].tolist() == [None, None, None, "AUTO"]
+    assert [loss.where for loss in data.losses] == ["opc.csv line 7"]
+
+
+def test_a_table_sorted_by_tag_is_a_stream_a_tag(tmp_path: Path) -> None:
+    lines = [f"2026-03-02T08:{k // 60:02d}:{k % 60:02d}.000Z;{tag};{k + 0.5};Good"
+             for tag in ("T1", "T2") for k in range(100)]
+    path = written(tmp_path, "SourceTimestamp;NodeId;Value;StatusCode\n" + "\n".join(lines) + "\n", "opc.csv")
+    data = load(Reader(), path, Source())
+    assert set(data.t_ns) == {"T1", "T2"}
+    assert data.values["T2", "T2"].tolist() == [k + 0.5 for k in range(100)]
+    assert (np.diff(data.t_ns["T1"]) > 0).all()
+
+
+@pytest.fixture(scope="module")
+def kit_files(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Path]:
+    folder = tmp_path_factory.mktemp("kit")
+    log = OPC + "".join(f"2026-03-02 08:00:{k:02d},T{k % 3},{20 + k / 4},192\n" for k in range(40))
+    return {"sco": written(folder, scope(), "a.sco"), "opc": written(folder, log, "opc.csv")}
+
+
+@pytest.mark.parametrize("number", range(len(reader_checks(Reader, [(Path("x"), Source())]))))
+@pytest.mark.parametrize("kind", ["sco", "opc"])
+def test_they_keep_the_rules_of_readers(kit_files: dict[str, Path], kind: str, number: int) -> None:
+    reader_checks(Reader, [(kit_files[kind], Source())], claims=CLAIMS)[number]()
