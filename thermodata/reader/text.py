@@ -93,11 +93,13 @@ def file_encoding(path: Path, declared: str | None = None) -> tuple[str, str | N
 
 def last_line_is_whole(line: str, before: str, delimiter: str) -> bool:
     """Whether a last line without a line end may be taken: as many fields as the line before, and a last field
-    that is a fraction with as many digits after its mark. A cut "12.5" of "12.53", or "100" of "1000", would pass for
-    a value; rather one good row is reported as lost than that."""
+    that is the same, or a fraction with as many digits after its mark. A cut "12.5" of "12.53", or
+    "100" of "1000", would pass for a value; rather one good row is reported as lost than that."""
     if line.count(delimiter) != before.count(delimiter):
         return False
-    fields = (text.rstrip().rsplit(delimiter, 1)[-1].strip() for text in (line, before))
+    fields = [text.rstrip().rsplit(delimiter, 1)[-1].strip() for text in (line, before)]
+    if fields[0] and fields[0] == fields[1]:
+        return True
     digits = [len(re.split(r"[.,]", text)[-1]) if re.match(r"^[+-]?\d*[.,]\d+$", text) else 0 for text in fields]
     return digits[0] >= digits[1] > 0
 
