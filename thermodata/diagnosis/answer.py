@@ -13,7 +13,7 @@ from thermodata.diagnosis.confirm import Confirmation, confirm
 from thermodata.diagnosis.investigate import Investigation, investigate
 from thermodata.diagnosis.judge import Judgement, equivalents, passes
 from thermodata.diagnosis.problem import Problem
-from thermodata.diagnosis.rank import Scored
+from thermodata.diagnosis.scored import Scored
 from thermodata.diagnosis.unexplained import characterise
 from thermodata.modelling.fitted import FittedModel
 from thermodata.plugin import Effect
@@ -151,7 +151,7 @@ def _why(
         if confirmation and confirmation.before is not None and confirmation.after is not None:
             locked = f"; on the locked tests from {confirmation.before:.2f} to {confirmation.after:.2f} {problem.unit}"
         return f"{numbers}; chance does as well in {s.p_value:.1%} of surrogate residuals{locked}"
-    failed = passes(s, problem.rows, found.spread, found.families)
+    failed = passes(s, found.measure)
     if not failed and judgement.claimed is None:
         return f"{numbers}; {judgement.reason}"
     return f"{numbers}; not claimed: " + ("; ".join(failed) if failed else "the claimed effect explains it better")

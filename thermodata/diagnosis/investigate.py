@@ -9,9 +9,10 @@ import numpy as np
 
 from thermodata.diagnosis.artefact import Step, find_steps
 from thermodata.diagnosis.candidates import GENERIC, SLACK_FACTORS, TIME_UNITS, candidates
-from thermodata.diagnosis.judge import Judgement, judge
+from thermodata.diagnosis.judge import TRIED, Judgement, Measure, judge, passes
 from thermodata.diagnosis.problem import Problem, build_problem
-from thermodata.diagnosis.rank import Scored, rank
+from thermodata.diagnosis.rank import rank
+from thermodata.diagnosis.scored import Scored
 from thermodata.diagnosis.weak import weak_spots
 from thermodata.modelling.drivers import names_of
 from thermodata.modelling.fitted import FittedResponse, FittedTerm
@@ -30,8 +31,7 @@ class Investigation:
     steps: list[Step]
     spots: list[WeakSpot]
     judgement: Judgement
-    spread: float  # RMS of the response about its offsets
-    families: frozenset[str]  # of the model's effects
+    measure: Measure
 
 
 def investigate(
@@ -59,11 +59,19 @@ def investigate(
         (t.effect.name, frozenset(n for text in t.binding.values() for n in names_of(text))) for t in fitted.terms
     ]
     families = frozenset(t.family for t in fitted.terms) - {GENERIC}
-    ranked = rank(problem, candidates(library, data.channels, present, fitted.name), seed)
+    asked = candidates(library, data.channels, present, fitted.name)
+    ranked = rank(problem, asked, seed)
     whole = np.concatenate(problem.response_blocks) if problem.blocks else np.zeros(1)
-    spread = float(np.sqrt(np.mean(whole**2)))
+    measure = Measure(problem.rows, float(np.sqrt(np.mean(whole**2))), problem.noise, families)
     spots = weak_spots([(t, fitted.residual(t), fitted.mask(t)) for t in tests], problem.noise)
-    return Investigation(problem, ranked, steps, spots, judge(problem, ranked, spread, families), spread, families)
+
+    def with_second(first: Scored) -> float:
+        others = rank(problem.with_effect(first), [c for c in asked if c is not first.candidate], seed)
+        good = [s for s in others[:TRIED] if not passes(s, measure)]
+        left = good[0].sse_after if good else first.sse_after
+        return float(np.sqrt(left.sum() / problem.rows))
+
+    return Investigation(problem, ranked, steps, spots, judge(problem, ranked, measure, with_second), measure)
 
 
 def base_columns(fitted: FittedResponse, test: TestData) -> Float2D:

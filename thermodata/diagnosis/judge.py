@@ -5,7 +5,7 @@ Every rule is a constant with its reason; `benchmark-diagnosis` measures what th
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Literal
 
@@ -13,7 +13,7 @@ import numpy as np
 
 from thermodata.diagnosis.candidates import GENERIC
 from thermodata.diagnosis.problem import Problem
-from thermodata.diagnosis.rank import Scored
+from thermodata.diagnosis.scored import Scored
 
 Verdict = Literal["effect", "none", "unknown", "not_testable"]
 
@@ -24,14 +24,17 @@ FAMILY_DROP_LIMIT = 0.5  # the same for an effect whose family the model has: it
 # a proxy of what is missing has its slow shape but not its timing: with sharp timing less of a fall is enough
 SHARP_WHITE_DROP = 0.3
 SHARP_DROP_LIMIT = 0.15
+# an effect that leaves most of what was missing is a proxy of it: this share of the error may remain on left-out
+# tests, or the floor
+REMAINDER_LIMIT = 0.5
 TESTS_LIMIT = 0.7  # share of the tests in which the error falls
 SHARE_LIMIT = 0.03  # least share of the response's spread that is worth a name
 TWIN_COSINE = 0.9  # contributions this alike can't be told apart
 TWIN_SSE = 1.15  # nor candidates whose left-out errors differ by less, if they act alike at all
 SIMPLER_SSE = 1.05  # a simpler twin is preferred where it costs no more than this
 TWIN_SSE_COSINE = 0.6
-SMALL_SHARE = 0.05  # a residual under this share of the response's spread is left alone
-NOISE_TIMES = 3.0
+SMALL_SHARE = 0.1  # a residual under this share of the response's spread (FIT 90) is left alone
+NOISE_TIMES = 5.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,15 +44,28 @@ class Judgement:
     reason: str
 
 
-def passes(scored: Scored, rows: int, spread: float, families: frozenset[str]) -> list[str]:
-    """The rules that a candidate fails, as sentences; none where it may be claimed.
+@dataclass(frozen=True, slots=True)
+class Measure:
+    """What claims are measured against. rows: of all tests. spread: RMS of the response about its offsets. noise: its
+    short-term noise. families: those of the model's effects."""
 
-    rows: of all tests; spread: RMS of the response about its offsets; families: those of the model's effects.
-    """
+    rows: int
+    spread: float
+    noise: float
+    families: frozenset[str]
+
+    @property
+    def floor(self) -> float:
+        """An error that is left alone: noise, and what a sum of lags leaves of a distributed machine."""
+        return max(NOISE_TIMES * self.noise if np.isfinite(self.noise) else 0.0, SMALL_SHARE * self.spread)
+
+
+def passes(scored: Scored, measure: Measure) -> list[str]:
+    """The rules that a candidate fails, as sentences; none where it may be claimed."""
     failed = []
     if scored.p_value > P_LIMIT:
         failed.append(f"chance does as well in {scored.p_value:.0%} of surrogate residuals (limit {P_LIMIT:.0%})")
-    known = scored.candidate.family in families
+    known = scored.candidate.family in measure.families
     sharp = scored.white_drop >= SHARP_WHITE_DROP
     limit = SHARP_DROP_LIMIT if sharp else FAMILY_DROP_LIMIT if known else DROP_LIMIT
     better = float(np.mean(scored.sse_after < scored.sse_before))
@@ -60,11 +76,21 @@ def passes(scored: Scored, rows: int, spread: float, families: frozenset[str]) -
         )
     elif better < TESTS_LIMIT and not sharp:
         failed.append(f"the error falls in {better:.0%} of the left-out tests only (limit {TESTS_LIMIT:.0%})")
-    elif explained(scored, rows) < SHARE_LIMIT * spread:
-        failed.append(f"it explains {explained(scored, rows):.2g} of {spread:.2g} RMS (limit {SHARE_LIMIT:.0%})")
+    elif explained(scored, measure.rows) < SHARE_LIMIT * measure.spread:
+        share = f"{explained(scored, measure.rows):.2g} of {measure.spread:.2g}"
+        failed.append(f"it explains {share} RMS (limit {SHARE_LIMIT:.0%})")
     if scored.white_drop <= 0:
         failed.append("with the residual's own inertia removed it predicts nothing")
     return failed
+
+
+def is_proxy(scored: Scored, measure: Measure) -> bool:
+    """Whether it leaves so much that it may only stand in for what is missing. A plain lag names no physics: it is
+    never more than a proxy, and says so."""
+    if scored.candidate.family == GENERIC or scored.white_drop >= SHARP_WHITE_DROP:
+        return False
+    before, after = (float(np.sqrt(sse.sum() / max(measure.rows, 1))) for sse in (scored.sse_before, scored.sse_after))
+    return after > max(REMAINDER_LIMIT * before, measure.floor)
 
 
 def explained(scored: Scored, rows: int) -> float:
@@ -72,8 +98,9 @@ def explained(scored: Scored, rows: int) -> float:
     return float(np.sqrt(max(0.0, scored.sse_before.sum() - scored.sse_after.sum()) / max(rows, 1)))
 
 
-def judge(problem: Problem, ranked: Sequence[Scored], spread: float, families: frozenset[str]) -> Judgement:
-    """spread: RMS of the response about its offsets, in its unit. families: those of the model's effects."""
+def judge(problem: Problem, ranked: Sequence[Scored], measure: Measure, pairs: Callable[[Scored], float]) -> Judgement:
+    """pairs: the error on left-out tests that a claim leaves together with the best second effect, asked only where the
+    claim alone leaves much: two effects may be missing."""
     if len(problem.blocks) < 2:
         return Judgement(
             "not_testable",
@@ -83,25 +110,32 @@ def judge(problem: Problem, ranked: Sequence[Scored], spread: float, families: f
         )
     if not ranked:
         return Judgement("not_testable", None, "no effect of the library fits the channels that were logged")
-    good = [s for s in ranked[:TRIED] if not passes(s, problem.rows, spread, families)]
-    if good:
-        return Judgement("effect", simplest(good), "")
     rmse = float(np.sqrt(ranked[0].sse_before.sum() / problem.rows))
-    floor = max(NOISE_TIMES * problem.noise if np.isfinite(problem.noise) else 0.0, SMALL_SHARE * spread)
-    best = ranked[0]
-    if rmse <= floor:
+    good = [s for s in ranked[:TRIED] if not passes(s, measure)]
+    if good:
+        chosen = simplest(good)
+        left = pairs(chosen) if is_proxy(chosen, measure) else 0.0
+        if left <= max(REMAINDER_LIMIT * rmse, measure.floor):
+            return Judgement("effect", chosen, "")
+        return Judgement(
+            "unknown",
+            None,
+            f"{chosen.candidate.id} goes with what is missing, but {left:.2g} of {rmse:.2g} {problem.unit} remain even "
+            "with a second effect: it stands in for something that was not logged",
+        )
+    if rmse <= measure.floor:
         return Judgement(
             "none",
             None,
             f"the error on left-out tests, {rmse:.2g} {problem.unit}, is at the floor of "
-            f"{floor:.2g} {problem.unit} (noise, and {SMALL_SHARE:.0%} of the response)",
+            f"{measure.floor:.2g} {problem.unit} (noise, and {SMALL_SHARE:.0%} of the response)",
         )
     return Judgement(
         "unknown",
         None,
-        f"{rmse:.2g} {problem.unit} remain on left-out tests, above the floor of {floor:.2g}, and nothing "
-        f"logged explains them: the best, {best.candidate.id}, fails because "
-        + " and ".join(passes(best, problem.rows, spread, families)),
+        f"{rmse:.2g} {problem.unit} remain on left-out tests, above the floor of {measure.floor:.2g}, and nothing "
+        f"logged explains them: the best, {ranked[0].candidate.id}, fails because "
+        + " and ".join(passes(ranked[0], measure)),
     )
 
 

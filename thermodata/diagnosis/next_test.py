@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 from thermodata.diagnosis.candidates import CandidateEffect
-from thermodata.diagnosis.rank import Scored
+from thermodata.diagnosis.scored import Scored
 from thermodata.view.dataset import ChannelInfo
 
 # share of worlds in which an effect could be claimed, by number of tests (measured on simulated machines)

@@ -11,6 +11,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from thermodata.diagnosis.scored import Scored
 from thermodata.plugin import Bool1D, Float1D, Float2D, Int1D
 from thermodata.view.dataset import Dataset, TestData
 
@@ -64,6 +65,18 @@ class Problem:
     @property
     def rows(self) -> int:
         return sum(len(b.t_s) for b in self.blocks)
+
+    def with_effect(self, scored: Scored) -> Problem:
+        """The same with a candidate among what the model can do: its gains at the parameters that it was given."""
+        blocks = []
+        for block in self.blocks:
+            drivers = scored.candidate.drivers(block.test)
+            size = len(block.test.t_s)
+            points = [scored.params, *scored.candidate.slack_params(scored.params)]
+            own, *others = (block.compress(scored.candidate.columns(drivers, size, p)) for p in points)
+            base, slack = [block.base, own], [block.slack, *(((o - own) @ scored.gain)[:, None] for o in others)]
+            blocks.append(replace(block, base=np.hstack(base), slack=np.hstack(slack)))
+        return replace(self, blocks=tuple(blocks))
 
     def split(self, at: dict[tuple[str, str], list[float]]) -> Problem:
         """The same with further free offsets: after each of the times (s) found in a test."""

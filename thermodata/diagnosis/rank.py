@@ -7,7 +7,6 @@ Source of the rule: 36 development worlds, where the sum of both ranks put the r
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 
 import numpy as np
 from threadpoolctl import threadpool_limits
@@ -15,6 +14,7 @@ from threadpoolctl import threadpool_limits
 from thermodata.diagnosis.candidates import CandidateEffect, grid
 from thermodata.diagnosis.loto import Drop, Engine, Priors
 from thermodata.diagnosis.problem import Problem
+from thermodata.diagnosis.scored import Scored
 from thermodata.diagnosis.whiten import fit_ar, surrogates, whiten
 from thermodata.plugin import Drivers, Float1D, Float2D
 
@@ -25,25 +25,6 @@ PRIOR_SAMPLES = 30.0
 SLACK_SHARE = 0.5
 # a contribution may be this many times as large as the response
 LARGEST_TIMES = 3.0
-
-
-@dataclass(frozen=True, slots=True)
-class Scored:
-    """One candidate's evidence. drop, white_drop: relative fall of the squared error on left-out tests.
-    sse_before, sse_after: shape (tests,), as measured. shape: the fitted contribution on all compressed rows,
-    what the base model can do removed, unit length. size: its RMS in the response's unit."""
-
-    candidate: CandidateEffect
-    params: Mapping[str, float]
-    gain: Float1D
-    drop: float
-    white_drop: float
-    p_value: float
-    sse_before: Float1D
-    sse_after: Float1D
-    shape: Float1D
-    size: float
-    order: float = 0.0
 
 
 def rank(problem: Problem, candidates: Sequence[CandidateEffect], seed: int = 0) -> list[Scored]:

@@ -57,14 +57,16 @@ def _trial(hide: str, seed: int, logged: bool, family: str, found: Diagnosis, se
     outcome: Outcome
     if claimed is None:
         outcome = "right" if hide == NONE or not logged else "abstained"
-    elif hide == NONE or not logged:
+    elif hide == NONE:
         outcome = "false claim"
     elif claimed.effect == hide:
         outcome = "right"
     elif hide in {name.split(":")[0] for name in claimed.equivalent}:
         outcome = "equivalent"
+    elif claimed.family.split("_")[0] == family.split("_")[0]:
+        outcome = "family"
     else:
-        outcome = "family" if claimed.family.split("_")[0] == family.split("_")[0] else "wrong"
+        outcome = "wrong" if logged else "false claim"
     return Trial(
         hide,
         seed,
