@@ -9,7 +9,7 @@ from __future__ import annotations
 from thermodata.errors import FormatError
 from thermodata.plugin import Head
 from thermodata.reader.text import decode_head
-from thermodata_reader_cnc import mtconnect, opcua, sco, shdr, twincat
+from thermodata_reader_cnc import mtconnect, opcua, sco, shdr, tracecsv, tracexml, twincat
 from thermodata_reader_cnc.layout import find_layout
 
 NAMES = {";": "';'", "\t": "tabs"}
@@ -21,15 +21,17 @@ def claim(head: Head) -> tuple[str, str] | None:
     if text is None or not text.strip():
         return None
     if text.lstrip("\ufeff \r\n").startswith("<"):
-        reason = mtconnect.claims(text)
-        return None if reason is None else ("mtconnect", reason)
+        for form, claims_text in (("mtconnect", mtconnect.claims), ("tracexml", tracexml.claims)):
+            if (reason := claims_text(text)) is not None:
+                return form, reason
+        return None
     lines = [line.rstrip("\r") for line in text.lstrip("\ufeff").split("\n")]
     if head.size_bytes > len(head.start) and len(lines) > 1:
         lines.pop()                                       # the head ends inside a line
     if lines[0].startswith("LabVIEW"):
         return None
     for form, claims in (("shdr", shdr.claims), ("twincat", twincat.claims), ("sco", sco.claims),
-                         ("opcua", opcua.claims)):
+                         ("opcua", opcua.claims), ("tracecsv", tracecsv.claims)):
         if (reason := claims(lines)) is not None:
             return form, reason
     return _plain(lines, head.name)

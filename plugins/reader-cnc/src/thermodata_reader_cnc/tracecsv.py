@@ -1,0 +1,110 @@
+"""Sinumerik Trace as CSV: time in seconds, then signals named by their paths (`/Nck/!SD/... [u1; 1]`)."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from thermodata.errors import FormatError
+from thermodata.plugin import Block, Loss, Recording, Signal, Source
+from thermodata.reader.text import clean
+from thermodata_reader_cnc.chunks import chunks, sample
+from thermodata_reader_cnc.halves import BadLine, Grid
+from thermodata_reader_cnc.layout import fields
+from thermodata_reader_cnc.losses import Losses
+
+STREAM = "trace"
+_PATH = re.compile(r"[/+](?:Nck|Channel|Bag|Tool|DriveVsa|Hmi)/", re.IGNORECASE)
+_TIME = re.compile(r"^(time|zeit|t)\b", re.IGNORECASE)
+
+
+@dataclass(frozen=True, slots=True)
+class Header:
+    """row: 0-based line of the names. time: its column. names: '' for columns that are none."""
+
+    row: int
+    delimiter: str
+    time: int
+    names: tuple[str, ...]
+    width: int
+    decimal: str
+
+
+def find(lines: Sequence[str]) -> Header | None:
+    """The header row among the first hundred lines, or None."""
+    for row, line in enumerate(lines[:100]):
+        if not _PATH.search(line):
+            continue
+        delimiter = max(",;\t", key=re.sub(r"\[[^\]]*\]", "", line).count)
+        names = [clean(c) for c in fields(line, delimiter, True)]
+        data = [text for text in lines[row + 1:row + 200] if re.match(r'^"?\s*-?\d', text)]
+        if len(names) < 2 or (len(lines) > row + 3 and not data):
+            continue
+        width = max((text.count(delimiter) + 1 for text in data[:-1] or data), default=len(names))
+        if width < len(names) - 1:
+            continue
+        seen: dict[str, int] = {}
+        for k, name in enumerate(names):
+            seen[name] = seen.get(name, 0) + 1
+            names[k] = name if seen[name] == 1 or not name else f"{name}#{seen[name]}"
+        time = next((k for k, name in enumerate(names) if _TIME.match(name)), 0)
+        decimal = "," if delimiter != "," and any("," in text for text in data) else "."
+        return Header(row, delimiter, time, tuple((names + [""] * width)[:max(width, len(names))]),
+                      max(width, len(names)), decimal)
+    return None
+
+
+def claims(lines: Sequence[str]) -> str | None:
+    """The reason for claiming lines of text, or None."""
+    return None if find(lines) is None else "Sinumerik Trace CSV: a column named by a path such as /Nck/..."
+
+
+def _header(path: Path, source: Source) -> tuple[Header, str, bool]:
+    first = sample(path, source.encoding)
+    header = find(first.head)
+    if header is None:
+        raise FormatError("no header of a trace", where=path.name, expected="columns named /Nck/... or /Channel/...",
+                          got=first.head[0][:80] if first.head else "nothing")
+    return header, first.encoding, first.ends_with_newline
+
+
+def describe(path: Path, source: Source) -> Recording:
+    """Signals of a trace, by its header; times are relative."""
+    header, _, whole = _header(path, source)
+    names = [n for k, n in enumerate(header.names) if n and k != header.time]
+    return Recording(tuple(Signal(n, STREAM) for n in names), "relative", 0, None if whole else False)
+
+
+def blocks(path: Path, source: Source) -> Iterator[Block | Loss]:
+    """The rows in chunks of the file, and lines that do not read."""
+    header, encoding, _ = _header(path, source)
+    grid = Grid(header.delimiter, header.decimal, ["float64"] * header.width)
+    losses = Losses(path.name, max(1, path.stat().st_size))
+    for chunk in chunks(path, encoding):
+        data, line = chunk.data, chunk.line
+        while line <= header.row and data:
+            cut = data.find(b"\n") + 1 or len(data)
+            data, line = data[cut:], line + 1
+        if chunk.last and data and not data.endswith(b"\n"):
+            cut = data.rfind(b"\n") + 1
+            losses.add(line + data.count(b"\n"), "the last row has no line end and may be cut", len(data) - cut, 0)
+            data = data[:cut]
+        last = np.empty(0, np.int64)
+        for part in grid.parts(data.replace(b'"', b""), line):
+            if isinstance(part, BadLine):
+                if part.text.strip():
+                    losses.add(part.line, f"expected {header.width} numbers, got '{part.text[:80]}'", len(part.text),
+                               last.size)
+                continue
+            good = np.isfinite(part.columns[header.time])
+            if not good.any():
+                continue
+            last = np.round(part.columns[header.time][good] * 1e9).astype(np.int64)
+            yield Block(STREAM, last, {n: part.columns[k][good] for k, n in enumerate(header.names)
+                                       if n and k != header.time})
+        yield from losses.dated(last)
+    yield from losses.rest()
