@@ -11,10 +11,9 @@ from thermodata.errors import FormatError
 from thermodata.reader.text import find_encoding
 
 CHUNK = 8 * 1024 * 1024
-HEAD = 256 * 1024
-_PIECE = 64 * 1024
+_PIECE = 16 * 1024
 _PIECES = 6
-WHOLE = 4 * 1024 * 1024
+WHOLE = 512 * 1024
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,11 +38,12 @@ class Sample:
     ends_with_newline: bool
 
 
-def sample(path: Path, declared: str | None) -> Sample:
-    """What a first look sees: all of a file up to 4 MB, else 256 KiB of its head and pieces up to its end."""
+def sample(path: Path, declared: str | None, whole_up_to: int = WHOLE) -> Sample:
+    """What a first look sees: all of a file up to 512 KiB, else a quarter of that and pieces up to its end. A log
+    whose items may come late is looked at with a larger `whole_up_to`."""
     size = path.stat().st_size
     with path.open("rb") as file:
-        head = file.read(WHOLE if size <= WHOLE else HEAD)
+        head = file.read(whole_up_to if size <= whole_up_to else whole_up_to // 4)
         wide = head.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)) or b"\0" in head[:200]
         pieces = []
         if size > len(head):
@@ -83,8 +83,8 @@ def _lines(text: str, whole: bool) -> tuple[str, ...]:
 
 
 def chunks(path: Path, encoding: str, size: int = CHUNK) -> Iterator[Chunk]:
-    """The file's lines in chunks; line ends become LF, a byte order mark goes. The last chunk is marked, and
-    ends without a line end where the file does."""
+    """The file's lines in chunks, without a byte order mark; lines end as in the file (a lone CR becomes LF). The
+    last chunk is marked, and ends without a line end where the file does."""
     wide = encoding.startswith("utf-16")
     decoder = codecs.getincrementaldecoder(encoding)("replace") if wide else None
     total, line, rest, first = path.stat().st_size, 0, b"", True
@@ -108,8 +108,6 @@ def chunks(path: Path, encoding: str, size: int = CHUNK) -> Iterator[Chunk]:
             part, rest = data[:cut], data[cut:]
             if part or last:
                 part = part if wide else _utf8(part, encoding)
-                if b"\r" in part:
-                    part = part.replace(b"\r\n", b"\n")
                 yield Chunk(part, line, done, last)
                 line += part.count(b"\n")
             if last:

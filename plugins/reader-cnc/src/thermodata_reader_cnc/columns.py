@@ -6,17 +6,19 @@ import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from thermodata.reader.text import clean, decimal_mark
+from thermodata.reader.text import decimal_mark
 
 # What instruments write where they have no value. Anything else that is no number is a loss with a name.
 NOTHING = ("", "-", "--", "---", "----", "*", "***", "****", "?", "???", "n/a", "N/A", "n.a.", "#N/A", "#NV", "NULL",
            "null", "None", "NaN", "nan", "NAN", "-nan", "-NaN", "1.#QNAN", "-1.#IND", "1,#QNAN", "-1,#IND",
            "UNAVAILABLE")
+_NOTHING = frozenset(NOTHING)
 TRUE = ("TRUE", "True", "true", "WAHR", "Wahr", "wahr")
 FALSE = ("FALSE", "False", "false", "FALSCH", "Falsch", "falsch")
 _INTEGER = re.compile(r"^[+-]?\d{1,19}$")
 _NUMBER = re.compile(r"^[+-]?(?:\d+(?:[.,]\d*)?|[.,]\d+)(?:[eE][+-]?\d+)?$|^[+-]?inf(?:inity)?$", re.IGNORECASE)
 _EXACT = 2**53
+_FRACTIONS = 200        # numbers of a column that are asked for their decimal mark
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,7 +37,7 @@ def dtype_of(cells: Sequence[str], exact: bool) -> str:
     Integers of a file that was only sampled stay float64, for a fraction may follow; those that a float64 would
     change are int64. A few words among numbers are defects, named where they are read.
     """
-    full = [c for c in (clean(cell) for cell in cells) if c not in NOTHING]
+    full = [c for c in (cell.strip(" \t\r\"") for cell in cells) if c not in _NOTHING]
     if not full:
         return "float64"
     if all(c in TRUE or c in FALSE for c in full):
@@ -64,6 +66,6 @@ def find_columns(names: Sequence[str], units: Sequence[str | None], rows: Sequen
             continue
         kind = dtype_of(cells, exact)
         if kind == "float64":
-            numbers += cells
+            numbers += [c for c in cells if "," in c or "." in c][:_FRACTIONS]
         columns.append(Column(place, name, unit, kind))
     return tuple(columns), decimal_mark(numbers)

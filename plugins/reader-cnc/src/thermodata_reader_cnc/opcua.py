@@ -22,6 +22,7 @@ from thermodata_reader_cnc.events import Event, HeldTable
 from thermodata_reader_cnc.layout import fields
 from thermodata_reader_cnc.losses import NAMED
 
+_LOOK = 4 << 20
 _NAMES = {
     "time": ("sourcetimestamp", "sourcetime", "datetime", "timestamp", "servertimestamp", "servertime", "time"),
     "tag": ("tagname", "nodeid", "node", "displayname", "browsename", "tag"),
@@ -105,7 +106,7 @@ class _Look:
 
 
 def _look(path: Path, source: Source) -> _Look:
-    first = sample(path, source.encoding)
+    first = sample(path, source.encoding, _LOOK)
     layout = find(first.head)
     if layout is None:
         raise FormatError("no long table", where=path.name, expected="columns of time, tag and value",
@@ -146,7 +147,7 @@ def blocks(path: Path, source: Source) -> Iterator[Block | Loss]:
     tables = {tag: HeldTable({tag: t}, source, complain, tag) for tag, t in look.plan.items()} if look.by_tag else {}
     common = HeldTable(look.plan, source, complain)
     for chunk in chunks(path, look.encoding):
-        lines = chunk.data.decode("utf-8", "replace").split("\n")
+        lines = chunk.data.decode("utf-8", "replace").replace("\r\n", "\n").split("\n")
         tail = lines.pop()
         for event in _events(look.layout, lines, chunk.line, path.name):
             if isinstance(event, Loss):

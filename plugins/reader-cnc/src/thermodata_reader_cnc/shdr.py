@@ -14,6 +14,7 @@ from thermodata_reader_cnc.events import Event, HeldTable
 
 _LEVELS = frozenset({"NORMAL", "WARNING", "FAULT", "UNAVAILABLE"})
 _NAMED = 20
+_LOOK = 8 << 20          # an item may be reported for the first time late in a log
 
 
 def claims(lines: list[str]) -> str | None:
@@ -65,7 +66,7 @@ class _Lines:
 
 
 def _sampled(path: Path, source: Source) -> Iterator[Event | Loss]:
-    first = sample(path, source.encoding)
+    first = sample(path, source.encoding, _LOOK)
     reader = _Lines(path.name)
     for number, line in enumerate([*first.head, *first.rest]):
         if number == len(first.head):
@@ -114,7 +115,7 @@ def blocks(path: Path, source: Source) -> Iterator[Block | Loss]:
 def _lines(path: Path, encoding: str) -> Iterator[tuple[int, str]]:
     """(number, line); number -1 for a last line without a line end."""
     for chunk in chunks(path, encoding):
-        text = chunk.data.decode("utf-8", "replace")
+        text = chunk.data.decode("utf-8", "replace").replace("\r\n", "\n")
         lines = text.split("\n")
         tail = lines.pop()
         yield from enumerate(lines, chunk.line)
