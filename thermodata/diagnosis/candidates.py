@@ -11,10 +11,12 @@ import numpy as np
 from thermodata.diagnosis.loto import Priors
 from thermodata.effect.binding import bindings, candidate_id, family_of
 from thermodata.modelling.drivers import has_drivers, make_drivers
+from thermodata.modelling.lead import columns, with_lead
 from thermodata.plugin import Drivers, Effect, Float2D, Param
 from thermodata.schema.quantity import linear_conversion
 from thermodata.view.dataset import ChannelInfo, TestData
 
+Led = tuple[Drivers, int]
 GENERIC = "generic"
 NOT_DRIVERS = frozenset({"displacement", "tilt", "label"})
 TIME_UNITS = ("s", "min", "h")
@@ -40,13 +42,13 @@ class CandidateEffect:
     def id(self) -> str:
         return candidate_id(self.effect.name, self.binding)
 
-    def drivers(self, test: TestData) -> Drivers | None:
+    def drivers(self, test: TestData) -> Led | None:
         """What the effect sees of a test; None where the test lacks a channel."""
-        return make_drivers(test, self.effect, self.binding) if has_drivers(test, self.binding) else None
+        return with_lead(make_drivers(test, self.effect, self.binding)) if has_drivers(test, self.binding) else None
 
-    def columns(self, drivers: Drivers | None, size: int, p: Mapping[str, float]) -> Float2D:
+    def columns(self, drivers: Led | None, size: int, p: Mapping[str, float]) -> Float2D:
         """Shape (size, gains); zero where there are no drivers."""
-        return np.zeros((size, len(self.effect.gains))) if drivers is None else self.effect.basis(drivers, p)
+        return np.zeros((size, len(self.effect.gains))) if drivers is None else columns(self.effect, drivers, p)
 
     @property
     def priors(self) -> Priors:

@@ -11,12 +11,12 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 from threadpoolctl import threadpool_limits
 
-from thermodata.diagnosis.candidates import CandidateEffect, grid
+from thermodata.diagnosis.candidates import CandidateEffect, Led, grid
 from thermodata.diagnosis.loto import Drop, Engine, Priors
 from thermodata.diagnosis.problem import Problem
 from thermodata.diagnosis.scored import Scored
 from thermodata.diagnosis.whiten import fit_ar, surrogates, whiten
-from thermodata.plugin import Drivers, Float1D, Float2D
+from thermodata.plugin import Float1D, Float2D
 
 SURROGATES = 199
 # autocorrelated residuals are worth far fewer samples than they have; the prior of a gain is scaled so
@@ -85,7 +85,7 @@ def _rank(problem: Problem, candidates: Sequence[CandidateEffect], seed: int) ->
 
 
 def _columns(
-    problem: Problem, candidate: CandidateEffect, drivers: Sequence[Drivers | None], p: Mapping[str, float]
+    problem: Problem, candidate: CandidateEffect, drivers: Sequence[Led | None], p: Mapping[str, float]
 ) -> list[Float2D]:
     return [b.compress(candidate.columns(d, len(b.test.t_s), p)) for b, d in zip(problem.blocks, drivers, strict=True)]
 
@@ -102,7 +102,7 @@ def _with_slack(
     problem: Problem,
     candidate: CandidateEffect,
     priors: Priors,
-    drivers: Sequence[Drivers | None],
+    drivers: Sequence[Led | None],
     points: Sequence[Mapping[str, float]],
     columns: list[list[Float2D]],
     first: Drop,

@@ -10,6 +10,7 @@ import numpy as np
 from thermodata.errors import unknown_name
 from thermodata.modelling import prediction
 from thermodata.modelling.drivers import has_drivers, make_drivers
+from thermodata.modelling.lead import columns, with_lead
 from thermodata.modelling.roles import Key
 from thermodata.plugin import Bool1D, Drivers, Effect, Float2D
 from thermodata.schema.model import EffectSpec
@@ -29,7 +30,8 @@ class BoundTerm:
     family: str
     only: frozenset[Key] | None = None                      # the tests it exists in; None: all
     calibrate: frozenset[Key] | None = None                 # identified on these first, then held
-    _drivers: dict[int, tuple[TestData, Drivers]] = field(default_factory=dict, repr=False, compare=False)
+    _drivers: dict[int, tuple[TestData, Drivers, tuple[Drivers, int]]] = field(
+        default_factory=dict, repr=False, compare=False)
 
     @property
     def binding(self) -> Mapping[str, str]:
@@ -47,13 +49,18 @@ class BoundTerm:
         return has_drivers(test, self._binding_of(test))
 
     def drivers(self, test: TestData) -> Drivers:
+        """What the effect sees of the test."""
+        return self._kept(test)[1]
+
+    def _kept(self, test: TestData) -> tuple[TestData, Drivers, tuple[Drivers, int]]:
         """Made once a test; a changed copy of a test is another test."""
         kept = self._drivers.get(id(test))
         if kept is None or kept[0] is not test:
             if len(self._drivers) >= KEPT_TESTS:
                 self._drivers.clear()
-            kept = self._drivers[id(test)] = (test, make_drivers(test, self.effect, self._binding_of(test)))
-        return kept[1]
+            made = make_drivers(test, self.effect, self._binding_of(test))
+            kept = self._drivers[id(test)] = (test, made, with_lead(made))
+        return kept
 
     def columns(self, test: TestData, params: Mapping[str, float]) -> Float2D:
         """shape (n, gains); zeros where the term does not cover the test."""
@@ -61,7 +68,7 @@ class BoundTerm:
             return np.zeros((len(test.t_s), len(self.effect.gains)))
         if isinstance(self.effect, prediction.Prediction):
             return self.effect.column(test)
-        return self.effect.basis(self.drivers(test), params)
+        return columns(self.effect, self._kept(test)[2], params)
 
     def known(self, test: TestData) -> Bool1D | None:
         """Where all drivers were measured, or nearly; None: everywhere."""

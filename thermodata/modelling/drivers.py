@@ -106,7 +106,7 @@ def start_value(values: Float1D, step: float) -> float:
     if len(values) < 3:
         return float(values[0])
     most = min(max(3, int(START_S / step)), len(values))
-    cycle = _cycle_mean(values[: int(CYCLE_S / step) + 1])
+    cycle = cycle_mean(values[: int(CYCLE_S / step) + 1])
     if cycle is not None:
         return cycle
     noise = _noise(values)
@@ -118,7 +118,7 @@ def start_value(values: Float1D, step: float) -> float:
     return float(values[:count].mean())
 
 
-def _cycle_mean(values: Float1D) -> float | None:
+def cycle_mean(values: Float1D) -> float | None:
     """The mean of a driver that goes up and down from the start (a chiller): its balance is not where the record
     happened to cut its cycle. None for one that starts at an end of its range: there the start is a start."""
     if len(values) < 8:
