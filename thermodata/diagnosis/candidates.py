@@ -28,11 +28,13 @@ BEYOND = 1.5
 
 @dataclass(frozen=True, slots=True)
 class CandidateEffect:
-    """An effect and the channels it would be driven by. family: with the axis that its channels sit on."""
+    """An effect and the channels it would be driven by. family: with the axis that its channels sit on.
+    placeless: nobody declared where its channels sit, so it can only be a plain lag."""
 
     effect: Effect
     binding: Mapping[str, str]
     family: str
+    placeless: bool = False
 
     @property
     def channels(self) -> tuple[str, ...]:
@@ -93,7 +95,8 @@ def candidates(
         if effect.family == "artefact" or not effect.needs:
             continue
         for binding in bindings(effect, usable):
-            candidate = CandidateEffect(effect, binding, family_of(effect, binding, channels))
+            nowhere = effect.family == GENERIC and all(usable[c].at is None for c in binding.values())
+            candidate = CandidateEffect(effect, binding, family_of(effect, binding, channels), nowhere)
             names = frozenset(candidate.channels)
             if (effect.name, names) in have or names in lagged:
                 continue

@@ -25,8 +25,10 @@ FAMILY_DROP_LIMIT = 0.5  # the same for an effect whose family the model has: it
 SHARP_WHITE_DROP = 0.3
 SHARP_DROP_LIMIT = 0.15
 # an effect that leaves most of what was missing is a proxy of it: this share of the error may remain on left-out
-# tests, or the floor
+# tests, or this share of the floor; where a second effect is missing too, both together must leave less
 REMAINDER_LIMIT = 0.5
+PAIR_LIMIT = 0.35
+FLOOR_SHARE = 0.7
 TESTS_LIMIT = 0.7  # share of the tests in which the error falls
 SHARE_LIMIT = 0.03  # least share of the response's spread that is worth a name
 TWIN_COSINE = 0.9  # contributions this alike can't be told apart
@@ -85,12 +87,12 @@ def passes(scored: Scored, measure: Measure) -> list[str]:
 
 
 def is_proxy(scored: Scored, measure: Measure) -> bool:
-    """Whether it leaves so much that it may only stand in for what is missing. A plain lag names no physics: it is
-    never more than a proxy, and says so."""
-    if scored.candidate.family == GENERIC or scored.white_drop >= SHARP_WHITE_DROP:
+    """Whether it leaves so much that it may only stand in for what is missing. A lag of a
+    channel whose place nobody declared names no physics: it is never more than a proxy, and says so."""
+    if scored.candidate.placeless or scored.white_drop >= SHARP_WHITE_DROP:
         return False
     before, after = (float(np.sqrt(sse.sum() / max(measure.rows, 1))) for sse in (scored.sse_before, scored.sse_after))
-    return after > max(REMAINDER_LIMIT * before, measure.floor)
+    return after > max(REMAINDER_LIMIT * before, FLOOR_SHARE * measure.floor)
 
 
 def explained(scored: Scored, rows: int) -> float:
@@ -115,7 +117,7 @@ def judge(problem: Problem, ranked: Sequence[Scored], measure: Measure, pairs: C
     if good:
         chosen = simplest(good)
         left = pairs(chosen) if is_proxy(chosen, measure) else 0.0
-        if left <= max(REMAINDER_LIMIT * rmse, measure.floor):
+        if left <= max(PAIR_LIMIT * rmse, FLOOR_SHARE * measure.floor):
             return Judgement("effect", chosen, "")
         return Judgement(
             "unknown",
