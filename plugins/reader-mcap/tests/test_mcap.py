@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from mcap.writer import CompressionType, Writer
+from mcap.writer import CompressionType, IndexType, Writer
 from thermodata_reader_mcap import Reader
 
 from thermodata.errors import FormatError
@@ -70,7 +70,8 @@ COMPRESSIONS = [CompressionType.NONE, CompressionType.LZ4, CompressionType.ZSTD]
 @pytest.mark.parametrize("compression", COMPRESSIONS)
 @pytest.mark.parametrize("options", [
     {}, {"use_chunking": False},
-    {"use_summary_offsets": False, "use_statistics": False, "repeat_channels": False, "repeat_schemas": False}])
+    {"use_summary_offsets": False, "use_statistics": False, "repeat_channels": False, "repeat_schemas": False,
+     "index_types": IndexType.NONE}])
 def test_nested_fields_arrays_and_types(tmp_path: Path, compression: CompressionType, options: dict[str, bool]) -> None:
     path = write(tmp_path / "a.mcap", axis(500), compression=compression, **options)
     recording, times, values, flags, losses = read(path)
@@ -253,6 +254,33 @@ def test_a_damaged_length_is_skipped_to_the_next_chunk(tmp_path: Path, compressi
     assert "no record" in losses[0].reason
     assert times["/axis"].size > 2000
     assert times["/axis"][-1] == T0 + 2999 * STEP
+
+
+def test_an_index_that_lies_is_not_believed(tmp_path: Path) -> None:
+    path = write(tmp_path / "a.mcap", axis(600), chunk=1 << 13)
+    content, at, changed = bytearray(path.read_bytes()), 8, 0
+    while content[at] != 0x0F:
+        opcode, length = struct.unpack_from("<BQ", content, at)
+        if opcode == 7 and length > 40:
+            struct.pack_into("<Q", content, at + 9 + 6 + 8 + 16, 17 if changed % 2 else 2**40)
+            changed += 1
+        at += 9 + length
+    path.write_bytes(content)
+    assert changed > 3
+    _, times, _, _, losses = read(path)
+    assert not losses
+    np.testing.assert_array_equal(times["/axis"], T0 + STEP * np.arange(600))
+
+
+def test_a_long_file_without_chunks_is_read_by_its_head(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    from thermodata_reader_mcap import plan
+
+    monkeypatch.setattr(plan, "WHOLE", 2000)
+    recording, times, values, _, losses = read(write(tmp_path / "a.mcap", axis(500), use_chunking=False))
+    assert not losses
+    assert times["/axis"].size == 500
+    assert {s.name: s.dtype for s in recording.signals}["/axis.pos.z"] == "float64"
+    assert values["/axis.pos.z"] == [-k for k in range(500)]
 
 
 def test_an_encoding_that_nothing_reads_is_refused_by_name(tmp_path: Path) -> None:

@@ -21,6 +21,7 @@ from thermodata_reader_mcap.walk import (
     CHUNK,
     MAGIC,
     MESSAGE,
+    MESSAGE_INDEX,
     SCHEMA,
     Damage,
     Record,
@@ -104,28 +105,47 @@ def walk(view: memoryview, content: Content, into: dict[int, Batch], full: Calla
     """Walks the data section: messages go `into` a batch a channel; yields None whenever full() says that the
     batches should be emptied, and each loss. wanted(k): whether to open the k-th chunk (default: all)."""
     number = -1
+    waiting: tuple[Record, list[npt.NDArray[np.int64]]] | None = None      # a chunk, and the indexes behind it
+
+    def opened_chunk() -> Iterator[Loss | None]:
+        nonlocal waiting
+        if waiting is None:
+            return
+        record, index = waiting
+        waiting = None
+        loss = _chunk(view, record, content, into, number, index)
+        if loss is not None:
+            yield None
+            yield loss
+        if full():
+            yield None
+
     for record in data_section(view):
+        if isinstance(record, Record) and record.opcode == MESSAGE_INDEX and not record.cut:
+            if waiting is not None and (record.stop - record.start - 6) % 16 == 0:
+                entries = np.frombuffer(view[record.start + 6:record.stop], "<u8").reshape(-1, 2)
+                waiting[1].append(entries[:, 1].astype(np.int64))
+            continue
+        yield from opened_chunk()
         if isinstance(record, Damage):
             yield None
             yield content.loss(record.start, record.stop, record.reason)
         elif record.opcode == CHUNK:
             number += 1
-            if wanted is not None and not wanted(number):
-                continue
-            loss = _chunk(view, record, content, into, number)
-            if loss is not None:
-                yield None
-                yield loss
+            if wanted is None or wanted(number):
+                waiting = (record, [])
         elif record.cut:
             yield None
             yield content.loss(record.start - 9, record.stop, "the file ends inside a record: it was cut")
         else:
             _one(view, record, content, into)
-        if full():
-            yield None
+            if full():
+                yield None
+    yield from opened_chunk()
 
 
-def _chunk(view: memoryview, record: Record, content: Content, into: dict[int, Batch], number: int) -> Loss | None:
+def _chunk(view: memoryview, record: Record, content: Content, into: dict[int, Batch], number: int,
+           index: list[npt.NDArray[np.int64]]) -> Loss | None:
     head = chunk_head(view, record)
     if head is None:
         return content.loss(record.start - 9, record.stop, f"chunk {number}: its header contradicts itself or is cut")
@@ -135,7 +155,9 @@ def _chunk(view: memoryview, record: Record, content: Content, into: dict[int, B
     except ChunkError as error:
         return content.loss(record.start - 9, record.stop, f"chunk {number}: {error}", *times)
     content.pending += len(inner)
-    used = _messages(inner, content, into)
+    used = _indexed(inner, content, into, index) if index and not record.cut else None
+    if used is None:
+        used = _messages(inner, content, into)
     if record.cut:
         missing = 1 - used / head.size if head.size else 0.0
         first = content.last_ns if used else times[0]
@@ -145,6 +167,37 @@ def _chunk(view: memoryview, record: Record, content: Content, into: dict[int, B
     if used != len(inner):
         return content.loss(record.start - 9, record.stop, f"chunk {number}: a record in it runs past its end", *times)
     return None
+
+
+def _indexed(inner: bytes, content: Content, into: dict[int, Batch],
+             index: list[npt.NDArray[np.int64]]) -> int | None:
+    """The same as _messages, where the chunk's index names every message: nothing is walked but what lies between
+    them. None where the index and the records do not agree: then the records are right."""
+    at = np.sort(np.concatenate(index))
+    if not at.size or at[0] < 0 or at[-1] + 31 > len(inner):
+        return None
+    heads = np.frombuffer(inner, np.uint8)[at[:, None] + np.arange(9)]
+    stops = at + 9 + np.ascontiguousarray(heads[:, 1:9]).view("<i8")[:, 0]
+    ends, starts = np.concatenate([[0], stops]), np.concatenate([at, [len(inner)]])
+    if (heads[:, 0] != MESSAGE).any() or (starts < ends).any() or (stops < at + 31).any():
+        return None
+    others: list[Record] = []
+    for gap in np.flatnonzero(starts != ends).tolist():
+        place, stop = int(ends[gap]), int(starts[gap])
+        while place < stop:
+            if place + 9 > stop:
+                return None
+            opcode, length = _RECORD.unpack_from(inner, place)
+            if opcode == MESSAGE:
+                return None
+            others.append(Record(opcode, place + 9, place + 9 + length))
+            place += 9 + length
+        if place != stop:
+            return None
+    for record in others:
+        _one(memoryview(inner), record, content, into)
+    _take(inner, at, content, into)
+    return len(inner)
 
 
 def _messages(inner: bytes, content: Content, into: dict[int, Batch]) -> int:

@@ -83,11 +83,12 @@ def _scalars(each: _Seen) -> int:
 
 
 def _visit(value: Any, path: Path, seen: dict[Path, _Seen], long: dict[Path, int]) -> None:
-    if isinstance(value, Mapping):
+    kind = type(value)
+    if kind is dict:
         for key, inner in value.items():
             _visit(inner, (*path, str(key)), seen, long)
         return
-    if isinstance(value, list):
+    if kind is list:
         if len(value) > MOST_ELEMENTS:
             long[path] = max(long.get(path, 0), len(value))
         for place, inner in enumerate(value[:MOST_ELEMENTS]):
@@ -99,12 +100,12 @@ def _visit(value: Any, path: Path, seen: dict[Path, _Seen], long: dict[Path, int
     each.count += 1
     if value is None:
         each.nulls += 1
-    elif isinstance(value, bool):
+    elif kind is bool:
         each.bools += 1
-    elif isinstance(value, int):
+    elif kind is int:
         each.integers += 1
         each.low, each.high = min(each.low, value), max(each.high, value)
-    elif isinstance(value, float):
+    elif kind is float:
         each.floats += 1
     else:
         each.texts += 1

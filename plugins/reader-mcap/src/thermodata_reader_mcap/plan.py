@@ -81,10 +81,14 @@ def wanted_topic(topic: str, source: Source) -> bool:
 
 def plan(view: memoryview, name: str, source: Source) -> Plan:
     """The topics of a recording. FormatError: a declared topic is missing, or no topic can be read."""
-    chosen = _chosen(_survey(view))
+    chunks = _survey(view)
+    chosen = _chosen(chunks)
     content, batches = Content(name, len(view)), dict[int, Batch]()
-    for _ in walk(view, content, batches, lambda: False, None if chosen is None else chosen.__contains__):
-        pass
+    wanted, whole = None if chosen is None else chosen.__contains__, chosen is None
+    for _ in walk(view, content, batches, lambda: content.pending >= WHOLE, wanted):
+        if not chunks.sizes and content.pending >= WHOLE:   # messages outside of chunks: their head must do
+            whole = False
+            break
     topics: dict[int, Topic] = {}
     publish, unsupported, notes = set(), dict[str, str](), list[str]()
     by_topic: dict[str, list[int]] = {}
@@ -96,7 +100,7 @@ def plan(view: memoryview, name: str, source: Source) -> Plan:
         filled = [n for n in numbers if batches.get(n) and batches[n].payloads]
         if not filled:
             continue
-        made, problem = _topic(topic, {n: content.channels[n] for n in filled}, batches, chosen is None, notes)
+        made, problem = _topic(topic, {n: content.channels[n] for n in filled}, batches, whole, notes)
         if problem:
             unsupported[topic] = problem
         topics.update(made)
