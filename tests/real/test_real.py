@@ -1,0 +1,116 @@
+"""The story on measured data: a spindle over 46 h and a heater on a leaf spring. The figures are printed (`-s`)."""
+
+from __future__ import annotations
+
+import importlib.util
+import sys
+from pathlib import Path
+from types import ModuleType
+from typing import Any
+
+import pytest
+
+
+def _story() -> ModuleType:
+    # shared with the script beside it, which no package holds
+    path = Path(__file__).with_name("story.py")
+    spec = importlib.util.spec_from_file_location("thermodata_real_story", path)
+    assert spec is not None
+    assert spec.loader is not None
+    module = importlib.util.module_from_spec(spec)
+    sys.modules[spec.name] = module
+    spec.loader.exec_module(module)
+    return module
+
+
+story = _story()
+
+
+def bench(folder: Path, name: str) -> Any:
+    recording = next(r for r in story.RECORDINGS if r.folder == name)
+    if not recording.file.exists():
+        pytest.skip(f"real data absent: {recording.file.name} of {name} is not in ../shared/data")
+    return story.Bench(recording, folder)
+
+
+@pytest.fixture(scope="module")
+def spindle(tmp_path_factory: pytest.TempPathFactory) -> Any:
+    return bench(tmp_path_factory.mktemp("spindle"), "fl_thermal")
+
+
+@pytest.fixture(scope="module")
+def heater(tmp_path_factory: pytest.TempPathFactory) -> Any:
+    return bench(tmp_path_factory.mktemp("heater"), "heater")
+
+
+def told(rounds: list[Any]) -> str:
+    """The figures of the rounds, one a line."""
+    lines = []
+    for r in rounds:
+        c = r.claimed
+        lines.append(f"{r.diagnosis['response']} {r.diagnosis['verdict']}" + (
+            f": {c['id']}, left-out tests {c['rmse_um_before']:.2f} -> {c['rmse_um_after']:.2f}, locked tests "
+            f"{c['locked_rmse_um_before']:.2f} -> {c['locked_rmse_um_after']:.2f}" if c else ""))
+    return "\n".join(lines)
+
+
+def holds(rounds: list[Any]) -> bool:
+    """Whether every claim lowers the error, on the locked tests too."""
+    claims = [r.claimed for r in rounds if r.claimed]
+    return all(c["rmse_um_after"] < c["rmse_um_before"] and c["locked_rmse_um_after"] < c["locked_rmse_um_before"]
+               for c in claims)
+
+
+def test_the_spindle_recording_is_read_whole(spindle: Any) -> None:
+    assert spindle.ingested["losses"] == []
+    rows = spindle.ask("sql", "select test, count(*) as n, max(t_s) as last from sample where channel = 'ch3' "
+                              "group by test order by test")
+    # 11,115 rows at 15 s; both ends of a window belong to it, and to the next
+    assert sum(r["n"] for r in rows) == pytest.approx(11_115, abs=3)
+    assert [r["test"] for r in rows] == ["first", "last30", "second"]
+    speeds = spindle.ask("sql", "select distinct value from driver where channel = 'spindle_speed' and test = 'first'")
+    assert {1250.0, 2500.0} <= {r["value"] for r in speeds}
+
+
+def test_speed_alone_fails_on_ch3_and_t4_is_found(spindle: Any, capsys: pytest.CaptureFixture[str]) -> None:
+    rounds = list(spindle.rounds("ch3"))
+    with capsys.disabled():
+        print("\n" + told(rounds))
+    first = rounds[0]
+    spots = spindle.ask("compare", first.model)["weak_spots"]["ch3"]
+    assert spots
+    assert all(s["rmse_um"] > first.diagnosis["rmse_um"] for s in spots)
+    assert first.diagnosis["verdict"] == "effect"
+    assert first.claimed["drivers"] == ["t4"]
+    assert first.claimed["rmse_um_after"] < 0.7 * first.claimed["rmse_um_before"]
+    assert first.claimed["locked_rmse_um_after"] < 0.85 * first.claimed["locked_rmse_um_before"]
+    assert holds(rounds)
+
+
+@pytest.mark.parametrize("model", ["ch1", "ch5"])
+def test_no_claim_without_a_falling_error_on_the_locked_part(spindle: Any, model: str,
+                                                             capsys: pytest.CaptureFixture[str]) -> None:
+    rounds = list(spindle.rounds(model))
+    with capsys.disabled():
+        print("\n" + told(rounds))
+    assert holds(rounds)
+    for r in rounds:
+        assert (r.diagnosis["verdict"] == "effect") == (r.claimed is not None)
+
+
+def test_the_leaf_spring_misses_the_ribbons_temperature(heater: Any, capsys: pytest.CaptureFixture[str]) -> None:
+    assert heater.ingested["losses"] == []
+    rows = heater.ask("sql", "select channel, min(value) as low, max(value) as high from temperature group by 1")
+    found = {r["channel"]: (r["low"], r["high"]) for r in rows}
+    # the file's own thermocouple scaling: 26 to 673 degC and 30 to 104 degC
+    assert found["T_ribbon"] == pytest.approx((26, 673), abs=3)
+    assert found["T_leafspring"] == pytest.approx((30, 104), abs=3)
+
+    rounds = list(heater.rounds("leafspring"))
+    with capsys.disabled():
+        print("\n" + told(rounds))
+    first = rounds[0]
+    assert first.diagnosis["verdict"] == "effect"
+    assert first.claimed["drivers"] == ["T_ribbon"]
+    assert first.claimed["rmse_um_after"] < 0.7 * first.claimed["rmse_um_before"]
+    assert holds(rounds)
