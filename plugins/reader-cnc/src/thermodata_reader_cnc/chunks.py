@@ -105,6 +105,8 @@ def chunks(path: Path, encoding: str, size: int = CHUNK) -> Iterator[Chunk]:
                 data = data.replace(b"\r", b"\n")
             data = rest + data
             cut = len(data) if last else data.rfind(b"\n") + 1
+            if not cut and len(data) > 4 * size:
+                cut = len(data)                          # no lines: zeros where a file was allocated in advance
             part, rest = data[:cut], data[cut:]
             if part or last:
                 part = part if wide else _utf8(part, encoding)
