@@ -14,6 +14,7 @@ import numpy as np
 from thermodata.diagnosis.candidates import GENERIC
 from thermodata.diagnosis.problem import Problem
 from thermodata.diagnosis.scored import Scored
+from thermodata.plugin import Float1D
 
 Verdict = Literal["effect", "none", "unknown", "not_testable"]
 
@@ -76,6 +77,8 @@ def passes(scored: Scored, measure: Measure) -> list[str]:
         failed.append(
             f"the squared error on left-out tests falls by {max(scored.drop, 0):.0%} only (limit {limit:.0%}{why})"
         )
+    elif remaining(scored.sse_before, measure) <= FLOOR_SHARE * measure.floor and not sharp:
+        failed.append(f"there is too little to explain: FIT {fit_of(scored.sse_before, measure):.0f} without it")
     elif better < TESTS_LIMIT and not sharp:
         failed.append(f"the error falls in {better:.0%} of the left-out tests only (limit {TESTS_LIMIT:.0%})")
     elif explained(scored, measure.rows) < SHARE_LIMIT * measure.spread:
@@ -91,8 +94,18 @@ def is_proxy(scored: Scored, measure: Measure) -> bool:
     channel whose place nobody declared names no physics: it is never more than a proxy, and says so."""
     if scored.candidate.placeless or scored.white_drop >= SHARP_WHITE_DROP:
         return False
-    before, after = (float(np.sqrt(sse.sum() / max(measure.rows, 1))) for sse in (scored.sse_before, scored.sse_after))
+    before, after = remaining(scored.sse_before, measure), remaining(scored.sse_after, measure)
     return after > max(REMAINDER_LIMIT * before, FLOOR_SHARE * measure.floor)
+
+
+def remaining(sse: Float1D, measure: Measure) -> float:
+    """RMS error of all left-out tests from their squared errors, shape (tests,)."""
+    return float(np.sqrt(sse.sum() / max(measure.rows, 1)))
+
+
+def fit_of(sse: Float1D, measure: Measure) -> float:
+    """The same as FIT [%]."""
+    return 100.0 * (1.0 - remaining(sse, measure) / measure.spread) if measure.spread > 0 else 0.0
 
 
 def explained(scored: Scored, rows: int) -> float:

@@ -24,10 +24,12 @@ _PROTOCOL = {
 
 def to_separate(chosen: Scored, twins: Sequence[Scored], channels: Mapping[str, ChannelInfo]) -> str | None:
     """The advice where several candidates explain the same."""
-    if not twins:
-        return None
-    other = twins[0].candidate
     mine = chosen.candidate
+    # the same effect by another driver is no other answer
+    others = [t.candidate for t in twins if t.candidate.effect.name != mine.effect.name]
+    if not others:
+        return None
+    other = others[0]
     if _places(mine, channels) and _places(mine, channels) == _places(other, channels):
         return (
             f"{mine.id} and {other.id} have their sensors at the same place: not separable by another test; add a "
