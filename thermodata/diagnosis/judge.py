@@ -77,7 +77,7 @@ def passes(scored: Scored, measure: Measure) -> list[str]:
         failed.append(
             f"the squared error on left-out tests falls by {max(scored.drop, 0):.0%} only (limit {limit:.0%}{why})"
         )
-    elif remaining(scored.sse_before, measure) <= FLOOR_SHARE * measure.floor and not sharp:
+    elif remaining(scored.sse_before, measure) <= (1.0 if known else FLOOR_SHARE) * measure.floor and not sharp:
         failed.append(f"there is too little to explain: FIT {fit_of(scored.sse_before, measure):.0f} without it")
     elif better < TESTS_LIMIT and not sharp:
         failed.append(f"the error falls in {better:.0%} of the left-out tests only (limit {TESTS_LIMIT:.0%})")
