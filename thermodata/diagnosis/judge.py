@@ -77,7 +77,7 @@ def passes(scored: Scored, measure: Measure) -> list[str]:
         failed.append(
             f"the squared error on left-out tests falls by {max(scored.drop, 0):.0%} only (limit {limit:.0%}{why})"
         )
-    elif remaining(scored.sse_before, measure) <= (1.0 if known else FLOOR_SHARE) * measure.floor and not sharp:
+    elif remaining(scored.sse_before, measure) <= measure.floor and not sharp:
         failed.append(f"there is too little to explain: FIT {fit_of(scored.sse_before, measure):.0f} without it")
     elif better < TESTS_LIMIT and not sharp:
         failed.append(f"the error falls in {better:.0%} of the left-out tests only (limit {TESTS_LIMIT:.0%})")
@@ -92,10 +92,11 @@ def passes(scored: Scored, measure: Measure) -> list[str]:
 def is_proxy(scored: Scored, measure: Measure) -> bool:
     """Whether it leaves so much that it may only stand in for what is missing. A lag of a
     channel whose place nobody declared names no physics: it is never more than a proxy, and says so."""
-    if scored.candidate.placeless or scored.white_drop >= SHARP_WHITE_DROP:
+    if scored.candidate.placeless:
         return False
+    share = 1.0 if scored.white_drop >= SHARP_WHITE_DROP else FLOOR_SHARE
     before, after = remaining(scored.sse_before, measure), remaining(scored.sse_after, measure)
-    return after > max(REMAINDER_LIMIT * before, FLOOR_SHARE * measure.floor)
+    return after > max(REMAINDER_LIMIT * before, share * measure.floor)
 
 
 def remaining(sse: Float1D, measure: Measure) -> float:
