@@ -8,7 +8,6 @@ from dataclasses import dataclass
 import numpy as np
 
 from thermodata.diagnosis import next_test
-from thermodata.diagnosis.artefact import as_artefacts
 from thermodata.diagnosis.confirm import Confirmation, confirm
 from thermodata.diagnosis.investigate import Investigation, investigate
 from thermodata.diagnosis.judge import Judgement, equivalents, passes
@@ -77,7 +76,6 @@ def _diagnosis(
     twins = [] if claimed is None else equivalents(claimed, ranked)
     best = order[0] if order else None
     before = None if best is None else _rmse(best.sse_before, problem)
-    steps = as_artefacts(found.steps, problem.unit)
     advice = next_test.to_separate(claimed, twins, data.channels) if claimed else None
     if claimed is None and judgement.verdict != "none":
         advice = next_test.to_find(len({b.test.key for b in problem.blocks}))
@@ -101,7 +99,7 @@ def _diagnosis(
             )
             for i, s in enumerate(order[:SHOWN])
         ],
-        artefacts=steps,
+        artefacts=found.artefacts,
         unknown=characterise(problem, found.spots) if judgement.verdict == "unknown" else None,
         next_test=advice,
     )

@@ -79,7 +79,7 @@ def _step_score(r: Float1D, t: Float1D, side: int) -> tuple[Float1D, Float1D]:
     # a step happens between two samples; a steep rise takes several
     jump = np.abs(np.diff(r, prepend=r[0]))
     sharp = jump > 0.4 * np.abs(size)
-    scale = 1.4826 * float(np.median(np.abs(inner_size - np.median(inner_size)))) + 1e-9
+    scale = 1.4826 * float(np.median(np.abs(smaller - np.median(smaller)))) + 1e-9
     return np.where(sharp, np.abs(size) / scale, 0.0), size
 
 

@@ -7,9 +7,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from thermodata.diagnosis.artefact import Step, find_steps
+from thermodata.diagnosis.artefact import as_artefacts, find_steps
 from thermodata.diagnosis.candidates import GENERIC, SLACK_FACTORS, TIME_UNITS, candidates
 from thermodata.diagnosis.judge import TRIED, Judgement, Measure, judge, passes
+from thermodata.diagnosis.logging_faults import clock_offsets, first_of_each, turned_probes
 from thermodata.diagnosis.problem import Problem, build_problem
 from thermodata.diagnosis.rank import rank
 from thermodata.diagnosis.scored import Scored
@@ -17,7 +18,7 @@ from thermodata.diagnosis.weak import weak_spots
 from thermodata.modelling.drivers import names_of
 from thermodata.modelling.fitted import FittedResponse, FittedTerm
 from thermodata.plugin import Effect, Float2D
-from thermodata.schema.result import WeakSpot
+from thermodata.schema.result import Artefact, WeakSpot
 from thermodata.view.dataset import Dataset, TestData
 
 # half-width, in the logarithm, of the difference quotient that lets a known time constant move
@@ -28,7 +29,7 @@ TANGENT = 0.1
 class Investigation:
     problem: Problem
     ranked: list[Scored]
-    steps: list[Step]
+    artefacts: list[Artefact]
     spots: list[WeakSpot]
     judgement: Judgement
     measure: Measure
@@ -54,6 +55,7 @@ def investigate(
     at: dict[tuple[str, str], list[float]] = {}
     for step in steps:
         at.setdefault(step.test.key, []).append(step.at_s)
+    faults = _faults(fitted, data, problem)
     problem = problem.split(at)
     present = [
         (t.effect.name, frozenset(n for text in t.binding.values() for n in names_of(text))) for t in fitted.terms
@@ -71,7 +73,19 @@ def investigate(
         left = good[0].sse_after if good else first.sse_after
         return float(np.sqrt(left.sum() / problem.rows))
 
-    return Investigation(problem, ranked, steps, spots, judge(problem, ranked, measure, with_second), measure)
+    artefacts = first_of_each([*as_artefacts(steps, info.unit), *faults])
+    return Investigation(problem, ranked, artefacts, spots, judge(problem, ranked, measure, with_second), measure)
+
+
+def _faults(fitted: FittedResponse, data: Dataset, problem: Problem) -> list[Artefact]:
+    """Clocks and probes, where there is a model to hold them against."""
+    if not problem.blocks or not problem.blocks[0].base.shape[1]:
+        return []
+    drivers = {n for t in fitted.terms for text in t.binding.values() for n in names_of(text)}
+    home = data.channels[fitted.name].source
+    sources = {n: s for n in drivers if n in data.channels and (s := data.channels[n].source) and s != home}
+    moved = clock_offsets(problem, lambda test: base_columns(fitted, test), sources)
+    return [*moved, *turned_probes(problem)]
 
 
 def base_columns(fitted: FittedResponse, test: TestData) -> Float2D:

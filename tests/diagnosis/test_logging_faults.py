@@ -1,0 +1,48 @@
+"""Faults of the logs that look like physics: clocks and turned probes."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from thermodata.diagnosis.answer import answer
+from thermodata.effect import effects
+from thermodata.modelling.fit import fit_model
+from thermodata.schema.model import Model
+from thermodata.schema.result import Artefact
+from thermodata.view.dataset import Dataset
+
+from .conftest import make_data
+
+
+def artefacts(data: Dataset, spec: Model) -> list[Artefact]:
+    return answer(fit_model(spec, data, uncertainty=False), data, effects(), "m").diagnosis.artefacts
+
+
+def test_a_probe_mounted_the_other_way_round_in_one_test_is_named(spec: Model) -> None:
+    data = make_data()
+    tests = list(data.tests)
+    tests[3] = replace(tests[3], values={**tests[3].values, "dZ": -tests[3].values["dZ"]})
+    found = artefacts(replace(data, tests=tuple(tests)), spec)
+    assert [(a.kind, a.test) for a in found if a.kind == "sign"] == [("sign", "t3")]
+
+
+def test_a_clock_that_is_off_in_every_test_is_named_with_its_source(spec: Model) -> None:
+    data = make_data()
+    sources = {n: replace(c, source="daq" if n == "dZ" else "nc") for n, c in data.channels.items()}
+    late = tuple(
+        replace(t, values={n: v if n == "dZ" else np.interp(t.t_s - 300.0, t.t_s, v) for n, v in t.values.items()})
+        for t in data.tests
+    )
+    right = artefacts(replace(data, channels=sources), spec)
+    wrong = artefacts(replace(data, channels=sources, tests=late), spec)
+    assert "clock_offset" not in [a.kind for a in right]
+    moved = [a for a in wrong if a.kind == "clock_offset"]
+    assert len(moved) == 1
+    assert "source 'nc'" in moved[0].why
+    assert "-5 min" in moved[0].why
+
+
+def test_sound_logs_have_no_fault(spec: Model) -> None:
+    assert artefacts(make_data(), spec) == []

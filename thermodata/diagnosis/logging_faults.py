@@ -1,0 +1,145 @@
+"""Faults of the logs that look like physics: a clock that is off, a probe whose sign or gain is wrong in one test."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from thermodata.diagnosis.problem import Block, Problem
+from thermodata.plugin import Float1D, Float2D
+from thermodata.schema.result import Artefact
+from thermodata.view.dataset import TestData
+
+SHIFTS_S = (-900.0, -600.0, -450.0, -300.0, -180.0, -120.0, 120.0, 180.0, 300.0, 450.0, 600.0, 900.0)
+CLOCK_DROP = 0.4  # fall of the squared error that makes a shift worth a name
+GAIN_OFF = 0.15  # a factor further from 1 than this: the gain is wrong
+SIGN_DROP = 0.5  # turning a test must take away this share of the squared error of all
+GAIN_DROP = (
+    0.9  # a factor must take away nearly all of a test's error: a missing effect also makes a test larger or smaller
+)
+
+
+def clock_offsets(problem: Problem, base: Callable[[TestData], Float2D], sources: Mapping[str, str]) -> list[Artefact]:
+    """Sources whose drivers would explain more if their clock were moved, the same in all tests.
+
+    base(test): the model's columns, shape (n, k). sources: channel -> source, of the model's drivers. The smallest
+    error must lie at a shift, not at zero and not at the end of the range, where something slower is at work.
+    """
+    found = []
+    now = _error(problem, base, {})
+    for source in sorted(set(sources.values())):
+        names = {c for c, s in sources.items() if s == source}
+        errors = {d: _error(problem, base, dict.fromkeys(names, d)) for d in SHIFTS_S}
+        best = min(errors, key=lambda d: errors[d])
+        if errors[best] < (1 - CLOCK_DROP) * now and abs(best) < max(SHIFTS_S):
+            rms = [float(np.sqrt(e / max(problem.rows, 1))) for e in (now, errors[best])]
+            found.append(
+                Artefact(
+                    kind="clock_offset",
+                    campaign=problem.blocks[0].test.campaign,
+                    test="",
+                    at_s=None,
+                    size_um=rms[0] - rms[1],
+                    why=f"with the clock of source '{source}' moved by {best / 60:+.0f} min the error falls from "
+                    f"{rms[0]:.2f} to {rms[1]:.2f} {problem.unit} in all tests together: check the time zone and the "
+                    "clocks, or declare clock: {offset: ...}",
+                )
+            )
+    return found
+
+
+def _error(problem: Problem, base: Callable[[TestData], Float2D], shift_s: Mapping[str, float]) -> float:
+    columns, responses = [], []
+    for block in problem.blocks:
+        columns.append(block.compress(base(_shifted(block.test, shift_s)) if shift_s else base(block.test)))
+        responses.append(block.response)
+    gram = sum(c.T @ c for c in columns)
+    cross = sum(c.T @ y for c, y in zip(columns, responses, strict=True))
+    theta = np.linalg.lstsq(np.atleast_2d(gram), np.atleast_1d(cross), rcond=1e-9)[0]
+    return float(sum(np.sum((y - c @ theta) ** 2) for c, y in zip(columns, responses, strict=True)))
+
+
+def _shifted(test: TestData, shift_s: Mapping[str, float]) -> TestData:
+    """The test with some channels later by shift_s; ends hold their value."""
+    values = {
+        name: np.interp(test.t_s - shift_s[name], test.t_s, v) if name in shift_s else v
+        for name, v in test.values.items()
+    }
+    return replace(test, values=values)
+
+
+def turned_probes(problem: Problem) -> list[Artefact]:
+    """Tests whose response goes against, or by another factor than, what the model and the other tests say.
+
+    Asked by turning one test at a time and refitting all: a joint fit to a turned test is wrong for every test.
+    """
+    blocks = problem.blocks
+    if len({b.test.key for b in blocks}) < 4:
+        return []
+    gram = np.stack([b.base.T @ b.base for b in blocks])
+    cross = np.stack([b.base.T @ b.response for b in blocks])
+    energy = float(sum(np.sum(b.response**2) for b in blocks))
+    found = []
+    as_it_is = energy - _explained(gram.sum(axis=0), cross.sum(axis=0))
+    for i, block in enumerate(blocks):
+        turned = energy - _explained(gram.sum(axis=0), cross.sum(axis=0) - 2 * cross[i])
+        others = [k for k in range(len(blocks)) if k != i]
+        theta = np.linalg.lstsq(gram[others].sum(axis=0), cross[others].sum(axis=0), rcond=1e-9)[0]
+        factor, before, after = _factor(block.response, block.base @ theta)
+        if turned < (1 - SIGN_DROP) * as_it_is:
+            found.append(
+                _fault(
+                    "sign",
+                    block,
+                    before,
+                    "turned round, this test fits the same model as the others: its "
+                    "sign is wrong; check the probe's side and its calibration",
+                )
+            )
+        elif (
+            factor > 0
+            and abs(factor - 1) > GAIN_OFF
+            and after < (1 - GAIN_DROP) * before
+            and (np.sqrt(before / len(block.response)) > 5 * problem.noise)
+        ):
+            found.append(
+                _fault(
+                    "gain",
+                    block,
+                    before,
+                    f"the displacement is {factor:.2f} times what the other tests "
+                    "predict: check the probe's gain in this test, or whether the machine was another",
+                )
+            )
+    return found
+
+
+def _explained(gram: Float2D, cross: Float1D) -> float:
+    return float(cross @ np.linalg.lstsq(gram, cross, rcond=1e-9)[0])
+
+
+def _factor(response: Float1D, predicted: Float1D) -> tuple[float, float, float]:
+    """(g, squared error at g = 1, squared error at g) of response = g * predicted."""
+    power = float(predicted @ predicted)
+    factor = float(response @ predicted) / power if power > 0 else 1.0
+    return factor, float(np.sum((response - predicted) ** 2)), float(np.sum((response - factor * predicted) ** 2))
+
+
+def _fault(kind: str, block: Block, squared: float, why: str) -> Artefact:
+    return Artefact(
+        kind=kind,
+        campaign=block.test.campaign,
+        test=block.test.test,
+        at_s=None,
+        size_um=float(np.sqrt(squared / max(len(block.response), 1))),
+        why=why,
+    )
+
+
+def first_of_each(found: Sequence[Artefact]) -> list[Artefact]:
+    """A test that was cut into parts says a fault once, and one that is turned has no steps to speak of."""
+    turned = {(a.campaign, a.test) for a in found if a.kind == "sign"}
+    found = [a for a in found if a.kind != "step" or (a.campaign, a.test) not in turned]
+    return list({(a.kind, a.campaign, a.test, a.at_s): a for a in reversed(found)}.values())[::-1]
