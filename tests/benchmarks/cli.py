@@ -18,7 +18,7 @@ ROOT = Path(__file__).parents[2]
 
 
 def diagnosis(folder: Path, runs: int) -> tuple[Run, str]:
-    """A campaign of ten tests of 12 h (36 channels), ingested and fitted before the clock starts."""
+    """A campaign of ten tests of 12 h, ingested and fitted before the clock starts."""
     from thermodata.virtual import simulate
 
     truth = simulate(folder, hide="feed_screw", seed=0)
