@@ -4,7 +4,8 @@
                                                 [--out trials.jsonl]
 
 Every effect that the virtual machine can hide, and none; with --not-logged the channels of the hidden effect are not
-in the log: right is then to claim nothing, and another family a false claim. --out keeps each trial as a line, and goes on where it was stopped.
+in the log: right is then to claim nothing, and a claim of another family is false. --out keeps each trial as a line,
+and goes on where it was stopped.
 """
 
 from __future__ import annotations
