@@ -29,23 +29,22 @@ def demo(hide: str, seed: int) -> dict[str, Any]:
         except subprocess.CalledProcessError as error:
             return {"hidden": hide, "seed": seed, "outcome": "failed", "why": str(error.stderr)[-2000:]}
     result = done.answer
-    return {**result, "hidden": hide, "seed": seed, "outcome": outcome(hide, result), "seconds": done.seconds,
+    return {**result, "hidden": hide, "seed": seed, "outcome": outcome(hide, seed, result), "seconds": done.seconds,
             "peak_mib": done.peak_mib}
 
 
-def outcome(hide: str, result: dict[str, Any]) -> str:
+def outcome(hide: str, seed: int, result: dict[str, Any]) -> str:
     """Marked as the blind benchmark marks."""
     from thermodata.effect import effects
+    from thermodata.virtual import make_world
+    from thermodata.virtual.benchmark import mark, true_family
 
     if result["found"] is None:
         return "right" if hide == "none" else "abstained"
     if hide == "none":
         return "false claim"
-    if result["found"] == hide:
-        return "right"
-    if hide in {name.split(":")[0] for name in result["equivalents"]}:
-        return "equivalent"
-    return "family" if result["family"].split("_")[0] == effects()[hide].family.split("_")[0] else "wrong"
+    family = true_family(hide, make_world(hide, seed).axis, effects())
+    return mark(hide, family, result["found"], result["family"], result["equivalents"])
 
 
 def main() -> None:

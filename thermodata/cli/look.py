@@ -29,7 +29,7 @@ def rows_of(session: Session, query: str, campaign: str | None, order: str) -> l
     for row in found:
         for key in ("conditions", "pose", "tool", "phases", "measuring", "sensor", "crosstalk", "checks", "detail",
                     "notes"):
-            if isinstance(row.get(key), str) and row[key][:1] in ("{", "["):
+            if isinstance(row.get(key), str) and row[key][:1] in ("{", "[", '"'):
                 row[key] = json.loads(row[key])
     return found
 

@@ -75,10 +75,10 @@ def _diagnosis(
         order = [claimed, *(s for s in ranked if s is not claimed)]
     twins = [] if claimed is None else equivalents(claimed, ranked)
     best = order[0] if order else None
-    before = None if best is None else _rmse(best.sse_before, problem)
+    before = _rmse(best.sse_before, problem) if best else _left(problem)
     advice = next_test.to_separate(claimed, twins, data.channels) if claimed else None
     if claimed is None and judgement.verdict != "none":
-        advice = next_test.to_find(len({b.test.key for b in problem.blocks}))
+        advice = next_test.to_find(len({b.test.key for b in problem.blocks}), found.spots)
     return Diagnosis(
         model=model_id,
         response=problem.response,
@@ -157,6 +157,12 @@ def _why(
 
 def _rmse(sse: np.ndarray, problem: Problem) -> float:
     return float(np.sqrt(sse.sum() / max(problem.rows, 1)))
+
+
+def _left(problem: Problem) -> float | None:
+    """The error of the model as it is fitted, where no candidate asked for left-out tests."""
+    whole = np.concatenate([b.residual for b in problem.blocks]) if problem.blocks else np.empty(0)
+    return float(np.sqrt(np.mean(whole**2))) if len(whole) else None
 
 
 def _fit(sse: np.ndarray, energy: float) -> float | None:

@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 
 from thermodata.diagnosis.candidates import CandidateEffect
 from thermodata.diagnosis.scored import Scored
+from thermodata.schema.result import WeakSpot
 from thermodata.view.dataset import ChannelInfo
 
 # share of worlds in which an effect could be claimed, by number of tests (measured on simulated machines)
@@ -41,15 +42,19 @@ def to_separate(chosen: Scored, twins: Sequence[Scored], channels: Mapping[str, 
     return f"to tell {mine.id} from {other.id}: {how}"
 
 
-def to_find(tests: int) -> str | None:
-    """The advice where nothing could be claimed."""
+def to_find(tests: int, spots: Sequence[WeakSpot]) -> str:
+    """The advice where nothing could be claimed. tests: those that took part; spots: where the model fails most."""
     if tests < ENOUGH_TESTS:
-        found = next(share for n, share in reversed(CLAIMED_BY_TESTS) if n <= tests or n == 3)
+        shares = ", ".join(f"{share} with {n}" for n, share in CLAIMED_BY_TESTS)
         return (
-            f"{tests} tests took part; about {found} of missing effects can be claimed with so few, "
-            f"83 % with 8: add tests that each heat one source alone (spindle, one axis, table, hall air)"
+            f"{tests} tests took part; missing effects can be claimed in {shares}: add tests that each heat one source "
+            "alone (spindle, one axis, table, hall air)"
         )
-    return None
+    worst = spots[0].state if spots else "no state in particular"
+    return (
+        f"{tests} tests took part, so more of the same will not tell: log what is not logged yet near the parts "
+        f"that work where the model fails most ({worst})"
+    )
 
 
 def _places(candidate: CandidateEffect, channels: Mapping[str, ChannelInfo]) -> set[str | None]:

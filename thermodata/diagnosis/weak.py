@@ -12,6 +12,8 @@ from thermodata.schema.result import WeakSpot
 from thermodata.view.dataset import TestData
 
 WINDOW_S = 1800.0
+# a short test is cut into at least this many windows
+WINDOWS_A_TEST = 12
 STANDS_OUT = 1.3
 SHOWN = 12
 
@@ -56,10 +58,16 @@ def weak_spots(tests: Sequence[tuple[TestData, Float1D, Bool1D]], noise: float) 
 def _windows(test: TestData, residual: Float1D, mask: Bool1D, floor: float) -> list[_Window]:
     if len(test.t_s) < 2:
         return []
-    width = max(2, round(WINDOW_S / float(test.t_s[1] - test.t_s[0])))
+    # windows are counted from the first sample that counts: what came before is history
+    counted = np.flatnonzero(mask)
+    if not len(counted):
+        return []
+    begin, end = int(counted[0]), int(counted[-1]) + 1
+    step = float(test.t_s[1] - test.t_s[0])
+    width = max(2, round(min(WINDOW_S, (end - begin) * step / WINDOWS_A_TEST) / step))
     found: list[_Window] = []
-    for start in range(0, len(residual), width):
-        stop = min(start + width, len(residual))
+    for start in range(begin, end, width):
+        stop = min(start + width, end)
         m = mask[start:stop]
         n = int(m.sum())
         sse = float(np.sum(residual[start:stop][m] ** 2))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass
 from time import perf_counter
 from typing import Any, Literal
@@ -10,8 +10,10 @@ from typing import Any, Literal
 from thermodata.diagnosis.answer import answer
 from thermodata.effect import effects
 from thermodata.modelling.fit import fit_model
+from thermodata.plugin import Effect
 from thermodata.schema.result import Diagnosis
-from thermodata.virtual.world import dataset
+from thermodata.virtual.binned import to_dataset
+from thermodata.virtual.world import make_world
 
 Outcome = Literal["right", "equivalent", "family", "wrong", "abstained", "false claim"]
 NONE = "none"
@@ -45,11 +47,26 @@ def benchmark(
     library = effects()
     for seed in seeds:
         for hide in hides:
-            data, spec = dataset(hide, seed, step_s, measured=logged)
-            family = library[hide].family if hide in library else hide
+            world = make_world(hide, seed, measured=logged)
+            data, spec = to_dataset(world, step_s), world.baseline()
+            family = true_family(hide, world.axis, library)
             start = perf_counter()
             found = answer(fit_model(spec, data, uncertainty=False), data, library, "benchmark").diagnosis
             yield _trial(hide, seed, logged, family, found, perf_counter() - start)
+
+
+def true_family(hide: str, axis: str, library: Mapping[str, Effect]) -> str:
+    """The family of the hidden effect, with the axis that it acts on."""
+    return library[hide].family.replace("{a}", axis.lower()) if hide in library else hide
+
+
+def mark(hide: str, family: str, effect: str, claimed_family: str, equivalent: Sequence[str]) -> Outcome:
+    """A claim against the truth: the effect on the right part, a twin of it, its family, or none of these."""
+    if effect == hide and claimed_family == family:
+        return "right"
+    if hide in {name.split(":")[0] for name in equivalent}:
+        return "equivalent"
+    return "family" if claimed_family == family else "wrong"
 
 
 def _trial(hide: str, seed: int, logged: bool, family: str, found: Diagnosis, seconds: float) -> Trial:
@@ -59,14 +76,10 @@ def _trial(hide: str, seed: int, logged: bool, family: str, found: Diagnosis, se
         outcome = "right" if hide == NONE or not logged else "abstained"
     elif hide == NONE:
         outcome = "false claim"
-    elif claimed.effect == hide:
-        outcome = "right"
-    elif hide in {name.split(":")[0] for name in claimed.equivalent}:
-        outcome = "equivalent"
-    elif claimed.family.split("_")[0] == family.split("_")[0]:
-        outcome = "family"
     else:
-        outcome = "wrong" if logged else "false claim"
+        outcome = mark(hide, family, claimed.effect, claimed.family, claimed.equivalent)
+        if outcome == "wrong" and not logged:
+            outcome = "false claim"
     return Trial(
         hide,
         seed,

@@ -61,10 +61,12 @@ select campaign, test, model, payload->>'$.response' as response, payload->>'$.v
 from finding where kind = 'diagnosis'"""
 
 # a model without tests of a role has NULL there; several tests pool by their samples
+# verification tests that took part in a fit keep their role, with a label
+_IN = "s.role in ('{role}', '{role} (in-sample)')"
 _POOLED = ", ".join(
-    f"sqrt(sum(s.rmse_um * s.rmse_um * s.n) filter (where s.role = '{role}') / "
-    f"nullif(sum(s.n) filter (where s.role = '{role}' and s.rmse_um is not null), 0)) as rmse_um_{role}, "
-    f"avg(s.fit) filter (where s.role = '{role}') as fit_{role}"
+    f"sqrt(sum(s.rmse_um * s.rmse_um * s.n) filter (where {_IN}) / "
+    f"nullif(sum(s.n) filter (where {_IN} and s.rmse_um is not null), 0)) as rmse_um_{{role}}, "
+    f"avg(s.fit) filter (where {_IN}) as fit_{{role}}".format(role=role)
     for role in ("calibration", "verification", "locked"))
 HISTORY = f"""create view history as
 with recursive chain as (
