@@ -6,6 +6,7 @@ import dataclasses
 import functools
 import json
 import math
+import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from decimal import Decimal
@@ -46,6 +47,18 @@ class Session:
         """Data, on stdout: the payload as JSON, or its text."""
         click.echo(json.dumps(plain(payload), indent=2, ensure_ascii=False, allow_nan=False)
                    if self.as_json else text())
+
+
+def in_units_of(session: Session, response: str | list[str], text: str) -> str:
+    """A text that says um, in the unit of the response: a model may be one of temperatures."""
+    names = [response] if isinstance(response, str) else response
+    query = "select distinct unit from channel where list_contains($names, channel)"
+    units = [str(row[0]) for row in session.view().sql(query, {"names": names}).fetchall()]
+    if len(units) != 1 or units[0] == "um":
+        return text
+    unit = "K" if units[0] == "degC" else units[0]
+    # headings keep their width, or the columns below would not stand under them
+    return re.sub(r"(?<=\d )um\b", unit, text.replace("[um]", f"[{unit}]".ljust(4)))
 
 
 def plain(value: Any) -> Any:

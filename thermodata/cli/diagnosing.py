@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from thermodata.cli.common import Session, command
+from thermodata.cli.common import Session, command, in_units_of
 from thermodata.cli.fitting import resolve, spots_text
 from thermodata.cli.table import table
 from thermodata.report.words import duration, number, verdict_sentence
@@ -29,7 +29,7 @@ def diagnose_command(session: Session, model: str, top: int) -> None:
 
     store = session.store()
     found = diagnose(store, resolve(store, model))
-    session.answer(found, lambda: diagnosis_text(found, top))
+    session.answer(found, lambda: in_units_of(session, found.response, diagnosis_text(found, top)))
 
 
 def diagnosis_text(found: Diagnosis, top: int = 8) -> str:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from thermodata.cli.common import Session, command, plain
+from thermodata.cli.common import Session, command, in_units_of, plain
 from thermodata.cli.table import table
 from thermodata.errors import UsageError
 from thermodata.report.words import base_role, change, duration, number, pooled
@@ -52,7 +52,7 @@ def fit_command(session: Session, model: str) -> None:
     else:
         stored = find_model(store, model)
         result = fit(store, stored.spec, parent=stored.parent)
-    session.answer(result, lambda: fit_text(result))
+    session.answer(result, lambda: in_units_of(session, result.response, fit_text(result)))
 
 
 @command("compare")
@@ -76,8 +76,8 @@ def compare_command(session: Session, models: tuple[str, ...]) -> None:
     payload: dict[str, Any] = {**plain(results[0]), "weak_spots": weak}
     if len(results) > 1:
         payload |= {"scores": [s for r in results for s in r.scores], "models": results}
-    session.answer(payload, lambda: "\n\n".join([compare_text(results), *(
-        spots_text(found, response) for response, found in weak.items() if found)]))
+    session.answer(payload, lambda: in_units_of(session, results[0].response, "\n\n".join([compare_text(results), *(
+        spots_text(found, response) for response, found in weak.items() if found)])))
 
 
 @command("add")
@@ -92,7 +92,8 @@ def add_command(session: Session, model: str, candidate: str) -> None:
 
     store = session.store()
     result = add(store, resolve(store, model), candidate)
-    session.answer(result, lambda: "\n\n".join([before_after_text(result), fit_text(result, scores=False)]))
+    session.answer(result, lambda: in_units_of(
+        session, result.response, "\n\n".join([before_after_text(result), fit_text(result, scores=False)])))
 
 
 @command("history")

@@ -92,7 +92,7 @@ def describe_state(test: TestData, start: int, stop: int) -> str:
         part = part[np.isfinite(part)]
         if not len(part):
             continue
-        if info.quantity in ("rotational_speed", "feed", "power"):
+        if info.quantity in ("rotational_speed", "feed", "power", "load", "current", "voltage", "flow"):
             level = float(np.median(np.abs(part)))
             if level > 0.01 * float(np.nanmax(np.abs(values))):
                 words.append(f"{name} {level:.0f} {info.unit}" if level >= 100 else f"{name} {level:.2g} {info.unit}")
