@@ -81,3 +81,19 @@ def test_no_store_and_a_lost_file(view: StoreView, tmp_path: Any) -> None:
         file.unlink()
     with pytest.raises(StoreError, match="can't be read"):
         view.sql("select * from sample")
+
+
+@pytest.mark.parametrize("query", ["drop view sample", "delete from test", "select 1; delete from test",
+                                   "create table mine as from test", "set threads = 1"])
+def test_a_query_cannot_write(view: StoreView, query: str) -> None:
+    before = view.sql("from test").fetchall()
+    with pytest.raises(UsageError, match="only reads"):
+        view.sql(query)
+    assert view.sql("from test").fetchall() == before
+    assert len(view.sql("from sample").fetchall()) == 3
+
+
+def test_all_ways_to_read_are_open(view: StoreView) -> None:
+    for query in ("show tables", "describe sample", "summarize test", "pivot test on kind using count(*)",
+                  "values (1)", "explain from test"):
+        assert view.sql(query).fetchall()

@@ -16,6 +16,9 @@ if TYPE_CHECKING:
     from thermodata.view.dataset import Dataset
 
 
+_READING = frozenset({"SELECT", "EXPLAIN", "PRAGMA", "CALL", "COPY", "MULTI"})   # MULTI is what PIVOT becomes
+
+
 class StoreView:
     """Read-only. Relations see the store as of their making, hold no lock, and give .df(), .to_arrow_table(), .pl()
     and .fetchall().
@@ -44,6 +47,13 @@ class StoreView:
 
         con = self.store.connect()
         try:
+            # the connection is a copy that later queries share: a write would spoil it and change nothing on disk
+            for statement in con.extract_statements(query):
+                if statement.type.name not in _READING:
+                    raise UsageError("a query only reads the store", where=query.strip()[:200],
+                                     expected="SELECT, FROM, DESCRIBE, SHOW or COPY ... TO",
+                                     got=statement.type.name, hint="thermodata snapshot OUT.duckdb gives a file of "
+                                     "your own to write in; thermodata forget removes a test")
             relation = con.sql(query, params=params) if params is not None else con.sql(query)
         except duckdb.IOException as error:
             raise StoreError("a file of the store can't be read", where=str(self.path), got=str(error).strip(),
