@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from store_fakes import CAMPAIGN, START_NS, NpzReader, daq, times, write_campaign, write_log
 
-from thermodata.errors import CalibrationError, SpecError
+from thermodata.errors import CalibrationError, SpecError, UsageError
 from thermodata.schema.flag import Flag
 from thermodata.store import Store
 from thermodata.store.ingest import ingest
@@ -361,3 +361,34 @@ def test_a_unit_in_brackets_may_be_left_out_and_is_the_unit(store: Store, campai
     edit(campaign, "signal: T1,", "signal: Temp,")
     ingest(store, campaign)
     np.testing.assert_allclose(column(store, "one", "T_a")["value"], (daq(100)["main"]["T1"] - 32) / 1.8)
+
+
+def test_a_reader_that_is_not_there_is_refused_before_the_store_changes(
+    filled: Store, campaign: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    import thermodata.store.gather as gather
+
+    def missing(name: str) -> Any:
+        raise UsageError(f"no reader '{name}'", hint="did you mean 'npz'?")
+
+    monkeypatch.setattr(gather, "find_reader", missing)
+    before = filled.generation
+    edit(campaign, "id: one,", "id: one, notes: again,")
+    with pytest.raises(UsageError, match=r"sources\.daq\.reader"):
+        ingest(filled, campaign)
+    assert filled.generation == before
+    assert rows(filled, "select count(*) from sample")[0][0] > 0
+
+
+def test_a_source_without_a_file_in_any_test_is_a_loss(store: Store, campaign: Path) -> None:
+    edit(campaign, "{test}.nc.npz", "{test}.ncc.npz")
+    summary = ingest(store, campaign)
+    assert [(row["source"], row["test"]) for row in summary.losses] == [("nc", None)]
+    assert "{test}.ncc" in summary.losses[0]["reason"]
+
+
+def test_a_source_without_a_file_in_one_test_is_a_note(store: Store, campaign: Path) -> None:
+    next((campaign.parent / "raw").glob("two.nc*")).unlink()
+    summary = ingest(store, campaign)
+    assert summary.losses == []
+    assert any("no file of source 'nc'" in note for note in summary.notes)

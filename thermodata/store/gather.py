@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from thermodata.errors import StoreError, ThermodataError
+from thermodata.errors import StoreError, ThermodataError, UsageError
 from thermodata.plugin import Loss, Reader
 from thermodata.schema.campaign import Campaign, JumpCalibration, SourceSpec, Test
 from thermodata.store.files import sha256_of
@@ -76,6 +76,17 @@ class Gatherer:
                 self.notes.append(text)
         return plan
 
+    def empty_sources(self, plans: list[TestPlan]) -> None:
+        """A loss for each source that channels need and that has no file in any test: a pattern is wrong then."""
+        needed = {c.source for c in self.campaign.channels.values()}
+        for name, spec in self.campaign.sources.items():
+            if name in needed and plans and not any(p.sources[name].raws for p in plans):
+                if any(row["source"] == name for row in self.losses):
+                    continue
+                patterns = [spec.files] if isinstance(spec.files, str) else spec.files or ["no 'files'"]
+                self.losses.append(loss_row(f"no file in any test ({', '.join(patterns)}); try: correct "
+                                            f"'files' of the source", source=name))
+
     def jump_files(self) -> dict[str, list[RawStream]]:
         """Calibration -> the raw streams of its jump test."""
         found: dict[str, list[RawStream]] = {}
@@ -105,8 +116,9 @@ class Gatherer:
                 raise StoreError("a raw file of the store is gone, and so is its source", where=before[0].path,
                                  got=f"no {path}", hint="put the source file back, or forget the test")
         else:
+            reader = self._reader(spec.reader, source)
             try:
-                raws = self._read(path, source, spec)
+                raws = self._read(path, source, spec, reader)
             except StoreError:
                 raise
             except (ThermodataError, OSError) as error:
@@ -119,10 +131,17 @@ class Gatherer:
         self.files.add(path)
         return raws
 
-    def _read(self, path: str, source: str, spec: SourceSpec) -> list[RawStream]:
-        if spec.reader not in self._readers:
-            self._readers[spec.reader] = find_reader(spec.reader)
-        reader = self._readers[spec.reader]
+    def _reader(self, name: str, source: str) -> Reader:
+        """The reader of a source. One that isn't there is no defect of a file: ingest would drop all its data."""
+        if name not in self._readers:
+            try:
+                self._readers[name] = find_reader(name)
+            except UsageError as error:
+                raise UsageError(error.what, where=f"sources.{source}.reader", expected=error.expected,
+                                 got=error.got, hint=error.hint) from error
+        return self._readers[name]
+
+    def _read(self, path: str, source: str, spec: SourceSpec, reader: Reader) -> list[RawStream]:
         full = self.folder / path
         if path not in self._hashes:
             self._hashes[path] = sha256_of(full)

@@ -81,6 +81,7 @@ def _ingest(store: Store, path: Path, say: Callable[[str], None]) -> IngestSumma
         plan = gather.plan(test)
         bind(plan)
         plans.append(plan)
+    gather.empty_sources(plans)
     made = make_tests(store.path, plans, results, known, now, say)
     rows: dict[str, dict[str, list[Row]]] = {t: dict(made.rows[t]) for t in BY_TEST}
     rows["file"][""] = [raw_row(campaign.id, "", name, raw, "calibration", now) for name, raws in jumps.items()
