@@ -31,6 +31,7 @@ def test_the_example_of_the_design_loads() -> None:
         ('files: "raw/{test}.csv"', 'files: "../{test}.csv"', 9, "leaves the campaign's folder"),
         ("timezone: Europe/Prague}", "timezone: Europe/Prag}", 8, "Europe/Prague"),
         ("window: [0 h, 16 h]", "window: [16 h, 1 h]", 27, "ends before"),
+        ("window: [0 h, 16 h]", "phases: {late: [17 h, 18 h]}, window: [0 h, 16 h]", 27, "outside the test's window"),
         ("id: feed_z10", "id: SP9000", 25, "stands twice"),
         ("source: daq, signal: n,", "source: dag, signal: n,", 16, "did you mean 'daq'"),
         ("T_bearing_front:", "T__front:", 12, "T__front"),
@@ -95,3 +96,12 @@ def test_a_model_names_its_nearest_right_key() -> None:
     assert parse_model(good).campaign_ids == ("c",)
     with pytest.raises(SpecError, match=r"model\.yaml:6.*\n.*\n.*did you mean 'drivers'"):
         parse_model(good.replace("{effect: lag}", "{effect: lag, drivrs: {u: x}}"))
+
+
+def test_a_folder_is_not_a_file_and_says_which_is(tmp_path: Path) -> None:
+    with pytest.raises(SpecError, match="init"):
+        load_campaign(tmp_path)
+    (tmp_path / "campaign.yaml").write_text("schema: thermodata/campaign/1")
+    with pytest.raises(SpecError) as caught:
+        load_campaign(tmp_path)
+    assert str(tmp_path / "campaign.yaml") in str(caught.value.hint)

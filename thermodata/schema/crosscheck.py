@@ -109,3 +109,10 @@ def _tests(campaign: Campaign, document: Document) -> None:
         if test.window is not None and test.window[1] <= test.window[0]:
             raise SpecError("a window that ends before it starts", where=document.where(("tests", i, "window")),
                             expected="[from, to] with from < to", got=f"[{test.window[0]:g} s, {test.window[1]:g} s]")
+        for name, (begin, end) in test.phases.items():
+            if test.window is not None and (end <= test.window[0] or begin >= test.window[1]):
+                raise SpecError(f"the phase '{name}' lies outside the test's window",
+                                where=document.where(("tests", i, "phases", name)),
+                                expected=f"a part of [{test.window[0]:g} s, {test.window[1]:g} s]",
+                                got=f"[{begin:g} s, {end:g} s]",
+                                hint="phases count from the start of the recording, as the window does")

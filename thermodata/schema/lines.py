@@ -55,6 +55,10 @@ _Loader.yaml_implicit_resolvers = {
 
 def read_document(path: Path) -> Document:
     """Parse a YAML file; SpecError names file and line where it is not one mapping of plain values."""
+    if path.is_dir():
+        own = path / "campaign.yaml"
+        raise SpecError(f"'{path}' is a folder", where=str(path), expected="a YAML file", got="a folder",
+                        hint=f"name the file: {own}" if own.is_file() else f"thermodata init {path} drafts {own}")
     try:
         raw = path.read_bytes()
     except OSError as error:
@@ -77,7 +81,8 @@ def parse_document(text: str, path: Path) -> Document:
     try:
         root = loader.get_single_node()
         if root is None or not isinstance(root, yaml.MappingNode):
-            raise SpecError("the file holds no keys", where=f"{path.name}:1", expected="key: value lines")
+            raise SpecError("the file holds no keys", where=f"{path.name}:1", expected="key: value lines",
+                            hint="thermodata init FOLDER drafts a campaign file from raw files")
         document = Document(path, None)
         document.data = _Builder(loader, document).build(root, (), 0)
         return document
