@@ -26,11 +26,15 @@ FAMILY_DROP_LIMIT = 0.5  # the same for an effect whose family the model has: it
 SHARP_WHITE_DROP = 0.3
 SHARP_DROP_LIMIT = 0.15
 # an effect that leaves most of what was missing is a proxy of it: this share of the error may remain on left-out
-# tests, or this share of the floor; where a second effect is missing too, both together must leave less
+# tests, or this share of the floor, or a little more of both;
+# where a second effect is missing too, both together must leave less
 REMAINDER_LIMIT = 0.5
+NEAR_REMAINDER_LIMIT = 0.6
+NEAR_FLOORS = 1.5
 PAIR_LIMIT = 0.35
 FLOOR_SHARE = 0.7
 TESTS_LIMIT = 0.7  # share of the tests in which the error falls
+STRONG_DROP = 0.65  # what takes away this much is worth a name even where little is left to explain
 SHARE_LIMIT = 0.03  # least share of the response's spread that is worth a name
 TWIN_COSINE = 0.9  # contributions this alike can't be told apart
 TWIN_SSE = 1.15  # nor candidates whose left-out errors differ by less, if they act alike at all
@@ -77,7 +81,7 @@ def passes(scored: Scored, measure: Measure) -> list[str]:
         failed.append(
             f"the squared error on left-out tests falls by {max(scored.drop, 0):.0%} only (limit {limit:.0%}{why})"
         )
-    elif remaining(scored.sse_before, measure) <= measure.floor and not sharp:
+    elif remaining(scored.sse_before, measure) <= measure.floor and scored.drop < STRONG_DROP and not sharp:
         failed.append(f"there is too little to explain: FIT {fit_of(scored.sse_before, measure):.0f} without it")
     elif better < TESTS_LIMIT and not sharp:
         failed.append(f"the error falls in {better:.0%} of the left-out tests only (limit {TESTS_LIMIT:.0%})")
@@ -96,7 +100,8 @@ def is_proxy(scored: Scored, measure: Measure) -> bool:
         return False
     share = 1.0 if scored.white_drop >= SHARP_WHITE_DROP else FLOOR_SHARE
     before, after = remaining(scored.sse_before, measure), remaining(scored.sse_after, measure)
-    return after > max(REMAINDER_LIMIT * before, share * measure.floor)
+    near = min(NEAR_REMAINDER_LIMIT * before, NEAR_FLOORS * measure.floor)
+    return after > max(REMAINDER_LIMIT * before, share * measure.floor, near)
 
 
 def remaining(sse: Float1D, measure: Measure) -> float:
