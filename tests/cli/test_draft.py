@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path, PurePosixPath
 
 import pytest
@@ -94,6 +95,16 @@ def test_a_draft_loads_and_marks_its_questions(tmp_path: Path) -> None:
                                                             "label"}
     assert next(line for line in text.splitlines() if "T14:" in line).endswith("# ? at: where on the machine?")
     assert "# not used: notes.txt" in text
+
+
+def test_a_probe_gets_the_jump_test_of_its_axis_where_every_jump_test_logs_all_probes() -> None:
+    probes = tuple(replace(DAQ[0], name=f"Eddy/{axis} vorn") for axis in "ZX")
+    files = [raw("raw/a.tdms", "crio", probes), raw("raw/jump_x.tdms", "crio", probes),
+             raw("raw/jump_z.tdms", "crio", probes)]
+    lines = draft("lathe", files, []).splitlines()
+    for axis in "ZX":
+        line = next(x for x in lines if x.startswith(f"  jump_{axis}_vorn:"))
+        assert f"file: raw/jump_{axis.lower()}.tdms" in line
 
 
 @pytest.mark.parametrize("name", ["x: [1, 2]", "a # b", "'quoted\"", "{test}", "yes", "é/ž", "new\nline", "- dash"])

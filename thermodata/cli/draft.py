@@ -120,7 +120,7 @@ def draft(campaign: str, files: Sequence[RawFile], ignored: Sequence[tuple[str, 
             moves = found.quantity == "displacement"
             if moves:
                 displacements.append((name, found.axis, g, signal))
-            jump = f"jump_{name}" if moves and found.axis and _jump_for(signal, calibrations) else None
+            jump = f"jump_{name}" if moves and found.axis and _jump_for(signal, found.axis, calibrations) else None
             keys = {"source": g.source, "signal": signal.name, "quantity": found.quantity, "unit": found.unit,
                     "axis": found.axis, "at": found.at,
                     "relative_to": "table" if moves else None, "calibration": jump}
@@ -131,7 +131,7 @@ def draft(campaign: str, files: Sequence[RawFile], ignored: Sequence[tuple[str, 
             mark = "  " if found.quantity else "# "
             lines.append(f"{mark}{name}: {{{flow}}}" + (f"   # {note}" if note else ""))
     jumps = [(name, axis, g, s, f) for name, axis, g, s in displacements
-             if axis and (f := _jump_for(s, calibrations))]
+             if axis and (f := _jump_for(s, axis, calibrations))]
     if jumps:
         lines.append("calibrations:")
         lines += [f"  jump_{name}: {{kind: jump, axis: {axis}, source: {g.source}, file: {_text(str(f.path))}, "
@@ -154,11 +154,14 @@ def _tests(groups: Sequence[Group]) -> list[str]:
     return lines
 
 
-def _jump_for(signal: Signal, calibrations: Sequence[RawFile]) -> RawFile | None:
-    """The calibration recording that holds this signal; the one whose name ends like it first."""
+def _jump_for(signal: Signal, axis: str | None, calibrations: Sequence[RawFile]) -> RawFile | None:
+    """The calibration recording that holds this signal; first the one whose name ends like it or names its axis."""
     holding = [f for f in calibrations if any(s.name == signal.name for s in f.recording.signals)]
+    named = [words(f.path.stem).split() for f in holding]
     last = words(signal.name).split()[-1:]
-    return next((f for f in holding if words(f.path.stem).split()[-1:] == last), holding[0] if holding else None)
+    alike = [f for f, name in zip(holding, named, strict=True) if name[-1:] == last]
+    axial = [f for f, name in zip(holding, named, strict=True) if axis is not None and axis.lower() in name]
+    return next(iter([*alike, *axial, *holding]), None)
 
 
 def _text(value: object) -> str:
