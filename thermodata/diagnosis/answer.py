@@ -9,8 +9,9 @@ import numpy as np
 
 from thermodata.diagnosis import next_test
 from thermodata.diagnosis.confirm import Confirmation, confirm
+from thermodata.diagnosis.evidence import passes
 from thermodata.diagnosis.investigate import Investigation, investigate
-from thermodata.diagnosis.judge import Judgement, equivalents, passes
+from thermodata.diagnosis.judge import Judgement, equivalents
 from thermodata.diagnosis.problem import Problem
 from thermodata.diagnosis.scored import Scored
 from thermodata.diagnosis.unexplained import characterise
@@ -39,7 +40,15 @@ def answer(fitted: FittedModel, data: Dataset, library: Mapping[str, Effect], mo
     locked: list[TestData] = []
     if judgement.claimed is not None:
         locked = [t for t in fitted.tests(data, "locked") if response.can_predict(t)]
-        confirmation = confirm(fitted.spec, index, data, judgement.claimed.candidate, usable, locked)
+        confirmation = confirm(
+            fitted.spec,
+            index,
+            data,
+            judgement.claimed.candidate,
+            usable,
+            locked,
+            judgement.second.candidate if judgement.second else None,
+        )
         if not confirmation.holds:
             judgement = Judgement(
                 "unknown",
@@ -148,7 +157,14 @@ def _why(
         locked = ""
         if confirmation and confirmation.before is not None and confirmation.after is not None:
             locked = f"; on the locked tests from {confirmation.before:.2f} to {confirmation.after:.2f} {problem.unit}"
-        return f"{numbers}; chance does as well in {s.p_value:.1%} of surrogate residuals{locked}"
+        beside = judgement.second
+        two = (
+            f"; a second effect is missing too: with {beside.candidate.id} beside it "
+            f"{_rmse(beside.sse_after, problem):.2f} {problem.unit} are left; add this one and diagnose again"
+            if beside
+            else ""
+        )
+        return f"{numbers}; chance does as well in {s.p_value:.1%} of surrogate residuals{locked}{two}"
     failed = passes(s, found.measure)
     if not failed and judgement.claimed is None:
         return f"{numbers}; {judgement.reason}"

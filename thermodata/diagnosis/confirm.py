@@ -60,10 +60,12 @@ def confirm(
     candidate: CandidateEffect,
     tests: Sequence[TestData],
     locked: Sequence[TestData],
+    second: CandidateEffect | None = None,
 ) -> Confirmation:
     """Fit without and with the candidate on all open tests, and score both on the locked ones.
 
-    index: of the response among the model's responses.
+    index: of the response among the model's responses. second: an effect that is missing beside the candidate; then
+    both together decide, for one alone may be fitted to what the other does.
     """
     spec = on_all_open(spec, tests, locked)
     base, more = fit_model(spec, data, uncertainty=False), fit_model(extended(spec, candidate), data)
@@ -71,8 +73,16 @@ def confirm(
     usable = [t for t in locked if ours.can_predict(t) and theirs.can_predict(t)]
     known = set(base.parameters())
     found = {name: p for name, p in more.parameters().items() if name not in known}
+    deciding = theirs
+    if second is not None:
+        both = fit_model(extended(extended(spec, candidate), second), data, uncertainty=False)
+        deciding = both.responses[index]
     return Confirmation(
-        rmse(ours, usable), rmse(theirs, usable), rmse(ours, usable, free=True), rmse(theirs, usable, free=True), found
+        rmse(ours, usable),
+        rmse(theirs, usable),
+        rmse(ours, usable, free=True),
+        rmse(deciding, usable, free=True),
+        found,
     )
 
 

@@ -9,7 +9,8 @@ import numpy as np
 
 from thermodata.diagnosis.artefact import as_artefacts, find_steps
 from thermodata.diagnosis.candidates import GENERIC, SLACK_FACTORS, TIME_UNITS, candidates
-from thermodata.diagnosis.judge import TRIED, Judgement, Measure, judge, passes
+from thermodata.diagnosis.evidence import Measure, passes, remaining
+from thermodata.diagnosis.judge import TRIED, Judgement, Pair, judge, simplest
 from thermodata.diagnosis.logging_faults import clock_offsets, first_of_each, turned_probes
 from thermodata.diagnosis.problem import Problem, build_problem
 from thermodata.diagnosis.rank import rank
@@ -67,11 +68,11 @@ def investigate(
     measure = Measure(problem.rows, float(np.sqrt(np.mean(whole**2))), problem.noise, families)
     spots = weak_spots([(t, fitted.residual(t), fitted.mask(t)) for t in tests], problem.noise)
 
-    def with_second(first: Scored) -> float:
+    def with_second(first: Scored) -> Pair:
         others = rank(problem.with_effect(first), [c for c in asked if c is not first.candidate], seed)
         good = [s for s in others[:TRIED] if not passes(s, measure)]
-        left = good[0].sse_after if good else first.sse_after
-        return float(np.sqrt(left.sum() / problem.rows))
+        second = simplest(good) if good else None
+        return Pair(second, remaining(first.sse_after if second is None else second.sse_after, measure))
 
     artefacts = first_of_each([*as_artefacts(steps, info.unit), *faults])
     return Investigation(problem, ranked, artefacts, spots, judge(problem, ranked, measure, with_second), measure)
