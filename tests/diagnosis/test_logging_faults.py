@@ -46,3 +46,23 @@ def test_a_clock_that_is_off_in_every_test_is_named_with_its_source(spec: Model)
 
 def test_sound_logs_have_no_fault(spec: Model) -> None:
     assert artefacts(make_data(), spec) == []
+
+
+def test_what_happens_in_a_hole_is_no_slip(spec: Model) -> None:
+    data = make_data()
+    test = data.tests[2]
+    n = len(test.t_s)
+    shifted = test.values["dZ"] + 5.0 * (np.arange(n) >= n // 2 + 10)
+    hole = (np.arange(n) >= n // 2) & (np.arange(n) < n // 2 + 20)
+    valid = {**test.valid, "dZ": ~hole}
+    tests = list(data.tests)
+    tests[2] = replace(test, values={**test.values, "dZ": shifted}, valid=valid)
+    assert not [a for a in artefacts(replace(data, tests=tuple(tests)), spec) if a.kind == "step"]
+
+
+def test_parameters_that_do_not_hold_are_named_as_such(spec: Model) -> None:
+    wrong = spec.model_copy(
+        update={"effects": [spec.effects[0].model_copy(update={"fixed": {"gain": 1.5, "tau": 20.0}})]}
+    )
+    found = artefacts(make_data(), wrong)
+    assert "parameters" in [a.kind for a in found]

@@ -76,3 +76,12 @@ def test_the_id_follows_the_content_of_the_file(spec: Spec, theirs: Path) -> Non
     theirs.write_text(theirs.read_text() + "\nt6,0,1")
     assert model_id(model, "v", theirs.parent) != before
     assert np.char.isalnum(before)
+
+
+def test_another_programs_prediction_keeps_its_scale_unless_its_gain_is_freed() -> None:
+    from thermodata.modelling.resolve import as_it_was_made
+    from thermodata.schema.model import EffectSpec
+
+    assert as_it_was_made(EffectSpec(effect="prediction", file="a.csv")).fixed == {"gain": 1.0}
+    assert as_it_was_made(EffectSpec(effect="prediction", file="a.csv", bounds={"gain": (0, 3)})).fixed == {}
+    assert as_it_was_made(EffectSpec(effect="lag")).fixed == {}

@@ -18,6 +18,7 @@ from thermodata.view.dataset import TestData
 SIDE_S = 1200.0
 COMMAND_S = 600.0
 Z_LIMIT = 9.0
+HOLE_STEPS = 1.6
 
 
 @dataclass(frozen=True, slots=True)
@@ -79,6 +80,9 @@ def _step_score(r: Float1D, t: Float1D, side: int) -> tuple[Float1D, Float1D]:
     # a step happens between two samples; a steep rise takes several
     jump = np.abs(np.diff(r, prepend=r[0]))
     sharp = jump > 0.4 * np.abs(size)
+    # over a hole the machine had time to move: what nobody saw is not called a slip
+    step = np.median(np.diff(t))
+    sharp &= np.diff(t, prepend=t[0] - step) < HOLE_STEPS * step
     scale = 1.4826 * float(np.median(np.abs(smaller - np.median(smaller)))) + 1e-9
     return np.where(sharp, np.abs(size) / scale, 0.0), size
 

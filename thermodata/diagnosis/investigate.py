@@ -11,7 +11,7 @@ from thermodata.diagnosis.artefact import as_artefacts, find_steps
 from thermodata.diagnosis.candidates import GENERIC, SLACK_FACTORS, TIME_UNITS, candidates
 from thermodata.diagnosis.evidence import Measure, passes, remaining
 from thermodata.diagnosis.judge import TRIED, Judgement, Pair, judge, simplest
-from thermodata.diagnosis.logging_faults import clock_offsets, first_of_each, turned_probes
+from thermodata.diagnosis.logging_faults import clock_offsets, first_of_each, turned_probes, wrong_parameters
 from thermodata.diagnosis.problem import Problem, build_problem
 from thermodata.diagnosis.rank import rank
 from thermodata.diagnosis.scored import Scored
@@ -74,8 +74,14 @@ def investigate(
         second = simplest(good) if good else None
         return Pair(second, remaining(first.sse_after if second is None else second.sse_after, measure))
 
+    judgement = judge(problem, ranked, measure, with_second)
+    if judgement.verdict != "none":
+        # a missing effect also makes one test larger or smaller than the others say
+        faults = [f for f in faults if f.kind != "gain"]
+    if ranked:
+        faults += wrong_parameters(problem, remaining(ranked[0].sse_before, measure), measure.floor)
     artefacts = first_of_each([*as_artefacts(steps, info.unit), *faults])
-    return Investigation(problem, ranked, artefacts, spots, judge(problem, ranked, measure, with_second), measure)
+    return Investigation(problem, ranked, artefacts, spots, judgement, measure)
 
 
 def _faults(fitted: FittedResponse, data: Dataset, problem: Problem) -> list[Artefact]:

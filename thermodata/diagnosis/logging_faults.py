@@ -13,6 +13,7 @@ from thermodata.schema.result import Artefact
 from thermodata.view.dataset import TestData
 
 SHIFTS_S = (-900.0, -600.0, -450.0, -300.0, -180.0, -120.0, 120.0, 180.0, 300.0, 450.0, 600.0, 900.0)
+MISFIT_TIMES = 3.0  # a fit that leaves this many times what a refit leaves has wrong parameters
 CLOCK_DROP = 0.4  # fall of the squared error that makes a shift worth a name
 GAIN_OFF = 0.15  # a factor further from 1 than this: the gain is wrong
 SIGN_DROP = 0.5  # turning a test must take away this share of the squared error of all
@@ -136,6 +137,30 @@ def _fault(kind: str, block: Block, squared: float, why: str) -> Artefact:
         size_um=float(np.sqrt(squared / max(len(block.response), 1))),
         why=why,
     )
+
+
+def wrong_parameters(problem: Problem, refitted: float, floor: float) -> list[Artefact]:
+    """The same effects fitted to all open tests would leave much less: parameters are wrong, not effects.
+
+    refitted: error on left-out tests after a refit. floor: error that is left alone.
+    """
+    now = float(np.sqrt(np.mean(np.concatenate([b.residual for b in problem.blocks]) ** 2)))
+    if now < max(MISFIT_TIMES * refitted, floor):
+        return []
+    why = (
+        f"as it is fitted the model leaves {now:.2f} {problem.unit}; the same effects refitted to all open tests leave "
+        f"{refitted:.2f} on tests left out: its parameters do not hold here; check calibrate_on, fixed and bounds"
+    )
+    return [
+        Artefact(
+            kind="parameters",
+            campaign=problem.blocks[0].test.campaign,
+            test="",
+            at_s=None,
+            size_um=now - refitted,
+            why=why,
+        )
+    ]
 
 
 def first_of_each(found: Sequence[Artefact]) -> list[Artefact]:

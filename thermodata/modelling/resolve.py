@@ -60,7 +60,8 @@ def bind_terms(effects: Sequence[EffectSpec], data: Dataset, by_campaign: Mappin
                base: Path | None = None) -> tuple[BoundTerm, ...]:
     ids = term_ids(effects)
     terms = []
-    for name, spec in zip(ids, effects, strict=True):
+    for name, given in zip(ids, effects, strict=True):
+        spec = as_it_was_made(given)
         made = make_effect(spec, name, base)
         found = {c: bind(made, spec.drivers, channels, f"effect '{name}', campaign {c}")
                  for c, channels in by_campaign.items()}
@@ -90,6 +91,14 @@ def term_ids(effects: Sequence[EffectSpec]) -> list[str]:
             name = f"{spec.effect}_{k}"
         ids.append(name)
     return ids
+
+
+def as_it_was_made(spec: EffectSpec) -> EffectSpec:
+    """Another program's prediction is scored as that program made it, unless the model frees its gain."""
+    freed = "gain" in spec.bounds or "gain" in spec.start or spec.gain_by is not None
+    if spec.effect != prediction.NAME or freed or "gain" in spec.fixed:
+        return spec
+    return spec.model_copy(update={"fixed": {**spec.fixed, "gain": 1.0}})
 
 
 def make_effect(spec: EffectSpec, where: str, base: Path | None) -> Effect:
