@@ -14,6 +14,7 @@ from thermodata.report.data import Curve, ReportData, TestPart, Version
 from thermodata.report.records import written_conditions
 from thermodata.report.spots import weak_spots_of
 from thermodata.report.words import base_role, pooled
+from thermodata.schema.model import EffectSpec
 from thermodata.schema.result import Score
 
 if TYPE_CHECKING:
@@ -65,12 +66,20 @@ def versions(chain: Sequence[StoredModel]) -> tuple[Version, ...]:
     made, known = [], set[str]()
     for i, m in enumerate(chain):
         ids = term_ids(m.spec.effects)
-        fresh = [name for name in ids if name not in known] if i else []
+        fresh = [_in_words(spec, name) for spec, name in zip(m.spec.effects, ids, strict=True)
+                 if name not in known] if i else []
         scores = m.result.scores
         made.append(Version(m.model, m.name, ", ".join(fresh) or None, pooled(scores, "calibration", "verification"),
                             pooled(scores, "calibration"), pooled(scores, "verification"), m.stale))
         known = set(ids)
     return tuple(made)
+
+
+def _in_words(spec: EffectSpec, term: str) -> str:
+    """An effect's name says what it is; a plain lag is told by its channel."""
+    if spec.effect not in ("lag", "static"):
+        return term
+    return f"{spec.effect}({', '.join(d if isinstance(d, str) else d.at for d in spec.drivers.values())})"
 
 
 def _tests(store: Store, model: str, loaded: Loaded) -> Iterable[TestPart]:
