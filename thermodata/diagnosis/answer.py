@@ -8,13 +8,14 @@ from dataclasses import dataclass
 import numpy as np
 
 from thermodata.diagnosis import next_test
-from thermodata.diagnosis.confirm import Confirmation, confirm
+from thermodata.diagnosis.confirm import Confirmation, confirm, on_all_open
 from thermodata.diagnosis.evidence import passes
 from thermodata.diagnosis.investigate import Investigation, investigate
 from thermodata.diagnosis.judge import Judgement, equivalents
 from thermodata.diagnosis.problem import Problem
 from thermodata.diagnosis.scored import Scored
 from thermodata.diagnosis.unexplained import characterise
+from thermodata.modelling.fit import fit_model
 from thermodata.modelling.fitted import FittedModel
 from thermodata.plugin import Effect
 from thermodata.schema.result import Candidate, Diagnosis
@@ -35,7 +36,10 @@ def answer(fitted: FittedModel, data: Dataset, library: Mapping[str, Effect], mo
     index = _worst(fitted, tests)
     response = fitted.responses[index]
     usable = [t for t in tests if response.can_predict(t)]
-    found = investigate(response, data, usable, library, seed)
+    # the choice takes part in all open tests: gains that only a verification test excites must not be guesses
+    open_spec = on_all_open(fitted.spec, usable, fitted.tests(data, "locked"))
+    refitted = fit_model(open_spec, data, uncertainty=False).responses[index] if usable else response
+    found = investigate(refitted, data, usable, library, seed, as_fitted=response)
     judgement, confirmation = found.judgement, None
     locked: list[TestData] = []
     if judgement.claimed is not None:

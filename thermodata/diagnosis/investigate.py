@@ -37,9 +37,16 @@ class Investigation:
 
 
 def investigate(
-    fitted: FittedResponse, data: Dataset, tests: Sequence[TestData], library: Mapping[str, Effect], seed: int = 0
+    fitted: FittedResponse,
+    data: Dataset,
+    tests: Sequence[TestData],
+    library: Mapping[str, Effect],
+    seed: int = 0,
+    *,
+    as_fitted: FittedResponse | None = None,
 ) -> Investigation:
-    """tests: those that take part in the choice (never the locked ones)."""
+    """fitted: to all tests that take part in the choice (never the locked ones). as_fitted: the model that is asked
+    about, whose weak spots are shown; by default the same."""
     info = data.channels[fitted.name]
     problem = build_problem(
         data,
@@ -66,7 +73,8 @@ def investigate(
     ranked = rank(problem, asked, seed)
     whole = np.concatenate(problem.response_blocks) if problem.blocks else np.zeros(1)
     measure = Measure(problem.rows, float(np.sqrt(np.mean(whole**2))), problem.noise, families)
-    spots = weak_spots([(t, fitted.residual(t), fitted.mask(t)) for t in tests], problem.noise)
+    asked_about = fitted if as_fitted is None else as_fitted
+    spots = weak_spots([(t, asked_about.residual(t), asked_about.mask(t)) for t in tests], problem.noise)
 
     def with_second(first: Scored) -> Pair:
         others = rank(problem.with_effect(first), [c for c in asked if c is not first.candidate], seed)
@@ -79,9 +87,18 @@ def investigate(
         # a missing effect also makes one test larger or smaller than the others say
         faults = [f for f in faults if f.kind != "gain"]
     if ranked:
-        faults += wrong_parameters(problem, remaining(ranked[0].sse_before, measure), measure.floor)
+        faults += wrong_parameters(
+            problem, _error_of(asked_about, tests), remaining(ranked[0].sse_before, measure), measure.floor
+        )
     artefacts = first_of_each([*as_artefacts(steps, info.unit), *faults])
     return Investigation(problem, ranked, artefacts, spots, judgement, measure)
+
+
+def _error_of(fitted: FittedResponse, tests: Sequence[TestData]) -> float:
+    """RMS residual over what counts, a free offset for each test."""
+    parts = [fitted.residual(t)[fitted.mask(t)] for t in tests]
+    whole = np.concatenate([p - p.mean() for p in parts if len(p)] or [np.zeros(1)])
+    return float(np.sqrt(np.mean(whole**2)))
 
 
 def _faults(fitted: FittedResponse, data: Dataset, problem: Problem) -> list[Artefact]:
@@ -106,18 +123,21 @@ def base_columns(fitted: FittedResponse, test: TestData) -> Float2D:
 
 
 def _term_columns(term: FittedTerm, test: TestData) -> list[Float2D]:
+    """Each in the response's unit: a coefficient of 1 doubles the effect, or moves a time constant by a factor of e."""
     found = term.values(test)
+    size = len(test.t_s)
+    moving = [p for p in term.effect.params if p.upper > p.lower]
     if found is None or not term.bound.covers(test):
-        return [np.zeros((len(test.t_s), len(term.effect.gains)))]
-    columns = [term.columns(test)]
+        return [np.zeros((size, len(term.effect.gains) + len(moving)))]
     gains = np.array([found.gains[g.name] for g in term.effect.gains])
-    for param in term.effect.params:
+    columns = [term.columns(test) * np.where(gains == 0, 1.0, gains)]
+    for param in moving:
         value = found.params[param.name]
         up = {**found.params, param.name: min(value * np.exp(TANGENT), param.upper)}
         down = {**found.params, param.name: max(value * np.exp(-TANGENT), param.lower)}
-        if up[param.name] > down[param.name]:
-            change = term.bound.columns(test, up) - term.bound.columns(test, down)
-            columns.append((change @ gains)[:, None])
+        change = term.bound.columns(test, up) - term.bound.columns(test, down)
+        width = np.log(up[param.name] / down[param.name]) if down[param.name] > 0 else 2 * TANGENT
+        columns.append((change @ gains)[:, None] / max(float(width), 1e-9))
     return columns
 
 

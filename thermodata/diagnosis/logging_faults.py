@@ -139,12 +139,11 @@ def _fault(kind: str, block: Block, squared: float, why: str) -> Artefact:
     )
 
 
-def wrong_parameters(problem: Problem, refitted: float, floor: float) -> list[Artefact]:
+def wrong_parameters(problem: Problem, now: float, refitted: float, floor: float) -> list[Artefact]:
     """The same effects fitted to all open tests would leave much less: parameters are wrong, not effects.
 
-    refitted: error on left-out tests after a refit. floor: error that is left alone.
+    now: error of the model as it is fitted. refitted: on left-out tests after a refit. floor: error that is left alone.
     """
-    now = float(np.sqrt(np.mean(np.concatenate([b.residual for b in problem.blocks]) ** 2)))
     if now < max(MISFIT_TIMES * refitted, floor):
         return []
     why = (

@@ -74,7 +74,11 @@ class Problem:
             size = len(block.test.t_s)
             points = [scored.params, *scored.candidate.slack_params(scored.params)]
             own, *others = (block.compress(scored.candidate.columns(drivers, size, p)) for p in points)
-            base, slack = [block.base, own], [block.slack, *(((o - own) @ scored.gain)[:, None] for o in others)]
+            scale = np.where(scored.gain == 0, 1.0, scored.gain)
+            base, slack = (
+                [block.base, own * scale],
+                [block.slack, *(((o - own) @ scored.gain)[:, None] for o in others)],
+            )
             blocks.append(replace(block, base=np.hstack(base), slack=np.hstack(slack)))
         return replace(self, blocks=tuple(blocks))
 

@@ -21,6 +21,9 @@ from thermodata.plugin import Float1D, Float2D
 SURROGATES = 199
 # autocorrelated residuals are worth far fewer samples than they have; the prior of a gain is scaled so
 PRIOR_SAMPLES = 30.0
+# how far a known effect may move from its fit where the tests of a fold say nothing (prior standard deviation, as a
+# share): an effect that only the left-out test excites must not run away
+BASE_SHARE = 1.0
 # how much of a known effect may act with another time constant (prior standard deviation)
 SLACK_SHARE = 0.5
 # a contribution may be this many times as large as the response
@@ -43,7 +46,7 @@ def _rank(problem: Problem, candidates: Sequence[CandidateEffect], seed: int) ->
     noise_var = float(np.mean(np.concatenate([b.residual for b in problem.blocks]) ** 2)) * PRIOR_SAMPLES
     base = [np.hstack([b.base, b.slack]) for b in problem.blocks]
     first = problem.blocks[0]
-    price = np.concatenate([np.zeros(first.base.shape[1]), np.full(first.slack.shape[1], SLACK_SHARE**-2)])
+    price = np.repeat([BASE_SHARE**-2, SLACK_SHARE**-2], [first.base.shape[1], first.slack.shape[1]])
     raw = Engine(base, series, noise_var, price)
     white_series = [whiten(s, ar) for s in series]
     white_var = float(np.mean(np.concatenate([w[:, 0] for w in white_series]) ** 2)) * PRIOR_SAMPLES
