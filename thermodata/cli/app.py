@@ -17,7 +17,7 @@ from thermodata.errors import ThermodataError, unknown_name
 # Section of the help -> command -> module. The order is the order of the work.
 SECTIONS: dict[str, dict[str, str]] = {
     "Start": {"demo": "demo", "init": "files", "sniff": "files", "preview": "files", "ingest": "ingest"},
-    "Look": {"tests": "look", "channels": "look", "calibrations": "look", "quality": "look", "trace": "look",
+    "Look": {"tests": "look", "channels": "look", "calibrations": "look", "quality": "quality", "trace": "look",
              "sql": "query", "export": "take", "snapshot": "take"},
     "Model": {"fit": "fitting", "compare": "fitting", "add": "fitting", "history": "fitting",
               "portability": "fitting", "diagnose": "diagnosing", "report": "reporting", "workbench": "reporting"},

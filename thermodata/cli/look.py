@@ -1,4 +1,4 @@
-"""Looking into a store: tests, channels, calibrations, data quality, and where a result comes from."""
+"""Looking into a store: tests, channels, calibrations, and where a result comes from."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from thermodata.errors import unknown_name
 from thermodata.report.records import records, written_conditions
 from thermodata.report.words import duration
 
-_campaign = click.option("--campaign", "-c", help="Only this campaign.")
+campaign_option = click.option("--campaign", "-c", help="Only this campaign.")
 
 
 def rows_of(session: Session, query: str, campaign: str | None, order: str) -> list[dict[str, Any]]:
@@ -35,7 +35,7 @@ def rows_of(session: Session, query: str, campaign: str | None, order: str) -> l
 
 
 @command("tests")
-@_campaign
+@campaign_option
 def tests_command(session: Session, campaign: str | None) -> None:
     """List the tests: kind, role, length and conditions."""
     rows = rows_of(session, "select * from test", campaign, "campaign, test")
@@ -49,7 +49,7 @@ def tests_command(session: Session, campaign: str | None) -> None:
 
 
 @command("channels")
-@_campaign
+@campaign_option
 @click.option("--test", "-t", help="As they are in this test (default: each channel once).")
 def channels_command(session: Session, campaign: str | None, test: str | None) -> None:
     """List the channels: quantity, unit, place, sign, origin."""
@@ -67,7 +67,7 @@ def channels_command(session: Session, campaign: str | None, test: str | None) -
 
 
 @command("calibrations")
-@_campaign
+@campaign_option
 def calibrations_command(session: Session, campaign: str | None) -> None:
     """Show the calibrations.
 
@@ -75,32 +75,6 @@ def calibrations_command(session: Session, campaign: str | None) -> None:
     """
     rows = rows_of(session, "select * from calibration", campaign, "campaign, calibration")
     session.answer(rows, lambda: calibrations_text(rows) if rows else "no calibrations")
-
-
-@command("quality")
-@_campaign
-@click.option("--events", is_flag=True, help="Each event with its time, not the sums.")
-def quality_command(session: Session, campaign: str | None, events: bool) -> None:
-    """Show what was flagged.
-
-    Gaps, spikes, saturation, held and stuck values, suspect clocks; flagged rows are kept.
-    """
-    rows = rows_of(session, "select * from quality_event", campaign, "campaign, test, source, channel, from_s")
-    if not events:
-        sums: dict[tuple[str, ...], dict[str, Any]] = {}
-        for row in rows:
-            key = tuple(str(row[k]) for k in ("campaign", "test", "source", "channel", "flag"))
-            total = sums.setdefault(key, {**{k: row[k] for k in ("campaign", "test", "source", "channel", "flag")},
-                                          "events": 0, "n": 0, "from_s": row["from_s"], "to_s": row["to_s"]})
-            total["events"] += 1
-            total["n"] += row["n"] or 0
-            total["to_s"] = max((v for v in (total["to_s"], row["to_s"]) if v is not None), default=None)
-        rows = list(sums.values())
-    shown = [{**row, "first": duration(row["from_s"]), "last": duration(row["to_s"])} for row in rows]
-    columns = [("campaign", "campaign"), ("test", "test"), ("source", "source"), ("channel", "channel"),
-               ("flag", "flag"), ("n", "samples"), ("first", "from"), ("last", "to")]
-    columns += [("detail", "detail")] if events else [("events", "events")]
-    session.answer(rows, lambda: table(shown, columns) if rows else "nothing was flagged")
 
 
 @command("trace")

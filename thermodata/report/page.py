@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import json
-import os
 from importlib.resources import files
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -13,6 +11,7 @@ from thermodata.report.colour import effect_colours
 from thermodata.report.data import ReportData, TestPart
 from thermodata.report.figures import Figure, overview_figure, test_figure, waterfall_figure
 from thermodata.report.words import base_role, change, duration, number, pooled, typeset, verdict_sentence
+from thermodata.report.write import script_json, write_page
 
 if TYPE_CHECKING:
     from thermodata.store import Store
@@ -22,15 +21,7 @@ def build_report(store: Store, ref: str, out: Path | str) -> Path:
     """Write the page about a model (id, prefix or name) to `out`; a cut write leaves no half page."""
     from thermodata.report.collect import collect
 
-    target = Path(out)
-    target.parent.mkdir(parents=True, exist_ok=True)
-    part = target.with_name(f".{target.name}.{os.getpid()}.part")
-    try:
-        part.write_text(render(collect(store, ref)), encoding="utf-8")
-        part.replace(target)
-    finally:
-        part.unlink(missing_ok=True)
-    return target
+    return write_page(out, render(collect(store, ref)))
 
 
 def render(data: ReportData) -> str:
@@ -48,7 +39,7 @@ def render(data: ReportData) -> str:
     figures = _figures(data, colours)
     return template.render(
         data=data, unit=typeset(data.unit), version=__version__, colours=colours, figures=figures,
-        json={key: Markup(_script_json(figure)) for key, figure in figures.items()},
+        json={key: Markup(script_json(figure)) for key, figure in figures.items()},
         css=Markup((here / "page.css").read_text(encoding="utf-8")),
         js=Markup((here / "page.js").read_text(encoding="utf-8")), plotly=Markup(get_plotlyjs()),
         overview="overview" in figures, waterfall="waterfall" in figures,
@@ -74,11 +65,6 @@ def _figures(data: ReportData, colours: dict[str, str]) -> dict[str, Figure]:
         weak = [w for w in data.weak.get(part.response, ()) if (w.campaign, w.test) == (part.campaign, part.test)]
         made[f"test{i}"] = test_figure(part, weak, colours, noise, typeset(data.unit))
     return made
-
-
-def _script_json(figure: Figure) -> str:
-    # '</script>' inside a string would end the element; '<' as an escape can't
-    return json.dumps(figure, allow_nan=False, separators=(",", ":")).replace("<", "\\u003c")
 
 
 def headline(data: ReportData) -> str:

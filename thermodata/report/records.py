@@ -10,8 +10,8 @@ if TYPE_CHECKING:
     from thermodata.view import StoreView
 
 
-def records(view: StoreView, query: str, params: Sequence[Any] | None = None) -> list[dict[str, Any]]:
-    """One mapping a row, column name -> value. params: for the query's `?`."""
+def records(view: StoreView, query: str, params: Sequence[Any] | dict[str, Any] | None = None) -> list[dict[str, Any]]:
+    """One mapping a row, column name -> value. params: for the query's `?` or `$name`."""
     relation = view.sql(query, params)
     names: list[str] = list(relation.columns)
     return [dict(zip(names, row, strict=True)) for row in relation.fetchall()]

@@ -1,0 +1,117 @@
+"""Renders the quality of a campaign's tests as one HTML page that needs nothing beside it."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Sequence
+from importlib.resources import files
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from thermodata import __version__
+from thermodata.report.quality.data import TestQuality, Trace, collect
+from thermodata.report.quality.figure import SEVERITY, TINTS, test_picture, when
+from thermodata.report.words import duration, typeset
+from thermodata.report.write import script_json, write_page
+from thermodata.schema.flag import INVALID, Flag
+
+if TYPE_CHECKING:
+    from thermodata.view import StoreView
+
+_MOST_EVENTS = 40
+_WORST_FIRST = [str(f.name).lower() for f in reversed(SEVERITY)]
+_INFORMATION = {str(f.name).lower() for f in Flag if f and not f & INVALID}
+
+
+def build_quality_report(view: StoreView, campaign: str | None, out: Path | str) -> Path:
+    """Writes the page of a campaign (the store's only one where None) to `out`; a cut write leaves no half page."""
+    return write_page(out, render(collect(view, campaign)))
+
+
+def render(tests: Sequence[TestQuality]) -> str:
+    """The page's HTML. Names and texts from data are escaped; figures stand in it as JSON."""
+    import jinja2
+    from markupsafe import Markup
+    from plotly.offline import get_plotlyjs
+
+    report, own = files("thermodata.report"), files("thermodata.report.quality")
+    environment = jinja2.Environment(autoescape=True, trim_blocks=True, lstrip_blocks=True)
+    pictures = {f"test{i}": test_picture(t) for i, t in enumerate(tests)}
+    shown = [_shown(t, f"test{i}", pictures[f"test{i}"]["layout"]["height"]) for i, t in enumerate(tests)]
+    used = {name for row in shown for name, _ in row["counts"]} | {
+        n for t in tests for trace in t.traces for n in _names(trace)}
+    return environment.from_string((own / "page.html.j2").read_text(encoding="utf-8")).render(
+        campaign=tests[0].campaign if tests else "no tests", tests=shown, tints=TINTS, version=__version__,
+        legend=[n for n in _WORST_FIRST if n in used], headline=headline(tests), sentences=sentences(tests),
+        json={key: Markup(script_json(figure)) for key, figure in pictures.items()},
+        css=Markup((report / "page.css").read_text(encoding="utf-8")),
+        js=Markup((report / "page.js").read_text(encoding="utf-8")), plotly=Markup(get_plotlyjs()))
+
+
+def headline(tests: Sequence[TestQuality]) -> str:
+    """The page's first sentence: how much does not count, and why most of it."""
+    samples = sum(t.samples for test in tests for t in test.traces)
+    flagged = sum(t.flagged for test in tests for t in test.traces)
+    if not samples:
+        return "No samples"
+    reasons = Counter[str]()
+    for test in tests:
+        for event in test.events:
+            if event["flag"] not in _INFORMATION:
+                reasons[event["flag"]] += event["n"] or 0
+    if not flagged:
+        return f"All of {count(samples)} samples in {len(tests)} tests count"
+    why = ", ".join(name.replace("_", " ") for name, n in reasons.most_common(3) if n)
+    return f"{share(flagged, samples)} of {count(samples)} samples do not count" + (f": {why}" if why else "")
+
+
+def sentences(tests: Sequence[TestQuality]) -> list[str]:
+    """What a reader must know first: lost data, sensors that failed, clocks."""
+    said = []
+    lost = [t.test for t in tests if t.losses]
+    if lost:
+        said.append(f"Data were lost in {', '.join(lost[:6])}{' and others' if len(lost) > 6 else ''}: see below.")
+    for flag, words in (("offset", "stepped against what came before"), ("stuck", "stuck at one value"),
+                        ("held", "were held (frozen)"), ("clock_suspect", "have a suspect clock")):
+        where = {(e["channel"] or e["source"] or "all channels"): t.test for t in reversed(tests) for e in t.events
+                 if e["flag"] == flag}
+        if where:
+            named = [f"{channel} (from {test})" for channel, test in list(where.items())[:5]]
+            said.append(f"{len(where)} channels {words}: {', '.join(named)}" + (" …" if len(where) > 5 else "") + ".")
+    return said
+
+
+def share(part: int, whole: int) -> str:
+    """'0.31 %'; 'none' for none."""
+    return "none" if not part else f"{100 * part / whole:.2g} %" if whole else "-"
+
+
+def count(n: int) -> str:
+    """'4.1 M', '12.3 k', '870'."""
+    for size, letter in ((1_000_000, "M"), (1_000, "k")):
+        if n >= size:
+            return f"{n / size:.3g}\u00a0{letter}"
+    return str(n)
+
+
+def _names(trace: Trace) -> set[str]:
+    import numpy as np
+
+    seen = int(np.bitwise_or.reduce(trace.flags)) if len(trace.flags) else 0
+    return {str(f.name).lower() for f in Flag if f and seen & f}
+
+
+def _shown(test: TestQuality, key: str, height: int) -> dict[str, Any]:
+    samples, flagged = sum(t.samples for t in test.traces), sum(t.flagged for t in test.traces)
+    counts = Counter(e["flag"] for e in test.events)
+    worst = sorted((t for t in test.traces if t.flagged), key=lambda t: -t.flagged)[:3]
+    longest = sorted(test.events, key=lambda e: -((e["to_s"] or 0) - (e["from_s"] or 0)))[:_MOST_EVENTS]
+    longest.sort(key=lambda e: (e["from_s"] or 0, e["channel"] or ""))
+    idle = sum(t.idle for t in test.traces)
+    return {"idle": f"; {share(idle, samples)} not measuring" if idle else "", "key": key,
+            "test": test.test, "kind": test.kind, "length": duration(test.duration_s),
+            "samples": count(samples), "share": share(flagged, samples), "height": height,
+            "counts": [(n, counts[n]) for n in _WORST_FIRST if n in counts], "losses": test.losses,
+            "worst": [f"{t.name} {share(t.flagged, t.samples)}" for t in worst], "total": len(test.events),
+            "events": [{**e, "when": when(e["from_s"], e["to_s"]), "detail": typeset(e["detail"] or "")}
+                       for e in longest]}
