@@ -10,6 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from thermodata.calibration.quality_limit import clipped, impossible, sentinels
 from thermodata.calibration.quality_time import TimeFlags, time_flags
 from thermodata.calibration.quality_value import (
     RunStats,
@@ -85,35 +86,61 @@ def _column(name: str, column: ColumnInput, t_ns: Int1D, time: TimeFlags, stats:
     flags = np.zeros(n, np.uint16) if column.flags is None else column.flags.astype(np.uint16)
     if column.values.shape != t_ns.shape or flags.shape != t_ns.shape:
         raise ValueError(f"column '{name}': shape {column.values.shape}, flags {flags.shape}, time {t_ns.shape}")
-    events: list[QualityEvent] = []
-    if column.values.dtype.kind == "f":
-        missing = ~np.isfinite(column.values)
-        if missing.any():
-            flags[missing] |= np.uint16(Flag.OUT_OF_RANGE)
-            events += _events(name, "out_of_range", missing, t_ns, "no number")
-            after = np.flatnonzero(missing[:-1] & ~missing[1:]) + 1
-            flags[after] |= np.uint16(Flag.GAP)
-        if column.range is not None:
-            flags |= _outside(column.values, *column.range)
-    for flag in (Flag.OUT_OF_RANGE, Flag.SATURATED):
-        hit = (flags & np.uint16(flag)) != 0
-        if hit.any():
-            numbers = hit & np.isfinite(column.values) if column.values.dtype.kind == "f" else hit
-            events += _events(name, str(flag.name).lower(), numbers, t_ns, "")
+    events = _limits(name, column, flags, t_ns, stats.get(name))
     if name in stats:
         x = np.asarray(column.values, dtype=np.float64)
         others = {k: columns[k].values for k in stats if k != name}
         for start, stop, stuck, why in held_runs(x, t_ns, stats[name], others, stats):
+            if (flags[start:stop] & np.uint16(Flag.SATURATED | Flag.OUT_OF_RANGE)).all():
+                continue                                  # at the end of its range a reading stands still
             flag = Flag.STUCK if stuck else Flag.HELD
             flags[start:stop] |= np.uint16(flag)
             events.append(_event(name, str(flag.name).lower(), t_ns, start, stop, why))
         if column.quantity in _INERT:
             events += _mark_spikes(name, x, flags, t_ns, stats[name])
         if column.quantity == "temperature":
-            for start, stop, size in offset_steps(x, flags, time.flags, stats[name]):
+            for start, stop, size, why in offset_steps(x, t_ns, flags, time.flags, stats[name]):
                 flags[start:stop] |= np.uint16(Flag.OFFSET)
-                events.append(_event(name, "offset", t_ns, start, stop, f"a step of {size:+.1f} within one sample"))
+                events.append(_event(name, "offset", t_ns, start, stop, f"a step of {size:+.1f} K {why}"))
     return flags, _capped(events)
+
+
+def _limits(name: str, column: ColumnInput, flags: Array, t_ns: Int1D, stats: RunStats | None) -> list[QualityEvent]:
+    """Marks missing, impossible and clipped readings in `flags`; events for these and for flags that were there."""
+    x, events = column.values, []
+    told: Bool1D = np.zeros(len(x), dtype=bool)
+
+    def mark(flag: Flag, hit: Bool1D, why: str) -> None:
+        nonlocal told
+        flags[hit] |= np.uint16(flag)
+        events.extend(_events(name, str(flag.name).lower(), hit, t_ns, why))
+        told = told | hit
+
+    if x.dtype.kind == "f":
+        missing = ~np.isfinite(x)
+        if missing.any():
+            mark(Flag.OUT_OF_RANGE, missing, "no number")
+            after = np.flatnonzero(missing[:-1] & ~missing[1:]) + 1
+            flags[after] |= np.uint16(Flag.GAP)
+        if column.range is not None:
+            flags |= _outside(x, *column.range)
+    if x.dtype.kind in "iuf":
+        beyond = impossible(x, column.quantity) & ~told
+        if beyond.any():
+            mark(Flag.OUT_OF_RANGE, beyond, f"no {column.quantity.replace('_', ' ')} can be that")
+    if stats is not None:
+        y = np.asarray(x, dtype=np.float64)
+        code = sentinels(y, stats) & ~told
+        if code.any():
+            mark(Flag.OUT_OF_RANGE, code, "a logger's code for 'no value'")
+        elif not (flags & np.uint16(Flag.SATURATED)).any():
+            for hit, _, why in clipped(y, stats, column.quantity):
+                mark(Flag.SATURATED, hit, why)
+    for flag in (Flag.OUT_OF_RANGE, Flag.SATURATED):
+        given = ((flags & np.uint16(flag)) != 0) & ~told
+        if given.any():
+            events += _events(name, str(flag.name).lower(), given, t_ns, "")
+    return events
 
 
 def _mark_spikes(name: str, x: Float1D, flags: Array, t_ns: Int1D, stats: RunStats) -> list[QualityEvent]:

@@ -43,7 +43,8 @@ class RunStats:
 
 def run_stats(x: Float1D) -> RunStats:
     """One pass over the differences of x, shape (n,); NaN parts runs."""
-    d = np.diff(x)
+    with np.errstate(invalid="ignore"):                   # inf - inf
+        d = np.diff(x)
     equal = d == 0
     edges = np.flatnonzero(np.diff(np.concatenate([[0], equal.view(np.int8), [0]])))
     starts, lengths = edges[::2], edges[1::2] - edges[::2] + 1
@@ -141,9 +142,14 @@ def spikes(x: Float1D, own: RunStats) -> tuple[Bool1D, bool]:
     return hit, count > max(10, _MANY_SPIKES * n)
 
 
-def offset_steps(x: Float1D, flags: Array, of_time: Array, own: RunStats) -> Iterator[tuple[int, int, float]]:
-    """(start, stop, size) where a temperature steps by more than 5 K within one sample and stays there: thermal
-    mass forbids it, a failing sensor or a changed plug does it. Ends at a step back, or at the end."""
+def offset_steps(x: Float1D, t_ns: Array, flags: Array, of_time: Array,
+                 own: RunStats) -> Iterator[tuple[int, int, float, str]]:
+    """(start, stop, size [K], how) where a temperature steps by more than 5 K within one sample, or over a pause by
+    more than it ever changes in such a time, and stays there: thermal mass forbids it, a failing sensor or a
+    changed plug does it. Ends at a step back, or at the end.
+
+    x: shape (n,), degC. flags: of the column so far; of_time: of the time axis; uint16, shape (n,).
+    """
     if own.step <= 0:
         return
     ignored = Flag.SPIKE | Flag.STUCK | Flag.OUT_OF_RANGE | Flag.HELD
@@ -152,19 +158,36 @@ def offset_steps(x: Float1D, flags: Array, of_time: Array, own: RunStats) -> Ite
         return
     y = x[rows]
     d = np.diff(y)
-    # over a gap the temperature may have gone anywhere
-    near = ((of_time[rows[1:]] & int(Flag.GAP)) == 0) & (np.diff(rows) <= 5)
-    jumps = np.flatnonzero(near & (np.abs(d) > max(_OFFSET_K, 40 * own.step) / 2))
-    open_at, size = -1, 0.0
+    least = max(_OFFSET_K, 40 * own.step)
+    gap = ((of_time[rows[1:]] & int(Flag.GAP)) != 0) | (np.diff(rows) > 5)
+    jumps = np.flatnonzero(np.abs(d) > least / 2)
+    open_at, size, how = -1, 0.0, ""
     for j in jumps.tolist():
         if open_at >= 0:
             if abs(d[j] + size) < 0.5 * abs(size):
-                yield int(rows[open_at]), int(rows[j]) + 1, size
+                yield int(rows[open_at]), int(rows[j]) + 1, size, how
                 open_at = -1
-        elif abs(d[j]) > max(_OFFSET_K, 40 * own.step) and _stays(y, d, j):
+        elif abs(d[j]) > least and _stays(y, d, j) and (not gap[j] or _beyond_its_pace(y, t_ns[rows], d, j)):
+            pause = (t_ns[rows[j + 1]] - t_ns[rows[j]]) / 1e9
             open_at, size = j + 1, float(d[j])
+            how = f"over a pause of {pause:.4g} s" if gap[j] else "within one sample"
     if open_at >= 0:
-        yield int(rows[open_at]), len(x), size
+        yield int(rows[open_at]), len(x), size, how
+
+
+def _beyond_its_pace(y: Float1D, t_ns: Array, d: Float1D, j: int) -> bool:
+    """Whether the change over the pause after row j is more than twice what the channel does in such a time
+    elsewhere, and more than its range on either side: over a long pause a machine may have cooled."""
+    pause = int(t_ns[j + 1] - t_ns[j])
+    later = np.searchsorted(t_ns, t_ns + pause)
+    inside = later < len(y)
+    inside[max(0, int(np.searchsorted(t_ns, t_ns[j] - pause))):j + 1] = False        # those that span the pause itself
+    rows = np.flatnonzero(inside)
+    spread = max(float(np.ptp(y[:j + 1])), float(np.ptp(y[j + 1:])))
+    if len(rows) < 20:                                    # a pause longer than what was recorded on either side
+        return abs(float(d[j])) > max(2 * _OFFSET_K, 3 * spread)
+    usual = float(np.max(np.abs(y[later[rows]] - y[rows])))
+    return abs(float(d[j])) > max(2 * usual, 1.2 * spread)
 
 
 def _stays(y: Float1D, d: Float1D, j: int) -> bool:

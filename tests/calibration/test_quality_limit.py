@@ -1,0 +1,79 @@
+"""Readings at and beyond the ends of a sensor's range, and sensors that step over a pause."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from quality_data import N, clock, kinds, noisy, run
+
+from thermodata.plugin import Float1D
+from thermodata.schema.flag import Flag
+
+
+def temperature(seed: int = 1) -> Float1D:
+    return noisy(seed, noise=0.05) / 20 + 25
+
+
+@pytest.mark.parametrize("value", [850.0, -242.02, 3276.7, 1e38, np.inf])
+def test_a_broken_pt100_is_out_of_range(value: float) -> None:
+    x = temperature()
+    x[3000:3050] = value
+    flags, events = run(clock(), T=("temperature", x))
+    assert np.flatnonzero(flags["T"] & Flag.OUT_OF_RANGE).tolist() == list(range(3000, 3050))
+    assert ("T", "out_of_range") in kinds(events)
+    assert len([e for e in events if e.flag == "out_of_range"]) == 1
+
+
+def test_a_loggers_code_for_no_value_is_out_of_range_and_a_reading_of_that_size_is_not() -> None:
+    x = noisy()
+    x[100:103] = -9999.0
+    flags, events = run(clock(), dZ=("displacement", x), p=("pressure", np.linspace(0, 9999, N) + noisy(2)))
+    assert np.flatnonzero(flags["dZ"] & Flag.OUT_OF_RANGE).tolist() == [100, 101, 102]
+    assert "code" in events[0].detail
+    assert not flags["p"].any()
+
+
+def test_a_noisy_probe_that_runs_into_its_limit_is_saturated() -> None:
+    x = noisy()
+    limit = float(np.quantile(x, 0.9))
+    sound = x < limit
+    flags, events = run(clock(), dZ=("displacement", np.minimum(x, limit)))
+    assert ((flags["dZ"] & Flag.SATURATED) > 0).tolist() == (~sound).tolist()
+    assert not (flags["dZ"] & (Flag.HELD | Flag.STUCK)).any()
+    assert "upper limit" in events[0].detail
+
+
+def test_a_probe_that_comes_back_to_full_scale_is_saturated_not_stuck() -> None:
+    x = noisy()
+    for start in range(500, 5000, 900):
+        x[start:start + 40] = 480.0                       # the axis leaves the probe: full scale
+    flags, _ = run(clock(), dZ=("displacement", x))
+    assert np.flatnonzero(flags["dZ"] & Flag.SATURATED).size == 6 * 40 - 40 * (6 - len(range(500, 5000, 900)))
+    assert not (flags["dZ"] & Flag.STUCK).any()
+
+
+def test_rest_at_zero_and_coarse_readings_are_no_limit() -> None:
+    slow = np.round(25 + 3 * np.sin(np.arange(N) / 2000))
+    cut = np.maximum(noisy(), 0.0)
+    flags, events = run(clock(), T=("temperature", slow), dZ=("displacement", cut))
+    assert not (flags["T"] | (flags["dZ"] & Flag.SATURATED)).any()
+    assert [k for k in kinds(events) if k[1] == "saturated"] == []
+
+
+def test_a_sensor_that_reads_30_kelvin_more_after_a_weekend() -> None:
+    x = temperature()
+    t = clock()
+    t[4000:] += 60 * 3600 * 10**9
+    x[4000:] += 30
+    flags, events = run(t, T=("temperature", x))
+    assert np.flatnonzero(flags["T"] & Flag.OFFSET).tolist() == list(range(4000, N))
+    assert any("pause" in e.detail for e in events if e.flag == "offset")
+
+
+def test_a_machine_that_cooled_over_a_weekend_is_sound() -> None:
+    x = temperature() + 25 * (1 - np.exp(-np.arange(N) / 1500))
+    x[4000:] -= 25
+    t = clock()
+    t[4000:] += 60 * 3600 * 10**9
+    flags, _ = run(t, T=("temperature", x))
+    assert not (flags["T"] & Flag.OFFSET).any()

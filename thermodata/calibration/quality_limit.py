@@ -1,0 +1,90 @@
+"""Readings that no sensor of the kind can give, and those at the end of a sensor's range that nobody declared."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from thermodata.calibration.quality_value import RunStats
+from thermodata.plugin import Array, Bool1D, Float1D
+
+# What a machine tool in a hall can show, in canonical units. A broken Pt100 reads -242 or 850 degC.
+_POSSIBLE = {
+    "temperature": (-60.0, 600.0), "humidity": (-5.0, 110.0), "rotational_speed": (-500_000.0, 500_000.0),
+    "temperature_difference": (-600.0, 600.0), "irradiance": (-100.0, 3000.0), "flow": (-1e5, 1e5),
+}
+# What loggers write for "no value": full scale of their counters (with one decimal too), and rows of nines.
+_SENTINELS = np.array([32767.0, -32768.0, 3276.7, -3276.8, 6553.5, 65535.0, 9999.0, -9999.0, 99999.0, -99999.0,
+                       999.9, -999.9, 9999.9, -9999.9])
+_HUGE = 1e30
+_ANALOG_FULL_SCALE = frozenset({"displacement", "voltage", "tilt"})
+
+
+def impossible(x: Float1D, quantity: str) -> Bool1D:
+    """Where x, shape (n,), in the quantity's canonical unit, is no reading of it."""
+    with np.errstate(invalid="ignore"):
+        beyond = np.abs(x) >= _HUGE
+        if quantity in _POSSIBLE:
+            low, high = _POSSIBLE[quantity]
+            beyond |= (x < low) | (x > high)
+    return beyond
+
+
+def sentinels(x: Float1D, own: RunStats) -> Bool1D:
+    """Where x, shape (n,), is a logger's code for "no value", far outside of what the channel reads else."""
+    none: Bool1D = np.zeros(len(x), dtype=bool)
+    finite = x[np.isfinite(x)]
+    if len(finite) < 10:
+        return none
+    low, high = float(finite.min()), float(finite.max())
+    coded = _SENTINELS[(low <= _SENTINELS) & (high >= _SENTINELS)]
+    coded = coded[(coded == low) | (coded == high)]       # a code is an extreme; between others it is a reading
+    if not len(coded):
+        return none
+    hit = np.isin(x, coded)
+    rest = finite[~np.isin(finite, coded)]
+    if len(rest) < 10:
+        return none
+    middle, spread = float(np.median(rest)), float(np.ptp(rest))
+    return hit & (np.abs(x - middle) > 3 * max(spread, own.step))
+
+
+def clipped(x: Float1D, own: RunStats, quantity: str) -> Iterator[tuple[Bool1D, float, str]]:
+    """(where, limit, why) for each end of the range that x, shape (n,), runs into.
+
+    A fine and noisy channel does not repeat its extreme by chance. A smooth one must come to the very same value
+    more than once. A jump to the limit is told apart from a held or stuck reading by coming back to it, and only
+    for sensors that have a full scale in reach (displacement, voltage).
+    """
+    if not own.float_like or own.step <= 0:
+        return
+    finite = np.isfinite(x)
+    if int(finite.sum()) < 50:
+        return
+    values = x[finite]
+    for limit, side in ((float(values.max()), "upper"), (float(values.min()), "lower")):
+        at: Bool1D = x == limit
+        count = int(at.sum())
+        if count < 10 or limit == 0.0 or count > 0.5 * len(values):
+            continue
+        edges = np.flatnonzero(np.diff(np.concatenate([[0], at.view(np.int8), [0]])))
+        starts, stops = edges[::2], edges[1::2]
+        creeps = _approach(x, starts, stops) < 20 * own.step
+        noisy = own.alternates >= 0.2
+        if quantity not in _ANALOG_FULL_SCALE:
+            if not (noisy and creeps.mean() > 0.5 and len(starts) > 1):
+                continue
+        elif not (len(starts) > 2 or (noisy and bool(creeps.all()))):
+            continue
+        yield at, limit, f"{side} limit {limit:.6g}, {len(starts)} times exactly: the end of a range? say it in " \
+                         "'sensor: {range: ...}'"
+
+
+def _approach(x: Float1D, starts: Array, stops: Array) -> Float1D:
+    """The smaller one of the steps into and out of each stretch, shape (stretches,)."""
+    n = len(x)
+    before = np.abs(x[starts] - x[np.maximum(starts - 1, 0)])
+    after = np.abs(x[np.minimum(stops, n - 1)] - x[stops - 1])
+    before[starts == 0], after[stops == n] = np.inf, np.inf
+    return np.asarray(np.fmin(before, after))
