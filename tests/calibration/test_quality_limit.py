@@ -24,6 +24,12 @@ def test_a_broken_pt100_is_out_of_range(value: float) -> None:
     assert len([e for e in events if e.flag == "out_of_range"]) == 1
 
 
+def test_what_is_heated_may_be_hot() -> None:
+    x = 25 + 700 * np.exp(-((np.arange(N) - 3000) / 500.0) ** 2) + noisy(1, noise=0.05) / 20
+    flags, _ = run(clock(), T=("temperature", x))
+    assert not flags["T"].any()
+
+
 def test_a_loggers_code_for_no_value_is_out_of_range_and_a_reading_of_that_size_is_not() -> None:
     x = noisy()
     x[100:103] = -9999.0

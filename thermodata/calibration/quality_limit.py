@@ -9,15 +9,16 @@ import numpy as np
 from thermodata.calibration.quality_value import RunStats
 from thermodata.plugin import Array, Bool1D, Float1D
 
-# What a machine tool in a hall can show, in canonical units. A broken Pt100 reads -242 or 850 degC.
+# What can be measured in a lab, in canonical units: heaters and cuts are hot, no machine is colder than -60 degC.
 _POSSIBLE = {
-    "temperature": (-60.0, 600.0), "humidity": (-5.0, 110.0), "rotational_speed": (-500_000.0, 500_000.0),
-    "temperature_difference": (-600.0, 600.0), "irradiance": (-100.0, 3000.0), "flow": (-1e5, 1e5),
+    "temperature": (-60.0, 1500.0), "humidity": (-5.0, 110.0), "rotational_speed": (-500_000.0, 500_000.0),
+    "temperature_difference": (-1500.0, 1500.0), "irradiance": (-100.0, 3000.0), "flow": (-1e5, 1e5),
 }
 # What loggers write for "no value": full scale of their counters (with one decimal too), and rows of nines.
 _SENTINELS = np.array([32767.0, -32768.0, 3276.7, -3276.8, 6553.5, 65535.0, 9999.0, -9999.0, 99999.0, -99999.0,
                        999.9, -999.9, 9999.9, -9999.9])
 _HUGE = 1e30
+_HOT, _LEAP_K = 250.0, 100.0                              # a broken Pt100 reads 850 degC from one sample to the next
 _ANALOG_FULL_SCALE = frozenset({"displacement", "voltage", "tilt"})
 
 
@@ -28,7 +29,21 @@ def impossible(x: Float1D, quantity: str) -> Bool1D:
         if quantity in _POSSIBLE:
             low, high = _POSSIBLE[quantity]
             beyond |= (x < low) | (x > high)
+        if quantity == "temperature":
+            beyond |= _leaps(x, (x > _HOT) & ~beyond)
     return beyond
+
+
+def _leaps(x: Float1D, hot: Bool1D) -> Bool1D:
+    """Those stretches of `hot` that begin or end with a leap: what is heated passes through the values between."""
+    edges = np.flatnonzero(np.diff(np.concatenate([[0], hot.view(np.int8), [0]])))
+    found = np.zeros_like(hot)
+    for start, stop in zip(edges[::2].tolist(), edges[1::2].tolist(), strict=True):
+        into = abs(x[start] - x[start - 1]) if start else 0.0
+        out = abs(x[stop - 1] - x[stop]) if stop < len(x) else 0.0
+        if max(into, out) > _LEAP_K:
+            found[start:stop] = True
+    return found
 
 
 def sentinels(x: Float1D, own: RunStats) -> Bool1D:
