@@ -1,0 +1,213 @@
+"""Where on the machine: the place and the axis that a name speaks of."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+
+from thermodata.draft.vocabulary import places_in
+
+_BESIDE = (r"d|e|ed|eddy|wz|pos|feed|nut|ax|axis|achse|osa|mot|motor|tcp|err|error|delta|disp|act|ist|load|cur|curr|current|"
+           r"torque|temp|temper|speed|vel|rapid|v|s|i|t|m|p|f")
+_AFTER = r"abs|act|pos|load|axis|achse|mot|motor|temp|frt|com|curr|vel|speed|ist|soll|position|feedrate"
+_LINEAR = re.compile(rf"(?<!\S)(?:{_BESIDE})?([xyz])(?!\S)|(?<!\S)([xyz])(?:{_AFTER})(?!\S)")
+_ROTARY = re.compile(r"(?<!\S)(?:axis|achse|osa|ax|rotary|act|ist|pos|mot|motor|load|curr|current|torque|speed|drehzahl|otacky)"
+                     r" ?([abc])(?!\S)|(?<!\S)([abc]) ?(?:axis|achse|osa|轴|act|abs|pos|load|mot|motor)(?!\S)|"
+                     r"(?<!\S)([abc]) ?轴")
+_SIDES = ("front", "rear", "left", "right")
+_PLAIN = ("headstock", "ram", "saddle", "crossbeam", "workpiece", "fixture", "tool", "floor", "cabinet", "bed", "outside")
+_ON_AXIS = ("nut", "screw", "scale", "guide")
+
+
+@dataclass(frozen=True, slots=True)
+class Place:
+    """at: dotted, or None. sure: the words leave no choice. question: what a person should say."""
+
+    at: str | None
+    sure: bool = False
+    question: str | None = None
+
+
+def axis_of(text: str) -> str | None:
+    """The one axis letter (lower case) that a name (as words()) speaks of; None where none or several."""
+    found = {a or b for a, b in _LINEAR.findall(text)}
+    found |= {a or b or c for a, b, c in _ROTARY.findall(text)}
+    return found.pop() if len(found) == 1 else None
+
+
+def place_of(text: str, quantity: str) -> Place:
+    """The place that a name (as words()) speaks of, for this quantity."""
+    said, axis = set(places_in(text)), axis_of(text)
+    if "not spindle" in said:
+        said -= {"spindle"}
+        said |= {"screw"}
+    rule = _RULES.get(quantity)
+    return rule(said, axis) if rule else Place(None)
+
+
+def _side(said: set[str], sides: tuple[str, ...] = _SIDES) -> str | None:
+    found = [s for s in sides if s in said]
+    return found[0] if len(found) == 1 else None
+
+
+def _temperature(said: set[str], axis: str | None) -> Place:
+    on_axis = next((p for p in _ON_AXIS if p in said), None)
+    if on_axis:
+        part = "bearing" if on_axis == "screw" and "bearing" in said else on_axis
+        if axis and axis in "xyz":
+            return Place(f"axis.{axis}.{part}", True)
+        return Place(None, question=f"at: which axis's {part}? e.g. axis.z.{part}")
+    if "bearing" in said:
+        return _bearing(said, axis)
+    if said & {"motor", "drive"}:
+        return _motor(said, axis)
+    if "chiller" in said or ("coolant" in said and "spindle" in said):
+        return Place("chiller" + _way(said))
+    if "coolant" in said:
+        return Place("coolant" + _way(said), not said & {"cabinet", "hall", "pump"})
+    if "hydraulics" in said:
+        return Place("hydraulics", True)
+    if "lubrication" in said:
+        return Place("lubrication", True)
+    if "oil" in said:
+        return Place(None, question="at: hydraulics or lubrication?")
+    if "gearbox" in said:
+        return Place("spindle.gearbox")
+    if "column" in said:
+        side = _side(said) or {"upper": "top", "lower": "bottom"}.get(_side(said, ("upper", "lower")) or "")
+        return Place(f"column.{side}" if side else "column", bool(side) and len(said) == 2)
+    found = [p for p in _PLAIN if p in said]
+    if found and "spindle" not in said - ({"spindle"} if "headstock" in found else set()):
+        return Place(found[0], len(found) == 1)
+    if "table" in said:
+        return Place("table", not said & {"hall"})
+    if "spindle" in said:
+        return Place("spindle", said == {"spindle"})
+    if "window" in said or "sun" in said:
+        return Place("hall.sun" if "sun" in said else "hall.window")
+    if "pneumatics" in said:
+        return Place("pneumatics")
+    if "hall" in said:
+        level = {"upper": ".top", "lower": ".bottom"}.get(_side(said, ("upper", "lower")) or "", "")
+        level = ".door" if "door" in said else level
+        return Place("hall" + level, not said & {"probe", "fan", "enclosure"})
+    if "door" in said:
+        return Place("hall.door")
+    if "probe" in said:
+        return Place("probe", question="at: is 'probe' the place, or only the sensor?")
+    if "cnc" in said:
+        return Place("cnc")
+    if axis and axis in "xyz":
+        return Place(None, question=f"at: axis.{axis}.motor, .nut, .screw, .scale or .bearing?")
+    return Place(None, question="at: where on the machine?")
+
+
+def _bearing(said: set[str], axis: str | None) -> Place:
+    side = _side(said, ("front", "rear"))
+    if "table" in said:
+        return Place("table.bearing", "spindle" not in said)
+    if axis and axis in "xyz" and "spindle" not in said and not side:
+        return Place(f"axis.{axis}.bearing")
+    if "motor" in said:
+        return Place("spindle.motor" if "spindle" in said else None, question="at: the motor's bearing?")
+    if side:
+        return Place(f"spindle.bearing.{side}", axis is None and not said & {"table", "tool"})
+    return Place("spindle.bearing", question="at: spindle.bearing.front or .rear?")
+
+
+def _motor(said: set[str], axis: str | None) -> Place:
+    part = "motor" if "motor" in said else "drive"
+    if "spindle" in said and not axis:
+        return Place(f"spindle.{part}", part == "motor")
+    if axis and axis in "xyz":
+        # 'spindle' beside an axis letter: the ball screw's motor, or the spindle's of machine Z?
+        return Place(f"axis.{axis}.{part}", "spindle" not in said)
+    if axis:
+        return Place(f"rotary.{axis}.{part}")
+    if said & {"hydraulics", "pump", "coolant"}:
+        return Place("hydraulics" if "hydraulics" in said else "coolant")
+    if "table" in said:
+        return Place("table.motor")
+    return Place(None, question="at: which motor? e.g. spindle.motor, axis.x.motor")
+
+
+def _way(said: set[str]) -> str:
+    way = _side(said, ("supply", "return", "tank"))
+    return f".{way}" if way else ""
+
+
+def _speed(said: set[str], axis: str | None) -> Place:
+    for other in ("fan", "pump", "tool", "chiller"):
+        if other in said:
+            return Place(other if other != "tool" else "spindle", question=f"at: the speed of the {other}?")
+    if "spindle" in said and not axis:
+        return Place("spindle", True)
+    if "table" in said:
+        return Place("table", True)
+    if axis == "c":
+        return Place("table", question="at: table, or rotary.c of a head?")
+    if axis and axis in "ab":
+        return Place(f"rotary.{axis}", question=f"at: rotary.{axis} or table?")
+    if axis:
+        return Place(f"axis.{axis}.motor")
+    return Place("spindle")
+
+
+def _driven(said: set[str], axis: str | None) -> Place:
+    """Power, load, current and torque."""
+    if "spindle" in said and not axis:
+        return Place("spindle", True)
+    if axis:
+        return Place(f"axis.{axis}" if axis in "xyz" else f"rotary.{axis}", True)
+    for other in ("hydraulics", "coolant", "chiller", "lubrication", "table", "cabinet", "pump", "fan"):
+        if other in said:
+            return Place(other, other != "pump")
+    return Place(None, question="at: of what? e.g. spindle, axis.x")
+
+
+def _on_axis(said: set[str], axis: str | None) -> Place:
+    if axis:
+        return Place(f"axis.{axis}" if axis in "xyz" else f"rotary.{axis}", True)
+    return Place(None, question="at: which axis?")
+
+
+def _feed(said: set[str], axis: str | None) -> Place:
+    return _on_axis(said, axis) if axis else Place(None)
+
+
+def _fluid(said: set[str], axis: str | None) -> Place:
+    for key in ("hydraulics", "lubrication", "chiller", "coolant", "pneumatics"):
+        if key in said:
+            return Place(key + (_way(said) if key in ("coolant", "chiller") else ""), True)
+    return Place("hall") if "hall" in said else Place(None, question="at: coolant, hydraulics or else?")
+
+
+def _state(said: set[str], axis: str | None) -> Place:
+    if "door" in said and "enclosure" not in said:
+        return Place("hall.door")
+    if "coolant" in said:
+        return Place("coolant", True)
+    if "hydraulics" in said:
+        return Place("hydraulics", True)
+    for key in ("lubrication", "spindle", "table", "chiller"):
+        if key in said:
+            return Place(key)
+    return Place(f"axis.{axis}" if axis and axis in "xyz" else None)
+
+
+def _displacement(said: set[str], axis: str | None) -> Place:
+    if "compensation" in said:
+        return Place("cnc.compensation", True)
+    elsewhere = said & {"column", "bed", "table", "headstock", "crossbeam", "floor", "scale", "fixture"}
+    if elsewhere:
+        return Place(None, question=f"at: tcp, or the {min(elsewhere)} itself?")
+    return Place("tcp", True)
+
+
+_RULES = {
+    "temperature": _temperature, "temperature_difference": _temperature, "rotational_speed": _speed, "feed": _feed,
+    "power": _driven, "load": _driven, "current": _driven, "torque": _driven, "position": _on_axis, "flow": _fluid,
+    "pressure": _fluid, "state": _state, "displacement": _displacement, "tilt": _displacement,
+    "humidity": lambda said, axis: Place("hall", "hall" in said),
+    "irradiance": lambda said, axis: Place("hall.sun", "sun" in said),
+}

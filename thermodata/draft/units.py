@@ -1,0 +1,53 @@
+"""What a unit says about a quantity, and units that stand in a name."""
+
+from __future__ import annotations
+
+import re
+
+from thermodata.errors import UsageError
+from thermodata.schema.quantity import CANONICAL_UNIT, linear_conversion, normal_unit
+
+_BY_UNIT: dict[str, tuple[str, ...]] = {
+    "degC": ("temperature", "temperature_difference"), "degF": ("temperature",),
+    "K": ("temperature", "temperature_difference"),
+    "um": ("displacement",), "nm": ("displacement",), "mm": ("position", "displacement"),
+    "rpm": ("rotational_speed",), "turn/second": ("rotational_speed",),
+    "V": ("voltage", "displacement"), "mV": ("voltage", "displacement"),
+    "percent": ("load", "humidity"), "dimensionless": ("state",), "A": ("current",), "mA": ("current",),
+    "kW": ("power",), "W": ("power",), "N*m": ("torque",), "W/m**2": ("irradiance",), "urad": ("tilt",),
+    "deg": ("angle",), "bar": ("pressure",), "l/min": ("flow",), "ohm": ("resistance",), "m/min": ("feed",),
+    "m": ("position", "displacement"), "cm": ("position",), "inch": ("position",), "in": ("position",),
+}
+_LOOSE = ("label", "state", "load", "humidity", "tilt", "angle")           # pint turns any bare number into these
+# A unit at the end of a name, after a separator: unmistakable ones only.
+_IN_NAME = re.compile(r"(?:^|[_.\s-])(degC|°C|℃|Celsius|rpm|RPM|kW|um|µm|μm|mm|lpm|bar|mbar|kPa|MPa|mA|mV|Nm|urad|pct|"
+                      r"(?:mm|m|l|1|U)[_/](?:min))$")
+
+
+def from_name(name: str) -> str | None:
+    """The unit that a name ends with: 'x_mm' -> 'mm', 'level.mm' -> 'mm', 'F_mm_min' -> 'mm/min'; None where none."""
+    match = _IN_NAME.search(name.strip())
+    return match[1].replace("_", "/").replace("pct", "%") if match else None
+
+
+def quantities_of(unit: str) -> tuple[str, ...]:
+    """Quantities that can have this unit, the likeliest first; () where none can.
+
+    What is only a number with a name ('%', 'deg') is left to the name where several fit.
+    """
+    bare = re.sub(r"\s", "", unit).strip("[]()").lower()
+    if bare in ("hz", "s-1", "1/s", "s^-1") or bare in ("um/m", "µm/m", "μm/m"):
+        return ()                                         # a frequency or a strain, unless the name knows better
+    normal = normal_unit(unit)
+    if normal in _BY_UNIT:
+        return _BY_UNIT[normal]
+    return tuple(q for q in CANONICAL_UNIT if q not in _LOOSE and converts(unit, q))
+
+
+def converts(unit: str, quantity: str) -> bool:
+    """Whether values in this unit can be values of this quantity."""
+    try:
+        linear_conversion(unit, CANONICAL_UNIT[quantity])
+    except UsageError:
+        return False
+    return True

@@ -1,0 +1,74 @@
+"""What a signal's values say about it: their range, how they change, whether they are a switch."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from thermodata.plugin import Array
+
+_FEW = 8
+
+
+@dataclass(frozen=True, slots=True)
+class Values:
+    """Of a sample of a signal. n: finite values; low and high: its range; step: the median of its changes from row to
+    row; moves: the share of rows that differ from the one before; distinct: at most 9; whole: integers only."""
+
+    n: int
+    low: float
+    high: float
+    median: float
+    step: float
+    moves: float
+    distinct: int
+    whole: bool
+
+    @property
+    def constant(self) -> bool:
+        return self.low == self.high
+
+    @property
+    def switch(self) -> bool:
+        """Only 0 and 1, and both."""
+        return self.distinct == 2 and (self.low, self.high) == (0.0, 1.0)
+
+    @property
+    def slow(self) -> bool:
+        """It creeps: from row to row it changes by little of its range, as a temperature does."""
+        return self.n >= 20 and self.distinct > _FEW and self.step <= 0.1 * max(self.high - self.low, 1e-12)
+
+    def span(self) -> str:
+        """'19.8 to 34.5'."""
+        return f"{self.low:.4g}" if self.constant else f"{self.low:.4g} to {self.high:.4g}"
+
+
+def values_of(column: Array) -> Values | None:
+    """None for text and for signals without a finite value. column: shape (n,)."""
+    if column.dtype.kind not in "biuf" or not column.size:
+        return None
+    x = np.asarray(column, dtype=np.float64)
+    x = x[np.isfinite(x)]
+    if not x.size:
+        return None
+    change = np.abs(np.diff(x))
+    few = np.unique(x[:: max(1, x.size // 2000)])
+    return Values(int(x.size), float(x.min()), float(x.max()), float(np.median(x)),
+                  float(np.median(change[change > 0])) if (change > 0).any() else 0.0,
+                  float((change > 0).mean()) if change.size else 0.0,
+                  min(int(few.size), _FEW + 1), bool((x == np.round(x)).all()))
+
+
+def joined(one: Values | None, other: Values | None) -> Values | None:
+    """Of both samples together; of the longer one what cannot be added."""
+    if one is None or other is None:
+        return one or other
+    main = one if one.n >= other.n else other
+    levels = main.distinct
+    if one.constant and other.constant and one.low != other.low:
+        levels = 2
+    return Values(one.n + other.n, min(one.low, other.low), max(one.high, other.high), main.median,
+                  max(one.step, other.step) if min(one.step, other.step) == 0 else min(one.step, other.step),
+                  (one.moves * one.n + other.moves * other.n) / (one.n + other.n),
+                  max(levels, one.distinct, other.distinct), one.whole and other.whole)
