@@ -28,6 +28,7 @@ _ANALOG = frozenset({"displacement", "tilt", "temperature", "temperature_differe
 # ... and which can't leave and come back within a few samples. (Position, speed, power and flow can.)
 _INERT = frozenset({"displacement", "tilt", "temperature", "temperature_difference", "humidity"})
 _MOST_EVENTS = 50
+_MANY_STRETCHES, _NEAR_ROWS = 8, 30
 
 
 @dataclass(frozen=True, slots=True)
@@ -169,17 +170,30 @@ def _event(name: str, flag: str, t_ns: Int1D, start: int, stop: int, detail: str
 
 
 def _events(name: str, flag: str, hit: Bool1D, t_ns: Int1D, detail: str) -> list[QualityEvent]:
-    """One event a stretch of True; the last of too many stands for the rest."""
+    """One event a stretch of True. Many stretches close to each other are one event; the last of too many stands
+    for the rest."""
     edges = np.flatnonzero(np.diff(np.concatenate([[0], hit.view(np.int8), [0]])))
     starts, stops = edges[::2], edges[1::2]
-    found = [_event(name, flag, t_ns, int(a), int(b), detail)
-             for a, b in zip(starts[:_MOST_EVENTS - 1], stops[:_MOST_EVENTS - 1], strict=True)]
-    if len(starts) >= _MOST_EVENTS:
-        a, b = int(starts[_MOST_EVENTS - 1]), int(stops[-1])
-        rest = int((stops - starts)[_MOST_EVENTS - 1:].sum())
-        found.append(QualityEvent(name, flag, int(t_ns[a]), int(t_ns[b - 1]), rest,
-                                  f"{len(starts) - _MOST_EVENTS + 1} further stretches"))
+    groups = np.arange(len(starts))
+    if len(starts) > _MANY_STRETCHES:
+        near = max(_NEAR_ROWS, len(hit) // 200)
+        groups = np.concatenate([[0], np.cumsum(starts[1:] - stops[:-1] > near)])
+    groups = np.minimum(groups, _MOST_EVENTS - 1)
+    found = []
+    for first, last in zip(*_ends(groups), strict=True):
+        n = int((stops[first:last + 1] - starts[first:last + 1]).sum())
+        many = f"{last - first + 1} stretches" if last > first else ""
+        found.append(QualityEvent(name, flag, int(t_ns[starts[first]]), int(t_ns[stops[last] - 1]), n,
+                                  "; ".join(x for x in (detail, many) if x)))
     return found
+
+
+def _ends(groups: Int1D) -> tuple[list[int], list[int]]:
+    """First and last index of each run of equal numbers; groups: shape (n,), not falling."""
+    if not len(groups):
+        return [], []
+    change = np.flatnonzero(np.diff(groups))
+    return [0, *(change + 1).tolist()], [*change.tolist(), len(groups) - 1]
 
 
 def _capped(events: Iterable[QualityEvent]) -> list[QualityEvent]:
