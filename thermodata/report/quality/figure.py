@@ -27,7 +27,7 @@ _ORDER = ("displacement", "tilt", "temperature", "temperature_difference", "rota
           "current", "torque", "position", "flow", "pressure", "humidity", "voltage")
 
 
-def test_picture(test: TestQuality) -> Figure:
+def draw_test(test: TestQuality) -> Figure:
     """Panels by quantity, the channels with something wrong in colour among the others in grey, and a lane for each
     channel that has a flag."""
     panels = _panels(test.traces)
@@ -137,15 +137,17 @@ def _line(trace: Trace, hours: Float1D, axis: str, tint: str, width: float) -> d
 def _marks(trace: Trace, hours: Float1D, axis: str, limits: tuple[float, float]) -> list[dict[str, Any]]:
     """A mark at the extremes of a bin's samples that don't count; off the panel, at its edge with the true value."""
     made = []
+    edge = 0.03 * (limits[1] - limits[0])
+    inside = limits[0] + edge, limits[1] - edge
     worst = worst_flag(trace.flags & np.uint16(_DEFECT))
-    for values in (trace.low, trace.high):
+    for i, values in enumerate((trace.low, trace.high)):
         at = np.isfinite(values) & (worst >= 0)
-        if not at.any() or (values is trace.high and np.array_equal(values[at], trace.low[at])):
+        if not at.any() or (i and np.array_equal(values[at], trace.low[at])):
             continue
         names = [", ".join(flag_names(int(f) & _DEFECT)) for f in trace.flags[at]]
         made.append({
             "type": "scatter", "mode": "markers", "x": _short(hours[at], 4),
-            "y": _short(np.clip(values[at], *limits)), "yaxis": axis, "cliponaxis": False,
+            "y": _short(np.clip(values[at], *inside)), "yaxis": axis, "cliponaxis": False,
             "marker": {"size": 4.5, "color": [TINTS[str(SEVERITY[w].name).lower()] for w in worst[at]],
                        "symbol": ["circle" if limits[0] <= v <= limits[1] else "triangle-up" if v > limits[1]
                                   else "triangle-down" for v in values[at]]},

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from thermodata import __version__
 from thermodata.report.quality.data import TestQuality, Trace, collect
-from thermodata.report.quality.figure import SEVERITY, TINTS, test_picture, when
+from thermodata.report.quality.figure import SEVERITY, TINTS, draw_test, when
 from thermodata.report.words import duration, typeset
 from thermodata.report.write import script_json, write_page
 from thermodata.schema.flag import INVALID, Flag
@@ -36,7 +36,7 @@ def render(tests: Sequence[TestQuality]) -> str:
 
     report, own = files("thermodata.report"), files("thermodata.report.quality")
     environment = jinja2.Environment(autoescape=True, trim_blocks=True, lstrip_blocks=True)
-    pictures = {f"test{i}": test_picture(t) for i, t in enumerate(tests)}
+    pictures = {f"test{i}": draw_test(t) for i, t in enumerate(tests)}
     shown = [_shown(t, f"test{i}", pictures[f"test{i}"]["layout"]["height"]) for i, t in enumerate(tests)]
     used = {name for row in shown for name, _ in row["counts"]} | {
         n for t in tests for trace in t.traces for n in _names(trace)}
@@ -72,12 +72,13 @@ def sentences(tests: Sequence[TestQuality]) -> list[str]:
     if lost:
         said.append(f"Data were lost in {', '.join(lost[:6])}{' and others' if len(lost) > 6 else ''}: see below.")
     for flag, words in (("offset", "stepped against what came before"), ("stuck", "stuck at one value"),
-                        ("held", "were held (frozen)"), ("clock_suspect", "have a suspect clock")):
+                        ("held", "frozen for a while"), ("clock_suspect", "with a suspect clock")):
         where = {(e["channel"] or e["source"] or "all channels"): t.test for t in reversed(tests) for e in t.events
                  if e["flag"] == flag}
         if where:
-            named = [f"{channel} (from {test})" for channel, test in list(where.items())[:5]]
-            said.append(f"{len(where)} channels {words}: {', '.join(named)}" + (" …" if len(where) > 5 else "") + ".")
+            named = ", ".join(f"{channel} (from {test})" for channel, test in list(where.items())[:5])
+            more = " …" if len(where) > 5 else ""
+            said.append(f"{len(where)} {'channel' if len(where) == 1 else 'channels'} {words}: {named}{more}.")
     return said
 
 
