@@ -21,6 +21,10 @@ class Reader:
         if head.start[:4] == b"PK\x03\x04":
             workbook = b"xl/" in head.start or b"[Content_Types]" in head.start
             return "XLSX: a ZIP file that holds a workbook" if workbook else None
+        if head.start[:10] == b"MATLAB 7.3" and mat_is_hdf5(head.start):
+            return "MAT 7.3: HDF5 behind a header of MATLAB's"
+        if head.start[126:128] in (b"IM", b"MI") and head.start[124:126] in (b"\x00\x01", b"\x01\x00"):
+            return "MAT 5: version and byte order of MATLAB's header"
         return _sniff_text(head)
 
     def describe(self, path: Path, source: Source) -> Recording:
@@ -30,6 +34,12 @@ class Reader:
     def blocks(self, path: Path, source: Source) -> Iterator[Block | Loss]:
         found: Iterator[Block | Loss] = _format(path).blocks(path, source)
         return found
+
+
+def mat_is_hdf5(start: bytes) -> bool:
+    from thermodata_reader_table.mat import is_hdf5
+
+    return is_hdf5(start)
 
 
 # Text files that are tables at first sight, and have readers of their own
@@ -64,17 +74,21 @@ def _sniff_text(head: Head) -> str | None:
 
 def _format(path: Path) -> ModuleType:
     with path.open("rb") as file:
-        start = file.read(4)
+        start = file.read(1024)
     if not start:
         raise FormatError("an empty file", where=path.name, expected="a table")
-    if start == b"PAR1":
+    if start[:4] == b"PAR1":
         from thermodata_reader_table import parquet
 
         return parquet
-    if start == b"PK\x03\x04":
+    if start[:4] == b"PK\x03\x04":
         from thermodata_reader_table import workbook
 
         return workbook
+    if start[:6] == b"MATLAB" or start[126:128] in (b"IM", b"MI") or mat_is_hdf5(start):
+        from thermodata_reader_table import mat
+
+        return mat
     from thermodata_reader_table import delimited
 
     return delimited

@@ -9,12 +9,10 @@ from typing import Any
 
 from thermodata.errors import FormatError, UsageError, nearest
 from thermodata.reader.text import clean, looks_like_unit, split_unit
+from thermodata_reader_table.clocks import SECONDS
 from thermodata_reader_table.stamps import is_date, is_time_of_day
 
 Cell = Any   # text, or what a workbook holds: numbers, bool, datetime, date, time
-SECONDS = {"s": 1.0, "sec": 1.0, "sek": 1.0, "seconds": 1.0, "min": 60.0, "minutes": 60.0, "h": 3600.0,
-           "hod": 3600.0, "std": 3600.0, "hours": 3600.0, "d": 86400.0, "days": 86400.0, "ms": 1e-3, "us": 1e-6,
-           "µs": 1e-6, "ns": 1e-9}
 # "t" is a time, "T" a temperature
 _TIME_WORDS = re.compile(
     r"^(t|(?i:time|zeit|čas|cas|temps|tiempo|tempo|datum|date|dátum|uhrzeit|timestamp|date[ _]?time|datetime|"
@@ -73,7 +71,7 @@ def find(rows: Sequence[Sequence[Cell]], declared: Mapping[str, Any] | None, whe
         first = int(units_row)
     row_of_units = None if units_row is None else int(units_row) - 1 - skip
     heads, units = _heads([r[:width] for r in rows[skip:first]], width, row_of_units)
-    names = _unique(heads)
+    names = unique(heads)
     data = [list(r[:width]) + [""] * (width - len(r)) for r in rows[first:first + 200]]
     if not data:
         raise FormatError("a table without data rows", where=where, expected=f"data after row {first}")
@@ -120,7 +118,7 @@ def _heads(rows: Sequence[Sequence[Cell]], width: int, units_row: int | None) ->
     return names, [u or f for u, f in zip(units, found, strict=True)]
 
 
-def _unique(names: Sequence[str]) -> list[str]:
+def unique(names: Sequence[str]) -> list[str]:
     out: list[str] = []
     for i, name in enumerate(names):
         base = name or f"column {i + 1}"
@@ -131,7 +129,7 @@ def _unique(names: Sequence[str]) -> list[str]:
     return out
 
 
-def _column(wanted: int | str, names: Sequence[str], where: str) -> int:
+def column(wanted: int | str, names: Sequence[str], where: str) -> int:
     if isinstance(wanted, int):
         if not 1 <= wanted <= len(names):
             raise FormatError(f"no column {wanted}", where=where, expected=f"1 to {len(names)}", got=str(wanted))
@@ -149,7 +147,7 @@ def _time(said: Mapping[str, Any], names: list[str], units: list[str | None], da
           where: str) -> tuple[tuple[int, ...], float | None, str | None, list[str]]:
     wanted, unit, form = said.get("column"), said.get("unit"), said.get("format")
     if wanted is not None:
-        columns = tuple(_column(w, names, where) for w in (wanted if isinstance(wanted, list | tuple) else [wanted]))
+        columns = tuple(column(w, names, where) for w in (wanted if isinstance(wanted, list | tuple) else [wanted]))
     else:
         columns = _find_time(names, units, data, where)
     cells = [row[columns[0]] for row in data]

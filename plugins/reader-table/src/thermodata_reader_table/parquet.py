@@ -14,7 +14,9 @@ from thermodata.plugin import Array, Block, Loss, Recording, Signal, Source
 from thermodata.reader.text import split_unit
 from thermodata.reader.zone import NAT
 from thermodata_reader_table import stamps
-from thermodata_reader_table.layout import SECONDS, _column, _find_time
+from thermodata_reader_table.clocks import SECONDS
+from thermodata_reader_table.layout import _find_time
+from thermodata_reader_table.layout import column as find_column
 
 STREAM = "table"
 _ROWS = 250_000
@@ -61,7 +63,7 @@ class Table:
             wanted = wanted[0]
         units = [split_unit(n)[1] for n in self.names]
         if wanted is not None:
-            column = _column(wanted, self.names, self.path.name)
+            column = find_column(wanted, self.names, self.path.name)
         else:
             stamped = [i for i, f in enumerate(self.schema) if pt.is_timestamp(f.type)]
             if stamped:
