@@ -1,0 +1,147 @@
+"""What file names say: which part of them is the test, which the source, and which the number of a part."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from pathlib import PurePosixPath
+
+_PIECE = re.compile(r"[_\-. ]+")
+_PART_WORD = re.compile(r"[_\-. ]?\(?(?:part|teil|cast|segment|seg|file|chunk|p|t)[_\-. ]?\d{1,5}\)?$", re.IGNORECASE)
+_PART_NUMBER = re.compile(r"(?:[_\-. ]\(?|\()\d{1,5}\)?$")
+
+
+@dataclass(frozen=True, slots=True)
+class Naming:
+    """One way to read the names of a group of files. ids: of the test, one a file; template: with {test} in it, or
+    None; cost: how much of the names it leaves out; parts: several files may be one test."""
+
+    ids: tuple[str, ...]
+    template: str | None
+    cost: float
+    parts: bool = False
+
+    @property
+    def joins(self) -> bool:
+        """Whether several files have one id."""
+        return len(set(self.ids)) < len(self.ids)
+
+
+def normal(test: str) -> str:
+    """The same for 'Heat-01' and 'heat_1'."""
+    bare = _PIECE.sub("_", test.lower()).strip("_")
+    return re.sub(r"(?<!\d)0+(?=\d)", "", bare)
+
+
+def namings(paths: Sequence[PurePosixPath]) -> list[Naming]:
+    """The ways to read these names, the plainest first. paths: at least one."""
+    found = list(_by_stem(paths)) + list(_by_folder(paths))
+    whole = tuple(str(p.with_suffix("")).replace("/", "_") for p in paths)
+    if not any(len(set(n.ids)) == len(n.ids) and not n.parts for n in found):
+        found.append(Naming(whole, None, 0.5))
+    found.sort(key=lambda n: n.cost)
+    return found
+
+
+def _by_stem(paths: Sequence[PurePosixPath]) -> Iterator[Naming]:
+    """The test is the stem, without leading and trailing pieces that all share, and without the number of a part."""
+    folders = {p.parent for p in paths}
+    stems, suffixes = [p.stem for p in paths], {p.suffix for p in paths}
+    pieces = [_PIECE.split(s) for s in stems]
+    fewest = min(map(len, pieces))
+    lead = next((i for i in range(fewest) if len({p[i].lower() for p in pieces}) > 1), fewest)
+    trail = next((i for i in range(fewest) if len({p[-1 - i].lower() for p in pieces}) > 1), fewest)
+    for i in range(min(lead, 4) + 1):
+        for j in range(min(trail, 4) + 1):
+            cut = [_cut(s, i, j) for s in stems]
+            if any(not c[1] for c in cut):
+                continue
+            same = len({(c[0], c[2]) for c in cut}) == 1 and len(folders) == 1 and len(suffixes) == 1
+            where = f"{_folder(paths[0])}{_literal(cut[0][0])}{{test}}{_literal(cut[0][2])}{paths[0].suffix}"
+            yield Naming(tuple(c[1] for c in cut), where if same else None, i + j)
+            for n, strip in enumerate((_PART_WORD, _PART_NUMBER)):
+                ids = tuple(strip.sub("", c[1]) or c[1] for c in cut)
+                if ids == tuple(c[1] for c in cut):
+                    continue
+                seps = {c[1][len(d):][:1] for c, d in zip(cut, ids, strict=True) if c[1] != d}
+                sep = seps.pop() if len(seps) == 1 else ""
+                sep = sep if sep and not sep.isalnum() else ""
+                rest = f"{_literal(sep)}*{_literal(cut[0][2])}{paths[0].suffix}"
+                where = f"{_folder(paths[0])}{_literal(cut[0][0])}{{test}}{rest}"
+                yield Naming(ids, where if same else None, i + j + (0.2 if n == 0 else 1.5), True)
+
+
+def _by_folder(paths: Sequence[PurePosixPath]) -> Iterator[Naming]:
+    """The test is one of the folders above."""
+    depth = min(len(p.parts) for p in paths) - 1
+    for level in range(depth):
+        ids = tuple(p.parts[level] for p in paths)
+        if len(set(ids)) < 2:
+            continue
+        above = {p.parts[:level] for p in paths}
+        below = {p.parts[level + 1:] for p in paths}
+        suffixes = {p.suffix for p in paths}
+        one = len(above) == 1 and len({len(p.parts) for p in paths}) == 1 and len(suffixes) == 1
+        first = "/".join((*map(_literal, paths[0].parts[:level]), "{test}"))
+        if one and len(below) == 1:
+            yield Naming(ids, f"{first}/{'/'.join(map(_literal, paths[0].parts[level + 1:]))}", 0.0)
+        elif one and level == depth - 1:
+            stems = [p.stem for p in paths]
+            lead = _common(stems)
+            yield Naming(ids, f"{first}/{_literal(lead)}*{paths[0].suffix}",
+                         0.4 if len(set(ids)) < len(ids) else 0.1, len(set(ids)) < len(ids))
+        else:
+            yield Naming(ids, None, 0.8, len(set(ids)) < len(ids))
+
+
+def _cut(stem: str, lead: int, trail: int) -> tuple[str, str, str]:
+    """(what is cut before, the rest, what is cut after)."""
+    gaps = [m.span() for m in _PIECE.finditer(stem)]
+    if lead + trail > len(gaps):
+        return stem, "", ""
+    start = gaps[lead - 1][1] if lead else 0
+    stop = gaps[len(gaps) - trail][0] if trail else len(stem)
+    return stem[:start], stem[start:stop], stem[stop:]
+
+
+def _common(stems: Sequence[str]) -> str:
+    """The letters that all stems begin with, without digits at the end."""
+    lead = stems[0]
+    for stem in stems[1:]:
+        while not stem.startswith(lead):
+            lead = lead[:-1]
+    return re.sub(r"\d+$", "", lead)
+
+
+def _folder(path: PurePosixPath) -> str:
+    parent = str(path.parent)
+    return "" if parent == "." else f"{_literal(parent)}/"
+
+
+def _literal(text: str) -> str:
+    """Glob signs in a name as they are."""
+    return re.sub(r"([*?[])", r"[\1]", text)
+
+
+def matches(template: str, test: str, paths: Sequence[str]) -> list[str]:
+    """The paths that a template finds for a test, as `ingest` does."""
+    import glob
+
+    pattern = _regex(template.replace("{test}", glob.escape(test)))
+    return [p for p in paths if pattern.fullmatch(p)]
+
+
+def _regex(pattern: str) -> re.Pattern[str]:
+    out, i = "", 0
+    while i < len(pattern):
+        if pattern[i] == "*":
+            out, i = out + "[^/]*", i + 1
+        elif pattern[i] == "?":
+            out, i = out + "[^/]", i + 1
+        elif pattern[i] == "[" and "]" in pattern[i + 2:]:
+            end = pattern.index("]", i + 2)
+            out, i = out + "[" + pattern[i + 1:end].replace("!", "^", 1).replace("\\", r"\\") + "]", end + 1
+        else:
+            out, i = out + re.escape(pattern[i]), i + 1
+    return re.compile(out)

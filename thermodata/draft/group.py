@@ -1,0 +1,276 @@
+"""Files into sources and tests: the same reader and like signals are one source; names, and where they fail times, tell
+which files are one test."""
+
+from __future__ import annotations
+
+import re
+from collections import Counter
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
+
+from thermodata.draft.filenames import Naming, matches, namings, normal
+from thermodata.draft.scan import RawFile
+from thermodata.draft.words import plain, words
+from thermodata.plugin import Signal
+from thermodata.reader.text import split_unit
+
+_NAMES = {"crio": "daq", "cnc": "nc", "mcap": "rec", "table": "log"}
+_NEAR_NS = 15 * 60 * 1_000_000_000
+_HOUR_NS = 3_600_000_000_000
+_ALIKE = 0.5                                              # of the shorter list of signals
+
+
+@dataclass(frozen=True, slots=True)
+class Group:
+    """A source. files: its logs of tests; calibrations: its jump tests; template: `files` with {test}, or a glob that
+    all tests share (shared), or None; tests: id -> its files."""
+
+    source: str
+    reader: str
+    files: tuple[RawFile, ...]
+    calibrations: tuple[RawFile, ...] = ()
+    template: str | None = None
+    shared: bool = False
+    tests: Mapping[str, tuple[RawFile, ...]] = field(default_factory=dict)
+    questions: tuple[str, ...] = ()
+
+    @property
+    def signals(self) -> list[tuple[Signal, list[RawFile]]]:
+        """Every signal of any file, in the order of its first appearance, with the files that have it."""
+        found: dict[tuple[str, str], tuple[Signal, list[RawFile]]] = {}
+        for file in (*self.files, *self.calibrations):
+            for signal in file.signals:
+                found.setdefault((signal.stream, signal.name), (signal, []))[1].append(file)
+        return list(found.values())
+
+
+def sources_of(files: Sequence[RawFile], jumps: Sequence[RawFile]) -> list[Group]:
+    """One group a source: one reader, one kind of file, and like signals; named after a word that all its names hold
+    and no other's, else after what such files are."""
+    clusters: list[list[RawFile]] = []
+    names: list[set[str]] = []
+    for file in sorted(files, key=lambda f: -len(f.signals)):
+        own = {split_unit(s.name)[0] for s in file.signals}
+        home = next((i for i, c in enumerate(clusters)
+                     if (c[0].reader, c[0].path.suffix.lower()) == (file.reader, file.path.suffix.lower())
+                     and len(own & names[i]) >= _ALIKE * min(len(own), len(names[i]))), None)
+        if home is None:
+            clusters.append([file])
+            names.append(own)
+        else:
+            clusters[home].append(file)
+            names[home] |= own
+    order = {id(f): i for i, f in enumerate(files)}
+    clusters = [sorted(part, key=lambda f: order[id(f)]) for c in clusters for part in _loggers(c, jumps)]
+    clusters.sort(key=lambda c: (c[0].reader, c[0].path.suffix, order[id(c[0])]))
+    groups = []
+    taken: set[str] = set()
+    for cluster in clusters:
+        logs = tuple(f for f in cluster if f not in jumps)
+        groups.append(Group(_name(cluster, clusters, taken), cluster[0].reader, logs,
+                            tuple(f for f in cluster if f in jumps)))
+    return groups
+
+
+def _loggers(cluster: list[RawFile], jumps: Sequence[RawFile]) -> list[list[RawFile]]:
+    """A cluster apart by a word of the names where two loggers of the same make ran at once (daq1_x, daq2_x)."""
+    logs = [f for f in cluster if f not in jumps]
+    pieces = {f.path: re.split(r"[_\-. /]+", str(f.path.with_suffix(""))) for f in logs}
+    if len(logs) < 4 or len({len(p) for p in pieces.values()}) != 1 or any(f.start_ns is None for f in logs):
+        return [cluster]
+    for place in range(len(pieces[logs[0].path])):
+        values = Counter(pieces[f.path][place] for f in logs)
+        rest = Counter(tuple(x for i, x in enumerate(pieces[f.path]) if i != place) for f in logs)
+        if 2 <= len(values) <= 4 and set(rest.values()) == {len(values)} and len(set(values.values())) == 1:
+            together = all(max(s) - min(s) < 10_000_000_000 for s in (
+                [f.start_ns or 0 for f in logs if tuple(x for i, x in enumerate(pieces[f.path]) if i != place) == key]
+                for key in rest))
+            if together:
+                found = [[f for f in logs if pieces[f.path][place] == value] for value in sorted(values)]
+                found[0] += [f for f in cluster if f in jumps]
+                return found
+    return [cluster]
+
+
+def _name(cluster: Sequence[RawFile], clusters: Sequence[Sequence[RawFile]], taken: set[str]) -> str:
+    def pieces(file: RawFile) -> set[str]:
+        return {p for p in words(str(file.path.with_suffix("")).replace("/", " ")).split() if p.isalpha() and len(p) > 1}
+
+    everywhere = set.intersection(*(pieces(f) for f in cluster))
+    elsewhere = set().union(*(pieces(f) for c in clusters if c is not cluster for f in c))
+    own = sorted(everywhere - elsewhere - {"raw", "data", "log", "test"}, key=lambda p: (len(p), p))
+    alone = len(cluster) == 1 or len(clusters) == 1
+    base = plain(own[0]) if own and not alone and plain(own[0])[:1].isalpha() else _NAMES.get(cluster[0].reader,
+                                                                                             cluster[0].reader)
+    name, n = base[:30], 1
+    while name.lower() in taken:
+        n += 1
+        name = f"{base[:30]}{n}"
+    taken.add(name.lower())
+    return name
+
+
+def tests_of(groups: Sequence[Group]) -> list[Group]:
+    """The groups with their tests and templates; ids agree between groups wherever the names or the times do."""
+    live = [g for g in groups if g.files]
+    if not live:
+        return list(groups)
+    ways = {g.source: _allowed(g) for g in live}
+    chosen = _agreeing(live, ways)
+    made = {g.source: replace(g, tests=_grouped(g, chosen[g.source])) for g in live}
+    main = max(made.values(), key=lambda g: (_told(g, made.values()), len(g.tests), _voltage(g), -len(g.source)))
+    known = {normal(t): t for g in made.values() for t in g.tests if g is main or _told(g, [main])}
+    for g in made.values():
+        if g is main:
+            continue
+        if _told(g, [main]):
+            made[g.source] = replace(g, tests={known.get(normal(t), t): f for t, f in g.tests.items()})
+            continue
+        made[g.source] = _by_time(g, [main])
+    ids = list(dict.fromkeys(t for g in made.values() for t in g.tests))
+    every = [str(f.path) for g in groups for f in (*g.files, *g.calibrations)]
+    return [_with_template(made[g.source], chosen[g.source].template, ids, every) if g.source in made else g
+            for g in groups]
+
+
+def _allowed(group: Group) -> list[Naming]:
+    """The ways to read its names that its clock does not contradict."""
+    found = []
+    for way in namings([f.path for f in group.files]):
+        if way.parts and (not way.joins or _one_recording(group, way) is False):
+            continue
+        if not way.parts and way.joins:
+            continue
+        found.append(way)
+    return found
+
+
+def _one_recording(group: Group, way: Naming) -> bool | None:
+    """Whether the files that share an id follow each other without a pause; None where no clock tells."""
+    verdicts = []
+    for files in _grouped(group, way).values():
+        starts = [f.start_ns for f in files]
+        if len(files) < 2 or any(s is None for s in starts):
+            continue
+        spans = sorted((f.start_ns or 0, f.sample.last_ns or f.start_ns or 0, f.sample.whole) for f in files)
+        for (begin, end, whole), (following, _, _) in zip(spans, spans[1:], strict=False):
+            pause, length = following - end, max(end - begin, 1)
+            if following <= begin or pause < -length // 10:
+                verdicts.append(False)                    # they ran at once
+            elif whole:
+                verdicts.append(pause <= max(length // 4, 60_000_000_000))
+            elif len(spans) >= 3:
+                gaps = [b[0] - a[0] for a, b in zip(spans, spans[1:], strict=False)]
+                verdicts.append(max(gaps) <= 1.5 * min(gaps))
+    return all(verdicts) if verdicts else None
+
+
+def _agreeing(groups: Sequence[Group], ways: Mapping[str, list[Naming]]) -> dict[str, Naming]:
+    """A way to read the names of each group, so that most files have their test in another group too."""
+    best: tuple[tuple[float, ...], dict[str, Naming]] | None = None
+    for lead in groups:
+        for way in ways[lead.source]:
+            ids = {normal(i) for i in way.ids}
+            chosen, agreed, cost = {lead.source: way}, 0, _price(lead, way)
+            for other in groups:
+                if other is lead:
+                    continue
+                scored = [((sum(normal(i) in ids for i in w.ids) / len(w.ids), -_price(other, w)), n)
+                          for n, w in enumerate(ways[other.source])]
+                (share, price), n = max(scored, key=lambda s: (s[0], -s[1]))
+                chosen[other.source] = ways[other.source][n]
+                both = {normal(i) for i in ways[other.source][n].ids} & ids
+                agreed += len(both)
+                cost += -price + (1 - share)
+            score = (float(agreed), -cost, float(len(ids)))
+            if best is None or score > best[0]:
+                best = (score, chosen)
+    assert best is not None
+    return best[1]
+
+
+def _price(group: Group, way: Naming) -> float:
+    """What it costs to read names so: pieces left out; parts without a clock that shows them to be one recording are
+    dear, and cheap with it."""
+    if not way.parts:
+        return way.cost
+    return way.cost - 2.5 if _one_recording(group, way) else way.cost + 0.5
+
+
+def _grouped(group: Group, way: Naming) -> dict[str, tuple[RawFile, ...]]:
+    found: dict[str, list[RawFile]] = {}
+    for test, file in zip(way.ids, group.files, strict=True):
+        found.setdefault(test, []).append(file)
+    return {t: tuple(f) for t, f in found.items()}
+
+
+def _told(group: Group, others: Sequence[Group] | object) -> int:
+    """How many of its tests another group has too, by name."""
+    ids = {normal(t) for g in others if g is not group for t in g.tests}  # type: ignore[attr-defined]
+    return sum(normal(t) in ids for t in group.tests)
+
+
+def _voltage(group: Group) -> int:
+    return sum(s.unit in ("V", "um", "µm", "mV") for s, _ in group.signals)
+
+
+def _by_time(group: Group, others: Sequence[Group]) -> Group:
+    """A group whose names agree with no other's: its files belong to the tests that ran at their time."""
+    main = others[0]
+    begins = {t: min(s) for t, f in main.tests.items() if (s := [x.start_ns for x in f if x.start_ns is not None])}
+    own = [f for f in group.files if f.start_ns is not None]
+    if not begins or len(own) < len(group.files):
+        return group
+    spans = [(f.start_ns or 0, max(f.sample.last_ns or 0, f.start_ns or 0)) for f in own]
+    inside = {t: [f for f, (a, b) in zip(own, spans, strict=True) if a - _NEAR_NS <= begin <= b + _NEAR_NS]
+              for t, begin in begins.items()}
+    if len(begins) > len(own) and sum(map(bool, inside.values())) > len(own):
+        return replace(group, shared=True, tests={}, questions=("one log for many tests?",))
+    best: dict[str, RawFile] = {}
+    for shift in sorted(range(-13, 15), key=abs):
+        if shift and not any(f.local for f in (*own, *(x for v in main.tests.values() for x in v))):
+            continue
+        paired: dict[str, RawFile] = {}
+        for test, begin in begins.items():
+            near = [f for f in own if abs((f.start_ns or 0) - shift * _HOUR_NS - begin) < _NEAR_NS]
+            if len(near) == 1 and near[0] not in paired.values():
+                paired[test] = near[0]
+        if len(paired) > len(best):
+            best = paired
+    if len(best) * 2 < len(own):
+        return group
+    left = {t: f for t, f in group.tests.items() if not set(f) & set(best.values())}
+    return replace(group, tests={**{t: (f,) for t, f in best.items()}, **left},
+                   questions=("files joined to tests by their times",))
+
+
+def _with_template(group: Group, template: str | None, ids: Sequence[str], every: Sequence[str]) -> Group:
+    """With the template where it finds, for every test of the campaign, exactly this group's files."""
+    if group.shared:
+        paths = [str(f.path) for f in group.files]
+        return replace(group, template=_glob(paths, every))
+    many = len(group.tests) > 1 or len(ids) == 1
+    if template is not None and many and all(
+            sorted(matches(template, t, every)) == sorted(str(f.path) for f in group.tests.get(t, ())) for t in ids):
+        return replace(group, template=template)
+    return replace(group, template=None)
+
+
+def _glob(paths: Sequence[str], every: Sequence[str]) -> str | None:
+    """One glob for these paths and no others; None where there is none."""
+    if len(paths) == 1:
+        return re.sub(r"([*?[])", r"[\1]", paths[0])
+    shortest = min(map(len, paths))
+    lead = next((i for i in range(shortest) if len({p[i] for p in paths}) > 1), shortest)
+    trail = next((i for i in range(shortest - lead) if len({p[-1 - i] for p in paths}) > 1), 0)
+    made = f"{paths[0][:lead]}*{paths[0][len(paths[0]) - trail:]}"
+    return made if sorted(matches(made, "", every)) == sorted(paths) else None
+
+
+def files_of(group: Group, test: str) -> str | list[str]:
+    """What `tests[].files` says of a group without a template: one path, or a list."""
+    paths = [re.sub(r"([*?[])", r"[\1]", str(f.path)) for f in group.tests[test]]
+    return paths[0] if len(paths) == 1 else paths
+
+
+__all__ = ["Group", "files_of", "sources_of", "tests_of"]

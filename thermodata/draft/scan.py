@@ -1,0 +1,260 @@
+"""Looks at every file of a folder: who reads it, what it holds, and a bounded sample of its values.
+
+A folder may hold 50 GB: heads and headers are read of every file, values of the first blocks only, and of a few files
+of each kind once the time for it is used up.
+"""
+
+from __future__ import annotations
+
+import re
+import time
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path, PurePosixPath
+
+import numpy as np
+
+from thermodata.draft.guess import Guess, guess
+from thermodata.draft.values import Values, joined, values_of
+from thermodata.errors import ThermodataError
+from thermodata.plugin import Array, Block, Float1D, Int1D, Loss, Reader, Recording, Signal, Source
+from thermodata.reader.guard import described, guarded
+from thermodata.reader.registry import claims, reader
+
+_SAMPLE_ROWS, _SAMPLE_S = 400_000, 1.0       # of one file
+_SAMPLES_S, _HEADERS_S = 25.0, 45.0          # of the whole folder
+_KEPT_ROWS = 3000                            # of a signal whose course tells what a test is
+_COURSE = ("rotational_speed", "feed", "displacement", "voltage", "position", "state")
+_MOST_COURSES = 40
+_NOT_LOGS = frozenset((".yaml", ".yml", ".md", ".tdms_index", ".py", ".m", ".json", ".png", ".jpg", ".jpeg", ".pdf", ".docx",
+                       ".doc", ".pptx", ".html", ".htm", ".exe", ".dll", ".ini", ".vi", ".lvproj", ".zip", ".7z", ".rar"))
+Progress = Callable[[int, int, str], None]
+
+
+@dataclass(frozen=True, slots=True)
+class Course:
+    """How a signal went, thinned out. t_ns, values: shape (n,), n <= 3000."""
+
+    t_ns: Int1D
+    values: Float1D
+
+
+@dataclass(frozen=True, slots=True)
+class Sample:
+    """Of a file's values. whole: to its end; first_ns, last_ns: of what was read."""
+
+    values: Mapping[tuple[str, str], Values] = field(default_factory=dict)
+    courses: Mapping[tuple[str, str], Course] = field(default_factory=dict)
+    whole: bool = False
+    first_ns: int | None = None
+    last_ns: int | None = None
+    losses: int = 0
+
+
+@dataclass(frozen=True, slots=True)
+class RawFile:
+    """A file that one reader claims. path: relative to the folder. like: the file of the same kind whose header was
+    taken for this one's, where there was no time to read it."""
+
+    path: PurePosixPath
+    reader: str
+    recording: Recording
+    size: int = 0
+    sample: Sample = field(default_factory=Sample)
+    like: str | None = None
+
+    @property
+    def signals(self) -> tuple[Signal, ...]:
+        return self.recording.signals
+
+    @property
+    def start_ns(self) -> int | None:
+        """Where its absolute clock starts; None on a relative clock."""
+        if self.recording.clock != "absolute":
+            return None
+        return self.sample.first_ns if self.sample.first_ns is not None else self.recording.start_ns
+
+    @property
+    def local(self) -> bool:
+        """Whether it logs local times of a zone that it does not name."""
+        return self.recording.clock == "absolute" and any("no time zone" in n for n in self.recording.notes)
+
+
+@dataclass(frozen=True, slots=True)
+class Scan:
+    """logs: files to draft from; ignored: (path, reason) of the others; damaged: (path, what) of logs with a defect;
+    others: files that no reader claims but that may be tables of tests."""
+
+    logs: tuple[RawFile, ...]
+    ignored: tuple[tuple[str, str], ...] = ()
+    damaged: tuple[tuple[str, str], ...] = ()
+    others: tuple[str, ...] = ()
+
+
+def scan(folder: Path, progress: Progress | None = None) -> Scan:
+    """All files below the folder; hidden ones, stores and links are left out. progress: (done, of, path)."""
+    paths = list(_files(folder))
+    tell = progress or (lambda done, of, path: None)
+    began = time.monotonic()
+    logs: dict[str, RawFile] = {}
+    ignored: list[tuple[str, str]] = []
+    shapes: dict[tuple[str, str], RawFile] = {}
+    for done, path in enumerate(_spread(paths)):
+        tell(done, len(paths), str(path))
+        full = folder / path
+        try:
+            who, why = _claimant(full)
+            if who is None:
+                ignored.append((str(path), why))
+                continue
+            shape = (who.name, _shape(path))
+            if time.monotonic() - began > _HEADERS_S and shape in shapes:
+                logs[str(path)] = RawFile(path, who.name, _without_start(shapes[shape].recording), full.stat().st_size,
+                                          like=str(shapes[shape].path))
+                continue
+            recording = described(who, full, Source())
+            if not recording.signals:
+                ignored.append((str(path), f"{who.name}: it holds no signal"))
+                continue
+            logs[str(path)] = shapes[shape] = RawFile(path, who.name, recording, full.stat().st_size)
+        except (ThermodataError, OSError) as error:
+            ignored.append((str(path), _short(error)))
+    sampled = _sampled(folder, logs, began, tell)
+    ordered = [str(p) for p in paths]
+    damaged = [(str(f.path), _damage(f)) for f in sampled if _damage(f)]
+    position = {p: i for i, p in enumerate(ordered)}
+    ignored.sort(key=lambda item: position[item[0]])
+    return Scan(tuple(sorted(sampled, key=lambda f: position[str(f.path)])), tuple(ignored), tuple(damaged),
+                tuple(p for p, _ in ignored))
+
+
+def _files(folder: Path) -> Iterator[PurePosixPath]:
+    for path in sorted(folder.rglob("*"), key=lambda p: natural(p.relative_to(folder).as_posix())):
+        inside = PurePosixPath(path.relative_to(folder).as_posix())
+        hidden = any(p.startswith((".", "~$")) or p.endswith(".store") for p in inside.parts)
+        if not hidden and path.is_file() and not path.is_symlink() and path.suffix.lower() not in _NOT_LOGS:
+            yield inside
+
+
+def natural(text: str) -> list[tuple[int, int, str]]:
+    """Sort key that puts run_2 before run_10."""
+    return [(0, int(part), "") if part.isdecimal() else (1, 0, part) for part in re.split(r"(\d+)", text) if part]
+
+
+def _shape(path: PurePosixPath) -> str:
+    """Its name without digits: files of one kind have the same."""
+    return re.sub(r"\d+", "#", str(path))
+
+
+def _spread(paths: Sequence[PurePosixPath]) -> list[PurePosixPath]:
+    """One of each kind first, then the second ones: whatever time there is, every kind is looked at."""
+    seen: dict[str, int] = {}
+    ranked = []
+    for i, path in enumerate(paths):
+        shape = _shape(path)
+        seen[shape] = seen.get(shape, 0) + 1
+        ranked.append((seen[shape], i, path))
+    return [path for _, _, path in sorted(ranked)]
+
+
+def _claimant(path: Path) -> tuple[Reader | None, str]:
+    found = claims(path)
+    if len(found) == 1:
+        return reader(next(iter(found))), ""
+    if not path.stat().st_size:
+        return None, "an empty file"
+    if not found:
+        return None, "no reader claims it: thermodata sniff says why"
+    said = " and ".join(f"{name} ({why})" for name, why in found.items())
+    return None, f"two readers claim it: {said}; declare one as the reader of a source"
+
+
+def _without_start(recording: Recording) -> Recording:
+    return Recording(recording.signals, recording.clock, None, None, ())
+
+
+def _short(error: Exception) -> str:
+    got = getattr(error, "got", None)
+    what = getattr(error, "what", None) or str(error)
+    return "; ".join(str(what).splitlines()) + (f" ({got})" if got else "")
+
+
+def _damage(file: RawFile) -> str:
+    if file.recording.complete is False:
+        wrong = [n for n in file.recording.notes if re.search(r"cut|damag|end|incomplete|lost|truncat|missing|past", n)]
+        return wrong[0] if wrong else "it does not end as it should"
+    return f"{file.sample.losses} losses in what was read of it" if file.sample.losses else ""
+
+
+def _sampled(folder: Path, logs: Mapping[str, RawFile], began: float, tell: Progress) -> list[RawFile]:
+    """The logs with samples of their values, small files first: jump tests are small."""
+    found = dict(logs)
+    order = _spread(sorted((f.path for f in logs.values()), key=lambda p: logs[str(p)].size))
+    until = max(time.monotonic(), began) + _SAMPLES_S
+    for done, path in enumerate(order):
+        file = found[str(path)]
+        if time.monotonic() > until or file.like:
+            continue
+        tell(done, len(order), str(path))
+        made = _sample(folder / path, file)
+        found[str(path)] = RawFile(path, file.reader, file.recording, file.size, made)
+    return list(found.values())
+
+
+def _sample(path: Path, file: RawFile) -> Sample:
+    began, rows, losses, whole = time.monotonic(), 0, 0, True
+    values: dict[tuple[str, str], Values] = {}
+    parts: dict[tuple[str, str], list[tuple[Int1D, Array]]] = {}
+    wanted = _courses(file.recording.signals)
+    first: int | None = None
+    last: int | None = None
+    unseen = {s.stream for s in file.recording.signals}
+    items = guarded(reader(file.reader), path, Source(), file.recording)
+    try:
+        for item in items:
+            if isinstance(item, Loss):
+                losses += 1
+                continue
+            _take(item, values, parts, wanted)
+            unseen.discard(item.stream)
+            first = min(x for x in (first, int(item.t_ns[0])) if x is not None)
+            last = max(x for x in (last, int(item.t_ns[-1])) if x is not None)
+            rows += item.t_ns.size
+            spent = time.monotonic() - began
+            if spent > 2 * _SAMPLE_S or (not unseen and (rows >= _SAMPLE_ROWS or spent > _SAMPLE_S)):
+                whole = False
+                break
+    except (ThermodataError, OSError):
+        losses, whole = losses + 1, False
+    finally:
+        items.close()                                    # type: ignore[attr-defined]
+    return Sample(values, {k: _thinned(v) for k, v in parts.items()}, whole, first, last, losses)
+
+
+def _courses(signals: Sequence[Signal]) -> set[tuple[str, str]]:
+    """The signals whose course is kept: what tells the kind of a test, a jump, or a clock."""
+    found: list[tuple[str, str]] = []
+    for signal in signals:
+        said: Guess = guess(signal.name, signal.unit, signal.dtype)
+        if said.quantity in _COURSE and signal.dtype != "str":
+            found.append((signal.stream, signal.name))
+    return set(found[:_MOST_COURSES])
+
+
+def _take(block: Block, values: dict[tuple[str, str], Values], parts: dict[tuple[str, str], list[tuple[Int1D, Array]]],
+          wanted: set[tuple[str, str]]) -> None:
+    for name, column in block.values.items():
+        key = (block.stream, name)
+        seen = values_of(column)
+        both = joined(values.get(key), seen)
+        if both is not None:
+            values[key] = both
+        if key in wanted and column.dtype.kind in "biuf":
+            step = max(1, column.size // _KEPT_ROWS)
+            parts.setdefault(key, []).append((block.t_ns[::step], column[::step].astype(np.float64)))
+
+
+def _thinned(parts: Sequence[tuple[Int1D, Array]]) -> Course:
+    t_ns, x = (np.concatenate(p) for p in zip(*parts, strict=True))
+    step = max(1, -(-t_ns.size // _KEPT_ROWS))
+    return Course(t_ns[::step], x[::step])
