@@ -92,3 +92,23 @@ def test_a_relative_clock_beside_an_absolute_one_starts_with_the_test(store: Sto
         found = con.execute("select min(t_s), max(t_s), min(epoch_ns(t)) from sample "
                             "where channel = 'speed' and test = 'one'").fetchone()
     assert found == (0.0, 490.0, START_NS)
+
+
+def test_a_clock_is_aligned_by_declared_events(store: Store, tmp_path: Path) -> None:
+    text = ALIGNED.replace("by: [{here: speed, there: n_daq}]", "events: [{here: 130 s, there: 190.5 s}]")
+    path = lab(tmp_path / "lab", text, off_s=0.0, constant=True)
+    summary = ingest(store, path)
+    with store.reader() as con:
+        offset, = con.execute("select offset_ns from source where source = 'nc'").fetchone() or (None,)
+    assert offset == 60.5e9
+    assert any("declared events" in note for note in summary.notes)
+
+
+@pytest.mark.parametrize(("events", "said"), [
+    ("[{here: 0 s, there: 0 s}, {here: 3000 s, there: 3200 s}]", "contradict"),
+    ("[{here: 2026-03-02 10:00:00, there: 10 furlongs}]", "furlongs")])
+def test_declared_events_that_make_no_sense_are_told(store: Store, tmp_path: Path, events: str, said: str) -> None:
+    text = ALIGNED.replace("by: [{here: speed, there: n_daq}]", f"events: {events}")
+    path = lab(tmp_path / "lab", text, off_s=0.0)
+    reasons = " ".join(loss["reason"] for loss in ingest(store, path).losses)
+    assert said in reasons

@@ -87,7 +87,7 @@ def _matched(t_s: Float1D, v: Float1D, moves: list[float], dwell_s: float) -> tu
 
 
 def _checked_moves(name: str, spec: JumpCalibration) -> list[float]:
-    moves = [float(m) for m in spec.moves]
+    moves = [float(m) for m in spec.moves] if isinstance(spec.moves, list) else []
     wrong = not moves or any(m == 0 or not np.isfinite(m) for m in moves)
     if wrong or not spec.dwell > 0 or spec.move_uncertainty < 0:
         raise CalibrationError(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from datetime import datetime
 from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, field_validator, model_validator
@@ -30,6 +31,8 @@ def _in(unit: str) -> BeforeValidator:
 
 Seconds = Annotated[float, _in("s")]
 Um = Annotated[float, _in("um")]
+# YAML makes a date of what looks like one
+Moment = Annotated[Value, BeforeValidator(lambda x: x.isoformat(" ") if isinstance(x, datetime) else x)]
 
 
 class Strict(BaseModel):
@@ -73,13 +76,22 @@ class AlignBy(Strict):
     there: str
 
 
+class ClockEvent(Strict):
+    """One event as two sources saw it: local date and time, or time since the source's first sample ("12.5 min")."""
+
+    here: Moment
+    there: Moment
+
+
 class Clock(Strict):
-    """offset is added to the source's times; align_to estimates it from quantities that both logged."""
+    """offset is added to the source's times; align_to estimates it from quantities that both logged, or from declared
+    events."""
 
     offset: Seconds | None = None
     drift_ppm: float | None = None
     align_to: str | None = None
     by: list[AlignBy] = []
+    events: list[ClockEvent] = []
     resets: Literal["refuse", "allow"] = "refuse"
 
 
@@ -133,7 +145,7 @@ class JumpCalibration(Strict):
     source: str
     file: str
     signal: str
-    moves: list[Um]
+    moves: list[Um] | Literal["unknown"]                   # unknown: nothing is calibrated with it until they are written
     dwell: Seconds = 10.0
     move_uncertainty: Um = 1.0
     facing: Direction | None = None
@@ -256,6 +268,7 @@ class Campaign(Strict):
     calibrations: dict[str, Calibration] = {}
     tests: list[Test] = []
     tests_from: TestsFrom | list[TestsFrom] | None = None
+    versions: dict[str, str] = {}                         # file -> the SHA-256 (or its beginning) of an earlier version
     notes: str = ""
 
     @field_validator("id")
@@ -281,7 +294,7 @@ class Campaign(Strict):
 
 
 __all__ = [
-    "QUANTITIES", "AlignBy", "Axis", "Calibration", "Campaign", "Channel", "ChannelOverride", "Clock", "Direction",
-    "JumpCalibration", "LinearCalibration", "Machine", "Measuring", "Role", "ScaleCalibration", "Sensor",
+    "QUANTITIES", "AlignBy", "Axis", "Calibration", "Campaign", "Channel", "ChannelOverride", "Clock", "ClockEvent",
+    "Direction", "JumpCalibration", "LinearCalibration", "Machine", "Measuring", "Role", "ScaleCalibration", "Sensor",
     "SourceSpec", "TableLayout", "Test", "TestKind", "TestsFrom", "TestsTable", "TimeColumn", "Tool", "Zero",
 ]

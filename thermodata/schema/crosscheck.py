@@ -50,7 +50,8 @@ def _calibrations(campaign: Campaign, document: Document) -> None:
         if isinstance(calibration, JumpCalibration):
             _known("source", calibration.source, campaign.sources, document, ("calibrations", name, "source"))
             inside(calibration.file, document, ("calibrations", name, "file"))
-            if not calibration.moves or any(move == 0 for move in calibration.moves):
+            known = calibration.moves if isinstance(calibration.moves, list) else [1.0]
+            if not known or any(move == 0 for move in known):
                 raise SpecError("a jump test needs moves, none of them 0",
                                 where=document.where(("calibrations", name, "moves")),
                                 expected="for example [100 um, -100 um]", got=str(calibration.moves))
@@ -63,9 +64,10 @@ def _sources(campaign: Campaign, document: Document) -> None:
             _known("source", source.clock.align_to, campaign.sources, document, place)
             if source.clock.align_to == name:
                 raise SpecError("a source cannot be aligned to itself", where=document.where(place))
-            if not source.clock.by:
-                raise SpecError("'align_to' needs 'by'", where=document.where(place),
-                                expected="by: [{here: channel_of_this_source, there: channel_of_the_other}]")
+            if not source.clock.by and not source.clock.events:
+                raise SpecError("'align_to' needs 'by' or 'events'", where=document.where(place),
+                                expected="by: [{here: channel_of_this_source, there: channel_of_the_other}], or "
+                                         "events: [{here: a time, there: the same moment}]")
             for i, pair in enumerate(source.clock.by):
                 _known("channel", pair.here, campaign.channels, document, ("sources", name, "clock", "by", i, "here"))
                 _known("channel", pair.there, campaign.channels, document, ("sources", name, "clock", "by", i, "there"))

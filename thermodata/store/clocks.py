@@ -4,16 +4,25 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping
+from datetime import datetime
 from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
 
 from thermodata.calibration.result import CalibrationResult
-from thermodata.errors import SpecError, ThermodataError, unknown_name
+from thermodata.errors import CalibrationError, SpecError, ThermodataError, unknown_name
 from thermodata.plugin import Array, Int1D
+from thermodata.reader.zone import local_to_utc_ns
+from thermodata.schema.quantity import value_in
 from thermodata.store.files import key_of
 from thermodata.store.keys import channel_text
 from thermodata.store.plan import SourcePlan, TestPlan
 from thermodata.store.series import TestSeries
-from thermodata.store.timeline import Clock, Span, bases, first_ns
+from thermodata.store.timeline import Clock, Span, bases, first_ns, is_relative
+
+if TYPE_CHECKING:
+    from thermodata.calibration.clock import ClockEstimate
 
 
 def clocks_of(store: Path, plan: TestPlan, calibrations: Mapping[str, CalibrationResult],
@@ -90,16 +99,64 @@ def _key(plan: TestPlan, source: SourcePlan, there: SourcePlan, other: Clock, de
 
 def _estimate(store: Path, plan: TestPlan, source: SourcePlan, there: SourcePlan, clocks: dict[str, Clock],
               calibrations: Mapping[str, CalibrationResult], key: str) -> Clock:
+    declared = clocks[source.name]
+    reasons: list[str] = []
+    best = _by_events(source, there, clocks, reasons) or _by_channels(
+        TestSeries(store, plan, clocks, Span(0, None, None, False, False), calibrations), source, reasons)
+    if best is None:
+        why = "; ".join(reasons) or "neither 'by' nor 'events' names anything that both logged"
+        return Clock(declared.offset_ns, declared.drift_ppm, declared.base_ns, True, key,
+                     (f"clock not aligned to '{there.name}': {why}",))
+    how = (f"from {best.stretches} declared events" if source.spec.clock.events and np.isnan(best.correlation)
+           else f"correlation {best.correlation:.3f}")
+    note = (f"clock aligned to '{there.name}': {best.offset_ns / 1e9:+.3f} s, drift {best.drift_ppm:+.1f} ppm, "
+            f"uncertainty {best.uncertainty_ns / 1e9:.3f} s, {how}")
+    # the estimate's offset holds at its own origin, a Clock's at the first recorded time
+    first = first_ns(source) + declared.offset_ns + declared.base_ns
+    offset = declared.offset_ns + best.offset_ns + round((first - best.origin_ns) * best.drift_ppm * 1e-6)
+    return Clock(offset, declared.drift_ppm + best.drift_ppm, declared.base_ns, False, key, (note,))
+
+
+def _by_events(source: SourcePlan, there: SourcePlan, clocks: Mapping[str, Clock],
+               reasons: list[str]) -> ClockEstimate | None:
+    from thermodata.calibration.clock_events import offset_from_events
+
+    events = source.spec.clock.events
+    if not events:
+        return None
+    try:
+        here = [moment_ns(e.here, source, clocks[source.name], f"{i}.here") for i, e in enumerate(events, 1)]
+        other = [moment_ns(e.there, there, clocks[there.name], f"{i}.there") for i, e in enumerate(events, 1)]
+        return offset_from_events(np.array(here, np.int64), np.array(other, np.int64))
+    except CalibrationError as error:
+        reasons.append("; ".join(str(error).splitlines()))
+        return None
+
+
+def moment_ns(moment: str | float, source: SourcePlan, clock: Clock, where: str) -> int:
+    """A declared moment of a source on the test's axis [ns]: its local time, or a time since its first sample."""
+    first = first_ns(source)
+    try:
+        naive = np.datetime64(datetime.fromisoformat(str(moment)).replace(tzinfo=None), "ns")
+    except ValueError:
+        recorded = first + round(value_in(moment, "s") * 1e9)
+    else:
+        recorded = int(local_to_utc_ns(np.array([naive]), source.spec.timezone)[0][0])
+        if is_relative(source):
+            raise SpecError("a source that counts from its own start has no dates", got=str(moment),
+                            where=f"sources.{source.name}.clock.events.{where}",
+                            expected="a time since its first sample, e.g. 12.5 min")
+    return int(clock.correct(np.array([recorded], np.int64), first)[0])
+
+
+def _by_channels(series: TestSeries, source: SourcePlan, reasons: list[str]) -> ClockEstimate | None:
     from thermodata.calibration.clock import estimate_offset
 
-    declared = clocks[source.name]
-    series = TestSeries(store, plan, clocks, Span(0, None, None, False, False), calibrations)
     best = None
-    reasons: list[str] = []
     for pair in source.spec.clock.by:
         try:
             for name in (pair.here, pair.there):
-                if name not in plan.bound:
+                if name not in series.plan.bound:
                     raise SpecError(f"no channel '{name}' in this test")
             estimate = estimate_offset(*_column(series, pair.here), *_column(series, pair.there))
         except ThermodataError as error:
@@ -107,16 +164,7 @@ def _estimate(store: Path, plan: TestPlan, source: SourcePlan, there: SourcePlan
             continue
         if best is None or abs(estimate.correlation) > abs(best.correlation):
             best = estimate
-    if best is None:
-        why = "; ".join(reasons) or "'by' names no pair of channels"
-        return Clock(declared.offset_ns, declared.drift_ppm, declared.base_ns, True, key,
-                     (f"clock not aligned to '{there.name}': {why}",))
-    note = (f"clock aligned to '{there.name}': {best.offset_ns / 1e9:+.3f} s, drift {best.drift_ppm:+.1f} ppm, "
-            f"uncertainty {best.uncertainty_ns / 1e9:.3f} s, correlation {best.correlation:.3f}")
-    # the estimate's offset holds at its own origin, a Clock's at the first recorded time
-    first = first_ns(source) + declared.offset_ns + declared.base_ns
-    offset = declared.offset_ns + best.offset_ns + round((first - best.origin_ns) * best.drift_ppm * 1e-6)
-    return Clock(offset, declared.drift_ppm + best.drift_ppm, declared.base_ns, False, key, (note,))
+    return best
 
 
 def _column(series: TestSeries, name: str) -> tuple[Int1D, Array]:
