@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from thermodata.plugin import Signal
-from thermodata.reader.events import fill_forward, held_blocks
-from thermodata.schema.flag import INVALID
+from thermodata.reader.events import HeldRows, fill_forward, held_blocks
+from thermodata.schema.flag import INVALID, Flag
 
 SIGNALS = (Signal("T", "nc"), Signal("mode", "nc", dtype="str"), Signal("other", "elsewhere"))
 EVENTS = [(10, "T", 1.0), (10, "mode", "AUTO"), (20, "T", 2.0), (20, "T", 2.5), (30, "mode", None), (40, "T", None),
@@ -22,7 +22,7 @@ def test_each_signal_holds_its_last_value_whatever_the_blocks(rows: int) -> None
     mode = np.concatenate([b.values["mode"] for b in blocks])
     np.testing.assert_array_equal(t, [10, 20, 30, 40, 50])
     np.testing.assert_array_equal(temperature, [1.0, 2.5, 2.5, np.nan, np.nan])
-    assert list(mode) == ["AUTO", "AUTO", "", "", "MDI"]
+    assert list(mode) == ["AUTO", "AUTO", None, None, "MDI"]
     assert all(set(b.values) == {"T", "mode"} for b in blocks)
 
 
@@ -31,6 +31,41 @@ def test_before_the_first_value_and_while_unavailable_a_signal_is_flagged() -> N
     assert block.flags is not None
     assert [bool(f & INVALID) for f in block.flags["T"].tolist()] == [True, False, True]
     assert "mode" not in block.flags
+
+
+@pytest.mark.parametrize("rows", [1, 100])
+def test_the_first_value_after_a_hole_is_flagged_as_such_once(rows: int) -> None:
+    events = [(1, "T", 1.0), (2, "T", None), (3, "T", 3.0), (4, "mode", "A"), (5, "T", 5.0)]
+    flags = np.concatenate([np.zeros(b.t_ns.size, np.uint16) if b.flags is None or "T" not in b.flags else b.flags["T"]
+                            for b in held_blocks(events, SIGNALS, "nc", rows)])
+    assert flags.tolist() == [0, Flag.NOT_MEASURING, Flag.GAP, 0, 0]
+
+
+def test_a_bad_value_is_kept_and_flagged_while_it_holds() -> None:
+    held = HeldRows[int]({"T": "float64", "n": "float64"}, "nc")
+    for t, name, value, flag in ((1, "T", 20.0, 0), (2, "T", 99.0, Flag.NOT_MEASURING), (3, "n", 1.0, 0),
+                                 (4, "T", 21.0, 0)):
+        held.add(t, name, value, int(flag))
+    block, bad = held.take(lambda stamps: np.array(stamps, np.int64))
+    assert block is not None
+    assert block.flags is not None
+    assert not bad
+    assert block.values["T"].tolist() == [20, 99, 99, 21]
+    assert block.flags["T"].tolist() == [0, Flag.NOT_MEASURING, Flag.NOT_MEASURING, 0]
+
+
+def test_stamps_of_several_clocks_are_sorted_and_a_reset_is_not() -> None:
+    def times(stamps: list[int], ordered: bool) -> list[int]:
+        held = HeldRows[int]({"T": "float64", "n": "float64"}, "nc", ordered)
+        for k, t in enumerate(stamps):
+            held.add(t, "Tn"[k % 2], float(k))
+        block, _ = held.take(lambda s: np.array(s, np.int64) * 10**9)
+        assert block is not None
+        return [int(t) // 10**9 for t in block.t_ns]
+
+    assert times([5, 3, 5, 7], ordered=True) == [5, 3, 5, 7]
+    assert times([5, 3, 5, 7], ordered=False) == [3, 5, 7]
+    assert times([500, 300, 500, 700], ordered=False) == [500, 300, 500, 700]
 
 
 def test_time_that_steps_back_keeps_the_order_of_the_log() -> None:

@@ -1,19 +1,135 @@
 """Logs of changes (time, signal, new value) as rows: each signal holds its last value until the next one.
 
 The one way that readers of event logs share (SHDR, MTConnect, OPC UA, on-change traces), so that all of them hold,
-start and break off alike.
+start and break off alike. No value (before the first, while the source says UNAVAILABLE) is NaN or None and flagged
+as not measuring; the first value after such a hole is flagged as the first after a gap; a value that the source itself
+calls bad is kept and flagged as not measuring for as long as it holds.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from typing import Generic, TypeVar
 
 import numpy as np
 
 from thermodata.plugin import Array, Block, Bool1D, Int1D, Signal
 from thermodata.schema.flag import Flag
 
-Event = tuple[int, str, float | str | None]
+Value = float | str | None
+Event = tuple[int, str, Value]
+Stamp = TypeVar("Stamp", int, str)
+
+NAT = np.iinfo(np.int64).min
+_NONE = int(Flag.NOT_MEASURING)
+_STEP_NS = 60 * 10**9
+
+
+class HeldRows(Generic[Stamp]):
+    """Collects values into blocks of rows. Values that share a time stamp and stand together share a row; of several
+    values of one signal in a row the last stands.
+
+    dtypes: signal -> "str" or a number's. ordered: the log's own order is the order of its rows, as recorded; else
+    rows are sorted by time inside a block, so that stamps of several clocks in one table do not step back (a step of
+    a minute or more is no such jitter and stays where it is).
+    """
+
+    def __init__(self, dtypes: Mapping[str, str], stream: str, ordered: bool = True) -> None:
+        self.stream, self._ordered = stream, ordered
+        self._dtypes = dict(dtypes)
+        self._held: dict[str, tuple[Value, int]] = dict.fromkeys(self._dtypes, (None, _NONE))
+        self._seen: set[str] = set()
+        self._stamps: list[Stamp] = []
+        self._changes: dict[str, tuple[list[int], list[Value], list[int]]] = {}
+
+    def __len__(self) -> int:
+        return len(self._stamps)
+
+    @property
+    def last(self) -> Stamp | None:
+        """The time stamp of the row that still grows."""
+        return self._stamps[-1] if self._stamps else None
+
+    def add(self, stamp: Stamp, name: str, value: Value, flag: int = 0) -> None:
+        """Takes a value (None: the source has none). flag: what the source itself says of it, as a Flag.
+        KeyError: no such signal."""
+        if name not in self._dtypes:
+            raise KeyError(name)
+        if not self._stamps or self._stamps[-1] != stamp:
+            self._stamps.append(stamp)
+        rows, values, flags = self._changes.setdefault(name, ([], [], []))
+        rows.append(len(self._stamps) - 1)
+        values.append(value)
+        flags.append(flag | _NONE if value is None else flag)
+
+    def drop_last(self) -> None:
+        """Forgets the row that still grows."""
+        if not self._stamps:
+            return
+        self._stamps.pop()
+        for rows, values, flags in self._changes.values():
+            while rows and rows[-1] == len(self._stamps):
+                del rows[-1], values[-1], flags[-1]
+
+    def take(self, to_ns: Callable[[list[Stamp]], Int1D]) -> tuple[Block | None, list[Stamp]]:
+        """(the rows so far as a block, the stamps that are no time). to_ns gives NAT for such a stamp; its rows are
+        left out."""
+        if not self._stamps:
+            return None, []
+        t_ns = to_ns(self._stamps)
+        good = t_ns != NAT
+        bad = [s for s, fine in zip(self._stamps, good, strict=True) if not fine]
+        place, times = self._places(t_ns, good)
+        values: dict[str, Array] = {}
+        flags: dict[str, Array] = {}
+        for name, dtype in self._dtypes.items():
+            values[name], flag = self._column(name, dtype, place, times.size)
+            if flag.any():
+                flags[name] = flag
+        self._stamps, self._changes = [], {}
+        return (Block(self.stream, times, values, flags or None) if times.size else None), bad
+
+    def _places(self, t_ns: Int1D, good: Bool1D) -> tuple[Int1D, Int1D]:
+        """The block's row of each collected row (-1: none), and the rows' times."""
+        place = np.where(good, np.cumsum(good) - 1, -1)
+        times = t_ns[good]
+        steps = np.diff(times)
+        if self._ordered or not (steps < 0).any() or steps.min() <= -_STEP_NS:
+            return place, times
+        times, inverse = np.unique(times, return_inverse=True)
+        place[good] = inverse
+        return place, times
+
+    def _column(self, name: str, dtype: str, place: Int1D, n: int) -> tuple[Array, Array]:
+        kind = object if dtype == "str" else np.float64
+        rows, values, flags = self._changes.get(name, ([], [], []))
+        at = place[rows] if rows else np.empty(0, np.int64)
+        order = np.argsort(at, kind="stable")[np.count_nonzero(at < 0):]
+        known = np.empty(order.size + 1, kind)
+        marks = np.empty(order.size + 1, np.uint16)
+        known[0], marks[0] = _cell(self._held[name][0], dtype), self._held[name][1]
+        which = np.zeros(n, np.int64)
+        gaps = []
+        for number, k in enumerate(order, 1):
+            known[number], marks[number] = _cell(values[k], dtype), flags[k]
+            which[at[k]] = number
+            if values[k] is not None:
+                if known[number - 1] is None or (kind is np.float64 and np.isnan(known[number - 1])):
+                    gaps += [int(at[k])] if name in self._seen else []
+                self._seen.add(name)
+        which = np.maximum.accumulate(which)
+        marked = marks[which]
+        if gaps:
+            marked[gaps] |= np.uint16(Flag.GAP)
+        last = known[-1]
+        self._held[name] = (None if last is None or last != last else last, int(marks[-1]))
+        return known[which], marked
+
+
+def _cell(value: Value, dtype: str) -> Value:
+    if dtype == "str":
+        return None if value is None else str(value)
+    return np.nan if value is None else float(value)
 
 
 def held_blocks(
@@ -21,48 +137,22 @@ def held_blocks(
 ) -> Iterator[Block]:
     """Blocks with one row for each time at which anything changed, in the order of the events.
 
-    events: (t_ns, signal name, value); of several values of one signal at one time the last stands; None means that
-    the source says it has no value (UNAVAILABLE): NaN or '' flagged as a gap, until the next value. Before its first
-    value a signal is NaN or '', flagged the same way. Names that are none of `signals` raise KeyError.
+    events: (t_ns, signal name, value); None means that the source says it has no value. Signals of other streams are
+    left out; names that are none of `stream` raise KeyError.
     """
-    wanted = [s for s in signals if s.stream == stream]
-    column = {s.name: i for i, s in enumerate(wanted)}
-    state: list[float | str | None] = [None] * len(wanted)
-    buffer: list[Event] = []
-    for event in events:
+    held = HeldRows[int]({s.name: s.dtype for s in signals if s.stream == stream}, stream)
+    for t_ns, name, value in events:
         # a block ends only between two times, so that no row is torn
-        if len(buffer) >= rows and event[0] != buffer[-1][0]:
-            yield _block(buffer, wanted, column, state, stream)
-            buffer = []
-        buffer.append(event)
-    if buffer:
-        yield _block(buffer, wanted, column, state, stream)
+        if len(held) >= rows and t_ns != held.last:
+            yield from _taken(held)
+        held.add(t_ns, name, value)
+    yield from _taken(held)
 
 
-def _block(events: list[Event], signals: list[Signal], column: dict[str, int], state: list[float | str | None],
-           stream: str) -> Block:
-    """One block; `state` (the value that each signal holds) is carried on to the next."""
-    t = np.array([e[0] for e in events], np.int64)
-    new = np.concatenate(([True], t[1:] != t[:-1]))
-    row = np.cumsum(new) - 1
-    n = int(row[-1]) + 1
-    which = np.array([column[e[1]] for e in events], np.int64)
-    values: dict[str, Array] = {}
-    flags: dict[str, Array] = {}
-    for i, signal in enumerate(signals):
-        own = np.flatnonzero(which == i)
-        changes: list[float | str | None] = [state[i], *(events[k][2] for k in own)]
-        at = np.searchsorted(row[own], np.arange(n), "right")
-        missing = np.array([c is None for c in changes], bool)[at]
-        if signal.dtype == "str":
-            held = np.array(["" if c is None else str(c) for c in changes], object)[at]
-        else:
-            held = np.array([np.nan if c is None else float(c) for c in changes], np.float64)[at]
-        values[signal.name] = held
-        if missing.any():
-            flags[signal.name] = np.where(missing, np.uint16(Flag.GAP | Flag.NOT_MEASURING), np.uint16(0))
-        state[i] = changes[-1]
-    return Block(stream, t[new], values, flags or None)
+def _taken(held: HeldRows[int]) -> Iterator[Block]:
+    block, _ = held.take(lambda stamps: np.array(stamps, np.int64))
+    if block is not None:
+        yield block
 
 
 def fill_forward(values: Array, written: Bool1D) -> Array:

@@ -6,11 +6,12 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from thermodata_reader_cnc import Reader
+from thermodata_reader_cnc import Reader, mtconnect, mtdocuments
 
 from thermodata.errors import FormatError
 from thermodata.plugin import Head, Source
 from thermodata.reader.registry import head
+from thermodata.schema.flag import Flag
 from thermodata.testing.reader import Data, load, reader_checks
 
 REAL = Path(__file__).resolve().parents[4] / "shared" / "data" / "mtconnect"
@@ -60,7 +61,7 @@ def test_bad_lines_are_named_and_the_rest_is_kept(tmp_path: Path) -> None:
     lines.insert(4, "garbage\n")
     lines.insert(6, "2026-13-02T08:00:02.000000Z|S1speed|1\n")
     data = load(Reader(), written(tmp_path, "".join(lines) + "2026-03-02T08:00:06Z|S1sp", "log.txt"), Source())
-    assert {loss.where for loss in data.losses} == {"log.txt line 5", "log.txt last line", "time stamps"}
+    assert {loss.where for loss in data.losses} == {"log.txt line 5", "log.txt line 7", "log.txt last line"}
     assert data.t_ns["nc"].size == 6
     assert data.recording.complete is False
 
@@ -75,6 +76,40 @@ def test_blocks_of_a_long_log_hold_over_their_borders(tmp_path: Path, monkeypatc
     small = load(Reader(), path, Source())
     assert column(whole, "S1speed") == column(small, "S1speed")
     assert set(column(small, "Xpos")[5:]) == {2.5}
+
+
+def shdr(tmp_path: Path, *lines: str) -> Data:
+    return load(Reader(), written(tmp_path, "\n".join(lines) + "\n", "log.txt"), Source())
+
+
+def test_the_special_forms_of_the_adapter_protocol(tmp_path: Path) -> None:
+    data = shdr(tmp_path, "2026-03-02T08:00:00Z@100.5|Xload|5|text|\"a \\| b\"",
+                "2026-03-02T08:00:01Z|servo|FAULT|E17|100|HIGH|too hot", "|Xload|6",
+                "2026-03-02T08:00:02Z|accel|4|100|1 2 3 4", "2026-03-02T08:00:03Z|servo|NORMAL||||",
+                "2026-03-02T08:00:04Z|accel|1|100|UNAVAILABLE")
+    assert ((data.t_ns["nc"] - T0) / 1e9).tolist() == [0, 1, 3]
+    assert column(data, "Xload") == [5, 6, 6]
+    assert data.flags["nc", "Xload"].tolist() == [0, Flag.CLOCK_SUSPECT, Flag.CLOCK_SUSPECT]
+    assert column(data, "text")[0] == "a | b"
+    assert column(data, "servo") == [None, "FAULT", "NORMAL"]
+    assert column(data, "servo[message]") == [None, "E17; 100; HIGH; too hot", None]
+    assert data.values["series accel", "accel"].tolist() == [1, 2, 3, 4]
+    assert (data.t_ns["series accel"] - T0).tolist() == [1_970_000_000, 1_980_000_000, 1_990_000_000, 2_000_000_000]
+    assert not data.losses
+
+
+def test_times_relative_to_the_adapter(tmp_path: Path) -> None:
+    data = shdr(tmp_path, "0|Xpos|1.5|mode|AUTO", "100.25|Xpos|2.5", "250|mode|MDI")
+    assert data.recording.clock == "relative"
+    assert data.t_ns["nc"].tolist() == [0, 100_250_000, 250_000_000]
+    assert column(data, "Xpos") == [1.5, 2.5, 2.5]
+
+
+def test_an_asset_without_an_end_is_a_loss(tmp_path: Path) -> None:
+    data = shdr(tmp_path, "2026-03-02T08:00:00Z|Xpos|1", "2026-03-02T08:00:01Z|@ASSET@|1|Part|--multiline--A", "<Part>",
+                "2026-03-02T08:00:02Z|Xpos|2")
+    assert column(data, "Xpos") == [1]
+    assert ["asset without its end" in loss.reason for loss in data.losses] == [True]
 
 
 @needs_real
@@ -130,6 +165,65 @@ def test_a_cut_document_keeps_its_whole_observations(tmp_path: Path) -> None:
     assert column(data, "Stemp") == [20, 21, 22]
     assert data.recording.complete is False
     assert "cut" in data.losses[-1].reason
+
+
+def test_sequences_that_are_not_in_the_log_are_a_loss(tmp_path: Path) -> None:
+    def part(first: int, last: int) -> str:
+        return document(7, 1, last, "".join(item(s, s, 20 + s) for s in range(first, last + 1) if s != 17))
+
+    gone = load(Reader(), written(tmp_path, part(1, 5) + part(9, 12), "streams.xml"), Source())
+    assert [loss.reason for loss in gone.losses] == ["sequences 6 to 8 are not in the log"]
+    holed = load(Reader(), written(tmp_path, part(1, 11) + part(12, 24), "streams.xml"), Source())
+    assert [loss.reason for loss in holed.losses] == ["1 of the sequences 12 to 24 are missing"]
+
+
+def test_what_stands_between_documents_is_passed_over_and_a_cut_one_does_not_take_the_next(tmp_path: Path) -> None:
+    one, two, three = (document(7, 1, 2 * k, item(2 * k - 1, k, k) + item(2 * k, k + 0.5, k)) for k in (1, 2, 3))
+    boundary = "\r\n--a1b2\r\nContent-type: text/xml\r\nContent-length: 700\r\n\r\n"
+    data = load(Reader(), written(tmp_path, one + boundary + two + boundary + three, "streams.xml"), Source())
+    assert not data.losses
+    assert column(data, "Stemp") == [1, 1, 2, 2, 3, 3]
+    for rest in (three, three.split("\n", 1)[1]):                   # with and without its XML declaration
+        data = load(Reader(), written(tmp_path, one + two[:two.index("</Samples>")] + rest, "streams.xml"), Source())
+        assert column(data, "Stemp") == [1, 1, 2, 2, 3, 3]
+        assert ["cut or damaged" in loss.reason for loss in data.losses] == [True]
+
+
+def test_data_sets_time_series_and_messages_of_conditions(tmp_path: Path) -> None:
+    at = 'timestamp="2026-03-02T08:00:0{}Z" dataItemId="{}" sequence="{}"'
+    items = (f'<VariableDataSet {at.format(0, "vars", 1)}><Entry key="a">1</Entry><Entry key="b">x</Entry>'
+             f'</VariableDataSet><WorkOffsetTable {at.format(0, "wcs", 2)}><Entry key="G54"><Cell key="X">1.5</Cell>'
+             f'<Cell key="Y">2.5</Cell></Entry></WorkOffsetTable><AccelerationTimeSeries {at.format(1, "acc", 3)} '
+             'sampleCount="2" sampleRate="1000">0.5 0.75</AccelerationTimeSeries>'
+             f'<VariableDataSet {at.format(2, "vars", 4)}><Entry key="a" removed="true"/></VariableDataSet>'
+             f'<VariableDataSet {at.format(3, "vars", 5)}>UNAVAILABLE</VariableDataSet></Samples><Condition>'
+             f'<Fault {at.format(4, "servo", 6)} nativeCode="17">too hot</Fault></Condition><Samples>')
+    data = load(Reader(), written(tmp_path, document(7, 1, 6, items), "streams.xml"), Source())
+    np.testing.assert_array_equal(column(data, "vars[a]"), [1, np.nan, np.nan, np.nan])
+    assert column(data, "vars[b]") == ["x", "x", None, None]
+    assert column(data, "wcs[G54][Y]") == [2.5] * 4
+    assert column(data, "servo") == [None, None, None, "FAULT"]
+    assert column(data, "servo[message]")[-1] == "17; too hot"
+    assert data.values["series acc", "acc"].tolist() == [0.5, 0.75]
+    assert (data.t_ns["series acc"] - T0).tolist() == [999_000_000, 1_000_000_000]
+    assert not data.losses
+    items = items.replace('Count="2"', 'Count="3"')
+    wrong = load(Reader(), written(tmp_path, document(7, 1, 6, items), "s.xml"), Source())
+    assert "announces 3 samples" in wrong.losses[0].reason
+
+
+def test_a_document_larger_than_what_waits_is_read_in_parts(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    log = document(7, 1, 900, "".join(item(s, s / 100, s) for s in range(1, 901)))
+    path = written(tmp_path, log * 4, "streams.xml")
+    whole = load(Reader(), path, Source())
+    monkeypatch.setattr(mtdocuments, "_MOST", 50)
+    monkeypatch.setattr(mtdocuments, "_PART", 4096)
+    monkeypatch.setattr(mtconnect, "_LOOK", 1000)
+    monkeypatch.setattr(mtconnect, "_PIECE", 3000)
+    parts = load(Reader(), path, Source())
+    assert not whole.losses
+    assert not parts.losses
+    assert column(parts, "Stemp") == column(whole, "Stemp") == list(range(1, 901))
 
 
 def test_entities_are_not_expanded(tmp_path: Path) -> None:

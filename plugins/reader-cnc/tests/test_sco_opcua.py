@@ -11,6 +11,7 @@ from thermodata_reader_cnc import Reader
 from thermodata.errors import FormatError
 from thermodata.plugin import Scaling, Source
 from thermodata.reader.registry import head
+from thermodata.schema.flag import Flag
 from thermodata.testing.reader import load, reader_checks
 
 CLAIMS = ["SHDR", "MTCONNECT", "TWINCAT", "SCO", "TRACE_XML", "TRACE_CSV", "OPCUA"]
@@ -66,14 +67,15 @@ def test_columns_that_do_not_fit_are_refused(tmp_path: Path) -> None:
 OPC = "DateTime,TagName,TagVal,TagQuality\n"
 
 
-def test_opc_values_are_held_and_bad_ones_are_none(tmp_path: Path) -> None:
+def test_opc_values_are_held_and_bad_ones_are_flagged(tmp_path: Path) -> None:
     path = written(tmp_path, OPC + "".join((
         "2026-03-02 08:00:00,T1,20.5,192\n", "2026-03-02 08:00:00,speed,1000,192\n", "2026-03-02 08:00:05,T1,21,192\n",
         "2026-03-02 08:00:06,T1,0,0x80000000\n", "2026-03-02 08:00:07,mode,AUTO,Good\n", "garbage\n")), "opc.csv")
     assert "OPC UA" in (Reader().sniff(head(path)) or "")
     data = load(Reader(), path, Source(timezone="Europe/Prague"))
     assert data.recording.start_ns == np.datetime64("2026-03-02T07:00:00", "ns").astype(np.int64)
-    np.testing.assert_array_equal(data.values["nc", "T1"], [20.5, 21, np.nan, np.nan])
+    assert data.values["nc", "T1"].tolist() == [20.5, 21, 0, 0]
+    assert data.flags["nc", "T1"].tolist() == [0, 0, Flag.NOT_MEASURING, Flag.NOT_MEASURING]
     assert data.values["nc", "speed"].tolist() == [1000] * 4
     assert data.values["nc", "mode"].tolist() == [None, None, None, "AUTO"]
     assert [loss.where for loss in data.losses] == ["opc.csv line 7"]
@@ -87,6 +89,52 @@ def test_a_table_sorted_by_tag_is_a_stream_a_tag(tmp_path: Path) -> None:
     assert set(data.t_ns) == {"T1", "T2"}
     assert data.values["T2", "T2"].tolist() == [k + 0.5 for k in range(100)]
     assert (np.diff(data.t_ns["T1"]) > 0).all()
+
+
+@pytest.mark.parametrize(("text", "t1", "flagged"), [
+    ("nodeId,value,dataType,status,statusName,sourceTimestamp,serverTimestamp\n"
+     "T1,12.34,Float,0,Good,2026-03-02T08:00:00Z,2026-03-02T08:00:00Z\n"
+     "T1,13.5,Float,2147483648,Bad,2026-03-02T08:00:01Z,2026-03-02T08:00:01Z\n", [12.34, 13.5], [0, 128]),
+    ("ReceivedAt,SourceTimestamp,ServerTimestamp,Name,NodeId,Value,Status\n"
+     '2026-03-02T08:00:00.1000000+00:00,,,"x","T1","1",Good\n'
+     '2026-03-02T08:00:01.1000000+00:00,2026-03-02T08:00:01.0000000+00:00,,"x","T1","2,5",Good\n', [1, 2.5], [64, 0]),
+    ('"VarName";"TimeString";"VarValue";"Validity";"Time_ms"\n"T1";"13.03.26 11:02:52";66,00;1;46094460322,81\n'
+     '"T1";"13.03.26 11:02:53";0,00;0;46094460334,38\n', [66, 0], [0, 128]),
+    ("DateTime;TagName;TagVal;TagQuality\n2026-03-02 08:00:00;T1;1,5;192\n2026-03-02 08:00:01;T1;0;0\n",
+     [1.5, 0], [0, 128]),
+    ("SourceTime,NodeId,Value,StatusCode\n2026-03-02T08:00:00Z,T1,1,0x00000000\n2026-03-02T08:00:01Z,T1,2,0\n",
+     [1, 2], [0, 0]),
+])
+def test_the_layouts_of_loggers(tmp_path: Path, text: str, t1: list[float], flagged: list[int]) -> None:
+    path = written(tmp_path, text, "opc.csv")
+    assert "OPC UA" in (Reader().sniff(head(path)) or "")
+    data = load(Reader(), path, Source(timezone="UTC"))
+    assert data.values["nc", "T1"].tolist() == t1
+    assert data.flags.get(("nc", "T1"), np.zeros(2)).tolist() == flagged
+    assert not data.losses
+
+
+def test_a_quoted_value_may_hold_line_ends_and_one_node_needs_no_tag(tmp_path: Path) -> None:
+    text = ('#,Source Timestamp,Server Timestamp,Value,Status\n1,2026-03-02 08:00:00.5Z,,"12,""a""\nb","Good,Clamped"\n'
+            '2,2026-03-02 08:00:01.5Z,,c,Good\n')
+    data = load(Reader(), written(tmp_path, text, "opc.csv"), Source())
+    assert data.values["nc", "Value"].tolist() == ['12,""a""\nb'.replace('""', '"'), "c"]
+    assert not data.losses
+
+
+def test_tags_of_a_table_that_step_back_a_little_are_put_in_order(tmp_path: Path) -> None:
+    rows = "".join(f"2026-03-02T08:00:{k:02d}.{5 if k % 2 else 9}Z,T{k % 2},{k},Good\n"
+                   + (f"2026-03-02T08:00:{k:02d}.1Z,T2,{k},Good\n") for k in range(30))
+    data = load(Reader(), written(tmp_path, OPC.replace("DateTime", "SourceTimestamp") + rows, "opc.csv"), Source())
+    assert (np.diff(data.t_ns["nc"]) > 0).all()
+    assert data.values["nc", "T2"].tolist()[::2] == list(range(30))
+
+
+def test_a_thousand_tags_and_more_are_streams(tmp_path: Path) -> None:
+    rows = "".join(f"2026-03-02 08:00:{k // 3000:02d},T{k % 3000},{k},192\n" for k in range(9000))
+    data = load(Reader(), written(tmp_path, OPC + rows, "opc.csv"), Source())
+    assert len(data.t_ns) == 3000
+    assert data.values["T17", "T17"].tolist() == [17, 3017, 6017]
 
 
 @pytest.fixture(scope="module")

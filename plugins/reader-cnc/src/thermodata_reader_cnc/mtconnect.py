@@ -1,177 +1,33 @@
 """MTConnect stream documents: one, or a log of many one after another, as an agent answered them.
 
 Observations are ordered by the agent's instance and sequence, not by time; what an agent sends again is dropped, and
-sequences that it no longer held when it was asked are a loss.
+sequences that it no longer held when it was asked, or that are missing from the log, are a loss.
 """
 
 from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
-from xml.etree import ElementTree as ET
 
 from thermodata.errors import FormatError
 from thermodata.plugin import Block, Loss, Recording, Source
-from thermodata_reader_cnc import events
+from thermodata_reader_cnc import events, series
 from thermodata_reader_cnc.events import Event, HeldTable
+from thermodata_reader_cnc.mtdocuments import Document, Names, Observation, documents
 
-_END = re.compile(rb"</(?:\w+:)?MTConnectStreams\s*>")
-_START = re.compile(rb"<(?:\w+:)?MTConnectStreams[\s>]")
-_PART = 1 << 20
-_MOST = 256 << 20
+_END = re.compile(rb"</(?:[\w.-]+:)?MTConnectStreams\s*>")
 _LOOK = 8 << 20
+_PIECES = 24                 # places of a long log that the first look sees beside its beginning
+_PIECE = 1 << 18
+_DENSE = 0.9                 # sequences of a document that are there, from where on the others are missing
 
 
 def claims(text: str) -> str | None:
     """The reason for claiming a text, or None."""
-    if re.search(r"<(?:\w+:)?MTConnectStreams[\s>]", text[:4096]):
+    if re.search(r"<(?:[\w.-]+:)?MTConnectStreams[\s>/]", text[:4096]):
         return "MTConnect: the root is MTConnectStreams"
     return None
-
-
-@dataclass(frozen=True, slots=True)
-class Observation:
-    sequence: int
-    time: str
-    key: str
-    value: str
-
-
-@dataclass(slots=True)
-class Document:
-    """instance, first, next: of the agent's header, None where it has none."""
-
-    place: str
-    instance: int | None
-    first: int | None
-    next: int | None
-    observations: list[Observation]
-    series: set[str]
-
-
-@dataclass(slots=True)
-class Names:
-    """Data item -> signal name: its own name, or its id where it has none or another item has it too."""
-
-    taken: dict[str, str] = field(default_factory=dict)
-    properties: dict[str, dict[str, str]] = field(default_factory=dict)
-
-    def of(self, device: str, component: str, group: str, element: ET.Element) -> str:
-        item = element.get("dataItemId", "").rstrip("=") or _tag(element)
-        name = element.get("name", "").rstrip("=") or item
-        owner = f"{device}/{item}"
-        for candidate in (name, item, owner):
-            if self.taken.setdefault(candidate, owner) == owner:
-                if candidate not in self.properties:
-                    said = {"dataItemId": item, "device": device, "component": component, "type": _tag(element),
-                            "subType": element.get("subType", ""), "category": group.rstrip("s").upper()}
-                    self.properties[candidate] = {k: v for k, v in said.items() if v}
-                return candidate
-        return owner
-
-
-def documents(path: Path, names: Names) -> Iterator[Document | Loss]:
-    """The documents of a file, one after another; a Loss for what is between or cut."""
-    size, number = max(1, path.stat().st_size), 0
-    with path.open("rb") as file:
-        rest, offset = b"", 0
-        while True:
-            part = file.read(_PART)
-            rest += part
-            while (end := _END.search(rest)) is not None:
-                text, rest = rest[:end.end()], rest[end.end():]
-                number += 1
-                yield _document(text, f"{path.name} document {number} (byte {offset})", names, size)
-                offset += len(text)
-            if len(rest) > _MOST:
-                raise FormatError("a document without an end", where=f"{path.name} byte {offset}",
-                                  expected="</MTConnectStreams>", got=f"{len(rest)} bytes")
-            if not part:
-                break
-        start = _START.search(rest)
-        if start is not None:
-            found = _cut(rest[start.start():], f"{path.name} document {number + 1} (byte {offset})", names)
-            if found is not None:
-                yield found
-        if b"<" in rest:
-            yield Loss(f"{path.name} byte {offset}", fraction=len(rest) / size,
-                       reason="the last document is cut; the observations before the cut are kept")
-
-
-def _document(text: bytes, place: str, names: Names, size: int) -> Document | Loss:
-    start = _START.search(text)
-    if start is None:
-        return Loss(place, fraction=len(text) / size, reason="an end of a document without a start")
-    body = text[start.start():]
-    if b"<!DOCTYPE" in body or b"<!ENTITY" in body:
-        return Loss(place, fraction=len(text) / size, reason="a document type or entities: not read")
-    declaration = re.search(rb"<\?xml[^>]*encoding=[\"']([\w.-]+)", text[:start.start()])
-    try:
-        parser = ET.XMLParser(encoding=declaration[1].decode() if declaration else "utf-8")
-        root = ET.fromstring(body, parser)
-    except (ET.ParseError, LookupError, ValueError) as error:
-        return Loss(place, fraction=len(text) / size, reason=f"no XML: {error}")
-    return _read(root, place, names)
-
-
-def _cut(body: bytes, place: str, names: Names) -> Document | None:
-    """What of a cut document is whole."""
-    if b"<!DOCTYPE" in body or b"<!ENTITY" in body:
-        return None
-    parser: Any = ET.XMLPullParser(events=("start", "end"))
-    root: ET.Element | None = None
-    whole: set[ET.Element] = set()
-    try:
-        parser.feed(body)
-        for event, element in parser.read_events():
-            if event == "start" and root is None:
-                root = element
-            if event == "end":
-                whole.add(element)
-    except ET.ParseError:
-        pass
-    return None if root is None else _read(root, place, names, whole)
-
-
-def _read(root: ET.Element, place: str, names: Names, whole: set[ET.Element] | None = None) -> Document:
-    header: dict[str, int | None] = {}
-    found, series = [], set[str]()
-    for element in root:
-        if _tag(element) == "Header":
-            header = {k: _number(v) for k, v in element.attrib.items()}
-    for device in _all(root, "DeviceStream"):
-        for component in _all(device, "ComponentStream"):
-            label = component.get("name", "").rstrip("=") or component.get("component", "").rstrip("=")
-            for group in component:
-                for element in group:
-                    if whole is not None and element not in whole:
-                        continue
-                    name = names.of(device.get("name", "").rstrip("="), label, _tag(group), element)
-                    text = (element.text or "").strip()
-                    value = _tag(element).upper() if _tag(group) == "Condition" else text
-                    sequence, time = _number(element.get("sequence")), element.get("timestamp", "").rstrip("=")
-                    if element.get("sampleRate") is not None:
-                        series.add(name)
-                    elif sequence is not None and time:
-                        found.append(Observation(sequence, time, name, value))
-    return Document(place, header.get("instanceId"), header.get("firstSequence"), header.get("nextSequence"), found,
-                    series)
-
-
-def _all(parent: ET.Element, tag: str) -> Iterator[ET.Element]:
-    return (e for e in parent.iter() if _tag(e) == tag)
-
-
-def _tag(element: ET.Element) -> str:
-    return element.tag.rsplit("}", 1)[-1]
-
-
-def _number(text: str | None) -> int | None:
-    digits = re.match(r"\s*(\d+)", text or "")
-    return int(digits[1]) if digits else None
 
 
 class Order:
@@ -182,19 +38,17 @@ class Order:
         self.next: int | None = None
         self.seen: dict[str, int] = {}
         self.times: dict[str, str] = {}
-        self.refused: set[str] = set()
+        self.dense = False
 
-    def of(self, document: Document) -> Iterator[Event | Loss]:
-        """The new observations of a document as events."""
-        if document.instance != self.instance:
-            self.instance, self.next, self.seen = document.instance, None, {}
-        if self.next is not None and document.first is not None and document.first > self.next:
-            yield Loss(document.place, reason=f"sequences {self.next} to {document.first - 1} are lost: the agent's "
-                                              "buffer no longer held them when it was asked")
-        for name in document.series - self.refused:
-            self.refused.add(name)
-            yield Loss(document.place, reason=f"'{name}' is a time series with its own rate; it is not read")
-        for each in sorted(document.observations, key=lambda o: o.sequence):
+    def of(self, document: Document) -> Iterator[Event | Observation | Loss]:
+        """The new observations of a document as events; of time series as they are."""
+        if document.instance is not None and document.instance != self.instance:
+            self.instance, self.next, self.seen, self.dense = document.instance, None, {}, False
+        found = sorted(document.observations, key=lambda o: o.sequence)
+        yield from self._missing(document, found)
+        if document.undated:
+            yield Loss(document.place, reason=f"{document.undated} observations without sequence or time")
+        for each in found:
             if each.sequence <= self.seen.get(each.key, -1):
                 continue
             again = each.key not in self.seen and self.times.get(each.key, "") >= each.time
@@ -202,12 +56,40 @@ class Order:
             if again:
                 continue                                 # a restarted agent sends what it had
             self.times[each.key] = max(each.time, self.times.get(each.key, ""))
-            yield Event(each.time, each.key, each.value, f"{document.place} sequence {each.sequence}")
+            if each.series:
+                yield each
+            else:
+                yield Event(each.time, each.key, each.value, f"{document.place} sequence {each.sequence}")
         if document.next is not None:
             self.next = max(self.next or 0, document.next)
 
+    def _missing(self, document: Document, found: list[Observation]) -> Iterator[Loss]:
+        """Sequences that the agent no longer held, and holes in documents that hold all of a range."""
+        held = sorted({o.sequence for o in found})
+        if self.next is not None and document.first is not None and document.first > self.next:
+            yield Loss(document.place, reason=f"sequences {self.next} to {document.first - 1} are lost: the agent's "
+                                              "buffer no longer held them when it was asked")
+        elif self.dense and self.next is not None and held and held[0] > self.next:
+            yield Loss(document.place, reason=f"sequences {self.next} to {held[0] - 1} are not in the log")
+        if not held:
+            return
+        first, stop = held[0], held[-1] + 1
+        if document.whole and document.next is not None and self._near(document.next, stop, len(held)):
+            stop = max(stop, document.next)              # the answer runs up to here
+        if self.next is not None and self.dense and self.next < first and self._near(first, self.next, len(held)):
+            first = self.next
+        whole = len(held) + document.undated >= _DENSE * (stop - first)
+        if whole and len(held) + document.undated < stop - first and len(held) > 1:
+            yield Loss(document.place, fraction=None, reason=(
+                f"{stop - first - len(held)} of the sequences {first} to {stop - 1} are missing"))
+        self.dense = whole
 
-def _events(path: Path, names: Names, limit: int | None = None) -> Iterator[Event | Loss]:
+    @staticmethod
+    def _near(far: int, near: int, count: int) -> bool:
+        return 0 <= far - near <= max(1, (1 - _DENSE) * count)
+
+
+def _events(path: Path, names: Names, limit: int | None = None) -> Iterator[Event | Observation | Loss]:
     order, count = Order(), 0
     for document in documents(path, names):
         if isinstance(document, Loss):
@@ -219,18 +101,38 @@ def _events(path: Path, names: Names, limit: int | None = None) -> Iterator[Even
             return
 
 
-def _plan(path: Path) -> tuple[events.Plan, str | None, Names]:
-    names = Names()
-    limit = None if path.stat().st_size <= _LOOK else 20_000
-    found, first = events.plan(_events(path, names, limit),
-                               lambda key: names.properties.get(key, {}).get("category") == "SAMPLE")
-    return found, first, names
+class _Look:
+    """The items of a log, by all of a short one, else by its first documents and pieces from all over it."""
+
+    def __init__(self, path: Path) -> None:
+        self.names = Names()
+        self.series: set[str] = set()
+        size = path.stat().st_size
+        self.sampled = size > _LOOK
+        self.plan = events.plan(self._known(path, size), lambda key: self.names.properties.get(key, {}).get(
+            "category") == "SAMPLE")
+
+    def _known(self, path: Path, size: int) -> Iterator[Event]:
+        for event in _events(path, self.names, 20_000 if self.sampled else None):
+            yield from self._one(event)
+        for k in range(1, _PIECES + 1 if self.sampled else 0):
+            at = (size - _PIECE) * k // _PIECES
+            for document in documents(path, self.names, at, at + _PIECE):
+                if isinstance(document, Document):
+                    for each in document.observations[:20_000]:
+                        yield from self._one(each if each.series else Event(each.time, each.key, each.value, ""))
+
+    def _one(self, event: Event | Observation | Loss) -> Iterator[Event]:
+        if isinstance(event, Observation):
+            self.series.add(event.key)
+        elif isinstance(event, Event):
+            yield event
 
 
 def describe(path: Path, source: Source) -> Recording:
     """Items and the first time of a log, by its first documents."""
-    found, first, names = _plan(path)
-    if not found:
+    look = _Look(path)
+    if not look.plan.items and not look.series:
         raise FormatError("no observations", where=path.name, expected="MTConnectStreams with observations",
                           got="none")
     with path.open("rb") as file:
@@ -238,23 +140,33 @@ def describe(path: Path, source: Source) -> Recording:
         behind = _END.split(file.read())
         # a log may end behind any document, so a whole last one proves nothing
         complete = len(behind) > 1 and b"<" not in behind[-1]
-    return events.recording(found, first, source, names.properties, None if complete else False)
+    said = events.recording(look.plan, source, look.names.properties, None if complete else False,
+                            (series.NOTE,) if look.series else ())
+    signals = tuple(series.signal(key, look.names.properties.get(key)) for key in sorted(look.series))
+    return Recording((*said.signals, *signals), said.clock, said.start_ns, said.complete, said.notes)
 
 
 def blocks(path: Path, source: Source) -> Iterator[Block | Loss]:
     """Rows of held values in the agent's order, and what is missing."""
-    found, _, names = _plan(path)
+    look = _Look(path)
     told: set[str] = set()
 
     def complain(event: Event, reason: str) -> Iterator[Loss]:
-        if event.key not in told:
+        if event.key not in told and len(told) < 1000:
             told.add(event.key)
             yield Loss(event.at, reason=f"'{event.key}': {reason}")
 
-    table = HeldTable(found, source, complain)
-    for event in _events(path, names):
+    table = HeldTable(look.plan, source, complain)
+    for event in _events(path, Names()):
         if isinstance(event, Loss):
             yield event
-        else:
+        elif isinstance(event, Event):
             yield from table.add(event)
+        elif event.key in look.series:
+            yield series.rows(event.key, event.time, event.rate_hz, event.value, event.count, table.clock,
+                              f"{path.name} sequence {event.sequence}")
+        elif event.key not in told:
+            told.add(event.key)
+            yield Loss(f"{path.name} sequence {event.sequence}",
+                       reason=f"'{event.key}': a time series that the first look did not meet; it is not read")
     yield from table.flush()

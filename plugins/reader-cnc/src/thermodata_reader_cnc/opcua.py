@@ -1,136 +1,173 @@
-"""OPC UA logs as long tables: a row a value, with time, tag, value and status under names that differ by logger.
+"""Long tables of an OPC UA (or SIMATIC) logger: a row a value, with time, tag, value and status under many names.
 
-A value holds until the next one: the source's time stands still while it does not change. A bad status ends it.
+A value holds until the next one: the source's time stands still while it does not change. A bad status flags it.
 Where the table is sorted by tag, each tag is a stream of its own, for there is no common order of time.
 """
 
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass, replace
 from itertools import pairwise
 from pathlib import Path
 
 from thermodata.errors import FormatError
-from thermodata.plugin import Block, Loss, Recording, Signal, Source
+from thermodata.plugin import Block, Loss, Recording, Source
 from thermodata.reader.text import clean
 from thermodata.reader.zone import NAT
+from thermodata.schema.flag import Flag
 from thermodata_reader_cnc import events, when
 from thermodata_reader_cnc.chunks import chunks, sample
-from thermodata_reader_cnc.events import Event, HeldTable
+from thermodata_reader_cnc.events import GONE, Event, HeldTable
 from thermodata_reader_cnc.layout import fields
 from thermodata_reader_cnc.losses import NAMED
+from thermodata_reader_cnc.status import BAD, is_good, zero_is_good
+from thermodata_reader_cnc.timecolumns import absolute
+from thermodata_reader_cnc.when import TimeFormat
 
 _LOOK = 4 << 20
-_NAMES = {
-    "time": ("sourcetimestamp", "sourcetime", "datetime", "timestamp", "servertimestamp", "servertime", "time"),
-    "tag": ("tagname", "nodeid", "node", "displayname", "browsename", "tag"),
-    "value": ("tagval", "tagvalue", "value"),
-    "status": ("tagquality", "quality", "statuscode", "status"),
-}
+_MOST_LINES = 64             # of one quoted value
+_TIMES = ("sourcetimestamp", "sourcetime", "datetime", "timestamp", "timestring", "servertimestamp", "servertime", "time",
+          "receivedat")
+_TAGS = ("tagname", "varname", "nodeid", "node", "displayname", "browsename", "tag", "itemid", "name")
+_VALUES = ("tagval", "tagvalue", "varvalue", "value")
+_STATUS = ("statusname", "statustext", "tagquality", "quality", "statuscode", "status", "validity")
+_COMMA = re.compile(r"^[+-]?\d+,\d+(?:[eE][+-]?\d+)?$")
 
 
 @dataclass(frozen=True, slots=True)
 class Layout:
-    """Columns of the four parts; status None where there is none."""
+    """Columns of the parts. times: the first that a row has is its time. tag, status: None where there is none."""
 
     delimiter: str
     row: int
     width: int
-    time: int
-    tag: int
+    times: tuple[int, ...]
+    tag: int | None
     value: int
     status: int | None
+    form: TimeFormat
+    zero_good: bool
 
 
-def find(lines: Sequence[str]) -> Layout | None:
-    """The layout by a header row among the first ten lines, or None."""
+def find(lines: Sequence[str], where: str) -> Layout | None:
+    """The layout by a header row among the first ten lines, or None. FormatError: no order of day and month."""
     for row, line in enumerate(lines[:10]):
         for delimiter in (",", ";", "\t"):
-            names = [re.sub(r"[\s_.-]", "", clean(c)).lower() for c in line.split(delimiter)]
-            place = {part: next((names.index(n) for n in known if n in names), None) for part, known in _NAMES.items()}
-            time, tag, value = place["time"], place["tag"], place["value"]
-            if time is not None and tag is not None and value is not None:
-                return Layout(delimiter, row, len(names), time, tag, value, place["status"])
+            names = [re.sub(r"[\s_.#()-]", "", clean(c)).casefold() for c in line.split(delimiter)]
+            times = tuple(names.index(n) for n in _TIMES if n in names)
+            tag = next((names.index(n) for n in _TAGS if n in names), None)
+            value = next((names.index(n) for n in _VALUES if n in names), None)
+            status = next((names.index(n) for n in _STATUS if n in names), None)
+            if value is None or not times or (tag is None and ("sourcetimestamp" not in names or status is None)):
+                continue
+            body = [fields(text, delimiter, True) for text in lines[row + 1:row + 2000]]
+            body = [cells for cells in body if len(cells) == len(names)]
+            stamps = [[_time(cells, times)] for cells in body if _time(cells, times)]
+            found = absolute(stamps, [], where) if stamps else None
+            if found is None or found[0][1].role != "datetime":
+                continue
+            zero = status is None or zero_is_good((cells[status] for cells in body), names[status])
+            return Layout(delimiter, row, len(names), times, tag, value, status, found[0][1], zero)
     return None
+
+
+def _time(cells: Sequence[str], times: Sequence[int]) -> str:
+    return next((text for k in times if (text := clean(cells[k]))), "")
 
 
 def claims(lines: Sequence[str]) -> str | None:
     """The reason for claiming lines of text, or None."""
-    layout = find(lines)
-    if layout is None or len(lines) < layout.row + 2:
+    try:
+        layout = find(lines, "")
+    except FormatError:
         return None
-    cells = fields(lines[layout.row + 1], layout.delimiter, True)
-    if layout.time >= len(cells) or when.parse_one(cells[layout.time], when.DATETIME["ymd"]) == NAT:
+    if layout is None:
         return None
     return "OPC UA: a long table of time, tag and value"
 
 
-def good(status: str) -> bool:
-    """Whether a status keeps its value: Good and Uncertain in words, OPC's 192...255, or UA's codes below bad."""
-    text = status.strip().lower()
-    if not text or text.startswith(("good", "uncertain")):
-        return True
-    try:
-        code = int(text, 0)
-    except ValueError:
-        return False
-    return code == 0 or 64 <= code <= 255 or (code > 255 and code >> 30 < 2)
+def _records(lines: Iterable[str]) -> Iterator[tuple[str, int]]:
+    """(record, lines): a quoted value may hold line ends; a quote that is never closed ends with its line."""
+    waiting: list[str] = []
+    for line in lines:
+        waiting.append(line)
+        if sum(text.count('"') for text in waiting) % 2 == 0:
+            yield "\n".join(waiting), len(waiting)
+            waiting = []
+        elif len(waiting) > _MOST_LINES:
+            yield waiting[0], 1
+            waiting = list(waiting[1:])
+            while waiting and waiting[0].count('"') % 2 == 0:
+                yield waiting.pop(0), 1
+    for text in waiting:
+        yield text, 1
 
 
-def _events(layout: Layout, lines: Sequence[str], first: int, name: str) -> Iterator[Event | Loss]:
-    for number, line in enumerate(lines, first):
-        if number <= layout.row or not line.strip():
+def _events(layout: Layout, lines: Iterable[str], first: int, name: str) -> Iterator[Event | Loss]:
+    number = first
+    for text, count in _records(lines):
+        at, number = f"{name} line {number + 1}", number + count
+        if number - count <= layout.row or not text.strip():
             continue
-        cells = fields(line, layout.delimiter, True)
-        at = f"{name} line {number + 1}"
-        if len(cells) != layout.width or when.parse_one(cells[layout.time], when.DATETIME["ymd"]) == NAT:
-            yield Loss(at, reason=f"expected {layout.width} cells with a time, got '{line[:80]}'")
+        if "\0" in text:
+            yield Loss(at, reason=f"{text.count(chr(0))} NUL bytes")
+            text = text.replace("\0", "")
+        cells = fields(text, layout.delimiter, True)
+        time = _time(cells, layout.times) if len(cells) == layout.width else ""
+        if not time or when.parse_one(time, layout.form) == NAT:
+            yield Loss(at, reason=f"expected {layout.width} cells with a time, got '{text[:80]}'")
             continue
+        flag = 0 if clean(cells[layout.times[0]]) else int(Flag.CLOCK_SUSPECT)
+        if layout.status is not None and not is_good(clean(cells[layout.status]), layout.zero_good):
+            flag |= BAD
         value = clean(cells[layout.value])
-        if layout.status is not None and not good(cells[layout.status]):
-            value = "UNAVAILABLE"
-        yield Event(clean(cells[layout.time]), clean(cells[layout.tag]), value.replace(",", ".") if re.fullmatch(
-            r"[+-]?\d+,\d+", value) else value, at)
+        if (layout.delimiter != "," and _COMMA.match(value)) or (
+                layout.delimiter == "," and '"' in text and _COMMA.match(value)):
+            value = value.replace(",", ".")
+        tag = "Value" if layout.tag is None else clean(cells[layout.tag])
+        if not tag:
+            yield Loss(at, reason=f"a value without a tag: '{text[:80]}'")
+            continue
+        yield Event(time, tag, value or GONE, at, flag)
 
 
 @dataclass(frozen=True, slots=True)
 class _Look:
     layout: Layout
     plan: events.Plan
-    first: str | None
     encoding: str
     by_tag: bool
     whole: bool
+    notes: tuple[str, ...]
 
 
 def _look(path: Path, source: Source) -> _Look:
     first = sample(path, source.encoding, _LOOK)
-    layout = find(first.head)
+    layout = find(first.head, path.name)
     if layout is None:
         raise FormatError("no long table", where=path.name, expected="columns of time, tag and value",
                           got=first.head[0][:80] if first.head else "nothing")
-    head = [e for e in _events(layout, first.head, 0, path.name) if isinstance(e, Event)]
+    lines = first.head[:-1] if first.whole and not first.ends_with_newline else first.head
+    head = [e for e in _events(layout, lines, 0, path.name) if isinstance(e, Event)]
     rest = [e for e in _events(layout, first.rest, layout.row + 1, path.name) if isinstance(e, Event)]
-    found, start = events.plan([*head, *rest])
-    if not found:
+    plan = events.plan([*head, *rest], form=layout.form)
+    if not plan.items:
         raise FormatError("no rows", where=path.name, expected="rows of time, tag and value", got="none")
     changes = sum(a.key != b.key for a, b in pairwise(head))
     back = sum(a.key != b.key and b.time < a.time for a, b in pairwise(head))
-    return _Look(layout, found, start, first.encoding, 0 < changes < 0.1 * len(head) and 2 * back > changes,
-                 first.ends_with_newline)
+    by_tag = 0 < changes < 0.1 * len(head) and 2 * back > changes
+    notes = [first.note] if first.note else []
+    notes += ["sorted by tag: each tag is a stream"] if by_tag else []
+    return _Look(layout, replace(plan, apart=plan.apart or by_tag), first.encoding, by_tag, first.ends_with_newline,
+                 tuple(notes))
 
 
 def describe(path: Path, source: Source) -> Recording:
     """Tags and the first time of a log, by samples of it."""
     look = _look(path, source)
-    said = events.recording(look.plan, look.first, source, complete=None if look.whole else False)
-    if not look.by_tag:
-        return said
-    stream = {t.name: tag for tag, each in look.plan.items() for t in each}
-    return Recording(tuple(Signal(s.name, stream[s.name], s.unit, s.dtype) for s in said.signals), said.clock,
-                     said.start_ns, said.complete, ("sorted by tag: each tag is a stream",))
+    return events.recording(look.plan, source, complete=None if look.whole else False, notes=look.notes)
 
 
 def blocks(path: Path, source: Source) -> Iterator[Block | Loss]:
@@ -138,25 +175,30 @@ def blocks(path: Path, source: Source) -> Iterator[Block | Loss]:
     look, counts = _look(path, source), dict[str, int]()
 
     def limited(key: str, loss: Loss) -> Iterator[Loss]:
+        key = key if key in counts or len(counts) < 1000 else ""
         counts[key] = counts.get(key, 0) + 1
         if counts[key] <= (1 if key else NAMED):
             yield loss
 
     complain: Callable[[Event, str], Iterator[Loss]] = \
         lambda event, reason: limited(event.key, Loss(event.at, reason=f"'{event.key}': {reason}"))  # noqa: E731
-    tables = {tag: HeldTable({tag: t}, source, complain, tag) for tag, t in look.plan.items()} if look.by_tag else {}
-    common = HeldTable(look.plan, source, complain)
+    table = HeldTable(look.plan, source, complain, ordered=look.by_tag)
+    for event in _all(path, look):
+        if isinstance(event, Loss):
+            yield from limited("", event)
+        else:
+            yield from table.add(event)
+    yield from table.flush()
+    for key, count in counts.items():
+        if count > (1 if key else NAMED):
+            yield Loss(path.name, reason=f"{count - (1 if key else NAMED)} more " + (
+                f"values of '{key}' that do not read" if key else "lines that do not read"))
+
+
+def _all(path: Path, look: _Look) -> Iterator[Event | Loss]:
     for chunk in chunks(path, look.encoding):
         lines = chunk.data.decode("utf-8", "replace").replace("\r\n", "\n").split("\n")
         tail = lines.pop()
-        for event in _events(look.layout, lines, chunk.line, path.name):
-            if isinstance(event, Loss):
-                yield from limited("", event)
-            else:
-                yield from tables.get(event.key, common).add(event)
-        if chunk.last and tail.strip():
+        yield from _events(look.layout, lines, chunk.line, path.name)
+        if tail.strip("\0 \r"):
             yield Loss(f"{path.name} last line", reason=f"it has no line end and may be cut: '{tail[:60]}'")
-    for table in (*tables.values(), common):
-        yield from table.flush()
-    if counts.get("", 0) > NAMED:
-        yield Loss(path.name, reason=f"{counts[''] - NAMED} more lines that do not read")

@@ -1,4 +1,4 @@
-"""SHDR logs of an MTConnect adapter: `time|item|value|item|value...` a line, written when a value changes."""
+"""SHDR logs of an MTConnect adapter: a line a report, written when a value changes."""
 
 from __future__ import annotations
 
@@ -7,12 +7,12 @@ from pathlib import Path
 
 from thermodata.errors import FormatError
 from thermodata.plugin import Block, Loss, Recording, Source
-from thermodata.reader.zone import NAT
-from thermodata_reader_cnc import events, when
+from thermodata_reader_cnc import events, series
 from thermodata_reader_cnc.chunks import chunks, sample
 from thermodata_reader_cnc.events import Event, HeldTable
+from thermodata_reader_cnc.shdrlines import Lines, Series, is_offset, is_time, looks_like_items
+from thermodata_reader_cnc.when import OFFSET_MS, TimeFormat
 
-_LEVELS = frozenset({"NORMAL", "WARNING", "FAULT", "UNAVAILABLE"})
 _NAMED = 20
 _LOOK = 8 << 20          # an item may be reported for the first time late in a log
 
@@ -20,95 +20,90 @@ _LOOK = 8 << 20          # an item may be reported for the first time late in a 
 def claims(lines: list[str]) -> str | None:
     """The reason for claiming lines of text as SHDR, or None."""
     full = [line for line in lines if line.strip() and not line.startswith("*")][:200]
-    good = [line for line in full if line.count("|") >= 2
-            and when.parse_one(line.split("|", 1)[0].partition("@")[0], when.DATETIME["ymd"]) != NAT]
-    if full and full[0] in good and len(good) >= 0.3 * len(full):
+    if not full or full[0].count("|") < 2:
+        return None
+    parts = [line.split("|") for line in full]
+    dated = [p for p in parts if len(p) >= 3 and is_time(p[0])]
+    if dated and len(dated) >= 0.3 * len(full) and (is_time(parts[0][0]) or not parts[0][0].strip()):
         return "SHDR: lines of time|item|value"
+    offset = [p for p in parts if is_offset(p[0]) and looks_like_items(p)]
+    if len(offset) >= 0.9 * len(full):
+        return "SHDR: lines of offset|item|value"
     return None
 
 
-class _Lines:
-    """Lines to events. Commands (@...@), comments (*) and multi-line assets are no data."""
+class _Look:
+    """The items of a sampled log, its time series and how its times are written."""
 
-    def __init__(self, name: str) -> None:
-        self.name = name
-        self.until: str | None = None
+    def __init__(self, path: Path, source: Source) -> None:
+        first = sample(path, source.encoding, _LOOK)
+        self.encoding, self.note, self.whole = first.encoding, first.note, first.ends_with_newline
+        self.series: set[str] = set()
+        self.relative = not any(is_time(line.split("|", 1)[0]) for line in first.head if "|" in line)
+        self.form: TimeFormat = OFFSET_MS if self.relative else events.ISO
+        cut = first.whole and not first.ends_with_newline
+        head = first.head[:-1] if cut else first.head
+        self.plan = events.plan(self._events(path.name, head, first.rest), form=self.form)
+        self.head = first.head
 
-    def events(self, line: str, number: int) -> Iterator[Event | Loss]:
-        if self.until is not None:
-            if line.strip() == self.until:
-                self.until = None
-            return
-        text = line.rstrip("\r")
-        if not text.strip() or text.startswith("*"):
-            return
-        fields = text.split("|")
-        at = f"{self.name} line {number + 1}"
-        if len(fields) < 2 or fields[0][:1] not in "0123456789":
-            yield Loss(at, reason=f"expected time|item|value, got '{text[:80]}'")
-            return
-        time = fields[0].partition("@")[0]
-        if fields[1].startswith("@"):
-            if fields[-1].startswith("--multiline--"):
-                self.until = fields[-1]
-            return
-        if len(fields) in (6, 7) and fields[2].upper() in _LEVELS and not (fields[3] and fields[5]):
-            yield Event(time, fields[1], fields[2].upper(), at)
-            return
-        if len(fields) % 2 == 0:
-            if len(fields) == 4:                            # a message: item, native code, text
-                yield Event(time, fields[1], fields[3], at)
-                return
-            yield Loss(at, reason=f"expected pairs of item and value, got '{text[:80]}'")
-        for key, value in zip(fields[1::2], fields[2::2], strict=False):
-            if key:
-                yield Event(time, key, value, at)
-
-
-def _sampled(path: Path, source: Source) -> Iterator[Event | Loss]:
-    first = sample(path, source.encoding, _LOOK)
-    reader = _Lines(path.name)
-    for number, line in enumerate([*first.head, *first.rest]):
-        if number == len(first.head):
-            reader.until = None
-        if number >= len(first.head) and "|" not in line[:40]:
-            continue
-        yield from reader.events(line, number)
+    def _events(self, name: str, head: Iterable[str], rest: Iterable[str]) -> Iterator[Event | Loss]:
+        for lines, pieces in ((head, False), (rest, True)):
+            reader = Lines(name)
+            reader.time = "x" if pieces else ""
+            for number, line in enumerate(lines):
+                if pieces and "|" not in line[:40]:
+                    continue
+                for event in reader.events(line, number):
+                    if isinstance(event, Series):
+                        self.series.add(event.key)
+                    else:
+                        yield event
 
 
 def describe(path: Path, source: Source) -> Recording:
     """Items and the first time of a log, by samples of it."""
-    first = sample(path, source.encoding)
-    found, start = events.plan(_sampled(path, source))
-    if not found:
+    look = _Look(path, source)
+    if not look.plan.items and not look.series:
         raise FormatError("no SHDR data", where=path.name, expected="lines of time|item|value",
-                          got=repr(first.head[0][:60]) if first.head else "nothing")
-    notes = [] if first.note is None else [first.note]
-    return events.recording(found, start, source, complete=None if first.ends_with_newline else False, notes=notes)
+                          got=repr(look.head[0][:60]) if look.head else "nothing")
+    notes = [note for note in (look.note, series.NOTE if look.series else None) if note]
+    if look.relative:
+        notes.append("times are relative to the adapter's start")
+    said = events.recording(look.plan, source, complete=None if look.whole else False, notes=notes)
+    signals = (*said.signals, *(series.signal(key) for key in sorted(look.series)))
+    return Recording(signals, "relative" if look.relative else "absolute", 0 if look.relative else said.start_ns,
+                     said.complete, said.notes)
 
 
 def blocks(path: Path, source: Source) -> Iterator[Block | Loss]:
     """Rows of held values, and lines that do not read."""
-    found, _ = events.plan(_sampled(path, source))
+    look = _Look(path, source)
     losses = _Some()
-    table = HeldTable(found, source, lambda event, reason: losses.some(event.key, Loss(event.at, reason=(
+    table = HeldTable(look.plan, source, lambda event, reason: losses.some(event.key, Loss(event.at, reason=(
         f"'{event.key}': {reason}"))))
-    reader = _Lines(path.name)
-    for number, line in _lines(path, sample(path, source.encoding).encoding):
+    reader, size = Lines(path.name), max(1, path.stat().st_size)
+    for number, line in _lines(path, look.encoding):
         if number < 0:
-            time = line.split("|", 1)[0]
-            if (table.last_time or "").startswith(time):
+            time = line.split("|", 1)[0].partition("@")[0]
+            if table.last_time is not None and (not time or table.last_time.startswith(time)):
                 table.drop_last()                           # more of this row stood in the lines that are gone
             yield from table.flush()
-            yield Loss(f"{path.name} last line", fraction=min(1.0, len(line) / max(1, path.stat().st_size)),
+            yield Loss(f"{path.name} last line", fraction=min(1.0, len(line) / size),
                        reason=f"it has no line end and may be cut: '{line[:60]}'")
             continue
         for event in reader.events(line, number):
             if isinstance(event, Loss):
                 yield from losses.some("", event)
-            else:
+            elif isinstance(event, Event):
                 yield from table.add(event)
+            elif event.key in look.series and not look.relative:
+                found = series.rows(event.key, event.time, event.rate_hz, event.values, None, table.clock, event.at)
+                yield from losses.some(event.key, found) if isinstance(found, Loss) else (found,)
+            else:
+                yield from losses.some(event.key, Loss(event.at, reason=(
+                    f"'{event.key}': a time series that the first look did not meet, or without a date; not read")))
     yield from table.flush()
+    yield from reader.end()
     yield from losses.rest(path.name)
 
 
@@ -119,7 +114,7 @@ def _lines(path: Path, encoding: str) -> Iterator[tuple[int, str]]:
         lines = text.split("\n")
         tail = lines.pop()
         yield from enumerate(lines, chunk.line)
-        if chunk.last and tail.strip("\0 \r"):
+        if tail.strip("\0 \r"):
             yield -1, tail
 
 
@@ -130,6 +125,8 @@ class _Some:
         self.count: dict[str, int] = {}
 
     def some(self, key: str, loss: Loss) -> Iterator[Loss]:
+        if key not in self.count and len(self.count) > 50 * _NAMED:
+            key = ""                                     # names of any number are no reason for any number of losses
         self.count[key] = self.count.get(key, 0) + 1
         most = 1 if "first look" in loss.reason else _NAMED
         if self.count[key] <= most:

@@ -39,7 +39,8 @@ _STRPTIME = {
 
 @dataclass(frozen=True, slots=True)
 class TimeFormat:
-    """How the cells of one time column read. role: datetime, date, time, millisecond, or relative (numbers)."""
+    """How the cells of one time column read. role: datetime, date, time, millisecond, offset (milliseconds since a start), or relative
+    (numbers)."""
 
     role: str
     pattern: re.Pattern[str] | None
@@ -52,6 +53,8 @@ def _compile(body: str) -> re.Pattern[str]:
 
 
 TIME_OF_DAY = TimeFormat("time", _compile(_TIME + _ZONE), "HH:MM:SS")
+OFFSET_MS = TimeFormat("offset", _compile(r"(?P<oms>\d{1,12})(?:\.(?P<of>\d{1,6})\d*|\.)?"),
+                       "milliseconds")
 MILLISECOND = TimeFormat("millisecond", _compile(r"(?P<ms>\d{1,3})"), "0...999")
 DATE = {o: TimeFormat("date", _compile(p), {"ymd": "YYYY-MM-DD", "dmy": "DD.MM.YYYY", "mdy": "MM/DD/YYYY"}[o])
         for o, p in _DATES.items()}
@@ -127,6 +130,8 @@ def parse_one(cell: str, form: TimeFormat) -> int:
     g = match.groupdict()
     if g.get("ms") is not None:
         return int(g["ms"]) * 1_000_000
+    if g.get("oms") is not None:
+        return int(g["oms"]) * 1_000_000 + int((g["of"] or "0").ljust(6, "0"))
     total = 0
     if g.get("m") is not None:
         year = int(g["Y"]) if g.get("Y") else int(g["y"]) + (2000 if int(g["y"]) < 80 else 1900)
@@ -156,7 +161,7 @@ def _read_matrix(matrix: npt.NDArray[np.uint8], match: re.Match[str]) -> tuple[I
     good = np.ones(len(matrix), bool)
     literal = set(range(matrix.shape[1]))
     for name, text in match.groupdict().items():
-        if text is None or name in "spz":
+        if text is None or name in ("s", "p", "z"):
             continue
         start, stop = match.span(name)
         literal -= set(range(start, stop))
@@ -165,7 +170,7 @@ def _read_matrix(matrix: npt.NDArray[np.uint8], match: re.Match[str]) -> tuple[I
             digit = matrix[:, place] - np.uint8(48)
             good &= digit < 10
             value = value * 10 + digit
-        fields[name] = value * 10 ** (9 - (stop - start)) if name == "f" else value
+        fields[name] = value * 10 ** ({"f": 9, "of": 6}[name] - (stop - start)) if name in ("f", "of") else value
     for place in literal:
         good &= matrix[:, place] == matrix[0, place]
     ns = _assemble(fields, match)
@@ -176,6 +181,8 @@ def _assemble(fields: dict[str, npt.NDArray[np.int64]], match: re.Match[str]) ->
     groups = match.groupdict()
     if "ms" in fields:
         return fields["ms"] * 1_000_000
+    if "oms" in fields:
+        return fields["oms"] * 1_000_000 + fields.get("of", np.zeros_like(fields["oms"]))
     size = next(iter(fields.values())).shape
     total, bad = np.zeros(size, np.int64), np.zeros(size, bool)
     if "m" in fields:

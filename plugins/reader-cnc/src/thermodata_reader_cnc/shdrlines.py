@@ -1,0 +1,135 @@
+"""Lines of SHDR as events, with the special forms of the MTConnect agent's adapter protocol.
+
+`time|item|value|item|value...`; `time@duration|...`; conditions `time|item|level|code|severity|qualifier|text`;
+messages `time|item|code|text`; time series `time|item|count|rate|values`; `@ASSET@` lines, also of several lines;
+commands `* ...`.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from thermodata.plugin import Loss
+from thermodata.reader.zone import NAT
+from thermodata.schema.flag import Flag
+from thermodata_reader_cnc import when
+from thermodata_reader_cnc.events import GONE, Event
+
+LEVELS = frozenset({"NORMAL", "WARNING", "FAULT", GONE})
+_FIELD = re.compile(r'"((?:\\.|[^"\\])*)"(?=\||$)|([^|]*)')
+_NAME = re.compile(r"^[^\W\d][\w.:\- ]*$")
+_OFFSET = re.compile(r"^\d+(?:\.\d*)?$")
+_UNDATED = int(Flag.CLOCK_SUSPECT)
+
+
+@dataclass(frozen=True, slots=True)
+class Series:
+    """Values of one item at a fixed rate; the time stamp is that of the last."""
+
+    time: str
+    key: str
+    rate_hz: float | None
+    values: str
+    at: str
+
+
+def is_time(text: str) -> bool:
+    """Whether a first field is a date and time, with or without a duration."""
+    return when.parse_one(text.partition("@")[0], when.DATETIME["ymd"]) != NAT
+
+
+def is_offset(text: str) -> bool:
+    """Whether a first field is a time relative to the adapter's start (a number of milliseconds)."""
+    return _OFFSET.match(text.partition("@")[0]) is not None
+
+
+def fields(text: str) -> list[str]:
+    """The fields of a line; one in quotes may hold pipes (escaped)."""
+    if '"' not in text and "\\" not in text:
+        return text.split("|")
+    found, at = [], 0
+    while at <= len(text):
+        match = _FIELD.match(text, at)
+        assert match is not None                     # the second form matches anything, nothing too
+        found.append(match[1].replace("\\|", "|").replace('\\"', '"') if match[1] is not None else match[2])
+        at = match.end() + 1
+    return found
+
+
+def looks_like_items(parts: list[str]) -> bool:
+    """Whether the fields behind a time are pairs of an item's name and a value."""
+    return len(parts) >= 3 and all(_NAME.match(name) or name.startswith("@") for name in parts[1::2][:2])
+
+
+class Lines:
+    """Lines to events, in order. Commands, comments and assets are no data. A line without a time takes that of the
+    line before it, flagged."""
+
+    def __init__(self, name: str) -> None:
+        self.name = name
+        self.until: str | None = None
+        self.opened = 0
+        self.time = ""
+
+    def events(self, line: str, number: int) -> Iterator[Event | Series | Loss]:
+        """The events of a line. number: 0-based in the file."""
+        if self.until is not None:
+            if line.strip() == self.until:
+                self.until = None
+            return
+        text = line.rstrip("\r")
+        at = f"{self.name} line {number + 1}"
+        if not text.strip() or text.startswith("*"):
+            if "\0" in text:
+                yield Loss(at, reason=f"{text.count(chr(0))} NUL bytes")
+            return
+        parts = fields(text)
+        flag = 0
+        if len(parts) < 2 or (parts[0].strip() and not is_time(parts[0]) and not is_offset(parts[0])):
+            yield Loss(at, reason=f"expected time|item|value, got '{text[:80]}'")
+            return
+        time = parts[0].partition("@")[0].strip()
+        if not time:
+            if not self.time:
+                yield Loss(at, reason=f"no time, and none before it: '{text[:80]}'")
+                return
+            time, flag = self.time, _UNDATED
+        self.time = time
+        if parts[1].startswith("@"):
+            if parts[-1].startswith("--multiline--"):
+                self.until, self.opened = parts[-1].strip(), number
+            return
+        yield from self._values(time, parts, flag, at, text)
+
+    def _values(self, time: str, parts: list[str], flag: int, at: str, text: str) -> Iterator[Event | Series | Loss]:
+        key, count = parts[1], len(parts)
+        if count in (6, 7) and parts[2].upper() in LEVELS:
+            yield Event(time, key, parts[2].upper(), at, flag)
+            if (said := "; ".join(p.strip() for p in parts[3:] if p.strip())) or parts[2].upper() == "NORMAL":
+                yield Event(time, f"{key}[message]", said or GONE, at, flag)
+            return
+        if count == 5 and parts[2].isdigit() and len(words := parts[4].split()) == int(parts[2][:9]) and words:
+            rate = float(parts[3]) if _OFFSET.match(parts[3]) else None
+            if rate is not None or not parts[3].strip():
+                yield Series(time, key, rate or None, parts[4], at)
+                return
+        if count == 4:                                      # a message: item, native code, text
+            yield Event(time, key, parts[3], at, flag)
+            if parts[2].strip():
+                yield Event(time, f"{key}[code]", parts[2], at, flag)
+            return
+        if count % 2 == 0:
+            yield Loss(at, reason=f"expected pairs of item and value, got '{text[:80]}'")
+        for name, value in zip(parts[1::2], parts[2::2], strict=False):
+            if name:
+                yield Event(time, name, value, at, flag)
+            elif value:
+                yield Loss(at, reason=f"a value without an item: '{value[:40]}'")
+
+    def end(self) -> Iterator[Loss]:
+        """What is missing at the end of the log."""
+        if self.until is not None:
+            yield Loss(f"{self.name} line {self.opened + 1}",
+                       reason=f"an asset without its end ({self.until}): what follows it is not read")
