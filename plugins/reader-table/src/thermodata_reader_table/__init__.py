@@ -1,4 +1,4 @@
-"""Reader of tables: CSV and other delimited text, XLSX and Parquet, with a layout that is declared or found."""
+"""Reader of tables: delimited text, XLSX, Parquet, MAT and MDF, with a layout that is declared or found."""
 
 from __future__ import annotations
 
@@ -21,6 +21,8 @@ class Reader:
         if head.start[:4] == b"PK\x03\x04":
             workbook = b"xl/" in head.start or b"[Content_Types]" in head.start
             return "XLSX: a ZIP file that holds a workbook" if workbook else None
+        if head.start[:8] in (b"MDF     ", b"UnFinMF "):
+            return f"MDF: version {head.start[8:12].decode('ascii', 'replace').strip()} in its first bytes"
         if head.start[:10] == b"MATLAB 7.3" and mat_is_hdf5(head.start):
             return "MAT 7.3: HDF5 behind a header of MATLAB's"
         if head.start[126:128] in (b"IM", b"MI") and head.start[124:126] in (b"\x00\x01", b"\x01\x00"):
@@ -85,6 +87,10 @@ def _format(path: Path) -> ModuleType:
         from thermodata_reader_table import workbook
 
         return workbook
+    if start[:8] in (b"MDF     ", b"UnFinMF "):
+        from thermodata_reader_table import mdf
+
+        return mdf
     if start[:6] == b"MATLAB" or start[126:128] in (b"IM", b"MI") or mat_is_hdf5(start):
         from thermodata_reader_table import mat
 
