@@ -90,13 +90,46 @@ def test_interleaved_rows_are_cut_whole(tmp_path: Path, tdms) -> None:  # type: 
     np.testing.assert_array_equal(data.values["G", "G/b"], [1, 3, 5])
 
 
-def test_a_foreign_lead_in_ends_the_good_part(tmp_path: Path, tdms) -> None:  # type: ignore[no-untyped-def]
+def test_after_a_destroyed_segment_reading_goes_on_at_the_next_with_times_in_their_place(tmp_path: Path, tdms) -> None:  # type: ignore[no-untyped-def]
     segments = parts(tdms)
     data = read(tmp_path, segments[0] + b"\0" * len(segments[1]) + segments[2])
-    assert data.t_ns["G"].size == ROWS
+    np.testing.assert_array_equal(data.values["G", "G/a"], [*range(ROWS), *range(2 * ROWS, 3 * ROWS)])
+    np.testing.assert_array_equal((data.t_ns["G"] - START) // S, [*range(ROWS), *range(2 * ROWS, 3 * ROWS)])
     (loss,) = data.losses
     assert "no lead-in" in loss.reason
-    assert loss.fraction == pytest.approx(2 / 3)
+    assert loss.fraction == pytest.approx(1 / 3)
+    assert (loss.from_ns, loss.to_ns) == (START + 9 * S, START + 20 * S)
+    assert data.recording.complete is False
+
+
+def test_times_behind_a_hole_of_unknown_length_are_in_doubt(tmp_path: Path, tdms) -> None:  # type: ignore[no-untyped-def]
+    segments = parts(tdms)
+    data = read(tmp_path, segments[0] + b"\0" * 77 + segments[2])
+    assert data.t_ns["G"].size == 2 * ROWS
+    assert (data.flags["G", "G/b"] == [0] * ROWS + [Flag.CLOCK_SUSPECT] * ROWS).all()
+    assert "in doubt" in data.losses[0].reason
+
+
+def test_a_segment_that_reuses_a_lost_list_of_objects_is_not_read(tmp_path: Path, tdms) -> None:  # type: ignore[no-untyped-def]
+    first = tdms.segment([tdms.channel("G", "a", "float64", 4, tdms.wave(step=1.0))], bytes(32))
+    other = tdms.segment([tdms.channel("G", "b", "float64", 7, tdms.wave(step=1.0))], bytes(56))
+    reuse = tdms.segment(None, np.ones(7).tobytes())
+    alone = tdms.segment([tdms.channel("G", "a", "float64", 4)], np.full(4, 2.0).tobytes())
+    data = read(tmp_path, first + b"XXXX" + other[4:] + reuse + alone)
+    np.testing.assert_array_equal(data.values["G", "G/a"], [0] * 4 + [2] * 4)
+    assert "G/b" not in {name for _, name in data.values}
+    assert "reuse a list of objects that was lost" in data.losses[0].reason
+
+
+@pytest.mark.parametrize("wrong", [8, 2**63, "unknown"])
+def test_a_wrong_length_does_not_pass_the_next_segment_for_data(tmp_path: Path, tdms, wrong: int | str) -> None:  # type: ignore[no-untyped-def]
+    segments = parts(tdms)
+    length = tdms.UNKNOWN_END if wrong == "unknown" else len(segments[1]) - 28 + int(wrong)
+    damaged = bytearray(segments[1])
+    damaged[12:20] = tdms.pack("Q", length)
+    data = read(tmp_path, segments[0] + bytes(damaged) + segments[2])
+    np.testing.assert_array_equal(data.values["G", "G/b"], -np.arange(3 * ROWS))
+    assert any("length is wrong" in note for note in data.recording.notes)
 
 
 @pytest.mark.parametrize("keep", [0, 4, 20, 28, 60])

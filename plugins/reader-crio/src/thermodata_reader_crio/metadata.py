@@ -4,23 +4,17 @@ from __future__ import annotations
 
 import struct
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
-MOST = 1 << 48      # values or bytes a chunk; more is damage, and would overflow
+from thermodata_reader_crio.layout import DAQMX_NUMPY, MOST, NUMPY, STRING, TIMESTAMP, DamageError, RawIndex, Scaler
+
 NO_DATA, SAME_DATA = 0xFFFFFFFF, 0
-FORMAT_CHANGING, DIGITAL_LINE = 0x1269, 0x126A
-CLOCK = ("wf_start_time", "wf_start_offset", "wf_increment")
-STRING, BOOL, TIMESTAMP, DAQMX = 0x20, 0x21, 0x44, 0xFFFFFFFF
-
-# TDMS type -> numpy's name; a timestamp is 16 bytes (fraction of 2^-64 s, seconds since 1904)
-NUMPY = {1: "i1", 2: "i2", 3: "i4", 4: "i8", 5: "u1", 6: "u2", 7: "u4", 8: "u8", 9: "f4", 10: "f8",
-         0x19: "f4", 0x1A: "f8", BOOL: "u1", TIMESTAMP: "V16", 0x08000C: "c8", 0x10000D: "c16"}
-DAQMX_NUMPY = {0: "u1", 1: "i1", 2: "u2", 3: "i2", 4: "u4", 5: "i4", 6: "u8", 7: "i8", 8: "f4", 9: "f8"}
-_SIZE = {key: int(name[1:]) for key, name in NUMPY.items()}
-
-
-class DamageError(Exception):
-    """What makes the rest of the file unreadable."""
+# the documentation names the second one 0x1369; files hold 0x126A
+FORMAT_CHANGING, DIGITAL_LINES = 0x1269, (0x126A, 0x1369)
+_VOID, _BOOL = 0, 0x21
+_UNSIZED = {0x0B: "extended floating point numbers", 0x1B: "extended floating point numbers with unit",
+            0x4F: "fixed-point numbers"}
+_CODES = {1: "b", 2: "h", 3: "i", 4: "q", 5: "B", 6: "H", 7: "I", 8: "Q", 9: "f", 10: "d", 0x19: "f", 0x1A: "d"}
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,54 +35,35 @@ class Timestamp:
         return f"{np.datetime64(self.ns, 'ns')}Z" if -(2**63) < self.ns < 2**63 else f"{self.seconds} s since 1904"
 
 
-@dataclass(frozen=True, slots=True)
-class Scaler:
-    """A column of a DAQmx buffer: bit is set for a digital line."""
+class Object(NamedTuple):
+    """One object of a segment's list. held: its values in a chunk; None: none here; SAME: as before."""
 
-    scale_id: int
-    dtype: str
-    buffer: int
-    offset: int
-    bit: int | None
+    path: str
+    held: RawIndex | int | None
+    properties: list[tuple[str, Any]]
 
 
-@dataclass(frozen=True, slots=True)
-class RawIndex:
-    """How one channel lies in one chunk: n values of a type (nbytes in all), or DAQmx scalers."""
-
-    type: int
-    n: int
-    nbytes: int
-    scalers: tuple[Scaler, ...] = ()
-    widths: tuple[int, ...] = ()
+SAME = SAME_DATA
 
 
-@dataclass(frozen=True, slots=True)
-class Layout:
-    """What a chunk holds: (object path, its index) in order."""
-
-    objects: tuple[tuple[str, RawIndex], ...]
-    interleaved: bool
-    big_endian: bool
-
-    def buffers(self) -> list[tuple[int, int]]:
-        """DAQmx: (values, width in bytes) of each raw buffer."""
-        widths = self.objects[0][1].widths
-        rows = [0] * len(widths)
-        for _, index in self.objects:
-            for scaler in index.scalers:
-                rows[scaler.buffer] = max(rows[scaler.buffer], index.n)
-        return list(zip(rows, widths, strict=True))
-
-    @property
-    def daqmx(self) -> bool:
-        return bool(self.objects) and bool(self.objects[0][1].scalers)
-
-    @property
-    def chunk_bytes(self) -> int:
-        if self.daqmx:
-            return sum(n * width for n, width in self.buffers())
-        return sum(index.nbytes for _, index in self.objects)
+def parse(data: bytes, order: str) -> tuple[list[Object], int]:
+    """The objects of a metadata block, and how many of its bytes they take. order: '<' or '>'."""
+    read = Cursor(data, order)
+    found = []
+    for _ in range(read.u32()):
+        path = read.text()
+        header = read.u32()
+        held: RawIndex | int | None
+        if header == NO_DATA:
+            held = None
+        elif header == SAME_DATA:
+            held = SAME
+        elif header == FORMAT_CHANGING or header in DIGITAL_LINES:
+            held = read.daqmx(header)
+        else:
+            held = read.raw_index(path)
+        found.append(Object(path, held, [read.property() for _ in range(read.u32())]))
+    return found, read.at
 
 
 class Cursor:
@@ -96,6 +71,8 @@ class Cursor:
 
     def __init__(self, data: bytes, order: str) -> None:
         self.data, self.order, self.at = data, order, 0
+        self._u32 = struct.Struct(order + "I").unpack_from
+        self._index = struct.Struct(order + "IIQ").unpack_from
 
     def take(self, n: int) -> bytes:
         if n > len(self.data) - self.at:
@@ -107,7 +84,11 @@ class Cursor:
         return struct.unpack(self.order + code, self.take(struct.calcsize(code)))[0]
 
     def u32(self) -> int:
-        return int(self.number("I"))
+        at = self.at
+        if at + 4 > len(self.data):
+            self.take(4)
+        self.at = at + 4
+        return int(self._u32(self.data, at)[0])
 
     def text(self) -> str:
         raw = self.take(self.u32())
@@ -116,42 +97,51 @@ class Cursor:
         except UnicodeDecodeError:
             return raw.decode("cp1252", "backslashreplace")  # older LabVIEW wrote the system's code page
 
-    def timestamp(self) -> tuple[int, int]:
+    def timestamp(self) -> Timestamp:
         if self.order == "<":
             fraction, seconds = struct.unpack("<Qq", self.take(16))
         else:
             seconds, fraction = struct.unpack(">qQ", self.take(16))
-        return seconds, fraction
+        return Timestamp(seconds, fraction)
 
     def property(self) -> tuple[str, Any]:
         name, kind = self.text(), self.u32()
         if kind == STRING:
             return name, self.text()
+        if kind in _CODES:
+            return name, self.number(_CODES[kind])
         if kind == TIMESTAMP:
-            return name, Timestamp(*self.timestamp())
-        if kind == BOOL:
+            return name, self.timestamp()
+        if kind == _BOOL:
             return name, bool(self.number("B"))
-        codes = {1: "b", 2: "h", 3: "i", 4: "q", 5: "B", 6: "H", 7: "I", 8: "Q", 9: "f", 10: "d", 0x19: "f", 0x1A: "d"}
-        if kind in codes:
-            return name, self.number(codes[kind])
-        if kind in _SIZE:
-            return name, self.take(_SIZE[kind]).hex()
-        raise DamageError(f"property '{name}' has the unknown type 0x{kind:X}")
+        if kind in NUMPY:
+            return name, self.take(int(NUMPY[kind][1:])).hex()
+        if kind == _VOID:
+            return name, ""
+        raise DamageError(f"property '{name[:80]}' has the unknown type 0x{kind:X}")
 
-    def raw_index(self, header: int) -> RawIndex:
-        if header not in (20, 28):
-            raise DamageError(f"a raw data index of length {header}")
-        kind, dimension, n = self.u32(), self.u32(), int(self.number("Q"))
+    def raw_index(self, path: str) -> RawIndex:
+        if self.at + 16 > len(self.data):
+            self.take(16)
+        kind, dimension, n = self._index(self.data, self.at)
+        self.at += 16
         if dimension != 1:
-            raise DamageError(f"a raw data index of dimension {dimension}")
+            raise DamageError(f"{path[:80]} has a raw data index of dimension {dimension}")
         nbytes = int(self.number("Q")) if kind == STRING else 0
         if max(n, nbytes) > MOST:
-            raise DamageError(f"a chunk of {n} values")
+            raise DamageError(f"{path[:80]} declares a chunk of {max(n, nbytes)} values")
         if kind == STRING:
+            if 4 * n > nbytes:
+                raise DamageError(f"{path[:80]} declares {n} texts in {nbytes} bytes")
             return RawIndex(kind, n, nbytes)
-        if kind not in _SIZE:
-            raise DamageError(f"the unknown data type 0x{kind:X}")
-        return RawIndex(kind, n, n * _SIZE[kind])
+        if kind in NUMPY:
+            return RawIndex(kind, n, n * int(NUMPY[kind][1:]))
+        if n == 0 and (kind == _VOID or kind in _UNSIZED):
+            return RawIndex(5, 0, 0)
+        if kind in _UNSIZED:
+            raise DamageError(f"{path[:80]} holds {_UNSIZED[kind]} (type 0x{kind:X}), whose size the format leaves to "
+                              "the computer that wrote them: convert them to DBL in LabVIEW")
+        raise DamageError(f"{path[:80]} has the unknown data type 0x{kind:X}")
 
     def daqmx(self, header: int) -> RawIndex:
         kind, dimension, n, count = self.u32(), self.u32(), int(self.number("Q")), self.u32()
@@ -169,24 +159,6 @@ class Cursor:
         widths = tuple(self.u32() for _ in range(self.u32()))
         if not scalers or n > MOST:
             raise DamageError("a DAQmx index without a scaler" if not scalers else f"a chunk of {n} values")
+        if len({s.scale_id for s in scalers}) < len(scalers):
+            raise DamageError("a DAQmx index with the same scaler twice")
         return RawIndex(kind, n, 0, tuple(scalers), widths)
-
-
-def check(layout: Layout) -> None:
-    if layout.objects and layout.chunk_bytes >= 1 << 62:
-        raise DamageError("a chunk of impossible size")
-    mixed = {bool(index.scalers) for _, index in layout.objects}
-    if len(mixed) > 1:
-        raise DamageError("DAQmx and plain channels in one segment")
-    if layout.daqmx:
-        if len({index.widths for _, index in layout.objects}) > 1:
-            raise DamageError("DAQmx channels with different buffers in one segment")
-        for path, index in layout.objects:
-            for scaler in index.scalers:
-                if scaler.buffer >= len(index.widths) or \
-                        scaler.offset + int(scaler.dtype[1:]) > index.widths[scaler.buffer]:
-                    raise DamageError(f"{path} lies outside its DAQmx buffer")
-    elif layout.interleaved and (
-        len({index.n for _, index in layout.objects}) > 1 or any(i.type == STRING for _, i in layout.objects)
-    ):
-        raise DamageError("interleaved channels of different lengths, or of text")

@@ -2,64 +2,39 @@
 
 from __future__ import annotations
 
-import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
+from typing import Any, BinaryIO
 
 import numpy as np
 
 from thermodata.errors import FormatError
-from thermodata.plugin import Array, Int1D, Scaling, Signal, Source
-from thermodata.reader.text import split_unit
-from thermodata_reader_crio.clock import Waveform, waveform
-from thermodata_reader_crio.columns import Column, columns
-from thermodata_reader_crio.index import Index, walk
-from thermodata_reader_crio.metadata import CLOCK, TIMESTAMP, Layout
+from thermodata.plugin import Array, Bool1D, Int1D, Source
+from thermodata_reader_crio.axis import Axis, axis, is_time
+from thermodata_reader_crio.channels import Channel, channels
+from thermodata_reader_crio.clock import Clock
+from thermodata_reader_crio.columns import columns
+from thermodata_reader_crio.index import Index
+from thermodata_reader_crio.pieces import counted_clock
+from thermodata_reader_crio.walk import walk
 
-KNOWN_SCALES = ("Linear", "Polynomial", "RTD", "Strain", "Table", "Thermistor", "Thermocouple", "Add", "Subtract",
-                "AdvancedAPI")
-_SCALE_TYPE = re.compile(r"^NI_Scale\[(\d+)\]_Scale_Type$")
-_PATH = re.compile(r"'((?:[^']|'')*)'")
-# "t" is a time, "T" a temperature
-_TIME_NAME = re.compile(r"^(t|(?i:time|zeit|čas|cas|timestamp|elapsed( time)?|x_?value))$")
-_SECONDS = {"s": 1.0, "sec": 1.0, "seconds": 1.0, "min": 60.0, "h": 3600.0, "ms": 1e-3, "us": 1e-6, "µs": 1e-6}
 _SAME_SCAN_NS = 1_000_000   # channels of one scan may start up to this apart (a multiplexed converter)
 
 
-@dataclass(frozen=True)
-class Channel:
-    """One signal: its columns (several: a DAQmx channel whose scaling joins several raw numbers)."""
-
-    signal: Signal
-    group: str
-    columns: tuple[Column, ...]
-    pieces: tuple[tuple[int, Waveform], ...]   # (first sample, clock from there on)
-    joined_by: Scaling | None = None
-
-    @property
-    def length(self) -> int:
-        return min(c.length for c in self.columns)
-
-    @property
-    def planned(self) -> int:
-        return max(c.planned for c in self.columns)
-
-
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Stream:
-    """Signals that share rows. time: the channel that holds the time, where no waveform does; seconds: what one
-    unit of it is, None for TDMS timestamps."""
+    """Signals that share rows. Their time is a clock, or a channel that holds it."""
 
     name: str
     channels: tuple[Channel, ...]
-    time: Channel | None
-    seconds: float | None = None
+    clock: Clock | None
+    axis: Axis | None
 
     @property
     def rows(self) -> int:
-        return max(c.length for c in self.channels)
+        longest = max(c.length for c in self.channels)
+        return longest if self.axis is None else min(longest, self.axis.channel.length)
 
     @property
     def planned(self) -> int:
@@ -67,25 +42,15 @@ class Stream:
 
     @property
     def absolute(self) -> bool:
-        if self.time is not None:
-            return self.seconds is None
-        return bool(self.channels[0].pieces) and self.channels[0].pieces[0][1].start_ns is not None
+        return self.axis.absolute if self.axis is not None else self.clock is not None and self.clock.absolute
 
-    def times(self, first: int, last: int, read: Array | None = None) -> Int1D:
-        """Times of rows [first, last); read: the time channel's values of these rows."""
-        if self.time is not None:
+    def times(self, first: int, last: int, read: Array | None = None) -> tuple[Int1D, Bool1D | None]:
+        """(times of rows [first, last), which of them have one: None for all). read: the time channel's values."""
+        if self.axis is not None:
             assert read is not None
-            if self.seconds is None:
-                return read.astype(np.int64)
-            return np.rint(read.astype(np.float64) * (self.seconds * 1e9)).astype(np.int64)
-        pieces = self.channels[0].pieces
-        found = []
-        for i, (start, clock) in enumerate(pieces):
-            stop = pieces[i + 1][0] if i + 1 < len(pieces) else last
-            a, b = max(first, start), min(last, stop)
-            if a < b:
-                found.append(clock.times(a - start, b - start))
-        return np.concatenate(found) if found else np.zeros(0, np.int64)
+            return self.axis.times(read)
+        assert self.clock is not None
+        return self.clock.times(first, last), None
 
 
 @dataclass(frozen=True)
@@ -93,116 +58,102 @@ class File:
     index: Index
     streams: tuple[Stream, ...]
     notes: tuple[str, ...]
-
-
-def names(path: str) -> tuple[str, ...]:
-    """`/'Eddy'/'Z'` -> ('Eddy', 'Z')."""
-    return tuple(part.replace("''", "'") for part in _PATH.findall(path))
-
-
-def scaling(layers: Sequence[Mapping[str, Any]], where: str) -> Scaling | None:
-    """The NI scaling that a channel, its group or the file declares. FormatError for a scale of a type that
-    nobody here knows: volts must not pass for micrometres."""
-    for properties in layers:
-        scales = {m[1]: v for k, v in properties.items() if (m := _SCALE_TYPE.match(k))}
-        if not scales or properties.get("NI_Number_Of_Scales", 1) == 0:
-            continue
-        # "scaled": the numbers were written with the scaling already applied
-        if properties.get("NI_Scaling_Status", "unscaled") == "scaled":
-            return None
-        for number, kind in scales.items():
-            if kind not in KNOWN_SCALES:
-                raise FormatError(f"NI scale {number} has the unknown type '{kind}'", where=where,
-                                  expected=", ".join(KNOWN_SCALES), got=str(kind),
-                                  hint=f"options: {{unscaled: ['{where.split(' ', 1)[-1]}']}} takes the raw numbers")
-        found = {k: v for k, v in properties.items() if k.startswith("NI_Scal") or k == "NI_Number_Of_Scales"}
-        return Scaling("ni", found)
-    return None
+    partly: tuple[str, ...]      # what was left out of channels, as sentences
 
 
 def open_file(path: Path, source: Source) -> File:
-    """Index, streams and notes of a TDMS file; reads no bulk (but the text of none, the start of time channels)."""
+    """Index, streams and notes of a TDMS file; reads no bulk (but the start of channels that hold a time)."""
     index = walk(path)
-    try:
-        cols = columns(index)
-    except ValueError as error:
-        raise FormatError("a channel changes its type within the file", where=path.name, got=str(error)) from None
-    notes: list[str] = []
-    unscaled = set(source.options.get("unscaled", ()))
-    types = _types(index.layouts)
-    groups: dict[str, list[Channel]] = {}
-    for object_path, found in cols.items():
-        parts = names(object_path)
-        if len(parts) != 2:
+    cols, partly = columns(index)
+    notes = list(index.notes)
+    groups = channels(index, cols, path.name, set(source.options.get("unscaled", ())), notes)
+    taken: set[str] = set()
+    found: list[Stream] = []
+    with path.open("rb") as file:
+        for group, members in groups.items():
+            found += _streams(group, members, index, source, notes, taken, file)
+    if not found:
+        raise FormatError("a TDMS file without values", where=path.name, expected="channels with raw data",
+                          got=f"{index.segments} segments, {len(index.properties)} objects",
+                          hint=index.damage)
+    return File(index, tuple(found), tuple(notes), tuple(partly))
+
+
+def _streams(group: str, members: list[Channel], index: Index, source: Source, notes: list[str], taken: set[str],
+             file: BinaryIO) -> Iterable[Stream]:
+    filled = [c for c in members if c.planned or c.length]
+    notes.extend(f"{c.signal.name} holds no values" for c in members if not (c.planned or c.length))
+    clocks = [c for c in filled if c.clock is None and is_time(c, source)]
+    apart = set(map(id, clocks))
+    late = min((int(c.columns[0].runs.piece[0]) for c in filled if c.length), default=0)
+    used: set[int] = set()
+    step = _seconds(source.options.get("increment"))
+    for part in _parts([c for c in filled if id(c) not in apart], index):
+        time = None if part[0].clock is not None else next((c for c in clocks if _same_rows(c, part[0], index)), None)
+        name = _name(group, taken)
+        own = tuple(replace(c, signal=replace(c.signal, stream=name)) for c in part)
+        if time is not None:
+            used.add(id(time))
+            yield Stream(name, own, None, axis(time, file, notes))
             continue
-        made = _channel(path, index, object_path, found, types[object_path], unscaled, notes)
-        groups.setdefault(parts[0], []).append(made)
-    streams = [s for group, channels in groups.items() for s in _streams(group, channels, index, source, notes)]
-    return File(index, tuple(streams), tuple(notes))
-
-
-def _types(layouts: list[Layout]) -> dict[str, int]:
-    return {path: index.type for layout in layouts for path, index in layout.objects}
-
-
-def _channel(path: Path, index: Index, object_path: str, found: list[Column], kind: int, unscaled: set[str],
-             notes: list[str]) -> Channel:
-    group, name = names(object_path)
-    full = f"{group}/{name}"
-    own = index.properties.get(object_path, {})
-    layers = [own, index.properties.get("/'" + group.replace("'", "''") + "'", {}), index.properties.get("/", {})]
-    unit = own.get("unit_string") or own.get("NI_UnitDescription") or None
-    dtype = {"V16": "int64", "str": "str"}.get(found[0].dtype) or np.dtype(found[0].dtype).name
-    if dtype.startswith("complex"):
-        raise FormatError("a channel of complex numbers", where=f"{path.name} {full}", expected="real numbers",
-                          got=dtype)
-    scale = None if full in unscaled or name in unscaled else \
-        scaling(layers, f"{path.name} {full}")
-    properties = {k: str(v) for k, v in own.items()}
-    if len(found) > 1:
-        if scale is None:
-            raise FormatError("a DAQmx channel of several raw numbers without a scaling that joins them",
-                              where=f"{path.name} {full}")
-        properties["scaled_by_reader"] = f"{len(found)} raw inputs"
-        notes.append(f"{full}: its scaling joins {len(found)} raw numbers (a thermocouple and its cold junction, "
-                     "say), so it is delivered scaled by the file's own formula")
-        dtype = "float64"
-    if kind == TIMESTAMP:
-        properties["kind"] = "timestamp"
-        unit = unit or "ns"
-    joined_by = scale if len(found) > 1 else None
-    signal = Signal(full, group, str(unit) if unit else None, dtype, None if joined_by else scale, properties)
-    return Channel(signal, group, tuple(found), _clock_pieces(index, object_path, own), joined_by)
-
-
-def _clock_pieces(index: Index, object_path: str, own: Mapping[str, Any]) -> tuple[tuple[int, Waveform], ...]:
-    """Clocks by first sample: a start time that is written anew in a later segment starts a new piece there."""
-    if "wf_increment" not in own:
-        return ()
-    state: dict[str, Any] = {}
-    pieces: list[tuple[int, Waveform]] = []
-    for at, changed in index.clock_changes.get(object_path, []):
-        state.update({k: v for k, v in changed.items() if k in CLOCK})
-        clock = waveform(state)
+        clock = part[0].clock
         if clock is None:
-            continue
-        if pieces and pieces[-1][0] == at:
-            pieces.pop()
-        pieces.append((at if pieces else 0, clock))
-    return tuple(pieces)
+            clock = counted_clock(index, part[0].columns[0], step or 1.0)
+            if step is None:
+                notes.append(f"stream '{name}' has no time: its rows are counted as 1 s each; declare "
+                             "options: {increment: 0.1 s}, or {time: CHANNEL}")
+        elif any(not np.array_equal(c.clock.base_ns, clock.base_ns) for c in part if c.clock is not None):
+            notes.append(f"stream '{name}': its channels start up to 1 ms apart (one scan of a multiplexed converter); "
+                         "rows carry the time of the first; each channel's own start stands in its wf_start_time")
+        if part[0].length and int(part[0].columns[0].runs.piece[0]) > late:
+            notes.append(f"stream '{name}' begins after others of its group; its time is what its own properties say")
+        yield Stream(name, own, clock, None)
+    for c in clocks:
+        # a time channel beside waveforms is a signal like any other
+        if id(c) not in used:
+            name = _name(group, taken)
+            yield Stream(name, (replace(c, signal=replace(c.signal, stream=name)),), None, axis(c, file, notes))
+
+
+def _name(group: str, taken: set[str]) -> str:
+    """A stream's name that no other has, in upper or lower case."""
+    base = group or "data"
+    name, number = base, 2
+    while name.casefold() in taken:
+        name, number = f"{base}@{number}", number + 1
+    taken.add(name.casefold())
+    return name
+
+
+def _parts(members: list[Channel], index: Index) -> Iterable[list[Channel]]:
+    """Channels by clock and rows. A file may have 100,000, so each is compared with few others only."""
+    near: dict[Any, list[list[Channel]]] = {}
+    parts: list[list[Channel]] = []
+    for c in members:
+        key, cell = _key(c, index)
+        fit = next((p for at in (cell, cell - 1, cell + 1) for p in near.get((key, at), ())
+                    if _same_clock(p[0], c) and _same_rows(p[0], c, index)), None)
+        if fit is None:
+            parts.append([c])
+            near.setdefault((key, cell), []).append(parts[-1])
+        else:
+            fit.append(c)
+    return parts
+
+
+def _key(c: Channel, index: Index) -> tuple[Any, int]:
+    """(what must be equal, a cell of time in which, or beside which, the others start)."""
+    rows = c.length if index.damage is None and not index.holes else None
+    if c.clock is None:
+        return (None, rows), 0
+    return (c.clock.steps[0], c.clock.row.size, c.clock.absolute, rows), int(c.clock.base_ns[0]) // _SAME_SCAN_NS
 
 
 def _same_clock(a: Channel, b: Channel) -> bool:
     """Equal clocks, but for the shift of a few microseconds between the channels of one scan."""
-    if len(a.pieces) != len(b.pieces):
-        return False
-    for (i, x), (j, y) in zip(a.pieces, b.pieces, strict=True):
-        if i != j or x.step != y.step or (x.start_ns is None) != (y.start_ns is None):
-            return False
-        apart = abs((x.start_ns or 0) + x.offset_ns - (y.start_ns or 0) - y.offset_ns)
-        if apart and apart >= min(_SAME_SCAN_NS, float(x.step) / 2):
-            return False
-    return True
+    if a.clock is None or b.clock is None:
+        return a.clock is b.clock
+    return a.clock.nearly(b.clock, _SAME_SCAN_NS)
 
 
 def _same_rows(a: Channel, b: Channel, index: Index) -> bool:
@@ -211,85 +162,12 @@ def _same_rows(a: Channel, b: Channel, index: Index) -> bool:
         return True
     if index.damage is None:
         return False
-    last_run = max((int(c.n.max()) for ch in (a, b) for c in ch.columns if c.n.size), default=0)
-    return a.planned == b.planned or abs(a.length - b.length) <= last_run
+    return a.planned == b.planned or abs(a.length - b.length) <= max(a.last_run, b.last_run)
 
 
-def _streams(group: str, channels: list[Channel], index: Index, source: Source, notes: list[str]) -> list[Stream]:
-    filled = [c for c in channels if c.planned or c.length]
-    for c in channels:
-        if c not in filled:
-            notes.append(f"{c.signal.name} holds no values")
-    clocks = [c for c in filled if not c.pieces and _is_time(c, source)]
-    parts: list[list[Channel]] = []
-    for c in filled:
-        if c in clocks:
-            continue
-        fit = next((p for p in parts if _same_clock(p[0], c) and _same_rows(p[0], c, index)), None)
-        if fit is None:
-            parts.append([c])
-        else:
-            fit.append(c)
-    found: list[Stream] = []
-    used: set[str] = set()
-    for part in parts:
-        time = None
-        if not part[0].pieces:
-            time = next((c for c in clocks if _same_rows(c, part[0], index)), None)
-        if time is not None:
-            used.add(time.signal.name)
-        name = group if not found else f"{group}@{len(found) + 1}"
-        found.append(_stream(name, part, time, source, notes))
-    # a time channel beside waveforms is a signal like any other
-    for c in clocks:
-        if c.signal.name not in used:
-            name = group if not found else f"{group}@{len(found) + 1}"
-            found.append(_stream(name, [c], c, source, notes))
-    return found
-
-
-def _is_time(channel: Channel, source: Source) -> bool:
-    wanted = source.options.get("time")
-    short = channel.signal.name.split("/", 1)[1]
-    if wanted is not None:
-        return wanted in (channel.signal.name, short)
-    if channel.signal.properties.get("kind") == "timestamp":
-        return True
-    return channel.signal.dtype != "str" and _TIME_NAME.match(split_unit(short)[0]) is not None \
-        and _unit_seconds(channel) is not None
-
-
-def _unit_seconds(channel: Channel) -> float | None:
-    unit = channel.signal.unit or split_unit(channel.signal.name)[1] or "s"
-    return _SECONDS.get(unit.strip().lower())
-
-
-def _stream(name: str, part: list[Channel], time: Channel | None, source: Source, notes: list[str]) -> Stream:
-    renamed = []
-    for c in part:
-        s = c.signal
-        signal = replace(s, stream=name)
-        renamed.append(replace(c, signal=signal))
-    if time is not None:
-        seconds = None if time.signal.properties.get("kind") == "timestamp" else _unit_seconds(time)
-        return Stream(name, tuple(renamed), time, seconds)
-    if not renamed[0].pieces:
-        step = source.options.get("increment")
-        if step is None:
-            notes.append(f"stream '{name}' has no time: its rows are counted as 1 s each; declare "
-                         "options: {increment: 0.1 s}, or {time: CHANNEL}")
-        clock = waveform({"wf_increment": _seconds(step)})
-        assert clock is not None
-        renamed = [replace(c, pieces=((0, clock),)) for c in renamed]
-    elif len({(p[0][1].start_ns, p[0][1].offset_ns) for p in (c.pieces for c in renamed)}) > 1:
-        notes.append(f"stream '{name}': its channels start up to 1 ms apart (one scan of a multiplexed converter); "
-                     "rows carry the time of the first; each channel's own start stands in its wf_start_time")
-    return Stream(name, tuple(renamed), None)
-
-
-def _seconds(step: Any) -> float:
+def _seconds(step: Any) -> float | None:
     if step is None:
-        return 1.0
+        return None
     from thermodata.schema.quantity import value_in
 
     return value_in(step, "s")

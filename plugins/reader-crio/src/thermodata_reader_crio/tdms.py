@@ -10,32 +10,33 @@ import numpy as np
 
 from thermodata.plugin import Array, Block, Loss, Recording, Source
 from thermodata.schema.flag import Flag
-from thermodata_reader_crio.columns import read
-from thermodata_reader_crio.streams import Channel, File, Stream, open_file
+from thermodata_reader_crio.channels import Channel
+from thermodata_reader_crio.columns import TEXT
+from thermodata_reader_crio.gather import read
+from thermodata_reader_crio.losses import losses
+from thermodata_reader_crio.streams import File, Stream, open_file
 
-BLOCK_VALUES = 2_000_000   # values a block, over all its signals: 16 MB
+BLOCK_VALUES = 2_000_000       # values a block, over all its signals: 16 MB, a row group of the store
+_TEXT_BYTES = 16 << 20         # and bytes of text
 
 
 def describe(path: Path, source: Source) -> Recording:
     file = open_file(path, source)
-    notes = list(file.notes)
-    starts: list[int] = []
-    with path.open("rb") as handle:
-        for stream in file.streams:
-            if stream.rows and (stream.absolute or not _any_absolute(file)):
-                starts.append(int(_times(handle, stream, 0, 1)[0]))
+    notes = [*file.notes, *file.partly]
     absolute = _any_absolute(file)
+    starts = [t for s, t in _first_times(path, file) if s.absolute]
     if absolute:
         relative = [s.name for s in file.streams if not s.absolute]
         if relative:
-            notes.append(f"no date in {', '.join(relative)}: counted from the start of the others")
+            shown = ", ".join(relative[:5]) + (f" and {len(relative) - 5} more" if len(relative) > 5 else "")
+            notes.append(f"no date in {shown}: counted from the start of the others")
     if file.index.damage:
         notes.append(file.index.damage)
     return Recording(
         signals=tuple(c.signal for s in file.streams for c in s.channels),
         clock="absolute" if absolute else "relative",
         start_ns=min(starts) if absolute and starts else (0 if absolute else None),
-        complete=file.index.damage is None,
+        complete=file.index.damage is None and not file.index.holes and not file.partly,
         notes=tuple(notes),
     )
 
@@ -44,48 +45,78 @@ def _any_absolute(file: File) -> bool:
     return any(s.absolute for s in file.streams)
 
 
+def _first_times(path: Path, file: File) -> list[tuple[Stream, int]]:
+    """The first time of each stream that has one."""
+    found = []
+    with path.open("rb") as handle:
+        for stream in file.streams:
+            if stream.rows:
+                t, good = _times(handle, stream, 0, 1)
+                found += [(stream, int(t[0]))] if good is None or good[0] else []
+    return found
+
+
 def blocks(path: Path, source: Source) -> Iterator[Block | Loss]:
     file = open_file(path, source)
     absolute = _any_absolute(file)
-    ends: list[int] = []
+    origin = min((t for s, t in _first_times(path, file) if s.absolute), default=0)
+    last_ns: int | None = None
     with path.open("rb") as handle:
-        origin = min((int(_times(handle, s, 0, 1)[0]) for s in file.streams if s.absolute and s.rows), default=0)
         for stream in file.streams:
             shift = origin if absolute and not stream.absolute else 0
-            rows = stream.rows if stream.time is None else min(stream.rows, stream.time.length)
-            size = max(1, int(source.options.get("block_rows", BLOCK_VALUES // (len(stream.channels) + 1))))
-            for first in range(0, rows, size):
-                last = min(rows, first + size)
+            size, timeless = _block_rows(stream, source), 0
+            for first in range(0, stream.rows, size):
+                last = min(stream.rows, first + size)
                 block = _block(handle, stream, first, last, shift)
+                timeless += last - first - block.t_ns.size
                 if block.t_ns.size:
-                    ends.append(int(block.t_ns[-1]))
-                yield block
-    if file.index.damage is not None:
-        yield _loss(file, path, max(ends, default=None))
+                    last_ns = max(int(block.t_ns[-1]), last_ns if last_ns is not None else int(block.t_ns[-1]))
+                    yield block
+            if timeless:
+                yield Loss(f"{path.name} stream '{stream.name}'", fraction=timeless / stream.rows,
+                           reason=f"{timeless} rows whose time channel holds no time")
+    yield from losses(file, path, last_ns)
 
 
-def _times(handle: BinaryIO, stream: Stream, first: int, last: int) -> Array:
-    if stream.time is None:
+def _block_rows(stream: Stream, source: Source) -> int:
+    rows = BLOCK_VALUES // (len(stream.channels) + 1)
+    wide = sum(int(c.stride.max()) // max(1, int(c.n[int(c.stride.argmax())])) + 8
+               for channel in stream.channels for c in channel.columns if c.dtype == TEXT)
+    if wide:
+        rows = min(rows, _TEXT_BYTES // wide)
+    return max(1, int(source.options.get("block_rows", rows)))
+
+
+def _times(handle: BinaryIO, stream: Stream, first: int, last: int):  # type: ignore[no-untyped-def]
+    if stream.axis is None:
         return stream.times(first, last)
-    return stream.times(first, last, read(handle, list(stream.time.columns), first, last)[0])
+    return stream.times(first, last, read(handle, list(stream.axis.channel.columns), first, last)[0])
 
 
 def _block(handle: BinaryIO, stream: Stream, first: int, last: int, shift: int) -> Block:
     wanted = [c for channel in stream.channels for c in channel.columns]
-    extra = list(stream.time.columns) if stream.time is not None else []
+    extra = list(stream.axis.channel.columns) if stream.axis is not None else []
     raw = read(handle, wanted + extra, first, last)
-    t_ns = stream.times(first, last, raw[-1] if extra else None) + shift
+    t_ns, good = stream.times(first, last, raw[-1] if extra else None)
+    if shift:
+        t_ns = t_ns + shift
+    suspect = stream.clock.suspects(first, last) if stream.clock is not None else None
     values: dict[str, Array] = {}
     flags: dict[str, Array] = {}
     at = 0
     for channel in stream.channels:
         parts = raw[at:at + len(channel.columns)]
         at += len(channel.columns)
-        value = _joined(channel, parts)
-        if value.size < last - first:
-            value, flag = _padded(value, last - first)
-            flags[channel.signal.name] = flag
+        value, flag = _whole(_joined(channel, parts), last - first)
+        if suspect is not None:
+            flag = suspect * np.uint16(Flag.CLOCK_SUSPECT) | (0 if flag is None else flag)
         values[channel.signal.name] = value
+        if flag is not None:
+            flags[channel.signal.name] = flag
+    if good is not None and not good.all():
+        t_ns = t_ns[good]
+        values = {k: v[good] for k, v in values.items()}
+        flags = {k: v[good] for k, v in flags.items()}
     return Block(stream.name, t_ns, values, flags or None)
 
 
@@ -96,27 +127,22 @@ def _joined(channel: Channel, parts: list[Array]) -> Array:
     from thermodata.calibration.scaling import apply_scaling
 
     n = min(p.size for p in parts)
-    raw = {int(c.scale_id or 0): p[:n] for c, p in zip(channel.columns, parts, strict=True)}
+    raw = {int(c.part or 0): p[:n] for c, p in zip(channel.columns, parts, strict=True)}
     return apply_scaling(channel.joined_by, raw, channel=channel.signal.name)
 
 
-def _padded(value: Array, n: int) -> tuple[Array, Array]:
+def _whole(value: Array, n: int) -> tuple[Array, Array | None]:
     """A channel that a cut file ends before its neighbours: NaN, zero or empty text, flagged as not measuring, so
-    that the neighbours keep their rows."""
-    fill = {"f": np.nan, "O": ""}.get(value.dtype.kind, 0)
-    flag = np.zeros(n, np.uint16)
-    flag[value.size:] = Flag.NOT_MEASURING
-    return np.concatenate([value, np.full(n - value.size, fill, value.dtype)]), flag
-
-
-def _loss(file: File, path: Path, last_ns: int | None) -> Loss:
-    """What the end of the file took with it, as far as the file still says."""
-    index = file.index
-    missing = (index.expected_end or index.size) - index.good_end
-    planned = [int(s.times(s.planned - 1, s.planned)[0]) for s in file.streams
-               if s.time is None and s.planned > s.rows]
-    to_ns = max(planned, default=None)
-    if to_ns is not None and last_ns is not None and to_ns < last_ns:
-        to_ns = None
-    fraction = missing / (index.good_end + missing) if missing else None
-    return Loss(f"{path.name} byte {index.good_end}", last_ns, to_ns, fraction, (index.damage or "").split(": ", 1)[-1])
+    that the neighbours keep their rows; and text that the file's own offsets do not give, flagged alike."""
+    flag = None
+    if value.dtype.kind == "O":
+        absent = np.array([v is None for v in value.tolist()], bool)
+        if absent.any():
+            value = np.where(absent, "", value)
+            flag = absent * np.uint16(Flag.NOT_MEASURING)
+    if value.size < n:
+        fill = {"f": np.nan, "O": ""}.get(value.dtype.kind, 0)
+        missing = np.full(n, Flag.NOT_MEASURING, np.uint16)
+        missing[:value.size] = 0 if flag is None else flag
+        flag, value = missing, np.concatenate([value, np.full(n - value.size, fill, value.dtype)])
+    return value, flag
