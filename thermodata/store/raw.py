@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import json
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from importlib import import_module, metadata
 from pathlib import Path
@@ -113,11 +113,12 @@ def raw_key(sha256: str, reader: Reader, source: Source) -> str:
     return key_of(RAW_VERSION, sha256, reader.name, version_of(reader), descriptor)
 
 
-def read_raw(store: Path, path: Path, source_path: str, sha256: str, reader: Reader, source: Source) \
-        -> list[RawStream]:
+def read_raw(store: Path, path: Path, source_path: str, sha256: str, reader: Reader, source: Source,
+             check: Callable[[], None] = lambda: None) -> list[RawStream]:
     """Reads a source file into raw Parquet files, in bounded memory; FormatError where nothing can be read.
 
-    A stream without rows leaves no file. Losses are kept with the file's first stream.
+    A stream without rows leaves no file. Losses are kept with the file's first stream. check: called before any
+    file appears under its name; raises where the source file is no longer what was hashed.
     """
     key = raw_key(sha256, reader, source)
     writers: dict[str, StreamWriter] = {}
@@ -145,6 +146,7 @@ def read_raw(store: Path, path: Path, source_path: str, sha256: str, reader: Rea
         except Exception as error:
             raise FormatError("the file cannot be read", where=source_path,
                               got=f"{type(error).__name__}: {error}") from error
+        check()
         made = [_finish(store, writer, stream, key, path, source_path, sha256, reader, recording, losses)
                 for stream, writer in writers.items() if writer.rows]
     finally:
