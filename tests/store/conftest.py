@@ -17,8 +17,10 @@ def npz_reader(monkeypatch: pytest.MonkeyPatch) -> None:
     import store_fakes
 
     import thermodata.store.gather as gather
+    import thermodata.store.reread as reread
 
-    monkeypatch.setattr(gather, "find_reader", lambda name: store_fakes.NpzReader())
+    for module in (gather, reread):
+        monkeypatch.setattr(module, "find_reader", lambda name: store_fakes.NpzReader())
     store_fakes.NpzReader.reads = 0
 
 

@@ -6,7 +6,7 @@ import re
 from datetime import datetime
 from typing import Annotated, Any, Literal
 
-from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, field_validator, model_validator
+from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationInfo, field_validator, model_validator
 
 from thermodata.errors import ThermodataError
 from thermodata.schema.quantity import QUANTITIES, Quantity, value_in
@@ -19,8 +19,13 @@ Value = str | float | int
 Direction = Literal["+X", "-X", "+Y", "-Y", "+Z", "-Z", "+A", "-A", "+B", "-B", "+C", "-C"]
 
 
+STORED = {"stored": True}        # validation context of what model_dump_json wrote: plain numbers in canonical units
+
+
 def _in(unit: str) -> BeforeValidator:
-    def convert(text: Any) -> float:
+    def convert(text: Any, info: ValidationInfo) -> float:
+        if info.context == STORED and isinstance(text, int | float):
+            return float(text)
         try:
             return value_in(text, unit)
         except ThermodataError as error:
@@ -145,7 +150,7 @@ class JumpCalibration(Strict):
     source: str
     file: str
     signal: str
-    moves: list[Um] | Literal["unknown"]                   # unknown: nothing is calibrated with it until they are written
+    moves: list[Um] | Literal["unknown"]                  # unknown: nothing is calibrated until they are written
     dwell: Seconds = 10.0
     move_uncertainty: Um = 1.0
     facing: Direction | None = None
@@ -276,6 +281,14 @@ class Campaign(Strict):
     def _safe_id(cls, value: str) -> str:
         if not re.match(r"^[A-Za-z0-9][A-Za-z0-9._-]{0,119}$", value):
             raise ValueError("a campaign id is letters, digits, '.', '_' and '-', at most 120 of them")
+        return value
+
+    @field_validator("versions")
+    @classmethod
+    def _hashes(cls, value: dict[str, str]) -> dict[str, str]:
+        for file, version in value.items():
+            if not re.fullmatch("[0-9a-fA-F]{6,64}", version):
+                raise ValueError(f"the version of '{file}' is the beginning of its SHA-256: 6 digits or more, in quotes")
         return value
 
     @field_validator("channels")

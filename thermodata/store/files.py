@@ -8,7 +8,7 @@ import re
 import secrets
 from pathlib import Path
 
-TEMPORARY = re.compile(r"^\..*\.tmp$")
+TEMPORARY = re.compile(r"^\..*\.tmp(\.wal)?$")          # DuckDB puts a .wal beside a database in the making
 
 
 def temporary(target: Path) -> Path:

@@ -2,19 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass, field
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
-from thermodata.errors import StoreError, ThermodataError, UsageError
-from thermodata.plugin import Loss, Reader
+from thermodata.errors import FormatError, StoreError, ThermodataError, UsageError
+from thermodata.plugin import Loss, Reader, Source
 from thermodata.schema.campaign import Campaign, JumpCalibration, SourceSpec, Test
-from thermodata.store.files import sha256_of
 from thermodata.store.known import Known
 from thermodata.store.plan import SourcePlan, TestPlan
 from thermodata.store.raw import RawStream, declared, find_reader, raw_key, read_raw
 from thermodata.store.resolve import inside, natural, resolve
+from thermodata.store.sourcefile import ChangedError, SourceFile, frozen, settled
+from thermodata.store.versions import pinned, read_otherwise, twins
 
 Losses = list[dict[str, Any]]
 
@@ -40,8 +41,9 @@ class Gatherer:
     notes: list[str] = field(default_factory=list)
     files: set[str] = field(default_factory=set)
     read: int = 0
-    _hashes: dict[str, str] = field(default_factory=dict)
-    _made: dict[str, list[RawStream] | ThermodataError] = field(default_factory=dict)
+    _settled: dict[str, SourceFile] = field(default_factory=dict)
+    _odd: dict[str, str] = field(default_factory=dict)
+    _made: dict[str, list[RawStream] | ThermodataError | OSError] = field(default_factory=dict)
     _readers: dict[str, Reader] = field(default_factory=dict)
 
     def plan(self, test: Test) -> TestPlan:
@@ -60,14 +62,22 @@ class Gatherer:
     def _source(self, test: Test, name: str, spec: SourceSpec) -> SourcePlan:
         found = resolve(self.folder, self.campaign, test, name)
         plan = SourcePlan(name, spec, shared=found.shared)
+        self._odd.update(found.odd)
         for path, why in found.refused:
             self.losses.append(loss_row(f"refused: {why}", test=test.id, source=name, file=path))
         before: dict[str, list[RawStream]] = {}
         for raw in self.known.raw_rows(test.id, name):
             before.setdefault(raw.source_path, []).append(raw)
-        for path in sorted({*found.paths, *(p for p in before if found.claims(p))}, key=natural):
-            raws = self._file(path, name, spec, before.get(path, []), test.id, gone=path not in found.paths)
-            plan.raws += raws
+        there = set(found.paths)
+        same = twins(found.paths, self._hashes(found.paths))
+        for path in sorted({*there, *(p for p in before if found.claims(p))}, key=natural):
+            if path in same:
+                self.notes.append(f"{path}: left out, its content is that of {same[path]}")
+            elif path not in there and (new := self._renamed_to(before[path], found.paths)):
+                self.notes.append(f"{path}: is {new} now, with the same content")
+            else:
+                plan.raws += self._file(path, name, spec, before.get(path, []), test.id, (test.id, name),
+                                        gone=path not in there)
         if not found.paths and not plan.raws and found.patterns:
             text = f"test '{test.id}': no file of source '{name}' ({', '.join(found.patterns)})"
             if found.explicit:
@@ -98,25 +108,23 @@ class Gatherer:
             source = self.campaign.sources[spec.source]
             if path.is_file() or before:
                 found[name] = self._file(spec.file, spec.source, source, before, f"calibration {name}",
-                                         gone=not path.is_file())
+                                         ("", name), gone=not path.is_file())
             else:
                 self.losses.append(loss_row("no such file: the calibration can't be evaluated", file=spec.file,
                                             test=f"calibration {name}", source=spec.source))
         return found
 
     def _file(self, path: str, source: str, spec: SourceSpec, before: list[RawStream], test: str,
-              gone: bool) -> list[RawStream]:
-        """The raw streams of one file; [] and a loss where it can't be read."""
+              kept_as: tuple[str, str], gone: bool) -> list[RawStream]:
+        """The raw streams of one file; [] and a loss where it can't be read. kept_as: test and source of its rows."""
         raws: list[RawStream] = []
-        if gone:
-            if before and all((self.store / r.path).exists() for r in before):
-                self.notes.append(f"{path}: not there any more; the store's raw copy is used")
-                raws = before
-            elif before:
-                raise StoreError("a raw file of the store is gone, and so is its source", where=before[0].path,
-                                 got=f"no {path}", hint="put the source file back, or forget the test")
+        reader = self._reader(spec.reader, source)
+        if path in self.campaign.versions:
+            raws = pinned(self.known, *kept_as, path, self.campaign.versions[path])
+            self.notes.append(f"{path}: version {raws[0].sha256[:12]}, as the campaign file wants")
+        elif gone:
+            raws = self._copy(path, before, reader, declared(source, spec))
         else:
-            reader = self._reader(spec.reader, source)
             try:
                 raws = self._read(path, source, spec, reader)
             except StoreError:
@@ -124,12 +132,57 @@ class Gatherer:
             except (ThermodataError, OSError) as error:
                 reason = "; ".join(str(error).splitlines())
                 self.losses.append(loss_row(reason, test=test, source=source, file=path))
-                return []
+                raws = self._former(path, before)
+                if not raws:
+                    return []
         if path not in self.files:
             for loss in (x for r in raws for x in r.losses):
                 self.losses.append(loss_row(loss.reason, test=test, source=source, file=path, loss=loss))
         self.files.add(path)
         return raws
+
+    def _copy(self, path: str, before: list[RawStream], reader: Reader, said: Source) -> list[RawStream]:
+        """The store's own copy of a file that isn't there any more."""
+        if before and not all((self.store / r.path).exists() for r in before):
+            raise StoreError("a raw file of the store is gone, and so is its source", where=before[0].path,
+                             got=f"no {path}", hint="put the source file back, or forget the test")
+        if before:
+            self.notes.append(f"{path}: not there any more; the store's raw copy is used")
+            why = read_otherwise(before[0], reader, said)
+            if why is not None:
+                self.losses.append(loss_row(f"not there to be read again: the store's raw copy was {why}", file=path))
+        return before
+
+    def _former(self, path: str, before: list[RawStream]) -> list[RawStream]:
+        """What the store holds of a file that can't be read now: what was read once isn't lost by that."""
+        hashed = self._settled.get(path)
+        if not before or not all((self.store / r.path).exists() for r in before) \
+                or (hashed is not None and hashed.sha256 == before[0].sha256):
+            return []          # a reader that refuses the bytes that an older one took has its reason
+        self.notes.append(f"{path}: the version that was read before is used ({before[0].sha256[:12]})")
+        return before
+
+    def _hashes(self, paths: Iterable[str]) -> dict[str, str]:
+        """Path -> SHA-256, of the files that can be read."""
+        found: dict[str, str] = {}
+        for path in paths:
+            try:
+                found[path] = self._settle(path).sha256
+            except (OSError, ThermodataError):
+                continue       # told where the file is read
+        return found
+
+    def _settle(self, path: str) -> SourceFile:
+        if path not in self._settled:
+            self._settled[path] = settled(self._full(path))
+        return self._settled[path]
+
+    def _full(self, path: str) -> Path:
+        return self.folder / self._odd.get(path, path)
+
+    def _renamed_to(self, before: list[RawStream], paths: Iterable[str]) -> str | None:
+        """The present file with the bytes of one that is gone."""
+        return next((p for p in paths if p in self._settled and self._settled[p].sha256 == before[0].sha256), None)
 
     def _reader(self, name: str, source: str) -> Reader:
         """The reader of a source. One that isn't there is no defect of a file: ingest would drop all its data."""
@@ -142,29 +195,42 @@ class Gatherer:
         return self._readers[name]
 
     def _read(self, path: str, source: str, spec: SourceSpec, reader: Reader) -> list[RawStream]:
-        full = self.folder / path
-        if path not in self._hashes:
-            self._hashes[path] = sha256_of(full)
+        file = self._settle(path)
         said = declared(source, spec)
-        key = raw_key(self._hashes[path], reader, said)
+        key = raw_key(file.sha256, reader, said)
         if key not in self._made:
             if key in self.known.raws:
                 self._made[key] = self.known.raws[key]
             else:
                 self.say(f"reading {path}")
                 try:
-                    self._made[key] = read_raw(self.store, full, path, self._hashes[path], reader, said)
+                    self._made[key] = self._read_settled(path, file, reader, said)
                     self.read += 1
-                except ThermodataError as error:
+                except (ThermodataError, OSError) as error:
                     self._made[key] = error
         made = self._made[key]
-        if isinstance(made, ThermodataError):
+        if isinstance(made, Exception):
             raise made
         # the same bytes may stand under another name, in another test or campaign
         return [r if r.source_path == path else _renamed(r, path) for r in made]
 
 
-def _renamed(raw: RawStream, path: str) -> RawStream:
-    import dataclasses
+    def _read_settled(self, path: str, file: SourceFile, reader: Reader, said: Source) -> list[RawStream]:
+        """Reads a file so that hash and rows agree: where it changes meanwhile, from a copy of what is there now."""
+        try:
+            try:
+                return read_raw(self.store, file.path, path, file.sha256, reader, said, file.check)
+            except FormatError:
+                file.check()         # half of a file that is being written may look like a damaged one
+                raise
+        except ChangedError:
+            with frozen(self._full(path), self.store / "raw") as copy:
+                raws = self.known.raws.get(raw_key(copy.sha256, reader, said)) or read_raw(
+                    self.store, copy.path, path, copy.sha256, reader, said)
+            self._settled[path] = copy
+            self.notes.append(f"{path}: {copy.note}")
+            return [replace(r, notes=tuple(dict.fromkeys((*r.notes, copy.note or "")))) for r in raws]
 
-    return dataclasses.replace(raw, source_path=path)
+
+def _renamed(raw: RawStream, path: str) -> RawStream:
+    return replace(raw, source_path=path)

@@ -19,6 +19,7 @@ from thermodata.store.make import make_tests
 from thermodata.store.plan import bind
 from thermodata.store.rows import calibration_row, raw_row
 from thermodata.store.store import Store
+from thermodata.store.versions import keep_earlier
 
 _ATTEMPTS = 3
 
@@ -86,6 +87,7 @@ def _ingest(store: Store, path: Path, say: Callable[[str], None]) -> IngestSumma
     rows: dict[str, dict[str, list[Row]]] = {t: dict(made.rows[t]) for t in BY_TEST}
     rows["file"][""] = [raw_row(campaign.id, "", name, raw, "calibration", now) for name, raws in jumps.items()
                         for raw in raws]
+    keep_earlier(rows["file"], known, now)
     calibration_rows = [calibration_row(campaign.id, r) for r in results.values()]
     planned = Planned(campaign, path.absolute(), rows, calibration_rows)
     summary = IngestSummary(

@@ -23,8 +23,10 @@ Row = dict[str, Any]
 
 @dataclass(slots=True)
 class Known:
-    """raws: key -> its streams, of any campaign. rows: table -> test -> rows of this campaign."""
+    """name: the campaign. raws: key -> its streams, of any campaign and of earlier versions of files too.
+    rows: table -> test -> rows of this campaign."""
 
+    name: str = ""
     raws: dict[str, list[RawStream]] = field(default_factory=dict)
     rows: dict[str, dict[str, list[Row]]] = field(default_factory=dict)
     campaign: Row | None = None
@@ -43,9 +45,9 @@ class Known:
 
 def read_known(con: duckdb.DuckDBPyConnection, store: Path, campaign: str) -> Known:
     """The catalogue's rows about a campaign. Raw files that are gone from the disk are left out."""
-    known = Known()
+    known = Known(campaign)
     seen: set[str] = set()
-    for row in fetch(con, "select * from file where layer = 'raw'"):
+    for row in fetch(con, "select * from file where layer in ('raw', 'superseded')"):
         if row["path"] not in seen and (store / row["path"]).exists():
             seen.add(row["path"])
             known.raws.setdefault(row["key"], []).append(RawStream.from_row(row))

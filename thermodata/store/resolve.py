@@ -3,24 +3,29 @@
 from __future__ import annotations
 
 import glob
+import os
 import re
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from pathlib import Path, PurePosixPath
 
 from thermodata.errors import SpecError
 from thermodata.schema.campaign import Campaign, Test
+from thermodata.store.sourcefile import kind_of
 
 
 @dataclass(frozen=True, slots=True)
 class Found:
     """The files of one (test, source). paths: relative to the campaign's folder, in natural order. refused:
-    (path, reason). shared: the pattern doesn't name the test, so that other tests have the same files."""
+    (path, reason). shared: the pattern doesn't name the test, so that other tests have the same files. odd: path ->
+    the name on the disk, where that is no valid text."""
 
     patterns: tuple[str, ...]
     paths: tuple[str, ...]
     refused: tuple[tuple[str, str], ...]
     shared: bool
     explicit: bool
+    odd: Mapping[str, str] = field(default_factory=dict)
 
     def claims(self, path: str) -> bool:
         """Whether a path that is no longer there would still belong."""
@@ -42,26 +47,56 @@ def resolve(folder: Path, campaign: Campaign, test: Test, source: str) -> Found:
     """The files of a source in a test, as they stand in the campaign's folder now."""
     patterns, shared, explicit = patterns_of(campaign, test, source)
     root = folder.resolve()
-    paths: list[str] = []
-    refused: list[tuple[str, str]] = []
+    paths: dict[str, str | None] = {}
+    odd: dict[str, str] = {}
     for pattern in patterns:
+        # a folder or a pipe that a pattern happens to fit is nobody's log; one that is named is a mistake
+        named = not glob.has_magic(pattern)
         for name in sorted(glob.glob(pattern, root_dir=root, recursive=True), key=natural):
             relative = PurePosixPath(Path(name)).as_posix()
-            if relative in paths:
-                continue
-            real = (root / name).resolve()
-            if not real.is_relative_to(root):
-                refused.append((relative, "leads outside the campaign's folder"))
-            elif real.is_file() and not real.name.endswith(".tdms_index"):
-                paths.append(relative)
-    return Found(patterns, tuple(paths), tuple(refused), shared, explicit)
+            if not _is_text(relative):
+                odd[text := os.fsencode(relative).decode("utf-8", "backslashreplace")] = relative
+                relative = text
+            if relative not in paths and not relative.endswith(".tdms_index"):
+                why = _refusal(root, name, named)
+                if why != "":
+                    paths[relative] = why
+    return Found(patterns, tuple(p for p, why in paths.items() if why is None),
+                 tuple((p, why) for p, why in paths.items() if why is not None), shared, explicit, odd)
+
+
+def _is_text(name: str) -> bool:
+    try:
+        name.encode()
+    except UnicodeEncodeError:
+        return False
+    return True
+
+
+def _refusal(root: Path, name: str, named: bool) -> str | None:
+    """Why a path isn't read: None where it is a file inside the folder, '' where it need not be mentioned."""
+    try:
+        real = (root / name).resolve()
+        if not real.is_relative_to(root):
+            return "leads outside the campaign's folder"
+        kind = kind_of(real.stat())
+    except FileNotFoundError:
+        return "a link to nothing"
+    except (OSError, RuntimeError, ValueError) as error:
+        return str(getattr(error, "strerror", None) or error)      # a loop of links, a folder that may not be entered
+    if kind is None:
+        return None
+    return "" if kind == "a folder" and not named else f"this is {kind}, not a file"
 
 
 def inside(folder: Path, name: str, where: str) -> Path:
     """One declared file, which must lie inside the campaign's folder (it need not exist)."""
     root = folder.resolve()
     _checked(name, "", where)
-    real = (root / name).resolve()
+    try:
+        real = (root / name).resolve()
+    except (OSError, RuntimeError, ValueError) as error:
+        raise SpecError("a path that leads nowhere", where=where, got=f"{name}: {error}") from error
     if not real.is_relative_to(root):
         raise SpecError("a path leads outside the campaign's folder", where=where, got=name,
                         expected="a file inside the campaign's folder")

@@ -149,6 +149,16 @@ class Store:
             finally:
                 con.close()
 
+    @contextmanager
+    def standstill(self) -> Iterator[duckdb.DuckDBPyConnection]:
+        """A copy of the catalogue, with no commit from its making until the end: for deleting what nothing needs."""
+        with self._guard, catalogue_lock(self.path, exclusive=True, timeout_s=self.timeout_s):
+            con = self._copied()
+            try:
+                yield con
+            finally:
+                con.close()
+
     def _create(self) -> None:
         try:
             self.path.mkdir(parents=True, exist_ok=True)

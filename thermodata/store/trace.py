@@ -3,22 +3,27 @@
 from __future__ import annotations
 
 import json
+from pathlib import Path
 from typing import Any
 
-from thermodata.errors import UsageError, unknown_name
+from thermodata.errors import unknown_name
 from thermodata.store.connection import fetch
 from thermodata.store.models import find_model
 from thermodata.store.raw import RawStream
-from thermodata.store.rawread import read_column
+from thermodata.store.replan import read_campaign
+from thermodata.store.sample import find_sample
+from thermodata.store.sourcefile import settled
 from thermodata.store.store import Store
+from thermodata.store.versions import SUPERSEDED
 
 Found = dict[str, Any]
 
 
 def trace(store: Store, campaign: str, test: str | None = None, channel: str | None = None,
-          t_s: float | None = None) -> Found:
+          t_s: float | None = None, *, verify: bool = False) -> Found:
     """The way back from a model (one name), a test, a channel, or one sample (with t_s, seconds) to the raw files.
 
+    verify: also hashes the source files that are still there, and reads a sample's row in its file again.
     UsageError for a name that isn't there, with the nearest right one.
     """
     if test is None:
@@ -30,38 +35,105 @@ def trace(store: Store, campaign: str, test: str | None = None, channel: str | N
         tests = [r["test"] for r in fetch(con, "select test from test where campaign = ?", [campaign])]
         if test not in tests:
             raise unknown_name("test", test, tests)
-        channels = fetch(con, "select * from channel where campaign = ? and test = ?", [campaign, test])
-        files = fetch(con, "select * from file where campaign = ? and test = ?", [campaign, test])
-        sources = fetch(con, "select * from source where campaign = ? and test = ?", [campaign, test])
-        calibrations = fetch(con, "select * from calibration where campaign = ?", [campaign])
-        jumps = fetch(con, "select * from file where campaign = ? and test = '' and layer = 'raw'", [campaign])
-        spec = fetch(con, "select path, ingested_at, spec_hash from campaign where campaign = ?", [campaign])[0]
-        value = _value(con, campaign, test, channel, t_s)
-    head: Found = {"campaign": campaign, "test": test, "campaign_file": spec["path"], "spec_hash": spec["spec_hash"],
-                   "ingested_at": str(spec["ingested_at"])}
-    if channel is None:
-        return head | {"files": [_file(f) for f in files if f["layer"] == "raw"],
-                       "tidy": [_tidy(f) for f in files if f["layer"] == "tidy"],
-                       "channels": [c["channel"] for c in channels]}
-    row = next((c for c in channels if c["channel"] == channel), None)
-    if row is None:
-        raise unknown_name("channel", channel, [c["channel"] for c in channels])
-    here = [f for f in files if (f["source"], f["stream"]) == (row["source"], row["stream"])]
-    source = next((s for s in sources if (s["source"], s["stream"]) == (row["source"], row["stream"])), None)
-    named = (row["calibration"] or "").split(", ")
-    steps = [{k: _decoded(v) for k, v in c.items() if k != "campaign"} |
-             {"files": [_file(f) for f in jumps if f["source"] == c["calibration"]]}
-             for n in named for c in calibrations if c["calibration"] == n]
-    found = head | {
-        "channel": channel, "quantity": row["quantity"], "unit": row["unit"], "sign": row["sign"],
-        "source": row["source"], "stream": row["stream"], "signal": row["signal"], "raw_unit": row["raw_unit"],
-        "scaling": _scaling(here, row["signal"]), "calibrations": steps,
-        "clock": None if source is None else {k: _decoded(source[k]) for k in ("clock", "offset_ns", "notes")},
-        "files": [_file(f) for f in here if f["layer"] == "raw"],
-        "tidy": [_tidy(f) for f in here if f["layer"] == "tidy"]}
-    if t_s is not None:
-        found["sample"] = value and value | {"raw": _place(store, here, source, row["signal"], value["t_ns"])}
-    return found
+        found = _Tracer(con, store, campaign, test, verify)
+        if channel is None:
+            return found.test()
+        if channel not in found.channels:
+            raise unknown_name("channel", channel, list(found.channels))
+        return found.head() | found.channel(channel, t_s)
+
+
+class _Tracer:
+    """What the catalogue says about one test."""
+
+    def __init__(self, con: Any, store: Store, campaign: str, test: str, verify: bool) -> None:
+        self.con, self.store, self.name, self.of, self.verify = con, store, campaign, test, verify
+        here = [campaign, test]
+        self.rows = fetch(con, "select * from channel where campaign = ? and test = ?", here)
+        self.channels = {r["channel"]: r for r in self.rows}
+        self.files = fetch(con, "select * from file where campaign = ? and test = ? order by rowid", here)
+        self.sources = fetch(con, "select * from source where campaign = ? and test = ?", here)
+        self.calibrations = fetch(con, "select * from calibration where campaign = ?", [campaign])
+        self.jumps = fetch(con, "select * from file where campaign = ? and test = ''", [campaign])
+        self.kept = fetch(con, "select path, ingested_at, spec_hash, data_version from campaign where campaign = ?",
+                          [campaign])[0]
+        self.spec = read_campaign(con, campaign)
+        self._stands: dict[str, str] = {}
+
+    def head(self) -> Found:
+        return {"campaign": self.name, "test": self.of, "campaign_file": self.kept["path"],
+                "spec_hash": self.kept["spec_hash"], "data_version": self.kept["data_version"],
+                "ingested_at": str(self.kept["ingested_at"])}
+
+    def test(self) -> Found:
+        return self.head() | {"files": self._files(self.files), "tidy": self._tidy(self.files),
+                              "channels": list(self.channels)}
+
+    def channel(self, name: str, t_s: float | None) -> Found:
+        row = self.channels[name]
+        here = [f for f in self.files if (f["source"], f["stream"]) == (row["source"], row["stream"])]
+        source = next((s for s in self.sources if (s["source"], s["stream"]) == (row["source"], row["stream"])), None)
+        named = [n for n in (row["calibration"] or "").split(", ") if n]
+        steps = [{k: _decoded(v) for k, v in c.items() if k != "campaign"} |
+                 {"files": self._files([f for f in self.jumps if f["source"] == c["calibration"]])}
+                 for n in named for c in self.calibrations if c["calibration"] == n]
+        said = self.spec.channels.get(name)
+        found: Found = {"channel": name} | {k: row[k] for k in (
+            "quantity", "unit", "sign", "at", "axis", "source", "stream", "signal", "raw_unit")} | {
+            "derive": said.derive if said is not None and row["signal"] is None else None,
+            "schedule": None if said is None or said.schedule is None else repr(said.schedule),
+            "scaling": _scaling(here, row["signal"]), "calibrations": steps,
+            "clock": None if source is None else {k: _decoded(source[k]) for k in ("clock", "offset_ns", "notes")},
+            "files": self._files(here) if row["signal"] is not None else [], "tidy": self._tidy(here)}
+        if t_s is not None:
+            found["sample"] = find_sample(self.con, self.store.path, self.name, self.of, row, t_s,
+                                          self._again if self.verify else None)
+        if found["derive"]:
+            from thermodata.store import derive as expressions
+
+            found["operands"] = [self.channel(n, None) for n in sorted(expressions.names(found["derive"]))
+                                 if n in self.channels]
+        return found
+
+    def _files(self, rows: list[Found]) -> list[Found]:
+        earlier = [r for r in rows if r["layer"] == SUPERSEDED]
+        found = []
+        for row in rows:
+            if row["layer"] == "raw":
+                older = [_file(r) for r in earlier if all(r[k] == row[k] for k in ("source", "source_path", "stream"))]
+                now = {"now": self._stand(row)} if self.verify else {}
+                found.append(_file(row) | now | {"earlier": sorted(older, key=lambda f: str(f["superseded_at"]))})
+        return found
+
+    def _stand(self, row: Found) -> str:
+        """How the source file stands today against what was ingested."""
+        path = row["source_path"]
+        if path not in self._stands:
+            try:
+                same = settled(self._folder() / path).sha256 == row["sha256"]
+                self._stands[path] = "unchanged" if same else "changed since: its hash differs"
+            except FileNotFoundError:
+                self._stands[path] = "not there any more"
+            except Exception as error:
+                self._stands[path] = "cannot be read: " + "; ".join(str(error).splitlines())
+        return self._stands[path]
+
+    def _folder(self) -> Path:
+        return Path(self.kept["path"]).parent
+
+    def _again(self, raw: RawStream, row: int, signal: str, source: str) -> Found:
+        """A row read in its source file once more, by the reader of today."""
+        from thermodata.store.reread import reread
+
+        stand = self._stand({"source_path": raw.source_path, "sha256": raw.sha256})
+        if stand != "unchanged":
+            return {"file": stand, "value": None}
+        return {"file": stand} | reread(self._folder() / raw.source_path, raw, row, signal, source,
+                                        self.spec.sources[source])
+
+    @staticmethod
+    def _tidy(rows: list[Found]) -> list[Found]:
+        return [{k: r[k] for k in ("path", "key", "part", "rows")} for r in rows if r["layer"] == "tidy"]
 
 
 def _model(store: Store, ref: str) -> Found:
@@ -78,50 +150,15 @@ def _model(store: Store, ref: str) -> Found:
             "files": used}
 
 
-def _value(con: Any, campaign: str, test: str, channel: str | None, t_s: float | None) -> Found | None:
-    if t_s is None or channel is None:
-        return None
-    found = fetch(con, "select epoch_ns(t) as t_ns, t_s, value, flag from signal(?, ?, ?) "
-                       "order by abs(t_s - ?) limit 1", [campaign, test, channel, t_s])
-    if not found:
-        raise UsageError(f"channel '{channel}' has no numeric samples in test '{test}'")
-    return found[0]
-
-
-def _place(store: Store, files: list[Found], source: Found | None, signal: str | None, t_ns: int) -> Found | None:
-    """The raw row nearest to a time: file, hash, row number and raw value."""
-    import numpy as np
-
-    if source is None or signal is None:
-        return None
-    best: tuple[int, Found] | None = None
-    for row in files:
-        if row["layer"] != "raw":
-            continue
-        raw = RawStream.from_row(row)
-        t = read_column(store.path / raw.path, "t_ns", 0, raw.rows)
-        base = raw.start_ns or 0 if raw.clock == "relative" else 0
-        wanted = t_ns - source["offset_ns"] - base
-        i = int(np.argmin(np.abs(t - wanted)))
-        column = raw.columns.get(signal)
-        if column is not None and (best is None or abs(int(t[i]) - wanted) < best[0]):
-            value = read_column(store.path / raw.path, column, i, i + 1)[0]
-            best = abs(int(t[i]) - wanted), {
-                "source_path": raw.source_path, "sha256": raw.sha256, "row": i, "t_ns": int(t[i]),
-                "raw_value": value.item() if hasattr(value, "item") else value}
-    return best[1] if best else None
-
-
 def _file(row: Found) -> Found:
     raw = RawStream.from_row(row)
-    return {"source_path": raw.source_path, "sha256": raw.sha256, "bytes": raw.bytes, "source": row["source"],
-            "stream": raw.stream, "reader": f"{raw.reader} {raw.reader_version}".strip(), "rows": raw.rows,
-            "from_ns": raw.first_ns, "to_ns": raw.last_ns, "raw": raw.path,
-            "losses": [loss.reason for loss in raw.losses]}
-
-
-def _tidy(row: Found) -> Found:
-    return {"path": row["path"], "key": row["key"], "part": row["part"], "rows": row["rows"]}
+    found = {"source_path": raw.source_path, "sha256": raw.sha256, "bytes": raw.bytes, "source": row["source"],
+             "stream": raw.stream, "reader": f"{raw.reader} {raw.reader_version}".strip(), "rows": raw.rows,
+             "from_ns": raw.first_ns, "to_ns": raw.last_ns, "added_at": str(row["added_at"]), "raw": raw.path,
+             "losses": [loss.reason for loss in raw.losses], "notes": list(raw.notes)}
+    if row["layer"] == SUPERSEDED:
+        found["superseded_at"] = json.loads(row["columns"]).get("superseded_at")
+    return found
 
 
 def _scaling(files: list[Found], signal: str | None) -> Found | None:
@@ -135,3 +172,6 @@ def _scaling(files: list[Found], signal: str | None) -> Found | None:
 
 def _decoded(value: Any) -> Any:
     return json.loads(value) if isinstance(value, str) and value[:1] in ("{", "[") else value
+
+
+__all__ = ["trace"]
