@@ -11,9 +11,10 @@ from thermodata.plugin import Array, Int1D
 from thermodata.schema.campaign import Campaign, JumpCalibration, LinearCalibration
 from thermodata.schema.quantity import linear_conversion
 from thermodata.store import derive
+from thermodata.store.axis import Timeline
 from thermodata.store.plan import find_signal
 from thermodata.store.raw import RawStream
-from thermodata.store.timeline import Clock, Timeline, build
+from thermodata.store.timeline import Clock, build
 
 
 def evaluate(store: Path, campaign: Campaign, jump_files: Mapping[str, list[RawStream]]) \
@@ -31,6 +32,10 @@ def evaluate(store: Path, campaign: Campaign, jump_files: Mapping[str, list[RawS
     for name, spec in campaign.calibrations.items():
         if isinstance(spec, JumpCalibration):
             raws = jump_files.get(name)
+            if spec.moves == "unknown":
+                problems.append(f"calibration '{name}': its moves are unknown, so nothing is calibrated with it; try: "
+                                "write the commanded moves, for example moves: [100 um, -100 um]")
+                continue
             if not raws:
                 continue
             try:
