@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import os
+import random
 import struct
 import threading
+import time
 from collections.abc import Callable, Iterator
 from dataclasses import replace
 from pathlib import Path
@@ -166,6 +169,111 @@ class CrashesOnDamage(Good):
         return pairs, [0] * 50 and count if count <= len(pairs) + 50 else [][count]
 
 
+class CriesWolf(Good):
+    def blocks(self, path: Path, source: Source) -> Iterator[Block | Loss]:
+        yield from super().blocks(path, source)
+        yield Loss("end of file", reason="no end mark")
+
+
+class FillsOneBuffer(Good):
+    """Yields views of an array that it fills again."""
+
+    def blocks(self, path: Path, source: Source) -> Iterator[Block | Loss]:
+        buffer = np.zeros(1000)
+        for b in super().blocks(path, source):
+            if isinstance(b, Block):
+                buffer[: b.t_ns.size] = b.values["T"]
+                b = replace(b, values={"T": buffer[: b.t_ns.size]})
+            yield b
+
+
+class OnePlaceForAll(Good):
+    """Keeps how far it has come on itself."""
+
+    def blocks(self, path: Path, source: Source) -> Iterator[Block | Loss]:
+        self.row = 0
+        pairs, _ = self.read(path)
+        while self.row < len(pairs):
+            t, v = pairs[self.row]
+            self.row += 1
+            yield Block("main", np.array([t], np.int64), {"T": np.array([v])})
+
+
+class OneScratchFileForAll(Good):
+    """Unpacks into a fixed place, which another process empties."""
+
+    def read(self, path: Path) -> tuple[list[tuple[int, float]], int]:
+        scratch = path.with_name("pairs.scratch")
+        scratch.write_bytes(path.read_bytes())
+        time.sleep(0.01)
+        try:
+            return super().read(scratch)
+        except OSError:
+            return [], 12
+        finally:
+            scratch.unlink(missing_ok=True)
+
+
+class KeepsTheFileOpen(Good):
+    def describe(self, path: Path, source: Source) -> Recording:
+        self.file = path.open("rb")
+        return super().describe(path, source)
+
+
+class ClosesAtTheEndOnly(Good):
+    """Where the reading is given up, the file stays open."""
+
+    def __init__(self) -> None:
+        self.files: list[object] = []
+
+    def blocks(self, path: Path, source: Source) -> Iterator[Block | Loss]:
+        self.files.append(path.open("rb"))
+        yield from super().blocks(path, source)
+        self.files.clear()
+
+
+class KeepsAMapping(Good):
+    def read(self, path: Path) -> tuple[list[tuple[int, float]], int]:
+        if path.stat().st_size:
+            self.values = np.memmap(path, mode="r")
+        return super().read(path)
+
+
+class TalksAlways(Good):
+    def describe(self, path: Path, source: Source) -> Recording:
+        print("reading", path)
+        return super().describe(path, source)
+
+
+class SetsTheErrorState(Good):
+    def describe(self, path: Path, source: Source) -> Recording:
+        np.seterr(all="ignore")
+        return super().describe(path, source)
+
+
+class ChangesFolder(Good):
+    def describe(self, path: Path, source: Source) -> Recording:
+        os.chdir(path.parent)
+        return super().describe(path, source)
+
+
+class TrustsTheCount(Good):
+    """Makes room for as many pairs as the header promises."""
+
+    def read(self, path: Path) -> tuple[list[tuple[int, float]], int]:
+        pairs, count = super().read(path)
+        np.zeros((count, 2))
+        return pairs, count
+
+
+class TurnsOverOften(Good):
+    def blocks(self, path: Path, source: Source) -> Iterator[Block | Loss]:
+        for b in super().blocks(path, source):
+            yield replace(b, values={"T": b.values["T"] + self.rng.random()}) if isinstance(b, Block) else b
+
+    rng = np.random.default_rng()
+
+
 BROKEN: dict[type, Callable[..., None]] = {
     ClaimsAll: kit.it_claims_no_file_of_another_format,
     ClaimsNothing: kit.it_claims_its_own_file_and_says_why,
@@ -182,6 +290,18 @@ BROKEN: dict[type, Callable[..., None]] = {
     SilentAboutCuts: kit.a_cut_file_keeps_its_good_part_and_says_what_is_gone,
     TakesHalfAValue: kit.a_cut_file_keeps_its_good_part_and_says_what_is_gone,
     CrashesOnDamage: kit.damage_never_escapes_as_a_foreign_error,
+    CriesWolf: kit.a_whole_file_is_read_without_a_loss,
+    FillsOneBuffer: kit.a_block_stays_as_it_was_yielded,
+    TurnsOverOften: kit.reading_again_gives_the_same,
+    OnePlaceForAll: kit.two_readings_at_once_do_not_mix,
+    OneScratchFileForAll: kit.processes_read_the_same,
+    KeepsTheFileOpen: kit.the_file_is_closed_after_use,
+    ClosesAtTheEndOnly: kit.the_file_is_closed_after_use,
+    KeepsAMapping: kit.the_file_is_closed_after_use,
+    TalksAlways: kit.it_prints_nothing,
+    SetsTheErrorState: kit.it_leaves_the_process_as_it_was,
+    ChangesFolder: kit.it_leaves_the_process_as_it_was,
+    TrustsTheCount: kit.a_hostile_header_costs_no_memory,
 }
 
 
@@ -201,13 +321,36 @@ def test_a_good_reader_passes_everything(file: tuple[Path, Source]) -> None:
 def test_a_broken_reader_is_caught_by_the_check_for_it(broken: type, file: tuple[Path, Source]) -> None:
     case = kit.Case(broken, (file,), (), "block_rows")
     check = BROKEN[broken]
-    with pytest.raises(AssertionError):
+    with pytest.raises(AssertionError, match="\ntry: "):
         kit.Check(check, case, file if check in kit.FILE_CHECKS else None)()
 
 
 def test_a_reader_that_wants_arguments_is_caught(file: tuple[Path, Source]) -> None:
     with pytest.raises(AssertionError, match="without arguments"):
         kit.it_is_made_without_arguments_and_has_a_name(kit.Case(WantsArguments, (file,)))
+
+
+def test_what_the_author_says_is_hostile_is_tried(file: tuple[Path, Source]) -> None:
+    def mutate(data: bytes, rng: random.Random) -> bytes:
+        return data[:8] + rng.randrange(2**16).to_bytes(4, "little") + data[12:]
+
+    class StumblesOverOddCounts(Good):
+        def read(self, path: Path) -> tuple[list[tuple[int, float]], int]:
+            pairs, count = super().read(path)
+            return pairs, count if count % 2 == 0 or count > 2**16 else [][count]
+
+    kit.a_hostile_header_costs_no_memory(kit.Case(Good, (file,), mutate=mutate), *file)
+    with pytest.raises(AssertionError, match=r"as mutate\(\.\.\., random\.Random\(\d+\)\) makes it"):
+        kit.a_hostile_header_costs_no_memory(kit.Case(StumblesOverOddCounts, (file,), mutate=mutate), *file)
+
+
+def test_small_files_are_cut_at_every_byte() -> None:
+    from thermodata.testing.reader.damage import EVERY_CUT_BYTES, cuts
+
+    assert cuts(EVERY_CUT_BYTES) == list(range(1, EVERY_CUT_BYTES))
+    many = cuts(1_000_000)
+    assert {1, 2, 3, 999_999, 999_998} < set(many)
+    assert 100 < len(many) < 200
 
 
 def test_every_check_has_a_broken_twin() -> None:
