@@ -3,68 +3,83 @@
 from __future__ import annotations
 
 import re
-from pathlib import Path, PurePosixPath
-from typing import TYPE_CHECKING, Any
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
 
 import click
 
 from thermodata.cli.common import Session, command, plain
 from thermodata.cli.table import table
-from thermodata.errors import ThermodataError, UsageError
-
-if TYPE_CHECKING:
-    from thermodata.cli.draft import RawFile
+from thermodata.errors import UsageError
 
 _FILE = click.Path(path_type=Path, exists=True, dir_okay=False)
 
 
 @command("init")
 @click.argument("folder", type=click.Path(path_type=Path, exists=True, file_okay=False))
-@click.option("--force", is_flag=True, help="Replace FOLDER/campaign.yaml where it exists.")
-def init_command(session: Session, folder: Path, force: bool) -> None:
+def init_command(session: Session, folder: Path) -> None:
     """Draft FOLDER/campaign.yaml from the raw files found there.
 
-    It groups files, lists signals and guesses quantities and places; what you should look at is marked '# ?'.
+    It groups files into sources and tests, reads signals and units, guesses quantities and places, finds jump tests,
+    and says how sure it is; what only you know is marked '# ?'. An existing campaign.yaml is never touched.
     """
-    from thermodata.cli.draft import draft
+    from thermodata.draft.answer import as_json
+    from thermodata.draft.plan import plan
+    from thermodata.draft.scan import scan
+    from thermodata.draft.write import questions_in, text_of
     from thermodata.schema.load import load_campaign
 
     out = folder / "campaign.yaml"
-    if out.exists() and not force:
-        raise UsageError("the campaign file exists", where=str(out), hint="--force replaces it")
-    files, ignored = find_raw(folder)
-    if not files:
-        raise UsageError("no file that a reader claims", where=str(folder),
-                         expected="raw logs", got="; ".join(f"{p}: {w}" for p, w in ignored[:5]) or "nothing",
+    if out.exists():
+        raise UsageError("the campaign file exists, and is never overwritten", where=str(out),
+                         hint="rename it, then draft again and compare the two")
+    found = scan(folder, _progress(session))
+    if not found.logs:
+        raise UsageError("no file that a reader claims", where=str(folder), expected="raw logs",
+                         got="; ".join(f"{p}: {w}" for p, w in found.ignored[:5]) or "nothing",
                          hint="thermodata plugins lists the installed readers; thermodata sniff FILE says more")
-    name = re.sub(r"[^A-Za-z0-9._-]+", "-", folder.resolve().name).strip("-._") or "campaign"
-    text = draft(name, files, ignored)
-    out.write_text(text, encoding="utf-8")
+    name = re.sub(r"[^A-Za-z0-9._-]+", "-", plain_name(folder.resolve().name)).strip("-._")[:100] or "campaign"
+    draft = plan(name, folder, found)
+    text = text_of(draft)
+    _write_new(out, text)
     load_campaign(out)                           # a draft that doesn't load is a defect: it raises here
-    result = {"campaign": str(out), "files": len(files), "questions": text.count("# ?"),
-              "ignored": [{"file": p, "why": w} for p, w in ignored]}
-    session.say(f"{len(files)} files, {result['questions']} lines with questions: grep '# ?' {out}")
-    session.answer(result, lambda: str(out))
+    asked = questions_in(text)
+    session.say(f"{len(found.logs)} files, {len(draft.tests)} tests, {len(draft.sources)} sources, "
+                f"{sum(c.said.quantity is not None for c in draft.channels)} channels; {asked} lines hold a question: "
+                f"grep '# ?' {out}")
+    session.answer(as_json(draft, out, len(found.logs), asked), lambda: str(out))
 
 
-def find_raw(folder: Path) -> tuple[list[RawFile], list[tuple[str, str]]]:
-    """(files that a reader describes, (path, why not) of the others); hidden files and stores are skipped."""
-    from thermodata.cli.draft import RawFile
-    from thermodata.plugin import Source
-    from thermodata.reader import sniff
+def plain_name(text: str) -> str:
+    """A folder's name in plain letters, in any script."""
+    from thermodata.draft.words import plain
 
-    files, ignored = [], []
-    for path in sorted(folder.rglob("*")):
-        inside = PurePosixPath(path.relative_to(folder).as_posix())
-        hidden = any(p.startswith(".") or p.endswith(".store") for p in inside.parts)
-        if hidden or not path.is_file() or path.is_symlink() or path.suffix in (".yaml", ".yml", ".md"):
-            continue
-        try:
-            reader = sniff(path)
-            files.append(RawFile(inside, reader.name, reader.describe(path, Source())))
-        except ThermodataError as error:
-            ignored.append((str(inside), error.what))
-    return files, ignored
+    return text if text.isascii() else plain(text)
+
+
+def _write_new(out: Path, text: str) -> None:
+    """Writes a file that must not be there yet, not even since a moment ago."""
+    try:
+        with out.open("x", encoding="utf-8") as file:
+            file.write(text)
+    except FileExistsError:
+        raise UsageError("the campaign file exists, and is never overwritten", where=str(out)) from None
+    except OSError as error:
+        raise UsageError("cannot write the draft", where=str(out), got=error.strerror or str(error)) from None
+
+
+def _progress(session: Session) -> Callable[[int, int, str], None] | None:
+    """A line on stderr that renews itself, on a terminal only."""
+    if session.as_json or not sys.stderr.isatty():
+        return None
+
+    def tell(done: int, of: int, path: str) -> None:
+        end = "\r" if done + 1 < of else "\r\x1b[K"
+        click.echo(f"\x1b[K{done + 1}/{of} {path[:60]}{end}", err=True, nl=False)
+
+    return tell
 
 
 @command("sniff")

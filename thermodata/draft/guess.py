@@ -20,6 +20,7 @@ _IMPLIED = {"temperature": "degC", "rotational_speed": "rpm", "position": "mm", 
 _PLAUSIBLE = {"temperature": (-40.0, 200.0), "rotational_speed": (-60_000.0, 60_000.0), "position": (-30_000.0, 30_000.0),
               "load": (-400.0, 400.0), "humidity": (0.0, 100.0), "current": (-1000.0, 1000.0),
               "torque": (-5000.0, 5000.0), "voltage": (-1000.0, 1000.0)}
+_AIR = {"hall", "floor", "bearing", "coolant", "outside", "window"}      # what creeps there between 5 and 80 is a temperature
 _NEEDS_PLACE = ("temperature", "temperature_difference", "power", "load", "current", "torque", "position", "flow", "pressure",
                 "displacement", "rotational_speed")
 
@@ -100,7 +101,7 @@ def _on_off(own: str, named: tuple[str, ...], values: Values | None) -> bool:
     """A switch by its values (0 and 1), or by a name that says so ('bDoor', 'coolant on') with values that allow it."""
     if values is not None and values.switch:
         return True
-    fits = values is None or (values.whole and 0 <= values.low and values.high <= 1)
+    fits = values is None or (values.whole and values.low >= 0 and values.high <= 1)
     return fits and ("state" in named or (own.startswith("b ") and not named and bool(places_in(own))))
 
 
@@ -176,8 +177,10 @@ def _by_name(named: tuple[str, ...], own: str, values: Values | None, dtype: str
         return Guess(None, why_not=f"quantity: {' or '.join(named)}? ({_seen(values)})")
     if named:
         return Guess(named[0], basis=("name",), sure=False)
-    if values is not None and not values.constant and values.slow and 5 <= values.low and values.high <= 80 \
+    if values is not None and not values.constant and values.slow and values.low >= 5 and values.high <= 80 \
             and values.high - values.low <= 60:
+        if places_in(own) & _AIR:
+            return Guess("temperature", basis=("name", "values"))
         return Guess("temperature", basis=("values",),
                      questions=(f"quantity: {values.span()}, changing slowly: a temperature in degC?",))
     if "door" in places_in(own) and (values is None or values.distinct <= 2):
@@ -217,7 +220,7 @@ def _unit(found: Guess, unit: str | None, written: str | None, values: Values | 
 
 def _plausible(quantity: str, values: Values) -> bool:
     low, high = _PLAUSIBLE[quantity]
-    return low <= values.low and values.high <= high and not (quantity == "temperature" and values.switch)
+    return values.low >= low and values.high <= high and not (quantity == "temperature" and values.switch)
 
 
 def _in_range(found: Guess, values: Values | None) -> Guess:

@@ -1,0 +1,196 @@
+"""What kind of test a recording is, by its name and by what moved in it; and the conditions that its name states."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from thermodata.draft.guess import guess
+from thermodata.draft.place import axis_of
+from thermodata.draft.scan import RawFile
+from thermodata.draft.vocabulary import says
+from thermodata.draft.words import words
+from thermodata.plugin import Float1D
+
+_KINDS: tuple[tuple[str, str], ...] = (
+    ("etve", "etve. idle. ambient ^amb. klid. klidov ruhe. umgebung okoli stillstand standstill leerlauf~aus 环境 静止 待机 evt."),
+    ("spectrum", "spectrum spektrum spec. spektr 谱 转速谱 drehzahlspektrum stufenprogramm"),
+    ("cutting", "^cut. cutting ^fras ^frez ^milling zerspan obrabeni obrab. bearbeit 切削 加工 铣"),
+    ("rotary_axis", "rotary table. tisch. ^stul. drehtisch rundachse otocn 转台 [bc]~axis achse~[bc] osa~[bc]"),
+    ("linear_axis", "feed. linear axis. ^vorschub ^posuv feedaxis linearachse achse. osa. osy. 进给 直线 丝杠 screw. kgt."),
+    ("spindle", "spindle spindel ^vreten sp. speed. rpm. ^otac drehzahl warmup. warm~up aufwarm zahriv 主轴 转速 预热 const. "
+                "heat. heating heating. heizen n."),
+    ("mixed", "mixed. mix. day. tag. ^den. dny. shift. schicht smena. kombin combin production produktion 混合 综合"),
+)
+_ROLES: tuple[tuple[str, str], ...] = (
+    ("locked", "locked secret geheim blind. zamcen"), ("verification", "verif valid overe pruf check. 验证"),
+    ("calibration", "train. training identif fit. ident. 辨识 建模"))
+_AGREE = {"spindle": {"spindle", "spectrum"}, "spectrum": {"spindle", "spectrum"}, "cutting": {"mixed", "cutting", "spindle"},
+          "mixed": {"mixed", "spindle", "spectrum", "linear_axis", "cutting"}, "etve": {"etve"},
+          "linear_axis": {"linear_axis", "mixed"}, "rotary_axis": {"rotary_axis", "mixed"}}
+_SPEED = re.compile(r"(?<!\S)(?:s|n|sp|rpm|speed|spindle|spindel|drehzahl|otacky|ot|nspi|转速|主轴) ?(\d{3,5})(?!\S)|"
+                    r"(?<!\S)(\d{3,5}) ?(?:rpm|ot|otmin|u min|1 min|min 1|umin|转)(?!\S)|(?<!\S)(\d{1,2}) ?(?:k|krpm)(?!\S)")
+_FEED = re.compile(r"(?<!\S)(?:f|vf|feed|vorschub|posuv|进给) ?(\d{1,5})(?: ?(m|mm) min)?(?!\S)")
+
+
+@dataclass(frozen=True, slots=True)
+class Kind:
+    """kind: as in a campaign file; comment: how sure; question: what to look at, or None; conditions: condition ->
+    value with unit; doubts: of the conditions; role_hint: what the name says of the role, which is never taken."""
+
+    kind: str
+    comment: str
+    question: str | None = None
+    conditions: dict[str, str] = field(default_factory=dict)
+    doubts: tuple[str, ...] = ()
+    role_hint: str | None = None
+
+
+@dataclass(slots=True)
+class _Moved:
+    """What a test's recordings show. speeds: plateaus of the spindle [rpm]; seen: whether a spindle's speed, a feed or a
+    position was logged at all."""
+
+    speeds: tuple[float, ...] = ()
+    axes: set[str] = field(default_factory=set)
+    rotary: bool = False
+    switched: bool = False
+    seen: bool = False
+    whole: bool = True
+
+
+def kind_of(test: str, files: Sequence[RawFile]) -> Kind:
+    """The kind of a test, and its conditions. files: all its recordings, of all sources."""
+    text, moved = words(test), _moved(files)
+    by_name = next((kind for kind, listed in _KINDS if says(listed, text)), None)
+    speed, feed = _SPEED.search(text), _FEED.search(text)
+    conditions, doubts = _conditions(text, speed, feed, moved)
+    if by_name is None and speed:
+        by_name = "spindle"
+    elif by_name is None and (feed or re.search(r"(?<!\S)[xyz]\d*(?!\S)", text)):
+        by_name = "linear_axis"
+    by_data = _by_data(moved)
+    hint = next((role for role, listed in _ROLES if says(listed, text)), None)
+    kind, comment, question = _decided(by_name, by_data, moved)
+    if kind == "linear_axis" and "axis" not in conditions:
+        letter = axis_of(text) or (next(iter(moved.axes)) if len(moved.axes) == 1 else None)
+        if letter:
+            conditions["axis"] = letter.upper()
+    if kind == "spindle" and "speed" not in conditions and len(moved.speeds) == 1 and moved.whole:
+        conditions["speed"] = f"{moved.speeds[0]:g} rpm"
+    return Kind(kind, comment, question, conditions, tuple(doubts), hint)
+
+
+def _decided(by_name: str | None, by_data: str | None, moved: _Moved) -> tuple[str, str, str | None]:
+    if by_name and by_data:
+        if by_data in _AGREE.get(by_name, {by_name}):
+            kind = "spectrum" if (by_name, by_data) == ("spindle", "spectrum") else by_name
+            return kind, "sure: name and data", None
+        return by_name, "", f"kind: the name says {by_name}, the data {by_data} ({_told(moved)})"
+    if by_data:
+        return by_data, f"guess: data only, {_told(moved)}", None
+    if by_name:
+        return by_name, "guess: name only", None
+    return "other", "", "kind?"
+
+
+def _told(moved: _Moved) -> str:
+    said = []
+    if moved.speeds:
+        said.append("spindle at " + ", ".join(f"{s:g}" for s in moved.speeds[:4]) +
+                    (f" and {len(moved.speeds) - 4} more" if len(moved.speeds) > 4 else "") + " rpm")
+    if moved.axes:
+        said.append(f"{'/'.join(sorted(moved.axes)).upper()} moves")
+    if moved.rotary:
+        said.append("the table turns")
+    return ", ".join(said) or ("switches change, nothing moves" if moved.switched else "nothing moves")
+
+
+def _by_data(moved: _Moved) -> str | None:
+    if not moved.seen:
+        return None
+    if moved.speeds and moved.axes:
+        return "mixed"
+    if moved.speeds:
+        return "spectrum" if len(moved.speeds) >= 3 else "spindle"
+    if moved.axes and moved.rotary:
+        return "mixed"
+    if moved.axes:
+        return "linear_axis" if len(moved.axes) == 1 else "mixed"
+    if moved.rotary:
+        return "rotary_axis"
+    if moved.switched or not moved.whole:
+        return None
+    return "etve"
+
+
+def _moved(files: Sequence[RawFile]) -> _Moved:
+    found = _Moved(whole=all(f.sample.whole for f in files))
+    for file in files:
+        for signal in file.signals:
+            key = (signal.stream, signal.name)
+            seen, course = file.sample.values.get(key), file.sample.courses.get(key)
+            if seen is None:
+                continue
+            said = guess(signal.name, signal.unit, signal.dtype, seen)
+            _add(found, said.quantity, said.at or "", said.unit, max(abs(seen.low), abs(seen.high)), seen.high - seen.low,
+                 None if course is None else course.values)
+    return found
+
+
+def _add(found: _Moved, quantity: str | None, at: str, unit: str | None, largest: float, span: float,
+         course: Float1D | None) -> None:
+    axis = at.split(".")[1] if at.startswith("axis.") and at.count(".") == 1 else None
+    if quantity == "rotational_speed":
+        found.seen = True
+        if largest > 20 and (at.startswith("table") or at.startswith("rotary")):
+            found.rotary = True
+        elif largest > 20 and at == "spindle" and course is not None:
+            found.speeds = max(found.speeds, _plateaus(course), key=len)
+        elif largest > 1 and at.startswith(("table", "rotary")):
+            found.rotary = True
+    elif quantity == "feed" and axis:
+        found.seen = True
+        if largest > (50 if (unit or "").startswith("mm") else 0.05):
+            found.axes.add(axis)
+    elif quantity == "position" and axis:
+        found.seen = True
+        if span > 5:
+            found.axes.add(axis)
+    elif quantity == "state" and span > 0 and not at.startswith("hall"):
+        found.switched = True
+
+
+def _plateaus(speed: Float1D) -> tuple[float, ...]:
+    """The speeds at which it stayed, in the order of the first time each; to 2 %."""
+    x = np.abs(speed[np.isfinite(speed)])
+    x = x[x > 20]
+    found: list[float] = []
+    if x.size < 5:
+        return ()
+    order, counts = np.unique(np.round(np.log(x) / 0.02).astype(np.int64), return_counts=True)
+    for cell in order[counts >= max(3, 0.02 * x.size)]:
+        level = float(np.median(x[np.abs(np.log(x) / 0.02 - cell) <= 1.5]))
+        if not any(abs(level - f) < 0.04 * f for f in found):
+            found.append(level)
+    return tuple(float(f"{f:.3g}") if f >= 1000 else round(f) for f in found)
+
+
+def _conditions(text: str, speed: re.Match[str] | None, feed: re.Match[str] | None,
+                moved: _Moved) -> tuple[dict[str, str], list[str]]:
+    found: dict[str, str] = {}
+    doubts = []
+    if speed:
+        value = float(speed[1] or speed[2] or 0) or float(speed[3]) * 1000
+        found["speed"] = f"{value:g} rpm"
+        if moved.speeds and moved.whole and not any(abs(s - value) < 0.05 * value for s in moved.speeds):
+            doubts.append(f"speed: the name says {value:g} rpm, the data {', '.join(f'{s:g}' for s in moved.speeds[:3])}")
+    if feed:
+        unit = f"{feed[2]}/min" if feed[2] else "mm/min" if float(feed[1]) >= 100 else "m/min"
+        found["feed"] = f"{float(feed[1]):g} {unit}"
+        if not feed[2]:
+            doubts.append(f"feed in {unit}?")
+    return found, doubts

@@ -1,0 +1,249 @@
+"""The draft of a campaign as plain data: what `init --json` prints and draft/write.py writes as YAML."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+
+from thermodata.draft.clocks import Alignment, alignments, zone_question
+from thermodata.draft.group import Group, files_of, sources_of, tests_of
+from thermodata.draft.guess import Guess, guess
+from thermodata.draft.jumps import JumpTest, jump_of
+from thermodata.draft.kinds import Kind, kind_of
+from thermodata.draft.place import axis_of
+from thermodata.draft.scan import RawFile, Scan
+from thermodata.draft.table import TestTable, find_table, is_called_table
+from thermodata.draft.values import joined
+from thermodata.draft.words import channel_name, words
+from thermodata.plugin import Signal
+from thermodata.reader.text import split_unit
+from thermodata.schema.quantity import CANONICAL_UNIT
+
+_MOST_SIGNALS = 2000
+_SHORT = {"temperature": "T", "temperature_difference": "dT", "rotational_speed": "speed", "displacement": "d"}
+
+
+@dataclass(frozen=True, slots=True)
+class DraftSource:
+    """sources.<name>. files: a glob with {test}, a shared one, or None where each test names its files."""
+
+    name: str
+    reader: str
+    files: str | None
+    questions: tuple[str, ...] = ()
+    align: Alignment | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class DraftChannel:
+    """channels.<name>, or a signal that no quantity fits (said.quantity None). signal: as it stands in the file; stream
+    where the file has several; only_in: the tests that have it, where not all of the source's do."""
+
+    name: str
+    source: str
+    signal: str
+    stream: str | None
+    said: Guess
+    calibration: str | None = None
+    only_in: tuple[str, ...] = ()
+    note: str | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class DraftJump:
+    """calibrations.<name>: a jump test whose moves nobody but the lab knows. seen: its steps as they were logged."""
+
+    name: str
+    source: str
+    file: str
+    signal: str | None
+    axis: str | None
+    dwell_s: float
+    seen: tuple[float, ...]
+    unit: str | None
+    question: str
+
+
+@dataclass(frozen=True, slots=True)
+class DraftTest:
+    """tests[]: files: source -> path or paths, where the source's pattern does not find them."""
+
+    id: str
+    kind: Kind
+    conditions: dict[str, str]
+    files: dict[str, str | list[str]]
+    doubts: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Draft:
+    """A campaign file to be. not_used: (path, reason); damaged: (path, what); table: of tests, where one lies beside."""
+
+    campaign: str
+    sources: tuple[DraftSource, ...]
+    channels: tuple[DraftChannel, ...]
+    jumps: tuple[DraftJump, ...]
+    tests: tuple[DraftTest, ...]
+    table: TestTable | None = None
+    not_used: tuple[tuple[str, str], ...] = ()
+    damaged: tuple[tuple[str, str], ...] = ()
+    notes: tuple[str, ...] = field(default_factory=tuple)
+
+
+def plan(campaign: str, folder: Path, found: Scan) -> Draft:
+    """What the folder holds, as a campaign."""
+    early = _claimed_table(folder, found)
+    if early is not None:
+        found = replace(found, logs=tuple(f for f in found.logs if str(f.path) != early),
+                        others=(*found.others, early))
+    jumps = [j for f in found.logs if (j := jump_of(f)) is not None and (j.named or _short(j, found.logs))]
+    groups = tests_of(sources_of(found.logs, [j.file for j in jumps]))
+    taken: set[str] = set()
+    channels: list[DraftChannel] = []
+    by_signal: dict[str, dict[tuple[str, str], tuple[str, str | None, str]]] = {}
+    calibrations: list[DraftJump] = []
+    notes: list[str] = []
+    for g in groups:
+        made, left = _channels(g, [j for j in jumps if j.file in g.calibrations], taken, calibrations)
+        channels += made
+        notes += left
+        by_signal[g.source] = {(c.stream or "", c.signal): (c.said.quantity, c.said.at, c.name)
+                               for c in made if c.said.quantity}
+    aligned = {a.source: a for a in alignments(groups, {s: _keyed(g, by_signal[s]) for g in groups for s in [g.source]})}
+    sources = tuple(DraftSource(g.source, g.reader, g.template,
+                                tuple(q for q in (zone_question(g, groups), *g.questions) if q), aligned.get(g.source))
+                    for g in groups)
+    ids = list(dict.fromkeys(t for g in groups for t in g.tests))
+    table = find_table(folder, found.others, ids)
+    tests = tuple(_test(t, groups, table) for t in ids)
+    left_out = tuple(x for x in found.ignored if table is None or x[0] != table.file)
+    like = [f for f in found.logs if f.like]
+    if like:
+        notes.append(f"{len(like)} files were not opened (too many): taken to be like others of their name, "
+                     f"e.g. {like[0].path} like {like[0].like}")
+    return Draft(campaign, sources, tuple(channels), tuple(calibrations), tests, table, left_out, found.damaged, tuple(notes))
+
+
+def _claimed_table(folder: Path, found: Scan) -> str | None:
+    """A table of tests that a reader takes for a log, because it has a column of dates."""
+    small = [str(f.path) for f in found.logs if f.size < 200_000 and is_called_table(str(f.path))]
+    ids = [f.path.stem for f in found.logs if str(f.path) not in small]
+    made = find_table(folder, small, ids) if small else None
+    return made.file if made else None
+
+
+def _keyed(group: Group, named: dict[tuple[str, str], tuple[str, str | None, str]]) \
+        -> dict[tuple[str, str], tuple[str, str | None, str]]:
+    """The channels by (stream, signal) of the files, whatever the campaign file calls them."""
+    plain = {signal.split(":", 1)[-1] if stream else signal: value for (stream, signal), value in named.items()}
+    return {(s.stream, s.name): named.get((s.stream, f"{s.stream}:{s.name}")) or plain[s.name]
+            for s, _ in group.signals if s.name in plain}
+
+
+def _short(jump: JumpTest, files: Sequence[RawFile]) -> bool:
+    """Whether a recording that nobody calls a jump test is far shorter than the tests, as one is."""
+    spans = sorted((f.sample.last_ns or 0) - (f.sample.first_ns or 0) for f in files if f is not jump.file)
+    own = (jump.file.sample.last_ns or 0) - (jump.file.sample.first_ns or 0)
+    return bool(spans) and own * 3 < spans[len(spans) // 2]
+
+
+def _channels(group: Group, jumps: Sequence[JumpTest], taken: set[str],
+              calibrations: list[DraftJump]) -> tuple[list[DraftChannel], list[str]]:
+    found = group.signals
+    notes = [f"{group.source}: {len(found) - _MOST_SIGNALS} more signals, left out"] if len(found) > _MOST_SIGNALS else []
+    twice = {n for n, k in Counter(n for f in (*group.files, *group.calibrations)
+                                   for n, k in Counter(s.name for s in f.signals).items() if k > 1).items() if k}
+    made, seen = [], set()
+    streams = {s.stream for s, _ in found}
+    for signal, files in found[:_MOST_SIGNALS]:
+        if signal.name in seen and signal.name not in twice:
+            continue                                       # the same signal, in a stream of another name
+        seen.add(signal.name)
+        said, note = _said(signal, files)
+        jump = next((j for j in jumps if j.signal == (signal.stream, signal.name)), None)
+        if jump is not None and said.quantity == "voltage":
+            said = Guess("displacement", said.unit, "tcp", None, False, ("data",), ("axis?",))
+        named = f"{signal.stream}:{signal.name}" if signal.name in twice else signal.name
+        name = channel_name(_wished(signal.name, said), taken) if said.quantity else signal.name
+        calibration = None
+        if said.quantity == "displacement" and (said.unit or "V") in ("V", "mV"):
+            calibration, said = _calibration(name, signal, said, jump, group, jumps, calibrations)
+        elif said.quantity == "displacement" and said.at == "tcp":
+            note = "; ".join(filter(None, (note, "its sign is unknown until a calibration says which way it counts")))
+        having = {t for t, fs in group.tests.items() if any(f in files for f in fs)}
+        only = tuple(t for t in group.tests if t in having) if len(having) < len(group.tests) and having else ()
+        made.append(DraftChannel(name, group.source, named, signal.stream if len(streams) > 1 else None, said,
+                                 calibration, only, note))
+    return made, notes
+
+
+def _said(signal: Signal, files: Sequence[RawFile]) -> tuple[Guess, str | None]:
+    """The guess of a signal from all files that have it; the note says where they disagree on the unit."""
+    values = None
+    units: Counter[str | None] = Counter()
+    for f in files:
+        values = joined(values, f.sample.values.get((signal.stream, signal.name)))
+        units[next((s.unit for s in f.signals if (s.stream, s.name) == (signal.stream, signal.name)), None)] += 1
+    # a scaling that stands in the file is applied at ingest: the numbers seen here are not yet in the unit
+    said = guess(signal.name, units.most_common(1)[0][0], signal.dtype, None if signal.scaling else values)
+    if len(units) > 1 and said.quantity:
+        names = ", ".join(f"{u or 'none'} ({n})" for u, n in units.most_common())
+        return Guess(said.quantity, None, said.at, said.axis, False, said.basis,
+                     (*said.questions, f"unit: the files disagree: {names}; each file's own is taken")), None
+    return said, None
+
+
+def _wished(signal: str, said: Guess) -> str:
+    """A name for a channel: the last part of the signal's, or what is known of it where that is in another script."""
+    bare = split_unit(signal)[0]
+    parts = [p for p in bare.replace("\\", "/").split("/") if p.strip()] or [bare]
+    last = parts[-1]
+    if len(last.strip()) <= 2 and len(parts) > 1:                # Eddy/Z says more than Z
+        last = "_".join(parts[-2:])
+    foreign = sum(ord(c) > 0x2ff for c in bare)
+    if foreign and said.at and said.quantity in CANONICAL_UNIT:
+        where = "_".join(p for p in said.at.split(".") if p not in ("axis",))
+        tail = "".join(c for c in bare if c.isascii() and c.isdigit())
+        return "_".join(filter(None, (_SHORT.get(said.quantity, said.quantity),
+                                      f"{said.axis}" if said.axis else where, tail)))
+    return last
+
+
+def _calibration(name: str, signal: Signal, said: Guess, jump: JumpTest | None, group: Group, jumps: Sequence[JumpTest],
+                 calibrations: list[DraftJump]) -> tuple[str | None, Guess]:
+    """The jump test of a probe in volts; without one, the question for it."""
+    key = (signal.stream, signal.name)
+    fitting = [j for j in jumps if j.signal == key] or \
+        [j for j in jumps if j.signal is None and any((s.stream, s.name) == key for s in j.file.signals)
+         and axis_of(words(j.file.path.stem)) in (None, (said.axis or "").lower())]
+    jump = jump or (fitting[0] if fitting else None)
+    if jump is None:
+        return None, Guess(said.quantity, said.unit, said.at, said.axis, False, said.basis,
+                           (*said.questions, "calibration? a jump test, or kind: scale with the data sheet's gain in um/V"))
+    letter = axis_of(words(jump.file.path.stem))
+    axis = said.axis or (letter.upper() if letter and letter in "xyz" else None)
+    if said.axis is None and axis is not None:
+        said = Guess(said.quantity, said.unit, said.at, axis, False, said.basis,
+                     (*(q for q in said.questions if q != "axis?"), f"axis: {axis} by the name of {jump.file.path.name}"))
+    seen = tuple(float(f"{s.size:.3g}") for s in jump.steps)
+    question = "moves: the commanded ones, signed, in machine coordinates"
+    question += f"; seen: steps of {', '.join(f'{s:+g}' for s in seen[:8])} {said.unit or 'V'}" if seen else \
+        "; no steps were seen in it"
+    calibrations.append(DraftJump(f"jump_{name}", group.source, str(jump.file.path),
+                                  signal.name, axis, float(f"{jump.dwell_s:.2g}"), seen, said.unit, question))
+    return (f"jump_{name}" if axis else None), said
+
+
+def _test(test: str, groups: Sequence[Group], table: TestTable | None) -> DraftTest:
+    files = [f for g in groups for f in g.tests.get(test, ())]
+    kind = kind_of(test, files)
+    conditions, doubts = dict(kind.conditions), list(kind.doubts)
+    for key, value in (table.rows.get(test, {}) if table else {}).items():
+        if key in conditions and conditions[key].split()[0] != value.split()[0]:
+            doubts.append(f"{key}: the name says {conditions[key]}, the table {value}")
+            continue
+        conditions[key] = value
+    own = {g.source: files_of(g, test) for g in groups if g.template is None and test in g.tests}
+    return DraftTest(test, kind, conditions, own, tuple(doubts))

@@ -1,0 +1,125 @@
+"""A table of tests beside the files: which of its columns names the test, and what conditions it gives."""
+
+from __future__ import annotations
+
+import csv
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from thermodata.draft.filenames import normal
+from thermodata.draft.vocabulary import says
+from thermodata.draft.words import plain, words
+from thermodata.errors import ThermodataError
+from thermodata.reader.text import decode, split_unit
+
+_LARGEST = 4_000_000
+_NAMED = "test tests versuch zkousk mereni plan protocol protokoll matrix 试验 测试 实验 runs uebersicht ubersicht overview"
+_KNOWN = (("speed", "speed. drehzahl otack rpm. 转速 n. s."), ("feed", "feed. vorschub posuv 进给 f. vf."),
+          ("air", "air. luft. vzduch 气"), ("tool", "tool. werkzeug nastroj 刀具"), ("axis", "axis. achse. osa. 轴"))
+
+
+@dataclass(frozen=True, slots=True)
+class TestTable:
+    """file: its path; key: its column that names the tests; rows: test -> condition -> value with unit."""
+
+    __test__ = False
+    file: str
+    key: str
+    rows: Mapping[str, Mapping[str, str]]
+
+
+def find_table(folder: Path, candidates: Sequence[str], tests: Sequence[str]) -> TestTable | None:
+    """The first small table in which most tests are named, each once; None where there is none."""
+    if not tests:
+        return None
+    tables = [c for c in candidates if Path(c).suffix.lower() in (".csv", ".txt", ".tsv", ".xlsx", ".xlsm")]
+    tables.sort(key=lambda c: (not says(_NAMED, words(Path(c).stem)), c))
+    for candidate in tables[:20]:
+        path = folder / candidate
+        if path.stat().st_size > _LARGEST:
+            continue
+        for rows in _grids(path):
+            found = _read(candidate, rows, tests)
+            if found is not None:
+                return found
+    return None
+
+
+def is_called_table(path: str) -> bool:
+    """Whether a name says table of tests."""
+    return Path(path).suffix.lower() in (".csv", ".txt", ".tsv", ".xlsx", ".xlsm") and says(_NAMED, words(Path(path).stem))
+
+
+def _grids(path: Path) -> Iterator[list[list[str]]]:
+    """The rows of a table as text; of a workbook, of each sheet."""
+    if path.suffix.lower() in (".xlsx", ".xlsm"):
+        try:
+            from python_calamine import load_workbook
+
+            book = load_workbook(str(path))
+            for name in book.sheet_names[:5]:
+                yield [[_text(c) for c in row] for row in book.get_sheet_by_name(name).to_python()[:3000]]
+        except Exception:  # a workbook may be broken in any way; then it is no table of tests
+            return
+        return
+    try:
+        text, _, _ = decode(path.read_bytes())
+    except (ThermodataError, OSError):
+        return
+    first = text.split("\n", 1)[0]
+    delimiter = max(";\t,", key=first.count)
+    if first.count(delimiter):
+        yield [[c.strip() for c in row] for row in csv.reader(text.splitlines()[:3000], delimiter=delimiter)]
+
+
+def _text(cell: Any) -> str:
+    return f"{cell:g}" if isinstance(cell, float) else "" if cell is None else str(cell).strip()
+
+
+def _read(file: str, rows: list[list[str]], tests: Sequence[str]) -> TestTable | None:
+    body = [r for r in rows if sum(map(bool, r)) >= 2]
+    if len(body) < 2:
+        return None
+    header, lines = body[0], body[1:]
+    wanted = {normal(t): t for t in tests}
+    numbers = _numbers(tests)
+    best: tuple[int, int, dict[int, str]] | None = None
+    for column in range(len(header)):
+        cells = [r[column] if column < len(r) else "" for r in lines]
+        for lookup in (wanted, numbers):
+            named = {i: lookup[key] for i, c in enumerate(cells) if (key := normal(Path(c).stem if "." in c else c)) in lookup}
+            if len(set(named.values())) == len(named) and (best is None or len(named) > best[0]):
+                best = (len(named), column, named)
+    if best is None or best[0] < max(2, 0.6 * len(tests)):
+        return None
+    _, key, named = best
+    found: dict[str, dict[str, str]] = {}
+    for i, test in named.items():
+        found[test] = {name: value for c, title in enumerate(header) if c != key and c < len(lines[i])
+                       and (name := _condition(title)) and (value := _with_unit(lines[i][c], title, name))}
+    return TestTable(file, header[key], found)
+
+
+def _numbers(tests: Sequence[str]) -> dict[str, str]:
+    """The number at the end of each test's name, where these differ: '7' -> 'S8000_F12_7'."""
+    ends = {t: m[1] for t in tests if (m := re.search(r"(\d+)$", t))}
+    found = {normal(n): t for t, n in ends.items()}
+    return found if len(found) == len(tests) else {}
+
+
+def _condition(title: str) -> str:
+    text = words(split_unit(title)[0])
+    known = next((name for name, listed in _KNOWN if says(listed, text)), None)
+    return known or re.sub(r"__+", "_", plain(split_unit(title)[0])).lower()[:40]
+
+
+def _with_unit(cell: str, title: str, name: str) -> str:
+    cell = cell.strip()
+    number = re.fullmatch(r"[+-]?\d+(?:[.,]\d+)?", cell)
+    if not number:
+        return cell
+    unit = split_unit(title)[1] or ("rpm" if name == "speed" else "")
+    return f"{float(cell.replace(',', '.')):g} {unit}".strip()

@@ -1,0 +1,136 @@
+"""A draft as the text of a campaign file, with '# ?' at every question."""
+
+from __future__ import annotations
+
+import json
+import re
+from collections.abc import Mapping, Sequence
+
+from thermodata.draft.plan import Draft, DraftChannel, DraftJump, DraftSource, DraftTest
+from thermodata.draft.testsfrom import Pattern, pattern_of
+
+_WORDS = frozenset(("yes", "no", "on", "off", "true", "false", "null", "y", "n"))
+_HEAD = """\
+# Drafted by thermodata init. '# ?' marks what nobody but you knows: answer it in the line, then delete the mark.
+# 'guess' is what names, units or values suggest; 'sure' is what they agree on."""
+
+
+def text_of(draft: Draft) -> str:
+    """The whole campaign file; it loads as it stands."""
+    lines = [_HEAD, "schema: thermodata/campaign/1", f"id: {_scalar(draft.campaign)}",
+             "machine:", "  id: unknown                      # ? the machine's number", "sources:"]
+    lines += [_source(s) for s in draft.sources]
+    lines.append("channels:" if any(c.said.quantity for c in draft.channels) else
+                 "channels: {}                       # ? no signal whose quantity can be told")
+    lines += [_channel(c) for c in draft.channels]
+    live = [j for j in draft.jumps if j.axis and j.signal]
+    lines += ["calibrations:"] if live else []
+    lines += [_jump(j) for j in draft.jumps]
+    lines += _tests(draft)
+    lines += [f"# damaged: {_line(p)}: {_line(why)}" for p, why in draft.damaged]
+    lines += [f"# not used: {_line(p)}: {_line(why)}" for p, why in draft.not_used]
+    lines += [f"# note: {_line(n)}" for n in draft.notes]
+    return "\n".join(lines) + "\n"
+
+
+def questions_in(text: str) -> int:
+    """How many lines of a campaign file still hold a question."""
+    return sum("# ?" in line for line in text.splitlines()) - ("# ?" in _HEAD)
+
+
+def _source(s: DraftSource) -> str:
+    parts: dict[str, object] = {"reader": s.reader}
+    if s.files:
+        parts["files"] = s.files
+    body = _flow(parts)
+    comments = []
+    if s.align:
+        here, there = s.align.by
+        body += f", clock: {{align_to: {s.align.there}, by: [{{here: {here}, there: {there}}}]}}"
+        comments.append(f"clock guess: {s.align.offset_s:+.1f} s in {_line(s.align.test)}, by what both logged")
+    asked = "; ".join(s.questions)
+    said = "; ".join(filter(None, (f"? {asked}" if asked else "", *comments)))
+    return f"  {s.name}: {{{body}}}" + (f"   # {_line(said)}" if said else "")
+
+
+def _channel(c: DraftChannel) -> str:
+    said = c.said
+    moves = said.quantity == "displacement" and said.at == "tcp"
+    keys = {"source": c.source, "signal": c.signal, "quantity": said.quantity, "unit": said.unit, "axis": said.axis,
+            "at": said.at, "relative_to": "table" if moves else None, "calibration": c.calibration}
+    notes = [said.comment(), f"stream {c.stream}" if c.stream else "",
+             f"only in {', '.join(c.only_in[:5])}{' ...' if len(c.only_in) > 5 else ''}" if c.only_in else "", c.note or ""]
+    mark = "  " if said.quantity else "  # "
+    name = c.name if said.quantity else _scalar(c.name)
+    return f"{mark}{name}: {{{_flow(keys)}}}   # {_line('; '.join(filter(None, notes)))}"
+
+
+def _jump(j: DraftJump) -> str:
+    keys = {"kind": "jump", "axis": j.axis or "?", "source": j.source, "file": j.file, "signal": j.signal}
+    line = f"{j.name}: {{{_flow(keys)}, moves: unknown, dwell: {j.dwell_s:g} s}}   # {_line('? ' + j.question)}"
+    return f"  {line}" if j.axis and j.signal else f"  # ? axis? then: {line}"
+
+
+def _tests(draft: Draft) -> list[str]:
+    if not draft.tests:
+        return ["tests: []                          # ? no recording was found"]
+    pattern = pattern_of(draft)
+    if pattern is not None:
+        return _tests_from(pattern, draft)
+    lines = ["tests:"]
+    if draft.table is not None:
+        lines[0] += f"   # conditions from {_line(draft.table.file)}, column '{_line(draft.table.key)}'"
+    return lines + [_test(t) for t in draft.tests]
+
+
+def _test(t: DraftTest) -> str:
+    body = _flow({"id": t.id, "kind": t.kind.kind, "role": "none"})
+    if t.conditions:
+        body += f", conditions: {{{_flow(t.conditions)}}}"
+    if t.files:
+        body += f", files: {{{_flow(t.files)}}}"
+    return f"  - {{{body}}}   # {_line(_test_comment(t))}"
+
+
+def _test_comment(t: DraftTest) -> str:
+    hint = f" (the name says {t.kind.role_hint})" if t.kind.role_hint else ""
+    asked = [f"role: calibration, verification or locked?{hint}", *filter(None, (t.kind.question,)), *t.doubts]
+    return f"? {'; '.join(asked)}" + (f"; kind {t.kind.comment}" if t.kind.comment else "")
+
+
+def _tests_from(p: Pattern, draft: Draft) -> list[str]:
+    kinds = {t.kind.kind for t in draft.tests}
+    lines = [f"tests_from:   # {len(draft.tests)} tests: {_line(', '.join(t.id for t in draft.tests[:4]))} ...",
+             f"  files: {_scalar(p.files)}"]
+    if len(draft.sources) > 1:
+        lines.append(f"  source: {p.source}")
+    if p.units:
+        asked = f"   # ? {', '.join(p.doubts)}" if p.doubts else ""
+        lines.append(f"  units: {{{_flow(p.units)}}}{asked}")
+    said = "; ".join(dict.fromkeys(t.kind.question or f"kind {t.kind.comment}" for t in draft.tests[:3]))
+    lines.append(f"  set: {{kind: {kinds.pop()}, role: none}}   # ? role: calibration, verification or locked?; {_line(said)}")
+    return lines
+
+
+def _flow(keys: Mapping[str, object]) -> str:
+    return ", ".join(f"{_scalar(k)}: {_value(v)}" for k, v in keys.items() if v is not None)
+
+
+def _value(value: object) -> str:
+    if isinstance(value, str | int | float):
+        return _scalar(value)
+    assert isinstance(value, Sequence)
+    return "[" + ", ".join(_scalar(v) for v in value) + "]"
+
+
+def _scalar(value: object) -> str:
+    """A YAML scalar, quoted where it must be (inside a flow mapping)."""
+    text = str(value)
+    safe = re.fullmatch(r"[A-Za-z_][A-Za-z0-9_./%*-]*|\d+(?:\.\d+)? [A-Za-z%][A-Za-z0-9/%^]*", text) \
+        and text.lower() not in _WORDS
+    return text if safe else json.dumps(text, ensure_ascii=not text.isprintable())
+
+
+def _line(text: str) -> str:
+    """Text of files in a comment: on one line, whatever it holds."""
+    return "".join(c if c.isprintable() else " " for c in text)
