@@ -1,4 +1,4 @@
-"""MDF 3 and 4 through asammdf: each channel group a stream with its master as the time, raw values with their scaling."""
+"""MDF 3 and 4 through asammdf: each channel group a stream with its master as the time, raw values with scalings."""
 
 from __future__ import annotations
 
@@ -325,9 +325,12 @@ def describe(path: Path, source: Source) -> Recording:
             raise FormatError("no channel group with rows and a time", where=path.name,
                               got="; ".join([*file.notes, *(x.reason for x in file.losses)][:4]) or "an empty file")
         signals = tuple(c.signal for g in file.groups for c in g.channels)
-        notes = [*([cut] if cut else []), *([] if finished else ["the file was not finished by its writer"]), *file.notes]
+        notes = [cut] if cut else []
+        if not finished:
+            notes.append("the file was not finished by its writer")
         start = file.start_ns
-        return Recording(signals, "relative" if start is None else "absolute", start, not cut and finished, tuple(notes))
+        return Recording(signals, "relative" if start is None else "absolute", start, not cut and finished,
+                         (*notes, *file.notes))
 
 
 def blocks(path: Path, source: Source) -> Iterator[Block | Loss]:

@@ -1,4 +1,4 @@
-"""The blocks of an MDF 4 file, walked before a library trusts them: every link leads to a whole block, none in a circle.
+"""The blocks of an MDF 4 file, walked before a library trusts them: each link leads to a whole block, none in a circle.
 
 Format: ASAM MDF 4.2, "Block structure": each block has its id ("##XX"), length, number of links, and the links.
 """
@@ -14,8 +14,8 @@ from thermodata.errors import FormatError
 
 _MOST_BLOCKS = 2_000_000
 _DATA = {b"##DT", b"##SD", b"##RD", b"##DV", b"##DI", b"##RV", b"##RI"}
-_KNOWN = _DATA | {b"##" + k for k in (b"HD", b"MD", b"TX", b"FH", b"CH", b"AT", b"EV", b"DG", b"CG", b"SI", b"CN", b"CC",
-                                      b"CA", b"SR", b"DL", b"DZ", b"HL", b"LD", b"GL")}
+_KNOWN = _DATA | {b"##" + k for k in (b"HD", b"MD", b"TX", b"FH", b"CH", b"AT", b"EV", b"DG", b"CG", b"SI", b"CN",
+                                      b"CC", b"CA", b"SR", b"DL", b"DZ", b"HL", b"LD", b"GL")}
 # link numbers of the lists that a program follows one by one, and what must stand there
 _NEXT = {b"##DG": {0: {b"##DG"}, 1: {b"##CG"}, 2: _DATA | {b"##DZ", b"##DL", b"##HL", b"##LD"}},
          b"##CG": {0: {b"##CG"}, 1: {b"##CN"}, 2: {b"##TX"}},

@@ -1,0 +1,99 @@
+"""Whether an HDF5 data set holds what it declares. HDF5 without checksums, as MATLAB writes it, reads a damaged layout
+as zeros or as other bytes of the file without a word."""
+
+from __future__ import annotations
+
+from bisect import bisect_right
+from typing import Any
+
+import numpy as np
+
+_DEFLATE, _SHUFFLE, _FLETCHER = 1, 2, 3
+_FEW = 5000                                 # chunks up to which they are held against the other data sets
+_RATIO = 1100                               # deflate packs to a thousandth at best
+
+
+class Spans:
+    """The bytes of a file that are spoken for."""
+
+    def __init__(self) -> None:
+        self._starts: list[int] = []
+        self._stops: list[int] = []
+
+    def take(self, start: int, size: int) -> None:
+        """ValueError where another data set has some of these bytes."""
+        i = bisect_right(self._starts, start)
+        if (i and self._stops[i - 1] > start) or (i < len(self._starts) and self._starts[i] < start + size):
+            raise ValueError(f"{size} bytes at {start} belong to two data sets")
+        self._starts.insert(i, start)
+        self._stops.insert(i, start + size)
+
+
+def check_stored(item: Any, kind: str, spans: Spans) -> None:
+    """ValueError where a data set's type is not its MATLAB class's, or its bytes are not all there, or stand where
+    they cannot. kind: the MATLAB class, or ''."""
+    import h5py
+
+    plain = {"double": "<f8", "single": "<f4", "logical": "|u1", "char": "<u2"}.get(kind)
+    plain = plain or (np.dtype(kind).str if kind else None)
+    # h5py shows a type with other exponent bits, or with padding, as the nearest that numpy has
+    if not any(item.id.get_type().equal(h5py.h5t.py_create(item.dtype.newbyteorder(order))) for order in "<>"):
+        raise ValueError(f"numbers of an unknown kind ({item.dtype})")
+    if plain is not None and item.dtype.str != plain and kind not in ("char", "logical"):
+        raise ValueError(f"a {kind} stored as {item.dtype}")
+    size, declared = int(item.file.id.get_filesize()), int(item.size) * item.dtype.itemsize
+    if not declared:
+        return
+    if item.chunks is None:
+        at, stored = item.id.get_offset(), int(item.id.get_storage_size())
+        if stored != declared:
+            raise ValueError(f"declares {declared} bytes and holds {stored}")
+        # small values may stand inside the object's own header, which has no address
+        if at is not None and not 0 < at <= size - declared:
+            raise ValueError(f"{declared} bytes at {at} of {size}")
+        if at is not None:
+            spans.take(int(at), declared)
+        return
+    _check_chunks(item, size, declared, spans)
+
+
+def _check_chunks(item: Any, size: int, declared: int, taken: Spans) -> None:
+    create = item.id.get_create_plist()
+    filters = [create.get_filter(i) for i in range(create.get_nfilters())]
+    for code, _, values, _ in filters:
+        if code not in (_DEFLATE, _SHUFFLE, _FLETCHER):
+            raise ValueError(f"packed by an unknown filter ({code})")
+        if code == _SHUFFLE and tuple(values[:1]) != (item.dtype.itemsize,):
+            raise ValueError(f"shuffled by {values} bytes, of {item.dtype.itemsize}")
+    if int(item.id.get_storage_size()) * _RATIO < declared:
+        raise ValueError(f"declares {declared} bytes and holds {item.id.get_storage_size()}")
+    counts = [-(-n // c) for n, c in zip(item.shape, item.chunks, strict=True)]
+    wanted = int(np.prod(counts, dtype=object))
+    found = int(item.id.get_num_chunks())
+    if found != wanted:
+        raise ValueError(f"{found} of {wanted} chunks are there")
+    whole = int(np.prod(item.chunks, dtype=object)) * item.dtype.itemsize
+    packs = any(code == _DEFLATE for code, *_ in filters)
+    spare = 4 if any(code == _FLETCHER for code, *_ in filters) else 0
+    spans: list[tuple[int, int]] = []
+    places: set[tuple[int, ...]] = set()
+
+    def look(chunk: Any) -> None:
+        if chunk.filter_mask & ~1 and packs:
+            raise ValueError(f"a chunk with filter mask {chunk.filter_mask}")
+        if not packs and chunk.size != whole + spare:
+            raise ValueError(f"a chunk of {chunk.size} bytes, not {whole}")
+        spans.append((int(chunk.byte_offset), int(chunk.size)))
+        places.add(tuple(int(o) for o in chunk.chunk_offset))
+
+    item.id.chunk_iter(look)
+    if len(places) != wanted or any(
+            o % c or o >= n for place in places for o, c, n in zip(place, item.chunks, item.shape, strict=True)):
+        raise ValueError("chunks that are not where they belong")
+    spans.sort()
+    if len(spans) < _FEW:
+        for at, length in spans:
+            taken.take(at, length)
+    for (at, length), (after, _) in zip(spans, [*spans[1:], (size, 0)], strict=True):
+        if at <= 0 or at + length > after:
+            raise ValueError(f"a chunk of {length} bytes at {at} runs into the next")
