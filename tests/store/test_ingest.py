@@ -107,7 +107,8 @@ def test_a_changed_file_supersedes_its_rows(filled: Store, campaign: Path) -> No
     write_log(campaign.parent / "raw/one_a.npz", daq(n=700, seed=9))
     ingest(store, campaign)
     assert len(column(store, "one", "dZ")["value"]) == 700
-    assert rows(store, "select count(*) from file where test = 'one' and source = 'daq'") == [(2,)]
+    assert rows(store, "select layer from file where test = 'one' and source = 'daq' order by 1") \
+        == [("raw",), ("superseded",), ("tidy",)]
 
 
 def test_one_bad_file_is_a_loss_and_the_others_stay(store: Store, campaign: Path) -> None:
@@ -326,12 +327,12 @@ def test_a_long_stream_goes_piece_by_piece_with_the_same_values(
         store: Store, campaign: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     import pyarrow.parquet as pq
 
-    from thermodata.store import encoder, rawfile, tidy
+    from thermodata.store import encoder, rawfile, windows
 
     whole = Store(tmp_path / "whole", create=True)
     ingest(whole, campaign)
-    monkeypatch.setattr(tidy, "SEGMENT_VALUES", 1)
-    monkeypatch.setattr(tidy, "GROUP_VALUES", 1)
+    monkeypatch.setattr(windows, "WINDOW_VALUES", 1)
+    monkeypatch.setattr(windows, "MARGIN_ROWS", 50)
     monkeypatch.setattr(rawfile, "GROUP_ROWS", 100)
     assert encoder.COMPRESSION
     write_log(campaign.parent / "raw/one_a.npz", daq(9000))
@@ -342,7 +343,7 @@ def test_a_long_stream_goes_piece_by_piece_with_the_same_values(
             np.testing.assert_array_equal(column(store, "one", channel)[key], values, err_msg=f"{channel} {key}")
     path, = rows(store, "select path from file where layer = 'tidy' and test = 'one' and source = 'daq'")[0]
     groups = pq.ParquetFile(store.path / path).metadata
-    assert max(groups.row_group(i).num_rows for i in range(groups.num_row_groups)) <= 2048
+    assert max(groups.row_group(i).num_rows for i in range(groups.num_row_groups)) <= 100
 
 
 def test_a_channel_may_be_overridden_or_absent_in_one_test(store: Store, campaign: Path) -> None:

@@ -12,6 +12,15 @@ if TYPE_CHECKING:
     import pyarrow as pa
 
 
+def use_one_heap() -> None:
+    """Lets Arrow take its memory where numpy takes it: what one gives back the other uses, and less stays resident."""
+    import pyarrow as pa
+
+    pool = pa.system_memory_pool()
+    if pa.default_memory_pool().backend_name != pool.backend_name:
+        pa.set_memory_pool(pool)
+
+
 def to_arrow(values: Array, *, nan_is_null: bool = False) -> pa.Array:
     """A numeric, bool or text (object) column. nan_is_null: for SQL, whose means and counts leave NULL out."""
     import pyarrow as pa

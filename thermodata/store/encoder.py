@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from thermodata.errors import StoreError
-from thermodata.store.arrow import to_arrow
+from thermodata.store.arrow import to_arrow, use_one_heap
 
 if TYPE_CHECKING:
     import pyarrow as pa
@@ -27,6 +27,7 @@ class Encoder:
         import pyarrow as pa
         import pyarrow.parquet as pq
 
+        use_one_heap()
         self.part, self.schema = part, schema
         # only text and flags repeat themselves so much that a dictionary pays
         repeats = [f.name for f in schema if pa.types.is_string(f.type) or f.name.endswith("__flag")]

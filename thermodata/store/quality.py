@@ -1,24 +1,26 @@
-"""Quality flags of a test's channels, and when it measures."""
+"""Quality flags of a test's channels, and when it measures: a stream's pieces with their flags, ready to be written."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from collections.abc import Iterator, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass, field
 
 import numpy as np
 
-from thermodata.calibration.measuring import measuring_mask, measuring_names
 from thermodata.errors import ThermodataError
-from thermodata.plugin import Array, Bool1D, Int1D
+from thermodata.plugin import Array, Int1D
+from thermodata.schema.campaign import Measuring
 from thermodata.schema.flag import Flag
-from thermodata.schema.quantity import canonical
+from thermodata.store import windows
 from thermodata.store.keys import MEASURED
-from thermodata.store.plan import SCHEDULE
+from thermodata.store.measuring import Stretches, find_stretches, lasts, measures
+from thermodata.store.piece import Column, Piece, calibrated
+from thermodata.store.plan import SCHEDULE, Bound
 from thermodata.store.series import Member, TestSeries
+from thermodata.store.windows import Joined
 
-if TYPE_CHECKING:
-    from thermodata.store.tidy import Column
+_PERIOD_ROWS = 1_000_000
 
 
 @dataclass(frozen=True, slots=True)
@@ -33,38 +35,138 @@ class Event:
     detail: str | None = None
 
 
-def flagged(series: TestSeries, member: Member, t_ns: Int1D, made: Mapping[str, Column],
-            problems: list[str]) -> list[Event]:
-    """Adds flags to the columns of one stream and returns the events; flags that are there are kept.
+@dataclass(slots=True)
+class Flagged:
+    """Walks through a stream once, or twice where it has too many columns to be held side by side.
 
-    problems: gets the reason where `measuring` can't be evaluated.
+    bounds: the channels. start, stop: rows. events: complete once `pieces` has ended. problems: gets what can't be
+    calibrated, and why `measuring` can't be evaluated.
     """
-    from thermodata.calibration.quality import ColumnInput, flag_stream
 
-    if member[0] == SCHEDULE or not made:
-        return []
-    found, events = flag_stream(t_ns, {
-        n: ColumnInput(values=c.values, quantity=c.bound.channel.quantity, flags=c.flags) for n, c in made.items()})
-    zero = series.span.zero_ns
-    listed = [Event(e.channel, e.flag, (e.from_ns - zero) / 1e9, (e.to_ns - zero) / 1e9, e.n, e.detail or None)
-              for e in events]
-    for name, column in made.items():
-        column.flags = found[name]
-        if column.bound.channel.quantity in MEASURED and series.plan.test.measuring is not None:
-            mask = _measuring(series, name, column, t_ns, problems)
-            if mask is not None:
-                column.flags = column.flags | np.where(mask, np.uint16(0), np.uint16(Flag.NOT_MEASURING))
-    return listed
+    series: TestSeries
+    member: Member
+    bounds: Sequence[Bound]
+    start: int
+    stop: int
+    problems: list[str]
+    events: list[Event] = field(default_factory=list)
+
+    def pieces(self, rows: int, borders: Sequence[int] = ()) -> Iterator[tuple[int, Int1D, dict[str, Column]]]:
+        """(first row, times, channels with all their flags) of pieces of so many rows; none crosses a border."""
+        with ThreadPoolExecutor(2) as pool:
+            yield from self._measured(self._walk(rows, borders, pool), pool)
+
+    def _walk(self, rows: int, borders: Sequence[int], pool: ThreadPoolExecutor) \
+            -> Iterator[tuple[Piece, dict[str, Column]]]:
+        if self.member[0] == SCHEDULE:
+            for a, b in _cuts(self.start, self.stop, rows, borders):
+                piece = self._piece(a, b)
+                yield piece, calibrated(piece, self.bounds, self.problems, pool)
+        elif len(self.bounds) <= windows.MOST_COLUMNS:
+            for piece, made, first, stop in self._windows(self.bounds, rows, pool):
+                for a, b in _cuts(first, stop, rows, borders):
+                    yield piece.part(a, b), {n: c.part(a - first, b - first) for n, c in made.items()}
+        else:
+            yield from self._wide(rows, borders, pool)
+
+    def _windows(self, bounds: Sequence[Bound], rows: int, pool: ThreadPoolExecutor) \
+            -> Iterator[tuple[Piece, dict[str, Column], int, int]]:
+        """(piece, its channels on the window's own rows, the first and past-the-last of these)."""
+        size = max(1, windows.WINDOW_VALUES // (max(1, len(bounds)) * rows)) * rows
+        margin = min(windows.MARGIN_ROWS, size // 2)
+        joined = Joined()
+        for a in range(self.start, self.stop, size):
+            b = min(a + size, self.stop)
+            low, high = max(self.start, a - margin), min(self.stop, b + margin)
+            piece = self._piece(low, high, bounds)
+            made = calibrated(piece, bounds, self.problems, pool)
+            found = joined.add(piece.t_ns, made, a - low, b - low)
+            yield piece, {n: Column(c.bound, c.values[a - low:b - low], found[n]) for n, c in made.items()}, a, b
+        zero = self.series.span.zero_ns
+        self.events += [Event(e.channel, e.flag, (e.from_ns - zero) / 1e9, (e.to_ns - zero) / 1e9, e.n,
+                              e.detail or None) for e in joined.events]
+
+    def _wide(self, rows: int, borders: Sequence[int], pool: ThreadPoolExecutor) \
+            -> Iterator[tuple[Piece, dict[str, Column]]]:
+        """Judges some columns after the other, keeps where their flags change, and then reads all side by side."""
+        changes: dict[str, tuple[list[Array], list[Array]]] = {}
+        for i in range(0, len(self.bounds), windows.MOST_COLUMNS):
+            some = self.bounds[i:i + windows.MOST_COLUMNS]
+            before = len(self.events)
+            for _, made, first, _ in self._windows(some, rows, pool):
+                for name, column in made.items():
+                    at = np.concatenate([[0], np.flatnonzero(column.flags[1:] != column.flags[:-1]) + 1])
+                    kept = changes.setdefault(name, ([], []))
+                    kept[0].append(first + at)
+                    kept[1].append(column.flags[at])
+            if i:      # what concerns the whole stream was said with the first columns
+                self.events[before:] = [e for e in self.events[before:] if e.channel is not None]
+        joined = {n: (np.concatenate(a), np.concatenate(f)) for n, (a, f) in changes.items()}
+        changes.clear()
+        for a, b in _cuts(self.start, self.stop, rows, borders):
+            piece = self._piece(a, b)
+            made = calibrated(piece, self.bounds, self.problems, pool)
+            for name, column in made.items():
+                at, flags = joined[name]
+                low, high = int(np.searchsorted(at, a, side="right")) - 1, int(np.searchsorted(at, b))
+                lengths = np.diff(np.concatenate([[a], at[low + 1:high], [b]]))
+                column.flags = np.repeat(flags[low:high], lengths)
+            yield piece, made
+
+    def _piece(self, start: int, stop: int, bounds: Sequence[Bound] | None = None) -> Piece:
+        return Piece(self.series, self.member, start, stop, self.bounds if bounds is None else bounds)
+
+    def _measured(self, walked: Iterator[tuple[Piece, dict[str, Column]]], pool: ThreadPoolExecutor) \
+            -> Iterator[tuple[int, Int1D, dict[str, Column]]]:
+        """Adds NOT_MEASURING to the channels that are measured."""
+        spec = self.series.plan.test.measuring
+        names = [b.name for b in self.bounds if b.channel.quantity in MEASURED] if spec is not None else []
+        kept: dict[str, Stretches] = {}
+        try:
+            if names and isinstance(spec, Measuring) and lasts(spec):
+                kept = self._stretches(spec, names, pool)
+        except ThermodataError as error:
+            self._cannot_measure(error)
+            names = []
+        for piece, made in walked:
+            for name in names if self.member[0] != SCHEDULE else ():
+                if name not in made:
+                    continue
+                try:
+                    mask = kept[name].mask(piece.start, piece.t_ns) if kept else measures(piece, made[name], made)
+                except ThermodataError as error:
+                    self._cannot_measure(error)
+                    names = []
+                    break
+                made[name].flags = made[name].flags | np.where(mask, np.uint16(0), np.uint16(Flag.NOT_MEASURING))
+            yield piece.start, piece.t_ns, made
+
+    def _cannot_measure(self, error: ThermodataError) -> None:
+        self.problems.append("measuring: " + "; ".join(str(error).splitlines()))
+
+    def _stretches(self, spec: Measuring, names: Sequence[str], pool: ThreadPoolExecutor) -> dict[str, Stretches]:
+        """Where each channel is measured, from a look at the whole stream."""
+        line = self.series.timeline(self.member)
+        steps = np.diff(line.times(self.start, min(self.stop, self.start + _PERIOD_ROWS)))
+        period = float(np.median(steps)) if len(steps) else 0.0
+        rows = max(1, windows.WINDOW_VALUES // 8)
+        found: dict[str, Stretches] = {}
+        for bound in (b for b in self.bounds if b.name in names):
+            def parts(bound: Bound = bound) -> Iterator[tuple[int, Int1D, Array]]:
+                for a, b in _cuts(self.start, self.stop, rows, ()):
+                    piece = self._piece(a, b, [bound])
+                    made = calibrated(piece, [bound], [], pool)
+                    if made:
+                        yield a, piece.t_ns, measures(piece, made[bound.name], made)
+            found[bound.name] = find_stretches(parts(), period, spec)
+            if spec.in_range != "in_range":
+                return dict.fromkeys(names, found[bound.name])     # says nothing of the channel itself
+        return found
 
 
-def _measuring(series: TestSeries, name: str, column: Column, t_ns: Int1D, problems: list[str]) -> Bool1D | None:
-    """Where the test measures with this channel, shape (n,); None where that can't be told."""
-    test = series.plan.test
-    try:
-        operands: dict[str, Array] = {
-            n: series.sampled(n, t_ns)[0] for n in measuring_names(test.measuring) if n in series.plan.bound}
-        units = {n: canonical(series.plan.bound[n].channel.quantity) for n in operands}
-        return measuring_mask(t_ns, test.measuring, operands, units, {name: column.flags})
-    except ThermodataError as error:
-        problems.append("measuring: " + "; ".join(str(error).splitlines()))
-        return None
+def _cuts(start: int, stop: int, rows: int, borders: Sequence[int]) -> Iterator[tuple[int, int]]:
+    a = start
+    while a < stop:
+        b = min([a + rows - (a - start) % rows, stop, *(x for x in borders if x > a)])
+        yield a, b
+        a = b

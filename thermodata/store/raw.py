@@ -24,7 +24,7 @@ class RawStream:
     """One stream of one source file in the raw layer.
 
     path: relative to the store. columns: signal name -> column of the Parquet file. first_ns, last_ns: the smallest and
-    the largest recorded time. part: "test" or "calibration".
+    the largest recorded time. ordered: whether no row is earlier than the one before it (None: nobody looked).
     """
 
     key: str
@@ -47,6 +47,7 @@ class RawStream:
     flagged: tuple[str, ...] = ()
     notes: tuple[str, ...] = ()
     losses: tuple[Loss, ...] = field(default=())
+    ordered: bool | None = None
 
     def to_json(self) -> str:
         """Everything but what the table `file` has columns for."""
@@ -58,6 +59,8 @@ class RawStream:
                          "scaling": None if s.scaling is None else
                          {"kind": s.scaling.kind, "properties": dict(s.scaling.properties)},
                          "properties": {k: str(v) for k, v in s.properties.items()}} for s in self.signals],
+            # older stores don't have it: their rows must stay as they are
+            **({} if self.ordered is None else {"ordered": self.ordered}),
         }, default=_plain, sort_keys=True)
 
     @classmethod
@@ -72,7 +75,7 @@ class RawStream:
                    row["rows"], meta["first_ns"], meta["last_ns"], meta["step_ns"], meta["clock"], meta["start_ns"],
                    meta["complete"], meta["reader"], meta["reader_version"], signals,
                    {s["name"]: s["column"] for s in meta["signals"]}, tuple(meta["flagged"]), tuple(meta["notes"]),
-                   tuple(Loss(**loss) for loss in json.loads(row["losses"] or "[]")))
+                   tuple(Loss(**loss) for loss in json.loads(row["losses"] or "[]")), meta.get("ordered"))
 
     def losses_json(self) -> str:
         return json.dumps([dataclasses.asdict(loss) for loss in self.losses], default=_plain)
@@ -172,4 +175,4 @@ def _finish(store: Path, writer: StreamWriter, stream: str, key: str, path: Path
         key, writer.target.relative_to(store).as_posix(), stream, source_path, sha256, path.stat().st_size,
         writer.rows, writer.first_ns, writer.last_ns, writer.step_ns, recording.clock, recording.start_ns,
         False if losses else recording.complete, reader.name, version_of(reader), tuple(writer.signals),
-        writer.columns, tuple(sorted(writer.flagged)), tuple(recording.notes))
+        writer.columns, tuple(sorted(writer.flagged)), tuple(recording.notes), ordered=writer.ordered)

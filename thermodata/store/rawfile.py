@@ -18,8 +18,11 @@ from thermodata.store.files import publish, temporary
 if TYPE_CHECKING:
     import pyarrow as pa
 
-GROUP_VALUES = 2_000_000      # values in a row group: 16 MB of float64, whatever the number of columns
+GROUP_VALUES = 2_000_000      # values in a row group: 16 MB of float64 ...
 GROUP_ROWS = 250_000
+LEAST_ROWS = 1000             # ... but not fewer rows than this, as each column of a group has its overhead ...
+MOST_VALUES = 10_000_000      # ... unless there are ten thousand columns of them
+_MANY = 8
 JITTER_NS = 1_000_000_000     # a backward step up to this is disorder; a longer one is a clock that was reset
 
 
@@ -34,10 +37,14 @@ class StreamWriter:
         self.columns = _column_names(signals)
         self.flagged: set[str] = set()
         self.rows, self.first_ns, self.last_ns, self.step_ns = 0, 0, 0, 0
-        self._group_rows = max(1000, min(GROUP_ROWS, GROUP_VALUES // (len(signals) + 1)))
+        self.ordered = True
+        self._newest: int | None = None
+        self._group_rows = group_rows(len(signals) + 1)
         self._waiting: list[Block] = []
         self._waiting_rows = 0
         self._encoder: Encoder | None = None
+        self._widened = False
+        self._made_schema: pa.Schema | None = None
         self._steps: list[int] = []
         self._reset = False
 
@@ -46,6 +53,11 @@ class StreamWriter:
         n = len(block.t_ns)
         if n == 0:
             return
+        if self.ordered:
+            # in order, the ends say it all; else where the clock was reset matters
+            self.ordered = (self._newest is None or self._newest <= block.t_ns[0]) and \
+                bool((block.t_ns[1:] >= block.t_ns[:-1]).all())
+            self._newest = int(block.t_ns[-1])
         self._extent(block.t_ns)
         if n > 1 and len(self._steps) < 64:
             self._steps.append(int(np.median(np.diff(block.t_ns[:4096]))))
@@ -59,6 +71,10 @@ class StreamWriter:
 
     def _extent(self, t_ns: Int1D) -> None:
         """Where the recording begins and ends: up to a reset of its clock, for what follows may mean anything."""
+        if self.ordered:
+            self.first_ns = self.first_ns if self.rows else int(t_ns[0])
+            self.last_ns = int(t_ns[-1])
+            return
         if self._reset:
             return
         highest = np.maximum.accumulate(t_ns)
@@ -93,9 +109,11 @@ class StreamWriter:
         blocks, self._waiting, self._waiting_rows = self._waiting, [], 0
         new = {name for b in blocks for name in (b.flags or {}) if name in self.columns} - self.flagged
         if new:
-            self.flagged |= new
+            # a second flag in mid-file brings the columns of all signals: each widening writes the file again
+            self.flagged |= set(self.columns) if self._widened else new
+            self._made_schema = None
             if self._encoder is not None:
-                self._encoder = self._encoder.widened(self._schema())
+                self._encoder, self._widened = self._encoder.widened(self._schema()), True
         if self._encoder is None:
             self.target.parent.mkdir(exist_ok=True)
             self._encoder = Encoder(temporary(self.target), self._schema())
@@ -104,26 +122,42 @@ class StreamWriter:
     def _schema(self) -> pa.Schema:
         import pyarrow as pa
 
-        fields = [pa.field("t_ns", pa.int64(), nullable=False)]
-        for signal in self.signals:
-            fields.append(pa.field(self.columns[signal.name], arrow_type(signal)))
-            if signal.name in self.flagged:
-                fields.append(pa.field(f"{self.columns[signal.name]}__flag", pa.uint16()))
-        return pa.schema(fields)
+        if self._made_schema is None:
+            fields = [pa.field("t_ns", pa.int64(), nullable=False)]
+            for signal in self.signals:
+                fields.append(pa.field(self.columns[signal.name], arrow_type(signal)))
+                if signal.name in self.flagged:
+                    fields.append(pa.field(f"{self.columns[signal.name]}__flag", pa.uint16()))
+            self._made_schema = pa.schema(fields)
+        return self._made_schema
 
     def _table(self, blocks: list[Block]) -> pa.Table:
         import pyarrow as pa
 
-        schema, arrays = self._schema(), [pa.chunked_array([to_arrow(b.t_ns) for b in blocks])]
+        schema = self._schema()
+        arrays = [_chunked([b.t_ns for b in blocks], blocks, pa.int64())]
         for signal in self.signals:
-            kind = arrow_type(signal)
-            parts = [b.values.get(signal.name) for b in blocks]
-            arrays.append(pa.chunked_array(
-                [pa.nulls(len(b.t_ns), kind) if v is None else to_arrow(v)
-                 for b, v in zip(blocks, parts, strict=True)], type=kind))
+            kind = schema.field(len(arrays)).type
+            arrays.append(_chunked([b.values.get(signal.name) for b in blocks], blocks, kind))
             if signal.name in self.flagged:
-                arrays.append(pa.chunked_array([to_arrow(_flags(b, signal.name)) for b in blocks]))
+                arrays.append(_chunked([_flags(b, signal.name) for b in blocks], blocks, pa.uint16()))
         return pa.Table.from_arrays(arrays, schema=schema)
+
+
+def _chunked(parts: list[Array | None], blocks: list[Block], kind: pa.DataType) -> pa.ChunkedArray:
+    import pyarrow as pa
+
+    whole = [p for p in parts if p is not None]
+    if len(parts) > _MANY and len(whole) == len(parts):
+        # a reader of many small blocks: joining them costs less than an Arrow array for each
+        return pa.chunked_array([to_arrow(np.concatenate(whole))], type=kind)
+    return pa.chunked_array([pa.nulls(len(b.t_ns), kind) if p is None else to_arrow(p)
+                             for b, p in zip(blocks, parts, strict=True)], type=kind)
+
+
+def group_rows(columns: int) -> int:
+    """How many rows a row group of so many columns has."""
+    return max(1, min(GROUP_ROWS, max(GROUP_VALUES // columns, min(LEAST_ROWS, MOST_VALUES // columns))))
 
 
 def arrow_type(signal: Signal) -> pa.DataType:

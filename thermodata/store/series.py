@@ -9,15 +9,16 @@ from pathlib import Path
 import numpy as np
 
 from thermodata.calibration.result import CalibrationResult
-from thermodata.errors import UsageError
 from thermodata.plugin import Array, Float1D, Int1D, Loss
-from thermodata.schema.quantity import canonical
-from thermodata.store import derive, schedule
+from thermodata.store import schedule
+from thermodata.store.axis import Timeline, given_timeline
+from thermodata.store.piece import Piece
 from thermodata.store.plan import SCHEDULE, Bound, TestPlan
-from thermodata.store.timeline import Clock, Span, Timeline, build, last_ns
+from thermodata.store.timeline import Clock, Span, build, last_ns
 
 Member = tuple[str, str]
 _HELD = frozenset({"state", "label"})
+_SHORT = 1_000_000                    # rows: a stream that others look into is kept as a whole up to this length
 
 
 @dataclass(frozen=True, slots=True)
@@ -30,8 +31,7 @@ class Rows:
 
 
 class TestSeries:
-    """Reads the channels of one test from the raw layer. Not shared between threads while it fills its caches:
-    call `prepare` first.
+    """Reads the channels of one test from the raw layer, piece by piece. Not shared between threads.
 
     calibrations: by name. Raises UsageError for a channel that cannot be calibrated.
     """
@@ -49,7 +49,7 @@ class TestSeries:
         """The rows of a stream; those of the schedule are a grid of a minute plus its changes."""
         if member not in self._lines:
             if member[0] == SCHEDULE and member not in _stored(self.plan):
-                self._lines[member] = Timeline(self._schedule_grid(), (), None, None, (), ())
+                self._lines[member] = given_timeline(self._schedule_grid())
             else:
                 source = self.plan.sources[member[0]]
                 self._lines[member] = build(self.store, source.streams[member[1]], self.clocks[member[0]],
@@ -58,11 +58,10 @@ class TestSeries:
 
     def rows(self, member: Member) -> Rows:
         """Which rows of a stream are the test's, and which its history."""
-        t = self.timeline(member).t_ns
-        n = len(t)
+        line = self.timeline(member)
         low, high = self._limits(member)
-        start = 0 if low is None else int(np.searchsorted(t, low))
-        stop = n if high is None else int(np.searchsorted(t, high))
+        start = 0 if low is None else line.find(low)
+        stop = line.rows if high is None else line.find(high)
         return Rows(0 if self.span.history else start, start, max(start, stop))
 
     def _limits(self, member: Member) -> tuple[int | None, int | None]:
@@ -83,80 +82,54 @@ class TestSeries:
     def values(self, bound: Bound, start: int, stop: int) -> tuple[Array, Array]:
         """(values, flags) of a channel on rows start to stop of its own stream: float64 in the canonical unit
         or text as object, and uint16; both of shape (stop - start,)."""
-        if bound.channel.schedule is not None:
-            return self._scheduled(bound, self.timeline((bound.source, bound.stream)).t_ns[start:stop])
-        if bound.signal is None:
-            return self._derived(bound, start, stop)
-        line = self.timeline((bound.source, bound.stream))
-        raw = line.column(self.store, bound.signal.name, start, stop)
-        if raw is None:
-            return np.full(stop - start, None if bound.is_text else np.nan, object if bound.is_text else float), \
-                np.zeros(stop - start, np.uint16)
-        values, flags = self._calibrated(bound, raw)
-        from_reader = line.column(self.store, bound.signal.name, start, stop, flags=True)
-        if from_reader is not None:
-            flags = flags | from_reader.astype(np.uint16)
-        if line.clock_flags is not None:
-            flags = flags | line.clock_flags[start:stop]
-        return values, flags
-
-    def _calibrated(self, bound: Bound, raw: Array) -> tuple[Array, Array]:
-        from thermodata.calibration.channel import calibrate
-
-        assert bound.signal is not None
-        named = bound.channel.calibration
-        names = [named] if isinstance(named, str) else list(named or [])
-        missing = [n for n in names if n not in self.calibrations]
-        if missing:
-            raise UsageError(f"calibration '{missing[0]}' is not available", where=f"channel {bound.name}")
-        if bound.is_text:
-            return np.array([None if v is None else str(v) for v in raw.tolist()], dtype=object), \
-                np.zeros(len(raw), np.uint16)
-        values, flags = calibrate(raw, channel=bound.channel, signal_unit=bound.unit, scaling=bound.signal.scaling,
-                                  calibrations=[self.calibrations[n] for n in names], name=bound.name)
-        return values, flags.astype(np.uint16, copy=False)
+        return Piece(self, (bound.source, bound.stream), start, stop, [bound]).values(bound)
 
     def sampled(self, name: str, t_ns: Int1D) -> tuple[Array, Array]:
-        """(values, flags) of a channel at other times: states are held, measurements run straight between two
-        samples; NaN before the first and after the last sample."""
+        """(values, flags) of a channel at other times, ascending: states are held, measurements run straight between
+        two samples; NaN before the first and after the last sample."""
         bound = self.plan.bound[name]
         if bound.channel.schedule is not None:
-            return self._scheduled(bound, t_ns)
-        if name not in self._sampled:
-            line = self.timeline((bound.source, bound.stream))
-            values, flags = self.values(bound, 0, len(line.t_ns))
-            self._sampled[name] = (line.t_ns, values, flags)
-        t, values, flags = self._sampled[name]
-        if not len(t):
+            return self.scheduled(bound, t_ns)
+        line = self.timeline((bound.source, bound.stream))
+        if not line.rows or not len(t_ns):
             return np.full(len(t_ns), np.nan), np.zeros(len(t_ns), np.uint16)
+        if line.rows <= _SHORT:
+            if name not in self._sampled:
+                self._sampled[name] = (line.t_ns, *self.values(bound, 0, line.rows))
+            return self._at(bound, t_ns, *self._sampled[name], (True, True))
+        start = max(0, line.find(int(t_ns[0])) - 1)
+        stop = min(line.rows, line.find(int(t_ns[-1]) + 1) + 1)
+        if stop - start > _SHORT and len(t_ns) > 1:
+            half = len(t_ns) // 2
+            (a, f), (b, g) = self.sampled(name, t_ns[:half]), self.sampled(name, t_ns[half:])
+            return np.concatenate([a, b]), np.concatenate([f, g])
+        return self._at(bound, t_ns, line.times(start, stop), *self.values(bound, start, stop),
+                        (start == 0, stop == line.rows))
+
+    @staticmethod
+    def _at(bound: Bound, t_ns: Int1D, t: Int1D, values: Array, flags: Array,
+            ends: tuple[bool, bool]) -> tuple[Array, Array]:
+        """ends: whether t begins and ends with the stream. What lies beside t lies beside the stream then."""
+        assert ends[0] or t[0] <= t_ns[0]
         index = np.clip(np.searchsorted(t, t_ns, side="right") - 1, 0, len(t) - 1)
-        outside = (t_ns < t[0]) | (t_ns > t[-1])
+        before, after = t_ns < t[0], t_ns > t[-1]
         if values.dtype == object:
             held = values[index]
-            held[t_ns < t[0]] = None
+            held[before] = None
             return held, flags[index]
         if bound.channel.quantity in _HELD:
-            return np.where(t_ns < t[0], np.nan, values[index]), flags[index]
-        found = np.interp((t_ns - t[0]).astype(np.float64), (t - t[0]).astype(np.float64), values)
-        after = np.minimum(index + 1, len(t) - 1)
-        return np.where(outside, np.nan, found), flags[index] | np.where(t[index] == t_ns, 0, flags[after]) \
+            return np.where(before, np.nan, values[index]), flags[index]
+        follows = np.minimum(index + 1, len(t) - 1)
+        exact = t[index] == t_ns
+        # from the sample before, so that the result doesn't depend on where the piece begins
+        with np.errstate(invalid="ignore"):
+            part = (t_ns - t[index]) / np.maximum(t[follows] - t[index], 1)
+            found = np.where(exact, values[index], values[index] + (values[follows] - values[index]) * part)
+        return np.where(before | after, np.nan, found), flags[index] | np.where(exact, 0, flags[follows]) \
             .astype(np.uint16)
 
-    def _derived(self, bound: Bound, start: int, stop: int) -> tuple[Array, Array]:
-        member = (bound.source, bound.stream)
-        t = self.timeline(member).t_ns[start:stop]
-        text = bound.channel.derive or ""
-        values: dict[str, Array] = {}
-        flags: Array = np.zeros(stop - start, np.uint16)
-        for name in derive.names(text):
-            other = self.plan.bound[name]
-            found, marks = self.values(other, start, stop) if (other.source, other.stream) == member \
-                else self.sampled(name, t)
-            values[name], flags = found, flags | marks
-        units = {n: canonical(self.plan.bound[n].channel.quantity) for n in values}
-        return derive.evaluate(bound, values, units), flags
-
-    def _scheduled(self, bound: Bound, t_ns: Int1D) -> tuple[Array, Array]:
+    def scheduled(self, bound: Bound, t_ns: Int1D) -> tuple[Array, Array]:
+        """(values, flags) of a channel that nobody logged, shape of t_ns."""
         times, values = schedule.steps(bound.name, bound.channel, self.plan.test)
         recording = self._recording_ns()
         found = schedule.held(np.asarray((t_ns - recording) / 1e9, dtype=np.float64), times, values)
@@ -168,8 +141,8 @@ class TestSeries:
 
     def _schedule_grid(self) -> Int1D:
         begin = self._recording_ns()
-        ends = [int(self.timeline(m).t_ns[-1]) for m in _stored(self.plan)
-                if self.plan.sources[m[0]] in self.plan.reference and len(self.timeline(m).t_ns)]
+        lines = [self.timeline(m) for m in _stored(self.plan) if self.plan.sources[m[0]] in self.plan.reference]
+        ends = [int(line.times(line.rows - 1, line.rows)[0]) for line in lines if line.rows]
         end = max(ends, default=begin)
         changes = [schedule.steps(b.name, b.channel, self.plan.test)[0] for b in self.plan.bound.values()
                    if b.channel.schedule is not None]

@@ -1,19 +1,17 @@
-"""The time of a test: the clocks of its sources on one axis, the joints between files, the window."""
+"""The time of a test: the clocks of its sources on one axis, and the window."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
 
-from thermodata.plugin import Array, Bool1D, Int1D, Loss
-from thermodata.schema.flag import Flag
+from thermodata.plugin import Int1D
+from thermodata.store.axis import Timeline, make_timeline
 from thermodata.store.plan import SourcePlan, TestPlan
 from thermodata.store.raw import RawStream
-from thermodata.store.rawfile import JITTER_NS
-from thermodata.store.rawread import read_column
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,63 +42,6 @@ class Span:
     to_ns: int | None
     history: bool
     relative: bool
-
-
-@dataclass(frozen=True, slots=True)
-class Timeline:
-    """The rows of one (source, stream) of a test in time order.
-
-    t_ns: shape (n,), non-decreasing. pieces: (raw, rows) in file order. order: the permutation that sorts the
-    concatenated rows, or None where they are in order. clock_flags: shape (n,), CLOCK_SUSPECT where rows were moved.
-    """
-
-    t_ns: Int1D
-    pieces: tuple[tuple[RawStream, int], ...]
-    order: Int1D | None
-    clock_flags: Array | None
-    losses: tuple[Loss, ...]
-    notes: tuple[str, ...]
-
-    def column(self, store: Path, signal: str, start: int, stop: int, *, flags: bool = False) -> Array | None:
-        """A raw column, rows start to stop in time order; None where no file has it."""
-        rows = None if self.order is None else self.order[start:stop]
-        low, high = (start, stop) if rows is None else (0, sum(n for _, n in self.pieces))
-        parts: list[Array | int] = []
-        at, found = 0, False
-        for raw, n in self.pieces:
-            a, b = max(low - at, 0), min(high - at, n)
-            at += n
-            if a >= b:
-                continue
-            column = raw.columns.get(signal)
-            if flags:
-                column = f"{column}__flag" if signal in raw.flagged else None
-            if column is None:
-                parts.append(b - a)
-            else:
-                found = True
-                parts.append(read_column(store / raw.path, column, a, b))
-        if not found:
-            return None
-        joined = _joined(parts, zero=flags)
-        return joined if rows is None else joined[rows]
-
-
-def _joined(parts: list[Array | int], *, zero: bool) -> Array:
-    arrays = [p for p in parts if not isinstance(p, int)]
-    if len(parts) == 1:
-        return arrays[0]
-    text = any(a.dtype == object for a in arrays)
-    kind = np.dtype(object) if text else np.result_type(*arrays)
-    if any(isinstance(p, int) for p in parts) and not text and not zero:
-        kind = np.result_type(kind, np.float64)
-
-    def missing(n: int) -> Array:
-        if text:
-            return np.full(n, None, dtype=object)
-        return np.zeros(n, kind) if zero else np.full(n, np.nan)
-
-    return np.concatenate([(missing(p) if isinstance(p, int) else p).astype(kind, copy=False) for p in parts])
 
 
 def bases(plan: TestPlan) -> tuple[dict[str, int], list[str]]:
@@ -149,11 +90,7 @@ def span(plan: TestPlan, clocks: dict[str, Clock]) -> Span:
 
 
 def build(store: Path, raws: list[RawStream], clock: Clock, *, resets_allowed: bool) -> Timeline:
-    """Joins the files of one stream in time order and puts their rows in order.
-
-    Rows that step back by up to JITTER_NS are sorted in and flagged. A longer step back is a reset clock: what
-    follows is moved behind what came before where resets are allowed, else it is lost with a reason.
-    """
+    """Joins the files of one stream in time order; see `axis` for how their rows are put in order."""
     ordered = sorted(raws, key=lambda r: (_start_of(r) + r.first_ns,))
     notes: list[str] = []
     if len(ordered) > 1 and all(r.clock == "relative" and r.start_ns is None for r in ordered) and any(
@@ -168,47 +105,5 @@ def build(store: Path, raws: list[RawStream], clock: Clock, *, resets_allowed: b
     else:
         shifts = [_start_of(r) for r in ordered]
     first = min(s + r.first_ns for r, s in zip(ordered, shifts, strict=True))
-    parts = [clock.correct(read_column(store / r.path, "t_ns", 0, r.rows).astype(np.int64, copy=False) + s, first)
-             for r, s in zip(ordered, shifts, strict=True)]
-    t = parts[0] if len(parts) == 1 else np.concatenate(parts)
-    line = Timeline(t, tuple((r, r.rows) for r in ordered), None, None, (), tuple(notes))
-    back = np.flatnonzero(np.diff(t) < 0) + 1
-    if back.size:
-        line = _in_order(line, back, resets_allowed)
-    if clock.suspect:
-        line = replace(line, clock_flags=_or(line.clock_flags, np.ones(len(line.t_ns), bool)))
-    return line
-
-
-def _in_order(line: Timeline, back: Int1D, resets_allowed: bool) -> Timeline:
-    t = line.t_ns
-    highest = np.maximum.accumulate(t)
-    jumps = [int(i) for i in back if highest[i - 1] - t[i] > JITTER_NS]
-    losses: list[Loss] = []
-    notes = list(line.notes)
-    keep = len(t)
-    late = t < highest
-    if jumps and resets_allowed:
-        t = t.copy()
-        for i in jumps:
-            step = int(np.median(np.diff(t[max(0, i - 100):i]))) if i > 1 else 1
-            t[i:] += (t[:i].max() + max(step, 1)) - t[i]
-        notes.append(f"the clock was reset {len(jumps)} times: what follows was moved behind what came before")
-        late = t < np.maximum.accumulate(t)
-        late[jumps] = True
-    elif jumps:
-        keep = jumps[0]
-        losses.append(Loss(
-            where=f"{line.pieces[0][0].source_path} row {keep}", from_ns=int(t[keep]), to_ns=int(t[-1]),
-            fraction=(len(t) - keep) / len(t),
-            reason=f"clock goes backwards: expected >= 0 ns, got {int(t[keep] - t[keep - 1])}; split the test there "
-                   "or set clock: {resets: allow}"))
-    order = np.argsort(t[:keep], kind="stable")
-    t = t[:keep][order]
-    return replace(line, t_ns=t, order=order.astype(np.int64), clock_flags=_or(None, late[:keep][order]),
-                   losses=tuple(losses), notes=tuple(notes))
-
-
-def _or(flags: Array | None, where: Bool1D) -> Array:
-    made = np.where(where, np.uint16(Flag.CLOCK_SUSPECT), np.uint16(0))
-    return made if flags is None else flags | made
+    return make_timeline(store, list(zip(ordered, shifts, strict=True)), lambda t: clock.correct(t, first),
+                         suspect=clock.suspect, resets_allowed=resets_allowed, notes=notes)
