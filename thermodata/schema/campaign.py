@@ -288,7 +288,7 @@ class Campaign(Strict):
     def _hashes(cls, value: dict[str, str]) -> dict[str, str]:
         for file, version in value.items():
             if not re.fullmatch("[0-9a-fA-F]{6,64}", version):
-                raise ValueError(f"the version of '{file}' is the beginning of its SHA-256: 6 digits or more, in quotes")
+                raise ValueError(f"the version of '{file}' is 6 or more digits of its SHA-256, in quotes")
         return value
 
     @field_validator("channels")

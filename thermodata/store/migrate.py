@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 from thermodata.errors import StoreError
 from thermodata.store.ddl import FORMAT
+from thermodata.store.files import publish, temporary
 
 if TYPE_CHECKING:
     import duckdb
@@ -48,7 +49,7 @@ def migrate(con: duckdb.DuckDBPyConnection, folder: Path,
                          expected=f"format {FORMAT}", hint="ingest the campaigns into a new store")
     # closed first: a copy through another descriptor would drop DuckDB's lock on the open file
     con.close()
-    shutil.copyfile(folder / "catalog.duckdb", folder / f"catalog.format{version}.duckdb.backup")
+    _backup(folder / "catalog.duckdb", folder / f"catalog.format{version}.duckdb.backup")
     con = reopen()
     con.execute("begin transaction")
     for step in range(version, FORMAT):
@@ -56,3 +57,17 @@ def migrate(con: duckdb.DuckDBPyConnection, folder: Path,
     con.execute(f"update store set format = {FORMAT}")
     con.execute("commit")
     return con
+
+
+def _backup(catalogue: Path, target: Path) -> None:
+    """A copy that is whole or isn't there; one that an interrupted migration has left is made anew."""
+    part = temporary(target)
+    try:
+        shutil.copyfile(catalogue, part)
+        publish(part, target)
+    except OSError as error:
+        raise StoreError("the backup before the migration cannot be written", where=str(target), got=str(error),
+                         expected=f"{catalogue.stat().st_size} bytes free",
+                         hint="free space; the store is as it was") from error
+    finally:
+        part.unlink(missing_ok=True)

@@ -1,0 +1,99 @@
+"""A process to be killed: `victim.py OP STORE ARGUMENT [--die-at N]`.
+
+OP: ingest, forget, gc, migrate, snapshot. It prints `ready`, works, and prints `steps N`. With --die-at it kills
+itself with SIGKILL at the N-th step: a file made, renamed or removed in the store, or either side of a commit.
+"""
+
+from __future__ import annotations
+
+import argparse
+import importlib
+import os
+import signal
+import sys
+from pathlib import Path
+from typing import Any
+
+EVENTS = ("open", "os.rename", "os.remove", "os.mkdir", "os.rmdir")
+
+
+class Steps:
+    """Counts, and dies when its time has come."""
+
+    def __init__(self, folder: Path, die_at: int) -> None:
+        self.folder, self.die_at, self.count, self.on = str(folder), die_at, 0, False
+
+    def step(self) -> None:
+        if self.on:
+            self.count += 1
+            if self.count == self.die_at:
+                os.kill(os.getpid(), signal.SIGKILL)
+
+    def audit(self, event: str, details: tuple[Any, ...]) -> None:
+        if self.on and event in EVENTS and str(details[0]).startswith(self.folder):
+            self.step()
+
+
+class Watched:
+    """A DuckDB connection; a step before and after each commit."""
+
+    def __init__(self, con: Any, steps: Steps) -> None:
+        self._con, self._steps = con, steps
+
+    def __getattr__(self, name: str) -> Any:
+        return getattr(self._con, name)
+
+    def execute(self, query: str, *more: Any) -> Any:
+        if query != "commit":
+            return self._con.execute(query, *more)
+        self._steps.step()
+        done = self._con.execute(query, *more)
+        self._steps.step()
+        return done
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser()
+    parser.add_argument("op")
+    parser.add_argument("store", type=Path)
+    parser.add_argument("argument")
+    parser.add_argument("--die-at", type=int, default=0)
+    parser.add_argument("--fakes", default="", help="a folder with store_fakes.py")
+    given = parser.parse_args()
+    if given.fakes:
+        sys.path.insert(0, given.fakes)
+        importlib.import_module("store_fakes").install()
+
+    from thermodata.store import Store, connection, lifecycle, migrate
+    from thermodata.store.ingest import ingest
+
+    steps = Steps(given.store.absolute().parent, given.die_at)
+    right = connection.catalogue
+    connection.catalogue = lambda folder: Watched(right(folder), steps)  # type: ignore[assignment,return-value]
+    sys.addaudithook(steps.audit)
+    if given.op == "ingest":
+        # what is imported late would be counted as a part of the work
+        importlib.import_module("thermodata.store.views")
+    store = Store(given.store, create=given.op == "ingest")
+    print("ready", flush=True)
+    steps.on = True
+    if given.op == "ingest":
+        ingest(store, Path(given.argument))
+    elif given.op == "forget":
+        campaign, _, test = given.argument.partition("/")
+        lifecycle.forget(store, campaign, test or None)
+    elif given.op == "gc":
+        lifecycle.gc(store, grace_s=0)
+    elif given.op == "snapshot":
+        lifecycle.snapshot(store, given.argument)
+    elif given.op == "migrate":
+        migrate.FORMAT = 2
+        migrate.STEPS[1] = "alter table test add column shift varchar; update test set shift = 'early'"
+        with store.write() as con:
+            con.execute("update campaign set data_version = data_version")
+    steps.on = False
+    print(f"steps {steps.count}", flush=True)
+
+
+if __name__ == "__main__":
+    main()
