@@ -19,11 +19,12 @@ _FILE = click.Path(path_type=Path, exists=True, dir_okay=False)
 
 @command("init")
 @click.argument("folder", type=click.Path(path_type=Path, exists=True, file_okay=False))
-def init_command(session: Session, folder: Path) -> None:
+@click.option("--force", is_flag=True, help="Draft anew: an existing campaign.yaml is kept as campaign.1.yaml.")
+def init_command(session: Session, folder: Path, force: bool) -> None:
     """Draft FOLDER/campaign.yaml from the raw files found there.
 
     It groups files into sources and tests, reads signals and units, guesses quantities and places, finds jump tests,
-    and says how sure it is; what only you know is marked '# ?'. An existing campaign.yaml is never touched.
+    and says how sure it is; what only you know is marked '# ?'. An existing campaign.yaml is never overwritten.
     """
     from thermodata.draft.answer import as_json
     from thermodata.draft.plan import plan
@@ -32,9 +33,9 @@ def init_command(session: Session, folder: Path) -> None:
     from thermodata.schema.load import load_campaign
 
     out = folder / "campaign.yaml"
-    if out.exists():
+    if out.exists() and not force:
         raise UsageError("the campaign file exists, and is never overwritten", where=str(out),
-                         hint="rename it, then draft again and compare the two")
+                         hint="--force keeps it as campaign.1.yaml and drafts anew")
     found = scan(folder, _progress(session))
     if not found.logs:
         raise UsageError("no file that a reader claims", where=str(folder), expected="raw logs",
@@ -43,6 +44,10 @@ def init_command(session: Session, folder: Path) -> None:
     name = re.sub(r"[^A-Za-z0-9._-]+", "-", plain_name(folder.resolve().name)).strip("-._")[:100] or "campaign"
     draft = plan(name, folder, found)
     text = text_of(draft)
+    if out.exists():
+        kept = next(p for n in range(1, 10_000) if not (p := folder / f"campaign.{n}.yaml").exists())
+        out.rename(kept)
+        session.say(f"the campaign file that was there is now {kept}")
     _write_new(out, text)
     load_campaign(out)                           # a draft that doesn't load is a defect: it raises here
     asked = questions_in(text)
@@ -83,27 +88,51 @@ def _progress(session: Session) -> Callable[[int, int, str], None] | None:
 
 
 @command("sniff")
-@click.argument("files", nargs=-1, required=True, type=_FILE, metavar="FILE...")
+@click.argument("files", nargs=-1, required=True, type=click.Path(path_type=Path, exists=True), metavar="FILE...")
 def sniff_command(session: Session, files: tuple[Path, ...]) -> int:
-    """Say which reader claims each FILE, and why.
+    """Say which reader claims each FILE, why the others do not, and what to declare.
 
-    Exit code 2 where none or several do.
+    FILE may be a folder: then all files in it. Exit code 2 where none or several readers claim a file.
     """
-    from thermodata.reader import claims, readers
+    from thermodata.reader.explain import explain
 
-    rows: list[dict[str, Any]] = []
-    for path in files:
-        found = claims(path)
-        rows.append({"file": str(path), "reader": next(iter(found)) if len(found) == 1 else None, "claims": found})
-    known = ", ".join(sorted(readers()))
+    found = [explain(path) for path in _each(files)]
+    if not found:
+        raise UsageError("no file in the folder", where=", ".join(map(str, files)))
+    rows = [{"file": e.file, "size_bytes": e.size_bytes, "kind": e.kind, "reader": e.reader, "claims": e.claims,
+             "others": e.others, "advice": e.advice} for e in found]
+    session.answer(rows, lambda: "\n\n".join(map(_explained, rows)) if len(rows) <= 5 else _summary(rows))
+    return 0 if all(e.reader for e in found) else 2
 
+
+def _each(given: tuple[Path, ...]) -> list[Path]:
+    """Files as given; of a folder all below it, without hidden ones and links."""
+    found: list[Path] = []
+    for path in given:
+        if path.is_dir():
+            found += sorted(p for p in path.rglob("*") if p.is_file() and not p.is_symlink()
+                            and not any(part.startswith(".") for part in p.relative_to(path).parts))
+        else:
+            found.append(path)
+    return list(dict.fromkeys(found))
+
+
+def _explained(row: dict[str, Any]) -> str:
+    who = row["reader"] or ("several readers" if row["claims"] else "no reader")
+    lines = [f"{row['file']}: {who}", f"  it is    {row['kind']}"]
+    lines += [f"  yes      {name}: {why}" for name, why in row["claims"].items()]
+    lines += [f"  no       {name}: {why.removeprefix('no; ')}" for name, why in row["others"].items()]
+    return "\n".join(lines + ([f"  try      {row['advice']}"] if row["advice"] else []))
+
+
+def _summary(rows: list[dict[str, Any]]) -> str:
+    """One line a file, for many files."""
     def why(row: dict[str, Any]) -> str:
-        return "; ".join(f"{k}: {v}" for k, v in row["claims"].items()) or f"no reader claims it (installed: {known})"
+        return "; ".join(f"{k}: {v}" for k, v in row["claims"].items()) or row["kind"]
 
-    session.answer(rows, lambda: table(
-        [{"file": r["file"], "reader": r["reader"] or ("several" if r["claims"] else "none"), "why": why(r)}
-         for r in rows], [("file", "file"), ("reader", "reader"), ("why", "why")], widest=100))
-    return 0 if all(row["reader"] for row in rows) else 2
+    return table([{"file": r["file"], "reader": r["reader"] or ("several" if r["claims"] else "none"), "why": why(r)}
+                  for r in rows], [("file", "file"), ("reader", "reader"), ("why", "why")], widest=100) + \
+        "\n\nname up to five files for every reader's answer"
 
 
 @command("preview")
@@ -111,12 +140,16 @@ def sniff_command(session: Session, files: tuple[Path, ...]) -> int:
 @click.option("--reader", "name", help="Use this reader (default: the one that claims FILE).")
 @click.option("--timezone", help="IANA zone of local times, for example Europe/Prague.")
 @click.option("--rows", default=5, show_default=True, type=click.IntRange(0, 1000), help="Rows of each stream.")
-def preview_command(session: Session, file: Path, name: str | None, timezone: str | None, rows: int) -> None:
-    """Show what would be read from FILE.
+@click.option("--campaign", type=click.Path(path_type=Path, exists=True, dir_okay=False),
+              help="Read FILE as this campaign file declares it (default: the campaign.yaml beside or above it).")
+def preview_command(session: Session, file: Path, name: str | None, timezone: str | None, rows: int,
+                    campaign: Path | None) -> None:
+    """Show what would be ingested from FILE, and what would be flagged.
 
-    Its clock, its signals with their units, and the first rows of each stream.
+    Its clock and time zone, signals with units and their course, rate, gaps, losses, flags, and first rows. Stores
+    nothing; of a large file it reads a part, and says so.
     """
-    from thermodata.cli.preview import preview, preview_text
+    from thermodata.cli.preview import preview_text, previewed
 
-    found = plain(preview(file, name, timezone, rows))
+    found = plain(previewed(file, name, timezone, rows, campaign))
     session.answer(found, lambda: preview_text(found))

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import time
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -13,6 +15,7 @@ from thermodata.reader.guard import described, guarded
 from thermodata.reader.registry import claims, sniff
 
 FIRST_ROWS = 5
+MOST_ROWS, MOST_S = 3_000_000, 8.0   # a preview of a file of any size takes seconds
 _GAP_FACTOR = 3.0   # an interval of more than so many usual ones is a gap
 
 
@@ -30,7 +33,7 @@ class _Stream:
     largest: int = 0
     head: list[dict[str, Any]] = field(default_factory=list)
 
-    def add(self, block: Block, absolute: bool) -> None:
+    def add(self, block: Block, absolute: bool, first_rows: int) -> None:
         t = block.t_ns
         joined = t if self.last is None else np.concatenate(([self.last], t))
         steps = np.diff(joined)
@@ -43,19 +46,25 @@ class _Stream:
         if self.step_ns is not None and ahead.size:
             self.gaps += int((ahead > _GAP_FACTOR * self.step_ns).sum())
             self.largest = max(self.largest, int(ahead.max()))
-        for i in range(min(t.size, FIRST_ROWS - len(self.head))):
+        for i in range(min(t.size, first_rows - len(self.head))):
             values = {name: _plain(column[i]) for name, column in block.values.items()}
             self.head.append({"t": when(int(t[i]), absolute), **values})
         self.rows += t.size
         self.last = int(t[-1])
 
 
-def preview(path: Path | str, source: Source | None = None, reader: Reader | None = None) -> dict[str, Any]:
+def preview(path: Path | str, source: Source | None = None, reader: Reader | None = None, *, rows: int = FIRST_ROWS,
+            most_rows: int = MOST_ROWS, most_s: float = MOST_S,
+            watch: Callable[[Block], None] | None = None) -> dict[str, Any]:
     """A file as plain data, ready for JSON. reader: which one (default: the one that claims the file).
 
-    Keys: file, size_bytes, reader, reason, clock, start, complete, notes, losses, and streams, each with stream,
-    rows, start, end, duration_s, step_s, rate_hz, gaps, largest_step_s, backward, repeated, signals (name, unit,
-    dtype, scaling) and first_rows. Values that do not apply are None. Errors: those of sniff and of the reader.
+    rows: first rows a stream; most_rows, most_s: where reading ends in a large file ('whole' is False then, and what is
+    said of rows, gaps and losses holds for the part that was read); watch: sees every block that is read.
+
+    Keys: file, size_bytes, reader, reason, clock, timezone, start, complete, whole, rows_read, notes, losses, and streams,
+    each with stream, rows, start, end, duration_s, step_s, rate_hz, gaps, largest_step_s, backward, repeated, signals
+    (name, unit, dtype, scaling) and first_rows. Values that do not apply are None. Errors: those of sniff and of the
+    reader.
     """
     path = Path(path)
     source = source or Source()
@@ -64,19 +73,29 @@ def preview(path: Path | str, source: Source | None = None, reader: Reader | Non
     absolute = said.clock == "absolute"
     streams: dict[str, _Stream] = {s.stream: _Stream() for s in said.signals}
     losses: list[Loss] = []
+    began, read, whole = time.monotonic(), 0, True
     for item in guarded(chosen, path, source, said):
         if isinstance(item, Loss):
             losses.append(item)
-        else:
-            streams[item.stream].add(item, absolute)
+            continue
+        streams[item.stream].add(item, absolute, rows)
+        read += item.t_ns.size
+        if watch is not None:
+            watch(item)
+        if read >= most_rows or time.monotonic() - began > most_s:
+            whole = False
+            break
     return {
         "file": path.name,
         "size_bytes": path.stat().st_size,
         "reader": chosen.name,
         "reason": claims(path).get(chosen.name),
         "clock": said.clock,
+        "timezone": source.timezone,
         "start": None if said.start_ns is None else when(said.start_ns, absolute),
         "complete": said.complete,
+        "whole": whole,
+        "rows_read": read,
         "notes": list(said.notes),
         "losses": [{"where": x.where, "reason": x.reason, "fraction": x.fraction,
                     "from": None if x.from_ns is None else when(x.from_ns, absolute),
@@ -121,4 +140,4 @@ def _plain(value: Any) -> Any:
     return None if isinstance(value, float) and not np.isfinite(value) else value
 
 
-__all__ = ["FIRST_ROWS", "preview", "when"]
+__all__ = ["FIRST_ROWS", "MOST_ROWS", "MOST_S", "preview", "when"]

@@ -1,0 +1,163 @@
+"""What `preview` adds to a file's description: which campaign describes it, and what would be flagged in it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from thermodata.calibration.quality import ColumnInput, flag_stream
+from thermodata.draft.guess import guess
+from thermodata.draft.values import values_of
+from thermodata.errors import UsageError
+from thermodata.plugin import Array, Block, Int1D, Signal
+from thermodata.reader.preview import when
+from thermodata.schema.campaign import Campaign
+from thermodata.schema.flag import Flag
+from thermodata.schema.quantity import canonical, linear_conversion
+
+_MOST_ROWS, _MOST_COLUMNS = 300_000, 200
+_BARS = "▁▂▃▄▅▆▇█"
+
+
+@dataclass(slots=True)
+class Watch:
+    """Keeps a bounded part of the columns that pass, for flags and pictures."""
+
+    times: dict[str, list[Int1D]] = field(default_factory=dict)
+    columns: dict[str, dict[str, list[Array]]] = field(default_factory=dict)
+    flags: dict[str, dict[str, list[Array]]] = field(default_factory=dict)
+    kept: dict[str, int] = field(default_factory=dict)
+
+    def __call__(self, block: Block) -> None:
+        room = _MOST_ROWS - self.kept.get(block.stream, 0)
+        if room <= 0:
+            return
+        n = min(room, block.t_ns.size)
+        self.kept[block.stream] = self.kept.get(block.stream, 0) + n
+        self.times.setdefault(block.stream, []).append(block.t_ns[:n])
+        for name in list(block.values)[:_MOST_COLUMNS]:
+            self.columns.setdefault(block.stream, {}).setdefault(name, []).append(block.values[name][:n])
+            own = (block.flags or {}).get(name)
+            part = np.zeros(n, np.uint16) if own is None else own[:n].astype(np.uint16)
+            self.flags.setdefault(block.stream, {}).setdefault(name, []).append(part)
+
+    def stream(self, name: str) -> tuple[Int1D, dict[str, Array], dict[str, Array]]:
+        """(times, columns, the reader's own flags) of what was kept of a stream; shapes (n,)."""
+        if name not in self.times:
+            return np.zeros(0, np.int64), {}, {}
+        own = {k: np.concatenate(v) for k, v in self.flags[name].items()}
+        return np.concatenate(self.times[name]), {k: np.concatenate(v) for k, v in self.columns[name].items()}, own
+
+
+@dataclass(frozen=True, slots=True)
+class Meant:
+    """What a campaign file says of a file. source: its name there; quantities: signal as written there -> (quantity,
+    unit, channel)."""
+
+    campaign: Path
+    source: str
+    test: str | None
+    quantities: dict[str, tuple[str, str | None, str]]
+
+
+def campaign_of(file: Path) -> Path | None:
+    """The campaign.yaml beside a file or in one of three folders above it."""
+    for folder in list(file.absolute().parents)[:4]:
+        if (folder / "campaign.yaml").is_file():
+            return folder / "campaign.yaml"
+    return None
+
+
+def meaning_of(campaign: Campaign, at: Path, file: Path) -> Meant | None:
+    """The source and test that a file belongs to by `files` of the campaign file; None where it is in none."""
+    from thermodata.store.resolve import resolve
+
+    folder = at.absolute().parent
+    try:
+        inside = file.absolute().resolve().relative_to(folder.resolve()).as_posix()
+    except ValueError:
+        return None
+    for calibration in campaign.calibrations.values():
+        if getattr(calibration, "file", None) == inside:
+            return _meant(campaign, at, str(getattr(calibration, "source", "")), None)
+    for test in campaign.tests:
+        for source in campaign.sources:
+            if inside in resolve(folder, campaign, test, source).paths:
+                return _meant(campaign, at, source, test.id)
+    return None
+
+
+def _meant(campaign: Campaign, at: Path, source: str, test: str | None) -> Meant:
+    found = {c.signal: (str(c.quantity), c.unit, name) for name, c in campaign.channels.items()
+             if c.source == source and c.signal is not None}
+    return Meant(at, source, test, found)
+
+
+def flagged(watch: Watch, stream: str, signals: list[Signal], meant: Meant | None,
+            absolute: bool) -> tuple[dict[str, dict[str, Any]], list[dict[str, Any]]]:
+    """(signal -> quantity, channel, counts of flags and a sparkline; the first events) of one stream as it was read.
+
+    Quantities are those of the campaign file, else guesses from names, units and values.
+    """
+    from thermodata.reader.match import match_signal
+
+    t_ns, columns, own = watch.stream(stream)
+    said: dict[str, tuple[str, str | None, str | None]] = {}
+    for written, (quantity, unit, channel) in (meant.quantities if meant else {}).items():
+        try:
+            hit = match_signal(written, signals)
+        except UsageError:
+            continue
+        said[hit.name] = (quantity, unit or hit.unit, channel)
+    inputs: dict[str, ColumnInput] = {}
+    told: dict[str, dict[str, Any]] = {}
+    for signal in signals:
+        column = columns.get(signal.name)
+        if column is None:
+            continue
+        guessed = guess(signal.name, signal.unit, signal.dtype, None if signal.scaling else values_of(column))
+        quantity, unit, channel = said.get(signal.name) or (guessed.quantity or "voltage", guessed.unit, None)
+        told[signal.name] = {"quantity": quantity if channel or guessed.quantity else None, "channel": channel,
+                             "guess": None if channel else guessed.comment(), "flags": {}, "values": None,
+                             "sparkline": sparkline(column)}
+        seen = values_of(column)
+        if seen is not None:
+            told[signal.name]["values"] = {"low": seen.low, "high": seen.high, "median": seen.median}
+            inputs[signal.name] = ColumnInput(_canonical(column, quantity, unit), quantity, own[signal.name])
+    flags, events = flag_stream(t_ns, inputs) if t_ns.size and inputs else ({}, [])
+    for name, column in flags.items():
+        told[name]["flags"] = {f.name.lower(): n for f in Flag
+                               if f.name and (n := int(((column & np.uint16(f)) != 0).sum()))}
+    listed = [{"signal": e.channel, "flag": e.flag, "from": when(e.from_ns, absolute), "to": when(e.to_ns, absolute),
+               "n": e.n, "detail": e.detail} for e in events[:20]]
+    return told, listed
+
+
+def _canonical(column: Array, quantity: str, unit: str | None) -> Array:
+    """Values as the flags expect them; a probe's volts, which a calibration is needed for, stay volts."""
+    if unit is None or quantity in ("state", "label") or column.dtype.kind not in "iuf":
+        return column
+    try:
+        factor, shift = linear_conversion(unit, canonical(quantity))
+    except UsageError:
+        return column
+    return column if (factor, shift) == (1.0, 0.0) else np.asarray(column * factor + shift)
+
+
+def sparkline(column: Array, width: int = 32) -> str | None:
+    """A signal in one line of text, '▁▂▅█': means of `width` stretches between its extremes; None for text."""
+    if column.dtype.kind not in "biuf" or not column.size:
+        return None
+    x = column.astype(np.float64)
+    x[~np.isfinite(x)] = np.nan
+    edges = np.linspace(0, x.size, min(width, x.size) + 1).astype(int)
+    means = np.array([np.nan if np.isnan(x[a:b]).all() else np.nanmean(x[a:b])
+                      for a, b in zip(edges[:-1], edges[1:], strict=True)])
+    if np.isnan(means).all():
+        return " " * means.size
+    low, span = float(np.nanmin(means)), float(np.nanmax(means) - np.nanmin(means))
+    scale = (means - low) / span if span > 1e-12 * max(1.0, abs(low)) else np.zeros_like(means)
+    return "".join(" " if np.isnan(v) else _BARS[min(7, int(v * 8))] for v in scale)

@@ -1,0 +1,117 @@
+"""Why a reader claims a file, and why the others do not; what to declare where none or several do."""
+
+from __future__ import annotations
+
+import inspect
+from dataclasses import dataclass
+from pathlib import Path
+
+from thermodata.errors import ThermodataError
+from thermodata.plugin import Head, Source
+from thermodata.reader.guard import described
+from thermodata.reader.registry import claims, failed_readers, head, readers
+from thermodata.reader.text import decode_head
+
+# First bytes of what lies in folders of logs without being one
+_MAGIC: tuple[tuple[bytes, str], ...] = (
+    (b"TDSm", "TDMS of LabVIEW"), (b"TDSh", "the index of a TDMS file, which is never read: it may be stale"),
+    (b"\x89MCAP", "MCAP"), (b"PAR1", "Parquet"), (b"PK\x03\x04", "a ZIP file (XLSX, DOCX and others are)"),
+    (b"\x89HDF\r\n", "HDF5 (MAT 7.3 is)"), (b"MATLAB 5.0", "MAT 5 of MATLAB"), (b"MDF     ", "MDF of a measuring system"),
+    (b"UnFinMF ", "MDF that was not finished"), (b"%PDF", "PDF"), (b"\x89PNG", "a PNG picture"),
+    (b"\xff\xd8\xff", "a JPEG picture"), (b"SQLite format 3", "an SQLite database"), (b"\x1f\x8b", "gzip: unpack it first"),
+    (b"\x28\xb5\x2f\xfd", "Zstandard: unpack it first"), (b"7z\xbc\xaf", "7-Zip: unpack it first"),
+    (b"Rar!", "RAR: unpack it first"), (b"\xd0\xcf\x11\xe0", "an old Office file (XLS, DOC): save it as XLSX"),
+    (b"\x7fELF", "a program"), (b"MZ", "a program"), (b"#ROSBAG", "a ROS 1 bag: convert it to MCAP"),
+)
+
+
+@dataclass(frozen=True, slots=True)
+class Explanation:
+    """claims: reader -> reason. others: reader -> why not, or what it looks for. kind: what the first bytes are."""
+
+    file: str
+    size_bytes: int
+    kind: str
+    claims: dict[str, str]
+    others: dict[str, str]
+    advice: str | None
+
+    @property
+    def reader(self) -> str | None:
+        """The one reader that claims it."""
+        return next(iter(self.claims)) if len(self.claims) == 1 else None
+
+
+def explain(path: Path) -> Explanation:
+    """What every installed reader says of a file. UsageError where it cannot be read."""
+    start = head(path)
+    found = claims(path)
+    kind = _kind(start)
+    others = {name: _why_not(name, path, start, asked=not found) for name in readers() if name not in found}
+    others |= {name: f"does not load: {error}" for name, error in failed_readers().items()}
+    return Explanation(str(path), start.size_bytes, kind, found, others, _advice(start, found, others))
+
+
+def looks_for(name: str) -> str:
+    """What a reader looks for, in its own words: its `looks_for`, else the first sentence of its docstring."""
+    reader = readers()[name]
+    own = getattr(reader, "looks_for", None)
+    if isinstance(own, str) and own:
+        return own
+    for thing in (type(reader), inspect.getmodule(type(reader))):
+        text = (thing.__doc__ or "").strip() if thing is not None else ""
+        if text:
+            return " ".join(text.split("\n\n")[0].split())
+    return "it does not say"
+
+
+def _kind(start: Head) -> str:
+    if not start.size_bytes:
+        return "an empty file"
+    for magic, what in _MAGIC:
+        if start.start.startswith(magic):
+            return what
+    text = decode_head(start.start)
+    if text is None:
+        return f"binary; it starts with {start.start[:8].hex(' ')}"
+    if not text.strip():
+        return "blanks only"
+    first = next(line for line in text.splitlines() if line.strip()).strip()
+    marks = {"';'": text.count(";"), "','": text.count(","), "tabs": text.count("\t")}
+    most = max(marks, key=lambda m: marks[m])
+    between = f", most often {most} between cells" if marks[most] >= 3 else ""
+    return f"text{between}; it starts with '{first[:50]}{'...' if len(first) > 50 else ''}'"
+
+
+def _why_not(name: str, path: Path, start: Head, asked: bool) -> str:
+    """What the reader says when it is made to try, where no other claims the file; else what it looks for."""
+    if asked and start.size_bytes and decode_head(start.start) is not None:
+        try:
+            described(readers()[name], path, Source())
+        except (ThermodataError, OSError) as error:
+            what = getattr(error, "what", str(error))
+            hint = getattr(error, "hint", None)
+            if not what.startswith("reader '"):
+                return f"made to try, it says: {what}" + (f"; {hint}" if hint else "")
+        else:
+            return "it does not claim it, but can read it where a source declares it"
+    return f"no; it reads: {looks_for(name)}"
+
+
+def _advice(start: Head, found: dict[str, str], others: dict[str, str]) -> str | None:
+    if len(found) == 1:
+        return None
+    if found:
+        first = next(iter(found))
+        return f"declare one of them: sources: {{log: {{reader: {first}, files: ...}}}}"
+    if not others:
+        return "no reader is installed"
+    able = next((name for name, why in others.items() if "can read it" in why), None)
+    if able:
+        return f"declare it: sources: {{log: {{reader: {able}, files: ...}}}}"
+    if any("declare" in why for why in others.values()):
+        return "declare reader: table with table: {header_rows: ..., time: {column: ..., unit: ...}} in its source"
+    return None if start.size_bytes else "was it closed?"
+
+
+__all__ = ["Explanation", "explain", "looks_for"]
