@@ -172,7 +172,8 @@ def test_a_field_that_comes_late_is_named_once(tmp_path: Path) -> None:
     _, times, values, _, losses = read(write(tmp_path / "a.mcap", messages, chunk=1 << 18))
     assert times["/m"].size == len(values["/m.a"]) == 6000
     assert sorted(loss.where for loss in losses) == [
-        "a.mcap topic '/m' field '/m.late'", "a.mcap topic '/m' field '/m.o'"]
+        "a.mcap topic '/m' field '/m.late'", "a.mcap topic '/m' field '/m.o.p'"]
+    assert [(loss.from_ns, loss.to_ns) for loss in losses][0][0] == T0 + 3401
 
 
 def test_publish_times_are_kept_where_they_differ(tmp_path: Path) -> None:
@@ -285,7 +286,7 @@ def test_a_long_file_without_chunks_is_read_by_its_head(tmp_path: Path, monkeypa
 
 def test_an_encoding_that_nothing_reads_is_refused_by_name(tmp_path: Path) -> None:
     path = write(tmp_path / "a.mcap", [("/x", T0, b"\x00\x01")], encoding="cbor")
-    with pytest.raises(FormatError, match=r"/x: encoding 'cbor' .* is not supported"):
+    with pytest.raises(FormatError, match=r"'/x' is not read: encoding 'cbor' .* is not supported"):
         described(Reader(), path, Source())
 
 

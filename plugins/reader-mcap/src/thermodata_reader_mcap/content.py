@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import mmap
-import struct
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Hashable, Iterator
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -14,62 +13,47 @@ import numpy.typing as npt
 
 from thermodata.errors import FormatError
 from thermodata.plugin import Loss
+from thermodata_reader_mcap.batch import Batch, Key, take
 from thermodata_reader_mcap.chunk import ChunkError, records
-from thermodata_reader_mcap.walk import (
-    ATTACHMENT,
+from thermodata_reader_mcap.definitions import Definitions
+from thermodata_reader_mcap.inside import found_messages
+from thermodata_reader_mcap.records import (
     CHANNEL,
     CHUNK,
+    HEAD,
+    HEADER,
     MAGIC,
     MESSAGE,
     MESSAGE_INDEX,
+    PRIVATE,
     SCHEMA,
-    Damage,
+    Bytes,
     Record,
+    ShortError,
     chunk_head,
-    data_section,
+    octets,
 )
+from thermodata_reader_mcap.walk import Damage, data_section
 
-_RECORD = struct.Struct("<BQ")
 LATEST_NS = 9_000_000_000_000_000_000
-
-
-@dataclass(frozen=True, slots=True)
-class Schema:
-    name: str
-    encoding: str
-    data: bytes
-
-
-@dataclass(frozen=True, slots=True)
-class Channel:
-    topic: str
-    encoding: str
-    schema: Schema | None
-
-
-@dataclass(slots=True)
-class Batch:
-    """Messages of one channel: payloads, and parts of their log and publish times [ns], uint64."""
-
-    payloads: list[bytes] = field(default_factory=list)
-    log_ns: list[npt.NDArray[np.uint64]] = field(default_factory=list)
-    publish_ns: list[npt.NDArray[np.uint64]] = field(default_factory=list)
-
-    def times(self) -> tuple[npt.NDArray[np.uint64], npt.NDArray[np.uint64]]:
-        """All log and publish times, shape (n,) each."""
-        none = [np.empty(0, np.uint64)]
-        return np.concatenate(self.log_ns or none), np.concatenate(self.publish_ns or none)
+_PIECE = 16 << 20         # of a chunk that is taken at a time
+_LET_GO = 64 << 20        # of the file that stays mapped behind the walk
 
 
 @dataclass(slots=True)
 class Content:
-    """What a walk has met so far."""
+    """What a walk has met so far. key: what a channel's messages are kept apart by, None where they are not wanted.
+    counts: messages by channel id; undefined: those of ids that nothing defines; foreign: records by unknown kind.
+    """
 
     name: str
     size: int
-    channels: dict[int, Channel] = field(default_factory=dict)
-    schemas: dict[int, Schema] = field(default_factory=dict)
-    attachments: int = 0
+    definitions: Definitions = field(default_factory=Definitions)
+    key: Key = lambda channel: channel
+    batches: dict[Hashable, Batch] = field(default_factory=dict)
+    counts: dict[int, int] = field(default_factory=dict)
+    undefined: dict[int, int] = field(default_factory=dict)
+    foreign: dict[int, int] = field(default_factory=dict)
     pending: int = 0                 # bytes of messages taken since the batches were emptied
     last_ns: int | None = None
 
@@ -77,7 +61,8 @@ class Content:
         """A loss of bytes of the file, dated by the chunk or by the last message before."""
         first = self.last_ns if from_ns is None else from_ns
         last = to_ns if to_ns is None or first is None or to_ns >= first else None
-        return Loss(f"{self.name} byte {start}", first, last, min(1.0, (stop - start) / max(1, self.size)), reason)
+        place = f"bytes {start} to {stop}" if stop > start else f"byte {start}"
+        return Loss(f"{self.name} {place}", first, last, min(1.0, (stop - start) / max(1, self.size)), reason)
 
 
 @contextmanager
@@ -97,36 +82,37 @@ def opened(path: Path) -> Iterator[memoryview]:
             mapped.close()
 
 
-Pick = Callable[[int], bool]
+class _Mapped:
+    """Lets go of the pages behind the walk: a mapped file of any size would count as memory of the process."""
+
+    def __init__(self, view: memoryview) -> None:
+        self._mapped = view.obj
+        self._gone = 0
+
+    def passed(self, at: int) -> None:
+        if isinstance(self._mapped, mmap.mmap) and at - self._gone > _LET_GO and hasattr(mmap, "MADV_DONTNEED"):
+            stop = at // mmap.PAGESIZE * mmap.PAGESIZE
+            self._mapped.madvise(mmap.MADV_DONTNEED, self._gone, stop - self._gone)
+            self._gone = stop
 
 
-def walk(view: memoryview, content: Content, into: dict[int, Batch], full: Callable[[], bool],
-         wanted: Pick | None = None) -> Iterator[Loss | None]:
-    """Walks the data section: messages go `into` a batch a channel; yields None whenever full() says that the
-    batches should be emptied, and each loss. wanted(k): whether to open the k-th chunk (default: all)."""
-    number = -1
+def walk(view: memoryview, content: Content, full: Callable[[], bool],
+         wanted: Callable[[int], bool] | None = None) -> Iterator[Loss | None]:
+    """Walks the data section: messages go into the content's batches; yields None whenever full() says that these
+    should be emptied, and each loss. wanted(k): whether to open the k-th chunk (default: all)."""
+    number, mapped = -1, _Mapped(view)
     waiting: tuple[Record, list[npt.NDArray[np.int64]]] | None = None      # a chunk, and the indexes behind it
-
-    def opened_chunk() -> Iterator[Loss | None]:
-        nonlocal waiting
-        if waiting is None:
-            return
-        record, index = waiting
-        waiting = None
-        loss = _chunk(view, record, content, into, number, index)
-        if loss is not None:
-            yield None
-            yield loss
-        if full():
-            yield None
 
     for record in data_section(view):
         if isinstance(record, Record) and record.opcode == MESSAGE_INDEX and not record.cut:
-            if waiting is not None and (record.stop - record.start - 6) % 16 == 0:
-                entries = np.frombuffer(view[record.start + 6:record.stop], "<u8").reshape(-1, 2)
+            if waiting is not None:
+                entries = np.frombuffer(octets(view, record.start + 2, record.stop)[0], "<u8").reshape(-1, 2)
                 waiting[1].append(entries[:, 1].astype(np.int64))
             continue
-        yield from opened_chunk()
+        if waiting is not None:
+            yield from _chunk(view, waiting[0], content, number, waiting[1], full)
+            waiting = None
+            mapped.passed(record.start)
         if isinstance(record, Damage):
             yield None
             yield content.loss(record.start, record.stop, record.reason)
@@ -136,138 +122,79 @@ def walk(view: memoryview, content: Content, into: dict[int, Batch], full: Calla
                 waiting = (record, [])
         elif record.cut:
             yield None
-            yield content.loss(record.start - 9, record.stop, "the file ends inside a record: it was cut")
+            yield content.loss(record.start - HEAD.size, record.stop, "the file ends inside a record: it was cut")
         else:
-            _one(view, record, content, into)
+            if record.opcode == MESSAGE:
+                content.pending += record.stop - record.start
+                _take(bytes(view[record.start - HEAD.size:record.stop]), np.zeros(1, np.int64), content)
+            else:
+                define(view[record.start:record.stop], record.opcode, content)
             if full():
                 yield None
-    yield from opened_chunk()
+            mapped.passed(record.start)
+    if waiting is not None:
+        yield from _chunk(view, waiting[0], content, number, waiting[1], full)
 
 
-def _chunk(view: memoryview, record: Record, content: Content, into: dict[int, Batch], number: int,
-           index: list[npt.NDArray[np.int64]]) -> Loss | None:
+def _chunk(view: memoryview, record: Record, content: Content, number: int, index: list[npt.NDArray[np.int64]],
+           full: Callable[[], bool]) -> Iterator[Loss | None]:
+    begin, stop, before = record.start - HEAD.size, record.stop, content.last_ns
     head = chunk_head(view, record)
     if head is None:
-        return content.loss(record.start - 9, record.stop, f"chunk {number}: its header contradicts itself or is cut")
-    times = (head.start_ns, head.end_ns) if head.start_ns <= head.end_ns < LATEST_NS else (None, None)
+        yield None
+        yield content.loss(begin, stop, f"chunk {number}: its header contradicts itself or is cut")
+        return
+    times = (head.start_ns, head.end_ns) if 0 < head.start_ns <= head.end_ns < LATEST_NS else (None, None)
     try:
         inner = records(view, head, record.cut)
     except ChunkError as error:
-        return content.loss(record.start - 9, record.stop, f"chunk {number}: {error}", *times)
-    content.pending += len(inner)
-    used = _indexed(inner, content, into, index) if index and not record.cut else None
-    if used is None:
-        used = _messages(inner, content, into)
+        yield None
+        yield content.loss(begin, stop, f"chunk {number}: {error}", *times)
+        return
+    used, lost = 0, 0
+    for part in found_messages(inner, [] if record.cut else index):
+        if isinstance(part, Damage):
+            if not record.cut or part.stop < len(inner):
+                lost += part.stop - part.start
+            continue
+        used = part.stop
+        for body, opcode in part.definitions:
+            define(body, opcode, content)
+        for at in _slices(part.messages):
+            content.pending += int(at[-1] - at[0]) + len(inner) - int(part.messages[-1])
+            _take(inner, at, content)
+            if full():
+                yield None
     if record.cut:
         missing = 1 - used / head.size if head.size else 0.0
-        first = content.last_ns if used else times[0]
-        return content.loss(record.start - 9 + round((record.stop - record.start) * (1 - missing)), record.stop,
-                            f"chunk {number}: the file ends inside it; {100 * missing:.0f} % of the chunk is lost",
-                            first, times[1])
-    if used != len(inner):
-        return content.loss(record.start - 9, record.stop, f"chunk {number}: a record in it runs past its end", *times)
-    return None
+        yield None
+        yield content.loss(begin + round((stop - begin) * (1 - missing)), stop,
+                           f"chunk {number}: the file ends inside it; {100 * missing:.0f} % of the chunk is lost",
+                           content.last_ns if used else times[0] or before, times[1])
+    if lost:
+        yield None
+        yield content.loss(begin, stop, f"chunk {number}: {lost} of its {len(inner)} bytes are no records", *times)
+    if full():
+        yield None
 
 
-def _indexed(inner: bytes, content: Content, into: dict[int, Batch],
-             index: list[npt.NDArray[np.int64]]) -> int | None:
-    """The same as _messages, where the chunk's index names every message: nothing is walked but what lies between
-    them. None where the index and the records do not agree: then the records are right."""
-    at = np.sort(np.concatenate(index))
-    if not at.size or at[0] < 0 or at[-1] + 31 > len(inner):
-        return None
-    heads = np.frombuffer(inner, np.uint8)[at[:, None] + np.arange(9)]
-    stops = at + 9 + np.ascontiguousarray(heads[:, 1:9]).view("<i8")[:, 0]
-    ends, starts = np.concatenate([[0], stops]), np.concatenate([at, [len(inner)]])
-    if (heads[:, 0] != MESSAGE).any() or (starts < ends).any() or (stops < at + 31).any():
-        return None
-    others: list[Record] = []
-    for gap in np.flatnonzero(starts != ends).tolist():
-        place, stop = int(ends[gap]), int(starts[gap])
-        while place < stop:
-            if place + 9 > stop:
-                return None
-            opcode, length = _RECORD.unpack_from(inner, place)
-            if opcode == MESSAGE:
-                return None
-            others.append(Record(opcode, place + 9, place + 9 + length))
-            place += 9 + length
-        if place != stop:
-            return None
-    for record in others:
-        _one(memoryview(inner), record, content, into)
-    _take(inner, at, content, into)
-    return len(inner)
+def _slices(at: npt.NDArray[np.int64]) -> Iterator[npt.NDArray[np.int64]]:
+    if at.size:
+        for part in np.split(at, np.searchsorted(at, np.arange(at[0] + _PIECE, at[-1] + 1, _PIECE))):
+            if part.size:
+                yield part
 
 
-def _messages(inner: bytes, content: Content, into: dict[int, Batch]) -> int:
-    """Takes the records of a chunk; returns how many bytes of whole records there were."""
-    at, size, unpack = 0, len(inner), _RECORD.unpack_from
-    found: list[int] = []
-    add = found.append
-    while at + 9 <= size:
-        opcode, length = unpack(inner, at)
-        stop = at + 9 + length
-        if stop > size:
-            break
-        if opcode == MESSAGE and length >= 22:
-            add(at)
-        else:
-            _one(memoryview(inner), Record(opcode, at + 9, stop), content, into)
-        at = stop
-    if found:
-        _take(inner, np.array(found, np.int64), content, into)
-    return at
+def _take(inner: Bytes, at: npt.NDArray[np.int64], content: Content) -> None:
+    log_ns = take(inner, at, content.definitions.channel, content.key, content.batches, content.counts,
+                  content.undefined)
+    content.last_ns = int(log_ns[-1]) if log_ns[-1] < LATEST_NS else content.last_ns
 
 
-def _take(inner: bytes, at: npt.NDArray[np.int64], content: Content, into: dict[int, Batch]) -> None:
-    """Puts the messages whose records begin at these places into the batches of their channels."""
-    data = np.frombuffer(inner, np.uint8)
-    heads = data[at[:, None] + np.arange(31)]
-    channels = np.ascontiguousarray(heads[:, 9:11]).view("<u2")[:, 0]
-    starts, stops = at + 31, at + 9 + np.ascontiguousarray(heads[:, 1:9]).view("<i8")[:, 0]
-    log_ns = np.ascontiguousarray(heads[:, 15:23]).view("<u8")[:, 0]
-    publish_ns = np.ascontiguousarray(heads[:, 23:31]).view("<u8")[:, 0]
-    content.last_ns = int(log_ns[-1])
-    targets: dict[int, tuple[Batch, list[int]]] = {}
-    for channel in np.unique(channels).tolist():
-        batch = into.setdefault(channel, Batch())
-        targets.setdefault(id(batch), (batch, []))[1].append(channel)
-    for batch, members in targets.values():
-        mine = slice(None) if len(targets) == 1 else np.isin(channels, members)
-        batch.payloads += [inner[a:b] for a, b in zip(starts[mine].tolist(), stops[mine].tolist(), strict=True)]
-        batch.log_ns.append(log_ns[mine])
-        batch.publish_ns.append(publish_ns[mine])
-
-
-def _one(view: memoryview, record: Record, content: Content, into: dict[int, Batch]) -> None:
-    body = view[record.start:record.stop]
-    if record.opcode == MESSAGE and len(body) >= 22:
-        content.pending += len(body)
-        _take(bytes(view[record.start - 9:record.stop]), np.zeros(1, np.int64), content, into)
-        return
-    try:
-        _definition(body, record.opcode, content)
-    except struct.error:                         # shorter than its kind: a damaged definition defines nothing
-        return
-
-
-def _definition(body: memoryview, opcode: int, content: Content) -> None:
-    if opcode == SCHEMA:
-        (number,) = struct.unpack_from("<H", body)
-        name, at = _text(body, 2)
-        encoding, at = _text(body, at)
-        (size,) = struct.unpack_from("<I", body, at)
-        content.schemas[number] = Schema(name, encoding, bytes(body[at + 4:at + 4 + size]))
-    elif opcode == CHANNEL:
-        number, schema = struct.unpack_from("<HH", body)
-        topic, at = _text(body, 4)
-        encoding, _ = _text(body, at)
-        content.channels[number] = Channel(topic or f"channel {number}", encoding, content.schemas.get(schema))
-    elif opcode == ATTACHMENT:
-        content.attachments += 1
-
-
-def _text(body: memoryview, at: int) -> tuple[str, int]:
-    (size,) = struct.unpack_from("<I", body, at)
-    return bytes(body[at + 4:at + 4 + size]).decode("utf-8", "replace"), at + 4 + size
+def define(body: Bytes, opcode: int, content: Content) -> None:
+    """Takes a record that is no message. One that is shorter than its kind defines nothing."""
+    if opcode in (SCHEMA, CHANNEL):
+        with suppress(ShortError):
+            content.definitions.define(opcode, body)
+    elif opcode >= PRIVATE or opcode == HEADER:
+        content.foreign[opcode] = content.foreign.get(opcode, 0) + (opcode >= PRIVATE)

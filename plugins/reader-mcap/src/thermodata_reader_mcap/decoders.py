@@ -1,108 +1,87 @@
-"""Payloads as Python values, by the channel's encoding: json here, others by their own packages."""
+"""What reads the payloads of a channel, by its encoding: json here, ROS and protobuf beside."""
 
 from __future__ import annotations
 
 import json
-from collections.abc import Callable
+from collections.abc import Mapping
+from dataclasses import dataclass
 from typing import Any
 
-from thermodata_reader_mcap.content import Channel
+from thermodata_reader_mcap.columns import Decoder
+from thermodata_reader_mcap.definitions import Channel
+from thermodata_reader_mcap.json_text import loads
+from thermodata_reader_mcap.leaves import Declared, Hint
+from thermodata_reader_mcap.seen import Path
 
-_PACKAGES = {"cdr": "mcap-ros2-support", "protobuf": "mcap-protobuf-support"}
-_DEPTH = 12
+_UNIT_KEYS = ("unit", "units", "x-unit", "x-units")
 
 
 class UnsupportedError(Exception):
-    """An encoding that nothing installed reads; the message says what would."""
+    """An encoding or a schema that nothing here reads; the message says what."""
 
 
-def decoder(channel: Channel) -> Callable[[bytes], Any]:
-    """The function from payload to Python values (dict, list, numbers, bool, text). UnsupportedError."""
+@dataclass(slots=True)
+class JsonDecoder:
+    """JSON, with or without a JSON Schema. encoding: of its text, where that is not UTF-8."""
+
+    schema: Any
+    encoding: str | None = None
+    json: bool = True
+
+    def decode(self, payload: bytes) -> Any:
+        return loads(self.text(payload))
+
+    def text(self, payload: bytes) -> bytes:
+        """The payload in UTF-8."""
+        return payload if self.encoding is None else payload.decode(self.encoding).encode()
+
+    def hint(self, path: Path) -> Hint | None:
+        node = self.schema
+        for part in path:
+            if not isinstance(node, Mapping):
+                return None
+            inner = node.get("items") if isinstance(part, int) else node.get("properties")
+            node = inner if isinstance(part, int) else inner.get(part) if isinstance(inner, Mapping) else None
+        if not isinstance(node, Mapping):
+            return None
+        kind = node.get("type")
+        if isinstance(kind, list):
+            kind = next((k for k in kind if k != "null"), None)
+        unit = next((node[k] for k in _UNIT_KEYS if isinstance(node.get(k), str)), None)
+        said = node.get("description")
+        return Hint(kind if isinstance(kind, str) else None, unit,
+                    (("description", said),) if isinstance(said, str) else ())
+
+
+def decoder(channel: Channel, enums: str = "number") -> Decoder:
+    """What reads a channel's messages. enums: whether protobuf's enumerations are numbers or labels.
+    UnsupportedError."""
+    schema = channel.schema
     if channel.encoding == "json":
-        return json.loads
-    if channel.encoding == "cdr" and channel.schema is not None and channel.schema.encoding == "ros2msg":
-        return _ros2(channel)
-    if channel.encoding == "protobuf" and channel.schema is not None:
-        return _protobuf(channel)
-    schema = channel.schema.encoding if channel.schema is not None else "none"
-    raise UnsupportedError(f"encoding '{channel.encoding}' with schema '{schema}' is not supported")
+        told = schema is not None and schema.encoding == "jsonschema"
+        return JsonDecoder(_json_schema(schema.data) if told and schema is not None else None)
+    if channel.encoding in ("cdr", "ros1") and schema is not None and schema.encoding in ("ros2msg", "ros2idl",
+                                                                                        "ros1msg"):
+        from thermodata_reader_mcap.ros import ros_decoder
+
+        made: Decoder = ros_decoder(channel.encoding, schema)
+        return made
+    if channel.encoding == "protobuf" and schema is not None and schema.encoding == "protobuf":
+        from thermodata_reader_mcap.protobuf import protobuf_decoder
+
+        return protobuf_decoder(schema, enums)
+    named = f"schema '{schema.encoding}'" if schema is not None else "no schema"
+    raise UnsupportedError(f"encoding '{channel.encoding or '(none)'}' with {named} is not supported")
 
 
-def _from(factory: Any, channel: Channel) -> Callable[[bytes], Any]:
-    from mcap.records import Schema
-
-    assert channel.schema is not None
-    schema = Schema(id=1, name=channel.schema.name, encoding=channel.schema.encoding, data=channel.schema.data)
-    made: Callable[[bytes], Any] | None = factory.decoder_for(channel.encoding, schema)
-    if made is None:
-        raise UnsupportedError(f"the schema '{channel.schema.name}' does not read")
-    return made
+def hints(made: Decoder) -> Declared:
+    """What a decoder's schema says of a path."""
+    found: Declared = getattr(made, "hint", lambda path: None)
+    return found
 
 
-def _ros2(channel: Channel) -> Callable[[bytes], Any]:
+def _json_schema(data: bytes) -> Any:
     try:
-        from mcap_ros2.decoder import DecoderFactory
-    except ImportError:
-        raise UnsupportedError(_missing(channel.encoding)) from None
-    try:
-        made = _from(DecoderFactory(), channel)
-    except UnsupportedError:
-        raise
-    except Exception as error:                              # its parser of message definitions
-        raise UnsupportedError(f"the schema does not read: {type(error).__name__}: {error}") from None
-    return lambda payload: _plain(made(payload))
-
-
-def _protobuf(channel: Channel) -> Callable[[bytes], Any]:
-    try:
-        from mcap_protobuf.decoder import DecoderFactory
-    except ImportError:
-        raise UnsupportedError(_missing(channel.encoding)) from None
-    try:
-        made = _from(DecoderFactory(), channel)
-    except UnsupportedError:
-        raise
-    except Exception as error:
-        raise UnsupportedError(f"the schema does not read: {type(error).__name__}: {error}") from None
-    return lambda payload: _message(made(payload))
-
-
-def _missing(encoding: str) -> str:
-    return f"encoding '{encoding}' needs the package {_PACKAGES[encoding]}: pip install {_PACKAGES[encoding]}"
-
-
-def _plain(value: Any, depth: int = 0) -> Any:
-    """A decoded ROS 2 message: objects with slots become dicts, bytes lists of numbers."""
-    if depth > _DEPTH:
+        return json.loads(data) if data.strip() else None
+    except (ValueError, RecursionError):
         return None
-    if isinstance(value, bool | int | float | str) or value is None:
-        return value
-    if isinstance(value, bytes | bytearray | memoryview):
-        return list(value)
-    if isinstance(value, list | tuple):
-        return [_plain(v, depth + 1) for v in value]
-    if hasattr(value, "tolist"):
-        return value.tolist()
-    names = getattr(value, "__slots__", None) or list(vars(value))
-    return {str(n): _plain(getattr(value, n), depth + 1) for n in names if not str(n).startswith("_")}
-
-
-def _message(value: Any, depth: int = 0) -> Any:
-    """A decoded protobuf message: fields by their own names, integers as integers (its JSON form has them as text)."""
-    if depth > _DEPTH:
-        return None
-    if isinstance(value, bool | int | float | str) or value is None:
-        return value
-    if isinstance(value, bytes):
-        return list(value)
-    if hasattr(value, "DESCRIPTOR"):
-        return {f.name: _message(getattr(value, f.name), depth + 1) for f in value.DESCRIPTOR.fields
-                if f.message_type is None or _is_repeated(f) or value.HasField(f.name)}
-    if hasattr(value, "items"):
-        return {str(k): _message(v, depth + 1) for k, v in value.items()}
-    return [_message(v, depth + 1) for v in value]
-
-
-def _is_repeated(descriptor: Any) -> bool:
-    repeated = getattr(descriptor, "is_repeated", None)
-    return bool(repeated) if repeated is not None else descriptor.label == descriptor.LABEL_REPEATED

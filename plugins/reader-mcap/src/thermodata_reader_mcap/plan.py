@@ -4,34 +4,43 @@ from __future__ import annotations
 
 import struct
 from collections.abc import Iterable
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from fnmatch import fnmatchcase
 
 import numpy as np
 
 from thermodata.errors import FormatError
 from thermodata.plugin import Source
-from thermodata_reader_mcap.columns import Topic
-from thermodata_reader_mcap.content import LATEST_NS, Batch, Channel, Content, walk
-from thermodata_reader_mcap.decoders import UnsupportedError, decoder
-from thermodata_reader_mcap.leaves import find_leaves, json_schema
-from thermodata_reader_mcap.walk import CHUNK, MESSAGE_INDEX, Damage, chunk_head, data_section
+from thermodata_reader_mcap.batch import Batch
+from thermodata_reader_mcap.columns import Decoder, Topic
+from thermodata_reader_mcap.content import LATEST_NS, Content, walk
+from thermodata_reader_mcap.definitions import Channel, Definitions
+from thermodata_reader_mcap.discover import discover, readers
+from thermodata_reader_mcap.extras import extras
+from thermodata_reader_mcap.options import PUBLISH, Options, options
+from thermodata_reader_mcap.records import ATTACHMENT, CHUNK, MESSAGE_INDEX, METADATA, Record, chunk_head
+from thermodata_reader_mcap.summary import Summary, summary
+from thermodata_reader_mcap.walk import Damage, data_section, is_complete
 
 WHOLE = 8 << 20          # uncompressed bytes that are looked at completely
 _SEARCHED = 64 << 20     # the same, of a file whose chunks do not say which topics they hold
-_DECODED = 1 << 20       # payload bytes of a topic that are decoded for its signals
 EARLIEST_NS = 10**17     # log times before 1973 count from the start of the recording
 
 
 @dataclass(slots=True)
 class Plan:
-    """topics: channel -> what its messages are. publish: topics whose publish times differ from the log times."""
+    """topics: by name; readers: how each channel's messages decode. stamped: the times that are signals, by topic
+    ("log_time", "publish_time"). complete: whether the file ends well and nothing in it is seen to be damaged."""
 
-    topics: dict[int, Topic]
-    publish: frozenset[str]
+    options: Options
+    summary: Summary
+    topics: dict[str, Topic]
+    readers: dict[Channel, Decoder]
     unsupported: dict[str, str]
+    stamped: dict[str, str]
     start_ns: int | None
     relative: bool
+    complete: bool
     notes: list[str]
 
 
@@ -39,12 +48,16 @@ class Plan:
 class _Chunks:
     sizes: list[int] = field(default_factory=list)
     channels: list[set[int]] = field(default_factory=list)
+    extras: list[Record] = field(default_factory=list)
+    damaged: bool = False
 
 
 def _survey(view: memoryview) -> _Chunks:
     """Sizes of the chunks and the channels that the indexes behind them name, without opening any."""
     found = _Chunks()
     for record in data_section(view):
+        if isinstance(record, Damage) or record.cut:
+            found.damaged = True
         if isinstance(record, Damage):
             continue
         if record.opcode == CHUNK:
@@ -55,6 +68,8 @@ def _survey(view: memoryview) -> _Chunks:
             channel, size = struct.unpack_from("<HI", view, record.start)
             if size:
                 found.channels[-1].add(channel)
+        elif record.opcode in (ATTACHMENT, METADATA) and not record.cut:
+            found.extras.append(record)
     return found
 
 
@@ -68,10 +83,11 @@ def _chosen(chunks: _Chunks) -> set[int] | None:
             return None
         return {0, 1, count - 1, *(count * k // 16 for k in range(16))}
     chosen = {0, count - 1, *(count * k // 6 for k in range(6))}
-    for channel in set().union(*chunks.channels):
-        places = [k for k, inside in enumerate(chunks.channels) if channel in inside]
-        chosen |= {places[0], places[-1]}
-    return chosen
+    places: dict[int, tuple[int, int]] = {}
+    for k, inside in enumerate(chunks.channels):
+        for channel in inside:
+            places[channel] = (places.get(channel, (k, k))[0], k)
+    return chosen | {k for pair in places.values() for k in pair}
 
 
 def wanted_topic(topic: str, source: Source) -> bool:
@@ -79,51 +95,94 @@ def wanted_topic(topic: str, source: Source) -> bool:
     return not source.topics or any(t == topic or fnmatchcase(topic, t) for t in source.topics)
 
 
+def content(view: memoryview, name: str, said: Summary) -> Content:
+    """An empty content for a walk."""
+    return Content(name, len(view), Definitions(spare=said.channels))
+
+
 def plan(view: memoryview, name: str, source: Source) -> Plan:
     """The topics of a recording. FormatError: a declared topic is missing, or no topic can be read."""
-    chunks = _survey(view)
+    chosen_options, said, chunks = options(source), summary(view), _survey(view)
     chosen = _chosen(chunks)
-    content, batches = Content(name, len(view)), dict[int, Batch]()
-    wanted, whole = None if chosen is None else chosen.__contains__, chosen is None
-    for _ in walk(view, content, batches, lambda: content.pending >= WHOLE, wanted):
-        if not chunks.sizes and content.pending >= WHOLE:   # messages outside of chunks: their head must do
+    met = content(view, name, said)
+    met.key = lambda channel: channel if wanted_topic(channel.topic, source) else None
+    whole = chosen is None
+    damaged = chunks.damaged
+    for loss in walk(view, met, lambda: met.pending >= WHOLE, None if chosen is None else chosen.__contains__):
+        damaged |= loss is not None
+        if not chunks.sizes and met.pending >= WHOLE:       # messages outside of chunks: their head must do
             whole = False
             break
-    topics: dict[int, Topic] = {}
-    publish, unsupported, notes = set(), dict[str, str](), list[str]()
-    by_topic: dict[str, list[int]] = {}
-    for number, channel in content.channels.items():
-        if wanted_topic(channel.topic, source):
-            by_topic.setdefault(channel.topic, []).append(number)
-    _refuse_missing(source, content.channels.values(), name)
-    for topic, numbers in by_topic.items():
-        filled = [n for n in numbers if batches.get(n) and batches[n].payloads]
-        if not filled:
-            continue
-        made, problem = _topic(topic, {n: content.channels[n] for n in filled}, batches, whole, notes)
-        if problem:
-            unsupported[topic] = problem
-        topics.update(made)
-        if made and any(_differ(batches[n]) for n in filled):
-            publish.add(topic)
-    if unsupported and not topics:
-        listed = "; ".join(f"{t}: {why}" for t, why in unsupported.items())
-        raise FormatError("no topic of this recording can be read", where=name,
-                          expected="json, cdr or protobuf messages", got=listed)
-    notes += [f"topic '{t}' is not read: {why}" for t, why in unsupported.items()]
-    if content.attachments:
-        notes.append(f"{content.attachments} attachments are not read")
-    times = np.concatenate([np.empty(0, np.uint64), *(batches[n].times()[0] for n in topics)])
+    _refuse_missing(source, [*met.definitions.met, *said.channels.values()], name)
+    notes = extras(view, chunks.extras)
+    if said.damaged:
+        notes.append("the summary at the end of the file is damaged; it was not needed")
+    batches = {k: b for k, b in met.batches.items() if isinstance(k, Channel)}
+    found = _topics(batches, chosen_options, source, whole, notes)
+    unknown = [f"topic '{t}' is not read: {why}" for t, why in found.unsupported.items()]
+    if unknown and not found.topics:
+        raise FormatError("no topic of this recording can be read", where=name, got="; ".join(unknown),
+                          expected="messages in json, cdr, ros1 or protobuf with their schemas")
+    used = [b for c, b in batches.items() if c.topic in found.topics]
+    logs = [b.times()[0] for b in used]
+    times = np.concatenate([np.empty(0, np.uint64), *logs])
     times = times[times < LATEST_NS]
     relative = times.size > 0 and int(times.max()) < EARLIEST_NS
     if relative:
         notes.append("log times count from the start of the recording")
-    return Plan(topics, frozenset(publish), unsupported, int(times.min()) if times.size else None, relative, notes)
+    stamped = {}
+    for topic in found.topics:
+        same = not chosen_options.publish and all(_same(b) for c, b in batches.items() if c.topic == topic)
+        if chosen_options.time != "log_time":
+            stamped[topic] = "log_time"
+        elif not same:
+            stamped[topic] = PUBLISH
+    return Plan(chosen_options, said, found.topics, found.readers, found.unsupported, stamped,
+                int(times.min()) if times.size else None, relative, is_complete(view) and not damaged,
+                [*notes, *unknown])
 
 
-def _differ(batch: Batch) -> bool:
+@dataclass(slots=True)
+class _Found:
+    topics: dict[str, Topic] = field(default_factory=dict)
+    readers: dict[Channel, Decoder] = field(default_factory=dict)
+    unsupported: dict[str, str] = field(default_factory=dict)
+
+
+def _topics(batches: dict[Channel, Batch], chosen: Options, source: Source, whole: bool, notes: list[str]) -> _Found:
+    by_topic: dict[str, list[Channel]] = {}
+    for channel, batch in batches.items():
+        if batch.payloads:
+            by_topic.setdefault(channel.topic, []).append(channel)
+    result = _Found()
+    budget = max(WHOLE // max(1, len(by_topic)), 1 << 16)
+    for topic, channels in by_topic.items():
+        samples = {c: batches[c].payloads for c in channels}
+        made, problems = readers(channels, samples, chosen, source.encoding, notes)
+        found = discover(topic, made, samples, whole, budget, notes) if made else None
+        if problems:
+            result.unsupported[topic] = "; ".join(dict.fromkeys(problems.values()))
+        if found is not None:
+            result.topics[topic] = found
+            result.readers.update(made)
+        elif not problems:
+            result.unsupported[topic] = "no message decodes" if not _empty(made, samples) else "its messages are empty"
+    return result
+
+
+def _empty(made: dict[Channel, Decoder], samples: dict[Channel, list[bytes]]) -> bool:
+    for channel, one in made.items():
+        for payload in samples[channel][:3]:
+            try:
+                one.decode(payload)
+            except Exception:                               # whatever a decoder raises: it does not decode
+                return False
+    return True
+
+
+def _same(batch: Batch) -> bool:
     log_ns, publish_ns = batch.times()
-    return not np.array_equal(log_ns, publish_ns)
+    return bool(np.array_equal(log_ns, publish_ns))
 
 
 def _refuse_missing(source: Source, channels: Iterable[Channel], name: str) -> None:
@@ -134,42 +193,3 @@ def _refuse_missing(source: Source, channels: Iterable[Channel], name: str) -> N
                               got=wanted)
 
 
-def _topic(name: str, channels: dict[int, Channel], batches: dict[int, Batch], all_seen: bool,
-           notes: list[str]) -> tuple[dict[int, Topic], str | None]:
-    """Channel -> topic for one topic's channels, and why one of them cannot be read."""
-    made: dict[int, Topic] = {}
-    problem = None
-    messages, exact, schema = [], all_seen, None
-    for number, channel in channels.items():
-        try:
-            decode = decoder(channel)
-        except UnsupportedError as error:
-            problem = str(error)
-            continue
-        sampled, whole = _decoded(decode, batches[number].payloads)
-        messages += sampled
-        exact &= whole
-        if channel.schema is not None and channel.schema.encoding == "jsonschema":
-            schema = schema or json_schema(channel.schema.data)
-        made[number] = Topic(name, (), decode, channel.encoding == "json")
-    objects = sum(isinstance(m, dict) for m in messages)
-    wrapped = objects * 2 < len(messages)
-    kept = [m for m in messages if isinstance(m, dict) != wrapped]
-    leaves, more = find_leaves(name, kept, schema, exact)
-    notes += more
-    if not leaves:
-        return {}, problem or ("no message decodes" if not messages else None)
-    return {n: replace(t, leaves=leaves, wrapped=wrapped) for n, t in made.items()}, problem
-
-
-def _decoded(decode: object, payloads: list[bytes]) -> tuple[list[object], bool]:
-    """Sampled messages as Python values, and whether they are all."""
-    size = sum(map(len, payloads))
-    step = 1 if size <= _DECODED else -(-4 * size // _DECODED)
-    result = []
-    for payload in [*payloads[::step], *(payloads[-1:] if step > 1 else [])]:
-        try:
-            result.append(decode(payload))  # type: ignore[operator]
-        except Exception:                                   # counted and named when it is read
-            continue
-    return result, step == 1

@@ -1,4 +1,4 @@
-"""The records of an MCAP file, walked in place; a damaged stretch is named and the next chunk found by its mark.
+"""The records of an MCAP file, walked in place; a damaged stretch is named, and the walk goes on behind it.
 
 Layout (mcap.dev/spec): a magic, then records of opcode (1 byte), length (8) and content; messages stand in the
 data section itself or inside (compressed) chunks.
@@ -6,73 +6,66 @@ data section itself or inside (compressed) chunks.
 
 from __future__ import annotations
 
-import struct
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-MAGIC = b"\x89MCAP0\r\n"
-HEADER, FOOTER, SCHEMA, CHANNEL, MESSAGE, CHUNK, MESSAGE_INDEX, DATA_END = 1, 2, 3, 4, 5, 6, 7, 0x0F
-ATTACHMENT = 9
-_KNOWN = set(range(1, 0x10))
-_RECORD = struct.Struct("<BQ")
-_CHUNK = struct.Struct("<QQQI")
-_COMPRESSIONS = (b"\x04\0\0\0zstd", b"\x03\0\0\0lz4")
+from thermodata_reader_mcap.records import (
+    CHUNK,
+    DATA_END,
+    FOOTER,
+    HEAD,
+    HEADER,
+    IN_DATA,
+    IN_SUMMARY,
+    MAGIC,
+    MESSAGE,
+    MESSAGES,
+    PRIVATE,
+    Record,
+    chunk_head,
+    content_end,
+    fits,
+)
+from thermodata_reader_mcap.resync import next_record
 
-
-@dataclass(frozen=True, slots=True)
-class Record:
-    """A record of the data section: `start` and `stop` bound its content. cut: the file ends inside it."""
-
-    opcode: int
-    start: int
-    stop: int
-    cut: bool = False
+_FOOTER_BYTES = 20
 
 
 @dataclass(frozen=True, slots=True)
 class Damage:
-    """Bytes that are no record, up to the next chunk or the end of the file."""
+    """Bytes that are no record, up to the next one or the end of the file. start == stop: nothing but the rest
+    of the file is missing."""
 
     start: int
     stop: int
     reason: str
 
 
-@dataclass(frozen=True, slots=True)
-class ChunkHead:
-    """A chunk's header; `start` and `stop` bound its records as stored."""
-
-    start_ns: int
-    end_ns: int
-    size: int
-    crc: int
-    compression: str
-    start: int
-    stop: int
-
-
 def data_section(view: memoryview) -> Iterator[Record | Damage]:
     """The records up to the end of the data section. Indexes and statistics behind it are not needed."""
     at, size = len(MAGIC), len(view)
     while at < size:
-        if at + 9 > size:
+        if view[at:] == MAGIC:
+            return
+        if at + HEAD.size > size:
             yield Damage(at, size, "the file ends inside a record's head: it was cut")
             return
-        opcode, length = _RECORD.unpack_from(view, at)
-        stop = at + 9 + length
-        if opcode in (DATA_END, FOOTER):
-            return
-        if view[at:at + 8] == MAGIC and at + 8 == size:
-            return
-        plausible = opcode in _KNOWN or opcode >= 0x80
-        if plausible and stop <= size:
-            yield Record(opcode, at + 9, stop)
+        opcode, length = HEAD.unpack_from(view, at)
+        stop = at + HEAD.size + length
+        record = Record(opcode, at + HEAD.size, min(stop, size), stop > size)
+        if opcode in (DATA_END, FOOTER) or opcode in IN_SUMMARY - IN_DATA:
+            if ends_here(view, at):
+                return
+        elif not record.cut and _stands(view, record):
+            yield record
             at = stop
             continue
-        following = next_chunk(view, at + 1)
-        cut = Record(opcode, at + 9, size, cut=True)
-        if plausible and following is None and (opcode != CHUNK or chunk_head(view, cut) is not None):
-            yield cut
+        ended = opcode == DATA_END and length == 4
+        following = next_record(view, at + 1, kinds=MESSAGES if ended else IN_DATA)
+        if ended and following is None:
+            return                                          # only what stands behind the data is damaged
+        if record.cut and following is None and _may_be_cut(view, record):
+            yield record
             return
         stop = size if following is None else following
         yield Damage(at, stop, f"no record at byte {at} (opcode {opcode}, length {length})")
@@ -80,38 +73,56 @@ def data_section(view: memoryview) -> Iterator[Record | Damage]:
     yield Damage(size, size, "the file ends without the end of its data: it was cut")
 
 
-def chunk_head(view: memoryview, record: Record) -> ChunkHead | None:
-    """A chunk's header; None where the chunk is cut inside it or contradicts itself."""
-    if record.stop - record.start < 40:
-        return None
-    start_ns, end_ns, size, crc = _CHUNK.unpack_from(view, record.start)
-    (name_size,) = struct.unpack_from("<I", view, record.start + 28)
-    at = record.start + 32 + name_size
-    if name_size > 16 or at + 8 > record.stop:
-        return None
-    name = bytes(view[record.start + 32:at]).decode("ascii", "replace")
-    (stored,) = struct.unpack_from("<Q", view, at)
-    if not record.cut and at + 8 + stored != record.stop:
-        return None
-    return ChunkHead(start_ns, end_ns, size, crc, name, at + 8, min(at + 8 + stored, record.stop))
+def _stands(view: memoryview, record: Record) -> bool:
+    """Whether a record is what its head says. A length that a wrong bit made longer would swallow what follows."""
+    if record.opcode == HEADER and record.start != len(MAGIC) + HEAD.size:
+        return False
+    if record.opcode not in IN_DATA and record.opcode < PRIVATE:
+        return False
+    if record.opcode in IN_DATA and record.opcode != MESSAGE:
+        end = content_end(view, record)
+        return end == record.stop or (end is not None and _goes_on(view, record.stop) and fits(view, end) is None)
+    return _goes_on(view, record.stop) or next_record(view, record.start, record.stop) is None
 
 
-def next_chunk(view: memoryview, at: int) -> int | None:
-    """Where the next whole compressed chunk begins, found by the name of its compression."""
-    data = view.obj if hasattr(view.obj, "find") else bytes(view)
-    best: int | None = None
-    for mark in _COMPRESSIONS:
-        found = data.find(mark, at + 37)
-        while found >= 0:
-            start = found - 37
-            if view[start] == CHUNK:
-                (length,) = struct.unpack_from("<Q", view, start + 1)
-                stop = start + 9 + length
-                if stop <= len(view) and chunk_head(view, Record(CHUNK, start + 9, stop)) is not None:
-                    best = start if best is None else min(best, start)
-                    break
-            found = data.find(mark, found + 1)
-    return best
+def _goes_on(view: memoryview, at: int) -> bool:
+    """Whether a record, or the end of the file, stands at a place."""
+    if at == len(view) or view[at:] == MAGIC or at + HEAD.size > len(view):
+        return True
+    opcode, length = HEAD.unpack_from(view, at)
+    if opcode not in IN_DATA and opcode not in IN_SUMMARY and opcode not in (DATA_END, FOOTER) and opcode < PRIVATE:
+        return False
+    return at + HEAD.size + length <= len(view) or opcode in (CHUNK, MESSAGE)
+
+
+def _may_be_cut(view: memoryview, record: Record) -> bool:
+    if record.opcode not in IN_DATA:
+        return False
+    return record.opcode != CHUNK or chunk_head(view, record) is not None
+
+
+def ends_here(view: memoryview, at: int) -> bool:
+    """Whether what begins here is the end of the file's data: its mark, then a summary (or what a cut left of one),
+    the footer and the magic. A wrong bit can make any record look like the end."""
+    size = len(view)
+    (opcode, length), marked = HEAD.unpack_from(view, at), False
+    if opcode == DATA_END:
+        if length != 4:
+            return False
+        at, marked = at + HEAD.size + length, True
+    while at < size:
+        if view[at:] == MAGIC or (marked and at + HEAD.size > size):
+            return True
+        if at + HEAD.size > size:
+            return False
+        opcode, length = HEAD.unpack_from(view, at)
+        stop = at + HEAD.size + length
+        if opcode == FOOTER:
+            return bool(length == _FOOTER_BYTES and (stop >= size or MAGIC.startswith(bytes(view[stop:stop + 8]))))
+        if opcode not in IN_SUMMARY or (stop <= size and fits(view, at, IN_SUMMARY) is None):
+            return False
+        at = stop
+    return marked or at == size
 
 
 def is_complete(view: memoryview) -> bool:
