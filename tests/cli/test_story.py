@@ -135,8 +135,9 @@ def test_export_writes_a_uniform_grid(data: Callable[..., Any], say: Say, campai
     assert [p.name for p in tmp_path.iterdir() if p.name.endswith(".part")] == []
     wrong = say("--store", campaign / "thermodata.store", "export", "small", "day9", tmp_path / "e.csv")
     assert (wrong.code, "did you mean 'day" in wrong.err) == (2, True)
-    later = say("--store", campaign / "thermodata.store", "export", "small", "day1", tmp_path / "e.mf4")
-    assert (later.code, "not supported yet" in later.err) == (2, True)
+    assert data("export", "small", "day1", tmp_path / "e.mat", "--step", "5 min")["rows"] == 72
+    nameless = say("--store", campaign / "thermodata.store", "export", "small", "day1", tmp_path / "e.xyz")
+    assert (nameless.code, ".mf4" in nameless.err) == (2, True)
 
 
 def test_fit_add_and_history(data: Callable[..., Any], ask: Say, campaign: Path) -> None:

@@ -63,6 +63,7 @@ class Scope:
     axes: list[Axis] = field(default_factory=list)
     names: list[list[str]] = field(default_factory=list)
     units: list[list[str]] = field(default_factory=list)
+    unit_of: dict[str, str] = field(default_factory=dict)
     time_unit: str | None = None
     step_s: float | None = None
     properties: dict[str, str] = field(default_factory=dict)
@@ -125,7 +126,11 @@ class Planner:
     def _sort(self, scope: Scope, name: str, node: Node, inner: list[tuple[str, Struct]]) -> None:
         path = f"{scope.path}/{name}" if scope.path else name
         if isinstance(node, Struct):
-            inner.append((path, node))
+            words = {k: say.one_text(v) for k, v in node.fields.items()}
+            if say.names_units(name) and all(words.values()):
+                scope.unit_of |= {k: v for k, v in words.items() if v}
+            else:
+                inner.append((path, node))
         elif isinstance(node, Structs):
             inner.extend((f"{path}({i})", item) for i, item in enumerate(node.items, 1))
         elif isinstance(node, Odd):
@@ -247,7 +252,10 @@ class Planner:
 
     def _assign(self, scope: Scope) -> None:
         """Each column of the scope to the time that its name or its length points to."""
-        scope.axes = [a if a.unit or a.texts else replace(a, unit=scope.time_unit) for a in scope.axes]
+        given = scope.unit_of
+        scope.axes = [a if a.unit or a.texts else replace(a, unit=given.get(_last(a.path)) or scope.time_unit)
+                      for a in scope.axes]
+        scope.columns = [c if c.unit else replace(c, unit=given.get(_last(c.name))) for c in scope.columns]
         left: list[Column] = []
         for column in scope.columns:
             axis = self._axis_of(scope, column.name, column.length)
@@ -372,6 +380,10 @@ def _same_axis(a: Axis, b: Axis) -> bool:
     if a.load is None or b.load is None:
         return a.load is b.load
     return all(np.array_equal(a.load(i, i + 500_000), b.load(i, i + 500_000)) for i in range(0, a.length, 500_000))
+
+
+def _last(path: str) -> str:
+    return path.rsplit("/", 1)[-1]
 
 
 def _part(words: Array, start: int, stop: int) -> Array:

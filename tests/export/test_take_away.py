@@ -1,0 +1,140 @@
+"""A test that was ingested from a table, taken away as MAT and MDF4, and read again with our own reader."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from thermodata_reader_table import Reader
+
+from thermodata.errors import UsageError
+from thermodata.export import export_test
+from thermodata.export import mat as mat_module
+from thermodata.plugin import Source
+from thermodata.store import Store
+from thermodata.store.ingest import ingest
+from thermodata.testing.reader import Data, load
+from thermodata.view import StoreView
+
+START = "2026-03-01T08:00:00.123456789"
+CAMPAIGN = """
+schema: thermodata/campaign/1
+id: c
+machine: {id: "138", spindle: SP1}
+sources:
+  daq: {reader: table, files: "{test}.csv", timezone: UTC}
+  nc: {reader: table, files: "{test}_nc.csv", timezone: UTC}
+channels:
+  T_front: {source: daq, signal: T1, quantity: temperature, unit: degC, at: spindle.bearing.front, notes: "glued čidlo"}
+  T_rear: {source: daq, signal: T2, quantity: temperature, unit: degC, at: spindle.bearing.rear}
+  mode: {source: nc, signal: mode, quantity: label}
+  speed: {source: nc, signal: speed, quantity: rotational_speed, unit: rpm, at: spindle}
+tests:
+  - {id: sp9000, kind: spindle, role: calibration, conditions: {speed: 9000 rpm, coolant: "on"},
+     notes: first of the day}
+"""
+
+
+@pytest.fixture(scope="module")
+def view(tmp_path_factory: pytest.TempPathFactory) -> StoreView:
+    folder = tmp_path_factory.mktemp("export")
+    t = np.datetime64(START, "ns") + np.arange(400) * np.timedelta64(500, "ms")
+    rows = [f"{a},{20 + i / 16!r},{'' if i in (7, 8) else repr(30 - i / 8)}" for i, a in enumerate(t)]
+    rows[100] = rows[100].replace(rows[100].split(",")[1], "999.5")                         # a spike
+    (folder / "sp9000.csv").write_text("time,T1 [degC],T2 [degC]\n" + "\n".join(rows) + "\n")
+    slow = [f"{a},{'cut' if i % 20 > 9 else 'idle'},{9000 * (i > 9)}" for i, a in enumerate(t[::10])]
+    (folder / "sp9000_nc.csv").write_text("time,mode,speed [rpm]\n" + "\n".join(slow) + "\n")
+    (folder / "campaign.yaml").write_text(CAMPAIGN, "utf-8")
+    store = Store(folder / "store", create=True)
+    ingest(store, folder / "campaign.yaml")
+    return StoreView(store)
+
+
+def again(path: Path) -> Data:
+    return load(Reader(), path, Source(timezone="UTC"))
+
+
+def stored(view: StoreView, channel: str) -> Any:
+    return view.sql("select t_s, value, flag from signal('c', 'sp9000', ?) order by t", [channel]).to_arrow_table().to_pandas()
+
+
+@pytest.mark.parametrize("suffix", ["mat", "mf4"])
+def test_a_grid_comes_back_equal(view: StoreView, tmp_path: Path, suffix: str) -> None:
+    done = export_test(view, "c", "sp9000", tmp_path / f"x.{suffix}", step="10 s")
+    assert done.units["T_front"] == "degC"
+    data = again(tmp_path / f"x.{suffix}")
+    grid = view.binned("c", "sp9000", "10 s").to_arrow_table()
+    stream = data.recording.signals[0].stream
+    assert done.rows == grid.num_rows
+    zero = np.datetime64(START, "ns").astype(np.int64) if suffix == "mf4" else 0
+    np.testing.assert_array_equal(data.t_ns[stream] - zero, np.rint(grid["t_s"].to_numpy() * 1e9).astype(np.int64))
+    for name in ("T_front", "T_rear", "speed"):
+        np.testing.assert_array_equal(data.values[stream, name], grid[name].to_numpy())
+    assert {s.name: s.unit for s in data.recording.signals}["T_front"] == "degC"
+    assert {p.name for p in tmp_path.iterdir()} == {f"x.{suffix}"}
+
+
+@pytest.mark.parametrize("suffix", ["mat", "mf4"])
+def test_as_logged_each_source_keeps_its_times_values_and_flags(view: StoreView, tmp_path: Path, suffix: str) -> None:
+    export_test(view, "c", "sp9000", tmp_path / f"x.{suffix}", step="logged")
+    data = again(tmp_path / f"x.{suffix}")
+    prefix = {"mat": "daq/", "mf4": ""}[suffix]
+    stream = next(s.stream for s in data.recording.signals if s.name == f"{prefix}T_front")
+    want = stored(view, "T_front")
+    np.testing.assert_array_equal(data.values[stream, f"{prefix}T_front"], want["value"])
+    flags = data.values[stream, "daq/flags/T_front" if suffix == "mat" else "T_front.flag"]
+    np.testing.assert_array_equal(flags, want["flag"])
+    assert flags.any()
+    labels = next(v for (_, name), v in data.values.items() if name.endswith("mode"))
+    assert list(labels[8:12]) == ["idle", "idle", "cut", "cut"]
+
+
+def test_matlab_finds_what_describes_the_test(view: StoreView, tmp_path: Path) -> None:
+    import scipy.io
+
+    export_test(view, "c", "sp9000", tmp_path / "x.mat", step="10 s")
+    found = scipy.io.loadmat(tmp_path / "x.mat", simplify_cells=True)
+    assert found["about"]["conditions"]["coolant"] == "on"
+    assert found["about"]["test"] == "sp9000"
+    assert found["about"]["notes"] == "first of the day"
+    assert found["about"]["start_utc"] == START + "Z"
+    assert found["units"]["speed"] == "rpm"
+    assert found["channels"]["T_front"]["at"] == "spindle.bearing.front"
+    assert found["channels"]["T_front"]["notes"] == "glued čidlo"
+    assert found["time"].ndim == 1
+
+
+def test_an_mdf_tool_finds_what_describes_the_test(view: StoreView, tmp_path: Path) -> None:
+    asammdf = pytest.importorskip("asammdf")
+    export_test(view, "c", "sp9000", tmp_path / "x.mf4", step="logged")
+    with asammdf.MDF(tmp_path / "x.mf4") as mdf:
+        assert (mdf.header.project, mdf.header.subject) == ("c", "sp9000")
+        assert "condition coolant: on" in mdf.header.comment
+        signal = mdf.get("T_front", ignore_invalidation_bits=True)
+        assert signal.unit == "degC"
+        assert "at: spindle.bearing.front" in signal.comment
+        assert mdf.get("T_rear", ignore_invalidation_bits=True).invalidation_bits.nonzero()[0].tolist()[:2] == [7, 8]
+
+
+def test_a_test_too_large_for_version_5_is_written_as_hdf5(view: StoreView, tmp_path: Path,
+                                                           monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(mat_module, "MOST_BYTES", 1000)
+    export_test(view, "c", "sp9000", tmp_path / "x.mat", step="logged")
+    assert (tmp_path / "x.mat").read_bytes()[:10] == b"MATLAB 7.3"
+    data = again(tmp_path / "x.mat")
+    np.testing.assert_array_equal(data.values[next(k for k in data.values if k[1] == "daq/T_rear")],
+                                  stored(view, "T_rear")["value"])
+    assert {s.name: s.unit for s in data.recording.signals}["daq/T_rear"] == "degC"
+    assert set(next(v for k, v in data.values.items() if k[1] == "nc/mode")) == {"idle", "cut"}
+
+
+def test_logged_sources_are_no_one_table(view: StoreView, tmp_path: Path) -> None:
+    with pytest.raises(UsageError, match="at their own times"):
+        export_test(view, "c", "sp9000", tmp_path / "x.csv", step="logged")
+
+
+def test_a_name_too_long_for_matlab_is_refused_not_cut() -> None:
+    with pytest.raises(UsageError, match="too long for MATLAB"):
+        mat_module._safe("T_" + "x" * 80)
