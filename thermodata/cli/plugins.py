@@ -1,30 +1,49 @@
-"""`plugins`: what is installed, and what failed to load."""
+"""`plugins`: what is installed, and what failed to load; `plugins new`: one more."""
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import Any
 
 import click
 
 from thermodata.cli.common import Session, command
 from thermodata.cli.table import table
-from thermodata.errors import UsageError
 
 
 @command("plugins")
 @click.argument("action", required=False, type=click.Choice(["new"]))
-def plugins_command(session: Session, action: str | None) -> None:
-    """List the installed readers and effects.
+@click.argument("name", required=False)
+def plugins_command(session: Session, action: str | None, name: str | None) -> None:
+    """List the installed readers and effects; with 'new', write one.
 
     With the distribution of each; failed ones with their error.
+
+    'plugins new reader-NAME' (or effect-NAME) writes a small plugin that works and passes its kit, with tests and
+    comments to go on from: in a checkout of thermodata as plugins/reader-NAME, registered for `uv run`; elsewhere as a
+    package in the current folder.
     """
     if action == "new":
-        raise UsageError("'plugins new' is not supported yet",
-                         hint="thermodata.plugin states both contracts; thermodata.testing holds the kits")
+        _new(session, name)
+        return
     rows = installed()
     session.answer(rows, lambda: table(rows, [
         ("kind", "kind"), ("name", "name"), ("distribution", "distribution"), ("version", "version"),
         ("about", "about"), ("error", "error")]))
+
+
+def _new(session: Session, name: str | None) -> None:
+    from thermodata.cli.new_plugin import make
+
+    made = make(name, Path.cwd())
+
+    def text() -> str:
+        files = "\n".join(f"  {made.folder / file}" for file in made.files)
+        edited = f"\nregistered in {made.edited}" if made.edited else ""
+        return f"{made.distribution}, a plugin that works and passes its kit:\n{files}{edited}"
+
+    session.answer(made, text)
+    session.say("now: " + "\n     ".join(made.run))
 
 
 def installed() -> list[dict[str, Any]]:
