@@ -11,6 +11,7 @@ from thermodata_reader_cnc import Reader, tracexml
 from thermodata.errors import FormatError
 from thermodata.plugin import Source
 from thermodata.reader.registry import head
+from thermodata.schema.flag import Flag
 from thermodata.testing.reader import load, reader_checks
 
 CLAIMS = ["SHDR", "MTCONNECT", "TWINCAT", "SCO", "TRACE_XML", "TRACE_CSV", "OPCUA"]
@@ -27,11 +28,12 @@ def xml(rows: int = 300, count: int | None = None, start: str = "2026-03-02T09:0
         cells += f' f2="{k / 8}"' if not 100 < k < 200 else ""
         if cells:
             recs.append(f'<rec time="{k * 0.002:.3f}"{cells}/>')
-    count = rows if count is None else count
+    recs.append(f'<rec time="{rows * 0.002:.3f}" f1="{rows / 3:.6f}" f2="{rows / 8}"/>')    # the stop writes them all
+    count = rows + 1 if count is None else count
     signals = "".join(
         f'<dataSignal id="f{n}" name="{name}" interval="{step}" event="{event}" datapointCount="{size}" unitsType="x"/>'
         for n, (name, step, event, size) in enumerate(
-            ((CURRENT, 0.002, 255, count), (POSITION, 0.002, 255, count), (CHANNEL, 0.008, 1, rows // 4)), 1))
+            ((CURRENT, 0.002, 255, count), (POSITION, 0.002, 255, count), (CHANNEL, 0.008, 1, -(-rows // 4))), 1))
     return (f'<?xml version="1.0" encoding="UTF-8"?>\n<traceSession version="1.0">\n<traceData><dataFrame>\n'
             f'<frameHeader startTime="{start}" startTriggerInc="0" {more}/>\n{signals}\n' + "\n".join(recs)
             + "\n</dataFrame></traceData>\n</traceSession>\n")
@@ -55,7 +57,7 @@ def test_servo_signals_are_held_on_their_grid(tmp_path: Path, monkeypatch: pytes
     servo = data.t_ns["servo@0.002"] - data.recording.start_ns
     k = np.arange(servo.size)
     np.testing.assert_array_equal(servo, k * 2_000_000)
-    assert servo.size in (299, 300)
+    assert servo.size == 301
     np.testing.assert_allclose(data.values["servo@0.002", CURRENT], (k - k % 3) / 3, atol=1e-5)
     np.testing.assert_array_equal(data.values["servo@0.002", POSITION], np.where((k > 100) & (k < 200), 100, k) / 8)
     assert data.values["ipo@0.008", CHANNEL].tolist() == list(range(0, 300, 4))
@@ -67,6 +69,7 @@ def test_counts_and_dropouts_are_checked(tmp_path: Path) -> None:
     data = load(Reader(), written(tmp_path, xml(count=400, more='dropOuts="3"'), "trace.xml"), Source())
     reasons = [loss.reason for loss in data.losses]
     assert any("drop-outs: 3" in r for r in reasons)
+    assert (data.flags["servo@0.002", CURRENT] & Flag.CLOCK_SUSPECT).all()
     assert sum("datapointCount is 400" in r for r in reasons) == 2
 
 
@@ -84,6 +87,64 @@ def test_a_start_that_is_no_date_makes_times_relative_and_entities_are_refused(t
     bomb = xml().replace("<traceSession", '<!DOCTYPE t [<!ENTITY a "aa">]><traceSession', 1)
     with pytest.raises(FormatError, match="entities"):
         load(Reader(), written(tmp_path, bomb, "bomb.xml"), Source())
+
+
+def test_every_sample_is_counted(tmp_path: Path) -> None:
+    whole = xml()
+    at = whole.index('<rec time="0.400"')
+    data = load(Reader(), written(tmp_path, whole[:at] + whole[whole.index("/>", at) + 3:], "trace.xml"), Source())
+    assert ["datapointCount is 75, the file holds 74" in loss.reason for loss in data.losses] == [True]
+    last = whole.rindex("<rec")
+    data = load(Reader(), written(tmp_path, whole[:last] + whole[whole.index("/>", last) + 3:], "trace.xml"), Source())
+    assert {"datapointCount is 301, the grid holds 300" in loss.reason for loss in data.losses} == {True}
+
+
+def test_several_frames_of_one_and_of_other_signals(tmp_path: Path) -> None:
+    """Each frame starts by its own clock and count; one of other signals is a stream of its own."""
+    first, second, third = xml(40), xml(20, start="2026-03-02T10:00:00"), xml(30).replace("ActCurr32", "DrvLoad32")
+    frames = [text[text.index("<dataFrame>"):text.index("</traceData>")] for text in (first, second, third)]
+    head = first[:first.index("<dataFrame>")].replace("<traceData>", '<traceData dataFrames="3">')
+    tail = first[first.index("</traceData>"):]
+    data = load(Reader(), written(tmp_path, head + "".join(frames) + tail, "trace.xml"), Source())
+    assert not data.losses
+    servo = data.t_ns["servo@0.002"] - data.recording.start_ns
+    assert servo.tolist() == [k * 2_000_000 for k in range(41)] + [3600 * 10**9 + k * 2_000_000 for k in range(21)]
+    assert data.values["servo@0.002 #2", CURRENT.replace("ActCurr32", "DrvLoad32")].size == 31
+    data = load(Reader(), written(tmp_path, head + "".join(frames[:2]) + tail, "trace.xml"), Source())
+    assert [loss.reason for loss in data.losses] == ["3 frames are announced, 2 are there"]
+
+
+@pytest.mark.parametrize(("interval", "scale"), [("0.002", 1.0), ("2", 1000.0), ("2000", 1e6)])
+def test_an_interval_may_be_in_seconds_or_less(tmp_path: Path, interval: str, scale: float) -> None:
+    """The unit is what the records lie on, whatever other rates are in the frame."""
+    text = xml(60).replace('interval="0.002"', f'interval="{interval}"')
+    text = text.replace('interval="0.008"', 'interval="0.000125"').replace('<rec time="0.004"', '<rec time="0.002125" f3="9"/><rec time="0.004"').replace(
+        'datapointCount="15"', 'datapointCount="16"')
+    data = load(Reader(), written(tmp_path, text, "trace.xml"), Source())
+    assert not data.losses
+    stream = next(s for s in data.t_ns if s.startswith("servo"))
+    assert np.diff(data.t_ns[stream]).tolist() == [2_000_000] * 60
+
+
+def test_a_rounded_interval_is_taken_from_length_and_count(tmp_path: Path) -> None:
+    recs = "".join(f'<rec time="{k * 62.5e-6:.6f}" f1="{k}"/>' for k in range(2001))
+    text = ('<traceSession><traceData><dataFrame><frameHeader startTime="2026-03-02T09:00:00Z" stopInc="0.125000"/>'
+            '<dataSignal id="f1" name="a" interval="0.000063" event="255" datapointCount="2001"/>' + recs
+            + "</dataFrame></traceData></traceSession>")
+    data = load(Reader(), written(tmp_path, text, "trace.xml"), Source())
+    assert not data.losses
+    assert np.diff(data.t_ns["servo"]).tolist() == [62_500] * 2000
+
+
+def test_values_that_are_none_and_times_of_another_world(tmp_path: Path) -> None:
+    text = xml(60).replace('f1="4.000000"', 'f1="9218868437227405312"').replace(
+        "</dataFrame>", '<rec time="999999.0" f1="7"/></dataFrame>')
+    data = load(Reader(), written(tmp_path, text, "trace.xml"), Source())
+    values = data.values["servo@0.002", CURRENT]
+    assert np.flatnonzero(np.isnan(values)).tolist() == [12, 13, 14]
+    assert (data.flags["servo@0.002", CURRENT][12:15] == Flag.NOT_MEASURING).all()
+    assert values.size == 61
+    assert ["lie more than" in loss.reason for loss in data.losses] == [True]
 
 
 @pytest.mark.parametrize(("delimiter", "decimal"), [(",", "."), (";", ","), ("\t", ".")])

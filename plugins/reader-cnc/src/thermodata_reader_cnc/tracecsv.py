@@ -100,7 +100,9 @@ def blocks(path: Path, source: Source) -> Iterator[Block | Loss]:
                     losses.add(part.line, f"expected {header.width} numbers, got '{part.text[:80]}'", len(part.text),
                                last.size)
                 continue
-            good = np.isfinite(part.columns[header.time])
+            good = np.abs(part.columns[header.time]) < 9e9            # NaN is not
+            if not good.all():
+                losses.add(line, f"{int((~good).sum())} rows without a time, or with one that is none", 0, last.size)
             if not good.any():
                 continue
             last = np.round(part.columns[header.time][good] * 1e9).astype(np.int64)

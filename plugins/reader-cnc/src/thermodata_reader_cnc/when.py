@@ -39,8 +39,8 @@ _STRPTIME = {
 
 @dataclass(frozen=True, slots=True)
 class TimeFormat:
-    """How the cells of one time column read. role: datetime, date, time, millisecond, offset (milliseconds since a start), or relative
-    (numbers)."""
+    """How the cells of one time column read. role: datetime, date, time, millisecond, offset (milliseconds since a
+    start), or relative (numbers)."""
 
     role: str
     pattern: re.Pattern[str] | None

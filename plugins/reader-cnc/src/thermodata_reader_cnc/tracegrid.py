@@ -1,0 +1,219 @@
+"""A trace frame's signals as streams: servo signals held on the grid of their interval, others as they were written."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from thermodata.plugin import Array, Block, Bool1D, Float1D, Int1D, Loss
+from thermodata.reader.events import fill_forward
+from thermodata.schema.flag import Flag
+from thermodata_reader_cnc.traceparse import Frame
+
+LOOK = 2000                             # records by which an interval's unit is found
+_NO_VALUE = 9.218868437227405e18        # the bits of a double's infinity and what is no number, as an integer
+_SERVO = "255"
+_ROWS = 1 << 20                         # of a block
+_JUMP = 1 << 21                         # rows of a grid that one record may skip: 70 min at 2 ms
+_MISSING = np.uint16(Flag.NOT_MEASURING)
+
+
+@dataclass(slots=True)
+class Group:
+    """Signals of one kind and interval. names: attribute -> signal; step_s: the grid's step, None where none fits;
+    next: rows of the grid so far; counts: values so far by attribute; held: the last value by attribute."""
+
+    stream: str
+    servo: bool
+    names: dict[str, str]
+    step_s: float | None = None
+    origin: int | None = None
+    next: int = 0
+    counts: dict[str, int] = field(default_factory=dict)
+    held: dict[str, float] = field(default_factory=dict)
+    stepped_back: int = 0
+    too_far: int = 0
+
+
+def groups_of(frame: Frame, taken: Iterable[str] = ()) -> list[Group]:
+    """The groups of a frame's signals. taken: streams of other frames, whose names are not used again."""
+    groups: dict[tuple[bool, str], Group] = {}
+    seen: dict[str, int] = {}
+    used = set(taken)
+    intervals = {s.get("interval", "") for s in frame.signals.values()}
+    for key, said in frame.signals.items():
+        servo, interval = said.get("event") == _SERVO, said.get("interval", "")
+        name = said.get("name") or said.get("description") or key
+        seen[name] = seen.get(name, 0) + 1
+        name += f"#{seen[name]}" if seen[name] > 1 else ""
+        stream = ("servo" if servo else "ipo") + (f"@{interval}" if len(intervals) > 1 else "")
+        if (servo, interval) not in groups:
+            groups[servo, interval] = Group(_free(stream, used), servo, {})
+            used.add(groups[servo, interval].stream)
+        groups[servo, interval].names[key] = name
+    for (servo, interval), group in groups.items():
+        if servo:
+            times = [t for t, cells in zip(frame.times[:LOOK], frame.cells, strict=False)
+                     if not group.names.keys().isdisjoint(cells)]
+            group.step_s = _step(interval, np.array(times), frame, group)
+    return list(groups.values())
+
+
+def _free(stream: str, used: set[str]) -> str:
+    name, number = stream, 1
+    while name in used:
+        number += 1
+        name = f"{stream} #{number}"
+    return name
+
+
+def _step(interval: str, times: Float1D, frame: Frame, group: Group) -> float | None:
+    """The interval in seconds: the unit (s, ms, us) by which the group's records lie on a grid of it."""
+    value = _float(interval)
+    gaps = np.diff(times)
+    gaps, since = gaps[gaps > 0], times - times[:1]
+    if value is None or not value > 0 or not gaps.size:
+        return None
+    for unit in (1.0, 1e-3, 1e-6):
+        for step in _steps(value * unit, frame, group):
+            steps, places = gaps / step, since / step
+            if np.abs(places - np.round(places)).max() < 0.05 and steps.min() > 0.5 and (
+                    unit == 1.0 or steps.min() < 16.5):
+                return step
+    return None
+
+
+def _steps(step: float, frame: Frame, group: Group) -> Iterator[float]:
+    """The step as announced; and as the frame's length and count say, for it may be rounded to whole microseconds."""
+    yield step
+    count = next((int(c) for k in group.names if (c := frame.signals[k].get("datapointCount", "")).isdecimal()
+                  and len(c) < 12), 0)
+    length = _float(frame.header.get("stopInc", ""))
+    if count > 1 and length and abs(length / (count - 1) / step - 1) < 0.02:
+        yield length / (count - 1)
+
+
+def _float(text: str) -> float | None:
+    try:
+        value = float(text)
+    except ValueError:
+        return None
+    return value if np.isfinite(value) else None
+
+
+def rows(group: Group, times: Float1D, columns: dict[str, tuple[Int1D, Float1D]], start_ns: int) -> Iterator[Block]:
+    """The records of a frame as rows of one group. times: of the records, shape (n,) [s]; columns: attribute ->
+    (which records have it, their values)."""
+    present = {key: columns.get(key, (np.empty(0, np.int64), np.empty(0))) for key in group.names}
+    for key, (at, _) in present.items():
+        group.counts[key] = group.counts.get(key, 0) + at.size
+    which = np.unique(np.concatenate([at for at, _ in present.values()]))
+    if not which.size:
+        return
+    if group.servo and group.step_s is not None:
+        yield from _on_grid(group, times, which, present, start_ns)
+        return
+    t_ns = start_ns + np.round(times[which] * 1e9).astype(np.int64)
+    values: dict[str, Array] = {}
+    for key, name in group.names.items():
+        at, found = present[key]
+        column = np.full(which.size, np.nan)
+        column[np.searchsorted(which, at)] = found
+        if group.servo:
+            column = _held(group, key, column, np.isin(which, at))
+        values[name] = column
+    yield _block(group.stream, t_ns, values)
+
+
+def _on_grid(group: Group, times: Float1D, which: Int1D, present: dict[str, tuple[Int1D, Float1D]],
+             start_ns: int) -> Iterator[Block]:
+    """Servo signals on the grid of their interval, in bounded blocks."""
+    assert group.step_s is not None
+    grid = np.round(times / group.step_s).astype(np.int64)
+    if group.origin is None:
+        group.origin = int(grid[which[0]])
+    grid -= group.origin
+    far = _far(grid, which, group.next)
+    group.too_far += int(far[which].sum())
+    group.stepped_back += int((grid[which] < group.next).sum())
+    if far[which].all():
+        return
+    last = int(grid[which][~far[which]].max()) + 1
+    for first in range(group.next, last, _ROWS):
+        stop = min(first + _ROWS, last)
+        t_ns = start_ns + np.round((group.origin + np.arange(first, stop)) * group.step_s * 1e9).astype(np.int64)
+        values: dict[str, Array] = {}
+        for key, name in group.names.items():
+            at, found = present[key]
+            inside = (grid[at] >= first) & (grid[at] < stop) & ~far[at]
+            column, written = np.full(stop - first, np.nan), np.zeros(stop - first, bool)
+            column[grid[at[inside]] - first] = found[inside]
+            written[grid[at[inside]] - first] = True
+            values[name] = _held(group, key, column, written)
+        yield _block(group.stream, t_ns, values)
+    group.next = max(group.next, last)
+
+
+def _far(grid: Int1D, which: Int1D, start: int) -> Bool1D:
+    """The records that lie far behind all before them: a damaged time is no reason to hold values for days."""
+    far = np.zeros(grid.size, bool)
+    while True:
+        left = which[~far[which]]
+        reached = np.maximum.accumulate(np.concatenate(([start], grid[left])))
+        jump = np.flatnonzero(np.diff(reached) > _JUMP)
+        if not jump.size:
+            return far
+        far[left[grid[left] > reached[jump[0]] + _JUMP]] = True
+
+
+def _held(group: Group, key: str, column: Float1D, written: Array) -> Float1D:
+    if written.size and not written[0]:
+        column[0], written = group.held.get(key, np.nan), written.copy()
+        written[0] = True
+    result: Float1D = fill_forward(column, written)
+    group.held[key] = float(result[-1])
+    return result
+
+
+def _block(stream: str, t_ns: Int1D, values: dict[str, Array]) -> Block:
+    flags = {name: np.isnan(column) * _MISSING for name, column in values.items() if np.isnan(column).any()}
+    return Block(stream, t_ns, values, flags or None)
+
+
+def columns_of(frame: Frame) -> dict[str, tuple[Int1D, Float1D]]:
+    """The records' values by attribute; what is no number is NaN."""
+    found: dict[str, tuple[list[int], list[float]]] = {key: ([], []) for key in frame.signals}
+    for row, cells in enumerate(frame.cells):
+        for key, text in cells.items():
+            if key in found:
+                found[key][0].append(row)
+                found[key][1].append(_value(text))
+    return {key: (np.array(at, np.int64), np.array(values)) for key, (at, values) in found.items()}
+
+
+def _value(text: str) -> float:
+    try:
+        value = float(text)
+    except ValueError:
+        return np.nan
+    return np.nan if abs(value) >= _NO_VALUE else value
+
+
+def counted(where: str, frame: Frame, groups: list[Group]) -> Iterator[Loss]:
+    """What of a frame is missing by its own `datapointCount`, and records that step back in time."""
+    for group in groups:
+        if group.too_far:
+            yield Loss(f"{where} stream '{group.stream}'", reason=(
+                f"{group.too_far} records lie more than {_JUMP} intervals behind those before; they are not read"))
+        if group.stepped_back:
+            yield Loss(f"{where} stream '{group.stream}'", reason=(
+                f"{group.stepped_back} records step back in time; they are not read"))
+        for key, name in group.names.items():
+            said = frame.signals[key].get("datapointCount", "")
+            holds = group.next if group.servo and group.step_s is not None else group.counts.get(key, 0)
+            if (group.servo and group.step_s is None) or not said.isdecimal() or int(said[:15]) == holds:
+                continue
+            yield Loss(f"{where} signal '{name}'", fraction=max(0.0, 1 - holds / max(1, int(said[:15]))),
+                       reason=f"datapointCount is {said[:15]}, the {'grid' if group.servo else 'file'} holds {holds}")
