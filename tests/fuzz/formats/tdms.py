@@ -16,6 +16,8 @@ from tests.fuzz.mutations import cut, flip, insert
 READER = "crio"
 CODES = {"i1": 1, "i2": 2, "i4": 3, "i8": 4, "u1": 5, "u2": 6, "u4": 7, "f4": 9, "f8": 10, "b1": 0x21, "stamp": 0x44,
          "text": 0x20, "c16": 0x10000D}
+SIZES = {1: 1, 2: 2, 3: 4, 4: 8, 5: 1, 6: 2, 7: 4, 8: 8, 9: 4, 10: 8, 0x19: 4, 0x1A: 8, 0x21: 1, 0x44: 16,
+         0x08000C: 8, 0x10000D: 16}
 NOTHING, AS_BEFORE = 0xFFFFFFFF, 0
 START_S = 3_855_000_000                      # since 1904: in 2026
 
@@ -293,8 +295,15 @@ def _field(seed: Seed, fields: list[Field], rng: random.Random) -> Mutation:
 def _undecidable(old: list[Field], new: list[Field], at: int) -> bool:
     """Whether the file says something else that is as sound as what it said: another start or rate, another type of
     the same size, chunks of another length that fill the segment as well, ..."""
-    return old[at].role in ("property value", "property name", "property type", "property text", "path") or \
-        old[at].role.startswith("scaler ")
+    f = old[at]
+    if f.role == "toc":
+        return bool(f.data[0] & 2)                    # with metadata, nothing contradicts a flag of the raw data
+    if f.role == "type":
+        order = "big" if old is FIELDS["big.tdms"] else "little"
+        was, now = (SIZES.get(int.from_bytes(g.data, order)) for g in (f, new[at]))  # type: ignore[arg-type]
+        return was == now
+    return f.role in ("property value", "property name", "property type", "property text", "path") or \
+        f.role.startswith("scaler ")
 
 
 def _bytes(seed: Seed, fields: list[Field], rng: random.Random) -> Mutation:

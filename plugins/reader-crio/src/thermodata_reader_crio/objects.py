@@ -104,6 +104,9 @@ class Lists:
             check(layout)
             number = self._layouts[layout] = len(self.index.layouts)
             self.index.layouts.append(layout)
+            for path, index in layout.objects if layout.daqmx else ():
+                if any(index.n < layout.buffers[scaler.buffer][0] for scaler in index.scalers):
+                    self.index.note(f"{path[:80]} has fewer values in a chunk than the DAQmx buffer that it shares")
         # the entry keeps the tuple alive, so that its id stays its own
         self._quick[id(plan.members), flags] = plan.members, number
         return number

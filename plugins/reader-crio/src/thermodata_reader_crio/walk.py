@@ -12,7 +12,7 @@ from typing import NamedTuple
 from thermodata.errors import FormatError
 from thermodata_reader_crio.index import Hole, Index, Shape
 from thermodata_reader_crio.layout import DamageError
-from thermodata_reader_crio.leadin import RAW, VERSIONS, LeadIn, open_file, read_lead_in
+from thermodata_reader_crio.leadin import INTERLEAVED, META, RAW, VERSIONS, LeadIn, open_file, read_lead_in
 from thermodata_reader_crio.objects import Lists
 from thermodata_reader_crio.resync import Found, find
 
@@ -54,6 +54,8 @@ class Walk:
         if end > lead.data and chunk == 0 and not cut:
             raise DamageError(f"{end - lead.data} bytes of raw data that no channel claims")
         self.lists.commit(plan)
+        if self.last is not None and not lead.toc & META and (lead.toc ^ self.last.lead.toc) & INTERLEAVED:
+            index.note(f"byte {lead.start}: data that go on interleaved where they were not, or the reverse")
         if lead.version not in VERSIONS:
             index.note(f"byte {lead.start}: TDMS version {lead.version}, known are 4712 and 4713")
         first = len(index.pieces)
