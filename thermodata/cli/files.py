@@ -90,9 +90,10 @@ def _progress(session: Session) -> Callable[[int, int, str], None] | None:
 @command("sniff")
 @click.argument("files", nargs=-1, required=True, type=click.Path(path_type=Path, exists=True), metavar="FILE...")
 def sniff_command(session: Session, files: tuple[Path, ...]) -> int:
-    """Say which reader claims each FILE, why the others do not, and what to declare.
+    """Say which reader claims each FILE, and why the others do not.
 
-    FILE may be a folder: then all files in it. Exit code 2 where none or several readers claim a file.
+    What to declare is said where that helps. FILE may be a folder: then all files in it. Exit code 2 where none or
+    several readers claim a file.
     """
     from thermodata.reader.explain import explain
 

@@ -74,16 +74,19 @@ def preview_text(found: dict[str, Any]) -> str:
     campaign = found["campaign"]
     said = None if campaign is None else \
         f"{campaign['file']}: source {campaign['source']}" + (f", test {campaign['test']}" if campaign["test"] else "")
-    zone = found["timezone"] or ("UTC: no zone is declared" if any("no time zone" in n for n in found["notes"]) else None)
+    local = any("no time zone" in n for n in found["notes"])
+    zone = found["timezone"] or ("UTC: no zone is declared" if local else None)
+    whole = {True: "yes", False: "no: it is cut or damaged", None: "the format does not say"}[found["complete"]]
     parts = [fields([
         ("file", found["file"]), ("size", _size(found["size_bytes"])), ("reader", f"{found['reader']} "
                                                                        f"({found['reason'] or 'as declared'})"),
         ("campaign", said), ("clock", found["clock"]), ("timezone", zone), ("start", found["start"]),
-        ("complete", {True: "yes", False: "no: it is cut or damaged", None: "the format does not say"}[found["complete"]]),
+        ("complete", whole),
         ("read", f"all {found['rows_read']} rows" if found["whole"] else
          f"the first {found['rows_read']} rows only: the file is large; what follows holds for them")])]
     if found["notes"] or found["losses"]:
-        parts.append("\n".join([f"note: {n}" for n in found["notes"]] + [f"loss: {_loss(x)}" for x in found["losses"][:10]]))
+        parts.append("\n".join([*(f"note: {n}" for n in found["notes"]),
+                                *(f"loss: {_loss(x)}" for x in found["losses"][:10])]))
     for stream in found["streams"]:
         parts += _stream(stream)
     return "\n\n".join(parts)
@@ -92,13 +95,13 @@ def preview_text(found: dict[str, Any]) -> str:
 def _stream(s: dict[str, Any]) -> list[str]:
     rate = "no rows" if not s["rows"] else f"{s['rows']} rows" + (
         f", every {s['step_s']:.6g} s, {_span(s['duration_s'])}, {s['start']} to {s['end']}" if s["step_s"] else "")
-    faults = [f"{s[k]} {what}" for k, what in (("gaps", "gaps"), ("backward", "steps back"), ("repeated", "times repeated"))
-              if s[k]]
+    told = (("gaps", "gaps"), ("backward", "steps back"), ("repeated", "times repeated"))
+    faults = [f"{s[k]} {what}" for k, what in told if s[k]]
     if s["gaps"]:
         faults[0] += f" (longest step {_span(s['largest_step_s'])})"
     head = f"stream {s['stream']}: {rate}" + (f"; {', '.join(faults)}" if faults else "")
     rows = [{"signal": x["name"], "unit": x["unit"], "dtype": x["dtype"], "scaling": x["scaling"],
-             "is": x["channel"] and f"{x['channel']} ({x['quantity']})" or (x["quantity"] or "?"),
+             "is": (x["channel"] and f"{x['channel']} ({x['quantity']})") or (x["quantity"] or "?"),
              "low": x["values"] and x["values"]["low"], "high": x["values"] and x["values"]["high"],
              "flagged": ", ".join(f"{k} {n}" for k, n in x["flags"].items()) or None, "course": x["sparkline"]}
             for x in s["signals"][:200]]

@@ -36,7 +36,8 @@ def as_json(draft: Draft, out: Path, files: int, questions: int) -> dict[str, An
 def _channel(c: DraftChannel) -> dict[str, Any]:
     said = c.said
     return {"name": c.name if said.quantity else None, "source": c.source, "signal": c.signal, "stream": c.stream,
-            "quantity": said.quantity, "unit": said.unit, "axis": said.axis, "at": said.at, "calibration": c.calibration,
+            "quantity": said.quantity, "unit": said.unit, "axis": said.axis, "at": said.at,
+            "calibration": c.calibration,
             "sure": said.sure and not said.questions, "basis": list(said.basis),
             "questions": list(said.questions) or ([said.why_not] if said.why_not else []),
             "only_in": list(c.only_in) or None, "note": c.note}

@@ -1,5 +1,5 @@
-"""What the clocks of the sources have to do with each other: a zone that a log does not name, and a quantity that two of
-them logged."""
+"""What the clocks of the sources have to do with each other: a zone that a log does not name, and a quantity that two
+of them logged."""
 
 from __future__ import annotations
 
@@ -10,11 +10,14 @@ from zoneinfo import ZoneInfo
 
 from thermodata.calibration.clock import estimate_offset
 from thermodata.draft.group import Group
+from thermodata.draft.scan import RawFile
 from thermodata.errors import ThermodataError
 
+Named = Mapping[tuple[str, str], tuple[str, str | None, str]]
 _HOUR_NS = 3_600_000_000_000
-_ZONES = ("Europe/Prague", "Europe/Berlin", "Europe/London", "Europe/Helsinki", "Europe/Moscow", "Asia/Shanghai", "Asia/Tokyo",
-          "Asia/Kolkata", "America/New_York", "America/Chicago", "America/Los_Angeles", "America/Sao_Paulo")
+_ZONES = ("Europe/Prague", "Europe/Berlin", "Europe/London", "Europe/Helsinki", "Europe/Moscow", "Asia/Shanghai",
+          "Asia/Tokyo", "Asia/Kolkata", "America/New_York", "America/Chicago", "America/Los_Angeles",
+          "America/Sao_Paulo")
 _ALIGNABLE = ("rotational_speed", "position", "feed", "power", "temperature", "load")
 
 
@@ -31,13 +34,13 @@ class Alignment:
 
 
 def zone_question(group: Group, groups: Sequence[Group]) -> str | None:
-    """What to ask about the time zone of a source that logs local times; None where it names its zone or has no dates."""
+    """What to ask about the zone of a source that logs local times; None where it names its zone or has no dates."""
     if not any(f.local for f in group.files):
         return None
     pairs = [(f.start_ns, begin) for g in groups if g is not group and not any(f.local for f in g.files)
              for test, files in group.tests.items() if test in g.tests
              for f in files[:1] if f.start_ns is not None
-             and (begin := min((x.start_ns for x in g.tests[test] if x.start_ns is not None), default=None)) is not None]
+             and (begin := _begin(g.tests[test])) is not None]
     hours = [round((a - b) / _HOUR_NS) for a, b in pairs if abs((a - b) / _HOUR_NS - round((a - b) / _HOUR_NS)) < 0.25]
     if not pairs or len(hours) < 0.6 * len(pairs) or max(map(abs, hours)) > 14:
         return "timezone? it logs local times without a zone; taken as UTC. e.g. timezone: Europe/Prague"
@@ -47,20 +50,24 @@ def zone_question(group: Group, groups: Sequence[Group]) -> str | None:
             + (f"fits {', '.join(fitting[:3])}" if fitting else "or a clock that is wrong by whole hours"))
 
 
+def _begin(files: Sequence[RawFile]) -> int | None:
+    return min((f.start_ns for f in files if f.start_ns is not None), default=None)
+
+
 def _offset(name: str, at_ns: int) -> int | None:
     shift = datetime.fromtimestamp(at_ns / 1e9, UTC).astimezone(ZoneInfo(name)).utcoffset()
     return None if shift is None else round(shift.total_seconds() / 3600)
 
 
-def alignments(groups: Sequence[Group], channels: Mapping[str, Mapping[tuple[str, str], tuple[str, str | None, str]]]) \
-        -> list[Alignment]:
+def alignments(groups: Sequence[Group], channels: Mapping[str, Named]) -> list[Alignment]:
     """For each source but the first, the pair of channels by which its clock can be had from another's.
 
     channels: source -> (stream, signal) -> (quantity, place, channel name). Only pairs whose courses fit in a test.
     """
     found: list[Alignment] = []
     aligned: set[str] = set()
-    order = sorted((g for g in groups if g.files), key=lambda g: -sum(s.unit in ("V", "um", "µm") for s, _ in g.signals))
+    order = sorted((g for g in groups if g.files),
+                   key=lambda g: -sum(s.unit in ("V", "um", "µm") for s, _ in g.signals))
     for i, there in enumerate(order):
         for here in order[i + 1:]:
             if here.source in aligned:
@@ -72,8 +79,7 @@ def alignments(groups: Sequence[Group], channels: Mapping[str, Mapping[tuple[str
     return found
 
 
-def _alignment(here: Group, there: Group, channels: Mapping[str, Mapping[tuple[str, str], tuple[str, str | None, str]]]) \
-        -> Alignment | None:
+def _alignment(here: Group, there: Group, channels: Mapping[str, Named]) -> Alignment | None:
     pairs = [(a, b, name_a, name_b) for a, (quantity, place, name_a) in channels[here.source].items()
              for b, (other, where, name_b) in channels[there.source].items()
              if quantity == other and quantity in _ALIGNABLE and place == where and place is not None]
@@ -88,6 +94,6 @@ def _alignment(here: Group, there: Group, channels: Mapping[str, Mapping[tuple[s
                 said = estimate_offset(one.t_ns, one.values, two.t_ns, two.values)
             except ThermodataError:
                 continue
-            return Alignment(here.source, there.source, (name_a, name_b), said.offset_ns / 1e9, said.uncertainty_ns / 1e9,
-                             test)
+            return Alignment(here.source, there.source, (name_a, name_b), said.offset_ns / 1e9,
+                             said.uncertainty_ns / 1e9, test)
     return None

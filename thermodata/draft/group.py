@@ -5,8 +5,9 @@ from __future__ import annotations
 
 import re
 from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from itertools import pairwise
 
 from thermodata.draft.filenames import Naming, matches, namings, normal
 from thermodata.draft.scan import RawFile
@@ -80,11 +81,10 @@ def _loggers(cluster: list[RawFile], jumps: Sequence[RawFile]) -> list[list[RawF
         return [cluster]
     for place in range(len(pieces[logs[0].path])):
         values = Counter(pieces[f.path][place] for f in logs)
-        rest = Counter(tuple(x for i, x in enumerate(pieces[f.path]) if i != place) for f in logs)
+        rest = Counter(_but(pieces[f.path], place) for f in logs)
         if 2 <= len(values) <= 4 and set(rest.values()) == {len(values)} and len(set(values.values())) == 1:
             together = all(max(s) - min(s) < 10_000_000_000 for s in (
-                [f.start_ns or 0 for f in logs if tuple(x for i, x in enumerate(pieces[f.path]) if i != place) == key]
-                for key in rest))
+                [f.start_ns or 0 for f in logs if _but(pieces[f.path], place) == key] for key in rest))
             if together:
                 found = [[f for f in logs if pieces[f.path][place] == value] for value in sorted(values)]
                 found[0] += [f for f in cluster if f in jumps]
@@ -92,16 +92,22 @@ def _loggers(cluster: list[RawFile], jumps: Sequence[RawFile]) -> list[list[RawF
     return [cluster]
 
 
+def _but(pieces: Sequence[str], place: int) -> tuple[str, ...]:
+    return tuple(x for i, x in enumerate(pieces) if i != place)
+
+
 def _name(cluster: Sequence[RawFile], clusters: Sequence[Sequence[RawFile]], taken: set[str]) -> str:
     def pieces(file: RawFile) -> set[str]:
-        return {p for p in words(str(file.path.with_suffix("")).replace("/", " ")).split() if p.isalpha() and len(p) > 1}
+        said = words(str(file.path.with_suffix("")).replace("/", " ")).split()
+        return {p for p in said if p.isalpha() and len(p) > 1}
 
     everywhere = set.intersection(*(pieces(f) for f in cluster))
     elsewhere = set().union(*(pieces(f) for c in clusters if c is not cluster for f in c))
     own = sorted(everywhere - elsewhere - {"raw", "data", "log", "test"}, key=lambda p: (len(p), p))
     alone = len(cluster) == 1 or len(clusters) == 1
-    base = plain(own[0]) if own and not alone and plain(own[0])[:1].isalpha() else _NAMES.get(cluster[0].reader,
-                                                                                             cluster[0].reader)
+    base = _NAMES.get(cluster[0].reader, cluster[0].reader)
+    if own and not alone and plain(own[0])[:1].isalpha():
+        base = plain(own[0])
     name, n = base[:30], 1
     while name.lower() in taken:
         n += 1
@@ -153,14 +159,14 @@ def _one_recording(group: Group, way: Naming) -> bool | None:
         if len(files) < 2 or any(s is None for s in starts):
             continue
         spans = sorted((f.start_ns or 0, f.sample.last_ns or f.start_ns or 0, f.sample.whole) for f in files)
-        for (begin, end, whole), (following, _, _) in zip(spans, spans[1:], strict=False):
+        for (begin, end, whole), (following, _, _) in pairwise(spans):
             pause, length = following - end, max(end - begin, 1)
             if following <= begin or pause < -length // 10:
                 verdicts.append(False)                    # they ran at once
             elif whole:
                 verdicts.append(pause <= max(length // 4, 60_000_000_000))
             elif len(spans) >= 3:
-                gaps = [b[0] - a[0] for a, b in zip(spans, spans[1:], strict=False)]
+                gaps = [b[0] - a[0] for a, b in pairwise(spans)]
                 verdicts.append(max(gaps) <= 1.5 * min(gaps))
     return all(verdicts) if verdicts else None
 
@@ -204,9 +210,9 @@ def _grouped(group: Group, way: Naming) -> dict[str, tuple[RawFile, ...]]:
     return {t: tuple(f) for t, f in found.items()}
 
 
-def _told(group: Group, others: Sequence[Group] | object) -> int:
+def _told(group: Group, others: Iterable[Group]) -> int:
     """How many of its tests another group has too, by name."""
-    ids = {normal(t) for g in others if g is not group for t in g.tests}  # type: ignore[attr-defined]
+    ids = {normal(t) for g in others if g is not group for t in g.tests}
     return sum(normal(t) in ids for t in group.tests)
 
 

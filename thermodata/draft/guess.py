@@ -17,12 +17,14 @@ from thermodata.schema.quantity import is_unit, normal_unit
 
 _IMPLIED = {"temperature": "degC", "rotational_speed": "rpm", "position": "mm", "load": "%", "humidity": "%",
             "current": "A", "torque": "N m", "voltage": "V"}
-_PLAUSIBLE = {"temperature": (-40.0, 200.0), "rotational_speed": (-60_000.0, 60_000.0), "position": (-30_000.0, 30_000.0),
+_PLAUSIBLE = {"temperature": (-40.0, 200.0), "rotational_speed": (-60_000.0, 60_000.0),
+              "position": (-30_000.0, 30_000.0),
               "load": (-400.0, 400.0), "humidity": (0.0, 100.0), "current": (-1000.0, 1000.0),
               "torque": (-5000.0, 5000.0), "voltage": (-1000.0, 1000.0)}
-_AIR = {"hall", "floor", "bearing", "coolant", "outside", "window"}      # what creeps there between 5 and 80 is a temperature
-_NEEDS_PLACE = ("temperature", "temperature_difference", "power", "load", "current", "torque", "position", "flow", "pressure",
-                "displacement", "rotational_speed")
+# what creeps there between 5 and 80 is a temperature
+_AIR = {"hall", "floor", "bearing", "coolant", "outside", "window"}
+_NEEDS_PLACE = ("temperature", "temperature_difference", "power", "load", "current", "torque", "position", "flow",
+                "pressure", "displacement", "rotational_speed")
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,14 +55,17 @@ class Guess:
 
 
 def guess(name: str, unit: str | None, dtype: str = "float64", values: Values | None = None) -> Guess:
-    """Quantity, unit, place and axis of a signal. unit: as the file writes it; values: of a sample, where there is one."""
+    """Quantity, unit, place and axis of a signal. unit: as the file writes it; values: of a sample, if there is one."""
     own, text = words(_last(name)), words(name)
     written = units.from_name(_last(name)) if not unit else None
     known = unit or written
     if known and not is_unit(known):
-        return replace(_quantity(own, text, None, dtype, values), unit=None,
-                       questions=(f"unit: the file says '{known}', which is no unit known here",),
-                       ) if not _digital(dtype, values) else _place(_quantity(own, text, None, dtype, values), own, text)
+        found = _quantity(own, text, None, dtype, values)
+        if _digital(dtype, values):
+            return _place(found, own, text)
+        asked = f"unit: the file says '{known}', which is no unit known here"
+        return replace(_place(replace(found, unit=None), own, text), sure=False, questions=(asked,)) \
+            if found.quantity else found
     found = _quantity(own, text, known, dtype, values)
     if found.quantity is None or found.quantity == "label":
         return found
@@ -136,7 +141,8 @@ def _by_unit(named: tuple[str, ...], unit: str, own: str, values: Values | None)
     if normal == "mA" and against:
         return Guess("current", unit, basis=("unit",), questions=(f"a sensor's 4..20 mA? of {against[0]}",))
     if against and first not in ("temperature", "rotational_speed"):
-        return Guess(first, unit, basis=("unit",), questions=(f"quantity: the name says {against[0]}, the unit {first}",))
+        return Guess(first, unit, basis=("unit",),
+                     questions=(f"quantity: the name says {against[0]}, the unit {first}",))
     if first == "position" and axis_of(own) is None:
         return Guess("position", unit, basis=("unit",), questions=("quantity: a length: position, or displacement?",))
     return Guess(first, unit, basis=("unit",))
@@ -202,20 +208,20 @@ def _unit(found: Guess, unit: str | None, written: str | None, values: Values | 
     if unit is not None and normal_unit(unit) != "dimensionless":
         return _in_range(replace(found, unit=unit), values)
     if written is not None:
-        return _in_range(replace(found, unit=written, basis=("name",) if found.basis == ("name", "unit") else found.basis),
-                         values)
+        basis = ("name",) if found.basis == ("name", "unit") else found.basis
+        return _in_range(replace(found, unit=written, basis=basis), values)
     implied = _IMPLIED.get(quantity)
     if implied and values is not None and _plausible(quantity, values):
         basis = found.basis if "values" in found.basis else (*found.basis, "values")
         return replace(found, unit=implied, sure=False, basis=basis)
-    if quantity == "temperature" and values is not None and 200 < values.low and values.high < 450:
+    if quantity == "temperature" and values is not None and values.low > 200 and values.high < 450:
         return replace(found, unit="K", sure=False, basis=(*found.basis, "values"))
     if implied and values is None and quantity in ("temperature", "rotational_speed"):
         return replace(found, unit=implied, sure=False, questions=(*found.questions, f"unit: {implied}?"))
     hint = {"displacement": "um, mm or V?", "feed": "m/min or mm/min?", "power": "kW or W?", "pressure": "bar or MPa?",
             "flow": "l/min?"}.get(quantity, "")
-    return replace(found, unit=None, sure=False,
-                   questions=(*found.questions, f"unit: {hint} ({_seen(values)})" if hint else f"unit? ({_seen(values)})"))
+    asked = f"unit: {hint} ({_seen(values)})" if hint else f"unit? ({_seen(values)})"
+    return replace(found, unit=None, sure=False, questions=(*found.questions, asked))
 
 
 def _plausible(quantity: str, values: Values) -> bool:
@@ -236,7 +242,8 @@ def _in_range(found: Guess, values: Values | None) -> Guess:
 def _place(found: Guess, own: str, text: str) -> Guess:
     quantity = found.quantity or ""
     place, axis = place_of(own, quantity), axis_of(own)
-    if place.at is None or (quantity in _NEEDS_PLACE and not places_in(own) and axis is None and quantity != "displacement"):
+    nowhere = not places_in(own) and axis is None and quantity != "displacement"
+    if place.at is None or (quantity in _NEEDS_PLACE and nowhere):
         wider = place_of(text, quantity)
         if wider.at is not None and (places_in(text) or axis_of(text)) and not _group_is_test(text, own):
             # the folder of names above tells where: less sure than the name itself

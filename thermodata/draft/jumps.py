@@ -6,6 +6,7 @@ Names help (jump, skok, Sprung, Kalibrierung, 标定), the data decide: without 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 
@@ -16,15 +17,16 @@ from thermodata.draft.vocabulary import says
 from thermodata.draft.words import words
 from thermodata.plugin import Float1D
 
-NAMED = "^jump ^skok ^sprung ^kalib ^calib ^einmess stufe. stufen schritt. staircase cal. 标定 校准 跳变 阶跃 step. steps."
+NAMED = ("^jump ^skok ^sprung ^kalib ^calib ^einmess stufe. stufen schritt. staircase cal. 标定 校准 跳变 阶跃 "
+         "step. steps.")
 _LONGEST_S = 3600.0
 _MOST_STEPS, _LEAST_STEPS = 40, 2
 
 
 @dataclass(frozen=True, slots=True)
 class JumpTest:
-    """A recording of a jump test. signal: (stream, name) of the probe that moved; steps: its steps [unit of the signal];
-    dwell_s: the usual time between them; named: the file's name says so too; others: share of the largest other probe."""
+    """A recording of a jump test. signal: (stream, name) of the probe that moved, None where none is seen to; steps: in
+    the unit of the signal; dwell_s: the usual time between them; named: the file's name says so too."""
 
     file: RawFile
     signal: tuple[str, str] | None
@@ -73,7 +75,7 @@ def _others_move(file: RawFile, probes: set[tuple[str, str]]) -> bool:
 
 
 def _staircase(course: Course) -> tuple[tuple[Step, ...], float] | None:
-    """(steps, dwell [s]) where a signal stands on plateaus and little else; the dwell is searched, for nobody says it."""
+    """(steps, dwell [s]) where a signal stands on plateaus and little else; the dwell is searched: nobody says it."""
     fine = np.isfinite(course.values)
     t: Float1D = (course.t_ns[fine] - course.t_ns[0]) / 1e9
     x = course.values[fine]
@@ -103,7 +105,7 @@ def _unexplained(t: Float1D, x: Float1D, steps: list[Step]) -> float:
     """The share of the signal's range that its plateaus leave: the scatter about each one's own median."""
     edges = [float(t[0]) - 1.0, *(s.t_s for s in steps), float(t[-1]) + 1.0]
     rests = []
-    for i, (a, b) in enumerate(zip(edges, edges[1:], strict=False)):
+    for i, (a, b) in enumerate(pairwise(edges)):
         low = steps[i - 1].to_s if i else a
         high = steps[i].from_s if i < len(steps) else b
         part = x[(t > low) & (t < high)]

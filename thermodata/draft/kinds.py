@@ -16,23 +16,28 @@ from thermodata.draft.words import words
 from thermodata.plugin import Float1D
 
 _KINDS: tuple[tuple[str, str], ...] = (
-    ("etve", "etve. idle. ambient ^amb. klid. klidov ruhe. umgebung okoli stillstand standstill leerlauf~aus 环境 静止 待机 evt."),
+    ("etve", "etve. idle. ambient ^amb. klid. klidov ruhe. umgebung okoli stillstand standstill leerlauf~aus 环境 "
+             "静止 待机 evt."),
     ("spectrum", "spectrum spektrum spec. spektr 谱 转速谱 drehzahlspektrum stufenprogramm"),
     ("cutting", "^cut. cutting ^fras ^frez ^milling zerspan obrabeni obrab. bearbeit 切削 加工 铣"),
     ("rotary_axis", "rotary table. tisch. ^stul. drehtisch rundachse otocn 转台 [bc]~axis achse~[bc] osa~[bc]"),
-    ("linear_axis", "feed. linear axis. ^vorschub ^posuv feedaxis linearachse achse. osa. osy. 进给 直线 丝杠 screw. kgt."),
-    ("spindle", "spindle spindel ^vreten sp. speed. rpm. ^otac drehzahl warmup. warm~up aufwarm zahriv 主轴 转速 预热 const. "
+    ("linear_axis", "feed. linear axis. ^vorschub ^posuv feedaxis linearachse achse. osa. osy. 进给 直线 丝杠 screw. "
+                    "kgt."),
+    ("spindle", "spindle spindel ^vreten sp. speed. rpm. ^otac drehzahl warmup. warm~up aufwarm zahriv 主轴 转速 "
+                "预热 const. "
                 "heat. heating heating. heizen n."),
     ("mixed", "mixed. mix. day. tag. ^den. dny. shift. schicht smena. kombin combin production produktion 混合 综合"),
 )
 _ROLES: tuple[tuple[str, str], ...] = (
     ("locked", "locked secret geheim blind. zamcen"), ("verification", "verif valid overe pruf check. 验证"),
     ("calibration", "train. training identif fit. ident. 辨识 建模"))
-_AGREE = {"spindle": {"spindle", "spectrum"}, "spectrum": {"spindle", "spectrum"}, "cutting": {"mixed", "cutting", "spindle"},
+_AGREE = {"spindle": {"spindle", "spectrum"}, "spectrum": {"spindle", "spectrum"},
+          "cutting": {"mixed", "cutting", "spindle"},
           "mixed": {"mixed", "spindle", "spectrum", "linear_axis", "cutting"}, "etve": {"etve"},
           "linear_axis": {"linear_axis", "mixed"}, "rotary_axis": {"rotary_axis", "mixed"}}
 _SPEED = re.compile(r"(?<!\S)(?:s|n|sp|rpm|speed|spindle|spindel|drehzahl|otacky|ot|nspi|转速|主轴) ?(\d{3,5})(?!\S)|"
-                    r"(?<!\S)(\d{3,5}) ?(?:rpm|ot|otmin|u min|1 min|min 1|umin|转)(?!\S)|(?<!\S)(\d{1,2}) ?(?:k|krpm)(?!\S)")
+                    r"(?<!\S)(\d{3,5}) ?(?:rpm|ot|otmin|u min|1 min|min 1|umin|转)(?!\S)|(?<!\S)(\d{1,2}) "
+                     "?(?:k|krpm)(?!\S)")
 _FEED = re.compile(r"(?<!\S)(?:f|vf|feed|vorschub|posuv|进给) ?(\d{1,5})(?: ?(m|mm) min)?(?!\S)")
 
 
@@ -51,8 +56,8 @@ class Kind:
 
 @dataclass(slots=True)
 class _Moved:
-    """What a test's recordings show. speeds: plateaus of the spindle [rpm]; seen: whether a spindle's speed, a feed or a
-    position was logged at all."""
+    """What a test's recordings show. speeds: plateaus of the spindle [rpm]; seen: whether a spindle's speed, a feed or
+    a position was logged at all."""
 
     speeds: tuple[float, ...] = ()
     axes: set[str] = field(default_factory=set)
@@ -136,7 +141,8 @@ def _moved(files: Sequence[RawFile]) -> _Moved:
             if seen is None:
                 continue
             said = guess(signal.name, signal.unit, signal.dtype, seen)
-            _add(found, said.quantity, said.at or "", said.unit, max(abs(seen.low), abs(seen.high)), seen.high - seen.low,
+            largest = max(abs(seen.low), abs(seen.high))
+            _add(found, said.quantity, said.at or "", said.unit, largest, seen.high - seen.low,
                  None if course is None else course.values)
     return found
 
@@ -187,7 +193,8 @@ def _conditions(text: str, speed: re.Match[str] | None, feed: re.Match[str] | No
         value = float(speed[1] or speed[2] or 0) or float(speed[3]) * 1000
         found["speed"] = f"{value:g} rpm"
         if moved.speeds and moved.whole and not any(abs(s - value) < 0.05 * value for s in moved.speeds):
-            doubts.append(f"speed: the name says {value:g} rpm, the data {', '.join(f'{s:g}' for s in moved.speeds[:3])}")
+            shown = ", ".join(f"{s:g}" for s in moved.speeds[:3])
+            doubts.append(f"speed: the name says {value:g} rpm, the data {shown}")
     if feed:
         unit = f"{feed[2]}/min" if feed[2] else "mm/min" if float(feed[1]) >= 100 else "m/min"
         found["feed"] = f"{float(feed[1]):g} {unit}"

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -106,6 +107,7 @@ def flagged(watch: Watch, stream: str, signals: list[Signal], meant: Meant | Non
 
     t_ns, columns, own = watch.stream(stream)
     said: dict[str, tuple[str, str | None, str | None]] = {}
+    channel: str | None
     for written, (quantity, unit, channel) in (meant.quantities if meant else {}).items():
         try:
             hit = match_signal(written, signals)
@@ -155,7 +157,7 @@ def sparkline(column: Array, width: int = 32) -> str | None:
     x[~np.isfinite(x)] = np.nan
     edges = np.linspace(0, x.size, min(width, x.size) + 1).astype(int)
     means = np.array([np.nan if np.isnan(x[a:b]).all() else np.nanmean(x[a:b])
-                      for a, b in zip(edges[:-1], edges[1:], strict=True)])
+                      for a, b in pairwise(edges)])
     if np.isnan(means).all():
         return " " * means.size
     low, span = float(np.nanmin(means)), float(np.nanmax(means) - np.nanmin(means))

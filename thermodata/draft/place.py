@@ -3,19 +3,21 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Callable
 from dataclasses import dataclass
 
 from thermodata.draft.vocabulary import places_in
 
-_BESIDE = (r"d|e|ed|eddy|wz|pos|feed|nut|ax|axis|achse|osa|mot|motor|tcp|err|error|delta|disp|act|ist|load|cur|curr|current|"
-           r"torque|temp|temper|speed|vel|rapid|v|s|i|t|m|p|f")
+_BESIDE = (r"d|e|ed|eddy|wz|pos|feed|nut|ax|axis|achse|osa|mot|motor|tcp|err|error|delta|disp|act|ist|load|cur|curr|"
+           r"current|torque|temp|temper|speed|vel|rapid|v|s|i|t|m|p|f")
 _AFTER = r"abs|act|pos|load|axis|achse|mot|motor|temp|frt|com|curr|vel|speed|ist|soll|position|feedrate"
 _LINEAR = re.compile(rf"(?<!\S)(?:{_BESIDE})?([xyz])(?!\S)|(?<!\S)([xyz])(?:{_AFTER})(?!\S)")
-_ROTARY = re.compile(r"(?<!\S)(?:axis|achse|osa|ax|rotary|act|ist|pos|mot|motor|load|curr|current|torque|speed|drehzahl|otacky)"
-                     r" ?([abc])(?!\S)|(?<!\S)([abc]) ?(?:axis|achse|osa|轴|act|abs|pos|load|mot|motor)(?!\S)|"
-                     r"(?<!\S)([abc]) ?轴")
+_ROTARY = re.compile(r"(?<!\S)(?:axis|achse|osa|ax|rotary|act|ist|pos|mot|motor|load|curr|current|torque|speed|"
+                     r"drehzahl|otacky) ?([abc])(?!\S)|(?<!\S)([abc]) ?(?:axis|achse|osa|轴|act|abs|pos|load|mot|motor)(?!\S)"
+                     r"|(?<!\S)([abc]) ?轴")
 _SIDES = ("front", "rear", "left", "right")
-_PLAIN = ("headstock", "ram", "saddle", "crossbeam", "workpiece", "fixture", "tool", "floor", "cabinet", "bed", "outside")
+_PLAIN = ("headstock", "ram", "saddle", "crossbeam", "workpiece", "fixture", "tool", "floor", "cabinet", "bed",
+          "outside")
 _ON_AXIS = ("nut", "screw", "scale", "guide")
 
 
@@ -41,7 +43,7 @@ def place_of(text: str, quantity: str) -> Place:
     if "not spindle" in said:
         said -= {"spindle"}
         said |= {"screw"}
-    rule = _RULES.get(quantity)
+    rule: Callable[[set[str], str | None], Place] | None = _RULES.get(quantity)
     return rule(said, axis) if rule else Place(None)
 
 
@@ -204,10 +206,17 @@ def _displacement(said: set[str], axis: str | None) -> Place:
     return Place("tcp", True)
 
 
-_RULES = {
+def _humidity(said: set[str], axis: str | None) -> Place:
+    return Place("hall", "hall" in said)
+
+
+def _irradiance(said: set[str], axis: str | None) -> Place:
+    return Place("hall.sun", "sun" in said)
+
+
+_RULES: dict[str, Callable[[set[str], str | None], Place]] = {
     "temperature": _temperature, "temperature_difference": _temperature, "rotational_speed": _speed, "feed": _feed,
     "power": _driven, "load": _driven, "current": _driven, "torque": _driven, "position": _on_axis, "flow": _fluid,
     "pressure": _fluid, "state": _state, "displacement": _displacement, "tilt": _displacement,
-    "humidity": lambda said, axis: Place("hall", "hall" in said),
-    "irradiance": lambda said, axis: Place("hall.sun", "sun" in said),
+    "humidity": _humidity, "irradiance": _irradiance,
 }

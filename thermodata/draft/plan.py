@@ -79,7 +79,7 @@ class DraftTest:
 
 @dataclass(frozen=True, slots=True)
 class Draft:
-    """A campaign file to be. not_used: (path, reason); damaged: (path, what); table: of tests, where one lies beside."""
+    """A campaign file to be. not_used: (path, reason); damaged: (path, what); table: of tests, where one is there."""
 
     campaign: str
     sources: tuple[DraftSource, ...]
@@ -111,7 +111,7 @@ def plan(campaign: str, folder: Path, found: Scan) -> Draft:
         notes += left
         by_signal[g.source] = {(c.stream or "", c.signal): (c.said.quantity, c.said.at, c.name)
                                for c in made if c.said.quantity}
-    aligned = {a.source: a for a in alignments(groups, {s: _keyed(g, by_signal[s]) for g in groups for s in [g.source]})}
+    aligned = {a.source: a for a in alignments(groups, {g.source: _keyed(g, by_signal[g.source]) for g in groups})}
     sources = tuple(DraftSource(g.source, g.reader, g.template,
                                 tuple(q for q in (zone_question(g, groups), *g.questions) if q), aligned.get(g.source))
                     for g in groups)
@@ -123,7 +123,8 @@ def plan(campaign: str, folder: Path, found: Scan) -> Draft:
     if like:
         notes.append(f"{len(like)} files were not opened (too many): taken to be like others of their name, "
                      f"e.g. {like[0].path} like {like[0].like}")
-    return Draft(campaign, sources, tuple(channels), tuple(calibrations), tests, table, left_out, found.damaged, tuple(notes))
+    return Draft(campaign, sources, tuple(channels), tuple(calibrations), tests, table, left_out, found.damaged,
+                 tuple(notes))
 
 
 def _claimed_table(folder: Path, found: Scan) -> str | None:
@@ -152,9 +153,10 @@ def _short(jump: JumpTest, files: Sequence[RawFile]) -> bool:
 def _channels(group: Group, jumps: Sequence[JumpTest], taken: set[str],
               calibrations: list[DraftJump]) -> tuple[list[DraftChannel], list[str]]:
     found = group.signals
-    notes = [f"{group.source}: {len(found) - _MOST_SIGNALS} more signals, left out"] if len(found) > _MOST_SIGNALS else []
-    twice = {n for n, k in Counter(n for f in (*group.files, *group.calibrations)
-                                   for n, k in Counter(s.name for s in f.signals).items() if k > 1).items() if k}
+    more = len(found) - _MOST_SIGNALS
+    notes = [f"{group.source}: {more} more signals, left out of the draft"] if more > 0 else []
+    twice = {n for f in (*group.files, *group.calibrations)
+             for n, k in Counter(s.name for s in f.signals).items() if k > 1}
     made, seen = [], set()
     streams = {s.stream for s, _ in found}
     for signal, files in found[:_MOST_SIGNALS]:
@@ -221,12 +223,12 @@ def _calibration(name: str, signal: Signal, said: Guess, jump: JumpTest | None, 
     jump = jump or (fitting[0] if fitting else None)
     if jump is None:
         return None, Guess(said.quantity, said.unit, said.at, said.axis, False, said.basis,
-                           (*said.questions, "calibration? a jump test, or kind: scale with the data sheet's gain in um/V"))
+                           (*said.questions, "calibration? a jump test, or kind: scale with its data sheet's gain in um/V"))
     letter = axis_of(words(jump.file.path.stem))
     axis = said.axis or (letter.upper() if letter and letter in "xyz" else None)
     if said.axis is None and axis is not None:
         said = Guess(said.quantity, said.unit, said.at, axis, False, said.basis,
-                     (*(q for q in said.questions if q != "axis?"), f"axis: {axis} by the name of {jump.file.path.name}"))
+                     (*(q for q in said.questions if q != "axis?"), f"axis: {axis} by {jump.file.path.name}?"))
     seen = tuple(float(f"{s.size:.3g}") for s in jump.steps)
     question = "moves: the commanded ones, signed, in machine coordinates"
     question += f"; seen: steps of {', '.join(f'{s:+g}' for s in seen[:8])} {said.unit or 'V'}" if seen else \

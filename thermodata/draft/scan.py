@@ -26,8 +26,7 @@ _SAMPLES_S, _HEADERS_S = 25.0, 45.0          # of the whole folder
 _KEPT_ROWS = 3000                            # of a signal whose course tells what a test is
 _COURSE = ("rotational_speed", "feed", "displacement", "voltage", "position", "state")
 _MOST_COURSES = 40
-_NOT_LOGS = frozenset((".yaml", ".yml", ".md", ".tdms_index", ".py", ".m", ".json", ".png", ".jpg", ".jpeg", ".pdf", ".docx",
-                       ".doc", ".pptx", ".html", ".htm", ".exe", ".dll", ".ini", ".vi", ".lvproj", ".zip", ".7z", ".rar"))
+_NOT_LOGS = frozenset((".yaml", ".yml", ".md", ".tdms_index"))
 Progress = Callable[[int, int, str], None]
 
 

@@ -16,7 +16,9 @@ from thermodata.errors import ThermodataError
 from thermodata.reader.text import decode, split_unit
 
 _LARGEST = 4_000_000
-_NAMED = "test tests versuch zkousk mereni plan protocol protokoll matrix 试验 测试 实验 runs uebersicht ubersicht overview"
+_SUFFIXES = (".csv", ".txt", ".tsv", ".xlsx", ".xlsm")
+_NAMED = ("test tests versuch zkousk mereni plan protocol protokoll matrix 试验 测试 实验 runs uebersicht ubersicht "
+          "overview")
 _KNOWN = (("speed", "speed. drehzahl otack rpm. 转速 n. s."), ("feed", "feed. vorschub posuv 进给 f. vf."),
           ("air", "air. luft. vzduch 气"), ("tool", "tool. werkzeug nastroj 刀具"), ("axis", "axis. achse. osa. 轴"))
 
@@ -35,7 +37,7 @@ def find_table(folder: Path, candidates: Sequence[str], tests: Sequence[str]) ->
     """The first small table in which most tests are named, each once; None where there is none."""
     if not tests:
         return None
-    tables = [c for c in candidates if Path(c).suffix.lower() in (".csv", ".txt", ".tsv", ".xlsx", ".xlsm")]
+    tables = [c for c in candidates if Path(c).suffix.lower() in _SUFFIXES]
     tables.sort(key=lambda c: (not says(_NAMED, words(Path(c).stem)), c))
     for candidate in tables[:20]:
         path = folder / candidate
@@ -50,7 +52,7 @@ def find_table(folder: Path, candidates: Sequence[str], tests: Sequence[str]) ->
 
 def is_called_table(path: str) -> bool:
     """Whether a name says table of tests."""
-    return Path(path).suffix.lower() in (".csv", ".txt", ".tsv", ".xlsx", ".xlsm") and says(_NAMED, words(Path(path).stem))
+    return Path(path).suffix.lower() in _SUFFIXES and says(_NAMED, words(Path(path).stem))
 
 
 def _grids(path: Path) -> Iterator[list[list[str]]]:
@@ -90,17 +92,18 @@ def _read(file: str, rows: list[list[str]], tests: Sequence[str]) -> TestTable |
     for column in range(len(header)):
         cells = [r[column] if column < len(r) else "" for r in lines]
         for lookup in (wanted, numbers):
-            named = {i: lookup[key] for i, c in enumerate(cells) if (key := normal(Path(c).stem if "." in c else c)) in lookup}
+            keys = [normal(Path(c).stem if "." in c else c) for c in cells]
+            named = {i: lookup[k] for i, k in enumerate(keys) if k in lookup}
             if len(set(named.values())) == len(named) and (best is None or len(named) > best[0]):
                 best = (len(named), column, named)
     if best is None or best[0] < max(2, 0.6 * len(tests)):
         return None
-    _, key, named = best
+    _, key_column, named = best
     found: dict[str, dict[str, str]] = {}
     for i, test in named.items():
-        found[test] = {name: value for c, title in enumerate(header) if c != key and c < len(lines[i])
+        found[test] = {name: value for c, title in enumerate(header) if c != key_column and c < len(lines[i])
                        and (name := _condition(title)) and (value := _with_unit(lines[i][c], title, name))}
-    return TestTable(file, header[key], found)
+    return TestTable(file, header[key_column], found)
 
 
 def _numbers(tests: Sequence[str]) -> dict[str, str]:

@@ -13,28 +13,35 @@ from functools import lru_cache
 QUANTITY_WORDS: dict[str, str] = {
     "temperature": "temper temp teplot ^tepl tmp. t. theta. pt~100 pt~1000 rtd. rtds. thermocouple thermoel thermistor "
                    "^thermo. ntc. tc. celsius degc. waerme. temperatura 温度 溫度 温 溫",
-    "rotational_speed": "drehzahl drehz. otack otacek otac. rpm. rpm rotat~speed rotation~speed spindle~speed spindlespeed "
+    "rotational_speed": "drehzahl drehz. otack otacek otac. rpm. rpm rotat~speed rotation~speed spindle~speed "
+                        "spindlespeed "
                         "spindle~velocity spindel~speed umdrehung revolution n~act n~ist n~actual n~spindle n~soll "
                         "s~act~speed acts. sspeed. srpm. spd. act~speed actspeed speed.~act speed. ^speed rpms. "
                         "转速 轉速 回转速度 主轴速度 vact~spindle "
                         "n. rotvel",
     "feed": "vorschub feedrate feed. ^feed~rate feed~act actfeed posuv 进给 進給 frt. actf. fact. pathfeed "
             "v~act v~actual vact. vaxis. bahngeschw feed~speed",
-    "power": "power. ^power leistung wirkl vykon prikon 功率 pwr. watt. p~act p~mech p~elec p~el. puissance activepower",
+    "power": "power. ^power leistung wirkl vykon prikon 功率 pwr. watt. p~act p~mech p~elec p~el. puissance "
+             "activepower",
     "load": "load. ^load. auslast motorlast spindellast zatizen zatez vytizen 负载 負載 负荷 負荷 utiliz utilis util. "
             "spindleload servoload loadmeter last.",
     "torque": "torque drehmoment moment. momente. krout trq. 扭矩 转矩 轉矩 力矩 mdreh m~act",
-    "current": "current. currents. ^current motorstrom strom. stroms. strom ^proud 电流 電流 curr. curr ampere amps. amp. "
+    "current": "current. currents. ^current motorstrom strom. stroms. strom ^proud 电流 電流 curr. curr ampere amps. "
+               "amp. "
                "i~act i~ist i~actual i~nom iact. imot. irms. iq. courant",
     "position": "position ^pos. pos. ^poloh 位置 坐标 坐標 coordinate koordinat encoder. enc. istpos xpos. ypos. zpos. "
                 "xabs. yabs. zabs. xact. yact. zact. s~act s~actual abspos mcs. wcs. machinecoord",
     "flow": "flow. ^flow~ flowrate durchfluss durchfl. prutok 流量 volumenstrom volume~flow throughput. flowmeter",
-    "pressure": "pressure press. ^druck. druck. hydraulikdruck oldruck luftdruck druck~ tlak 压力 壓力 压强 气压 油压 液压力",
+    "pressure": "pressure press. ^druck. druck. hydraulikdruck oldruck luftdruck druck~ tlak 压力 壓力 压强 气压 "
+                "油压 液压力",
     "humidity": "humid feucht ^vlhkost vlhk. 湿度 濕度 rh. relhum hum.",
-    "irradiance": "irradia solar. sonnen sonne. slunecn slunce. zaren 日照 辐射 辐照 pyranom sunlight sun. globalstrahl",
+    "irradiance": "irradia solar. sonnen sonne. slunecn slunce. zaren 日照 辐射 辐照 pyranom sunlight sun. "
+                  "globalstrahl",
     "displacement": "eddy displac verlager verschieb posunut posuv~vretene vychylk deformac deform. deformation "
-                    "wirbelstrom wegsens wegaufnehmer wegmess messtaster lvdt. lvdts. gap. gapsensor abstand. vzdalenost "
-                    "位移 热误差 熱誤差 热变形 变形 热伸长 伸长 热漂移 thermal~error thermal~drift thermal~growth dilatac "
+                    "wirbelstrom wegsens wegaufnehmer wegmess messtaster lvdt. lvdts. gap. gapsensor abstand. "
+                    "vzdalenost "
+                    "位移 热误差 熱誤差 热变形 变形 热伸长 伸长 热漂移 thermal~error thermal~drift thermal~growth "
+                    "dilatac "
                     "ausdehn capacitive~s kapazitiv elongat prodlouz nci. d~x d~y d~z dx. dy. dz. ex. ey. ez. "
                     "delta~x delta~y delta~z err~x err~y err~z error~x error~y error~z deltax. deltay. deltaz. "
                     "disp. tcp~x tcp~y tcp~z",
@@ -42,9 +49,12 @@ QUANTITY_WORDS: dict[str, str] = {
     "angle": "angle. winkel uhel. uhlu. 角度 转角",
     "voltage": "voltage spannung napeti 电压 電壓 volt. volts. uzk. u~zk u~dc udc. dc~link zwischenkreis dcvolt",
     "resistance": "resistanc widerstand odpor. 电阻 電阻",
-    "state": "on. off. ein. zap. vyp. zapnut. vypnut. open. opened. closed. offen. geschlossen. active. aktiv. aktivni. "
-             "status. state. ^state. stav. stavu. zustand. enabled. enable. running. run. flag. alarm. alarms. fault. mode. "
-             "modus. rezim. 状态 狀態 开关 运行 报警 启动 停止 is~on isopen. ready. freigabe. execution. otevren. zavren.",
+    "state": "on. off. ein. zap. vyp. zapnut. vypnut. open. opened. closed. offen. geschlossen. active. aktiv. "
+             "aktivni. "
+             "status. state. ^state. stav. stavu. zustand. enabled. enable. running. run. flag. alarm. alarms. "
+             "fault. mode. "
+             "modus. rezim. 状态 狀態 开关 运行 报警 启动 停止 is~on isopen. ready. freigabe. execution. otevren. "
+             "zavren.",
 }
 
 PLACE_WORDS: dict[str, str] = {
@@ -77,9 +87,11 @@ PLACE_WORDS: dict[str, str] = {
     "workpiece": "workpiece werkstuck werkstueck obrobek obrobku 工件 part~temp wkp.",
     "fixture": "fixture vorrichtung pripravek pripravku 夹具 halterung drzak. sensorhalter",
     "probe": "probe. probes. taster. messtaster sonda. sondy. 测头 touchprobe",
-    "coolant": "coolant kuhlm kuehlm kss. kuhlschm kuehlschm chladic ^chlaz chladiv emulz emulsion 冷却液 冷卻液 切削液 冷却 "
+    "coolant": "coolant kuhlm kuehlm kss. kuhlschm kuehlschm chladic ^chlaz chladiv emulz emulsion 冷却液 冷卻液 "
+               "切削液 冷却 "
                "cooling kuhlung kuehlung cool. kuhlflu kuhlkreis cutting~fluid",
-    "chiller": "chiller ruckkuhl rueckkuhl kuhlaggregat 冷水机 水冷机 油冷机 oilcooler oil~cooler oelkuhler water. wasser "
+    "chiller": "chiller ruckkuhl rueckkuhl kuhlaggregat 冷水机 水冷机 油冷机 oilcooler oil~cooler oelkuhler water. "
+               "wasser "
                "^vod[ay]. kuhlwasser 冷却水 chlazeni~vretene",
     "supply": "supply. inlet. in. vorlauf zulauf ^privod vstup. 入口 进口 进水 供液 进油 vl. input.",
     "return": "return. outlet. out. rucklauf ruecklauf ablauf zpatec ^odvod vystup. 出口 回水 回油 回液 rl. output.",
@@ -89,13 +101,15 @@ PLACE_WORDS: dict[str, str] = {
     "lubrication": "lubric schmier mazan mazac 润滑 潤滑 lube.",
     "cabinet": "cabinet schaltschrank schrank rozvade 电柜 电气柜 控制柜 電櫃 elektroschrank switch~box e~cabinet",
     "hall": "hall. ^halle. ^hallen hala. haly. hale. ^ambi amb. umgeb okoli. okoln. okolni raum. raumt raumluft room. "
-            "workshop shop. shopfloor luft. lufttemp air. vzduch 室温 环境 環境 车间 車間 气温 室内 空气 environ env. prostred "
+            "workshop shop. shopfloor luft. lufttemp air. vzduch 室温 环境 環境 车间 車間 气温 室内 空气 environ "
+            "env. prostred "
             "indoor",
     "pneumatics": "druckluft compressed~air pneumat stlacen 压缩空气 气源 airpressure",
     "outside": "outdoor outside aussen. aussent ^venk[uo] 室外",
     "floor": "floor. boden. bodent fundament foundation podlah ^zaklad 地面 地基 地板",
     "door": "door doors. tur. tuer. schutztur tor. dvere dveri vrata vrat. gate. 门 門",
-    "enclosure": "machine~door schutztur schutztuer safety~door guard~door 防护门 安全门 workspace. arbeitsraum pracovni~prostor",
+    "enclosure": "machine~door schutztur schutztuer safety~door guard~door 防护门 安全门 workspace. arbeitsraum "
+                 "pracovni~prostor",
     "window": "window fenster okno. okna. 窗",
     "sun": "sun. sonne. slunce. solar. sunlight",
     "cnc": "cnc. cnc~temp steuerung. ridici. 数控 control~unit ncu. ipc.",
@@ -106,7 +120,8 @@ PLACE_WORDS: dict[str, str] = {
 
 # Names of what no quantity of a channel holds; the words to the right are told in the draft.
 FOREIGN: tuple[tuple[str, str], ...] = (
-    ("a time stamp", "timestamp ^stamp. stamp. nsec. nanosec. publish~time log~time uptime zeitstempel zeit. ^cas. 时间 "
+    ("a time stamp", "timestamp ^stamp. stamp. nsec. nanosec. publish~time log~time uptime zeitstempel zeit. ^cas. "
+                     "时间 "
                      "时刻 datum. elapsed. time. date. cas~s sec. secs. laufzeit epoch."),
     ("a vibration or an acceleration", "vibrat vibrac accel beschleun schwing zrychl 振动 加速度 ^acc. rms~v"),
     ("a force", "force. forces. kraft. sila. sily. 切削力 作用力 loadcell load~cell. cutting~force vorschubkraft"),
@@ -117,17 +132,20 @@ FOREIGN: tuple[tuple[str, str], ...] = (
     ("an override", "override ovr. ovrd. fovr. sovr. korekce~posuvu 倍率"),
     ("a number, a count or an identifier",
      "counter count. counts. zaehler zahler. pocitadlo pocet. cislo. nummer. number. nr. index. idx. id. ids. seq. "
-     "sequence block. line. satz. satznr program. programm. version checksum crc. sample~nr sample. samples. zeile. record. "
+     "sequence block. line. satz. satznr program. programm. version checksum crc. sample~nr sample. samples. zeile. "
+     "record. "
      "partcount 编号 序号 工件计数 计数 frame~id toolnr. lfdnr. tno. toolid. tool~number"),
     ("a sound level", "sound noise~level larm. hluk"),
     ("a density, a mass or a concentration", "density weight. mass. concentrat dichte. gewicht. ph."),
     ("a duty or quality figure", "duty. quality. snr. rssi."),
 )
 
-SETPOINT = ("soll. ^soll. sollwert set. setpoint. setp. cmd. command. commanded. nominal. nom. target. zadan ziel. pozadov "
+SETPOINT = ("soll. ^soll. sollwert set. setpoint. setp. cmd. command. commanded. nominal. nom. target. zadan ziel. "
+            "pozadov "
             "设定 目标 指令 给定 demand. desired. reference. ref. programmed. prog.")
 LIMIT = "limit. limits. max. min. maximum. minimum. threshold. grenze. grenzwert warn. warning. 上限 下限 mezni."
-DIFFERENCE = "diff. difference differenz rozdil. rozdilu. delta~t deltat. dt. gradient. spread. 温差 温升 ubertemp temperature~rise rise."
+DIFFERENCE = ("diff. difference differenz rozdil. rozdilu. delta~t deltat. dt. gradient. spread. 温差 温升 "
+              "ubertemp temperature~rise rise.")
 
 
 @lru_cache(maxsize=256)

@@ -10,23 +10,26 @@ from thermodata.schema.campaign import RESERVED_NAMES
 _LETTERS = str.maketrans({"ß": "ss", "ẞ": "SS", "Ł": "L", "ł": "l", "Ø": "O", "ø": "o", "đ": "d", "Đ": "D", "Æ": "AE",
                           "æ": "ae", "œ": "oe", "Œ": "OE", "ı": "i", "µ": "u", "μ": "u", "°": "", "℃": "degC"})
 # 'Xload', 'Srpm': an axis letter before a word, as MTConnect adapters write it
-_MTCONNECT = re.compile(r"(?<![A-Za-z])([XYZABCS])(abs|act|com|cmd|cur|current|frt|load|mot|motor|ovr|pos|rpm|speed|temp|"
-                        r"torque|vel|axis|travel|velocity|position|temperature)(?![a-z])")
-_CYRILLIC = dict(zip("абвгдеёжзийклмнопрстуфхцчшщъыьэюяіїєґ",
-                     ("a b v g d e e zh z i j k l m n o p r s t u f h c ch sh sch _ y _ e yu ya i yi ye g").split(),
-                     strict=True))
+_MTCONNECT = re.compile(r"(?<![A-Za-z])([XYZABCS])(abs|act|com|cmd|cur|current|frt|load|mot|motor|ovr|pos|rpm|speed|"
+                        r"temp|torque|vel|axis|travel|velocity|position|temperature)(?![a-z])")
+_LETTERS_OF_CYRILLIC = """а:a б:b в:v г:g д:d е:e ё:e ж:zh з:z и:i й:j к:k л:l м:m н:n о:o п:p р:r с:s
+т:t у:u ф:f х:h ц:c ч:ch ш:sh щ:sch ъ:_ ы:y ь:_ э:e ю:yu я:ya і:i ї:yi є:ye ґ:g"""
+_CYRILLIC = dict(pair.split(":") for pair in _LETTERS_OF_CYRILLIC.split())
 # The syllables of the signs that machine logs use; a sign outside is written by its code.
-_PINYIN = dict(pair.split(":") for pair in (
-    "主:zhu 轴:zhou 軸:zhou 前:qian 后:hou 後:hou 中:zhong 轴:zhou 承:cheng 温:wen 溫:wen 度:du 转:zhuan 轉:zhuan 速:su "
-    "进:jin 進:jin 给:gei 給:gei 冷:leng 却:que 卻:que 液:ye 水:shui 油:you 车:che 車:che 间:jian 間:jian 环:huan 環:huan "
-    "境:jing 室:shi 气:qi 空:kong 螺:luo 母:mu 丝:si 絲:si 杠:gang 杆:gan 电:dian 電:dian 机:ji 機:ji 流:liu 压:ya 壓:ya "
-    "功:gong 率:lv 负:fu 載:zai 载:zai 荷:he 扭:niu 矩:ju 位:wei 置:zhi 移:yi 立:li 柱:zhu 床:chuang 身:shen 工:gong "
-    "作:zuo 台:tai 刀:dao 具:ju 箱:xiang 柜:gui 门:men 門:men 开:kai 開:kai 关:guan 關:guan 状:zhuang 态:tai 量:liang "
-    "湿:shi 濕:shi 地:di 面:mian 基:ji 上:shang 下:xia 左:zuo 右:you 热:re 熱:re 误:wu 差:cha 变:bian 形:xing 光:guang "
-    "栅:shan 导:dao 轨:gui 滑:hua 座:zuo 横:heng 梁:liang 枕:zhen 号:hao 测:ce 点:dian 通:tong 道:dao 值:zhi 时:shi "
-    "时:shi 日:ri 期:qi 入:ru 出:chu 口:kou 回:hui 供:gong 夹:jia 件:jian 伸:shen 长:chang 标:biao 定:ding 实:shi "
-    "际:ji 部:bu 端:duan 内:nei 外:wai 一:yi 二:er 三:san 四:si 机:ji 润:run 泵:beng 补:bu 偿:chang 角:jiao 试:shi "
-    "验:yan 数:shu 据:ju 传:chuan 感:gan 器:qi 坐:zuo 向:xiang 振:zhen 动:dong 力:li 阀:fa 风:feng 扇:shan").split())
+_SYLLABLES = """
+主:zhu 轴:zhou 軸:zhou 前:qian 后:hou 後:hou 中:zhong 承:cheng 温:wen 溫:wen 度:du 转:zhuan 轉:zhuan 速:su
+进:jin 進:jin 给:gei 給:gei 冷:leng 却:que 卻:que 液:ye 水:shui 油:you 车:che 車:che 间:jian 間:jian 环:huan
+環:huan 境:jing 室:shi 气:qi 空:kong 螺:luo 母:mu 丝:si 絲:si 杠:gang 杆:gan 电:dian 電:dian 机:ji 機:ji
+流:liu 压:ya 壓:ya 功:gong 率:lv 负:fu 載:zai 载:zai 荷:he 扭:niu 矩:ju 位:wei 置:zhi 移:yi 立:li 柱:zhu
+床:chuang 身:shen 工:gong 作:zuo 台:tai 刀:dao 具:ju 箱:xiang 柜:gui 门:men 門:men 开:kai 開:kai 关:guan
+關:guan 状:zhuang 态:tai 量:liang 湿:shi 濕:shi 地:di 面:mian 基:ji 上:shang 下:xia 左:zuo 右:you 热:re 熱:re
+误:wu 差:cha 变:bian 形:xing 光:guang 栅:shan 导:dao 轨:gui 滑:hua 座:zuo 横:heng 梁:liang 枕:zhen 号:hao
+测:ce 点:dian 通:tong 道:dao 值:zhi 时:shi 日:ri 期:qi 入:ru 出:chu 口:kou 回:hui 供:gong 夹:jia 件:jian
+伸:shen 长:chang 标:biao 定:ding 实:shi 际:ji 部:bu 端:duan 内:nei 外:wai 一:yi 二:er 三:san 四:si 润:run
+泵:beng 补:bu 偿:chang 角:jiao 试:shi 验:yan 数:shu 据:ju 传:chuan 感:gan 器:qi 坐:zuo 向:xiang 振:zhen
+动:dong 力:li 阀:fa 风:feng 扇:shan
+"""
+_PINYIN = dict(pair.split(":") for pair in _SYLLABLES.split())
 
 
 def _apart(text: str) -> str:

@@ -59,7 +59,8 @@ def _channel(c: DraftChannel) -> str:
     keys = {"source": c.source, "signal": c.signal, "quantity": said.quantity, "unit": said.unit, "axis": said.axis,
             "at": said.at, "relative_to": "table" if moves else None, "calibration": c.calibration}
     notes = [said.comment(), f"stream {c.stream}" if c.stream else "",
-             f"only in {', '.join(c.only_in[:5])}{' ...' if len(c.only_in) > 5 else ''}" if c.only_in else "", c.note or ""]
+             f"only in {', '.join(c.only_in[:5])}{' ...' if len(c.only_in) > 5 else ''}" if c.only_in else "",
+             c.note or ""]
     mark = "  " if said.quantity else "  # "
     name = c.name if said.quantity else _scalar(c.name)
     return f"{mark}{name}: {{{_flow(keys)}}}   # {_line('; '.join(filter(None, notes)))}"
@@ -108,7 +109,8 @@ def _tests_from(p: Pattern, draft: Draft) -> list[str]:
         asked = f"   # ? {', '.join(p.doubts)}" if p.doubts else ""
         lines.append(f"  units: {{{_flow(p.units)}}}{asked}")
     said = "; ".join(dict.fromkeys(t.kind.question or f"kind {t.kind.comment}" for t in draft.tests[:3]))
-    lines.append(f"  set: {{kind: {kinds.pop()}, role: none}}   # ? role: calibration, verification or locked?; {_line(said)}")
+    lines.append(f"  set: {{kind: {kinds.pop()}, role: none}}   # ? role: calibration, verification or locked?; "
+                 f"{_line(said)}")
     return lines
 
 
