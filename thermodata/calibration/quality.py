@@ -18,6 +18,7 @@ from thermodata.calibration.quality_value import (
     offset_steps,
     run_stats,
     spikes,
+    true_runs,
 )
 from thermodata.plugin import Array, Bool1D, Float1D, Int1D
 from thermodata.schema.flag import Flag
@@ -90,7 +91,7 @@ def _column(name: str, column: ColumnInput, t_ns: Int1D, time: TimeFlags, stats:
     events = _limits(name, column, flags, t_ns, stats.get(name))
     if name in stats:
         x = np.asarray(column.values, dtype=np.float64)
-        others = {k: columns[k].values for k in stats if k != name}
+        others = {k: columns[k].values for k in stats if k != name} if len(stats[name].starts) else {}
         for start, stop, stuck, why in held_runs(x, t_ns, stats[name], others, stats):
             if (flags[start:stop] & np.uint16(Flag.SATURATED | Flag.OUT_OF_RANGE)).all():
                 continue                                  # at the end of its range a reading stands still
@@ -117,16 +118,16 @@ def _limits(name: str, column: ColumnInput, flags: Array, t_ns: Int1D, stats: Ru
         events.extend(_events(name, str(flag.name).lower(), hit, t_ns, why))
         told = told | hit
 
-    if x.dtype.kind == "f":
+    if x.dtype.kind == "f" and not (stats is not None and np.isfinite(stats.leap)):
         missing = ~np.isfinite(x)
         if missing.any():
             mark(Flag.OUT_OF_RANGE, missing, "no number")
             after = np.flatnonzero(missing[:-1] & ~missing[1:]) + 1
             flags[after] |= np.uint16(Flag.GAP)
-        if column.range is not None:
-            flags |= _outside(x, *column.range)
+    if x.dtype.kind == "f" and column.range is not None:
+        flags |= _outside(x, *column.range)
     if x.dtype.kind in "iuf":
-        beyond = impossible(x, column.quantity) & ~told
+        beyond = impossible(x, column.quantity, stats) & ~told
         if beyond.any():
             mark(Flag.OUT_OF_RANGE, beyond, f"no {column.quantity.replace('_', ' ')} can be that")
     if stats is not None:
@@ -137,7 +138,7 @@ def _limits(name: str, column: ColumnInput, flags: Array, t_ns: Int1D, stats: Ru
         elif not (flags & np.uint16(Flag.SATURATED)).any():
             for hit, _, why in clipped(y, stats, column.quantity):
                 mark(Flag.SATURATED, hit, why)
-    for flag in (Flag.OUT_OF_RANGE, Flag.SATURATED):
+    for flag in (Flag.OUT_OF_RANGE, Flag.SATURATED) if flags.any() else ():
         given = ((flags & np.uint16(flag)) != 0) & ~told
         if given.any():
             events += _events(name, str(flag.name).lower(), given, t_ns, "")
@@ -172,8 +173,7 @@ def _event(name: str, flag: str, t_ns: Int1D, start: int, stop: int, detail: str
 def _events(name: str, flag: str, hit: Bool1D, t_ns: Int1D, detail: str) -> list[QualityEvent]:
     """One event a stretch of True. Many stretches close to each other are one event; the last of too many stands
     for the rest."""
-    edges = np.flatnonzero(np.diff(np.concatenate([[0], hit.view(np.int8), [0]])))
-    starts, stops = edges[::2], edges[1::2]
+    starts, stops = true_runs(hit)
     groups = np.arange(len(starts))
     if len(starts) > _MANY_STRETCHES:
         near = max(_NEAR_ROWS, len(hit) // 200)

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from thermodata.calibration.quality_value import RunStats
+from thermodata.calibration.quality_value import RunStats, true_runs
 from thermodata.plugin import Array, Bool1D, Float1D
 
 # What can be measured in a lab, in canonical units: heaters and cuts are hot, no machine is colder than -60 degC.
@@ -22,8 +22,12 @@ _HOT, _LEAP_K = 250.0, 100.0                              # a broken Pt100 reads
 _ANALOG_FULL_SCALE = frozenset({"displacement", "voltage", "tilt"})
 
 
-def impossible(x: Float1D, quantity: str) -> Bool1D:
+def impossible(x: Float1D, quantity: str, own: RunStats | None = None) -> Bool1D:
     """Where x, shape (n,), in the quantity's canonical unit, is no reading of it."""
+    low, high = _POSSIBLE.get(quantity, (-_HUGE, _HUGE))
+    if own is not None and own.low >= low and own.high <= (_HOT if quantity == "temperature" else high) and \
+            own.low > -_HUGE and own.high < _HUGE:
+        return np.zeros(len(x), dtype=bool)
     with np.errstate(invalid="ignore"):
         beyond = np.abs(x) >= _HUGE
         if quantity in _POSSIBLE:
@@ -36,9 +40,8 @@ def impossible(x: Float1D, quantity: str) -> Bool1D:
 
 def _leaps(x: Float1D, hot: Bool1D) -> Bool1D:
     """Those stretches of `hot` that begin or end with a leap: what is heated passes through the values between."""
-    edges = np.flatnonzero(np.diff(np.concatenate([[0], hot.view(np.int8), [0]])))
     found = np.zeros_like(hot)
-    for start, stop in zip(edges[::2].tolist(), edges[1::2].tolist(), strict=True):
+    for start, stop in zip(*true_runs(hot), strict=True):
         into = abs(x[start] - x[start - 1]) if start else 0.0
         out = abs(x[stop - 1] - x[stop]) if stop < len(x) else 0.0
         if max(into, out) > _LEAP_K:
@@ -49,6 +52,8 @@ def _leaps(x: Float1D, hot: Bool1D) -> Bool1D:
 def sentinels(x: Float1D, own: RunStats) -> Bool1D:
     """Where x, shape (n,), is a logger's code for "no value", far outside of what the channel reads else."""
     none: Bool1D = np.zeros(len(x), dtype=bool)
+    if np.isfinite(own.leap) and not np.isin([own.low, own.high], _SENTINELS).any():
+        return none
     finite = x[np.isfinite(x)]
     if len(finite) < 10:
         return none
@@ -74,17 +79,15 @@ def clipped(x: Float1D, own: RunStats, quantity: str) -> Iterator[tuple[Bool1D, 
     """
     if not own.float_like or own.step <= 0:
         return
-    finite = np.isfinite(x)
-    if int(finite.sum()) < 50:
+    values = x if np.isfinite(own.leap) else x[np.isfinite(x)]
+    if len(values) < 50:
         return
-    values = x[finite]
     for limit, side in ((float(values.max()), "upper"), (float(values.min()), "lower")):
         at: Bool1D = x == limit
         count = int(at.sum())
         if count < 10 or limit == 0.0 or count > 0.5 * len(values):
             continue
-        edges = np.flatnonzero(np.diff(np.concatenate([[0], at.view(np.int8), [0]])))
-        starts, stops = edges[::2], edges[1::2]
+        starts, stops = true_runs(at)
         creeps = _approach(x, starts, stops) < 20 * own.step
         noisy = own.alternates >= 0.2
         if quantity not in _ANALOG_FULL_SCALE:

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from thermodata.plugin import Array, Bool1D, Float1D
+from thermodata.plugin import Array, Bool1D, Float1D, Int1D
 from thermodata.schema.flag import Flag
 
 _LEAST_HELD = 10                                          # samples
@@ -26,7 +26,10 @@ _MANY_SPIKES = 0.005
 class RunStats:
     """starts, lengths: of the runs of equal readings of 10 samples and more. step: the typical difference of
     neighbours where they differ; finest: the smallest one. chance: of equal neighbours, outside those runs.
-    alternates: how often the difference changes its sign there (noise 2/3, a smooth curve 0)."""
+    alternates: how often the difference changes its sign there (noise 2/3, a smooth curve 0).
+
+    low, high: of the readings, and leap: the largest difference of neighbours; NaN where a reading is no number. They
+    tell most sound columns from the others, so that nobody has to look at them again."""
 
     starts: Array
     lengths: Array
@@ -34,6 +37,9 @@ class RunStats:
     finest: float
     chance: float
     alternates: float
+    low: float = np.nan
+    high: float = np.nan
+    leap: float = np.nan
 
     @property
     def float_like(self) -> bool:
@@ -43,19 +49,24 @@ class RunStats:
 
 def run_stats(x: Float1D) -> RunStats:
     """One pass over the differences of x, shape (n,); NaN parts runs."""
+    low, high = (float(np.min(x)), float(np.max(x))) if len(x) else (np.nan, np.nan)
     with np.errstate(invalid="ignore"):                   # inf - inf
         d = np.diff(x)
+        leap = float(max(np.max(d), -np.min(d))) if len(d) else np.nan
+    if not np.isfinite(leap) or not np.isfinite(high - low):
+        low = high = leap = np.nan
     equal = d == 0
-    edges = np.flatnonzero(np.diff(np.concatenate([[0], equal.view(np.int8), [0]])))
-    starts, lengths = edges[::2], edges[1::2] - edges[::2] + 1
+    equals = int(np.count_nonzero(equal))
+    starts, stops = true_runs(equal)
+    lengths = stops - starts + 1
     long = lengths >= _LEAST_HELD
     starts, lengths = starts[long], lengths[long]
     within = int((lengths - 1).sum())
     outside = len(d) - within
-    chance = (int(equal.sum()) - within) / outside if outside else 1.0
-    moving = d[~equal & np.isfinite(d)]
+    chance = (equals - within) / outside if outside else 1.0
+    moving = d if not equals and np.isfinite(leap) else d[~equal & np.isfinite(d)]
     if len(moving) < 10:
-        return RunStats(starts, lengths, 0.0, 0.0, 1.0, 0.0)
+        return RunStats(starts, lengths, 0.0, 0.0, 1.0, 0.0, low, high, leap)
     if len(moving) > 50_000:                              # a sample of whole stretches is enough, and far quicker
         blocks = np.linspace(0, len(moving) - 500, 100).astype(np.int64)
         moving = moving[(blocks[:, None] + np.arange(500)).ravel()]
@@ -63,7 +74,16 @@ def run_stats(x: Float1D) -> RunStats:
     # rounding makes equal steps differ in the last bits: the finest step is a low quantile, not the minimum
     finest = float(np.quantile(size, 0.01))
     turns = float(np.mean(moving[1:] * moving[:-1] < 0))
-    return RunStats(starts, lengths, float(np.median(size)), finest, chance, turns)
+    return RunStats(starts, lengths, float(np.median(size)), finest, chance, turns, low, high, leap)
+
+
+def true_runs(hit: Bool1D) -> tuple[Int1D, Int1D]:
+    """(first, past-the-last) index of each run of True; hit: shape (n,)."""
+    rows = np.flatnonzero(hit)
+    if not len(rows):
+        return rows, rows
+    parted = np.diff(rows) > 1
+    return rows[np.concatenate([[True], parted])], rows[np.concatenate([parted, [True]])] + 1
 
 
 def held_runs(x: Float1D, t_ns: Array, own: RunStats, others: Mapping[str, Array],
@@ -112,6 +132,8 @@ def spikes(x: Float1D, own: RunStats) -> tuple[Bool1D, bool]:
     if own.step <= 0 or n < 2 * _REACH + 1:
         return hit, False
     noise = max(own.step, 2.0 * own.finest)
+    if own.leap <= _SPIKE * noise:
+        return hit, False
     with np.errstate(invalid="ignore"):
         jumps = np.flatnonzero(np.abs(np.diff(x)) > _SPIKE * noise)
     if not len(jumps):
@@ -134,8 +156,7 @@ def spikes(x: Float1D, own: RunStats) -> tuple[Bool1D, bool]:
     with np.errstate(invalid="ignore"):
         out = (height > np.maximum(_SPIKE * noise, 10 * spread)) & (np.abs(left - right) < 0.3 * height)
     hit[near[out]] = True
-    edges = np.flatnonzero(np.diff(np.concatenate([[0], hit.view(np.int8), [0]])))
-    for a, b in zip(edges[::2].tolist(), edges[1::2].tolist(), strict=True):
+    for a, b in zip(*true_runs(hit), strict=True):
         if b - a > 3:
             hit[a:b] = False
     count = int(hit.sum())
@@ -153,12 +174,14 @@ def offset_steps(x: Float1D, t_ns: Array, flags: Array, of_time: Array,
     if own.step <= 0:
         return
     ignored = Flag.SPIKE | Flag.STUCK | Flag.OUT_OF_RANGE | Flag.HELD
+    least = max(_OFFSET_K, 40 * own.step)
+    if own.leap <= least / 2 and not (flags & np.uint16(ignored)).any():
+        return
     rows = np.flatnonzero((flags & np.uint16(ignored)) == 0)
     if len(rows) < 40:
         return
     y = x[rows]
     d = np.diff(y)
-    least = max(_OFFSET_K, 40 * own.step)
     gap = ((of_time[rows[1:]] & int(Flag.GAP)) != 0) | (np.diff(rows) > 5)
     jumps = np.flatnonzero(np.abs(d) > least / 2)
     open_at, size, how = -1, 0.0, ""
