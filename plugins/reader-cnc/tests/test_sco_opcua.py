@@ -58,6 +58,36 @@ def test_fewer_values_than_announced_are_a_loss(tmp_path: Path) -> None:
     assert any("announces 20 values" in loss.reason for loss in data.losses)
 
 
+def counted(rows: list[int], end: str = ";", mark: str = ".") -> str:
+    """As TNCscope writes it: the time of the row [us] first, every cell with its ';' behind it."""
+    data = "".join(f"{k * 3000};{k / 8:.3f};{k}{end}\r\n" for k in rows).replace(".", mark)
+    return GLOBAL + curve("s actual", "X", 20, 3000) + curve("DSP-Debug", "X", 20, 3000, "id(10)") \
+        + "%[DATA]\r\n" + data
+
+
+@pytest.mark.parametrize(("end", "mark"), [(";", "."), ("", "."), (";", ",")])
+def test_the_first_column_counts_the_rows(tmp_path: Path, end: str, mark: str) -> None:
+    data = load(Reader(), written(tmp_path, counted(list(range(20)), end, mark), "a.sco"), Source())
+    assert not data.losses
+    assert [s.unit for s in data.recording.signals] == ["mm", "id(10)"]
+    assert data.values["scope_3000us", "s actual X"].tolist() == [k / 8 for k in range(20)]
+    holed = [k for k in range(20) if k != 7]
+    data = load(Reader(), written(tmp_path, counted(holed, end, mark), "a.sco"), Source())
+    assert ((data.t_ns["scope_3000us"] - data.recording.start_ns) // 3_000_000).tolist() == holed
+    assert ["rows are missing" in loss.reason for loss in data.losses] == [True, False, False]
+
+
+def test_values_behind_a_curves_count_are_padding_or_a_loss(tmp_path: Path) -> None:
+    text = scope().replace(";\r\n", ";0\r\n")
+    data = load(Reader(), written(tmp_path, text, "a.sco"), Source())
+    assert data.values["scope_6000us", "T S"].tolist() == [k * 2.0 for k in range(10)]
+    assert not data.losses
+    data = load(Reader(), written(tmp_path, text.replace("1.500;12;0", "1.500;12;77"), "a.sco"), Source())
+    assert "behind the announced 10" in data.losses[0].reason
+    with pytest.raises(FormatError, match="impossible count"):
+        load(Reader(), written(tmp_path, text.replace("COUNT=10", "COUNT=1e300"), "a.sco"), Source())
+
+
 def test_columns_that_do_not_fit_are_refused(tmp_path: Path) -> None:
     text = GLOBAL + curve("s", "X", 2, 3000) + "%[DATA]\r\n1;2;3;4\r\n1;2;3;4\r\n"
     with pytest.raises(FormatError, match="columns do not fit"):

@@ -118,8 +118,9 @@ def test_several_frames_of_one_and_of_other_signals(tmp_path: Path) -> None:
 def test_an_interval_may_be_in_seconds_or_less(tmp_path: Path, interval: str, scale: float) -> None:
     """The unit is what the records lie on, whatever other rates are in the frame."""
     text = xml(60).replace('interval="0.002"', f'interval="{interval}"')
-    text = text.replace('interval="0.008"', 'interval="0.000125"').replace('<rec time="0.004"', '<rec time="0.002125" f3="9"/><rec time="0.004"').replace(
-        'datapointCount="15"', 'datapointCount="16"')
+    text = text.replace('interval="0.008"', 'interval="0.000125"')
+    text = text.replace('<rec time="0.004"', '<rec time="0.002125" f3="9"/><rec time="0.004"')
+    text = text.replace('datapointCount="15"', 'datapointCount="16"')
     data = load(Reader(), written(tmp_path, text, "trace.xml"), Source())
     assert not data.losses
     stream = next(s for s in data.t_ns if s.startswith("servo"))
@@ -158,6 +159,21 @@ def test_trace_csv_with_a_block_of_rows_before_the_header(tmp_path: Path, delimi
     assert [loss.where for loss in data.losses] == ["trace.csv line 54"]
     assert data.t_ns["trace"].tolist() == [k * 2_000_000 for k in range(50)]
     assert data.values["trace", "/Nck/!SD/nckServoDataActCurr32 [u1; 1]"].tolist() == [k / 8 for k in range(50)]
+
+
+@pytest.mark.parametrize("names", ["", "time, f2, f1\n"])
+def test_trace_csv_with_a_row_a_signal_before_the_data(tmp_path: Path, names: str) -> None:
+    """The control replaces the comma in a signal's path, as it stands between the cells."""
+    text = ("id, key, domain, interval, name\nf1, s1, NCU_1, 0.002, /Nck/!SEMA/cmdContrPos [u1  1]\n"
+            "f2, s2, NCU_1, 0.002, /Nck/!SD/nckServoDataActCurr64 [u1  1]\n\n" + names
+            + "".join(f"{k * 0.002:.6f}, {k / 8}, {-k}\n" for k in range(20)))
+    data = load(Reader(), written(tmp_path, text, "trace.csv"), Source())
+    assert not data.losses
+    first, second = "/Nck/!SEMA/cmdContrPos [u1  1]", "/Nck/!SD/nckServoDataActCurr64 [u1  1]"
+    first, second = (second, first) if names else (first, second)
+    assert data.values["trace", first].tolist() == [k / 8 for k in range(20)]
+    assert data.values["trace", second].tolist() == [-k for k in range(20)]
+    assert data.t_ns["trace"].tolist() == [k * 2_000_000 for k in range(20)]
 
 
 @pytest.fixture(scope="module")

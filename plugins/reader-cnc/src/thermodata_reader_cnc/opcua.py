@@ -28,8 +28,8 @@ from thermodata_reader_cnc.when import TimeFormat
 
 _LOOK = 4 << 20
 _MOST_LINES = 64             # of one quoted value
-_TIMES = ("sourcetimestamp", "sourcetime", "datetime", "timestamp", "timestring", "servertimestamp", "servertime", "time",
-          "receivedat")
+_TIMES = ("sourcetimestamp", "sourcetime", "datetime", "timestamp", "timestring", "servertimestamp", "servertime",
+          "time", "receivedat")
 _TAGS = ("tagname", "varname", "nodeid", "node", "displayname", "browsename", "tag", "itemid", "name")
 _VALUES = ("tagval", "tagvalue", "varvalue", "value")
 _STATUS = ("statusname", "statustext", "tagquality", "quality", "statuscode", "status", "validity")

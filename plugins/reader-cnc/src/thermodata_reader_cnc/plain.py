@@ -32,8 +32,13 @@ class Plan:
 def plan(path: Path, source: Source) -> Plan:
     """Layout and columns of a file by its head and pieces of the rest; FormatError where there is no table."""
     first = sample(path, source.encoding)
-    layout = find_layout(first.head, first.rest, source.table, path.name)
-    body = first.head[layout.first_row:] + first.rest
+    # a last line without its end may be half a row: it decides nothing
+    head = first.head[:-1] if first.whole and not first.ends_with_newline else first.head
+    if not head:
+        raise FormatError("no whole line", where=path.name, expected="lines that end",
+                          got=repr(first.head[0][:60]) if first.head else "nothing")
+    layout = find_layout(head, first.rest, source.table, path.name)
+    body = head[layout.first_row:] + first.rest
     rows = [r for r in map(layout.row, body) if len(r) == layout.width]
     if layout.absolute:
         good = [parse([r[place] for r in rows], form) != NAT for place, form in layout.time]

@@ -229,7 +229,7 @@ class RowReader:
         text = tail.decode("utf-8", "replace")
         end = before.rstrip(b"\n").rfind(b"\n") + 1
         previous = before[end:].decode("utf-8", "replace").rstrip("\r\n")
-        if previous and not last_line_is_whole(text, previous, self.layout.delimiter):
+        if not previous or not last_line_is_whole(text, previous, self.layout.delimiter):
             self.losses.add(line, f"expected a whole row (the file ends without a line end), got '{text[:80]}'",
                             len(tail), 0)
             yield from self.losses.dated(np.empty(0, np.int64))

@@ -19,14 +19,16 @@ from thermodata_reader_cnc.losses import Losses
 
 STREAM = "trace"
 _PATH = re.compile(r"[/+](?:Nck|Channel|Bag|Tool|DriveVsa|Hmi)/", re.IGNORECASE)
+_NUMBER = re.compile(r"^[+-]?(?:\d+(?:[.,]\d*)?|[.,]\d+)(?:[eE][+-]?\d+)?$")
+_MOST_ROWS = 2000
 _TIME = re.compile(r"^(time|zeit|t)\b", re.IGNORECASE)
 
 
 @dataclass(frozen=True, slots=True)
 class Header:
-    """row: 0-based line of the names. time: its column. names: '' for columns that are none."""
+    """first: 0-based line of the first data. time: its column. names: '' for columns that are none."""
 
-    row: int
+    first: int
     delimiter: str
     time: int
     names: tuple[str, ...]
@@ -35,27 +37,73 @@ class Header:
 
 
 def find(lines: Sequence[str]) -> Header | None:
-    """The header row among the first hundred lines, or None."""
-    for row, line in enumerate(lines[:100]):
+    """The header among the first lines, or None: a row of names, or a block of rows, one a signal, before the data."""
+    for row, line in enumerate(lines[:_MOST_ROWS]):
         if not _PATH.search(line):
             continue
         delimiter = max(",;\t", key=re.sub(r"\[[^\]]*\]", "", line).count)
         names = [clean(c) for c in fields(line, delimiter, True)]
-        data = [text for text in lines[row + 1:row + 200] if re.match(r'^"?\s*-?\d', text)]
+        many = sum(_PATH.search(name) is not None for name in names)
+        if many == 1 and sum(_PATH.search(text) is not None for text in lines[row + 1:row + _MOST_ROWS]) > 0:
+            return _block(lines, row, delimiter)
+        data = [text for text in lines[row + 1:row + 200] if _is_data(text, delimiter)]
         if len(names) < 2 or (len(lines) > row + 3 and not data):
             continue
         width = max((text.count(delimiter) + 1 for text in data[:-1] or data), default=len(names))
         if width < len(names) - 1:
             continue
-        seen: dict[str, int] = {}
-        for k, name in enumerate(names):
-            seen[name] = seen.get(name, 0) + 1
-            names[k] = name if seen[name] == 1 or not name else f"{name}#{seen[name]}"
-        time = next((k for k, name in enumerate(names) if _TIME.match(name)), 0)
-        decimal = "," if delimiter != "," and any("," in text for text in data) else "."
-        return Header(row, delimiter, time, tuple((names + [""] * width)[:max(width, len(names))]),
-                      max(width, len(names)), decimal)
+        return _made(names, row + 1, delimiter, width, data)
     return None
+
+
+def _is_data(line: str, delimiter: str) -> bool:
+    cells = [c.strip().strip('"') for c in line.split(delimiter)]
+    return bool(_NUMBER.match(cells[0])) and all(not c or _NUMBER.match(c) for c in cells)
+
+
+def _block(lines: Sequence[str], row: int, delimiter: str) -> Header | None:
+    """A block of one row a signal: the columns behind the time in its order, or by the ids (f1, f2, ...) of a row of
+    names before the data."""
+    first = next((k for k in range(row, min(len(lines), row + _MOST_ROWS)) if _is_data(lines[k], delimiter)
+                  and lines[k].count(delimiter)), None)
+    if first is None:
+        return None
+    by_id: dict[str, str] = {}
+    paths: list[str] = []
+    last = row
+    for number, line in enumerate(lines[row:first], row):
+        cells = [clean(c) for c in fields(line, delimiter, True)]
+        path = next((c for c in cells if _PATH.search(c)), None)
+        if path is not None:
+            paths.append(path)
+            last = number
+            by_id.update({c: path for c in cells if re.fullmatch(r"[fs]\d+", c)})
+    data = [text for text in lines[first:first + 200] if _is_data(text, delimiter)]
+    width = max(text.count(delimiter) + 1 for text in data)
+    for number in range(last + 1, first):                  # a damaged row of data is no row of names
+        cells = [clean(c) for c in fields(lines[number], delimiter, True)]
+        if len(cells) >= width and not any(c in by_id or _TIME.match(c) for c in cells):
+            first = number
+            break
+    columns = [clean(c) for c in fields(lines[first - 1], delimiter, True)]
+    if len(columns) >= width - 1 and any(c in by_id for c in columns):
+        names = [by_id.get(c, c) for c in columns]
+    elif len(paths) in (width - 1, width - 2):             # a last delimiter makes one more
+        names = ["time", *paths]
+    else:
+        return None
+    return _made(names, first, delimiter, width, data)
+
+
+def _made(names: list[str], first: int, delimiter: str, width: int, data: Sequence[str]) -> Header:
+    seen: dict[str, int] = {}
+    for k, name in enumerate(names):
+        seen[name] = seen.get(name, 0) + 1
+        names[k] = name if seen[name] == 1 or not name else f"{name}#{seen[name]}"
+    time = next((k for k, name in enumerate(names) if _TIME.match(name)), 0)
+    decimal = "," if delimiter != "," and any("," in text for text in data) else "."
+    width = max(width, len(names))
+    return Header(first, delimiter, time, tuple((names + [""] * width)[:width]), width, decimal)
 
 
 def claims(lines: Sequence[str]) -> str | None:
@@ -65,7 +113,7 @@ def claims(lines: Sequence[str]) -> str | None:
 
 def _header(path: Path, source: Source) -> tuple[Header, str, bool]:
     first = sample(path, source.encoding)
-    header = find(first.head)
+    header = find(first.head[:-1] if first.whole and not first.ends_with_newline else first.head)
     if header is None:
         raise FormatError("no header of a trace", where=path.name, expected="columns named /Nck/... or /Channel/...",
                           got=first.head[0][:80] if first.head else "nothing")
@@ -86,7 +134,7 @@ def blocks(path: Path, source: Source) -> Iterator[Block | Loss]:
     losses = Losses(path.name, max(1, path.stat().st_size))
     for chunk in chunks(path, encoding):
         data, line = chunk.data, chunk.line
-        while line <= header.row and data:
+        while line < header.first and data:
             cut = data.find(b"\n") + 1 or len(data)
             data, line = data[cut:], line + 1
         if chunk.last and data and not data.endswith(b"\n"):
