@@ -72,9 +72,9 @@ def run_stats(x: Float1D) -> RunStats:
         moving = moving[(blocks[:, None] + np.arange(500)).ravel()]
     size = np.abs(moving)
     # rounding makes equal steps differ in the last bits: the finest step is a low quantile, not the minimum
-    finest = float(np.quantile(size, 0.01))
+    finest, step = np.quantile(size, [0.01, 0.5]).tolist()
     turns = float(np.mean(moving[1:] * moving[:-1] < 0))
-    return RunStats(starts, lengths, float(np.median(size)), finest, chance, turns, low, high, leap)
+    return RunStats(starts, lengths, step, finest, chance, turns, low, high, leap)
 
 
 def true_runs(hit: Bool1D) -> tuple[Int1D, Int1D]:

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field
+from typing import TypeVar
 
 import numpy as np
 
@@ -20,6 +21,7 @@ from thermodata.store.plan import SCHEDULE, Bound
 from thermodata.store.series import Member, TestSeries
 from thermodata.store.windows import Joined
 
+_T = TypeVar("_T")
 _PERIOD_ROWS = 1_000_000
 
 
@@ -72,19 +74,27 @@ class Flagged:
     def _windows(self, bounds: Sequence[Bound], rows: int, pool: ThreadPoolExecutor) \
             -> Iterator[tuple[Piece, dict[str, Column], int, int]]:
         """(piece, its channels on the window's own rows, the first and past-the-last of these)."""
-        size = max(1, windows.WINDOW_VALUES // (max(1, len(bounds)) * rows)) * rows
+        wanted = min(windows.WINDOW_ROWS, windows.WINDOW_VALUES // max(1, len(bounds)))
+        size = max(1, wanted // rows) * rows
         margin = min(windows.MARGIN_ROWS, size // 2)
         joined = Joined()
-        for a in range(self.start, self.stop, size):
+
+        def load(a: int) -> tuple[Piece, dict[str, Column]]:
+            piece = self._piece(max(self.start, a - margin), min(self.stop, a + size + margin), bounds)
+            return piece, calibrated(piece, bounds, self.problems, pool)
+
+        for a, (piece, made) in _ahead(load, range(self.start, self.stop, size), self._may_read_ahead()):
             b = min(a + size, self.stop)
-            low, high = max(self.start, a - margin), min(self.stop, b + margin)
-            piece = self._piece(low, high, bounds)
-            made = calibrated(piece, bounds, self.problems, pool)
+            low = piece.start
             found = joined.add(piece.t_ns, made, a - low, b - low)
             yield piece, {n: Column(c.bound, c.values[a - low:b - low], found[n]) for n, c in made.items()}, a, b
         zero = self.series.span.zero_ns
         self.events += [Event(e.channel, e.flag, (e.from_ns - zero) / 1e9, (e.to_ns - zero) / 1e9, e.n,
                               e.detail or None) for e in joined.events]
+
+    def _may_read_ahead(self) -> bool:
+        # `measuring` may look into any stream, and timelines aren't for several threads
+        return self.series.plan.test.measuring is None
 
     def _wide(self, rows: int, borders: Sequence[int], pool: ThreadPoolExecutor) \
             -> Iterator[tuple[Piece, dict[str, Column]]]:
@@ -170,3 +180,18 @@ def _cuts(start: int, stop: int, rows: int, borders: Sequence[int]) -> Iterator[
         b = min([a + rows - (a - start) % rows, stop, *(x for x in borders if x > a)])
         yield a, b
         a = b
+
+
+def _ahead(load: Callable[[int], _T], places: Sequence[int], ahead: bool) -> Iterator[tuple[int, _T]]:
+    """(place, what is loaded there), each loaded while the one before is worked on."""
+    if not ahead or len(places) < 2:
+        yield from ((place, load(place)) for place in places)
+        return
+    with ThreadPoolExecutor(1) as reader:
+        coming = reader.submit(load, places[0])
+        for i, place in enumerate(places):
+            loaded = coming.result()
+            if i + 1 < len(places):
+                coming = reader.submit(load, places[i + 1])
+            yield place, loaded
+            del loaded

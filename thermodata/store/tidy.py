@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     import pyarrow as pa
 
 Columns = Sequence[tuple[str, bool]]
+_FLAGS = [((f.name or "").lower(), int(f)) for f in Flag if f]
 
 
 @dataclass(slots=True)
@@ -138,7 +139,9 @@ def _count(result: TidyResult, made: dict[str, Column]) -> None:
     """Counts samples and flags of the test's own rows."""
     for column in made.values():
         result.samples += len(column.flags)
-        seen = int(np.bitwise_or.reduce(column.flags)) if len(column.flags) else 0
-        for flag in Flag:
-            if flag and seen & flag:
-                result.flags[(flag.name or "").lower()] += int(np.count_nonzero(column.flags & np.uint16(flag)))
+        if not column.flags.any():
+            continue
+        seen = int(np.bitwise_or.reduce(column.flags))
+        for name, bit in _FLAGS:
+            if seen & bit:
+                result.flags[name] += int(np.count_nonzero(column.flags & np.uint16(bit)))

@@ -18,7 +18,8 @@ from thermodata.plugin import Array, Int1D
 from thermodata.schema.flag import Flag
 from thermodata.store.piece import Column
 
-WINDOW_VALUES = 12_000_000            # values in a window: 96 MB of float64, and as much again while they are judged
+WINDOW_VALUES = 8_000_000             # values in a window: 64 MB of float64, and about as much while they are judged
+WINDOW_ROWS = 2_000_000               # but not more rows: what is looked for in a column takes several times its size
 MARGIN_ROWS = 4096                    # of the neighbours, on both sides
 MOST_COLUMNS = 200                    # columns that are judged together
 _MOST_EVENTS = 50
