@@ -67,14 +67,14 @@ class Timeline:
         """CLOCK_SUSPECT, shape (stop - start,), where rows were moved or the whole clock is doubtful; None: nowhere."""
         made = np.full(stop - start, Flag.CLOCK_SUSPECT, np.uint16) if self.suspect else None
         low, high, order = self._window(start, stop)
-        if order is None and not self._resets_in(low, high).size:
+        if order is None and not self._marked_in(low, high).size:
             return made
         t = self._file_times(low, high)
         late = np.zeros(high - low, dtype=bool)
         for a, b in self._islands_in(low, high):
             part = t[a - low:b - low]
             late[a - low:b - low] = part < np.maximum.accumulate(part)
-        late[self._resets_in(low, high) - low] = True
+        late[self._marked_in(low, high) - low] = True
         found = (late if order is None else late[order])[start - low:stop - low]
         moved = np.where(found, np.uint16(Flag.CLOCK_SUSPECT), np.uint16(0))
         return moved if made is None else made | moved
@@ -168,9 +168,9 @@ class Timeline:
         b = int(np.searchsorted(islands[:, 0], stop, side="left"))
         return islands[a:b]
 
-    def _resets_in(self, start: int, stop: int) -> Int1D:
-        resets = self.order.resets
-        return resets[np.searchsorted(resets, start):np.searchsorted(resets, stop)]
+    def _marked_in(self, start: int, stop: int) -> Int1D:
+        marked = self.order.marked
+        return marked[np.searchsorted(marked, start):np.searchsorted(marked, stop)]
 
 
 def given_timeline(t_ns: Int1D) -> Timeline:
@@ -183,8 +183,8 @@ def make_timeline(store: Path, pieces: Sequence[tuple[RawStream, int]], correct:
     """Puts the rows of the files of one stream in order.
 
     pieces: (raw, what is added to its times) in file order. correct: recorded times -> the test's axis.
-    Rows that step back by up to JITTER_NS are sorted in and flagged. A longer step back is a reset clock: what
-    follows is moved behind what came before where resets are allowed, else it is lost with a reason.
+    Rows that step back by a second at most are sorted in and flagged; `clockfaults` says what is done about strays
+    and clocks that were set. What follows a long step back is lost with a reason where resets are not allowed.
     """
     n = sum(raw.rows for raw, _ in pieces)
     line = Timeline(n, store, tuple(pieces), correct, in_order(n), suspect, (), tuple(notes))
@@ -193,9 +193,7 @@ def make_timeline(store: Path, pieces: Sequence[tuple[RawStream, int]], correct:
     order = find_order(line._file_times, n, resets_allowed=resets_allowed)
     if order.keep < n:
         line.losses = (_lost(line, order.keep, n),)
-    if order.resets.size:
-        line.notes += (f"the clock was reset {order.resets.size} times: what follows was moved behind what came "
-                       "before",)
+    line.notes += order.notes
     line.order, line.rows = order, order.keep
     return line
 

@@ -1,4 +1,4 @@
-"""The order of a stream's rows in time: where a clock was reset, and which short stretches are to be sorted.
+"""The order of a stream's rows in time: where a clock was set, and which short stretches are to be sorted.
 
 Nothing here is as long as the stream: rows are looked at in chunks, and what is kept is a few numbers a chunk.
 """
@@ -6,12 +6,12 @@ Nothing here is as long as the stream: rows are looked at in chunks, and what is
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from thermodata.plugin import Int1D
-from thermodata.store.rawfile import JITTER_NS
+from thermodata.store.clockfaults import MOST_STRAYS, Faults, shifted
 
 CHUNK_ROWS = 500_000
 _NEAR, _LONGEST = 256, 65_536         # rows: stretches that lie so near are sorted as one, up to this length
@@ -22,69 +22,44 @@ Times = Callable[[int, int], Int1D]
 class Order:
     """keep: rows up to here are the stream's; beyond, a clock went back that may not.
 
-    resets, shifts: rows at which the clock was reset, and what is added to the times from there on, shapes (k,).
+    at, shifts: rows from which on another shift holds, and the shifts that are added to the times, shapes (k,) and
+    (k + 1,): the first one holds from row 0. marked: rows whose time was made or at which the clock was set.
     islands: (first, past-the-last) rows of the stretches that are out of order, shape (m, 2): sorting each of them
-    sorts the stream.
+    sorts the stream. extent: the earliest and latest time. notes: what was found, in words.
     """
 
     keep: int
-    resets: Int1D
+    at: Int1D
     shifts: Int1D
+    marked: Int1D
     islands: Int1D
+    extent: tuple[int, int] = (0, 0)
+    notes: tuple[str, ...] = ()
 
     def moved(self, t_ns: Int1D, start: int) -> Int1D:
-        """Times of the rows from start on, with what the resets add."""
-        if not len(self.resets):
+        """Times of the rows from start on, with the shifts."""
+        if not len(self.at) and not self.shifts[0]:
             return t_ns
-        total = np.concatenate([[0], self.shifts])
-        moved: Int1D = t_ns + total[np.searchsorted(self.resets, np.arange(start, start + len(t_ns)), side="right")]
-        return moved
+        return t_ns + shifted(self.at, self.shifts, start, len(t_ns))
 
 
 def in_order(n: int) -> Order:
     """Of rows that are in order."""
     empty = np.empty(0, np.int64)
-    return Order(n, empty, empty, np.empty((0, 2), np.int64))
+    return Order(n, empty, np.zeros(1, np.int64), empty, np.empty((0, 2), np.int64))
 
 
 def find_order(times: Times, n: int, *, resets_allowed: bool) -> Order:
-    """Looks at the times of n rows, twice. A step back by up to JITTER_NS is disorder; a longer one is a reset."""
-    keep, resets, shifts, lowest = _resets(times, n, resets_allowed)
-    found = Order(keep, np.array(resets, np.int64), np.array(shifts, np.int64), np.empty((0, 2), np.int64))
-    return Order(keep, found.resets, found.shifts, _islands(times, found, lowest))
-
-
-def _resets(times: Times, n: int, allowed: bool) -> tuple[int, list[int], list[int], list[int]]:
-    """(rows to keep, rows of resets, shifts from there on, the earliest time of each chunk)."""
-    resets: list[int] = []
-    shifts: list[int] = []
-    lowest: list[int] = []
-    shift, highest = 0, np.iinfo(np.int64).min
-    recent = np.empty(0, np.int64)
+    """Looks at the times of n rows, twice. A step back by a second at most is disorder; for more see `clockfaults`."""
+    faults = Faults(resets_allowed)
     for first in range(0, n, CHUNK_ROWS):
-        t = times(first, min(n, first + CHUNK_ROWS)) + shift
-        at = 0
-        while True:
-            high = np.maximum(np.maximum.accumulate(t[at:]), highest)
-            behind = np.flatnonzero(t[at:] < high - JITTER_NS)
-            if not behind.size:
-                break
-            row = at + int(behind[0])
-            if not allowed:
-                lowest.append(int(t[:row].min()) if row else int(np.iinfo(np.int64).max))
-                return first + row, resets, shifts, lowest
-            before = np.concatenate([recent, t[:row]])[-100:]
-            step = int(np.median(np.diff(before))) if len(before) > 1 else 1
-            delta = int(high[row - at - 1] if row > at else highest) + max(step, 1) - int(t[row])
-            t[row:] += delta
-            shift += delta
-            resets.append(first + row)
-            shifts.append(shift)
-            highest, at = int(t[row]), row
-        highest = max(highest, int(high[-1]))
-        recent = np.concatenate([recent, t])[-100:]
-        lowest.append(int(t.min()))
-    return n, resets, shifts, lowest
+        t = times(first, min(n, first + CHUNK_ROWS + MOST_STRAYS + 1))
+        if not faults.look(t, first, min(CHUNK_ROWS, len(t))):
+            break
+    keep = n if faults.keep is None else faults.keep
+    found = Order(keep, np.array(faults.at, np.int64), np.array(faults.shifts, np.int64),
+                  np.array(sorted(faults.marked), np.int64), np.empty((0, 2), np.int64), faults.extent, faults.notes())
+    return replace(found, islands=_islands(times, found, faults.lowest))
 
 
 def _islands(times: Times, order: Order, lowest: list[int]) -> Int1D:

@@ -12,8 +12,11 @@ import numpy as np
 from thermodata.errors import PluginError
 from thermodata.plugin import Array, Block, Int1D, Signal
 from thermodata.store.arrow import to_arrow
+from thermodata.store.clockfaults import LEAP_NS
 from thermodata.store.encoder import Encoder
 from thermodata.store.files import publish, temporary
+from thermodata.store.order import find_order
+from thermodata.store.rawread import RawFile
 
 if TYPE_CHECKING:
     import pyarrow as pa
@@ -23,7 +26,6 @@ GROUP_ROWS = 250_000
 LEAST_ROWS = 1000             # ... but not fewer rows than this, as each column of a group has its overhead ...
 MOST_VALUES = 10_000_000      # ... unless there are ten thousand columns of them
 _MANY = 8
-JITTER_NS = 1_000_000_000     # a backward step up to this is disorder; a longer one is a clock that was reset
 
 
 class StreamWriter:
@@ -38,7 +40,6 @@ class StreamWriter:
         self.flagged: set[str] = set()
         self.rows, self.first_ns, self.last_ns, self.step_ns = 0, 0, 0, 0
         self.ordered = True
-        self._newest: int | None = None
         self._group_rows = group_rows(len(signals) + 1)
         self._waiting: list[Block] = []
         self._waiting_rows = 0
@@ -46,7 +47,6 @@ class StreamWriter:
         self._widened = False
         self._made_schema: pa.Schema | None = None
         self._steps: list[int] = []
-        self._reset = False
 
     def add(self, block: Block) -> None:
         """Takes a block; the reader may not change its arrays afterwards."""
@@ -54,11 +54,9 @@ class StreamWriter:
         if n == 0:
             return
         if self.ordered:
-            # in order, the ends say it all; else where the clock was reset matters
-            self.ordered = (self._newest is None or self._newest <= block.t_ns[0]) and \
-                bool((block.t_ns[1:] >= block.t_ns[:-1]).all())
-            self._newest = int(block.t_ns[-1])
-        self._extent(block.t_ns)
+            self.ordered = self._goes_on(block.t_ns)
+            self.first_ns = self.first_ns if self.rows else int(block.t_ns[0])
+            self.last_ns = int(block.t_ns[-1])
         if n > 1 and len(self._steps) < 64:
             self._steps.append(int(np.median(np.diff(block.t_ns[:4096]))))
         self.rows += n
@@ -69,24 +67,11 @@ class StreamWriter:
             if self._waiting_rows >= self._group_rows:
                 self._flush()
 
-    def _extent(self, t_ns: Int1D) -> None:
-        """Where the recording begins and ends: up to a reset of its clock, for what follows may mean anything."""
-        if self.ordered:
-            self.first_ns = self.first_ns if self.rows else int(t_ns[0])
-            self.last_ns = int(t_ns[-1])
-            return
-        if self._reset:
-            return
-        highest = np.maximum.accumulate(t_ns)
-        if self.rows:
-            highest = np.maximum(highest, self.last_ns)
-        behind = np.flatnonzero(highest - t_ns > JITTER_NS)
-        if behind.size:
-            self._reset, t_ns = True, t_ns[:behind[0]]
-        if len(t_ns):
-            low, high = int(t_ns.min()), int(t_ns.max())
-            self.first_ns = min(self.first_ns, low) if self.rows else low
-            self.last_ns = max(self.last_ns, high) if self.rows else high
+    def _goes_on(self, t_ns: Int1D) -> bool:
+        """Whether a block's times rise, from where the last one ended, and not by a year at once."""
+        before = self.last_ns if self.rows else int(t_ns[0])
+        return 0 <= int(t_ns[0]) - before <= LEAP_NS and int(t_ns[-1]) - int(t_ns[0]) <= LEAP_NS and \
+            bool((t_ns[1:] >= t_ns[:-1]).all())
 
     def finish(self, meta: Mapping[str, Any]) -> None:
         """Writes what waits and makes the file appear."""
@@ -94,6 +79,8 @@ class StreamWriter:
         self.step_ns = int(np.median(self._steps)) if self._steps else 0
         assert self._encoder is not None
         self._encoder.close({"thermodata": json.dumps(dict(meta))})
+        if not self.ordered:
+            self.first_ns, self.last_ns = _extent(self._encoder.part, self.rows)
         publish(self._encoder.part, self.target)
         self._encoder = None
 
@@ -142,6 +129,15 @@ class StreamWriter:
             if signal.name in self.flagged:
                 arrays.append(_chunked([_flags(b, signal.name) for b in blocks], blocks, pa.uint16()))
         return pa.Table.from_arrays(arrays, schema=schema)
+
+
+def _extent(path: Path, rows: int) -> tuple[int, int]:
+    """Where a recording begins and ends whose clock has faults: up to a reset, for what follows may mean anything."""
+    file = RawFile(path)
+    try:
+        return find_order(lambda a, b: file.read(["t_ns"], a, b)[0], rows, resets_allowed=False).extent
+    finally:
+        file.close()
 
 
 def _chunked(parts: list[Array | None], blocks: list[Block], kind: pa.DataType) -> pa.ChunkedArray:

@@ -1,0 +1,122 @@
+"""Clocks with faults: strays, steps back, and clocks that were set while they ran."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import thermodata.store.order as order_module
+from thermodata.plugin import Int1D
+from thermodata.store.order import Order, find_order
+
+S = 1_000_000_000
+T0 = 1_770_000_000 * S
+
+
+def clock(n: int, step_s: float = 1.0) -> Int1D:
+    return T0 + np.arange(n, dtype=np.int64) * round(step_s * S)
+
+
+def ordered(t: Int1D, *, allowed: bool = False) -> tuple[Order, Int1D]:
+    """(order, the times that come of it, in order)."""
+    found = find_order(lambda a, b: t[a:b], len(t), resets_allowed=allowed)
+    made = found.moved(t[:found.keep].copy(), 0)
+    for a, b in found.islands.tolist():
+        made[a:b] = np.sort(made[a:b])
+    return found, made
+
+
+@pytest.mark.parametrize("stray", [10**18, -10**18, 3600 * S, -3600 * S, 30 * 365 * 86_400 * S])
+@pytest.mark.parametrize(("row", "rows"), [(500, 1), (500, 3), (1, 2), (996, 3)])
+def test_a_few_stray_times_are_drawn_between_their_neighbours(stray: int, row: int, rows: int) -> None:
+    t = clock(1000)
+    t[row:row + rows] += stray
+    found, made = ordered(t)
+    assert found.keep == 1000
+    assert np.abs(made - clock(1000)).max() <= S
+    assert found.marked.tolist() == list(range(row, row + rows))
+    assert found.extent == (made[0], made[-1])
+    assert "stray" in found.notes[0]
+
+
+@pytest.mark.parametrize(("row", "rows", "stray"), [(0, 1, 10**18), (0, 3, 7200 * S), (997, 3, -7200 * S),
+                                                    (999, 1, 10**18), (999, 1, -10**18)])
+def test_strays_at_the_ends(row: int, rows: int, stray: int) -> None:
+    t = clock(1000)
+    t[row:row + rows] += stray
+    found, made = ordered(t)
+    assert made.tolist() == clock(1000).tolist()
+    assert found.marked.tolist() == list(range(row, row + rows))
+
+
+def test_a_pause_is_no_fault_of_the_clock() -> None:
+    t = clock(1000)
+    t[1:] += 3600 * S
+    t[997:] += 90 * 86_400 * S
+    found, made = ordered(t)
+    assert made.tolist() == t.tolist()
+    assert not found.marked.size
+
+
+def test_a_clock_that_was_set_while_it_ran_moves_what_came_before_up_to_it() -> None:
+    t = clock(1000)
+    t[:300] -= t[0] + 66 * 365 * 86_400 * S               # begins in 1904, before any time server
+    found, made = ordered(t)
+    assert made.tolist() == clock(1000).tolist()
+    assert found.marked.tolist() == [300]
+    assert "set ahead by 122 years" in found.notes[0]
+    assert found.extent == (T0, T0 + 999 * S)
+
+
+def test_a_time_server_sets_the_clock_back_a_little_and_nothing_is_lost() -> None:
+    t = clock(1000)
+    t[600:] -= 90 * S
+    found, made = ordered(t)
+    assert found.keep == 1000
+    assert made.tolist() == clock(1000).tolist()
+    assert "by up to 89 s" in found.notes[0]
+
+
+def test_a_long_step_back_is_refused_or_joined_as_declared() -> None:
+    t = clock(1000)
+    t[600:] -= 7200 * S
+    found, made = ordered(t)
+    assert (found.keep, len(made)) == (600, 600)
+    assert found.extent == (T0, T0 + 599 * S)
+    found, made = ordered(t, allowed=True)
+    assert made.tolist() == clock(1000).tolist()
+    assert found.marked.tolist() == [600]
+
+
+def test_disorder_within_a_second_is_sorted_and_no_fault() -> None:
+    t = clock(1000, 0.1)
+    t[[50, 51]] = t[[51, 50]]
+    found, made = ordered(t)
+    assert made.tolist() == clock(1000, 0.1).tolist()
+    assert not found.notes
+
+
+@settings(max_examples=150, deadline=None)
+@given(st.lists(st.tuples(st.integers(0, 199), st.sampled_from(["stray", "back", "set"]),
+                          st.integers(-10**17, 10**17)), max_size=4), st.sampled_from([7, 50, 1000]))
+def test_the_size_of_the_chunks_does_not_matter(faults: list[tuple[int, str, int]], chunk: int) -> None:
+    t = clock(200)
+    for row, kind, size in faults:
+        if kind == "stray":
+            t[row] += size
+        elif kind == "back":
+            t[row:] -= abs(size) % (100 * S)
+        else:
+            t[row:] += abs(size) + 400 * 86_400 * S
+    whole, times = ordered(t, allowed=True)
+    assert (np.diff(times) >= 0).all()
+    before = order_module.CHUNK_ROWS
+    order_module.CHUNK_ROWS = chunk
+    try:
+        cut, again = ordered(t, allowed=True)
+    finally:
+        order_module.CHUNK_ROWS = before
+    assert again.tolist() == times.tolist()
+    assert cut.marked.tolist() == whole.marked.tolist()
