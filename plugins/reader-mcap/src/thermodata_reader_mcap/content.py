@@ -54,6 +54,7 @@ class Content:
     counts: dict[int, int] = field(default_factory=dict)
     undefined: dict[int, int] = field(default_factory=dict)
     foreign: dict[int, int] = field(default_factory=dict)
+    recordings: int = 0              # headers: more than one where files were joined
     pending: int = 0                 # bytes of messages taken since the batches were emptied
     last_ns: int | None = None
 
@@ -196,5 +197,7 @@ def define(body: Bytes, opcode: int, content: Content) -> None:
     if opcode in (SCHEMA, CHANNEL):
         with suppress(ShortError):
             content.definitions.define(opcode, body)
-    elif opcode >= PRIVATE or opcode == HEADER:
-        content.foreign[opcode] = content.foreign.get(opcode, 0) + (opcode >= PRIVATE)
+    elif opcode == HEADER:
+        content.recordings += 1
+    elif opcode >= PRIVATE:
+        content.foreign[opcode] = content.foreign.get(opcode, 0) + 1

@@ -79,7 +79,7 @@ def blocks(path: Path, source: Source) -> Iterator[Block | Loss]:
                     whole = False
                     yield loss
             yield from writer.flush()
-            if whole:
+            if whole and met.recordings < 2:
                 yield from _contradictions(view, found.summary, writer)
             yield from writer.rest()
             met.batches.clear()

@@ -23,7 +23,7 @@ class PackageDecoder:
 def package_decoder(schema: Schema) -> PackageDecoder | None:
     """The package's decoder of a ros2msg schema; None where it does not read it either."""
     from mcap.records import Schema as Theirs
-    from mcap_ros2.decoder import DecoderFactory  # type: ignore[import-untyped]
+    from mcap_ros2.decoder import DecoderFactory
 
     theirs = Theirs(id=1, name=schema.name, encoding=schema.encoding, data=schema.data)
     try:

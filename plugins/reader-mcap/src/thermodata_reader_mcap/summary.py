@@ -43,10 +43,12 @@ def summary(view: memoryview) -> Summary:
     if foot < len(MAGIC) or view[-len(MAGIC):] != MAGIC or HEAD.unpack_from(view, foot) != (FOOTER, _FOOTER.size):
         return Summary()
     start, _, crc = _FOOTER.unpack_from(view, foot + HEAD.size)
+    if start and not len(MAGIC) <= start <= foot:
+        return Summary(damaged=True)
     data_end, data_crc = _data_end(view, start or foot)
     if not start:
         return Summary(data_end=data_end, data_crc=data_crc)
-    if not len(MAGIC) <= start <= foot or (crc and zlib.crc32(view[start:len(view) - len(MAGIC) - 4]) != crc):
+    if crc and zlib.crc32(view[start:len(view) - len(MAGIC) - 4]) != crc:
         return Summary(damaged=True)
     schemas, bodies = dict[int, Schema](), list[memoryview]()
     counts: dict[int, int] | None = None

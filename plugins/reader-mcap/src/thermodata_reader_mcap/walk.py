@@ -43,7 +43,7 @@ class Damage:
 
 def data_section(view: memoryview) -> Iterator[Record | Damage]:
     """The records up to the end of the data section. Indexes and statistics behind it are not needed."""
-    at, size = len(MAGIC), len(view)
+    at, first, size = len(MAGIC), len(MAGIC), len(view)
     while at < size:
         if view[at:] == MAGIC:
             return
@@ -54,9 +54,13 @@ def data_section(view: memoryview) -> Iterator[Record | Damage]:
         stop = at + HEAD.size + length
         record = Record(opcode, at + HEAD.size, min(stop, size), stop > size)
         if opcode in (DATA_END, FOOTER) or opcode in IN_SUMMARY - IN_DATA:
-            if ends_here(view, at):
+            end = end_of_file(view, at)
+            if end == size:
                 return
-        elif not record.cut and _stands(view, record):
+            if end is not None and view[end:end + len(MAGIC)] == MAGIC:      # recordings joined into one file
+                at = first = end + len(MAGIC)
+                continue
+        elif not record.cut and _stands(view, record, first):
             yield record
             at = stop
             continue
@@ -73,15 +77,17 @@ def data_section(view: memoryview) -> Iterator[Record | Damage]:
     yield Damage(size, size, "the file ends without the end of its data: it was cut")
 
 
-def _stands(view: memoryview, record: Record) -> bool:
-    """Whether a record is what its head says. A length that a wrong bit made longer would swallow what follows."""
-    if record.opcode == HEADER and record.start != len(MAGIC) + HEAD.size:
+def _stands(view: memoryview, record: Record, first: int) -> bool:
+    """Whether a record is what its head says; `first` is where the only header may stand. A length that a wrong bit made longer would swallow what follows."""
+    if record.opcode == HEADER and record.start != first + HEAD.size:
         return False
     if record.opcode not in IN_DATA and record.opcode < PRIVATE:
         return False
     if record.opcode in IN_DATA and record.opcode != MESSAGE:
         end = content_end(view, record)
         return end == record.stop or (end is not None and _goes_on(view, record.stop) and fits(view, end) is None)
+    if record.opcode == MESSAGE and content_end(view, record) is None:
+        return False
     return _goes_on(view, record.stop) or next_record(view, record.start, record.stop) is None
 
 
@@ -101,28 +107,29 @@ def _may_be_cut(view: memoryview, record: Record) -> bool:
     return record.opcode != CHUNK or chunk_head(view, record) is not None
 
 
-def ends_here(view: memoryview, at: int) -> bool:
-    """Whether what begins here is the end of the file's data: its mark, then a summary (or what a cut left of one),
-    the footer and the magic. A wrong bit can make any record look like the end."""
+def end_of_file(view: memoryview, at: int) -> int | None:
+    """Where the recording stops whose data end here: its mark, then a summary (or what a cut left of one), the
+    footer and the magic. None where the data do not end: a wrong bit can make any record look like the end."""
     size = len(view)
     (opcode, length), marked = HEAD.unpack_from(view, at), False
     if opcode == DATA_END:
         if length != 4:
-            return False
+            return None
         at, marked = at + HEAD.size + length, True
     while at < size:
         if view[at:] == MAGIC or (marked and at + HEAD.size > size):
-            return True
+            return size
         if at + HEAD.size > size:
-            return False
+            return None
         opcode, length = HEAD.unpack_from(view, at)
         stop = at + HEAD.size + length
         if opcode == FOOTER:
-            return bool(length == _FOOTER_BYTES and (stop >= size or MAGIC.startswith(bytes(view[stop:stop + 8]))))
+            ended = length == _FOOTER_BYTES and MAGIC.startswith(bytes(view[stop:stop + len(MAGIC)]))
+            return min(stop + len(MAGIC), size) if ended else None
         if opcode not in IN_SUMMARY or (stop <= size and fits(view, at, IN_SUMMARY) is None):
-            return False
+            return None
         at = stop
-    return marked or at == size
+    return size if marked or at == size else None
 
 
 def is_complete(view: memoryview) -> bool:
