@@ -15,7 +15,8 @@ def as_json(draft: Draft, out: Path, files: int, questions: int) -> dict[str, An
         "sources": [{"name": s.name, "reader": s.reader, "files": s.files, "questions": list(s.questions),
                      "clock": None if s.align is None else {
                          "align_to": s.align.there, "by": [{"here": s.align.by[0], "there": s.align.by[1]}],
-                         "offset_s": s.align.offset_s, "uncertainty_s": s.align.uncertainty_s, "test": s.align.test}}
+                         "offset_s": s.align.offset_s, "uncertainty_s": s.align.uncertainty_s, "test": s.align.test,
+                         "refused": s.align.why}}
                     for s in draft.sources],
         "channels": [_channel(c) for c in draft.channels if c.said.quantity],
         "left_out": [_channel(c) for c in draft.channels if not c.said.quantity],

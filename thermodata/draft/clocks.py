@@ -15,7 +15,7 @@ from thermodata.errors import ThermodataError
 
 Named = Mapping[tuple[str, str], tuple[str, str | None, str]]
 _HOUR_NS = 3_600_000_000_000
-_ZONES = ("Europe/Prague", "Europe/Berlin", "Europe/London", "Europe/Helsinki", "Europe/Moscow", "Asia/Shanghai",
+_ZONES = ("UTC", "Europe/Prague", "Europe/Berlin", "Europe/London", "Europe/Helsinki", "Europe/Moscow", "Asia/Shanghai",
           "Asia/Tokyo", "Asia/Kolkata", "America/New_York", "America/Chicago", "America/Los_Angeles",
           "America/Sao_Paulo")
 _ALIGNABLE = ("rotational_speed", "position", "feed", "power", "temperature", "load")
@@ -23,14 +23,16 @@ _ALIGNABLE = ("rotational_speed", "position", "feed", "power", "temperature", "l
 
 @dataclass(frozen=True, slots=True)
 class Alignment:
-    """`clock: {align_to: there.source, by: [...]}` of a source, shown to work in one test."""
+    """`clock: {align_to: there.source, by: [...]}` of a source. offset_s, uncertainty_s: as found in `test`; None where it
+    could not be had there, and `why` says why: then it is only a question."""
 
     source: str
     there: str
     by: tuple[str, str]
-    offset_s: float
-    uncertainty_s: float
+    offset_s: float | None
+    uncertainty_s: float | None
     test: str
+    why: str | None = None
 
 
 def zone_question(group: Group, groups: Sequence[Group]) -> str | None:
@@ -83,6 +85,7 @@ def _alignment(here: Group, there: Group, channels: Mapping[str, Named]) -> Alig
     pairs = [(a, b, name_a, name_b) for a, (quantity, place, name_a) in channels[here.source].items()
              for b, (other, where, name_b) in channels[there.source].items()
              if quantity == other and quantity in _ALIGNABLE and place == where and place is not None]
+    refused: Alignment | None = None
     pairs.sort(key=lambda p: _ALIGNABLE.index(channels[here.source][p[0]][0]))
     for test in [t for t in here.tests if t in there.tests][:6]:
         for a, b, name_a, name_b in pairs[:6]:
@@ -92,8 +95,9 @@ def _alignment(here: Group, there: Group, channels: Mapping[str, Named]) -> Alig
                 continue
             try:
                 said = estimate_offset(one.t_ns, one.values, two.t_ns, two.values)
-            except ThermodataError:
+            except ThermodataError as error:
+                refused = refused or Alignment(here.source, there.source, (name_a, name_b), None, None, test, error.what)
                 continue
             return Alignment(here.source, there.source, (name_a, name_b), said.offset_ns / 1e9,
                              said.uncertainty_ns / 1e9, test)
-    return None
+    return refused

@@ -13,6 +13,7 @@ from thermodata.draft.place import Place, axis_of, place_of
 from thermodata.draft.values import Values
 from thermodata.draft.vocabulary import DIFFERENCE, LIMIT, SETPOINT, foreign_in, places_in, quantities_in, says
 from thermodata.draft.words import words
+from thermodata.reader.text import split_unit
 from thermodata.schema.quantity import is_unit, normal_unit
 
 _IMPLIED = {"temperature": "degC", "rotational_speed": "rpm", "position": "mm", "load": "%", "humidity": "%",
@@ -23,6 +24,7 @@ _PLAUSIBLE = {"temperature": (-40.0, 200.0), "rotational_speed": (-60_000.0, 60_
               "torque": (-5000.0, 5000.0), "voltage": (-1000.0, 1000.0)}
 # what creeps there between 5 and 80 is a temperature
 _AIR = {"hall", "floor", "bearing", "coolant", "outside", "window"}
+_WEAK = ("a time stamp", "a number")                    # words that stand beside others: 'Temp block 3'
 _NEEDS_PLACE = ("temperature", "temperature_difference", "power", "load", "current", "torque", "position", "flow",
                 "pressure", "displacement", "rotational_speed")
 
@@ -56,8 +58,9 @@ class Guess:
 
 def guess(name: str, unit: str | None, dtype: str = "float64", values: Values | None = None) -> Guess:
     """Quantity, unit, place and axis of a signal. unit: as the file writes it; values: of a sample, if there is one."""
-    own, text = words(_last(name)), words(name)
-    written = units.from_name(_last(name)) if not unit else None
+    bare = split_unit(name)[0]                            # the 'min' of 'n [1/min]' is no limit
+    own, text = words(_last(bare)), words(bare)
+    written = units.from_name(_last(bare)) if not unit else None
     known = unit or written
     if known and not is_unit(known):
         found = _quantity(own, text, None, dtype, values)
@@ -115,7 +118,8 @@ def _stronger(named: tuple[str, ...], own: str, unit: str | None) -> bool:
     if unit is None:
         return False
     possible = units.quantities_of(unit)
-    return any(q in possible for q in named) or possible[:1] in (("temperature",), ("rotational_speed",))
+    weak = (foreign_in(own) or "").startswith(_WEAK)
+    return possible[:1] in (("temperature",), ("rotational_speed",)) or (weak and any(q in possible for q in named))
 
 
 def _by_unit(named: tuple[str, ...], unit: str, own: str, values: Values | None) -> Guess:
@@ -136,6 +140,8 @@ def _by_unit(named: tuple[str, ...], unit: str, own: str, values: Values | None)
     against = [q for q in named if q != "state"]
     if normal == "percent":
         return Guess(None, unit, why_not="a share in %: of what? quantity: load, humidity, or none")
+    if first == "voltage" and not against and (axis_of(own) or "") in ("x", "y", "z") and places_in(own) <= {"probe"}:
+        return Guess("displacement", unit, basis=("name", "unit"))      # 'probe X', in volts
     if first == "voltage":
         return Guess("voltage", unit, basis=("unit",), questions=("what does it measure? then: quantity, calibration",))
     if normal == "mA" and against:

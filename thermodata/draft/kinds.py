@@ -37,7 +37,7 @@ _AGREE = {"spindle": {"spindle", "spectrum"}, "spectrum": {"spindle", "spectrum"
           "linear_axis": {"linear_axis", "mixed"}, "rotary_axis": {"rotary_axis", "mixed"}}
 _SPEED = re.compile(r"(?<!\S)(?:s|n|sp|rpm|speed|spindle|spindel|drehzahl|otacky|ot|nspi|转速|主轴) ?(\d{3,5})(?!\S)|"
                     r"(?<!\S)(\d{3,5}) ?(?:rpm|ot|otmin|u min|1 min|min 1|umin|转)(?!\S)|(?<!\S)(\d{1,2}) "
-                     "?(?:k|krpm)(?!\S)")
+                     r"?(?:k|krpm)(?!\S)")
 _FEED = re.compile(r"(?<!\S)(?:f|vf|feed|vorschub|posuv|进给) ?(\d{1,5})(?: ?(m|mm) min)?(?!\S)")
 
 

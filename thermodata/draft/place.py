@@ -9,11 +9,11 @@ from dataclasses import dataclass
 from thermodata.draft.vocabulary import places_in
 
 _BESIDE = (r"d|e|ed|eddy|wz|pos|feed|nut|ax|axis|achse|osa|mot|motor|tcp|err|error|delta|disp|act|ist|load|cur|curr|"
-           r"current|torque|temp|temper|speed|vel|rapid|v|s|i|t|m|p|f")
-_AFTER = r"abs|act|pos|load|axis|achse|mot|motor|temp|frt|com|curr|vel|speed|ist|soll|position|feedrate"
+           r"current|torque|acs|mcs|wcs|bcs|temp|temper|speed|vel|rapid|v|s|i|t|m|p|f")
+_AFTER = r"abs|act|pos|mpos|wpos|load|axis|achse|mot|motor|temp|frt|com|curr|vel|speed|ist|soll|position|feedrate"
 _LINEAR = re.compile(rf"(?<!\S)(?:{_BESIDE})?([xyz])(?!\S)|(?<!\S)([xyz])(?:{_AFTER})(?!\S)")
 _ROTARY = re.compile(r"(?<!\S)(?:axis|achse|osa|ax|rotary|act|ist|pos|mot|motor|load|curr|current|torque|speed|"
-                     r"drehzahl|otacky) ?([abc])(?!\S)|(?<!\S)([abc]) ?(?:axis|achse|osa|轴|act|abs|pos|load|mot|motor)(?!\S)"
+                     r"drehzahl|otacky) ?([abc])(?!\S)|(?<!\S)([abc]) ?(?:axis|achse|osa|act|abs|pos|load|mot|motor)(?!\S)"
                      r"|(?<!\S)([abc]) ?轴")
 _SIDES = ("front", "rear", "left", "right")
 _PLAIN = ("headstock", "ram", "saddle", "crossbeam", "workpiece", "fixture", "tool", "floor", "cabinet", "bed",
@@ -181,7 +181,9 @@ def _fluid(said: set[str], axis: str | None) -> Place:
     for key in ("hydraulics", "lubrication", "chiller", "coolant", "pneumatics"):
         if key in said:
             return Place(key + (_way(said) if key in ("coolant", "chiller") else ""), True)
-    return Place("hall") if "hall" in said else Place(None, question="at: coolant, hydraulics or else?")
+    if "hall" in said:                                    # 'air pressure': of the hall, or of the compressed air?
+        return Place("pneumatics", question="at: pneumatics, or hall?")
+    return Place(None, question="at: coolant, hydraulics or else?")
 
 
 def _state(said: set[str], axis: str | None) -> Place:

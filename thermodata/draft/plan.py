@@ -19,7 +19,7 @@ from thermodata.draft.values import joined
 from thermodata.draft.words import channel_name, words
 from thermodata.plugin import Signal
 from thermodata.reader.text import split_unit
-from thermodata.schema.quantity import CANONICAL_UNIT
+from thermodata.schema.quantity import CANONICAL_UNIT, normal_unit
 
 _MOST_SIGNALS = 2000
 _SHORT = {"temperature": "T", "temperature_difference": "dT", "rotational_speed": "speed", "displacement": "d"}
@@ -170,7 +170,7 @@ def _channels(group: Group, jumps: Sequence[JumpTest], taken: set[str],
         named = f"{signal.stream}:{signal.name}" if signal.name in twice else signal.name
         name = channel_name(_wished(signal.name, said), taken) if said.quantity else signal.name
         calibration = None
-        if said.quantity == "displacement" and (said.unit or "V") in ("V", "mV"):
+        if said.quantity == "displacement" and normal_unit(said.unit or "V") in ("V", "mV"):
             calibration, said = _calibration(name, signal, said, jump, group, jumps, calibrations)
         elif said.quantity == "displacement" and said.at == "tcp":
             note = "; ".join(filter(None, (note, "its sign is unknown until a calibration says which way it counts")))
@@ -223,7 +223,7 @@ def _calibration(name: str, signal: Signal, said: Guess, jump: JumpTest | None, 
     jump = jump or (fitting[0] if fitting else None)
     if jump is None:
         return None, Guess(said.quantity, said.unit, said.at, said.axis, False, said.basis,
-                           (*said.questions, "calibration? a jump test, or kind: scale with its data sheet's gain in um/V"))
+                           (*said.questions, "calibration? a jump test, or kind: scale with a gain in um/V"))
     letter = axis_of(words(jump.file.path.stem))
     axis = said.axis or (letter.upper() if letter and letter in "xyz" else None)
     if said.axis is None and axis is not None:

@@ -51,6 +51,16 @@ def pattern_of(draft: Draft) -> Pattern | None:
     return Pattern(source.name, source.files.replace("{test}", text), units, tuple(doubts))
 
 
+def _known(piece: str) -> str | None:
+    """The condition that a piece of a name states: 'S8000' a speed, 'F12' a feed."""
+    match = re.fullmatch(r"([^\W\d_]*)\d+(?:\.\d+)?([^\W\d_]*)", piece)
+    if match is None:
+        return None
+    if not match[1] and match[2].lower() in ("rpm", "ot", "u"):
+        return "speed"
+    return next((name for words, name, _ in _FIELDS if re.fullmatch(words, match[1].lower())), None)
+
+
 def _fields(ids: Sequence[str]) -> tuple[str, list[tuple[str, list[float]]]] | None:
     """('S{speed}_F{feed}_{nr}', [(field, its numbers)]) where all ids have the same pieces; None where they do not."""
     split = [_PIECE.split(i) for i in ids]
@@ -58,7 +68,7 @@ def _fields(ids: Sequence[str]) -> tuple[str, list[tuple[str, list[float]]]] | N
         return None
     out, fields, used = [], [], set()
     for column in zip(*split, strict=True):
-        if len(set(column)) == 1:
+        if len(set(column)) == 1 and not _known(column[0]):
             out.append(column[0])
             continue
         parts = [re.fullmatch(r"([^\W\d_]*)(\d+(?:\.\d+)?)([^\W\d_]*)", c) for c in column]
@@ -68,9 +78,7 @@ def _fields(ids: Sequence[str]) -> tuple[str, list[tuple[str, list[float]]]] | N
         if len(heads) != 1 or len(tails) != 1:
             return None
         head, tail = heads.pop(), tails.pop()
-        known = next((n for words, n, _ in _FIELDS if re.fullmatch(words, head.lower())), None)
-        if known is None and tail.lower() in ("rpm", "ot", "u"):
-            known = "speed"
+        known = _known(column[0])
         name = known or (head.lower() if re.fullmatch(r"[a-z]{2,}", head.lower()) else "nr")
         if name in used:
             return None

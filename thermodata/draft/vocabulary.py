@@ -53,12 +53,12 @@ QUANTITY_WORDS: dict[str, str] = {
              "aktivni. "
              "status. state. ^state. stav. stavu. zustand. enabled. enable. running. run. flag. alarm. alarms. "
              "fault. mode. "
-             "modus. rezim. 状态 狀態 开关 运行 报警 启动 停止 is~on isopen. ready. freigabe. execution. otevren. "
+             "modus. rezim. 状态 狀態 开关 运行 报警 启动 停止 is~on isopen. ok. ready. freigabe. execution. otevren. "
              "zavren.",
 }
 
 PLACE_WORDS: dict[str, str] = {
-    "spindle": "spindel spindle vreten 主轴 主軸 电主轴 spdl. spnd. spin. sp. hsp. spi. spindl",
+    "spindle": "mot~s. current~s. curr~s. load~s. s~load. s~temp. s~mot. s~current. spindel spindle vreten 主轴 主軸 电主轴 spdl. spnd. spin. sp. hsp. spi. spindl",
     "not spindle": "gewindespindel kugelspindel spindelmutter kugelgewinde leadspindle",
     "bearing": "bearing bearings. lager ^lozis ^loz. 轴承 軸承 brg. brng. bear. lagerung roulement",
     "front": "front vorn vorder ^predni pred. predn. 前 fr. frt~b nose. spindlenose nase. vl.",
@@ -89,7 +89,7 @@ PLACE_WORDS: dict[str, str] = {
     "probe": "probe. probes. taster. messtaster sonda. sondy. 测头 touchprobe",
     "coolant": "coolant kuhlm kuehlm kss. kuhlschm kuehlschm chladic ^chlaz chladiv emulz emulsion 冷却液 冷卻液 "
                "切削液 冷却 "
-               "cooling kuhlung kuehlung cool. kuhlflu kuhlkreis cutting~fluid",
+               "cooling kuhlung kuehlung cool. kuhlflu kuhlkreis cutting~fluid cutfluid kuhlen.",
     "chiller": "chiller ruckkuhl rueckkuhl kuhlaggregat 冷水机 水冷机 油冷机 oilcooler oil~cooler oelkuhler water. "
                "wasser "
                "^vod[ay]. kuhlwasser 冷却水 chlazeni~vretene",
@@ -127,8 +127,10 @@ FOREIGN: tuple[tuple[str, str], ...] = (
     ("a force", "force. forces. kraft. sila. sily. 切削力 作用力 loadcell load~cell. cutting~force vorschubkraft"),
     ("an energy", "energy energie 能耗 电能 kwh."),
     ("a frequency", "frequenc frequenz frekvenc 频率 freq."),
-    ("a fill level", "level. fullstand fuellstand hladin 液位 油位 niveau."),
+    ("a fill level", "level. fluidlevel oillevel fullstand fuellstand hladin 液位 油位 niveau."),
     ("a strain", "strain. dehnung. dms. 应变 strain~gauge tenzomet"),
+    ("what a control computes, not the machine",
+     "foll~err follow~err follerr following schlepp 跟随误差 distance~to~go dtg. restweg lag~err"),
     ("an override", "override ovr. ovrd. fovr. sovr. korekce~posuvu 倍率"),
     ("a number, a count or an identifier",
      "counter count. counts. zaehler zahler. pocitadlo pocet. cislo. nummer. number. nr. index. idx. id. ids. seq. "

@@ -44,11 +44,15 @@ def _source(s: DraftSource) -> str:
         parts["files"] = s.files
     body = _flow(parts)
     comments = []
+    asked = "; ".join(s.questions)
     if s.align:
         here, there = s.align.by
-        body += f", clock: {{align_to: {s.align.there}, by: [{{here: {here}, there: {there}}}]}}"
-        comments.append(f"clock guess: {s.align.offset_s:+.1f} s in {_line(s.align.test)}, by what both logged")
-    asked = "; ".join(s.questions)
+        clock = f"clock: {{align_to: {s.align.there}, by: [{{here: {here}, there: {there}}}]}}"
+        if s.align.offset_s is None:
+            asked = "; ".join(filter(None, (asked, f"{clock}? both logged it, but in {s.align.test}: {s.align.why}")))
+        else:
+            body += f", {clock}"
+            comments.append(f"clock guess: {s.align.offset_s:+.1f} s in {_line(s.align.test)}, by what both logged")
     said = "; ".join(filter(None, (f"? {asked}" if asked else "", *comments)))
     return f"  {s.name}: {{{body}}}" + (f"   # {_line(said)}" if said else "")
 
