@@ -6,10 +6,11 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from thermodata_reader_crio import Reader
+from thermodata_reader_crio import Reader, rows, textparts
 
 from thermodata.errors import FormatError
 from thermodata.plugin import Source
+from thermodata.schema.flag import Flag
 from thermodata.testing.reader import Data, load
 
 S = 1_000_000_000
@@ -67,9 +68,10 @@ def test_channels_with_x_columns_of_their_own(tmp_path: Path) -> None:
     data = read(tmp_path, text)
     np.testing.assert_array_equal(data.values["data", "b"], [5, 6])
     assert {s.unit for s in data.recording.signals if s.dtype == "float64"} == {"V"}
-    other = text.replace("0,5\t6", "0,7\t6")
-    with pytest.raises(FormatError, match="different X columns"):
-        read(tmp_path, other)
+    other = read(tmp_path, text.replace("0,5\t6", "0,7\t6"))
+    np.testing.assert_array_equal(other.values["data@2", "b"], [5, 6])
+    np.testing.assert_array_equal(other.t_ns["data@2"] - START, [0, 7 * S // 10])
+    np.testing.assert_array_equal(other.t_ns["data"] - START, [0, S // 2])
 
 
 def test_x_values_in_seconds_since_1904_are_absolute(tmp_path: Path) -> None:
@@ -87,7 +89,140 @@ def test_a_cut_last_line_is_a_loss_and_not_a_value(tmp_path: Path) -> None:
 def test_a_line_that_is_no_number_is_reported(tmp_path: Path) -> None:
     data = read(tmp_path, head("No") + packet(["a"], x="X_Value\ta") + "\t1,0\n\txx\n\t3,0\n")
     np.testing.assert_array_equal(data.values["data", "a"], [1.0, 3.0])
-    assert data.losses[0].reason == "1 lines that are no numbers"
+    assert data.losses[0].reason.startswith("1 lines that are no rows")
+    assert data.losses[0].where == "x.lvm line 22"
+
+
+def test_a_cell_that_is_no_number_spoils_itself_only(tmp_path: Path) -> None:
+    data = read(tmp_path, head("No") + packet(["a", "b"], x="X_Value\ta\tb") + "\t1,0\t2\n\txx\t3\n\t\t4\n")
+    np.testing.assert_array_equal(data.values["data", "a"], [1.0, np.nan, np.nan])
+    np.testing.assert_array_equal(data.values["data", "b"], [2, 3, 4])
+    np.testing.assert_array_equal(data.flags["data", "a"], [0, Flag.NOT_MEASURING, Flag.NOT_MEASURING])
+    assert "1 cells that are no numbers" in data.losses[0].reason
+
+
+def test_a_row_with_a_cell_too_few_is_no_row(tmp_path: Path) -> None:
+    text = head("No") + packet(["a", "b"], x="X_Value\ta\tb") + "\t1\t2\n\t3\n\t5\t6\n"
+    data = read(tmp_path, text)
+    np.testing.assert_array_equal(data.values["data", "a"], [1, 5])
+    assert "1 lines that are no rows of 3 numbers" in {x.reason for x in data.losses}
+
+
+@pytest.mark.parametrize(("comment", "flag"), [
+    ("LOST COMMUNICATION", Flag.NOT_MEASURING), ("Sensor timeout", Flag.NOT_MEASURING),
+    ("Overload ch 2", Flag.SATURATED), ("OK", 0), ("no error", 0), ("spindle on", 0)])
+def test_a_comment_that_says_that_nothing_was_measured_flags_its_row(tmp_path: Path, comment: str, flag: int) -> None:
+    data = read(tmp_path, head("No") + packet(["a"], x="X_Value\ta") + f"\t1\n\t2\t{comment}\n\t3\n")
+    np.testing.assert_array_equal(data.flags["data", "a"], [0, flag, 0])
+    assert data.values["data", "Comment"][1] == comment
+
+
+def test_packets_with_other_channels_are_streams_of_their_own(tmp_path: Path) -> None:
+    text = head("No", "Yes") + packet(["a"], x="X_Value\ta") + "\t1\n\t2\n\t3\n\n" \
+        + packet(["a", "b"], x="X_Value\ta\tb", start="09:00:00,0") + "\t4\t5\n\t6\t7\n\t8\t9\n"
+    data = read(tmp_path, text)
+    np.testing.assert_array_equal(data.values["data@2", "b"], [5, 7, 9])
+    assert data.t_ns["data@2"][0] - START == 3600 * S
+
+
+def test_fewer_rows_than_the_heading_announces_are_a_loss(tmp_path: Path) -> None:
+    data = read(tmp_path, head("No", "Yes") + packet(["a"], x="X_Value\ta") + "\t1\n\t2\n")
+    assert data.losses[0].reason == "2 rows of 3 that the heading announces"
+    assert data.losses[0].fraction == pytest.approx(1 / 3)
+
+
+def test_appended_rows_are_kept_whatever_the_heading_announced(tmp_path: Path) -> None:
+    """One heading, then rows of many writes; the channels of a scan start microseconds apart."""
+    heading = packet(["a", "b"], x="X_Value\ta\tb").replace("Time\t08:00:00,0\t08:00:00,0",
+                                                           "Time\t08:00:00,000014\t08:00:00,0")
+    data = read(tmp_path, head("No") + heading + "\t1\t2\n" * 50)
+    assert data.t_ns["data"].size == 50
+    assert data.losses == ()
+
+
+def test_channels_with_fewer_samples_are_streams_of_their_own(tmp_path: Path) -> None:
+    heading = packet(["a", "b"], x="X_Value\ta\tb").replace("Samples\t3\t3", "Samples\t3\t2")
+    data = read(tmp_path, head("No", "Yes") + heading + "\t1\t5\n\t2\t6\n\t3\t\n")
+    np.testing.assert_array_equal(data.values["data", "a"], [1, 2, 3])
+    np.testing.assert_array_equal(data.values["data@2", "b"], [5, 6])
+
+
+def test_notes_and_special_blocks_are_stepped_over(tmp_path: Path) -> None:
+    special = "***Start_Special***\nWaveform\tstuff\n1\t2\t3\n***End_Special***\n"
+    text = head("One").replace("***End_of_Header***", special + "***End_of_Header***") \
+        + "Notes\tX values guaranteed for Dev0 only\n" + packet(["a"], x="X_Value\ta") \
+        + "0,0\t1\n" + special + "0,5\t2\n1,0\t3\n"
+    data = read(tmp_path, text)
+    np.testing.assert_array_equal(data.values["data", "a"], [1, 2, 3])
+    assert data.losses == ()
+
+
+def test_spectra_are_not_passed_for_rows_over_time(tmp_path: Path) -> None:
+    heading = packet(["a"], x="X_Value\ta").replace("X0\t", "X_Dimension\tFrequency\t\nX0\t")
+    with pytest.raises(FormatError, match="without a channel over time"):
+        read(tmp_path, head("No") + heading + "\t1\n")
+
+
+@pytest.mark.parametrize(("end", "encoding"), [("\r\n", "utf-8"), ("\r", "utf-8"), ("\n", "cp1252"),
+                                               ("\r\n", "utf-16"), ("\n", "utf-8-sig")])
+def test_line_ends_and_encodings(tmp_path: Path, end: str, encoding: str) -> None:
+    heading = packet(["T °C"], x="X_Value\tT °C").replace("Y_Unit_Label\tV", "Y_Unit_Label\tµm")
+    text = head("No") + heading + "\t1,5\n\t2,5\tprüfen\n\t3\n"
+    path = tmp_path / "x.lvm"
+    path.write_bytes(text.replace("\n", end).encode(encoding))
+    data = load(Reader(), path, PRAGUE)
+    np.testing.assert_array_equal(data.values["data", "T °C"], [1.5, 2.5, 3])
+    assert data.recording.signals[0].unit == "µm"
+    assert data.values["data", "Comment"][1] == "prüfen"
+
+
+def test_commas_between_cells(tmp_path: Path) -> None:
+    text = (head("One") + packet(["a", "b"], x="X_Value\ta\tb")).replace(",", ".").replace("\t", ",") \
+        .replace("Separator,Tab", "Separator,Comma").replace("Decimal_Separator,.", "Decimal_Separator,.")
+    data = read(tmp_path, text + "0.0,1.5,2\n0.5,2.5,3\n1.0,3.5,4\n")
+    np.testing.assert_array_equal(data.values["data", "a"], [1.5, 2.5, 3.5])
+    assert data.t_ns["data"][1] - START == S // 2
+
+
+@pytest.mark.parametrize(("old", "new", "note"), [
+    ("Delta_X\t", "Delta_Y\t", "no Delta_X"), ("X_Columns\tNo", "X_Columns\tMulti", "X column is empty"),
+    ("Channels\t1", "Channels\t2", "announces 2 channels"),
+    ("Separator\tTab", "Separator\tComma", "names the separator"),
+    ("Decimal_Separator\t,", "Decimal_Separator\t.", "decimal mark"),
+    ("Date\t2026/03/01", "Date\t1.3.26", "not understood")])
+def test_a_header_that_contradicts_the_data_is_noted(tmp_path: Path, old: str, new: str, note: str) -> None:
+    text = head("No") + packet(["a"], x="X_Value\ta") + "\t1,5\n\t2,5\n\t3,5\n"
+    data = read(tmp_path, text.replace(old, new))
+    assert note in " ".join(data.recording.notes)
+
+
+def test_parts_of_any_size_give_the_same(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    text = head("One", "Yes") + "".join(
+        packet(["a", "b"], x="X_Value\ta\tb", start=f"{8 + k:02}:00:00,0") + "0,0\t1\t2\n0,5\t3\t4\tLOST\n1,0\tx\t6\n\n"
+        for k in range(4))
+    whole = read(tmp_path, text)
+    for size in (1, 7, 64, 300):
+        monkeypatch.setattr(textparts, "PART_BYTES", size)
+        small = read(tmp_path, text)
+        for key, values in whole.values.items():
+            np.testing.assert_array_equal(small.values[key], values)
+            np.testing.assert_array_equal(small.t_ns[key[0]], whole.t_ns[key[0]])
+
+
+def test_the_fast_and_the_slow_parser_agree() -> None:
+    rng = np.random.default_rng(3)
+    lines = [f"{i / 10:.6f}\t{v!r}\t{'' if i % 7 == 0 else f'{w:.3E}'}" + ("\r\n" if i % 2 else "\n")
+             for i, (v, w) in enumerate(rng.normal(size=(400, 2)).tolist())]
+    grid = rows.Grid(b"\t", b".", 3, False, 3)
+    data = "".join(lines).encode()
+    fast, slow = rows._fast(data, grid), rows._slow(data, grid)
+    assert fast is not None
+    for a, b in zip(fast.numbers, slow.numbers, strict=True):
+        np.testing.assert_array_equal(a, b)
+    # one odd line in many: all others come as they are
+    mixed = rows.parse(b"".join([*map(str.encode, lines[:200]), b"x\ty\n", *map(str.encode, lines[200:])]), grid)
+    np.testing.assert_array_equal(mixed.numbers[1], slow.numbers[1])
+    assert mixed.bad == [200]
 
 
 def test_a_header_without_end_is_refused(tmp_path: Path) -> None:

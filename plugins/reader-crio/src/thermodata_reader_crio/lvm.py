@@ -1,333 +1,254 @@
-"""LVM, the text file of LabVIEW ("LabVIEW Measurement"): a file header, then packets of a header and rows.
+"""LVM, the text file of LabVIEW ("LabVIEW Measurement"): a file header, then packets of a heading and rows.
 
-Format: National Instruments, "LVM File Specification". Version 0.92 has no Decimal_Separator, and writes a comma in
-its times beside points in its data. The last column is free text ("LOST COMMUNICATION").
+Format: National Instruments, "Specification for the LabVIEW Measurement File". Version 0.92 has no
+Decimal_Separator, and writes a comma in its times beside points in its data. The last column is free text ("LOST
+COMMUNICATION").
 """
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator
-from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
 from thermodata.errors import FormatError
-from thermodata.plugin import Array, Block, Int1D, Loss, Recording, Signal, Source
-from thermodata.reader.text import decimal_mark, file_encoding, local_to_utc_ns, split_unit
-from thermodata_reader_crio.clock import step_ns
+from thermodata.plugin import Array, Block, Bool1D, Loss, Recording, Signal, Source
+from thermodata.reader.text import last_line_is_whole, split_unit
+from thermodata.schema.flag import Flag
+from thermodata_reader_crio.comments import flags_of, texts
+from thermodata_reader_crio.lvm_header import Header, Packet
+from thermodata_reader_crio.lvm_scan import RowPart, scan
+from thermodata_reader_crio.lvm_streams import Streams, is_time
+from thermodata_reader_crio.lvm_times import Times, decimal_of, first_rows
+from thermodata_reader_crio.rows import Grid, Rows, mask, number, parse
+from thermodata_reader_crio.textparts import decode, encoding_of
 
-END = "***End_of_Header***"
-STREAM = "data"
-_ROWS = 20_000
-_1904_TO_1970 = 2_082_844_800
-_TIME = re.compile(r"^(\d{1,2}):(\d{2}):(\d{2})(?:[.,](\d+))?$")
-
-
-@dataclass(frozen=True)
-class Packet:
-    """One heading: its keys (each a list, one value a channel) and the names of its channels.
-
-    columns: where each channel stands in a row; x: where its X value does, None for X_Columns No.
-    """
-
-    keys: dict[str, list[str]]
-    names: tuple[str, ...]
-    columns: tuple[int, ...]
-    x: tuple[int | None, ...]
-    multi: bool
-    comment: int | None
-    line: int
-
-    def key(self, name: str, channel: int, default: str = "") -> str:
-        values = self.keys.get(name, [])
-        # with X_Columns Multi the values stand in every second column
-        at = 2 * channel if self.multi else channel
-        return values[at] if at < len(values) else default
-
-
-@dataclass(frozen=True)
-class Layout:
-    """What the file's header says. decimal: None until the data shows it."""
-
-    separator: str
-    decimal: str | None
-    x_columns: str
-    several: bool
-    date: str
-    time: str
-
-
-def _header(lines: Iterator[tuple[int, str]], path: Path) -> Layout:
-    keys: dict[str, str] = {}
-    separator = "\t"
-    for number, line in lines:
-        if line.startswith(END):
-            break
-        if number > 500:
-            raise FormatError("LVM header without an end", where=path.name, expected=END, got="500 lines without it")
-        name, _, value = line.partition("\t" if "\t" in line else "," if "," in line else ";")
-        keys[name.strip()] = value.strip("\t ") if value.strip() else value
-        if name.strip() == "Separator":
-            separator = {"tab": "\t", "comma": ","}.get(value.strip().lower(), value.strip() or "\t")
-    else:
-        raise FormatError("LVM file that ends inside its header", where=path.name, expected=END)
-    decimal = keys.get("Decimal_Separator")
-    return Layout(separator, decimal if decimal in (".", ",") else None, keys.get("X_Columns", "No").strip(),
-                  keys.get("Multi_Headings", "No").strip() == "Yes", keys.get("Date", ""), keys.get("Time", ""))
-
-
-def _rows_a_block(source: Source) -> int:
-    return max(1, int(source.options.get("block_rows", _ROWS)))
-
-
-def _scan(path: Path, source: Source) -> Iterator[Layout | Packet | tuple[int, list[str]] | Loss]:
-    """Header, then each packet and its rows as (line number of the first, lines); a Loss where the file was cut."""
-    encoding, _ = file_encoding(path, source.encoding)
-    limit = _rows_a_block(source)
-    with path.open(encoding=encoding, newline="\n", errors="strict") as file:
-        lines = ((i, text.rstrip("\r\n") if text.endswith("\n") else text + "\0") for i, text in enumerate(file, 1))
-        layout = _header(lines, path)
-        yield layout
-        packet: Packet | None = None
-        keys: dict[str, list[str]] = {}
-        expects_names = False
-        rows: list[str] = []
-        first = 0
-        for number, line in lines:
-            cut = line.endswith("\0")
-            text = line.rstrip("\0")
-            if packet is not None and text.startswith(("Channels" + layout.separator, "Samples" + layout.separator)):
-                if rows:
-                    yield first, rows
-                    rows = []
-                packet, keys = None, {}
-            if packet is None:
-                if expects_names:
-                    packet = _packet(text, keys, layout, path, number)
-                    yield packet
-                    expects_names = False
-                elif text.startswith(END):
-                    expects_names = True
-                elif text.strip():
-                    name, *values = text.split(layout.separator)
-                    keys[name] = [v.strip() for v in values]
-                continue
-            if not text.strip():
-                continue
-            if cut:
-                yield Loss(f"{path.name} line {number}", None, None, None, "the last line has no end: it may be cut")
-                break
-            if not rows:
-                first = number
-            rows.append(text)
-            if len(rows) >= limit:
-                yield first, rows
-                rows = []
-        if rows:
-            yield first, rows
-        if packet is None:
-            raise FormatError("LVM file without a heading of columns", where=path.name, expected="X_Value ...")
-
-
-def _packet(line: str, keys: dict[str, list[str]], layout: Layout, path: Path, number: int) -> Packet:
-    cells = [c.strip() for c in line.split(layout.separator)]
-    comment = len(cells) - 1 if cells and cells[-1] == "Comment" else None
-    last = len(cells) if comment is None else comment
-    if layout.x_columns == "Multi":
-        columns = list(range(1, last, 2))
-        x: list[int | None] = [c - 1 for c in columns]
-    else:
-        columns = list(range(1, last))
-        x = [0 if layout.x_columns == "One" else None] * len(columns)
-    names: list[str] = []
-    for c in columns:
-        name = cells[c] or f"column {c + 1}"
-        twin = sum(n == name or n.startswith(f"{name}#") for n in names)
-        names.append(name if not twin else f"{name}#{twin + 1}")
-    if not names:
-        raise FormatError("LVM heading without channels", where=f"{path.name} line {number}", got=line[:80])
-    return Packet(keys, tuple(names), tuple(columns), tuple(x), layout.x_columns == "Multi",
-                  comment, number)
-
-
-def _start_ns(layout: Layout, packet: Packet, channel: int, source: Source, notes: list[str]) -> int | None:
-    """UTC of the packet's Date and Time (local, as the source's zone says); None where there is none."""
-    date = packet.key("Date", channel) or layout.date
-    time = _TIME.match(packet.key("Time", channel) or layout.time)
-    if not time or not re.match(r"^\d{4}/\d{1,2}/\d{1,2}$", date):
-        return None
-    year, month, day = (int(p) for p in date.split("/"))
-    try:
-        naive = np.datetime64(f"{year:04}-{month:02}-{day:02}T{int(time[1]):02}:{time[2]}:{time[3]}", "ns")
-    except ValueError:
-        return None
-    utc, more = local_to_utc_ns(np.array([naive]), source.timezone)
-    notes.extend(n for n in more if n not in notes)
-    return int(utc[0]) + int((time[4] or "0")[:9].ljust(9, "0"))
-
-
-def _number(text: str, default: float) -> float:
-    try:
-        return float(text.replace(",", "."))
-    except ValueError:
-        return default
-
-
-def _groups(packet: Packet) -> list[list[int]]:
-    """Channels that share their X values: all, but for X_Columns Multi, where each may have its own."""
-    keys = () if packet.x[0] is not None and not packet.multi else ("Samples", "Date", "Time", "X0", "Delta_X")
-    groups: dict[tuple[str, ...], list[int]] = {}
-    for i in range(len(packet.names)):
-        groups.setdefault(tuple(packet.key(k, i) for k in keys), []).append(i)
-    return list(groups.values())
-
-
-class _Streams:
-    """Stream names by the channels in them: packets with the same channels go on in the same streams."""
-
-    def __init__(self) -> None:
-        self.names: dict[tuple[str, ...], str] = {}
-
-    def of(self, packet: Packet, group: list[int]) -> str:
-        key = tuple(packet.names[i] for i in group)
-        return self.names.setdefault(key, STREAM if not self.names else f"{STREAM}@{len(self.names) + 1}")
+COMMENT = "Comment"
 
 
 def describe(path: Path, source: Source) -> Recording:
-    _, note = file_encoding(path, source.encoding)
+    encoding, note = encoding_of(path, source.encoding)
     notes = [note] if note else []
-    streams, signals, start = _Streams(), dict[tuple[str, str], Signal](), None
-    layout: Layout | None = None
-    for item in _scan(path, source):
-        if isinstance(item, Layout):
-            layout = item
+    streams = _streams(path, encoding)
+    signals: dict[tuple[str, str], Signal] = {}
+    start: int | None = None
+    header, packet, fresh = Header(), None, False
+    dated = False
+    for item in scan(path, encoding, notes):
+        if isinstance(item, Header):
+            header = item
         elif isinstance(item, Packet):
-            assert layout is not None
-            for number, group in enumerate(_groups(item)):
-                stream = streams.of(item, group)
-                for i in group:
-                    unit = item.key("Y_Unit_Label", i) or split_unit(item.names[i])[1]
-                    signals.setdefault((stream, item.names[i]), Signal(item.names[i], stream, unit or None))
-                if item.comment is not None and number == 0:
-                    signals.setdefault((stream, "Comment"), Signal("Comment", stream, None, "str"))
-            if start is None:
-                start = _origin(layout, item, source, notes)
-            if not layout.several:
-                break
-    if start is None:
+            packet, fresh = item, True
+            _declare(streams, packet, signals, notes)
+        elif isinstance(item, RowPart) and packet is not None and fresh:
+            fresh = False
+            decimal_of(item.data, header, packet, notes)
+            times = Times(header, packet, first_rows(item.data, header, packet), source, notes)
+            for group in streams.groups(packet):
+                base = times.base(group[0])
+                dated = dated or times.dated(group[0])
+                start = base if start is None else min(start, base)
+    if not signals:
+        raise FormatError("an LVM file without a channel over time", where=path.name, expected="X_Dimension Time",
+                          got="spectra, or no channel")
+    if not dated:
         notes.append("no date in the file: times count from its start")
-    return Recording(tuple(signals.values()), "relative" if start is None else "absolute", start, None, tuple(notes))
+    shown = notes[:20] + ([f"and {len(notes) - 20} notes more"] if len(notes) > 20 else [])
+    return Recording(tuple(signals.values()), "absolute" if dated else "relative",
+                     (start or 0) if dated else None, None, tuple(dict.fromkeys(shown)))
 
 
-def _origin(layout: Layout, packet: Packet, source: Source, notes: list[str]) -> int | None:
-    x0 = _number(packet.key("X0", 0), 0.0)
-    if x0 > 1e9:
-        return round((x0 - _1904_TO_1970) * 1e9)
-    start = _start_ns(layout, packet, 0, source, notes)
-    return None if start is None else start + round(x0 * 1e9)
+def _streams(path: Path, encoding: str) -> Streams:
+    """The streams; where each channel has an X column of its own, by reading these."""
+    streams = Streams()
+    header, packet, decimal = Header(), None, None
+    for item in scan(path, encoding, []):
+        if isinstance(item, Header):
+            header = item
+        elif isinstance(item, Packet):
+            packet, decimal = item, None
+            if not packet.multi and header.x_columns != "Multi":
+                break
+        elif isinstance(item, RowPart) and packet is not None and packet.multi:
+            decimal = decimal or decimal_of(item.data, header, packet, [])
+            rows = parse(item.data, _grid(header, packet, decimal))
+            streams.compare(packet, [rows.numbers[x] for x in packet.x if x is not None])
+    return streams
+
+
+def _declare(streams: Streams, packet: Packet, signals: dict[tuple[str, str], Signal], notes: list[str]) -> None:
+    notes.extend(packet.notes)
+    for i, name in enumerate(packet.names):
+        if not is_time(packet, i):
+            notes.append(f"{name}: stands over {packet.key('X_Dimension', i)}, not over time; left out")
+    for number_, group in enumerate(streams.groups(packet)):
+        stream = streams.of(packet, group)
+        for i in group:
+            name = packet.names[i]
+            unit = packet.key("Y_Unit_Label", i) or split_unit(name)[1] or None
+            known = signals.setdefault((stream, name), Signal(name, stream, unit))
+            if known.unit != unit:
+                notes.append(f"{name}: its unit changes from '{known.unit}' to '{unit}' in line {packet.line}")
+        if packet.comment and number_ == 0:
+            signals.setdefault((stream, _comment(packet)), Signal(_comment(packet), stream, None, "str"))
+
+
+def _comment(packet: Packet) -> str:
+    return COMMENT if COMMENT not in packet.names else f"{COMMENT} (text)"
+
+
+def _grid(header: Header, packet: Packet, decimal: str) -> Grid:
+    """A row has all its cells, but where the heading says that channels have fewer samples than others."""
+    counts = {packet.samples(i) for i in range(len(packet.names))}
+    least = packet.width if len(counts) == 1 else 2
+    return Grid(header.separator.encode(), decimal.encode(), packet.width, packet.comment, least)
 
 
 def blocks(path: Path, source: Source) -> Iterator[Block | Loss]:
-    streams, notes = _Streams(), list[str]()
-    layout: Layout | None = None
-    packet: Packet | None = None
-    decimal: str | None = None
-    done = 0
+    encoding, _ = encoding_of(path, source.encoding)
+    streams = _streams(path, encoding)
+    header = Header()
+    reading: _Reading | None = None
     last_ns: int | None = None
-    for item in _scan(path, source):
-        if isinstance(item, Layout):
-            layout, decimal = item, item.decimal
-        elif isinstance(item, Packet):
-            packet, done = item, 0
+    for item in scan(path, encoding, []):
+        if isinstance(item, Header):
+            header = item
         elif isinstance(item, Loss):
             yield Loss(item.where, last_ns, None, None, item.reason)
-        else:
-            assert layout is not None
-            assert packet is not None
-            first, lines = item
-            cells = [line.split(layout.separator) for line in lines]
-            if decimal is None:
-                decimal = decimal_mark(c for row in cells[:200] for c in row[: packet.comment])
-            table = _table(cells, packet, decimal or ".")
-            for block in _packet_blocks(table, cells, packet, layout, source, streams, done, notes):
-                last_ns = int(block.t_ns[-1]) if block.t_ns.size else last_ns
-                yield block
-            if table.bad:
-                yield Loss(f"{path.name} line {first + table.bad[0]}", None, None, None,
-                           f"{len(table.bad)} lines that are no numbers")
-            done += len(cells)
+        elif isinstance(item, Packet):
+            if reading is not None:
+                yield from reading.end(last_ns)
+            reading = _Reading(path, header, item, streams, source, encoding)
+        elif reading is not None:
+            for made in reading.rows(item):
+                if isinstance(made, Block):
+                    last_ns = int(made.t_ns[-1])
+                yield made
+    if reading is not None:
+        yield from reading.end(last_ns)
 
 
-@dataclass(frozen=True)
-class _Table:
-    columns: dict[int, Array]
-    bad: list[int]
+class _Reading:
+    """The rows of one packet, part by part."""
 
+    def __init__(self, path: Path, header: Header, packet: Packet, streams: Streams, source: Source,
+                 encoding: str) -> None:
+        self.path, self.header, self.packet, self.streams = path, header, packet, streams
+        self.source, self.encoding = source, encoding
+        self.times: Times | None = None
+        self.grid: Grid | None = None
+        self.done = 0
 
-def _table(cells: list[list[str]], packet: Packet, decimal: str) -> _Table:
-    wanted = sorted({*packet.columns, *(x for x in packet.x if x is not None)})
-    bad: list[int] = []
-    found = {}
-    for c in wanted:
-        texts = [row[c].strip() if c < len(row) else "" for row in cells]
-        if decimal == ",":
-            texts = [t.replace(",", ".") for t in texts]
-        try:
-            found[c] = np.array([t or "nan" for t in texts]).astype(np.float64)
-        except ValueError:
-            values = np.full(len(texts), np.nan)
-            for i, t in enumerate(texts):
-                try:
-                    values[i] = float(t or "nan")
-                except ValueError:
-                    bad.append(i)
-            found[c] = values
-    return _Table(found, sorted(set(bad)))
+    def rows(self, part: RowPart) -> Iterator[Block | Loss]:
+        data = part.data
+        if self.times is None or self.grid is None:
+            if not data.strip():
+                return
+            self.times = Times(self.header, self.packet, first_rows(data, self.header, self.packet), self.source, [])
+            self.grid = _grid(self.header, self.packet, decimal_of(data, self.header, self.packet, []))
+        if not part.ended and not self._whole(data):
+            cut = data.rfind(b"\n") + 1
+            line = part.line + data.count(b"\n")
+            data = data[:cut]
+            yield Loss(f"{self.path.name} line {line}", reason="the last line has no end: it may be cut")
+        rows = parse(data, self.grid)
+        yield from self._blocks(rows, part.line)
 
+    def _whole(self, data: bytes) -> bool:
+        *_, before, last = [b"", *data.rsplit(b"\n", 2)][-3:] if data.count(b"\n") > 1 else [b"", b"", data]
+        return bool(before) and last_line_is_whole(decode(last, self.encoding), decode(before, self.encoding),
+                                                   self.header.separator)
 
-def _packet_blocks(table: _Table, cells: list[list[str]], packet: Packet, layout: Layout, source: Source,
-                   streams: _Streams, done: int, notes: list[str]) -> Iterator[Block]:
-    n = len(cells)
-    good = np.ones(n, bool)
-    good[table.bad] = False
-    for number, group in enumerate(_groups(packet)):
-        stream = streams.of(packet, group)
-        lead = group[0]
-        keep = good.copy()
-        # channels with fewer samples than their neighbours leave their cells empty at the end
-        samples = packet.key("Samples", lead)
-        if len(_groups(packet)) > 1 and samples.isdigit():
-            keep &= np.arange(done, done + n) < int(samples)
-        if packet.multi and not _same_x(table, packet, group):
-            raise FormatError("channels with equal headings and different X columns", where=f"line {packet.line}",
-                              got=", ".join(packet.names[i] for i in group))
-        t_ns = _times(table, packet, layout, source, lead, done, n, notes)
-        values: dict[str, Array] = {packet.names[i]: table.columns[packet.columns[i]][keep] for i in group}
-        if packet.comment is not None and number == 0:
-            texts = [row[packet.comment] if packet.comment < len(row) else "" for row in cells]
-            values["Comment"] = np.array(texts, object)[keep]
-        yield Block(stream, t_ns[keep], values)
+    def _blocks(self, rows: Rows, line: int) -> Iterator[Block | Loss]:
+        words = None if rows.text is None else texts(rows.text, self.encoding)
+        lost = list(rows.bad)
+        empty, hopeless = self._unmeasured(rows)
+        for count, group in enumerate(self.streams.groups(self.packet)):
+            block, good = self._block(rows, group, words if count == 0 else None, count == 0, empty, hopeless)
+            if count == 0 and good is not None:
+                lost += rows.line[~good].tolist()
+            yield from self._sliced(block)
+        self.done += rows.n
+        odd = [] if words is None else [i for i, w in enumerate(words) if w and number(w.encode()) is not None]
+        yield from self._losses(rows, sorted(set(lost)), odd, line)
 
+    def _unmeasured(self, rows: Rows) -> tuple[dict[int, Bool1D], Bool1D | None]:
+        """(empty cells of each column that has some, rows in which nothing is a number and something is wrong)."""
+        if rows.whole:
+            return {}, None
+        empty = {c: np.isnan(rows.numbers[c]) for c in self.packet.columns}
+        wrong = mask(rows.n, [r for r, _ in rows.wrong])
+        hopeless = np.logical_and.reduce([*empty.values(), wrong]) if wrong.any() else None
+        return {c: m for c, m in empty.items() if m.any()}, hopeless
 
-def _same_x(table: _Table, packet: Packet, group: list[int]) -> bool:
-    x = [table.columns[packet.columns[i] - 1] for i in group]
-    return all(np.array_equal(other, x[0], equal_nan=True) for other in x[1:])
+    def _block(self, rows: Rows, group: list[int], words: Array | None, lead: bool, empty: dict[int, Bool1D],
+               hopeless: Bool1D | None) -> tuple[Block, Bool1D | None]:
+        """One group's block; and which rows have a time and a value: None for all."""
+        assert self.times is not None
+        packet, n = self.packet, rows.n
+        x = packet.x[group[0]]
+        t_ns, good = self.times.of(group[0], rows.numbers[x] if x is not None else None, self.done, n)
+        if hopeless is not None:
+            good = good & ~hopeless
+        keep = good if rows.whole else good & self._sampled(group, empty, n)
+        said = None if words is None else flags_of(words)
+        values: dict[str, Array] = {packet.names[i]: rows.numbers[packet.columns[i]] for i in group}
+        flags: dict[str, Array] = {}
+        for i in group:
+            flag = None if packet.columns[i] not in empty else empty[packet.columns[i]] * np.uint16(Flag.NOT_MEASURING)
+            if said is not None:
+                flag = said if flag is None else flag | said
+            if flag is not None:
+                flags[packet.names[i]] = flag
+        if packet.comment and lead:
+            values[_comment(packet)] = words if words is not None else np.full(n, "", object)
+        if not keep.all():
+            t_ns = t_ns[keep]
+            values = {k: v[keep] for k, v in values.items()}
+            flags = {k: v[keep] for k, v in flags.items()}
+        return Block(self.streams.of(packet, group), t_ns, values, flags or None), None if good.all() else good
 
+    def _sampled(self, group: list[int], empty: dict[int, Bool1D], n: int) -> Bool1D:
+        """False where a channel has no sample: its heading announces fewer than others have, and its cells are
+        empty."""
+        packet = self.packet
+        most = max((s for i in range(len(packet.names)) if (s := packet.samples(i)) is not None), default=0)
+        own = packet.samples(group[0])
+        columns = [packet.columns[i] for i in group]
+        if own is None or own >= most or any(c not in empty for c in columns):
+            return np.ones(n, bool)
+        nothing = np.logical_and.reduce([empty[c] for c in columns])
+        sampled: Bool1D = ~(nothing & (np.arange(self.done, self.done + n) >= own))
+        return sampled
 
-def _times(table: _Table, packet: Packet, layout: Layout, source: Source, lead: int, done: int, n: int,
-           notes: list[str]) -> Int1D:
-    x0 = _number(packet.key("X0", lead), 0.0)
-    start = _start_ns(layout, packet, lead, source, notes) or 0
-    column = packet.x[lead]
-    if column is not None:
-        x = table.columns[column]
-        if x.size and np.nanmedian(x) > 1e9:
-            return np.rint((x - _1904_TO_1970) * 1e9).astype(np.int64)
-        return np.rint(np.nan_to_num(x) * 1e9).astype(np.int64) + start
-    step = step_ns(_number(packet.key("Delta_X", lead), 1.0) or 1.0)
-    i = np.arange(done, done + n, dtype=np.int64)
-    whole, rest = divmod(step.numerator, step.denominator)
-    base = round((x0 - _1904_TO_1970) * 1e9) if x0 > 1e9 else start + round(x0 * 1e9)
-    return base + i * whole + (i * rest) // step.denominator
+    def _losses(self, rows: Rows, lost: list[int], odd: list[int], line: int) -> Iterator[Loss]:
+        if lost:
+            yield Loss(f"{self.path.name} line {line + lost[0]}", reason=f"{len(lost)} lines that are no rows of "
+                       f"{self.packet.width} numbers")
+        cells = len({r for r, _ in rows.wrong} - set(lost))
+        if cells:
+            first = line + int(rows.line[rows.wrong[0][0]])
+            yield Loss(f"{self.path.name} line {first}", reason=f"{len(rows.wrong)} cells that are no numbers: their "
+                       "rows are kept, these values are flagged")
+        if odd:
+            yield Loss(f"{self.path.name} line {line + int(rows.line[odd[0]])}", reason=f"{len(odd)} rows with a "
+                       "number where the comment stands: a cell too many, or a remark")
+
+    def _sliced(self, block: Block) -> Iterator[Block]:
+        size = int(self.source.options.get("block_rows", 0)) or max(1, block.t_ns.size)
+        for a in range(0, block.t_ns.size, size):
+            b = a + size
+            yield Block(block.stream, block.t_ns[a:b], {k: v[a:b] for k, v in block.values.items()},
+                        None if block.flags is None else {k: v[a:b] for k, v in block.flags.items()})
+
+    def end(self, last_ns: int | None) -> Iterator[Loss]:
+        """Whether as many rows came as the heading announced."""
+        packet = self.packet
+        most = max((s for i in range(len(packet.names)) if (s := packet.samples(i)) is not None), default=0)
+        where = f"{self.path.name} line {packet.line}"
+        if self.done < most:
+            yield Loss(where, last_ns, None, (most - self.done) / most,
+                       f"{self.done} rows of {most} that the heading announces")
+        elif self.header.several and most and self.done > most:
+            yield Loss(where, reason=f"{self.done} rows where the heading announces {most}: a heading may be missing")

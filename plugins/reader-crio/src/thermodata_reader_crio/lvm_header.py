@@ -1,0 +1,138 @@
+"""The headers of an LVM file: what the file's own says, and the heading of each packet of rows."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from pathlib import Path
+
+from thermodata.errors import FormatError
+
+MARK = "***End_of_Header***"
+START_SPECIAL, END_SPECIAL = "***Start_Special***", "***End_Special***"
+_FILE_KEYS = {"Writer_Version", "Reader_Version", "Separator", "Multi_Headings", "X_Columns", "Decimal_Separator"}
+_SEPARATORS = {"tab": "\t", "comma": ",", "semicolon": ";", "space": " "}
+
+
+@dataclass(frozen=True)
+class Header:
+    """What the file's header says. decimal: None until the data shows it; several: each packet has a heading."""
+
+    separator: str = "\t"
+    decimal: str | None = None
+    x_columns: str = "No"
+    several: bool = False
+    date: str = ""
+    time: str = ""
+
+
+@dataclass(frozen=True)
+class Packet:
+    """One heading: its keys (each a list, one value a channel) and the names of its channels.
+
+    columns: where each channel stands in a row; x: where its X value does, None for X_Columns No; width: cells of a
+    row without its comment; line: of the names.
+    """
+
+    keys: dict[str, list[str]]
+    names: tuple[str, ...]
+    columns: tuple[int, ...]
+    x: tuple[int | None, ...]
+    comment: bool
+    width: int
+    line: int
+    notes: tuple[str, ...] = ()
+
+    @property
+    def multi(self) -> bool:
+        return len(set(self.x)) > 1
+
+    def key(self, name: str, channel: int, default: str = "") -> str:
+        """A key's value for a channel: with an X column each, the values stand in every second cell."""
+        values = self.keys.get(name, [])
+        at = 2 * channel if self.multi and len([v for v in values if v]) <= len(self.names) < len(values) \
+            else channel
+        return values[at] if at < len(values) else default
+
+    def samples(self, channel: int) -> int | None:
+        text = self.key("Samples", channel)
+        return int(text) if text.isdigit() and len(text) < 16 else None
+
+
+def cells(line: str, separator: str) -> list[str]:
+    return [c.strip() for c in line.split(separator)]
+
+
+def is_file_header(lines: list[str]) -> bool:
+    """Whether lines before an end mark are a file's header, not the heading of a packet."""
+    return any(re.split(r"[\t,; ]", line, maxsplit=1)[0] in _FILE_KEYS for line in lines)
+
+
+def read_header(lines: list[str], notes: list[str]) -> Header:
+    """The file's header. Its own lines show the separator even where the tag is damaged."""
+    separator = next((s for s in ("\t", ",", ";") if any(re.match(rf"^(X_Columns|Multi_Headings|Date){s}", line)
+                                                         for line in lines)), "\t")
+    keys: dict[str, str] = {}
+    for line in lines:
+        name, _, value = line.partition(separator)
+        keys.setdefault(name.strip(), value.strip(" " if name.strip() == "Decimal_Separator" else separator + " "))
+    said = keys.get("Separator", "")
+    named = _SEPARATORS.get(said.lower(), said if said in ("\t", ",", ";") else None)
+    if named is not None and named != separator:
+        notes.append(f"the header names the separator '{said}', but is itself separated by "
+                     f"{'tabs' if separator == chr(9) else repr(separator)}")
+    decimal = keys.get("Decimal_Separator", "")[:1]
+    return Header(separator, decimal if decimal in (".", ",") else None, keys.get("X_Columns", "").strip(),
+                  keys.get("Multi_Headings", "No").strip() == "Yes", keys.get("Date", ""), keys.get("Time", ""))
+
+
+def read_packet(lines: list[str], names_line: str, header: Header, path: Path, number: int) -> Packet:
+    """A packet's heading. The line of names decides how many X columns there are, for it stands over the data."""
+    keys: dict[str, list[str]] = {}
+    notes: list[str] = []
+    for line in lines:
+        name, *values = cells(line, header.separator)
+        if name and name in keys and name not in ("Notes",):
+            notes.append(f"line {number}: the key {name} stands twice in one heading")
+        if name:
+            keys.setdefault(name, values)
+    row = cells(names_line, header.separator)
+    comment = row[-1] == "Comment"
+    last = len(row) - 1 if comment else len(row)
+    while not comment and last > 1 and not row[last - 1]:
+        last -= 1
+    xs = [i for i in range(last) if row[i] == "X_Value"]
+    if not xs or xs[0] != 0 or last < 2:
+        raise FormatError("LVM heading without channels", where=f"{path.name} line {number}",
+                          expected="X_Value and the names of channels", got=names_line[:80])
+    multi = len(xs) > 1 and xs == list(range(0, last, 2))
+    if len(xs) > 1 and not multi:
+        raise FormatError("LVM heading whose X columns do not alternate with its channels",
+                          where=f"{path.name} line {number}", got=names_line[:80])
+    columns = list(range(1, last, 2 if multi else 1))
+    said = header.x_columns
+    if said not in ("No", "One", "Multi") or ((said == "Multi") != multi and len(columns) > 1):
+        notes.append(f"line {number}: X_Columns is '{said}', but the names have "
+                     f"{'an X column for each channel' if multi else 'one X column'}")
+    x: list[int | None] = [c - 1 if multi else 0 if said != "No" else None for c in columns]
+    count = keys.get("Channels", [""])[0]
+    if count != str(len(columns)):
+        notes.append(f"line {number}: the heading announces {count or 'no number of'} channels and names "
+                     f"{len(columns)}")
+    notes += [f"line {number}: the heading has no {key}" for key in ("Samples", "Date", "Time", "X0", "Delta_X")
+              if key not in keys]
+    return Packet(keys, _unique([row[c] or f"column {c + 1}" for c in columns]), tuple(columns), tuple(x), comment,
+                  last, number, tuple(notes))
+
+
+def _unique(names: list[str]) -> tuple[str, ...]:
+    found: list[str] = []
+    seen: dict[str, int] = {}
+    taken = set(names)
+    for name in names:
+        seen[name] = seen.get(name, 0) + 1
+        made = name if seen[name] == 1 else f"{name}#{seen[name]}"
+        while made in found or (seen[name] > 1 and made in taken):
+            made += "#"
+        found.append(made)
+    return tuple(found)

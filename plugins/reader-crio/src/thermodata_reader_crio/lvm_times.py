@@ -1,0 +1,110 @@
+"""The times of an LVM packet's rows: its start, and either an X column or a count of Delta_X."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from thermodata.errors import FormatError
+from thermodata.plugin import Bool1D, Float1D, Int1D, Source
+from thermodata.reader.text import decimal_mark
+from thermodata_reader_crio.clock import step_ns
+from thermodata_reader_crio.labtime import EPOCH_1904_NS, counted_ns, is_labview_seconds, local_ns, seconds_ns, utc_ns
+from thermodata_reader_crio.lvm_header import Header, Packet
+from thermodata_reader_crio.rows import Grid, Rows, parse
+
+_FIRST_BYTES = 16 * 1024
+
+
+def decimal_of(data: bytes, header: Header, packet: Packet, notes: list[str]) -> str:
+    """The decimal mark that the data show; where they show none, what the header says."""
+    lines = data[:_FIRST_BYTES].decode("latin-1").splitlines()[:200]
+    cells = (c for line in lines for c in line.split(header.separator)[:packet.width])
+    try:
+        found = decimal_mark(cells)
+    except FormatError:
+        found = None
+    if found is not None and header.decimal is not None and found != header.decimal:
+        notes.append(f"the header says that '{header.decimal}' is the decimal mark, the data have '{found}'")
+    return found or header.decimal or "."
+
+
+def first_rows(data: bytes, header: Header, packet: Packet) -> Rows:
+    """The first rows of a packet, for what only the data tell."""
+    end = data.rfind(b"\n", 0, _FIRST_BYTES) + 1 or len(data)
+    grid = Grid(header.separator.encode(), decimal_of(data, header, packet, []).encode(), packet.width, packet.comment,
+                2)
+    return parse(data[:end], grid)
+
+
+class Times:
+    """The clock of one packet. first: its first rows."""
+
+    def __init__(self, header: Header, packet: Packet, first: Rows, source: Source, notes: list[str]) -> None:
+        self.header, self.packet, self.source, self.notes = header, packet, source, notes
+        self.labview: dict[int, bool] = {}
+        self.empty: set[int] = set()
+        for x in {x for x in packet.x if x is not None}:
+            values = first.numbers[x] if x < len(first.numbers) else np.zeros(0)
+            self.labview[x] = is_labview_seconds(values)
+            if values.size and not np.isfinite(values).any():
+                self.empty.add(x)
+                notes.append(f"line {packet.line}: its X column is empty; rows are counted by Delta_X")
+        if packet.x and packet.x[0] is None and first.n and bool(np.isfinite(first.numbers[0]).all()):
+            notes.append(f"line {packet.line}: X_Columns is 'No', but rows begin with a number; it is not used as time")
+
+    def base(self, channel: int) -> int:
+        """The time of X = 0, or of the first row where rows are counted; 0 where the file names no date."""
+        if self._seconds(channel):
+            return EPOCH_1904_NS if self.packet.x[channel] is not None else \
+                EPOCH_1904_NS + round(self._number("X0", channel, 0.0) * 1e9)
+        start = self._start(channel) or 0
+        if self.packet.x[channel] is not None:
+            return start
+        return start + round(self._number("X0", channel, 0.0) * 1e9)
+
+    def dated(self, channel: int) -> bool:
+        return self._seconds(channel) or self._start(channel) is not None
+
+    def of(self, channel: int, x: Float1D | None, done: int, n: int) -> tuple[Int1D, Bool1D]:
+        """(times of rows [done, done + n), which of them have one)."""
+        if x is not None and self.packet.x[channel] not in self.empty:
+            return seconds_ns(x, self.base(channel))
+        return counted_ns(done, n, step_ns(self._step(channel)), self.base(channel))
+
+    def _step(self, channel: int) -> float:
+        step = self._number("Delta_X", channel, 1.0)
+        return step if 1e-12 < step < 1e9 else 1.0
+
+    def _seconds(self, channel: int) -> bool:
+        """Whether X counts from 1904."""
+        x = self.packet.x[channel]
+        if x is not None:
+            return self.labview.get(x, False)
+        return is_labview_seconds(np.array([self._number("X0", channel, 0.0)]))
+
+    def _start(self, channel: int) -> int | None:
+        """UTC of the packet's Date and Time (local, as the source's zone says); None where there is none."""
+        date = self.packet.key("Date", channel) or self.header.date
+        time = self.packet.key("Time", channel) or self.header.time
+        local = local_ns(date, time)
+        if local is None:
+            if date or time:
+                self._say(f"line {self.packet.line}: date '{date[:20]}' and time '{time[:30]}' are not understood; "
+                          "times count from the start of the rows")
+            return None
+        return utc_ns(local, self.source.timezone, self.notes)
+
+    def _number(self, key: str, channel: int, default: float) -> float:
+        text = self.packet.key(key, channel)
+        try:
+            value = float(text.replace(",", ".")) if text else default
+        except ValueError:
+            value = np.nan
+        if not np.isfinite(value) or abs(value) > 9e9:
+            self._say(f"line {self.packet.line}: {key} '{text[:30]}' is no number; taken as {default:g}")
+            return default
+        return value
+
+    def _say(self, text: str) -> None:
+        if text not in self.notes:
+            self.notes.append(text)
