@@ -265,6 +265,8 @@ def _place(found: Guess, own: str, text: str) -> Guess:
         questions.append("a set value, not the actual one?")
     elif says(LIMIT, own) and quantity not in ("state", "displacement"):
         questions.append("a limit, or a reading?")
+    elif says(DIFFERENCE, own) and quantity in ("feed", "position", "rotational_speed", "torque", "current", "pressure"):
+        questions.append("a difference, not the quantity itself?")
     if found.basis == ("unit",) and place.sure and quantity not in ("position", "voltage"):
         found = replace(found, basis=("name", "unit"), sure=True)      # degC at a bearing: the name need not say T
     sure = found.sure and (place.sure or place.at is None) and not questions

@@ -1,0 +1,28 @@
+"""The guesser on names that it was not written from: right, unsure, or wrong."""
+
+from __future__ import annotations
+
+from collections import Counter
+from pathlib import Path
+
+from thermodata.draft.guess import guess
+
+NAMES = Path(__file__).with_name("names.txt")
+
+
+def verdict(line: str) -> str:
+    """'right'; 'unsure' where it asks a person; 'wrong' where it is content with what is not so."""
+    name, unit, quantity, places = line.split("|")
+    found = guess(name, None if unit == "-" else unit)
+    fitting = places.split(",")
+    right = (found.quantity or "-") == quantity and (
+        quantity == "-" or "*" in fitting or (found.at or "-") in fitting)
+    return "right" if right else "unsure" if found.questions or found.quantity is None else "wrong"
+
+
+def test_it_would_rather_ask_than_be_wrong() -> None:
+    lines = [x for x in NAMES.read_text("utf-8").splitlines() if x and not x.startswith("#")]
+    told = Counter(verdict(line) for line in lines)
+    assert len(lines) > 200
+    assert told["wrong"] <= 0.01 * len(lines), [x for x in lines if verdict(x) == "wrong"]
+    assert told["right"] >= 0.90 * len(lines), told
