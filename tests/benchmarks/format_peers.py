@@ -154,11 +154,11 @@ def _dlt(rows: Any, out: Path) -> Answer:
 
     out.mkdir(parents=True, exist_ok=True)
     os.environ.update(RUNTIME__DLTHUB_TELEMETRY="false", DATA_WRITER__DISABLE_COMPRESSION="true")
-    pipeline = dlt.pipeline("bench", pipelines_dir=str(out / "pipelines"), dataset_name="lab",
+    pipeline = dlt.pipeline("bench", pipelines_dir=str(out / "pipelines"), dataset_name="bench",
                             destination=dlt.destinations.duckdb(str(out / "lab.duckdb")))
     pipeline.run(rows, table_name="log")
     with duckdb.connect(str(out / "lab.duckdb"), read_only=True) as con:
-        return _in_duckdb(con, "lab.log", "time")
+        return _in_duckdb(con, "bench.log", "time")
 
 
 def dlt_csv(path: Path, out: Path) -> Answer:
