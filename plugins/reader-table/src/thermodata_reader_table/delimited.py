@@ -2,42 +2,31 @@
 
 from __future__ import annotations
 
-import warnings
+import re
+from collections import Counter
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from thermodata.errors import FormatError
-from thermodata.plugin import Array, Block, Loss, Recording, Signal, Source
-from thermodata.reader.text import clean, decimal_mark, decode_head, file_encoding, last_line_is_whole
+from thermodata.plugin import Block, Loss, Recording, Signal, Source
+from thermodata.reader.text import decimal_mark, decode_head, file_encoding, last_line_is_whole
 from thermodata.reader.zone import NAT
 from thermodata_reader_table import stamps
+from thermodata_reader_table import text_fast as fast
+from thermodata_reader_table import text_rows as rows
 from thermodata_reader_table.layout import Layout, find, is_number
+from thermodata_reader_table.text_rows import STREAM, Sheet
 
-STREAM = "table"
 DELIMITERS = (";", "\t", ",", "|")
 _HEAD_BYTES = 256 * 1024
-_BLOCK_VALUES = 1_000_000
-_SPARE = 8                 # cells that a line may have too many before the file is refused
-_EMPTY = {"", "nan", "null", "none", "n/a", "#n/a", "-", "--", "---", "?"}
+_HEAD_LINES = 500
+_ENDS = re.compile("\r\n|\n|\r")       # str.splitlines takes more for line ends than any program that wrote a table
 _TEXT_NAME = ("comment", "note", "alarm", "message", "text", "label", "remark", "bemerk", "pozn", "hinweis")
-
-
-@dataclass(frozen=True)
-class Sheet:
-    """What the head of the file tells. kinds: "float64" or "str" by column; lines: physical lines before the data."""
-
-    encoding: str
-    delimiter: str
-    decimal: str
-    layout: Layout
-    kinds: tuple[str, ...]
-    quoted: bool
-    notes: tuple[str, ...]
-    cut: str | None
 
 
 def split(line: str, delimiter: str) -> list[str]:
@@ -68,10 +57,10 @@ def find_delimiter(lines: list[str]) -> str | None:
 
 def head_rows(text: str, declared: str | None) -> tuple[str, list[list[str]]] | None:
     """(delimiter, rows) of a file's first text; a last line without an end, which may be cut, is left out."""
-    lines = text.splitlines()
-    if len(lines) > 2 and not text.endswith(("\n", "\r")):
-        lines.pop()
-    lines = lines[:2000]
+    lines = _ENDS.split(text)
+    if len(lines) > 2 or not lines[-1]:
+        lines.pop()                                     # empty, or a line without an end, which may be cut
+    lines = lines[:_HEAD_LINES]
     delimiter = declared or find_delimiter(lines)
     if delimiter is None:
         return None
@@ -79,7 +68,22 @@ def head_rows(text: str, declared: str | None) -> tuple[str, list[list[str]]] | 
 
 
 def open_sheet(path: Path, source: Source) -> Sheet:
-    """The layout of a file from its first 256 KiB; the encoding from all of it."""
+    """The layout of a file from its first 256 KiB; the encoding from all of it. Describing and reading follow each
+    other, so the last ones are kept."""
+    status = path.stat()
+    return _open(_Asked(path, source, (str(path.resolve()), status.st_mtime_ns, status.st_size, repr(source))))
+
+
+@dataclass(frozen=True)
+class _Asked:
+    path: Path = field(compare=False)
+    source: Source = field(compare=False)
+    key: tuple[Any, ...]
+
+
+@lru_cache(maxsize=4)
+def _open(asked: _Asked) -> Sheet:
+    path, source = asked.path, asked.source
     said: Mapping[str, Any] = source.table or {}
     encoding, note = file_encoding(path, source.encoding)
     with path.open("rb") as file:
@@ -93,22 +97,24 @@ def open_sheet(path: Path, source: Source) -> Sheet:
     if found is None:
         raise FormatError("no delimiter gives lines of equal length", where=path.name,
                           expected="; tab , or |", hint="declare table: {delimiter: ...}")
-    delimiter, rows = found
-    if rows and len(rows[0]) <= 2 and text[:4].lower() == "sep=":
-        rows[0] = [""]
+    delimiter, rows_of = found
+    if rows_of and len(rows_of[0]) <= 2 and text[:4].lower() == "sep=":
+        rows_of[0] = [""]
     cut = _cut(path, encoding, delimiter)
-    layout = find(rows, said, path.name)
+    layout = find(rows_of, said, path.name)
     width = len(layout.names)
-    body = [r + [""] * (width - len(r)) for r in rows[layout.first:]]
+    body = [r + [""] * (width - len(r)) for r in rows_of[layout.first:]]
     numbers = [c for r in body for i, c in enumerate(r[:width]) if layout.seconds is not None or i not in layout.time]
     decimal = said.get("decimal") or (decimal_mark(numbers) if delimiter != "," else ".") or "."
     kinds = tuple(_kind(layout, i, [r[i] for r in body]) for i in range(width))
     notes = [*([note] if note else []), *layout.notes]
-    return Sheet(encoding, delimiter, decimal, layout, kinds, '"' in text, tuple(notes), cut)
+    usual = Counter(len(r) for r in rows_of[layout.first:] if any(r)).most_common(1)
+    return Sheet(encoding, delimiter, decimal, layout, kinds, '"' in text, tuple(notes), cut,
+                 usual[0][0] if usual else width)
 
 
 def _kind(layout: Layout, column: int, cells: list[str]) -> str:
-    filled = [c for c in cells if c.strip().lower() not in _EMPTY]
+    filled = [c for c in cells if c.strip().lower() not in rows.EMPTY]
     if not filled:
         named = layout.names[column].lower()
         return "str" if layout.units[column] is None and any(w in named for w in _TEXT_NAME) else "float64"
@@ -143,141 +149,28 @@ def describe(path: Path, source: Source) -> Recording:
     notes += first.notes
     if sheet.cut:
         notes.append(sheet.cut)
-    absolute = layout.seconds is None and first.absolute
+    absolute = first.absolute
     start = first.t_ns[first.t_ns != NAT]
     return Recording(signals, "absolute" if absolute else "relative", int(start[0]) if absolute and start.size else
                      (0 if absolute else None), False if sheet.cut else None, tuple(notes))
 
 
 def _first_stamps(path: Path, sheet: Sheet, source: Source) -> stamps.Stamps:
-    chunk = next(_chunks(path, sheet, 2000), None)
+    chunk = next(rows.chunks(path, sheet, 2000), None)
     if chunk is None:
         return stamps.Stamps(np.zeros(0, np.int64), sheet.layout.seconds is None, ())
-    try:
-        return _stamps(sheet, chunk, source, path.name)
-    except FormatError:
-        # which number is the day may show further down only
-        return _all_stamps(path, sheet, source, 2000)
-
-
-def _chunks(path: Path, sheet: Sheet, rows: int) -> Iterator[Any]:
-    """DataFrames, one column a position: numbers where pandas reads all of a part's cells as such, else text;
-    an empty cell is NaN. Column `width + i` holds cells that a line has too many."""
-    import pandas as pd
-
-    width = len(sheet.layout.names)
-    # columns of numbers and words are told as a Loss; pandas' own warning about them would come besides
-    warnings.filterwarnings("ignore", category=pd.errors.DtypeWarning)
-    # pandas before 3 rounds the last digit unless told not to
-    exact: dict[str, Any] = {} if int(pd.__version__.split(".")[0]) >= 3 else {"float_precision": "round_trip"}
-    text = {i: str for i, kind in enumerate(sheet.kinds) if kind == "str"}
-    if sheet.layout.seconds is None:
-        text |= dict.fromkeys(sheet.layout.time, str)
-    try:
-        with pd.read_csv(
-            path, sep=sheet.delimiter, header=None, names=list(range(width + _SPARE)), index_col=False, dtype=text,
-            skiprows=sheet.layout.first, encoding=sheet.encoding, keep_default_na=False, na_values=[""],
-            decimal=sheet.decimal,
-            quoting=0 if sheet.quoted else 3, skip_blank_lines=True, chunksize=rows, encoding_errors="strict",
-            engine="c", low_memory=True, on_bad_lines="error", **exact,
-        ) as reader:
-            yield from reader
-    except pd.errors.EmptyDataError:
-        return
-    except (pd.errors.ParserError, UnicodeDecodeError) as error:
-        raise FormatError("a line that does not fit the table", where=path.name, expected=f"{width} cells",
-                          got=str(error).strip().splitlines()[-1]) from None
-
-
-def _stamps(sheet: Sheet, chunk: Any, source: Source, where: str) -> stamps.Stamps:
-    layout = sheet.layout
-    if layout.seconds is not None:
-        seconds, _ = _floats(chunk[layout.time[0]].to_numpy(), sheet.decimal)
-        good = np.isfinite(seconds) & (np.abs(seconds * layout.seconds) < 9e9)
-        t_ns = np.full(seconds.size, NAT, np.int64)
-        t_ns[good] = np.rint(seconds[good] * (layout.seconds * 1e9)).astype(np.int64)
-        return stamps.Stamps(t_ns, False, ())
-    cells = chunk[layout.time[0]].fillna("")
-    for column in layout.time[1:]:
-        cells = cells.str.strip() + " " + chunk[column].fillna("").str.strip()
-    return stamps.parse(cells.tolist(), source.timezone, layout.form, where)
-
-
-def _all_stamps(path: Path, sheet: Sheet, source: Source, rows: int) -> stamps.Stamps:
-    """Times of all rows: dates need the whole column (which hour repeats, which number is the day)."""
-    if sheet.layout.seconds is not None:
-        parts = [_stamps(sheet, c, source, path.name).t_ns for c in _chunks(path, sheet, rows)]
-        return stamps.Stamps(np.concatenate(parts) if parts else np.zeros(0, np.int64), False, ())
-    import pandas as pd
-
-    kept = [c[list(sheet.layout.time)] for c in _chunks(path, sheet, rows)]
-    if not kept:
-        return stamps.Stamps(np.zeros(0, np.int64), True, ())
-    return _stamps(sheet, pd.concat(kept), source, path.name)
+    return rows.Clock(path, sheet, source).of([chunk])
 
 
 def blocks(path: Path, source: Source) -> Iterator[Block | Loss]:
+    """The rows as fast as they read; from the first that does not fit the plain way on, with every care."""
     sheet = open_sheet(path, source)
-    layout, width = sheet.layout, len(sheet.layout.names)
-    rows = max(1, int(source.options.get("block_rows", _BLOCK_VALUES // (width + _SPARE))))
-    t_ns = _all_stamps(path, sheet, source, rows).t_ns
-    total = t_ns.size - (1 if sheet.cut else 0)
-    at, bad_times, bad_cells = 0, 0, dict[str, list[str]]()
-    last_ns: int | None = None
-    for chunk in _chunks(path, sheet, rows):
-        t = t_ns[at:at + len(chunk)]
-        good = (t != NAT) & (np.arange(at, at + len(chunk)) < total)
-        spare = chunk.iloc[:, width:]
-        good &= ~spare.notna().any(axis=1).to_numpy()
-        bad_times += int((~good).sum()) - (1 if at + len(chunk) > total else 0)
-        values: dict[str, Array] = {}
-        for i, name in enumerate(layout.names):
-            if i in layout.time:
-                continue
-            cells = chunk[i].to_numpy()
-            if sheet.kinds[i] == "str":
-                values[name] = np.array([clean(c) if isinstance(c, str) else "" for c in cells], object)[good]
-                continue
-            numbers, odd = _floats(cells, sheet.decimal)
-            values[name] = numbers[good]
-            if odd:
-                bad_cells.setdefault(name, []).extend(odd)
-        at += len(chunk)
-        block = Block(STREAM, t[good], values)
-        if block.t_ns.size:
-            last_ns = int(block.t_ns[-1])
-            yield block
-    if at and bad_times * 2 > at:
-        raise FormatError("most rows hold no time", where=path.name, got=f"{bad_times} of {at}",
-                          hint="declare table: {time: {column: ..., format: ...}}")
-    for name, odd in bad_cells.items():
-        yield Loss(f"{path.name} column '{name}'", None, None, min(1.0, len(odd) / max(at, 1)),
-                   f"{len(odd)} cells are no numbers, such as '{odd[0]}'")
-    if bad_times:
-        yield Loss(path.name, None, None, bad_times / at, f"{bad_times} rows without a time, or with too many cells")
-    if sheet.cut:
-        yield Loss(f"{path.name} row {layout.first + at}", last_ns, None, 1 / max(at, 1), sheet.cut)
-
-
-def _floats(cells: Array, decimal: str) -> tuple[Array, list[str]]:
-    """Numbers of a column; empty cells are NaN, and so are cells that are no numbers, which are named."""
-    if cells.dtype.kind in "biuf":
-        return cells.astype(np.float64), []
-    # pandas reads a part of such a column as numbers where that part holds no word; NaN is an empty cell
-    texts = [c.strip() if isinstance(c, str) else "" if c != c else repr(float(c)) for c in cells.tolist()]
-    if decimal == ",":
-        texts = [c.replace(",", ".") for c in texts]
-    try:
-        return np.array([c or "nan" for c in texts]).astype(np.float64), []
-    except ValueError:
-        pass
-    out, odd = np.full(len(texts), np.nan), []
-    for i, text in enumerate(texts):
-        low = text.lower()
-        if low in _EMPTY:
-            continue
+    tally = rows.Tally()
+    if fast.suits(sheet):
         try:
-            out[i] = {"true": 1.0, "false": 0.0}[low] if low in ("true", "false") else float(text)
-        except ValueError:
-            odd.append(text)
-    return out, odd
+            yield from fast.blocks(path, sheet, source, tally)
+        except fast.UnsuitableError:
+            yield from rows.blocks(path, sheet, source, tally)
+    else:
+        yield from rows.blocks(path, sheet, source, tally)
+    yield from tally.losses(path, sheet)

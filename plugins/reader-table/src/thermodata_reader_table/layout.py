@@ -7,9 +7,11 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+import numpy as np
+
 from thermodata.errors import FormatError, UsageError, nearest
 from thermodata.reader.text import clean, looks_like_unit, split_unit
-from thermodata_reader_table.clocks import SECONDS
+from thermodata_reader_table.clocks import EPOCHS, SECONDS, check_unit, found_epoch
 from thermodata_reader_table.stamps import is_date, is_time_of_day
 
 Cell = Any   # text, or what a workbook holds: numbers, bool, datetime, date, time
@@ -33,6 +35,7 @@ class Layout:
     seconds: float | None
     form: str | None
     notes: tuple[str, ...] = ()
+    epoch: str | None = None           # of times counted from a date (clocks.EPOCHS); seconds is None then
 
 
 def is_number(cell: Cell) -> bool:
@@ -75,8 +78,10 @@ def find(rows: Sequence[Sequence[Cell]], declared: Mapping[str, Any] | None, whe
     data = [list(r[:width]) + [""] * (width - len(r)) for r in rows[first:first + 200]]
     if not data:
         raise FormatError("a table without data rows", where=where, expected=f"data after row {first}")
-    time, seconds, form, notes = _time(said.get("time") or {}, names, units, data, where)
-    return Layout(first, tuple(names), tuple(units), time, seconds, form, tuple(notes))
+    time, unit, form, notes = _time(said.get("time") or {}, names, units, data, where)
+    epoch = unit if unit in EPOCHS else None
+    return Layout(first, tuple(names), tuple(units), time, None if unit is None else SECONDS.get(unit), form,
+                  tuple(notes), epoch)
 
 
 def _width(body: Sequence[Sequence[Cell]]) -> int:
@@ -144,7 +149,7 @@ def column(wanted: int | str, names: Sequence[str], where: str) -> int:
 
 
 def _time(said: Mapping[str, Any], names: list[str], units: list[str | None], data: list[list[Cell]],
-          where: str) -> tuple[tuple[int, ...], float | None, str | None, list[str]]:
+          where: str) -> tuple[tuple[int, ...], str | None, str | None, list[str]]:
     wanted, unit, form = said.get("column"), said.get("unit"), said.get("format")
     if wanted is not None:
         columns = tuple(column(w, names, where) for w in (wanted if isinstance(wanted, list | tuple) else [wanted]))
@@ -157,13 +162,34 @@ def _time(said: Mapping[str, Any], names: list[str], units: list[str | None], da
         return columns, None, form, notes
     text = unit or units[columns[0]]
     if text is None:
-        text = "s"
-        notes.append(f"time column '{names[columns[0]]}' has no unit: taken as seconds; declare table: {{time: "
-                     "{unit: ...}} if that is wrong")
-    seconds = SECONDS.get(str(text).strip().lower())
-    if seconds is None:
-        raise FormatError(f"unknown unit of time '{text}'", where=where, expected=", ".join(SECONDS), got=str(text))
-    return columns, seconds, None, notes
+        text = _size_of_clock(names[columns[0]], cells, where)
+        notes.append(f"time column '{names[columns[0]]}' has no unit: " + (
+            "taken as seconds" if text == "s" else f"by its size it is {text}") +
+            "; declare table: {time: {unit: ...}} if that is wrong")
+    return columns, check_unit(str(text), where), None, notes
+
+
+def _size_of_clock(name: str, cells: Sequence[Cell], where: str) -> str:
+    """The unit of a time that names none: seconds, or a count from a date where its size leaves no other sense.
+    FormatError where it may be days or seconds."""
+    values = np.array([v for c in cells if (v := _value(c)) is not None], np.float64)
+    epoch = found_epoch(values) if values.size else None
+    if epoch is not None:
+        return epoch
+    days = values.size > 1 and bool(((values > 36_526) & (values < 73_051)).all()) and float(np.ptp(values)) < 400
+    if days and bool((np.abs(np.diff(values)) < 0.2).all()) and bool((values != np.floor(values)).any()):
+        if re.search(r"(?i)dat", name):
+            return "excel"
+        raise FormatError("times that may be Excel's days or seconds", where=where, got=f"{name}: {values[0]!r} ...",
+                          expected="a unit", hint="declare table: {time: {unit: excel}} or {time: {unit: s}}")
+    return "s"
+
+
+def _value(cell: Cell) -> float | None:
+    try:
+        return float(cell.replace(",", ".") if isinstance(cell, str) else cell)
+    except (ValueError, TypeError):
+        return None
 
 
 def _find_time(names: list[str], units: list[str | None], data: list[list[Cell]], where: str) -> tuple[int, ...]:

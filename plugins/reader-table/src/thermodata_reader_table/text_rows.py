@@ -1,0 +1,262 @@
+"""Rows of delimited text with every care: whatever cells hold, the good ones are kept and the others counted."""
+
+from __future__ import annotations
+
+import re
+import warnings
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from thermodata.errors import FormatError
+from thermodata.plugin import Array, Block, Int1D, Loss, Source
+from thermodata.reader.text import clean
+from thermodata.reader.zone import NAT
+from thermodata_reader_table import clocks, stamps
+from thermodata_reader_table.layout import Layout
+
+STREAM = "table"
+BLOCK_VALUES = 1_000_000
+_SPARE = 8                 # cells that a line may have too many before the file is refused
+EMPTY = {"", "nan", "null", "none", "n/a", "#n/a", "na", "-", "--", "---", "?"}
+_GROUPED = {",": re.compile(r"^[+-]?\d{1,3}(?:[. \u00a0\u202f'’]\d{3})+(?:,\d*)?$"),
+            ".": re.compile(r"^[+-]?\d{1,3}(?:[, \u00a0\u202f'’]\d{3})+(?:\.\d*)?$")}
+
+
+@dataclass(frozen=True)
+class Sheet:
+    """What the head of the file tells. kinds: "float64" or "str" by column; cells: of a usual line."""
+
+    encoding: str
+    delimiter: str
+    decimal: str
+    layout: Layout
+    kinds: tuple[str, ...]
+    quoted: bool
+    notes: tuple[str, ...]
+    cut: str | None
+    cells: int
+
+
+@dataclass
+class Tally:
+    """What became of the rows: how many were read, which gave no time, which cells are no numbers."""
+
+    at: int = 0
+    bad_rows: int = 0
+    short_rows: int = 0
+    last_ns: int | None = None
+    odd: dict[str, list[str]] = field(default_factory=dict)
+    odd_count: dict[str, int] = field(default_factory=dict)
+
+    def add_odd(self, name: str, cells: list[str]) -> None:
+        if cells:
+            self.odd_count[name] = self.odd_count.get(name, 0) + len(cells)
+            self.odd.setdefault(name, cells[:3])
+
+    def losses(self, path: Path, sheet: Sheet) -> Iterator[Loss]:
+        """Losses of the whole file; FormatError where most rows hold no time."""
+        at = max(self.at, 1)
+        if self.at and self.bad_rows * 2 > self.at:
+            raise FormatError("most rows hold no time", where=path.name, got=f"{self.bad_rows} of {self.at}",
+                              hint="declare table: {time: {column: ..., format: ...}}")
+        for name, cells in self.odd.items():
+            n = self.odd_count[name]
+            yield Loss(f"{path.name} column '{name}'", None, None, min(1.0, n / at),
+                       f"{n} cells are no numbers, such as '{cells[0]}'")
+        if self.bad_rows:
+            yield Loss(path.name, None, None, min(1.0, self.bad_rows / at),
+                       f"{self.bad_rows} rows without a time, or with too many cells")
+        if self.short_rows:
+            yield Loss(path.name, None, None, min(1.0, self.short_rows / at),
+                       f"{self.short_rows} lines have fewer cells than the others: their last cell may be cut")
+        if sheet.cut:
+            yield Loss(f"{path.name} row {sheet.layout.first + self.at}", self.last_ns, None, 1 / at, sheet.cut)
+
+
+def block_rows(sheet: Sheet, source: Source) -> int:
+    return max(1, int(source.options.get("block_rows", BLOCK_VALUES // (len(sheet.layout.names) + _SPARE))))
+
+
+def chunks(path: Path, sheet: Sheet, rows: int, only: tuple[int, ...] | None = None) -> Iterator[Any]:
+    """DataFrames, one column a position: numbers where pandas reads all of a part's cells as such, else text;
+    an empty cell is NaN. Column `width + i` holds cells that a line has too many. only: these columns."""
+    import pandas as pd
+
+    width = len(sheet.layout.names)
+    # columns of numbers and words are told as a Loss; pandas' own warning about them would come besides
+    warnings.filterwarnings("ignore", category=pd.errors.DtypeWarning)
+    # pandas before 3 rounds the last digit unless told not to
+    exact: dict[str, Any] = {} if int(pd.__version__.split(".")[0]) >= 3 else {"float_precision": "round_trip"}
+    text = {i: str for i, kind in enumerate(sheet.kinds) if kind == "str"}
+    if sheet.layout.seconds is None and sheet.layout.epoch is None:
+        text |= dict.fromkeys(sheet.layout.time, str)
+    try:
+        with pd.read_csv(
+            path, sep=sheet.delimiter, header=None, names=list(range(width + _SPARE)), index_col=False, dtype=text,
+            skiprows=sheet.layout.first, encoding=sheet.encoding, keep_default_na=False, na_values=[""],
+            decimal=sheet.decimal,
+            quoting=0 if sheet.quoted else 3, skip_blank_lines=True, chunksize=rows, encoding_errors="strict",
+            engine="c", low_memory=True, on_bad_lines="error", **exact,
+        ) as reader:
+            for chunk in reader:
+                yield chunk if only is None else chunk[list(only)]
+    except pd.errors.EmptyDataError:
+        return
+    except (pd.errors.ParserError, UnicodeError) as error:
+        raise FormatError("a line that does not fit the table", where=path.name, expected=f"{width} cells",
+                          got=(str(error).strip().splitlines() or ["?"])[-1]) from None
+
+
+class Clock:
+    """The times of rows; dates are resolved over all of them."""
+
+    def __init__(self, path: Path, sheet: Sheet, source: Source) -> None:
+        self.path, self.sheet, self.source = path, sheet, source
+        self._writing: stamps.Writing | None = None
+
+    @property
+    def layout(self) -> Layout:
+        return self.sheet.layout
+
+    def texts(self, chunk: Any) -> list[str]:
+        """The cells of the time columns of a chunk, joined."""
+        time = self.layout.time
+        cells = chunk[time[0]].fillna("")
+        for column in time[1:]:
+            cells = cells.str.strip() + " " + chunk[column].fillna("").str.strip()
+        found: list[str] = cells.tolist()
+        return found
+
+    def writing(self, first: list[str]) -> stamps.Writing:
+        """How the dates are written, by the first rows, or by as many as it takes."""
+        if self._writing is None:
+            try:
+                self._writing = stamps.find_writing([first], self.layout.form, self.path.name)
+            except FormatError:
+                # which number is the day may show further down only
+                parts = (self.texts(c) for c in chunks(self.path, self.sheet, 50_000, self.layout.time))
+                self._writing = stamps.find_writing(parts, self.layout.form, self.path.name)
+        return self._writing
+
+    def numbers(self, chunk: Any) -> Int1D:
+        values = floats(chunk[self.layout.time[0]].to_numpy(), self.sheet.decimal)[0]
+        if self.layout.epoch is not None:
+            epoch = clocks.EPOCHS[self.layout.epoch]
+            return clocks.to_ns(values, epoch.seconds, epoch.zero_s)
+        assert self.layout.seconds is not None
+        return clocks.to_ns(values, self.layout.seconds)
+
+    def of(self, parts: list[Any] | Iterator[Any]) -> stamps.Stamps:
+        """Times of all rows of some chunks."""
+        layout = self.layout
+        if layout.seconds is not None or layout.epoch is not None:
+            found = [self.numbers(c) for c in parts]
+            t_ns = np.concatenate(found) if found else np.zeros(0, np.int64)
+            if layout.epoch is None:
+                return stamps.Stamps(t_ns, False, ())
+            if not clocks.EPOCHS[layout.epoch].local:
+                return stamps.Stamps(t_ns, True, ())
+            return stamps.local_stamps(t_ns.view("datetime64[ns]"), self.source.timezone)
+        texts = (self.texts(c) for c in parts)
+        first = next(texts, None)
+        if first is None:
+            return stamps.Stamps(np.zeros(0, np.int64), True, ())
+        writing = self.writing(first)
+        return stamps.resolved([stamps.local(first, writing), *(stamps.local(t, writing) for t in texts)], writing,
+                               self.source.timezone)
+
+
+def blocks(path: Path, sheet: Sheet, source: Source, tally: Tally) -> Iterator[Block | Loss]:
+    """Blocks of the rows behind those that `tally` has already, in two passes: the times of all, then the values."""
+    layout, width = sheet.layout, len(sheet.layout.names)
+    rows, done = block_rows(sheet, source), tally.at
+    t_ns = Clock(path, sheet, source).of(chunks(path, sheet, rows, layout.time)).t_ns
+    total = t_ns.size - (1 if sheet.cut else 0)
+    tally.short_rows = _short(path, sheet)
+    at = 0
+    for chunk in chunks(path, sheet, rows):
+        n = len(chunk)
+        if at + n <= done:
+            at += n
+            continue
+        new = np.arange(at, at + n) >= done
+        t = t_ns[at:at + n]
+        inside = np.arange(at, at + n) < total
+        good = new & inside & (t != NAT) & ~chunk.iloc[:, width:].notna().any(axis=1).to_numpy()
+        tally.bad_rows += int((new & inside & ~good).sum())
+        values: dict[str, Array] = {}
+        for i, name in enumerate(layout.names):
+            if i in layout.time:
+                continue
+            cells = chunk[i].to_numpy()[good]
+            if sheet.kinds[i] == "str":
+                values[name] = np.array([clean(c) if isinstance(c, str) else "" for c in cells], object)
+            else:
+                values[name], odd = floats(cells, sheet.decimal)
+                tally.add_odd(name, odd)
+        at += n
+        tally.at = at
+        if good.any():
+            tally.last_ns = int(t[good][-1])
+            yield Block(STREAM, t[good], values)
+
+
+def _short(path: Path, sheet: Sheet) -> int:
+    """How many lines behind the header have fewer cells than is usual, so that one may be cut; 0 where cells are
+    quoted, for then delimiters are no measure."""
+    if sheet.quoted or sheet.encoding.startswith("utf-16"):
+        return 0
+    delimiter, usual, count = sheet.delimiter.encode(), sheet.cells - 1, 0
+    with path.open("rb") as file:
+        for _ in range(sheet.layout.first):
+            file.readline()
+        last = b""
+        for line in file:
+            if line.count(delimiter) < usual and not line.isspace():
+                count, last = count + 1, line
+    return count - (1 if sheet.cut and last and not last.endswith((b"\n", b"\r")) and count else 0)
+
+
+def floats(cells: Array, decimal: str) -> tuple[Array, list[str]]:
+    """Numbers of a column; empty cells are NaN, and so are cells that are no numbers, which are named."""
+    if cells.dtype.kind in "biuf":
+        return cells.astype(np.float64), []
+    # pandas reads a part of such a column as numbers where that part holds no word; NaN is an empty cell
+    texts = [c.strip() if isinstance(c, str) else "" if c != c else repr(float(c)) for c in cells.tolist()]
+    plain = [c.replace(",", ".") for c in texts] if decimal == "," and not any("." in c for c in texts) else texts
+    try:
+        return np.array([c or "nan" for c in plain]).astype(np.float64), []
+    except ValueError:
+        pass
+    out, odd = np.full(len(texts), np.nan), []
+    for i, text in enumerate(texts):
+        if text.lower() in EMPTY:
+            continue
+        number = to_number(text, decimal)
+        if number is None:
+            odd.append(text)
+        else:
+            out[i] = number
+    return out, odd
+
+
+def to_number(text: str, decimal: str) -> float | None:
+    """A number, with marks between thousands or a per cent sign behind it, or true and false; None for any other
+    word. `1_000` is none, though Python reads it."""
+    low = text.lower()
+    if low in ("true", "false"):
+        return float(low == "true")
+    if "_" in text:
+        return None
+    if _GROUPED[decimal].match(text):
+        text = re.sub(r"[. \u00a0\u202f'’]" if decimal == "," else r"[, \u00a0\u202f'’]", "", text)
+    elif decimal == "," and "." in text and "," in text:
+        return None
+    try:
+        return float(text.replace(",", ".") if decimal == "," else text)
+    except ValueError:
+        return None
