@@ -7,7 +7,7 @@ COMMUNICATION").
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from pathlib import Path
 
 import numpy as np
@@ -82,7 +82,7 @@ def _declare(streams: Streams, packet: Packet, signals: dict[tuple[str, str], Si
     for i, name in enumerate(packet.names):
         if not is_time(packet, i):
             notes.append(f"{name}: stands over {packet.key('X_Dimension', i)}, not over time; left out")
-    for number_, group in enumerate(streams.groups(packet)):
+    for group in streams.groups(packet):
         stream = streams.of(packet, group)
         for i in group:
             name = packet.names[i]
@@ -90,12 +90,13 @@ def _declare(streams: Streams, packet: Packet, signals: dict[tuple[str, str], Si
             known = signals.setdefault((stream, name), Signal(name, stream, unit))
             if known.unit != unit:
                 notes.append(f"{name}: its unit changes from '{known.unit}' to '{unit}' in line {packet.line}")
-        if packet.comment and number_ == 0:
-            signals.setdefault((stream, _comment(packet)), Signal(_comment(packet), stream, None, "str"))
+        text = _comment([packet.names[i] for i in group])
+        signals.setdefault((stream, text), Signal(text, stream, None, "str"))
 
 
-def _comment(packet: Packet) -> str:
-    return COMMENT if COMMENT not in packet.names else f"{COMMENT} (text)"
+def _comment(names: Collection[str]) -> str:
+    """The name of the free text beside a row: of each stream, for it says something of all channels."""
+    return COMMENT if COMMENT not in names else f"{COMMENT} (text)"
 
 
 def _grid(header: Header, packet: Packet, decimal: str) -> Grid:
@@ -161,16 +162,18 @@ class _Reading:
                                                    self.header.separator)
 
     def _blocks(self, rows: Rows, line: int) -> Iterator[Block | Loss]:
+        assert self.grid is not None
         words = None if rows.text is None else texts(rows.text, self.encoding)
         lost = list(rows.bad)
         empty, hopeless = self._unmeasured(rows)
         for count, group in enumerate(self.streams.groups(self.packet)):
-            block, good = self._block(rows, group, words if count == 0 else None, count == 0, empty, hopeless)
-            if count == 0 and good is not None:
-                lost += rows.line[~good].tolist()
+            block, good = self._block(rows, group, words, empty, hopeless)
+            if good is not None:
+                lost += rows.line[~good & (self._has_value(group, empty, rows.n) | (count == 0))].tolist()
             yield from self._sliced(block)
         self.done += rows.n
-        odd = [] if words is None else [i for i, w in enumerate(words) if w and number(w.encode()) is not None]
+        odd = [] if words is None else \
+            [i for i, w in enumerate(words) if w and number(w.encode(), self.grid.decimal) is not None]
         yield from self._losses(rows, sorted(set(lost)), odd, line)
 
     def _unmeasured(self, rows: Rows) -> tuple[dict[int, Bool1D], Bool1D | None]:
@@ -182,7 +185,7 @@ class _Reading:
         hopeless = np.logical_and.reduce([*empty.values(), wrong]) if wrong.any() else None
         return {c: m for c, m in empty.items() if m.any()}, hopeless
 
-    def _block(self, rows: Rows, group: list[int], words: Array | None, lead: bool, empty: dict[int, Bool1D],
+    def _block(self, rows: Rows, group: list[int], words: Array | None, empty: dict[int, Bool1D],
                hopeless: Bool1D | None) -> tuple[Block, Bool1D | None]:
         """One group's block; and which rows have a time and a value: None for all."""
         assert self.times is not None
@@ -201,13 +204,20 @@ class _Reading:
                 flag = said if flag is None else flag | said
             if flag is not None:
                 flags[packet.names[i]] = flag
-        if packet.comment and lead:
-            values[_comment(packet)] = words if words is not None else np.full(n, "", object)
+        values[_comment(values)] = words if words is not None else np.full(n, "", object)
         if not keep.all():
             t_ns = t_ns[keep]
             values = {k: v[keep] for k, v in values.items()}
             flags = {k: v[keep] for k, v in flags.items()}
         return Block(self.streams.of(packet, group), t_ns, values, flags or None), None if good.all() else good
+
+    def _has_value(self, group: list[int], empty: dict[int, Bool1D], n: int) -> Bool1D:
+        """Rows with a number in any of a group's columns."""
+        columns = [self.packet.columns[i] for i in group]
+        if any(c not in empty for c in columns):
+            return np.ones(n, bool)
+        found: Bool1D = ~np.logical_and.reduce([empty[c] for c in columns])
+        return found
 
     def _sampled(self, group: list[int], empty: dict[int, Bool1D], n: int) -> Bool1D:
         """False where a channel has no sample: its heading announces fewer than others have, and its cells are
@@ -215,11 +225,9 @@ class _Reading:
         packet = self.packet
         most = max((s for i in range(len(packet.names)) if (s := packet.samples(i)) is not None), default=0)
         own = packet.samples(group[0])
-        columns = [packet.columns[i] for i in group]
-        if own is None or own >= most or any(c not in empty for c in columns):
+        if own is None or own >= most:
             return np.ones(n, bool)
-        nothing = np.logical_and.reduce([empty[c] for c in columns])
-        sampled: Bool1D = ~(nothing & (np.arange(self.done, self.done + n) >= own))
+        sampled: Bool1D = self._has_value(group, empty, n) | (np.arange(self.done, self.done + n) < own)
         return sampled
 
     def _losses(self, rows: Rows, lost: list[int], odd: list[int], line: int) -> Iterator[Loss]:

@@ -11,6 +11,7 @@ from thermodata.errors import FormatError
 MARK = "***End_of_Header***"
 START_SPECIAL, END_SPECIAL = "***Start_Special***", "***End_Special***"
 _FILE_KEYS = {"Writer_Version", "Reader_Version", "Separator", "Multi_Headings", "X_Columns", "Decimal_Separator"}
+_PACKET_KEYS = {"Channels", "Samples", "X0", "Delta_X", "X_Dimension", "Y_Unit_Label"}
 _SEPARATORS = {"tab": "\t", "comma": ",", "semicolon": ";", "space": " "}
 
 
@@ -66,6 +67,13 @@ def cells(line: str, separator: str) -> list[str]:
 def is_file_header(lines: list[str]) -> bool:
     """Whether lines before an end mark are a file's header, not the heading of a packet."""
     return any(re.split(r"[\t,; ]", line, maxsplit=1)[0] in _FILE_KEYS for line in lines)
+
+
+def split_heading(lines: list[str]) -> tuple[list[str], list[str]]:
+    """(lines of the file's header, lines of a packet's heading that follow it, for want of an end between)."""
+    at = next((i for i, line in enumerate(lines) if re.split(r"[\t,; ]", line, maxsplit=1)[0] in _PACKET_KEYS),
+              len(lines))
+    return lines[:at], lines[at:]
 
 
 def read_header(lines: list[str], notes: list[str]) -> Header:

@@ -18,6 +18,7 @@ from thermodata_reader_crio.lvm_header import (
     is_file_header,
     read_header,
     read_packet,
+    split_heading,
 )
 from thermodata_reader_crio.textparts import Part, decode, parts
 
@@ -125,10 +126,14 @@ class _Scan:
                 yield from self._names(text, line)
         elif text.startswith(MARK):
             if self.header is None or is_file_header(self.lines):
-                header = read_header(self.lines, self.notes)
+                own, heading = split_heading(self.lines)
+                header = read_header(own, self.notes)
                 if self.header is None or header != self.header:
                     yield header
                 self.header, self.lines = header, []
+                if heading:
+                    self.notes.append(f"line {line}: no end of the file's header stands before the first heading")
+                    self.lines, self.state = heading, "names"
             elif self.lines or not self.packets:
                 self.state = "names"
             else:

@@ -95,6 +95,8 @@ def _fast(data: bytes, grid: Grid) -> Rows | None:
     except pa.ArrowInvalid:
         return None
     numbers = [_numpy(table.column(i)) if i < cells else np.full(table.num_rows, np.nan) for i in range(grid.numeric)]
+    if any(np.isinf(c).any() for c in numbers if np.isinf(c.sum()) or np.isnan(c.sum())):
+        return None                                  # a number too large for a double, or Inf itself
     if table.num_rows > 1 and cells == 1 and np.isnan(numbers[0]).any():
         return None                                  # an empty line is an empty cell where there is one column
     text = None
@@ -170,7 +172,8 @@ def number(cell: bytes, decimal: bytes = b".") -> float | None:
             return None
         cell = cell.replace(b",", b".")
     if _NUMBER.match(cell):
-        return float(cell)
+        value = float(cell)
+        return value if np.isfinite(value) else None     # 1e999
     return _WORDS.get(cell.lower())
 
 
