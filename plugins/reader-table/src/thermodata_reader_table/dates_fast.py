@@ -11,7 +11,7 @@ import numpy.typing as npt
 from thermodata.plugin import Int1D
 from thermodata.reader.zone import NAT
 
-_DAY_NS = 86_400_000_000_000
+_ISO = re.compile(r"^\d{4}-\d\d-\d\d[T ]\d\d:\d\d(:\d\d(\.\d{1,9})?)?$")
 _WIDTHS = 12                                # different lengths of cells; more are read one by one
 
 
@@ -22,6 +22,8 @@ def local_times(column: Any, pattern: re.Pattern[str], *, year_first: bool, mont
     """
     if column.null_count or not len(column):
         return None
+    if year_first and (iso := _iso(column)) is not None:
+        return iso
     offsets = np.frombuffer(column.buffers()[1], np.int32)[column.offset:column.offset + len(column) + 1]
     letters = np.frombuffer(column.buffers()[2], np.uint8)
     widths = np.diff(offsets)
@@ -40,6 +42,19 @@ def local_times(column: Any, pattern: re.Pattern[str], *, year_first: bool, mont
             return None
         out[rows] = part
     return out
+
+
+def _iso(column: Any) -> Int1D | None:
+    """2026-03-01 08:00:00.125 and the like by Arrow's own parser, or None."""
+    import pyarrow as pa
+
+    if _ISO.match(column[0].as_py()) is None:
+        return None
+    try:
+        found: Int1D = column.cast(pa.timestamp("ns")).to_numpy(zero_copy_only=False).view(np.int64)
+    except pa.ArrowException:
+        return None
+    return found
 
 
 def _of_width(cells: npt.NDArray[np.uint8], pattern: re.Pattern[str], year_first: bool,
