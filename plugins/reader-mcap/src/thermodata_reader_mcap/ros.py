@@ -10,7 +10,7 @@ from thermodata_reader_mcap.decoders import UnsupportedError
 from thermodata_reader_mcap.definitions import Schema
 from thermodata_reader_mcap.leaves import Hint
 from thermodata_reader_mcap.ros_idl import idl_types
-from thermodata_reader_mcap.ros_types import Field, Types, TypeTextError, is_struct, message_types
+from thermodata_reader_mcap.ros_types import Field, LineError, Types, TypeTextError, is_struct, message_types
 from thermodata_reader_mcap.seen import MOST_ELEMENTS, Path
 
 FORMATS = {"?": "?", "i1": "b", "u1": "B", "i2": "h", "u2": "H", "i4": "i", "u4": "I", "i8": "q", "u8": "Q",
@@ -153,7 +153,7 @@ def ros_decoder(encoding: str, schema: Schema) -> Any:
         if types.root not in types.structs:
             raise TypeTextError(f"the type {types.root} is not defined")
     except (TypeTextError, RecursionError) as error:
-        if schema.encoding == "ros2msg" and encoding == "cdr" and "wstring" not in str(error):
+        if schema.encoding == "ros2msg" and encoding == "cdr" and isinstance(error, LineError):
             from thermodata_reader_mcap.ros_package import package_decoder
 
             theirs = package_decoder(schema)

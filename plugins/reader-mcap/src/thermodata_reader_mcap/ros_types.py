@@ -19,6 +19,10 @@ class TypeTextError(Exception):
     """A definition that does not parse; the message says where."""
 
 
+class LineError(TypeTextError):
+    """A line of a definition whose words are in no order that we know."""
+
+
 @dataclass(frozen=True, slots=True)
 class Field:
     """kind: numpy's letter, "string", or the name of a struct. fixed: elements of an array of one length;
@@ -74,7 +78,7 @@ def _fields(text: str, package: str, ros1: bool) -> tuple[Field, ...]:
             continue
         match = _LINE.fullmatch(line)
         if match is None:
-            raise TypeTextError(f"line {number} of a definition: {line[:60]!r}")
+            raise LineError(f"line {number} of a definition: {line[:60]!r}")
         kind, _, bound, count, name, rest = match.groups()
         if rest.startswith("="):
             continue                                        # a constant
