@@ -24,9 +24,10 @@ COMPRESSIONS = [CompressionType.NONE, CompressionType.LZ4, CompressionType.ZSTD]
 
 def test_a_long_file_without_chunks_is_read_by_its_head(tmp_path: Path, monkeypatch: pytest.MonkeyPatch,
                                                         write: Any, read: Any, axis: Any) -> None:
-    from thermodata_reader_mcap import plan
+    from thermodata_reader_mcap import content, plan
 
     monkeypatch.setattr(plan, "WHOLE", 2000)
+    monkeypatch.setattr(content, "_LOOSE", 10)
     recording, times, values, _, losses = read(write(tmp_path / "a.mcap", axis(500), use_chunking=False))
     assert not losses
     assert times["/axis"].size == 500

@@ -80,9 +80,10 @@ def test_options_that_are_none_are_refused(tmp_path: Path, write: Any, axis: Any
 
 def test_publish_times_that_differ_late_are_said(tmp_path: Path, write: Any, read: Any,
                                                  monkeypatch: pytest.MonkeyPatch) -> None:
-    from thermodata_reader_mcap import plan
+    from thermodata_reader_mcap import content, plan
 
     monkeypatch.setattr(plan, "WHOLE", 2000)
+    monkeypatch.setattr(content, "_LOOSE", 10)
     path = write(tmp_path / "a.mcap", [("/m", T0 + k, {"v": k / 2}) for k in range(500)], use_chunking=False,
                  publish=lambda t: t - 9 * (t > T0 + 400))
     _, times, values, _, losses = read(path)

@@ -75,10 +75,12 @@ def take(inner: Bytes, at: Int1D, channel_of: Callable[[int], Channel | None], k
             [inner[a:b] for a, b in zip(first.tolist(), last.tolist(), strict=True)]
         batch.log_ns.append(log_ns if mine is None else log_ns[mine])
         batch.publish_ns.append(publish_ns if mine is None else publish_ns[mine])
-        kinds = np.zeros(65536, np.int64)
-        for number, kind in members:
-            kinds[number] = kind
-        batch.kinds.append(kinds[numbers if mine is None else numbers[mine]])
+        if len(members) == 1:
+            batch.kinds.append(np.full(first.size, members[0][1], np.int64))
+            continue
+        table = np.zeros(65536, np.int64)
+        table[[number for number, _ in members]] = [kind for _, kind in members]
+        batch.kinds.append(table[numbers if mine is None else numbers[mine]])
     return log_ns
 
 

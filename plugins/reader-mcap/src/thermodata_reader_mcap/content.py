@@ -37,6 +37,7 @@ from thermodata_reader_mcap.walk import Damage, data_section
 
 LATEST_NS = 9_000_000_000_000_000_000
 _PIECE = 16 << 20         # of a chunk that is taken at a time
+_LOOSE = 2000             # messages outside of chunks that are taken at a time
 _LET_GO = 64 << 20        # of the file that stays mapped behind the walk
 
 
@@ -104,7 +105,24 @@ def walk(view: memoryview, content: Content, full: Callable[[], bool],
     number, mapped = -1, _Mapped(view)
     waiting: tuple[Record, list[npt.NDArray[np.int64]]] | None = None      # a chunk, and the indexes behind it
 
+    loose: list[int] = []                                                  # messages outside of chunks
     for record in data_section(view):
+        if isinstance(record, Record) and record.opcode == MESSAGE and not record.cut:
+            if waiting is not None:
+                yield from _chunk(view, waiting[0], content, number, waiting[1], full)
+                waiting = None
+            loose.append(record.start - HEAD.size)
+            content.pending += record.stop - record.start
+            if len(loose) >= _LOOSE or content.pending >= _PIECE:
+                _take(view, np.array(loose, np.int64), content)
+                loose = []
+                mapped.passed(record.start)
+                if full():
+                    yield None
+            continue
+        if loose:
+            _take(view, np.array(loose, np.int64), content)
+            loose = []
         if isinstance(record, Record) and record.opcode == MESSAGE_INDEX and not record.cut:
             if waiting is not None:
                 entries = np.frombuffer(octets(view, record.start + 2, record.stop)[0], "<u8").reshape(-1, 2)
@@ -125,14 +143,12 @@ def walk(view: memoryview, content: Content, full: Callable[[], bool],
             yield None
             yield content.loss(record.start - HEAD.size, record.stop, "the file ends inside a record: it was cut")
         else:
-            if record.opcode == MESSAGE:
-                content.pending += record.stop - record.start
-                _take(bytes(view[record.start - HEAD.size:record.stop]), np.zeros(1, np.int64), content)
-            else:
-                define(view[record.start:record.stop], record.opcode, content)
+            define(view[record.start:record.stop], record.opcode, content)
             if full():
                 yield None
             mapped.passed(record.start)
+    if loose:
+        _take(view, np.array(loose, np.int64), content)
     if waiting is not None:
         yield from _chunk(view, waiting[0], content, number, waiting[1], full)
 

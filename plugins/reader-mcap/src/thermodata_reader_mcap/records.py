@@ -14,6 +14,7 @@ DATA_END = 15
 IN_DATA = frozenset({HEADER, SCHEMA, CHANNEL, MESSAGE, CHUNK, MESSAGE_INDEX, ATTACHMENT, METADATA})
 IN_SUMMARY = frozenset({SCHEMA, CHANNEL, CHUNK_INDEX, ATTACHMENT_INDEX, STATISTICS, METADATA_INDEX, SUMMARY_OFFSET})
 MESSAGES = frozenset({MESSAGE, CHUNK, MESSAGE_INDEX})
+CHUNKS = frozenset({CHUNK})
 PRIVATE = 0x80                      # opcodes from here on belong to applications
 HEAD = struct.Struct("<BQ")
 MESSAGE_HEAD = 22                   # channel, sequence, log time, publish time
@@ -34,7 +35,8 @@ class Record:
 
 @dataclass(frozen=True, slots=True)
 class ChunkHead:
-    """A chunk's header; `start` and `stop` bound its records as stored, `size` is what they unpack to."""
+    """A chunk's header; `start` and `stop` bound its records as stored, `size` is what they unpack to;
+    `stored` is how many bytes of them there should be."""
 
     start_ns: int
     end_ns: int
@@ -43,6 +45,7 @@ class ChunkHead:
     compression: str
     start: int
     stop: int
+    stored: int
 
 
 class ShortError(Exception):
@@ -105,7 +108,7 @@ def chunk_head(view: Bytes, record: Record) -> ChunkHead | None:
     if len(name) > 16 or (not record.cut and at + stored > record.stop):
         return None
     return ChunkHead(start_ns, end_ns, size, crc, bytes(name).decode("ascii", "replace"), at,
-                     min(at + stored, record.stop))
+                     min(at + stored, record.stop), stored)
 
 
 def _schema(view: Bytes, at: int, stop: int) -> int:

@@ -6,11 +6,13 @@ data section itself or inside (compressed) chunks.
 
 from __future__ import annotations
 
+import struct
 from collections.abc import Iterator
 from dataclasses import dataclass
 
 from thermodata_reader_mcap.records import (
     CHUNK,
+    CHUNKS,
     DATA_END,
     FOOTER,
     HEAD,
@@ -65,7 +67,9 @@ def data_section(view: memoryview) -> Iterator[Record | Damage]:
             at = stop
             continue
         ended = opcode == DATA_END and length == 4
-        following = next_record(view, at + 1, kinds=MESSAGES if ended else IN_DATA)
+        # what looks like records inside of a cut chunk that is not compressed is the chunk's own
+        inside = opcode == CHUNK and record.cut and _may_be_cut(view, record)
+        following = next_record(view, at + 1, kinds=CHUNKS if inside else MESSAGES if ended else IN_DATA)
         if ended and following is None:
             return                                          # only what stands behind the data is damaged
         if record.cut and following is None and _may_be_cut(view, record):
@@ -78,7 +82,8 @@ def data_section(view: memoryview) -> Iterator[Record | Damage]:
 
 
 def _stands(view: memoryview, record: Record, first: int) -> bool:
-    """Whether a record is what its head says; `first` is where the only header may stand. A length that a wrong bit made longer would swallow what follows."""
+    """Whether a record is what its head says; `first` is where the only header may stand. A length that a wrong bit
+    made longer would swallow what follows."""
     if record.opcode == HEADER and record.start != first + HEAD.size:
         return False
     if record.opcode not in IN_DATA and record.opcode < PRIVATE:
@@ -104,7 +109,11 @@ def _goes_on(view: memoryview, at: int) -> bool:
 def _may_be_cut(view: memoryview, record: Record) -> bool:
     if record.opcode not in IN_DATA:
         return False
-    return record.opcode != CHUNK or chunk_head(view, record) is not None
+    if record.opcode != CHUNK:
+        return True
+    head = chunk_head(view, record)
+    (length,) = struct.unpack_from("<Q", view, record.start - 8)
+    return head is not None and head.start - record.start + head.stored == length
 
 
 def end_of_file(view: memoryview, at: int) -> int | None:
