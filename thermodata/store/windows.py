@@ -13,7 +13,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from thermodata.calibration.quality import ColumnInput, QualityEvent, flag_stream
+from thermodata.calibration.quality import MOST_EVENTS, ColumnInput, QualityEvent, flag_stream
 from thermodata.plugin import Array, Int1D
 from thermodata.schema.flag import Flag
 from thermodata.store.piece import Column
@@ -22,7 +22,6 @@ WINDOW_VALUES = 8_000_000             # values in a window: 64 MB of float64, an
 WINDOW_ROWS = 2_000_000               # but not more rows: what is looked for in a column takes several times its size
 MARGIN_ROWS = 4096                    # of the neighbours, on both sides
 MOST_COLUMNS = 200                    # columns that are judged together
-_MOST_EVENTS = 50
 _STANDS = np.uint16(Flag.HELD | Flag.STUCK)
 _OFFSET = np.uint16(Flag.OFFSET)
 _BY_NAME = {str(f.name).lower(): np.uint16(f) for f in Flag if f}
@@ -84,11 +83,11 @@ class Joined:
 
     def _keep(self, key: tuple[str | None, str], event: QualityEvent) -> None:
         self._count[key] = self._count.get(key, 0) + 1
-        if self._count[key] <= _MOST_EVENTS:
+        if self._count[key] <= MOST_EVENTS:
             self._open[key] = len(self.events)
             self.events.append(event)
             return
-        at, more = self._open[key], self._count[key] - _MOST_EVENTS
+        at, more = self._open[key], self._count[key] - MOST_EVENTS
         kept = self.events[at]
         detail = re.sub(r"; and \d+ more$", "", kept.detail)
         self.events[at] = replace(kept, to_ns=max(kept.to_ns, event.to_ns), n=kept.n + event.n,
@@ -113,7 +112,7 @@ def _continued(name: str, x: Array, t_ns: Int1D, flags: Array, carried: _Carried
         moved = np.flatnonzero(x[start:] != carried.value)
         stop = start + int(moved[0]) if moved.size else len(x)
         if stop > start:
-            flags[start:stop] = (flags[start:stop] & ~_STANDS) | np.uint16(carried.stands)
+            flags[start - 1:stop] = (flags[start - 1:stop] & ~_STANDS) | np.uint16(carried.stands)
             flag = Flag.STUCK if carried.stands & Flag.STUCK else Flag.HELD
             events = [e for e in events if not (e.channel == name and e.flag in ("held", "stuck")
                                                 and e.from_ns <= first <= e.to_ns)]
