@@ -1,4 +1,4 @@
-"""Reader of what LabVIEW and a cRIO write: TDMS (with DAQmx), and the text files LVM."""
+"""Reader of what LabVIEW and a cRIO write: TDMS (with DAQmx), LVM, and plain rows of numbers."""
 
 from __future__ import annotations
 
@@ -13,18 +13,19 @@ LVM_START = "LabVIEW Measurement"
 
 
 class Reader:
-    """TDMS and LVM, told apart by their first bytes. A `.tdms_index` beside a file is never read: it may be stale."""
+    """TDMS, LVM and plain text, told apart by their first bytes. A `.tdms_index` beside a file is never read: it may
+    be stale."""
 
     name = "crio"
 
     def sniff(self, head: Head) -> str | None:
         if head.start[:4] == b"TDSm":
             return "TDMS: the file starts with the lead-in 'TDSm'"
-        if head.start[:200].lstrip(b"\xef\xbb\xbf\xff\xfe").startswith((b"LabVIEW", b"L\0a\0b\0V\0I\0E\0W")):
-            text = decode_head(head.start[:200])
-            if text is not None and text.lstrip("\ufeff").startswith(LVM_START):
-                return f"LVM: the file starts with '{LVM_START}'"
-        return None
+        if _is_lvm(head.start):
+            return f"LVM: the file starts with '{LVM_START}'"
+        from thermodata_reader_crio.ascii_layout import claim
+
+        return claim(head)
 
     def describe(self, path: Path, source: Source) -> Recording:
         recording: Recording = _format(path).describe(path, source)
@@ -35,14 +36,25 @@ class Reader:
         return found
 
 
+def _is_lvm(start: bytes) -> bool:
+    if not start[:200].lstrip(b"\xef\xbb\xbf\xff\xfe").startswith((b"LabVIEW", b"L\0a\0b\0V\0I\0E\0W")):
+        return False
+    text = decode_head(start[:200])
+    return text is not None and text.lstrip("\ufeff").startswith(LVM_START)
+
+
 def _format(path: Path) -> ModuleType:
-    """One of two modules with the same two functions."""
+    """One of three modules with the same two functions; what is no text is taken for a damaged TDMS file."""
     with path.open("rb") as file:
-        start = file.read(4)
-    if start.lstrip(b"\xef\xbb\xbf\xff\xfe")[:1] == b"L":
+        start = file.read(4096)
+    if _is_lvm(start):
         from thermodata_reader_crio import lvm
 
         return lvm
+    if start[:4] != b"TDSm" and decode_head(start) is not None and start.strip():
+        from thermodata_reader_crio import labview_ascii
+
+        return labview_ascii
     from thermodata_reader_crio import tdms
 
     return tdms

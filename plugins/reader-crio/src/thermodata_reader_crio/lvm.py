@@ -140,6 +140,8 @@ class _Reading:
         self.times: Times | None = None
         self.grid: Grid | None = None
         self.done = 0
+        for group in streams.groups(packet):
+            streams.of(packet, group)                # named in the order of the headings, whether rows follow or not
 
     def rows(self, part: RowPart) -> Iterator[Block | Loss]:
         data = part.data
@@ -173,7 +175,7 @@ class _Reading:
             yield from self._sliced(block)
         self.done += rows.n
         odd = [] if words is None else \
-            [i for i, w in enumerate(words) if w and number(w.encode(), self.grid.decimal) is not None]
+            [i for i, w in enumerate(words) if w and ("\0" in w or number(w.encode(), self.grid.decimal) is not None)]
         yield from self._losses(rows, sorted(set(lost)), odd, line)
 
     def _unmeasured(self, rows: Rows) -> tuple[dict[int, Bool1D], Bool1D | None]:
@@ -241,7 +243,7 @@ class _Reading:
                        "rows are kept, these values are flagged")
         if odd:
             yield Loss(f"{self.path.name} line {line + int(rows.line[odd[0]])}", reason=f"{len(odd)} rows with a "
-                       "number where the comment stands: a cell too many, or a remark")
+                       "number, or bytes of no text, where the comment stands")
 
     def _sliced(self, block: Block) -> Iterator[Block]:
         size = int(self.source.options.get("block_rows", 0)) or max(1, block.t_ns.size)

@@ -64,6 +64,7 @@ class _Scan:
         self.state = "heading"          # or: names, rows, special
         self.before_special = ""
         self.rest, self.line = b"", 1
+        self.strays: list[int] = []     # lines in a heading that are none of its
 
     def part(self, part: Part, last: bool = False) -> Iterator[Item]:
         data, at, line = part.data, 0, part.line
@@ -125,6 +126,10 @@ class _Scan:
             if text.strip():
                 yield from self._names(text, line)
         elif text.startswith(MARK):
+            if self.strays:
+                yield Loss(f"{self.path.name} line {self.strays[0]}",
+                           reason=f"{len(self.strays)} lines before a heading's end that belong to no heading")
+                self.strays = []
             if self.header is None or is_file_header(self.lines):
                 own, heading = split_heading(self.lines)
                 header = read_header(own, self.notes)
@@ -139,6 +144,8 @@ class _Scan:
             else:
                 self.state = "rows"
                 yield Loss(f"{self.path.name} line {line}", reason="the end of a header that is not there")
+        elif "\0" in text or (text.strip(" \t,;") and self.packets and not _KEY.match(text.encode())):
+            self.strays.append(line)
         elif text.strip(" \t,;"):
             self.lines.append(text)
             if len(self.lines) > _MOST_HEADER_LINES:
