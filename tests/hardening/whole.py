@@ -54,7 +54,8 @@ def content(folder: Path) -> str:
         for table in TABLES:
             cursor = con.execute(f"select * from {table}")
             names = [d[0] for d in cursor.description]
-            rows = [{k: v for k, v in zip(names, row, strict=True) if k not in _MOMENTS or (table, k) == ("file", "path")} for row in cursor.fetchall()]
+            wanted = [i for i, n in enumerate(names) if n not in _MOMENTS or (table, n) == ("file", "path")]
+            rows = [{names[i]: row[i] for i in wanted} for row in cursor.fetchall()]
             digest.update(json.dumps(sorted(json.dumps(r, default=str, sort_keys=True) for r in rows)).encode())
         found = con.execute("select campaign, test, channel, count(*), sum(hash(t_s, value, flag)::hugeint) "
                             "from sample group by all order by all").fetchall()

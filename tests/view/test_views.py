@@ -10,7 +10,6 @@ import duckdb
 import numpy as np
 import pytest
 
-from thermodata.errors import StoreError
 from thermodata.store import Store
 from thermodata.store.views import regenerate
 
@@ -262,8 +261,11 @@ def test_a_moved_store_works_also_from_inside_its_folder(own: Store, tmp_path: P
         con.close()
 
 
-def test_a_lost_file_is_named(own: Store) -> None:
+def test_a_lost_file_is_named_to_who_asks_for_it_and_stops_nobody_else(own: Store) -> None:
     for path in (own.path / "tidy").iterdir():
         path.unlink()
-    with own.reader() as con, pytest.raises(StoreError, match="can't be read"):
+    with own.reader() as con:
         regenerate(con, own.path)
+        assert con.execute("select count(*) from test").fetchone() != (0,)
+        with pytest.raises(duckdb.Error, match=r"damaged store: tidy/.*parquet is gone"):
+            con.execute(f"select count(*) from {con.execute('select view from wide').fetchall()[0][0]}").fetchall()

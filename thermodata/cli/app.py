@@ -12,6 +12,7 @@ from importlib import import_module
 import click
 
 from thermodata import __version__
+from thermodata.cli.common import known_failure
 from thermodata.errors import ThermodataError, unknown_name
 
 # Section of the help -> command -> module. The order is the order of the work.
@@ -91,8 +92,14 @@ def run(argv: Sequence[str] | None = None) -> int:
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return 0
     except OSError as error:
+        known = known_failure(error)
+        if known is not None:
+            return _fail(str(known), known.exit_code)
         return _fail(f"{error.strerror or error}" + (f"\nwhere: {error.filename}" if error.filename else ""), 1)
     except Exception as error:
+        known = known_failure(error)
+        if known is not None:
+            return _fail(str(known), known.exit_code)
         if os.environ.get("THERMODATA_DEBUG"):
             raise
         last = traceback.extract_tb(error.__traceback__)[-1]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import errno
 import functools
 import json
 import math
@@ -14,6 +15,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, cast
 
 import click
+
+from thermodata.errors import StoreError, ThermodataError, UsageError
 
 if TYPE_CHECKING:
     from thermodata.store import Store
@@ -47,6 +50,23 @@ class Session:
         """Data, on stdout: the payload as JSON, or its text."""
         click.echo(json.dumps(plain(payload), indent=2, ensure_ascii=False, allow_nan=False)
                    if self.as_json else text())
+
+
+def known_failure(error: Exception) -> ThermodataError | None:
+    """What the user can do something about, in an exception of a library: a full disk, a damaged file of the store,
+    a query that fails on a row. None for anything else."""
+    if isinstance(error, OSError):
+        if error.errno not in (errno.ENOSPC, errno.EDQUOT):
+            return None
+        return StoreError("the disk is full", where=str(error.filename) if error.filename else None,
+                          got=error.strerror, hint="free space and run it again")
+    # by name: DuckDB is imported in the store and its views only, and only where it is needed
+    if not type(error).__module__.lstrip("_").startswith("duckdb"):
+        return None
+    from thermodata.store.connection import damaged_data
+
+    damage = damaged_data(Path("the store"), error)
+    return damage or UsageError("the query fails", got=str(error).strip().splitlines()[0])
 
 
 def in_units_of(session: Session, response: str | list[str], text: str) -> str:

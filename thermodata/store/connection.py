@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import errno
 import json
 from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from thermodata.errors import StoreError
+from thermodata.store.files import write_error
 
 if TYPE_CHECKING:
     import duckdb
@@ -72,12 +74,32 @@ def settle(con: duckdb.DuckDBPyConnection, folder: Path) -> None:
 def damaged(path: Path, error: Exception) -> StoreError:
     """The refusal of a catalogue that DuckDB can't open."""
     text = str(error).strip().splitlines()[0]
-    busy = any(word in text.lower() for word in ("lock on file", "being used", "different configuration"))
+    low = text.lower()
+    if any(word in low for word in ("permission denied", "read-only file system")):
+        return write_error(path, OSError(errno.EACCES, text))
+    if any(word in low for word in ("no space left", "not enough space", "could not write file", "file too large")):
+        return write_error(path, OSError(errno.ENOSPC, text))
+    busy = any(word in low for word in ("lock on file", "being used", "different configuration"))
     return StoreError(
         "the catalogue is open in another program" if busy else "the catalogue is damaged",
         where=str(path), expected="a DuckDB database of this program", got=text,
         hint="close the other program (for example a duckdb shell on catalog.duckdb)" if busy else
-        "the Parquet files are unharmed: put a backup of catalog.duckdb back, or ingest into a new store")
+        "the Parquet files are unharmed: put a backup of catalog.duckdb back, or move the damaged one away and ingest "
+        "the campaigns again (from their source files)")
+
+
+_DAMAGE = ("damaged store:", "No magic bytes", "Parquet", ".parquet")
+
+
+def damaged_data(folder: Path, error: Exception) -> StoreError | None:
+    """The refusal of a query over a Parquet file that is gone, cut or altered; None for any other error."""
+    text = str(error).strip().splitlines()[0]
+    if not any(word in text for word in _DAMAGE) or ".parquet" not in text:
+        return None
+    said, _, todo = text.partition("damaged store: ")[2].partition("; try: ")
+    return StoreError("a file of the store is damaged", where=str(folder), got=said or text,
+                      hint=(todo or "ingest the campaign again: what can be made anew is made anew") +
+                      "; 'thermodata check' lists what is damaged")
 
 
 def cursor_of(con: duckdb.DuckDBPyConnection) -> duckdb.DuckDBPyConnection:

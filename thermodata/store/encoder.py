@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from thermodata.errors import StoreError
 from thermodata.store.arrow import to_arrow, use_one_heap
+from thermodata.store.files import write_error
 
 if TYPE_CHECKING:
     import pyarrow as pa
@@ -32,8 +32,11 @@ class Encoder:
         # only text and flags repeat themselves so much that a dictionary pays
         repeats = [f.name for f in schema if pa.types.is_string(f.type) or f.name.endswith("__flag")]
         times = [f.name for f in schema if f.name in ("t_ns", "t", "t_s")]
-        self._writer = pq.ParquetWriter(part, schema, compression=COMPRESSION, use_dictionary=repeats or False,
-                                        write_statistics=times)
+        try:
+            self._writer = pq.ParquetWriter(part, schema, compression=COMPRESSION, use_dictionary=repeats or False,
+                                            write_statistics=times, write_page_checksum=True)
+        except OSError as error:
+            raise write_error(part, error) from error
         self._queue: Queue[pa.Table | None] = Queue(maxsize=2)
         self._error: BaseException | None = None
         self._thread = threading.Thread(target=self._run, name="raw-parquet", daemon=True)
@@ -45,8 +48,7 @@ class Encoder:
 
     def _check(self) -> None:
         if isinstance(self._error, OSError):
-            raise StoreError("the store cannot be written", where=str(self.part), got=str(self._error),
-                             hint="is the disk full?") from self._error
+            raise write_error(self.part, self._error) from self._error
         if self._error is not None:
             raise self._error
 

@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+import errno
 import hashlib
 import os
 import re
 import secrets
+import shutil
 from pathlib import Path
+
+from thermodata.errors import StoreError
 
 TEMPORARY = re.compile(r"^\..*\.tmp(\.wal)?$")          # DuckDB puts a .wal beside a database in the making
 
@@ -16,15 +20,65 @@ def temporary(target: Path) -> Path:
     return target.with_name(f".{target.name}.{secrets.token_hex(4)}.tmp")
 
 
-def publish(part: Path, target: Path) -> None:
-    """Makes a finished temporary file appear under its name, on the disk and not only in its cache."""
-    fd = os.open(part, os.O_RDWR)
+DISK_FULL = "the disk is full"
+
+
+def write_error(path: Path, error: Exception, needed: str | None = None) -> StoreError:
+    """A failure to write below the store: full disk, read-only folder, or else. needed: how much room, in words."""
+    text = str(error).strip().splitlines()[0] if str(error).strip() else type(error).__name__
+    full = getattr(error, "errno", None) in (errno.ENOSPC, errno.EDQUOT, errno.EFBIG) or any(
+        word in text for word in ("No space left", "not enough space", "Disk quota", "File too large",
+                                  "Could not write file"))
+    if not full:
+        locked = getattr(error, "errno", None) in (errno.EACCES, errno.EPERM, errno.EROFS)
+        return StoreError("the store can only be read" if locked else "the store cannot be written", where=str(path),
+                          got=text, hint="give yourself the right to write there, or copy the store's folder"
+                          if locked else None)
+    return StoreError(DISK_FULL, where=str(path), expected=needed or "room for the file",
+                      got=_free(path, text),
+                      hint="free space ('thermodata gc' deletes what the store no longer needs) and run it again: "
+                           "the store is as it was before")
+
+
+def _free(path: Path, text: str) -> str:
+    folder = next((p for p in path.absolute().parents if p.is_dir()), Path("/"))
     try:
-        os.fsync(fd)
-    finally:
-        os.close(fd)
-    part.replace(target)
-    fsync_folder(target.parent)
+        return f"{shutil.disk_usage(folder).free / 1e6:,.0f} MB free ({text})"
+    except OSError:
+        return text
+
+
+def is_whole(path: Path, size_bytes: int | None = None) -> bool:
+    """Whether a Parquet file is there with its beginning and its end, and as long as it was: not whether a byte in
+    it was changed."""
+    try:
+        with path.open("rb") as file:
+            size = file.seek(0, os.SEEK_END)
+            if size < 12 or (size_bytes is not None and size != size_bytes):
+                return False
+            file.seek(0)
+            begun = file.read(4)
+            file.seek(size - 8)
+            tail = file.read(8)
+    except OSError:
+        return False
+    return begun == tail[4:] == b"PAR1" and int.from_bytes(tail[:4], "little") + 12 <= size
+
+
+def publish(part: Path, target: Path) -> None:
+    """Makes a finished temporary file appear under its name, on the disk and not only in its cache.
+
+    StoreError where there is no room or no right."""
+    try:
+        fd = os.open(part, os.O_RDWR)
+        try:
+            os.fsync(fd)
+        finally:
+            os.close(fd)
+        part.replace(target)
+        fsync_folder(target.parent)
+    except OSError as error:
+        raise write_error(target, error) from error
 
 
 def fsync_folder(folder: Path) -> None:
@@ -41,8 +95,13 @@ def fsync_folder(folder: Path) -> None:
 def write_text(target: Path, text: str) -> None:
     """A small text file, replaced at once."""
     part = temporary(target)
-    part.write_text(text, encoding="utf-8")
-    publish(part, target)
+    try:
+        part.write_text(text, encoding="utf-8")
+        publish(part, target)
+    except OSError as error:
+        raise write_error(target, error) from error
+    finally:
+        part.unlink(missing_ok=True)
 
 
 def sha256_of(path: Path) -> str:

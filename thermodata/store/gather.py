@@ -10,6 +10,7 @@ from typing import Any
 from thermodata.errors import FormatError, StoreError, ThermodataError, UsageError
 from thermodata.plugin import Loss, Reader, Source
 from thermodata.schema.campaign import Campaign, JumpCalibration, SourceSpec, Test
+from thermodata.store.files import DISK_FULL, is_whole, write_error
 from thermodata.store.known import Known
 from thermodata.store.plan import SourcePlan, TestPlan
 from thermodata.store.raw import RawStream, declared, find_reader, raw_key, read_raw
@@ -130,6 +131,8 @@ class Gatherer:
             except StoreError:
                 raise
             except (ThermodataError, OSError) as error:
+                if isinstance(error, OSError) and str(error.filename).startswith(str(self.store)):
+                    raise write_error(Path(error.filename), error) from error
                 reason = "; ".join(str(error).splitlines())
                 self.losses.append(loss_row(reason, test=test, source=source, file=path))
                 raws = self._former(path, before)
@@ -143,8 +146,8 @@ class Gatherer:
 
     def _copy(self, path: str, before: list[RawStream], reader: Reader, said: Source) -> list[RawStream]:
         """The store's own copy of a file that isn't there any more."""
-        if before and not all((self.store / r.path).exists() for r in before):
-            raise StoreError("a raw file of the store is gone, and so is its source", where=before[0].path,
+        if before and not all(is_whole(self.store / r.path) for r in before):
+            raise StoreError("a raw file of the store is gone or cut, and its source is gone", where=before[0].path,
                              got=f"no {path}", hint="put the source file back, or forget the test")
         if before:
             self.notes.append(f"{path}: not there any more; the store's raw copy is used")
@@ -156,7 +159,7 @@ class Gatherer:
     def _former(self, path: str, before: list[RawStream]) -> list[RawStream]:
         """What the store holds of a file that can't be read now: what was read once isn't lost by that."""
         hashed = self._settled.get(path)
-        if not before or not all((self.store / r.path).exists() for r in before) \
+        if not before or not all(is_whole(self.store / r.path) for r in before) \
                 or (hashed is not None and hashed.sha256 == before[0].sha256):
             return []          # a reader that refuses the bytes that an older one took has its reason
         self.notes.append(f"{path}: the version that was read before is used ({before[0].sha256[:12]})")
@@ -206,6 +209,13 @@ class Gatherer:
                 try:
                     self._made[key] = self._read_settled(path, file, reader, said)
                     self.read += 1
+                except StoreError as error:
+                    if error.what == DISK_FULL:
+                        # raw Parquet takes about as much as the log, and the tidy layer as much again
+                        needed = f"about {max(1, 2 * file.bytes // 1_000_000)} MB for {path}"
+                        raise StoreError(error.what, where=error.where, expected=needed, got=error.got,
+                                         hint=error.hint) from error
+                    raise
                 except (ThermodataError, OSError) as error:
                     self._made[key] = error
         made = self._made[key]

@@ -96,7 +96,8 @@ def _ingest(store: Store, path: Path, say: Callable[[str], None]) -> IngestSumma
         calibrations=[{**r.row(campaign.id), "name": r.name} for r in results.values()],
         losses=gather.losses + made.losses + [loss_row(p) for p in problems],
         notes=list(dict.fromkeys(gather.notes + made.notes)))
-    if nothing_new(planned, known):
+    # what was damaged and is made anew has the same rows: the views must see it all the same
+    if nothing_new(planned, known) and not made.made and not gather.read:
         summary.notes.append("nothing changed: the store holds these files and this campaign file already")
     else:
         with store.write() as con:

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import json
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from thermodata.store.clocks import clock_from_json
 from thermodata.store.connection import fetch
+from thermodata.store.files import is_whole
 from thermodata.store.raw import RawStream
 from thermodata.store.timeline import Clock
 
@@ -38,17 +40,18 @@ class Known:
         return [RawStream.from_row(r) for r in self.rows["file"].get(test, [])
                 if r["layer"] == "raw" and r["source"] == source]
 
-    def tidy(self, test: str, key: str) -> list[Row]:
-        """The rows of the tidy files of that key."""
-        return [r for r in self.rows["file"].get(test, []) if r["layer"] == "tidy" and r["key"] == key]
+    def tidy(self, test: str, base: str) -> list[Row]:
+        """The rows of the tidy files with that key, whatever sensors of theirs failed before the test."""
+        return [r for r in self.rows["file"].get(test, []) if r["layer"] == "tidy" and (
+            r["key"] == base or json.loads(r["columns"]).get("base") == base)]
 
 
 def read_known(con: duckdb.DuckDBPyConnection, store: Path, campaign: str) -> Known:
-    """The catalogue's rows about a campaign. Raw files that are gone from the disk are left out."""
+    """The catalogue's rows about a campaign. Raw files that are gone or cut are left out."""
     known = Known(campaign)
     seen: set[str] = set()
     for row in fetch(con, "select * from file where layer in ('raw', 'superseded')"):
-        if row["path"] not in seen and (store / row["path"]).exists():
+        if row["path"] not in seen and is_whole(store / row["path"]):
             seen.add(row["path"])
             known.raws.setdefault(row["key"], []).append(RawStream.from_row(row))
     for table in BY_TEST:

@@ -6,6 +6,7 @@ past a writer that waits. The locks are advisory, belong to the open file, and v
 
 from __future__ import annotations
 
+import errno
 import os
 import time
 from collections.abc import Callable, Iterator
@@ -13,6 +14,7 @@ from contextlib import contextmanager
 from pathlib import Path
 
 from thermodata.errors import StoreError
+from thermodata.store.files import write_error
 
 TURNSTILE, CATALOGUE = "turnstile.lock", "catalog.lock"
 
@@ -49,32 +51,56 @@ except ImportError:  # not POSIX: a byte of the file is locked, always exclusive
 def catalogue_lock(folder: Path, *, exclusive: bool, timeout_s: float = 60.0) -> Iterator[None]:
     """Holds the catalogue, shared for reading or exclusive for writing; StoreError when it stays busy."""
     deadline = time.monotonic() + timeout_s
-    turnstile = _open(folder / TURNSTILE)
+    turnstile = _open(folder / TURNSTILE, exclusive)
+    if turnstile is None:
+        # a store that may only be read: whoever may write it can lock the one file that is there
+        with _reading(folder, deadline, timeout_s):
+            yield
+        return
     try:
         _wait(turnstile, True, deadline, folder, timeout_s)
-        catalogue = _open(folder / CATALOGUE)
+        catalogue = _open(folder / CATALOGUE, exclusive)
         try:
-            _wait(catalogue, exclusive, deadline, folder, timeout_s)
+            if catalogue is not None:
+                _wait(catalogue, exclusive, deadline, folder, timeout_s)
             _unlock(turnstile)
             try:
                 yield
             finally:
-                _unlock(catalogue)
+                if catalogue is not None:
+                    _unlock(catalogue)
         finally:
-            os.close(catalogue)
+            if catalogue is not None:
+                os.close(catalogue)
     finally:
         os.close(turnstile)
 
 
-def _open(path: Path) -> int:
-    flags = getattr(os, "O_CLOEXEC", 0)
+@contextmanager
+def _reading(folder: Path, deadline: float, timeout_s: float) -> Iterator[None]:
     try:
-        try:
-            return os.open(path, os.O_RDWR | os.O_CREAT | flags, 0o666)
-        except OSError:
-            return os.open(path, os.O_RDONLY | flags)    # a store that may only be read
+        fd = os.open(folder / CATALOGUE, os.O_RDONLY | _FLAGS)
+    except OSError:
+        yield              # nobody ever wrote here since the store was copied
+        return
+    try:
+        _wait(fd, False, deadline, folder, timeout_s)
+        yield
+    finally:
+        os.close(fd)
+
+
+_FLAGS = getattr(os, "O_CLOEXEC", 0) | getattr(os, "O_BINARY", 0)
+
+
+def _open(path: Path, exclusive: bool) -> int | None:
+    """A lock file, made where there is none; None where the folder may only be read, and no more is wanted."""
+    try:
+        return os.open(path, os.O_RDWR | os.O_CREAT | _FLAGS, 0o666)
     except OSError as error:
-        raise StoreError("the store's lock file cannot be opened", where=str(path), got=str(error)) from error
+        if not exclusive and error.errno in (errno.EACCES, errno.EPERM, errno.EROFS):
+            return None
+        raise write_error(path, error) from error
 
 
 def _wait(fd: int, exclusive: bool, deadline: float, folder: Path, timeout_s: float) -> None:

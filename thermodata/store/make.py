@@ -17,6 +17,7 @@ from thermodata.errors import SpecError, StoreError, ThermodataError
 from thermodata.plugin import Loss
 from thermodata.store import rows as make_rows
 from thermodata.store.clocks import clocks_of
+from thermodata.store.files import is_whole
 from thermodata.store.gather import loss_row
 from thermodata.store.keys import member_key
 from thermodata.store.known import BY_TEST, Known, Row
@@ -80,7 +81,7 @@ def _make_test(store: Path, plan: TestPlan, columns: Mapping[Member, Columns],
             continue
         key = member_key(plan, member, columns[member], clocks, where, calibrations)
         kept = known.tidy(test, key)
-        if kept and all(_still_there(store / row["path"]) for row in kept):
+        if kept and all(_still_there(store / row["path"], row["bytes"]) for row in kept):
             files += kept
             events += [r for r in known.rows["quality_event"].get(test, [])
                        if (r["source"], r["stream"]) == member]
@@ -108,7 +109,9 @@ def _make_test(store: Path, plan: TestPlan, columns: Mapping[Member, Columns],
                     for n in clock.notes if clock.suspect]
 
 
-def _still_there(path: Path) -> bool:
+def _still_there(path: Path, size_bytes: int) -> bool:
+    if not is_whole(path, size_bytes):
+        return False
     try:
         os.utime(path)       # so that a gc which runs meanwhile sees a young file
     except OSError:

@@ -8,7 +8,7 @@ from pathlib import Path
 from thermodata.errors import StoreError, UsageError
 from thermodata.store import connection
 from thermodata.store.ddl import TABLES
-from thermodata.store.files import publish, temporary
+from thermodata.store.files import publish, temporary, write_error
 from thermodata.store.store import Store
 
 _TABLE = re.compile(r"create table (\w+)")
@@ -59,12 +59,22 @@ def snapshot(store: Store, out: Path | str) -> Path:
         con.execute("detach snap")
         publish(part, target)
     except duckdb.Error as error:
-        raise StoreError("the snapshot cannot be written", where=str(target), got=str(error).splitlines()[0]) from error
+        raise _refused(target, error, store) from error
     finally:
         con.close()
         part.unlink(missing_ok=True)
         part.with_name(part.name + ".wal").unlink(missing_ok=True)
     return target
+
+
+def _refused(target: Path, error: Exception, store: Store) -> StoreError:
+    known = connection.damaged_data(store.path, error)
+    if known is not None:
+        return known
+    with store.reader() as con:
+        found = con.execute("select sum(bytes) from file where layer = 'tidy'").fetchone()
+    # DuckDB's own format takes about twice as much as Parquet
+    return write_error(target, error, f"about {2 * int((found and found[0]) or 0) / 1e6:,.0f} MB")
 
 
 _READ = re.compile(r"read_parquet\((p__files(?:_(\d+))?), hive_partitioning = false\)")

@@ -142,7 +142,7 @@ class Store:
                     # before the commit: who sees the new mark waits for this turn to end, whoever dies in
                     # between causes one needless refresh; the other order could leave a stale copy in use
                     write_text(self.path / _MARK, secrets.token_hex(8))
-                    con.execute("commit")
+                    _commit(con, self.path / CATALOGUE)
                 except BaseException:
                     _rollback(con)
                     raise
@@ -194,6 +194,15 @@ def regenerate_views(con: duckdb.DuckDBPyConnection, folder: Path) -> None:
         import_module("thermodata.store.views"), "regenerate", None)
     if regenerate is not None:
         regenerate(con, folder)
+
+
+def _commit(con: duckdb.DuckDBPyConnection, path: Path) -> None:
+    import duckdb
+
+    try:
+        con.execute("commit")
+    except duckdb.Error as error:          # a full disk, or one that fails
+        raise connection.damaged(path, error) from error
 
 
 def _rollback(con: duckdb.DuckDBPyConnection) -> None:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from thermodata.errors import StoreError, UsageError, unknown_name
 from thermodata.store import Store
-from thermodata.store.connection import literal
+from thermodata.store.connection import damaged_data, literal
 
 if TYPE_CHECKING:
     import duckdb
@@ -59,6 +59,9 @@ class StoreView:
             raise StoreError("a file of the store can't be read", where=str(self.path), got=str(error).strip(),
                              hint="put the file back, or forget its test and ingest it again") from error
         except duckdb.Error as error:
+            damage = damaged_data(self.path, error)
+            if damage is not None:
+                raise damage from error
             raise UsageError("the query fails", got=str(error).strip()) from error
         if relation is None:
             raise UsageError("the query gives no table", expected="SELECT, FROM, DESCRIBE or SHOW", got=query)

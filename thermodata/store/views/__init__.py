@@ -19,8 +19,8 @@ def regenerate(con: duckdb.DuckDBPyConnection, store_path: Path | str | None = N
     """Drops and creates all views and macros, inside the caller's transaction.
 
     con: a connection whose `file_search_path` is the store's folder (store.connection.settle), or none of whose
-    tidy files exist yet. store_path: only names the store in errors.
-    Raises StoreError where a Parquet file that the catalogue lists is gone.
+    tidy files exist yet. store_path: the folder, to find files that are gone or cut: who reads their
+    views gets an error, the others work.
     """
     from thermodata.store.views.make import make
 

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import json
 import re
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 from thermodata.schema.quantity import CANONICAL_UNIT
@@ -35,7 +37,8 @@ class Column:
 class Group:
     """Tidy files of one (campaign, source, stream) with equal columns, so one read_parquet serves them all.
 
-    name: unique suffix for views and macros. paths: test -> its files, relative to the store.
+    name: unique suffix for views and macros. paths: test -> its files, relative to the store. broken: the first of
+    them that is gone or cut, if any.
     """
 
     campaign: str
@@ -44,6 +47,7 @@ class Group:
     name: str
     columns: tuple[Column, ...]
     paths: Mapping[str, tuple[str, ...]]
+    broken: str | None = None
 
     @property
     def files(self) -> list[str]:
@@ -78,10 +82,13 @@ class Namer:
         return name
 
 
-def read_catalogue(con: duckdb.DuckDBPyConnection) -> Catalogue:
-    """The campaigns and the groups of tidy files that views show (not the histories before windows)."""
+def read_catalogue(con: duckdb.DuckDBPyConnection, folder: Path | None = None) -> Catalogue:
+    """The campaigns and the groups of tidy files that views show (not the histories before windows).
+
+    folder: the store's, to find out which files are gone or cut.
+    """
     rows = con.execute(
-        "select campaign, source, stream, test, path, columns->>'$.channels' from file "
+        "select campaign, source, stream, test, path, columns->>'$.channels', bytes from file "
         "where layer = 'tidy' and part = 'test' order by campaign, source, stream, test, path").fetchall()
     known = con.execute("select campaign from campaign union select campaign from test union "
                         "select campaign from file order by 1").fetchall()
@@ -90,18 +97,23 @@ def read_catalogue(con: duckdb.DuckDBPyConnection) -> Catalogue:
     campaigns = {campaign: campaign_namer(campaign) for (campaign,) in known}
     files: dict[tuple[str, str, str, str | None], dict[str, list[str]]] = {}
     # files made before a campaign's channels changed stand in their own group: their columns differ
-    for campaign, source, stream, test, path, channels in rows:
+    sizes: dict[str, int | None] = {}
+    for campaign, source, stream, test, path, channels, size in rows:
+        sizes[path] = size
         files.setdefault((campaign, source, stream, channels), {}).setdefault(test, []).append(path)
     streams: dict[tuple[str, str], set[str]] = {}
     for campaign, source, stream, _ in files:
         streams.setdefault((campaign, source), set()).add(stream)
     groups = []
-    for (campaign, source, stream, _), tests in files.items():
+    for (campaign, source, stream, channels), tests in files.items():
         paths = {test: tuple(p) for test, p in tests.items()}
-        first = next(iter(paths.values()))[0]
+        listed = [p for some in paths.values() for p in some]
+        broken = [p for p in listed if folder is not None and not _as_long(folder / p, sizes[p])]
+        whole = next((p for p in listed if p not in broken), None)
         suffix = (campaign, source, stream) if len(streams[campaign, source]) > 1 else (campaign, source)
         groups.append(Group(campaign, source, stream, namer(*suffix),
-                            _columns(con, first, source, described.get(campaign, {})), paths))
+                            _columns(con, whole, channels, source, described.get(campaign, {})), paths,
+                            broken[0] if broken else None))
     order = {c: _ordered(described.get(c, {}), [g for g in groups if g.campaign == c]) for c in campaigns}
     return Catalogue(campaigns, tuple(groups), order)
 
@@ -123,11 +135,23 @@ def _described(con: duckdb.DuckDBPyConnection) -> dict[str, dict[str, tuple[str,
     return found
 
 
-def _columns(con: duckdb.DuckDBPyConnection, path: str, source: str,
+def _as_long(path: Path, size_bytes: int | None) -> bool:
+    try:
+        return path.stat().st_size == size_bytes or not size_bytes
+    except OSError:
+        return False
+
+
+def _columns(con: duckdb.DuckDBPyConnection, path: str | None, channels: str | None, source: str,
              described: Mapping[str, tuple[str, str, str]]) -> tuple[Column, ...]:
-    """The channels of a tidy file: the columns that have a flag column."""
-    types = {name: kind for name, kind, *_ in con.execute(
-        f"describe select * from read_parquet([{literal(path)}], hive_partitioning = false)").fetchall()}
+    """The channels of a tidy file: the columns that have a flag column. Where no file is whole, what the catalogue
+    says of them."""
+    if path is None:
+        types = {n: "VARCHAR" if described.get(n, ("", "", ""))[0] == "label" else "DOUBLE"
+                 for n in json.loads(channels or "[]")}
+        types |= {f"{n}__flag": "USMALLINT" for n in types}
+    else:
+        types = _types(con, path)
     columns = []
     for name, kind in types.items():
         if f"{name}__flag" not in types:
@@ -137,6 +161,11 @@ def _columns(con: duckdb.DuckDBPyConnection, path: str, source: str,
         held = text or quantity in HELD_QUANTITIES or source == SCHEDULE
         columns.append(Column(name, quantity, unit or CANONICAL_UNIT.get(quantity, ""), held, text, comment))
     return tuple(columns)
+
+
+def _types(con: duckdb.DuckDBPyConnection, path: str) -> dict[str, str]:
+    return {name: kind for name, kind, *_ in con.execute(
+        f"describe select * from read_parquet([{literal(path)}], hive_partitioning = false)").fetchall()}
 
 
 def _ordered(described: Iterable[str], groups: Iterable[Group]) -> tuple[str, ...]:

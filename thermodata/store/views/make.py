@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 from thermodata.errors import StoreError
@@ -38,8 +39,9 @@ def make(con: duckdb.DuckDBPyConnection, store: str | None) -> None:
     try:
         for statement in _dropped(con):
             con.execute(statement)
-        catalogue = read_catalogue(con)
-        for statement in statements(con, catalogue):
+        folder = None if store is None else Path(store)
+        catalogue = read_catalogue(con, folder)
+        for statement in statements(con, catalogue, folder):
             con.execute(statement)
     except duckdb.IOException as error:
         raise StoreError(
@@ -48,7 +50,7 @@ def make(con: duckdb.DuckDBPyConnection, store: str | None) -> None:
             hint="put the file back, or forget its test and ingest it again") from error
 
 
-def statements(con: duckdb.DuckDBPyConnection, catalogue: Catalogue) -> Iterator[str]:
+def statements(con: duckdb.DuckDBPyConnection, catalogue: Catalogue, folder: Path | None = None) -> Iterator[str]:
     """Everything to create, in an order in which each finds what it refers to."""
     tests: dict[str, list[str]] = {}
     for campaign, test in con.execute("select campaign, test from test union select campaign, test from file "
@@ -59,7 +61,7 @@ def statements(con: duckdb.DuckDBPyConnection, catalogue: Catalogue) -> Iterator
     yield from lookup_macros(catalogue, tests)
     yield from signal_macros(catalogue)
     yield from grid_macros(catalogue)
-    yield from result_views(con)
+    yield from result_views(con, folder)
     for table, columns in _TABLE_COMMENTS.items():
         for column, comment in columns.items():
             yield f"comment on column {table}.{column} is {literal(comment)}"

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 from thermodata.store.connection import literal
+from thermodata.store.files import is_whole
 from thermodata.store.views.wide import file_list, prefix
 
 if TYPE_CHECKING:
@@ -108,22 +110,25 @@ _COMMENTS = {
 }
 
 
-def result_views(con: duckdb.DuckDBPyConnection) -> Iterator[str]:
+def result_views(con: duckdb.DuckDBPyConnection, folder: Path | None = None) -> Iterator[str]:
     """The statements that make the views over tables, and `residual` over the prediction files."""
     yield from (PHASE, QUALITY, GAP, SCORE, WEAK_SPOT, CANDIDATE, ARTEFACT, DIAGNOSIS, HISTORY, PORTABILITY)
     paths = [path for (path,) in con.execute("select distinct path from prediction order by path").fetchall()]
-    yield _residual(paths)
+    gone = [p for p in paths if folder is not None and not is_whole(folder / p)]
+    yield _residual(paths, gone[0] if gone else None)
     for view, columns in _COMMENTS.items():
         for column, comment in columns.items():
             yield f"comment on column {view}.{column} is {literal(comment)}"
 
 
-def _residual(paths: list[str]) -> str:
+def _residual(paths: list[str], gone: str | None) -> str:
     head = "create view residual as select p.campaign, p.test, p.model, p.response, "
     names = ("t_s double", "measured double", "predicted double", "residual double", "valid boolean")
-    if not paths:
+    if not paths or gone:
         empty = ", ".join(f"null::{n.split()[1]} as {n.split()[0]}" for n in names)
-        return f"{head}{empty} from prediction p limit 0"
+        text = f"damaged store: {gone} is gone or cut; try: fit the model again, or forget it"
+        return f"{head}{empty} from prediction p " + (
+            f"where cast(error({literal(text)}) as boolean)" if gone else "limit 0")
     columns = ", ".join(f"r.{n.split()[0]}" for n in names)
     return (f"{head}{columns} from read_parquet({file_list(paths)}, filename = true, hive_partitioning = false) r "
             f"join (select q.*, p.prefix || q.path as filename from prediction q cross join {prefix(paths[0])}) p "

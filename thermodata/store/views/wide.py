@@ -33,7 +33,7 @@ def wide_views(catalogue: Catalogue) -> Iterator[str]:
     for group in catalogue.groups:
         name = quoted(wide_name(group))
         columns = ", ".join(f"r.{quoted(c.name)}, r.{quoted(c.name + '__flag')}" for c in group.columns)
-        yield (
+        yield _unreadable(group) if group.broken else (
             f"create view {name} as select {literal(group.campaign)} as campaign, f.test, "
             f"{literal(group.source)} as source, r.t, r.t_s{', ' if columns else ''}{columns} "
             f"from read_parquet({file_list(group.files)}, filename = true, hive_partitioning = false) r "
@@ -52,3 +52,25 @@ def wide_views(catalogue: Catalogue) -> Iterator[str]:
         f"select {literal(g.campaign)}, {literal(g.source)}, {literal(g.stream)}, {literal(wide_name(g))}"
         for g in catalogue.groups) or "select null::varchar, null::varchar, null::varchar, null::varchar limit 0"
     yield f'create view wide as select * from ({listing}) w(campaign, source, stream, "view")'
+
+
+def _unreadable(group: Group) -> str:
+    """The view of a group with a damaged file: its columns, and an error for whoever reads it. Rows that are missing
+    without a word would be worse, and without the view nothing else could be committed, not even the repair."""
+    # values that depend on a row: a NULL that is known beforehand lets the planner skip the condition
+    def nothing(kind: str) -> str:
+        return f"cast(nullif(r.i, r.i) as {kind})"
+
+    columns = "".join(f", {nothing('varchar' if c.text else 'double')} as {quoted(c.name)}, "
+                      f"{nothing('usmallint')} as {quoted(c.name + '__flag')}" for c in group.columns)
+    return (f"create view {quoted(wide_name(group))} as select {literal(group.campaign)} as campaign, "
+            f"cast(r.i as varchar) as test, {literal(group.source)} as source, "
+            f"make_timestamp_ns(nullif(r.i, r.i)) as t, {nothing('double')} as t_s{columns} from range(1) r(i) "
+            f"where {damaged_file(group.broken or '', group.campaign)}")
+
+
+def damaged_file(path: str, campaign: str) -> str:
+    """A condition that is an error: what is damaged, and what to do."""
+    text = (f"damaged store: {path} is gone or cut; try: thermodata ingest the campaign file of '{campaign}' again, "
+            "it makes the file anew")
+    return f"cast(error({literal(text)}) as boolean)"
