@@ -28,8 +28,7 @@ _ANALOG = frozenset({"displacement", "tilt", "temperature", "temperature_differe
                      "humidity", "irradiance", "pressure"})
 # ... and which can't leave and come back within a few samples. (Position, speed, power and flow can.)
 _INERT = frozenset({"displacement", "tilt", "temperature", "temperature_difference", "humidity"})
-_MOST_EVENTS = 50
-_MANY_STRETCHES, _NEAR_ROWS = 8, 30
+MOST_EVENTS = 2000                                        # of a channel and flag; `concise` makes fewer of them
 
 
 @dataclass(frozen=True, slots=True)
@@ -58,7 +57,8 @@ class QualityEvent:
 def flag_stream(
     t_ns: Int1D, columns: Mapping[str, ColumnInput]
 ) -> tuple[dict[str, Array], list[QualityEvent]]:
-    """(channel -> uint16 flags, shape (n,); events in order of time, at most 50 a channel and flag).
+    """(channel -> uint16 flags, shape (n,); events in order of time, at most MOST_EVENTS a channel and
+    flag; see `concise`).
 
     t_ns: shape (n,), as recorded; need not be in order: times that go back or stand still are flagged.
     """
@@ -171,29 +171,16 @@ def _event(name: str, flag: str, t_ns: Int1D, start: int, stop: int, detail: str
 
 
 def _events(name: str, flag: str, hit: Bool1D, t_ns: Int1D, detail: str) -> list[QualityEvent]:
-    """One event a stretch of True. Many stretches close to each other are one event; the last of too many stands
-    for the rest."""
+    """One event a stretch of True; the last of too many stands for the rest."""
     starts, stops = true_runs(hit)
-    groups = np.arange(len(starts))
-    if len(starts) > _MANY_STRETCHES:
-        near = max(_NEAR_ROWS, len(hit) // 200)
-        groups = np.concatenate([[0], np.cumsum(starts[1:] - stops[:-1] > near)])
-    groups = np.minimum(groups, _MOST_EVENTS - 1)
-    found = []
-    for first, last in zip(*_ends(groups), strict=True):
-        n = int((stops[first:last + 1] - starts[first:last + 1]).sum())
-        many = f"{last - first + 1} stretches" if last > first else ""
-        found.append(QualityEvent(name, flag, int(t_ns[starts[first]]), int(t_ns[stops[last] - 1]), n,
-                                  "; ".join(x for x in (detail, many) if x)))
+    found = [_event(name, flag, t_ns, int(a), int(b), detail)
+             for a, b in zip(starts[:MOST_EVENTS - 1], stops[:MOST_EVENTS - 1], strict=True)]
+    if len(starts) >= MOST_EVENTS:
+        a, b = int(starts[MOST_EVENTS - 1]), int(stops[-1])
+        rest = int((stops - starts)[MOST_EVENTS - 1:].sum())
+        found.append(QualityEvent(name, flag, int(t_ns[a]), int(t_ns[b - 1]), rest,
+                                  f"{len(starts) - MOST_EVENTS + 1} further stretches"))
     return found
-
-
-def _ends(groups: Int1D) -> tuple[list[int], list[int]]:
-    """First and last index of each run of equal numbers; groups: shape (n,), not falling."""
-    if not len(groups):
-        return [], []
-    change = np.flatnonzero(np.diff(groups))
-    return [0, *(change + 1).tolist()], [*change.tolist(), len(groups) - 1]
 
 
 def _capped(events: Iterable[QualityEvent]) -> list[QualityEvent]:
@@ -201,6 +188,6 @@ def _capped(events: Iterable[QualityEvent]) -> list[QualityEvent]:
     seen: dict[str, int] = {}
     for event in events:
         seen[event.flag] = seen.get(event.flag, 0) + 1
-        if seen[event.flag] <= _MOST_EVENTS:
+        if seen[event.flag] <= MOST_EVENTS:
             kept.append(event)
     return kept

@@ -17,6 +17,7 @@ from thermodata.store.rawread import RawFiles
 
 _IN_MEMORY = 1_000_000                # rows: so many times are kept [8 MB]; of longer streams they are read again
 _PROBE = 4096
+_MOST_STRETCHES = 50
 
 
 @dataclass(slots=True)
@@ -78,6 +79,22 @@ class Timeline:
         found = (late if order is None else late[order])[start - low:stop - low]
         moved = np.where(found, np.uint16(Flag.CLOCK_SUSPECT), np.uint16(0))
         return moved if made is None else made | moved
+
+    def clock_stretches(self) -> list[tuple[int, int, int, str]]:
+        """(first time, last time [ns], rows, why) of the stretches with a doubtful time; at most 50."""
+        if self.suspect and self.rows:
+            return [(int(self.times(0, 1)[0]), int(self.times(self.rows - 1, self.rows)[0]), self.rows,
+                     "the whole clock is doubtful")]
+        marked, found = self.order.marked, []
+        groups = np.split(marked, np.flatnonzero(np.diff(marked) > 1) + 1) if marked.size else []
+        for rows in groups[:_MOST_STRETCHES]:
+            t = self._file_times(int(rows[0]), int(rows[-1]) + 1)
+            found.append((int(t.min()), int(t.max()), len(rows), "; ".join(self.order.notes)))
+        for a, b in self.order.islands[:_MOST_STRETCHES - len(found)].tolist():
+            t = self._file_times(a, b)
+            late = int(np.count_nonzero(t < np.maximum.accumulate(t)))
+            found.append((int(t.min()), int(t.max()), late, "rows out of order, sorted"))
+        return sorted(found)
 
     def column(self, store: Path, signal: str, start: int, stop: int, *, flags: bool = False) -> Array | None:
         """A raw column, rows start to stop in time order; None where no file has it."""

@@ -103,13 +103,19 @@ class Faults:
     def _stray(self, t: Int1D, at: int, row: int, high: int, more: bool) -> tuple[int, int] | None:
         """(first, past-the-last) of up to three rows around `row` without which the clock is sound."""
         none = np.iinfo(np.int64).min
+        step = min((x for x in (self._step(t[:row]), _median_step(t[row:row + _RECENT])) if x), default=0)
         for stop in range(row + 1, min(row + 1 + MOST_STRAYS, len(t))):           # sound again soon behind it?
-            if high == none or high - JITTER_NS <= int(t[stop]) <= high + LEAP_NS:
+            # rows that go on from a smaller time come back to the old one too, but later than they should
+            least = high - JITTER_NS if step < JITTER_NS else high + step * (stop - row + 1) // 2
+            if high == none or least <= int(t[stop]) <= high + LEAP_NS:
                 return row, stop
         if int(t[row]) < high:                            # or is it sound, and those before it were ahead?
             for start in range(row - 1, max(at - 1, row - 1 - MOST_STRAYS), -1):
                 before = max(self._highest, int(t[at:start].max(initial=self._highest)))
-                if before <= int(t[row]) + JITTER_NS < int(t[start]) and (before != none or start == 0):
+                if before == none and start:
+                    continue
+                most = int(t[row]) + JITTER_NS if step < JITTER_NS else int(t[row]) - step * (row - start + 1) // 2
+                if before <= most and int(t[row]) + JITTER_NS < int(t[start]):
                     return start, row
         # the last rows of all can't be told from a clock that was set: they are drawn in all the same
         return (row, len(t)) if not more and len(t) - row <= MOST_STRAYS and high != none else None
@@ -159,8 +165,11 @@ class Faults:
 
     def _step(self, before: Int1D) -> int:
         """The usual time from row to row [ns] before a row of the chunk; 0 where there are none."""
-        recent = np.concatenate([self._recent, before])[-_RECENT:]
-        return max(int(np.median(np.diff(recent))), 1) if len(recent) > 1 else 0
+        return _median_step(np.concatenate([self._recent, before[-_RECENT:]])[-_RECENT:])
+
+
+def _median_step(t: Int1D) -> int:
+    return max(int(np.median(np.diff(t))), 1) if len(t) > 1 else 0
 
 
 def shifted(at: Sequence[int] | Int1D, shifts: Sequence[int] | Int1D, start: int, n: int) -> Int1D:

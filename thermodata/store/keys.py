@@ -15,7 +15,7 @@ from thermodata.store.series import Member
 from thermodata.store.timeline import Clock, Span
 
 # counts the changes of calibration, flagging and layout that make older tidy files out of date
-TIDY_VERSION = "1"
+TIDY_VERSION = "2"
 MEASURED = ("displacement", "tilt", "angle")
 
 

@@ -9,11 +9,14 @@ from typing import TypeVar
 
 import numpy as np
 
+from thermodata.calibration.quality import QualityEvent
+from thermodata.calibration.quality_concise import concise
 from thermodata.errors import ThermodataError
 from thermodata.plugin import Array, Int1D
 from thermodata.schema.campaign import Measuring
 from thermodata.schema.flag import Flag
 from thermodata.store import windows
+from thermodata.store.idle import Activity, without_idle
 from thermodata.store.keys import MEASURED
 from thermodata.store.measuring import Stretches, find_stretches, lasts, measures
 from thermodata.store.piece import Column, Piece, calibrated
@@ -52,11 +55,25 @@ class Flagged:
     stop: int
     problems: list[str]
     events: list[Event] = field(default_factory=list)
+    _found: list[QualityEvent] = field(default_factory=list)
+    _activity: dict[str, Activity] = field(default_factory=dict)
 
     def pieces(self, rows: int, borders: Sequence[int] = ()) -> Iterator[tuple[int, Int1D, dict[str, Column]]]:
         """(first row, times, channels with all their flags) of pieces of so many rows; none crosses a border."""
         with ThreadPoolExecutor(2) as pool:
             yield from self._measured(self._walk(rows, borders, pool), pool)
+        self._found += self._of_the_clock()
+        zero = self.series.span.zero_ns
+        self.events += [Event(e.channel, e.flag, (e.from_ns - zero) / 1e9, (e.to_ns - zero) / 1e9, e.n,
+                              e.detail or None) for e in concise(without_idle(self._found, self._activity))]
+
+    def _of_the_clock(self) -> list[QualityEvent]:
+        if self.member[0] == SCHEDULE or self.start >= self.stop:
+            return []
+        line = self.series.timeline(self.member)
+        first, last = int(line.times(self.start, self.start + 1)[0]), int(line.times(self.stop - 1, self.stop)[0])
+        return [QualityEvent(None, "clock_suspect", max(a, first), min(b, last), n, why)
+                for a, b, n, why in line.clock_stretches() if a <= last and b >= first]
 
     def _walk(self, rows: int, borders: Sequence[int], pool: ThreadPoolExecutor) \
             -> Iterator[tuple[Piece, dict[str, Column]]]:
@@ -88,9 +105,7 @@ class Flagged:
             low = piece.start
             found = joined.add(piece.t_ns, made, a - low, b - low)
             yield piece, {n: Column(c.bound, c.values[a - low:b - low], found[n]) for n, c in made.items()}, a, b
-        zero = self.series.span.zero_ns
-        self.events += [Event(e.channel, e.flag, (e.from_ns - zero) / 1e9, (e.to_ns - zero) / 1e9, e.n,
-                              e.detail or None) for e in joined.events]
+        self._found += joined.events
 
     def _may_read_ahead(self) -> bool:
         # `measuring` may look into any stream, and timelines aren't for several threads
@@ -102,7 +117,7 @@ class Flagged:
         changes: dict[str, tuple[list[Array], list[Array]]] = {}
         for i in range(0, len(self.bounds), windows.MOST_COLUMNS):
             some = self.bounds[i:i + windows.MOST_COLUMNS]
-            before = len(self.events)
+            before = len(self._found)
             for _, made, first, _ in self._windows(some, rows, pool):
                 for name, column in made.items():
                     at = np.concatenate([[0], np.flatnonzero(column.flags[1:] != column.flags[:-1]) + 1])
@@ -110,7 +125,7 @@ class Flagged:
                     kept[0].append(first + at)
                     kept[1].append(column.flags[at])
             if i:      # what concerns the whole stream was said with the first columns
-                self.events[before:] = [e for e in self.events[before:] if e.channel is not None]
+                self._found[before:] = [e for e in self._found[before:] if e.channel is not None]
         joined = {n: (np.concatenate(a), np.concatenate(f)) for n, (a, f) in changes.items()}
         changes.clear()
         for a, b in _cuts(self.start, self.stop, rows, borders):
@@ -148,6 +163,7 @@ class Flagged:
                     self._cannot_measure(error)
                     names = []
                     break
+                self._activity.setdefault(name, Activity()).add(piece.t_ns, mask)
                 made[name].flags = made[name].flags | np.where(mask, np.uint16(0), np.uint16(Flag.NOT_MEASURING))
             yield piece.start, piece.t_ns, made
 

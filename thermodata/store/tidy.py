@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
@@ -12,9 +12,12 @@ import numpy as np
 from thermodata.plugin import Int1D, Loss
 from thermodata.schema.flag import Flag
 from thermodata.store.arrow import to_arrow
+from thermodata.store.axis import Timeline
 from thermodata.store.encoder import Encoder
 from thermodata.store.files import publish, temporary
+from thermodata.store.levels import Sampler
 from thermodata.store.piece import Column
+from thermodata.store.plan import Bound
 from thermodata.store.quality import Event, Flagged
 from thermodata.store.rawfile import group_rows
 from thermodata.store.series import Member, TestSeries
@@ -36,6 +39,7 @@ class TidyFile:
     rows: int
     columns: list[str]
     to_s: float = 0.0          # of the last row
+    levels: dict[str, list[float | None]] = field(default_factory=dict)      # see `levels.Sampler`
 
 
 @dataclass(slots=True)
@@ -46,37 +50,58 @@ class TidyResult:
     samples: int = 0
     losses: list[Loss] = field(default_factory=list)
     problems: list[str] = field(default_factory=list)
+    notes: tuple[str, ...] = ()
 
 
-def write_member(series: TestSeries, member: Member, columns: Columns, key: str) -> TidyResult:
+def write_member(series: TestSeries, member: Member, columns: Columns, key: str,
+                 offsets: Mapping[str, float] | None = None) -> TidyResult:
     """Makes the tidy files of one stream of a test, one row group in memory at a time.
 
     columns: (channel, is text) of the campaign's stream, in the campaign's order; one that this test lacks is NULL.
-    A channel that can't be calibrated is NULL and a problem; the others are written.
+    A channel that can't be calibrated is NULL and a problem; the others are written. offsets: channels whose sensor
+    failed before this test, and by how much they are off [K]; they are flagged throughout.
     """
     result = TidyResult()
     line, rows = series.timeline(member), series.rows(member)
     result.losses += line.losses
+    result.notes = line.notes
     if rows.history == rows.stop:
         result.problems.append(f"no rows of '{member[0]}' lie in the test's window")
         return result
     here = [b for b in series.plan.bound.values() if (b.source, b.stream) == member]
     walk = Flagged(series, member, here, rows.history, rows.stop, result.problems)
+    sampler = Sampler(here, rows.start, rows.stop)
     parts = [_Part(series, name, columns, key, a, b)
              for name, a, b in (("history", rows.history, rows.start), ("test", rows.start, rows.stop)) if a < b]
     try:
         for first, t_ns, made in walk.pieces(group_rows(len(columns) + 1), [rows.start]):
+            sampler.take(first, made)
+            for name in offsets or ():
+                if name in made:
+                    made[name].flags = made[name].flags | np.uint16(Flag.OFFSET)
             part = parts[0] if first < parts[0].stop else parts[1]
             part.add(t_ns, made)
             if part.name == "test":
                 _count(result, made)
-        result.events += walk.events
+        result.events += walk.events + _failed(series, line, rows.start, rows.stop, here, offsets or {})
         result.files += [part.finish() for part in parts]
+        result.files[-1].levels = sampler.series()
     finally:
         for part in parts:
             part.discard()
     result.problems = list(dict.fromkeys(result.problems))
     return result
+
+
+def _failed(series: TestSeries, line: Timeline, start: int, stop: int, here: Sequence[Bound],
+            offsets: Mapping[str, float]) -> list[Event]:
+    """One event over the whole test for each sensor that failed before it."""
+    failed = [b.name for b in here if b.name in offsets] if start < stop else []
+    if not failed:
+        return []
+    from_s, to_s = series.t_s(np.concatenate([line.times(start, start + 1), line.times(stop - 1, stop)])).tolist()
+    return [Event(name, "offset", from_s, to_s, stop - start,
+                  f"{offsets[name]:+.1f} K against its neighbours since an earlier test") for name in failed]
 
 
 class _Part:
