@@ -9,8 +9,13 @@ import numpy as np
 
 from thermodata.plugin import Array
 
-_SMALL = 4096
+_SHOWN = 200            # bytes of a line that does not read
 EMPTY = ("", "NaN", "nan", "-nan", "-nan(ind)", "1.#QNAN", "-1.#IND", "UNAVAILABLE")
+
+
+def odd_lines(data: bytes, delimiter: str, width: int) -> bool:
+    """Whether text holds so many cells that a line of it must be far too wide: a parser would make room for all."""
+    return data.count(delimiter.encode()) > (width - 1) * (data.count(b"\n") + 1) + 10_000
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,27 +46,51 @@ class Grid:
         """The numbers of whole lines of text, and each line that is none."""
         if not data.strip():
             return
+        found = self._tried(data)
+        if found is not None:
+            yield found
+            return
+        # runs of lines with the right number of cells, and the lines between them
+        run: list[bytes] = []
+        first = line
+        for number, text in enumerate(data.split(b"\n"), line):
+            if text.count(self.delimiter.encode()) == len(self.dtypes) - 1 and b"\0" not in text:
+                run.append(text)
+                continue
+            yield from self._halves(run, first)
+            run, first = [], number + 1
+            if text.strip():
+                yield BadLine(number, text[:_SHOWN].decode("utf-8", "replace").rstrip("\r\n"))
+        yield from self._halves(run, first)
+
+    def _halves(self, lines: list[bytes], line: int) -> Iterator[Numbers | BadLine]:
+        if not lines:
+            return
+        found = self._tried(b"\n".join(lines) + b"\n")
+        if found is not None:
+            yield found
+        elif len(lines) == 1:
+            if lines[0].strip():
+                yield BadLine(line, lines[0][:_SHOWN].decode("utf-8", "replace").rstrip("\r\n"))
+        else:
+            half = len(lines) // 2
+            yield from self._halves(lines[:half], line)
+            yield from self._halves(lines[half:], line + half)
+
+    def _tried(self, data: bytes) -> Numbers | None:
+        """The numbers of lines that all read; None where one does not."""
+        if b"\0" in data or odd_lines(data, self.delimiter, len(self.dtypes)):
+            return None
         try:
-            yield self._numbers(data)
-            return
-        except ValueError:
-            pass
-        cut = data.find(b"\n", len(data) // 2) + 1
-        if not 0 < cut < len(data) or len(data) < _SMALL:
-            cut = data.find(b"\n") + 1                      # few lines: one by one
-        if not 0 < cut < len(data):
-            yield BadLine(line, data.decode("utf-8", "replace").rstrip("\r\n"))
-            return
-        yield from self.parts(data[:cut], line)
-        yield from self.parts(data[cut:], line + data.count(b"\n", 0, cut))
+            return self._numbers(data)
+        except ValueError:                               # Arrow's is one
+            return None
 
     def _numbers(self, data: bytes) -> Numbers:
-        """ValueError (Arrow's is one) where a cell or a row is not as it should be."""
+        """ValueError where a cell or a row is not as it should be."""
         import pyarrow as pa
         import pyarrow.csv as pc
 
-        if b"\0" in data:
-            raise ValueError("NUL bytes")
         names = [str(k) for k in range(len(self.dtypes))]
         table = pc.read_csv(
             pa.BufferReader(data), pc.ReadOptions(column_names=names),

@@ -64,7 +64,10 @@ def fields(line: str, delimiter: str, quoted: bool) -> list[str]:
     """The cells of one line; a quote that is never closed is a character like any other."""
     if not quoted or '"' not in line or line.count('"') % 2:
         return line.split(delimiter)
-    return next(csv.reader([line], delimiter=delimiter))
+    try:
+        return next(csv.reader([line], delimiter=delimiter))
+    except csv.Error:                              # a cell of more than 128 KiB, a stray carriage return
+        return line.split(delimiter)
 
 
 def find_layout(lines: Sequence[str], rest: Sequence[str], declared: Mapping[str, Any] | None, where: str) -> Layout:

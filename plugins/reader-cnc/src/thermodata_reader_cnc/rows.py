@@ -15,6 +15,7 @@ from thermodata_reader_cnc import when
 from thermodata_reader_cnc.cells import as_bool, as_float, as_int
 from thermodata_reader_cnc.chunks import Chunk
 from thermodata_reader_cnc.columns import FALSE, NOTHING, TRUE
+from thermodata_reader_cnc.halves import odd_lines
 from thermodata_reader_cnc.localclock import LocalClock
 from thermodata_reader_cnc.losses import Losses
 
@@ -85,7 +86,7 @@ class RowReader:
         import pyarrow.csv as pc
 
         layout = self.layout
-        if b"\0" in data or (layout.quoted and data.count(b'"') % 2):
+        if b"\0" in data or (layout.quoted and data.count(b'"') % 2) or odd_lines(data, layout.delimiter, layout.width):
             raise _OddError
         names = [str(i) for i in range(layout.width)]
         kinds: dict[str, Any] = {str(i): pa.string() for i in layout.time_columns}

@@ -8,6 +8,7 @@ names a date and a time.
 from __future__ import annotations
 
 import re
+from collections import Counter
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -79,7 +80,7 @@ def read_header(lines: Sequence[str], where: str, source: Source) -> Header:
         raise FormatError("no curves or no data", where=where, expected="%[CURVE...] blocks, then %[DATA]",
                           got=", ".join(name for name, _ in blocks) or "nothing")
     data = [line.rstrip() for line in lines[first:first + 500] if line.strip() and not line.startswith("%")]
-    width = max((line.count(";") + 1 for line in data), default=len(found))
+    width = Counter(line.count(";") + 1 for line in data).most_common(1)[0][0] if data else len(found)
     cells = width - 1 if data and sum(line.endswith(";") for line in data) > 0.9 * len(data) and width > len(found) \
         else width
     index = cells - len(found)

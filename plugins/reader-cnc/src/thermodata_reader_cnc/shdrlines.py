@@ -104,13 +104,16 @@ class Lines:
         yield from self._values(time, parts, flag, at, text)
 
     def _values(self, time: str, parts: list[str], flag: int, at: str, text: str) -> Iterator[Event | Series | Loss]:
-        key, count = parts[1], len(parts)
-        if count in (6, 7) and parts[2].upper() in LEVELS:
+        key, count = parts[1].strip(), len(parts)
+        if not key and count in (4, 5, 6, 7) and count % 2 == 0:
+            yield Loss(at, reason=f"a report without an item: '{text[:80]}'")
+            return
+        if key and count in (6, 7) and parts[2].upper() in LEVELS:
             yield Event(time, key, parts[2].upper(), at, flag)
             if (said := "; ".join(p.strip() for p in parts[3:] if p.strip())) or parts[2].upper() == "NORMAL":
                 yield Event(time, f"{key}[message]", said or GONE, at, flag)
             return
-        if count == 5 and parts[2].isdigit() and len(words := parts[4].split()) == int(parts[2][:9]) and words:
+        if key and count == 5 and parts[2].isdigit() and len(words := parts[4].split()) == int(parts[2][:9]) and words:
             rate = float(parts[3]) if _OFFSET.match(parts[3]) else None
             if rate is not None or not parts[3].strip():
                 yield Series(time, key, rate or None, parts[4], at)
@@ -123,7 +126,7 @@ class Lines:
         if count % 2 == 0:
             yield Loss(at, reason=f"expected pairs of item and value, got '{text[:80]}'")
         for name, value in zip(parts[1::2], parts[2::2], strict=False):
-            if name:
+            if name.strip():
                 yield Event(time, name, value, at, flag)
             elif value:
                 yield Loss(at, reason=f"a value without an item: '{value[:40]}'")

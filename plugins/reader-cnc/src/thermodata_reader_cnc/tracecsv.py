@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections import Counter
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -49,11 +50,15 @@ def find(lines: Sequence[str]) -> Header | None:
         data = [text for text in lines[row + 1:row + 200] if _is_data(text, delimiter)]
         if len(names) < 2 or (len(lines) > row + 3 and not data):
             continue
-        width = max((text.count(delimiter) + 1 for text in data[:-1] or data), default=len(names))
+        width = _width(data, delimiter) if data else len(names)
         if width < len(names) - 1:
             continue
         return _made(names, row + 1, delimiter, width, data)
     return None
+
+
+def _width(data: Sequence[str], delimiter: str) -> int:
+    return Counter(text.count(delimiter) + 1 for text in data).most_common(1)[0][0]
 
 
 def _is_data(line: str, delimiter: str) -> bool:
@@ -79,10 +84,10 @@ def _block(lines: Sequence[str], row: int, delimiter: str) -> Header | None:
             last = number
             by_id.update({c: path for c in cells if re.fullmatch(r"[fs]\d+", c)})
     data = [text for text in lines[first:first + 200] if _is_data(text, delimiter)]
-    width = max(text.count(delimiter) + 1 for text in data)
+    width = _width(data, delimiter)
     for number in range(last + 1, first):                  # a damaged row of data is no row of names
         cells = [clean(c) for c in fields(lines[number], delimiter, True)]
-        if len(cells) >= width and not any(c in by_id or _TIME.match(c) for c in cells):
+        if cells[0][:1] in "0123456789+-." and cells[0] and not any(c in by_id or _TIME.match(c) for c in cells):
             first = number
             break
     columns = [clean(c) for c in fields(lines[first - 1], delimiter, True)]

@@ -87,10 +87,11 @@ def read_header(lines: Sequence[str], where: str) -> Header:
     if not body:
         raise FormatError("no data behind the header", where=where, expected="rows of numbers",
                           got=lines[first][:60] if first < len(lines) else "the end of the file")
-    width = max(line.count(delimiter) + 1 for line in body)
-    if delimiter == "," and width >= 2 * len(names) and len(names) > 1:
+    widths = [line.count(delimiter) + 1 for line in body]
+    width = max((w for w in widths if w <= len(names) + 1), default=0)
+    if not width or (delimiter == "," and sum(w >= 2 * len(names) > 2 for w in widths) > len(widths) / 2):
         raise FormatError("cells and decimals cannot be told apart", where=where,
-                          expected=f"{len(names)} cells between ','", got=f"{width}",
+                          expected=f"{len(names)} cells between '{delimiter}'", got=str(max(widths)),
                           hint="export with tabs or ';' between the cells")
     decimal = "," if delimiter != "," and any("," in line for line in body) else "."
     ticks = sum(len(line.split(delimiter, 1)[0].strip().lstrip("-")) >= 17 for line in body) > len(body) / 2
