@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from pathlib import PurePosixPath
 
 _PIECE = re.compile(r"[_\-. ]+")
-_PART_WORD = re.compile(r"[_\-. ]?\(?(?:part|teil|cast|segment|seg|file|chunk|p|t)[_\-. ]?\d{1,5}\)?$", re.IGNORECASE)
+_PART_WORD = re.compile(r"[_\-. ]\(?(?:part|teil|cast|segment|seg|file|chunk|p|t)[_\-. ]?\d{1,5}\)?$", re.IGNORECASE)
 _PART_NUMBER = re.compile(r"(?:[_\-. ]\(?|\()\d{1,5}\)?$")
 
 
@@ -46,7 +46,7 @@ def namings(paths: Sequence[PurePosixPath]) -> list[Naming]:
 
 def _by_stem(paths: Sequence[PurePosixPath]) -> Iterator[Naming]:
     """The test is the stem, without leading and trailing pieces that all share, and without the number of a part."""
-    folders = {p.parent for p in paths}
+    folder = _folder(paths)
     stems, suffixes = [p.stem for p in paths], {p.suffix for p in paths}
     pieces = [_PIECE.split(s) for s in stems]
     fewest = min(map(len, pieces))
@@ -57,8 +57,8 @@ def _by_stem(paths: Sequence[PurePosixPath]) -> Iterator[Naming]:
             cut = [_cut(s, i, j) for s in stems]
             if any(not c[1] for c in cut):
                 continue
-            same = len({(c[0], c[2]) for c in cut}) == 1 and len(folders) == 1 and len(suffixes) == 1
-            where = f"{_folder(paths[0])}{_literal(cut[0][0])}{{test}}{_literal(cut[0][2])}{paths[0].suffix}"
+            same = len({(c[0], c[2]) for c in cut}) == 1 and folder is not None and len(suffixes) == 1
+            where = f"{folder}{_literal(cut[0][0])}{{test}}{_literal(cut[0][2])}{paths[0].suffix}"
             yield Naming(tuple(c[1] for c in cut), where if same else None, i + j)
             for n, strip in enumerate((_PART_WORD, _PART_NUMBER)):
                 ids = tuple(strip.sub("", c[1]) or c[1] for c in cut)
@@ -68,7 +68,7 @@ def _by_stem(paths: Sequence[PurePosixPath]) -> Iterator[Naming]:
                 sep = seps.pop() if len(seps) == 1 else ""
                 sep = sep if sep and not sep.isalnum() else ""
                 rest = f"{_literal(sep)}*{_literal(cut[0][2])}{paths[0].suffix}"
-                where = f"{_folder(paths[0])}{_literal(cut[0][0])}{{test}}{rest}"
+                where = f"{folder}{_literal(cut[0][0])}{{test}}{rest}"
                 yield Naming(ids, where if same else None, i + j + (0.2 if n == 0 else 1.5), True)
 
 
@@ -114,9 +114,13 @@ def _common(stems: Sequence[str]) -> str:
     return re.sub(r"\d+$", "", lead)
 
 
-def _folder(path: PurePosixPath) -> str:
-    parent = str(path.parent)
-    return "" if parent == "." else f"{_literal(parent)}/"
+def _folder(paths: Sequence[PurePosixPath]) -> str | None:
+    """The folder of all paths with '/' at its end, '*' for a part that differs; None where they lie at several depths."""
+    parents = {p.parts[:-1] for p in paths}
+    if len({len(p) for p in parents}) != 1:
+        return None
+    parts = [_literal(level[0]) if len(set(level)) == 1 else "*" for level in zip(*parents, strict=True)]
+    return "".join(f"{part}/" for part in parts)
 
 
 def _literal(text: str) -> str:
@@ -141,7 +145,8 @@ def _regex(pattern: str) -> re.Pattern[str]:
             out, i = out + "[^/]", i + 1
         elif pattern[i] == "[" and "]" in pattern[i + 2:]:
             end = pattern.index("]", i + 2)
-            out, i = out + "[" + pattern[i + 1:end].replace("!", "^", 1).replace("\\", r"\\") + "]", end + 1
+            inside = re.sub(r"([\[\\&~|])", r"\\\1", pattern[i + 1:end])
+            out, i = out + "[" + re.sub(r"^!", "^", inside) + "]", end + 1
         else:
             out, i = out + re.escape(pattern[i]), i + 1
     return re.compile(out)

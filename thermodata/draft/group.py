@@ -133,10 +133,29 @@ def tests_of(groups: Sequence[Group]) -> list[Group]:
             made[g.source] = replace(g, tests={known.get(normal(t), t): f for t, f in g.tests.items()})
             continue
         made[g.source] = _by_time(g, [main])
+    legal = _legal([t for g in made.values() for t in g.tests])
+    made = {s: replace(g, tests={legal[t]: f for t, f in g.tests.items()}) for s, g in made.items()}
     ids = list(dict.fromkeys(t for g in made.values() for t in g.tests))
     every = [str(f.path) for g in groups for f in (*g.files, *g.calibrations)]
     return [_with_template(made[g.source], chosen[g.source].template, ids, every) if g.source in made else g
             for g in groups]
+
+
+def _legal(ids: Iterable[str]) -> dict[str, str]:
+    """Ids as a campaign file allows them: no signs of paths and patterns, unique whatever the case."""
+    found: dict[str, str] = {}
+    taken: set[str] = set()
+    for test in ids:
+        if test in found:
+            continue
+        base = re.sub(r"[\x00-\x1f/\\{}*?\[\]]", "_", test).strip()[:110] or "test"
+        name, n = base, 1
+        while name.lower() in taken:
+            n += 1
+            name = f"{base}-{n}"
+        taken.add(name.lower())
+        found[test] = name
+    return found
 
 
 def _allowed(group: Group) -> list[Naming]:
@@ -245,7 +264,8 @@ def _by_time(group: Group, others: Sequence[Group]) -> Group:
             best = paired
     if len(best) * 2 < len(own):
         return group
-    left = {t: f for t, f in group.tests.items() if not set(f) & set(best.values())}
+    joined = {f.path for f in best.values()}
+    left = {t: f for t, f in group.tests.items() if not any(x.path in joined for x in f)}
     return replace(group, tests={**{t: (f,) for t, f in best.items()}, **left},
                    questions=("files joined to tests by their times",))
 

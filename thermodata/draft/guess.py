@@ -7,6 +7,7 @@ disagree on, and what none of them says, becomes a question. A quantity is never
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import lru_cache
 
 from thermodata.draft import units
 from thermodata.draft.place import Place, axis_of, place_of
@@ -56,6 +57,7 @@ class Guess:
         return f"guess: {rests}" + (" only" if len(self.basis) == 1 else "")
 
 
+@lru_cache(maxsize=50_000)
 def guess(name: str, unit: str | None, dtype: str = "float64", values: Values | None = None) -> Guess:
     """Quantity, unit, place and axis of a signal. unit: as the file writes it; values: of a sample, if there is one."""
     bare = split_unit(name)[0]                            # the 'min' of 'n [1/min]' is no limit

@@ -22,7 +22,8 @@ from thermodata.reader.guard import described, guarded
 from thermodata.reader.registry import claims, reader
 
 _SAMPLE_ROWS, _SAMPLE_S = 400_000, 1.0       # of one file
-_SAMPLES_S, _HEADERS_S = 25.0, 45.0          # of the whole folder
+_SMALL = 4_000_000                           # bytes; smaller files are read whole
+_SAMPLES_S, _HEADERS_S = 15.0, 30.0          # of the whole folder
 _KEPT_ROWS = 3000                            # of a signal whose course tells what a test is
 _COURSE = ("rotational_speed", "feed", "displacement", "voltage", "position", "state")
 _MOST_COURSES = 40
@@ -97,25 +98,25 @@ def scan(folder: Path, progress: Progress | None = None) -> Scan:
     began = time.monotonic()
     logs: dict[str, RawFile] = {}
     ignored: list[tuple[str, str]] = []
-    shapes: dict[tuple[str, str], RawFile] = {}
+    shapes: dict[str, RawFile] = {}
     for done, path in enumerate(_spread(paths)):
         tell(done, len(paths), str(path))
         full = folder / path
         try:
+            like = shapes.get(_shape(path)) if time.monotonic() - began > _HEADERS_S else None
+            if like is not None:
+                logs[str(path)] = RawFile(path, like.reader, _without_start(like.recording), full.stat().st_size,
+                                          like=str(like.path))
+                continue
             who, why = _claimant(full)
             if who is None:
                 ignored.append((str(path), why))
-                continue
-            shape = (who.name, _shape(path))
-            if time.monotonic() - began > _HEADERS_S and shape in shapes:
-                logs[str(path)] = RawFile(path, who.name, _without_start(shapes[shape].recording), full.stat().st_size,
-                                          like=str(shapes[shape].path))
                 continue
             recording = described(who, full, Source())
             if not recording.signals:
                 ignored.append((str(path), f"{who.name}: it holds no signal"))
                 continue
-            logs[str(path)] = shapes[shape] = RawFile(path, who.name, recording, full.stat().st_size)
+            logs[str(path)] = shapes[_shape(path)] = RawFile(path, who.name, recording, full.stat().st_size)
         except (ThermodataError, OSError) as error:
             ignored.append((str(path), _short(error)))
     sampled = _sampled(folder, logs, began, tell)
@@ -220,6 +221,8 @@ def _sample(path: Path, file: RawFile) -> Sample:
             last = max(x for x in (last, int(item.t_ns[-1])) if x is not None)
             rows += item.t_ns.size
             spent = time.monotonic() - began
+            if file.size < _SMALL and spent < 10 * _SAMPLE_S:
+                continue
             if spent > 2 * _SAMPLE_S or (not unseen and (rows >= _SAMPLE_ROWS or spent > _SAMPLE_S)):
                 whole = False
                 break

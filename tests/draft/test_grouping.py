@@ -1,0 +1,154 @@
+"""Which files are one source, which are one test: by names, and by times where names do not tell."""
+
+from __future__ import annotations
+
+from datetime import timedelta
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from tests.draft.labs import START, local, numbers, speeds, staircase, tdms, text, warm
+from thermodata.draft.filenames import matches, normal
+from thermodata.draft.plan import Draft, plan
+from thermodata.draft.scan import scan
+from thermodata.draft.write import text_of
+from thermodata.schema.campaign import Campaign
+from thermodata.schema.load import load_campaign
+
+
+def drafted(folder: Path) -> tuple[Draft, Campaign]:
+    made = plan("c", folder, scan(folder))
+    (folder / "campaign.yaml").write_text(text_of(made), encoding="utf-8")
+    return made, load_campaign(folder / "campaign.yaml")
+
+
+def log(path: Path, days: float, signal: str = "Lager vorne", unit: str = "degC", step_s: float = 10) -> None:
+    tdms(path, {"g": {signal: (warm(100, 20, 1, 1, 1), unit)}}, START + timedelta(days=days), step_s)
+
+
+def test_files_that_follow_each_other_are_parts_of_one_test(tmp_path: Path) -> None:
+    for k, test in enumerate(("heat", "cool")):
+        for part in range(3):
+            log(tmp_path / f"{test}_{part + 1}.tdms", k + part * 1000 / 86400)
+    _, made = drafted(tmp_path)
+    assert sorted(t.id for t in made.tests) == ["cool", "heat"]
+    assert made.sources["daq"].files == "{test}_*.tdms"
+
+
+def test_numbered_files_of_other_days_are_tests(tmp_path: Path) -> None:
+    for k in range(3):
+        log(tmp_path / f"heat_{k + 1}.tdms", k)
+    _, made = drafted(tmp_path)
+    assert [t.id for t in made.tests] == ["heat_1", "heat_2", "heat_3"]
+
+
+def test_parts_that_another_sources_file_names_as_one(tmp_path: Path) -> None:
+    n = 300
+    for k, test in enumerate(("run_A", "run_B")):
+        for part in range(3):
+            log(tmp_path / f"{test}_{part + 1}.tdms", k + part * 1000 / 86400)
+        text(tmp_path / f"{test}.csv", ["Time", "Spindle speed [rpm]"],
+             [local(n, 10, START + timedelta(days=k), "UTC", "%Y-%m-%d %H:%M:%S"), numbers(speeds(n, [3000]), 0)])
+    _, made = drafted(tmp_path)
+    assert [t.id for t in made.tests] == ["run_A", "run_B"]
+    assert {s.files for s in made.sources.values()} == {"{test}_*.tdms", "{test}.csv"}
+
+
+def test_two_loggers_of_one_make_are_two_sources(tmp_path: Path) -> None:
+    for k in range(3):
+        for logger in (1, 2):
+            log(tmp_path / f"daq{logger}_test{k}.tdms", k, signal="ch0", unit="degC")
+    _, made = drafted(tmp_path)
+    assert sorted(str(s.files) for s in made.sources.values()) == ["daq1_{test}.tdms", "daq2_{test}.tdms"]
+    assert sorted(made.channels) == ["ch0", "ch0_2"]
+
+
+def test_a_log_of_the_hall_belongs_to_all_tests(tmp_path: Path) -> None:
+    for k in range(3):
+        log(tmp_path / "daq" / f"test{k}.tdms", k / 5)
+    n = 400
+    text(tmp_path / "hall" / "Klima_KW10.csv", ["Zeit", "Hallentemperatur [°C]"],
+         [local(n, 300, START - timedelta(hours=1), "UTC", "%d.%m.%Y %H:%M:%S"), numbers(warm(n, 20, 2, 1, 1), 1)])
+    _, made = drafted(tmp_path)
+    assert [t.id for t in made.tests] == ["test0", "test1", "test2"]
+    assert "hall/Klima_KW10.csv" in {s.files for s in made.sources.values()}
+
+
+def test_names_with_other_times_are_joined_by_time(tmp_path: Path) -> None:
+    n = 100
+    for k in range(3):
+        start = START + timedelta(hours=5 * k)
+        log(tmp_path / "eddy" / f"eddy_{start:%Y%m%d_%H%M%S}.tdms", 5 * k / 24, "Eddy Z", "V")
+        late = start + timedelta(seconds=47)
+        text(tmp_path / "nc" / f"nc_{late:%Y%m%d_%H%M%S}.csv", ["Time", "Spindle speed [rpm]"],
+             [local(n, 10, late, "Europe/Prague", "%Y-%m-%d %H:%M:%S"), numbers(speeds(n, [4000]), 0)])
+    draft, made = drafted(tmp_path)
+    assert len(made.tests) == 3
+    assert all(t.files["nc"] for t in made.tests)
+    assert any("by their times" in q for s in draft.sources for q in s.questions)
+    assert [t.conditions for t in made.tests] == [{"speed": "4000 rpm"}] * 3
+
+
+def test_a_jump_test_is_found_in_the_data_alone(tmp_path: Path) -> None:
+    rng = np.random.default_rng(0)
+    for k in range(3):
+        tdms(tmp_path / f"m{k}.tdms", {"g": {"dZ": (warm(3000, 5, 0.1, 0.3, k), "V"), "dX": (warm(3000, 5, 0.1, 0.3, 9), "V"),
+                                             "T1": (warm(3000, 22, 5, 0.3, k), "degC")}}, START + timedelta(days=k), 10)
+    tdms(tmp_path / "m7.tdms", {"g": {"dZ": (staircase([50, 50, -100, -50, 50], 80, 8, 20, 3), "V"),
+                                      "dX": (5 + rng.normal(0, 0.002, 960), "V"),
+                                      "T1": (22 + rng.normal(0, 0.01, 960), "degC")}}, START, 0.05)
+    draft, made = drafted(tmp_path)
+    assert [t.id for t in made.tests] == ["m0", "m1", "m2"]
+    jump = draft.jumps[0]
+    assert (jump.file, jump.signal, jump.axis) == ("m7.tdms", "g/dZ", "Z")
+    assert jump.dwell_s == pytest.approx(8, rel=0.05)
+    assert jump.seen == pytest.approx([0.625, 0.625, -1.25, -0.625, 0.625], rel=0.02)
+    assert made.calibrations["jump_g_dZ"].moves == "unknown"               # type: ignore[union-attr]
+
+
+def test_signals_of_some_tests_only_and_units_that_disagree(tmp_path: Path) -> None:
+    for k in range(3):
+        more = {"Mutter X": (warm(100, 20, 1, 1, k), "°C")} if k == 2 else {}
+        tdms(tmp_path / f"m{k}.tdms", {"g": {"Lager vorne": (warm(100, 20, 1, 1, k), "°C" if k else "K"), **more}},
+             START + timedelta(days=k), 10)
+    draft, made = drafted(tmp_path)
+    assert made.channels["Lager_vorne"].unit is None                       # each file's own is taken
+    assert next(c for c in draft.channels if c.signal == "g/Mutter X").only_in == ("m2",)
+    assert any("disagree" in q for c in draft.channels for q in c.said.questions)
+
+
+def test_whatever_names_hold_the_draft_loads(tmp_path: Path) -> None:
+    tdms(tmp_path / "a [1]{x}.tdms", {"g": {"T'; drop table--": (warm(100, 20, 1, 1, 1), "degC"), "t": (
+        warm(100, 20, 1, 1, 1), "degC"), "温度 é": (warm(100, 20, 1, 1, 1), "degC"), "Ω#\"@": (
+        warm(100, 20, 1, 1, 2), None), "y\nx: {": (warm(100, 20, 1, 1, 2), "degC")}}, START, 1)
+    whole = (tmp_path / "a [1]{x}.tdms").read_bytes()
+    (tmp_path / "cut.tdms").write_bytes(whole[:-1500])
+    (tmp_path / "empty.csv").write_bytes(b"")
+    draft, made = drafted(tmp_path)
+    assert {t.id for t in made.tests} == {"a _1__x_", "cut"}
+    assert all(c.signal is not None for c in made.channels.values())
+    assert len(made.channels) == 5
+    assert [p for p, _ in draft.damaged] == ["cut.tdms"]
+    assert ("empty.csv", "an empty file") in draft.not_used
+
+
+def test_a_log_with_too_many_signals_is_drafted_in_part(tmp_path: Path) -> None:
+    n = 2500
+    text(tmp_path / "a.csv", ["time [s]", *(f"T{i} [degC]" for i in range(n))],
+         [[str(k) for k in range(3)], *([f"{20 + k}.5" for k in range(3)] for _ in range(n))], mark=",")
+    draft, made = drafted(tmp_path)
+    assert len(made.channels) == 2000
+    assert any("500 more signals" in note for note in draft.notes)
+
+
+@pytest.mark.parametrize(("one", "other"), [("Heat-01", "heat_1"), ("run 007", "RUN_7"), ("a.b", "a_b")])
+def test_ids_are_the_same_whatever_the_spelling(one: str, other: str) -> None:
+    assert normal(one) == normal(other)
+
+
+def test_a_template_matches_as_ingest_does() -> None:
+    paths = ["raw/a_1.tdms", "raw/a_2.tdms", "raw/ab.tdms", "raw/x/a_1.tdms"]
+    assert matches("raw/{test}_*.tdms", "a", paths) == ["raw/a_1.tdms", "raw/a_2.tdms"]
+    assert matches("*/{test}_1.tdms", "a", paths) == ["raw/a_1.tdms"]
+    assert matches("raw/a[[]1].tdms", "", ["raw/a[1].tdms"]) == ["raw/a[1].tdms"]
