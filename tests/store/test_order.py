@@ -76,7 +76,7 @@ def test_a_time_server_sets_the_clock_back_a_little_and_nothing_is_lost() -> Non
     found, made = ordered(t)
     assert found.keep == 1000
     assert made.tolist() == clock(1000).tolist()
-    assert "by up to 89 s" in found.notes[0]
+    assert "once, by 89 s" in found.notes[0]
 
 
 def test_a_long_step_back_is_refused_or_joined_as_declared() -> None:

@@ -85,8 +85,9 @@ class Faults:
             said.append(f"the clock was set ahead by {_long(max(self.leaps))} while it ran: what came before was moved "
                         "up to it; how long it paused is not known")
         if self.resets:
-            said.append(f"the clock was reset {len(self.resets)} times, by up to {_long(max(self.resets))}: what "
-                        "follows was moved behind what came before")
+            often = "once, by" if len(self.resets) == 1 else f"{len(self.resets)} times, by up to"
+            said.append(f"the clock was set back {often} {_long(max(self.resets))}: what follows was moved behind "
+                        "what came before")
         return tuple(said)
 
     def _next_fault(self, t: Int1D, at: int) -> int | None:

@@ -78,13 +78,17 @@ def sentences(tests: Sequence[TestQuality]) -> list[str]:
         if where:
             named = ", ".join(f"{channel} (from {test})" for channel, test in list(where.items())[:5])
             more = " …" if len(where) > 5 else ""
-            said.append(f"{len(where)} {'channel' if len(where) == 1 else 'channels'} {words}: {named}{more}.")
+            thing = "source" if flag == "clock_suspect" else "channel"
+            said.append(f"{len(where)} {thing}{'' if len(where) == 1 else 's'} {words}: {named}{more}.")
     return said
 
 
 def share(part: int, whole: int) -> str:
-    """'0.31 %'; 'none' for none."""
-    return "none" if not part else f"{100 * part / whole:.2g} %" if whole else "-"
+    """'0.31 %', '14 %'; 'none' for none."""
+    if not part or not whole:
+        return "none" if whole else "-"
+    percent = 100 * part / whole
+    return f"{percent:.0f} %" if percent >= 9.95 else f"{percent:.2g} %"
 
 
 def count(n: int) -> str:
