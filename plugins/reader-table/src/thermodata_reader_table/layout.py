@@ -78,10 +78,19 @@ def find(rows: Sequence[Sequence[Cell]], declared: Mapping[str, Any] | None, whe
     data = [list(r[:width]) + [""] * (width - len(r)) for r in rows[first:first + 200]]
     if not data:
         raise FormatError("a table without data rows", where=where, expected=f"data after row {first}")
+    lost = _between(rows[skip:first], width, skip) if header is None else []
     time, unit, form, notes = _time(said.get("time") or {}, names, units, data, where)
     epoch = unit if unit in EPOCHS else None
     return Layout(first, tuple(names), tuple(units), time, None if unit is None else SECONDS.get(unit), form,
-                  tuple(notes), epoch)
+                  (*notes, *lost), epoch)
+
+
+def _between(rows: Sequence[Sequence[Cell]], width: int, skip: int) -> list[str]:
+    """A note for lines between the header and the data that are part of neither."""
+    filled = [sum(c not in ("", None) for c in r[:width]) for r in rows]
+    spanning = [i for i, n in enumerate(filled) if n * 2 > width]
+    odd = [i + skip + 1 for i in range(spanning[-1] + 1, len(rows)) if filled[i]] if spanning else []
+    return [f"line {odd[0]} between header and data is not read ({len(odd)} such)"] if odd else []
 
 
 def _width(body: Sequence[Sequence[Cell]]) -> int:

@@ -18,6 +18,7 @@ from thermodata.reader.zone import NAT, local_to_utc_ns
 from thermodata.schema.flag import Flag
 from thermodata_reader_table import clocks
 from thermodata_reader_table.layout import unique
+from thermodata_reader_table.mdf3_check import check3
 from thermodata_reader_table.mdf_check import check
 
 INSTALL = "pip install 'thermodata-reader-table[mdf]'"
@@ -33,9 +34,9 @@ def _ours(where: str) -> Iterator[None]:
     """asammdf raises errors of any class for a damaged file; all of them mean the same."""
     try:
         yield
-    except (ThermodataError, MemoryError, GeneratorExit):
+    except (ThermodataError, GeneratorExit):
         raise
-    except Exception as error:
+    except Exception as error:      # MemoryError too: pieces are small, so only a damaged length asks for that much
         raise FormatError("a damaged MDF file", where=where, got=f"{type(error).__name__}: {error}"[:200]) from None
 
 
@@ -314,6 +315,7 @@ def _checked(path: Path) -> tuple[str | None, bool]:
     if head[8:9] == b"4":
         found = check(path)
         return found.cut, found.finished
+    check3(path)
     return None, head[:8].strip() == b"MDF"
 
 

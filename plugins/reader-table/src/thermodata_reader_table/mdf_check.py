@@ -50,6 +50,7 @@ def check(path: Path) -> Checked:
 
 def _walk(file: BinaryIO, where: str, size: int, finished: bool) -> str | None:
     cut: str | None = None
+    groups: dict[int, tuple[int, int]] = {}             # first channel of a group -> bytes of its record
     seen: dict[int, bytes] = {}
     ahead: list[tuple[int, frozenset[bytes] | None, str, bool]] = [(64, frozenset({b"##HD"}), "the header", False)]
     while ahead:
@@ -73,6 +74,13 @@ def _walk(file: BinaryIO, where: str, size: int, finished: bool) -> str | None:
             cut = cut or f"data block at byte {at} needs {length} bytes, {size - at} are there: the file is cut"
         if kind == b"##DZ":
             _packed(body, where, at, length)
+        elif kind == b"##CG":
+            groups[links[1]] = struct.unpack("<II", body[24:32]) if len(body) >= 32 else (0, 0)
+        elif kind == b"##CN":
+            record = groups.pop(at, None) or (0, 0)
+            _channel(body, where, at, *record)
+            # the next of the list, and the parts of a structure, stand in the same record
+            groups.update({link: record for link in links[:2] if link})
         follow = _NEXT.get(kind, {})
         for i, link in enumerate(links):
             if link:
@@ -97,10 +105,24 @@ def _block(file: BinaryIO, where: str, at: int, size: int, whose: str) -> tuple[
                           got=f"{kind[2:].decode()} of {length} bytes with {count} links")
     if kind in _DATA:
         return kind, length, (), b""
-    body = file.read(8 * count + 24)
+    body = file.read(8 * count + 72)
     if len(body) < 8 * count:
         raise FormatError("the file ends inside a block", where=f"{where} byte {at}", got=kind[2:].decode())
     return kind, length, struct.unpack(f"<{count}Q", body[:8 * count]), body[8 * count:]
+
+
+def _channel(body: bytes, where: str, at: int, record: int, invalid: int) -> None:
+    """A channel's place in its record: a library that trusts it reads beyond its own memory."""
+    kind, _, number, bit, start, bits, flags, invalid_bit = struct.unpack("<BBBBIIII", body[:20])
+    wanted = {0: 64, 1: 64, 2: 64, 3: 64, 4: 64, 5: 64}.get(number)
+    wrong = kind > 6 or number > 16 or bit > 7 or (wanted is not None and bits > wanted) or (
+        number in (4, 5) and bits not in (16, 32, 64)) or (
+        kind not in (3, 6) and record and start + (bit + bits + 7) // 8 > record + invalid) or (
+        flags & 2 and invalid_bit >= max(8 * invalid, 1))
+    if wrong:
+        raise FormatError("a channel that does not fit its record", where=f"{where} byte {at}",
+                          expected=f"{record} bytes, and {invalid} of invalidation bits",
+                          got=f"channel type {kind}, data type {number}, {bits} bits at byte {start} bit {bit}")
 
 
 def _packed(body: bytes, where: str, at: int, length: int) -> None:

@@ -206,10 +206,9 @@ def blocks(path: Path, sheet: Sheet, source: Source, tally: Tally) -> Iterator[B
 
 
 def _short(path: Path, sheet: Sheet) -> int:
-    """How many lines behind the header have fewer cells than is usual, so that one may be cut; 0 where cells are
-    quoted, for then delimiters are no measure."""
+    """How many lines behind the header have fewer cells than is usual, so that one may be cut."""
     if sheet.quoted or sheet.encoding.startswith("utf-16"):
-        return 0
+        return _short_records(path, sheet)
     delimiter, usual, count = sheet.delimiter.encode(), sheet.cells - 1, 0
     with path.open("rb") as file:
         for _ in range(sheet.layout.first):
@@ -221,6 +220,22 @@ def _short(path: Path, sheet: Sheet) -> int:
     return count - (1 if sheet.cut and last and not last.endswith((b"\n", b"\r")) and count else 0)
 
 
+def _short_records(path: Path, sheet: Sheet) -> int:
+    import csv
+
+    count = 0
+    with path.open(encoding=sheet.encoding, newline="", errors="replace") as file:
+        for _ in range(sheet.layout.first):
+            file.readline()
+        quoting = csv.QUOTE_MINIMAL if sheet.quoted else csv.QUOTE_NONE
+        try:
+            for row in csv.reader(file, delimiter=sheet.delimiter, quoting=quoting):
+                count += 0 < len(row) < sheet.cells
+        except csv.Error:
+            return count
+    return count - (1 if sheet.cut and count else 0)
+
+
 def floats(cells: Array, decimal: str) -> tuple[Array, list[str]]:
     """Numbers of a column; empty cells are NaN, and so are cells that are no numbers, which are named."""
     if cells.dtype.kind in "biuf":
@@ -229,7 +244,8 @@ def floats(cells: Array, decimal: str) -> tuple[Array, list[str]]:
     texts = [c.strip() if isinstance(c, str) else "" if c != c else repr(float(c)) for c in cells.tolist()]
     plain = [c.replace(",", ".") for c in texts] if decimal == "," and not any("." in c for c in texts) else texts
     try:
-        return np.array([c or "nan" for c in plain]).astype(np.float64), []
+        if not any("_" in c for c in texts):                # numpy takes 1_000 for a number
+            return np.array([c or "nan" for c in plain]).astype(np.float64), []
     except ValueError:
         pass
     out, odd = np.full(len(texts), np.nan), []
