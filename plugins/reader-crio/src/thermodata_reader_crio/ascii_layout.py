@@ -17,13 +17,13 @@ from thermodata_reader_crio.rows import number
 _MOST_HEADER = 30
 _MOST_ROWS = 500
 _FEWEST_ROWS = 3
-_COMMENTS = ("comment", "comments", "remark", "note", "kommentar", "bemerkung", "poznámka")
 
 
 @dataclass(frozen=True)
 class Layout:
     """first: lines before the first row; header: these lines, stripped; time: its column (0 where there is none);
-    values: the other columns; text: name of a last column of free text, or None."""
+    values: the other columns; text: name of a last column of free text, or None; doubtful: numbers of lines before the
+    first row that hold numbers themselves, so may be damaged rows."""
 
     delimiter: str
     decimal: str
@@ -34,6 +34,7 @@ class Layout:
     clock: Literal["1904", "seconds", "none"]
     time: int
     text: str | None
+    doubtful: tuple[int, ...] = ()
 
     @property
     def values(self) -> list[int]:
@@ -49,7 +50,7 @@ def claim(head: Head) -> str | None:
     text = decode_head(start)
     if text is None:
         return None
-    lines = text.lstrip("\ufeff").splitlines()
+    lines = _lines(text)
     if head.size_bytes > len(start) and len(lines) > 1:
         lines.pop()
     try:
@@ -64,10 +65,16 @@ def claim(head: Head) -> str | None:
     return None
 
 
-def find_layout(lines: list[str], name: str, wanted: Any) -> Layout:
-    """The layout by a file's first lines. wanted: the time column, as declared (its name, or its number from 1).
+def _lines(text: str) -> list[str]:
+    """Lines as the parser has them: str.splitlines knows more line ends than a log does."""
+    text = text.lstrip("\ufeff")
+    return [line.rstrip("\r") for line in text.split("\n")] if "\n" in text else text.split("\r")
+
+
+def find_layout(text: str | list[str], name: str, wanted: Any) -> Layout:
+    """The layout by a file's first text or lines. wanted: the time column as declared (name, or number from 1).
     FormatError where they are no rows of numbers."""
-    lines = lines[:_MOST_HEADER + _MOST_ROWS]
+    lines = (_lines(text) if isinstance(text, str) else text)[:_MOST_HEADER + _MOST_ROWS]
     for delimiter in ("\t", ";", ",", " "):
         found = _rows(lines, delimiter)
         if found is not None:
@@ -98,7 +105,9 @@ def _rows(lines: list[str], delimiter: str) -> tuple[int, int, str, bool] | None
         return None
     mark = decimal.encode()
     last = [row[-1] for row in body]
-    text = any(number(c.encode(), mark) is None for c in last) or not any(last)
+    # one damaged cell makes no column of text
+    odd = sum(number(c.encode(), mark) is None for c in last)
+    text = odd * 2 > sum(map(bool, last)) or not any(last)
     columns = width - 1 if text else width
     first = next((i for i, row in enumerate(cells) if len(row) in (columns, columns + text)
                   and all(number(c.encode(), mark) is not None for c in row[:columns]) and any(row[:columns])), None)
@@ -107,7 +116,7 @@ def _rows(lines: list[str], delimiter: str) -> tuple[int, int, str, bool] | None
     good = sum(all(number(c.encode(), mark) is not None for c in row[:columns]) for row in cells[first:]
                if len(row) in (columns, columns + text))
     many = sum(any(row) for row in cells[first:])
-    return (first, columns, decimal, text) if good >= max(_FEWEST_ROWS, 0.8 * many) else None
+    return (first, columns, decimal, text) if good >= max(_FEWEST_ROWS, 0.6 * many) else None
 
 
 def _made(lines: list[str], delimiter: str, first: int, columns: int, decimal: str, text: bool, name: str,
@@ -130,7 +139,9 @@ def _made(lines: list[str], delimiter: str, first: int, columns: int, decimal: s
         title = titles[columns] if columns < len(titles) and titles[columns] else "Comment"
         free = title if title not in names else f"{title} (text)"
     header = frozenset(line.strip() for line in lines[:first])
-    return Layout(delimiter, decimal, first, header, _unique(names), tuple(units), clock, time, free)
+    doubtful = tuple(i + 1 for i, line in enumerate(lines[:first]) if "\0" in line or any(
+        number(c.encode(), decimal.encode()) is not None for c in _split(line, delimiter)[1:] if c))
+    return Layout(delimiter, decimal, first, header, _unique(names), tuple(units), clock, time, free, doubtful)
 
 
 def _is_units(row: list[str]) -> bool:

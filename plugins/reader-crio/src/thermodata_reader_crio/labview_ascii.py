@@ -20,7 +20,7 @@ from thermodata_reader_crio.ascii_layout import Layout, find_layout
 from thermodata_reader_crio.clock import step_ns
 from thermodata_reader_crio.comments import flags_of, texts
 from thermodata_reader_crio.labtime import EPOCH_1904_NS, counted_ns, seconds_ns
-from thermodata_reader_crio.rows import Grid, Rows, parse
+from thermodata_reader_crio.rows import Grid, Rows, number, parse
 from thermodata_reader_crio.textparts import count_lines, decode, encoding_of, parts
 
 STREAM = "data"
@@ -34,7 +34,7 @@ def _layout(path: Path, source: Source) -> tuple[Layout, str, list[str]]:
         raise FormatError("an empty file", where=path.name, expected="rows of numbers")
     text = decode(head.data, encoding)
     wanted = source.options.get("time")
-    return find_layout(text.splitlines(), path.name, wanted), encoding, [note] if note else []
+    return find_layout(text, path.name, wanted), encoding, [note] if note else []
 
 
 def describe(path: Path, source: Source) -> Recording:
@@ -66,6 +66,9 @@ def blocks(path: Path, source: Source) -> Iterator[Block | Loss]:
     step = source.options.get("increment")
     step_s = 1.0 if step is None else value_in(step, "s")
     done, last_ns = 0, None
+    if layout.doubtful:
+        yield Loss(f"{path.name} line {layout.doubtful[0]}", reason=f"{len(layout.doubtful)} lines before the first "
+                   "row that hold numbers: damaged rows, or a header of another kind")
     for part in parts(path, encoding):
         data, line = part.data, part.line
         if not part.ended and not _whole(data, layout, encoding):
@@ -140,6 +143,12 @@ def _losses(path: Path, rows: Rows, good: Bool1D, data: bytes, line: int, layout
     if lost:
         yield Loss(f"{path.name} line {line + lost[0]}", reason=f"{len(lost)} lines that are no rows of "
                    f"{len(layout.names)} numbers with a time")
-    if rows.wrong:
-        yield Loss(f"{path.name} line {line + int(rows.line[rows.wrong[0][0]])}", reason=f"{len(rows.wrong)} cells "
-                   "that are no numbers: these values are flagged")
+    odd = [] if rows.text is None else [i for i, w in enumerate(rows.text.tolist()) if w and (
+        b"\0" in w or number(w.strip(), layout.decimal.encode()) is not None)]
+    if odd:
+        yield Loss(f"{path.name} line {line + int(rows.line[odd[0]])}", reason=f"{len(odd)} rows with a number, or "
+                   "bytes of no text, where the comment stands")
+    wrong = [r for r, _ in rows.wrong if good[r]]
+    if wrong:
+        yield Loss(f"{path.name} line {line + int(rows.line[wrong[0]])}", reason=f"{len(wrong)} cells that are no "
+                   "numbers: these values are flagged")
