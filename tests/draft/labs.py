@@ -1,6 +1,7 @@
-"""Folders of made-up labs as labs leave them: their formats, names and habits, and what a person there would say of them.
+"""Folders of made-up labs as labs leave them: their formats, names and habits, and what is true of them.
 
-Each writes raw files only, and returns what is true: signal -> (quantity, place, axis); None where a stranger can't know.
+Each writes raw files only, and returns what is true: signal -> (quantity, place,
+                                                                 axis); None where a stranger can't know.
 """
 
 from __future__ import annotations
@@ -57,7 +58,8 @@ def staircase(moves: Sequence[float], um_per_v: float, dwell_s: float, rate: flo
     return np.asarray(np.repeat(levels, rows) + np.random.default_rng(seed).normal(0, 0.002, rows * len(levels)))
 
 
-def tdms(path: Path, groups: Mapping[str, Mapping[str, tuple[Float1D, str | None]]], start: datetime, step_s: float) -> None:
+def tdms(path: Path, groups: Mapping[str, Mapping[str, tuple[Float1D, str | None]]], start: datetime,
+         step_s: float) -> None:
     """A TDMS file with waveform properties, UTC."""
     from nptdms import ChannelObject, TdmsWriter
 
@@ -65,12 +67,14 @@ def tdms(path: Path, groups: Mapping[str, Mapping[str, tuple[Float1D, str | None
     with TdmsWriter(str(path)) as writer:
         writer.write_segment([
             ChannelObject(group, name, values, properties={
-                "wf_start_time": np.datetime64(start.replace(tzinfo=None)), "wf_start_offset": 0.0, "wf_increment": step_s,
+                "wf_start_time": np.datetime64(start.replace(tzinfo=None)), "wf_start_offset": 0.0,
+                "wf_increment": step_s,
                 "wf_samples": len(values), **({"unit_string": unit} if unit else {})})
             for group, channels in groups.items() for name, (values, unit) in channels.items()])
 
 
-def text(path: Path, header: Sequence[str], columns: Sequence[Sequence[str]], *, mark: str = ";", encoding: str = "utf-8",
+def text(path: Path, header: Sequence[str], columns: Sequence[Sequence[str]], *, mark: str = ";",
+         encoding: str = "utf-8",
          before: Sequence[str] = ()) -> None:
     """Delimited text, one row a line."""
     path.parent.mkdir(parents=True, exist_ok=True)
@@ -104,7 +108,8 @@ def workbook(path: Path, rows: Sequence[Sequence[object]]) -> None:
         file.writestr("xl/_rels/workbook.xml.rels", f'<Relationships xmlns="{rels}"><Relationship Id="r1" '
                                                     f'Type="{office}/worksheet" Target="worksheets/sheet1.xml"/>'
                                                     '</Relationships>')
-        file.writestr("xl/worksheets/sheet1.xml", f'<worksheet xmlns="{main}"><sheetData>{body}</sheetData></worksheet>')
+        file.writestr("xl/worksheets/sheet1.xml",
+                      f'<worksheet xmlns="{main}"><sheetData>{body}</sheetData></worksheet>')
 
 
 def numbers(values: Float1D, digits: int = 2, comma: bool = False) -> list[str]:
@@ -125,21 +130,26 @@ def german(folder: Path) -> Lab:
         heat = 0 if not levels else 12
         tdms(folder / "Messdaten" / f"{test}_DAQ.tdms", {
             "Wirbelstrom": {a: (5 + warm(n, 0, 0.1 * heat / 12, 0.3, i), "V") for i, a in enumerate("XYZ")},
-            "Temperatur": {"Lager vorne": (warm(n, 21, heat, 0.2, 3), "°C"), "Lager hinten": (warm(n, 21, heat / 2, 0.2, 4), "°C"),
-                           "Ständer hinten": (warm(n, 20, 2, 1, 5), "°C"), "Umgebung unten": (warm(n, 20, 1, 1, 6), "°C")}},
+            "Temperatur": {"Lager vorne": (warm(n, 21, heat, 0.2, 3), "°C"), "Lager hinten": (warm(n, 21, heat / 2,
+                                                                                                   0.2, 4), "°C"),
+                           "Ständer hinten": (warm(n, 20, 2, 1, 5), "°C"), "Umgebung unten": (warm(n, 20, 1, 1, 6),
+                                                                                              "°C")}},
             start, 10)
         text(folder / "Steuerung" / f"{test}.csv",
              ["Datum/Uhrzeit", "Spindeldrehzahl [U/min]", "Kühlmitteltemperatur [°C]", "Wirkleistung Spindel [kW]",
               "Vorschub X [mm/min]", "Motortemperatur X [°C]"],
-             [local(n, 10, start, "Europe/Berlin", "%d.%m.%Y %H:%M:%S"), numbers(speed, 0), numbers(warm(n, 22, 1, 1, 7), 1, True),
+             [local(n, 10, start, "Europe/Berlin", "%d.%m.%Y %H:%M:%S"), numbers(speed, 0), numbers(warm(n, 22, 1, 1,
+                                                                                                         7), 1, True),
               numbers(speed / 2000, 2, True), numbers(np.zeros(n), 1, True), numbers(warm(n, 23, 1, 1, 8), 1, True)],
              encoding="cp1252")
     for a in "XZ":
         tdms(folder / "Messdaten" / f"Sprung_{a}.tdms", {"Wirbelstrom": {
-            b: (staircase([100, -50, -50], 80, 10, 10, 1) if a == b else np.full(400, 5.0), "V") for b in "XYZ"}}, START, 0.1)
+            b: (staircase([100, -50, -50], 80, 10, 10, 1) if a == b else np.full(400, 5.0), "V") for b in "XYZ"}},
+            START, 0.1)
     return Lab({"Umgebung", "Spindel_6000", "Spektrum"}, {
         "Wirbelstrom/X": ("displacement", "tcp", "X"), "Wirbelstrom/Y": ("displacement", "tcp", "Y"),
-        "Wirbelstrom/Z": ("displacement", "tcp", "Z"), "Temperatur/Lager vorne": ("temperature", "spindle.bearing.front", None),
+        "Wirbelstrom/Z": ("displacement", "tcp", "Z"), "Temperatur/Lager vorne": ("temperature",
+                                                                                  "spindle.bearing.front", None),
         "Temperatur/Lager hinten": ("temperature", "spindle.bearing.rear", None),
         "Temperatur/Ständer hinten": ("temperature", "column.rear", None),
         "Temperatur/Umgebung unten": ("temperature", "hall.bottom", None),
@@ -159,19 +169,28 @@ def czech(folder: Path) -> Lab:
         for part in range(3):
             when = start + timedelta(seconds=part * n * 5)
             tdms(folder / test / f"mereni_{part + 1}.tdms", {"teploty": {
-                "ložisko přední": (warm(n, 22 + part, 1, 1, part), "°C"), "matice Z": (warm(n, 21, 1, 1, part + 3), "°C"),
+                "ložisko přední": (warm(n, 22 + part, 1, 1, part), "°C"), "matice Z": (warm(n, 21, 1, 1, part + 3),
+                                                                                       "°C"),
                 "teplota haly": (warm(n, 20, 0.5, 1, part + 6), "°C"), "lože": (warm(n, 20, 0.2, 1, part + 9), "°C")},
-                "posunutí": {"dX1": (warm(n, 5, 0.1, 1, part + 20), "V"), "dZ": (warm(n, 5, 0.2, 1, part + 30), "V")}}, when, 5)
-        text(folder / test / "rs.csv", ["Datum a čas", "otáčky vřetene [ot/min]", "proud vřetene [A]", "průtok chladicí kapaliny [l/min]",
+                "posunutí": {"dX1": (warm(n, 5, 0.1, 1, part + 20), "V"), "dZ": (warm(n, 5, 0.2, 1, part + 30),
+                                                                                 "V")}}, when, 5)
+        text(folder / test / "rs.csv", ["Datum a čas", "otáčky vřetene [ot/min]", "proud vřetene [A]",
+                                        "průtok chladicí kapaliny [l/min]",
                                        "posuv Z [mm/min]", "poloha Z [mm]"],
-             [local(3 * n, 5, start, "Europe/Prague", "%d.%m.%Y %H:%M:%S"), numbers(speeds(3 * n, [level] if level else []), 0),
-              numbers(np.full(3 * n, 3.2), 1, True), numbers(np.full(3 * n, 12.0), 1, True), numbers(np.zeros(3 * n), 0),
+             [local(3 * n, 5, start, "Europe/Prague", "%d.%m.%Y %H:%M:%S"), numbers(speeds(3 * n,
+                                                                                           [level] if level else []),
+                                                                                           0),
+              numbers(np.full(3 * n, 3.2), 1, True), numbers(np.full(3 * n, 12.0), 1, True), numbers(np.zeros(3 * n),
+                                                                                                     0),
               numbers(np.full(3 * n, 210.0), 3, True)], encoding="cp1250")
     return Lab({"zahrivani_8000", "klid"}, {
-        "teploty/ložisko přední": ("temperature", "spindle.bearing.front", None), "teploty/matice Z": ("temperature", "axis.z.nut", None),
+        "teploty/ložisko přední": ("temperature", "spindle.bearing.front", None), "teploty/matice Z": ("temperature",
+                                                                                                       "axis.z.nut",
+                                                                                                       None),
         "teploty/teplota haly": ("temperature", "hall", None), "teploty/lože": ("temperature", "bed", None),
         "posunutí/dX1": ("displacement", "tcp", "X"), "posunutí/dZ": ("displacement", "tcp", "Z"),
-        "otáčky vřetene [ot/min]": ("rotational_speed", "spindle", None), "proud vřetene [A]": ("current", "spindle", None),
+        "otáčky vřetene [ot/min]": ("rotational_speed", "spindle", None), "proud vřetene [A]": ("current", "spindle",
+                                                                                                None),
         "průtok chladicí kapaliny [l/min]": ("flow", "coolant", None), "posuv Z [mm/min]": ("feed", "axis.z", None),
         "poloha Z [mm]": ("position", "axis.z", None),
     }, kinds={"zahrivani_8000": "spindle", "klid": "etve"}, sources=2)
@@ -180,14 +199,17 @@ def czech(folder: Path) -> Lab:
 def chinese(folder: Path) -> Lab:
     """Chinese names, one CSV a test with comma and relative minutes; conditions stand in the file names."""
     n = 240
-    header = ["时间(min)", "主轴前轴承温度(℃)", "主轴后轴承温度(℃)", "主轴电机温度(℃)", "Z轴螺母温度(℃)", "立柱温度(℃)", "冷却液温度(℃)",
+    header = ["时间(min)", "主轴前轴承温度(℃)", "主轴后轴承温度(℃)", "主轴电机温度(℃)", "Z轴螺母温度(℃)",
+              "立柱温度(℃)", "冷却液温度(℃)",
               "环境温度(℃)", "主轴转速(rpm)", "X向热误差(um)", "Z向热误差(um)"]
     for speed, nr in [(2000, 1), (4000, 2), (6000, 3), (8000, 4)]:
         columns = [numbers(np.arange(n) * 1.0, 1)]
         columns += [numbers(warm(n, 20 + i, 10 - i, 0.3, i + nr)) for i in range(7)]
-        columns += [numbers(speeds(n, [speed]), 0), numbers(warm(n, 0, 12, 0.3, nr)), numbers(warm(n, 0, 40, 0.3, nr + 50))]
+        columns += [numbers(speeds(n, [speed]), 0), numbers(warm(n, 0, 12, 0.3, nr)), numbers(warm(n, 0, 40, 0.3,
+                                                                                                   nr + 50))]
         text(folder / "数据" / f"S{speed}_F500_{nr}.csv", header, columns, mark=",")
-    places = ["spindle.bearing.front", "spindle.bearing.rear", "spindle.motor", "axis.z.nut", "column", "coolant", "hall"]
+    places = ["spindle.bearing.front", "spindle.bearing.rear", "spindle.motor", "axis.z.nut", "column", "coolant",
+              "hall"]
     signals: Truth = {h: ("temperature", p, None) for h, p in zip(header[1:8], places, strict=True)}
     signals |= {header[8]: ("rotational_speed", "spindle", None), header[9]: ("displacement", "tcp", "X"),
                 header[10]: ("displacement", "tcp", "Z")}
@@ -198,17 +220,20 @@ def chinese(folder: Path) -> Lab:
 def workbooks(folder: Path) -> Lab:
     """XLSX a test, numbered, and a table of tests beside them."""
     n = 150
-    plan = [("Nr", "Speed [rpm]", "Tool", "Remark"), (1, 3000, "HSK63 dummy", ""), (2, 9000, "HSK63 dummy", "door open"),
+    plan = [("Nr", "Speed [rpm]", "Tool", "Remark"), (1, 3000, "HSK63 dummy", ""), (2, 9000, "HSK63 dummy",
+                                                                                    "door open"),
             (3, 12000, "none", "")]
     for nr, speed, *_ in plan[1:]:
-        rows: list[Sequence[object]] = [["Time [s]", "T_spindle_front_bearing [°C]", "T_amb [°C]", "Spindle speed [rpm]",
+        rows: list[Sequence[object]] = [["Time [s]", "T_spindle_front_bearing [°C]", "T_amb [°C]",
+                                         "Spindle speed [rpm]",
                                          "Y1 [um]", "level [mm]"]]
         data = zip(np.arange(n) * 30.0, warm(n, 22, 9, 0.3, int(nr)), warm(n, 20, 1, 1, 9), speeds(n, [float(speed)]),
                    warm(n, 0, 20, 0.3, 5), np.full(n, 40.0), strict=True)
         workbook(folder / f"test_{int(nr):02d}.xlsx", [*rows, *([round(float(v), 3) for v in row] for row in data)])
     workbook(folder / "test_plan.xlsx", plan)
     return Lab({"test_01", "test_02", "test_03"}, {
-        "T_spindle_front_bearing [°C]": ("temperature", "spindle.bearing.front", None), "T_amb [°C]": ("temperature", "hall", None),
+        "T_spindle_front_bearing [°C]": ("temperature", "spindle.bearing.front", None), "T_amb [°C]": ("temperature",
+                                                                                                       "hall", None),
         "Spindle speed [rpm]": ("rotational_speed", "spindle", None), "Y1 [um]": ("displacement", "tcp", "Y"),
         "level [mm]": (None, None, None),
     }, kinds=dict.fromkeys(("test_01", "test_02", "test_03"), "spindle"))
@@ -245,7 +270,9 @@ def recorder(folder: Path) -> Lab:
         "spindle rpm": ("rotational_speed", "spindle", None),
         "/machine.spindle_bearing_front_degC": ("temperature", "spindle.bearing.front", None),
         "/machine.ambient_air": ("temperature", "hall", None),
-        "/machine.spindle_speed_rpm": ("rotational_speed", "spindle", None), "/machine.axis_X_load_pct": ("load", "axis.x", None),
+        "/machine.spindle_speed_rpm": ("rotational_speed", "spindle", None), "/machine.axis_X_load_pct": ("load",
+                                                                                                          "axis.x",
+                                                                                                          None),
     }, {"calib_Z.lvm": "probe Z"}, {"run-A": "spindle", "run-B": "spectrum"}, 2)
 
 
@@ -253,7 +280,8 @@ def _lvm(path: Path, channels: Mapping[str, tuple[str, Float1D]], start: datetim
     k = len(channels)
     n = len(next(iter(channels.values()))[1])
     at = start.strftime("%Y/%m/%d"), start.strftime("%H:%M:%S.%f") + "0000000000000"
-    lines = ["LabVIEW Measurement\t", "Writer_Version\t2", "Reader_Version\t2", "Separator\tTab", "Decimal_Separator\t.",
+    lines = ["LabVIEW Measurement\t", "Writer_Version\t2", "Reader_Version\t2", "Separator\tTab",
+             "Decimal_Separator\t.",
              "Multi_Headings\tNo", "X_Columns\tNo", "Time_Pref\tAbsolute", f"Date\t{at[0]}", f"Time\t{at[1]}",
              "***End_of_Header***\t", "", f"Channels\t{k}", "Samples\t" + "\t".join([str(n)] * k),
              "Date\t" + "\t".join([at[0]] * k), "Time\t" + "\t".join([at[1]] * k),
@@ -274,9 +302,13 @@ def sinumerik(folder: Path) -> Lab:
         text(folder / "trace" / f"{test}.csv",
              ['"Time"', '"/Nck/!SD/nckServoDataActPos1stEnc64 [u1; 3]"', '"/Nck/!SD/nckServoDataActCurr32 [u1; 3]"',
               '"/Channel/Spindle/actSpeed [u1; 1]"'],
-             [numbers(t, 3), numbers(200 + 150 * np.sin(t / 30), 3), numbers(np.abs(np.cos(t / 30)) * 4), numbers(np.zeros(n), 1)], mark=",")
-        text(folder / "labview" / f"{test}.txt", ["Time (s)", "T_Mutter_Z (degC)", "T_Motor_Z (degC)", "T Halle (degC)", "Z (um)"],
-             [numbers(t, 1), numbers(warm(n, 21, 6, 0.3, k)), numbers(warm(n, 23, 9, 0.3, k + 3)), numbers(warm(n, 20, 1, 1, k + 5)),
+             [numbers(t, 3), numbers(200 + 150 * np.sin(t / 30), 3), numbers(np.abs(np.cos(t / 30)) * 4),
+              numbers(np.zeros(n), 1)], mark=",")
+        text(folder / "labview" / f"{test}.txt", ["Time (s)", "T_Mutter_Z (degC)", "T_Motor_Z (degC)",
+                                                  "T Halle (degC)", "Z (um)"],
+             [numbers(t, 1), numbers(warm(n, 21, 6, 0.3, k)), numbers(warm(n, 23, 9, 0.3, k + 3)), numbers(warm(n, 20,
+                                                                                                                1, 1,
+                                                                                                                k + 5)),
               numbers(warm(n, 0, 25, 0.4, k + 7))], mark="\t")
     (folder / "labview" / "broken.txt").write_bytes(b"\x00\x01\x02 not a table \x00")
     (folder / "notes.txt").write_text("Door was open at noon.\n")
@@ -284,7 +316,8 @@ def sinumerik(folder: Path) -> Lab:
         "/Nck/!SD/nckServoDataActPos1stEnc64 [u1; 3]": ("position", None, None),
         "/Nck/!SD/nckServoDataActCurr32 [u1; 3]": ("current", None, None),
         "/Channel/Spindle/actSpeed [u1; 1]": ("rotational_speed", "spindle", None),
-        "T_Mutter_Z (degC)": ("temperature", "axis.z.nut", None), "T_Motor_Z (degC)": ("temperature", "axis.z.motor", None),
+        "T_Mutter_Z (degC)": ("temperature", "axis.z.nut", None), "T_Motor_Z (degC)": ("temperature", "axis.z.motor",
+                                                                                       None),
         "T Halle (degC)": ("temperature", "hall", None), "Z (um)": ("displacement", "tcp", "Z"),
     }, kinds=dict.fromkeys(("Z_feed_1", "Z_feed_2"), "linear_axis"), sources=2)
 

@@ -93,7 +93,8 @@ def test_names_with_other_times_are_joined_by_time(tmp_path: Path) -> None:
 def test_a_jump_test_is_found_in_the_data_alone(tmp_path: Path) -> None:
     rng = np.random.default_rng(0)
     for k in range(3):
-        tdms(tmp_path / f"m{k}.tdms", {"g": {"dZ": (warm(3000, 5, 0.1, 0.3, k), "V"), "dX": (warm(3000, 5, 0.1, 0.3, 9), "V"),
+        tdms(tmp_path / f"m{k}.tdms", {"g": {"dZ": (warm(3000, 5, 0.1, 0.3, k), "V"),
+                                             "dX": (warm(3000, 5, 0.1, 0.3, 9), "V"),
                                              "T1": (warm(3000, 22, 5, 0.3, k), "degC")}}, START + timedelta(days=k), 10)
     tdms(tmp_path / "m7.tdms", {"g": {"dZ": (staircase([50, 50, -100, -50, 50], 80, 8, 20, 3), "V"),
                                       "dX": (5 + rng.normal(0, 0.002, 960), "V"),

@@ -1,4 +1,4 @@
-"""Folders of six labs, never seen by the drafting: drafted, ingested as drafted, and ingested with the questions answered."""
+"""Folders of six labs, never seen by the drafting: drafted, ingested as drafted, and with questions answered."""
 
 from __future__ import annotations
 

@@ -46,3 +46,14 @@ def test_preview_says_start_rate_gaps_and_first_rows(tmp_path: Path) -> None:
     assert len(stream["first_rows"]) == 5
     assert found["losses"][0]["fraction"] == 0.25
     json.dumps(found, allow_nan=False)
+
+
+def test_preview_of_a_large_file_reads_a_part_and_says_so(tmp_path: Path) -> None:
+    path = tmp_path / "x.log"
+    path.write_bytes(b"x")
+    seen: list[int] = []
+    part = preview(path, reader=Fake(), most_rows=6, rows=1, watch=lambda block: seen.append(block.t_ns.size))
+    assert (part["rows_read"], part["whole"], seen) == (8, False, [4, 4])
+    assert len(part["streams"][0]["first_rows"]) == 1
+    whole = preview(path, reader=Fake())
+    assert (whole["rows_read"], whole["whole"]) == (10, True)

@@ -23,8 +23,8 @@ _ALIGNABLE = ("rotational_speed", "position", "feed", "power", "temperature", "l
 
 @dataclass(frozen=True, slots=True)
 class Alignment:
-    """`clock: {align_to: there.source, by: [...]}` of a source. offset_s, uncertainty_s: as found in `test`; None where it
-    could not be had there, and `why` says why: then it is only a question."""
+    """`clock: {align_to: there.source, by: [...]}` of a source. offset_s, uncertainty_s: as found in `test`; None where
+    it could not be had there, and `why` says why: then it is only a question."""
 
     source: str
     there: str
@@ -96,7 +96,8 @@ def _alignment(here: Group, there: Group, channels: Mapping[str, Named]) -> Alig
             try:
                 said = estimate_offset(one.t_ns, one.values, two.t_ns, two.values)
             except ThermodataError as error:
-                refused = refused or Alignment(here.source, there.source, (name_a, name_b), None, None, test, error.what)
+                refused = refused or Alignment(here.source, there.source, (name_a, name_b), None, None, test,
+                                               error.what)
                 continue
             return Alignment(here.source, there.source, (name_a, name_b), said.offset_ns / 1e9,
                              said.uncertainty_ns / 1e9, test)

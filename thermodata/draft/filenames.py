@@ -115,7 +115,7 @@ def _common(stems: Sequence[str]) -> str:
 
 
 def _folder(paths: Sequence[PurePosixPath]) -> str | None:
-    """The folder of all paths with '/' at its end, '*' for a part that differs; None where they lie at several depths."""
+    """The folder of all paths with '/' at its end, '*' for a part that differs; None where their depths differ."""
     parents = {p.parts[:-1] for p in paths}
     if len({len(p) for p in parents}) != 1:
         return None

@@ -26,6 +26,7 @@ _PLAUSIBLE = {"temperature": (-40.0, 200.0), "rotational_speed": (-60_000.0, 60_
 # what creeps there between 5 and 80 is a temperature
 _AIR = {"hall", "floor", "bearing", "coolant", "outside", "window"}
 _WEAK = ("a time stamp", "a number")                    # words that stand beside others: 'Temp block 3'
+_NEVER_DIFFERENCES = ("feed", "position", "rotational_speed", "torque", "current", "pressure")
 _NEEDS_PLACE = ("temperature", "temperature_difference", "power", "load", "current", "torque", "position", "flow",
                 "pressure", "displacement", "rotational_speed")
 
@@ -267,7 +268,7 @@ def _place(found: Guess, own: str, text: str) -> Guess:
         questions.append("a set value, not the actual one?")
     elif says(LIMIT, own) and quantity not in ("state", "displacement"):
         questions.append("a limit, or a reading?")
-    elif says(DIFFERENCE, own) and quantity in ("feed", "position", "rotational_speed", "torque", "current", "pressure"):
+    elif says(DIFFERENCE, own) and quantity in _NEVER_DIFFERENCES:
         questions.append("a difference, not the quantity itself?")
     if found.basis == ("unit",) and place.sure and quantity not in ("position", "voltage"):
         found = replace(found, basis=("name", "unit"), sure=True)      # degC at a bearing: the name need not say T

@@ -13,7 +13,8 @@ _BESIDE = (r"d|e|ed|eddy|wz|pos|feed|nut|ax|axis|achse|osa|mot|motor|tcp|err|err
 _AFTER = r"abs|act|pos|mpos|wpos|load|axis|achse|mot|motor|temp|frt|com|curr|vel|speed|ist|soll|position|feedrate"
 _LINEAR = re.compile(rf"(?<!\S)(?:{_BESIDE})?([xyz])(?!\S)|(?<!\S)([xyz])(?:{_AFTER})(?!\S)")
 _ROTARY = re.compile(r"(?<!\S)(?:axis|achse|osa|ax|rotary|act|ist|pos|mot|motor|load|curr|current|torque|speed|"
-                     r"drehzahl|otacky) ?([abc])(?!\S)|(?<!\S)([abc]) ?(?:axis|achse|osa|act|abs|pos|load|mot|motor)(?!\S)"
+                     r"drehzahl|otacky) ?([abc])(?!\S)"
+                     r"|(?<!\S)([abc]) ?(?:axis|achse|osa|act|abs|pos|load|mot|motor)(?!\S)"
                      r"|(?<!\S)([abc]) ?轴")
 _SIDES = ("front", "rear", "left", "right")
 _PLAIN = ("headstock", "ram", "saddle", "crossbeam", "workpiece", "fixture", "tool", "floor", "cabinet", "bed",

@@ -58,7 +58,8 @@ QUANTITY_WORDS: dict[str, str] = {
 }
 
 PLACE_WORDS: dict[str, str] = {
-    "spindle": "mot~s. current~s. curr~s. load~s. s~load. s~temp. s~mot. s~current. spindel spindle vreten 主轴 主軸 电主轴 spdl. spnd. spin. sp. hsp. spi. spindl",
+    "spindle": "mot~s. current~s. curr~s. load~s. s~load. s~temp. s~mot. s~current. spindel "
+               "spindle vreten 主轴 主軸 电主轴 spdl. spnd. spin. sp. hsp. spi. spindl",
     "not spindle": "gewindespindel kugelspindel spindelmutter kugelgewinde leadspindle",
     "bearing": "bearing bearings. lager ^lozis ^loz. 轴承 軸承 brg. brng. bear. lagerung roulement",
     "front": "front vorn vorder ^predni pred. predn. 前 fr. frt~b nose. spindlenose nase. vl.",

@@ -62,9 +62,9 @@ def preview(path: Path | str, source: Source | None = None, reader: Reader | Non
     said of rows, gaps and losses holds for the part that was read); watch: sees every block that is read.
 
     Keys: file, size_bytes, reader, reason, clock, timezone, start, complete, whole, rows_read, notes, losses, and
-    streams, each with stream, rows, start, end, duration_s, step_s, rate_hz, gaps, largest_step_s, backward, repeated, signals
-    (name, unit, dtype, scaling) and first_rows. Values that do not apply are None. Errors: those of sniff and of the
-    reader.
+    streams, each with stream, rows, start, end, duration_s, step_s, rate_hz, gaps, largest_step_s, backward, repeated,
+    signals (name, unit, dtype, scaling) and first_rows. Values that do not apply are None. Errors: those of sniff
+    and of the reader.
     """
     path = Path(path)
     source = source or Source()

@@ -1,0 +1,129 @@
+"""`init`, `sniff` and `preview` on the command line."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from tests.cli.conftest import Said, write_campaign
+
+Say = Callable[..., Said]
+
+
+def csv(path: Path, rows: int = 200, gap: bool = False) -> Path:
+    """A log with a spike, and a gap where wished."""
+    rng = np.random.default_rng(1)
+    t = np.arange(rows) * 10.0
+    if gap:
+        t[rows // 2:] += 3600
+    temperature = 20 + 5 * (1 - np.exp(-np.arange(rows) / 60)) + rng.normal(0, 0.02, rows)
+    temperature[rows // 3] = 85.0
+    lines = ["time [s],T_bearing_front [degC],Spindle speed [rpm],state"]
+    lines += [f"{a:.0f},{b:.3f},{6000 if 20 < i < 150 else 0},{'on' if i > 20 else 'off'}"
+              for i, (a, b) in enumerate(zip(t, temperature, strict=True))]
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text("\n".join(lines) + "\n", encoding="utf-8")
+    return path
+
+
+def test_init_never_overwrites(say: Say, tmp_path: Path) -> None:
+    csv(tmp_path / "a.csv")
+    (tmp_path / "campaign.yaml").write_text("mine\n")
+    assert say("init", tmp_path).code == 2
+    assert (tmp_path / "campaign.yaml").read_text() == "mine\n"
+    assert say("init", tmp_path, "--force").code == 0
+    assert (tmp_path / "campaign.1.yaml").read_text() == "mine\n"
+    assert "schema: thermodata/campaign/1" in (tmp_path / "campaign.yaml").read_text("utf-8")
+
+
+def test_init_of_a_folder_without_logs_says_what_it_saw(say: Say, tmp_path: Path) -> None:
+    (tmp_path / "notes.txt").write_text("nothing\n")
+    said = say("init", tmp_path)
+    assert said.code == 2
+    assert "notes.txt" in said.err
+    assert not (tmp_path / "campaign.yaml").exists()
+
+
+def test_init_talks_on_stderr_and_shows_no_progress_when_piped(say: Say, tmp_path: Path) -> None:
+    csv(tmp_path / "a.csv")
+    said = say("init", tmp_path)
+    assert said.out.strip().endswith("campaign.yaml")
+    assert "lines hold a question" in said.err
+    assert "\x1b" not in said.err
+
+
+def test_sniff_explains_every_readers_answer(say: Say, tmp_path: Path) -> None:
+    log, notes = csv(tmp_path / "a.csv"), tmp_path / "notes.txt"
+    notes.write_text("The door was open.\n")
+    said = say("sniff", log, notes, "--json")
+    assert said.code == 2
+    good, bad = json.loads(said.out)
+    assert (good["reader"], good["advice"]) == ("table", None)
+    assert set(good["others"]) == {"cnc", "crio", "mcap"}
+    assert "TDMS" in good["others"]["crio"]
+    assert (bad["reader"], bad["claims"]) == (None, {})
+    assert bad["kind"].startswith("text")
+    assert all("made to try" in why for why in bad["others"].values())
+    text = say("sniff", log, notes).out
+    assert "  yes      table:" in text
+    assert "  no       crio:" in text
+
+
+def test_sniff_takes_folders(say: Say, tmp_path: Path) -> None:
+    for i in range(7):
+        csv(tmp_path / "raw" / f"{i}.csv")
+    said = say("sniff", tmp_path / "raw", "--json")
+    assert said.code == 0
+    assert {r["reader"] for r in json.loads(said.out)} == {"table"}
+    assert len(say("sniff", tmp_path / "raw").out.splitlines()) > 7
+
+
+@pytest.mark.parametrize(("content", "kind"), [
+    (b"", "an empty file"), (b"PK\x03\x04rest", "a ZIP file"), (b"\x00\x01\x02\x03", "binary"),
+    (b"  \n \n", "blanks only"),
+    (b"TDSh\x0e", "the index of a TDMS file"), (b"\x1f\x8b\x08", "gzip")])
+def test_sniff_says_what_a_foreign_file_is(say: Say, tmp_path: Path, content: bytes, kind: str) -> None:
+    (tmp_path / "x.bin").write_bytes(content)
+    assert json.loads(say("sniff", tmp_path / "x.bin", "--json").out)[0]["kind"].startswith(kind)
+
+
+def test_preview_shows_rate_gaps_courses_and_flags(say: Say, tmp_path: Path) -> None:
+    found = json.loads(say("preview", csv(tmp_path / "a.csv", gap=True), "--rows", 3, "--json").out)
+    stream = found["streams"][0]
+    assert (stream["rows"], stream["step_s"], stream["gaps"], stream["largest_step_s"]) == (200, 10.0, 1, 3610.0)
+    assert found["whole"] is True
+    signals = {s["name"]: s for s in stream["signals"]}
+    front = signals["T_bearing_front [degC]"]
+    assert front["quantity"] == "temperature"
+    assert front["guess"] == "sure: name and unit"
+    assert front["flags"]["spike"] == 1
+    assert len(front["sparkline"]) == 32
+    assert front["values"]["high"] == 85.0
+    assert any(e["flag"] == "spike" and e["signal"] == front["name"] for e in stream["events"])
+    text = say("preview", tmp_path / "a.csv").out
+    assert "would be flagged" in text
+    assert "1 gaps (longest step 60.2 min)" in text
+
+
+def test_preview_reads_a_file_as_its_campaign_declares_it(say: Say, tmp_path: Path) -> None:
+    path = write_campaign(tmp_path / "c")
+    log = tmp_path / "c" / "raw" / "heat1.csv"
+    found = json.loads(say("preview", log, "--json").out)
+    assert found["campaign"] == {"file": str(path), "source": "log", "test": "heat1"}
+    assert {s["channel"] for s in found["streams"][0]["signals"]} >= {"dZ", "T_nut_Z"}
+    other = csv(tmp_path / "other.csv")
+    assert "does not name this file" in say("preview", other, "--campaign", path).err
+    assert json.loads(say("preview", other, "--json").out)["campaign"] is None
+
+
+def test_preview_of_a_part_says_so(tmp_path: Path) -> None:
+    from thermodata.cli.preview import preview_text, previewed
+
+    shown = previewed(csv(tmp_path / "a.csv"), None, None, 2, None)
+    assert "all 200 rows" in preview_text(shown)
+    shown["whole"] = False
+    assert "the first 200 rows only: the file is large" in preview_text(shown)
