@@ -52,9 +52,11 @@ class Faults:
         t = t_ns + shifted(self.at, self.shifts, first, len(t_ns))
         more = len(t_ns) > own
         at = 0
-        while (row := self._next_fault(t[:own], at)) is not None:
+        while (row := self._next_fault(t, at)) is not None:
             high = max(self._highest, int(t[at:row].max(initial=self._highest)))
             stray = self._stray(t, at, row, high, more)
+            if row >= own and (stray is None or stray[0] >= own):
+                break                                     # the next chunk's, which sees more of it
             if stray is not None:
                 self._mend(t, *stray, first)
                 at = max(stray[0] - 1, 0)
