@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Sequence
+from operator import itemgetter
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -25,6 +26,8 @@ _FEW = 256            # messages that are parsed at a time where fields come tha
 _SHORT = 64 << 10     # and bytes: each of them may bring fields of its own, and Arrow makes a column of each
 _SMALL = 32
 _EXACT = 2.0**53
+_OPENING, _CLOSING = b"{}"
+_first, _last = itemgetter(0), itemgetter(-1)
 _LONG_INTEGER = re.compile(rb"[:\[,\s]-?\d{16,}(?![\d.eE])")
 
 
@@ -109,15 +112,19 @@ def joined(wrapped: bool, payloads: Sequence[bytes]) -> bytes | None:
     if wrapped:
         text = b'{"":' + b'}\n{"":'.join(payloads) + b"}"
         return text if text.count(b"\n") == len(payloads) - 1 else None
-    text = b"\n".join(payloads)
-    if text.count(b"\n") != len(payloads) - 1:              # line ends between tokens
-        text = b"\n".join([p.replace(b"\n", b" ").replace(b"\r", b" ").strip() for p in payloads])
-    if text[:1] != b"{" or text[-1:] != b"}" or text.count(b"}\n{") != len(payloads) - 1:
-        text = b"\n".join([p.strip(b" \t\r") for p in payloads])
-        if text[:1] != b"{" or text[-1:] != b"}" or text.count(b"}\n{") != len(payloads) - 1 \
-                or text.count(b"\n") != len(payloads) - 1:
-            return None
-    return text
+    for form in (None, _one_line):
+        lines = payloads if form is None else [form(p) for p in payloads]
+        if not all(lines) or set(map(_first, lines)) != {_OPENING} or set(map(_last, lines)) != {_CLOSING}:
+            continue
+        text = b"\n".join(lines)
+        if text.count(b"\n") == len(payloads) - 1:
+            return text
+    return None
+
+
+def _one_line(payload: bytes) -> bytes:
+    """The same JSON without line ends; within a text there are none."""
+    return payload.replace(b"\n", b" ").replace(b"\r", b" ").strip(b" \t")
 
 
 def arrow_schema(topic: Topic) -> pa.Schema:

@@ -28,7 +28,7 @@ def readers(channels: Sequence[Channel], samples: Mapping[Channel, Sequence[byte
         except UnsupportedError as error:
             problems[channel] = str(error)
             continue
-        if isinstance(one, JsonDecoder) and not all(map(_is_utf8, samples.get(channel, ()))):
+        if isinstance(one, JsonDecoder) and not _is_utf8(b"\n".join(samples.get(channel, ()))):
             one = replace(one, encoding=encoding or "cp1252")
             notes.append(f"topic '{channel.topic}': the text is not UTF-8; it is read as {one.encoding}"
                          + ("" if encoding else " (set encoding: if that is wrong)"))
@@ -76,20 +76,18 @@ def _survey(one: Decoder, payloads: Sequence[bytes], budget: int, objects: Surve
     """Looks at messages until the budget is used up, evenly over all; whether these were all."""
     size = sum(map(len, payloads))
     quick = one.json and getattr(one, "encoding", None) is None
-    step = max(1, -(-size // (budget if quick else max(budget // 8, 1 << 16))))
+    if not quick:
+        budget = max(budget // 8, 1 << 16)
+    step = max(1, -(-size // budget))
     chosen = list(payloads[::step])
     if step > 1:
         chosen += [*payloads[:20], *payloads[-1:]]
-    begin = 0
-    while begin < len(chosen):
-        stop, size = begin, 0
-        while stop < len(chosen) and stop - begin < _ROWS and (size == 0 or size + len(chosen[stop]) < _BYTES):
-            size += len(chosen[stop])
-            stop += 1
-        if not (quick and stop - begin > 16 and _by_arrow(chosen[begin:stop], objects)):
-            for payload in chosen[begin:stop]:
+    rows = max(1, min(_ROWS, _BYTES * len(payloads) // max(1, size)))
+    for begin in range(0, len(chosen), rows):
+        part = chosen[begin:begin + rows]
+        if not (quick and len(part) > 16 and _by_arrow(part, objects)):
+            for payload in part:
                 _one(one, payload, objects, others)
-        begin = stop
     return step == 1
 
 
@@ -98,7 +96,7 @@ def _by_arrow(payloads: Sequence[bytes], into: Survey) -> bool:
     import pyarrow.json as pj
 
     text = joined(False, payloads)
-    if text is None:
+    if text is None or len(text) > 8 * _BYTES:
         return False
     try:
         table = pj.read_json(pa.BufferReader(text), pj.ReadOptions(use_threads=False, block_size=len(text) + 16))

@@ -155,7 +155,7 @@ def _topics(batches: dict[Channel, Batch], chosen: Options, source: Source, whol
         if batch.payloads:
             by_topic.setdefault(channel.topic, []).append(channel)
     result = _Found()
-    budget = max(WHOLE // max(1, len(by_topic)), 1 << 16)
+    budget = max((WHOLE if whole else WHOLE // 2) // max(1, len(by_topic)), 1 << 16)
     for topic, channels in by_topic.items():
         samples = {c: batches[c].payloads for c in channels}
         made, problems = readers(channels, samples, chosen, source.encoding, notes)
