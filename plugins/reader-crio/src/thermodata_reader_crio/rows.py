@@ -82,6 +82,8 @@ def _fast(data: bytes, grid: Grid) -> Rows | None:
     cells = first.count(grid.delimiter) + 1
     if b"\0" in data or not grid.least <= cells <= grid.numeric + grid.text or not first.strip():
         return None
+    if data.count(b"\r") != data.count(b"\r\n") or b"\n\n" in data or b"\n\r" in data:
+        return None                                  # Arrow would make a row of a lone CR, and of an empty line
     names = [str(i) for i in range(cells)]
     kinds = {name: pa.float64() if i < grid.numeric else pa.binary() for i, name in enumerate(names)}
     try:
