@@ -54,7 +54,7 @@ FAST: dict[str, FastPath] = {
     "control csv": FastPath(("thermodata_reader_cnc.rows", "RowReader._fast"), "_OddError", ("cnc_csv", "trace_csv"),
                             "control_csv"),
     "lvm": FastPath(("thermodata_reader_crio.rows", "_fast"), "none", ("lvm",), "lvm", (("_SMALL", 0),)),
-    "csv": FastPath(("thermodata_reader_table.text_fast", "blocks"), "UnsuitableError", ("csv",), "csv"),
+    "csv": FastPath(("thermodata_reader_table.text_fast", "blocks"), "UnsuitableError", ("table_csv",), "csv"),
     "mcap json": FastPath(("thermodata_reader_mcap.arrow_json", "_by_arrow"), "_OddError", ("mcap_json",), "mcap",
                           (("_SMALL", 1),)),
 }
@@ -119,7 +119,7 @@ def counted(fast: FastPath) -> Iterator[Count]:
 
 
 def corpus(
-    names: tuple[str, ...], case: str, folder: Path, mutations: int = MUTATIONS
+    names: tuple[str, ...], case: str, folder: Path, mutations: int
 ) -> Iterator[tuple[str, Path, Any]]:
     """(what, path, source) of every file; the path is written anew each time."""
     from thermodata.plugin import Source
@@ -167,13 +167,13 @@ def reading(reader: str, path: Path, source: Any) -> Any:
         return error.what
 
 
-def beside_plain(fast: FastPath, folder: Path) -> Result:
+def beside_plain(fast: FastPath, folder: Path, mutations: int) -> Result:
     """Fast and plain reading of every file of the corpus."""
     from thermodata.testing.reader.case import Data, difference
 
     result = Result()
     reader = formats.CASES[fast.case].reader
-    for what, path, source in corpus(fast.seeds, fast.case, folder):
+    for what, path, source in corpus(fast.seeds, fast.case, folder, mutations):
         with counted(fast) as count:
             quick = reading(reader, path, source)
         with plain(fast):
@@ -183,8 +183,9 @@ def beside_plain(fast: FastPath, folder: Path) -> Result:
         result.count.fell_back += count.fell_back
         if isinstance(quick, Data) and isinstance(careful, Data):
             differs = difference(quick, careful)
-            if differs is None and quick.losses != careful.losses:
-                differs = f"losses {quick.losses[:2]} and {careful.losses[:2]}"
+            said = [[(x.from_ns, x.to_ns, x.reason) for x in data.losses] for data in (quick, careful)]
+            if differs is None and said[0] != said[1]:
+                differs = f"losses {said[0][:2]} and {said[1][:2]}"
         else:
             alike = type(quick) is type(careful) and quick == careful
             differs = None if alike else f"{quick!r:.80} and {careful!r:.80}"
@@ -253,6 +254,7 @@ def main() -> int:
     arguments = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     arguments.add_argument("--only", choices=[*FAST, "tdms"])
     arguments.add_argument("--check", action="store_true", help="equality only")
+    arguments.add_argument("--mutations", type=int, default=MUTATIONS, help="damaged files of each format")
     arguments.add_argument("--runs", type=int, default=3)
     arguments.add_argument("--way", choices=("fast", "plain"), help=argparse.SUPPRESS)
     arguments.add_argument("--file", type=Path, help=argparse.SUPPRESS)
@@ -264,7 +266,8 @@ def main() -> int:
     for name in [given.only] if given.only else [*FAST, "tdms"]:
         with tempfile.TemporaryDirectory() as text:
             folder = Path(text)
-            result, ratio = beside_plain(FAST[name], folder) if name in FAST else beside_nptdms(folder), None
+            result = beside_plain(FAST[name], folder, given.mutations) if name in FAST else beside_nptdms(folder)
+            ratio = None
             wrong += [f"{name}: {d}" for d in result.different]
             wrong += [f"{name}: never acted"] * (result.count.acted == 0)
             if not given.check:
