@@ -38,7 +38,6 @@ from thermodata_reader_mcap.walk import Damage, data_section
 LATEST_NS = 9_000_000_000_000_000_000
 _PIECE = 16 << 20         # of a chunk that is taken at a time
 _LOOSE = 2000             # messages outside of chunks that are taken at a time
-_LET_GO = 64 << 20        # of the file that stays mapped behind the walk
 
 
 @dataclass(slots=True)
@@ -84,25 +83,11 @@ def opened(path: Path) -> Iterator[memoryview]:
             mapped.close()
 
 
-class _Mapped:
-    """Lets go of the pages behind the walk: a mapped file of any size would count as memory of the process."""
-
-    def __init__(self, view: memoryview) -> None:
-        self._mapped = view.obj
-        self._gone = 0
-
-    def passed(self, at: int) -> None:
-        if isinstance(self._mapped, mmap.mmap) and at - self._gone > _LET_GO and hasattr(mmap, "MADV_DONTNEED"):
-            stop = at // mmap.PAGESIZE * mmap.PAGESIZE
-            self._mapped.madvise(mmap.MADV_DONTNEED, self._gone, stop - self._gone)
-            self._gone = stop
-
-
 def walk(view: memoryview, content: Content, full: Callable[[], bool],
          wanted: Callable[[int], bool] | None = None) -> Iterator[Loss | None]:
     """Walks the data section: messages go into the content's batches; yields None whenever full() says that these
     should be emptied, and each loss. wanted(k): whether to open the k-th chunk (default: all)."""
-    number, mapped = -1, _Mapped(view)
+    number = -1
     waiting: tuple[Record, list[npt.NDArray[np.int64]]] | None = None      # a chunk, and the indexes behind it
 
     loose: list[int] = []                                                  # messages outside of chunks
@@ -116,7 +101,6 @@ def walk(view: memoryview, content: Content, full: Callable[[], bool],
             if len(loose) >= _LOOSE or content.pending >= _PIECE:
                 _take(view, np.array(loose, np.int64), content)
                 loose = []
-                mapped.passed(record.start)
                 if full():
                     yield None
             continue
@@ -131,7 +115,6 @@ def walk(view: memoryview, content: Content, full: Callable[[], bool],
         if waiting is not None:
             yield from _chunk(view, waiting[0], content, number, waiting[1], full)
             waiting = None
-            mapped.passed(record.start)
         if isinstance(record, Damage):
             yield None
             yield content.loss(record.start, record.stop, record.reason)
@@ -146,7 +129,6 @@ def walk(view: memoryview, content: Content, full: Callable[[], bool],
             define(view[record.start:record.stop], record.opcode, content)
             if full():
                 yield None
-            mapped.passed(record.start)
     if loose:
         _take(view, np.array(loose, np.int64), content)
     if waiting is not None:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import mmap
+
 import numpy as np
 
 from thermodata_reader_mcap.records import (
@@ -20,8 +22,18 @@ from thermodata_reader_mcap.records import (
 )
 
 _WINDOW = 4 << 20
+MAPPED = 64 << 20         # of the file that stays mapped behind a walk or a search
 _FOLLOWING = 2            # so many records must follow in a chain, or the end of the bytes
 _MOST_MESSAGE = 1 << 32   # a message of more bytes is no message, where nothing else vouches for it
+
+
+def let_go(view: memoryview, start: int, stop: int) -> int:
+    """Unmaps pages that the walk has passed, for a mapped file of any size would count as memory of the process;
+    they come back when they are looked at again. Returns where the mapped ones begin."""
+    stop = stop // mmap.PAGESIZE * mmap.PAGESIZE
+    if isinstance(view.obj, mmap.mmap) and hasattr(mmap, "MADV_DONTNEED"):
+        view.obj.madvise(mmap.MADV_DONTNEED, start, stop - start)
+    return stop
 
 
 def next_record(view: Bytes, at: int, stop: int | None = None, kinds: frozenset[int] = IN_DATA) -> int | None:
@@ -29,7 +41,10 @@ def next_record(view: Bytes, at: int, stop: int | None = None, kinds: frozenset[
     size = len(view) if stop is None else stop
     data, wanted = np.frombuffer(view, np.uint8), np.zeros(256, bool)
     wanted[[*(kinds - {HEADER}), *({DATA_END} if kinds is IN_DATA else ())]] = True
+    gone = at
     for begin in range(at, size - HEAD.size + 1, _WINDOW):
+        if begin - gone > MAPPED and isinstance(view, memoryview):
+            gone = let_go(view, -(-gone // mmap.PAGESIZE) * mmap.PAGESIZE, begin)
         part = data[begin:min(begin + _WINDOW, size - HEAD.size + 1) + HEAD.size - 1]
         n = part.size - HEAD.size + 1
         # the three highest bytes of a length are zero: no record has 2^40 bytes

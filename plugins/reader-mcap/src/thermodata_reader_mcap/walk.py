@@ -28,7 +28,7 @@ from thermodata_reader_mcap.records import (
     content_end,
     fits,
 )
-from thermodata_reader_mcap.resync import next_record
+from thermodata_reader_mcap.resync import MAPPED, let_go, next_record
 
 _FOOTER_BYTES = 20
 
@@ -45,8 +45,10 @@ class Damage:
 
 def data_section(view: memoryview) -> Iterator[Record | Damage]:
     """The records up to the end of the data section. Indexes and statistics behind it are not needed."""
-    at, first, size = len(MAGIC), len(MAGIC), len(view)
+    at, first, size, gone = len(MAGIC), len(MAGIC), len(view), 0
     while at < size:
+        if at - gone > MAPPED:
+            gone = let_go(view, gone, at)
         if view[at:] == MAGIC:
             return
         if at + HEAD.size > size:
