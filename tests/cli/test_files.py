@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from tests.cli.conftest import Said, write_campaign
+from .conftest import Said, write_campaign
 
 Say = Callable[..., Said]
 

@@ -240,7 +240,7 @@ def workbooks(folder: Path) -> Lab:
 
 
 def recorder(folder: Path) -> Lab:
-    """MCAP (JSON, UTC) beside LVM of two probes and spindle pulses; both log the speed; the LVM's clock is 40 s late."""
+    """MCAP (JSON, UTC) beside LVM of two probes and spindle pulses; both log the speed; its clock is 40 s late."""
     from mcap.writer import Writer
 
     n = 300

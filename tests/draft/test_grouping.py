@@ -8,13 +8,14 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from tests.draft.labs import START, local, numbers, speeds, staircase, tdms, text, warm
 from thermodata.draft.filenames import matches, normal
 from thermodata.draft.plan import Draft, plan
 from thermodata.draft.scan import scan
 from thermodata.draft.write import text_of
 from thermodata.schema.campaign import Campaign
 from thermodata.schema.load import load_campaign
+
+from .labs import START, local, numbers, speeds, staircase, tdms, text, warm
 
 
 def drafted(folder: Path) -> tuple[Draft, Campaign]:

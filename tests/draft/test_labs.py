@@ -10,15 +10,13 @@ from typing import Any
 import pytest
 import yaml
 
-from tests.cli.conftest import Said
-from tests.cli.conftest import say as _say
-from tests.draft.labs import LABS, Lab
 from thermodata.draft.plan import Draft, plan
 from thermodata.draft.scan import scan
 from thermodata.draft.write import text_of
 from thermodata.schema.load import load_campaign
 
-say = _say
+from .conftest import Said
+from .labs import LABS, Lab
 
 
 def drafted(name: str, folder: Path) -> tuple[Lab, Draft]:

@@ -54,6 +54,8 @@ def _by_stem(paths: Sequence[PurePosixPath]) -> Iterator[Naming]:
     trail = next((i for i in range(fewest) if len({p[-1 - i].lower() for p in pieces}) > 1), fewest)
     for i in range(min(lead, 4) + 1):
         for j in range(min(trail, 4) + 1):
+            if len(paths) == 1 and not _may_cut(pieces[0], i, j):
+                continue
             cut = [_cut(s, i, j) for s in stems]
             if any(not c[1] for c in cut):
                 continue
@@ -70,6 +72,12 @@ def _by_stem(paths: Sequence[PurePosixPath]) -> Iterator[Naming]:
                 rest = f"{_literal(sep)}*{_literal(cut[0][2])}{paths[0].suffix}"
                 where = f"{folder}{_literal(cut[0][0])}{{test}}{rest}"
                 yield Naming(ids, where if same else None, i + j + (0.2 if n == 0 else 1.5), True)
+
+
+def _may_cut(pieces: Sequence[str], lead: int, trail: int) -> bool:
+    """Of a single name no pattern shows: only one piece of letters ('daq', 'nc') may be no part of the test."""
+    gone = [*pieces[:lead], *pieces[len(pieces) - trail:]]
+    return len(gone) <= 1 and all(p.isalpha() and len(p) > 1 for p in gone)
 
 
 def _by_folder(paths: Sequence[PurePosixPath]) -> Iterator[Naming]:

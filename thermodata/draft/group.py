@@ -54,7 +54,7 @@ def sources_of(files: Sequence[RawFile], jumps: Sequence[RawFile]) -> list[Group
         own = {split_unit(s.name)[0] for s in file.signals}
         home = next((i for i, c in enumerate(clusters)
                      if (c[0].reader, c[0].path.suffix.lower()) == (file.reader, file.path.suffix.lower())
-                     and len(own & names[i]) >= _ALIKE * min(len(own), len(names[i]))), None)
+                     and (len(own & names[i]) >= _ALIKE * min(len(own), len(names[i])) or _twin(file, c))), None)
         if home is None:
             clusters.append([file])
             names.append(own)
@@ -71,6 +71,16 @@ def sources_of(files: Sequence[RawFile], jumps: Sequence[RawFile]) -> list[Group
         groups.append(Group(_name(cluster, clusters, taken), cluster[0].reader, logs,
                             tuple(f for f in cluster if f in jumps)))
     return groups
+
+
+def _twin(file: RawFile, cluster: Sequence[RawFile]) -> bool:
+    """Whether another file has the same name and signals but for axis letters and numbers: posuv_X, posuv_Y."""
+    def shape(text: str) -> str:
+        return re.sub(r"\d+", "#", re.sub(r"(?<![A-Za-z])[XYZABCxyzabc](?![A-Za-z])", "@", text))
+
+    own = {shape(split_unit(s.name)[0]) for s in file.signals}
+    return any(shape(str(other.path)) == shape(str(file.path))
+               and own == {shape(split_unit(s.name)[0]) for s in other.signals} for other in cluster[:20])
 
 
 def _loggers(cluster: list[RawFile], jumps: Sequence[RawFile]) -> list[list[RawFile]]:

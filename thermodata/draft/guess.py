@@ -249,6 +249,9 @@ def _in_range(found: Guess, values: Values | None) -> Guess:
 
 
 def _place(found: Guess, own: str, text: str) -> Guess:
+    if found.quantity == "position" and (axis_of(own) or "") in ("a", "b", "c") and "unit" not in found.basis:
+        # a rotary axis stands at an angle, whatever length was taken for its unit
+        found = replace(found, quantity="angle", unit="deg", sure=False, questions=("unit: deg?",))
     quantity = found.quantity or ""
     place, axis = place_of(own, quantity), axis_of(own)
     nowhere = not places_in(own) and axis is None and quantity != "displacement"

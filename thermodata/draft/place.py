@@ -14,7 +14,7 @@ _AFTER = r"abs|act|pos|mpos|wpos|load|axis|achse|mot|motor|temp|frt|com|curr|vel
 _LINEAR = re.compile(rf"(?<!\S)(?:{_BESIDE})?([xyz])(?!\S)|(?<!\S)([xyz])(?:{_AFTER})(?!\S)")
 _ROTARY = re.compile(r"(?<!\S)(?:axis|achse|osa|ax|rotary|act|ist|pos|mot|motor|load|curr|current|torque|speed|"
                      r"drehzahl|otacky) ?([abc])(?!\S)"
-                     r"|(?<!\S)([abc]) ?(?:axis|achse|osa|act|abs|pos|load|mot|motor)(?!\S)"
+                     r"|(?<!\S)([abc])(?: \d)? ?(?:axis|achse|osa|act|actm|actw|abs|pos|load|mot|motor)(?!\S)"
                      r"|(?<!\S)([abc]) ?轴")
 _SIDES = ("front", "rear", "left", "right")
 _PLAIN = ("headstock", "ram", "saddle", "crossbeam", "workpiece", "fixture", "tool", "floor", "cabinet", "bed",

@@ -29,7 +29,8 @@ QUANTITY_WORDS: dict[str, str] = {
     "current": "current. currents. ^current motorstrom strom. stroms. strom ^proud 电流 電流 curr. curr ampere amps. "
                "amp. "
                "i~act i~ist i~actual i~nom iact. imot. irms. iq. courant",
-    "position": "position ^pos. pos. ^poloh 位置 坐标 坐標 coordinate koordinat encoder. enc. istpos xpos. ypos. zpos. "
+    "position": "position ^pos. pos. ^poloh 位置 坐标 坐標 coordinate koordinat encoder. enc. istpos actm. actw. "
+                "xpos. ypos. zpos. "
                 "xabs. yabs. zabs. xact. yact. zact. s~act s~actual abspos mcs. wcs. machinecoord",
     "flow": "flow. ^flow~ flowrate durchfluss durchfl. prutok 流量 volumenstrom volume~flow throughput. flowmeter",
     "pressure": "pressure press. ^druck. druck. hydraulikdruck oldruck luftdruck druck~ tlak 压力 壓力 压强 气压 "
@@ -137,7 +138,7 @@ FOREIGN: tuple[tuple[str, str], ...] = (
      "counter count. counts. zaehler zahler. pocitadlo pocet. cislo. nummer. number. nr. index. idx. id. ids. seq. "
      "sequence block. line. satz. satznr program. programm. version checksum crc. sample~nr sample. samples. zeile. "
      "record. "
-     "partcount 编号 序号 工件计数 计数 frame~id toolnr. lfdnr. tno. toolid. tool~number"),
+     "partcount 编号 序号 工件计数 计数 frame~id toolnr. lfdnr. tno. toolid. tool~number current~tool asset"),
     ("a sound level", "sound noise~level larm. hluk"),
     ("a density, a mass or a concentration", "density weight. mass. concentrat dichte. gewicht. ph."),
     ("a duty or quality figure", "duty. quality. snr. rssi."),

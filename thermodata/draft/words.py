@@ -9,9 +9,9 @@ from thermodata.schema.campaign import RESERVED_NAMES
 
 _LETTERS = str.maketrans({"ß": "ss", "ẞ": "SS", "Ł": "L", "ł": "l", "Ø": "O", "ø": "o", "đ": "d", "Đ": "D", "Æ": "AE",
                           "æ": "ae", "œ": "oe", "Œ": "OE", "ı": "i", "µ": "u", "μ": "u", "°": "", "℃": "degC"})
-# 'Xload', 'Srpm': an axis letter before a word, as MTConnect adapters write it
-_MTCONNECT = re.compile(r"(?<![A-Za-z])([XYZABCS])(abs|act|com|cmd|cur|current|frt|load|mot|motor|ovr|pos|rpm|speed|"
-                        r"temp|torque|vel|axis|travel|velocity|position|temperature)(?![a-z])")
+# 'Xload', 'S1rpm': an axis letter before a word, as MTConnect adapters write it; S is the spindle
+_MTCONNECT = re.compile(r"(?<![A-Za-z])([XYZABCS])(\d?)(abs|actm|actw|act|com|cmd|current|curr|cur|frt|load|motor|"
+                        r"mot|ovr|pos|rpm|speed|temperature|temp|torque|velocity|vel|axis|travel|position)(?![a-z])")
 _LETTERS_OF_CYRILLIC = """а:a б:b в:v г:g д:d е:e ё:e ж:zh з:z и:i й:j к:k л:l м:m н:n о:o п:p р:r с:s
 т:t у:u ф:f х:h ц:c ч:ch ш:sh щ:sch ъ:_ ы:y ь:_ э:e ю:yu я:ya і:i ї:yi є:ye ґ:g"""
 _CYRILLIC = dict(pair.split(":") for pair in _LETTERS_OF_CYRILLIC.split())
@@ -41,7 +41,7 @@ def _apart(text: str) -> str:
 def words(name: str) -> str:
     """'Eddy/nActSpeed_Z1' -> 'eddy n act speed z 1', '主轴T1' -> '主轴 t 1': no case, no diacritics, humps and digits
     apart."""
-    bare = _MTCONNECT.sub(r"\1 \2", _apart(name))
+    bare = _MTCONNECT.sub(lambda m: f"{'spindle' if m[1] == 'S' else m[1]}{m[2]} {m[3]}", _apart(name))
     bare = re.sub(r"(?<=[a-z0-9])(?=[A-Z])|(?<=[A-Z])(?=[A-Z][a-z])", " ", bare)
     bare = re.sub(r"(?<=[^\W\d_])(?=\d)|(?<=\d)(?=[^\W\d_])", " ", bare)
     bare = re.sub(r"(?<=[A-Za-z])(?=[\u2e80-\u9fff])|(?<=[\u2e80-\u9fff])(?=[A-Za-z])", " ", bare)
