@@ -28,7 +28,7 @@ from typing import Any
 
 import format_files as files
 import format_peers as peers
-from measure import PROGRAM, Run, machine, middle, python, run, table
+from measure import Run, machine, middle, python, run, table
 
 MEMORY_MIB = 700
 TARGET_MEMORY = f"< {MEMORY_MIB} MiB"
@@ -141,7 +141,9 @@ def one(name: str, way: str, path: Path) -> Run:
     out = path.with_name("out")
     shutil.rmtree(out, ignore_errors=True)
     if way == "ingest":
-        return run([PROGRAM, "--store", out, "ingest", path.with_name("campaign.yaml"), "--json"])
+        # by its module: `uv run --with ...` has no program beside its interpreter
+        return run([sys.executable, "-m", "thermodata", "--store", out, "ingest", path.with_name("campaign.yaml"),
+                    "--json"])
     return python(Path(__file__), "--case", name, "--way", way, "--folder", path)
 
 
