@@ -107,9 +107,46 @@ def xlsx(path: Path) -> Source:
     return Source(table={"sheet": 1, "header_rows": 1, "time": {"column": 1, "unit": "s"}})
 
 
+def mat(path: Path) -> Source:
+    """Two times, integers, text, a struct, and a matrix with names."""
+    import scipy.io
+
+    n = 40
+    t, names = np.arange(n)[:, None] * 0.5, np.array(["dZ [um]", "n [rpm]"], object)
+    states = np.array([f"s{i}" for i in range(n)], object)[:, None]
+    scipy.io.savemat(path, {"time": t, "names": names, "data": np.hstack([np.sin(t), np.cos(t)]), "state": states,
+                            "run": {"t": t[::4], "count": np.arange(10, dtype=np.int16)[:, None]}},
+                     do_compression=True)
+    return PRAGUE
+
+
+def mat73(path: Path) -> Source:
+    import h5py
+
+    with h5py.File(path, "w", userblock_size=512) as file:
+        for name, values in (("time", np.arange(40) * 0.5), ("T1", np.sin(np.arange(40)))):
+            item = file.create_dataset(name, data=values[None, :], chunks=(1, 16), compression="gzip")
+            item.attrs["MATLAB_class"] = np.bytes_("double")
+    with path.open("r+b") as raw:
+        raw.write(b"MATLAB 7.3 MAT-file, Platform: GLNXA64 HDF5 schema 1.00 .".ljust(116) + b"\0" * 8 + b"\x00\x02IM")
+    return PRAGUE
+
+
+def mdf(path: Path) -> Source:
+    asammdf = pytest.importorskip("asammdf")
+    t, invalid = np.arange(40) * 0.5, np.arange(40) % 9 == 3
+    with asammdf.MDF(version="4.10") as file:
+        file.append([asammdf.Signal(np.sin(t), t, name="T1", unit="degC", invalidation_bits=invalid),
+                     asammdf.Signal(np.arange(40, dtype=np.int16), t, name="raw", conversion={"a": 0.1, "b": 2.0})])
+        file.append([asammdf.Signal(np.arange(9), np.arange(9) * 1.0, name="n", unit="rpm")])
+        file.save(path, overwrite=True, compression=2)
+    return PRAGUE
+
+
 MAKERS: dict[str, tuple[str, Callable[[Path], Source]]] = {
     "a.tdms": ("crio", tdms), "a.lvm": ("crio", lvm), "a.csv": ("table", csv), "b.csv": ("table", csv_dates),
-    "a.parquet": ("table", parquet), "a.xlsx": ("table", xlsx),
+    "a.parquet": ("table", parquet), "a.xlsx": ("table", xlsx), "a.mat": ("table", mat), "b.mat": ("table", mat73),
+    "a.mf4": ("table", mdf),
 }
 CLAIMS = {"crio": ("TDMS", "LVM"), "table": ("XLSX", "PARQUET", "CSV")}
 

@@ -57,7 +57,8 @@ def again(path: Path) -> Data:
 
 
 def stored(view: StoreView, channel: str) -> Any:
-    return view.sql("select t_s, value, flag from signal('c', 'sp9000', ?) order by t", [channel]).to_arrow_table().to_pandas()
+    query = "select t_s, value, flag from signal('c', 'sp9000', ?) order by t"
+    return view.sql(query, [channel]).to_arrow_table().to_pandas()
 
 
 @pytest.mark.parametrize("suffix", ["mat", "mf4"])

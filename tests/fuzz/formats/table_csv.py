@@ -108,7 +108,8 @@ def mutate(seed: Seed, rng: random.Random) -> Mutation:
         return Mutation(b"".join(parts), "line too short", full or not parts[row].strip(), full)
     if what == "end":
         mark = rng.choice((b"\r\n", b"\r", b"\n\n", b"\n\r"))
-        return Mutation(data.replace(b"\r\n", b"\n").replace(b"\n", mark), "line ends changed", True, seed.name == "clock.csv")
+        other = data.replace(b"\r\n", b"\n").replace(b"\n", mark)
+        return Mutation(other, "line ends changed", True, seed.name == "clock.csv")
     delimiter = next(d for d in (b"\t", b";", b",") if d in parts[row])
     cells = parts[row].rstrip(b"\r\n").split(delimiter)
     i = rng.randrange(len(cells))
@@ -118,4 +119,5 @@ def mutate(seed: Seed, rng: random.Random) -> Mutation:
     cells[i] = b'"' + new + b'"' if quotes else new
     parts[row] = delimiter.join(cells) + b"\n"
     known = new in (b"", b"1e999", b"-inf", b"1 234,5", b"nan", b"---", b"n/a", b"TRUE")
-    return Mutation(b"".join(parts), "cell replaced", known, known or (seed.name == "seconds.csv" and i > 3))
+    worded = seed.name == "seconds.csv" and i > 3
+    return Mutation(b"".join(parts), "cell replaced", known, known or worded)

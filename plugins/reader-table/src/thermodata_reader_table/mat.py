@@ -80,7 +80,8 @@ class Clocked:
         used: list[str] = []
         self.streams: list[Timed] = []
         for stream in plan.streams:
-            name = "table" if len(plan.streams) == 1 else unique([*used, stream.axis.path])[-1]
+            # by its time, however many there are: a cut file keeps the names of the whole one
+            name = unique([*used, stream.axis.path])[-1]
             used.append(name)
             self.streams.append(self._timed(name, stream))
         kinds = {s.absolute for s in self.streams}

@@ -82,6 +82,7 @@ class Planner:
     def __init__(self, tree: Tree, said: Mapping[str, Any], where: str) -> None:
         self.where, self.notes, self.losses = where, list(tree.notes), list(tree.losses)
         self.streams: list[Stream] = []
+        self.cut = tree.complete is False
         time = said.get("time") or {}
         self.wanted, self.unit = time.get("column"), time.get("unit")
         if isinstance(self.wanted, list):
@@ -211,6 +212,10 @@ class Planner:
                 raise FormatError("more signals than any lab has", where=f"{self.where} {path}", got=str(count),
                                   expected=f"at most {_MANY}")
             heads = _fitting(scope, "names", count)
+            if self.cut and heads is None:
+                self.losses.append(Loss(f"{self.where} variable '{path}'", None, None, None,
+                                        "the file is cut, and the names of its columns may stand in what is lost"))
+                continue
             units = _fitting(scope, "units", count) or [""] * len(heads or ())
             names = [f"{path}/{h}" if h else "" for h in heads] if heads and len(scope.matrices) > 1 else heads
             made = []

@@ -88,10 +88,10 @@ def _group(file: _File, at: int) -> int:
             _conversion(file, rest[0])
         start, bits = file.number("H", channel + 186), file.number("H", channel + 188)
         more = file.number("H", channel + 226) if length >= 228 else 0
-        kind = file.number("H", channel + 190)
-        if start + bits + 8 * more > 8 * record or not bits or (kind < 7 and bits > 64) or kind > 16:
+        number = file.number("H", channel + 190)
+        if start + bits + 8 * more > 8 * record or not bits or (number < 7 and bits > 64) or number > 16:
             raise FormatError("a channel that does not fit its record", where=f"{file.where} byte {channel}",
-                              expected=f"{8 * record} bits", got=f"{bits} bits of type {kind} at bit "
+                              expected=f"{8 * record} bits", got=f"{bits} bits of type {number} at bit "
                               f"{start + 8 * more}")
         channel = following
     return after

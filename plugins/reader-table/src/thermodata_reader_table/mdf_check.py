@@ -23,6 +23,7 @@ _NEXT = {b"##DG": {0: {b"##DG"}, 1: {b"##CG"}, 2: _DATA | {b"##DZ", b"##DL", b"#
          b"##HD": {0: {b"##DG"}}, b"##DL": {0: {b"##DL"}}}
 _FIXED = {b"##HD": 104, b"##DG": 64, b"##CG": 104, b"##CN": 160, b"##CC": 80, b"##DL": 40, b"##HL": 40, b"##DZ": 48,
           b"##FH": 56, b"##SI": 56}
+_LINKS = {b"##HD": 6, b"##DG": 4, b"##CG": 6, b"##CN": 8, b"##CC": 4, b"##DL": 1, b"##HL": 1}
 _ZIP_MOST = 1100                            # deflate packs to a thousandth at best
 _UNPACKED = 1 << 31                         # of one block
 
@@ -100,8 +101,9 @@ def _block(file: BinaryIO, where: str, at: int, size: int, whose: str) -> tuple[
     if kind not in _KNOWN:
         raise FormatError("no block where a link leads", where=f"{where} byte {at}", expected="##XX",
                           got=f"{kind!r} ({whose})")
-    if length < max(24 + 8 * count, _FIXED.get(kind, 24)) or count > _MOST_BLOCKS:
-        raise FormatError("a block too short for its links", where=f"{where} byte {at}",
+    if length < max(24 + 8 * count, _FIXED.get(kind, 24)) or count > _MOST_BLOCKS or (
+            count < _LINKS.get(kind, 0)):
+        raise FormatError("a block whose length and links do not fit", where=f"{where} byte {at}",
                           got=f"{kind[2:].decode()} of {length} bytes with {count} links")
     if kind in _DATA:
         return kind, length, (), b""

@@ -227,9 +227,8 @@ def _short_records(path: Path, sheet: Sheet) -> int:
     with path.open(encoding=sheet.encoding, newline="", errors="replace") as file:
         for _ in range(sheet.layout.first):
             file.readline()
-        quoting = csv.QUOTE_MINIMAL if sheet.quoted else csv.QUOTE_NONE
         try:
-            for row in csv.reader(file, delimiter=sheet.delimiter, quoting=quoting):
+            for row in csv.reader(file, delimiter=sheet.delimiter, quoting=0 if sheet.quoted else 3):
                 count += 0 < len(row) < sheet.cells
         except csv.Error:
             return count
