@@ -38,10 +38,36 @@ def _single_byte(data: bytes) -> str:
     return "cp1252" if western > central else "cp1250"
 
 
+_RUN = re.compile(rb"[\x80-\xff]{4,}")
+_KANA = re.compile(rb"[\x82\x83][\x40-\xf1]")
+_DECLARE = "declare the source's encoding: gb18030 (Chinese), shift_jis (Japanese), euc_kr, big5, cp1251 (Cyrillic)"
+
+
+def _refuse_other_scripts(data: bytes) -> None:
+    """FormatError for text of several bytes a character or of another script: no word of a Western or Central
+    European language has four letters with diacritics in a row, and no choice between such encodings is proven."""
+    found = next((m for m in _RUN.finditer(data) if len(set(m[0])) > 1), None)
+    if found is None and len(kana := _KANA.findall(data)) >= 3 and len(set(kana)) >= 3:
+        found = _KANA.search(data)
+    if found is None:
+        return
+    at = found.start()
+    line = data[data.rfind(b"\n", 0, at) + 1:].split(b"\n", 1)[0][:200]
+    seen = []
+    for name in ("gb18030", "shift_jis", "euc_kr", "cp1251"):
+        try:
+            seen.append(f"{name}: {line.decode(name).strip()[:24]!r}")
+        except UnicodeDecodeError:
+            continue
+    raise FormatError("text in an encoding that the file does not name", where=f"byte {at}",
+                      expected="UTF-8, or an encoding that is declared", hint=_DECLARE,
+                      got="; ".join(seen) or found[0][:8].hex(" "))
+
+
 def find_encoding(data: bytes, declared: str | None = None) -> tuple[str, str | None]:
     """(encoding, note or None) of a file's bytes. Order: declared, byte order mark, UTF-8, UTF-16 without a
-    mark, then cp1250 or cp1252 by the letters that differ. FormatError: the declared one is unknown or fails,
-    or no single-byte encoding reads it."""
+    mark, then cp1250 or cp1252 by the letters that differ. FormatError: the declared one is unknown or fails, the text
+    is of another script (Chinese, Japanese, Cyrillic: never guessed), or no single-byte encoding reads it."""
     if declared is not None:
         try:
             name = codecs.lookup(declared).name
@@ -62,6 +88,7 @@ def find_encoding(data: bytes, declared: str | None = None) -> tuple[str, str | 
         data.decode("utf-8")
         return "utf-8", None
     except UnicodeDecodeError as error:
+        _refuse_other_scripts(data)
         name = _single_byte(data)
         _try(data, name)
         return name, f"not UTF-8 (byte {error.start}); read as {name}: declare encoding if that is wrong"

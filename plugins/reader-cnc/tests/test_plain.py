@@ -14,7 +14,7 @@ from thermodata.errors import FormatError
 from thermodata.plugin import Block, Head, Loss, Recording, Source
 from thermodata.reader.guard import described, guarded
 from thermodata.reader.registry import head
-from thermodata.testing.reader import reader_checks
+from thermodata.testing.reader import load, reader_checks
 
 PRAGUE = Source(timezone="Europe/Prague")
 HEADER = "Datum;Čas;T1 [°C];nActSpeed;Program\n;;°C;1/min;\n"
@@ -298,3 +298,68 @@ def sample(tmp_path_factory: pytest.TempPathFactory) -> Path:
 def test_it_keeps_the_rules_of_readers(sample: Path, number: int) -> None:
     claims = ["SHDR", "MTCONNECT", "TWINCAT", "SCO", "TRACE_XML", "TRACE_CSV", "OPCUA"]
     reader_checks(Reader, [(sample, PRAGUE)], claims=claims)[number]()
+
+
+ASIAN = "时间;主轴转速 (rpm);温度（°C）\n" + "".join(
+    f"2026-03-02 08:00:{k:02d};{k * 10};{20 + k / 4}\n" for k in range(30))
+
+
+@pytest.mark.parametrize(("encoding", "text"), [
+    ("gb18030", ASIAN), ("shift_jis", "時刻;主軸回転数;スピンドル温度\n" + ASIAN.split("\n", 1)[1]),
+    ("cp1251", "Время;Обороты;Температура\n" + ASIAN.split("\n", 1)[1])])
+def test_encodings_of_other_scripts_are_declared_never_guessed(tmp_path: Path, encoding: str, text: str) -> None:
+    path = tmp_path / "nc.csv"
+    path.write_bytes(text.encode(encoding))
+    with pytest.raises(FormatError, match="encoding that the file does not name") as caught:
+        load(Reader(), path, Source())
+    assert encoding in str(caught.value)
+    data = load(Reader(), path, Source(encoding=encoding, timezone="Asia/Shanghai"))
+    assert [s.name for s in data.recording.signals] == text.split("\n", 1)[0].split(";")[1:]
+    assert not data.losses
+    assert data.t_ns["nc"].size == 30
+
+
+def test_dates_of_the_east_and_utf8_names(tmp_path: Path) -> None:
+    path = tmp_path / "nc.csv"
+    path.write_text(ASIAN.replace("2026-03-02 ", "2026年3月2日 "), "utf-8")
+    data = load(Reader(), path, Source(timezone="Asia/Shanghai"))
+    assert data.recording.start_ns == np.datetime64("2026-03-02T00:00:00", "ns").astype(np.int64)
+    assert [s.unit for s in data.recording.signals] == ["rpm", "°C"]
+
+
+def test_a_line_of_another_encoding_is_kept_and_named(tmp_path: Path) -> None:
+    path = tmp_path / "nc.csv"
+    rows = "".join(f"02.03.2026 08:{k // 60 % 60:02d}:{k % 60:02d};{k};Tür\n" for k in range(3000))
+    data = (("Zeit;n;Ort\n" + rows) * 8).encode().replace(b";7;T\xc3\xbcr", b";7;T\xfcr", 5)
+    path.write_bytes(data)
+    got = load(Reader(), path, Source(timezone="Europe/Prague"))
+    assert "not all UTF-8" in got.recording.notes[0]
+    assert any("file's encoding" in loss.reason and loss.where == "nc.csv line 9" for loss in got.losses)
+    assert set(got.values["nc", "Ort"].tolist()) == {"Tür"}
+
+
+@pytest.mark.parametrize(("names", "bad"), [("T1;T1.Quality;T2", "0"), ("T1;T1_Quality;T2", "Bad"),
+                                            ("T1_VALUE;T1_QUALITY;T2", "24"), ("T1;Quality(T1);T2", "0x80000000")])
+def test_quality_columns_of_a_wide_table_flag_their_values(tmp_path: Path, names: str, bad: str) -> None:
+    path = tmp_path / "nc.csv"
+    good = "Good" if bad == "Bad" else "0" if bad.startswith("0x") else "192"
+    path.write_text(f"Time;{names}\n" + "".join(
+        f"2026-03-02T08:00:{k:02d}Z;{k}.5;{bad if k == 3 else good};1\n" for k in range(20)))
+    data = load(Reader(), path, Source())
+    name = names.split(";", 1)[0]
+    assert np.flatnonzero(data.flags["nc", name]).tolist() == [3]
+    assert data.values["nc", name][3] == 3.5
+
+
+def test_text_states_numbers_with_exponents_and_groups(tmp_path: Path) -> None:
+    path = tmp_path / "nc.csv"
+    path.write_text("Datum;Zeit;Pumpe;Čerpadlo;P;n\n;;;;[kW];[1/min]\n" + "".join(
+        f"02.03.26;08:00:{k:02d},250;{'EIN' if k % 2 else 'AUS'};{'ZAP' if k % 3 else 'VYP'};1,5E+0{k % 4};"
+        f"1.{k:03d},5\n" for k in range(30)), "utf-8")
+    data = load(Reader(), path, Source(timezone="Europe/Prague"))
+    assert not data.losses
+    assert data.values["nc", "P"].tolist() == [1.5 * 10 ** (k % 4) for k in range(30)]
+    assert data.values["nc", "n"].tolist() == [1000.5 + k for k in range(30)]
+    assert set(data.values["nc", "Pumpe"].tolist()) == {"EIN", "AUS"}
+    assert set(data.values["nc", "Čerpadlo"].tolist()) == {"ZAP", "VYP"}
+    assert data.t_ns["nc"][0] % 10**9 == 250_000_000

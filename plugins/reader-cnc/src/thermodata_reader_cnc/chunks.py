@@ -14,16 +14,19 @@ CHUNK = 8 * 1024 * 1024
 _PIECE = 16 * 1024
 _PIECES = 6
 WHOLE = 512 * 1024
+ODD = "its bytes are not of the file's encoding; read as they look"
 
 
 @dataclass(frozen=True, slots=True)
 class Chunk:
-    """Whole lines: `data` in UTF-8, the 0-based number of its first line, its bytes in the file, last: at the end."""
+    """Whole lines: `data` in UTF-8, the 0-based number of its first line, its bytes in the file, last: at the end.
+    odd: numbers of lines whose bytes are not of the file's encoding and were read otherwise (the first ones)."""
 
     data: bytes
     line: int
     size: int
     last: bool
+    odd: tuple[int, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,8 +48,9 @@ def sample(path: Path, declared: str | None, whole_up_to: int = WHOLE) -> Sample
     with path.open("rb") as file:
         head = file.read(whole_up_to if size <= whole_up_to else whole_up_to // 4)
         wide = head.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)) or b"\0" in head[:200]
+        other = declared is not None and _wide(declared)
         pieces = []
-        if size > len(head):
+        if size > len(head) and not (other and not _bare(str(declared)).startswith("utf-16")):
             for k in range(1, _PIECES + 1):
                 at = max(len(head), (size - _PIECE) * k // _PIECES) // 2 * 2
                 file.seek(at)
@@ -59,7 +63,9 @@ def sample(path: Path, declared: str | None, whole_up_to: int = WHOLE) -> Sample
     else:
         start = head[: head.rfind(b"\n") + 1] or head
     inner = [p[p.find(b"\n") + 1:p.rfind(b"\n") + 1] for p in pieces] if not wide else []
-    encoding, note = find_encoding(start + b"".join(inner), declared)
+    encoding, note = _mostly_utf8(start + b"".join(inner)) if declared is None else ("", None)
+    if not encoding:
+        encoding, note = find_encoding(start + b"".join(inner), declared)
     text = start.decode(encoding, "replace")
     rest: list[str] = []
     for piece in pieces:
@@ -75,6 +81,27 @@ def _bare(encoding: str) -> str:
     return "utf-8" if encoding.replace("_", "-") == "utf-8-sig" else encoding
 
 
+def _mostly_utf8(data: bytes) -> tuple[str, str | None]:
+    """UTF-8 of which a few lines are not (a text file written to by two programs), with a note; '' for other text."""
+    try:
+        data.decode("utf-8")
+    except UnicodeDecodeError as error:
+        text = data.decode("utf-8", "surrogateescape")
+        escaped = sum("\udc80" <= c <= "\udcff" for c in text if c > "\x7f")
+        if sum(c > "\x7f" for c in text) > 5 * escaped:
+            return "utf-8", f"not all UTF-8 (first at byte {error.start}); such lines are read as they look"
+    return "", None
+
+
+def _wide(encoding: str) -> bool:
+    """Whether a line end is no single byte of its own in this encoding, or text may look like ASCII and be none."""
+    try:
+        plain = codecs.lookup(encoding).name
+        return "\n".encode(encoding) != b"\n" or plain.startswith(("iso2022", "hz", "utf-7"))
+    except (LookupError, ValueError):
+        return False
+
+
 def _lines(text: str, whole: bool) -> tuple[str, ...]:
     if "\n" not in text and "\r" in text:
         text = text.replace("\r", "\n")
@@ -85,9 +112,10 @@ def _lines(text: str, whole: bool) -> tuple[str, ...]:
 def chunks(path: Path, encoding: str, size: int = CHUNK) -> Iterator[Chunk]:
     """The file's lines in chunks, without a byte order mark; lines end as in the file (a lone CR becomes LF). The
     last chunk is marked, and ends without a line end where the file does."""
-    wide = encoding.startswith("utf-16")
+    wide = _wide(encoding)
     decoder = codecs.getincrementaldecoder(encoding)("replace") if wide else None
     total, line, rest, first = path.stat().st_size, 0, b"", True
+    odd: tuple[int, ...] = ()
     mac: bool | None = None
     with path.open("rb") as file:
         done = 0
@@ -109,21 +137,32 @@ def chunks(path: Path, encoding: str, size: int = CHUNK) -> Iterator[Chunk]:
                 cut = len(data)                          # no lines: zeros where a file was allocated in advance
             part, rest = data[:cut], data[cut:]
             if part or last:
-                part = part if wide else _utf8(part, encoding)
-                yield Chunk(part, line, done, last)
+                part, odd = (part, ()) if wide else _utf8(part, encoding, line)
+                yield Chunk(part, line, done, last, odd)
                 line += part.count(b"\n")
             if last:
                 return
 
 
-def _utf8(data: bytes, encoding: str) -> bytes:
-    """Whole lines in UTF-8. A first look may have seen ASCII only, so bytes that do not decode are looked at anew."""
+def _utf8(data: bytes, encoding: str, first: int) -> tuple[bytes, tuple[int, ...]]:
+    """(whole lines in UTF-8, the first lines that are not of the encoding). Such a line is read as what it looks like,
+    or with replacement characters: it is reported, never dropped."""
     if data.isascii():
-        return data
-    for name in (_bare(encoding), None):
+        return data, ()
+    name = _bare(encoding)
+    try:
+        text = data.decode(name)
+        return (data if name == "utf-8" else text.encode()), ()
+    except UnicodeDecodeError:
+        pass
+    lines, odd = data.split(b"\n"), []
+    for k, line in enumerate(lines):
         try:
-            text = data.decode(name or find_encoding(data)[0])
-        except (UnicodeDecodeError, FormatError):
-            continue
-        return data if name == "utf-8" else text.encode()
-    return data.decode("cp1252", "replace").encode()
+            lines[k] = line.decode(name).encode()
+        except UnicodeDecodeError:
+            odd.append(first + k)
+            try:
+                lines[k] = line.decode(find_encoding(line)[0]).encode()
+            except (UnicodeDecodeError, FormatError):
+                lines[k] = line.decode("cp1252", "replace").encode()
+    return b"\n".join(lines), tuple(odd[:1000])

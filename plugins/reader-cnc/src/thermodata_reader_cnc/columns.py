@@ -16,7 +16,8 @@ _NOTHING = frozenset(NOTHING)
 TRUE = ("TRUE", "True", "true", "WAHR", "Wahr", "wahr")
 FALSE = ("FALSE", "False", "false", "FALSCH", "Falsch", "falsch")
 _INTEGER = re.compile(r"^[+-]?\d{1,19}$")
-_NUMBER = re.compile(r"^[+-]?(?:\d+(?:[.,]\d*)?|[.,]\d+)(?:[eE][+-]?\d+)?$|^[+-]?inf(?:inity)?$", re.IGNORECASE)
+_NUMBER = re.compile(r"^[+-]?(?:\d+(?:[.,]\d*)?|[.,]\d+)(?:[eE][+-]?\d+)?$|^[+-]?inf(?:inity)?$"
+                     r"|^[+-]?\d{1,3}(?:[. ]\d{3})+,\d+$|^[+-]?\d{1,3}(?:[, ]\d{3})+\.\d+$", re.IGNORECASE)
 _EXACT = 2**53
 _FRACTIONS = 200        # numbers of a column that are asked for their decimal mark
 

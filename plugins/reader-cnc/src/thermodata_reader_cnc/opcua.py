@@ -18,7 +18,7 @@ from thermodata.reader.text import clean
 from thermodata.reader.zone import NAT
 from thermodata.schema.flag import Flag
 from thermodata_reader_cnc import events, when
-from thermodata_reader_cnc.chunks import chunks, sample
+from thermodata_reader_cnc.chunks import ODD, chunks, sample
 from thermodata_reader_cnc.events import GONE, Event, HeldTable
 from thermodata_reader_cnc.layout import fields
 from thermodata_reader_cnc.losses import NAMED
@@ -197,6 +197,8 @@ def blocks(path: Path, source: Source) -> Iterator[Block | Loss]:
 
 def _all(path: Path, look: _Look) -> Iterator[Event | Loss]:
     for chunk in chunks(path, look.encoding):
+        for number in chunk.odd:
+            yield Loss(f"{path.name} line {number + 1}", reason=ODD)
         lines = chunk.data.decode("utf-8", "replace").replace("\r\n", "\n").split("\n")
         tail = lines.pop()
         yield from _events(look.layout, lines, chunk.line, path.name)

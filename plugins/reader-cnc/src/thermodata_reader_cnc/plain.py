@@ -10,6 +10,7 @@ from thermodata.errors import FormatError
 from thermodata.plugin import Block, Loss, Recording, Signal, Source
 from thermodata.reader.text import last_line_is_whole
 from thermodata.reader.zone import NAT, local_to_utc_ns
+from thermodata_reader_cnc import quality
 from thermodata_reader_cnc.chunks import Chunk, Sample, chunks, sample
 from thermodata_reader_cnc.columns import Column, find_columns
 from thermodata_reader_cnc.layout import Layout, find_layout
@@ -27,6 +28,7 @@ class Plan:
     columns: tuple[Column, ...]
     decimal: str | None
     utc: bool                        # the cells carry an offset from UTC
+    quality: dict[str, tuple[str, bool]]
 
 
 def plan(path: Path, source: Source) -> Plan:
@@ -47,11 +49,12 @@ def plan(path: Path, source: Source) -> Plan:
     decimal = (source.table or {}).get("decimal") or decimal
     if not columns:
         raise FormatError("no column beside the time", where=path.name, expected="values", got=str(layout.width))
-    text = set(source.options.get("text") or ())
+    told = quality.pairs(columns, rows[:2000])
+    text = set(source.options.get("text") or ()) | quality.words(columns, rows, told)
     columns = tuple(Column(c.place, c.name, c.unit, "str") if c.name in text else c for c in columns)
     utc = any(form.pattern is not None and (m := form.pattern.fullmatch(rows[0][place])) is not None
               and bool(m.groupdict().get("z")) for place, form in layout.time) if rows else False
-    return Plan(first, layout, columns, decimal, utc)
+    return Plan(first, layout, columns, decimal, utc, told)
 
 
 def describe(path: Path, source: Source) -> Recording:
@@ -110,7 +113,8 @@ def blocks(path: Path, source: Source) -> Iterator[Block | Loss]:
     found = plan(path, source)
     reader = RowReader(path.name, path.stat().st_size, found, source.timezone)
     for chunk in chunks(path, found.sample.encoding):
-        yield from reader.read(_without_header(chunk, found.layout.first_row))
+        for item in reader.read(_without_header(chunk, found.layout.first_row)):
+            yield quality.flagged(item, found.quality) if found.quality and isinstance(item, Block) else item
         if reader.stopped:
             break
     yield from reader.losses.rest()
@@ -124,5 +128,6 @@ def _without_header(chunk: Chunk, first_row: int) -> Chunk:
         at = chunk.data.find(b"\n", at) + 1
         if at == 0:
             return Chunk(b"", first_row, chunk.size, chunk.last)
-    return Chunk(chunk.data[at:], first_row, chunk.size, chunk.last)
+    odd = tuple(line for line in chunk.odd if line >= first_row)
+    return Chunk(chunk.data[at:], first_row, chunk.size, chunk.last, odd)
 

@@ -13,7 +13,7 @@ from thermodata.reader.zone import NAT
 from thermodata.schema.flag import Flag
 from thermodata_reader_cnc import when
 from thermodata_reader_cnc.cells import as_bool, as_float, as_int
-from thermodata_reader_cnc.chunks import Chunk
+from thermodata_reader_cnc.chunks import ODD, Chunk
 from thermodata_reader_cnc.columns import FALSE, NOTHING, TRUE
 from thermodata_reader_cnc.halves import odd_lines
 from thermodata_reader_cnc.localclock import LocalClock
@@ -48,6 +48,8 @@ class RowReader:
     def read(self, chunk: Chunk) -> Iterator[Block | Loss]:
         """The blocks and losses of one chunk."""
         data, ends = chunk.data, chunk.data.endswith(b"\n")
+        for line in chunk.odd:
+            self.losses.add(line, ODD, 0, 0)
         tail = b""
         if chunk.last and data and not ends:
             cut = data.rfind(b"\n") + 1
@@ -86,6 +88,8 @@ class RowReader:
         import pyarrow.csv as pc
 
         layout = self.layout
+        if data.count(b"\r") != data.count(b"\r\n"):
+            raise _OddError                              # a lone CR ends a row for Arrow, and none for _slow
         if b"\0" in data or (layout.quoted and data.count(b'"') % 2) or odd_lines(data, layout.delimiter, layout.width):
             raise _OddError
         names = [str(i) for i in range(layout.width)]

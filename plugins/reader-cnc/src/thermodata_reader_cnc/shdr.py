@@ -8,7 +8,7 @@ from pathlib import Path
 from thermodata.errors import FormatError
 from thermodata.plugin import Block, Loss, Recording, Source
 from thermodata_reader_cnc import events, series
-from thermodata_reader_cnc.chunks import chunks, sample
+from thermodata_reader_cnc.chunks import ODD, chunks, sample
 from thermodata_reader_cnc.events import Event, HeldTable
 from thermodata_reader_cnc.shdrlines import Lines, Series, is_offset, is_time, looks_like_items
 from thermodata_reader_cnc.when import OFFSET_MS, TimeFormat
@@ -83,6 +83,9 @@ def blocks(path: Path, source: Source) -> Iterator[Block | Loss]:
         f"'{event.key}': {reason}"))))
     reader, size = Lines(path.name), max(1, path.stat().st_size)
     for number, line in _lines(path, look.encoding):
+        if isinstance(number, str):
+            yield from losses.some("", Loss(number, reason=ODD))
+            continue
         if number < 0:
             time = line.split("|", 1)[0].partition("@")[0]
             if table.last_time is not None and (not time or table.last_time.startswith(time)):
@@ -107,9 +110,10 @@ def blocks(path: Path, source: Source) -> Iterator[Block | Loss]:
     yield from losses.rest(path.name)
 
 
-def _lines(path: Path, encoding: str) -> Iterator[tuple[int, str]]:
-    """(number, line); number -1 for a last line without a line end."""
+def _lines(path: Path, encoding: str) -> Iterator[tuple[int | str, str]]:
+    """(number, line); number -1 for a last line without a line end, and the place of a line of another encoding."""
     for chunk in chunks(path, encoding):
+        yield from ((f"{path.name} line {odd + 1}", "") for odd in chunk.odd)
         text = chunk.data.decode("utf-8", "replace").replace("\r\n", "\n")
         lines = text.split("\n")
         tail = lines.pop()

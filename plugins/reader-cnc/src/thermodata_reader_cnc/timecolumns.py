@@ -15,7 +15,7 @@ from thermodata_reader_cnc.when import TimeFormat
 
 TimeColumns: TypeAlias = tuple[tuple[int, TimeFormat], ...]
 _MILLISECONDS = re.compile(r"^(ms|msec|millise[ck]\w*|millis)\b", re.IGNORECASE)
-_RELATIVE = re.compile(r"^(t|time|zeit|čas|cas|elapsed\w*|laufzeit)$", re.IGNORECASE)
+_RELATIVE = re.compile(r"^(t|time|zeit|čas|cas|elapsed\w*|laufzeit|时间|時間|時刻|시간)$", re.IGNORECASE)
 _UNIT_NS = {"s": 10**9, "sec": 10**9, "sek": 10**9, "ms": 10**6, "us": 10**3, "µs": 10**3, "min": 60 * 10**9,
             "h": 3600 * 10**9}
 

@@ -47,7 +47,8 @@ def _look(path: Path) -> list[Frame]:
             several = several or (parser.announced or 0) > 1
             for frame in parser.frames:
                 kind = _kind(frame)
-                if frame.signals and (kind not in found or found[kind] is frame):
+                known = frame.started or frame.done                # else more signals may follow
+                if known and frame.signals and (kind not in found or found[kind] is frame):
                     found[kind] = frame
                     if len(frame.times) < LOOK and not frame.done and not wrong:
                         continue

@@ -27,6 +27,7 @@ _TIME = (r"(?P<H>\d{1,2}):(?P<M>\d{2})(?::(?P<S>\d{2})(?:[.,:](?P<f>\d{1,9}))?)?
 _DATES = {
     "ymd": r"(?P<Y>\d{4})(?P<s>[-/.])(?P<m>\d{1,2})(?P=s)(?P<d>\d{1,2})",
     "dmy": r"(?P<d>\d{1,2})(?P<s>[-/.]) ?(?P<m>\d{1,2})(?P=s) ?(?:(?P<Y>\d{4})|(?P<y>\d{2}))",
+    "cjk": r"(?P<Y>\d{4})年(?P<m>\d{1,2})月(?P<d>\d{1,2})日",
     "mdy": r"(?P<m>\d{1,2})(?P<s>[-/.]) ?(?P<d>\d{1,2})(?P=s) ?(?:(?P<Y>\d{4})|(?P<y>\d{2}))",
 }
 _ZONE = r"(?P<z>\s?(?:Z|UTC|[+-]\d{2}:?\d{2}))?"
@@ -56,7 +57,8 @@ TIME_OF_DAY = TimeFormat("time", _compile(_TIME + _ZONE), "HH:MM:SS")
 OFFSET_MS = TimeFormat("offset", _compile(r"(?P<oms>\d{1,12})(?:\.(?P<of>\d{1,6})\d*|\.)?"),
                        "milliseconds")
 MILLISECOND = TimeFormat("millisecond", _compile(r"(?P<ms>\d{1,3})"), "0...999")
-DATE = {o: TimeFormat("date", _compile(p), {"ymd": "YYYY-MM-DD", "dmy": "DD.MM.YYYY", "mdy": "MM/DD/YYYY"}[o])
+DATE = {o: TimeFormat("date", _compile(p), {"ymd": "YYYY-MM-DD", "dmy": "DD.MM.YYYY", "mdy": "MM/DD/YYYY",
+                                         "cjk": "YYYY年MM月DD日"}[o])
         for o, p in _DATES.items()}
 DATETIME = {o: TimeFormat("datetime", _compile(p + r"(?:[T,]?\s*|\s+)" + _TIME + _ZONE), f"{DATE[o].text} HH:MM:SS")
             for o, p in _DATES.items()}
