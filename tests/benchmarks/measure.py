@@ -19,11 +19,13 @@ PROGRAM = str(Path(sys.executable).with_name("thermodata"))
 
 @dataclass(frozen=True)
 class Run:
-    """seconds: wall time with the start of the interpreter. peak_mib: largest resident memory of the process."""
+    """seconds: wall time with the start of the interpreter. peak_mib: largest resident memory of the process.
+    cpu_seconds: processor time of all its threads, its own and the system's for it."""
 
     seconds: float
     peak_mib: float
     out: str
+    cpu_seconds: float = 0.0
 
     @property
     def answer(self) -> Any:
@@ -45,7 +47,7 @@ def run(words: Sequence[object], cwd: Path | None = None) -> Run:
         err = said.read()
     if child.returncode:
         raise subprocess.CalledProcessError(child.returncode, list(map(str, words)), out, err)
-    return Run(seconds, usage.ru_maxrss / 1024, out)
+    return Run(seconds, usage.ru_maxrss / 1024, out, usage.ru_utime + usage.ru_stime)
 
 
 def python(script: Path, *words: object) -> Run:
@@ -54,8 +56,9 @@ def python(script: Path, *words: object) -> Run:
 
 
 def middle(runs: Sequence[Run]) -> Run:
-    """Medians of wall time and memory; the last answer."""
-    return Run(median(r.seconds for r in runs), median(r.peak_mib for r in runs), runs[-1].out)
+    """Medians of the times and of memory; the last answer."""
+    return Run(median(r.seconds for r in runs), median(r.peak_mib for r in runs), runs[-1].out,
+               median(r.cpu_seconds for r in runs))
 
 
 def table(head: Sequence[str], rows: Sequence[Sequence[object]]) -> str:
