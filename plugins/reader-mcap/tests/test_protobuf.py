@@ -16,6 +16,8 @@ from google.protobuf.message_factory import GetMessageClass
 from hypothesis import given
 from hypothesis import strategies as st
 from thermodata_reader_mcap.definitions import Schema
+from thermodata_reader_mcap.discover import discover
+from thermodata_reader_mcap.one_by_one import columns as one_by_one
 from thermodata_reader_mcap.protobuf import protobuf_decoder
 
 from thermodata.errors import FormatError
@@ -184,3 +186,27 @@ def test_values_are_those_of_the_package(kinds: list[str], data: st.DataObject) 
     got = decoder.decode(made.SerializeToString())
     assert got == expected
     assert set(MessageToDict(made, preserving_proto_field_name=True)) <= set(got)
+
+
+@given(st.lists(st.integers(0, 60), min_size=1, max_size=40), st.data())
+def test_many_at_once_are_as_one_by_one(order: list[int], data: st.DataObject) -> None:
+    every = machines(61)
+    payloads = [every[k] for k in order]
+    if data.draw(st.booleans()):
+        place = data.draw(st.integers(0, len(payloads) - 1))
+        kept = data.draw(st.integers(0, len(payloads[place])))
+        tail = data.draw(st.sampled_from([b"", b"\x09", b"\x62\x03abc", b"\x38\x05"]))
+        payloads[place] = payloads[place][:kept] + tail
+    enums = data.draw(st.sampled_from(["number", "label"]))
+    decoder = protobuf_decoder(Schema("lab.Machine", "protobuf", machine_files().SerializeToString()), enums)
+    topic = discover("/m", {"c": decoder}, {"c": payloads[::data.draw(st.integers(1, 3))]}, False, 1 << 20, [])
+    if topic is None:
+        return
+    a, b = decoder.columns(topic, payloads), one_by_one(topic, decoder.decode, payloads, 0)
+    assert a.kept.tolist() == b.kept.tolist()
+    assert a.values.keys() == b.values.keys()
+    for name in a.values:
+        np.testing.assert_array_equal(a.values[name], b.values[name])
+        assert a.values[name].dtype == b.values[name].dtype
+    assert {k: v.tolist() for k, v in a.flags.items()} == {k: v.tolist() for k, v in b.flags.items()}
+    assert a.wrong == b.wrong

@@ -117,6 +117,8 @@ def as_array(cells: list[Any], dtype: str) -> tuple[Array, Array | None]:
         result = np.empty(len(cells), object)
         result[:] = cells
         return result, None
+    if None not in cells:
+        return np.array(cells, np.dtype(dtype)), None
     if dtype == "float64":
         return np.array([math.nan if c is None else c for c in cells], np.float64), None
     missing = np.array([c is None for c in cells], bool)

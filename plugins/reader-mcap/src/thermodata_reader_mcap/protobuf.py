@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
+from thermodata_reader_mcap.columns import Columns, Topic
 from thermodata_reader_mcap.decoders import UnsupportedError
 from thermodata_reader_mcap.definitions import Schema
 from thermodata_reader_mcap.leaves import Hint
@@ -28,6 +29,12 @@ class ProtobufDecoder:
     def decode(self, payload: bytes) -> Any:
         return self._plain(self.message.FromString(payload), 0)
 
+    def columns(self, topic: Topic, payloads: Sequence[bytes]) -> Columns:
+        """Many payloads at once."""
+        from thermodata_reader_mcap import protobuf_columns
+
+        return protobuf_columns.columns(self, topic, payloads)
+
     def _plain(self, message: Any, depth: int) -> Any:
         """Fields that have no value are None; a oneof has one field with a value at most."""
         if depth > MOST_DEPTH:
@@ -41,11 +48,11 @@ class ProtobufDecoder:
     def _reader(self, f: Any) -> Any:
         """How one field is read: a function of the message and the depth."""
         name = f.name
-        if f.message_type is not None and f.message_type.GetOptions().map_entry:
+        if is_map(f):
             one = self._value(f.message_type.fields_by_name["value"])
             return lambda m, d: {str(k): one(v, d) for k, v in getattr(m, name).items()}
         one = self._value(f)
-        if _repeated(f):
+        if is_repeated(f):
             return lambda m, d: [one(v, d) for v in getattr(m, name)]
         if f.has_presence and not f.has_default_value:
             return lambda m, d: one(getattr(m, name), d) if m.HasField(name) else None
@@ -66,7 +73,7 @@ class ProtobufDecoder:
         for part in path:
             if isinstance(part, int):
                 continue
-            if f is not None and f.message_type is not None and f.message_type.GetOptions().map_entry:
+            if f is not None and is_map(f):
                 f = f.message_type.fields_by_name["value"]
                 message = f.message_type
                 continue
@@ -77,7 +84,7 @@ class ProtobufDecoder:
         return None if f is None else self._hint(f)
 
     def _hint(self, f: Any) -> Hint:
-        if f.message_type is not None and f.message_type.GetOptions().map_entry:
+        if is_map(f):
             f = f.message_type.fields_by_name["value"]
         if f.enum_type is not None:
             labels = ", ".join(f"{v.number} {v.name}" for v in f.enum_type.values)
@@ -142,6 +149,12 @@ def _in_order(files: Mapping[str, Any], known: Mapping[str, Any]) -> list[Any]:
     return order
 
 
-def _repeated(f: Any) -> bool:
+def is_map(f: Any) -> bool:
+    """Whether a field is a map: stored as repeated pairs."""
+    return f.message_type is not None and bool(f.message_type.GetOptions().map_entry)
+
+
+def is_repeated(f: Any) -> bool:
+    """Whether a field is an array (or a map)."""
     repeated = getattr(f, "is_repeated", None)
     return bool(repeated) if repeated is not None else f.label == f.LABEL_REPEATED
