@@ -23,7 +23,7 @@ SECTIONS: dict[str, dict[str, str]] = {
     "Model": {"fit": "fitting", "compare": "fitting", "add": "fitting", "history": "fitting",
               "portability": "fitting", "diagnose": "diagnosing", "report": "reporting", "workbench": "reporting"},
     "Check": {"simulate": "simulating", "benchmark-diagnosis": "simulating"},
-    "Keep": {"plugins": "plugins", "schema": "schema", "forget": "remove", "gc": "remove"},
+    "Keep": {"plugins": "plugins", "schema": "schema", "check": "remove", "forget": "remove", "gc": "remove"},
 }
 COMMANDS: dict[str, str] = {name: module for part in SECTIONS.values() for name, module in part.items()}
 

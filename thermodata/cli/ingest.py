@@ -19,9 +19,11 @@ def ingest_command(session: Session, campaign: Path) -> int:
     Safe to repeat: files that did not change are not read again, and after an edit of the campaign file only
     what depends on the edit is made anew. Exit code 3 says that a part of a file could not be read.
     """
+    from thermodata.cli.progress import progress_line
     from thermodata.store.ingest import ingest
 
-    summary = plain(ingest(session.store(create=True), campaign, progress=session.say).to_json())
+    with progress_line() as line:
+        summary = plain(ingest(session.store(create=True), campaign, progress=line).to_json())
     session.answer(summary, lambda: ingest_text(summary))
     return 3 if summary["losses"] else 0
 

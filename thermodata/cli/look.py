@@ -7,10 +7,10 @@ from typing import Any
 
 import click
 
-from thermodata.cli.common import Session, command
+from thermodata.cli.common import Session, command, plain
 from thermodata.cli.ingest import calibrations_text
-from thermodata.cli.table import fields, table
-from thermodata.errors import unknown_name
+from thermodata.cli.table import table
+from thermodata.errors import UsageError, unknown_name
 from thermodata.report.records import records, written_conditions
 from thermodata.report.words import duration
 
@@ -82,23 +82,19 @@ def calibrations_command(session: Session, campaign: str | None) -> None:
 @click.argument("test", required=False)
 @click.argument("channel", required=False)
 @click.option("--at", metavar="TIME", help="One sample, for example '2.5 h' from the start of the test.")
-def trace_command(session: Session, what: str, test: str | None, channel: str | None, at: str | None) -> None:
+@click.option("--verify", is_flag=True, help="Hash the source files again, and read the sample in its file again.")
+def trace_command(session: Session, what: str, test: str | None, channel: str | None, at: str | None,
+                  verify: bool) -> None:
     """Show where a value comes from.
 
-    Of a TEST or of one CHANNEL: raw file, hash, reader, scaling, calibration, sign. Of a MODEL: its data and
-    the versions behind it.
+    Of a TEST or of one CHANNEL: raw files with their SHA-256 and their earlier versions, reader, scaling,
+    calibration, sign; with --at the row in the file. Of a MODEL: its data and the versions behind it.
     """
+    from thermodata.cli.tracing import trace_text
     from thermodata.schema.quantity import value_in
     from thermodata.store.lifecycle import trace
 
-    found = trace(session.store(), what, test, channel, t_s=None if at is None else value_in(at, "s"))
-    session.answer(found, lambda: fields(_flat(found)))
-
-
-def _flat(value: Any, prefix: str = "") -> list[tuple[str, Any]]:
-    """A nested result as (dotted name, value) pairs."""
-    if isinstance(value, dict):
-        return [pair for k, v in value.items() for pair in _flat(v, f"{prefix}.{k}" if prefix else str(k))]
-    if isinstance(value, list) and any(isinstance(v, dict) for v in value):
-        return [pair for i, v in enumerate(value, 1) for pair in _flat(v, f"{prefix}[{i}]")]
-    return [(prefix, str(value) if isinstance(value, float) else value)]      # all digits: this is the record
+    if at is not None and channel is None:
+        raise UsageError("--at needs a channel", hint="thermodata trace CAMPAIGN TEST CHANNEL --at '2.5 h'")
+    found = trace(session.store(), what, test, channel, t_s=None if at is None else value_in(at, "s"), verify=verify)
+    session.answer(found, lambda: trace_text(plain(found)))

@@ -11,14 +11,15 @@ from thermodata.cli.table import fields
 @command("forget")
 @click.argument("campaign")
 @click.argument("test", required=False)
-def forget_command(session: Session, campaign: str, test: str | None) -> None:
+@click.option("--earlier", is_flag=True, help="Only the earlier versions of files that changed.")
+def forget_command(session: Session, campaign: str, test: str | None, earlier: bool) -> None:
     """Remove a campaign or one TEST from the store.
 
     With all that derives from it. The source files stay untouched.
     """
     from thermodata.store.lifecycle import forget
 
-    gone = plain(forget(session.store(), campaign, test))
+    gone = plain(forget(session.store(), campaign, test, earlier=earlier))
     session.answer(gone, lambda: fields(gone.items()))
 
 
@@ -31,3 +32,21 @@ def gc_command(session: Session, grace: str) -> None:
 
     gone = plain(gc(session.store(), grace_s=value_in(grace, "s")))
     session.answer(gone, lambda: fields(gone.items()))
+
+
+@command("check")
+@click.option("--repair", is_flag=True, help="Remove damaged files, so that the next ingest makes them anew.")
+def check_command(session: Session, repair: bool) -> int:
+    """Check that the store holds what was written.
+
+    Reads every file with its checksums. Exit code 4 says that one is gone, cut or altered.
+    """
+    from thermodata.cli.tracing import check_text
+    from thermodata.store.check import check_store
+
+    found = plain(check_store(session.store(), repair=repair).to_json())
+    session.answer(found, lambda: check_text(found))
+    if found["damaged"]:
+        session.say("ingest the campaigns named again: what can be made anew is made anew" if repair else
+                    "thermodata check --repair removes them, and the next ingest makes them anew")
+    return 4 if found["damaged"] else 0

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
@@ -13,8 +13,9 @@ from thermodata.schema.campaign import Campaign, JumpCalibration, SourceSpec, Te
 from thermodata.store.files import DISK_FULL, is_whole, write_error
 from thermodata.store.known import Known
 from thermodata.store.plan import SourcePlan, TestPlan
+from thermodata.store.progress import Progress, counted
 from thermodata.store.raw import RawStream, declared, find_reader, raw_key, read_raw
-from thermodata.store.resolve import inside, natural, resolve
+from thermodata.store.resolve import Found, inside, natural, resolve
 from thermodata.store.sourcefile import ChangedError, SourceFile, frozen, settled
 from thermodata.store.versions import pinned, read_otherwise, twins
 
@@ -37,15 +38,34 @@ class Gatherer:
     folder: Path
     campaign: Campaign
     known: Known
-    say: Callable[[str], None]
+    watch: Progress
     losses: Losses = field(default_factory=list)
     notes: list[str] = field(default_factory=list)
     files: set[str] = field(default_factory=set)
     read: int = 0
     _settled: dict[str, SourceFile] = field(default_factory=dict)
     _odd: dict[str, str] = field(default_factory=dict)
+    _found: dict[tuple[str, str], Found] = field(default_factory=dict)
+    _sizes: dict[str, int] = field(default_factory=dict)
     _made: dict[str, list[RawStream] | ThermodataError | OSError] = field(default_factory=dict)
     _readers: dict[str, Reader] = field(default_factory=dict)
+
+    def survey(self) -> None:
+        """Finds all files, and says how many and how much that is."""
+        for test in self.campaign.tests:
+            for name in self.campaign.sources:
+                self._found[test.id, name] = resolve(self.folder, self.campaign, test, name)
+                self._odd.update(self._found[test.id, name].odd)
+        paths = {p for found in self._found.values() for p in found.paths}
+        paths |= {c.file for c in self.campaign.calibrations.values() if isinstance(c, JumpCalibration)}
+        self._sizes = {p: size for p in paths if (size := self._size(p)) is not None}
+        self.watch.begin(len(self._sizes), sum(self._sizes.values()))
+
+    def _size(self, path: str) -> int | None:
+        try:
+            return self._full(path).stat().st_size
+        except (OSError, ValueError):
+            return None
 
     def plan(self, test: Test) -> TestPlan:
         """A test with the raw streams of all its sources."""
@@ -61,9 +81,8 @@ class Gatherer:
         return plan
 
     def _source(self, test: Test, name: str, spec: SourceSpec) -> SourcePlan:
-        found = resolve(self.folder, self.campaign, test, name)
+        found = self._found.get((test.id, name)) or resolve(self.folder, self.campaign, test, name)
         plan = SourcePlan(name, spec, shared=found.shared)
-        self._odd.update(found.odd)
         for path, why in found.refused:
             self.losses.append(loss_row(f"refused: {why}", test=test.id, source=name, file=path))
         before: dict[str, list[RawStream]] = {}
@@ -74,6 +93,7 @@ class Gatherer:
         for path in sorted({*there, *(p for p in before if found.claims(p))}, key=natural):
             if path in same:
                 self.notes.append(f"{path}: left out, its content is that of {same[path]}")
+                self._done(path)
             elif path not in there and (new := self._renamed_to(before[path], found.paths)):
                 self.notes.append(f"{path}: is {new} now, with the same content")
             else:
@@ -137,7 +157,9 @@ class Gatherer:
                 self.losses.append(loss_row(reason, test=test, source=source, file=path))
                 raws = self._former(path, before)
                 if not raws:
+                    self._done(path)
                     return []
+        self._done(path)
         if path not in self.files:
             for loss in (x for r in raws for x in r.losses):
                 self.losses.append(loss_row(loss.reason, test=test, source=source, file=path, loss=loss))
@@ -180,6 +202,11 @@ class Gatherer:
             self._settled[path] = settled(self._full(path))
         return self._settled[path]
 
+    def _done(self, path: str) -> None:
+        size = self._sizes.pop(path, None)
+        if size is not None:
+            self.watch.done(path, size)
+
     def _full(self, path: str) -> Path:
         return self.folder / self._odd.get(path, path)
 
@@ -205,7 +232,7 @@ class Gatherer:
             if key in self.known.raws:
                 self._made[key] = self.known.raws[key]
             else:
-                self.say(f"reading {path}")
+                self.watch.say(f"reading {path}")
                 try:
                     self._made[key] = self._read_settled(path, file, reader, said)
                     self.read += 1
@@ -229,14 +256,15 @@ class Gatherer:
         """Reads a file so that hash and rows agree: where it changes meanwhile, from a copy of what is there now."""
         try:
             try:
-                return read_raw(self.store, file.path, path, file.sha256, reader, said, file.check)
+                return read_raw(self.store, file.path, path, file.sha256, counted(reader, self.watch), said,
+                                file.check)
             except FormatError:
                 file.check()         # half of a file that is being written may look like a damaged one
                 raise
         except ChangedError:
             with frozen(self._full(path), self.store / "raw") as copy:
                 raws = self.known.raws.get(raw_key(copy.sha256, reader, said)) or read_raw(
-                    self.store, copy.path, path, copy.sha256, reader, said)
+                    self.store, copy.path, path, copy.sha256, counted(reader, self.watch), said)
             self._settled[path] = copy
             self.notes.append(f"{path}: {copy.note}")
             return [replace(r, notes=tuple(dict.fromkeys((*r.notes, copy.note or "")))) for r in raws]

@@ -17,6 +17,7 @@ from thermodata.store.gather import Gatherer, loss_row
 from thermodata.store.known import BY_TEST, Row, read_known
 from thermodata.store.make import make_tests
 from thermodata.store.plan import bind
+from thermodata.store.progress import Progress, Words
 from thermodata.store.rows import calibration_row, raw_row
 from thermodata.store.store import Store
 from thermodata.store.versions import keep_earlier
@@ -51,17 +52,19 @@ class IngestSummary:
         return asdict(self)
 
 
-def ingest(store: Store, campaign_path: Path | str, progress: Callable[[str], None] | None = None) -> IngestSummary:
+def ingest(store: Store, campaign_path: Path | str,
+           progress: Progress | Callable[[str], None] | None = None) -> IngestSummary:
     """Brings a campaign into the store: raw layer, calibrations, tidy layer, and then one commit.
 
     The same again changes nothing. After an edit of the campaign file only what the edit touches is made anew,
     and the source files need not be there any more. A file that can't be read is a loss and doesn't stop the
     others. Raises SpecError for a wrong campaign file and CalibrationError for a contradictory calibration; then,
-    and when it is interrupted, the store stays as it was.
+    and when it is interrupted, the store stays as it was. progress: is told what is being done, and how far it is.
     """
+    watch = Words(progress or (lambda _: None)) if progress is None or callable(progress) else progress
     for attempt in range(_ATTEMPTS):
         try:
-            return _ingest(store, Path(campaign_path), progress or (lambda _: None))
+            return _ingest(store, Path(campaign_path), watch)
         except VanishedError as error:
             if attempt == _ATTEMPTS - 1:
                 raise StoreError("files of the store vanish while they are being made", where=str(store.path),
@@ -69,12 +72,13 @@ def ingest(store: Store, campaign_path: Path | str, progress: Callable[[str], No
     raise AssertionError("unreachable")
 
 
-def _ingest(store: Store, path: Path, say: Callable[[str], None]) -> IngestSummary:
+def _ingest(store: Store, path: Path, watch: Progress) -> IngestSummary:
     began, now = time.monotonic(), datetime.now(UTC).replace(tzinfo=None)
     campaign = load_campaign(path)
     with store.reader() as con:
         known = read_known(con, store.path, campaign.id)
-    gather = Gatherer(store.path, path.absolute().parent, campaign, known, say)
+    gather = Gatherer(store.path, path.absolute().parent, campaign, known, watch)
+    gather.survey()
     jumps = gather.jump_files()
     results, problems = evaluate(store.path, campaign, jumps)
     plans = []
@@ -83,7 +87,7 @@ def _ingest(store: Store, path: Path, say: Callable[[str], None]) -> IngestSumma
         bind(plan)
         plans.append(plan)
     gather.empty_sources(plans)
-    made = make_tests(store.path, plans, results, known, now, say)
+    made = make_tests(store.path, plans, results, known, now, watch.say)
     rows: dict[str, dict[str, list[Row]]] = {t: dict(made.rows[t]) for t in BY_TEST}
     rows["file"][""] = [raw_row(campaign.id, "", name, raw, "calibration", now) for name, raws in jumps.items()
                         for raw in raws]

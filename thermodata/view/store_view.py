@@ -57,7 +57,8 @@ class StoreView:
             relation = con.sql(query, params=params) if params is not None else con.sql(query)
         except duckdb.IOException as error:
             raise StoreError("a file of the store can't be read", where=str(self.path), got=str(error).strip(),
-                             hint="put the file back, or forget its test and ingest it again") from error
+                             hint="ingest the campaign again: what can be made anew is made anew; "
+                                  "'thermodata check' lists what is damaged") from error
         except duckdb.Error as error:
             damage = damaged_data(self.path, error)
             if damage is not None:
