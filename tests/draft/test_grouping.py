@@ -135,13 +135,14 @@ def test_whatever_names_hold_the_draft_loads(tmp_path: Path) -> None:
     assert ("empty.csv", "an empty file") in draft.not_used
 
 
-def test_a_log_with_too_many_signals_is_drafted_in_part(tmp_path: Path) -> None:
-    n = 2500
+def test_a_log_with_too_many_signals_is_drafted_in_part(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    n = 60
+    monkeypatch.setattr("thermodata.draft.plan._MOST_SIGNALS", 50)
     text(tmp_path / "a.csv", ["time [s]", *(f"T{i} [degC]" for i in range(n))],
          [[str(k) for k in range(3)], *([f"{20 + k}.5" for k in range(3)] for _ in range(n))], mark=",")
     draft, made = drafted(tmp_path)
-    assert len(made.channels) == 2000
-    assert any("500 more signals" in note for note in draft.notes)
+    assert len(made.channels) == 50
+    assert any("10 more signals" in note for note in draft.notes)
 
 
 @pytest.mark.parametrize(("one", "other"), [("Heat-01", "heat_1"), ("run 007", "RUN_7"), ("a.b", "a_b")])
@@ -154,3 +155,18 @@ def test_a_template_matches_as_ingest_does() -> None:
     assert matches("raw/{test}_*.tdms", "a", paths) == ["raw/a_1.tdms", "raw/a_2.tdms"]
     assert matches("*/{test}_1.tdms", "a", paths) == ["raw/a_1.tdms"]
     assert matches("raw/a[[]1].tdms", "", ["raw/a[1].tdms"]) == ["raw/a[1].tdms"]
+
+
+def test_a_file_that_two_readers_claim_is_said_with_both_reasons(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    log(tmp_path / "a.tdms", 0)
+    (tmp_path / "b.dat").write_text("x\n")
+    real = __import__("thermodata.reader.registry", fromlist=["claims"]).claims
+    monkeypatch.setattr("thermodata.draft.scan.claims", lambda path: {"crio": "one reason", "table": "another"}
+                        if Path(path).name == "b.dat" else real(path))
+    drafted(tmp_path)
+    text = (tmp_path / "campaign.yaml").read_text("utf-8")
+    left = [x for x in text.splitlines() if x.startswith("# not used: b.dat")]
+    assert len(left) == 1
+    assert "crio (one reason) and table (another)" in left[0]

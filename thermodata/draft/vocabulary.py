@@ -171,16 +171,19 @@ def says(listed: str, text: str) -> bool:
     return pattern(listed).search(text) is not None
 
 
+@lru_cache(maxsize=20_000)
 def places_in(text: str) -> frozenset[str]:
     """The keys of PLACE_WORDS that a name mentions."""
     return frozenset(key for key, listed in PLACE_WORDS.items() if says(listed, text))
 
 
+@lru_cache(maxsize=20_000)
 def quantities_in(text: str) -> tuple[str, ...]:
     """The keys of QUANTITY_WORDS that a name mentions, in their order."""
     return tuple(key for key, listed in QUANTITY_WORDS.items() if says(listed, text))
 
 
+@lru_cache(maxsize=20_000)
 def foreign_in(text: str) -> str | None:
     """What a name says that it is, where that is none of our quantities."""
     return next((what for what, listed in FOREIGN if says(listed, text)), None)
