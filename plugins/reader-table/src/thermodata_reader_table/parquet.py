@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -10,17 +11,17 @@ from typing import Any
 import numpy as np
 
 from thermodata.errors import FormatError
-from thermodata.plugin import Array, Block, Loss, Recording, Signal, Source
+from thermodata.plugin import Array, Block, Int1D, Loss, Recording, Signal, Source
 from thermodata.reader.text import split_unit
 from thermodata.reader.zone import NAT
 from thermodata_reader_table import stamps
-from thermodata_reader_table.clocks import SECONDS
-from thermodata_reader_table.layout import _find_time
+from thermodata_reader_table.clocks import check_unit, found_epoch
+from thermodata_reader_table.clocks import times as clocks_times
+from thermodata_reader_table.layout import _find_time, unique
 from thermodata_reader_table.layout import column as find_column
 
 STREAM = "table"
 _ROWS = 250_000
-_PER_SECOND = {"s": 1, "ms": 10**3, "us": 10**6, "ns": 10**9}
 
 
 @contextmanager
@@ -30,7 +31,7 @@ def _ours(path: Path) -> Iterator[None]:
 
     try:
         yield
-    except (pa.ArrowException, OSError, ValueError, OverflowError) as error:
+    except (pa.ArrowException, OSError, ValueError, OverflowError, MemoryError, KeyError, IndexError) as error:
         raise FormatError("not a readable Parquet file", where=path.name,
                           got=(str(error).splitlines() or ["?"])[0]) from None
 
@@ -45,16 +46,29 @@ class Table:
         with _ours(path):
             self.file = pq.ParquetFile(path)
             self.schema = self.file.schema_arrow
-        self.names = [str(n).strip() for n in self.schema.names]
-        self.notes: list[str] = []
-        self.time, self.seconds = self._find()
+            self.schema, self.places = _flat(self.schema)
+        twice = [n for n, k in Counter(self.places).items() if k > 1]
+        if twice:
+            raise FormatError("two columns of one name, which Parquet's own readers mix up", where=path.name,
+                              got=twice[0], hint="write the file again with names of their own")
+        self.names = unique([str(n).strip() for n in self.schema.names])
+        self.notes = _left_out(self.file.schema_arrow)
+        if not self.names:
+            raise FormatError("no column of numbers, text or times", where=path.name)
+        self.time, self.unit = self._find()
 
-    def batches(self, rows: int) -> Iterator[Any]:
-        """Record batches; FormatError where a damaged part is met."""
+    def batches(self, rows: int, columns: list[str] | None = None) -> Iterator[Any]:
+        """Tables with one column a signal, structs taken apart; FormatError where a damaged part is met."""
+        import pyarrow as pa
+
+        wanted = list(dict.fromkeys(place.split(".")[0] for place in self.places)) if columns is None else columns
         with _ours(self.path):
-            yield from self.file.iter_batches(rows)
+            for batch in self.file.iter_batches(rows, columns=wanted):
+                yield pa.table([_at(batch, place) for place in self.places if place.split(".")[0] in wanted],
+                               names=[str(i) for i, place in enumerate(self.places) if place.split(".")[0] in wanted])
 
-    def _find(self) -> tuple[int, float | None]:
+    def _find(self) -> tuple[int, str | None]:
+        """The time column and its unit: None for timestamps, dates and text."""
         import pyarrow.types as pt
 
         said = (self.source.table or {}).get("time") or {}
@@ -72,34 +86,47 @@ class Table:
                 column, unit = self.names.index("t_ns"), "ns"
             else:
                 head = next(self.batches(100), None)
-                rows = [list(r.values()) for r in head.to_pylist()] if head is not None else []
+                rows = [list(r) for r in zip(*(c.to_pylist() for c in head.columns), strict=True)] if head else []
                 column = _find_time(self.names, units, rows, self.path.name)[0]
         if pt.is_timestamp(self.schema.field(column).type):
             return column, None
+        kind = self.schema.field(column).type
+        if pt.is_date(kind) or pt.is_string(_plain(kind)) or pt.is_large_string(_plain(kind)):
+            return column, None
+        if not (pt.is_integer(kind) or pt.is_floating(kind) or pt.is_decimal(kind) or pt.is_duration(kind)):
+            raise FormatError(f"'{self.names[column]}' is no time", where=self.path.name, got=str(kind),
+                              expected="timestamps, dates, text or numbers")
+        if pt.is_duration(kind):
+            return column, "duration"
         text = unit or units[column]
         if text is None:
-            text = "s"
-            self.notes.append(f"time column '{self.names[column]}' has no unit: taken as seconds")
-        if text not in SECONDS:
-            raise FormatError(f"unknown unit of time '{text}'", where=self.path.name, expected=", ".join(SECONDS))
-        return column, SECONDS[text]
+            found = next(self.batches(1000), None)
+            values = np.zeros(0) if found is None else _numbers(found.column(column))
+            text = found_epoch(values) or "s"
+            self.notes.append(f"time column '{self.names[column]}' has no unit: " + (
+                "taken as seconds" if text == "s" else f"by its size it is {text}"))
+        return column, check_unit(str(text), self.path.name)
 
     def times(self, column: Any) -> stamps.Stamps:
         """Times of the time column, or of a part of it. Local times want the whole column: the order of all its
         rows tells the hour that repeats."""
+        import pyarrow as pa
+        import pyarrow.types as pt
+
         kind = self.schema.field(self.time).type
-        if self.seconds is not None:
-            if self.seconds == 1e-9 and str(kind) == "int64":
-                return stamps.Stamps(column.to_numpy(zero_copy_only=False).astype(np.int64), False, ())
-            seconds = np.asarray(column.to_numpy(zero_copy_only=False), np.float64) * self.seconds
-            good = np.isfinite(seconds) & (np.abs(seconds) < 9e9)
-            t_ns = np.full(seconds.size, NAT, np.int64)
-            t_ns[good] = np.rint(seconds[good] * 1e9).astype(np.int64)
-            return stamps.Stamps(t_ns, False, ())
-        naive = column.to_numpy(zero_copy_only=False).astype("datetime64[ns]")
-        if kind.tz is not None:
-            return stamps.Stamps(naive.view(np.int64), True, ())
-        return stamps.local_stamps(naive, self.source.timezone)
+        if self.unit == "duration":
+            return stamps.Stamps(_ns(column.cast(pa.duration("ns"))), False, ())
+        if self.unit is not None:
+            values = column.to_numpy() if pt.is_integer(kind) and not column.null_count else _numbers(column)
+            return clocks_times(values, self.unit, self.source.timezone)
+        if not (pt.is_timestamp(kind) or pt.is_date(kind)):
+            form = ((self.source.table or {}).get("time") or {}).get("format")
+            return stamps.parse([str(v or "") for v in column.to_pylist()], self.source.timezone, form, self.path.name)
+        zone = getattr(kind, "tz", None)
+        naive = _ns(column.cast(pa.timestamp("ns", zone)))
+        if zone is not None:
+            return stamps.Stamps(naive, True, ())
+        return stamps.local_stamps(naive.view("datetime64[ns]"), self.source.timezone)
 
     def dtype(self, column: int) -> str:
         """numpy's name; integers and bool of a column that has missing values are float64."""
@@ -109,7 +136,9 @@ class Table:
         if pt.is_floating(kind):
             return {"float": "float32", "halffloat": "float16"}.get(str(kind), "float64")
         if pt.is_integer(kind) or pt.is_boolean(kind):
-            if not self._complete(column):
+            with _ours(self.path):
+                complete = self._complete(column)
+            if not complete:
                 return "float64"
             return "bool" if pt.is_boolean(kind) else str(kind)
         if pt.is_decimal(kind):
@@ -117,19 +146,85 @@ class Table:
         return "str"
 
     def _complete(self, column: int) -> bool:
-        meta = self.file.metadata
-        for group in range(meta.num_row_groups):
-            statistics = meta.row_group(group).column(column).statistics
+        meta, place = self.file.metadata, self.places[column]
+        for number in range(meta.num_row_groups):
+            group = meta.row_group(number)
+            leaf = next((group.column(i) for i in range(group.num_columns)
+                         if group.column(i).path_in_schema == place), None)
+            statistics = None if leaf is None else leaf.statistics
             if statistics is None or not statistics.has_null_count or statistics.null_count:
                 return False
         return True
 
 
+def _plain(kind: Any) -> Any:
+    """The type of a dictionary's values."""
+    import pyarrow.types as pt
+
+    return kind.value_type if pt.is_dictionary(kind) else kind
+
+
+def _flat(schema: Any) -> tuple[Any, list[str]]:
+    """The schema with structs taken apart, and the path of each column; lists and maps are left out."""
+    import pyarrow as pa
+    import pyarrow.types as pt
+
+    fields: list[Any] = []
+    places: list[str] = []
+
+    def add(field: Any, place: str, name: str, depth: int) -> None:
+        if pt.is_struct(field.type) and depth < 8:
+            for inner in field.type:
+                add(inner, f"{place}.{inner.name}", f"{name}/{inner.name}", depth + 1)
+        elif not pt.is_nested(field.type):
+            fields.append(pa.field(name, field.type))
+            places.append(place)
+
+    for field in schema:
+        add(field, field.name, field.name, 0)
+    return pa.schema(fields), places
+
+
+def _left_out(schema: Any) -> list[str]:
+    import pyarrow.types as pt
+
+    names = [f.name for f in schema if pt.is_nested(f.type) and not pt.is_struct(f.type)]
+    return [f"columns of lists are not read: {', '.join(names[:8])}"] if names else []
+
+
+def _at(batch: Any, place: str) -> Any:
+    """A column, or a part of a struct; a name may itself hold dots."""
+    import pyarrow.compute as pc
+
+    if place in batch.schema.names:
+        return batch.column(batch.schema.names.index(place))
+    first, *rest = place.split(".")
+    column = batch.column(batch.schema.names.index(first))
+    for name in rest:
+        column = pc.struct_field(column, name)
+    return column
+
+
+def _numbers(column: Any) -> Array:
+    import pyarrow as pa
+
+    return np.asarray(column.cast(pa.float64()).to_numpy(), np.float64)
+
+
+def _ns(column: Any) -> Int1D:
+    """Nanoseconds of timestamps or durations; NAT where there is none."""
+    import pyarrow as pa
+
+    found: Int1D = column.cast(pa.int64()).fill_null(int(NAT)).to_numpy().astype(np.int64)
+    return found
+
+
 def describe(path: Path, source: Source) -> Recording:
     table = Table(path, source)
     head = next(table.batches(1000), None)
-    nothing = stamps.Stamps(np.zeros(0, np.int64), table.seconds is None, ())
-    found = nothing if head is None else table.times(head.column(table.time))
+    nothing = stamps.Stamps(np.zeros(0, np.int64), False, ())
+    with _ours(path):
+        found = nothing if head is None else table.times(head.column(table.time))
     good = found.t_ns[found.t_ns != NAT]
     signals = tuple(Signal(n, STREAM, split_unit(n)[1], table.dtype(i))
                     for i, n in enumerate(table.names) if i != table.time)
@@ -139,9 +234,13 @@ def describe(path: Path, source: Source) -> Recording:
 
 def blocks(path: Path, source: Source) -> Iterator[Block | Loss]:
     table = Table(path, source)
+    import pyarrow as pa
+
+    top = table.places[table.time].split(".")[0]
+    kept = [b.column(str(table.time)) for b in table.batches(_ROWS, [top])]
     with _ours(path):
-        column = table.file.read(columns=[table.schema.names[table.time]]).column(0)
-    times = table.times(column).t_ns
+        column = pa.chunked_array([c for k in kept for c in k.chunks], table.schema.field(table.time).type)
+        times = table.times(column).t_ns
     at = missing = 0
     columns = [(i, n, table.dtype(i)) for i, n in enumerate(table.names) if i != table.time]
     size = max(1, int(source.options.get("block_rows", min(_ROWS, 1_000_000 // len(table.names)))))
@@ -150,13 +249,16 @@ def blocks(path: Path, source: Source) -> Iterator[Block | Loss]:
         good = t_ns != NAT
         at += batch.num_rows
         missing += int((~good).sum())
-        values = {name: _values(batch.column(i), dtype)[good] for i, name, dtype in columns}
+        with _ours(path):
+            values = {name: _values(batch.column(i), dtype)[good] for i, name, dtype in columns}
         yield Block(STREAM, t_ns[good], values)
     if missing:
         yield Loss(path.name, None, None, missing / at, f"{missing} rows without a time")
 
 
 def _values(column: Any, dtype: str) -> Array:
+    if dtype == "float64":
+        return _numbers(column)
     if dtype == "str":
         return np.array(["" if v is None else str(v) for v in column.to_pylist()], object)
     return np.asarray(column.to_numpy(zero_copy_only=False)).astype(dtype)
