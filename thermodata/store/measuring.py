@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
+from math import ceil
 
 import numpy as np
 
@@ -83,6 +84,6 @@ def find_stretches(parts: Iterable[tuple[int, Int1D, Bool1D]], period_ns: float,
                 found.append((start + a, start + b + 1, int(t[a]), int(t[b])))
     least = (spec.for_ or 0.0) * 1e9 * (1 - 1e-9)
     # n samples cover n periods, so ten samples at 1 Hz hold for 10 s
-    kept = np.array([(a, b, t + round(spec.settle * 1e9)) for a, b, t, end in found if end - t + period_ns >= least],
+    kept = np.array([(a, b, t + ceil(spec.settle * 1e9)) for a, b, t, end in found if end - t + period_ns >= least],
                     np.int64).reshape(-1, 3)
     return Stretches(kept[:, 0], kept[:, 1], kept[:, 2])
