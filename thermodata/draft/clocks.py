@@ -9,8 +9,8 @@ from datetime import UTC, datetime
 from zoneinfo import ZoneInfo
 
 from thermodata.calibration.clock import estimate_offset
-from thermodata.draft.group import Group
 from thermodata.draft.scan import RawFile
+from thermodata.draft.sources import Group
 from thermodata.errors import ThermodataError
 
 Named = Mapping[tuple[str, str], tuple[str, str | None, str]]

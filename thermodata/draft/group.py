@@ -1,129 +1,18 @@
-"""Files into sources and tests: the same reader and like signals are one source; names, and where they fail times, tell
-which files are one test."""
+"""Files of a source into tests: names, and where they fail times, tell which files are one test."""
 
 from __future__ import annotations
 
 import re
-from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 from itertools import pairwise
 
 from thermodata.draft.filenames import Naming, matches, namings, normal
 from thermodata.draft.scan import RawFile
-from thermodata.draft.words import plain, words
-from thermodata.plugin import Signal
-from thermodata.reader.text import split_unit
+from thermodata.draft.sources import Group
 
-_NAMES = {"crio": "daq", "cnc": "nc", "mcap": "rec", "table": "log"}
 _NEAR_NS = 15 * 60 * 1_000_000_000
 _HOUR_NS = 3_600_000_000_000
-_ALIKE = 0.5                                              # of the shorter list of signals
-
-
-@dataclass(frozen=True, slots=True)
-class Group:
-    """A source. files: its logs of tests; calibrations: its jump tests; template: `files` with {test}, or a glob that
-    all tests share (shared), or None; tests: id -> its files."""
-
-    source: str
-    reader: str
-    files: tuple[RawFile, ...]
-    calibrations: tuple[RawFile, ...] = ()
-    template: str | None = None
-    shared: bool = False
-    tests: Mapping[str, tuple[RawFile, ...]] = field(default_factory=dict)
-    questions: tuple[str, ...] = ()
-
-    @property
-    def signals(self) -> list[tuple[Signal, list[RawFile]]]:
-        """Every signal of any file, in the order of its first appearance, with the files that have it."""
-        found: dict[tuple[str, str], tuple[Signal, list[RawFile]]] = {}
-        for file in (*self.files, *self.calibrations):
-            for signal in file.signals:
-                found.setdefault((signal.stream, signal.name), (signal, []))[1].append(file)
-        return list(found.values())
-
-
-def sources_of(files: Sequence[RawFile], jumps: Sequence[RawFile]) -> list[Group]:
-    """One group a source: one reader, one kind of file, and like signals; named after a word that all its names hold
-    and no other's, else after what such files are."""
-    clusters: list[list[RawFile]] = []
-    names: list[set[str]] = []
-    for file in sorted(files, key=lambda f: -len(f.signals)):
-        own = {split_unit(s.name)[0] for s in file.signals}
-        home = next((i for i, c in enumerate(clusters)
-                     if (c[0].reader, c[0].path.suffix.lower()) == (file.reader, file.path.suffix.lower())
-                     and (len(own & names[i]) >= _ALIKE * min(len(own), len(names[i])) or _twin(file, c))), None)
-        if home is None:
-            clusters.append([file])
-            names.append(own)
-        else:
-            clusters[home].append(file)
-            names[home] |= own
-    order = {id(f): i for i, f in enumerate(files)}
-    clusters = [sorted(part, key=lambda f: order[id(f)]) for c in clusters for part in _loggers(c, jumps)]
-    clusters.sort(key=lambda c: (c[0].reader, c[0].path.suffix, order[id(c[0])]))
-    groups = []
-    taken: set[str] = set()
-    for cluster in clusters:
-        logs = tuple(f for f in cluster if f not in jumps)
-        groups.append(Group(_name(cluster, clusters, taken), cluster[0].reader, logs,
-                            tuple(f for f in cluster if f in jumps)))
-    return groups
-
-
-def _twin(file: RawFile, cluster: Sequence[RawFile]) -> bool:
-    """Whether another file has the same name and signals but for axis letters and numbers: posuv_X, posuv_Y."""
-    def shape(text: str) -> str:
-        return re.sub(r"\d+", "#", re.sub(r"(?<![A-Za-z])[XYZABCxyzabc](?![A-Za-z])", "@", text))
-
-    own = {shape(split_unit(s.name)[0]) for s in file.signals}
-    return any(shape(str(other.path)) == shape(str(file.path))
-               and own == {shape(split_unit(s.name)[0]) for s in other.signals} for other in cluster[:20])
-
-
-def _loggers(cluster: list[RawFile], jumps: Sequence[RawFile]) -> list[list[RawFile]]:
-    """A cluster apart by a word of the names where two loggers of the same make ran at once (daq1_x, daq2_x)."""
-    logs = [f for f in cluster if f not in jumps]
-    pieces = {f.path: re.split(r"[_\-. /]+", str(f.path.with_suffix(""))) for f in logs}
-    if len(logs) < 4 or len({len(p) for p in pieces.values()}) != 1 or any(f.start_ns is None for f in logs):
-        return [cluster]
-    for place in range(len(pieces[logs[0].path])):
-        values = Counter(pieces[f.path][place] for f in logs)
-        rest = Counter(_but(pieces[f.path], place) for f in logs)
-        if 2 <= len(values) <= 4 and set(rest.values()) == {len(values)} and len(set(values.values())) == 1:
-            together = all(max(s) - min(s) < 10_000_000_000 for s in (
-                [f.start_ns or 0 for f in logs if _but(pieces[f.path], place) == key] for key in rest))
-            if together:
-                found = [[f for f in logs if pieces[f.path][place] == value] for value in sorted(values)]
-                found[0] += [f for f in cluster if f in jumps]
-                return found
-    return [cluster]
-
-
-def _but(pieces: Sequence[str], place: int) -> tuple[str, ...]:
-    return tuple(x for i, x in enumerate(pieces) if i != place)
-
-
-def _name(cluster: Sequence[RawFile], clusters: Sequence[Sequence[RawFile]], taken: set[str]) -> str:
-    def pieces(file: RawFile) -> set[str]:
-        said = words(str(file.path.with_suffix("")).replace("/", " ")).split()
-        return {p for p in said if p.isalpha() and len(p) > 1}
-
-    everywhere = set.intersection(*(pieces(f) for f in cluster))
-    elsewhere = set().union(*(pieces(f) for c in clusters if c is not cluster for f in c))
-    own = sorted(everywhere - elsewhere - {"raw", "data", "log", "test"}, key=lambda p: (len(p), p))
-    alone = len(cluster) == 1 or len(clusters) == 1
-    base = _NAMES.get(cluster[0].reader, cluster[0].reader)
-    if own and not alone and plain(own[0])[:1].isalpha():
-        base = plain(own[0])
-    name, n = base[:30], 1
-    while name.lower() in taken:
-        n += 1
-        name = f"{base[:30]}{n}"
-    taken.add(name.lower())
-    return name
 
 
 def tests_of(groups: Sequence[Group]) -> list[Group]:
@@ -309,4 +198,4 @@ def files_of(group: Group, test: str) -> str | list[str]:
     return paths[0] if len(paths) == 1 else paths
 
 
-__all__ = ["Group", "files_of", "sources_of", "tests_of"]
+__all__ = ["files_of", "tests_of"]

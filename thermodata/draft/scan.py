@@ -14,7 +14,8 @@ from pathlib import Path, PurePosixPath
 
 import numpy as np
 
-from thermodata.draft.guess import Guess, guess
+from thermodata.draft.guess import guess
+from thermodata.draft.quantity import Guess
 from thermodata.draft.values import Values, joined, values_of
 from thermodata.errors import ThermodataError
 from thermodata.plugin import Array, Block, Float1D, Int1D, Loss, Reader, Recording, Signal, Source
