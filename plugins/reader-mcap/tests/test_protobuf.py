@@ -13,7 +13,7 @@ from google.protobuf.descriptor_pb2 import FileDescriptorProto, FileDescriptorSe
 from google.protobuf.descriptor_pool import DescriptorPool
 from google.protobuf.json_format import MessageToDict
 from google.protobuf.message_factory import GetMessageClass
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from thermodata_reader_mcap.definitions import Schema
 from thermodata_reader_mcap.discover import discover
@@ -163,6 +163,7 @@ VALUES = {"double": st.floats(allow_nan=False, allow_infinity=False), "bool": st
           "uint64": st.integers(0, 2**64 - 1), "fixed64": st.integers(0, 2**64 - 1)}
 
 
+@settings(deadline=None)
 @given(st.lists(st.sampled_from(sorted(KINDS)), min_size=1, max_size=6), st.data())
 def test_values_are_those_of_the_package(kinds: list[str], data: st.DataObject) -> None:
     own = FileDescriptorProto(name="x.proto", package="x", syntax="proto3")
@@ -188,6 +189,7 @@ def test_values_are_those_of_the_package(kinds: list[str], data: st.DataObject) 
     assert set(MessageToDict(made, preserving_proto_field_name=True)) <= set(got)
 
 
+@settings(deadline=None)
 @given(st.lists(st.integers(0, 60), min_size=1, max_size=40), st.data())
 def test_many_at_once_are_as_one_by_one(order: list[int], data: st.DataObject) -> None:
     every = machines(61)

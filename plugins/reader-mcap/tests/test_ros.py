@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from mcap_ros2._dynamic import serialize_dynamic
 from thermodata_reader_mcap.columns import Columns
@@ -101,6 +101,7 @@ def message(k: int) -> dict[str, Any]:
             "probes": [{"id": "a", "um": k / 4}] * (k % 2), "count": 2**63 + k, "nothing": {}}
 
 
+@settings(deadline=None)
 @given(messages)
 def test_values_are_those_of_the_package(value: dict[str, Any]) -> None:
     payload = ENCODE(value)
@@ -122,6 +123,7 @@ def same(a: Columns, b: Columns) -> None:
     assert {(w.message, w.name, w.expected) for w in a.wrong} == {(w.message, w.name, w.expected) for w in b.wrong}
 
 
+@settings(deadline=None)
 @given(st.lists(messages, min_size=1, max_size=4), st.lists(st.integers(0, 3), min_size=1, max_size=60), st.data())
 def test_many_at_once_are_as_one_by_one(kinds: list[dict[str, Any]], order: list[int], data: st.DataObject) -> None:
     payloads = [ENCODE(kinds[k % len(kinds)]) for k in order]
@@ -166,6 +168,7 @@ def big_endian(value: dict[str, Any]) -> bytes:
     return b"\0\0\0\0" + bytes(out)
 
 
+@settings(deadline=None)
 @given(messages)
 def test_big_endian_messages_are_read(value: dict[str, Any]) -> None:
     assert ros_decoder("cdr", SCHEMA).decode(big_endian(value)) == value
@@ -225,6 +228,7 @@ def test_definitions_that_do_not_resolve_are_named(tmp_path: Path, write: Any, r
         read(path)
 
 
+@settings(deadline=None)
 @given(st.text(max_size=80))
 def test_any_text_as_a_definition_parses_or_is_refused(text: str) -> None:
     from thermodata_reader_mcap.ros_types import TypeTextError

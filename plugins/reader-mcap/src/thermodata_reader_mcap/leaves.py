@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 from thermodata_reader_mcap.seen import MOST_ELEMENTS, Path, Seen, Survey
 
-MOST_SIGNALS = 20_000    # of a topic; more are keys that hold data, no set of signals
+MOST_SIGNALS = 5_000    # of a topic; more are keys that hold data, no set of signals
 _EXACT = 2**53
 _DTYPES = {"string": "str", "boolean": "bool", "integer": "int64", "uint64": "uint64"}
 

@@ -16,6 +16,7 @@ from thermodata_reader_mcap.seen import MOST_DEPTH, MOST_ELEMENTS, Path
 
 MISSING = np.uint16(Flag.NOT_MEASURING)      # no NaN in integers and booleans: 0, and not valid
 _EXACT = 2**53
+_MANY = 100                                  # signals from which on a message is taken apart once
 _NEW = 50                                    # new fields of one message that are named
 
 
@@ -36,10 +37,14 @@ def columns(topic: Topic, decode: Callable[[bytes], Any], payloads: Sequence[byt
             result.wrong.append(Wrong(k, "", "an object", repr(message)[:60]))
             continue
         kept.append(k)
+        flat = dict(_flat(message)) if len(topic.leaves) > _MANY else None
         for leaf, column in zip(topic.leaves, cells, strict=True):
-            value = at_path(message, leaf.path)
+            value = at_path(message, leaf.path) if flat is None else flat.get(leaf.path)
+            if value is None:
+                column.append(None)
+                continue
             good = as_dtype(value, leaf.dtype)
-            if good is None and value is not None and not _has_inner(value):
+            if good is None and not _has_inner(value):
                 result.wrong.append(Wrong(k, leaf.name, leaf.dtype, repr(value)[:60]))
             elif leaf.dtype == "float64" and isinstance(value, int) and abs(value) > _EXACT and value != good:
                 result.wrong.append(Wrong(k, leaf.name, "a number that a float64 holds; it is rounded",
@@ -55,6 +60,17 @@ def columns(topic: Topic, decode: Callable[[bytes], Any], payloads: Sequence[byt
         if missing is not None:
             result.flags[leaf.name] = missing
     return result
+
+
+def _flat(message: Any, path: Path = ()) -> Iterator[tuple[Path, Any]]:
+    """All values of a message that hold no others, with their paths."""
+    if not _has_inner(message):
+        yield path, message
+    elif len(path) < MOST_DEPTH:
+        inner = ((str(k), v) for k, v in message.items()) if isinstance(message, Mapping) else \
+            enumerate(message[:MOST_ELEMENTS])
+        for part, value in inner:
+            yield from _flat(value, (*path, part))
 
 
 def at_path(message: Any, path: Path) -> Any:

@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 
 MOST_ELEMENTS = 256      # of an array; a longer one is an image or a point cloud, no set of signals
 MOST_DEPTH = 32
-MOST_SIGNALS_IN_ARROW = 4096
+MOST_SIGNALS_IN_ARROW = 2000
 _EXACT = 2**53
 Path = tuple[str | int, ...]
 
