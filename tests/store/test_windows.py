@@ -2,13 +2,18 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import numpy as np
 import pytest
+from store_fakes import daq, write_log
 
 from thermodata.calibration.quality import ColumnInput, QualityEvent, flag_stream
 from thermodata.plugin import Array, Float1D, Int1D
 from thermodata.schema.campaign import Channel
 from thermodata.schema.flag import Flag
+from thermodata.store import Store, windows
+from thermodata.store.ingest import ingest
 from thermodata.store.piece import Column
 from thermodata.store.plan import Bound
 from thermodata.store.windows import Joined
@@ -126,3 +131,20 @@ def test_what_is_off_from_the_first_window_on_is_so_in_every_later_one() -> None
         flags, events = by_windows(t, values, size)
         assert np.flatnonzero(flags["T_b"] & Flag.OFFSET).tolist() == list(range(5200, N)), size
         assert [(e.flag, e.n) for e in events] == [("offset", N - 5200)], size
+
+
+def test_more_columns_than_are_judged_together_have_the_same_flags(
+        store: Store, campaign: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    log = daq(6000)
+    log["main"]["T1"][2500:] += 30.0
+    log["main"]["Z"][1000:1400] = log["main"]["Z"][1000]
+    log["main"]["Z"][3000] = np.nan
+    write_log(campaign.parent / "raw/one_a.npz", log)
+    beside = Store(tmp_path / "beside", create=True)
+    ingest(beside, campaign)
+    monkeypatch.setattr(windows, "MOST_COLUMNS", 2)
+    summary = ingest(store, campaign)
+    assert summary.flags["offset"] == 3500
+    for query in ("select * from sample order by all", "select * from quality_event order by all"):
+        with store.reader() as one, beside.reader() as other:
+            assert one.sql(query).fetchall() == other.sql(query).fetchall()

@@ -132,6 +132,8 @@ class Flagged:
             piece = self._piece(a, b)
             made = calibrated(piece, self.bounds, self.problems, pool)
             for name, column in made.items():
+                if name not in joined:
+                    continue
                 at, flags = joined[name]
                 low, high = int(np.searchsorted(at, a, side="right")) - 1, int(np.searchsorted(at, b))
                 lengths = np.diff(np.concatenate([[a], at[low + 1:high], [b]]))
