@@ -24,7 +24,7 @@ from thermodata.reader.registry import claims, reader
 
 _SAMPLE_ROWS, _SAMPLE_S = 400_000, 1.0       # of one file
 _SMALL = 4_000_000                           # bytes; smaller files are read whole
-_SAMPLES_S, _HEADERS_S = 15.0, 30.0          # of the whole folder
+_SAMPLES_S, _HEADERS_S = 15.0, 40.0          # of the whole folder
 _KEPT_ROWS = 3000                            # of a signal whose course tells what a test is
 _COURSE = ("rotational_speed", "feed", "displacement", "voltage", "position", "state")
 _MOST_COURSES = 40
