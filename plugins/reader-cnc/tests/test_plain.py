@@ -363,3 +363,23 @@ def test_text_states_numbers_with_exponents_and_groups(tmp_path: Path) -> None:
     assert set(data.values["nc", "Pumpe"].tolist()) == {"EIN", "AUS"}
     assert set(data.values["nc", "Čerpadlo"].tolist()) == {"ZAP", "VYP"}
     assert data.t_ns["nc"][0] % 10**9 == 250_000_000
+
+
+def test_a_repeated_header_does_not_hide_the_milliseconds(tmp_path: Path) -> None:
+    path = tmp_path / "nc.csv"
+    rows = [f"2026-03-02T08:00:{k:02d}Z;{k * 7};{k}.5\n" for k in range(20)]
+    path.write_text("time;ms;a\n" + "".join(rows[:10]) + "time;ms;a\n" + "".join(rows[10:]))
+    data = load(Reader(), path, Source())
+    assert [s.name for s in data.recording.signals] == ["a"]
+    assert (np.diff(data.t_ns["nc"]) == 1_007_000_000).all()
+
+
+@pytest.mark.parametrize("junk", [";" * 100_000, "x" * 300_000, "\0" * 200_000, "\n" * 100_000, '"' * 99_999,
+                                  f'"{"x" * 200_000}";1'], ids=["cells", "text", "zeros", "blank", "quotes", "quoted"])
+def test_huge_lines_are_lost_alone(tmp_path: Path, junk: str) -> None:
+    path = tmp_path / "nc.csv"
+    rows = [f'2026-03-02T08:00:{k:02d}Z;{k}.5;"A, B"\n' for k in range(40)]
+    path.write_text("time;a;b\n" + "".join(rows[:20]) + junk + "\n" + "".join(rows[20:]))
+    data = load(Reader(), path, Source())
+    assert set(range(40)) - {int(v) for v in data.values["nc", "a"]} <= {19, 20}
+    assert data.losses or not junk.strip("\n;\t")               # a line of nothing is none

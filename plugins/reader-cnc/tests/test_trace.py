@@ -137,6 +137,15 @@ def test_a_rounded_interval_is_taken_from_length_and_count(tmp_path: Path) -> No
     assert np.diff(data.t_ns["servo"]).tolist() == [62_500] * 2000
 
 
+def test_signals_that_the_first_look_meets_in_two_parts(tmp_path: Path) -> None:
+    """A frame's signals may stand on both sides of a border between the parts that are read."""
+    text = xml(40).replace("<traceData>", '<traceData dataFrames="1">').replace(
+        "<dataSignal", "<!--" + "x" * 30_000 + "--><dataSignal")
+    data = load(Reader(), written(tmp_path, text, "trace.xml"), Source())
+    assert not data.losses
+    assert len(data.recording.signals) == 3
+
+
 def test_values_that_are_none_and_times_of_another_world(tmp_path: Path) -> None:
     text = xml(60).replace('f1="4.000000"', 'f1="9218868437227405312"').replace(
         "</dataFrame>", '<rec time="999999.0" f1="7"/></dataFrame>')

@@ -129,6 +129,15 @@ def test_rows_that_do_not_reach_the_announced_end_are_a_loss(tmp_path: Path) -> 
         load(Reader(), written(tmp_path, small("0,0\t1,5\n", "Name\ta").replace("\t", ",")), Source())
 
 
+@pytest.mark.parametrize("junk", ["\t" * 100_000, "x" * 300_000, "\n" * 100_000, "1\t" * 50_000])
+def test_huge_lines_are_lost_alone(tmp_path: Path, junk: str) -> None:
+    rows = [f"{k}\t{k}\n" for k in range(7)]
+    data = load(Reader(), written(tmp_path, small("".join(rows[:4]) + junk + "\n" + "".join(rows[4:]), "Name\ta")),
+                Source())
+    assert data.values["scope1", "a"].tolist() == list(range(7))
+    assert data.losses or not junk.strip("\n;\t")               # a line of nothing is none
+
+
 def test_a_header_without_a_start_is_refused(tmp_path: Path) -> None:
     with pytest.raises(FormatError, match="no start of the export"):
         load(Reader(), written(tmp_path, export().replace("134169120000000000", "soon")), Source())

@@ -98,7 +98,9 @@ def find_layout(lines: Sequence[str], rest: Sequence[str], declared: Mapping[str
                           hint="declare table: {time: {column: ..., format: ...}}")
     first = first_row(rows, width, time, table)
     header = find_header(rows[:first], body[:first], width, {column for column, _ in time}, table, skip)
-    time = with_milliseconds(time, header, [r for r in rows[first:] if len(r) == width][:2000])
+    dated = [r for r in rows[first:first + 2000] if len(r) == width and any(
+        form.role == "relative" or when.parse_one(r[column], form) != NAT for column, form in time[:1])]
+    time = with_milliseconds(time, header, dated)             # a header that is repeated between rows is none
     return Layout(delimiter, quoted, skip + first, width, header, time)
 
 
