@@ -12,7 +12,7 @@ from thermodata.calibration.quality import ColumnInput, QualityEvent, flag_strea
 from thermodata.plugin import Array, Float1D, Int1D
 from thermodata.schema.campaign import Channel
 from thermodata.schema.flag import Flag
-from thermodata.store import Store, windows
+from thermodata.store import Store, rawfile, windows
 from thermodata.store.ingest import ingest
 from thermodata.store.piece import Column
 from thermodata.store.plan import Bound
@@ -131,6 +131,23 @@ def test_what_is_off_from_the_first_window_on_is_so_in_every_later_one() -> None
         flags, events = by_windows(t, values, size)
         assert np.flatnonzero(flags["T_b"] & Flag.OFFSET).tolist() == list(range(5200, N)), size
         assert [(e.flag, e.n) for e in events] == [("offset", N - 5200)], size
+
+
+def test_a_smooth_reading_that_is_held_over_windows_is_told_by_its_release(
+        store: Store, campaign: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    log = daq(6000)
+    log["main"]["Z"][1500:4200] = log["main"]["Z"][1500]
+    write_log(campaign.parent / "raw/one_a.npz", log)
+    beside = Store(tmp_path / "beside", create=True)
+    ingest(beside, campaign)
+    monkeypatch.setattr(rawfile, "GROUP_ROWS", 100)
+    monkeypatch.setattr(windows, "WINDOW_VALUES", 3000)
+    monkeypatch.setattr(windows, "MARGIN_ROWS", 200)
+    assert ingest(store, campaign).flags["held"] == 2700
+    for query in ("select * from sample order by all",
+                  "select channel, flag, from_s, to_s, n from quality_event order by all"):
+        with store.reader() as one, beside.reader() as other:
+            assert one.sql(query).fetchall() == other.sql(query).fetchall()
 
 
 def test_more_columns_than_are_judged_together_have_the_same_flags(

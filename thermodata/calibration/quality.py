@@ -24,7 +24,7 @@ from thermodata.plugin import Array, Bool1D, Float1D, Int1D
 from thermodata.schema.flag import Flag
 
 # Quantities whose readings carry noise, so that an exactly constant stretch is suspicious ...
-_ANALOG = frozenset({"displacement", "tilt", "temperature", "temperature_difference", "voltage", "resistance",
+ANALOG = frozenset({"displacement", "tilt", "temperature", "temperature_difference", "voltage", "resistance",
                      "humidity", "irradiance", "pressure"})
 # ... and which can't leave and come back within a few samples. (Position, speed, power and flow can.)
 _INERT = frozenset({"displacement", "tilt", "temperature", "temperature_difference", "humidity"})
@@ -77,7 +77,7 @@ def flag_stream(
 
 
 def _analog(column: ColumnInput) -> Float1D | None:
-    if column.quantity not in _ANALOG or column.values.dtype.kind not in "iuf" or len(column.values) < 3:
+    if column.quantity not in ANALOG or column.values.dtype.kind not in "iuf" or len(column.values) < 3:
         return None
     return np.asarray(column.values, dtype=np.float64)
 

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field
 from typing import TypeVar
 
 import numpy as np
 
-from thermodata.calibration.quality import QualityEvent
+from thermodata.calibration.quality import ANALOG, QualityEvent
 from thermodata.calibration.quality_concise import concise
 from thermodata.errors import ThermodataError
 from thermodata.plugin import Array, Int1D
@@ -57,6 +57,7 @@ class Flagged:
     events: list[Event] = field(default_factory=list)
     _found: list[QualityEvent] = field(default_factory=list)
     _activity: dict[str, Activity] = field(default_factory=dict)
+    _moves: dict[str, tuple[int, float | None]] = field(default_factory=dict)
 
     def pieces(self, rows: int, borders: Sequence[int] = ()) -> Iterator[tuple[int, Int1D, dict[str, Column]]]:
         """(first row, times, channels with all their flags) of pieces of so many rows; none crosses a border."""
@@ -96,16 +97,49 @@ class Flagged:
         margin = min(windows.MARGIN_ROWS, size // 2)
         joined = Joined()
 
-        def load(a: int) -> tuple[Piece, dict[str, Column]]:
+        def load(a: int) -> tuple[Piece, dict[str, Column], dict[str, Column]]:
             piece = self._piece(max(self.start, a - margin), min(self.stop, a + size + margin), bounds)
-            return piece, calibrated(piece, bounds, self.problems, pool)
+            made = calibrated(piece, bounds, self.problems, pool)
+            return piece, made, self._with_releases(made, a + size, piece.stop)
 
-        for a, (piece, made) in _ahead(load, range(self.start, self.stop, size), self._may_read_ahead()):
+        for a, (piece, made, seen) in _ahead(load, range(self.start, self.stop, size), self._may_read_ahead()):
             b = min(a + size, self.stop)
             low = piece.start
-            found = joined.add(piece.t_ns, made, a - low, b - low)
+            found = joined.add(piece.t_ns, seen, a - low, b - low)
             yield piece, {n: Column(c.bound, c.values[a - low:b - low], found[n]) for n, c in made.items()}, a, b
         self._found += joined.events
+
+    def _with_releases(self, made: Mapping[str, Column], own: int, stop: int) -> dict[str, Column]:
+        """The channels of a window that ends at row `stop`; one that stands still from row `own` to there ends with
+        the value that it takes when it moves again: whether a reading was held shows in that step."""
+        seen = dict(made)
+        if own >= stop:
+            return seen
+        for name, column in made.items():
+            x = column.values
+            still = x[own - stop:]
+            if x.dtype.kind == "f" and column.bound.channel.quantity in ANALOG and len(still) > 1 \
+                    and still[0] == still[-1] and bool((still == still[0]).all()):
+                value = self._release(column.bound, float(still[0]), stop)
+                if value is not None:
+                    x = x.copy()
+                    x[-1] = value
+                    seen[name] = Column(column.bound, x, column.flags)
+        return seen
+
+    def _release(self, bound: Bound, value: float, row: int) -> float | None:
+        """The first value from `row` on that is another one; None where there is none."""
+        known = self._moves.get(bound.name)
+        if known is None or known[0] < row:
+            known = (self.stop, None)
+            for a, b in _cuts(row, self.stop, windows.WINDOW_ROWS // 4, ()):
+                x = self.series.values(bound, a, b)[0]
+                other = np.flatnonzero(x != value)
+                if other.size:
+                    known = (a + int(other[0]), float(x[other[0]]))
+                    break
+            self._moves[bound.name] = known
+        return known[1]
 
     def _may_read_ahead(self) -> bool:
         # `measuring` may look into any stream, and timelines aren't for several threads
