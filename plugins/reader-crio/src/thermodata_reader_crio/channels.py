@@ -84,20 +84,21 @@ def channels(index: Index, cols: Mapping[str, list[Column]], file: str, unscaled
     """Group -> its channels, in the file's order."""
     types = {path: found.type for layout in index.layouts for path, found in layout.objects}
     groups: dict[str, list[Channel]] = {}
+    clocks: dict[Any, Clock | None] = {}
     for path, found in cols.items():
         group, name = names(path)
         full = f"{group}/{name}" if group or not name.startswith("/") else name
         if not group and name == path:
             notes.append(f"{path[:80]}: not the path of a channel in a group")
-        made = _made(index, path, found, types[path], file, full, unscaled, notes)
+        made = _made(index, path, found, types[path], file, full, unscaled, notes, clocks)
         groups.setdefault(group, []).extend(made)
     return groups
 
 
 def _made(index: Index, path: str, found: list[Column], kind: int, file: str, full: str, unscaled: set[str],
-          notes: list[str]) -> list[Channel]:
+          notes: list[str], clocks: dict[Any, Clock | None]) -> list[Channel]:
     own = index.properties.get(path, {})
-    clock = clock_of(index, found[0], own)
+    clock = clock_of(index, found[0], own, clocks)
     if clock is not None and not clock.ends_before(max(found[0].length, found[0].planned)):
         notes.append(f"{full}: its wf_increment of {own['wf_increment']} s ends beyond any date; not used as its time")
         clock = None

@@ -39,10 +39,21 @@ class _Making:
         return self.base[-1] + self.sample(row) * self.waves[-1].step.numerator // self.waves[-1].step.denominator
 
 
-def clock_of(index: Index, column: Column, own: dict[str, Any]) -> Clock | None:
-    """The clock that a channel's waveform properties give it; None where it has no increment."""
+def clock_of(index: Index, column: Column, own: dict[str, Any], known: dict[Any, Clock | None]) -> Clock | None:
+    """The clock that a channel's waveform properties give it; None where it has no increment. known: those of other
+    channels, for a file may have 100,000 with the same."""
     if "wf_increment" not in own:
         return None
+    changes = index.clock_changes.get(column.path, [])
+    if len(changes) > 8:
+        return _clock(index, column)
+    key = (id(column.runs), column.n.tobytes(), tuple((c.piece, *c.properties.items()) for c in changes))
+    if key not in known:
+        known[key] = _clock(index, column)
+    return known[key]
+
+
+def _clock(index: Index, column: Column) -> Clock | None:
     made, state = _Making(), dict[str, Any]()
     for piece, change in _events(index, column.path):
         row = column.row_at(piece)
