@@ -102,3 +102,79 @@ def test_parquet_with_nanoseconds_of_its_own(tmp_path: Path) -> None:
     path = tmp_path / "x.parquet"
     pq.write_table(pa.table({"t_ns": np.array([0, 2**53 + 1]), "T": [1.0, 2.0]}), path)
     np.testing.assert_array_equal(load(Reader(), path, Source()).t_ns["table"], [0, 2**53 + 1])
+
+
+def least(path: Path, sheet: str, more: str = "") -> Path:
+    """A workbook with one sheet, or with a second one of the same rows."""
+    main = "http://schemas.openxmlformats.org/spreadsheetml/2006/main"
+    package = "http://schemas.openxmlformats.org/package/2006"
+    office = "http://schemas.openxmlformats.org/officeDocument/2006/relationships"
+    types = "application/vnd.openxmlformats-"
+    data = f'<worksheet xmlns="{main}"><sheetData>{sheet}</sheetData></worksheet>'.encode()
+    return bomb(path, {
+        "[Content_Types].xml": f'<Types xmlns="{package}/content-types"><Default Extension="rels" ContentType="{types}'
+                               f'package.relationships+xml"/><Default Extension="xml" ContentType="{types}'
+                               'officedocument.spreadsheetml.worksheet+xml"/></Types>'.encode(),
+        "_rels/.rels": f'<Relationships xmlns="{package}/relationships"><Relationship Id="r1" Target="xl/workbook.xml" '
+                       f'Type="{office}/officeDocument"/></Relationships>'.encode(),
+        "xl/workbook.xml": f'<workbook xmlns="{main}" xmlns:r="{office}"><sheets><sheet name="data" sheetId="1" '
+                           f'r:id="r1"/>{more}</sheets></workbook>'.encode(),
+        "xl/_rels/workbook.xml.rels": (
+            f'<Relationships xmlns="{package}/relationships">' + "".join(
+                f'<Relationship Id="r{i}" Target="worksheets/sheet1.xml" Type="{office}/worksheet"/>'
+                for i in (1, 2)) + "</Relationships>").encode(),
+        "xl/worksheets/sheet1.xml": data})
+
+
+HEAD = ('<row r="1"><c r="A1" t="inlineStr"><is><t>time [s]</t></is></c>'
+        '<c r="B1" t="inlineStr"><is><t>T</t></is></c></row>')
+
+
+def test_errors_formulas_without_value_and_hidden_rows_are_told(tmp_path: Path) -> None:
+    cells = ['<c r="B2" t="e"><v>#N/A</v></c>', '<c r="B3"><f>A1*2</f></c>', '<c r="B4"><v>5</v></c>',
+             '<c r="B5"><f>A1</f><v>7.5</v></c>']
+    rows = "".join(f'<row r="{i}"{" hidden=" + chr(34) + "1" + chr(34) if i == 4 else ""}><c r="A{i}"><v>{i}</v></c>'
+                   f"{c}</row>" for i, c in enumerate(cells, 2))
+    data = load(Reader(), least(tmp_path / "x.xlsx", HEAD + rows), Source())
+    np.testing.assert_array_equal(data.values["table", "T"], [np.nan, np.nan, 5, 7.5])
+    assert [x.reason.split(":")[0] for x in data.losses] == [
+        "1 cells of the workbook hold an error such as #N/A",
+        "1 cells of the workbook hold a formula without its value (open the workbook once in a spreadsheet and save "
+        "it)"]
+    assert "1 hidden rows: they are read like the others" in data.recording.notes
+
+
+def test_sheets_that_are_not_read_are_named(tmp_path: Path) -> None:
+    rows = "".join(f'<row r="{i}"><c r="A{i}"><v>{i}</v></c><c r="B{i}"><v>{i}</v></c></row>' for i in range(2, 9))
+    path = least(tmp_path / "x.xlsx", HEAD + rows, '<sheet name="run 2" sheetId="2" r:id="r2"/>')
+    assert "not run 2" in load(Reader(), path, Source()).recording.notes[0]
+    assert load(Reader(), path, Source(table={"sheet": "run 2"})).recording.notes == ()
+
+
+def test_a_stray_cell_far_off_is_refused_with_what_to_do(tmp_path: Path) -> None:
+    stray = '<row r="900000"><c r="Z900000"><v>1</v></c></row>'
+    with pytest.raises(FormatError, match="delete the stray cells"):
+        load(Reader(), least(tmp_path / "x.xlsx", HEAD + '<row r="2"><c r="A2"><v>1</v></c></row>' + stray), Source())
+
+
+def test_parquet_takes_structs_apart_and_reads_decimals_dictionaries_durations_and_text_times(tmp_path: Path) -> None:
+    from decimal import Decimal
+
+    import pyarrow as pa
+    import pyarrow.parquet as pq
+
+    path = tmp_path / "x.parquet"
+    probe = pa.StructArray.from_arrays([pa.array([1.5, 2.5]), pa.array([1, None])], ["X", "n"])
+    for time, clock in ((pa.array([0, 500], pa.duration("ms")), "relative"),
+                        (pa.array(["2026-03-01 08:00:00", "2026-03-01 08:00:00.5"]), "absolute"),
+                        (pa.array([1_770_000_000.0, 1_770_000_000.5]), "absolute")):
+        pq.write_table(pa.table({"time": time, "probe": probe, "kW": pa.array([Decimal("1.25"), None]),
+                                 "mode": pa.array(["a", None]).dictionary_encode(), "spectrum": [[1, 2], [3]]}), path)
+        data = load(Reader(), path, Source(timezone="UTC"))
+        (t_ns,) = data.t_ns.values()
+        assert (data.recording.clock, int(np.diff(t_ns)[0])) == (clock, 500_000_000)
+        np.testing.assert_array_equal(data.values["table", "probe/X"], [1.5, 2.5])
+        np.testing.assert_array_equal(data.values["table", "probe/n"], [1, np.nan])
+        np.testing.assert_array_equal(data.values["table", "kW"], [1.25, np.nan])
+        assert list(data.values["table", "mode"]) == ["a", ""]
+        assert any("spectrum" in n for n in data.recording.notes)

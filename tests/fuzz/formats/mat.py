@@ -200,13 +200,15 @@ def _edit(data: bytearray, what: str, rng: random.Random) -> tuple[bool, bool, s
         return False, False, "nested matrices"
     if what == "element":
         data[tag:end] = b"" if rng.random() < 0.5 else bytes(data[tag:end]) * 2
-        return False, renamed, f"{role} element dropped or doubled"
+        # a whole variable less is an honest file, and so are other names in a cell of names
+        return role == "matrix" and tag > 0, renamed or tag == 0, f"{role} element dropped or doubled"
     heads = [e for e in all_of if e[4] in ("flags", "dims", "name") and e[2] > e[1]]
     tag, start, end, _, role = rng.choice(heads)
     at = rng.randrange(start, end)
     data[at] = rng.choice((0, 1, 2, 255, rng.randrange(256)))
     # a name changed is another name; a matrix turned to others of the same size is a matrix still
-    return role == "dims", role == "name", f"{role} changed"
+    inner = role == "flags" and tag > 16                    # a name of another class is no name
+    return role == "dims", role == "name" or inner, f"{role} changed"
 
 
 @lru_cache(maxsize=64)

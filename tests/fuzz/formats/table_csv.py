@@ -65,7 +65,8 @@ def mutate(seed: Seed, rng: random.Random) -> Mutation:
                        "end", "long", "short", "delimiter", "encoding"))
     if what == "cut":
         left = cut(data, rng)
-        return Mutation(left, "cut", left.endswith(end), False)
+        # a last line that lacks nothing but its end is whole
+        return Mutation(left, "cut", left.endswith(end) or data[len(left):].startswith((end, b"\r", b"\n")), False)
     if what == "lines":
         edited, how = edit_parts(parts, rng, first)
         # a clock without a date counts from its first row

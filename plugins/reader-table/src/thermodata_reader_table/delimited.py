@@ -125,13 +125,19 @@ def _kind(layout: Layout, column: int, cells: list[str]) -> str:
 def _cut(path: Path, encoding: str, delimiter: str) -> str | None:
     """Why the last line may not be whole, or None."""
     with path.open("rb") as file:
-        file.seek(max(0, path.stat().st_size - 65536))
+        start = file.read(2)
+        file.seek(max(0, (path.stat().st_size - 65536) // 2 * 2))
         tail = file.read()
     if encoding.startswith("utf-16"):
-        return "the file ends inside a character" if len(tail) % 2 else None
-    if tail.endswith((b"\n", b"\r")) or b"\n" not in tail:
+        if len(tail) % 2:
+            return "the file ends inside a character"
+        big = encoding == "utf-16-be" or (encoding == "utf-16" and start ==  b"\xfe\xff")
+        text = tail.decode("utf-16-be" if big else "utf-16-le", "replace")
+    else:
+        text = tail.decode("utf-8" if encoding.startswith("utf-8") else encoding, "replace")
+    if text.endswith(("\n", "\r")) or "\n" not in text:
         return None
-    lines = tail.decode("utf-8" if encoding.startswith("utf-8") else encoding, "replace").splitlines()
+    lines = _ENDS.split(text)
     if len(lines) < 2 or last_line_is_whole(lines[-1], lines[-2], delimiter):
         return None
     return "the last line has no end and is shorter than the one before: it is cut"

@@ -255,7 +255,8 @@ class _Parser:
             return Odd(f"{len(dims)}-dimensional {dtype}")
         if next(parts, None) is not None:
             raise _DamagedError("more data than its dimensions say")
-        kind = "bool" if bits & 0x02 else dtype
+        # logical arrays are bytes of 0 and 1; on anything else the mark is damage, or of no weight
+        kind = "bool" if bits & 0x02 and dtype == "uint8" and bool((flat <= 1).all()) else dtype
         table = flat.reshape((dims[0], dims[1]) if count else (0, 0), order="F")
         return Numbers(table.shape[0], table.shape[1], kind, lambda fixed, axis, start, stop: np.ascontiguousarray(
             table[start:stop, fixed] if axis == 0 else table[fixed, start:stop]).astype(kind))

@@ -80,8 +80,9 @@ class Table:
             column = find_column(wanted, self.names, self.path.name)
         else:
             stamped = [i for i, f in enumerate(self.schema) if pt.is_timestamp(f.type)]
-            if stamped:
-                column = stamped[0]
+            spans = [i for i, f in enumerate(self.schema) if pt.is_duration(f.type)]
+            if stamped or spans:
+                column = [*stamped, *spans][0]
             elif "t_ns" in self.names:
                 column, unit = self.names.index("t_ns"), "ns"
             else:

@@ -24,13 +24,25 @@ from thermodata_reader_table.layout import Layout, find
 STREAM = "table"
 MAX_UNPACKED = 1 << 30
 MAX_CELLS = 60_000_000
+_SPARSE = 3_000_000                          # cells of a sheet that may be almost empty
 _BLOCK_VALUES = 1_000_000
 _SMALL = 8_000_000
 _CELL = re.compile(rb'<(?:\w+:)?c [^>]*?r="([A-Z]{1,3})(\d{1,7})"')
 
 
-def check_size(path: Path) -> None:
-    """FormatError for a workbook that is no ZIP, or whose parts unpack to more than 1 GiB (whatever their headers
+# what calamine gives as an empty cell, or does not tell
+_ODD = {
+    "hold an error such as #N/A": re.compile(rb'<(?:\w+:)?c [^>]*?t="e"'),
+    "hold a formula without its value (open the workbook once in a spreadsheet and save it)":
+        re.compile(rb"(?:</(?:\w+:)?f>|<(?:\w+:)?f [^>]*/>)</(?:\w+:)?c>"),
+    "hidden": re.compile(rb'<(?:\w+:)?row [^>]*?hidden="(?:1|true)"'),
+}
+
+
+def check_size(path: Path) -> dict[str, int]:
+    """How many cells and rows of all sheets are of each kind of _ODD.
+
+    FormatError for a workbook that is no ZIP, or whose parts unpack to more than 1 GiB (whatever their headers
     say), or whose cells span an absurd area: a reader of it would take all memory."""
     try:
         with zipfile.ZipFile(path) as archive:
@@ -38,11 +50,11 @@ def check_size(path: Path) -> None:
     except (zipfile.BadZipFile, OSError, ValueError, NotImplementedError) as error:
         raise FormatError("not a readable workbook", where=path.name, expected="an XLSX (ZIP) file",
                           got=str(error)) from None
-    unpacked = 0
+    unpacked, odd = 0, dict.fromkeys(_ODD, 0)
     with path.open("rb") as file:
         for member in members:
             sheet = member.filename.startswith("xl/worksheets/")
-            right, bottom, rest = 0, 0, b""
+            right, bottom, rest, count = 0, 0, b"", 0
             for part in _inflate(file, member, path):
                 unpacked += len(part)
                 if unpacked > MAX_UNPACKED:
@@ -50,15 +62,21 @@ def check_size(path: Path) -> None:
                                       expected="a log of reasonable size", got=f"{path.stat().st_size} bytes packed",
                                       hint="export it as CSV or Parquet")
                 if sheet:
-                    found = set(_CELL.findall(rest + part))
+                    for kind, pattern in _ODD.items():
+                        odd[kind] += len(pattern.findall(rest + part)) - len(pattern.findall(rest))
+                    cells = _CELL.findall(rest + part)
+                    count += len(cells)
+                    found = set(cells)
                     rest = part[-200:]
                     if found:
                         right = max(right, max(_column(c) for c in {c for c, _ in found}))
                         bottom = max(bottom, max(int(r) for _, r in found))
-            if right * bottom > MAX_CELLS:
+            if right * bottom > MAX_CELLS or right * bottom > max(_SPARSE, 20 * count):
                 raise FormatError("sheet spans an absurd area", where=f"{path.name} {member.filename}",
-                                  expected=f"at most {MAX_CELLS} cells", got=f"{bottom} rows x {right} columns",
-                                  hint="export it as CSV or Parquet")
+                                  expected=f"at most {MAX_CELLS} cells, most of them filled",
+                                  got=f"{bottom} rows x {right} columns with {count} cells",
+                                  hint="delete the stray cells far off, or export it as CSV or Parquet")
+    return odd
 
 
 def _inflate(file: Any, member: zipfile.ZipInfo, path: Path) -> Iterator[bytes]:
@@ -95,18 +113,20 @@ def _column(letters: bytes) -> int:
     return n
 
 
-def _rows(path: Path, source: Source) -> tuple[list[list[Any]], str]:
-    """Rows of the wanted sheet, and its name. Small workbooks are kept: describing and reading follow each other."""
+def _rows(path: Path, source: Source) -> tuple[list[list[Any]], str, dict[str, int], list[str]]:
+    """Rows of the wanted sheet, its name, what check_size() counted, and the names of the other sheets.
+    Small workbooks are kept: describing and reading follow each other."""
     status = path.stat()
     key = (str(path.resolve()), status.st_mtime_ns, status.st_size, (source.table or {}).get("sheet"))
     return (_kept if status.st_size < _SMALL else _load)(*key)
 
 
-def _load(name: str, mtime_ns: int, size: int, wanted: int | str | None) -> tuple[list[list[Any]], str]:
+def _load(name: str, mtime_ns: int, size: int, wanted: int | str | None) -> tuple[
+        list[list[Any]], str, dict[str, int], list[str]]:
     import python_calamine
 
     path = Path(name)
-    check_size(path)
+    odd = check_size(path)
     try:
         book = python_calamine.CalamineWorkbook.from_path(str(path))
     except Exception as error:  # calamine has many error classes, all of which mean: not this file
@@ -129,7 +149,15 @@ def _load(name: str, mtime_ns: int, size: int, wanted: int | str | None) -> tupl
         raise FormatError(f"sheet '{sheet}' is empty", where=path.name, expected="a table")
     while rows and not any(c not in ("", None) for c in rows[-1]):
         rows.pop()
-    return rows, sheet
+    others = [n for n in names if wanted is None and n != sheet and _has_rows(book, n)]
+    return rows, sheet, odd, others
+
+
+def _has_rows(book: Any, name: str) -> bool:
+    try:
+        return int(book.get_sheet_by_name(name).height) > 1
+    except Exception:  # a chart, or a damaged sheet that nobody asked for
+        return False
 
 
 _kept = lru_cache(maxsize=1)(_load)
@@ -139,11 +167,20 @@ class Table:
     """A sheet in memory, column by column. decimal: of numbers that stand as text."""
 
     def __init__(self, path: Path, source: Source) -> None:
-        rows, self.sheet = _rows(path, source)
+        rows, self.sheet, odd, others = _rows(path, source)
         self.layout: Layout = find(rows[:500], source.table, f"{path.name} sheet '{self.sheet}'")
         self.columns = list(zip(*rows[self.layout.first:], strict=False))
         self.notes = list(self.layout.notes)
         self.losses: list[Loss] = []
+        if others:
+            self.notes.append(f"only sheet '{self.sheet}' is read, not {', '.join(others)}: a source for each, with "
+                              "table: {sheet: ...}")
+        for kind, count in odd.items():
+            if count and kind == "hidden":
+                self.notes.append(f"{count} hidden rows: they are read like the others")
+            elif count:
+                self.losses.append(Loss(f"{path.name}", None, None, None, f"{count} cells of the workbook {kind}: "
+                                        "they are empty"))
         said = (source.table or {}).get("decimal")
         columns = [c for i, c in enumerate(self.columns) if i not in self.layout.time]
         self.decimal = said or decimal_mark(c for col in columns for c in col[:200] if isinstance(c, str)) or "."
