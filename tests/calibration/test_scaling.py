@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from pathlib import Path
 
 import numpy as np
@@ -78,6 +79,66 @@ def test_one_reading_that_a_scale_cannot_take_spoils_itself_only() -> None:
     got = apply_scaling(ni(RTD), volts)
     assert np.isnan(got).tolist() == [False, False, True, False]
     assert got[[0, 1, 3]].tolist() == pytest.approx([0.0, -25.5, 25.7], abs=0.2)
+
+
+def scale(kind: str, **more: object) -> dict:
+    return {"Scale_Type": kind, f"{kind}_Input_Source": RAW, **{f"{kind}_{k}": v for k, v in more.items()}}
+
+
+def strain(configuration: int) -> dict:
+    return scale("Strain", Configuration=configuration, Poisson_Ratio=0.3, Gage_Resistance=350.0,
+                 Lead_Wire_Resistance=0.5, Initial_Bridge_Voltage=1e-5, Gage_Factor=2.1, Voltage_Excitation=2.5,
+                 Bridge_Shunt_Calibration_Gain_Adjustment=1.01)
+
+
+def thermistor(excitation: int, wires: int) -> dict:
+    return scale("Thermistor", Excitation_Type=excitation, Excitation_Value=2.5 if excitation == 10322 else 1e-4,
+                 Resistance_Configuration=wires, R1_Reference_Resistance=5000.0, Lead_Wire_Resistance=0.2,
+                 A=1.295361e-3, B=2.343159e-4, C=1.018703e-7, Temperature_Offset=273.15)
+
+
+def table(rising: bool) -> dict:
+    points = [(0.0, -5.0), (0.5, 2.0), (1.2, 30.0)]
+    pairs = points if rising else points[::-1]
+    listed = {f"{name}[{i}]": pair[k] for i, pair in enumerate(pairs)
+              for k, name in enumerate(("Pre_Scaled_Values", "Scaled_Values"))}
+    return scale("Table", Pre_Scaled_Values_Size=3, Scaled_Values_Size=3, **listed)
+
+
+@pytest.mark.parametrize("chain", [
+    [scale("Polynomial", Coefficients_Size=3, **{f"Coefficients[{i}]": i + 1.0 for i in range(3)})],
+    [table(True)], [table(False)], [scale("AdvancedAPI")],
+    *([strain(c)] for c in (10183, 10184, 10185, 10188, 10189, 10271, 10272)),
+    *([thermistor(e, w)] for e in (10322, 10134) for w in (2, 3, 4)),
+    *([scale("Thermocouple", Thermocouple_Type=t, Scaling_Direction=d)]
+      for t in (10047, 10055, 10072, 10073, 10077, 10082, 10085, 10086) for d in (0, 1)),
+    [RTD], [linear(1e3, 0.0), scale("Thermocouple", Thermocouple_Type=10073, Scaling_Direction=0) |
+            {"Thermocouple_Input_Source": 0}],
+    [linear(2.0, 0.0), linear(3.0, 1.0), {"Scale_Type": "Subtract", "Subtract_Left_Operand_Input_Source": 0,
+                                          "Subtract_Right_Operand_Input_Source": 1}],
+], ids=lambda c: "+".join(s["Scale_Type"] for s in c))
+@pytest.mark.parametrize("dtype", ["float64", "float32", "int16"])
+def test_every_scale_gives_what_nptdms_gives(chain: list[dict], dtype: str) -> None:
+    from types import SimpleNamespace
+
+    from nptdms.scaling import get_scaling
+
+    raw = np.array([1, 2, 0.11, 0.1005, 0.9, 0.4]).astype(dtype)
+    raw[raw == 0] = 1
+    scaling = ni(*chain)
+    # npTDMS cuts the voltages of integer temperatures to whole millivolts, so that it is given them as doubles
+    given = raw.astype(np.float64) if dtype == "int16" else raw
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        wanted = get_scaling(scaling.properties, {}, {}).scale(SimpleNamespace(data=given, scaler_data={}))
+    np.testing.assert_array_equal(apply_scaling(scaling, raw), wanted.astype(np.float64))
+
+
+def test_raw_integers_do_not_overflow_when_they_are_added() -> None:
+    both = Scaling("ni", {"NI_Number_Of_Scales": 3, "NI_Scale[2]_Scale_Type": "Add",
+                          "NI_Scale[2]_Add_Left_Operand_Input_Source": 0,
+                          "NI_Scale[2]_Add_Right_Operand_Input_Source": 1})
+    assert apply_scaling(both, {0: np.array([200], np.uint8), 1: np.array([100], np.uint8)}).tolist() == [300.0]
 
 
 def test_several_scalers_need_several_raw_columns() -> None:

@@ -45,6 +45,8 @@ def apply_scaling(scaling: Scaling | None, raw: Raw, *, channel: str | None = No
     if scale is None:                                     # status "scaled": the file holds scaled values
         return _plain(raw, channel)
     data, scalers = _inputs(scaling, raw, channel)
+    # npTDMS adds raw integers in their own width, where 200 + 100 is 44, and cuts what it makes of them to integers
+    data, scalers = None if data is None else _wide(data), {k: _wide(v) for k, v in scalers.items()}
     n = len(data) if data is not None else len(next(iter(scalers.values())))
     return _scale(scale, data, scalers, np.arange(n)) if n else np.empty(0)
 
@@ -141,6 +143,11 @@ def _ni(scaling: Scaling) -> Any:
     # npTDMS fills below 0 degC afterwards what its square root leaves open
     warnings.filterwarnings("ignore", message="'where' used without 'out'", category=UserWarning)
     return get_scaling(scaling.properties, {}, {})
+
+
+def _wide(raw: Array) -> Array:
+    """Integers as float64; floats as they are, for npTDMS scales float32 in float32."""
+    return raw.astype(np.float64) if raw.dtype.kind in "iub" else raw
 
 
 def _plain(raw: Raw, channel: str | None) -> Float1D:
