@@ -74,6 +74,7 @@ def main() -> int:
     parser.add_argument("--moments", type=int, default=30)
     parser.add_argument("--seed", type=int, default=0)
     parser.add_argument("--folder", type=Path)
+    parser.add_argument("--only", help="one of the operations")
     given = parser.parse_args()
     place = given.folder or Path(tempfile.mkdtemp(prefix="kill-"))
     rng = random.Random(given.seed)
@@ -93,7 +94,7 @@ def main() -> int:
     bad = 0
     print(f"\n{'operation':10} {'killed':>7} {'too late':>9} {'before':>7} {'after':>6} {'between':>8} "
           f"{'again equal':>12} {'left over':>10}")
-    for op, start, argument, moments in plan:
+    for op, start, argument, moments in (p for p in plan if given.only in (None, p[0])):
         shutil.copytree(place / start, place / "try")
         if op == "gc":
             _litter(place / "try/store")
@@ -114,6 +115,7 @@ def main() -> int:
                     _litter(store)
                 cut = killed(op, store, argument, rng.uniform(0, lasts))
                 seen["killed" if cut else "finished"] += 1
+            (place / "out.duckdb").unlink(missing_ok=True)
             try:
                 if op == "migrate":
                     state = _migrated(store)
