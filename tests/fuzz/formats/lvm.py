@@ -172,7 +172,8 @@ def _cell(seed: Seed, lines: list[bytes], at: int, rng: random.Random) -> Mutati
         cells[i] = rng.choice(JUNK).encode()
     # the free text behind the numbers may be anything, and so may a number that is one; a row of which the text
     # says that nothing was measured is flagged already
-    anything = (b"LOST" in lines[at] and (what == "emptied" or i == len(lines[at].split(separator)) - 1)) or \
+    blank = what == "emptied" or (what == "junk" and not cells[i].strip())
+    anything = (b"LOST" in lines[at] and (blank or i == len(lines[at].split(separator)) - 1)) or \
         (what == "junk" and cells[i] in (b"1,5", b"NaN"))
     return Mutation(b"".join([*lines[:at], separator.join(cells) + end, *lines[at + 1:]]), f"cell {what}", anything,
                     anything)
