@@ -131,8 +131,9 @@ def plan(view: memoryview, name: str, source: Source) -> Plan:
     if relative:
         notes.append("log times count from the start of the recording")
     stamped = {}
+    different = {c.topic for c, b in batches.items() if not _same(b)}
     for topic in found.topics:
-        same = not chosen_options.publish and all(_same(b) for c, b in batches.items() if c.topic == topic)
+        same = not chosen_options.publish and topic not in different
         if chosen_options.time != "log_time":
             stamped[topic] = "log_time"
         elif not same:

@@ -9,14 +9,14 @@ from pathlib import Path
 from threading import Lock
 
 from thermodata.plugin import Block, Loss, Recording, Signal, Source
-from thermodata_reader_mcap.columns import Topic
 from thermodata_reader_mcap.content import opened, walk
 from thermodata_reader_mcap.plan import Plan, content, plan, wanted_topic
 from thermodata_reader_mcap.summary import Summary
 from thermodata_reader_mcap.writer import BATCH, Writer, time_name
 
 _CRC_STEP = 16 << 20
-_KEPT = 2
+_KEPT = 2                # first looks that are remembered
+_LONGEST = 200           # of a channel's own texts that become properties of its signals
 _PLANS: dict[tuple[object, ...], Plan] = {}
 _LOCK = Lock()
 
@@ -30,8 +30,9 @@ def describe(path: Path, source: Source) -> Recording:
             while len(_PLANS) > _KEPT:
                 _PLANS.pop(next(iter(_PLANS)))
     signals: list[Signal] = []
+    told = _properties(found)
     for topic in found.topics.values():
-        properties = _properties(found, topic)
+        properties = told.get(topic.name, {})
         signals += [Signal(leaf.name, topic.name, leaf.unit, leaf.dtype, None, {**properties, **dict(leaf.properties)})
                     for leaf in topic.leaves]
         if topic.name in found.stamped:
@@ -53,14 +54,14 @@ def _remembered(view: memoryview, path: Path, source: Source) -> Plan:
     return plan(view, path.name, source) if found is None else found
 
 
-def _properties(found: Plan, topic: Topic) -> dict[str, str]:
-    """The schema's name and the channel's own pairs."""
-    result: dict[str, str] = {}
+def _properties(found: Plan) -> dict[str, dict[str, str]]:
+    """By topic: the schema's name and the channel's own pairs."""
+    result: dict[str, dict[str, str]] = {}
     for channel in found.readers:
-        if channel.topic == topic.name:
-            result |= {key: value for key, value in channel.metadata if len(value) <= 200}
-            if channel.schema is not None and channel.schema.name:
-                result["schema"] = channel.schema.name
+        mine = result.setdefault(channel.topic, {})
+        mine |= {key: value for key, value in channel.metadata if len(value) <= _LONGEST}
+        if channel.schema is not None and channel.schema.name:
+            mine["schema"] = channel.schema.name
     return result
 
 
