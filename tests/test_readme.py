@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import os
 import re
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -38,6 +41,16 @@ def test_its_reader_reads_and_reports_losses(tmp_path: Path) -> None:
     path.write_text("BAR\n")
     with pytest.raises(FormatError):
         reader.describe(path, Source())
+
+
+def test_its_reader_passes_the_kit_by_its_own_test(tmp_path: Path) -> None:
+    (tmp_path / "my_package.py").write_text(block("python", "class Reader"))
+    (tmp_path / "test_foo.py").write_text(block("python", "reader_checks"))
+    (tmp_path / "sample.foo").write_text("FOO1 T degC\n" + "".join(f"{i / 2} {20 + i / 8}\n" for i in range(12)))
+    done = subprocess.run([sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", "test_foo.py"], cwd=tmp_path,
+                          env={**os.environ, "PYTHONPATH": str(tmp_path)}, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stdout
+    assert int(re.findall(r"(\d+) passed", done.stdout)[0]) > 20
 
 
 def test_its_campaign_and_model_load(tmp_path: Path) -> None:
