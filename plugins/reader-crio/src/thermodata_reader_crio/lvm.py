@@ -184,7 +184,9 @@ class _Reading:
             return {}, None
         empty = {c: np.isnan(rows.numbers[c]) for c in self.packet.columns}
         wrong = mask(rows.n, [r for r, _ in rows.wrong])
-        hopeless = np.logical_and.reduce([*empty.values(), wrong]) if wrong.any() else None
+        # a word at the start of a line is none of a row: a heading that the end of the file cut
+        words = mask(rows.n, [r for r, c in rows.wrong if c == 0])
+        hopeless = words | np.logical_and.reduce([*empty.values(), wrong]) if wrong.any() else None
         return {c: m for c, m in empty.items() if m.any()}, hopeless
 
     def _block(self, rows: Rows, group: list[int], words: Array | None, empty: dict[int, Bool1D],

@@ -36,9 +36,16 @@ def describe(path: Path, source: Source) -> Recording:
         signals=tuple(c.signal for s in file.streams for c in s.channels),
         clock="absolute" if absolute else "relative",
         start_ns=min(starts) if absolute and starts else (0 if absolute else None),
-        complete=file.index.damage is None and not file.index.holes and not file.partly,
+        complete=_complete(file),
         notes=tuple(notes),
     )
+
+
+def _complete(file: File) -> bool | None:
+    """False where something is gone. A file that ends behind one of several segments may have had more."""
+    if file.index.damage is not None or file.index.holes or file.partly:
+        return False
+    return True if file.index.segments == 1 else None
 
 
 def _any_absolute(file: File) -> bool:
