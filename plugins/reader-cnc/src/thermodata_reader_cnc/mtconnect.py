@@ -14,7 +14,8 @@ from thermodata.errors import FormatError
 from thermodata.plugin import Block, Loss, Recording, Source
 from thermodata_reader_cnc import events, series
 from thermodata_reader_cnc.events import Event, HeldTable
-from thermodata_reader_cnc.mtdocuments import Document, Names, Observation, documents
+from thermodata_reader_cnc.mtdocuments import documents
+from thermodata_reader_cnc.mtparse import Document, Names, Observation
 
 _END = re.compile(rb"</(?:[\w.-]+:)?MTConnectStreams\s*>")
 _LOOK = 8 << 20

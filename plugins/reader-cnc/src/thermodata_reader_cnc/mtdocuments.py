@@ -7,203 +7,17 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from dataclasses import dataclass, field
 from pathlib import Path
 from xml.parsers import expat
 
 from thermodata.plugin import Loss
+from thermodata_reader_cnc.mtparse import Document, EndError, Names, NextError, Parser, UntrustedError
 
 ROOT = re.compile(rb"<(?:[\w.-]+:)?MTConnectStreams[\s>/]")
 _ENCODING = re.compile(rb"<\?xml[^>]{0,200}encoding=[\"']([\w.-]+)")
 _PART = 1 << 18
 _TAIL = 512                  # bytes kept of what is no document: a root or its XML declaration may begin there
 _MOST = 200_000              # observations of a document that wait to be put in order
-_MOST_TEXT = 1 << 24         # characters of one value
-_DEEP = 256
-
-
-@dataclass(frozen=True, slots=True)
-class Observation:
-    """rate_hz, count: of a time series. element: the tag (Temperature, Fault)."""
-
-    sequence: int
-    time: str
-    key: str
-    value: str
-    series: bool = False
-    rate_hz: float | None = None
-    count: int | None = None
-
-
-@dataclass(slots=True)
-class Document:
-    """instance, first, next: of the agent's header, None where it has none. whole: its end was read."""
-
-    place: str
-    instance: int | None = None
-    first: int | None = None
-    next: int | None = None
-    observations: list[Observation] = field(default_factory=list)
-    assets: int = 0
-    undated: int = 0
-    whole: bool = False
-
-
-@dataclass(slots=True)
-class Names:
-    """Data item -> signal name: its own name, or its id where it has none or another item has it too. entries: the
-    entries of data sets and tables by the item's name."""
-
-    taken: dict[str, str] = field(default_factory=dict)
-    properties: dict[str, dict[str, str]] = field(default_factory=dict)
-    entries: dict[str, set[str]] = field(default_factory=dict)
-
-    def of(self, device: str, component: str, group: str, tag: str, attributes: dict[str, str]) -> str:
-        """The signal name of an observation."""
-        item = attributes.get("dataItemId", "").rstrip("=") or tag
-        name = attributes.get("name", "").rstrip("=") or item
-        owner = f"{device}/{item}"
-        for candidate in (name, item, owner):
-            if self.taken.setdefault(candidate, owner) == owner:
-                if candidate not in self.properties:
-                    said = {"dataItemId": item, "device": device, "component": component, "type": tag,
-                            "subType": attributes.get("subType", ""), "category": group.rstrip("s").upper()}
-                    self.properties[candidate] = {k: v for k, v in said.items() if v}
-                return candidate
-        return owner
-
-
-class _EndError(Exception):
-    """The root ended."""
-
-
-class _NextError(Exception):
-    """Another root inside the document: this one has no end."""
-
-
-class _UntrustedError(Exception):
-    """A document type or entities."""
-
-
-class _Parser:
-    """One document."""
-
-    def __init__(self, document: Document, names: Names, encoding: str | None) -> None:
-        self.document, self.names = document, names
-        self.parser = expat.ParserCreate(encoding)
-        self.parser.buffer_text = True
-        self.parser.StartElementHandler = self._start
-        self.parser.EndElementHandler = self._end
-        self.parser.CharacterDataHandler = self._text
-        self.parser.StartDoctypeDeclHandler = self._refuse
-        self.parser.EntityDeclHandler = self._refuse
-        self.depth = self.stop = 0
-        self.device = self.component = self.group = ""
-        self.at = [0, 0, 0, 0]                      # depths of device, component, group, observation (0: none)
-        self.tag = ""
-        self.attributes: dict[str, str] = {}
-        self.words: list[str] = []
-        self.size = 0
-        self.keys: list[str] = []
-        self.cells: list[tuple[str, str]] = []
-
-    def _refuse(self, *_: object) -> None:
-        raise _UntrustedError
-
-    def _start(self, name: str, attributes: dict[str, str]) -> None:
-        self.depth += 1
-        if self.depth > _DEEP:
-            raise _UntrustedError
-        tag = name.rsplit(":", 1)[-1]
-        if tag == "MTConnectStreams" and self.depth > 1:
-            self.stop = self.parser.CurrentByteIndex     # expat itself runs on to the end of the part
-            raise _NextError
-        if self.at[3]:
-            if tag in ("Entry", "Cell"):
-                self.keys.append(attributes.get("key", ""))
-                self.words, self.size = ["UNAVAILABLE"] if attributes.get("removed") == "true" else [], 0
-        elif self.at[2]:
-            self.at[3], self.tag, self.attributes = self.depth, tag, attributes
-            self.words, self.size, self.keys, self.cells = [], 0, [], []
-        elif self.at[1]:
-            self.at[2], self.group = self.depth, tag
-        elif tag == "ComponentStream":
-            self.at[1] = self.depth
-            self.component = attributes.get("name", "").rstrip("=") or attributes.get("component", "").rstrip("=")
-        elif tag == "DeviceStream":
-            self.at[0], self.device = self.depth, attributes.get("name", "").rstrip("=")
-        elif tag == "Header":
-            header = {key: number(value) for key, value in attributes.items()}
-            self.document.instance, self.document.first = header.get("instanceId"), header.get("firstSequence")
-            self.document.next = header.get("nextSequence")
-
-    def _text(self, text: str) -> None:
-        if self.at[3]:
-            self.size += len(text)
-            if self.size > _MOST_TEXT:
-                raise _UntrustedError
-            self.words.append(text)
-
-    def _end(self, name: str) -> None:
-        if self.depth == self.at[3]:
-            self._observed()
-        elif self.at[3] and self.keys:
-            tag = name.rsplit(":", 1)[-1]
-            value = "".join(self.words).strip()
-            if tag in ("Entry", "Cell"):
-                if value or tag == "Cell" or not any(key.startswith(f"[{self.keys[0]}][") for key, _ in self.cells):
-                    self.cells.append(("".join(f"[{key}]" for key in self.keys), value))
-                self.keys.pop()
-            self.words = []
-        for k in range(4):
-            if self.at[k] == self.depth:
-                self.at[k] = 0
-        self.depth -= 1
-        if not self.depth:
-            self.document.whole = True
-            self.stop = self.parser.CurrentByteIndex
-            raise _EndError
-
-    def _observed(self) -> None:
-        said, document = self.attributes, self.document
-        key = self.names.of(self.device, self.component, self.group, self.tag, said)
-        sequence, time = number(said.get("sequence")), said.get("timestamp", "").rstrip("=")
-        if sequence is None or not time:
-            document.undated += 1
-            return
-        value = "".join(self.words).strip()
-        add = document.observations.append
-        if self.group == "Condition":
-            add(Observation(sequence, time, key, self.tag.upper()))
-            text = "; ".join(p for p in (said.get("nativeCode", ""), said.get("nativeSeverity", ""),
-                                         said.get("qualifier", ""), value) if p)
-            if text or self.tag == "Normal":
-                add(Observation(sequence, time, f"{key}[message]", text or "UNAVAILABLE"))
-        elif self.tag.endswith("TimeSeries") or ("sampleRate" in said and len(value.split(None, 1)) > 1):
-            rate = said.get("sampleRate", "")
-            add(Observation(sequence, time, key, value, True, _float(rate), number(said.get("sampleCount"))))
-        elif self.cells or key in self.names.entries:
-            known = self.names.entries.setdefault(key, set())
-            known.update(place for place, _ in self.cells)
-            cells = self.cells if value != "UNAVAILABLE" else [(place, value) for place in sorted(known)]
-            for place, cell in cells:
-                add(Observation(sequence, time, f"{key}{place}", cell))
-        else:
-            document.assets += self.tag.startswith("Asset")
-            add(Observation(sequence, time, key, value))
-
-
-def number(text: str | None) -> int | None:
-    """A whole number of up to 18 digits at the start of a text."""
-    digits = re.match(r"\s*(\d{1,18})(?!\d)", text or "", re.ASCII)
-    return int(digits[1]) if digits else None
-
-
-def _float(text: str) -> float | None:
-    try:
-        return float(text)
-    except ValueError:
-        return None
 
 
 def documents(path: Path, names: Names, start: int = 0, stop: int | None = None) -> Iterator[Document | Loss]:
@@ -235,7 +49,7 @@ def documents(path: Path, names: Names, start: int = 0, stop: int | None = None)
             counted += 1
             encoding = _ENCODING.search(before[-_TAIL:])
             place = f"{path.name} document {counted} (byte {offset})"
-            parser = _Parser(Document(place), names, encoding[1].decode() if encoding else None)
+            parser = Parser(Document(place), names, encoding[1].decode() if encoding else None)
             wrong, begin = "", offset
             while True:
                 wrong, used = _feed(parser, data, offset - begin)
@@ -266,15 +80,15 @@ def _fragments(between: bytes) -> int:
     return len(re.findall(rb"<(?![?!])", between)) + between.count(b"<!DOCTYPE") + between.count(b"<!ENTITY")
 
 
-def _feed(parser: _Parser, data: bytes, fed: int) -> tuple[str, int]:
+def _feed(parser: Parser, data: bytes, fed: int) -> tuple[str, int]:
     """(what is wrong, bytes of data that belong to the document) of a part. fed: bytes fed before."""
     try:
         parser.parser.Parse(data, False)
-    except _EndError:
+    except EndError:
         return "", data.find(b">", max(0, parser.stop - fed)) + 1 or len(data)
-    except _NextError:
+    except NextError:
         return "another one begins in it", max(1, parser.stop - fed)
-    except _UntrustedError:
+    except UntrustedError:
         return "refused", len(data) if parser.depth > 1 else 1
     except expat.ExpatError as error:
         return expat.ErrorString(error.code), max(1, parser.parser.ErrorByteIndex - fed)

@@ -10,8 +10,8 @@ import numpy as np
 from thermodata.plugin import Array, Block, Int1D, Loss
 from thermodata.reader.text import clean, last_line_is_whole
 from thermodata.reader.zone import NAT
-from thermodata.schema.flag import Flag
 from thermodata_reader_cnc import when
+from thermodata_reader_cnc.arrowcolumns import MISSING, relative_ns, to_numpy
 from thermodata_reader_cnc.cells import as_bool, as_float, as_int
 from thermodata_reader_cnc.chunks import ODD, Chunk
 from thermodata_reader_cnc.columns import FALSE, NOTHING, TRUE
@@ -25,7 +25,6 @@ if TYPE_CHECKING:
     from thermodata_reader_cnc.plain import Plan
 
 _SMALL = 16 * 1024
-_MISSING = np.uint16(Flag.NOT_MEASURING)      # no NaN in integers and booleans: 0, and not valid
 _Part = tuple[Int1D, dict[str, Array], dict[str, Array]]
 
 
@@ -113,7 +112,7 @@ class RowReader:
         values: dict[str, Array] = {}
         flags: dict[str, Array] = {}
         for column in self.plan.columns:
-            values[column.name], missing = _numpy(table.column(str(column.place)), column.dtype)
+            values[column.name], missing = to_numpy(table.column(str(column.place)), column.dtype)
             if missing is not None:
                 flags[column.name] = missing
         return local, values, flags
@@ -124,7 +123,7 @@ class RowReader:
             seconds = table.column(str(column)).to_numpy()
             if not np.isfinite(seconds).all():
                 raise _OddError
-            return _relative_ns(seconds, form.unit_ns)
+            return relative_ns(seconds, form.unit_ns)
         total = np.zeros(table.num_rows, np.int64)
         for column, form in self.layout.time:
             part = when.parse(table.column(str(column)), form)
@@ -162,7 +161,7 @@ class RowReader:
                 missing = np.array([c is None for c in cells], bool)
                 values[column.name] = np.array([0 if c is None else c for c in cells], np.dtype(column.dtype))
                 if missing.any():
-                    flags[column.name] = missing * _MISSING
+                    flags[column.name] = missing * MISSING
         return np.array(times, np.int64), values, flags
 
     def _row(self, text: str, line: int, row: int) -> tuple[int, list[Any]] | None:
@@ -205,7 +204,7 @@ class RowReader:
         value = as_float(clean(cells[self.layout.time_columns[0]]), self.decimal)
         if value is None or not np.isfinite(value):
             return None
-        return int(_relative_ns(np.array([value]), self.layout.time[0][1].unit_ns)[0])
+        return int(relative_ns(np.array([value]), self.layout.time[0][1].unit_ns)[0])
 
     def _cell(self, cell: str, dtype: str) -> Any:
         if dtype == "str":
@@ -240,28 +239,3 @@ class RowReader:
             yield from self.losses.dated(np.empty(0, np.int64))
             return
         yield from self._part(tail + b"\n", line)
-
-
-def _relative_ns(values: Array, unit_ns: int) -> Int1D:
-    """Numbers of a unit as nanoseconds, without the noise of a float product where the whole part is large."""
-    whole = np.floor(values)
-    return whole.astype(np.int64) * unit_ns + np.round((values - whole) * unit_ns).astype(np.int64)
-
-
-def _numpy(column: pa.ChunkedArray, dtype: str) -> tuple[Array, Array | None]:
-    """A column's values, and the flags of cells that are missing where the dtype has no NaN."""
-    if dtype == "str":
-        return _text(column), None
-    if dtype == "float64" or not column.null_count:
-        return column.to_numpy().astype(dtype, copy=False), None
-    flags = column.is_null().to_numpy().astype(np.uint16) * _MISSING
-    return column.fill_null(False if dtype == "bool" else 0).to_numpy().astype(dtype, copy=False), flags
-
-
-def _text(column: pa.ChunkedArray) -> Array:
-    """Text as objects that share their strings; blank cells are None."""
-    parts = []
-    for chunk in column.chunks:
-        words = np.array([*(w.strip().strip('"').strip() or None for w in chunk.dictionary.to_pylist()), None], object)
-        parts.append(words[chunk.indices.fill_null(len(words) - 1).to_numpy(zero_copy_only=False)])
-    return np.concatenate(parts) if parts else np.empty(0, object)
