@@ -111,7 +111,7 @@ def _rows(lines: Sequence[str], names_at: int, delimiter: str) -> tuple[dict[str
         if word in _KEYS or number == names_at:
             key = "name" if number == names_at else word
             rows[key] = cells
-        elif _is_data(line, delimiter) and len(cells) >= min(2, len(rows["name"])) and not (
+        elif _is_data(line, delimiter) and not (
                 key == "symbolcomment" and len(rows[key]) < len(rows["name"])):
             return rows, number
         elif key == "symbolcomment" and line.strip():
