@@ -98,7 +98,7 @@ def _test(view: StoreView, test: dict[str, Any], bins: int) -> TestQuality:
         rows.setdefault(row["channel"], []).append(row)
     events = records(view, "select * from quality where campaign = ? and test = ? order by from_s, channel", own)
     lost = records(view, "select distinct source_path, losses from file where campaign = ? and test = ? and "
-                         "losses is not null order by 1", own)
+                         "losses is not null and layer <> 'superseded' order by 1", own)
     return TestQuality(
         own[0], own[1], test["kind"], float(test["duration_s"] or stop - start), start, width,
         tuple(_trace(channels[name], rows[name], bins) for name in channels if name in rows), tuple(events),
