@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from thermodata.calibration.quality import ColumnInput, flag_stream
+from thermodata.calibration.quality_concise import concise
 from thermodata.draft.guess import guess
 from thermodata.draft.values import values_of
 from thermodata.errors import UsageError
@@ -134,7 +135,7 @@ def flagged(watch: Watch, stream: str, signals: list[Signal], meant: Meant | Non
         told[name]["flags"] = {f.name.lower(): n for f in Flag
                                if f.name and (n := int(((column & np.uint16(f)) != 0).sum()))}
     listed = [{"signal": e.channel, "flag": e.flag, "from": when(e.from_ns, absolute), "to": when(e.to_ns, absolute),
-               "n": e.n, "detail": e.detail} for e in events[:20]]
+               "n": e.n, "detail": e.detail} for e in concise(events)[:20]]
     return told, listed
 
 
