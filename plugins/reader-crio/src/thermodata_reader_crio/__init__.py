@@ -35,6 +35,20 @@ class Reader:
         found: Iterator[Block | Loss] = _format(path).blocks(path, source)
         return found
 
+    def place(self, path: Path, source: Source, stream: str, row: int) -> str:
+        """Where a row (counted from 0) of a stream stands: segment and bytes of a TDMS file, the line of a text."""
+        module = _format(path)
+        where: str | None
+        if module.__name__.endswith(".tdms"):
+            from thermodata_reader_crio import places
+
+            where = places.place(path, source, stream, row)
+        else:
+            from thermodata_reader_crio import textparts
+
+            where = textparts.place(module.blocks, path, source, stream, row)
+        return where or f"row {row + 1}"
+
 
 def _is_lvm(start: bytes) -> bool:
     if not start[:200].lstrip(b"\xef\xbb\xbf\xff\xfe").startswith((b"LabVIEW", b"L\0a\0b\0V\0I\0E\0W")):

@@ -74,7 +74,7 @@ class ClockChange(NamedTuple):
 @dataclass(slots=True)
 class Index:
     """The walk's result. good_end: the first byte that no good segment covers; expected_end: where the file
-    should have ended, if the last lead-in says so."""
+    should have ended, if the last lead-in says so; starts: the first byte of each good segment."""
 
     size: int
     properties: dict[str, dict[str, Any]] = field(default_factory=dict)
@@ -87,7 +87,11 @@ class Index:
     good_end: int = 0
     expected_end: int | None = None
     damage: str | None = None
-    segments: int = 0
+    starts: array[int] = field(default_factory=lambda: array("q"))
+
+    @property
+    def segments(self) -> int:
+        return len(self.starts)
 
     def note(self, text: str) -> None:
         """Keeps a note; a file that repeats itself 86,400 times says it ten times."""

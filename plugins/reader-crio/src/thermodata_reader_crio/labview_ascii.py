@@ -21,7 +21,7 @@ from thermodata_reader_crio.clock import step_ns
 from thermodata_reader_crio.comments import flags_of, texts
 from thermodata_reader_crio.labtime import EPOCH_1904_NS, counted_ns, seconds_ns
 from thermodata_reader_crio.rows import Grid, Rows, number, parse
-from thermodata_reader_crio.textparts import count_lines, decode, encoding_of, parts
+from thermodata_reader_crio.textparts import LineBlock, count_lines, decode, encoding_of, parts
 
 STREAM = "data"
 _HEAD_BYTES = 64 * 1024
@@ -77,9 +77,9 @@ def blocks(path: Path, source: Source) -> Iterator[Block | Loss]:
                        reason="the last line has no end: it may be cut")
         data, line = _behind_header(data, line, layout)
         rows = parse(data, grid)
-        block, good = _block(rows, layout, encoding, done, step_s)
+        block, good = _block(rows, layout, encoding, done, step_s, line)
         for a in range(0, block.t_ns.size, size or max(1, block.t_ns.size)):
-            yield _slice(block, a, a + (size or block.t_ns.size))
+            yield block.part(a, a + (size or block.t_ns.size))
         if block.t_ns.size:
             last_ns = int(block.t_ns[-1])
         yield from _losses(path, rows, good, data, line, layout, encoding)
@@ -110,7 +110,8 @@ def _times(rows: Rows, layout: Layout, done: int, step_s: float) -> tuple[Int1D,
     return counted_ns(done, rows.n, step_ns(step_s), 0)
 
 
-def _block(rows: Rows, layout: Layout, encoding: str, done: int, step_s: float) -> tuple[Block, Bool1D]:
+def _block(rows: Rows, layout: Layout, encoding: str, done: int, step_s: float,
+           line: int) -> tuple[LineBlock, Bool1D]:
     t_ns, good = _times(rows, layout, done, step_s)
     words = None if rows.text is None else texts(rows.text, encoding)
     said = None if words is None else flags_of(words)
@@ -125,12 +126,7 @@ def _block(rows: Rows, layout: Layout, encoding: str, done: int, step_s: float) 
             flags[layout.names[i]] = flag.astype(np.uint16)[good]
     if layout.text:
         values[layout.text] = (np.full(rows.n, "", object) if words is None else words)[good]
-    return Block(STREAM, t_ns[good], values, flags or None), good
-
-
-def _slice(block: Block, a: int, b: int) -> Block:
-    return Block(block.stream, block.t_ns[a:b], {k: v[a:b] for k, v in block.values.items()},
-                 None if block.flags is None else {k: v[a:b] for k, v in block.flags.items()})
+    return LineBlock(STREAM, t_ns[good], values, flags or None, rows.line[good] + line), good
 
 
 def _losses(path: Path, rows: Rows, good: Bool1D, data: bytes, line: int, layout: Layout,

@@ -22,7 +22,7 @@ from thermodata_reader_crio.lvm_scan import RowPart, scan
 from thermodata_reader_crio.lvm_streams import Streams, is_time
 from thermodata_reader_crio.lvm_times import Times, decimal_of, first_rows
 from thermodata_reader_crio.rows import Grid, Rows, mask, number, parse
-from thermodata_reader_crio.textparts import decode, encoding_of
+from thermodata_reader_crio.textparts import LineBlock, decode, encoding_of
 
 COMMENT = "Comment"
 
@@ -169,7 +169,7 @@ class _Reading:
         lost = list(rows.bad)
         empty, hopeless = self._unmeasured(rows)
         for count, group in enumerate(self.streams.groups(self.packet)):
-            block, good = self._block(rows, group, words, empty, hopeless)
+            block, good = self._block(rows, group, words, empty, hopeless, line)
             if good is not None:
                 lost += rows.line[~good & (self._has_value(group, empty, rows.n) | (count == 0))].tolist()
             yield from self._sliced(block)
@@ -190,7 +190,7 @@ class _Reading:
         return {c: m for c, m in empty.items() if m.any()}, hopeless
 
     def _block(self, rows: Rows, group: list[int], words: Array | None, empty: dict[int, Bool1D],
-               hopeless: Bool1D | None) -> tuple[Block, Bool1D | None]:
+               hopeless: Bool1D | None, line: int) -> tuple[LineBlock, Bool1D | None]:
         """One group's block; and which rows have a time and a value: None for all."""
         assert self.times is not None
         packet, n = self.packet, rows.n
@@ -208,12 +208,15 @@ class _Reading:
                 flag = said if flag is None else flag | said
             if flag is not None:
                 flags[packet.names[i]] = flag
+        lines = rows.line + line
         values[_comment(values)] = words if words is not None else np.full(n, "", object)
         if not keep.all():
             t_ns = t_ns[keep]
             values = {k: v[keep] for k, v in values.items()}
             flags = {k: v[keep] for k, v in flags.items()}
-        return Block(self.streams.of(packet, group), t_ns, values, flags or None), None if good.all() else good
+            lines = lines[keep]
+        block = LineBlock(self.streams.of(packet, group), t_ns, values, flags or None, lines)
+        return block, None if good.all() else good
 
     def _has_value(self, group: list[int], empty: dict[int, Bool1D], n: int) -> Bool1D:
         """Rows with a number in any of a group's columns."""
@@ -247,12 +250,10 @@ class _Reading:
             yield Loss(f"{self.path.name} line {line + int(rows.line[odd[0]])}", reason=f"{len(odd)} rows with a "
                        "number, or bytes of no text, where the comment stands")
 
-    def _sliced(self, block: Block) -> Iterator[Block]:
+    def _sliced(self, block: LineBlock) -> Iterator[LineBlock]:
         size = int(self.source.options.get("block_rows", 0)) or max(1, block.t_ns.size)
         for a in range(0, block.t_ns.size, size):
-            b = a + size
-            yield Block(block.stream, block.t_ns[a:b], {k: v[a:b] for k, v in block.values.items()},
-                        None if block.flags is None else {k: v[a:b] for k, v in block.flags.items()})
+            yield block.part(a, a + size)
 
     def end(self, last_ns: int | None) -> Iterator[Loss]:
         """Whether as many rows came as the heading announced."""

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import codecs
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
 from thermodata.errors import FormatError
+from thermodata.plugin import Block, Int1D, Loss, Source
 from thermodata.reader.text import find_encoding
 
 PART_BYTES = 8 * 1024 * 1024
@@ -24,6 +25,32 @@ class Part:
     line: int
     data: bytes
     ended: bool
+
+
+@dataclass(frozen=True, slots=True)
+class LineBlock(Block):
+    """A block whose rows know their lines in the file, counted from 1, shape (n,)."""
+
+    lines: Int1D | None = None
+
+    def part(self, first: int, last: int) -> LineBlock:
+        """Rows [first, last)."""
+        cut = slice(first, last)
+        return LineBlock(self.stream, self.t_ns[cut], {k: v[cut] for k, v in self.values.items()},
+                         None if self.flags is None else {k: v[cut] for k, v in self.flags.items()},
+                         None if self.lines is None else self.lines[cut])
+
+
+def place(blocks: Callable[[Path, Source], Iterator[Block | Loss]], path: Path, source: Source, stream: str,
+          row: int) -> str | None:
+    """The line of a row (counted from 0) of a stream, as an editor counts; None where there is no such row."""
+    done = 0
+    for block in blocks(path, source):
+        if isinstance(block, LineBlock) and block.stream == stream and block.lines is not None:
+            if row < done + block.t_ns.size:
+                return f"line {block.lines[row - done]}"
+            done += block.t_ns.size
+    return None
 
 
 def encoding_of(path: Path, declared: str | None) -> tuple[str, str | None]:

@@ -65,7 +65,7 @@ class Walk:
             index.expected_end = lead.end
             index.damage = f"byte {index.size}: the file ends inside raw data"
         index.good_end = end
-        index.segments += 1
+        index.starts.append(lead.start)
         self.last = Last(lead, end, first, layout, chunks, tail)
 
     def _pieces(self, lead: LeadIn, layout: int, chunks: int, tail: int, cut: bool) -> None:
