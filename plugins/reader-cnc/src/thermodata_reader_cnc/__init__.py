@@ -32,6 +32,13 @@ class Reader:
         items: Iterator[Block | Loss] = _module(path).blocks(path, source)
         return items
 
+    def place(self, path: Path, source: Source, stream: str, row: int) -> str:
+        """Where a row (counted from 0) of a stream stands: its line, or its record and byte."""
+        from thermodata_reader_cnc.place import place
+
+        module = _module(path)
+        return place(module.__name__.rsplit(".", 1)[-1], module, path, source, stream, row) or f"row {row + 1}"
+
 
 def _module(path: Path) -> Any:
     from thermodata.reader.registry import head

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import codecs
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from contextvars import ContextVar
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -27,6 +28,10 @@ class Chunk:
     size: int
     last: bool
     odd: tuple[int, ...] = ()
+
+
+# what stands between a file's chunks and the reading of its rows: nothing, but where place.py follows a row
+CUT: ContextVar[Callable[[Iterator[Chunk]], Iterator[Chunk]] | None] = ContextVar("CUT", default=None)
 
 
 @dataclass(frozen=True, slots=True)
@@ -110,6 +115,13 @@ def _lines(text: str, whole: bool) -> tuple[str, ...]:
 
 
 def chunks(path: Path, encoding: str, size: int = CHUNK) -> Iterator[Chunk]:
+    """The file's chunks; where somebody asks for the place of a row, cut further by CUT."""
+    cut = CUT.get()
+    found = _chunks(path, encoding, size)
+    return found if cut is None else cut(found)
+
+
+def _chunks(path: Path, encoding: str, size: int) -> Iterator[Chunk]:
     """The file's lines in chunks, without a byte order mark; lines end as in the file (a lone CR becomes LF). The
     last chunk is marked, and ends without a line end where the file does."""
     wide = _wide(encoding)
