@@ -11,6 +11,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from thermodata.calibration.jump import evaluate_jump
+from thermodata.calibration.plateaus import find_steps
 from thermodata.calibration.result import CalibrationResult
 from thermodata.errors import CalibrationError
 from thermodata.plugin import Float1D, Int1D
@@ -231,3 +232,12 @@ def test_a_result_is_a_row_of_the_catalogue_and_back() -> None:
     columns = [part.split()[0] for part in table.replace("\n", " ").split(",")]
     assert sorted(row) == sorted(columns)
     assert CalibrationResult.from_row(row) == result
+
+
+@pytest.mark.parametrize("n", [2, 3, 4])
+def test_a_recording_of_a_few_samples_is_refused_not_a_defect(n: int) -> None:
+    t_ns, volts = recording([100.0, -100.0])
+    with pytest.raises(CalibrationError):
+        evaluate_jump("jump_z", spec([100.0, -100.0]), t_ns[:n], volts[:n], {})
+    assert find_steps(t_ns[:n] / 1e9, volts[:n], 10.0) == ([], 0.0)
+    assert find_steps(t_ns[:n] / 1e9 * 1e-6, volts[:n], 10.0) == ([], 0.0)

@@ -74,6 +74,8 @@ def cells(t_s: Float1D, volts: Float1D, dwell_s: float) -> tuple[Float1D, Float1
 def find_steps(t_s: Float1D, volts: Float1D, dwell_s: float) -> tuple[list[Step], float]:
     """All significant steps in order of time, and the noise of a cell [V]. volts: finite, t_s: increasing."""
     t, v = cells(t_s, volts, dwell_s)
+    if len(v) < 3:
+        return [], 0.0                                     # a file that was cut behind its first samples
     cell = float(np.median(np.diff(t)))
     window, gap = max(2, round(_WINDOW * dwell_s / cell)), max(1, round(_GAP * dwell_s / cell))
     if len(v) < 2 * window + gap + 1:
