@@ -27,3 +27,9 @@ class Reader:
         from thermodata_reader_mcap import recording
 
         return recording.blocks(path, source)
+
+    def place(self, path: Path, source: Source, stream: str, row: int) -> str:
+        """Where a row (counted from 0) of a topic stands: message, chunk, byte and log time."""
+        from thermodata_reader_mcap.place import place
+
+        return place(path, source, stream, row) or f"row {row + 1}"

@@ -57,6 +57,8 @@ class Content:
     recordings: int = 0              # headers: more than one where files were joined
     pending: int = 0                 # bytes of messages taken since the batches were emptied
     last_ns: int | None = None
+    chunk: tuple[int, int] | None = None      # number and first byte of the one that is taken; None outside of any
+    follow: Callable[[Bytes, npt.NDArray[np.int64]], None] | None = None      # sees all messages as they are taken
 
     def loss(self, start: int, stop: int, reason: str, from_ns: int | None = None, to_ns: int | None = None) -> Loss:
         """A loss of bytes of the file, dated by the chunk or by the last message before."""
@@ -151,6 +153,7 @@ def _chunk(view: memoryview, record: Record, content: Content, number: int, inde
         yield content.loss(begin, stop, f"chunk {number}: {error}", *times)
         return
     used, lost = 0, 0
+    content.chunk = (number, begin)
     for part in found_messages(inner, [] if record.cut else index):
         if isinstance(part, Damage):
             if not record.cut or part.stop < len(inner):
@@ -164,6 +167,7 @@ def _chunk(view: memoryview, record: Record, content: Content, number: int, inde
             _take(inner, at, content)
             if full():
                 yield None
+    content.chunk = None
     if record.cut:
         missing = 1 - used / head.size if head.size else 0.0
         yield None
@@ -185,6 +189,8 @@ def _slices(at: npt.NDArray[np.int64]) -> Iterator[npt.NDArray[np.int64]]:
 
 
 def _take(inner: Bytes, at: npt.NDArray[np.int64], content: Content) -> None:
+    if content.follow is not None:
+        content.follow(inner, at)
     log_ns = take(inner, at, content.definitions.channel, content.key, content.batches, content.counts,
                   content.undefined)
     content.last_ns = int(log_ns[-1]) if log_ns[-1] < LATEST_NS else content.last_ns
