@@ -37,6 +37,12 @@ class Reader:
         found: Iterator[Block | Loss] = _format(path).blocks(path, source)
         return found
 
+    def place(self, path: Path, source: Source, stream: str, row: int) -> str:
+        """Where a row (counted from 0) of a stream stands: line, row of a sheet, index of an array, record."""
+        from thermodata_reader_table.place import place
+
+        return place(_format(path), path, source, stream, row) or f"row {row + 1}"
+
 
 def mat_is_hdf5(start: bytes) -> bool:
     from thermodata_reader_table.mat import is_hdf5
