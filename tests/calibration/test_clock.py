@@ -89,3 +89,13 @@ def test_missing_backward_and_short_input() -> None:
         estimate_offset(ns[:5], a[:5], ns, speed(t))
     with pytest.raises(CalibrationError, match="length"):
         estimate_offset(ns[:50], a, ns, speed(t))
+
+
+def test_steps_that_fall_on_the_samples_are_no_better_known_than_a_sample() -> None:
+    """A programme of whole minutes: every step is seen equally late, so more of them tell no more."""
+    levels = np.random.default_rng(3).permutation(33) * 1000.0
+    t_a, t_b = np.arange(0.0, 86_400.0, 5.0), np.arange(0.0, 86_400.0, 10.0)
+    got = estimate_offset(np.rint((t_a + 73.0) * 1e9).astype(np.int64) + T0, levels[(t_a // 2700).astype(int)],
+                          np.rint(t_b * 1e9).astype(np.int64) + T0, levels[(t_b // 2700).astype(int)])
+    assert got.uncertainty_ns / 1e9 >= np.hypot(5.0, 10.0) / np.sqrt(12)
+    assert abs(got.offset_ns / 1e9 + 73.0) < 2 * got.uncertainty_ns / 1e9
