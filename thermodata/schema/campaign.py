@@ -62,6 +62,7 @@ class Machine(Strict):
 
 class TimeColumn(Strict):
     column: int | str | list[int | str] | None = None     # 1-based, or the header's text; a list joins date and time
+    signals: list[int | str] | None = None                # of several times: the columns it is of; None: those behind it
     unit: str | None = None                               # relative times: s, min, h; None: found
     format: str | None = None                             # strptime, where the text is ambiguous
 
@@ -71,7 +72,7 @@ class TableLayout(Strict):
     header_rows: int | None = None
     units_row: int | None = None                          # 1-based row that holds the units
     skip_rows: int = 0
-    time: TimeColumn | None = None
+    time: TimeColumn | list[TimeColumn] | None = None     # a list where columns have times of their own
     delimiter: str | None = None
     decimal: Literal[".", ","] | None = None
 

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from thermodata_reader_table import Reader, workbook
+from thermodata_reader_table import Reader, workbook_check
 
 from thermodata.errors import FormatError, UsageError
 from thermodata.plugin import Source
@@ -48,7 +48,7 @@ def bomb(path: Path, members: dict[str, bytes]) -> Path:
 
 
 def test_a_workbook_that_unpacks_to_too_much_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(workbook, "MAX_UNPACKED", 10_000_000)
+    monkeypatch.setattr(workbook_check, "MAX_UNPACKED", 10_000_000)
     path = bomb(tmp_path / "x.xlsx", {"xl/workbook.xml": b"<a/>", "xl/worksheets/sheet1.xml": b" " * 20_000_000})
     assert path.stat().st_size < 100_000
     with pytest.raises(FormatError, match="unpacks to more than"):
@@ -56,12 +56,12 @@ def test_a_workbook_that_unpacks_to_too_much_is_refused(tmp_path: Path, monkeypa
 
 
 def test_a_header_that_lies_about_the_size_does_not_help(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(workbook, "MAX_UNPACKED", 1_000_000)
+    monkeypatch.setattr(workbook_check, "MAX_UNPACKED", 1_000_000)
     path = bomb(tmp_path / "x.xlsx", {"xl/worksheets/sheet1.xml": b" " * 2_000_000})
     size = (2_000_000).to_bytes(4, "little")
     path.write_bytes(path.read_bytes().replace(size, (1000).to_bytes(4, "little")))
     with pytest.raises(FormatError, match="unpacks to more than"):
-        workbook.check_size(path)
+        workbook_check.check_size(path)
 
 
 def test_two_cells_far_apart_are_refused(tmp_path: Path) -> None:
@@ -142,13 +142,6 @@ def test_errors_formulas_without_value_and_hidden_rows_are_told(tmp_path: Path) 
         "1 cells of the workbook hold a formula without its value (open the workbook once in a spreadsheet and save "
         "it)"]
     assert "1 hidden rows: they are read like the others" in data.recording.notes
-
-
-def test_sheets_that_are_not_read_are_named(tmp_path: Path) -> None:
-    rows = "".join(f'<row r="{i}"><c r="A{i}"><v>{i}</v></c><c r="B{i}"><v>{i}</v></c></row>' for i in range(2, 9))
-    path = least(tmp_path / "x.xlsx", HEAD + rows, '<sheet name="run 2" sheetId="2" r:id="r2"/>')
-    assert "not run 2" in load(Reader(), path, Source()).recording.notes[0]
-    assert load(Reader(), path, Source(table={"sheet": "run 2"})).recording.notes == ()
 
 
 def test_a_stray_cell_far_off_is_refused_with_what_to_do(tmp_path: Path) -> None:

@@ -72,7 +72,7 @@ def _sniff_text(head: Head) -> str | None:
         return None
     if layout.first == 0:
         return None                                  # without a header, nothing says what the columns are
-    if layout.seconds is None and delimiter in (";", "\t"):
+    if layout.groups[0].seconds is None and delimiter in (";", "\t"):
         # local dates between ';' or tabs are how controls export; the cnc reader claims them. Named in the campaign
         # file, this reader takes such a table just as well.
         return None

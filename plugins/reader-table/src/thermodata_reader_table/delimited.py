@@ -7,20 +7,18 @@ from collections import Counter
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import lru_cache
+from itertools import islice
 from pathlib import Path
 from typing import Any
-
-import numpy as np
 
 from thermodata.errors import FormatError
 from thermodata.plugin import Block, Loss, Recording, Signal, Source
 from thermodata.reader.text import decimal_mark, decode_head, file_encoding, last_line_is_whole
-from thermodata.reader.zone import NAT
-from thermodata_reader_table import stamps
 from thermodata_reader_table import text_fast as fast
 from thermodata_reader_table import text_rows as rows
-from thermodata_reader_table.layout import Layout, find, is_number
-from thermodata_reader_table.text_rows import STREAM, Sheet
+from thermodata_reader_table.cells import is_number
+from thermodata_reader_table.layout import Layout, find, one_clock
+from thermodata_reader_table.text_rows import Sheet
 
 DELIMITERS = (";", "\t", ",", "|")
 _HEAD_BYTES = 256 * 1024
@@ -104,7 +102,7 @@ def _open(asked: _Asked) -> Sheet:
     layout = find(rows_of, said, path.name)
     width = len(layout.names)
     body = [r + [""] * (width - len(r)) for r in rows_of[layout.first:]]
-    numbers = [c for r in body for i, c in enumerate(r[:width]) if layout.seconds is not None or i not in layout.time]
+    numbers = [c for r in body for i, c in enumerate(r[:width]) if i not in layout.dated]
     decimal = said.get("decimal") or (decimal_mark(numbers) if delimiter != "," else ".") or "."
     kinds = tuple(_kind(layout, i, [r[i] for r in body]) for i in range(width))
     notes = [*([note] if note else []), *layout.notes]
@@ -146,26 +144,13 @@ def _cut(path: Path, encoding: str, delimiter: str) -> str | None:
 def describe(path: Path, source: Source) -> Recording:
     sheet = open_sheet(path, source)
     layout = sheet.layout
-    signals = tuple(
-        Signal(name, STREAM, layout.units[i], sheet.kinds[i])
-        for i, name in enumerate(layout.names) if i not in layout.time
-    )
-    notes = list(sheet.notes)
-    first = _first_stamps(path, sheet, source)
-    notes += first.notes
-    if sheet.cut:
-        notes.append(sheet.cut)
-    absolute = first.absolute
-    start = first.t_ns[first.t_ns != NAT]
-    return Recording(signals, "absolute" if absolute else "relative", int(start[0]) if absolute and start.size else
-                     (0 if absolute else None), False if sheet.cut else None, tuple(notes))
-
-
-def _first_stamps(path: Path, sheet: Sheet, source: Source) -> stamps.Stamps:
-    chunk = next(rows.chunks(path, sheet, 2000), None)
-    if chunk is None:
-        return stamps.Stamps(np.zeros(0, np.int64), sheet.layout.seconds is None, ())
-    return rows.Clock(path, sheet, source).of([chunk])
+    signals = tuple(Signal(layout.names[i], group.stream, layout.units[i], sheet.kinds[i])
+                    for group in layout.groups for i in group.columns)
+    first = rows.times(path, sheet, source, islice(rows.chunks(path, sheet, 2000), 1))
+    notes = dict.fromkeys([*sheet.notes, *(note for f in first for note in f.notes)])
+    clock, start_ns = one_clock(first, layout.groups, path.name)
+    return Recording(signals, clock, start_ns, False if sheet.cut else None,
+                     (*notes, sheet.cut) if sheet.cut else tuple(notes))
 
 
 def blocks(path: Path, source: Source) -> Iterator[Block | Loss]:

@@ -2,58 +2,68 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
-from typing import Any
+from dataclasses import dataclass, replace
+from typing import Any, Literal
 
-import numpy as np
-
-from thermodata.errors import FormatError, UsageError, nearest
+from thermodata.errors import FormatError, UsageError
 from thermodata.reader.text import clean, looks_like_unit, split_unit
-from thermodata_reader_table.clocks import EPOCHS, SECONDS, check_unit, found_epoch
-from thermodata_reader_table.stamps import is_date, is_time_of_day
+from thermodata.reader.zone import NAT
+from thermodata_reader_table.cells import WORDS, Cell, is_empty, is_number, is_stamp
+from thermodata_reader_table.clocks import EPOCHS, SECONDS
+from thermodata_reader_table.groups import Span, spans
+from thermodata_reader_table.stamps import Stamps
+from thermodata_reader_table.time_columns import column, time_of
 
-Cell = Any   # text, or what a workbook holds: numbers, bool, datetime, date, time
-# "t" is a time, "T" a temperature
-_TIME_WORDS = re.compile(
-    r"^(t|(?i:time|zeit|čas|cas|temps|tiempo|tempo|datum|date|dátum|uhrzeit|timestamp|date[ _]?time|datetime|"
-    r"zeitstempel|elapsed([ _]?time)?|時間|时间|日時|日期|時刻|rel(ative)?[ _.]?time|t_s|time_s))\.?:?$")
-_NUMBER = re.compile(r"^[+-]?(\d+([.,]\d*)?|[.,]\d+)([eE][+-]?\d+)?$")
-_WORDS = {"nan", "inf", "-inf", "true", "false", "---", "-", "n/a", "#n/a", "null", ""}
+STREAM = "table"
+
+@dataclass(frozen=True)
+class Group:
+    """Columns with one time. stream: its name; time: columns of the time, from 0; seconds: of one unit of a relative
+    time, None for dates; epoch: of times counted from a date (clocks.EPOCHS); columns: its signals."""
+
+    stream: str
+    time: tuple[int, ...]
+    seconds: float | None
+    form: str | None
+    epoch: str | None
+    columns: tuple[int, ...]
+
+    @property
+    def dated(self) -> bool:
+        """Whether its times are texts, not numbers."""
+        return self.seconds is None and self.epoch is None
 
 
 @dataclass(frozen=True)
 class Layout:
     """first: rows before the data (preamble, header, units). names: header of each column as in the file, without
-    blanks around it. time: columns, from 0. seconds: of one unit of a relative time; None for dates."""
+    blanks around it. groups: one, or several where columns have times of their own."""
 
     first: int
     names: tuple[str, ...]
     units: tuple[str | None, ...]
-    time: tuple[int, ...]
-    seconds: float | None
-    form: str | None
+    groups: tuple[Group, ...]
     notes: tuple[str, ...] = ()
-    epoch: str | None = None           # of times counted from a date (clocks.EPOCHS); seconds is None then
 
+    @property
+    def time(self) -> tuple[int, ...]:
+        """The time columns of all groups."""
+        return tuple(i for g in self.groups for i in g.time)
 
-def is_number(cell: Cell) -> bool:
-    if isinstance(cell, str):
-        return _NUMBER.match(cell.strip()) is not None
-    return isinstance(cell, int | float)
+    @property
+    def dated(self) -> tuple[int, ...]:
+        """Columns of dates and times that are read as text."""
+        return tuple(i for g in self.groups if g.dated for i in g.time)
 
-
-def _is_stamp(cell: Cell) -> bool:
-    if isinstance(cell, str):
-        return is_date(cell) or is_time_of_day(cell)
-    return not isinstance(cell, int | float) and hasattr(cell, "isoformat")
+    def stream_of(self, column: int) -> str:
+        return next(g.stream for g in self.groups if column in g.columns)
 
 
 def _is_data(row: Sequence[Cell], width: int) -> bool:
     """Numbers or dates in a third of the filled cells, and as many cells as the table has, or one fewer."""
-    filled = [c for c in row if not (isinstance(c, str) and c.strip().lower() in _WORDS) and c is not None]
-    values = sum(is_number(c) or _is_stamp(c) for c in filled)
+    filled = [c for c in row if not (isinstance(c, str) and c.strip().lower() in WORDS) and c is not None]
+    values = sum(is_number(c) or is_stamp(c) for c in filled)
     return values >= 1 and values * 3 >= len(filled) and len(row) >= width - 1 and (len(filled) > 1 or width <= 2)
 
 
@@ -79,17 +89,114 @@ def find(rows: Sequence[Sequence[Cell]], declared: Mapping[str, Any] | None, whe
     if not data:
         raise FormatError("a table without data rows", where=where, expected=f"data after row {first}")
     lost = _between(rows[skip:first], width, skip) if header is None else []
-    time, unit, form, notes = _time(said.get("time") or {}, names, units, data, where)
-    epoch = unit if unit in EPOCHS else None
-    return Layout(first, tuple(names), tuple(units), time, None if unit is None else SECONDS.get(unit), form,
-                  (*notes, *lost), epoch)
+    groups, notes = _groups(said.get("time") or {}, names, units, data, where)
+    return Layout(first, tuple(names), tuple(units), tuple(groups), (*notes, *lost))
+
+
+def _groups(said: Mapping[str, Any] | Sequence[Mapping[str, Any]], names: list[str], units: list[str | None],
+            data: list[list[Cell]], where: str) -> tuple[list[Group], list[str]]:
+    """The times of a table, each with its columns: as declared (one, or a list), or as found."""
+    width = len(names)
+    if not isinstance(said, Mapping):
+        if len(said) > 1:
+            return declared_groups(said, names, units, data, where)
+        said = said[0] if said else {}
+    notes: list[str] = []
+    found: list[Span] = []
+    if said.get("column") is None:
+        found, notes = spans(names, units, data, where)
+    if not found:
+        time, unit, form, more = time_of(said, names, units, data, where)
+        rest = tuple(i for i in range(width) if i not in time)
+        return [_group(STREAM, time, unit, form, rest)], [*more, *notes]
+    groups = []
+    for span in found:
+        rows = [[r[i] for i in span.columns] for r in data if any(not is_empty(r[i]) for i in span.times)]
+        start = span.columns[0]
+        time, unit, form, more = time_of(said, [names[i] for i in span.columns], [units[i] for i in span.columns], rows,
+                                       where, tuple(i - start for i in span.times))
+        time = tuple(i + start for i in time)
+        groups.append(_group(names[time[0]], time, unit, form, tuple(i for i in span.columns if i not in time)))
+        notes += more
+    return groups, [f"{len(groups)} time columns, each with the columns behind it: streams "
+                    + ", ".join(g.stream for g in groups), *notes]
+
+
+def declared_groups(said: Sequence[Mapping[str, Any]], names: list[str], units: list[str | None],
+                    data: list[list[Cell]], where: str) -> tuple[list[Group], list[str]]:
+    """Groups of a declared list of times: each with its `signals`, or with the columns behind it up to the next."""
+    width, notes, found = len(names), [], []
+    for one in said:
+        if one.get("column") is None:
+            raise UsageError("a time of several without its column", where=where,
+                             expected="table: {time: [{column: ...}, {column: ...}]}")
+        wanted = one["column"]
+        columns = [column(w, names, where) for w in (wanted if isinstance(wanted, list | tuple) else [wanted])]
+        rows = [r for r in data if not is_empty(r[columns[0]])]
+        time, unit, form, more = time_of(one, names, units, rows, where)
+        signals = one.get("signals")
+        own = None if signals is None else tuple(column(w, names, where) for w in signals)
+        found.append((time, unit, form, own))
+        notes += more
+    times = [i for time, *_ in found for i in time]
+    taken = {i for *_, own in found for i in own or ()}
+    twice = sorted({i for i in times if times.count(i) > 1 or i in taken})
+    counts = [i for *_, own in found for i in own or ()]
+    twice += sorted({i for i in counts if counts.count(i) > 1})
+    if twice:
+        raise UsageError(f"column '{names[twice[0]]}' is declared twice", where=where,
+                         expected="each column once, as a time or as a signal of one")
+    groups, left = [], set(range(width)) - set(times) - taken
+    for time, unit, form, own in found:
+        if own is None:
+            end = min((i for i in times if i > max(time)), default=width)
+            own = tuple(i for i in range(max(time) + 1, end) if i not in taken)
+        left -= set(own)
+        groups.append(_group(names[time[0]], time, unit, form, own))
+    if left:
+        first = groups[0]
+        groups[0] = replace(first, columns=tuple(sorted((*first.columns, *left))))
+        notes.append(f"columns of no declared time are read with '{first.stream}': "
+                     + ", ".join(names[i] for i in sorted(left)))
+    return groups, notes
+
+
+def _group(stream: str, time: tuple[int, ...], unit: str | None, form: str | None, columns: tuple[int, ...]) -> Group:
+    return Group(stream, time, None if unit is None else SECONDS.get(unit), form, unit if unit in EPOCHS else None,
+                 columns)
+
+
+def one_clock(times: Sequence[Stamps], groups: Sequence[Group], where: str) -> tuple[
+        Literal["absolute", "relative"], int | None]:
+    """(clock, start_ns) of a recording, by the times of each group. FormatError where some are dates and others not."""
+    kinds = {t.absolute for t in times if t.t_ns.size}
+    if len(kinds) > 1:
+        raise FormatError("some times are dates and others count from their start", where=where,
+                          got=", ".join(f"{g.stream}: {'dates' if t.absolute else 'relative'}"
+                                        for g, t in zip(groups, times, strict=True)),
+                          expected="one kind in a source",
+                          hint="declare one time: table: {time: {column: ...}}, and a second source for the others")
+    absolute = kinds.pop() if kinds else groups[0].seconds is None
+    starts = [int(good[0]) for t in times if (good := t.t_ns[t.t_ns != NAT]).size]
+    return ("absolute", min(starts, default=0)) if absolute else ("relative", None)
+
+
+def _spanning(rows: Sequence[Sequence[Cell]], width: int) -> list[int]:
+    """Which rows before the data span the table, and are no preamble; the last may leave out what is merged with
+    the row above it."""
+    filled = [[c for c in r[:width] if c not in ("", None)] for r in rows]
+    found = [i for i, cells in enumerate(filled) if len(cells) * 2 > width or len(rows) == 1]
+    last = len(rows) - 1
+    if found and found[-1] == last - 1 and len(filled[last]) > 1 and not any(map(is_number, filled[last])):
+        found.append(last)
+    return found
 
 
 def _between(rows: Sequence[Sequence[Cell]], width: int, skip: int) -> list[str]:
     """A note for lines between the header and the data that are part of neither."""
-    filled = [sum(c not in ("", None) for c in r[:width]) for r in rows]
-    spanning = [i for i, n in enumerate(filled) if n * 2 > width]
-    odd = [i + skip + 1 for i in range(spanning[-1] + 1, len(rows)) if filled[i]] if spanning else []
+    spanning = _spanning(rows, width)
+    odd = [i + skip + 1 for i in range(spanning[-1] + 1, len(rows))
+           if any(c not in ("", None) for c in rows[i][:width])] if spanning else []
     return [f"line {odd[0]} between header and data is not read ({len(odd)} such)"] if odd else []
 
 
@@ -114,22 +221,32 @@ def _heads(rows: Sequence[Sequence[Cell]], width: int, units_row: int | None) ->
     units: list[str | None] = [None] * width
     if units_row is not None and 0 <= units_row < len(texts):
         units = [u.strip("[]() ") or None for u in texts.pop(units_row)]
-    spanning = [r for r in texts if sum(map(bool, r)) * 2 > width or len(texts) == 1]
+    spanning = [texts[i] for i in _spanning(texts, width)]
     if units_row is None and len(spanning) >= 2:
         filled = [c for c in spanning[-1] if c]
         if sum(looks_like_unit(c) or c.startswith("[") for c in filled) * 2 > len(filled):
             units = [u.strip("[]() ") or None for u in spanning.pop()]
     names = spanning[-1] if spanning else [""] * width
-    if len(spanning) >= 2:
-        # two rows of names: the group above is written once, over the first of its columns
-        above, group = [], ""
-        for cell in spanning[-2]:
-            group = cell or group
-            above.append(group)
-        if len(set(names)) < len(names):
-            names = [f"{a}/{n}" if a and n and a != n else n or a for a, n in zip(above, names, strict=True)]
+    at = next((i for i in range(len(texts) - 1, 0, -1) if texts[i] is names), 0)
+    if at and any(texts[at - 1]):
+        names = _under(texts[at - 1], names)
     found = [split_unit(n)[1] for n in names]
     return names, [u or f for u, f in zip(units, found, strict=True)]
+
+
+def _under(above: list[str], names: list[str]) -> list[str]:
+    """Names below a row of groups, which are written once, over the first of their columns (merged cells): the group
+    tells names apart that repeat, and is the name where there is none below it."""
+    filled = [n or a for a, n in zip(above, names, strict=True)]
+    below = [n for n in names if n]
+    if len(set(below)) == len(below):
+        return filled
+    carried, group = [], ""
+    for cell in above:
+        group = cell or group
+        carried.append(group)
+    apart = [f"{g}/{n}" if g and n and g != n else n or a for g, n, a in zip(carried, names, above, strict=True)]
+    return apart if sum(map(bool, above)) > 1 and len(set(apart)) >= len(set(filled)) else filled
 
 
 def unique(names: Sequence[str]) -> list[str]:
@@ -141,95 +258,3 @@ def unique(names: Sequence[str]) -> list[str]:
             new, k = f"{base}#{k}", k + 1
         out.append(new)
     return out
-
-
-def column(wanted: int | str, names: Sequence[str], where: str) -> int:
-    if isinstance(wanted, int):
-        if not 1 <= wanted <= len(names):
-            raise FormatError(f"no column {wanted}", where=where, expected=f"1 to {len(names)}", got=str(wanted))
-        return wanted - 1
-    for fold in (str, str.casefold):
-        hits = [i for i, n in enumerate(names) if fold(wanted) in (fold(n), fold(split_unit(n)[0]))]
-        if len(hits) == 1:
-            return hits[0]
-    close = nearest(wanted, names)
-    raise UsageError(f"no time column '{wanted}'", where=where, expected=", ".join(names[:30]), got=wanted,
-                     hint=f"did you mean '{close}'?" if close else None)
-
-
-def _time(said: Mapping[str, Any], names: list[str], units: list[str | None], data: list[list[Cell]],
-          where: str) -> tuple[tuple[int, ...], str | None, str | None, list[str]]:
-    wanted, unit, form = said.get("column"), said.get("unit"), said.get("format")
-    if wanted is not None:
-        columns = tuple(column(w, names, where) for w in (wanted if isinstance(wanted, list | tuple) else [wanted]))
-    else:
-        columns = _find_time(names, units, data, where)
-    cells = [row[columns[0]] for row in data]
-    numeric = sum(map(is_number, cells)) * 2 > len(cells)
-    notes: list[str] = []
-    if form is not None or (not numeric and unit is None):
-        return columns, None, form, notes
-    text = unit or units[columns[0]]
-    if text is None:
-        text = _size_of_clock(names[columns[0]], cells, where)
-        notes.append(f"time column '{names[columns[0]]}' has no unit: " + (
-            "taken as seconds" if text == "s" else f"by its size it is {text}") +
-            "; declare table: {time: {unit: ...}} if that is wrong")
-    return columns, check_unit(str(text), where), None, notes
-
-
-def _size_of_clock(name: str, cells: Sequence[Cell], where: str) -> str:
-    """The unit of a time that names none: seconds, or a count from a date where its size leaves no other sense.
-    FormatError where it may be days or seconds."""
-    values = np.array([v for c in cells if (v := _value(c)) is not None], np.float64)
-    epoch = found_epoch(values) if values.size else None
-    if epoch is not None:
-        return epoch
-    days = values.size > 1 and bool(((values > 36_526) & (values < 73_051)).all()) and float(np.ptp(values)) < 400
-    if days and bool((np.abs(np.diff(values)) < 0.2).all()) and bool((values != np.floor(values)).any()):
-        if re.search(r"(?i)dat", name):
-            return "excel"
-        raise FormatError("times that may be Excel's days or seconds", where=where, got=f"{name}: {values[0]!r} ...",
-                          expected="a unit", hint="declare table: {time: {unit: excel}} or {time: {unit: s}}")
-    return "s"
-
-
-def _value(cell: Cell) -> float | None:
-    try:
-        return float(cell.replace(",", ".") if isinstance(cell, str) else cell)
-    except (ValueError, TypeError):
-        return None
-
-
-def _find_time(names: list[str], units: list[str | None], data: list[list[Cell]], where: str) -> tuple[int, ...]:
-    width = len(names)
-
-    def share(column: int, test: Any) -> float:
-        cells = [r[column] for r in data if r[column] not in ("", None)]
-        return sum(bool(test(c)) for c in cells) / len(cells) if cells else 0.0
-
-    def dated(c: Cell) -> bool:
-        return is_date(c) if isinstance(c, str) else hasattr(c, "year")
-
-    def clocked(c: Cell) -> bool:
-        return is_time_of_day(c) if isinstance(c, str) else hasattr(c, "hour") and not hasattr(c, "year")
-
-    words = [i for i in range(width) if _TIME_WORDS.match(split_unit(names[i])[0].strip())]
-    dates = [i for i in range(width) if share(i, dated) > 0.8]
-    clocks = [i for i in range(width) if share(i, clocked) > 0.8]
-    if dates:
-        first = next((i for i in dates if i in words), dates[0])
-        sample = next(r[first] for r in data if r[first] not in ("", None))
-        has_clock = ":" in sample if isinstance(sample, str) else hasattr(sample, "hour") and (
-            not clocks or any(r[first] and r[first].hour + r[first].minute + r[first].second for r in data))
-        return (first,) if has_clock or not clocks else (first, clocks[0])
-    if clocks:
-        return (clocks[0],)
-    numbers = [i for i in words if share(i, is_number) > 0.6]
-    if numbers:
-        return (numbers[0],)
-    if (units[0] or "").strip().lower() in SECONDS and share(0, is_number) > 0.6:
-        return (0,)
-    raise FormatError("no time column found", where=where, got=", ".join(names[:12]),
-                      expected="a column of dates, or one called time or with s, min or h as its unit",
-                      hint="declare table: {time: {column: 1, unit: s}}")

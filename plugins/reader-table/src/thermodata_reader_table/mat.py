@@ -15,6 +15,7 @@ from thermodata.plugin import Array, Block, Int1D, Loss, Recording, Signal, Sour
 from thermodata.reader.text import split_unit
 from thermodata.reader.zone import NAT
 from thermodata_reader_table import clocks, stamps
+from thermodata_reader_table.groups import one_time
 from thermodata_reader_table.layout import unique
 from thermodata_reader_table.mat_layout import Axis, Column, Planner, Stream
 from thermodata_reader_table.mat_tree import Tree
@@ -99,7 +100,7 @@ class Clocked:
         whole: Int1D | None = None
         absolute = False
         if axis.texts is not None:
-            form = ((self.source.table or {}).get("time") or {}).get("format")
+            form = one_time(self.source.table, self.where).get("format")
             found = stamps.parse(axis.texts, self.source.timezone, form, f"{self.where} {axis.path}")
             whole, absolute = found.t_ns, found.absolute
             self._note(found.notes)
@@ -115,7 +116,7 @@ class Clocked:
 
     def _unit(self, axis: Axis) -> str:
         assert axis.load is not None
-        declared = ((self.source.table or {}).get("time") or {}).get("unit")
+        declared = one_time(self.source.table, self.where).get("unit")
         text = declared or axis.unit
         if text is not None:
             try:

@@ -13,6 +13,7 @@ from thermodata.errors import FormatError, UsageError, nearest
 from thermodata.plugin import Array, Loss
 from thermodata.reader.text import split_unit
 from thermodata_reader_table import mat_names as say
+from thermodata_reader_table.groups import one_time
 from thermodata_reader_table.mat_tree import Cells, Node, Numbers, Odd, Struct, Structs, Text, Tree, refusal
 
 _LOOK = 2000                       # values by which a time is judged
@@ -83,7 +84,7 @@ class Planner:
         self.where, self.notes, self.losses = where, list(tree.notes), list(tree.losses)
         self.streams: list[Stream] = []
         self.cut = tree.complete is False
-        time = said.get("time") or {}
+        time = one_time(said, where)
         self.wanted, self.unit = time.get("column"), time.get("unit")
         if isinstance(self.wanted, list):
             raise UsageError("a MAT file has one time for a stream", where=where, got=str(self.wanted),

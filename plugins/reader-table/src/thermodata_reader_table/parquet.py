@@ -17,8 +17,10 @@ from thermodata.reader.zone import NAT
 from thermodata_reader_table import stamps
 from thermodata_reader_table.clocks import check_unit, found_epoch
 from thermodata_reader_table.clocks import times as clocks_times
-from thermodata_reader_table.layout import _find_time, unique
-from thermodata_reader_table.layout import column as find_column
+from thermodata_reader_table.groups import one_time
+from thermodata_reader_table.layout import unique
+from thermodata_reader_table.time_columns import column as find_column
+from thermodata_reader_table.time_columns import find_time
 
 STREAM = "table"
 _ROWS = 250_000
@@ -36,6 +38,18 @@ def _ours(path: Path) -> Iterator[None]:
                           got=(str(error).splitlines() or ["?"])[0]) from None
 
 
+def _check_types(file: Any) -> None:
+    """ValueError where a column chunk is not of the type that the schema says: Arrow ends the process on it."""
+    for group in range(file.metadata.num_row_groups):
+        row_group = file.metadata.row_group(group)
+        if row_group.num_columns != len(file.schema):
+            raise ValueError(f"row group {group} has {row_group.num_columns} columns, the schema {len(file.schema)}")
+        for column in range(row_group.num_columns):
+            said, kind = file.schema.column(column).physical_type, row_group.column(column).physical_type
+            if said != kind:
+                raise ValueError(f"row group {group} column {column} is of {kind}, the schema says {said}")
+
+
 class Table:
     """An open file: its schema, and which columns hold the time."""
 
@@ -47,6 +61,7 @@ class Table:
             self.file = pq.ParquetFile(path)
             self.schema = self.file.schema_arrow
             self.schema, self.places = _flat(self.schema)
+            _check_types(self.file)
         twice = [n for n, k in Counter(self.places).items() if k > 1]
         if twice:
             raise FormatError("two columns of one name, which Parquet's own readers mix up", where=path.name,
@@ -71,7 +86,7 @@ class Table:
         """The time column and its unit: None for timestamps, dates and text."""
         import pyarrow.types as pt
 
-        said = (self.source.table or {}).get("time") or {}
+        said = one_time(self.source.table, self.path.name)
         wanted, unit = said.get("column"), said.get("unit")
         if isinstance(wanted, list):
             wanted = wanted[0]
@@ -86,9 +101,10 @@ class Table:
             elif "t_ns" in self.names:
                 column, unit = self.names.index("t_ns"), "ns"
             else:
-                head = next(self.batches(100), None)
-                rows = [list(r) for r in zip(*(c.to_pylist() for c in head.columns), strict=True)] if head else []
-                column = _find_time(self.names, units, rows, self.path.name)[0]
+                with _ours(self.path):
+                    head = next(self.batches(100), None)
+                    rows = [list(r) for r in zip(*(c.to_pylist() for c in head.columns), strict=True)] if head else []
+                column = find_time(self.names, units, rows, self.path.name)[0]
         if pt.is_timestamp(self.schema.field(column).type):
             return column, None
         kind = self.schema.field(column).type
@@ -121,7 +137,7 @@ class Table:
             values = column.to_numpy() if pt.is_integer(kind) and not column.null_count else _numbers(column)
             return clocks_times(values, self.unit, self.source.timezone)
         if not (pt.is_timestamp(kind) or pt.is_date(kind)):
-            form = ((self.source.table or {}).get("time") or {}).get("format")
+            form = one_time(self.source.table, self.path.name).get("format")
             return stamps.parse([str(v or "") for v in column.to_pylist()], self.source.timezone, form, self.path.name)
         zone = getattr(kind, "tz", None)
         naive = _ns(column.cast(pa.timestamp("ns", zone)))

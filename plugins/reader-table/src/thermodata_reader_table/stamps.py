@@ -140,7 +140,7 @@ def resolved(parts: Sequence[Local], writing: Writing, timezone: str | None) -> 
     repeats, and which midnight a clock has passed."""
     ns = np.concatenate([p.ns for p in parts]) if parts else np.zeros(0, np.int64)
     if writing.kind == "clock":
-        return _times_of_day(ns)
+        return times_of_day(ns)
     if any(p.zoned for p in parts):
         # a part that names no offset among parts that do is no time
         whole = [p.ns if p.zoned else np.full(p.ns.shape, NAT, np.int64) for p in parts]
@@ -175,7 +175,7 @@ def local_stamps(naive: npt.NDArray[np.datetime64], timezone: str | None) -> Sta
     return Stamps(utc, True, tuple(notes))
 
 
-def _times_of_day(t: Int1D) -> Stamps:
+def times_of_day(t: Int1D) -> Stamps:
     """Times of day without a date count from the first; each step back by half a day is the next midnight."""
     good = t != NAT
     values = t[good]

@@ -18,7 +18,8 @@ from thermodata.reader.text import clean
 from thermodata.reader.zone import NAT, local_to_utc_ns, zone
 from thermodata_reader_table import clocks, stamps
 from thermodata_reader_table.dates_fast import local_times
-from thermodata_reader_table.text_rows import EMPTY, STREAM, Clock, Sheet, Tally, block_rows
+from thermodata_reader_table.layout import Group
+from thermodata_reader_table.text_rows import EMPTY, Clock, Sheet, Tally, block_rows
 
 _PART = 4 << 20
 _NULLS = sorted({form(word) for word in EMPTY for form in (str, str.upper, str.title)} | {"NaN", "N/A", "#N/A"})
@@ -31,15 +32,14 @@ class UnsuitableError(Exception):
 def suits(sheet: Sheet) -> bool:
     """Whether the head of the file gives hope: one time column, and an encoding that keeps line ends."""
     layout = sheet.layout
-    return len(layout.time) == 1 and layout.epoch is None and layout.form is None \
+    return all(len(g.time) == 1 and g.epoch is None and g.form is None for g in layout.groups) \
         and not sheet.encoding.startswith("utf-16") and len(sheet.delimiter) == 1 and len(layout.names) < 5000
 
 
 def blocks(path: Path, sheet: Sheet, source: Source, tally: Tally) -> Iterator[Block]:
     """Blocks as long as all goes well; UnsuitableError else, with the rows that were delivered in `tally`."""
-    times = _Times(path, sheet, source)
+    times = [_Times(path, sheet, source, g) for g in sheet.layout.groups]
     size = block_rows(sheet, source)
-    layout = sheet.layout
     held: Any = None
     for batch in _batches(path, sheet):
         if sheet.cut:
@@ -50,27 +50,51 @@ def blocks(path: Path, sheet: Sheet, source: Source, tally: Tally) -> Iterator[B
     if held is not None:
         tally_rows = held.num_rows - 1
         yield from _delivered(held.slice(0, tally_rows), sheet, times, tally, size)
-    if layout.first and tally.at == 0:
+    if sheet.layout.first and tally.at == 0:
         raise UnsuitableError
 
 
-def _delivered(batch: Any, sheet: Sheet, times: _Times, tally: Tally, size: int) -> Iterator[Block]:
-    layout = sheet.layout
+def _delivered(batch: Any, sheet: Sheet, times: list[_Times], tally: Tally, size: int) -> Iterator[Block]:
+    several = len(times) > 1
     for start in range(0, batch.num_rows, size):
         part = batch.slice(start, size)
-        t_ns = times.of(part.column(layout.time[0]))
-        good = t_ns != NAT
-        every = bool(good.all())
-        values: dict[str, Array] = {}
-        for i, name in enumerate(layout.names):
-            if i not in layout.time:
-                column = _values(part.column(i), sheet.kinds[i])
-                values[name] = column if every else column[good]
+        made = []
+        for time in times:
+            mine, bad = _without_end(part, time.group) if several else (part, 0)
+            t_ns = time.of(mine.column(time.group.time[0]))
+            good = t_ns != NAT
+            every = bool(good.all())
+            values: dict[str, Array] = {}
+            for i in time.group.columns:
+                column = _values(mine.column(i), sheet.kinds[i])
+                values[sheet.layout.names[i]] = column if every else column[good]
+            tally.bad_rows += int((~good).sum()) + bad
+            if good.any():
+                tally.last_ns = int(t_ns[good][-1])
+                made.append(Block(time.group.stream, t_ns if every else t_ns[good], values))
         tally.at += part.num_rows
-        tally.bad_rows += int((~good).sum())
-        if good.any():
-            tally.last_ns = int(t_ns[good][-1])
-            yield Block(STREAM, t_ns if every else t_ns[good], values)
+        yield from made
+
+
+def _without_end(part: Any, group: Group) -> tuple[Any, int]:
+    """(the rows in which a group has a time, how many of the others have a value of it)."""
+    import pyarrow as pa
+    import pyarrow.compute as call
+
+    def empty(i: int) -> Any:
+        column = part.column(i)
+        nothing = call.is_null(column)
+        if pa.types.is_string(column.type):
+            nothing = call.or_(nothing, call.equal(call.utf8_trim_whitespace(column.fill_null("")), ""))
+        return nothing
+
+    gone = empty(group.time[0])
+    if not call.any(gone).as_py():
+        return part, 0
+    ended = gone
+    for i in group.columns:
+        ended = call.and_(ended, empty(i))
+    return part.filter(call.invert(gone)), int(call.sum(gone).as_py()) - int(call.sum(ended).as_py() or 0)
 
 
 def _values(column: Any, kind: str) -> Array:
@@ -91,7 +115,8 @@ def _batches(path: Path, sheet: Sheet) -> Iterator[Any]:
     layout = sheet.layout
     names = [str(i) for i in range(len(layout.names))]
     types = {n: pa.string() if kind == "str" else pa.float64() for n, kind in zip(names, sheet.kinds, strict=True)}
-    types[names[layout.time[0]]] = pa.string() if layout.seconds is None else pa.float64()
+    for group in layout.groups:
+        types[names[group.time[0]]] = pa.string() if group.dated else pa.float64()
     try:
         reader = pc.open_csv(
             path,
@@ -113,13 +138,13 @@ def _batches(path: Path, sheet: Sheet) -> Iterator[Any]:
 class _Times:
     """Times of a column, part by part; UnsuitableError where only the whole column tells."""
 
-    def __init__(self, path: Path, sheet: Sheet, source: Source) -> None:
-        self.sheet, self.timezone = sheet, source.timezone
-        self.clock = Clock(path, sheet, source)
+    def __init__(self, path: Path, sheet: Sheet, source: Source, group: Group) -> None:
+        self.group, self.timezone = group, source.timezone
+        self.clock = Clock(path, sheet, source, group)
         self.seen = False
 
     def of(self, column: Any) -> Int1D:
-        seconds = self.sheet.layout.seconds
+        seconds = self.group.seconds
         if seconds is not None:
             return clocks.to_ns(column.to_numpy(zero_copy_only=False), seconds)
         if not len(column):

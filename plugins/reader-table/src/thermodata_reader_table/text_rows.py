@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 import warnings
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -16,9 +16,8 @@ from thermodata.plugin import Array, Block, Int1D, Loss, Source
 from thermodata.reader.text import clean
 from thermodata.reader.zone import NAT
 from thermodata_reader_table import clocks, stamps
-from thermodata_reader_table.layout import Layout
+from thermodata_reader_table.layout import Group, Layout
 
-STREAM = "table"
 BLOCK_VALUES = 1_000_000
 _SPARE = 8                 # cells that a line may have too many before the file is refused
 EMPTY = {"", "nan", "null", "none", "n/a", "#n/a", "na", "-", "--", "---", "?"}
@@ -92,8 +91,7 @@ def chunks(path: Path, sheet: Sheet, rows: int, only: tuple[int, ...] | None = N
     # pandas before 3 rounds the last digit unless told not to
     exact: dict[str, Any] = {} if int(pd.__version__.split(".")[0]) >= 3 else {"float_precision": "round_trip"}
     text = {i: str for i, kind in enumerate(sheet.kinds) if kind == "str"}
-    if sheet.layout.seconds is None and sheet.layout.epoch is None:
-        text |= dict.fromkeys(sheet.layout.time, str)
+    text |= dict.fromkeys(sheet.layout.dated, str)
     try:
         with pd.read_csv(
             path, sep=sheet.delimiter, header=None, names=list(range(width + _SPARE)), index_col=False, dtype=text,
@@ -112,19 +110,17 @@ def chunks(path: Path, sheet: Sheet, rows: int, only: tuple[int, ...] | None = N
 
 
 class Clock:
-    """The times of rows; dates are resolved over all of them."""
+    """The times of the rows of a group; dates are resolved over all of them."""
 
-    def __init__(self, path: Path, sheet: Sheet, source: Source) -> None:
-        self.path, self.sheet, self.source = path, sheet, source
+    def __init__(self, path: Path, sheet: Sheet, source: Source, group: Group) -> None:
+        self.path, self.sheet, self.source, self.group = path, sheet, source, group
         self._writing: stamps.Writing | None = None
-
-    @property
-    def layout(self) -> Layout:
-        return self.sheet.layout
+        self._numbers: list[Int1D] = []
+        self._locals: list[stamps.Local] = []
 
     def texts(self, chunk: Any) -> list[str]:
         """The cells of the time columns of a chunk, joined."""
-        time = self.layout.time
+        time = self.group.time
         cells = chunk[time[0]].fillna("")
         for column in time[1:]:
             cells = cells.str.strip() + " " + chunk[column].fillna("").str.strip()
@@ -135,47 +131,63 @@ class Clock:
         """How the dates are written, by the first rows, or by as many as it takes."""
         if self._writing is None:
             try:
-                self._writing = stamps.find_writing([first], self.layout.form, self.path.name)
+                self._writing = stamps.find_writing([_filled(first)], self.group.form, self.path.name)
             except FormatError:
                 # which number is the day may show further down only
-                parts = (self.texts(c) for c in chunks(self.path, self.sheet, 50_000, self.layout.time))
-                self._writing = stamps.find_writing(parts, self.layout.form, self.path.name)
+                parts = (_filled(self.texts(c)) for c in chunks(self.path, self.sheet, 50_000, self.group.time))
+                self._writing = stamps.find_writing(filter(None, parts), self.group.form, self.path.name)
         return self._writing
 
     def numbers(self, chunk: Any) -> Int1D:
-        values = floats(chunk[self.layout.time[0]].to_numpy(), self.sheet.decimal)[0]
-        if self.layout.epoch is not None:
-            epoch = clocks.EPOCHS[self.layout.epoch]
+        values = floats(chunk[self.group.time[0]].to_numpy(), self.sheet.decimal)[0]
+        if self.group.epoch is not None:
+            epoch = clocks.EPOCHS[self.group.epoch]
             return clocks.to_ns(values, epoch.seconds, epoch.zero_s)
-        assert self.layout.seconds is not None
-        return clocks.to_ns(values, self.layout.seconds)
+        assert self.group.seconds is not None
+        return clocks.to_ns(values, self.group.seconds)
 
-    def of(self, parts: list[Any] | Iterator[Any]) -> stamps.Stamps:
-        """Times of all rows of some chunks."""
-        layout = self.layout
-        if layout.seconds is not None or layout.epoch is not None:
-            found = [self.numbers(c) for c in parts]
-            t_ns = np.concatenate(found) if found else np.zeros(0, np.int64)
-            if layout.epoch is None:
+    def add(self, chunk: Any) -> None:
+        """Takes the times of the next rows."""
+        if not self.group.dated:
+            self._numbers.append(self.numbers(chunk))
+        else:
+            texts = self.texts(chunk)
+            self._locals.append(stamps.local(texts, self.writing(texts)))
+
+    def all(self) -> stamps.Stamps:
+        """The times of all rows that were added."""
+        group = self.group
+        if not group.dated:
+            t_ns = np.concatenate(self._numbers) if self._numbers else np.zeros(0, np.int64)
+            if group.epoch is None:
                 return stamps.Stamps(t_ns, False, ())
-            if not clocks.EPOCHS[layout.epoch].local:
+            if not clocks.EPOCHS[group.epoch].local:
                 return stamps.Stamps(t_ns, True, ())
             return stamps.local_stamps(t_ns.view("datetime64[ns]"), self.source.timezone)
-        texts = (self.texts(c) for c in parts)
-        first = next(texts, None)
-        if first is None:
+        if self._writing is None:
             return stamps.Stamps(np.zeros(0, np.int64), True, ())
-        writing = self.writing(first)
-        return stamps.resolved([stamps.local(first, writing), *(stamps.local(t, writing) for t in texts)], writing,
-                               self.source.timezone)
+        return stamps.resolved(self._locals, self._writing, self.source.timezone)
+
+
+def _filled(cells: list[str]) -> list[str]:
+    return [c for c in cells if c and not c.isspace()]
+
+
+def times(path: Path, sheet: Sheet, source: Source, parts: Iterable[Any]) -> list[stamps.Stamps]:
+    """The times of each group over some chunks."""
+    found = [Clock(path, sheet, source, g) for g in sheet.layout.groups]
+    for chunk in parts:
+        for clock in found:
+            clock.add(chunk)
+    return [clock.all() for clock in found]
 
 
 def blocks(path: Path, sheet: Sheet, source: Source, tally: Tally) -> Iterator[Block | Loss]:
     """Blocks of the rows behind those that `tally` has already, in two passes: the times of all, then the values."""
     layout, width = sheet.layout, len(sheet.layout.names)
     rows, done = block_rows(sheet, source), tally.at
-    t_ns = Clock(path, sheet, source).of(chunks(path, sheet, rows, layout.time)).t_ns
-    total = t_ns.size - (1 if sheet.cut else 0)
+    t_of = [s.t_ns for s in times(path, sheet, source, chunks(path, sheet, rows, layout.time))]
+    total = t_of[0].size - (1 if sheet.cut else 0)
     tally.short_rows = _short(path, sheet)
     at = 0
     for chunk in chunks(path, sheet, rows):
@@ -183,56 +195,88 @@ def blocks(path: Path, sheet: Sheet, source: Source, tally: Tally) -> Iterator[B
         if at + n <= done:
             at += n
             continue
-        new = np.arange(at, at + n) >= done
-        t = t_ns[at:at + n]
-        inside = np.arange(at, at + n) < total
-        good = new & inside & (t != NAT) & ~chunk.iloc[:, width:].notna().any(axis=1).to_numpy()
-        tally.bad_rows += int((new & inside & ~good).sum())
-        values: dict[str, Array] = {}
-        for i, name in enumerate(layout.names):
-            if i in layout.time:
-                continue
-            cells = chunk[i].to_numpy()[good]
-            if sheet.kinds[i] == "str":
-                values[name] = np.array([clean(c) if isinstance(c, str) else "" for c in cells], object)
-            else:
-                values[name], odd = floats(cells, sheet.decimal)
-                tally.add_odd(name, odd)
+        new = (np.arange(at, at + n) >= done) & (np.arange(at, at + n) < total)
+        whole = ~chunk.iloc[:, width:].notna().any(axis=1).to_numpy()
+        made = []
+        for group, t_ns in zip(layout.groups, t_of, strict=True):
+            t = t_ns[at:at + n]
+            good = new & (t != NAT) & whole
+            bad = new & ~good
+            if len(layout.groups) > 1:                   # a group that has ended is empty beside longer ones
+                bad &= chunk[[*group.time, *group.columns]].notna().any(axis=1).to_numpy() | ~whole
+            tally.bad_rows += int(bad.sum())
+            if good.any():
+                tally.last_ns = int(t[good][-1])
+                made.append(Block(group.stream, t[good], _taken(chunk, good, group, sheet, tally)))
         at += n
         tally.at = at
-        if good.any():
-            tally.last_ns = int(t[good][-1])
-            yield Block(STREAM, t[good], values)
+        yield from made
+
+
+def _taken(chunk: Any, good: Array, group: Group, sheet: Sheet, tally: Tally) -> dict[str, Array]:
+    values: dict[str, Array] = {}
+    for i in group.columns:
+        name, cells = sheet.layout.names[i], chunk[i].to_numpy()[good]
+        if sheet.kinds[i] == "str":
+            values[name] = np.array([clean(c) if isinstance(c, str) else "" for c in cells], object)
+        else:
+            values[name], odd = floats(cells, sheet.decimal)
+            tally.add_odd(name, odd)
+    return values
+
+
+class _Ends:
+    """Counts lines that have fewer cells than is usual, so that one may be cut. Where columns have times of their
+    own, lines become shorter for good where a group has ended, and are whole."""
+
+    def __init__(self, sheet: Sheet) -> None:
+        self.usual, self.short, self._ended = sheet.cells, 0, 0
+        self._edges = {min(g.time) for g in sheet.layout.groups[1:]}
+        self._least = self.usual
+
+    def add(self, cells: int) -> None:
+        if cells > self._least:
+            self.short, self._ended, self._least = self.short + self._ended, 0, self.usual
+        if cells >= self.usual:
+            return
+        if cells in self._edges:
+            self._ended, self._least = self._ended + 1, cells
+        else:
+            self.short += 1
 
 
 def _short(path: Path, sheet: Sheet) -> int:
-    """How many lines behind the header have fewer cells than is usual, so that one may be cut."""
+    ends = _Ends(sheet)
     if sheet.quoted or sheet.encoding.startswith("utf-16"):
-        return _short_records(path, sheet)
-    delimiter, usual, count = sheet.delimiter.encode(), sheet.cells - 1, 0
+        return _short_records(path, sheet, ends)
+    delimiter = sheet.delimiter.encode()
     with path.open("rb") as file:
         for _ in range(sheet.layout.first):
             file.readline()
         last = b""
         for line in file:
-            if line.count(delimiter) < usual and not line.isspace():
-                count, last = count + 1, line
-    return count - (1 if sheet.cut and last and not last.endswith((b"\n", b"\r")) and count else 0)
+            cells = line.count(delimiter) + 1
+            if cells < ends.usual and line.isspace():
+                continue
+            before = ends.short
+            ends.add(cells)
+            last = line if ends.short > before else last
+    return ends.short - (1 if sheet.cut and last and not last.endswith((b"\n", b"\r")) and ends.short else 0)
 
 
-def _short_records(path: Path, sheet: Sheet) -> int:
+def _short_records(path: Path, sheet: Sheet, ends: _Ends) -> int:
     import csv
 
-    count = 0
     with path.open(encoding=sheet.encoding, newline="", errors="replace") as file:
         for _ in range(sheet.layout.first):
             file.readline()
         try:
             for row in csv.reader(file, delimiter=sheet.delimiter, quoting=0 if sheet.quoted else 3):
-                count += 0 < len(row) < sheet.cells
+                if row:
+                    ends.add(len(row))
         except csv.Error:
-            return count
-    return count - (1 if sheet.cut and count else 0)
+            return ends.short
+    return ends.short - (1 if sheet.cut and ends.short else 0)
 
 
 def floats(cells: Array, decimal: str) -> tuple[Array, list[str]]:

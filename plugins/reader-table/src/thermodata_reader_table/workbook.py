@@ -1,128 +1,49 @@
-"""Workbooks (XLSX): refused where they would unpack to something absurd, then read by calamine."""
+"""Workbooks (XLSX): refused where they would unpack to something absurd, then read by calamine.
+
+A sheet is a table, or a note. Where several are tables and none is declared, each is a stream of its name, and its
+signals are `sheet/name`.
+"""
 
 from __future__ import annotations
 
 import datetime as dt
-import re
-import struct
-import zipfile
-import zlib
 from collections.abc import Iterator
+from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 
-from thermodata.errors import FormatError, UsageError
+from thermodata.errors import FormatError, ThermodataError, UsageError
 from thermodata.plugin import Array, Block, Loss, Recording, Signal, Source
 from thermodata.reader.text import decimal_mark
 from thermodata.reader.zone import NAT
-from thermodata_reader_table import stamps
-from thermodata_reader_table.layout import Layout, find
+from thermodata_reader_table import clocks, stamps
+from thermodata_reader_table.cells import is_empty
+from thermodata_reader_table.layout import STREAM, Group, Layout, find, one_clock
+from thermodata_reader_table.workbook_check import check_size
 
-STREAM = "table"
-MAX_UNPACKED = 1 << 30
-MAX_CELLS = 60_000_000
-_SPARSE = 3_000_000                          # cells of a sheet that may be almost empty
 _BLOCK_VALUES = 1_000_000
 _SMALL = 8_000_000
-_CELL = re.compile(rb'<(?:\w+:)?c [^>]*?r="([A-Z]{1,3})(\d{1,7})"')
 
 
-# what calamine gives as an empty cell, or does not tell
-_ODD = {
-    "hold an error such as #N/A": re.compile(rb'<(?:\w+:)?c [^>]*?t="e"'),
-    "hold a formula without its value (open the workbook once in a spreadsheet and save it)":
-        re.compile(rb"(?:</(?:\w+:)?f>|<(?:\w+:)?f [^>]*/>)</(?:\w+:)?c>"),
-    "hidden": re.compile(rb'<(?:\w+:)?row [^>]*?hidden="(?:1|true)"'),
-}
+@dataclass(frozen=True)
+class Book:
+    """sheets: name -> rows, of those that are wanted and hold some. odd: what check_size() counted."""
+
+    sheets: dict[str, list[list[Any]]]
+    odd: dict[str, int]
 
 
-def check_size(path: Path) -> dict[str, int]:
-    """How many cells and rows of all sheets are of each kind of _ODD.
-
-    FormatError for a workbook that is no ZIP, or whose parts unpack to more than 1 GiB (whatever their headers
-    say), or whose cells span an absurd area: a reader of it would take all memory."""
-    try:
-        with zipfile.ZipFile(path) as archive:
-            members = archive.infolist()
-    except (zipfile.BadZipFile, OSError, ValueError, NotImplementedError) as error:
-        raise FormatError("not a readable workbook", where=path.name, expected="an XLSX (ZIP) file",
-                          got=str(error)) from None
-    unpacked, odd = 0, dict.fromkeys(_ODD, 0)
-    with path.open("rb") as file:
-        for member in members:
-            sheet = member.filename.startswith("xl/worksheets/")
-            right, bottom, rest, count = 0, 0, b"", 0
-            for part in _inflate(file, member, path):
-                unpacked += len(part)
-                if unpacked > MAX_UNPACKED:
-                    raise FormatError("workbook unpacks to more than 1 GiB", where=f"{path.name} {member.filename}",
-                                      expected="a log of reasonable size", got=f"{path.stat().st_size} bytes packed",
-                                      hint="export it as CSV or Parquet")
-                if sheet:
-                    for kind, pattern in _ODD.items():
-                        odd[kind] += len(pattern.findall(rest + part)) - len(pattern.findall(rest))
-                    cells = _CELL.findall(rest + part)
-                    count += len(cells)
-                    found = set(cells)
-                    rest = part[-200:]
-                    if found:
-                        right = max(right, max(_column(c) for c in {c for c, _ in found}))
-                        bottom = max(bottom, max(int(r) for _, r in found))
-            if right * bottom > MAX_CELLS or right * bottom > max(_SPARSE, 20 * count):
-                raise FormatError("sheet spans an absurd area", where=f"{path.name} {member.filename}",
-                                  expected=f"at most {MAX_CELLS} cells, most of them filled",
-                                  got=f"{bottom} rows x {right} columns with {count} cells",
-                                  hint="delete the stray cells far off, or export it as CSV or Parquet")
-    return odd
-
-
-def _inflate(file: Any, member: zipfile.ZipInfo, path: Path) -> Iterator[bytes]:
-    file.seek(member.header_offset)
-    header = file.read(30)
-    if len(header) < 30 or header[:4] != b"PK\x03\x04":
-        raise FormatError("damaged workbook", where=f"{path.name} byte {member.header_offset}",
-                          expected="a ZIP entry", got=header[:4].hex(" "))
-    name, extra = struct.unpack("<HH", header[26:30])
-    file.seek(name + extra, 1)
-    left = member.compress_size
-    if member.compress_type == zipfile.ZIP_STORED:
-        while left > 0 and (raw := file.read(min(left, 65536))):
-            left -= len(raw)
-            yield raw
-        return
-    if member.compress_type != zipfile.ZIP_DEFLATED:
-        raise FormatError("workbook packed in an unusual way", where=f"{path.name} {member.filename}")
-    unpack = zlib.decompressobj(-15)
-    try:
-        while left > 0 and (raw := file.read(min(left, 65536))):
-            left -= len(raw)
-            while raw:
-                yield unpack.decompress(raw, 1 << 20)
-                raw = unpack.unconsumed_tail
-    except zlib.error as error:
-        raise FormatError("damaged workbook", where=f"{path.name} {member.filename}", got=str(error)) from None
-
-
-def _column(letters: bytes) -> int:
-    n = 0
-    for letter in letters:
-        n = n * 26 + letter - 64
-    return n
-
-
-def _rows(path: Path, source: Source) -> tuple[list[list[Any]], str, dict[str, int], list[str]]:
-    """Rows of the wanted sheet, its name, what check_size() counted, and the names of the other sheets.
-    Small workbooks are kept: describing and reading follow each other."""
+def _book(path: Path, source: Source) -> Book:
+    """Small workbooks are kept: describing and reading follow each other."""
     status = path.stat()
     key = (str(path.resolve()), status.st_mtime_ns, status.st_size, (source.table or {}).get("sheet"))
     return (_kept if status.st_size < _SMALL else _load)(*key)
 
 
-def _load(name: str, mtime_ns: int, size: int, wanted: int | str | None) -> tuple[
-        list[list[Any]], str, dict[str, int], list[str]]:
+def _load(name: str, mtime_ns: int, size: int, wanted: int | str | None) -> Book:
     import python_calamine
 
     path = Path(name)
@@ -135,80 +56,90 @@ def _load(name: str, mtime_ns: int, size: int, wanted: int | str | None) -> tupl
     if isinstance(wanted, str):
         if wanted not in names:
             raise UsageError(f"no sheet '{wanted}'", where=path.name, expected=", ".join(names), got=wanted)
-        sheet = wanted
-    else:
-        number = 1 if wanted is None else int(wanted)
+        names = [wanted]
+    elif wanted is not None:
+        number = int(wanted)
         if not 1 <= number <= len(names):
             raise UsageError(f"no sheet {number}", where=path.name, expected=f"1 to {len(names)}", got=str(number))
-        sheet = names[number - 1]
-    try:
-        rows = book.get_sheet_by_name(sheet).to_python(skip_empty_area=False)
-    except Exception as error:
-        raise FormatError(f"sheet '{sheet}' cannot be read", where=path.name, got=str(error)) from None
-    if not rows:
-        raise FormatError(f"sheet '{sheet}' is empty", where=path.name, expected="a table")
-    while rows and not any(c not in ("", None) for c in rows[-1]):
-        rows.pop()
-    others = [n for n in names if wanted is None and n != sheet and _has_rows(book, n)]
-    return rows, sheet, odd, others
-
-
-def _has_rows(book: Any, name: str) -> bool:
-    try:
-        return int(book.get_sheet_by_name(name).height) > 1
-    except Exception:  # a chart, or a damaged sheet that nobody asked for
-        return False
+        names = [names[number - 1]]
+    sheets: dict[str, list[list[Any]]] = {}
+    for sheet in names:
+        try:
+            rows = book.get_sheet_by_name(sheet).to_python(skip_empty_area=False)
+        except Exception as error:
+            raise FormatError(f"sheet '{sheet}' cannot be read", where=path.name, got=str(error),
+                              hint="declare table: {sheet: ...} to read another one alone") from None
+        while rows and not any(c not in ("", None) for c in rows[-1]):
+            rows.pop()
+        if rows:
+            sheets[sheet] = rows
+    if not sheets:
+        raise FormatError(f"sheet '{names[0]}' is empty" if names else "a workbook without sheets", where=path.name,
+                          expected="a table")
+    return Book(sheets, odd)
 
 
 _kept = lru_cache(maxsize=1)(_load)
 
 
+@dataclass
+class Stream:
+    """Columns with one time, in memory. names: as the recording has them."""
+
+    name: str
+    times: stamps.Stamps
+    values: dict[str, Array]
+    units: dict[str, str | None]
+
+
 class Table:
-    """A sheet in memory, column by column. decimal: of numbers that stand as text."""
+    """A sheet, column by column. decimal: of numbers that stand as text. prefix: before names, of several sheets."""
 
-    def __init__(self, path: Path, source: Source) -> None:
-        rows, self.sheet, odd, others = _rows(path, source)
-        self.layout: Layout = find(rows[:500], source.table, f"{path.name} sheet '{self.sheet}'")
-        self.columns = list(zip(*rows[self.layout.first:], strict=False))
-        self.notes = list(self.layout.notes)
+    def __init__(self, rows: list[list[Any]], layout: Layout, where: str, source: Source) -> None:
+        self.layout, self.where, self.source = layout, where, source
+        self.notes = list(layout.notes)
         self.losses: list[Loss] = []
-        if others:
-            self.notes.append(f"only sheet '{self.sheet}' is read, not {', '.join(others)}: a source for each, with "
-                              "table: {sheet: ...}")
-        for kind, count in odd.items():
-            if count and kind == "hidden":
-                self.notes.append(f"{count} hidden rows: they are read like the others")
-            elif count:
-                self.losses.append(Loss(f"{path.name}", None, None, None, f"{count} cells of the workbook {kind}: "
-                                        "they are empty"))
+        self.columns = list(zip(*rows[layout.first:], strict=False))
         said = (source.table or {}).get("decimal")
-        columns = [c for i, c in enumerate(self.columns) if i not in self.layout.time]
+        columns = [c for i, c in enumerate(self.columns) if i not in layout.time]
         self.decimal = said or decimal_mark(c for col in columns for c in col[:200] if isinstance(c, str)) or "."
-        self.times = self._times(source, path)
-        self.values: dict[str, Array] = {}
-        for i, name in enumerate(self.layout.names):
-            if i not in self.layout.time:
-                self.values[name] = self._values(name, self.columns[i], path)
 
-    def _times(self, source: Source, path: Path) -> stamps.Stamps:
-        layout = self.layout
-        columns = [self.columns[i] for i in layout.time]
-        if layout.seconds is not None:
-            seconds = self._numbers(columns[0])[0] * layout.seconds
-            good = np.isfinite(seconds) & (np.abs(seconds) < 9e9)
-            t_ns = np.full(seconds.size, NAT, np.int64)
-            t_ns[good] = np.rint(seconds[good] * 1e9).astype(np.int64)
-            return stamps.Stamps(t_ns, False, ())
+    def streams(self, sheet: str | None) -> Iterator[Stream]:
+        """sheet: its name where there are several."""
+        for group in self.layout.groups:
+            own = group.stream != STREAM
+            name = group.stream if sheet is None else f"{sheet}/{group.stream}" if own else sheet
+            before = "" if sheet is None else f"{sheet}/"
+            times = self._times(group)
+            self.notes += times.notes
+            keep = np.ones(times.t_ns.size, bool)
+            if len(self.layout.groups) > 1:                # a group that has ended is empty beside longer ones
+                keep = ~np.array([all(is_empty(c) for c in row) for row in zip(
+                    *(self.columns[i] for i in (*group.time, *group.columns)), strict=True)], bool)
+            values, units = {}, {}
+            for i in group.columns:
+                found, unit = self._values(self.layout.names[i], self.columns[i])
+                values[before + self.layout.names[i]] = found[keep]
+                units[before + self.layout.names[i]] = self.layout.units[i] or unit
+            yield Stream(name, stamps.Stamps(times.t_ns[keep], times.absolute, ()), values, units)
+
+    def _times(self, group: Group) -> stamps.Stamps:
+        columns = [self.columns[i] for i in group.time]
+        if not group.dated:
+            unit = group.epoch or next(u for u, seconds in clocks.SECONDS.items() if seconds == group.seconds)
+            return clocks.times(self._numbers(columns[0])[0], unit, self.source.timezone)
         joined = [_joined(cells) for cells in zip(*columns, strict=True)]
         if any(isinstance(j, str) and j for j in joined):
             texts = [j if isinstance(j, str) else str(j).replace(" 00:00:00", " 0:00:00") for j in joined]
-            return stamps.parse(texts, source.timezone, layout.form, path.name)
+            return stamps.parse(texts, self.source.timezone, group.form, self.where)
         if any(isinstance(j, dt.timedelta) for j in joined):
             micro = dt.timedelta(microseconds=1)
             t = np.array([(j // micro) * 1000 if isinstance(j, dt.timedelta) else NAT for j in joined], np.int64)
-            return stamps.Stamps(t, False, ("times of day without a date: counted from midnight",))
+            if any(isinstance(c, dt.time) for c in columns[0]):
+                return stamps.times_of_day(t)
+            return stamps.Stamps(t, False, ("durations: counted as the cells say",))
         naive = np.array([j.isoformat() if isinstance(j, dt.datetime) else "NaT" for j in joined], "datetime64[ns]")
-        return stamps.local_stamps(naive, source.timezone)
+        return stamps.local_stamps(naive, self.source.timezone)
 
     def _numbers(self, cells: tuple[Any, ...]) -> tuple[Array, list[str]]:
         out, odd = np.full(len(cells), np.nan), []
@@ -224,14 +155,28 @@ class Table:
                 odd.append(str(cell))
         return out, odd
 
-    def _values(self, name: str, cells: tuple[Any, ...], path: Path) -> Array:
+    def _values(self, name: str, cells: tuple[Any, ...]) -> tuple[Array, str | None]:
+        """(values, unit that the cells themselves tell: seconds of durations)."""
+        filled = [c for c in cells if c not in ("", None)]
+        if filled and sum(isinstance(c, dt.timedelta | dt.time) for c in filled) * 2 > len(filled):
+            self.notes.append(f"column '{name}' holds durations or times of day: they are read as seconds")
+            cells = tuple(_seconds(c) for c in cells)
+            unit: str | None = "s"
+        else:
+            unit = None
         numbers, odd = self._numbers(cells)
-        if odd and len(odd) * 2 > sum(c not in ("", None) for c in cells):
-            return np.array(["" if c is None else str(c) for c in cells], object)
+        if odd and len(odd) * 2 > len(filled):
+            return np.array(["" if c is None else str(c) for c in cells], object), None
         if odd:
-            self.losses.append(Loss(f"{path.name} column '{name}'", None, None, len(odd) / len(cells),
+            self.losses.append(Loss(f"{self.where} column '{name}'", None, None, len(odd) / len(cells),
                                     f"{len(odd)} cells are no numbers, such as '{odd[0]}'"))
-        return numbers
+        return numbers, unit
+
+
+def _seconds(cell: Any) -> Any:
+    if isinstance(cell, dt.time):
+        return (dt.datetime.combine(dt.date.min, cell) - dt.datetime.min).total_seconds()
+    return cell.total_seconds() if isinstance(cell, dt.timedelta) else cell
 
 
 def _joined(cells: tuple[Any, ...]) -> Any:
@@ -252,33 +197,75 @@ def _joined(cells: tuple[Any, ...]) -> Any:
     return " ".join(str(c).strip() for c in cells)
 
 
+@dataclass
+class Read:
+    """All of a workbook that is read."""
+
+    streams: list[Stream]
+    notes: list[str]
+    losses: list[Loss]
+    clock: Literal["absolute", "relative"]
+    start_ns: int | None
+
+
+def read(path: Path, source: Source) -> Read:
+    """FormatError where no sheet is a table (the reason of the first), or some have dates and others not."""
+    book = _book(path, source)
+    tables: dict[str, Layout] = {}
+    refused: dict[str, ThermodataError] = {}
+    for sheet, rows in book.sheets.items():
+        try:
+            tables[sheet] = find(rows[:500], source.table, f"{path.name} sheet '{sheet}'")
+        except ThermodataError as error:
+            refused[sheet] = error
+    if not tables:
+        raise next(iter(refused.values()))
+    several = len(tables) > 1
+    notes = [f"sheet '{s}' is not read as a table: {e.what}" for s, e in refused.items()]
+    if several:
+        notes.append(f"{len(tables)} sheets are tables, each a stream; signals are called SHEET/NAME; for one alone "
+                     "declare table: {sheet: ...}: " + ", ".join(tables))
+    losses: list[Loss] = []
+    streams: list[Stream] = []
+    groups: list[Group] = []
+    for sheet, layout in tables.items():
+        table = Table(book.sheets[sheet], layout, f"{path.name} sheet '{sheet}'" if several else path.name, source)
+        streams += list(table.streams(sheet if several else None))
+        notes += [f"sheet '{sheet}': {note}" for note in table.notes] if several else table.notes
+        losses += table.losses
+        groups += layout.groups
+    for kind, count in book.odd.items():
+        if count and kind == "hidden":
+            notes.append(f"{count} hidden rows: they are read like the others")
+        elif count:
+            losses.append(Loss(f"{path.name}", None, None, None, f"{count} cells of the workbook {kind}: "
+                               "they are empty"))
+    clock, start_ns = one_clock([s.times for s in streams], groups, path.name)
+    return Read(streams, list(dict.fromkeys(notes)), losses, clock, start_ns)
+
+
 def describe(path: Path, source: Source) -> Recording:
-    table = Table(path, source)
-    layout = table.layout
-    signals = tuple(
-        Signal(name, STREAM, layout.units[i], "str" if table.values[name].dtype == object else "float64")
-        for i, name in enumerate(layout.names) if i not in layout.time
-    )
-    good = table.times.t_ns[table.times.t_ns != NAT]
-    absolute = table.times.absolute
-    return Recording(signals, "absolute" if absolute else "relative",
-                     (int(good[0]) if good.size else 0) if absolute else None, None,
-                     (*table.notes, *table.times.notes))
+    found = read(path, source)
+    signals = tuple(Signal(name, s.name, s.units[name], "str" if v.dtype == object else "float64")
+                    for s in found.streams for name, v in s.values.items())
+    return Recording(signals, found.clock, found.start_ns, None, tuple(found.notes))
 
 
 def blocks(path: Path, source: Source) -> Iterator[Block | Loss]:
-    table = Table(path, source)
-    t_ns = table.times.t_ns
-    good = t_ns != NAT
-    if not good.any():
+    found = read(path, source)
+    if not any((s.times.t_ns != NAT).any() for s in found.streams):
         raise FormatError("no row holds a time", where=path.name,
                           hint="declare table: {time: {column: ..., unit: ...}}")
-    size = max(1, int(source.options.get("block_rows", _BLOCK_VALUES // max(1, len(table.values)))))
-    for first in range(0, t_ns.size, size):
-        part = good[first:first + size]
-        yield Block(STREAM, t_ns[first:first + size][part],
-                    {name: v[first:first + size][part] for name, v in table.values.items()})
-    yield from table.losses
-    if not good.all():
-        bad = int((~good).sum())
-        yield Loss(path.name, None, None, bad / t_ns.size, f"{bad} rows without a time")
+    for stream in found.streams:
+        t_ns = stream.times.t_ns
+        good = t_ns != NAT
+        size = max(1, int(source.options.get("block_rows", _BLOCK_VALUES // max(1, len(stream.values)))))
+        for first in range(0, t_ns.size, size):
+            part = good[first:first + size]
+            yield Block(stream.name, t_ns[first:first + size][part],
+                        {name: v[first:first + size][part] for name, v in stream.values.items()})
+        if not good.all():
+            bad = int((~good).sum())
+            where = path.name if len(found.streams) == 1 else f"{path.name} {stream.name}"
+            yield Loss(where, None, None, bad / t_ns.size, f"{bad} rows without a time")
+    yield from found.losses

@@ -1,0 +1,48 @@
+"""What a cell of a table is: a number, a date, a time of day, nothing. Texts and a workbook's values alike."""
+
+from __future__ import annotations
+
+import re
+from typing import Any
+
+from thermodata_reader_table.stamps import is_date, is_time_of_day
+
+Cell = Any   # text, or what a workbook holds: numbers, bool, datetime, date, time, timedelta
+# "t" is a time, "T" a temperature
+TIME_WORD = re.compile(
+    r"^(t|(?i:time|zeit|čas|cas|temps|tiempo|tempo|datum|date|dátum|uhrzeit|timestamp|date[ _/]?time|datetime|"
+    r"zeitstempel|elapsed([ _]?time)?|時間|时间|日時|日期|時刻|rel(ative)?[ _.]?time|t_s|time_s))\.?:?$")
+WORDS = {"nan", "inf", "-inf", "true", "false", "---", "-", "n/a", "#n/a", "null", ""}
+_NUMBER = re.compile(r"^[+-]?(\d+([.,]\d*)?|[.,]\d+)([eE][+-]?\d+)?$")
+
+
+def is_number(cell: Cell) -> bool:
+    if isinstance(cell, str):
+        return _NUMBER.match(cell.strip()) is not None
+    return isinstance(cell, int | float)
+
+
+def number_of(cell: Cell) -> float | None:
+    try:
+        return float(cell.replace(",", ".") if isinstance(cell, str) else cell)
+    except (ValueError, TypeError):
+        return None
+
+
+def is_dated(cell: Cell) -> bool:
+    return is_date(cell) if isinstance(cell, str) else hasattr(cell, "year")
+
+
+def is_clocked(cell: Cell) -> bool:
+    """A time of day, or a duration that a workbook shows as one."""
+    if isinstance(cell, str):
+        return is_time_of_day(cell)
+    return (hasattr(cell, "hour") and not hasattr(cell, "year")) or hasattr(cell, "total_seconds")
+
+
+def is_stamp(cell: Cell) -> bool:
+    return is_dated(cell) or is_clocked(cell)
+
+
+def is_empty(cell: Cell) -> bool:
+    return cell is None or (isinstance(cell, str) and cell.strip().lower() in WORDS)

@@ -1,0 +1,167 @@
+"""Columns that bring times of their own: `t1;T1;t2;T2;T3`, "Time,CH1,Time,CH2". Each such group is a stream.
+
+A later column starts a group where it is named like the first time (the same word, numbered, or with the name of the
+column behind it), rises like a time, and has columns behind it. Two times of the same rows are one group: the second
+is a signal. What may be either is asked.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from thermodata.errors import FormatError, UsageError
+from thermodata.reader.text import split_unit
+from thermodata_reader_table.cells import TIME_WORD, Cell, is_empty, is_number, is_stamp, number_of
+from thermodata_reader_table.clocks import EPOCHS, SECONDS
+
+_NUMBERED = re.compile(r"^(?P<word>.*?)[ _.#-]*(?P<number>\d{1,3})$")
+_HINT = ("declare table: {time: [{column: 1, unit: s}, {column: 3, unit: s}]}, each with the columns behind it, or "
+         "with signals: [...]; or one time for all: table: {time: {column: 1}}")
+
+
+@dataclass(frozen=True)
+class Span:
+    """A group before its time is known. times: columns that may be its time; columns: all of it, in order."""
+
+    times: tuple[int, ...]
+    columns: tuple[int, ...]
+
+
+@dataclass(frozen=True)
+class _Name:
+    """What a header says of time. word: "time", "zeit", "t", ...; beside: what stands beside it ("" or a name)."""
+
+    word: str
+    beside: str
+    bare: bool                       # the word alone, or numbered
+
+
+def one_time(table: Mapping[str, Any] | None, where: str) -> Mapping[str, Any]:
+    """The declared time of a format that keeps its times apart by itself. UsageError for a list of several."""
+    said = (table or {}).get("time") or {}
+    if isinstance(said, list | tuple):
+        if len(said) > 1:
+            raise UsageError("several times are declared", where=where, expected="one: in this format the file "
+                             "itself tells which signals belong to which time", got=f"{len(said)} in a list",
+                             hint="declare table: {time: {column: ...}}, or none")
+        said = said[0] if said else {}
+    found: Mapping[str, Any] = said
+    return found
+
+
+def time_name(header: str) -> _Name | None:
+    """None where a header does not name a time."""
+    name = re.sub(r"#\d+$", "", split_unit(header)[0]).strip()
+    last = name.rsplit("/", 1)[-1].strip()
+    for text in (name, last):
+        if TIME_WORD.match(text):
+            return _Name(text.rstrip(".:").casefold(), "", True)
+    match = _NUMBERED.match(last)
+    if match and TIME_WORD.match(match["word"]):
+        return _Name(match["word"].casefold(), "", True)
+    parts = re.split(r"[\s_.:()\[\]-]+", last.strip("()[] "))
+    for word, rest in ((parts[0], parts[1:]), (parts[-1], parts[:-1])):
+        if len(word) > 1 and rest and TIME_WORD.match(word):
+            return _Name(word.casefold(), "".join(rest).casefold(), False)
+    return None
+
+
+def spans(names: Sequence[str], units: Sequence[str | None], data: Sequence[Sequence[Cell]],
+          where: str) -> tuple[list[Span], list[str]]:
+    """(groups, notes) of a table by its headers and first rows; no groups where one time is for all columns.
+
+    FormatError where a second time may be one of its own rows or of the first's.
+    """
+    said = {i: n for i in range(len(names)) if (n := time_name(names[i])) and _rises(i, n, units[i], data)}
+    runs = _runs(said)
+    if len(runs) < 2:
+        return [], []
+    first = said[runs[0][0]]
+    own, notes = [runs[0]], []
+    for run in runs[1:]:
+        if all(said[i].word != first.word or said[i].bare != first.bare for i in run[:1]):
+            notes += _other(runs[0][0], run[0], said, names, units, data, where)
+        elif not first.bare and not (_beside(run, said, names) and _beside(runs[0], said, names)):
+            notes.append(_kept(names[run[0]]))
+        else:
+            own.append(run)
+    if len(own) < 2:
+        return [], notes
+    if own[0][0] > 0 and own[-1][-1] == len(names) - 1:
+        raise FormatError("several time columns, each behind its columns or before them", where=where,
+                          got=", ".join(names[:12]), expected="a time before the columns that it is of", hint=_HINT)
+    if own[-1][-1] == len(names) - 1:
+        notes.append(_kept(names[own.pop()[0]]))
+    if len(own) < 2 or (first.word == "t" and own[0][0] != 0):
+        return [], notes
+    edges = [0, *(run[0] for run in own[1:]), len(names)]
+    return [Span(tuple(run), tuple(range(a, b))) for run, a, b in zip(own, edges, edges[1:], strict=False)], notes
+
+
+def _kept(name: str) -> str:
+    return (f"column '{name}' is named like a time and rises: it is read as a signal; declare table: {{time: "
+            "[{column: ...}, {column: ...}]} if columns behind it have it for their time")
+
+
+def _runs(said: Mapping[int, _Name]) -> list[list[int]]:
+    """Columns side by side: a date and a time, or a date and elapsed seconds."""
+    runs: list[list[int]] = []
+    for i in sorted(said):
+        if runs and runs[-1][-1] == i - 1:
+            runs[-1].append(i)
+        else:
+            runs.append([i])
+    return runs
+
+
+def _beside(run: Sequence[int], said: Mapping[int, _Name], names: Sequence[str]) -> bool:
+    """Whether 'CH1 time' stands before a column of CH1."""
+    if run[-1] + 1 >= len(names):
+        return False
+    behind = re.sub(r"[\s_.:()\[\]-]+", "", split_unit(names[run[-1] + 1])[0]).casefold()
+    beside = said[run[0]].beside
+    return beside in behind or behind in beside
+
+
+def _rises(column: int, name: _Name, unit: str | None, data: Sequence[Sequence[Cell]]) -> bool:
+    """Dates, or numbers that never fall; what is only called t must rise with every row."""
+    if unit is not None and unit.strip("[]() ").lower() not in SECONDS and unit.lower() not in EPOCHS:
+        return False
+    cells = [r[column] for r in data if not is_empty(r[column])]
+    if len(cells) < 2:
+        return False
+    if sum(map(is_stamp, cells)) > 0.8 * len(cells):
+        return True
+    values = np.array([v for c in cells if is_number(c) and (v := number_of(c)) is not None])
+    if values.size < max(2, 0.8 * len(cells)) or values[-1] <= values[0]:
+        return False
+    steps = np.diff(values)
+    return bool((steps > 0).all() if name.word == "t" and unit is None else (steps >= 0).mean() > 0.98)
+
+
+def _other(first: int, second: int, said: Mapping[int, _Name], names: Sequence[str], units: Sequence[str | None],
+           data: Sequence[Sequence[Cell]], where: str) -> list[str]:
+    """Another word for time behind columns: the same clock in other words is a signal (no note), one that runs
+    apart from the first is asked."""
+    if said[second].word == "t" and units[second] is None:
+        return []                                            # a temperature that rises
+    alone = sum(is_empty(r[first]) != is_empty(r[second]) for r in data)
+    if not alone and (not said[second].bare or second == len(names) - 1):
+        return [_kept(names[second])]
+    pairs = [(number_of(r[first]), number_of(r[second])) for r in data]
+    rows = np.array([(a, b) for a, b in pairs if a is not None and b is not None]).reshape(-1, 2)
+    if not alone and rows.shape[0] < 2:
+        return [_kept(names[second])]                        # a date and a number of seconds
+    if not alone:
+        a, b = (rows[:, k] * SECONDS.get((units[i] or "s").strip("[]() ").lower(), 1.0)
+                for k, i in ((0, first), (1, second)))
+        step = float(np.median(np.abs(np.diff(a)))) or 1.0
+        if np.ptp(b - a) <= max(2 * step, 1e-3 * float(np.ptp(a))):
+            return []
+    raise FormatError("two time columns that run apart", where=where, got=f"'{names[first]}' and '{names[second]}'",
+                      expected="one time for all columns, or each for its own", hint=_HINT)

@@ -1,0 +1,98 @@
+"""Which column of a table is its time, and in what unit: declared, or by its values and its name."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from thermodata.errors import FormatError, UsageError, nearest
+from thermodata.reader.text import split_unit
+from thermodata_reader_table.cells import TIME_WORD, Cell, is_clocked, is_dated, is_number, number_of
+from thermodata_reader_table.clocks import SECONDS, check_unit, found_epoch
+
+
+def column(wanted: int | str, names: Sequence[str], where: str) -> int:
+    """The place of a declared column (1-based, or by its name), from 0."""
+    if isinstance(wanted, int):
+        if not 1 <= wanted <= len(names):
+            raise FormatError(f"no column {wanted}", where=where, expected=f"1 to {len(names)}", got=str(wanted))
+        return wanted - 1
+    for fold in (str, str.casefold):
+        hits = [i for i, n in enumerate(names) if fold(wanted) in (fold(n), fold(split_unit(n)[0]))]
+        if len(hits) == 1:
+            return hits[0]
+    close = nearest(wanted, names)
+    raise UsageError(f"no time column '{wanted}'", where=where, expected=", ".join(names[:30]), got=wanted,
+                     hint=f"did you mean '{close}'?" if close else None)
+
+
+def time_of(said: Mapping[str, Any], names: list[str], units: list[str | None], data: list[list[Cell]],
+            where: str, likely: tuple[int, ...] = ()) -> tuple[tuple[int, ...], str | None, str | None, list[str]]:
+    """(time columns, unit or None for dates, format, notes). likely: columns that are called times in other words."""
+    wanted, unit, form = said.get("column"), said.get("unit"), said.get("format")
+    if wanted is not None:
+        columns = tuple(column(w, names, where) for w in (wanted if isinstance(wanted, list | tuple) else [wanted]))
+    else:
+        columns = find_time(names, units, data, where, likely)
+    cells = [row[columns[0]] for row in data]
+    numeric = sum(map(is_number, cells)) * 2 > len(cells)
+    notes: list[str] = []
+    if form is not None or (not numeric and unit is None):
+        return columns, None, form, notes
+    text = unit or units[columns[0]]
+    if text is None:
+        text = _size_of_clock(names[columns[0]], cells, where)
+        notes.append(f"time column '{names[columns[0]]}' has no unit: " + (
+            "taken as seconds" if text == "s" else f"by its size it is {text}") +
+            "; declare table: {time: {unit: ...}} if that is wrong")
+    return columns, check_unit(str(text), where), None, notes
+
+
+def _size_of_clock(name: str, cells: Sequence[Cell], where: str) -> str:
+    """The unit of a time that names none: seconds, or a count from a date where its size leaves no other sense.
+    FormatError where it may be days or seconds."""
+    values = np.array([v for c in cells if (v := number_of(c)) is not None], np.float64)
+    epoch = found_epoch(values) if values.size else None
+    if epoch is not None:
+        return epoch
+    days = values.size > 1 and bool(((values > 36_526) & (values < 73_051)).all()) and float(np.ptp(values)) < 400
+    if days and bool((np.abs(np.diff(values)) < 0.2).all()) and bool((values != np.floor(values)).any()):
+        if re.search(r"(?i)dat", name):
+            return "excel"
+        raise FormatError("times that may be Excel's days or seconds", where=where, got=f"{name}: {values[0]!r} ...",
+                          expected="a unit", hint="declare table: {time: {unit: excel}} or {time: {unit: s}}")
+    return "s"
+
+
+def find_time(names: list[str], units: list[str | None], data: list[list[Cell]], where: str,
+              likely: tuple[int, ...] = ()) -> tuple[int, ...]:
+    """A date, a date and a time of day, a time of day, numbers under a word for time, or a first column in a unit of
+    time, in this order. FormatError where there is none."""
+    width = len(names)
+
+    def share(column: int, test: Any) -> float:
+        cells = [r[column] for r in data if r[column] not in ("", None)]
+        return sum(bool(test(c)) for c in cells) / len(cells) if cells else 0.0
+
+    words = [i for i in range(width) if i in likely or TIME_WORD.match(split_unit(names[i])[0].strip())]
+    dates = [i for i in range(width) if share(i, is_dated) > 0.8]
+    clocks = [i for i in range(width) if share(i, is_clocked) > 0.8]
+    if dates:
+        first = next((i for i in dates if i in words), dates[0])
+        sample = next(r[first] for r in data if r[first] not in ("", None))
+        has_clock = ":" in sample if isinstance(sample, str) else hasattr(sample, "hour") and (
+            not clocks or any(r[first] and r[first].hour + r[first].minute + r[first].second for r in data))
+        return (first,) if has_clock or not clocks else (first, clocks[0])
+    if clocks:
+        return (clocks[0],)
+    numbers = [i for i in words if share(i, is_number) > 0.6]
+    if numbers:
+        return (numbers[0],)
+    if (units[0] or "").strip().lower() in SECONDS and share(0, is_number) > 0.6:
+        return (0,)
+    raise FormatError("no time column found", where=where, got=", ".join(names[:12]),
+                      expected="a column of dates, or one called time or with s, min or h as its unit",
+                      hint="declare table: {time: {column: 1, unit: s}}")

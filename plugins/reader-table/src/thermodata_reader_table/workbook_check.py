@@ -1,0 +1,102 @@
+"""What a workbook unpacks to, before anything reads it: a small file may ask for all memory. And what its cells hold
+that a reader gives as nothing: errors, formulas without values."""
+
+from __future__ import annotations
+
+import re
+import struct
+import zipfile
+import zlib
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+from thermodata.errors import FormatError
+
+MAX_UNPACKED = 1 << 30
+MAX_CELLS = 60_000_000
+_SPARSE = 3_000_000                          # cells of a sheet that may be almost empty
+_CELL = re.compile(rb'<(?:\w+:)?c [^>]*?r="([A-Z]{1,3})(\d{1,7})"')
+
+
+# what calamine gives as an empty cell, or does not tell
+_ODD = {
+    "hold an error such as #N/A": re.compile(rb'<(?:\w+:)?c [^>]*?t="e"'),
+    "hold a formula without its value (open the workbook once in a spreadsheet and save it)":
+        re.compile(rb"(?:</(?:\w+:)?f>|<(?:\w+:)?f [^>]*/>)</(?:\w+:)?c>"),
+    "hidden": re.compile(rb'<(?:\w+:)?row [^>]*?hidden="(?:1|true)"'),
+}
+
+
+def check_size(path: Path) -> dict[str, int]:
+    """How many cells and rows of all sheets are of each kind of _ODD.
+
+    FormatError for a workbook that is no ZIP, or whose parts unpack to more than 1 GiB (whatever their headers
+    say), or whose cells span an absurd area: a reader of it would take all memory."""
+    try:
+        with zipfile.ZipFile(path) as archive:
+            members = archive.infolist()
+    except (zipfile.BadZipFile, OSError, ValueError, NotImplementedError) as error:
+        raise FormatError("not a readable workbook", where=path.name, expected="an XLSX (ZIP) file",
+                          got=str(error)) from None
+    unpacked, odd = 0, dict.fromkeys(_ODD, 0)
+    with path.open("rb") as file:
+        for member in members:
+            sheet = member.filename.startswith("xl/worksheets/")
+            right, bottom, rest, count = 0, 0, b"", 0
+            for part in _inflate(file, member, path):
+                unpacked += len(part)
+                if unpacked > MAX_UNPACKED:
+                    raise FormatError("workbook unpacks to more than 1 GiB", where=f"{path.name} {member.filename}",
+                                      expected="a log of reasonable size", got=f"{path.stat().st_size} bytes packed",
+                                      hint="export it as CSV or Parquet")
+                if sheet:
+                    for kind, pattern in _ODD.items():
+                        odd[kind] += len(pattern.findall(rest + part)) - len(pattern.findall(rest))
+                    cells = _CELL.findall(rest + part)
+                    count += len(cells)
+                    found = set(cells)
+                    rest = part[-200:]
+                    if found:
+                        right = max(right, max(_column(c) for c in {c for c, _ in found}))
+                        bottom = max(bottom, max(int(r) for _, r in found))
+            if right * bottom > MAX_CELLS or right * bottom > max(_SPARSE, 20 * count):
+                raise FormatError("sheet spans an absurd area", where=f"{path.name} {member.filename}",
+                                  expected=f"at most {MAX_CELLS} cells, most of them filled",
+                                  got=f"{bottom} rows x {right} columns with {count} cells",
+                                  hint="delete the stray cells far off, or export it as CSV or Parquet")
+    return odd
+
+
+def _inflate(file: Any, member: zipfile.ZipInfo, path: Path) -> Iterator[bytes]:
+    file.seek(member.header_offset)
+    header = file.read(30)
+    if len(header) < 30 or header[:4] != b"PK\x03\x04":
+        raise FormatError("damaged workbook", where=f"{path.name} byte {member.header_offset}",
+                          expected="a ZIP entry", got=header[:4].hex(" "))
+    name, extra = struct.unpack("<HH", header[26:30])
+    file.seek(name + extra, 1)
+    left = member.compress_size
+    if member.compress_type == zipfile.ZIP_STORED:
+        while left > 0 and (raw := file.read(min(left, 65536))):
+            left -= len(raw)
+            yield raw
+        return
+    if member.compress_type != zipfile.ZIP_DEFLATED:
+        raise FormatError("workbook packed in an unusual way", where=f"{path.name} {member.filename}")
+    unpack = zlib.decompressobj(-15)
+    try:
+        while left > 0 and (raw := file.read(min(left, 65536))):
+            left -= len(raw)
+            while raw:
+                yield unpack.decompress(raw, 1 << 20)
+                raw = unpack.unconsumed_tail
+    except zlib.error as error:
+        raise FormatError("damaged workbook", where=f"{path.name} {member.filename}", got=str(error)) from None
+
+
+def _column(letters: bytes) -> int:
+    n = 0
+    for letter in letters:
+        n = n * 26 + letter - 64
+    return n

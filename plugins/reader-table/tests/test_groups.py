@@ -1,0 +1,137 @@
+"""Columns with times of their own: found where header and values say so, asked or kept as signals where they don't."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from thermodata_reader_table import Reader, delimited, text_fast, text_rows
+
+from thermodata.errors import FormatError, UsageError
+from thermodata.plugin import Loss, Source
+from thermodata.testing.reader import Data, load
+
+S = 1_000_000_000
+
+
+def read(tmp_path: Path, text: str, **table: Any) -> Data:
+    path = tmp_path / "x.csv"
+    path.write_text(text, encoding="utf-8")
+    return load(Reader(), path, Source(timezone="UTC", table=table or None))
+
+
+def rows(*columns: list[Any], delimiter: str = ";") -> str:
+    """Columns of different lengths side by side, empty cells below the shorter."""
+    n = max(map(len, columns))
+    return "".join(delimiter.join(str(c[i]) if i < len(c) else "" for c in columns) + "\n" for i in range(n))
+
+
+A, B = [i * 0.5 for i in range(12)], [i * 0.75 for i in range(8)]
+VA, VB = [20 + i / 4 for i in range(12)], [100 - i for i in range(8)]
+
+
+def held(data: Data, stream: str, name: str, t: list[float], values: list[Any]) -> None:
+    assert next(s.stream for s in data.recording.signals if s.name == name) == stream
+    np.testing.assert_array_equal(data.t_ns[stream], (np.array(t) * S).astype(np.int64))
+    np.testing.assert_array_equal(data.values[stream, name], values)
+
+
+@pytest.mark.parametrize(("header", "streams", "names"), [
+    ("t1;T1;t2;T2;T3", ("t1", "t2"), ("T1", "T2")), ("Time;CH1;Time;CH2;n", ("Time", "Time#2"), ("CH1", "CH2")),
+    ("Time.0 [s];CH1;Time.1 [s];CH2;n", ("Time.0 [s]", "Time.1 [s]"), ("CH1", "CH2")),
+    ("CH1 time;CH1;CH2 time;CH2;n", ("CH1 time", "CH2 time"), ("CH1", "CH2")),
+    ("Zeit 1 [s];a;Zeit 2 [s];b;c", ("Zeit 1 [s]", "Zeit 2 [s]"), ("a", "b")),
+    ("CH1;;CH2;;\nTime;Value;Time;Value;n", ("CH1/Time", "CH2/Time"), ("CH1/Value", "CH2/Value")),
+])
+def test_each_group_is_a_stream_of_its_own_length(tmp_path: Path, header: str, streams: tuple[str, str],
+                                                  names: tuple[str, str]) -> None:
+    data = read(tmp_path, header + "\n" + rows(A, VA, B, VB, VB))
+    held(data, streams[0], names[0], A, VA)
+    held(data, streams[1], names[1], B, VB)
+    assert not data.losses
+    assert data.recording.notes[0].startswith("2 time columns, each with the columns behind it")
+
+
+def test_both_ways_through_the_text_agree(tmp_path: Path) -> None:
+    path = tmp_path / "x.csv"
+    dates = [f"2026-03-01 08:00:{i:02}" for i in range(12)]
+    path.write_text("Date,CH1,Date,CH2,mode\n" + rows(dates, VA, dates[:8], VB, ["on"] * 8, delimiter=","))
+    source = Source(timezone="Europe/Prague")
+    sheet = delimited.open_sheet(path, source)
+    assert text_fast.suits(sheet)
+    ways = [list(text_fast.blocks(path, sheet, source, text_rows.Tally())),
+            list(text_rows.blocks(path, sheet, source, text_rows.Tally()))]
+    for fast, slow in zip(*ways, strict=True):
+        assert not isinstance(slow, Loss)
+        assert fast.stream == slow.stream
+        np.testing.assert_array_equal(fast.t_ns, slow.t_ns)
+        for name in fast.values:
+            np.testing.assert_array_equal(fast.values[name], slow.values[name])
+    assert [b.t_ns.size for b in ways[0]] == [12, 8]
+
+
+def test_dates_and_times_of_day_a_group(tmp_path: Path) -> None:
+    clock = [f"08:00:{i:02}" for i in range(8)]
+    text = "Datum;Uhrzeit;T1;Datum;Uhrzeit;T2\n" + rows(["1.3.2026"] * 8, clock, VB, ["2.3.2026"] * 8, clock, VB)
+    data = read(tmp_path, text)
+    starts = [np.datetime64(int(t[0]), "ns").astype("datetime64[D]").item().day for t in data.t_ns.values()]
+    assert starts == [1, 2]
+
+
+def test_a_value_without_its_time_is_a_loss_and_an_ended_group_is_none(tmp_path: Path) -> None:
+    text = rows(A, VA, B, VB).splitlines(keepends=True)
+    text[9] = text[9].replace(";;", ";;99.5")
+    data = read(tmp_path, "t1;T1;t2;T2\n" + "".join(text))
+    assert "1 rows without a time" in data.losses[0].reason
+    assert 99.5 not in data.values["t2", "T2"]
+
+
+def test_lines_that_end_with_their_group_are_whole_and_others_short(tmp_path: Path) -> None:
+    text = "t1;T1;t2;T2\n" + rows([*A, 6, 7], [*VA, 1, 2], A[:-1], VA[:-1]).replace(";;\n", "\n")
+    assert not read(tmp_path, text).losses
+    lines = text.splitlines(keepends=True)
+    lines[4] = ";".join(lines[4].split(";")[:2]) + "\n"
+    assert "fewer cells" in read(tmp_path, "".join(lines)).losses[0].reason
+
+
+@pytest.mark.parametrize("header", [
+    "time [s];t1;t2;t3", "time [s];t1 [degC];T1;t2 [degC]", "Time;Elapsed;CH1;CH2", "time [s];t1;CH1;t2",
+    "Time;CH1;Operating time;CH2",
+])
+def test_temperatures_and_second_clocks_stay_signals(tmp_path: Path, header: str) -> None:
+    data = read(tmp_path, header + "\n" + rows(A, A, A, A))
+    assert list(data.t_ns) == ["table"]
+    assert len(data.recording.signals) == 3
+
+
+def test_two_words_for_time_that_run_apart_are_asked(tmp_path: Path) -> None:
+    text = "time [s];CH1;Zeit [s];CH2\n" + rows(A, VA, [i * 2 for i in range(12)], VA)
+    with pytest.raises(FormatError, match="run apart") as error:
+        read(tmp_path, text)
+    assert "time: [{column: 1" in str(error.value)
+    assert list(read(tmp_path, text, time={"column": 1}).t_ns) == ["table"]
+    data = read(tmp_path, text, time=[{"column": 1}, {"column": "Zeit"}])
+    held(data, "Zeit [s]", "CH2", [i * 2.0 for i in range(12)], VA)
+
+
+def test_times_behind_their_columns_are_asked_and_can_be_declared(tmp_path: Path) -> None:
+    text = "T1;time;T2;time\n" + rows(VB, B, VA, A)
+    with pytest.raises(FormatError, match="behind its columns or before"):
+        read(tmp_path, text)
+    data = read(tmp_path, text, time=[{"column": 2, "signals": ["T1"], "unit": "min"}, {"column": 4, "signals": [3]}])
+    held(data, "time", "T1", [b * 60 for b in B], VB)
+    held(data, "time#2", "T2", A, VA)
+
+
+def test_a_column_declared_twice_is_refused(tmp_path: Path) -> None:
+    with pytest.raises(UsageError, match="declared twice"):
+        read(tmp_path, "t1;T1;t2;T2\n" + rows(A, VA, B, VB),
+             time=[{"column": 1, "signals": [2]}, {"column": 3, "signals": [2]}])
+
+
+def test_dates_beside_seconds_of_their_own_are_asked(tmp_path: Path) -> None:
+    dates = [f"2026-03-01 08:00:{i:02}" for i in range(12)]
+    with pytest.raises(FormatError, match="some times are dates"):
+        read(tmp_path, "Date;CH1;t;CH2\n" + rows(dates, VA, B, VB), time=[{"column": 1}, {"column": 3, "unit": "s"}])

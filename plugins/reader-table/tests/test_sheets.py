@@ -1,0 +1,138 @@
+"""Sheets of a workbook: several tables, covers, merged headers, durations, the date system of 1904."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from thermodata_reader_table import Reader
+
+from thermodata.errors import FormatError
+from thermodata.plugin import Source
+from thermodata.testing.reader import Data, load
+
+from .test_workbook import bomb
+
+MAIN = "http://schemas.openxmlformats.org/spreadsheetml/2006/main"
+OFFICE = "http://schemas.openxmlformats.org/officeDocument/2006/relationships"
+PACKAGE = "http://schemas.openxmlformats.org/package/2006"
+TYPES = "application/vnd.openxmlformats-"
+# cell formats: 0 general, 1 date and time, 2 duration, 3 time of day, 4 date
+STYLES = (f'<styleSheet xmlns="{MAIN}"><numFmts count="1"><numFmt numFmtId="164" formatCode="[h]:mm:ss"/></numFmts>'
+          '<fonts count="1"><font/></fonts><fills count="1"><fill/></fills><borders count="1"><border/></borders>'
+          '<cellStyleXfs count="1"><xf/></cellStyleXfs><cellXfs count="5"><xf numFmtId="0"/><xf numFmtId="22"/>'
+          '<xf numFmtId="164"/><xf numFmtId="21"/><xf numFmtId="14"/></cellXfs></styleSheet>')
+
+
+def sheet(rows: list[list[object]], styles: tuple[int, ...] = (), merged: str = "") -> str:
+    """Rows of words, numbers and None; styles: of the number cells of each column."""
+    lines = []
+    for r, row in enumerate(rows, 1):
+        cells = ""
+        for c, value in enumerate(row):
+            place = f"{chr(65 + c)}{r}"
+            if isinstance(value, str):
+                cells += f'<c r="{place}" t="inlineStr"><is><t>{value}</t></is></c>'
+            elif value is not None:
+                cells += f'<c r="{place}" s="{styles[c] if c < len(styles) else 0}"><v>{value!r}</v></c>'
+        lines.append(f'<row r="{r}">{cells}</row>')
+    joined = f'<mergeCells count="1"><mergeCell ref="{merged}"/></mergeCells>' if merged else ""
+    return f'<worksheet xmlns="{MAIN}"><sheetData>{"".join(lines)}</sheetData>{joined}</worksheet>'
+
+
+def workbook(path: Path, sheets: dict[str, str], properties: str = "") -> Path:
+    numbers = range(1, len(sheets) + 1)
+    named = "".join(f'<sheet name="{n}" sheetId="{i}" r:id="r{i}"/>' for i, n in zip(numbers, sheets, strict=True))
+    links = "".join(f'<Relationship Id="r{i}" Target="worksheets/sheet{i}.xml" Type="{OFFICE}/worksheet"/>'
+                    for i in numbers) + f'<Relationship Id="s" Target="styles.xml" Type="{OFFICE}/styles"/>'
+    members = {
+        "[Content_Types].xml": f'<Types xmlns="{PACKAGE}/content-types"><Default Extension="rels" ContentType="{TYPES}'
+                               f'package.relationships+xml"/><Default Extension="xml" ContentType="{TYPES}'
+                               'officedocument.spreadsheetml.worksheet+xml"/></Types>',
+        "_rels/.rels": f'<Relationships xmlns="{PACKAGE}/relationships"><Relationship Id="r1" Target="xl/workbook.xml" '
+                       f'Type="{OFFICE}/officeDocument"/></Relationships>',
+        "xl/workbook.xml": f'<workbook xmlns="{MAIN}" xmlns:r="{OFFICE}">{properties}<sheets>{named}</sheets>'
+                           '</workbook>',
+        "xl/_rels/workbook.xml.rels": f'<Relationships xmlns="{PACKAGE}/relationships">{links}</Relationships>',
+        "xl/styles.xml": STYLES,
+        **{f"xl/worksheets/sheet{i}.xml": text for i, text in zip(numbers, sheets.values(), strict=True)}}
+    return bomb(path, {name: text.encode() for name, text in members.items()})
+
+
+def read(path: Path, sheets: dict[str, str], source: Source | None = None, properties: str = "") -> Data:
+    return load(Reader(), workbook(path / "x.xlsx", sheets, properties), source or Source(timezone="UTC"))
+
+
+def seconds(n: int, first: float = 20.0) -> list[list[object]]:
+    return [["time [s]", "T1 [degC]"], *([i * 0.5, first + i] for i in range(n))]
+
+
+def test_each_sheet_with_a_table_is_a_stream_and_others_are_notes(tmp_path: Path) -> None:
+    book = {"cover": sheet([["Machine", "138"], ["Operator", "Novák"]]), "run 1": sheet(seconds(5)),
+            "run 2": sheet(seconds(3, 50))}
+    data = read(tmp_path, book)
+    assert [(s.name, s.stream, s.unit) for s in data.recording.signals] == [
+        ("run 1/T1 [degC]", "run 1", "degC"), ("run 2/T1 [degC]", "run 2", "degC")]
+    np.testing.assert_array_equal(data.values["run 1", "run 1/T1 [degC]"], 20 + np.arange(5))
+    np.testing.assert_array_equal(data.values["run 2", "run 2/T1 [degC]"], 50 + np.arange(3))
+    assert data.recording.notes[0].startswith("sheet 'cover' is not read as a table")
+    alone = read(tmp_path, book, Source(table={"sheet": "run 2"}))
+    assert [(s.name, s.stream) for s in alone.recording.signals] == [("T1 [degC]", "table")]
+    assert alone.recording.notes == ()
+
+
+def test_a_cover_before_the_only_table(tmp_path: Path) -> None:
+    data = read(tmp_path, {"cover": sheet([["Machine", "138"]]), "data": sheet(seconds(4))})
+    assert list(data.t_ns) == ["table"]
+    assert [s.name for s in data.recording.signals] == ["T1 [degC]"]
+
+
+def test_columns_with_times_of_their_own_in_sheets(tmp_path: Path) -> None:
+    pairs: list[list[object]] = [["t1", "T1", "t2", "T2"], *([i, 20 + i, i * 0.5, i] for i in range(4)),
+                                 [4, 24, None, None], [5, 25, None, None]]
+    data = read(tmp_path, {"a": sheet(pairs)})
+    assert {k: v.size for k, v in data.t_ns.items()} == {"t1": 6, "t2": 4}
+    both = read(tmp_path, {"a": sheet(pairs), "b": sheet(pairs)})
+    assert list(both.t_ns) == ["a/t1", "a/t2", "b/t1", "b/t2"]
+    assert not (*data.losses, *both.losses)
+
+
+def test_sheets_of_dates_and_of_seconds_are_asked(tmp_path: Path) -> None:
+    dates: list[list[object]] = [["time", "T"], *([46082 + i / 1440, i] for i in range(4))]
+    with pytest.raises(FormatError, match="some times are dates"):
+        read(tmp_path, {"a": sheet(dates, (1,)), "b": sheet(seconds(4))})
+
+
+def test_merged_headers_name_what_is_below_them(tmp_path: Path) -> None:
+    rows: list[list[object]] = [["time", "spindle", None, "column", None, "air"],
+                                [None, "front", "rear", "front", "rear", None],
+                                *([i, 1.5, 2.5, 3.5, 4.5, i] for i in range(4))]
+    data = read(tmp_path, {"a": sheet(rows, (), "B1:C1")})
+    assert [s.name for s in data.recording.signals] == ["spindle/front", "spindle/rear", "column/front", "column/rear",
+                                                        "air"]
+    data = read(tmp_path, {"a": sheet([[r[0], *r[1:3], r[5]] for r in rows])})
+    assert [s.name for s in data.recording.signals] == ["front", "rear", "air"]
+
+
+def test_the_date_system_of_1904(tmp_path: Path) -> None:
+    rows: list[list[object]] = [["time", "T"], *([43891 + i / 24, i] for i in range(4))]
+    for properties, year in (('<workbookPr date1904="1"/>', 2024), ("", 2020)):
+        data = read(tmp_path, {"a": sheet(rows, (1,))}, properties=properties)
+        assert np.datetime64(int(data.t_ns["table"][0]), "ns").astype("datetime64[Y]").item().year == year
+        np.testing.assert_array_equal(np.diff(data.t_ns["table"]), [3600 * 10**9] * 3)
+
+
+def test_durations_as_times_and_as_values(tmp_path: Path) -> None:
+    rows: list[list[object]] = [["time", "T", "running"], *([i * 0.5, i, i / 86400] for i in range(5))]
+    data = read(tmp_path, {"a": sheet(rows, (2, 0, 2))})
+    np.testing.assert_array_equal(data.t_ns["table"], np.arange(5) * 43_200 * 10**9)
+    np.testing.assert_allclose(data.values["table", "running"], np.arange(5), atol=1e-3)
+    assert {s.name: s.unit for s in data.recording.signals} == {"T": None, "running": "s"}
+    assert any("running" in note for note in data.recording.notes)
+
+
+def test_times_of_day_pass_midnight(tmp_path: Path) -> None:
+    rows: list[list[object]] = [["time", "T"], *([(0.75 + i / 8) % 1, i] for i in range(5))]
+    data = read(tmp_path, {"a": sheet(rows, (3,))})
+    np.testing.assert_array_equal(data.t_ns["table"], np.arange(5) * 3 * 3600 * 10**9)
