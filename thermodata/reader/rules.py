@@ -96,6 +96,8 @@ def values_have_the_declared_dtype(recording: Recording, block: Block) -> str | 
             if values.dtype.kind == "U":
                 continue
             if values.dtype.kind == "O":
+                if set(map(type, values.tolist())) <= {str, type(None)}:
+                    continue
                 row = next((i for i, v in enumerate(values) if not (v is None or isinstance(v, str))), None)
                 if row is None:
                     continue

@@ -8,6 +8,8 @@ COMMUNICATION").
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator
+from concurrent.futures import Executor, Future, ThreadPoolExecutor
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -18,7 +20,7 @@ from thermodata.reader.text import last_line_is_whole, split_unit
 from thermodata.schema.flag import Flag
 from thermodata_reader_crio.comments import flags_of, texts
 from thermodata_reader_crio.lvm_header import Header, Packet
-from thermodata_reader_crio.lvm_scan import RowPart, scan
+from thermodata_reader_crio.lvm_scan import Item, RowPart, has_heading_behind, scan
 from thermodata_reader_crio.lvm_streams import Streams, is_time
 from thermodata_reader_crio.lvm_times import Times, decimal_of, first_rows
 from thermodata_reader_crio.rows import Grid, Rows, mask, number, parse
@@ -43,12 +45,15 @@ def describe(path: Path, source: Source) -> Recording:
             _declare(streams, packet, signals, notes)
         elif isinstance(item, RowPart) and packet is not None and fresh:
             fresh = False
+            last = not has_heading_behind(path, encoding, item)
             decimal_of(item.data, header, packet, notes)
             times = Times(header, packet, first_rows(item.data, header, packet), source, notes)
             for group in streams.groups(packet):
                 base = times.base(group[0])
                 dated = dated or times.dated(group[0])
                 start = base if start is None else min(start, base)
+            if last:
+                break
     if not signals:
         raise FormatError("an LVM file without a channel over time", where=path.name, expected="X_Dimension Time",
                           got="spectra, or no channel")
@@ -111,23 +116,40 @@ def blocks(path: Path, source: Source) -> Iterator[Block | Loss]:
     streams = _streams(path, encoding)
     header = Header()
     reading: _Reading | None = None
+    waiting: _Part | None = None
     last_ns: int | None = None
-    for item in scan(path, encoding, []):
-        if isinstance(item, Header):
-            header = item
-        elif isinstance(item, Loss):
-            yield Loss(item.where, last_ns, None, None, item.reason)
-        elif isinstance(item, Packet):
-            if reading is not None:
-                yield from reading.end(last_ns)
-            reading = _Reading(path, header, item, streams, source, encoding)
-        elif reading is not None:
-            for made in reading.rows(item):
-                if isinstance(made, Block):
-                    last_ns = int(made.t_ns[-1])
-                yield made
-    if reading is not None:
-        yield from reading.end(last_ns)
+    with ThreadPoolExecutor(1) as pool:
+        for item in _and_end(scan(path, encoding, [])):
+            begun = reading.begin(item, pool) if isinstance(item, RowPart) and reading is not None else None
+            if waiting is not None:
+                for made in waiting.reading.finish(waiting):
+                    if isinstance(made, Block):
+                        last_ns = int(made.t_ns[-1])
+                    yield made
+            waiting = begun
+            if isinstance(item, Header):
+                header = item
+            elif isinstance(item, Loss):
+                yield Loss(item.where, last_ns, None, None, item.reason)
+            elif isinstance(item, Packet) or item is None:
+                if reading is not None:
+                    yield from reading.end(last_ns)
+                reading = None if item is None else _Reading(path, header, item, streams, source, encoding)
+
+
+def _and_end(items: Iterator[Item]) -> Iterator[Item | None]:
+    yield from items
+    yield None
+
+
+@dataclass(frozen=True)
+class _Part:
+    """Rows that are being parsed. line: of the first."""
+
+    reading: _Reading
+    line: int
+    losses: list[Loss]
+    rows: Future[Rows]
 
 
 class _Reading:
@@ -143,20 +165,24 @@ class _Reading:
         for group in streams.groups(packet):
             streams.of(packet, group)                # named in the order of the headings, whether rows follow or not
 
-    def rows(self, part: RowPart) -> Iterator[Block | Loss]:
-        data = part.data
+    def begin(self, part: RowPart, pool: Executor) -> _Part | None:
+        """Has lines parsed, while what came before them is used."""
+        data, losses = part.data, []
         if self.times is None or self.grid is None:
             if not data.strip():
-                return
+                return None
             self.times = Times(self.header, self.packet, first_rows(data, self.header, self.packet), self.source, [])
             self.grid = _grid(self.header, self.packet, decimal_of(data, self.header, self.packet, []))
         if not part.ended and not self._whole(data):
             cut = data.rfind(b"\n") + 1
             line = part.line + data.count(b"\n")
             data = data[:cut]
-            yield Loss(f"{self.path.name} line {line}", reason="the last line has no end: it may be cut")
-        rows = parse(data, self.grid)
-        yield from self._blocks(rows, part.line)
+            losses.append(Loss(f"{self.path.name} line {line}", reason="the last line has no end: it may be cut"))
+        return _Part(self, part.line, losses, pool.submit(parse, data, self.grid))
+
+    def finish(self, part: _Part) -> Iterator[Block | Loss]:
+        yield from part.losses
+        yield from self._blocks(part.rows.result(), part.line)
 
     def _whole(self, data: bytes) -> bool:
         *_, before, last = [b"", *data.rsplit(b"\n", 2)][-3:] if data.count(b"\n") > 1 else [b"", b"", data]
@@ -174,8 +200,7 @@ class _Reading:
                 lost += rows.line[~good & (self._has_value(group, empty, rows.n) | (count == 0))].tolist()
             yield from self._sliced(block)
         self.done += rows.n
-        odd = [] if words is None else \
-            [i for i, w in enumerate(words) if w and ("\0" in w or number(w.encode(), self.grid.decimal) is not None)]
+        odd = [] if words is None else self._odd(words.tolist())
         yield from self._losses(rows, sorted(set(lost)), odd, line)
 
     def _unmeasured(self, rows: Rows) -> tuple[dict[int, Bool1D], Bool1D | None]:
@@ -236,6 +261,12 @@ class _Reading:
             return np.ones(n, bool)
         sampled: Bool1D = self._has_value(group, empty, n) | (np.arange(self.done, self.done + n) < own)
         return sampled
+
+    def _odd(self, words: list[str]) -> list[int]:
+        """Rows with a number, or bytes of no text, for a comment."""
+        assert self.grid is not None
+        odd = {w for w in set(words) if w and ("\0" in w or number(w.encode(), self.grid.decimal) is not None)}
+        return [i for i, w in enumerate(words) if w in odd] if odd else []
 
     def _losses(self, rows: Rows, lost: list[int], odd: list[int], line: int) -> Iterator[Loss]:
         if lost:

@@ -29,11 +29,13 @@ _KEY = re.compile(rb"(?!(?i:nan|inf|infinity)[\t,; ])(?:[A-Za-z_]|\*\*\*)")
 
 @dataclass(frozen=True, slots=True)
 class RowPart:
-    """Lines of rows. line: number of the first; ended: False where the last has no line end."""
+    """Lines of rows. line: number of the first; ended: False where the last has no line end; byte: where in a file
+    of one byte a letter they begin, or a few bytes before."""
 
     line: int
     data: bytes
     ended: bool
+    byte: int = 0
 
 
 Item = Header | Packet | RowPart | Loss
@@ -44,14 +46,26 @@ def scan(path: Path, encoding: str, notes: list[str]) -> Iterator[Item]:
     no header, or no packet at all."""
     state = _Scan(path, encoding, notes)
     rest, line = b"", 1
+    done = 0
     for part in parts(path, encoding):
+        state.byte, done = done - len(rest), done + len(part.data)
         line = line if rest else part.line
         data = rest + part.data if rest else part.data
         yield from state.part(Part(line, data, part.ended) if rest else part)
         rest, line = state.rest, state.line
     if rest:
+        state.byte = done - len(rest)
         yield from state.part(Part(line, rest, True), last=True)
     yield from state.end()
+
+
+def has_heading_behind(path: Path, encoding: str, rows: RowPart) -> bool:
+    """Whether a heading may follow the first rows of a packet: there is none without a star."""
+    if encoding.lower().replace("_", "-").startswith("utf-16"):
+        return True
+    with path.open("rb") as file:
+        file.seek(rows.byte)
+        return any(b"*" in block for block in iter(lambda: file.read(1 << 20), b""))
 
 
 class _Scan:
@@ -63,7 +77,7 @@ class _Scan:
         self.lines: list[str] = []
         self.state = "heading"          # or: names, rows, special
         self.before_special = ""
-        self.rest, self.line = b"", 1
+        self.rest, self.line, self.byte = b"", 1, 0
         self.strays: list[int] = []     # lines in a heading that are none of its
 
     def part(self, part: Part, last: bool = False) -> Iterator[Item]:
@@ -74,7 +88,7 @@ class _Scan:
                 end = self._rows_end(data, at, last or not part.ended)
                 if end > at:
                     if not self.lost:
-                        yield RowPart(line, data[at:end], part.ended or end < len(data))
+                        yield RowPart(line, data[at:end], part.ended or end < len(data), self.byte + at)
                     # at the end of the part the next one brings its own number
                     line += data.count(b"\n", at, end) if end < len(data) else 0
                     at = end

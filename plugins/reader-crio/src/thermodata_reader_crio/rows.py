@@ -82,8 +82,11 @@ def _fast(data: bytes, grid: Grid) -> Rows | None:
     cells = first.count(grid.delimiter) + 1
     if b"\0" in data or not grid.least <= cells <= grid.numeric + grid.text or not first.strip():
         return None
-    if data.count(b"\r") != data.count(b"\r\n") or b"\n\n" in data or b"\n\r" in data:
-        return None                                  # Arrow would make a row of a lone CR, and of an empty line
+    # Arrow would end a row at a lone CR; and it makes a row of an empty line, which only one column hides
+    if b"\r" in data and data.count(b"\r") != data.count(b"\r\n"):
+        return None
+    if cells == 1 and (b"\n\n" in data or b"\n\r" in data):
+        return None
     names = [str(i) for i in range(cells)]
     kinds = {name: pa.float64() if i < grid.numeric else pa.binary() for i, name in enumerate(names)}
     try:
@@ -103,7 +106,7 @@ def _fast(data: bytes, grid: Grid) -> Rows | None:
         return None                                  # an empty line is an empty cell where there is one column
     text = None
     if cells > grid.numeric:
-        text = np.array(table.column(grid.numeric).to_pylist(), object)
+        text = _texts(table.column(grid.numeric))
     whole = cells >= grid.numeric and all(table.column(i).null_count == 0 for i in range(grid.numeric)) \
         and not any(np.isnan(c[0]) or np.isnan(c.sum()) for c in numbers)
     return Rows(numbers, text, np.arange(table.num_rows, dtype=np.int64), [], [], whole)
@@ -123,6 +126,17 @@ def _numpy(column: Any) -> Float1D:
             out[at:at + n][bits[chunk.offset:] == 0] = np.nan
         at += n
     return out
+
+
+def _texts(column: Any) -> Array | None:
+    """Cells of free text as bytes, None for an empty one; None where all are empty. Few of them differ."""
+    if column.null_count == len(column):
+        return None
+    coded = column.combine_chunks().dictionary_encode()
+    words = np.array([*coded.dictionary.to_pylist(), None], object)
+    codes = coded.indices.fill_null(len(words) - 1).to_numpy()
+    found: Array = words[codes]
+    return found
 
 
 # ---- the slow way --------------------------------------------------------------------------------
