@@ -170,3 +170,17 @@ def test_a_file_that_two_readers_claim_is_said_with_both_reasons(
     left = [x for x in text.splitlines() if x.startswith("# not used: b.dat")]
     assert len(left) == 1
     assert "crio (one reason) and table (another)" in left[0]
+
+
+def test_a_table_with_dates_that_names_the_tests_is_no_log(tmp_path: Path) -> None:
+    for k, test in enumerate(("run_a", "run_b")):
+        for part in range(2):
+            log(tmp_path / f"{test}_{part + 1}.tdms", k + part * 1000 / 86400)
+    log(tmp_path / "jump_z.tdms", 9, "probe Z", "V")
+    (tmp_path / "tabulka.csv").write_text("Test;Otáčky [1/min];Datum\nrun_a;9000;2026-03-01\nrun_b;6000;2026-03-02\n",
+                                          encoding="utf-8")
+    made, _ = drafted(tmp_path)
+    assert made.table is not None
+    assert made.table.file == "tabulka.csv"
+    said = {t.id: t.conditions.get("speed") for t in made.tests}
+    assert (said["run_a"], said["run_b"]) == ("9000 1/min", "6000 1/min")

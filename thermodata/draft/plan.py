@@ -131,10 +131,17 @@ def plan(campaign: str, folder: Path, found: Scan) -> Draft:
 
 def _claimed_table(folder: Path, found: Scan) -> str | None:
     """A table of tests that a reader takes for a log, because it has a column of dates."""
-    small = [str(f.path) for f in found.logs if f.size < 200_000 and is_called_table(str(f.path))]
-    ids = [f.path.stem for f in found.logs if str(f.path) not in small]
-    made = find_table(folder, small, ids) if small else None
-    return made.file if made else None
+    small = [str(f.path) for f in found.logs if f.size < 200_000]
+    called = [p for p in small if is_called_table(p)]
+    jumps = [j.file for f in found.logs if (j := jump_of(f)) is not None and j.named]
+    for candidates, by_number in ((called, True), ([p for p in small if p not in called], False)):
+        for candidate in candidates[:20]:
+            others = [f for f in found.logs if str(f.path) not in (candidate, *called)]
+            ids = list(dict.fromkeys(t for g in tests_of(sources_of(others, jumps)) for t in g.tests))
+            stems = [f.path.stem for f in others]
+            if any(find_table(folder, [candidate], names, by_number) for names in (ids, stems)):
+                return candidate
+    return None
 
 
 def _keyed(group: Group, named: dict[tuple[str, str], tuple[str, str | None, str]]) \

@@ -33,8 +33,10 @@ class TestTable:
     rows: Mapping[str, Mapping[str, str]]
 
 
-def find_table(folder: Path, candidates: Sequence[str], tests: Sequence[str]) -> TestTable | None:
-    """The first small table in which most tests are named, each once; None where there is none."""
+def find_table(folder: Path, candidates: Sequence[str], tests: Sequence[str],
+               by_number: bool = True) -> TestTable | None:
+    """The first small table in which most tests are named, each once; None where there is none. by_number: by the
+    number at the end of their names too."""
     if not tests:
         return None
     tables = [c for c in candidates if Path(c).suffix.lower() in _SUFFIXES]
@@ -44,7 +46,7 @@ def find_table(folder: Path, candidates: Sequence[str], tests: Sequence[str]) ->
         if path.stat().st_size > _LARGEST:
             continue
         for rows in _grids(path):
-            found = _read(candidate, rows, tests)
+            found = _read(candidate, rows, tests, by_number)
             if found is not None:
                 return found
     return None
@@ -81,13 +83,13 @@ def _text(cell: Any) -> str:
     return f"{cell:g}" if isinstance(cell, float) else "" if cell is None else str(cell).strip()
 
 
-def _read(file: str, rows: list[list[str]], tests: Sequence[str]) -> TestTable | None:
+def _read(file: str, rows: list[list[str]], tests: Sequence[str], by_number: bool) -> TestTable | None:
     body = [r for r in rows if sum(map(bool, r)) >= 2]
     if len(body) < 2:
         return None
     header, lines = body[0], body[1:]
     wanted = {normal(t): t for t in tests}
-    numbers = _numbers(tests)
+    numbers = _numbers(tests) if by_number else {}
     best: tuple[int, int, dict[int, str]] | None = None
     for column in range(len(header)):
         cells = [r[column] if column < len(r) else "" for r in lines]
