@@ -18,6 +18,7 @@ sys.path[:0] = [str(HERE), str(HERE.parent / "store")]
 import store_fakes  # noqa: E402
 import whole  # noqa: E402
 
+import thermodata.store.gather as gather  # noqa: E402
 from thermodata.store import Store  # noqa: E402
 from thermodata.store.ingest import ingest  # noqa: E402
 from thermodata.store.lifecycle import gc  # noqa: E402
@@ -37,16 +38,15 @@ def lab(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A folder with a campaign, an empty store `before`, one that holds it `after`, and one with a changed file."""
     folder = tmp_path_factory.mktemp("lab")
     campaign = store_fakes.write_campaign(folder / "lab")
-    store_fakes.install()
     Store(folder / "before/store", create=True)
-    ingest(Store(folder / "after/store", create=True), campaign)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(gather, "find_reader", lambda name: store_fakes.NpzReader())
+        ingest(Store(folder / "after/store", create=True), campaign)
     return folder
 
 
 @pytest.fixture(autouse=True)
 def fakes(monkeypatch: pytest.MonkeyPatch) -> None:
-    import thermodata.store.gather as gather
-
     monkeypatch.setattr(gather, "find_reader", lambda name: store_fakes.NpzReader())
 
 
