@@ -126,3 +126,25 @@ tests_from:
     ingest(store, tmp_path / "campaign.yaml")
     found = StoreView(store).sql("select test, max(value) from sample group by test order by test").fetchall()
     assert found == [("S3000_1", 27.125), ("S9000_2", 28.125)]
+
+
+@pytest.mark.parametrize("end", ["\r", "\n", "\r\n", "\n\r"])
+@pytest.mark.parametrize("head", ["time [s];T", "Rig;138\n\ntime;T\ns;degC"])
+@pytest.mark.parametrize("word", ["", ";idle"])
+def test_all_rows_come_whatever_ends_the_lines(tmp_path: Path, head: str, end: str, word: str) -> None:
+    text = head + "".join(f"\n{i};{i / 4}" for i in range(50)) + "\n"
+    for more in ("", "x\n" if word else ""):                # the second of them goes the careful way
+        data = read(tmp_path, (text + more).replace("\n", end))
+        np.testing.assert_array_equal(data.t_ns["table"], np.arange(50) * 10**9)
+        np.testing.assert_array_equal(data.values["table", "T"], np.arange(50) / 4)
+
+
+def test_a_quote_left_open_behind_the_header_costs_its_own_line(tmp_path: Path) -> None:
+    rows = "".join(f'"{i}","{i / 4}","7","8"\n' for i in range(1, 40))
+    path = tmp_path / "x.csv"
+    path.write_text('"time [s]","T","a","b"\n"0","\n' + rows)
+    sheet = delimited.open_sheet(path, PRAGUE)
+    for way in (text_fast, text_rows):
+        found = list(way.blocks(path, sheet, PRAGUE, text_rows.Tally()))
+        assert [t for b in found for t in (b.t_ns // 10**9).tolist()] == list(range(1, 40))
+    assert "line 2 between header and data is not read" in sheet.notes[0]

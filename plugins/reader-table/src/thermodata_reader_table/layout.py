@@ -85,7 +85,8 @@ def find(rows: Sequence[Sequence[Cell]], declared: Mapping[str, Any] | None, whe
     row_of_units = None if units_row is None else int(units_row) - 1 - skip
     heads, units = _heads([r[:width] for r in rows[skip:first]], width, row_of_units)
     names = unique(heads)
-    data = [list(r[:width]) + [""] * (width - len(r)) for r in rows[first:first + 200]]
+    data = [list(r[:width]) + [""] * (width - len(r)) for r in rows[first:first + 200]
+            if any(c not in ("", None) for c in r)]
     if not data:
         raise FormatError("a table without data rows", where=where, expected=f"data after row {first}")
     lost = _between(rows[skip:first], width, skip) if header is None else []
@@ -207,12 +208,26 @@ def _width(body: Sequence[Sequence[Cell]]) -> int:
 
 
 def _first_data(body: Sequence[Sequence[Cell]], width: int, where: str) -> int:
+    stamped = _stamped(body, width)
     for i, row in enumerate(body):
+        if stamped and not any(is_stamp(c) for k, c in enumerate(row) if k in stamped):
+            continue                                         # a row of a list of channels with their ranges
         following = [r for r in body[i + 1:i + 11] if any(c not in ("", None) for c in r)]
-        if _is_data(row, width) and sum(_is_data(r, width) for r in following) * 2 >= len(following):
-            return i
+        if not _is_data(row, width) or sum(_is_data(r, width) for r in following) * 2 < len(following):
+            continue
+        words = [c for c in row if isinstance(c, str) and c and not is_number(c) and not is_stamp(c)]
+        if words and following and not _is_data(following[0], width):
+            continue                                         # "Serial;4711" above the header
+        return i
     raise FormatError("no data rows found", where=where, expected="rows of numbers and times",
                       hint="declare table: {header_rows: ..., skip_rows: ...}")
+
+
+def _stamped(body: Sequence[Sequence[Cell]], width: int) -> set[int]:
+    """Columns that hold dates or times in nearly all rows of the second half, where preamble is rare."""
+    late = [r for r in body[len(body) // 2:] if len(r) >= width - 1]
+    return {k for k in range(width)
+            if len(late) >= 5 and sum(k < len(r) and is_stamp(r[k]) for r in late) > 0.9 * len(late)}
 
 
 def _heads(rows: Sequence[Sequence[Cell]], width: int, units_row: int | None) -> tuple[list[str], list[str | None]]:
@@ -226,12 +241,24 @@ def _heads(rows: Sequence[Sequence[Cell]], width: int, units_row: int | None) ->
         filled = [c for c in spanning[-1] if c]
         if sum(looks_like_unit(c) or c.startswith("[") for c in filled) * 2 > len(filled):
             units = [u.strip("[]() ") or None for u in spanning.pop()]
+        elif _units_among(spanning[-2], spanning[-1]):
+            units = [u if looks_like_unit(u) else None for u in spanning.pop()]
     names = spanning[-1] if spanning else [""] * width
     at = next((i for i in range(len(texts) - 1, 0, -1) if texts[i] is names), 0)
     if at and any(texts[at - 1]):
         names = _under(texts[at - 1], names)
     found = [split_unit(n)[1] for n in names]
     return names, [u or f for u, f in zip(units, found, strict=True)]
+
+
+def _units_among(above: Sequence[str], row: Sequence[str]) -> bool:
+    """Whether a row below names that are all different repeats itself in units, beside words that are none
+    ("NO.", "Time" and the letters of alarms, below "Number" and "Date&Time")."""
+    said = [c for c in row if c]
+    named = [c for c in above if c]
+    units = [c for c in said if looks_like_unit(c)]
+    return (len(set(named)) == len(named) >= len(said) > len(set(said)) and len(units) * 3 >= len(said)
+            and len(units) >= sum(map(looks_like_unit, named)) + 2)
 
 
 def _under(above: list[str], names: list[str]) -> list[str]:

@@ -7,7 +7,7 @@ import warnings
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
+from typing import IO, Any
 
 import numpy as np
 
@@ -21,6 +21,7 @@ from thermodata_reader_table.layout import Group, Layout
 BLOCK_VALUES = 1_000_000
 _SPARE = 8                 # cells that a line may have too many before the file is refused
 EMPTY = {"", "nan", "null", "none", "n/a", "#n/a", "na", "-", "--", "---", "?"}
+_LINE = re.compile(r"line (\d+)")            # as pandas counts, from the first row of data
 _GROUPED = {",": re.compile(r"^[+-]?\d{1,3}(?:[. \u00a0\u202f'’]\d{3})+(?:,\d*)?$"),
             ".": re.compile(r"^[+-]?\d{1,3}(?:[, \u00a0\u202f'’]\d{3})+(?:\.\d*)?$")}
 
@@ -93,11 +94,10 @@ def chunks(path: Path, sheet: Sheet, rows: int, only: tuple[int, ...] | None = N
     text = {i: str for i, kind in enumerate(sheet.kinds) if kind == "str"}
     text |= dict.fromkeys(sheet.layout.dated, str)
     try:
-        with pd.read_csv(
-            path, sep=sheet.delimiter, header=None, names=list(range(width + _SPARE)), index_col=False, dtype=text,
-            skiprows=sheet.layout.first, encoding=sheet.encoding, keep_default_na=False, na_values=[""],
-            decimal=sheet.decimal,
-            quoting=0 if sheet.quoted else 3, skip_blank_lines=True, chunksize=rows, encoding_errors="strict",
+        with _behind_head(path, sheet) as file, pd.read_csv(
+            file, sep=sheet.delimiter, header=None, names=list(range(width + _SPARE)), index_col=False, dtype=text,
+            keep_default_na=False, na_values=[""], decimal=sheet.decimal,
+            quoting=0 if sheet.quoted else 3, skip_blank_lines=True, chunksize=rows,
             engine="c", low_memory=True, on_bad_lines="error", **exact,
         ) as reader:
             for chunk in reader:
@@ -106,7 +106,17 @@ def chunks(path: Path, sheet: Sheet, rows: int, only: tuple[int, ...] | None = N
         return
     except (pd.errors.ParserError, UnicodeError) as error:
         raise FormatError("a line that does not fit the table", where=path.name, expected=f"{width} cells",
-                          got=(str(error).strip().splitlines() or ["?"])[-1]) from None
+                          got=_LINE.sub(lambda m: f"line {int(m[1]) + sheet.layout.first}",
+                                        (str(error).strip().splitlines() or ["?"])[-1])) from None
+
+
+def _behind_head(path: Path, sheet: Sheet, encoding: str | None = None) -> IO[str]:
+    """The file at its first row of data. pandas would count other lines: a quote that is left open, or a carriage
+    return behind the line feed, is not an end to all."""
+    file = path.open(encoding=encoding or sheet.encoding, newline="")
+    for _ in range(sheet.layout.first):
+        file.readline()
+    return file
 
 
 class Clock:
@@ -249,27 +259,22 @@ def _short(path: Path, sheet: Sheet) -> int:
     ends = _Ends(sheet)
     if sheet.quoted or sheet.encoding.startswith("utf-16"):
         return _short_records(path, sheet, ends)
-    delimiter = sheet.delimiter.encode()
-    with path.open("rb") as file:
-        for _ in range(sheet.layout.first):
-            file.readline()
-        last = b""
+    with _behind_head(path, sheet, "latin-1") as file:       # the same lines and delimiters, faster
+        last = ""
         for line in file:
-            cells = line.count(delimiter) + 1
+            cells = line.count(sheet.delimiter) + 1
             if cells < ends.usual and line.isspace():
                 continue
             before = ends.short
             ends.add(cells)
             last = line if ends.short > before else last
-    return ends.short - (1 if sheet.cut and last and not last.endswith((b"\n", b"\r")) and ends.short else 0)
+    return ends.short - (1 if sheet.cut and last and not last.endswith(("\n", "\r")) and ends.short else 0)
 
 
 def _short_records(path: Path, sheet: Sheet, ends: _Ends) -> int:
     import csv
 
-    with path.open(encoding=sheet.encoding, newline="", errors="replace") as file:
-        for _ in range(sheet.layout.first):
-            file.readline()
+    with _behind_head(path, sheet) as file:
         try:
             for row in csv.reader(file, delimiter=sheet.delimiter, quoting=0 if sheet.quoted else 3):
                 if row:
@@ -307,6 +312,8 @@ def to_number(text: str, decimal: str) -> float | None:
     """A number, with marks between thousands or a per cent sign behind it, or true and false; None for any other
     word. `1_000` is none, though Python reads it."""
     low = text.lower()
+    if text[:1] in "+-" and text[1:2] == " ":
+        text = text[0] + text[1:].lstrip(" ")              # "+   23.5"
     if low in ("true", "false"):
         return float(low == "true")
     if "_" in text:
