@@ -68,8 +68,8 @@ def main() -> None:
     from thermodata.store.ingest import ingest
 
     steps = Steps(given.store.absolute().parent, given.die_at)
-    right = connection.catalogue
-    connection.catalogue = lambda folder: Watched(right(folder), steps)  # type: ignore[assignment,return-value]
+    right = connection.memory
+    connection.memory = lambda folder: Watched(right(folder), steps)  # type: ignore[assignment,return-value]
     sys.addaudithook(steps.audit)
     if given.op == "ingest":
         # what is imported late would be counted as a part of the work

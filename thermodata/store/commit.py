@@ -61,9 +61,12 @@ def version_of(rows: Mapping[str, Mapping[str, list[Row]]], test: str) -> str:
 
 def changes(planned: Planned, known: Known) -> set[str]:
     """The tests whose rows differ from those in the catalogue."""
-    tests = planned.tests() | {t for table in known.rows.values() for t in table}
-    return {t for t in tests if any(
-        comparable(planned.rows[table].get(t, [])) != comparable(known.rows[table].get(t, [])) for table in BY_TEST)}
+    return {t for table in BY_TEST for t in _changed(planned.rows[table], known.rows[table])}
+
+
+def _changed(planned: Mapping[str, list[Row]], known: Mapping[str, list[Row]]) -> set[str]:
+    """The tests whose rows of one table differ."""
+    return {t for t in planned.keys() | known.keys() if comparable(planned.get(t, [])) != comparable(known.get(t, []))}
 
 
 def nothing_new(planned: Planned, known: Known) -> bool:
@@ -85,12 +88,13 @@ def commit(con: duckdb.DuckDBPyConnection, store: Path, planned: Planned, known:
     stale = {t for t in changed if known.rows["test"].get(t)
              and version_of(planned.rows, t) != version_of(known.rows, t)}
     for table in BY_TEST:
-        # the table `test` keeps the order of the campaign file, so all of its rows are written each time
-        tests = list(planned.rows[table]) if table == "test" else [t for t in planned.rows[table] if t in changed]
-        gone = changed | set(known.rows[table] if table == "test" else ())
+        gone = _changed(planned.rows[table], known.rows[table])
+        if table == "test" and (gone or list(planned.rows[table]) != list(known.rows[table])):
+            # it keeps the order of the campaign file, so all of its rows are written again
+            gone = planned.rows[table].keys() | known.rows[table].keys()
         if gone:
             con.execute(f"delete from {table} where campaign = ? and list_contains(?, test)", [campaign, sorted(gone)])
-        insert(con, table, [r for t in tests for r in planned.rows[table][t]])
+        insert(con, table, [row for t, rows in planned.rows[table].items() if t in gone for row in rows])
     con.execute("update test set start = make_timestamp_ns(start_ns) where campaign = ? and start_ns is not null "
                 "and start is null", [campaign])
     con.execute("delete from calibration where campaign = ?", [campaign])

@@ -105,7 +105,7 @@ def _ingest(store: Store, path: Path, watch: Progress) -> IngestSummary:
         summary.notes.append("nothing changed: the store holds these files and this campaign file already")
     else:
         with store.write() as con:
-            current = read_known(con, store.path, campaign.id)
+            current = read_known(con, None, campaign.id)
             summary.stale = commit(con, store.path, planned, current, now)
         summary.changed = True
         if summary.stale:

@@ -46,12 +46,14 @@ class Known:
             r["key"] == base or json.loads(r["columns"]).get("base") == base)]
 
 
-def read_known(con: duckdb.DuckDBPyConnection, store: Path, campaign: str) -> Known:
-    """The catalogue's rows about a campaign. Raw files that are gone or cut are left out."""
+def read_known(con: duckdb.DuckDBPyConnection, store: Path | None, campaign: str) -> Known:
+    """The catalogue's rows about a campaign. Raw files that are gone or cut are left out.
+
+    store: the folder; None where the raw files don't matter, which each are opened to see whether they are whole."""
     known = Known(campaign)
     seen: set[str] = set()
-    for row in fetch(con, "select * from file where layer in ('raw', 'superseded')"):
-        if row["path"] not in seen and is_whole(store / row["path"]):
+    for row in fetch(con, "select * from file where layer in ('raw', 'superseded')") if store else ():
+        if row["path"] not in seen and store and is_whole(store / row["path"]):
             seen.add(row["path"])
             known.raws.setdefault(row["key"], []).append(RawStream.from_row(row))
     for table in BY_TEST:

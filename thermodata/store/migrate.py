@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import shutil
-from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from thermodata.errors import StoreError
+from thermodata.store import connection
 from thermodata.store.ddl import FORMAT
 from thermodata.store.files import publish, temporary
 
@@ -37,26 +37,24 @@ def check_format(con: duckdb.DuckDBPyConnection, path: Path, prefix: str = "") -
     return version
 
 
-def migrate(con: duckdb.DuckDBPyConnection, folder: Path,
-            reopen: Callable[[], duckdb.DuckDBPyConnection]) -> duckdb.DuckDBPyConnection:
-    """Brings an older catalogue to this format, keeping the old file beside it; returns an open connection."""
+def migrate(con: duckdb.DuckDBPyConnection, folder: Path) -> None:
+    """Brings an older catalogue, attached to `con`, to this format, keeping the old file beside it."""
     version = check_format(con, folder)
     if version == FORMAT:
-        return con
+        return
     missing = [v for v in range(version, FORMAT) if v not in STEPS]
     if missing:
         raise StoreError("the store's format is too old", where=str(folder), got=f"format {version}",
                          expected=f"format {FORMAT}", hint="ingest the campaigns into a new store")
-    # closed first: a copy through another descriptor would drop DuckDB's lock on the open file
-    con.close()
+    # detached first: a copy through another descriptor would drop DuckDB's lock on the open file
+    connection.detach(con)
     _backup(folder / "catalog.duckdb", folder / f"catalog.format{version}.duckdb.backup")
-    con = reopen()
+    connection.attach(con, folder)
     con.execute("begin transaction")
     for step in range(version, FORMAT):
         con.execute(STEPS[step])
     con.execute(f"update store set format = {FORMAT}")
     con.execute("commit")
-    return con
 
 
 def _backup(catalogue: Path, target: Path) -> None:

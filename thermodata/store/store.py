@@ -6,7 +6,7 @@ import contextlib
 import secrets
 import threading
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import AbstractContextManager, contextmanager
 from datetime import UTC, datetime
 from importlib import import_module
 from pathlib import Path
@@ -68,8 +68,7 @@ class Store:
 
     def private_copy(self) -> duckdb.DuckDBPyConnection:
         """A copy of the catalogue that nobody else sees, for work that attaches databases. The caller closes it."""
-        with catalogue_lock(self.path, exclusive=False, timeout_s=self.timeout_s):
-            return self._copied()
+        return self._copied()[1]
 
     @property
     def generation(self) -> int:
@@ -82,37 +81,37 @@ class Store:
         with self._guard:
             if self._copy is not None and self._copy[0] == self._mark():
                 return self._copy[1]
-            with catalogue_lock(self.path, exclusive=False, timeout_s=self.timeout_s):
-                mark = self._mark()
-                con = self._copied()
+            mark, con = self._copied()
             # without a mark it can't be told when to refresh: then every reader copies
             self._copy = (mark, con) if mark else None
             return con
 
-    def _copied(self) -> duckdb.DuckDBPyConnection:
+    def _copied(self) -> tuple[str, duckdb.DuckDBPyConnection]:
+        """The mark of a commit, and a copy in memory of the catalogue as of then."""
+        con = connection.memory(self.path)               # before the turn: it takes longer than the turn
+        try:
+            with self._turn(exclusive=False):
+                mark = self._mark()
+                self._copy_into(con)
+        except BaseException:
+            con.close()
+            raise
+        return mark, con
+
+    def _copy_into(self, con: duckdb.DuckDBPyConnection) -> None:
         import duckdb
 
         path = self.path / CATALOGUE
         if not path.exists():
             raise StoreError("the store has no catalogue any more", where=str(path), expected="a DuckDB database",
                              got="no such file")
-        con = connection.memory(self.path)
         try:
             con.execute(f"attach {connection.literal(str(path))} as kept (read_only)")
-        except duckdb.Error as error:
-            con.close()
-            raise connection.damaged(path, error) from error
-        try:
             check_format(con, path, "kept.")
-            con.execute("copy from database kept to memory")
-            con.execute("detach kept")
+            con.execute("copy from database kept to memory; detach kept")
         except duckdb.Error as error:
             con.close()
             raise connection.damaged(path, error) from error
-        except BaseException:
-            con.close()
-            raise
-        return con
 
     def _mark(self) -> str:
         try:
@@ -128,34 +127,49 @@ class Store:
         at once; on an exception nothing does. Bulk goes to Parquet before this is entered.
 
         views: False where neither files nor tests nor channels change. Not to be entered twice in one thread."""
-        with self._guard, catalogue_lock(self.path, exclusive=True, timeout_s=self.timeout_s):
-            con = connection.catalogue(self.path)
+        with self._guard:
+            con = connection.memory(self.path)           # before the turn: it takes 20 ms
             try:
-                check_format(con, self.path / CATALOGUE)
-                con = migrate(con, self.path, lambda: connection.catalogue(self.path))
-                con.execute("begin transaction")
-                try:
-                    yield con
-                    con.execute("update store set generation = generation + 1")
-                    if views:
-                        regenerate_views(con, self.path)
-                    # before the commit: who sees the new mark waits for this turn to end, whoever dies in
-                    # between causes one needless refresh; the other order could leave a stale copy in use
-                    write_text(self.path / _MARK, secrets.token_hex(8))
-                    _commit(con, self.path / CATALOGUE)
-                except BaseException:
-                    _rollback(con)
-                    raise
+                with self._turn(exclusive=True), self._opened(con):
+                    con.execute("begin transaction")
+                    try:
+                        yield con
+                        con.execute("update store set generation = generation + 1")
+                        if views:
+                            regenerate_views(con, self.path)
+                        # before the commit: who sees the new mark waits for this turn to end, whoever dies in
+                        # between causes one needless refresh; the other order could leave a stale copy in use
+                        write_text(self.path / _MARK, secrets.token_hex(8))
+                        _commit(con, self.path / CATALOGUE)
+                    except BaseException:
+                        _rollback(con)
+                        raise
             finally:
                 con.close()
 
     @contextmanager
+    def _opened(self, con: duckdb.DuckDBPyConnection) -> Iterator[None]:
+        """The catalogue attached for writing, in this program's format."""
+        connection.attach(con, self.path)
+        try:
+            check_format(con, self.path / CATALOGUE)
+            migrate(con, self.path)
+            yield
+        finally:
+            connection.detach(con)
+
+    def _turn(self, *, exclusive: bool) -> AbstractContextManager[None]:
+        return catalogue_lock(self.path, exclusive=exclusive, timeout_s=self.timeout_s)
+
+    @contextmanager
     def standstill(self) -> Iterator[duckdb.DuckDBPyConnection]:
         """A copy of the catalogue, with no commit from its making until the end: for deleting what nothing needs."""
-        with self._guard, catalogue_lock(self.path, exclusive=True, timeout_s=self.timeout_s):
-            con = self._copied()
+        with self._guard:
+            con = connection.memory(self.path)
             try:
-                yield con
+                with self._turn(exclusive=True):
+                    self._copy_into(con)
+                    yield con
             finally:
                 con.close()
 
@@ -164,7 +178,7 @@ class Store:
             self.path.mkdir(parents=True, exist_ok=True)
         except OSError as error:
             raise StoreError("the store's folder cannot be made", where=str(self.path), got=str(error)) from error
-        with catalogue_lock(self.path, exclusive=True, timeout_s=self.timeout_s):
+        with self._turn(exclusive=True):
             target = self.path / CATALOGUE
             if target.exists():        # another process was first
                 return
