@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from types import ModuleType
 
@@ -70,6 +70,8 @@ def _sniff_text(head: Head) -> str | None:
         layout = find(rows, None, head.name)
     except ThermodataError:
         return None
+    if _is_long(layout.names):
+        return None                                  # a row a value: OPC UA logs, which have a reader of their own
     if layout.first == 0:
         return None                                  # without a header, nothing says what the columns are
     if layout.groups[0].seconds is None and delimiter in (";", "\t"):
@@ -78,6 +80,16 @@ def _sniff_text(head: Head) -> str | None:
         return None
     shown = {"\t": "tab"}.get(delimiter, f"'{delimiter}'")
     return f"table: cells separated by {shown}, time in column '{layout.names[layout.time[0]]}'"
+
+
+_TAGS = {"_name", "node id", "nodeid", "tag", "tagname", "tag name", "item", "itemid", "display name", "displayname"}
+_VALUES = {"_value", "value", "tagval", "tag value", "val"}
+
+
+def _is_long(names: Sequence[str]) -> bool:
+    """Whether each row names the one signal that it holds a value of."""
+    low = {n.strip().lower() for n in names}
+    return bool(low & _TAGS) and bool(low & _VALUES)
 
 
 def _format(path: Path) -> ModuleType:

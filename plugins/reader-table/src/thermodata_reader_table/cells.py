@@ -13,7 +13,8 @@ TIME_WORD = re.compile(
     r"^(t|(?i:time|zeit|čas|cas|temps|tiempo|tempo|datum|date|dátum|uhrzeit|timestamp|date[ _/]?time|datetime|"
     r"zeitstempel|elapsed([ _]?time)?|時間|时间|日時|日期|時刻|rel(ative)?[ _.]?time|t_s|time_s))\.?:?$")
 WORDS = {"nan", "inf", "-inf", "true", "false", "---", "-", "n/a", "#n/a", "null", ""}
-_NUMBER = re.compile(r"^[+-]?(\d+([.,]\d*)?|[.,]\d+)([eE][+-]?\d+)?$")
+# loggers that pad their numbers write the sign first: "+   23.5"
+_NUMBER = re.compile(r"^[+-]? *(\d+([.,]\d*)?|[.,]\d+)([eE][+-]?\d+)?$")
 
 
 def is_number(cell: Cell) -> bool:
@@ -24,7 +25,7 @@ def is_number(cell: Cell) -> bool:
 
 def number_of(cell: Cell) -> float | None:
     try:
-        return float(cell.replace(",", ".") if isinstance(cell, str) else cell)
+        return float(cell.replace(",", ".").replace(" ", "") if isinstance(cell, str) else cell)
     except (ValueError, TypeError):
         return None
 

@@ -1,0 +1,52 @@
+"""Exports of data loggers: lists of channels above the table, units among other words, padded signs, long tables."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+from thermodata_reader_table import Reader
+
+from thermodata.plugin import Block, Head, Source
+
+
+def read(path: Path) -> tuple[dict[str, str | None], dict[str, np.ndarray]]:
+    """({signal: unit}, {signal: values})"""
+    reader, source = Reader(), Source()
+    units = {s.name: s.unit for s in reader.describe(path, source).signals}
+    blocks = [b for b in reader.blocks(path, source) if isinstance(b, Block)]
+    return units, {n: np.concatenate([b.values[n] for b in blocks]) for n in units}
+
+
+def test_a_units_row_among_words_and_signs_before_padding(tmp_path: Path) -> None:
+    path = tmp_path / "logger.csv"
+    rows = [f"{i + 1},2026/03/27 06:00:{i:02d},+   {20 + i / 10:.1f},-    3.5,+  1.2500,LLLL" for i in range(30)]
+    rows[4] = "5,2026/03/27 06:00:04,BURNOUT,-    3.5,+  1.2500,LLLL"
+    path.write_text("\n".join([
+        "Vendor,SOMEBODY", "Sampling interval,1s", "CH,Signal name,Input,Range", 'CH1,"T front",TEMP,TC_K', "Data",
+        "Number,Date&Time,CH1,CH2,CH3,AlarmOut", "NO.,Time,degC,degC,V,A1234", *rows, ""]))
+    units, values = read(path)
+    assert units == {"Number": None, "CH1": "degC", "CH2": "degC", "CH3": "V", "AlarmOut": None}
+    expected = 20 + np.arange(30) / 10
+    expected[4] = np.nan
+    assert np.array_equal(values["CH1"].astype(float), expected, equal_nan=True)
+    assert set(values["CH2"]) == {-3.5}
+
+
+def test_a_list_of_channels_with_ranges_is_no_data(tmp_path: Path) -> None:
+    path = tmp_path / "scan.csv"
+    rows = [f"{i + 1},03/27/2026 06:00:{i:02d}:264,{20 + i / 10:.1f},0,21.5,0" for i in range(40)]
+    path.write_text("\n".join([
+        "Channel,Name,Function,Range,Resolution,Scale,Gain,Offset", "101,T_front,Temp (Type K),,C,No,1,0",
+        "102,T_hall,Temp (RTD),,C,No,1,0", "103,probe,DC voltage,10 V,5.5 digits,No,1,0", "",
+        "Scan,Time,101 <T_front> (C),Alarm 101,102 <T_hall> (C),Alarm 102", *rows, ""]))
+    units, values = read(path)
+    assert list(units) == ["Scan", "101 <T_front> (C)", "Alarm 101", "102 <T_hall> (C)", "Alarm 102"]
+    assert values["101 <T_front> (C)"].astype(float).tolist() == [20 + i / 10 for i in range(40)]
+    assert Reader().describe(path, Source()).start_ns == np.datetime64("2026-03-27T06:00:00.264", "ns").astype(int)
+
+
+def test_a_table_with_a_row_a_value_is_left_to_its_reader() -> None:
+    text = "id,_NAME,_NUMERICID,_VALUE,_TIMESTAMP,_QUALITY\n" + "".join(
+        f"{i},Channel1.T,0,20.{i},2026-03-27 06:00:0{i}.123,192\n" for i in range(9))
+    assert Reader().sniff(Head("kepware.csv", len(text), text.encode())) is None
