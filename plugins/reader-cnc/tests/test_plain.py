@@ -383,3 +383,12 @@ def test_huge_lines_are_lost_alone(tmp_path: Path, junk: str) -> None:
     data = load(Reader(), path, Source())
     assert set(range(40)) - {int(v) for v in data.values["nc", "a"]} <= {19, 20}
     assert data.losses or not junk.strip("\n;\t")               # a line of nothing is none
+
+
+def test_rows_of_limits_between_names_and_units_are_no_names(tmp_path: Path) -> None:
+    lines = ['"DATUM:";"ZEIT:";"M00: Lager";"M01: Halle"', '"KOMMENTAR:";"";"Lager vorn";"Halle"',
+             '"GW-MAX:";"";"80,0";""', '"EINHEIT:";"";"°C";"°C"',
+             *(f'"27.03.26";"06:00:{i:02d}";{20 + i},5;19,25' for i in range(20)), ""]
+    recording, _, values, _ = read(write(tmp_path, "\r\n".join(lines)))
+    assert [(s.name, s.unit) for s in recording.signals] == [("Lager vorn", "°C"), ("Halle", "°C")]
+    assert list(values["Lager vorn"]) == [20.5 + i for i in range(20)]

@@ -44,7 +44,7 @@ def find_header(above: Sequence[Sequence[str]], lines: Sequence[str], width: int
             if _are_units(cells, times):
                 units, block = cells, block[place + 1:]
                 break
-    names = block[0][1] if block else []
+    names = next((cells for _, cells in block if _are_names(cells, times)), block[0][1] if block else [])
     names = [names[c] if c < len(names) else "" for c in range(width)]
     found: list[str | None] = []
     for c, name in enumerate(names):
@@ -59,6 +59,13 @@ def _are_units(cells: Sequence[str], times: set[int]) -> bool:
     full = [c for k, c in enumerate(cells) if c and k not in times]
     good = sum(looks_like_unit(c) or bool(re.fullmatch(r"\[.*\]|\(.*\)|-|1", c)) for c in full)
     return good >= 0.5 * len(full)       # a row of blanks under the names too
+
+
+def _are_names(cells: Sequence[str], times: set[int]) -> bool:
+    """Whether most columns have a word: rows of limits (numbers, or nothing) stand below the names in some exports."""
+    said = [c for k, c in enumerate(cells) if k not in times]
+    words = sum(bool(c) and not re.fullmatch(r"[+-]?[\d.,]+", c) for c in said)
+    return 2 * words > len(said)
 
 
 def _unique(names: Sequence[str]) -> tuple[str, ...]:
