@@ -51,10 +51,10 @@ def _iso(column: Any) -> Int1D | None:
     if _ISO.match(column[0].as_py()) is None:
         return None
     try:
-        found: Int1D = column.cast(pa.timestamp("ns")).to_numpy(zero_copy_only=False).view(np.int64)
+        cast = column.cast(pa.timestamp("ns"))
     except pa.ArrowException:
         return None
-    return found
+    return np.frombuffer(cast.buffers()[1], np.int64, len(cast), cast.offset * 8)
 
 
 def _of_width(cells: npt.NDArray[np.uint8], pattern: re.Pattern[str], year_first: bool,

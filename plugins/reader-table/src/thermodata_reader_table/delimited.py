@@ -7,7 +7,6 @@ from collections import Counter
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import lru_cache
-from itertools import islice
 from pathlib import Path
 from typing import Any
 
@@ -108,7 +107,7 @@ def _open(asked: _Asked) -> Sheet:
     notes = [*([note] if note else []), *layout.notes]
     usual = Counter(len(r) for r in rows_of[layout.first:] if any(r)).most_common(1)
     return Sheet(encoding, delimiter, decimal, layout, kinds, '"' in text, tuple(notes), cut,
-                 usual[0][0] if usual else width)
+                 usual[0][0] if usual else width, tuple(tuple(r[:width]) for r in body if any(r)))
 
 
 def _kind(layout: Layout, column: int, cells: list[str]) -> str:
@@ -146,7 +145,7 @@ def describe(path: Path, source: Source) -> Recording:
     layout = sheet.layout
     signals = tuple(Signal(layout.names[i], group.stream, layout.units[i], sheet.kinds[i])
                     for group in layout.groups for i in group.columns)
-    first = rows.times(path, sheet, source, islice(rows.chunks(path, sheet, 2000), 1))
+    first = rows.first_times(path, sheet, source)
     notes = dict.fromkeys([*sheet.notes, *(note for f in first for note in f.notes)])
     clock, start_ns = one_clock(first, layout.groups, path.name)
     return Recording(signals, clock, start_ns, False if sheet.cut else None,

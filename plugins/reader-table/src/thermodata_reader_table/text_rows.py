@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 import warnings
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import IO, Any
@@ -17,6 +17,7 @@ from thermodata.reader.text import clean
 from thermodata.reader.zone import NAT
 from thermodata_reader_table import clocks, stamps
 from thermodata_reader_table.layout import Group, Layout
+from thermodata_reader_table.time_columns import MILLISECONDS
 
 BLOCK_VALUES = 1_000_000
 _SPARE = 8                 # cells that a line may have too many before the file is refused
@@ -39,6 +40,7 @@ class Sheet:
     notes: tuple[str, ...]
     cut: str | None
     cells: int
+    head: tuple[tuple[str, ...], ...]      # its first rows of data, as wide as the header
 
 
 @dataclass
@@ -133,7 +135,9 @@ class Clock:
         time = self.group.time
         cells = chunk[time[0]].fillna("")
         for column in time[1:]:
-            cells = cells.str.strip() + " " + chunk[column].fillna("").str.strip()
+            more = chunk[column].fillna("").str.strip()
+            milli = MILLISECONDS.match(self.sheet.layout.names[column])
+            cells = cells.str.strip() + ("." + more.str.zfill(3) if milli else " " + more)
         found: list[str] = cells.tolist()
         return found
 
@@ -148,8 +152,8 @@ class Clock:
                 self._writing = stamps.find_writing(filter(None, parts), self.group.form, self.path.name)
         return self._writing
 
-    def numbers(self, chunk: Any) -> Int1D:
-        values = floats(chunk[self.group.time[0]].to_numpy(), self.sheet.decimal)[0]
+    def numbers(self, cells: Array) -> Int1D:
+        values = floats(cells, self.sheet.decimal)[0]
         if self.group.epoch is not None:
             epoch = clocks.EPOCHS[self.group.epoch]
             return clocks.to_ns(values, epoch.seconds, epoch.zero_s)
@@ -159,9 +163,14 @@ class Clock:
     def add(self, chunk: Any) -> None:
         """Takes the times of the next rows."""
         if not self.group.dated:
-            self._numbers.append(self.numbers(chunk))
+            self._numbers.append(self.numbers(chunk[self.group.time[0]].to_numpy()))
         else:
-            texts = self.texts(chunk)
+            self.add_texts(self.texts(chunk))
+
+    def add_texts(self, texts: list[str]) -> None:
+        if not self.group.dated:
+            self._numbers.append(self.numbers(np.array(texts, object)))
+        else:
             self._locals.append(stamps.local(texts, self.writing(texts)))
 
     def all(self) -> stamps.Stamps:
@@ -177,6 +186,25 @@ class Clock:
         if self._writing is None:
             return stamps.Stamps(np.zeros(0, np.int64), True, ())
         return stamps.resolved(self._locals, self._writing, self.source.timezone)
+
+
+def joined(names: Sequence[str], group: Group, row: Sequence[str]) -> str:
+    """The cells of a group's time in a row of text; milliseconds behind a point."""
+    parts = ["." + row[i].strip().zfill(3) if MILLISECONDS.match(names[i]) else " " + row[i].strip()
+             for i in group.time[1:]]
+    return row[group.time[0]].strip() + "".join(parts)
+
+
+def first_times(path: Path, sheet: Sheet, source: Source) -> list[stamps.Stamps]:
+    """The times of each group over the head's rows."""
+    found = []
+    for group in sheet.layout.groups:
+        clock = Clock(path, sheet, source, group)
+        texts = [joined(sheet.layout.names, group, row) for row in sheet.head]
+        if texts:
+            clock.add_texts(texts)
+        found.append(clock.all())
+    return found
 
 
 def _filled(cells: list[str]) -> list[str]:
