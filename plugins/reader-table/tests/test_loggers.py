@@ -50,3 +50,14 @@ def test_a_table_with_a_row_a_value_is_left_to_its_reader() -> None:
     text = "id,_NAME,_NUMERICID,_VALUE,_TIMESTAMP,_QUALITY\n" + "".join(
         f"{i},Channel1.T,0,20.{i},2026-03-27 06:00:0{i}.123,192\n" for i in range(9))
     assert Reader().sniff(Head("kepware.csv", len(text), text.encode())) is None
+
+
+def test_milliseconds_in_a_column_behind_the_time_are_part_of_it(tmp_path: Path) -> None:
+    path = tmp_path / "fast.csv"
+    rows = [f"{i + 1},2026/03/27 06:00:{i // 10:02d},{i % 10 * 100},+   {20 + i / 10:.1f}" for i in range(40)]
+    path.write_text("\n".join(["Number,Date&Time,ms,CH1", "NO.,Time,ms,degC", *rows, ""]))
+    units, _ = read(path)
+    assert list(units) == ["Number", "CH1"]
+    t_ns = np.concatenate([b.t_ns for b in Reader().blocks(path, Source()) if isinstance(b, Block)])
+    assert t_ns[0] == np.datetime64("2026-03-27T06:00:00", "ns").astype(int)
+    assert set(np.diff(t_ns)) == {100_000_000}

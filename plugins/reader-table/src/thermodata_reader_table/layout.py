@@ -257,8 +257,9 @@ def _units_among(above: Sequence[str], row: Sequence[str]) -> bool:
     said = [c for c in row if c]
     named = [c for c in above if c]
     units = [c for c in said if looks_like_unit(c)]
-    return (len(set(named)) == len(named) >= len(said) > len(set(said)) and len(units) * 3 >= len(said)
-            and len(units) >= sum(map(looks_like_unit, named)) + 2)
+    again = len(set(said)) < len(said) or any(a == c for a, c in zip(above, row, strict=True) if looks_like_unit(c))
+    return (len(set(named)) == len(named) >= len(said) and again and len(units) * 3 >= len(said)
+            and len(units) > sum(map(looks_like_unit, named)))
 
 
 def _under(above: list[str], names: list[str]) -> list[str]:

@@ -85,7 +85,8 @@ def find_time(names: list[str], units: list[str | None], data: list[list[Cell]],
         sample = next(r[first] for r in data if r[first] not in ("", None))
         has_clock = ":" in sample if isinstance(sample, str) else hasattr(sample, "hour") and (
             not clocks or any(r[first] and r[first].hour + r[first].minute + r[first].second for r in data))
-        return (first,) if has_clock or not clocks else (first, clocks[0])
+        found = (first,) if has_clock or not clocks else (first, clocks[0])
+        return (*found, *_milliseconds(found[-1] + 1, names, [r[found[-1]] for r in data], data))
     if clocks:
         return (clocks[0],)
     numbers = [i for i in words if share(i, is_number) > 0.6]
@@ -96,3 +97,15 @@ def find_time(names: list[str], units: list[str | None], data: list[list[Cell]],
     raise FormatError("no time column found", where=where, got=", ".join(names[:12]),
                       expected="a column of dates, or one called time or with s, min or h as its unit",
                       hint="declare table: {time: {column: 1, unit: s}}")
+
+
+MILLISECONDS = re.compile(r"(?i)^(ms|msec|millisec(ond)?s?|millisekunden?|毫秒)$")
+
+
+def _milliseconds(column: int, names: list[str], times: Sequence[Cell], data: list[list[Cell]]) -> tuple[int, ...]:
+    """The column of text behind a date and time of whole seconds that holds their milliseconds, where there is one."""
+    if column >= len(names) or not MILLISECONDS.match(names[column]):
+        return ()
+    cells = [r[column] for r in data]
+    whole = all(isinstance(t, str) and re.search(r":\d\d$", t.strip()) for t in times)
+    return (column,) if whole and all(isinstance(c, str) and re.match(r"^\d{1,3}$", c.strip()) for c in cells) else ()
