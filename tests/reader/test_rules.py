@@ -69,3 +69,12 @@ def test_a_time_that_is_none_is_no_time(t_ns: int) -> None:
 def test_text_with_a_number_in_it_is_named_by_row() -> None:
     wrong = rules.values_have_the_declared_dtype(GOOD, with_values(w=np.array(["x", 3, ""], object)))
     assert wrong == "'w' at row 1 is int, declared str"
+
+
+def test_blocks_of_several_files_in_turn_are_each_held_against_their_own_file() -> None:
+    files = [Recording((Signal("a", f"s{i}", "K"),), "absolute", 0) for i in range(5)]
+    for _ in range(2):
+        for i, said in enumerate(files):
+            block = Block(f"s{i}", np.array([1], np.int64), {"a": np.array([1.0])})
+            assert rules.broken_rule(said, block) is None
+            assert rules.broken_rule(files[i - 1], block) == ("the stream was declared", f"stream 's{i}' was not declared")

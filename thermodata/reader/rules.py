@@ -6,11 +6,11 @@ A rule that is broken is a bug of the plugin; backward or duplicate time is a de
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 
 import numpy as np
 
-from thermodata.plugin import Block, Loss, Recording
+from thermodata.plugin import Block, Loss, Recording, Signal
 
 BlockRule = Callable[[Recording, Block], str | None]
 LossRule = Callable[[Recording, Loss], str | None]
@@ -54,9 +54,25 @@ def the_clock_is_absolute_or_relative(recording: Recording) -> str | None:
 
 # ---- a block -------------------------------------------------------------------------------------
 
+_Streams = Mapping[str, Mapping[str, str]]
+_kept: list[tuple[tuple[Signal, ...], _Streams]] = []
+
+
+def _declared(recording: Recording) -> _Streams:
+    """stream -> signal -> dtype. Kept for the recordings asked for last: a file of 100,000 channels or streams has
+    as many blocks, and each asks."""
+    for signals, streams in tuple(_kept):
+        if signals is recording.signals:
+            return streams
+    found: dict[str, dict[str, str]] = {}
+    for signal in recording.signals:
+        found.setdefault(signal.stream, {})[signal.name] = signal.dtype
+    _kept[:] = [*_kept[-1:], (recording.signals, found)]
+    return found
+
 
 def the_stream_was_declared(recording: Recording, block: Block) -> str | None:
-    if block.stream not in {s.stream for s in recording.signals}:
+    if block.stream not in _declared(recording):
         return f"stream '{block.stream}' was not declared"
     return None
 
@@ -74,9 +90,9 @@ def time_is_int64_nanoseconds_in_one_dimension(recording: Recording, block: Bloc
 
 
 def every_declared_signal_is_delivered_and_no_other(recording: Recording, block: Block) -> str | None:
-    declared = {s.name for s in recording.signals if s.stream == block.stream}
-    missing, extra = declared - set(block.values), set(block.values) - declared
-    if missing or extra:
+    declared = _declared(recording).get(block.stream, {})
+    if declared.keys() != block.values.keys():
+        missing, extra = declared.keys() - block.values.keys(), block.values.keys() - declared.keys()
         return f"missing {sorted(missing)}, undeclared {sorted(extra)}"
     return None
 
@@ -89,7 +105,7 @@ def values_have_the_length_of_the_time(recording: Recording, block: Block) -> st
 
 
 def values_have_the_declared_dtype(recording: Recording, block: Block) -> str | None:
-    declared = {s.name: s.dtype for s in recording.signals if s.stream == block.stream}
+    declared = _declared(recording).get(block.stream, {})
     for name, values in block.values.items():
         wanted = declared.get(name)
         if wanted == "str":

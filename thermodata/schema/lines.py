@@ -43,14 +43,29 @@ def dotted_place(place: Sequence[str | int]) -> str:
     return text
 
 
-class _Loader(yaml.SafeLoader):
-    """Dates stay text: a campaign file has none, and 2026-03-01 may be an id."""
-
-
-_Loader.yaml_implicit_resolvers = {
+# dates stay text: a campaign file has none, and 2026-03-01 may be an id
+_RESOLVERS = {
     key: [(tag, regexp) for tag, regexp in resolvers if tag != "tag:yaml.org,2002:timestamp"]
     for key, resolvers in yaml.SafeLoader.yaml_implicit_resolvers.items()
 }
+
+
+class SlowLoader(yaml.SafeLoader):
+    """The parser in Python, which is always there."""
+
+    yaml_implicit_resolvers = _RESOLVERS
+
+
+# the parser in C takes byte order marks and tabs where the other one refuses them
+_LOOSE = "\ufeff\t"
+FastLoader: type[Any] | None = None
+if hasattr(yaml, "CSafeLoader"):
+    class _FastLoader(yaml.CSafeLoader):
+        """The parser in C: a tenth of the time, where PyYAML was built with it."""
+
+        yaml_implicit_resolvers = _RESOLVERS
+
+    FastLoader = _FastLoader
 
 
 def read_document(path: Path) -> Document:
@@ -77,7 +92,36 @@ def read_document(path: Path) -> Document:
 
 def parse_document(text: str, path: Path) -> Document:
     """The same from text; `path` is for messages and relative files."""
-    loader = _Loader(text)
+    if FastLoader is not None and not any(char in text for char in _LOOSE) and _is_shallow(text, FastLoader):
+        try:
+            return _parsed(FastLoader(text), path)
+        except yaml.YAMLError:
+            pass                     # what it refuses the other one reads, or says where and why in its own words
+    try:
+        return _parsed(SlowLoader(text), path)
+    except (yaml.YAMLError, RecursionError) as error:
+        mark = getattr(error, "problem_mark", None)
+        line = f":{mark.line + 1}, column {mark.column + 1}" if mark else ""
+        raise SpecError("not valid YAML", where=f"{path.name}{line}",
+                        got=str(getattr(error, "problem", None) or type(error).__name__),
+                        hint="check indentation, quotes and brackets near that line") from None
+
+
+def _is_shallow(text: str, loader: Any) -> bool:
+    """Whether it nests no deeper than is allowed. The parser in C composes by recursion and doesn't count it: deep
+    nesting would end the process. Its events come one by one."""
+    depth = 0
+    try:
+        for event in yaml.parse(text, Loader=loader):
+            depth += isinstance(event, yaml.CollectionStartEvent) - isinstance(event, yaml.CollectionEndEvent)
+            if depth > MAX_DEPTH:
+                return False
+    except yaml.YAMLError:
+        return False
+    return True
+
+
+def _parsed(loader: Any, path: Path) -> Document:
     try:
         root = loader.get_single_node()
         if root is None or not isinstance(root, yaml.MappingNode):
@@ -86,19 +130,13 @@ def parse_document(text: str, path: Path) -> Document:
         document = Document(path, None)
         document.data = _Builder(loader, document).build(root, (), 0)
         return document
-    except (yaml.YAMLError, RecursionError) as error:
-        mark = getattr(error, "problem_mark", None)
-        line = f":{mark.line + 1}, column {mark.column + 1}" if mark else ""
-        raise SpecError("not valid YAML", where=f"{path.name}{line}",
-                        got=str(getattr(error, "problem", None) or type(error).__name__),
-                        hint="check indentation, quotes and brackets near that line") from None
     finally:
         loader.dispose()
 
 
 @dataclass(slots=True)
 class _Builder:
-    loader: _Loader
+    loader: Any
     document: Document
     count: int = 0
 
