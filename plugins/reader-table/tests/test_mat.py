@@ -234,3 +234,39 @@ def test_scipys_own_files_read_as_scipy_reads_them(path: Path) -> None:
     for name, node in tree.variables.items():
         if not isinstance(node, Odd):
             same(node, theirs[name])
+
+
+def test_a_name_that_is_no_text_or_of_an_unknown_class_is_told(tmp_path: Path) -> None:
+    for damage in ("class", "numbers"):
+        path = tmp_path / f"{damage}.mat"
+        with h5py.File(path, "w") as file:
+            record = file.create_group("ch")
+            record.attrs["MATLAB_class"] = np.bytes_("struct")
+            for name, values in (("data", np.arange(5.0)[None]), ("dt", np.array([[0.5]]))):
+                record.create_dataset(name, data=values).attrs["MATLAB_class"] = np.bytes_("double")
+            title = record.create_dataset("name", data=np.array([[84], [49]], np.uint16))
+            if damage == "class":
+                title.attrs["MATLAB_class"] = np.bytes_("chbr")
+        head = b"MATLAB 7.3 MAT-file".ljust(116) + b"\0" * 8 + b"\x00\x02IM"
+        path.write_bytes(head.ljust(512, b"\0") + path.read_bytes())
+        data = load(Reader(), path, Source())
+        assert [s.name for s in data.recording.signals] == ["ch"]
+        assert any("ch/name" in x for x in (*data.recording.notes, *(loss.where for loss in data.losses)))
+
+
+def test_a_packed_variable_with_bytes_behind_its_end_is_a_loss(tmp_path: Path) -> None:
+    path = tmp_path / "x.mat"
+    scipy.io.savemat(path, {"t": col(np.arange(5.0)), "T1": col(np.arange(5.0)), "T2": col(np.arange(5.0))},
+                     do_compression=True)
+    data = path.read_bytes()
+    size = int.from_bytes(data[132:136], "little")
+    last = 136 + size
+    end = last + 8 + int.from_bytes(data[last + 4:last + 8], "little")
+    inside = bytearray(zlib.decompress(data[last + 8:end]))
+    inside[4:8] = b"\0" * 4                              # a matrix of no bytes, and its bytes behind it
+    packed = zlib.compress(bytes(inside))
+    path.write_bytes(data[:last] + data[last:last + 4] + len(packed).to_bytes(4, "little") + packed
+                     + data[end:])
+    found = load(Reader(), path, Source())
+    assert [s.name for s in found.recording.signals] == ["T2"]
+    assert any("bytes behind its end" in loss.reason for loss in found.losses)

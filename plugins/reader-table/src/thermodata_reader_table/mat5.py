@@ -105,9 +105,13 @@ def _variable(data: memoryview, element: _Element, order: str, budget: list[int]
         inner = _element(data, 0, len(data), order)
         if inner.kind != _MATRIX:
             raise _DamagedError(f"holds an element of type {inner.kind}")
+        if inner.next < len(data):
+            raise _DamagedError(f"has {len(data) - inner.next} bytes behind its end")
         start, stop = inner.start, inner.stop
     elif element.kind != _MATRIX:
         raise _DamagedError(f"element of type {element.kind} where a variable belongs")
+    if start == stop:
+        raise _DamagedError("is empty")
     name, node = _Parser(data, order).matrix(start, stop, 0)
     # the nameless last one is MATLAB's own store for objects
     return (name, node) if name else None

@@ -98,6 +98,8 @@ class _Walk:
             if kind != "function_handle":
                 return Odd(kind or "object")
             return Odd("function_handle")
+        if "MATLAB_class" in item.attrs and kind not in _NUMBERS and kind not in ("char", "cell", "struct"):
+            return Odd(f"class '{kind}'")
         if isinstance(item, h5py.Group):
             return self._struct(item, kind, depth)
         if not isinstance(item, h5py.Dataset):

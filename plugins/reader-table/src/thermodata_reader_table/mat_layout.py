@@ -124,6 +124,14 @@ class Planner:
                 self._scope(struct.fields, where, scope)
             else:
                 self._record(scope, where, record)
+                self.notes += [f"'{where}/{name}' is no text: the signal goes without it" for name in record.odd]
+                for name, node in struct.fields.items():
+                    if isinstance(node, Odd):
+                        self._odd(f"{where}/{name}", node)
+
+    def _odd(self, path: str, node: Odd) -> None:
+        if node.kind != "function_handle":
+            self.losses.append(Loss(f"{self.where} variable '{path}'", None, None, None, refusal(node.kind)))
 
     def _sort(self, scope: Scope, name: str, node: Node, inner: list[tuple[str, Struct]]) -> None:
         path = f"{scope.path}/{name}" if scope.path else name
@@ -136,8 +144,7 @@ class Planner:
         elif isinstance(node, Structs):
             inner.extend((f"{path}({i})", item) for i, item in enumerate(node.items, 1))
         elif isinstance(node, Odd):
-            if node.kind != "function_handle":
-                self.losses.append(Loss(f"{self.where} variable '{path}'", None, None, None, refusal(node.kind)))
+            self._odd(path, node)
         elif isinstance(node, Numbers):
             self._numbers(scope, name, path, node)
         else:

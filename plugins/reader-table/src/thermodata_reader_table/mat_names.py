@@ -123,6 +123,7 @@ class Record:
     title: str | None
     unit: str | None
     time_unit: str | None
+    odd: tuple[str, ...] = ()           # fields for a name or a unit that hold no text
 
 
 def _get(fields: Mapping[str, Node], paths: tuple[str, ...]) -> tuple[str, Node] | None:
@@ -162,4 +163,5 @@ def as_record(struct: Struct) -> Record | None:
     zero, x_unit = _get(fields, _ZERO), _get(fields, _TIME_UNIT)
     return Record(data[1], time[1] if time else None, step, (one_number(zero[1]) if zero else None) or 0.0,
                   one_text(title[1]) if title else None, one_text(unit[1]) if unit else None,
-                  one_text(x_unit[1]) if x_unit else None)
+                  one_text(x_unit[1]) if x_unit else None,
+                  tuple(f[0] for f in (title, unit, x_unit) if f and isinstance(f[1], Numbers) and f[1].size))
