@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections import Counter
 from pathlib import Path
 
+import pytest
+
 from thermodata.draft.guess import guess
 
 NAMES = Path(__file__).with_name("names.txt")
@@ -26,3 +28,12 @@ def test_it_would_rather_ask_than_be_wrong() -> None:
     assert len(lines) > 200
     assert told["wrong"] <= 0.01 * len(lines), [x for x in lines if verdict(x) == "wrong"]
     assert told["right"] >= 0.90 * len(lines), told
+
+
+@pytest.mark.parametrize(("name", "quantity", "unit"), [
+    ("/thermo.speed", "rotational_speed", None), ("/thermo.probes_um[0]", "displacement", "um"),
+    ("/thermo.t_bearing", "temperature", "degC"), ("/cnc.axis.z.temp", "temperature", "degC")])
+def test_the_field_of_a_message_says_what_it_is_not_its_topic(name: str, quantity: str, unit: str | None) -> None:
+    found = guess(name, None)
+    assert found.quantity == quantity
+    assert unit is None or found.unit == unit

@@ -6,6 +6,7 @@ disagree on, and what none of them says, becomes a question. A quantity is never
 
 from __future__ import annotations
 
+import re
 from dataclasses import replace
 from functools import lru_cache
 
@@ -13,7 +14,7 @@ from thermodata.draft import units
 from thermodata.draft.place import Place, axis_of, place_of
 from thermodata.draft.quantity import Guess, quantity_of, seen
 from thermodata.draft.values import Values
-from thermodata.draft.vocabulary import DIFFERENCE, LIMIT, SETPOINT, places_in, says
+from thermodata.draft.vocabulary import DIFFERENCE, LIMIT, SETPOINT, places_in, quantities_in, says
 from thermodata.draft.words import words
 from thermodata.reader.text import split_unit
 from thermodata.schema.quantity import is_unit, normal_unit
@@ -34,16 +35,19 @@ def guess(name: str, unit: str | None, dtype: str = "float64", values: Values | 
     """Quantity, unit, place and axis of a signal. unit: as the file writes it; values: of a sample, if there is one."""
     bare = split_unit(name)[0]                            # the 'min' of 'n [1/min]' is no limit
     own, text = words(_last(bare)), words(bare)
-    written = units.from_name(_last(bare)) if not unit else None
+    written = (units.from_name(_last(bare)) or units.from_name(_field(bare))) if not unit else None
+    field = words(_field(bare))
+    # the field of a message says what it is, its topic only where it comes from: '/thermo.speed'
+    what = field if quantities_in(field) else own
     known = unit or written
     if known and not is_unit(known):
-        found = quantity_of(own, text, None, dtype, values)
+        found = quantity_of(what, text, None, dtype, values)
         if _digital(dtype, values):
             return _place(found, own, text)
         asked = f"unit: the file says '{known}', which is no unit known here"
         return replace(_place(replace(found, unit=None), own, text), sure=False, questions=(asked,)) \
             if found.quantity else found
-    found = quantity_of(own, text, known, dtype, values)
+    found = quantity_of(what, text, known, dtype, values)
     if found.quantity is None or found.quantity == "label":
         return found
     return _place(_unit(found, unit, written, values), own, text)
@@ -52,6 +56,11 @@ def guess(name: str, unit: str | None, dtype: str = "float64", values: Values | 
 def _last(name: str) -> str:
     """The last part of a path of names: 'Temp/T06' -> 'T06', '/hall/air.top' -> 'air.top'."""
     return name.rstrip("/").rsplit("/", 1)[-1] or name
+
+
+def _field(name: str) -> str:
+    """The last field of a message, without its index: '/thermo.probes_um[0]' -> 'probes_um'."""
+    return re.sub(r"\[\d+\]$", "", _last(name)).rsplit(".", 1)[-1]
 
 
 def _digital(dtype: str, values: Values | None) -> bool:
