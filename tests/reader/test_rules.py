@@ -77,4 +77,5 @@ def test_blocks_of_several_files_in_turn_are_each_held_against_their_own_file() 
         for i, said in enumerate(files):
             block = Block(f"s{i}", np.array([1], np.int64), {"a": np.array([1.0])})
             assert rules.broken_rule(said, block) is None
-            assert rules.broken_rule(files[i - 1], block) == ("the stream was declared", f"stream 's{i}' was not declared")
+            assert rules.broken_rule(files[i - 1], block) == (
+                "the stream was declared", f"stream 's{i}' was not declared")

@@ -25,10 +25,12 @@ def diagnose_command(session: Session, model: str, top: int) -> None:
 
     A candidate is claimed only if all evidence holds; locked tests are opened for claims only, and counted.
     """
+    from thermodata.cli.progress import counting_line
     from thermodata.diagnosis.run import diagnose
 
     store = session.store()
-    found = diagnose(store, resolve(store, model))
+    with counting_line() as tell:
+        found = diagnose(store, resolve(store, model), tell)
     session.answer(found, lambda: in_units_of(session, found.response, diagnosis_text(found, top)))
 
 

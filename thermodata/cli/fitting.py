@@ -42,16 +42,20 @@ def fit_command(session: Session, model: str) -> None:
 
     MODEL is a model file, or a fitted model that is fitted again after its data changed.
     """
+    from thermodata.cli.progress import counting_line
     from thermodata.modelling.run import fit
     from thermodata.schema.load import load_model
+    from thermodata.store.counting import watched
     from thermodata.store.models import find_model
 
     store = session.store()
     if model.endswith((".yaml", ".yml")) or Path(model).is_file():
-        result = fit(store, load_model(Path(model)), base=Path(model).parent)
+        spec, parent, base = load_model(Path(model)), None, Path(model).parent
     else:
         stored = find_model(store, model)
-        result = fit(store, stored.spec, parent=stored.parent)
+        spec, parent, base = stored.spec, stored.parent, None
+    with counting_line() as tell, watched(tell):
+        result = fit(store, spec, parent=parent, base=base)
     session.answer(result, lambda: in_units_of(session, result.response, fit_text(result)))
 
 
@@ -88,10 +92,13 @@ def add_command(session: Session, model: str, candidate: str) -> None:
 
     CANDIDATE is its rank or id, as diagnose printed them. Prints the errors before and after.
     """
+    from thermodata.cli.progress import counting_line
     from thermodata.modelling.run import add
+    from thermodata.store.counting import watched
 
     store = session.store()
-    result = add(store, resolve(store, model), candidate)
+    with counting_line() as tell, watched(tell):
+        result = add(store, resolve(store, model), candidate)
     session.answer(result, lambda: in_units_of(
         session, result.response, "\n\n".join([before_after_text(result), fit_text(result, scores=False)])))
 

@@ -9,6 +9,7 @@ from contextlib import contextmanager
 from importlib import import_module
 from typing import Any
 
+from thermodata.store.counting import Tell
 from thermodata.store.progress import Progress, Words
 
 _FORMAT = "{percentage:3.0f} %|{bar:20}| {postfix}, {remaining} left"
@@ -74,9 +75,35 @@ def progress_line(quiet: bool = False) -> Iterator[Progress]:
     if quiet or not sys.stderr.isatty():
         yield Words(lambda _: None)
         return
-    bar = import_module("tqdm").tqdm(total=1, file=sys.stderr, leave=False, bar_format=_FORMAT, miniters=0,
-                                     ncols=_columns())
+    bar = _bar(_FORMAT)
     try:
         yield Line(bar)
     finally:
         bar.close()
+
+
+@contextmanager
+def counting_line(quiet: bool = False) -> Iterator[Tell | None]:
+    """A line on stderr for work that is counted: done of all, how many a second, time left. None where stderr is no
+    terminal, or quiet."""
+    if quiet or not sys.stderr.isatty():
+        yield None
+        return
+    bar = _bar("{percentage:3.0f} %|{bar:20}| {n_fmt}/{total_fmt} {desc}, {rate_fmt}, {remaining} left")
+
+    def tell(what: str, done: int, total: int) -> None:
+        if done == 0 or total != bar.total:
+            bar.reset(total=total)
+            bar.set_description_str(what, refresh=False)
+        bar.n = done
+        bar.update(0)
+
+    try:
+        yield tell
+    finally:
+        bar.close()
+
+
+def _bar(text: str) -> Any:
+    return import_module("tqdm").tqdm(total=1, file=sys.stderr, leave=False, bar_format=text, miniters=0,
+                                      ncols=_columns(), unit="")

@@ -23,10 +23,13 @@ def simulate_command(session: Session, folder: Path, hide: str, seed: int) -> No
 
     TDMS, CNC and MCAP logs, campaign file, model file, and the truth.
     """
+    from thermodata.cli.progress import counting_line
+    from thermodata.store.counting import watched
     from thermodata.virtual import simulate
 
     empty_folder(folder)
-    truth = plain(simulate(folder, hide=hide, seed=seed))
+    with counting_line() as tell, watched(tell):
+        truth = plain(simulate(folder, hide=hide, seed=seed))
     session.answer(truth, lambda: fields((k, v) for k, v in truth.items() if not isinstance(v, dict | list)))
 
 
@@ -41,6 +44,7 @@ def benchmark_diagnosis_command(session: Session, hide: tuple[str, ...], seeds: 
 
     Simulated machines with one effect hidden, or none; the truth is used for marking only.
     """
+    from thermodata.cli.progress import counting_line
     from thermodata.virtual import HIDEABLE
     from thermodata.virtual.benchmark import benchmark
 
@@ -48,10 +52,13 @@ def benchmark_diagnosis_command(session: Session, hide: tuple[str, ...], seeds: 
     for name in hide:
         if name not in choices:
             raise unknown_name("effect to hide", name, choices)
-    trials = []
-    for trial in benchmark(hide or choices, range(first_seed, first_seed + seeds), logged=not not_logged):
-        trials.append(plain(trial.to_json()))
-        session.say(f"{trial.hidden} {trial.seed}: {trial.outcome} ({trial.found or trial.verdict})")
+    trials: list[dict[str, Any]] = []
+    total = len(hide or choices) * seeds
+    with counting_line() as tell:
+        for trial in benchmark(hide or choices, range(first_seed, first_seed + seeds), logged=not not_logged):
+            trials.append(plain(trial.to_json()))
+            if tell is not None:
+                tell("machines", len(trials), total)
     summary = marks(trials)
     session.answer({"summary": summary, "trials": trials}, lambda: table(trials, [
         ("hidden", "hidden"), ("seed", "seed"), ("found", "found"), ("outcome", "outcome"),

@@ -17,6 +17,7 @@ from thermodata.diagnosis.problem import Problem
 from thermodata.diagnosis.scored import Scored
 from thermodata.diagnosis.whiten import fit_ar, surrogates, whiten
 from thermodata.plugin import Float1D, Float2D
+from thermodata.store.counting import counted
 
 SURROGATES = 199
 # autocorrelated residuals are worth far fewer samples than they have; the prior of a gain is scaled so
@@ -56,7 +57,7 @@ def _rank(problem: Problem, candidates: Sequence[CandidateEffect], seed: int) ->
     scored: list[Scored] = []
     top_raw = np.full(SURROGATES, -np.inf)
     top_white = np.full(SURROGATES, -np.inf)
-    for candidate in candidates:
+    for candidate in counted(candidates, "candidates"):
         points = grid(candidate.effect.params, problem.step_s)
         drivers = [candidate.drivers(b.test) for b in problem.blocks]
         plain_columns = [_columns(problem, candidate, drivers, p) for p in points]

@@ -21,6 +21,7 @@ from thermodata.modelling.search import Problem, search
 from thermodata.modelling.uncertainty import deviations
 from thermodata.plugin import Param
 from thermodata.schema.model import Model
+from thermodata.store.counting import counted
 from thermodata.view.dataset import Dataset, TestData
 
 
@@ -34,7 +35,7 @@ def fit_model(spec: Model, data: Dataset, *, base: Path | None = None, uncertain
     wanted = None if spec.phases is None else tuple(spec.phases)
     responses, skipped = [], list[str]()
     keys = (*roles.calibrate, *roles.verify) if spec.in_sample else roles.calibrate
-    for response in bound:
+    for response in counted(bound, "responses"):
         usable, why = _usable(response, [data.test(*key) for key in keys])
         skipped += why
         fitted = fit_response(response, usable, wanted, data, uncertainty=uncertainty)

@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from thermodata.errors import UsageError
+from thermodata.store.counting import counted
 from thermodata.virtual.describe import campaign_file, model_file, truth_file
 from thermodata.virtual.logbook import Logbook
 from thermodata.virtual.plan import AXES
@@ -63,7 +64,7 @@ def simulate(folder: Path, hide: str = "none", seed: int = 0, *, tests: int | No
     (folder / "truth").mkdir(exist_ok=True)
     for i, axis in enumerate(AXES):
         write_jump(raw / f"jump_{axis}.tdms", world, i, book, np.random.default_rng([seed, 32_452_843, i]))
-    for number, run in enumerate(world.runs):
+    for number, run in enumerate(counted(world.runs, "tests")):
         rng = np.random.default_rng([seed, 49_979_687, number])
         write_test(raw / f"{run.op.id}.tdms", world, run, book, rate_hz, rng)
         write_nc(raw / f"{run.op.id}.csv", world, run, book)
