@@ -83,3 +83,13 @@ def test_a_machine_that_cooled_over_a_weekend_is_sound() -> None:
     t[4000:] += 60 * 3600 * 10**9
     flags, _ = run(t, T=("temperature", x))
     assert not (flags["T"] & Flag.OFFSET).any()
+
+
+def test_a_probe_that_stands_from_the_first_row_on_is_held_not_saturated() -> None:
+    x, speed = noisy(noise=0.05), np.full(N, 8000.0) + noisy(3)
+    x = x - np.ptp(x) * np.arange(N) / N
+    x[:1000], speed[:1000] = x[1000:].max(), 0.0
+    t = noisy(4, noise=0.05) / 20 + 25
+    flags, events = run(clock(), dZ=("displacement", x), T=("temperature", t), n=("rotational_speed", speed))
+    assert "saturated" not in {flag for _, flag in kinds(events)}
+    assert (flags["dZ"][10:990] & (Flag.HELD | Flag.STUCK)).all()

@@ -93,8 +93,8 @@ def clipped(x: Float1D, own: RunStats, quantity: str) -> Iterator[tuple[Bool1D, 
         if quantity not in _ANALOG_FULL_SCALE:
             if not (noisy and creeps.mean() > 0.5 and len(starts) > 1):
                 continue
-        elif not (len(starts) > 2 or (noisy and bool(creeps.all()))):
-            continue
+        elif not (len(starts) > 2 or (noisy and bool(creeps.all()) and starts[0] > 0)):
+            continue                                      # from the first row on, it may as well be held
         yield at, limit, f"{side} limit {limit:.6g}, {len(starts)} times exactly: the end of a range? say it in " \
                          "'sensor: {range: ...}'"
 
