@@ -171,3 +171,19 @@ def test_parquet_takes_structs_apart_and_reads_decimals_dictionaries_durations_a
         np.testing.assert_array_equal(data.values["table", "kW"], [1.25, np.nan])
         assert list(data.values["table", "mode"]) == ["a", ""]
         assert any("spectrum" in n for n in data.recording.notes)
+
+
+@pytest.mark.parametrize("cell", [
+    '<c r="A99999999999"><v>1</v></c>', "<c  r='XFD1048576'><v>1</v></c>", '<c s="0" r="zzzz9"><v>1</v></c>',
+    '<x:c r="A1048577"><x:v>1</x:v></x:c>',
+])
+def test_cells_outside_of_any_sheet_are_refused_however_they_are_written(tmp_path: Path, cell: str) -> None:
+    row = f'<row r="2"><c r="A2"><v>1</v></c>{cell}</row>'
+    with pytest.raises(FormatError, match=r"outside of any sheet|absurd area"):
+        load(Reader(), least(tmp_path / "x.xlsx", HEAD + row), Source())
+
+
+def test_cells_without_a_place_in_a_row_far_down_are_refused(tmp_path: Path) -> None:
+    row = '<row r="2"><c r="Z2"><v>1</v></c></row><row r="1048576"><c><v>1</v></c></row>'
+    with pytest.raises(FormatError, match="absurd area"):
+        load(Reader(), least(tmp_path / "x.xlsx", HEAD + row), Source())

@@ -279,10 +279,12 @@ def _under(above: list[str], names: list[str]) -> list[str]:
 
 def unique(names: Sequence[str]) -> list[str]:
     out: list[str] = []
+    taken: set[str] = set()
     for i, name in enumerate(names):
         base = name or f"column {i + 1}"
         new, k = base, 2
-        while new in out:
+        while new in taken:
             new, k = f"{base}#{k}", k + 1
+        taken.add(new)
         out.append(new)
     return out

@@ -16,7 +16,11 @@ from thermodata.errors import FormatError
 MAX_UNPACKED = 1 << 30
 MAX_CELLS = 60_000_000
 _SPARSE = 3_000_000                          # cells of a sheet that may be almost empty
-_CELL = re.compile(rb'<(?:\w+:)?c [^>]*?r="([A-Z]{1,3})(\d{1,7})"')
+_RIGHT, _BOTTOM = 16_384, 1_048_576          # columns and rows that a sheet can have
+# as loosely as any reader of XML takes it: what a cell says of its place is what is allocated
+_CELL = re.compile(rb"""<(?:\w+:)?c\s[^>]*?\br\s*=\s*["']\s*([A-Za-z]*)(\d*)""")
+_ANY_CELL = re.compile(rb"<(?:\w+:)?c[\s>/]")
+_ROW = re.compile(rb"""<(?:\w+:)?row\s[^>]*?\br\s*=\s*["']\s*(\d+)""")
 
 
 # what calamine gives as an empty cell, or does not tell
@@ -42,30 +46,50 @@ def check_size(path: Path) -> dict[str, int]:
     unpacked, odd = 0, dict.fromkeys(_ODD, 0)
     with path.open("rb") as file:
         for member in members:
-            sheet = member.filename.startswith("xl/worksheets/")
-            right, bottom, rest, count = 0, 0, b"", 0
+            sheet = _Extent() if member.filename.startswith("xl/worksheets/") else None
+            rest = b""
             for part in _inflate(file, member, path):
                 unpacked += len(part)
                 if unpacked > MAX_UNPACKED:
                     raise FormatError("workbook unpacks to more than 1 GiB", where=f"{path.name} {member.filename}",
                                       expected="a log of reasonable size", got=f"{path.stat().st_size} bytes packed",
                                       hint="export it as CSV or Parquet")
-                if sheet:
+                if sheet is not None:
                     for kind, pattern in _ODD.items():
                         odd[kind] += len(pattern.findall(rest + part)) - len(pattern.findall(rest))
-                    cells = _CELL.findall(rest + part)
-                    count += len(cells)
-                    found = set(cells)
+                    sheet.add(rest + part)
                     rest = part[-200:]
-                    if found:
-                        right = max(right, max(_column(c) for c in {c for c, _ in found}))
-                        bottom = max(bottom, max(int(r) for _, r in found))
-            if right * bottom > MAX_CELLS or right * bottom > max(_SPARSE, 20 * count):
-                raise FormatError("sheet spans an absurd area", where=f"{path.name} {member.filename}",
-                                  expected=f"at most {MAX_CELLS} cells, most of them filled",
-                                  got=f"{bottom} rows x {right} columns with {count} cells",
-                                  hint="delete the stray cells far off, or export it as CSV or Parquet")
+            if sheet is not None:
+                sheet.check(f"{path.name} {member.filename}")
     return odd
+
+
+class _Extent:
+    """How far the cells of a sheet reach, by what they and their rows say."""
+
+    def __init__(self) -> None:
+        self.right = self.bottom = self.rows = self.count = self.unplaced = 0
+
+    def add(self, text: bytes) -> None:
+        cells = _CELL.findall(text)
+        self.count += len(cells)
+        self.unplaced += max(0, len(_ANY_CELL.findall(text)) - len(cells))
+        letters = {c[:9] for c, _ in cells}
+        self.right = max([self.right, *map(_column, letters)])
+        self.bottom = max([self.bottom, *(int(r[:12]) for r in {r for _, r in cells} if r)])
+        self.rows = max([self.rows, *(int(r[:12]) for r in set(_ROW.findall(text)))])
+
+    def check(self, where: str) -> None:
+        bottom = max(self.bottom, self.rows) if self.unplaced else self.bottom
+        right = max(self.right, 1)
+        if right > _RIGHT or bottom > _BOTTOM:
+            raise FormatError("a cell outside of any sheet", where=where, got=f"row {bottom}, column {right}",
+                              expected=f"at most {_BOTTOM} rows and {_RIGHT} columns")
+        if right * bottom > MAX_CELLS or right * bottom > max(_SPARSE, 20 * (self.count + self.unplaced)):
+            raise FormatError("sheet spans an absurd area", where=where,
+                              expected=f"at most {MAX_CELLS} cells, most of them filled",
+                              got=f"{bottom} rows x {right} columns with {self.count + self.unplaced} cells",
+                              hint="delete the stray cells far off, or export it as CSV or Parquet")
 
 
 def _inflate(file: Any, member: zipfile.ZipInfo, path: Path) -> Iterator[bytes]:
@@ -97,6 +121,6 @@ def _inflate(file: Any, member: zipfile.ZipInfo, path: Path) -> Iterator[bytes]:
 
 def _column(letters: bytes) -> int:
     n = 0
-    for letter in letters:
+    for letter in letters.upper():
         n = n * 26 + letter - 64
     return n
