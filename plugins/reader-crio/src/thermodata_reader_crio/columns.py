@@ -7,6 +7,7 @@ once: a day may be 86,400 segments of 40 channels, and a file 100,000 channels.
 
 from __future__ import annotations
 
+from array import array
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import NamedTuple
@@ -96,30 +97,41 @@ class _Slot(NamedTuple):
     full: int
 
 
+@dataclass(slots=True)
+class _Places:
+    """A column's places in the making, flat: shapes, and start, n, stride and full of each."""
+
+    kinds: list[Kind] = field(default_factory=list)
+    shapes: array[int] = field(default_factory=lambda: array("i"))
+    numbers: array[int] = field(default_factory=lambda: array("q"))
+
+
 def columns(index: Index) -> tuple[dict[str, list[Column]], list[str]]:
     """Each channel's columns (several for a DAQmx channel with several scalers), in the file's order; and the
     channels that change between numbers and text, of which the first sort is kept, as sentences."""
-    places: dict[tuple[str, int | str | None], list[tuple[int, _Slot]]] = {}
+    places: dict[tuple[str, int | str | None], _Places] = {}
     wrong: dict[str, str] = {}
     for number, shape in enumerate(index.shapes):
         for slot in _slots(index.layouts[shape.layout], shape):
-            found = places.setdefault((slot.path, slot.part), [])
-            if found and not _join(found[0][1].kind.dtype, slot.kind.dtype):
-                wrong[slot.path] = f"it changes from {_name(found[0][1].kind)} to {_name(slot.kind)}; only the " \
+            key = slot.path, slot.part
+            found = places[key] if key in places else places.setdefault(key, _Places())
+            if found.kinds and not _join(found.kinds[0].dtype, slot.kind.dtype):
+                wrong[slot.path] = f"it changes from {_name(found.kinds[0])} to {_name(slot.kind)}; only the " \
                                    "first sort is read"
                 continue
-            found.append((number, slot))
+            found.kinds.append(slot.kind)
+            found.shapes.append(number)
+            found.numbers.extend(slot[3:])
     runs = _RunsOf(index)
     made: dict[str, list[Column]] = {}
     for (path, part), found in places.items():
-        shared = runs.of(tuple(number for number, _ in found))
-        slots = [slot for _, slot in found]
-        n, start, stride, full = (np.array([s[i] for s in slots], np.int64) for i in (4, 3, 5, 6))
+        shapes = tuple(found.shapes)
+        shared = runs.of(shapes)
+        start, n, stride, full = np.frombuffer(found.numbers, np.int64).reshape(-1, 4).T.copy()
         held = int((shared.chunks * n[shared.which]).sum())
-        cut = int((full - n).sum()) if any(index.shapes[number].cut for number, _ in found) else 0
+        cut = int((full - n).sum()) if any(index.shapes[number].cut for number in shapes) else 0
         made.setdefault(path, []).append(
-            Column(path, part, shared, n, start, stride, tuple(s.kind for s in slots),
-                   tuple(number for number, _ in found), held + cut))
+            Column(path, part, shared, n, start, stride, tuple(found.kinds), shapes, held + cut))
     return made, [f"{path}: {text}" for path, text in wrong.items()]
 
 

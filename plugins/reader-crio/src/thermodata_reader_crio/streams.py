@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from pathlib import Path
+from threading import Lock
 from typing import Any, BinaryIO
 
 import numpy as np
@@ -19,6 +20,8 @@ from thermodata_reader_crio.index import Index
 from thermodata_reader_crio.pieces import counted_clock
 from thermodata_reader_crio.walk import walk
 
+_KEPT: dict[tuple[object, ...], File] = {}
+_LOCK = Lock()
 _SAME_SCAN_NS = 1_000_000   # channels of one scan may start up to this apart (a multiplexed converter)
 
 
@@ -61,13 +64,33 @@ class File:
     partly: tuple[str, ...]      # what was left out of channels, as sentences
 
 
-def open_file(path: Path, source: Source) -> File:
+def open_file(path: Path, source: Source, *, keep: bool = False) -> File:
+    """A TDMS file as it was just described, or opened anew. keep: for the reading that follows the description, so
+    that a file of 100,000 channels is walked once."""
+    status = path.stat()
+    with path.open("rb") as file:
+        ends = [file.read(4096)]
+        file.seek(max(0, status.st_size - 4096))
+        ends.append(file.read(4096))
+    key = str(path.absolute()), status.st_size, status.st_mtime_ns, status.st_ino, repr(source), *ends
+    with _LOCK:
+        found = _KEPT.pop(key, None)
+    if found is None:
+        found = _opened(path, source)
+    if keep:
+        with _LOCK:
+            _KEPT.clear()
+            _KEPT[key] = found
+    return found
+
+
+def _opened(path: Path, source: Source) -> File:
     """Index, streams and notes of a TDMS file; reads no bulk (but the start of channels that hold a time)."""
     index = walk(path)
     cols, partly = columns(index)
     notes = list(index.notes)
     groups = channels(index, cols, path.name, set(source.options.get("unscaled", ())), notes)
-    taken: set[str] = set()
+    taken: dict[str, int] = {}
     found: list[Stream] = []
     with path.open("rb") as file:
         for group, members in groups.items():
@@ -79,7 +102,7 @@ def open_file(path: Path, source: Source) -> File:
     return File(index, tuple(found), tuple(notes), tuple(partly))
 
 
-def _streams(group: str, members: list[Channel], index: Index, source: Source, notes: list[str], taken: set[str],
+def _streams(group: str, members: list[Channel], index: Index, source: Source, notes: list[str], taken: dict[str, int],
              file: BinaryIO) -> Iterable[Stream]:
     filled = [c for c in members if c.planned or c.length]
     notes.extend(f"{c.signal.name} holds no values" for c in members if not (c.planned or c.length))
@@ -115,13 +138,14 @@ def _streams(group: str, members: list[Channel], index: Index, source: Source, n
             yield Stream(name, (replace(c, signal=replace(c.signal, stream=name)),), None, axis(c, file, notes))
 
 
-def _name(group: str, taken: set[str]) -> str:
-    """A stream's name that no other has, in upper or lower case."""
+def _name(group: str, taken: dict[str, int]) -> str:
+    """A stream's name that no other has, in upper or lower case. taken: names, and the number to try next."""
     base = group or "data"
-    name, number = base, 2
+    name, number = base, taken.get(base.casefold(), 2)
     while name.casefold() in taken:
         name, number = f"{base}@{number}", number + 1
-    taken.add(name.casefold())
+    taken[base.casefold()] = number
+    taken.setdefault(name.casefold(), 2)
     return name
 
 

@@ -21,7 +21,7 @@ _TEXT_BYTES = 16 << 20         # and bytes of text
 
 
 def describe(path: Path, source: Source) -> Recording:
-    file = open_file(path, source)
+    file = open_file(path, source, keep=True)
     notes = [*file.notes, *file.partly]
     absolute = _any_absolute(file)
     starts = [t for s, t in _first_times(path, file) if s.absolute]
