@@ -61,3 +61,20 @@ def test_milliseconds_in_a_column_behind_the_time_are_part_of_it(tmp_path: Path)
     t_ns = np.concatenate([b.t_ns for b in Reader().blocks(path, Source()) if isinstance(b, Block)])
     assert t_ns[0] == np.datetime64("2026-03-27T06:00:00", "ns").astype(int)
     assert set(np.diff(t_ns)) == {100_000_000}
+
+
+def test_quoted_numbers_with_a_decimal_comma_between_commas(tmp_path: Path) -> None:
+    path = tmp_path / "sheet.csv"
+    path.write_text("Time [s],T [°C]\n" + "".join(f'{i},"{20 + i},5"\n' for i in range(20)), encoding="utf-8")
+    assert read(path)[1]["T [°C]"].tolist() == [20.5 + i for i in range(20)]
+    path.write_text("Time [s],n [rpm]\n" + "".join(f'{i},"8,{i:03d}"\n' for i in range(20)), encoding="utf-8")
+    assert read(path)[1]["n [rpm]"].tolist() == [8000.0 + i for i in range(20)]
+
+
+def test_dates_in_chinese_and_korean(tmp_path: Path) -> None:
+    for day in ("2026年03月27日", "2026년 3월 27일 "):
+        path = tmp_path / "cn.csv"
+        rows = "".join(f"{day},06:00:{i:02d},20.{i}\n" for i in range(9))
+        path.write_text("日期,时间,主轴温度（℃）\n" + rows, encoding="utf-8")
+        assert list(read(path)[0]) == ["主轴温度（℃）"]
+        assert Reader().describe(path, Source()).start_ns == np.datetime64("2026-03-27T06:00:00", "ns").astype(int)

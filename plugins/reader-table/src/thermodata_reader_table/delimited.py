@@ -102,12 +102,20 @@ def _open(asked: _Asked) -> Sheet:
     width = len(layout.names)
     body = [r + [""] * (width - len(r)) for r in rows_of[layout.first:]]
     numbers = [c for r in body for i, c in enumerate(r[:width]) if i not in layout.dated]
-    decimal = said.get("decimal") or (decimal_mark(numbers) if delimiter != "," else ".") or "."
+    decimal = said.get("decimal") or (decimal_mark(numbers) if delimiter != "," else _quoted_mark(numbers)) or "."
     kinds = tuple(_kind(layout, i, [r[i] for r in body]) for i in range(width))
     notes = [*([note] if note else []), *layout.notes]
     usual = Counter(len(r) for r in rows_of[layout.first:] if any(r)).most_common(1)
     return Sheet(encoding, delimiter, decimal, layout, kinds, '"' in text, tuple(notes), cut,
                  usual[0][0] if usual else width, tuple(tuple(r[:width]) for r in body if any(r)))
+
+
+def _quoted_mark(cells: list[str]) -> str:
+    """The decimal mark where commas part the cells: one inside of quotes ("20,5") is a decimal comma unless each such
+    cell may be a number with marks between thousands ("8,000")."""
+    commas = [c for c in cells if re.match(r"^[+-]?\d+,\d+$", c)]
+    grouped = all(re.match(r"^[+-]?[1-9]\d{0,2}(,\d{3})+$", c) for c in commas)
+    return "." if grouped or any(re.match(r"^[+-]?\d*\.\d+$", c) for c in cells) else ","
 
 
 def _kind(layout: Layout, column: int, cells: list[str]) -> str:

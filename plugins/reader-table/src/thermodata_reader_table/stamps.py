@@ -16,7 +16,8 @@ from thermodata.reader.zone import NAT
 
 _CLOCK = r"(\d{1,2}):(\d{2})(?::(\d{2})(?:[.,:](\d{1,9}))?\d*)?\s*([AaPp][Mm])?"
 _ZONE = r"\s*(Z|[+-]\d{2}:?\d{2})?"
-_YEAR_FIRST = re.compile(rf"^(\d{{4}})[-/.](\d{{1,2}})[-/.](\d{{1,2}})(?:[T _]+{_CLOCK}{_ZONE})?$")
+_YEAR_FIRST = re.compile(rf"^(\d{{4}})[-/.年년]\s?(\d{{1,2}})[-/.月월]\s?(\d{{1,2}})[日일]?"
+                         rf"(?:(?:[T _]+|(?<=[日일])){_CLOCK}{_ZONE})?$")
 _YEAR_LAST = re.compile(rf"^(\d{{1,2}})([-/.])\s?(\d{{1,2}})\2\s?(\d{{4}}|\d{{2}})(?:,?[T _]+{_CLOCK}{_ZONE})?$")
 _ISO = re.compile(r"^\d{4}-\d\d-\d\d[T ]\d\d:\d\d(:\d\d(\.\d{1,9})?)?$")
 _TIME_ONLY = re.compile(rf"^{_CLOCK}$")
