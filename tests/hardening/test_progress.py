@@ -16,6 +16,9 @@ from pathlib import Path
 
 import pytest
 
+from thermodata.store.counting import counted, watched
+from thermodata.virtual import simulate
+
 CAMPAIGN = """
 schema: thermodata/campaign/1
 id: shop
@@ -80,3 +83,32 @@ def test_a_pipe_gets_nothing(campaign: Path) -> None:
                           check=True, timeout=120)
     assert done.stderr == ""
     assert "%" not in done.stdout.split("took")[0].replace("[%]", "")
+
+
+COUNTING = """
+from thermodata.cli.progress import counting_line
+from thermodata.store.counting import counted, watched
+with counting_line() as tell, watched(tell):
+    print(sum(counted([1, 2, 3], "candidates")))
+"""
+
+
+def test_work_that_is_counted_gets_a_line_too_and_a_pipe_nothing(tmp_path: Path,
+                                                                 monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(sys.modules[__name__], "PROGRAM", [sys.executable, "-c", COUNTING])
+    out, seen = on_terminal([], tmp_path)
+    assert out == "6\n"
+    assert re.search(r"67 %\|.*2/3 candidates, +[\d.]+/s, \d\d:\d\d left", seen)
+    assert "\n" not in seen.strip()
+    done = subprocess.run(PROGRAM, capture_output=True, text=True, cwd=tmp_path, check=True, timeout=120)
+    assert (done.stdout, done.stderr) == ("6\n", "")
+
+
+def test_a_simulation_tells_how_far_it_is_while_somebody_watches(tmp_path: Path) -> None:
+    told: list[tuple[str, int, int]] = []
+    with watched(lambda *what: told.append(what)):
+        simulate(tmp_path / "lab", tests=2, hours=2)
+    assert len(told) > 2
+    assert told == [("tests", done, len(told) - 1) for done in range(len(told))]
+    assert list(counted("ab", "letters")) == ["a", "b"]
+    assert told[-1][0] == "tests"          # nobody is told after the end

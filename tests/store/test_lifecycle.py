@@ -94,3 +94,14 @@ def test_a_sample_is_traced_to_file_hash_and_row(filled: Store, campaign: Path) 
     assert found["sample"]["value"] == pytest.approx(-10 * place["raw_value"])
     assert found["calibrations"][0]["gain"] == -10.0
     assert [f["source_path"] for f in trace(filled, "shop", "two")["files"]] == ["raw/two_a.npz", "raw/two.nc.npz"]
+
+
+def test_a_snapshot_sweeps_what_killed_ones_have_left_beside_it_and_nothing_else(store: Store, tmp_path: Path) -> None:
+    old, young, foreign = (tmp_path / n for n in (".out.duckdb.0a1b2c3d.tmp", ".out.duckdb.4e5f6a7b.tmp.wal",
+                                                  ".else.duckdb.0a1b2c3d.tmp"))
+    for path in (old, young, foreign):
+        path.write_bytes(b"cut")
+    for path in (old, foreign):
+        os.utime(path, (1, 1))
+    snapshot(store, tmp_path / "out.duckdb")
+    assert [p.exists() for p in (old, young, foreign)] == [False, True, True]

@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
+import contextlib
 import re
+import time
 from pathlib import Path
 
 from thermodata.errors import StoreError, UsageError
 from thermodata.store import connection
 from thermodata.store.ddl import TABLES
-from thermodata.store.files import publish, temporary, write_error
+from thermodata.store.files import TEMPORARY, publish, temporary, write_error
 from thermodata.store.store import Store
 
+_GRACE_S = 3600.0
 _TABLE = re.compile(r"create table (\w+)")
 
 
@@ -30,6 +33,7 @@ def snapshot(store: Store, out: Path | str) -> Path:
     if target.exists():
         raise UsageError("the file exists", where=str(target), hint="name another file or delete it first")
     target.parent.mkdir(parents=True, exist_ok=True)
+    _sweep(target)
     part = temporary(target)
     con = store.private_copy()
     try:
@@ -65,6 +69,16 @@ def snapshot(store: Store, out: Path | str) -> Path:
         part.unlink(missing_ok=True)
         part.with_name(part.name + ".wal").unlink(missing_ok=True)
     return target
+
+
+def _sweep(target: Path) -> None:
+    """Removes what snapshots under this name that were killed have left; one that still works writes to its file."""
+    limit = time.time() - _GRACE_S
+    for path in target.parent.iterdir():
+        ours = path.name.startswith(f".{target.name}.") and TEMPORARY.match(path.name)
+        with contextlib.suppress(OSError):          # another snapshot may sweep too
+            if ours and path.is_file() and not path.is_symlink() and path.stat().st_mtime < limit:
+                path.unlink()
 
 
 def _refused(target: Path, error: Exception, store: Store) -> StoreError:
