@@ -135,3 +135,12 @@ def test_dates_beside_seconds_of_their_own_are_asked(tmp_path: Path) -> None:
     dates = [f"2026-03-01 08:00:{i:02}" for i in range(12)]
     with pytest.raises(FormatError, match="some times are dates"):
         read(tmp_path, "Date;CH1;t;CH2\n" + rows(dates, VA, B, VB), time=[{"column": 1}, {"column": 3, "unit": "s"}])
+
+
+@pytest.mark.parametrize("line", ["9;9;9;9;9;9", "Datum;Temp"])
+def test_a_line_below_the_header_that_is_no_header_is_told(tmp_path: Path, line: str) -> None:
+    text = "time;T;n;p\n;°C;rpm;bar\n" if line.startswith("D") else "time;T;n;p\n"
+    data = read(tmp_path, text + line + "\n" + rows(A, VA, VA, VA))
+    assert [s.name for s in data.recording.signals] == ["T", "n", "p"]
+    told = (*data.recording.notes, *(loss.reason for loss in data.losses))
+    assert any("between header and data is not read" in x or "too many cells" in x for x in told)

@@ -184,13 +184,21 @@ def one_clock(times: Sequence[Stamps], groups: Sequence[Group], where: str) -> t
 
 def _spanning(rows: Sequence[Sequence[Cell]], width: int) -> list[int]:
     """Which rows before the data span the table, and are no preamble; the last may leave out what is merged with
-    the row above it."""
+    the row above it. A row of numbers below names is none."""
     filled = [[c for c in r[:width] if c not in ("", None)] for r in rows]
     found = [i for i, cells in enumerate(filled) if len(cells) * 2 > width or len(rows) == 1]
+    while len(found) > 1 and all(map(is_number, filled[found[-1]])):
+        found.pop()
     last = len(rows) - 1
-    if found and found[-1] == last - 1 and len(filled[last]) > 1 and not any(map(is_number, filled[last])):
+    if found and found[-1] == last - 1 and len(filled[last]) > 1 and not any(map(is_number, filled[last])) \
+            and not _are_units(filled[found[-1]]):
         found.append(last)
     return found
+
+
+def _are_units(cells: Sequence[Cell]) -> bool:
+    """Whether most filled cells of a row are units."""
+    return sum(looks_like_unit(str(c)) or str(c).startswith("[") for c in cells) * 2 > len(cells)
 
 
 def _between(rows: Sequence[Sequence[Cell]], width: int, skip: int) -> list[str]:

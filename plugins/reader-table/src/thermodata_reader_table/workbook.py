@@ -102,7 +102,7 @@ class Table:
         self.columns = list(zip(*rows[layout.first:], strict=False))
         said = (source.table or {}).get("decimal")
         columns = [c for i, c in enumerate(self.columns) if i not in layout.time]
-        self.decimal = said or decimal_mark(c for col in columns for c in col[:200] if isinstance(c, str)) or "."
+        self.decimal = said or decimal_mark(c for col in columns for c in col[:200] if c and isinstance(c, str)) or "."
 
     def streams(self, sheet: str | None) -> Iterator[Stream]:
         """sheet: its name where there are several."""
