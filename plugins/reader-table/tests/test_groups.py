@@ -137,7 +137,7 @@ def test_dates_beside_seconds_of_their_own_are_asked(tmp_path: Path) -> None:
         read(tmp_path, "Date;CH1;t;CH2\n" + rows(dates, VA, B, VB), time=[{"column": 1}, {"column": 3, "unit": "s"}])
 
 
-@pytest.mark.parametrize("line", ["9;9;9;9;9;9", "Datum;Temp"])
+@pytest.mark.parametrize("line", ["9;9;9;9;9;9", "Datum;Temp", "1.3.2026 8:00;x"])
 def test_a_line_below_the_header_that_is_no_header_is_told(tmp_path: Path, line: str) -> None:
     text = "time;T;n;p\n;°C;rpm;bar\n" if line.startswith("D") else "time;T;n;p\n"
     data = read(tmp_path, text + line + "\n" + rows(A, VA, VA, VA))

@@ -136,3 +136,14 @@ def test_times_of_day_pass_midnight(tmp_path: Path) -> None:
     rows: list[list[object]] = [["time", "T"], *([(0.75 + i / 8) % 1, i] for i in range(5))]
     data = read(tmp_path, {"a": sheet(rows, (3,))})
     np.testing.assert_array_equal(data.t_ns["table"], np.arange(5) * 3 * 3600 * 10**9)
+
+
+def test_an_archive_whose_parts_are_said_to_begin_before_it_is_refused(tmp_path: Path) -> None:
+    path = workbook(tmp_path / "x.xlsx", {"a": sheet(seconds(4))})
+    data = bytearray(path.read_bytes())
+    end = data.rfind(b"PK\x05\x06")
+    at = int.from_bytes(data[end + 16:end + 20], "little")
+    data[end + 16:end + 20] = (at + 50).to_bytes(4, "little")       # all places are 50 bytes too far
+    path.write_bytes(data)
+    with pytest.raises(FormatError, match=r"damaged workbook|not a readable workbook"):
+        load(Reader(), path, Source())

@@ -190,7 +190,8 @@ def _spanning(rows: Sequence[Sequence[Cell]], width: int) -> list[int]:
     while len(found) > 1 and all(map(is_number, filled[found[-1]])):
         found.pop()
     last = len(rows) - 1
-    if found and found[-1] == last - 1 and len(filled[last]) > 1 and not any(map(is_number, filled[last])) \
+    if found and found[-1] == last - 1 and len(filled[last]) > 1 and not any(
+            is_number(c) or is_stamp(c) for c in filled[last]) \
             and not _are_units(filled[found[-1]]):
         found.append(last)
     return found

@@ -93,6 +93,8 @@ class _Extent:
 
 
 def _inflate(file: Any, member: zipfile.ZipInfo, path: Path) -> Iterator[bytes]:
+    if member.header_offset < 0:                         # what stands before the archive moves all of its places
+        raise FormatError("damaged workbook", where=f"{path.name} {member.filename}", expected="a ZIP entry")
     file.seek(member.header_offset)
     header = file.read(30)
     if len(header) < 30 or header[:4] != b"PK\x03\x04":
