@@ -62,7 +62,7 @@ class Machine(Strict):
 
 class TimeColumn(Strict):
     column: int | str | list[int | str] | None = None     # 1-based, or the header's text; a list joins date and time
-    signals: list[int | str] | None = None                # of several times: the columns it is of; None: those behind it
+    signals: list[int | str] | None = None                # of several times: its columns; None: those behind it
     unit: str | None = None                               # relative times: s, min, h; None: found
     format: str | None = None                             # strptime, where the text is ambiguous
 

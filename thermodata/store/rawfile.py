@@ -23,8 +23,8 @@ if TYPE_CHECKING:
 
 GROUP_VALUES = 2_000_000      # values in a row group: 16 MB of float64 ...
 GROUP_ROWS = 250_000
-LEAST_ROWS = 1000             # ... but not fewer rows than this, as each column of a group has its overhead ...
-MOST_VALUES = 10_000_000      # ... unless there are ten thousand columns of them
+LEAST_ROWS = 10_000           # ... but not fewer rows than this: each column of a group costs 2 kB of the footer ...
+MOST_VALUES = 6_000_000       # ... unless there are so many columns that a group would be too large
 _MANY = 8
 
 
