@@ -164,6 +164,36 @@ def test_version_73_is_read_in_pieces_and_what_is_not_stored_is_no_zero(tmp_path
         load(Reader(), path, Source())
 
 
+@pytest.mark.parametrize("packed", ["gzip", None])
+def test_a_chunk_that_a_search_misses_is_a_loss_and_no_zeros(tmp_path: Path, packed: str | None) -> None:
+    """The last number of a chunk's key, the byte within a value, is in no list of the chunks."""
+    path = tmp_path / "x.mat"
+    with h5py.File(path, "w", userblock_size=512) as file:
+        for name, values in (("t", T), ("T1", WAVE), ("T2", -WAVE)):
+            item = file.create_dataset(name, data=values[None, :], chunks=(1, 16), compression=packed)
+            item.attrs["MATLAB_class"] = np.bytes_("double")
+        text = np.frombuffer("gantry".encode("utf-16-le"), "<u2")[:, None]
+        item = file.create_dataset("machine", data=text, chunks=(2, 1), compression=packed)
+        item.attrs["MATLAB_class"] = np.bytes_("char")
+        at = {n: file[n].id.get_chunk_info_by_coord(p) for n, p in (("T1", (0, 16)), ("machine", (2, 0)))}
+    whole = bytearray(path.read_bytes())
+    data = load(Reader(), path, Source())
+    assert (data.losses, data.recording.signals[0].properties) == ((), {"machine": "gantry"})
+    for name, place in (("T1", (0, 16)), ("machine", (2, 0))):
+        # a key: size, filter mask, place, byte within a value; then the address, from the end of the user block
+        key = b"".join(n.to_bytes(8, "little") for n in (at[name].size, *place, 0, at[name].byte_offset - 512))
+        assert whole.count(key) == 1
+        flipped = bytearray(whole)
+        flipped[whole.index(key) + 24 + 3] ^= 1
+        path.write_bytes(flipped)
+        with h5py.File(path) as file:
+            assert not file[name][place[0]:place[0] + 1, place[1]:place[1] + 2].any()
+        data = load(Reader(), path, Source())
+        assert [x.where for x in data.losses] == [f"x.mat variable '{name}'"]
+        assert "a search does not find the chunk" in data.losses[0].reason
+        np.testing.assert_array_equal(column(data, "T2"), -WAVE)
+
+
 def test_a_cut_or_flipped_file_keeps_its_whole_variables(tmp_path: Path) -> None:
     path = tmp_path / "x.mat"
     scipy.io.savemat(path, {"t": col(T), "a": col(WAVE), "b": col(WAVE * 2)}, do_compression=True)

@@ -11,7 +11,7 @@ import numpy as np
 
 from thermodata.errors import FormatError
 from thermodata.plugin import Array, Loss
-from thermodata_reader_table.mat73_check import Spans, check_stored
+from thermodata_reader_table.mat73_check import Spans, check_found, check_stored
 from thermodata_reader_table.mat_tree import (
     MAX_DEPTH,
     MAX_NODES,
@@ -29,7 +29,6 @@ from thermodata_reader_table.mat_tree import (
 _NUMBERS = {"double": "float64", "single": "float32", "logical": "bool"}
 _NUMBERS |= {f"{sign}int{bits}": f"{sign}int{bits}" for sign in ("", "u") for bits in (8, 16, 32, 64)}
 _CACHE = 64 << 20                           # a chunk is unpacked once, not once a block
-_MAX_CHUNK = 256 << 20
 
 
 @contextmanager
@@ -136,6 +135,7 @@ class _Walk:
     def _cells(self, item: Any, depth: int) -> Cells:
         if item.size > MAX_NODES:
             raise ValueError(f"{item.size} parts")
+        check_found(item)
         shape = item.shape
         references = np.asarray(item[()]).ravel()       # C order of the turned shape is MATLAB's column by column
         rows = int(shape[-1]) if len(shape) else 1
@@ -160,6 +160,7 @@ def _no_numbers() -> Numbers:
 def _lines(item: Any) -> Text:
     if item.size > MAX_TEXT:
         raise ValueError(f"{item.size} characters")
+    check_found(item)
     codes = np.atleast_2d(np.asarray(item[()]))
     if codes.dtype.kind not in "iu":
         raise ValueError(f"text of type {codes.dtype}")
@@ -174,8 +175,6 @@ def _numbers(item: Any, kind: str, where: str, spans: Spans) -> Node:
     shape = [int(n) for n in item.shape]
     if len(shape) > 2 and item.size != shape[-1] * shape[-2]:
         return Odd(f"{len(shape)}-dimensional {dtype}")
-    if item.chunks is not None and np.prod(item.chunks, dtype=object) * item.dtype.itemsize > _MAX_CHUNK:
-        raise ValueError(f"chunks of {item.chunks}: more than {_MAX_CHUNK >> 20} MiB at once")
     if item.is_virtual or item.external:
         raise ValueError("its values stand in another file")
     check_stored(item, kind, spans)
