@@ -392,3 +392,11 @@ def test_rows_of_limits_between_names_and_units_are_no_names(tmp_path: Path) -> 
     recording, _, values, _ = read(write(tmp_path, "\r\n".join(lines)))
     assert [(s.name, s.unit) for s in recording.signals] == [("Lager vorn", "°C"), ("Halle", "°C")]
     assert list(values["Lager vorn"]) == [20.5 + i for i in range(20)]
+
+
+def test_a_first_row_that_lost_a_delimiter_is_a_loss_and_no_header(tmp_path: Path) -> None:
+    rows = "".join(f"02.03.2026 08:{m:02d}:00;{20 + m / 10:.1f};{m};RUN\n".replace(".", ",", 0) for m in range(1, 30))
+    text = "Datum;T1 [°C];nActSpeed;Program\n02.03.2026 08:00:00;20,00;RUN\n" + rows.replace(";2", ";2")
+    data = load(Reader(), write(tmp_path, text), PRAGUE)
+    assert len(data.t_ns["nc"]) >= 29
+    assert data.losses

@@ -170,5 +170,13 @@ def first_row(rows: Sequence[Sequence[str]], width: int, time: TimeColumns, tabl
             continue
         if all((_is_number(row[c]) if form.role == "relative" else when.parse_one(row[c], form) != NAT)
                for c, form in time):
+            while k and _torn(rows[k - 1], width, time):
+                k -= 1
             return k
     return len(rows)
+
+
+def _torn(row: Sequence[str], width: int, time: TimeColumns) -> bool:
+    """Whether a row of another width is data all the same: it has its date and time, and something beside it."""
+    return len(row) != width and len(row) > len(time) and all(
+        form.role != "relative" and c < len(row) and when.parse_one(row[c], form) != NAT for c, form in time)
