@@ -18,10 +18,11 @@ if TYPE_CHECKING:
     import pyarrow as pa
 
 COMPRESSION = "lz4"
+_WIDE = 300                           # columns
 
 
 class Encoder:
-    """A ParquetWriter that works in its own thread, two row groups behind at most."""
+    """A ParquetWriter that works in its own thread, one or two row groups behind at most."""
 
     def __init__(self, part: Path, schema: pa.Schema) -> None:
         import pyarrow as pa
@@ -38,7 +39,8 @@ class Encoder:
                                             write_statistics=times, write_page_checksum=True)
         except OSError as error:
             raise write_error(part, error) from error
-        self._queue: Queue[pa.Table | None] = Queue(maxsize=2)
+        # row groups of wide streams are large, and so is the footer that grows with their columns
+        self._queue: Queue[pa.Table | None] = Queue(maxsize=1 if len(schema) > _WIDE else 2)
         self._error: BaseException | None = None
         self._thread = threading.Thread(target=self._run, name="raw-parquet", daemon=True)
         self._thread.start()
