@@ -157,3 +157,11 @@ def test_utf16_of_a_spreadsheet(tmp_path: Path) -> None:
 ])
 def test_text_that_is_no_table_is_not_claimed(text: str) -> None:
     assert Reader().sniff(Head("x.csv", len(text), text.encode())) is None
+
+
+def test_a_first_row_whose_time_is_destroyed_is_told_and_no_header(tmp_path: Path) -> None:
+    rows = "".join(f"2026-03-01 08:{m:02d}:00,{20 + m / 8:.3f},{-m / 4:.2f}\n" for m in range(1, 30))
+    data = read(tmp_path, "time,T1 [degC],dZ [um]\nERR,20.000,0.00\n" + rows)
+    assert {name for _, name in data.values} == {"T1 [degC]", "dZ [um]"}
+    assert len(data.t_ns["table"]) == 29
+    assert any("line 2" in note for note in data.recording.notes)

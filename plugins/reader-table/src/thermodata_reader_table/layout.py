@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any, Literal
@@ -187,7 +188,7 @@ def _spanning(rows: Sequence[Sequence[Cell]], width: int) -> list[int]:
     the row above it. A row of numbers below names is none."""
     filled = [[c for c in r[:width] if c not in ("", None)] for r in rows]
     found = [i for i, cells in enumerate(filled) if len(cells) * 2 > width or len(rows) == 1]
-    while len(found) > 1 and all(map(is_number, filled[found[-1]])):
+    while len(found) > 1 and _are_numbers(filled[found[-1]]):
         found.pop()
     last = len(rows) - 1
     if found and found[-1] == last - 1 and len(filled[last]) > 1 and not any(
@@ -195,6 +196,14 @@ def _spanning(rows: Sequence[Sequence[Cell]], width: int) -> list[int]:
             and not _are_units(filled[found[-1]]):
         found.append(last)
     return found
+
+
+def _are_numbers(cells: Sequence[Cell]) -> bool:
+    """Whether a row is one of data: numbers, or all but one and some with decimals, which channels' numbers have not
+    (a row whose time was destroyed)."""
+    numbers = [str(c) for c in cells if is_number(c)]
+    decimals = any(re.search(r"[.,]\d+$", n) and not n.endswith(".0") for n in numbers)
+    return len(numbers) == len(cells) or (decimals and len(cells) > 2 and len(numbers) == len(cells) - 1)
 
 
 def _are_units(cells: Sequence[Cell]) -> bool:
