@@ -133,7 +133,8 @@ def mat73(path: Path) -> Source:
 
 
 def mdf(path: Path) -> Source:
-    asammdf = pytest.importorskip("asammdf")
+    import asammdf
+
     t, invalid = np.arange(40) * 0.5, np.arange(40) % 9 == 3
     with asammdf.MDF(version="4.10") as file:
         file.append([asammdf.Signal(np.sin(t), t, name="T1", unit="degC", invalidation_bits=invalid),

@@ -5,12 +5,13 @@ set -u
 here=$(cd "$(dirname "$0")" && pwd)
 campaign=$1
 disk=$(mktemp -d)
-trap 'umount "$disk" 2>/dev/null; rmdir "$disk"' EXIT
+said=$(mktemp)
+trap 'umount "$disk" 2>/dev/null; rmdir "$disk"; rm -f "$said"' EXIT
 for size in ${SIZES:-1500k 3m 6m 12m 24m 200m}; do
     mount -t tmpfs -o size="$size" none "$disk" || exit 1
-    thermodata --store "$disk/store" ingest "$campaign" >/dev/null 2>"/tmp/said.$$"
+    thermodata --store "$disk/store" ingest "$campaign" >/dev/null 2>"$said"
     code=$?
-    echo "disk $size: exit code $code $(head -3 "/tmp/said.$$" | tr '\n' ' ')"
+    echo "disk $size: exit code $code $(head -3 "$said" | tr '\n' ' ')"
     if [ -e "$disk/store/catalog.duckdb" ]; then
         python - "$here" "$disk/store" <<'PYTHON'
 import sys
@@ -28,4 +29,3 @@ PYTHON
     fi
     umount "$disk"
 done
-rm -f "/tmp/said.$$"

@@ -8,6 +8,7 @@ import sys
 from pathlib import Path
 from typing import Any
 
+import asammdf
 import numpy as np
 import pytest
 from thermodata_reader_table import Reader
@@ -17,7 +18,6 @@ from thermodata.plugin import Scaling, Source
 from thermodata.schema.flag import Flag
 from thermodata.testing.reader import Data, load
 
-asammdf = pytest.importorskip("asammdf")
 N = 60
 T = np.arange(N) * 0.1
 WAVE = np.sin(T)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import codecs
 from collections.abc import Callable, Iterator
+from contextlib import suppress
 from contextvars import ContextVar
 from dataclasses import dataclass
 from pathlib import Path
@@ -162,11 +163,9 @@ def _utf8(data: bytes, encoding: str, first: int) -> tuple[bytes, tuple[int, ...
     if data.isascii():
         return data, ()
     name = _bare(encoding)
-    try:
+    with suppress(UnicodeDecodeError):                    # then line by line
         text = data.decode(name)
         return (data if name == "utf-8" else text.encode()), ()
-    except UnicodeDecodeError:
-        pass
     lines, odd = data.split(b"\n"), []
     for k, line in enumerate(lines):
         try:

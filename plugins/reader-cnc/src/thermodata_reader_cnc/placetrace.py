@@ -42,8 +42,7 @@ def place(path: Path, source: Source, stream: str, row: int) -> str | None:
             for frame in found:
                 if frame is not frames.frame and frame.signals and (frame.started or frame.done
                                                                     or frame is not found[-1]):
-                    for _ in frames.begin(frame):
-                        pass
+                    list(frames.begin(frame))             # what it says is lost is of no interest here
                 if frame is frames.frame:
                     best = _nearest(frame, frames, parser.where.pop(frame.number, []), stream, wanted[0], best)
             if wrong is not None or not data:

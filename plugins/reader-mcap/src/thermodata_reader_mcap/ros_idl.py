@@ -98,8 +98,7 @@ class _Parser:
     def _enum(self, scope: tuple[str, ...]) -> None:
         name = self.next()
         self.next("{")
-        while self.next() != "}":
-            pass
+        list(iter(self.next, "}"))                        # names of the values: a message holds their numbers
         self.aliases["::".join((*scope, name))] = Field(name, "u4")
 
     def _const(self, scope: tuple[str, ...]) -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 import warnings
 from collections.abc import Iterable, Iterator, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import IO, Any
@@ -319,11 +320,9 @@ def floats(cells: Array, decimal: str) -> tuple[Array, list[str]]:
     # pandas reads a part of such a column as numbers where that part holds no word; NaN is an empty cell
     texts = [c.strip() if isinstance(c, str) else "" if c != c else repr(float(c)) for c in cells.tolist()]
     plain = [c.replace(",", ".") for c in texts] if decimal == "," and not any("." in c for c in texts) else texts
-    try:
+    with suppress(ValueError):                              # then cell by cell
         if not any("_" in c for c in texts):                # numpy takes 1_000 for a number
             return np.array([c or "nan" for c in plain]).astype(np.float64), []
-    except ValueError:
-        pass
     out, odd = np.full(len(texts), np.nan), []
     for i, text in enumerate(texts):
         if text.lower() in EMPTY:
