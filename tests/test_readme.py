@@ -47,8 +47,14 @@ def test_its_reader_passes_the_kit_by_its_own_test(tmp_path: Path) -> None:
     (tmp_path / "my_package.py").write_text(block("python", "class Reader"))
     (tmp_path / "test_foo.py").write_text(block("python", "reader_checks"))
     (tmp_path / "sample.foo").write_text("FOO1 T degC\n" + "".join(f"{i / 2} {20 + i / 8}\n" for i in range(12)))
-    done = subprocess.run([sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", "test_foo.py"], cwd=tmp_path,
-                          env={**os.environ, "PYTHONPATH": str(tmp_path)}, capture_output=True, text=True, check=False)
+    done = subprocess.run(
+        [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", "test_foo.py"],
+        cwd=tmp_path,
+        env={**os.environ, "PYTHONPATH": str(tmp_path)},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
     assert done.returncode == 0, done.stdout
     assert int(re.findall(r"(\d+) passed", done.stdout)[0]) > 20
 

@@ -47,10 +47,21 @@ def main() -> None:
     if given.suite:
         found.append(("the test suite", None, run([Path(PROGRAM).with_name("pytest"), "-q"], ROOT)))
     print(machine())
-    print(table(["command", "wall [s]", "limit [s]", "kept", "peak RSS [MiB]"], [
-        [what, f"{r.seconds:.2f}", "" if limit is None else limit,
-         "" if limit is None else "yes" if r.seconds < limit else "NO", f"{r.peak_mib:.0f}"]
-        for what, limit, r in found]))
+    print(
+        table(
+            ["command", "wall [s]", "limit [s]", "kept", "peak RSS [MiB]"],
+            [
+                [
+                    what,
+                    f"{r.seconds:.2f}",
+                    "" if limit is None else limit,
+                    "" if limit is None else "yes" if r.seconds < limit else "NO",
+                    f"{r.peak_mib:.0f}",
+                ]
+                for what, limit, r in found
+            ],
+        )
+    )
 
 
 if __name__ == "__main__":

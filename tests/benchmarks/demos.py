@@ -29,8 +29,14 @@ def demo(hide: str, seed: int) -> dict[str, Any]:
         except subprocess.CalledProcessError as error:
             return {"hidden": hide, "seed": seed, "outcome": "failed", "why": str(error.stderr)[-2000:]}
     result = done.answer
-    return {**result, "hidden": hide, "seed": seed, "outcome": outcome(hide, seed, result), "seconds": done.seconds,
-            "peak_mib": done.peak_mib}
+    return {
+        **result,
+        "hidden": hide,
+        "seed": seed,
+        "outcome": outcome(hide, seed, result),
+        "seconds": done.seconds,
+        "peak_mib": done.peak_mib,
+    }
 
 
 def outcome(hide: str, seed: int, result: dict[str, Any]) -> str:

@@ -58,18 +58,30 @@ def report(trials: Sequence[dict[str, Any]]) -> str:
     rows = []
     for name, part in [*groups.items(), ("all", named)]:
         ends = [sum(t["outcome"] == o for t in part) for o in OUTCOMES]
-        rows.append([name, len(part), *(n or "" for n in ends), middle(part, "rmse_um"), middle(part, "locked_rmse_um"),
-                     f"{median(t['seconds'] for t in part):.1f}" if part else ""])
+        rows.append(
+            [
+                name,
+                len(part),
+                *(n or "" for n in ends),
+                middle(part, "rmse_um"),
+                middle(part, "locked_rmse_um"),
+                f"{median(t['seconds'] for t in part):.1f}" if part else "",
+            ]
+        )
     claims = [t for t in named if t["found"]]
     fell = sum(t["rmse_um_after"] < t["rmse_um_before"] for t in claims)
     locked = [t for t in claims if t["locked_rmse_um_after"] is not None]
     locked_fell = sum(t["locked_rmse_um_after"] < t["locked_rmse_um_before"] for t in locked)
     # a machine that lacks nothing is right where nothing is claimed: that is no claim
     good = sum(t["outcome"] in ("right", "equivalent") for t in claims)
-    return "\n".join([
-        table(["hidden", "machines", *OUTCOMES, "error [um]", "locked [um]", "s"], rows), "",
-        f"{len(claims)} claims of {len(named)} machines; right or told as equivalent {good} of {len(claims)}; "
-        f"error falls in {fell} of {len(claims)}, on locked tests in {locked_fell} of {len(locked)}"])
+    return "\n".join(
+        [
+            table(["hidden", "machines", *OUTCOMES, "error [um]", "locked [um]", "s"], rows),
+            "",
+            f"{len(claims)} claims of {len(named)} machines; right or told as equivalent {good} of {len(claims)}; "
+            f"error falls in {fell} of {len(claims)}, on locked tests in {locked_fell} of {len(locked)}",
+        ]
+    )
 
 
 def main() -> None:

@@ -51,12 +51,14 @@ class FastPath:
 
 
 FAST: dict[str, FastPath] = {
-    "control csv": FastPath(("thermodata_reader_cnc.rows", "RowReader._fast"), "_OddError", ("cnc_csv", "trace_csv"),
-                            "control_csv"),
+    "control csv": FastPath(
+        ("thermodata_reader_cnc.rows", "RowReader._fast"), "_OddError", ("cnc_csv", "trace_csv"), "control_csv"
+    ),
     "lvm": FastPath(("thermodata_reader_crio.rows", "_fast"), "none", ("lvm",), "lvm", (("_SMALL", 0),)),
     "csv": FastPath(("thermodata_reader_table.text_fast", "blocks"), "UnsuitableError", ("table_csv",), "csv"),
-    "mcap json": FastPath(("thermodata_reader_mcap.arrow_json", "_by_arrow"), "_OddError", ("mcap_json",), "mcap",
-                          (("_SMALL", 1),)),
+    "mcap json": FastPath(
+        ("thermodata_reader_mcap.arrow_json", "_by_arrow"), "_OddError", ("mcap_json",), "mcap", (("_SMALL", 1),)
+    ),
 }
 
 
@@ -118,9 +120,7 @@ def counted(fast: FastPath) -> Iterator[Count]:
         yield count
 
 
-def corpus(
-    names: tuple[str, ...], case: str, folder: Path, mutations: int
-) -> Iterator[tuple[str, Path, Any]]:
+def corpus(names: tuple[str, ...], case: str, folder: Path, mutations: int) -> Iterator[tuple[str, Path, Any]]:
     """(what, path, source) of every file; the path is written anew each time."""
     from thermodata.plugin import Source
 
@@ -206,9 +206,13 @@ def beside_nptdms(folder: Path) -> Result:
         ours = reading("crio", path, source)
         try:
             with TdmsFile.open(path) as file:
-                theirs = {f"{g.name}/{c.name}": np.asarray(c.read_data(scaled=False))
-                          for g in file.groups() for c in g.channels() if len(c)}
-        except Exception as error:        # npTDMS stumbles over files that are none of its own fault
+                theirs = {
+                    f"{g.name}/{c.name}": np.asarray(c.read_data(scaled=False))
+                    for g in file.groups()
+                    for c in g.channels()
+                    if len(c)
+                }
+        except Exception as error:  # npTDMS stumbles over files that are none of its own fault
             result.count.fell_back += 1
             print(f"{what}: npTDMS does not read it: {error!r:.80}", file=sys.stderr)
             continue
@@ -238,7 +242,7 @@ def timed(name: str, way: str, path: Path) -> float:
     with ExitStack() as stack:
         if way == "plain":
             stack.enter_context(plain(FAST[name]))
-        formats.read_ours(case, path)                      # once for the imports
+        formats.read_ours(case, path)  # once for the imports
         begin = time.perf_counter()
         formats.read_ours(case, path)
         return time.perf_counter() - begin
@@ -246,8 +250,14 @@ def timed(name: str, way: str, path: Path) -> float:
 
 def row(name: str, result: Result, ratio: float | None) -> list[str]:
     equal = f"{result.files - len({d.split(':')[0] for d in result.different})} of {result.files}"
-    return [name, equal, str(result.count.acted), str(result.count.fell_back),
-            "" if ratio is None else f"{ratio:.1f} x", "" if ratio is None else ("yes" if ratio >= 2 else "NO")]
+    return [
+        name,
+        equal,
+        str(result.count.acted),
+        str(result.count.fell_back),
+        "" if ratio is None else f"{ratio:.1f} x",
+        "" if ratio is None else ("yes" if ratio >= 2 else "NO"),
+    ]
 
 
 def main() -> int:
@@ -277,9 +287,21 @@ def main() -> int:
                 if name in FAST:
                     ratio = seconds(name, "plain", given.runs, path) / seconds(name, "fast", given.runs, path)
                 else:
-                    took = [min(python(Path(__file__).with_name("formats.py"), "--case", "tdms_rows", "--way", way,
-                                       "--folder", path).seconds for _ in range(given.runs))
-                            for way in ("read", "npTDMS + pandas")]
+                    took = [
+                        min(
+                            python(
+                                Path(__file__).with_name("formats.py"),
+                                "--case",
+                                "tdms_rows",
+                                "--way",
+                                way,
+                                "--folder",
+                                path,
+                            ).seconds
+                            for _ in range(given.runs)
+                        )
+                        for way in ("read", "npTDMS + pandas")
+                    ]
                     ratio = took[1] / took[0]
             rows.append(row(name, result, ratio))
     if not given.check:

@@ -39,10 +39,22 @@ def tdms(path: Path, rows: int, columns: int = 40, step_s: float = 0.1) -> None:
 
     with TdmsWriter(str(path)) as writer:
         for _, values in chunks(rows, columns, step_s):
-            writer.write_segment([
-                ChannelObject("Log", name, column, {
-                    "wf_start_time": START.astype("datetime64[us]"), "wf_increment": step_s, "wf_start_offset": 0.0,
-                    "unit_string": "degC"}) for name, column in zip(names(columns), values, strict=True)])
+            writer.write_segment(
+                [
+                    ChannelObject(
+                        "Log",
+                        name,
+                        column,
+                        {
+                            "wf_start_time": START.astype("datetime64[us]"),
+                            "wf_increment": step_s,
+                            "wf_start_offset": 0.0,
+                            "unit_string": "degC",
+                        },
+                    )
+                    for name, column in zip(names(columns), values, strict=True)
+                ]
+            )
 
 
 def tdms_rows(path: Path, rows: int, columns: int = 40) -> None:
@@ -54,12 +66,24 @@ def tdms_rows(path: Path, rows: int, columns: int = 40) -> None:
     for _, values in chunks(rows, columns, 1.0):
         if first:
             with TdmsWriter(str(path)) as writer:
-                writer.write_segment([
-                    ChannelObject("Log", name, column[:1], {
-                        "wf_start_time": START.astype("datetime64[us]"), "wf_increment": 1.0, "wf_start_offset": 0.0,
-                        "unit_string": "degC"}) for name, column in zip(names(columns), values, strict=True)])
+                writer.write_segment(
+                    [
+                        ChannelObject(
+                            "Log",
+                            name,
+                            column[:1],
+                            {
+                                "wf_start_time": START.astype("datetime64[us]"),
+                                "wf_increment": 1.0,
+                                "wf_start_offset": 0.0,
+                                "unit_string": "degC",
+                            },
+                        )
+                        for name, column in zip(names(columns), values, strict=True)
+                    ]
+                )
         with path.open("ab") as file:
-            file.write(b"".join(lead + row.tobytes() for row in np.ascontiguousarray(values.T[int(first):])))
+            file.write(b"".join(lead + row.tobytes() for row in np.ascontiguousarray(values.T[int(first) :])))
         first = False
 
 
@@ -69,13 +93,15 @@ def _comma(values: Any, separator: str) -> list[str]:
 
 def lvm(path: Path, rows: int, columns: int = 8) -> None:
     none = "\t" * columns
-    head = ("LabVIEW Measurement\t\nWriter_Version\t2\nSeparator\tTab\nDecimal_Separator\t,\nMulti_Headings\tNo\n"
-            "X_Columns\tOne\nTime_Pref\tAbsolute\nDate\t2026/03/02\nTime\t06:00:00,0\n***End_of_Header***\t\n\t\n"
-            f"Channels\t{columns}{none}\nSamples{f'{chr(9)}{rows}' * columns}\t\n"
-            f"Date{f'{chr(9)}2026/03/02' * columns}\t\nTime{f'{chr(9)}06:00:00,0' * columns}\t\n"
-            f"Y_Unit_Label{f'{chr(9)}degC' * columns}\t\nX0{f'{chr(9)}0,0E+0' * columns}\t\n"
-            f"Delta_X{f'{chr(9)}0,1' * columns}\t\n***End_of_Header***{none}\t\n"
-            "X_Value\t" + "\t".join(names(columns)) + "\tComment\n")
+    head = (
+        "LabVIEW Measurement\t\nWriter_Version\t2\nSeparator\tTab\nDecimal_Separator\t,\nMulti_Headings\tNo\n"
+        "X_Columns\tOne\nTime_Pref\tAbsolute\nDate\t2026/03/02\nTime\t06:00:00,0\n***End_of_Header***\t\n\t\n"
+        f"Channels\t{columns}{none}\nSamples{f'{chr(9)}{rows}' * columns}\t\n"
+        f"Date{f'{chr(9)}2026/03/02' * columns}\t\nTime{f'{chr(9)}06:00:00,0' * columns}\t\n"
+        f"Y_Unit_Label{f'{chr(9)}degC' * columns}\t\nX0{f'{chr(9)}0,0E+0' * columns}\t\n"
+        f"Delta_X{f'{chr(9)}0,1' * columns}\t\n***End_of_Header***{none}\t\n"
+        "X_Value\t" + "\t".join(names(columns)) + "\tComment\n"
+    )
     with path.open("w", encoding="cp1252", newline="") as file:
         file.write(head)
         at = 0
@@ -130,27 +156,48 @@ def xlsx(path: Path, rows: int, columns: int = 8) -> None:
     sheet = "application/vnd.openxmlformats-officedocument.spreadsheetml.{}+xml"
     letters = [chr(ord("A") + i) for i in range(columns + 1)]
     with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED, compresslevel=1) as book:
-        book.writestr("[Content_Types].xml", f'<Types xmlns="{package}/content-types"><Default Extension="rels" '
-                      f'ContentType="application/vnd.openxmlformats-package.relationships+xml"/>'
-                      '<Default Extension="xml" ContentType="application/xml"/><Override PartName="/xl/workbook.xml" '
-                      f'ContentType="{sheet.format("sheet.main")}"/><Override PartName="/xl/worksheets/sheet1.xml" '
-                      f'ContentType="{sheet.format("worksheet")}"/></Types>')
-        book.writestr("_rels/.rels", f'<Relationships xmlns="{package}/relationships"><Relationship Id="r1" '
-                      f'Target="xl/workbook.xml" Type="{office}/officeDocument"/></Relationships>')
-        book.writestr("xl/workbook.xml", f'<workbook xmlns="{main}" xmlns:r="{office}"><sheets>'
-                      '<sheet name="data" sheetId="1" r:id="r1"/></sheets></workbook>')
-        book.writestr("xl/_rels/workbook.xml.rels", f'<Relationships xmlns="{package}/relationships"><Relationship '
-                      f'Id="r1" Target="worksheets/sheet1.xml" Type="{office}/worksheet"/></Relationships>')
+        book.writestr(
+            "[Content_Types].xml",
+            f'<Types xmlns="{package}/content-types"><Default Extension="rels" '
+            f'ContentType="application/vnd.openxmlformats-package.relationships+xml"/>'
+            '<Default Extension="xml" ContentType="application/xml"/><Override PartName="/xl/workbook.xml" '
+            f'ContentType="{sheet.format("sheet.main")}"/><Override PartName="/xl/worksheets/sheet1.xml" '
+            f'ContentType="{sheet.format("worksheet")}"/></Types>',
+        )
+        book.writestr(
+            "_rels/.rels",
+            f'<Relationships xmlns="{package}/relationships"><Relationship Id="r1" '
+            f'Target="xl/workbook.xml" Type="{office}/officeDocument"/></Relationships>',
+        )
+        book.writestr(
+            "xl/workbook.xml",
+            f'<workbook xmlns="{main}" xmlns:r="{office}"><sheets>'
+            '<sheet name="data" sheetId="1" r:id="r1"/></sheets></workbook>',
+        )
+        book.writestr(
+            "xl/_rels/workbook.xml.rels",
+            f'<Relationships xmlns="{package}/relationships"><Relationship '
+            f'Id="r1" Target="worksheets/sheet1.xml" Type="{office}/worksheet"/></Relationships>',
+        )
         with book.open("xl/worksheets/sheet1.xml", "w", force_zip64=True) as out:
             out.write(f'<worksheet xmlns="{main}"><sheetData>'.encode())
             header = ["time [s]", *(f"{n} [degC]" for n in names(columns))]
-            out.write(('<row r="1">' + "".join(f'<c r="{c}1" t="inlineStr"><is><t>{h}</t></is></c>'
-                                               for c, h in zip(letters, header, strict=True)) + "</row>").encode())
+            out.write(
+                (
+                    '<row r="1">'
+                    + "".join(
+                        f'<c r="{c}1" t="inlineStr"><is><t>{h}</t></is></c>'
+                        for c, h in zip(letters, header, strict=True)
+                    )
+                    + "</row>"
+                ).encode()
+            )
             at = 0
             for _, values in chunks(rows, columns, 1.0):
                 for row in values.T.tolist():
-                    cells = "".join(f'<c r="{c}{at + 2}"><v>{v}</v></c>'
-                                    for c, v in zip(letters, [float(at), *row], strict=True))
+                    cells = "".join(
+                        f'<c r="{c}{at + 2}"><v>{v}</v></c>' for c, v in zip(letters, [float(at), *row], strict=True)
+                    )
                     out.write(f'<row r="{at + 2}">{cells}</row>'.encode())
                     at += 1
             out.write(b"</sheetData></worksheet>")
@@ -203,6 +250,8 @@ def mdf4(path: Path, rows: int, columns: int = 40) -> None:
     t, values = _whole(rows, columns, 0.1)
     with MDF(version="4.10") as file:
         file.start_time = datetime(2026, 3, 2, 6, tzinfo=UTC)
-        file.append([Signal(v, t, name=n, unit="degC") for n, v in zip(names(columns), values, strict=True)],
-                    common_timebase=True)
+        file.append(
+            [Signal(v, t, name=n, unit="degC") for n, v in zip(names(columns), values, strict=True)],
+            common_timebase=True,
+        )
         file.save(path, overwrite=True)

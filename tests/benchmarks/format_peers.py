@@ -30,8 +30,9 @@ def nptdms_pandas(path: Path, out: Path) -> Answer:
     from nptdms import TdmsFile
 
     with TdmsFile.open(path) as file:
-        columns = {c.name: c.as_dataframe(time_index=True, absolute_time=True).iloc[:, 0]
-                   for c in file["Log"].channels()}
+        columns = {
+            c.name: c.as_dataframe(time_index=True, absolute_time=True).iloc[:, 0] for c in file["Log"].channels()
+        }
     frame = pd.DataFrame(columns)
     return _frame(frame, frame.index.to_numpy())
 
@@ -49,7 +50,8 @@ def _in_duckdb(con: Any, table: str, time: str) -> Answer:
     columns = [r[0] for r in con.execute(f"describe {table}").fetchall() if r[0].lower().startswith("s")]
     total = " + ".join(f'sum("{c}")' for c in columns)
     n, first, last, all_ = con.execute(
-        f'select count(*), min("{time}")::timestamp_ns, max("{time}")::timestamp_ns, {total} from {table}').fetchone()
+        f'select count(*), min("{time}")::timestamp_ns, max("{time}")::timestamp_ns, {total} from {table}'
+    ).fetchone()
     ns = [int(np.datetime64(t, "ns").astype(np.int64)) for t in (first, last)]
     return {"values": n * len(columns), "sum": float(all_), "first": ns[0], "last": ns[1]}
 
@@ -154,8 +156,12 @@ def _dlt(rows: Any, out: Path) -> Answer:
 
     out.mkdir(parents=True, exist_ok=True)
     os.environ.update(RUNTIME__DLTHUB_TELEMETRY="false", DATA_WRITER__DISABLE_COMPRESSION="true")
-    pipeline = dlt.pipeline("bench", pipelines_dir=str(out / "pipelines"), dataset_name="bench",
-                            destination=dlt.destinations.duckdb(str(out / "lab.duckdb")))
+    pipeline = dlt.pipeline(
+        "bench",
+        pipelines_dir=str(out / "pipelines"),
+        dataset_name="bench",
+        destination=dlt.destinations.duckdb(str(out / "lab.duckdb")),
+    )
     pipeline.run(rows, table_name="log")
     with duckdb.connect(str(out / "lab.duckdb"), read_only=True) as con:
         return _in_duckdb(con, "bench.log", "time")
@@ -165,8 +171,13 @@ def dlt_csv(path: Path, out: Path) -> Answer:
     """As dlt's own file reader does it: pandas in chunks."""
     import pandas as pd
 
-    return _dlt((piece.assign(time=pd.to_datetime(piece["time"], format="ISO8601"))
-                 for piece in pd.read_csv(path, chunksize=100_000)), out)
+    return _dlt(
+        (
+            piece.assign(time=pd.to_datetime(piece["time"], format="ISO8601"))
+            for piece in pd.read_csv(path, chunksize=100_000)
+        ),
+        out,
+    )
 
 
 def dlt_parquet(path: Path, out: Path) -> Answer:

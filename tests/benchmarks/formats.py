@@ -53,34 +53,110 @@ class Case:
 
 _SECONDS = {"header_rows": 1, "time": {"column": 1, "unit": "s"}}
 CASES: dict[str, Case] = {
-    "tdms": Case("crio", ".tdms", files.tdms, (36_000, 216_000, 864_000), 40, {
-        "npTDMS + pandas": (peers.nptdms_pandas, "read", None),
-        "npTDMS streaming into DuckDB": (peers.nptdms_duckdb, "ingest", 1.3)}),
-    "tdms_rows": Case("crio", ".tdms", files.tdms_rows, (3_600, 21_600, 86_400), 40, {
-        "npTDMS + pandas": (peers.nptdms_pandas, "read", 8.0)}),
-    "lvm": Case("crio", ".lvm", files.lvm, (20_000, 200_000, 1_000_000), 8, {
-        "pandas read_csv": (peers.pandas_lvm, "read", 1.5)}),
-    "control_csv": Case("cnc", ".csv", files.control_csv, (20_000, 200_000, 1_000_000), 8, {
-        "pandas read_csv, to_datetime": (peers.pandas_control_csv, "read", 1.5)}),
-    "csv": Case("table", ".csv", files.iso_csv, (20_000, 200_000, 1_000_000), 8, {
-        "pandas read_csv, to_datetime": (peers.pandas_iso_csv, "read", 1.5),
-        "dlt into DuckDB": (peers.dlt_csv, "ingest", None)}, {"table": {"header_rows": 1}}),
-    "mcap": Case("mcap", ".mcap", files.mcap_json, (20_000, 150_000, 450_000), 8, {
-        "mcap reader with json": (peers.mcap_with_json, "read", 4.0)}),
-    "xlsx": Case("table", ".xlsx", files.xlsx, (3_000, 20_000, 100_000), 8, {
-        "pandas with calamine": (peers.pandas_calamine, "read", None),
-        "pandas with openpyxl": (peers.pandas_openpyxl, "read", None)}, {"table": _SECONDS}, relative=True),
-    "parquet": Case("table", ".parquet", files.parquet, (36_000, 216_000, 864_000), 40, {
-        "pandas read_parquet": (peers.pandas_parquet, "read", None),
-        "dlt into DuckDB": (peers.dlt_parquet, "ingest", None)}),
-    "mat5": Case("table", ".mat", files.mat5, (20_000, 200_000, 1_000_000), 20, {
-        "scipy loadmat": (peers.scipy_mat, "read", None)}, relative=True),
-    "mat73": Case("table", ".mat", files.mat73, (20_000, 200_000, 1_000_000), 20, {
-        "h5py": (peers.h5py_mat, "read", None)}, relative=True, needs="h5py"),
-    "mdf4": Case("table", ".mf4", files.mdf4, (36_000, 216_000, 864_000), 40, {
-        "asammdf to_dataframe": (peers.asammdf_frame, "read", None)}, needs="asammdf"),
+    "tdms": Case(
+        "crio",
+        ".tdms",
+        files.tdms,
+        (36_000, 216_000, 864_000),
+        40,
+        {
+            "npTDMS + pandas": (peers.nptdms_pandas, "read", None),
+            "npTDMS streaming into DuckDB": (peers.nptdms_duckdb, "ingest", 1.3),
+        },
+    ),
+    "tdms_rows": Case(
+        "crio",
+        ".tdms",
+        files.tdms_rows,
+        (3_600, 21_600, 86_400),
+        40,
+        {"npTDMS + pandas": (peers.nptdms_pandas, "read", 8.0)},
+    ),
+    "lvm": Case(
+        "crio", ".lvm", files.lvm, (20_000, 200_000, 1_000_000), 8, {"pandas read_csv": (peers.pandas_lvm, "read", 1.5)}
+    ),
+    "control_csv": Case(
+        "cnc",
+        ".csv",
+        files.control_csv,
+        (20_000, 200_000, 1_000_000),
+        8,
+        {"pandas read_csv, to_datetime": (peers.pandas_control_csv, "read", 1.5)},
+    ),
+    "csv": Case(
+        "table",
+        ".csv",
+        files.iso_csv,
+        (20_000, 200_000, 1_000_000),
+        8,
+        {
+            "pandas read_csv, to_datetime": (peers.pandas_iso_csv, "read", 1.5),
+            "dlt into DuckDB": (peers.dlt_csv, "ingest", None),
+        },
+        {"table": {"header_rows": 1}},
+    ),
+    "mcap": Case(
+        "mcap",
+        ".mcap",
+        files.mcap_json,
+        (20_000, 150_000, 450_000),
+        8,
+        {"mcap reader with json": (peers.mcap_with_json, "read", 4.0)},
+    ),
+    "xlsx": Case(
+        "table",
+        ".xlsx",
+        files.xlsx,
+        (3_000, 20_000, 100_000),
+        8,
+        {
+            "pandas with calamine": (peers.pandas_calamine, "read", None),
+            "pandas with openpyxl": (peers.pandas_openpyxl, "read", None),
+        },
+        {"table": _SECONDS},
+        relative=True,
+    ),
+    "parquet": Case(
+        "table",
+        ".parquet",
+        files.parquet,
+        (36_000, 216_000, 864_000),
+        40,
+        {
+            "pandas read_parquet": (peers.pandas_parquet, "read", None),
+            "dlt into DuckDB": (peers.dlt_parquet, "ingest", None),
+        },
+    ),
+    "mat5": Case(
+        "table",
+        ".mat",
+        files.mat5,
+        (20_000, 200_000, 1_000_000),
+        20,
+        {"scipy loadmat": (peers.scipy_mat, "read", None)},
+        relative=True,
+    ),
+    "mat73": Case(
+        "table",
+        ".mat",
+        files.mat73,
+        (20_000, 200_000, 1_000_000),
+        20,
+        {"h5py": (peers.h5py_mat, "read", None)},
+        relative=True,
+        needs="h5py",
+    ),
+    "mdf4": Case(
+        "table",
+        ".mf4",
+        files.mdf4,
+        (36_000, 216_000, 864_000),
+        40,
+        {"asammdf to_dataframe": (peers.asammdf_frame, "read", None)},
+        needs="asammdf",
+    ),
 }
-BIG = {"tdms": 320, "csv": 76, "mcap": 40}      # bytes a row, about
+BIG = {"tdms": 320, "csv": 76, "mcap": 40}  # bytes a row, about
 
 
 def declared(case: Case) -> dict[str, Any]:
@@ -120,13 +196,18 @@ def write_campaign(case: Case, path: Path) -> Path:
 
     said = described(reader(case.reader), path, Source(**declared(case)))
     signals = [s for s in said.signals if "S0" <= bare(s.name)[:2] <= "S9"]
-    channels = "\n".join(f"  {bare(s.name)[:3]}: {{source: log, signal: {json.dumps(s.name)}, quantity: temperature, "
-                         f"unit: degC}}" for s in signals)
+    channels = "\n".join(
+        f"  {bare(s.name)[:3]}: {{source: log, signal: {json.dumps(s.name)}, quantity: temperature, unit: degC}}"
+        for s in signals
+    )
     source = {"reader": case.reader, "files": path.name, **declared(case)}
     campaign = path.with_name("campaign.yaml")
-    campaign.write_text(f"schema: thermodata/campaign/1\nid: bench\nmachine: {{id: m}}\nsources: {{log: "
-                        f"{json.dumps(source)}}}\nchannels:\n{channels}\ntests:\n"
-                        "  - {id: log, kind: other, role: none}\n", encoding="utf-8")
+    campaign.write_text(
+        f"schema: thermodata/campaign/1\nid: bench\nmachine: {{id: m}}\nsources: {{log: "
+        f"{json.dumps(source)}}}\nchannels:\n{channels}\ntests:\n"
+        "  - {id: log, kind: other, role: none}\n",
+        encoding="utf-8",
+    )
     return campaign
 
 
@@ -142,8 +223,9 @@ def one(name: str, way: str, path: Path) -> Run:
     shutil.rmtree(out, ignore_errors=True)
     if way == "ingest":
         # by its module: `uv run --with ...` has no program beside its interpreter
-        return run([sys.executable, "-m", "thermodata", "--store", out, "ingest", path.with_name("campaign.yaml"),
-                    "--json"])
+        return run(
+            [sys.executable, "-m", "thermodata", "--store", out, "ingest", path.with_name("campaign.yaml"), "--json"]
+        )
     return python(Path(__file__), "--case", name, "--way", way, "--folder", path)
 
 
@@ -158,8 +240,11 @@ def tried(name: str, way: str, path: Path) -> Run | None:
 
 
 def same(ours: Mapping[str, Any], other: Mapping[str, Any]) -> bool:
-    return (ours["values"] == other["values"] and math.isclose(ours["sum"], other["sum"], rel_tol=1e-9)
-            and all(abs(ours[k] - other[k]) <= 1000 for k in ("first", "last")))       # a microsecond of rounding
+    return (
+        ours["values"] == other["values"]
+        and math.isclose(ours["sum"], other["sum"], rel_tol=1e-9)
+        and all(abs(ours[k] - other[k]) <= 1000 for k in ("first", "last"))
+    )  # a microsecond of rounding
 
 
 def left_out(way: str) -> str | None:
@@ -189,7 +274,7 @@ def measure(name: str, size: str, runs: int, folder: Path) -> list[list[str]]:
         else:
             ways.append(way)
     found: dict[str, list[Run]] = {way: [] for way in ways}
-    for number in range(runs):                      # in turn, so that a busy machine is as hard on each
+    for number in range(runs):  # in turn, so that a busy machine is as hard on each
         for way, done in found.items():
             if len(done) == number and (it := tried(name, way, path)):
                 done.append(it)
@@ -199,14 +284,18 @@ def measure(name: str, size: str, runs: int, folder: Path) -> list[list[str]]:
     return lines(name, size, case, found, rows * case.columns, megabytes)
 
 
-def lines(name: str, size: str, case: Case, found: Mapping[str, list[Run]], values: int, megabytes: float) -> list[
-        list[str]]:
+def lines(
+    name: str, size: str, case: Case, found: Mapping[str, list[Run]], values: int, megabytes: float
+) -> list[list[str]]:
     took = {way: middle(done) for way, done in found.items() if done}
     ours = took["read"].answer if "read" in took else None
     made = []
     for way in found:
-        start = [name, f"{size}: {megabytes:.0f} MB, {values / 1e6:.1f} M values", way if way in case.peers else
-                 f"ours, {way}"]
+        start = [
+            name,
+            f"{size}: {megabytes:.0f} MB, {values / 1e6:.1f} M values",
+            way if way in case.peers else f"ours, {way}",
+        ]
         if way not in took:
             made.append([*start, "", "", "", "", "", "", "", FAILED])
             continue
@@ -222,8 +311,19 @@ def lines(name: str, size: str, case: Case, found: Mapping[str, list[Run]], valu
         if count != values or (way in case.peers and (ours is None or not same(ours, it.answer))):
             print(f"{name}: {way} gave {it.answer if way != 'ingest' else count}, ours {ours}", file=sys.stderr)
             met = OTHER
-        made.append([*start, f"{it.seconds:.2f}", f"{it.cpu_seconds:.2f}", f"{megabytes / it.seconds:.0f}",
-                     f"{values / it.seconds / 1e6:.1f}", f"{it.peak_mib:.0f}", ratio, target, met])
+        made.append(
+            [
+                *start,
+                f"{it.seconds:.2f}",
+                f"{it.cpu_seconds:.2f}",
+                f"{megabytes / it.seconds:.0f}",
+                f"{values / it.seconds / 1e6:.1f}",
+                f"{it.peak_mib:.0f}",
+                ratio,
+                target,
+                met,
+            ]
+        )
     return made
 
 
@@ -241,9 +341,18 @@ def gigabytes(many: float, only: list[str], folder: Path) -> list[list[str]]:
             continue
         if done.answer["samples"] != rows * columns:
             raise SystemExit(f"{name}: ingest gave {done.answer['samples']} samples of {rows * columns}")
-        made.append([name, f"{size:.2f}", f"{rows * columns / 1e6:.0f}", f"{done.seconds:.0f}",
-                     f"{size * 1000 / done.seconds:.0f}", f"{done.peak_mib:.0f}", TARGET_MEMORY,
-                     "yes" if done.peak_mib < MEMORY_MIB else "NO"])
+        made.append(
+            [
+                name,
+                f"{size:.2f}",
+                f"{rows * columns / 1e6:.0f}",
+                f"{done.seconds:.0f}",
+                f"{size * 1000 / done.seconds:.0f}",
+                f"{done.peak_mib:.0f}",
+                TARGET_MEMORY,
+                "yes" if done.peak_mib < MEMORY_MIB else "NO",
+            ]
+        )
         shutil.rmtree(path.parent)
     return made
 
@@ -274,12 +383,32 @@ def main() -> None:
     with tempfile.TemporaryDirectory(dir=given.folder) as name:
         print(machine(), flush=True)
         if given.gigabytes:
-            print(table(["format", "GB", "M values", "wall [s]", "MB/s", "peak RSS [MiB]", "target", "met"],
-                        gigabytes(given.gigabytes, only or list(BIG), Path(name))))
+            print(
+                table(
+                    ["format", "GB", "M values", "wall [s]", "MB/s", "peak RSS [MiB]", "target", "met"],
+                    gigabytes(given.gigabytes, only or list(BIG), Path(name)),
+                )
+            )
             return
         rows = [row for each in only or CASES for row in measure(each, given.size, given.runs, Path(name))]
-    print(table(["format", "size", "way", "wall [s]", "CPU [s]", "MB/s", "M values/s", "peak RSS [MiB]", "ratio",
-                 "target", "met"], rows))
+    print(
+        table(
+            [
+                "format",
+                "size",
+                "way",
+                "wall [s]",
+                "CPU [s]",
+                "MB/s",
+                "M values/s",
+                "peak RSS [MiB]",
+                "ratio",
+                "target",
+                "met",
+            ],
+            rows,
+        )
+    )
     if any(row[-1] in (FAILED, OTHER) for row in rows):
         raise SystemExit(1)
 

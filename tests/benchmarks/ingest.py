@@ -49,20 +49,28 @@ def generate(folder: Path, rows: int, rate_hz: float = RATE_HZ, channels: int = 
     (folder / "raw").mkdir(parents=True)
     {"tdms": write_tdms, "csv": write_csv}[kind](folder / "raw" / f"day.{kind}", rows, rate_hz, channels)
     reader, prefix = ("crio", "Log/") if kind == "tdms" else ("table", "")
-    listed = "\n".join(f"  T{i:02d}: {{source: daq, signal: {prefix}S{i:02d}, quantity: temperature, unit: degC}}"
-                       for i in range(channels))
+    listed = "\n".join(
+        f"  T{i:02d}: {{source: daq, signal: {prefix}S{i:02d}, quantity: temperature, unit: degC}}"
+        for i in range(channels)
+    )
     (folder / "campaign.yaml").write_text(
         "schema: thermodata/campaign/1\nid: day\nmachine: {id: m}\n"
         f"sources: {{daq: {{reader: {reader}, files: 'raw/{{test}}.{kind}'}}}}\n"
-        f"channels:\n{listed}\ntests:\n  - {{id: day, kind: other, role: none}}\n", encoding="utf-8")
+        f"channels:\n{listed}\ntests:\n  - {{id: day, kind: other, role: none}}\n",
+        encoding="utf-8",
+    )
 
 
 def write_tdms(path: Path, rows: int, rate_hz: float, channels: int) -> None:
     import numpy as np
     from nptdms import ChannelObject, TdmsWriter
 
-    start = {"wf_start_time": np.datetime64("2026-03-02T06:00:00"), "wf_increment": 1 / rate_hz, "wf_start_offset": 0.0,
-             "unit_string": "degC"}
+    start = {
+        "wf_start_time": np.datetime64("2026-03-02T06:00:00"),
+        "wf_increment": 1 / rate_hz,
+        "wf_start_offset": 0.0,
+        "unit_string": "degC",
+    }
     with TdmsWriter(str(path)) as writer:
         for _, values in chunks(rows, rate_hz, channels):
             writer.write_segment([ChannelObject("Log", f"S{i:02d}", x, start) for i, x in enumerate(values)])
@@ -147,11 +155,33 @@ def large(folder: Path, gigabytes: float, channels: int, kinds: Sequence[str]) -
             print(f"{kind}: {file_mb / 1000:.1f} GB in one file", file=sys.stderr)
             done, store_mb = one("thermodata", place)
             samples = done.answer["samples"]
-            found.append([kind, f"{file_mb / 1000:.2f}", f"{samples / 1e6:.0f}", f"{done.seconds:.0f}",
-                          f"{done.cpu_seconds:.0f}", f"{file_mb / done.seconds:.0f}", f"{done.peak_mib:.0f}",
-                          f"{store_mb / 1000:.2f}"])
-    print(table(["format", "file [GB]", "million values", "wall [s]", "processor [s]", "MB/s", "peak RSS [MiB]",
-                 "store [GB]"], found))
+            found.append(
+                [
+                    kind,
+                    f"{file_mb / 1000:.2f}",
+                    f"{samples / 1e6:.0f}",
+                    f"{done.seconds:.0f}",
+                    f"{done.cpu_seconds:.0f}",
+                    f"{file_mb / done.seconds:.0f}",
+                    f"{done.peak_mib:.0f}",
+                    f"{store_mb / 1000:.2f}",
+                ]
+            )
+    print(
+        table(
+            [
+                "format",
+                "file [GB]",
+                "million values",
+                "wall [s]",
+                "processor [s]",
+                "MB/s",
+                "peak RSS [MiB]",
+                "store [GB]",
+            ],
+            found,
+        )
+    )
 
 
 def size_mb(path: Path) -> float:
@@ -204,12 +234,35 @@ def main() -> None:
     rows = []
     for way, runs in found.items():
         it = middle([r for r, _ in runs])
-        rows.append([WAYS.get(way, "thermodata ingest"), f"{it.seconds:.1f}", f"{it.seconds / ours.seconds:.2f}",
-                     f"{it.cpu_seconds:.1f}", f"{it.cpu_seconds / ours.cpu_seconds:.2f}",
-                     f"{values / it.seconds / 1e6:.1f}", f"{it.peak_mib:.0f}", f"{it.peak_mib / ours.peak_mib:.2f}",
-                     f"{runs[-1][1]:.0f}"])
-    print(table(["way", "wall [s]", "ratio", "processor [s]", "ratio", "million values/s", "peak RSS [MiB]", "ratio",
-                 "on disk [MB]"], rows))
+        rows.append(
+            [
+                WAYS.get(way, "thermodata ingest"),
+                f"{it.seconds:.1f}",
+                f"{it.seconds / ours.seconds:.2f}",
+                f"{it.cpu_seconds:.1f}",
+                f"{it.cpu_seconds / ours.cpu_seconds:.2f}",
+                f"{values / it.seconds / 1e6:.1f}",
+                f"{it.peak_mib:.0f}",
+                f"{it.peak_mib / ours.peak_mib:.2f}",
+                f"{runs[-1][1]:.0f}",
+            ]
+        )
+    print(
+        table(
+            [
+                "way",
+                "wall [s]",
+                "ratio",
+                "processor [s]",
+                "ratio",
+                "million values/s",
+                "peak RSS [MiB]",
+                "ratio",
+                "on disk [MB]",
+            ],
+            rows,
+        )
+    )
 
 
 if __name__ == "__main__":

@@ -34,7 +34,7 @@ class Run:
 
 def run(words: Sequence[object], cwd: Path | None = None) -> Run:
     """One process. CalledProcessError with its stderr where it fails."""
-    with tempfile.TemporaryFile("w+") as said:          # a file: a pipe could fill while the other is read
+    with tempfile.TemporaryFile("w+") as said:  # a file: a pipe could fill while the other is read
         begin = time.perf_counter()
         child = subprocess.Popen([str(w) for w in words], cwd=cwd, stdout=subprocess.PIPE, stderr=said, text=True)
         assert child.stdout is not None
@@ -57,8 +57,12 @@ def python(script: Path, *words: object) -> Run:
 
 def middle(runs: Sequence[Run]) -> Run:
     """Medians of the times and of memory; the last answer."""
-    return Run(median(r.seconds for r in runs), median(r.peak_mib for r in runs), runs[-1].out,
-               median(r.cpu_seconds for r in runs))
+    return Run(
+        median(r.seconds for r in runs),
+        median(r.peak_mib for r in runs),
+        runs[-1].out,
+        median(r.cpu_seconds for r in runs),
+    )
 
 
 def table(head: Sequence[str], rows: Sequence[Sequence[object]]) -> str:
@@ -71,5 +75,7 @@ def machine() -> str:
     """What it ran on, and how busy that was."""
     import duckdb
 
-    return (f"{os.cpu_count()} cores, load {os.getloadavg()[0]:.1f}, Python {sys.version.split()[0]}, "
-            f"DuckDB {duckdb.__version__}")
+    return (
+        f"{os.cpu_count()} cores, load {os.getloadavg()[0]:.1f}, Python {sys.version.split()[0]}, "
+        f"DuckDB {duckdb.__version__}"
+    )

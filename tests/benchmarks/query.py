@@ -34,12 +34,24 @@ def generate(folder: Path, tests: int) -> None:
     for test in range(tests):
         start = np.datetime64("2026-03-02T06:00:00") + np.timedelta64(test, "D")
         with TdmsWriter(str(folder / "raw" / f"t{test:03d}.tdms")) as writer:
-            writer.write_segment([
-                ChannelObject("Log", f"S{i}", 20 + np.sin(np.arange(n) / 3600 + test + i) + noise[i], {
-                    "wf_start_time": start, "wf_increment": 1.0, "wf_start_offset": 0.0, "unit_string": "degC"})
-                for i in range(CHANNELS)])
-    lines = ["schema: thermodata/campaign/1", "id: many", "machine: {id: m}",
-             "sources: {daq: {reader: crio, files: 'raw/{test}.tdms'}}", "channels:"]
+            writer.write_segment(
+                [
+                    ChannelObject(
+                        "Log",
+                        f"S{i}",
+                        20 + np.sin(np.arange(n) / 3600 + test + i) + noise[i],
+                        {"wf_start_time": start, "wf_increment": 1.0, "wf_start_offset": 0.0, "unit_string": "degC"},
+                    )
+                    for i in range(CHANNELS)
+                ]
+            )
+    lines = [
+        "schema: thermodata/campaign/1",
+        "id: many",
+        "machine: {id: m}",
+        "sources: {daq: {reader: crio, files: 'raw/{test}.tdms'}}",
+        "channels:",
+    ]
     lines += [f"  T{i}: {{source: daq, signal: Log/S{i}, quantity: temperature, unit: degC}}" for i in range(CHANNELS)]
     lines += ["tests:", *(f"  - {{id: t{test:03d}, kind: other, role: none}}" for test in range(tests))]
     (folder / "campaign.yaml").write_text("\n".join(lines) + "\n", encoding="utf-8")
@@ -51,8 +63,10 @@ def peer(path: Path) -> Any:
     from nptdms import TdmsFile
 
     with TdmsFile.open(path) as file:
-        columns = {f"T{i}": file["Log"][f"S{i}"].as_dataframe(time_index=True, absolute_time=True).iloc[:, 0]
-                   for i in range(WANTED)}
+        columns = {
+            f"T{i}": file["Log"][f"S{i}"].as_dataframe(time_index=True, absolute_time=True).iloc[:, 0]
+            for i in range(WANTED)
+        }
     return pd.DataFrame(columns).resample("10s").mean()
 
 
@@ -76,8 +90,11 @@ def main() -> None:
         folder = Path(name)
         generate(folder, given.tests)
         ingest = run([PROGRAM, "--store", folder / "store", "ingest", folder / "campaign.yaml", "--json"])
-        print(f"{machine()}; {given.tests} tests, {ingest.answer['samples'] / 1e6:.1f} million samples, "
-              f"ingested in {ingest.seconds:.0f} s", flush=True)
+        print(
+            f"{machine()}; {given.tests} tests, {ingest.answer['samples'] / 1e6:.1f} million samples, "
+            f"ingested in {ingest.seconds:.0f} s",
+            flush=True,
+        )
 
         import thermodata
 
@@ -86,15 +103,20 @@ def main() -> None:
         tests = [f"t{(7 * i) % given.tests:03d}" for i in range(given.runs + 1)]
         asks: dict[str, Callable[[str], Any]] = {
             "binned(campaign, test, '10 s'), five channels": lambda test: view.sql(
-                f"select t_s, {names} from binned('many', ?, '10 s') order by t_s", [test]).to_arrow_table(),
+                f"select t_s, {names} from binned('many', ?, '10 s') order by t_s", [test]
+            ).to_arrow_table(),
             "aligned(campaign, test, '10 s'), five channels": lambda test: view.sql(
-                f"select t_s, {names} from aligned('many', ?, '10 s') order by t_s", [test]).to_arrow_table(),
+                f"select t_s, {names} from aligned('many', ?, '10 s') order by t_s", [test]
+            ).to_arrow_table(),
             "signal(campaign, test, channel), every sample of one": lambda test: view.sql(
-                "select t_s, value from signal('many', ?, 'T3')", [test]).to_arrow_table(),
+                "select t_s, value from signal('many', ?, 'T3')", [test]
+            ).to_arrow_table(),
             "mean of a channel in every test": lambda test: view.sql(
-                "select test, avg(value) from sample where channel = 'T3' group by test").to_arrow_table(),
+                "select test, avg(value) from sample where channel = 'T3' group by test"
+            ).to_arrow_table(),
             "npTDMS + pandas from the test's own file, five channels": lambda test: peer(
-                folder / "raw" / f"{test}.tdms"),
+                folder / "raw" / f"{test}.tdms"
+            ),
         }
         rows: list[list[str]] = []
         for what, ask in asks.items():

@@ -12,8 +12,16 @@ from thermodata.plugin import Scaling
 from thermodata.schema.campaign import Channel
 from thermodata.schema.flag import Flag
 
-JUMP = CalibrationResult("jump_z", "jump", axis="Z", gain=-25.0, gain_unit="um/V", offset=250.0, sign="-",
-                         detail={"unit_in": "V", "unit_out": "um"})
+JUMP = CalibrationResult(
+    "jump_z",
+    "jump",
+    axis="Z",
+    gain=-25.0,
+    gain_unit="um/V",
+    offset=250.0,
+    sign="-",
+    detail={"unit_in": "V", "unit_out": "um"},
+)
 
 
 def channel(quantity: str, **more: object) -> Channel:
@@ -21,17 +29,32 @@ def channel(quantity: str, **more: object) -> Channel:
 
 
 def values(raw: object, spec: Channel, unit: str | None = None, *calibrations: CalibrationResult) -> list[float]:
-    return calibrate(np.asarray(raw), channel=spec, signal_unit=unit, scaling=None,
-                     calibrations=calibrations)[0].tolist()
+    return calibrate(np.asarray(raw), channel=spec, signal_unit=unit, scaling=None, calibrations=calibrations)[
+        0
+    ].tolist()
 
 
-@pytest.mark.parametrize(("quantity", "unit", "raw", "wanted"), [
-    ("temperature", "Deg C", 20.0, 20.0), ("temperature", "Grd C", 20.0, 20.0), ("temperature", "K", 293.15, 20.0),
-    ("temperature", "°F", 68.0, 20.0), ("temperature_difference", "degC", 5.0, 5.0),
-    ("temperature_difference", "degF", 9.0, 5.0), ("rotational_speed", "1/min", 9000.0, 9000.0),
-    ("rotational_speed", "U/min", 9000.0, 9000.0), ("rotational_speed", "1/s", 150.0, 9000.0),
-    ("feed", "mm/min", 10000.0, 10.0), ("displacement", "µm", 3.0, 3.0), ("displacement", "mm", 0.003, 3.0),
-    ("power", "W", 1500.0, 1.5), ("torque", "Nm", 12.0, 12.0), ("tilt", "um/m", 4.0, 4.0), ("state", None, 1.0, 1.0)])
+@pytest.mark.parametrize(
+    ("quantity", "unit", "raw", "wanted"),
+    [
+        ("temperature", "Deg C", 20.0, 20.0),
+        ("temperature", "Grd C", 20.0, 20.0),
+        ("temperature", "K", 293.15, 20.0),
+        ("temperature", "°F", 68.0, 20.0),
+        ("temperature_difference", "degC", 5.0, 5.0),
+        ("temperature_difference", "degF", 9.0, 5.0),
+        ("rotational_speed", "1/min", 9000.0, 9000.0),
+        ("rotational_speed", "U/min", 9000.0, 9000.0),
+        ("rotational_speed", "1/s", 150.0, 9000.0),
+        ("feed", "mm/min", 10000.0, 10.0),
+        ("displacement", "µm", 3.0, 3.0),
+        ("displacement", "mm", 0.003, 3.0),
+        ("power", "W", 1500.0, 1.5),
+        ("torque", "Nm", 12.0, 12.0),
+        ("tilt", "um/m", 4.0, 4.0),
+        ("state", None, 1.0, 1.0),
+    ],
+)
 def test_units_come_to_the_canonical_one(quantity: str, unit: str | None, raw: float, wanted: float) -> None:
     assert values([raw], channel(quantity), unit)[0] == pytest.approx(wanted)
 
@@ -45,8 +68,13 @@ def test_a_jump_calibration_gives_micrometres_with_the_convention_of_signs() -> 
 def test_scaling_then_calibrations_in_their_order() -> None:
     counts = Scaling("linear", {"gain": 0.001})
     trim = CalibrationResult("trim", "linear", gain=1.0, offset=2.0, detail={"offset_unit": "um"})
-    got, _ = calibrate(np.array([6000], np.int16), channel=channel("displacement"), signal_unit="V", scaling=counts,
-                       calibrations=[JUMP, trim])
+    got, _ = calibrate(
+        np.array([6000], np.int16),
+        channel=channel("displacement"),
+        signal_unit="V",
+        scaling=counts,
+        calibrations=[JUMP, trim],
+    )
     assert got.tolist() == pytest.approx([102.0])
 
 
@@ -103,15 +131,20 @@ def test_a_range_without_width_is_refused() -> None:
 
 
 def test_infinities_become_missing_and_flagged() -> None:
-    got, flags = calibrate(np.array([np.inf, -300.0, 20.0]), channel=channel("temperature"), signal_unit="degC",
-                           scaling=None)
+    got, flags = calibrate(
+        np.array([np.inf, -300.0, 20.0]), channel=channel("temperature"), signal_unit="degC", scaling=None
+    )
     assert np.isnan(got[0])
     assert flags.tolist() == [Flag.OUT_OF_RANGE, Flag.OUT_OF_RANGE, 0]
 
 
 def test_text_becomes_numbers_and_labels_stay_text() -> None:
-    got, flags = calibrate(np.array(["20,5", "UNAVAILABLE", "21.5", ""], dtype=object), channel=channel("temperature"),
-                           signal_unit="degC", scaling=None)
+    got, flags = calibrate(
+        np.array(["20,5", "UNAVAILABLE", "21.5", ""], dtype=object),
+        channel=channel("temperature"),
+        signal_unit="degC",
+        scaling=None,
+    )
     assert got[[0, 2]].tolist() == [20.5, 21.5]
     assert np.isnan(got[[1, 3]]).all()
     assert (flags[[1, 3]] == Flag.OUT_OF_RANGE).all()

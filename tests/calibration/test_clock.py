@@ -19,9 +19,16 @@ def speed(t_s: Float1D, seed: int = 0, events: int = 25, length_s: float = 30_00
     return sum((b - a) * np.clip((t_s - e) / ramp_s, 0, 1) for a, b, e in zip(levels, levels[1:], at, strict=False))
 
 
-def estimate(offset_s: float, *, drift_ppm: float = 0.0, rate_here: float = 1.0, rate_there: float = 1.0,
-             part: tuple[float, float] = (0.0, 30_000.0), noise: float = 0.0,
-             **more: float) -> tuple[ClockEstimate, Int1D, Float1D]:
+def estimate(
+    offset_s: float,
+    *,
+    drift_ppm: float = 0.0,
+    rate_here: float = 1.0,
+    rate_there: float = 1.0,
+    part: tuple[float, float] = (0.0, 30_000.0),
+    noise: float = 0.0,
+    **more: float,
+) -> tuple[ClockEstimate, Int1D, Float1D]:
     """(estimate, times of here, true seconds): there shows true time, here is behind by offset and drift."""
     rng = np.random.default_rng(7)
     there = np.arange(0.0, 30_000.0, 1 / rate_there) + 0.31 / rate_there
@@ -43,9 +50,16 @@ def test_finds_the_offset_below_a_sample(offset_s: float) -> None:
     assert np.abs((got.apply(here) - T0) / 1e9 - true).max() < 0.15
 
 
-@pytest.mark.parametrize("more", [
-    {"rate_there": 10.0}, {"rate_here": 0.2, "ramp_s": 10.0}, {"noise": 60.0}, {"part": (8000.0, 21_000.0)},
-    {"ramp_s": 0.01}])
+@pytest.mark.parametrize(
+    "more",
+    [
+        {"rate_there": 10.0},
+        {"rate_here": 0.2, "ramp_s": 10.0},
+        {"noise": 60.0},
+        {"part": (8000.0, 21_000.0)},
+        {"ramp_s": 0.01},
+    ],
+)
 def test_other_rates_noise_and_parts(more: dict) -> None:
     got, here, true = estimate(12.5, **more)
     assert np.abs((got.apply(here) - T0) / 1e9 - true).max() < 0.5
@@ -95,7 +109,11 @@ def test_steps_that_fall_on_the_samples_are_no_better_known_than_a_sample() -> N
     """A programme of whole minutes: every step is seen equally late, so more of them tell no more."""
     levels = np.random.default_rng(3).permutation(33) * 1000.0
     t_a, t_b = np.arange(0.0, 86_400.0, 5.0), np.arange(0.0, 86_400.0, 10.0)
-    got = estimate_offset(np.rint((t_a + 73.0) * 1e9).astype(np.int64) + T0, levels[(t_a // 2700).astype(int)],
-                          np.rint(t_b * 1e9).astype(np.int64) + T0, levels[(t_b // 2700).astype(int)])
+    got = estimate_offset(
+        np.rint((t_a + 73.0) * 1e9).astype(np.int64) + T0,
+        levels[(t_a // 2700).astype(int)],
+        np.rint(t_b * 1e9).astype(np.int64) + T0,
+        levels[(t_b // 2700).astype(int)],
+    )
     assert got.uncertainty_ns / 1e9 >= np.hypot(5.0, 10.0) / np.sqrt(12)
     assert abs(got.offset_ns / 1e9 + 73.0) < 2 * got.uncertainty_ns / 1e9

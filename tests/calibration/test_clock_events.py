@@ -33,8 +33,9 @@ def test_close_events_are_averaged_and_far_ones_give_a_drift() -> None:
     assert far.apply(at(0, 43_200)).tolist() == at(10, 43_214.32).tolist()
 
 
-@pytest.mark.parametrize(("here", "there"), [((0, 7200), (0, 7300)), ((0, 60), (0, 200)),
-                                             ((0, 40_000, 80_000), (5, 40_105, 80_005))])
+@pytest.mark.parametrize(
+    ("here", "there"), [((0, 7200), (0, 7300)), ((0, 60), (0, 200)), ((0, 40_000, 80_000), (5, 40_105, 80_005))]
+)
 def test_events_that_contradict_each_other_are_refused(here: tuple[float, ...], there: tuple[float, ...]) -> None:
     with pytest.raises(CalibrationError, match="contradict"):
         offset_from_events(at(*here), at(*there))

@@ -21,9 +21,21 @@ from thermodata.store.ddl import TABLES
 SHORT = settings(max_examples=40, deadline=None, suppress_health_check=[HealthCheck.too_slow])
 
 
-def recording(moves: Sequence[float], gain: float = -25.0, *, dwell: float = 10.0, rate: float = 10.0,
-              noise_v: float = 0.004, drift: float = 0.0, lead: float = 20.0, tail: float = 15.0, ramp: float = 0.6,
-              uneven: float = 0.1, bend: float = 0.0, seed: int = 0) -> tuple[Int1D, Float1D]:
+def recording(
+    moves: Sequence[float],
+    gain: float = -25.0,
+    *,
+    dwell: float = 10.0,
+    rate: float = 10.0,
+    noise_v: float = 0.004,
+    drift: float = 0.0,
+    lead: float = 20.0,
+    tail: float = 15.0,
+    ramp: float = 0.6,
+    uneven: float = 0.1,
+    bend: float = 0.0,
+    seed: int = 0,
+) -> tuple[Int1D, Float1D]:
     """(t_ns, volts) of a probe with `gain` [um/V] while the axis makes `moves` [um]; drift in um/s."""
     rng = np.random.default_rng(seed)
     dwells = dwell * (1 + uneven * rng.uniform(-1, 1, len(moves) + 1))
@@ -37,13 +49,22 @@ def recording(moves: Sequence[float], gain: float = -25.0, *, dwell: float = 10.
 
 
 def spec(moves: Sequence[float], **more: object) -> JumpCalibration:
-    return JumpCalibration.model_validate({
-        "kind": "jump", "axis": "Z", "source": "daq", "file": "jump.tdms", "signal": "Eddy/Z",
-        "moves": [f"{m} um" for m in moves], **more})
+    return JumpCalibration.model_validate(
+        {
+            "kind": "jump",
+            "axis": "Z",
+            "source": "daq",
+            "file": "jump.tdms",
+            "signal": "Eddy/Z",
+            "moves": [f"{m} um" for m in moves],
+            **more,
+        }
+    )
 
 
-def jump(moves: Sequence[float], data: tuple[Int1D, Float1D], others: dict[str, Float1D] | None = None,
-         **more: object) -> CalibrationResult:
+def jump(
+    moves: Sequence[float], data: tuple[Int1D, Float1D], others: dict[str, Float1D] | None = None, **more: object
+) -> CalibrationResult:
     return evaluate_jump("jump_z", spec(moves, **more), *data, others or {})
 
 
@@ -51,10 +72,21 @@ def failed(result: CalibrationResult) -> set[str]:
     return {c["name"] for c in result.checks if not c["passed"]}
 
 
-@pytest.mark.parametrize("more", [
-    {}, {"rate": 500.0}, {"rate": 1.0, "ramp": 0.1}, {"drift": 0.03}, {"drift": -0.05}, {"noise_v": 0.04},
-    {"ramp": 2.5}, {"lead": 600.0, "tail": 300.0}, {"lead": 6.0, "tail": 6.0}, {"uneven": 0.4},
-])
+@pytest.mark.parametrize(
+    "more",
+    [
+        {},
+        {"rate": 500.0},
+        {"rate": 1.0, "ramp": 0.1},
+        {"drift": 0.03},
+        {"drift": -0.05},
+        {"noise_v": 0.04},
+        {"ramp": 2.5},
+        {"lead": 600.0, "tail": 300.0},
+        {"lead": 6.0, "tail": 6.0},
+        {"uneven": 0.4},
+    ],
+)
 @pytest.mark.parametrize("moves", [[100, -100], [100, 100, -50, -150], [20, -10, 50, -60]])
 def test_finds_the_signed_sensitivity(moves: list[float], more: dict) -> None:
     result = jump(moves, recording(moves, **more))
@@ -85,7 +117,7 @@ def test_noise_drift_and_uncertainty_are_those_of_the_recording() -> None:
     result = jump(moves, data, move_uncertainty="2 um")
     assert result.noise_um == pytest.approx(0.25, rel=0.15)
     assert result.detail["drift_um_per_h"] == pytest.approx(72.0, rel=0.1)
-    assert 2.0 <= result.uncertainty_pct < 2.5                            # 2 um of 100 um, and little more
+    assert 2.0 <= result.uncertainty_pct < 2.5  # 2 um of 100 um, and little more
     assert result.passed
 
 
@@ -128,8 +160,12 @@ def test_steps_before_and_after_the_moves_are_left_over() -> None:
 
 
 @SHORT
-@given(gain=st.sampled_from([-100.0, -25.0, 4.0, 250.0]), scale=st.floats(0.1, 10), offset=st.floats(-50, 50),
-       seed=st.integers(0, 50))
+@given(
+    gain=st.sampled_from([-100.0, -25.0, 4.0, 250.0]),
+    scale=st.floats(0.1, 10),
+    offset=st.floats(-50, 50),
+    seed=st.integers(0, 50),
+)
 def test_gain_follows_scale_and_ignores_offset(gain: float, scale: float, offset: float, seed: int) -> None:
     moves = [100, -40, 80, -140]
     t, v = recording(moves, gain, noise_v=0.1 / abs(gain), seed=seed)
@@ -150,8 +186,10 @@ def test_the_sign_turns_with_the_probe_and_with_the_moves(seed: int) -> None:
     assert jump(moves, (t + 10**15, v)).gain == plain.gain
 
 
-@pytest.mark.parametrize(("facing", "increases_with", "gain"), [
-    ("+Z", "gap", 25.0), ("-Z", "gap", -25.0), ("+Z", "approach", -25.0), ("-Z", "approach", 25.0)])
+@pytest.mark.parametrize(
+    ("facing", "increases_with", "gain"),
+    [("+Z", "gap", 25.0), ("-Z", "gap", -25.0), ("+Z", "approach", -25.0), ("-Z", "approach", 25.0)],
+)
 def test_the_way_the_probe_looks_must_agree(facing: str, increases_with: str, gain: float) -> None:
     declared = {"facing": facing, "increases_with": increases_with}
     assert jump([100, -40], recording([100, -40], gain), **declared).gain == pytest.approx(gain, rel=0.01)
@@ -205,8 +243,14 @@ def test_moves_that_fit_with_either_sign_are_refused() -> None:
 def test_a_recording_without_the_moves_is_refused(broken: str) -> None:
     t, v = recording([100, -40])
     rng = np.random.default_rng(0)
-    v = {"flat": np.full(len(v), 10.0), "noise": rng.normal(10, 1, len(v)), "short": v, "nan": v * np.nan,
-         "ramp": np.linspace(0, 10, len(v)), "other moves": recording([100, 90])[1]}[broken]
+    v = {
+        "flat": np.full(len(v), 10.0),
+        "noise": rng.normal(10, 1, len(v)),
+        "short": v,
+        "nan": v * np.nan,
+        "ramp": np.linspace(0, 10, len(v)),
+        "other moves": recording([100, 90])[1],
+    }[broken]
     n = 10 if broken == "short" else min(len(t), len(v))
     with pytest.raises(CalibrationError):
         jump([100, -40], (t[:n], v[:n]))

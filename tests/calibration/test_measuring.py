@@ -11,7 +11,7 @@ from thermodata.schema.campaign import Measuring
 from thermodata.schema.flag import Flag
 
 T = np.arange(100, dtype=np.int64) * 1_000_000_000
-FEED = np.where((np.arange(100) // 20) % 2 == 0, 0.0, 10.0)             # stands for 20 s, moves for 20 s
+FEED = np.where((np.arange(100) // 20) % 2 == 0, 0.0, 10.0)  # stands for 20 s, moves for 20 s
 VALUES = {"feed_Z": FEED, "pos_Z": np.full(100, 210.0)}
 UNITS = {"feed_Z": "m/min", "pos_Z": "mm"}
 

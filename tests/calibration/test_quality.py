@@ -13,17 +13,23 @@ from thermodata.schema.flag import Flag
 
 def test_sound_data_get_no_flag() -> None:
     speed = np.repeat([0.0, 6000.0, 0.0, 9000.0], N // 4)
-    flags, events = run(clock(), dZ=("displacement", noisy(0)), T=("temperature", noisy(1) / 10 + 25),
-                        T_kelvin=("temperature", np.round(noisy(2) / 5 + 25)),
-                        T_tenth=("temperature", np.round(noisy(3) / 5 + 25, 1)), n=("rotational_speed", speed),
-                        pos=("position", np.where(np.arange(N) % 600 < 10, 210.0, noisy(4))), door=("state", speed > 0))
+    flags, events = run(
+        clock(),
+        dZ=("displacement", noisy(0)),
+        T=("temperature", noisy(1) / 10 + 25),
+        T_kelvin=("temperature", np.round(noisy(2) / 5 + 25)),
+        T_tenth=("temperature", np.round(noisy(3) / 5 + 25, 1)),
+        n=("rotational_speed", speed),
+        pos=("position", np.where(np.arange(N) % 600 < 10, 210.0, noisy(4))),
+        door=("state", speed > 0),
+    )
     assert events == []
     assert all(not f.any() for f in flags.values())
 
 
 def test_sound_noise_free_data_get_no_flag() -> None:
     t = np.arange(N) / 3600
-    heated = np.where(t > 0.2, 5 * (1 - np.exp(-(t - 0.2) / 0.3)), 0.0)      # at rest, then a smooth rise
+    heated = np.where(t > 0.2, 5 * (1 - np.exp(-(t - 0.2) / 0.3)), 0.0)  # at rest, then a smooth rise
     _, events = run(clock(), dZ=("displacement", heated), T=("temperature", 20 + 0.3 * t), dX=("displacement", 0 * t))
     assert events == []
 
@@ -59,7 +65,7 @@ def test_a_log_written_on_change_has_no_gaps_but_long_silences() -> None:
 def test_repeated_and_backward_time() -> None:
     t = clock()
     t[100] = t[99]
-    t[3000:] -= 10_500_000_000                                               # the clock is set back
+    t[3000:] -= 10_500_000_000  # the clock is set back
     flags, events = run(t, dZ=("displacement", noisy()))
     assert flags["dZ"][100] == Flag.DUPLICATE_TIME
     back = np.flatnonzero(flags["dZ"] & Flag.CLOCK_SUSPECT)
@@ -96,7 +102,7 @@ def test_a_displacement_held_while_the_spindle_stands() -> None:
 
 
 def test_a_held_reading_of_a_smooth_channel_shows_by_its_jump() -> None:
-    x = 30 * np.sin(np.arange(N) / 900)                                      # filtered: no noise left
+    x = 30 * np.sin(np.arange(N) / 900)  # filtered: no noise left
     x[2000:2600] = x[2000]
     flags, _ = run(clock(), dZ=("displacement", x), T=("temperature", noisy(1) / 10))
     assert (flags["dZ"][2000:2600] == Flag.HELD).all()
@@ -104,8 +110,13 @@ def test_a_held_reading_of_a_smooth_channel_shows_by_its_jump() -> None:
 
 def test_whole_kelvin_and_standing_states_are_not_held() -> None:
     slow = 25 + 3 * np.sin(np.arange(N) / 2000)
-    _, events = run(clock(), T=("temperature", np.round(slow)), dZ=("displacement", noisy()),
-                    n=("rotational_speed", np.zeros(N)), P=("power", np.r_[noisy(3)[:3000], np.zeros(3000)]))
+    _, events = run(
+        clock(),
+        T=("temperature", np.round(slow)),
+        dZ=("displacement", noisy()),
+        n=("rotational_speed", np.zeros(N)),
+        P=("power", np.r_[noisy(3)[:3000], np.zeros(3000)]),
+    )
     assert events == []
 
 
@@ -123,7 +134,7 @@ def test_a_sudden_exact_hundred_after_a_gap_is_stuck() -> None:
 @pytest.mark.parametrize("height", [30.0, -500.0])
 def test_spikes_of_one_to_three_samples(length: int, height: float) -> None:
     x = noisy()
-    x[1234:1234 + length] += height
+    x[1234 : 1234 + length] += height
     flags, events = run(clock(), dZ=("displacement", x))
     assert np.flatnonzero(flags["dZ"]).tolist() == list(range(1234, 1234 + length))
     assert kinds(events) == [("dZ", "spike")]
@@ -138,7 +149,7 @@ def test_a_step_and_a_pulse_that_lasts_are_no_spikes() -> None:
 
 def test_what_stands_out_all_the_time_is_no_spike() -> None:
     x = noisy()
-    x[::100] += 60                                                           # one sample of each measuring phase
+    x[::100] += 60  # one sample of each measuring phase
     flags, events = run(clock(), dZ=("displacement", x))
     assert not flags["dZ"].any()
     assert [e.detail.split(":")[0] for e in events] == ["not flagged"]

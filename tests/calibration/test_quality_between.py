@@ -7,16 +7,21 @@ from thermodata.calibration.quality_between import POINTS, Levels, offsets_betwe
 DAY = 86_400.0
 
 
-def day(number: int, *, hours: float = 8.0, heat: float = 20.0, start_h: float = 8.0, warm: bool = False,
-        **off: float) -> Levels:
+def day(
+    number: int, *, hours: float = 8.0, heat: float = 20.0, start_h: float = 8.0, warm: bool = False, **off: float
+) -> Levels:
     """A day's test: a bearing that heats up, four parts that hardly do."""
     h = np.linspace(0, hours, POINTS)
     rise = np.ones(POINTS) if warm else 1 - np.exp(-h / 0.8)
     rng = np.random.default_rng(number)
     gains = {"T_bearing": heat, "T_column": 2.0, "T_bed": 1.0, "T_hall": 0.5, "T_motor": 12.0}
     start = number * DAY + start_h * 3600
-    return Levels(f"day{number}", start, start + hours * 3600, {
-        name: 22 + gain * rise + rng.normal(0, 0.05, POINTS) + off.get(name, 0.0) for name, gain in gains.items()})
+    return Levels(
+        f"day{number}",
+        start,
+        start + hours * 3600,
+        {name: 22 + gain * rise + rng.normal(0, 0.05, POINTS) + off.get(name, 0.0) for name, gain in gains.items()},
+    )
 
 
 def test_sound_days_are_left_alone_however_hot() -> None:
@@ -41,8 +46,10 @@ def test_a_part_that_stays_hot_without_a_rest_is_not_told_from_a_failure() -> No
 
 
 def test_too_few_neighbours_and_no_data() -> None:
-    lone = [Levels(t.test, t.start_s, t.end_s, {k: t.series[k] for k in ("T_column", "T_bed", "T_hall")})
-            for t in (day(1), day(2, T_column=30.0))]
+    lone = [
+        Levels(t.test, t.start_s, t.end_s, {k: t.series[k] for k in ("T_column", "T_bed", "T_hall")})
+        for t in (day(1), day(2, T_column=30.0))
+    ]
     assert offsets_between_tests(lone) == {}
     assert offsets_between_tests([]) == {}
     empty = Levels("none", 0.0, 1.0, {"T_column": np.full(POINTS, np.nan)})

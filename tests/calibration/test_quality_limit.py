@@ -25,7 +25,7 @@ def test_a_broken_pt100_is_out_of_range(value: float) -> None:
 
 
 def test_what_is_heated_may_be_hot() -> None:
-    x = 25 + 700 * np.exp(-((np.arange(N) - 3000) / 500.0) ** 2) + noisy(1, noise=0.05) / 20
+    x = 25 + 700 * np.exp(-(((np.arange(N) - 3000) / 500.0) ** 2)) + noisy(1, noise=0.05) / 20
     flags, _ = run(clock(), T=("temperature", x))
     assert not flags["T"].any()
 
@@ -52,7 +52,7 @@ def test_a_noisy_probe_that_runs_into_its_limit_is_saturated() -> None:
 def test_a_probe_that_comes_back_to_full_scale_is_saturated_not_stuck() -> None:
     x = noisy()
     for start in range(500, 5000, 900):
-        x[start:start + 40] = 480.0                       # the axis leaves the probe: full scale
+        x[start : start + 40] = 480.0  # the axis leaves the probe: full scale
     flags, _ = run(clock(), dZ=("displacement", x))
     assert np.flatnonzero(flags["dZ"] & Flag.SATURATED).size == 6 * 40 - 40 * (6 - len(range(500, 5000, 900)))
     assert not (flags["dZ"] & Flag.STUCK).any()

@@ -24,13 +24,25 @@ def ni(*scales: dict, **more: object) -> Scaling:
 
 
 def linear(slope: float, intercept: float, source: int = RAW) -> dict:
-    return {"Scale_Type": "Linear", "Linear_Slope": slope, "Linear_Y_Intercept": intercept,
-            "Linear_Input_Source": source}
+    return {
+        "Scale_Type": "Linear",
+        "Linear_Slope": slope,
+        "Linear_Y_Intercept": intercept,
+        "Linear_Input_Source": source,
+    }
 
 
-RTD = {"Scale_Type": "RTD", "RTD_Current_Excitation": 1e-3, "RTD_R0_Nominal_Resistance": 100.0, "RTD_A": 3.9083e-3,
-       "RTD_B": -5.775e-7, "RTD_C": -4.183e-12, "RTD_Lead_Wire_Resistance": 0.0, "RTD_Resistance_Configuration": 4,
-       "RTD_Input_Source": RAW}
+RTD = {
+    "Scale_Type": "RTD",
+    "RTD_Current_Excitation": 1e-3,
+    "RTD_R0_Nominal_Resistance": 100.0,
+    "RTD_A": 3.9083e-3,
+    "RTD_B": -5.775e-7,
+    "RTD_C": -4.183e-12,
+    "RTD_Lead_Wire_Resistance": 0.0,
+    "RTD_Resistance_Configuration": 4,
+    "RTD_Input_Source": RAW,
+}
 
 
 def test_no_scaling_gives_the_raw_values_as_float() -> None:
@@ -60,15 +72,18 @@ def test_an_unknown_scale_type_is_refused_with_channel_and_type() -> None:
         assert word in str(caught.value)
 
 
-@pytest.mark.parametrize("broken", [
-    ni({"Scale_Type": "Linear", "Linear_Slope": 2.0}),                    # no intercept
-    ni(linear(1.0, 0.0, source=0)),                                       # feeds itself
-    ni(linear(1.0, 0.0, source=7)),                                       # reads a scale that is not there
-    ni(linear(1.0, 0.0, source=1), linear(1.0, 0.0, source=0)),           # a loop of two
-    ni(linear(1.0, 0.0), NI_Number_Of_Scales=10**9),
-    ni(linear(1.0, 0.0), NI_Number_Of_Scales="many"),
-    Scaling("spline", {}),  # type: ignore[arg-type]
-])
+@pytest.mark.parametrize(
+    "broken",
+    [
+        ni({"Scale_Type": "Linear", "Linear_Slope": 2.0}),  # no intercept
+        ni(linear(1.0, 0.0, source=0)),  # feeds itself
+        ni(linear(1.0, 0.0, source=7)),  # reads a scale that is not there
+        ni(linear(1.0, 0.0, source=1), linear(1.0, 0.0, source=0)),  # a loop of two
+        ni(linear(1.0, 0.0), NI_Number_Of_Scales=10**9),
+        ni(linear(1.0, 0.0), NI_Number_Of_Scales="many"),
+        Scaling("spline", {}),  # type: ignore[arg-type]
+    ],
+)
 def test_a_broken_scaling_is_refused_without_data(broken: Scaling) -> None:
     with pytest.raises(CalibrationError):
         check_scaling(broken)
@@ -86,37 +101,76 @@ def scale(kind: str, **more: object) -> dict:
 
 
 def strain(configuration: int) -> dict:
-    return scale("Strain", Configuration=configuration, Poisson_Ratio=0.3, Gage_Resistance=350.0,
-                 Lead_Wire_Resistance=0.5, Initial_Bridge_Voltage=1e-5, Gage_Factor=2.1, Voltage_Excitation=2.5,
-                 Bridge_Shunt_Calibration_Gain_Adjustment=1.01)
+    return scale(
+        "Strain",
+        Configuration=configuration,
+        Poisson_Ratio=0.3,
+        Gage_Resistance=350.0,
+        Lead_Wire_Resistance=0.5,
+        Initial_Bridge_Voltage=1e-5,
+        Gage_Factor=2.1,
+        Voltage_Excitation=2.5,
+        Bridge_Shunt_Calibration_Gain_Adjustment=1.01,
+    )
 
 
 def thermistor(excitation: int, wires: int) -> dict:
-    return scale("Thermistor", Excitation_Type=excitation, Excitation_Value=2.5 if excitation == 10322 else 1e-4,
-                 Resistance_Configuration=wires, R1_Reference_Resistance=5000.0, Lead_Wire_Resistance=0.2,
-                 A=1.295361e-3, B=2.343159e-4, C=1.018703e-7, Temperature_Offset=273.15)
+    return scale(
+        "Thermistor",
+        Excitation_Type=excitation,
+        Excitation_Value=2.5 if excitation == 10322 else 1e-4,
+        Resistance_Configuration=wires,
+        R1_Reference_Resistance=5000.0,
+        Lead_Wire_Resistance=0.2,
+        A=1.295361e-3,
+        B=2.343159e-4,
+        C=1.018703e-7,
+        Temperature_Offset=273.15,
+    )
 
 
 def table(rising: bool) -> dict:
     points = [(0.0, -5.0), (0.5, 2.0), (1.2, 30.0)]
     pairs = points if rising else points[::-1]
-    listed = {f"{name}[{i}]": pair[k] for i, pair in enumerate(pairs)
-              for k, name in enumerate(("Pre_Scaled_Values", "Scaled_Values"))}
+    listed = {
+        f"{name}[{i}]": pair[k]
+        for i, pair in enumerate(pairs)
+        for k, name in enumerate(("Pre_Scaled_Values", "Scaled_Values"))
+    }
     return scale("Table", Pre_Scaled_Values_Size=3, Scaled_Values_Size=3, **listed)
 
 
-@pytest.mark.parametrize("chain", [
-    [scale("Polynomial", Coefficients_Size=3, **{f"Coefficients[{i}]": i + 1.0 for i in range(3)})],
-    [table(True)], [table(False)], [scale("AdvancedAPI")],
-    *([strain(c)] for c in (10183, 10184, 10185, 10188, 10189, 10271, 10272)),
-    *([thermistor(e, w)] for e in (10322, 10134) for w in (2, 3, 4)),
-    *([scale("Thermocouple", Thermocouple_Type=t, Scaling_Direction=d)]
-      for t in (10047, 10055, 10072, 10073, 10077, 10082, 10085, 10086) for d in (0, 1)),
-    [RTD], [linear(1e3, 0.0), scale("Thermocouple", Thermocouple_Type=10073, Scaling_Direction=0) |
-            {"Thermocouple_Input_Source": 0}],
-    [linear(2.0, 0.0), linear(3.0, 1.0), {"Scale_Type": "Subtract", "Subtract_Left_Operand_Input_Source": 0,
-                                          "Subtract_Right_Operand_Input_Source": 1}],
-], ids=lambda c: "+".join(s["Scale_Type"] for s in c))
+@pytest.mark.parametrize(
+    "chain",
+    [
+        [scale("Polynomial", Coefficients_Size=3, **{f"Coefficients[{i}]": i + 1.0 for i in range(3)})],
+        [table(True)],
+        [table(False)],
+        [scale("AdvancedAPI")],
+        *([strain(c)] for c in (10183, 10184, 10185, 10188, 10189, 10271, 10272)),
+        *([thermistor(e, w)] for e in (10322, 10134) for w in (2, 3, 4)),
+        *(
+            [scale("Thermocouple", Thermocouple_Type=t, Scaling_Direction=d)]
+            for t in (10047, 10055, 10072, 10073, 10077, 10082, 10085, 10086)
+            for d in (0, 1)
+        ),
+        [RTD],
+        [
+            linear(1e3, 0.0),
+            scale("Thermocouple", Thermocouple_Type=10073, Scaling_Direction=0) | {"Thermocouple_Input_Source": 0},
+        ],
+        [
+            linear(2.0, 0.0),
+            linear(3.0, 1.0),
+            {
+                "Scale_Type": "Subtract",
+                "Subtract_Left_Operand_Input_Source": 0,
+                "Subtract_Right_Operand_Input_Source": 1,
+            },
+        ],
+    ],
+    ids=lambda c: "+".join(s["Scale_Type"] for s in c),
+)
 @pytest.mark.parametrize("dtype", ["float64", "float32", "int16"])
 def test_every_scale_gives_what_nptdms_gives(chain: list[dict], dtype: str) -> None:
     from types import SimpleNamespace
@@ -135,16 +189,28 @@ def test_every_scale_gives_what_nptdms_gives(chain: list[dict], dtype: str) -> N
 
 
 def test_raw_integers_do_not_overflow_when_they_are_added() -> None:
-    both = Scaling("ni", {"NI_Number_Of_Scales": 3, "NI_Scale[2]_Scale_Type": "Add",
-                          "NI_Scale[2]_Add_Left_Operand_Input_Source": 0,
-                          "NI_Scale[2]_Add_Right_Operand_Input_Source": 1})
+    both = Scaling(
+        "ni",
+        {
+            "NI_Number_Of_Scales": 3,
+            "NI_Scale[2]_Scale_Type": "Add",
+            "NI_Scale[2]_Add_Left_Operand_Input_Source": 0,
+            "NI_Scale[2]_Add_Right_Operand_Input_Source": 1,
+        },
+    )
     assert apply_scaling(both, {0: np.array([200], np.uint8), 1: np.array([100], np.uint8)}).tolist() == [300.0]
 
 
 def test_several_scalers_need_several_raw_columns() -> None:
-    thermocouple = Scaling("ni", {"NI_Number_Of_Scales": 3, "NI_Scale[2]_Scale_Type": "Add",
-                                  "NI_Scale[2]_Add_Left_Operand_Input_Source": 0,
-                                  "NI_Scale[2]_Add_Right_Operand_Input_Source": 1})
+    thermocouple = Scaling(
+        "ni",
+        {
+            "NI_Number_Of_Scales": 3,
+            "NI_Scale[2]_Scale_Type": "Add",
+            "NI_Scale[2]_Add_Left_Operand_Input_Source": 0,
+            "NI_Scale[2]_Add_Right_Operand_Input_Source": 1,
+        },
+    )
     a, b = np.array([1, 2], np.int32), np.array([10, 20], np.int32)
     assert scaler_ids(thermocouple) == (0, 1)
     assert apply_scaling(thermocouple, {0: a, 1: b}).tolist() == [11.0, 22.0]

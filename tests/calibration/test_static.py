@@ -16,12 +16,14 @@ def scale(**spec: object) -> ScaleCalibration:
     return ScaleCalibration.model_validate({"kind": "scale", "axis": "X", "gain": "250 um/V", **spec})
 
 
-@pytest.mark.parametrize(("facing", "increases_with", "sign"), [
-    ("+X", "gap", 1), ("-X", "gap", -1), ("+X", "approach", -1), ("-X", "approach", 1)])
+@pytest.mark.parametrize(
+    ("facing", "increases_with", "sign"),
+    [("+X", "gap", 1), ("-X", "gap", -1), ("+X", "approach", -1), ("-X", "approach", 1)],
+)
 def test_a_probe_that_looks_along_the_axis_sees_the_gap_grow(facing: str, increases_with: str, sign: int) -> None:
     # probe at x = 0 on the table; the target on the tool side stands 1 mm away, where the probe looks
     along = 1 if facing[0] == "+" else -1
-    gap_before, gap_after = abs(along * 1.0), abs(along * 1.0 + 0.1)      # the tool centre point moves by +0.1 mm
+    gap_before, gap_after = abs(along * 1.0), abs(along * 1.0 + 0.1)  # the tool centre point moves by +0.1 mm
     reading = (gap_after - gap_before) * (1 if increases_with == "gap" else -1)
     assert np.sign(reading) == sign == geometric_sign(facing, increases_with)
     result = evaluate_scale("s", scale(facing=facing, increases_with=increases_with))
@@ -38,9 +40,18 @@ def test_the_axis_comes_from_facing() -> None:
     assert evaluate_scale("s", scale(axis=None, facing="-Y")).axis == "Y"
 
 
-@pytest.mark.parametrize("spec", [
-    {"gain": 250}, {"gain": "250 um"}, {"gain": "0 um/V"}, {"gain": "-250 um/V", "facing": "+X"}, {"facing": "+Y"},
-    {"offset": "2 V"}, {"uncertainty": 2}])
+@pytest.mark.parametrize(
+    "spec",
+    [
+        {"gain": 250},
+        {"gain": "250 um"},
+        {"gain": "0 um/V"},
+        {"gain": "-250 um/V", "facing": "+X"},
+        {"facing": "+Y"},
+        {"offset": "2 V"},
+        {"uncertainty": 2},
+    ],
+)
 def test_what_a_scale_cannot_be(spec: dict) -> None:
     with pytest.raises(CalibrationError):
         evaluate_scale("s", scale(**spec))
@@ -57,14 +68,17 @@ def linear(**spec: object) -> LinearCalibration:
     return LinearCalibration.model_validate({"kind": "linear", **spec})
 
 
-@pytest.mark.parametrize(("spec", "unit", "raw_unit", "raw", "wanted"), [
-    ({"offset": "-0.12 K"}, "degC", "degC", 20.0, 19.88),
-    ({"offset": "-0.12 K"}, None, "degC", 20.0, 19.88),
-    ({"offset": "-0.12 K"}, None, "degF", 68.0, 19.88),
-    ({"gain": 1.01, "offset": -0.1}, "degC", "degC", 20.0, 20.1),
-    ({"gain": "10 degC/V", "offset": "-50 degC"}, None, "V", 7.0, 20.0),
-    ({"gain": "10 degC/V", "offset": "-50 K"}, None, "mV", 7000.0, 20.0),
-])
+@pytest.mark.parametrize(
+    ("spec", "unit", "raw_unit", "raw", "wanted"),
+    [
+        ({"offset": "-0.12 K"}, "degC", "degC", 20.0, 19.88),
+        ({"offset": "-0.12 K"}, None, "degC", 20.0, 19.88),
+        ({"offset": "-0.12 K"}, None, "degF", 68.0, 19.88),
+        ({"gain": 1.01, "offset": -0.1}, "degC", "degC", 20.0, 20.1),
+        ({"gain": "10 degC/V", "offset": "-50 degC"}, None, "V", 7.0, 20.0),
+        ({"gain": "10 degC/V", "offset": "-50 K"}, None, "mV", 7000.0, 20.0),
+    ],
+)
 def test_linear(spec: dict, unit: str | None, raw_unit: str, raw: float, wanted: float) -> None:
     result = evaluate_linear("t", linear(**spec), unit)
     channel = Channel(source="s", signal="x", quantity="temperature", unit=raw_unit)

@@ -16,9 +16,34 @@ from .conftest import Said
 
 Say = Callable[..., Said]
 CONTRACT = {
-    "demo", "init", "sniff", "preview", "ingest", "calibrations", "tests", "channels", "quality", "trace", "sql",
-    "snapshot", "export", "fit", "compare", "portability", "diagnose", "add", "history", "report", "workbench",
-    "simulate", "benchmark-diagnosis", "plugins", "schema", "forget", "gc"}
+    "demo",
+    "init",
+    "sniff",
+    "preview",
+    "ingest",
+    "calibrations",
+    "tests",
+    "channels",
+    "quality",
+    "trace",
+    "sql",
+    "snapshot",
+    "export",
+    "fit",
+    "compare",
+    "portability",
+    "diagnose",
+    "add",
+    "history",
+    "report",
+    "workbench",
+    "simulate",
+    "benchmark-diagnosis",
+    "plugins",
+    "schema",
+    "forget",
+    "gc",
+}
 
 
 def commands() -> list[tuple[str, click.Command]]:
@@ -60,9 +85,11 @@ def test_help_loads_nothing_that_takes_time() -> None:
 
 
 def test_help_imports_nothing_heavy() -> None:
-    code = ("import sys; from thermodata.cli import main; main(['--help']); "
-            "print([m for m in ('duckdb','pandas','scipy','plotly','pyarrow','nptdms','pint','pydantic') "
-            "if m in sys.modules], file=sys.stderr)")
+    code = (
+        "import sys; from thermodata.cli import main; main(['--help']); "
+        "print([m for m in ('duckdb','pandas','scipy','plotly','pyarrow','nptdms','pint','pydantic') "
+        "if m in sys.modules], file=sys.stderr)"
+    )
     assert subprocess.run([sys.executable, "-c", code], capture_output=True, text=True).stderr.strip() == "[]"
 
 
@@ -98,12 +125,18 @@ def test_the_store_may_stand_after_the_command_or_in_the_environment(
     assert str(tmp_path / "variable") in say("tests").err
 
 
-@pytest.mark.parametrize(("error", "code", "text"), [
-    (StoreError("the store is busy", where="s", expected="a turn", got="60 s", hint="again"), 4,
-     "error: the store is busy\nwhere: s\nexpected: a turn, got: 60 s\ntry: again\n"),
-    (KeyboardInterrupt(), 1, "error: interrupted\n"),
-    (PermissionError(13, "Permission denied", "x.tdms"), 1, "error: Permission denied\nwhere: x.tdms\n"),
-])
+@pytest.mark.parametrize(
+    ("error", "code", "text"),
+    [
+        (
+            StoreError("the store is busy", where="s", expected="a turn", got="60 s", hint="again"),
+            4,
+            "error: the store is busy\nwhere: s\nexpected: a turn, got: 60 s\ntry: again\n",
+        ),
+        (KeyboardInterrupt(), 1, "error: interrupted\n"),
+        (PermissionError(13, "Permission denied", "x.tdms"), 1, "error: Permission denied\nwhere: x.tdms\n"),
+    ],
+)
 def test_errors_become_lines_and_codes(
     say: Say, monkeypatch: pytest.MonkeyPatch, error: BaseException, code: int, text: str
 ) -> None:
@@ -112,7 +145,7 @@ def test_errors_become_lines_and_codes(
 
     monkeypatch.setattr("thermodata.cli.plugins.installed", fail)
     said = say("plugins")
-    assert (said.code, said.out, said.err.lstrip("\n")) == (code, "", text)      # click ends the line of ^C
+    assert (said.code, said.out, said.err.lstrip("\n")) == (code, "", text)  # click ends the line of ^C
 
 
 def test_a_defect_says_so_and_keeps_the_traceback_for_debugging(say: Say, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -14,15 +14,29 @@ from thermodata.errors import UsageError
 from .conftest import Said
 
 Say = Callable[..., Said]
-KEYS = {"hidden", "found", "verdict", "family", "equivalents", "rmse_um_before", "rmse_um_after",
-        "locked_rmse_um_before", "locked_rmse_um_after", "model", "store", "report", "seconds"}
+KEYS = {
+    "hidden",
+    "found",
+    "verdict",
+    "family",
+    "equivalents",
+    "rmse_um_before",
+    "rmse_um_after",
+    "locked_rmse_um_before",
+    "locked_rmse_um_after",
+    "model",
+    "store",
+    "report",
+    "seconds",
+}
 
 
 @pytest.fixture
 def small(monkeypatch: pytest.MonkeyPatch) -> None:
     """A machine with few and short tests: the story's mechanics, not its findings."""
-    monkeypatch.setattr(thermodata.virtual, "simulate", partial(thermodata.virtual.simulate, tests=4, hours=4.0,
-                                                                rate_hz=0.1))
+    monkeypatch.setattr(
+        thermodata.virtual, "simulate", partial(thermodata.virtual.simulate, tests=4, hours=4.0, rate_hz=0.1)
+    )
 
 
 @pytest.mark.usefixtures("small")

@@ -19,12 +19,14 @@ def csv(path: Path, rows: int = 200, gap: bool = False) -> Path:
     rng = np.random.default_rng(1)
     t = np.arange(rows) * 10.0
     if gap:
-        t[rows // 2:] += 3600
+        t[rows // 2 :] += 3600
     temperature = 20 + 5 * (1 - np.exp(-np.arange(rows) / 60)) + rng.normal(0, 0.02, rows)
     temperature[rows // 3] = 85.0
     lines = ["time [s],T_bearing_front [degC],Spindle speed [rpm],state"]
-    lines += [f"{a:.0f},{b:.3f},{6000 if 20 < i < 150 else 0},{'on' if i > 20 else 'off'}"
-              for i, (a, b) in enumerate(zip(t, temperature, strict=True))]
+    lines += [
+        f"{a:.0f},{b:.3f},{6000 if 20 < i < 150 else 0},{'on' if i > 20 else 'off'}"
+        for i, (a, b) in enumerate(zip(t, temperature, strict=True))
+    ]
     path.parent.mkdir(parents=True, exist_ok=True)
     path.write_text("\n".join(lines) + "\n", encoding="utf-8")
     return path
@@ -82,10 +84,17 @@ def test_sniff_takes_folders(say: Say, tmp_path: Path) -> None:
     assert len(say("sniff", tmp_path / "raw").out.splitlines()) > 7
 
 
-@pytest.mark.parametrize(("content", "kind"), [
-    (b"", "an empty file"), (b"PK\x03\x04rest", "a ZIP file"), (b"\x00\x01\x02\x03", "binary"),
-    (b"  \n \n", "blanks only"),
-    (b"TDSh\x0e", "the index of a TDMS file"), (b"\x1f\x8b\x08", "gzip")])
+@pytest.mark.parametrize(
+    ("content", "kind"),
+    [
+        (b"", "an empty file"),
+        (b"PK\x03\x04rest", "a ZIP file"),
+        (b"\x00\x01\x02\x03", "binary"),
+        (b"  \n \n", "blanks only"),
+        (b"TDSh\x0e", "the index of a TDMS file"),
+        (b"\x1f\x8b\x08", "gzip"),
+    ],
+)
 def test_sniff_says_what_a_foreign_file_is(say: Say, tmp_path: Path, content: bytes, kind: str) -> None:
     (tmp_path / "x.bin").write_bytes(content)
     assert json.loads(say("sniff", tmp_path / "x.bin", "--json").out)[0]["kind"].startswith(kind)

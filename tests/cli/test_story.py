@@ -15,8 +15,20 @@ import pytest
 from .conftest import TESTS, Said, write_campaign
 
 Say = Callable[..., Said]
-SCORE = {"model", "campaign", "test", "role", "response", "phase", "fit", "rmse_um", "ptp_um", "ptp_residual_um",
-         "max_um", "n"}
+SCORE = {
+    "model",
+    "campaign",
+    "test",
+    "role",
+    "response",
+    "phase",
+    "fit",
+    "rmse_um",
+    "ptp_um",
+    "ptp_residual_um",
+    "max_um",
+    "n",
+}
 FIT = {"model", "name", "parent", "campaigns", "response", "parameters", "scores", "checks", "before"}
 
 
@@ -162,13 +174,19 @@ def test_fit_add_and_history(data: Callable[..., Any], ask: Say, campaign: Path)
     both = data("compare", base["model"], better["model"])
     assert {s["model"] for s in both["scores"]} == {base["model"], better["model"]}
     assert [m["model"] for m in both["models"]] == [base["model"], better["model"]]
-    for words in (["compare", base["model"]], ["compare", base["model"], better["model"]], ["history", better["model"]],
-                  ["fit", campaign / "baseline.yaml"], ["portability", base["model"]]):
+    for words in (
+        ["compare", base["model"]],
+        ["compare", base["model"], better["model"]],
+        ["history", better["model"]],
+        ["fit", campaign / "baseline.yaml"],
+        ["portability", base["model"]],
+    ):
         assert "RMSE" in ask(*words).out or "class" in ask(*words).out
 
 
-def test_a_report_of_a_version_tells_what_it_changed(data: Callable[..., Any], ask: Say, campaign: Path,
-                                                     tmp_path: Path) -> None:
+def test_a_report_of_a_version_tells_what_it_changed(
+    data: Callable[..., Any], ask: Say, campaign: Path, tmp_path: Path
+) -> None:
     base = data("fit", campaign / "baseline.yaml")
     better = data("add", base["model"], "feed_screw:T_nut_Z")
     found = data("report", better["model"], "-o", tmp_path / "r.html")
@@ -200,8 +218,19 @@ def test_diagnose_add_by_rank_and_report(say: Say, tmp_path: Path) -> None:
     assert say("--store", store, "ingest", path).code == 0
     base = json.loads(say("--store", store, "fit", tmp_path / "c" / "baseline.yaml", "--json").out)["model"]
     found = json.loads(say("--store", store, "diagnose", base, "--json").out)
-    assert set(found) == {"model", "response", "verdict", "noise_um", "rmse_um", "explainable", "weak_spots",
-                          "candidates", "artefacts", "unknown", "next_test"}
+    assert set(found) == {
+        "model",
+        "response",
+        "verdict",
+        "noise_um",
+        "rmse_um",
+        "explainable",
+        "weak_spots",
+        "candidates",
+        "artefacts",
+        "unknown",
+        "next_test",
+    }
     assert found["verdict"] == "effect"
     first = found["candidates"][0]
     assert (first["effect"], first["claimed"]) == ("feed_screw", True)

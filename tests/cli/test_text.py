@@ -11,10 +11,23 @@ from thermodata.cli.table import table
 from thermodata.report.words import change, duration, number, typeset
 
 
-@pytest.mark.parametrize(("value", "text"), [
-    (12.345, "12.3"), (0.0123456, "0.0123"), (1234.5, "1234"), (-0.5, "-0.500"), (0.0, "0"), (None, "-"),
-    (float("nan"), "-"), (float("inf"), "inf"), (7, "7"), (1.5e9, "1.50e+09"), (2e-6, "2.00e-06"), (True, "True"),
-])
+@pytest.mark.parametrize(
+    ("value", "text"),
+    [
+        (12.345, "12.3"),
+        (0.0123456, "0.0123"),
+        (1234.5, "1234"),
+        (-0.5, "-0.500"),
+        (0.0, "0"),
+        (None, "-"),
+        (float("nan"), "-"),
+        (float("inf"), "inf"),
+        (7, "7"),
+        (1.5e9, "1.50e+09"),
+        (2e-6, "2.00e-06"),
+        (True, "True"),
+    ],
+)
 def test_numbers_have_three_figures(value: object, text: str) -> None:
     assert number(value) == text
 

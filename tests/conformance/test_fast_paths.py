@@ -13,8 +13,9 @@ SCRIPT = Path(__file__).parents[1] / "benchmarks" / "fast_paths.py"
 
 @pytest.mark.parametrize("name", ["control csv", "lvm", "csv", "mcap json", "tdms"])
 def test_it_reads_the_same_as_the_plain_way(name: str) -> None:
-    done = subprocess.run([sys.executable, str(SCRIPT), "--check", "--only", name], capture_output=True, text=True,
-                          check=False)
+    done = subprocess.run(
+        [sys.executable, str(SCRIPT), "--check", "--only", name], capture_output=True, text=True, check=False
+    )
     assert done.returncode == 0, done.stdout + done.stderr
     equal, acted = done.stdout.splitlines()[2].split("|")[2:4]
     assert int(acted) > 0

@@ -59,14 +59,14 @@ def _tdms() -> bytes:
         return struct.pack("<I", len(t)) + t.encode()
 
     made = b""
-    for k in range(4):                                       # four segments of ten rows, two channels one after another
+    for k in range(4):  # four segments of ten rows, two channels one after another
         objects = b""
         for name in ("T", "U"):
             objects += text(f"/'G'/'{name}'") + struct.pack("<IIIQ", 20, 10, 1, 10) + struct.pack("<I", 2)
             objects += text("wf_start_time") + struct.pack("<IQq", 0x44, 0, 3_855_000_000)
             objects += text("wf_increment") + struct.pack("<Id", 10, 1.0)
         meta = struct.pack("<I", 2) + objects
-        part = VALUES[10 * k:10 * k + 10]
+        part = VALUES[10 * k : 10 * k + 10]
         raw = struct.pack("<20d", *part, *(-v for v in part))
         made += b"TDSm" + struct.pack("<IIQQ", 0xE, 4713, len(meta) + len(raw), len(meta)) + meta + raw
     return made
@@ -79,9 +79,24 @@ def _tdms_value(path: Path, place: str) -> float:
 
 
 def _lvm() -> bytes:
-    head = ["LabVIEW Measurement", "Writer_Version\t2", "Separator\tTab", "Decimal_Separator\t,", "Multi_Headings\tNo",
-            "X_Columns\tOne", "Date\t2026/03/02", "Time\t06:00:00,0", "***End_of_Header***", "", "Channels\t1",
-            f"Samples\t{ROWS}", "X0\t0,0", "Delta_X\t1,0", "***End_of_Header***", "X_Value\tT\tComment"]
+    head = [
+        "LabVIEW Measurement",
+        "Writer_Version\t2",
+        "Separator\tTab",
+        "Decimal_Separator\t,",
+        "Multi_Headings\tNo",
+        "X_Columns\tOne",
+        "Date\t2026/03/02",
+        "Time\t06:00:00,0",
+        "***End_of_Header***",
+        "",
+        "Channels\t1",
+        f"Samples\t{ROWS}",
+        "X0\t0,0",
+        "Delta_X\t1,0",
+        "***End_of_Header***",
+        "X_Value\tT\tComment",
+    ]
     rows = [f"{i},0\t{v:.3f}\t".replace(".", ",") for i, v in enumerate(VALUES)]
     return "\n".join([*head, *rows[:9], "no row at all", *rows[9:], ""]).encode()
 
@@ -105,8 +120,10 @@ def _shdr() -> bytes:
 
 
 def _opcua() -> bytes:
-    return ("DateTime,TagName,TagVal,TagQuality\n" + "".join(
-        f"2026-03-02 08:00:{i:02d}.000,T,{v},Good\n" for i, v in enumerate(VALUES))).encode()
+    return (
+        "DateTime,TagName,TagVal,TagQuality\n"
+        + "".join(f"2026-03-02 08:00:{i:02d}.000,T,{v},Good\n" for i, v in enumerate(VALUES))
+    ).encode()
 
 
 def _trace_csv() -> bytes:
@@ -116,15 +133,17 @@ def _trace_csv() -> bytes:
 
 def _trace_xml() -> bytes:
     rows = "".join(f'<rec time="{i}.000000" f1="{v}"/>\n' for i, v in enumerate(VALUES))
-    return ('<?xml version="1.0"?><traceSession><traceData><dataFrame><frameHeader startTime="2026-03-02T08:00:00Z"/>'
-            '<dataSignal id="1" name="T" interval="1" event="1" datapointCount="40" unitsType="posn"/>\n'
-            f"{rows}</dataFrame></traceData></traceSession>").encode()
+    return (
+        '<?xml version="1.0"?><traceSession><traceData><dataFrame><frameHeader startTime="2026-03-02T08:00:00Z"/>'
+        '<dataSignal id="1" name="T" interval="1" event="1" datapointCount="40" unitsType="posn"/>\n'
+        f"{rows}</dataFrame></traceData></traceSession>"
+    ).encode()
 
 
 def _trace_value(path: Path, place: str) -> float:
     found = re.match(rf"record {AT + 1}, byte (\d+)$", place)
     assert found is not None, place
-    said = re.match(rb'<rec time="[\d.]+" f1="([\d.]+)"', path.read_bytes()[int(found[1]):])
+    said = re.match(rb'<rec time="[\d.]+" f1="([\d.]+)"', path.read_bytes()[int(found[1]) :])
     assert said is not None
     return float(said[1])
 
@@ -145,17 +164,18 @@ def _mcap() -> bytes:
 
 
 def _mcap_value(path: Path, place: str) -> float:
-    found = re.match(rf"message {AT + 1}, chunk \d+ \(at byte (\d+)\), byte (\d+) of its records, log_time (\d+)$",
-                     place)
+    found = re.match(
+        rf"message {AT + 1}, chunk \d+ \(at byte (\d+)\), byte (\d+) of its records, log_time (\d+)$", place
+    )
     assert found is not None, place
     data, chunk, inside, log_ns = path.read_bytes(), int(found[1]), int(found[2]), int(found[3])
     assert data[chunk] == 6
-    name = struct.unpack_from("<I", data, chunk + 9 + 28)[0]          # behind times, size and checksum
+    name = struct.unpack_from("<I", data, chunk + 9 + 28)[0]  # behind times, size and checksum
     record = chunk + 9 + 28 + 4 + name + 8 + inside
     assert data[record] == 5
     assert struct.unpack_from("<Q", data, record + 15)[0] == log_ns
     length = struct.unpack_from("<Q", data, record + 1)[0]
-    return float(json.loads(data[record + 31:record + 9 + length])["T"])
+    return float(json.loads(data[record + 31 : record + 9 + length])["T"])
 
 
 def _csv() -> bytes:
@@ -166,13 +186,22 @@ def _csv() -> bytes:
 
 def _xlsx() -> bytes:
     def row(number: int, *cells: str | float) -> str:
-        return f'<row r="{number}">' + "".join(
-            f'<c r="{column}{number}" t="inlineStr"><is><t>{cell}</t></is></c>' if isinstance(cell, str)
-            else f'<c r="{column}{number}"><v>{cell}</v></c>' for column, cell in zip("AB", cells, strict=True)
-        ) + "</row>"
+        return (
+            f'<row r="{number}">'
+            + "".join(
+                f'<c r="{column}{number}" t="inlineStr"><is><t>{cell}</t></is></c>'
+                if isinstance(cell, str)
+                else f'<c r="{column}{number}"><v>{cell}</v></c>'
+                for column, cell in zip("AB", cells, strict=True)
+            )
+            + "</row>"
+        )
 
-    rows = [row(1, "Machine", "138"), row(2, "Time [s]", "T [degC]"),
-            *(row(i + 3, float(i), v) for i, v in enumerate(VALUES))]
+    rows = [
+        row(1, "Machine", "138"),
+        row(2, "Time [s]", "T [degC]"),
+        *(row(i + 3, float(i), v) for i, v in enumerate(VALUES)),
+    ]
     main, rel = "http://schemas.openxmlformats.org/spreadsheetml/2006/main", "http://schemas.openxmlformats.org/"
     office, packed = f"{rel}officeDocument/2006/relationships", f"{rel}package/2006/relationships"
     kind = "application/vnd.openxmlformats-officedocument.spreadsheetml"
@@ -187,7 +216,8 @@ def _xlsx() -> bytes:
         '<sheet name="log" sheetId="1" r:id="r1"/></sheets></workbook>',
         "xl/_rels/workbook.xml.rels": f'<Relationships xmlns="{packed}"><Relationship Id="r1" '
         f'Type="{office}/worksheet" Target="worksheets/sheet1.xml"/></Relationships>',
-        "xl/worksheets/sheet1.xml": f'<worksheet xmlns="{main}"><sheetData>{"".join(rows)}</sheetData></worksheet>'}
+        "xl/worksheets/sheet1.xml": f'<worksheet xmlns="{main}"><sheetData>{"".join(rows)}</sheetData></worksheet>',
+    }
     out = io.BytesIO()
     with zipfile.ZipFile(out, "w", zipfile.ZIP_DEFLATED) as archive:
         for name, text in parts.items():
@@ -262,7 +292,9 @@ def test_the_place_of_a_traced_sample_holds_its_value(name: str, tmp_path: Path)
     (tmp_path / "campaign.yaml").write_text(
         f"schema: thermodata/campaign/1\nid: shop\nmachine: {{id: m}}\nsources: {{log: {source}}}\nchannels:\n"
         f"  temp: {{source: log, signal: {json.dumps(case.signal)}, quantity: temperature, unit: degC}}\n"
-        "tests:\n  - {id: one, kind: other, role: none}\n", encoding="utf-8")
+        "tests:\n  - {id: one, kind: other, role: none}\n",
+        encoding="utf-8",
+    )
     store = Store(tmp_path / "store", create=True)
     ingest(store, tmp_path / "campaign.yaml")
     sample = trace(store, "shop", "one", "temp", AT * case.step_s, verify=True)["sample"]

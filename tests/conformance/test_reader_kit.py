@@ -38,7 +38,7 @@ class Good:
         pairs, count = self.read(path)
         size = int(source.options.get("block_rows", 100))
         for i in range(0, len(pairs), size):
-            t, v = zip(*pairs[i:i + size], strict=True)
+            t, v = zip(*pairs[i : i + size], strict=True)
             yield Block("main", np.array(t, np.int64), {"T": np.array(v)})
         if len(pairs) < count:
             yield Loss("end of file", pairs[-1][0] if pairs else None, None, 1 - len(pairs) / count, "cut")
@@ -159,7 +159,7 @@ class TakesHalfAValue(Good):
 
     def read(self, path: Path) -> tuple[list[tuple[int, float]], int]:
         pairs, count = super().read(path)
-        rest = path.read_bytes()[12:][len(pairs) * PAIR.size:]
+        rest = path.read_bytes()[12:][len(pairs) * PAIR.size :]
         return ([*pairs, PAIR.unpack(rest.ljust(PAIR.size, b"\0"))] if len(rest) > 9 else pairs), count
 
 

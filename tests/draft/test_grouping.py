@@ -49,8 +49,11 @@ def test_parts_that_another_sources_file_names_as_one(tmp_path: Path) -> None:
     for k, test in enumerate(("run_A", "run_B")):
         for part in range(3):
             log(tmp_path / f"{test}_{part + 1}.tdms", k + part * 1000 / 86400)
-        text(tmp_path / f"{test}.csv", ["Time", "Spindle speed [rpm]"],
-             [local(n, 10, START + timedelta(days=k), "UTC", "%Y-%m-%d %H:%M:%S"), numbers(speeds(n, [3000]), 0)])
+        text(
+            tmp_path / f"{test}.csv",
+            ["Time", "Spindle speed [rpm]"],
+            [local(n, 10, START + timedelta(days=k), "UTC", "%Y-%m-%d %H:%M:%S"), numbers(speeds(n, [3000]), 0)],
+        )
     _, made = drafted(tmp_path)
     assert [t.id for t in made.tests] == ["run_A", "run_B"]
     assert {s.files for s in made.sources.values()} == {"{test}_*.tdms", "{test}.csv"}
@@ -69,8 +72,11 @@ def test_a_log_of_the_hall_belongs_to_all_tests(tmp_path: Path) -> None:
     for k in range(3):
         log(tmp_path / "daq" / f"test{k}.tdms", k / 5)
     n = 400
-    text(tmp_path / "hall" / "Klima_KW10.csv", ["Zeit", "Hallentemperatur [°C]"],
-         [local(n, 300, START - timedelta(hours=1), "UTC", "%d.%m.%Y %H:%M:%S"), numbers(warm(n, 20, 2, 1, 1), 1)])
+    text(
+        tmp_path / "hall" / "Klima_KW10.csv",
+        ["Zeit", "Hallentemperatur [°C]"],
+        [local(n, 300, START - timedelta(hours=1), "UTC", "%d.%m.%Y %H:%M:%S"), numbers(warm(n, 20, 2, 1, 1), 1)],
+    )
     _, made = drafted(tmp_path)
     assert [t.id for t in made.tests] == ["test0", "test1", "test2"]
     assert "hall/Klima_KW10.csv" in {s.files for s in made.sources.values()}
@@ -82,8 +88,11 @@ def test_names_with_other_times_are_joined_by_time(tmp_path: Path) -> None:
         start = START + timedelta(hours=5 * k)
         log(tmp_path / "eddy" / f"eddy_{start:%Y%m%d_%H%M%S}.tdms", 5 * k / 24, "Eddy Z", "V")
         late = start + timedelta(seconds=47)
-        text(tmp_path / "nc" / f"nc_{late:%Y%m%d_%H%M%S}.csv", ["Time", "Spindle speed [rpm]"],
-             [local(n, 10, late, "Europe/Prague", "%Y-%m-%d %H:%M:%S"), numbers(speeds(n, [4000]), 0)])
+        text(
+            tmp_path / "nc" / f"nc_{late:%Y%m%d_%H%M%S}.csv",
+            ["Time", "Spindle speed [rpm]"],
+            [local(n, 10, late, "Europe/Prague", "%Y-%m-%d %H:%M:%S"), numbers(speeds(n, [4000]), 0)],
+        )
     draft, made = drafted(tmp_path)
     assert len(made.tests) == 3
     assert all(t.files["nc"] for t in made.tests)
@@ -94,36 +103,69 @@ def test_names_with_other_times_are_joined_by_time(tmp_path: Path) -> None:
 def test_a_jump_test_is_found_in_the_data_alone(tmp_path: Path) -> None:
     rng = np.random.default_rng(0)
     for k in range(3):
-        tdms(tmp_path / f"m{k}.tdms", {"g": {"dZ": (warm(3000, 5, 0.1, 0.3, k), "V"),
-                                             "dX": (warm(3000, 5, 0.1, 0.3, 9), "V"),
-                                             "T1": (warm(3000, 22, 5, 0.3, k), "degC")}}, START + timedelta(days=k), 10)
-    tdms(tmp_path / "m7.tdms", {"g": {"dZ": (staircase([50, 50, -100, -50, 50], 80, 8, 20, 3), "V"),
-                                      "dX": (5 + rng.normal(0, 0.002, 960), "V"),
-                                      "T1": (22 + rng.normal(0, 0.01, 960), "degC")}}, START, 0.05)
+        tdms(
+            tmp_path / f"m{k}.tdms",
+            {
+                "g": {
+                    "dZ": (warm(3000, 5, 0.1, 0.3, k), "V"),
+                    "dX": (warm(3000, 5, 0.1, 0.3, 9), "V"),
+                    "T1": (warm(3000, 22, 5, 0.3, k), "degC"),
+                }
+            },
+            START + timedelta(days=k),
+            10,
+        )
+    tdms(
+        tmp_path / "m7.tdms",
+        {
+            "g": {
+                "dZ": (staircase([50, 50, -100, -50, 50], 80, 8, 20, 3), "V"),
+                "dX": (5 + rng.normal(0, 0.002, 960), "V"),
+                "T1": (22 + rng.normal(0, 0.01, 960), "degC"),
+            }
+        },
+        START,
+        0.05,
+    )
     draft, made = drafted(tmp_path)
     assert [t.id for t in made.tests] == ["m0", "m1", "m2"]
     jump = draft.jumps[0]
     assert (jump.file, jump.signal, jump.axis) == ("m7.tdms", "g/dZ", "Z")
     assert jump.dwell_s == pytest.approx(8, rel=0.05)
     assert jump.seen == pytest.approx([0.625, 0.625, -1.25, -0.625, 0.625], rel=0.02)
-    assert made.calibrations["jump_g_dZ"].moves == "unknown"               # type: ignore[union-attr]
+    assert made.calibrations["jump_g_dZ"].moves == "unknown"  # type: ignore[union-attr]
 
 
 def test_signals_of_some_tests_only_and_units_that_disagree(tmp_path: Path) -> None:
     for k in range(3):
         more = {"Mutter X": (warm(100, 20, 1, 1, k), "°C")} if k == 2 else {}
-        tdms(tmp_path / f"m{k}.tdms", {"g": {"Lager vorne": (warm(100, 20, 1, 1, k), "°C" if k else "K"), **more}},
-             START + timedelta(days=k), 10)
+        tdms(
+            tmp_path / f"m{k}.tdms",
+            {"g": {"Lager vorne": (warm(100, 20, 1, 1, k), "°C" if k else "K"), **more}},
+            START + timedelta(days=k),
+            10,
+        )
     draft, made = drafted(tmp_path)
-    assert made.channels["Lager_vorne"].unit is None                       # each file's own is taken
+    assert made.channels["Lager_vorne"].unit is None  # each file's own is taken
     assert next(c for c in draft.channels if c.signal == "g/Mutter X").only_in == ("m2",)
     assert any("disagree" in q for c in draft.channels for q in c.said.questions)
 
 
 def test_whatever_names_hold_the_draft_loads(tmp_path: Path) -> None:
-    tdms(tmp_path / "a [1]{x}.tdms", {"g": {"T'; drop table--": (warm(100, 20, 1, 1, 1), "degC"), "t": (
-        warm(100, 20, 1, 1, 1), "degC"), "温度 é": (warm(100, 20, 1, 1, 1), "degC"), "Ω#\"@": (
-        warm(100, 20, 1, 1, 2), None), "y\nx: {": (warm(100, 20, 1, 1, 2), "degC")}}, START, 1)
+    tdms(
+        tmp_path / "a [1]{x}.tdms",
+        {
+            "g": {
+                "T'; drop table--": (warm(100, 20, 1, 1, 1), "degC"),
+                "t": (warm(100, 20, 1, 1, 1), "degC"),
+                "温度 é": (warm(100, 20, 1, 1, 1), "degC"),
+                'Ω#"@': (warm(100, 20, 1, 1, 2), None),
+                "y\nx: {": (warm(100, 20, 1, 1, 2), "degC"),
+            }
+        },
+        START,
+        1,
+    )
     whole = (tmp_path / "a [1]{x}.tdms").read_bytes()
     (tmp_path / "cut.tdms").write_bytes(whole[:-1500])
     (tmp_path / "empty.csv").write_bytes(b"")
@@ -138,8 +180,12 @@ def test_whatever_names_hold_the_draft_loads(tmp_path: Path) -> None:
 def test_a_log_with_too_many_signals_is_drafted_in_part(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     n = 60
     monkeypatch.setattr("thermodata.draft.plan._MOST_SIGNALS", 50)
-    text(tmp_path / "a.csv", ["time [s]", *(f"T{i} [degC]" for i in range(n))],
-         [[str(k) for k in range(3)], *([f"{20 + k}.5" for k in range(3)] for _ in range(n))], mark=",")
+    text(
+        tmp_path / "a.csv",
+        ["time [s]", *(f"T{i} [degC]" for i in range(n))],
+        [[str(k) for k in range(3)], *([f"{20 + k}.5" for k in range(3)] for _ in range(n))],
+        mark=",",
+    )
     draft, made = drafted(tmp_path)
     assert len(made.channels) == 50
     assert any("10 more signals" in note for note in draft.notes)
@@ -163,8 +209,10 @@ def test_a_file_that_two_readers_claim_is_said_with_both_reasons(
     log(tmp_path / "a.tdms", 0)
     (tmp_path / "b.dat").write_text("x\n")
     real = __import__("thermodata.reader.registry", fromlist=["claims"]).claims
-    monkeypatch.setattr("thermodata.draft.scan.claims", lambda path: {"crio": "one reason", "table": "another"}
-                        if Path(path).name == "b.dat" else real(path))
+    monkeypatch.setattr(
+        "thermodata.draft.scan.claims",
+        lambda path: {"crio": "one reason", "table": "another"} if Path(path).name == "b.dat" else real(path),
+    )
     drafted(tmp_path)
     text = (tmp_path / "campaign.yaml").read_text("utf-8")
     left = [x for x in text.splitlines() if x.startswith("# not used: b.dat")]
@@ -177,8 +225,9 @@ def test_a_table_with_dates_that_names_the_tests_is_no_log(tmp_path: Path) -> No
         for part in range(2):
             log(tmp_path / f"{test}_{part + 1}.tdms", k + part * 1000 / 86400)
     log(tmp_path / "jump_z.tdms", 9, "probe Z", "V")
-    (tmp_path / "tabulka.csv").write_text("Test;Otáčky [1/min];Datum\nrun_a;9000;2026-03-01\nrun_b;6000;2026-03-02\n",
-                                          encoding="utf-8")
+    (tmp_path / "tabulka.csv").write_text(
+        "Test;Otáčky [1/min];Datum\nrun_a;9000;2026-03-01\nrun_b;6000;2026-03-02\n", encoding="utf-8"
+    )
     made, _ = drafted(tmp_path)
     assert made.table is not None
     assert made.table.file == "tabulka.csv"

@@ -34,10 +34,13 @@ def test_the_draft_says_what_is_true_or_asks(name: str, tmp_path: Path) -> None:
     assert len(loaded.sources) == lab.sources
     assert {t.id: t.kind for t in loaded.tests if t.id in lab.kinds} == lab.kinds
     assert {getattr(c, "file", ""): getattr(c, "signal", "") for c in loaded.calibrations.values()} == lab.jumps
-    assert {t.role for t in loaded.tests} == {"none"}                  # a role is never guessed
+    assert {t.role for t in loaded.tests} == {"none"}  # a role is never guessed
     said = {c.signal: c.said for c in made.channels}
-    wrong = {s: (said[s].quantity, said[s].at, said[s].axis) for s, truth in lab.signals.items()
-             if (said[s].quantity, said[s].at, said[s].axis) != truth and not said[s].questions}
+    wrong = {
+        s: (said[s].quantity, said[s].at, said[s].axis)
+        for s, truth in lab.signals.items()
+        if (said[s].quantity, said[s].at, said[s].axis) != truth and not said[s].questions
+    }
     assert wrong == {}
 
 
@@ -62,14 +65,14 @@ def test_with_its_questions_answered_a_draft_calibrates(tmp_path: Path, say: Cal
     say("init", tmp_path / "c")
     path = tmp_path / "c" / "campaign.yaml"
     text = path.read_text("utf-8").replace("moves: unknown", "moves: [100 um, -50 um, -50 um]")
-    text = text.replace("Steuerung/{test}.csv\"", "Steuerung/{test}.csv\", timezone: Europe/Berlin")
+    text = text.replace('Steuerung/{test}.csv"', 'Steuerung/{test}.csv", timezone: Europe/Berlin')
     assert [s.get("timezone") for s in yaml.safe_load(text)["sources"].values()].count("Europe/Berlin") == 1
     path.write_text(text, encoding="utf-8")
     summary = json.loads(say("--store", tmp_path / "s", "ingest", path, "--json").out)
     gains = {c["name"]: c["gain"] for c in summary["calibrations"]}
     assert gains == pytest.approx({"jump_Wirbelstrom_X": 80, "jump_Wirbelstrom_Z": 80}, rel=0.02)
     lost = {x["reason"].split("'")[1] for x in summary["losses"]}
-    assert lost == {"Wirbelstrom_Y"}                                   # nobody moved the probe Y
+    assert lost == {"Wirbelstrom_Y"}  # nobody moved the probe Y
 
 
 def test_a_zone_is_asked_for_with_what_the_other_clocks_say(tmp_path: Path) -> None:
@@ -121,5 +124,6 @@ def test_what_the_json_says_is_what_the_file_says(tmp_path: Path, say: Callable[
     made: dict[str, Any] = json.loads(say("init", tmp_path / "c", "--json").out)
     loaded = load_campaign(tmp_path / "c" / "campaign.yaml")
     assert {c["name"]: (c["quantity"], c["at"]) for c in made["channels"]} == {
-        n: (c.quantity, c.at) for n, c in loaded.channels.items()}
+        n: (c.quantity, c.at) for n, c in loaded.channels.items()
+    }
     assert {c["sure"] for c in made["channels"]} == {True, False}

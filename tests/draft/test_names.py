@@ -17,8 +17,7 @@ def verdict(line: str) -> str:
     name, unit, quantity, places = line.split("|")
     found = guess(name, None if unit == "-" else unit)
     fitting = places.split(",")
-    right = (found.quantity or "-") == quantity and (
-        quantity == "-" or "*" in fitting or (found.at or "-") in fitting)
+    right = (found.quantity or "-") == quantity and (quantity == "-" or "*" in fitting or (found.at or "-") in fitting)
     return "right" if right else "unsure" if found.questions or found.quantity is None else "wrong"
 
 
@@ -30,9 +29,15 @@ def test_it_would_rather_ask_than_be_wrong() -> None:
     assert told["right"] >= 0.90 * len(lines), told
 
 
-@pytest.mark.parametrize(("name", "quantity", "unit"), [
-    ("/thermo.speed", "rotational_speed", None), ("/thermo.probes_um[0]", "displacement", "um"),
-    ("/thermo.t_bearing", "temperature", "degC"), ("/cnc.axis.z.temp", "temperature", "degC")])
+@pytest.mark.parametrize(
+    ("name", "quantity", "unit"),
+    [
+        ("/thermo.speed", "rotational_speed", None),
+        ("/thermo.probes_um[0]", "displacement", "um"),
+        ("/thermo.t_bearing", "temperature", "degC"),
+        ("/cnc.axis.z.temp", "temperature", "degC"),
+    ],
+)
 def test_the_field_of_a_message_says_what_it_is_not_its_topic(name: str, quantity: str, unit: str | None) -> None:
     found = guess(name, None)
     assert found.quantity == quantity

@@ -14,8 +14,9 @@ from thermodata.draft.words import channel_name, plain, words
 from thermodata.schema.campaign import NAME, RESERVED_NAMES
 
 EASY = settings(deadline=None, suppress_health_check=[HealthCheck.too_slow])
-UNITS = st.sampled_from([None, "degC", "V", "um", "mm", "K", "%", "Hz", "um/m", "1/min", "g", "-", "", "nonsense",
-                         "Grd C"])
+UNITS = st.sampled_from(
+    [None, "degC", "V", "um", "mm", "K", "%", "Hz", "um/m", "1/min", "g", "-", "", "nonsense", "Grd C"]
+)
 
 
 @EASY
@@ -36,16 +37,32 @@ def test_any_name_gets_an_answer(name: str, unit: str | None, dtype: str) -> Non
     assert not (found.sure and found.questions)
 
 
-@pytest.mark.parametrize(("name", "expected"), [
-    ("Eddy/nActSpeed_Z1", "eddy n act speed z 1"), ("ŽluťoučkýKůň-Straße", "zlutoucky kun strasse"),
-    ("主轴T1温度", "主轴 t 1 温度"), ("Xload", "x load"), ("S1rpm", "spindle 1 rpm"), ("TEMP1", "temp 1")])
+@pytest.mark.parametrize(
+    ("name", "expected"),
+    [
+        ("Eddy/nActSpeed_Z1", "eddy n act speed z 1"),
+        ("ŽluťoučkýKůň-Straße", "zlutoucky kun strasse"),
+        ("主轴T1温度", "主轴 t 1 温度"),
+        ("Xload", "x load"),
+        ("S1rpm", "spindle 1 rpm"),
+        ("TEMP1", "temp 1"),
+    ],
+)
 def test_words_come_apart(name: str, expected: str) -> None:
     assert words(name) == expected
 
 
-@pytest.mark.parametrize(("name", "expected"), [
-    ("前轴承温度", "qian_zhou_cheng_wen_du"), ("Температура шпинделя", "Temperatura_shpindelya"), ("θ_1", "theta_1"),
-    ("ΔT", "delta_T"), ("Öl µm", "Ol_um"), ("龘", "u9f98")])
+@pytest.mark.parametrize(
+    ("name", "expected"),
+    [
+        ("前轴承温度", "qian_zhou_cheng_wen_du"),
+        ("Температура шпинделя", "Temperatura_shpindelya"),
+        ("θ_1", "theta_1"),
+        ("ΔT", "delta_T"),
+        ("Öl µm", "Ol_um"),
+        ("龘", "u9f98"),
+    ],
+)
 def test_any_script_becomes_plain_letters(name: str, expected: str) -> None:
     assert plain(name) == expected
 
@@ -55,16 +72,30 @@ def test_a_syllable_of_hangul_stays_whole() -> None:
 
 
 def test_units_in_names_and_units_that_say_nothing() -> None:
-    assert (from_name("x_mm"), from_name("level.mm"), from_name("F_mm_min"), from_name("Motor")) == \
-        ("mm", "mm", "mm/min", None)
-    assert quantities_of("Hz") == ()                       # a frequency is no speed
-    assert quantities_of("um/m") == ()                     # a strain is no tilt
+    assert (from_name("x_mm"), from_name("level.mm"), from_name("F_mm_min"), from_name("Motor")) == (
+        "mm",
+        "mm",
+        "mm/min",
+        None,
+    )
+    assert quantities_of("Hz") == ()  # a frequency is no speed
+    assert quantities_of("um/m") == ()  # a strain is no tilt
     assert quantities_of("g") == ()
 
 
-@pytest.mark.parametrize(("name", "unit", "expected"), [
-    ("level.mm", None, None), ("grid frequency", "Hz", None), ("strain 1", "um/m", None), ("ch7", "V", "voltage"),
-    ("weight", "g", None), ("share", "%", None), ("T_bearing", "mA", "current"), ("Feed Override", "%", None)])
+@pytest.mark.parametrize(
+    ("name", "unit", "expected"),
+    [
+        ("level.mm", None, None),
+        ("grid frequency", "Hz", None),
+        ("strain 1", "um/m", None),
+        ("ch7", "V", "voltage"),
+        ("weight", "g", None),
+        ("share", "%", None),
+        ("T_bearing", "mA", "current"),
+        ("Feed Override", "%", None),
+    ],
+)
 def test_nothing_is_made_up(name: str, unit: str | None, expected: str | None) -> None:
     found = guess(name, unit)
     assert found.quantity == expected

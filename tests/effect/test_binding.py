@@ -9,49 +9,55 @@ from thermodata.effect.binding import bindings, candidate_id, family_of
 from thermodata.effect.places import match
 from thermodata.view.dataset import ChannelInfo
 
-CHANNELS = {c.name: c for c in (
-    ChannelInfo("dZ", "displacement", "um", "tcp", "Z"),
-    ChannelInfo("T_front", "temperature", "degC", "spindle.bearing.front"),
-    ChannelInfo("T_rear", "temperature", "degC", "spindle.bearing.rear"),
-    ChannelInfo("T_motor", "temperature", "degC", "spindle.motor"),
-    ChannelInfo("n", "rotational_speed", "rpm", "spindle"),
-    ChannelInfo("n_table", "rotational_speed", "rpm", "table"),
-    ChannelInfo("T_nut_z", "temperature", "degC", "axis.z.nut"),
-    ChannelInfo("T_nut_x", "temperature", "degC", "axis.x.nut"),
-    ChannelInfo("T_motor_z", "temperature", "degC", "axis.z.motor"),
-    ChannelInfo("feed_z", "feed", "m/min", "axis.z"),
-    ChannelInfo("pos_x", "position", "mm", "axis.x"),
-    ChannelInfo("T_top", "temperature", "degC", "hall.top"),
-    ChannelInfo("T_low", "temperature", "degC", "hall.bottom"),
-    ChannelInfo("T_cf", "temperature", "degC", "column.front"),
-    ChannelInfo("T_cr", "temperature", "degC", "column.rear"),
-    ChannelInfo("T_cl", "temperature", "degC", "column.left"),
-    ChannelInfo("T_cool", "temperature", "degC", "coolant.supply"),
-    ChannelInfo("cool_on", "state", "1", "coolant.supply"),
-    ChannelInfo("T_somewhere", "temperature", "degC"),
-    ChannelInfo("P", "power", "kW", "spindle"),
-    ChannelInfo("remark", "label", "1"),
-)}
+CHANNELS = {
+    c.name: c
+    for c in (
+        ChannelInfo("dZ", "displacement", "um", "tcp", "Z"),
+        ChannelInfo("T_front", "temperature", "degC", "spindle.bearing.front"),
+        ChannelInfo("T_rear", "temperature", "degC", "spindle.bearing.rear"),
+        ChannelInfo("T_motor", "temperature", "degC", "spindle.motor"),
+        ChannelInfo("n", "rotational_speed", "rpm", "spindle"),
+        ChannelInfo("n_table", "rotational_speed", "rpm", "table"),
+        ChannelInfo("T_nut_z", "temperature", "degC", "axis.z.nut"),
+        ChannelInfo("T_nut_x", "temperature", "degC", "axis.x.nut"),
+        ChannelInfo("T_motor_z", "temperature", "degC", "axis.z.motor"),
+        ChannelInfo("feed_z", "feed", "m/min", "axis.z"),
+        ChannelInfo("pos_x", "position", "mm", "axis.x"),
+        ChannelInfo("T_top", "temperature", "degC", "hall.top"),
+        ChannelInfo("T_low", "temperature", "degC", "hall.bottom"),
+        ChannelInfo("T_cf", "temperature", "degC", "column.front"),
+        ChannelInfo("T_cr", "temperature", "degC", "column.rear"),
+        ChannelInfo("T_cl", "temperature", "degC", "column.left"),
+        ChannelInfo("T_cool", "temperature", "degC", "coolant.supply"),
+        ChannelInfo("cool_on", "state", "1", "coolant.supply"),
+        ChannelInfo("T_somewhere", "temperature", "degC"),
+        ChannelInfo("P", "power", "kW", "spindle"),
+        ChannelInfo("remark", "label", "1"),
+    )
+}
 
 
-@pytest.mark.parametrize(("name", "expected"), [
-    ("spindle_bearing", [{"temperature": "T_front"}, {"temperature": "T_rear"}]),
-    ("spindle_motor", [{"temperature": "T_motor"}]),
-    ("spindle_friction", [{"speed": "n"}]),
-    ("centrifugal_shift", [{"speed": "n"}]),
-    ("ambient_frame", [{"temperature": "T_top"}, {"temperature": "T_low"}]),
-    ("vertical_gradient", [{"top": "T_top", "bottom": "T_low"}]),
-    ("feed_screw", [{"temperature": "T_nut_z"}, {"temperature": "T_nut_x"}, {"feed": "feed_z"}]),
-    ("feed_motor", [{"temperature": "T_motor_z"}]),
-    ("screw_growth", [{"temperature": "T_nut_x", "position": "pos_x"}]),
-    ("table_bearing", [{"speed": "n_table"}]),
-    ("tool_elongation", []),
-    ("cutting_power", [{"power": "P"}]),
-    ("coolant", [{"state": "cool_on"}]),
-    ("coolant_temperature", [{"temperature": "T_cool"}]),
-    ("column_bending", [{"warm_side": "T_cr", "cold_side": "T_cf"}]),
-    ("drift", [{}]),
-])
+@pytest.mark.parametrize(
+    ("name", "expected"),
+    [
+        ("spindle_bearing", [{"temperature": "T_front"}, {"temperature": "T_rear"}]),
+        ("spindle_motor", [{"temperature": "T_motor"}]),
+        ("spindle_friction", [{"speed": "n"}]),
+        ("centrifugal_shift", [{"speed": "n"}]),
+        ("ambient_frame", [{"temperature": "T_top"}, {"temperature": "T_low"}]),
+        ("vertical_gradient", [{"top": "T_top", "bottom": "T_low"}]),
+        ("feed_screw", [{"temperature": "T_nut_z"}, {"temperature": "T_nut_x"}, {"feed": "feed_z"}]),
+        ("feed_motor", [{"temperature": "T_motor_z"}]),
+        ("screw_growth", [{"temperature": "T_nut_x", "position": "pos_x"}]),
+        ("table_bearing", [{"speed": "n_table"}]),
+        ("tool_elongation", []),
+        ("cutting_power", [{"power": "P"}]),
+        ("coolant", [{"state": "cool_on"}]),
+        ("coolant_temperature", [{"temperature": "T_cool"}]),
+        ("column_bending", [{"warm_side": "T_cr", "cold_side": "T_cf"}]),
+        ("drift", [{}]),
+    ],
+)
 def test_channels_are_found_by_quantity_and_place(name: str, expected: list[dict[str, str]]) -> None:
     assert bindings(effect(name), CHANNELS) == expected
 
@@ -63,8 +69,10 @@ def test_a_plain_lag_takes_every_driver_and_no_response() -> None:
 
 
 def test_a_speed_without_a_place_is_the_spindles() -> None:
-    channels = {"speed": ChannelInfo("speed", "rotational_speed", "rpm"),
-                "T1": ChannelInfo("T1", "temperature", "degC")}
+    channels = {
+        "speed": ChannelInfo("speed", "rotational_speed", "rpm"),
+        "T1": ChannelInfo("T1", "temperature", "degC"),
+    }
     assert bindings(effect("centrifugal_shift"), channels) == [{"speed": "speed"}]
     assert bindings(effect("table_bearing"), channels) == []
     assert bindings(effect("spindle_bearing"), channels) == []
@@ -84,15 +92,18 @@ def test_the_family_names_the_axis() -> None:
     assert candidate_id("feed_screw", {"temperature": "T_nut_x"}) == "feed_screw:T_nut_x"
 
 
-@pytest.mark.parametrize(("pattern", "place", "fits"), [
-    ("spindle.bearing", "spindle.bearing.front", True),
-    ("spindle.bearing", "spindle", False),
-    ("spindle.bearing", "spindle.bearings", False),
-    ("hall.*", "hall", True),
-    ("hall.*", "hall.top", True),
-    ("axis.{a}.nut", "axis.z.nut", True),
-    ("axis.{a}.nut", "axis.z.motor", False),
-    ("floor", None, False),
-])
+@pytest.mark.parametrize(
+    ("pattern", "place", "fits"),
+    [
+        ("spindle.bearing", "spindle.bearing.front", True),
+        ("spindle.bearing", "spindle", False),
+        ("spindle.bearing", "spindle.bearings", False),
+        ("hall.*", "hall", True),
+        ("hall.*", "hall.top", True),
+        ("axis.{a}.nut", "axis.z.nut", True),
+        ("axis.{a}.nut", "axis.z.motor", False),
+        ("floor", None, False),
+    ],
+)
 def test_a_place_holds_what_is_below_it(pattern: str, place: str | None, fits: bool) -> None:
     assert (match(pattern, place) is not None) is fits

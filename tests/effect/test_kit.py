@@ -100,20 +100,23 @@ def test_a_good_effect_passes() -> None:
     kit.check_effect(Good())
 
 
-@pytest.mark.parametrize(("broken", "rule"), [
-    (NoGain, kit.it_has_all_that_the_contract_names),
-    (TwiceTheName, kit.its_names_are_unique),
-    (NoSuchQuantity, kit.it_needs_quantities_that_exist),
-    (StartsOutside, kit.its_bounds_hold_its_start),
-    (Flat, kit.it_gives_one_column_a_gain),
-    (Blows, kit.it_is_finite_at_every_bound),
-    (NeverRests, kit.it_is_zero_at_rest),
-    (Deaf, kit.it_answers_to_its_drivers),
-    (Prophet, kit.it_does_not_look_ahead),
-    (Forgetful, kit.it_says_the_same_twice),
-    (Meddler, kit.it_says_the_same_twice),
-    (Idle, kit.every_parameter_changes_something),
-])
+@pytest.mark.parametrize(
+    ("broken", "rule"),
+    [
+        (NoGain, kit.it_has_all_that_the_contract_names),
+        (TwiceTheName, kit.its_names_are_unique),
+        (NoSuchQuantity, kit.it_needs_quantities_that_exist),
+        (StartsOutside, kit.its_bounds_hold_its_start),
+        (Flat, kit.it_gives_one_column_a_gain),
+        (Blows, kit.it_is_finite_at_every_bound),
+        (NeverRests, kit.it_is_zero_at_rest),
+        (Deaf, kit.it_answers_to_its_drivers),
+        (Prophet, kit.it_does_not_look_ahead),
+        (Forgetful, kit.it_says_the_same_twice),
+        (Meddler, kit.it_says_the_same_twice),
+        (Idle, kit.every_parameter_changes_something),
+    ],
+)
 def test_each_rule_catches_its_broken_twin(broken: type[Good], rule: kit.Rule) -> None:
     assert rule.__name__ in kit.faults(broken())
     with pytest.raises(PluginError, match=rule.__name__):

@@ -11,12 +11,29 @@ from thermodata.effect import effect, effects, failed_effects, registry
 from thermodata.errors import PluginError, UsageError
 
 LIBRARY = {
-    "spindle_bearing": "spindle", "spindle_bearing_2": "spindle", "spindle_motor": "spindle",
-    "spindle_friction": "spindle", "centrifugal_shift": "centrifugal", "ambient_frame": "ambient",
-    "ambient_skin": "ambient", "vertical_gradient": "ambient", "floor": "ambient", "feed_screw": "feed_{a}",
-    "feed_motor": "feed_{a}", "table_bearing": "table", "tool_elongation": "tool", "cutting_power": "cutting",
-    "coolant": "coolant", "coolant_temperature": "coolant", "hydraulics": "hydraulics", "column_bending": "column",
-    "probe_temperature": "probe", "lag": "generic", "step": "artefact", "drift": "artefact", "warm_start": "start",
+    "spindle_bearing": "spindle",
+    "spindle_bearing_2": "spindle",
+    "spindle_motor": "spindle",
+    "spindle_friction": "spindle",
+    "centrifugal_shift": "centrifugal",
+    "ambient_frame": "ambient",
+    "ambient_skin": "ambient",
+    "vertical_gradient": "ambient",
+    "floor": "ambient",
+    "feed_screw": "feed_{a}",
+    "feed_motor": "feed_{a}",
+    "table_bearing": "table",
+    "tool_elongation": "tool",
+    "cutting_power": "cutting",
+    "coolant": "coolant",
+    "coolant_temperature": "coolant",
+    "hydraulics": "hydraulics",
+    "column_bending": "column",
+    "probe_temperature": "probe",
+    "lag": "generic",
+    "step": "artefact",
+    "drift": "artefact",
+    "warm_start": "start",
 }
 
 

@@ -42,7 +42,7 @@ def view(tmp_path_factory: pytest.TempPathFactory) -> StoreView:
     folder = tmp_path_factory.mktemp("export")
     t = np.datetime64(START, "ns") + np.arange(400) * np.timedelta64(500, "ms")
     rows = [f"{a},{20 + i / 16!r},{'' if i in (7, 8) else repr(30 - i / 8)}" for i, a in enumerate(t)]
-    rows[100] = rows[100].replace(rows[100].split(",")[1], "999.5")                         # a spike
+    rows[100] = rows[100].replace(rows[100].split(",")[1], "999.5")  # a spike
     (folder / "sp9000.csv").write_text("time,T1 [degC],T2 [degC]\n" + "\n".join(rows) + "\n")
     slow = [f"{a},{'cut' if i % 20 > 9 else 'idle'},{9000 * (i > 9)}" for i, a in enumerate(t[::10])]
     (folder / "sp9000_nc.csv").write_text("time,mode,speed [rpm]\n" + "\n".join(slow) + "\n")
@@ -120,14 +120,16 @@ def test_an_mdf_tool_finds_what_describes_the_test(view: StoreView, tmp_path: Pa
         assert mdf.get("T_rear", ignore_invalidation_bits=True).invalidation_bits.nonzero()[0].tolist()[:2] == [7, 8]
 
 
-def test_a_test_too_large_for_version_5_is_written_as_hdf5(view: StoreView, tmp_path: Path,
-                                                           monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_test_too_large_for_version_5_is_written_as_hdf5(
+    view: StoreView, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     monkeypatch.setattr(mat_module, "MOST_BYTES", 1000)
     export_test(view, "c", "sp9000", tmp_path / "x.mat", step="logged")
     assert (tmp_path / "x.mat").read_bytes()[:10] == b"MATLAB 7.3"
     data = again(tmp_path / "x.mat")
-    np.testing.assert_array_equal(data.values[next(k for k in data.values if k[1] == "daq/T_rear")],
-                                  stored(view, "T_rear")["value"])
+    np.testing.assert_array_equal(
+        data.values[next(k for k in data.values if k[1] == "daq/T_rear")], stored(view, "T_rear")["value"]
+    )
     assert {s.name: s.unit for s in data.recording.signals}["daq/T_rear"] == "degC"
     assert set(next(v for k, v in data.values.items() if k[1] == "nc/mode")) == {"idle", "cut"}
 

@@ -46,8 +46,9 @@ def read(reader: Reader, path: Path, source: Source) -> Reading:
 def _take(block: Block, found: Reading, numbers: dict[str, list[Any]]) -> None:
     for name, flags in (block.flags or {}).items():
         at = np.flatnonzero(flags)
-        found.flagged.update((name, t, bits) for t, bits in
-                             zip(block.t_ns[at].tolist(), flags[at].tolist(), strict=True))
+        found.flagged.update(
+            (name, t, bits) for t, bits in zip(block.t_ns[at].tolist(), flags[at].tolist(), strict=True)
+        )
     for name, values in block.values.items():
         if values.dtype.kind in "OU":
             pairs = zip(block.t_ns.tolist(), values.tolist(), strict=True)
@@ -55,7 +56,7 @@ def _take(block: Block, found: Reading, numbers: dict[str, list[Any]]) -> None:
             found.text.setdefault(name, set()).update(kept)
             found.delivered += len(kept)
             continue
-        v = values.astype(np.float64) + 0.0            # -0.0 is 0.0
+        v = values.astype(np.float64) + 0.0  # -0.0 is 0.0
         good = ~np.isnan(v)
         rows = np.empty(int(good.sum()), _ROW)
         rows["t"], rows["v"] = block.t_ns[good], v[good].view(np.int64)
@@ -65,19 +66,22 @@ def _take(block: Block, found: Reading, numbers: dict[str, list[Any]]) -> None:
 
 def reports(got: Reading, seed: Reading) -> bool:
     """Whether something was reported that the seed's own reading does not say."""
-    return bool(got.said - seed.said or got.flagged - seed.flagged
-                or (got.complete is False and seed.complete is not False))
+    return bool(
+        got.said - seed.said or got.flagged - seed.flagged or (got.complete is False and seed.complete is not False)
+    )
 
 
 def wrong_rows(got: Reading, seed: Reading) -> str | None:
     """A delivered row that the seed does not have, as a sentence, or None."""
     for name, rows in got.rows.items():
         if name not in seed.rows:
-            continue                                    # a new name, or a column that was text: nothing to compare
+            continue  # a new name, or a column that was text: nothing to compare
         odd = rows[~np.isin(rows, seed.rows[name])]
         if odd.size:
-            return (f"'{name}': {odd.size} of {rows.size} rows are not the seed's, first t_ns={int(odd['t'][0])} "
-                    f"value={odd['v'][:1].view(np.float64)[0]!r}")
+            return (
+                f"'{name}': {odd.size} of {rows.size} rows are not the seed's, first t_ns={int(odd['t'][0])} "
+                f"value={odd['v'][:1].view(np.float64)[0]!r}"
+            )
     for name, pairs in got.text.items():
         if name in seed.text and pairs - seed.text[name]:
             return f"'{name}': text rows that the seed does not have, first {min(pairs - seed.text[name])!r}"
@@ -90,8 +94,10 @@ def missing_rows(got: Reading, seed: Reading) -> str | None:
         have = got.rows.get(name)
         gone = rows if have is None else rows[~np.isin(rows, have)]
         if gone.size:
-            return (f"'{name}': {gone.size} of {rows.size} rows are missing"
-                    f"{'' if have is not None else ' (no such signal of numbers)'}, first t_ns={int(gone['t'][0])}")
+            return (
+                f"'{name}': {gone.size} of {rows.size} rows are missing"
+                f"{'' if have is not None else ' (no such signal of numbers)'}, first t_ns={int(gone['t'][0])}"
+            )
     for name, pairs in seed.text.items():
         gone_text = pairs - got.text.get(name, set())
         if gone_text:

@@ -27,8 +27,10 @@ if str(ROOT) not in sys.path:
     sys.path.insert(0, str(ROOT))
 
 OUTCOMES = ("same", "fewer", "changed", "reported", "refused", "failed")
-MEANING = ("same: all rows of the seed; fewer: some, of an honest file; changed: values were touched, not judged; "
-           "reported: loss, incomplete, note or flag; refused: an error of ours")
+MEANING = (
+    "same: all rows of the seed; fewer: some, of an honest file; changed: values were touched, not judged; "
+    "reported: loss, incomplete, note or flag; refused: an error of ours"
+)
 BATCH, KEPT, WAIT_FACTOR = 500, 5, 12
 
 
@@ -64,14 +66,35 @@ def run_batch(given: argparse.Namespace, numbers: range, tally: Tally) -> None:
 
 def _one_worker(given: argparse.Namespace, numbers: range, tally: Tally) -> int:
     """Returns the number to go on with."""
-    words = [sys.executable, __file__, "--worker", "--format", given.format, "--seed", given.seed, "--limit",
-             given.limit, "--memory", given.memory, "--from", numbers.start, "--count", numbers.stop - numbers.start]
+    words = [
+        sys.executable,
+        __file__,
+        "--worker",
+        "--format",
+        given.format,
+        "--seed",
+        given.seed,
+        "--limit",
+        given.limit,
+        "--memory",
+        given.memory,
+        "--from",
+        numbers.start,
+        "--count",
+        numbers.stop - numbers.start,
+    ]
     # few arenas: each reserves address space, which the limit counts
-    environment = {**os.environ, "MALLOC_ARENA_MAX": "2", "ARROW_DEFAULT_MEMORY_POOL": "system", "OMP_NUM_THREADS": "1",
-                   "OPENBLAS_NUM_THREADS": "1"}
+    environment = {
+        **os.environ,
+        "MALLOC_ARENA_MAX": "2",
+        "ARROW_DEFAULT_MEMORY_POOL": "system",
+        "OMP_NUM_THREADS": "1",
+        "OPENBLAS_NUM_THREADS": "1",
+    }
     with tempfile.TemporaryFile("w+", errors="replace") as said:
-        child = subprocess.Popen([str(w) for w in words], stdout=subprocess.PIPE, stderr=said, text=True,
-                                 env=environment)
+        child = subprocess.Popen(
+            [str(w) for w in words], stdout=subprocess.PIPE, stderr=said, text=True, env=environment
+        )
         assert child.stdout is not None
         killed = threading.Event()
 
@@ -118,8 +141,10 @@ def table(tally: Tally) -> str:
     sums = sum(tally.counts.values(), Counter())
     rows.append(["all", *(str(sums[o]) for o in OUTCOMES), str(sums.total())])
     wide = [max(len(r[i]) for r in rows) for i in range(len(rows[0]))]
-    return "\n".join("  ".join(c.ljust(w) if i == 0 else c.rjust(w)
-                               for i, (c, w) in enumerate(zip(r, wide, strict=True))) for r in rows)
+    return "\n".join(
+        "  ".join(c.ljust(w) if i == 0 else c.rjust(w) for i, (c, w) in enumerate(zip(r, wide, strict=True)))
+        for r in rows
+    )
 
 
 def write_failures(given: argparse.Namespace, tally: Tally, out: Path) -> None:
@@ -136,7 +161,9 @@ def write_failures(given: argparse.Namespace, tally: Tally, out: Path) -> None:
             path.write_bytes(bench.make(number)[1].data)
             path.with_name(path.name + ".txt").write_text(
                 f"{kind} of {seed}\n{why}\n{place}\n\n{trace}\n"
-                f"python tests/fuzz/run.py --format {given.format} --seed {given.seed} --replay {number}\n", "utf-8")
+                f"python tests/fuzz/run.py --format {given.format} --seed {given.seed} --replay {number}\n",
+                "utf-8",
+            )
     print(f"\nfailing files: {out}")
 
 
@@ -148,9 +175,11 @@ def replay(given: argparse.Namespace) -> int:
         bench = Bench(given.format, given.seed, given.limit, Path(folder))
         which, mutation = bench.make(given.replay)
         verdict = bench.judge(which, mutation)
-    print(f"{mutation.kind} of {bench.seeds[which].name}, {len(mutation.data)} bytes, well formed: "
-          f"{mutation.well_formed}, values touched: {mutation.values_touched}\n{verdict.outcome}: {verdict.why}\n"
-          f"{verdict.place}\n{verdict.trace}")
+    print(
+        f"{mutation.kind} of {bench.seeds[which].name}, {len(mutation.data)} bytes, well formed: "
+        f"{mutation.well_formed}, values touched: {mutation.values_touched}\n{verdict.outcome}: {verdict.why}\n"
+        f"{verdict.place}\n{verdict.trace}"
+    )
     return int(verdict.outcome == "failed")
 
 

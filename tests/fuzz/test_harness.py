@@ -34,8 +34,11 @@ TWINS = {
     "eats memory": ("np.ones(2**30)", "MemoryError", ""),
     "leaves a file": ("path.with_suffix('.idx').write_bytes(b'')", "left beside the file: ['a.idx']", ""),
     "drops a row": ("rows, whole = rows[1:], True", "silently missing: 'T': 1 of 40 rows are missing", ""),
-    "shifts values": ("rows = list(zip([t for t, _ in rows], [v for _, v in rows[1:] + rows[:1]])); whole = True",
-                      "silently wrong: 'T': 40 of 40 rows are not the seed's", ""),
+    "shifts values": (
+        "rows = list(zip([t for t, _ in rows], [v for _, v in rows[1:] + rows[:1]])); whole = True",
+        "silently wrong: 'T': 40 of 40 rows are not the seed's",
+        "",
+    ),
 }
 
 
@@ -49,7 +52,7 @@ def test_a_good_reader_passes() -> None:
     last = done.stdout.splitlines()[-1].split()
     assert last[0] == "all"
     assert last[-1] == "200"
-    assert min(int(n) for n in (last[1], last[3], last[4])) > 5       # same, changed, reported
+    assert min(int(n) for n in (last[1], last[3], last[4])) > 5  # same, changed, reported
 
 
 @pytest.mark.parametrize("name", TWINS)
@@ -75,8 +78,9 @@ def test_a_broken_reader_is_caught_and_the_run_goes_on(name: str, tmp_path: Path
 
 def test_a_seed_that_is_no_whole_file_is_refused(tmp_path: Path) -> None:
     module = tmp_path / "twin.py"
-    module.write_text("from tests.fuzz.formats.foo import *\n"
-                      "def seeds():\n    return [Seed('a.foo', b'FOO1 T degC 3\\n0 1;\\n')]\n")
+    module.write_text(
+        "from tests.fuzz.formats.foo import *\ndef seeds():\n    return [Seed('a.foo', b'FOO1 T degC 3\\n0 1;\\n')]\n"
+    )
     done = run("--format", module, "--count", 3)
     assert done.returncode == 1
     assert "no whole file" in done.stderr

@@ -87,8 +87,10 @@ class Bench:
             path.unlink()
         losses = [text for kind, text in found.said if kind == "loss"]
         if losses or found.complete is False or not found.delivered:
-            raise SystemExit(f"seed '{seed.name}' is no whole file: complete={found.complete}, "
-                             f"{found.delivered} values, losses {losses}")
+            raise SystemExit(
+                f"seed '{seed.name}' is no whole file: complete={found.complete}, "
+                f"{found.delivered} values, losses {losses}"
+            )
         return found
 
     def make(self, number: int) -> tuple[int, Mutation]:
@@ -170,7 +172,7 @@ def work(name: str, run_seed: int, numbers: range, limit_s: float, memory_mib: i
     with tempfile.TemporaryDirectory(prefix="fuzz-") as folder:
         bench = Bench(name, run_seed, limit_s, Path(folder))
         for which in {n % len(bench.seeds) for n in numbers}:
-            bench.of_seed(which)                         # imports what it needs before the limit is set
+            bench.of_seed(which)  # imports what it needs before the limit is set
         _limit_memory(memory_mib)
         for number in numbers:
             which, mutation = bench.make(number)

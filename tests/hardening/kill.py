@@ -29,8 +29,9 @@ from thermodata.store.lifecycle import gc  # noqa: E402
 
 
 def started(op: str, store: Path, argument: object) -> subprocess.Popen[str]:
-    process = subprocess.Popen([sys.executable, str(HERE / "victim.py"), op, str(store), str(argument)],
-                               stdout=subprocess.PIPE, text=True)
+    process = subprocess.Popen(
+        [sys.executable, str(HERE / "victim.py"), op, str(store), str(argument)], stdout=subprocess.PIPE, text=True
+    )
     assert process.stdout is not None
     process.stdout.readline()
     return process
@@ -89,11 +90,18 @@ def main() -> int:
     with Store(place / "full/store").reader() as con:
         first = con.execute("select test from test limit 1").fetchone()
     assert first is not None
-    plan = [("ingest", "empty", str(campaign), given.moments), ("forget", "full", f"{name}/{first[0]}", 6),
-            ("gc", "full", "-", 6), ("migrate", "full", "-", 6), ("snapshot", "full", str(place / "out.duckdb"), 6)]
+    plan = [
+        ("ingest", "empty", str(campaign), given.moments),
+        ("forget", "full", f"{name}/{first[0]}", 6),
+        ("gc", "full", "-", 6),
+        ("migrate", "full", "-", 6),
+        ("snapshot", "full", str(place / "out.duckdb"), 6),
+    ]
     bad = 0
-    print(f"\n{'operation':10} {'killed':>7} {'too late':>9} {'before':>7} {'after':>6} {'between':>8} "
-          f"{'again equal':>12} {'left over':>10}")
+    print(
+        f"\n{'operation':10} {'killed':>7} {'too late':>9} {'before':>7} {'after':>6} {'between':>8} "
+        f"{'again equal':>12} {'left over':>10}"
+    )
     for op, start, argument, moments in (p for p in plan if given.only in (None, p[0])):
         shutil.copytree(place / start, place / "try")
         if op == "gc":
@@ -106,7 +114,7 @@ def main() -> int:
         seen: Counter[str] = Counter()
         for i in range(moments):
             cut = False
-            while not cut:            # one that had finished before the signal shows nothing
+            while not cut:  # one that had finished before the signal shows nothing
                 shutil.rmtree(place / "try", ignore_errors=True)
                 (place / "out.duckdb").unlink(missing_ok=True)
                 shutil.copytree(place / start, place / "try")
@@ -128,8 +136,11 @@ def main() -> int:
                     summary = ingest(Store(store), campaign)
                     seen["equal"] += whole.content(store) == expected and not summary.losses
                 elif op != "migrate":
-                    seen["equal"] += undisturbed_s(op, store, argument) >= 0 and whole.content(store) == after \
-                        if op != "forget" or state == "before" else 1
+                    seen["equal"] += (
+                        undisturbed_s(op, store, argument) >= 0 and whole.content(store) == after
+                        if op != "forget" or state == "before"
+                        else 1
+                    )
                 else:
                     seen["equal"] += undisturbed_s(op, store, argument) >= 0 and _migrated(store) == "after"
                 if op != "migrate":
@@ -142,8 +153,11 @@ def main() -> int:
             (place / "out.duckdb").unlink(missing_ok=True)
             shutil.rmtree(place / "try")
         bad += seen["between"] + (moments - seen["equal"]) + seen["left"]
-        print(f"{op:10} {seen['killed']:7} {seen['finished']:9} {seen['before']:7} {seen['after']:6} "
-              f"{seen['between']:8} {seen['equal']:9}/{moments:<2} {seen['left']:10}", flush=True)
+        print(
+            f"{op:10} {seen['killed']:7} {seen['finished']:9} {seen['before']:7} {seen['after']:6} "
+            f"{seen['between']:8} {seen['equal']:9}/{moments:<2} {seen['left']:10}",
+            flush=True,
+        )
     if given.folder is None:
         shutil.rmtree(place)
     print("\nall whole" if not bad else f"\n{bad} wrong")
@@ -162,8 +176,9 @@ def _migrated(store: Path) -> str:
     con = duckdb.connect(str(store / "catalog.duckdb"), read_only=True)
     try:
         version = con.execute("select format from store").fetchall()[0][0]
-        new = con.execute("select count(*) from duckdb_columns() where table_name = 'test' and column_name = 'shift'"
-                          ).fetchall()[0][0]
+        new = con.execute(
+            "select count(*) from duckdb_columns() where table_name = 'test' and column_name = 'shift'"
+        ).fetchall()[0][0]
     finally:
         con.close()
     return {(1, 0): "before", (2, 1): "after"}.get((version, new), "between")

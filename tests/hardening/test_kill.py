@@ -26,9 +26,23 @@ from thermodata.store.lifecycle import gc  # noqa: E402
 
 def victim(op: str, store: Path, argument: object, die_at: int = 0) -> tuple[int, int]:
     """(exit code, steps)."""
-    done = subprocess.run([sys.executable, str(HERE / "victim.py"), op, str(store), str(argument), "--die-at",
-                           str(die_at), "--fakes", str(HERE.parent / "store")], capture_output=True, text=True,
-                          timeout=120, check=False)
+    done = subprocess.run(
+        [
+            sys.executable,
+            str(HERE / "victim.py"),
+            op,
+            str(store),
+            str(argument),
+            "--die-at",
+            str(die_at),
+            "--fakes",
+            str(HERE.parent / "store"),
+        ],
+        capture_output=True,
+        text=True,
+        timeout=120,
+        check=False,
+    )
     assert done.returncode in (0, -signal.SIGKILL), done.stdout + done.stderr
     return done.returncode, int(done.stdout.split()[-1]) if done.returncode == 0 else 0
 
@@ -87,7 +101,7 @@ def test_a_killed_forget_leaves_the_store_before_or_after(lab: Path, tmp_path: P
         store = fresh(lab / "after/store", tmp_path, die_at)
         assert victim("forget", store, "shop/one", die_at)[0] == -signal.SIGKILL
         found.append(whole.check(store)["sample"])
-    assert found[-2:] == [7460, 3730]           # either side of the commit
+    assert found[-2:] == [7460, 3730]  # either side of the commit
 
 
 def test_a_killed_gc_leaves_a_whole_store_and_goes_on(lab: Path, tmp_path: Path) -> None:
@@ -140,7 +154,7 @@ def test_a_killed_snapshot_is_no_snapshot(lab: Path, tmp_path: Path) -> None:
     for die_at in moments(steps, 1, seed=5):
         assert victim("snapshot", store, out, die_at)[0] == -signal.SIGKILL
         whole.check(store)
-        if out.exists():          # killed after it got its name: then it is one
+        if out.exists():  # killed after it got its name: then it is one
             out.unlink()
     assert victim("snapshot", store, out)[0] == 0
 
@@ -148,9 +162,19 @@ def test_a_killed_snapshot_is_no_snapshot(lab: Path, tmp_path: Path) -> None:
 def test_kill_at_a_random_moment(lab: Path, tmp_path: Path) -> None:
     seed = 0
     store = fresh(lab / "before/store", tmp_path, seed)
-    process = subprocess.Popen([sys.executable, str(HERE / "victim.py"), "ingest", str(store),
-                                str(lab / "lab/campaign.yaml"), "--fakes", str(HERE.parent / "store")],
-                               stdout=subprocess.PIPE, text=True)
+    process = subprocess.Popen(
+        [
+            sys.executable,
+            str(HERE / "victim.py"),
+            "ingest",
+            str(store),
+            str(lab / "lab/campaign.yaml"),
+            "--fakes",
+            str(HERE.parent / "store"),
+        ],
+        stdout=subprocess.PIPE,
+        text=True,
+    )
     assert process.stdout is not None
     process.stdout.readline()
     with pytest.raises(subprocess.TimeoutExpired):

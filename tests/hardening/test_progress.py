@@ -49,7 +49,7 @@ def on_terminal(arguments: list[str], folder: Path) -> tuple[str, str]:
         while True:
             try:
                 data = os.read(mine, 65536)
-            except OSError:          # Linux says so when the other end is closed
+            except OSError:  # Linux says so when the other end is closed
                 return
             if not data:
                 return
@@ -58,8 +58,14 @@ def on_terminal(arguments: list[str], folder: Path) -> tuple[str, str]:
     ear = threading.Thread(target=listen)
     ear.start()
     try:
-        process = subprocess.Popen([*PROGRAM, *arguments], stdout=subprocess.PIPE, stderr=its, cwd=folder, text=True,
-                                   env={**os.environ, "TQDM_MININTERVAL": "0"})
+        process = subprocess.Popen(
+            [*PROGRAM, *arguments],
+            stdout=subprocess.PIPE,
+            stderr=its,
+            cwd=folder,
+            text=True,
+            env={**os.environ, "TQDM_MININTERVAL": "0"},
+        )
         os.close(its)
         out, _ = process.communicate(timeout=120)
     finally:
@@ -75,12 +81,18 @@ def test_a_terminal_gets_one_line_that_is_rewritten(campaign: Path) -> None:
     assert seen.count("\r") > 3
     assert re.search(r"3/3 files, [\d.]+ MB/s, [\d.]+ Msamples/s", seen)
     assert re.search(r"\d\d:\d\d left", seen)
-    assert seen.endswith("\r")          # and is gone in the end
+    assert seen.endswith("\r")  # and is gone in the end
 
 
 def test_a_pipe_gets_nothing(campaign: Path) -> None:
-    done = subprocess.run([*PROGRAM, "ingest", str(campaign)], capture_output=True, text=True, cwd=campaign.parent,
-                          check=True, timeout=120)
+    done = subprocess.run(
+        [*PROGRAM, "ingest", str(campaign)],
+        capture_output=True,
+        text=True,
+        cwd=campaign.parent,
+        check=True,
+        timeout=120,
+    )
     assert done.stderr == ""
     assert "%" not in done.stdout.split("took")[0].replace("[%]", "")
 
@@ -93,8 +105,9 @@ with counting_line() as tell, watched(tell):
 """
 
 
-def test_work_that_is_counted_gets_a_line_too_and_a_pipe_nothing(tmp_path: Path,
-                                                                 monkeypatch: pytest.MonkeyPatch) -> None:
+def test_work_that_is_counted_gets_a_line_too_and_a_pipe_nothing(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     monkeypatch.setattr(sys.modules[__name__], "PROGRAM", [sys.executable, "-c", COUNTING])
     out, seen = on_terminal([], tmp_path)
     assert out == "6\n"
@@ -111,4 +124,4 @@ def test_a_simulation_tells_how_far_it_is_while_somebody_watches(tmp_path: Path)
     assert len(told) > 2
     assert told == [("tests", done, len(told) - 1) for done in range(len(told))]
     assert list(counted("ab", "letters")) == ["a", "b"]
-    assert told[-1][0] == "tests"          # nobody is told after the end
+    assert told[-1][0] == "tests"  # nobody is told after the end

@@ -8,7 +8,21 @@ from pathlib import Path
 
 
 def test_writers_and_readers_in_processes_of_their_own_all_succeed() -> None:
-    done = subprocess.run([sys.executable, str(Path(__file__).parent / "together.py"), "--ingests", "2", "--readers",
-                           "2", "--tests", "2"], capture_output=True, text=True, timeout=300, check=False)
+    done = subprocess.run(
+        [
+            sys.executable,
+            str(Path(__file__).parent / "together.py"),
+            "--ingests",
+            "2",
+            "--readers",
+            "2",
+            "--tests",
+            "2",
+        ],
+        capture_output=True,
+        text=True,
+        timeout=300,
+        check=False,
+    )
     # the exit code tells the waits too, which belong to the machine
     assert "failed: 0 of 4" in done.stdout, done.stdout + done.stderr

@@ -85,8 +85,9 @@ def main() -> int:
     given = parser.parse_args()
     if given.worker:
         what, store, argument = given.worker
-        found = read(Path(store), Path(argument)) if what == "read" else write(Path(store), Path(argument),
-                                                                               given.ingests)
+        found = (
+            read(Path(store), Path(argument)) if what == "read" else write(Path(store), Path(argument), given.ingests)
+        )
         print(json.dumps(found))
         return 0
     import store_fakes
@@ -102,13 +103,27 @@ def main() -> int:
         campaigns.append(store_fakes.write_campaign(place / f"lab{i}", head + "tests:\n" + tests, logs=False))
         for k in range(given.tests):
             store_fakes.write_log(place / f"lab{i}/raw/t{k}_a.npz", store_fakes.daq(2000, seed=100 * i + k))
-            store_fakes.write_log(place / f"lab{i}/raw/t{k}.nc.npz", {"nc": {
-                "t_ns": store_fakes.times(200, 10.0), "n": [9000.0 + k] * 200, "msg": ["RUN"] * 200}})
+            store_fakes.write_log(
+                place / f"lab{i}/raw/t{k}.nc.npz",
+                {"nc": {"t_ns": store_fakes.times(200, 10.0), "n": [9000.0 + k] * 200, "msg": ["RUN"] * 200}},
+            )
     stop = place / "stop"
 
     def start(what: str, argument: Path) -> subprocess.Popen[str]:
-        return subprocess.Popen([sys.executable, __file__, "--ingests", str(given.ingests), "--worker", what,
-                                 str(place / "store"), str(argument)], stdout=subprocess.PIPE, text=True)
+        return subprocess.Popen(
+            [
+                sys.executable,
+                __file__,
+                "--ingests",
+                str(given.ingests),
+                "--worker",
+                what,
+                str(place / "store"),
+                str(argument),
+            ],
+            stdout=subprocess.PIPE,
+            text=True,
+        )
 
     readers = [start("read", stop) for _ in range(given.readers)]
     writers = [start("write", campaign) for campaign in campaigns]
@@ -125,8 +140,10 @@ def main() -> int:
             found = json.loads(out)
             waits, turns = sorted(found["waits"]), found.get("turns") or [0.0]
             worst = max(worst, waits[-1]) if kind == "writer" else worst
-            print(f"{kind} {i:<5} {len(waits):6} {1e3 * waits[len(waits) // 2]:17.1f} {1e3 * waits[-1]:18.1f} "
-                  f"{1e3 * max(turns):18.1f}")
+            print(
+                f"{kind} {i:<5} {len(waits):6} {1e3 * waits[len(waits) // 2]:17.1f} {1e3 * waits[-1]:18.1f} "
+                f"{1e3 * max(turns):18.1f}"
+            )
     shutil.rmtree(place)
     print(f"\nfailed: {len(failed)} of {len(writers) + len(readers)}; longest wait of a writer {worst:.3f} s")
     return 1 if failed or worst > 1 else 0

@@ -18,8 +18,12 @@ TABLES = ("campaign", "test", "machine", "source", "channel", "file", "quality_e
 
 
 def views_of(con: Any) -> list[str]:
-    return [r[0] for r in con.execute("select view_name from duckdb_views() where not internal and database_name = "
-                                      "current_database() order by 1").fetchall()]
+    return [
+        r[0]
+        for r in con.execute(
+            "select view_name from duckdb_views() where not internal and database_name = current_database() order by 1"
+        ).fetchall()
+    ]
 
 
 def check(folder: Path) -> dict[str, int]:
@@ -30,8 +34,9 @@ def check(folder: Path) -> dict[str, int]:
         for view in views_of(con):
             counts[view] = con.execute(f'select count(*) from "{view}"').fetchone()[0]
             con.execute(f'select * from "{view}" limit 3').fetchall()
-        rows = con.execute("select path, rows, layer from file union all select path, rows, 'model' from prediction"
-                           ).fetchall()
+        rows = con.execute(
+            "select path, rows, layer from file union all select path, rows, 'model' from prediction"
+        ).fetchall()
         for path, n, layer in rows:
             file = pq.ParquetFile(folder / path)
             assert file.metadata.num_rows == n, (layer, path, n)
@@ -57,8 +62,10 @@ def content(folder: Path) -> str:
             wanted = [i for i, n in enumerate(names) if n not in _MOMENTS or (table, n) == ("file", "path")]
             rows = [{names[i]: row[i] for i in wanted} for row in cursor.fetchall()]
             digest.update(json.dumps(sorted(json.dumps(r, default=str, sort_keys=True) for r in rows)).encode())
-        found = con.execute("select campaign, test, channel, count(*), sum(hash(t_s, value, flag)::hugeint) "
-                            "from sample group by all order by all").fetchall()
+        found = con.execute(
+            "select campaign, test, channel, count(*), sum(hash(t_s, value, flag)::hugeint) "
+            "from sample group by all order by all"
+        ).fetchall()
         digest.update(repr(found).encode())
     return digest.hexdigest()[:16]
 

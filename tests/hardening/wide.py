@@ -1,6 +1,6 @@
 """A file of 100,000 channels and a campaign of 10 of them: time and peak memory of the ingest.
 
-    .venv/bin/python tests/hardening/wide.py [--channels 100000] [--rows 100]
+.venv/bin/python tests/hardening/wide.py [--channels 100000] [--rows 100]
 """
 
 from __future__ import annotations
@@ -52,13 +52,18 @@ def main() -> None:
     step = given.channels // 10
     (place / "campaign.yaml").write_text(
         "schema: thermodata/campaign/1\nid: wide\nsources: {s: {reader: wide, files: x.dat}}\ntests: [{id: one}]\n"
-        "channels:\n" + "".join(f"  c{k}: {{source: s, signal: {reader.names[k * step]}, quantity: temperature}}\n"
-                                for k in range(10)))
+        "channels:\n"
+        + "".join(
+            f"  c{k}: {{source: s, signal: {reader.names[k * step]}, quantity: temperature}}\n" for k in range(10)
+        )
+    )
     begun = time.monotonic()
     summary = ingest(Store(place / "store", create=True), place / "campaign.yaml")
     peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
-    print(f"{given.channels} channels x {given.rows} rows: {summary.samples} samples of 10 channels, losses "
-          f"{len(summary.losses)}, {time.monotonic() - begun:.1f} s, peak {peak:.0f} MiB")
+    print(
+        f"{given.channels} channels x {given.rows} rows: {summary.samples} samples of 10 channels, losses "
+        f"{len(summary.losses)}, {time.monotonic() - begun:.1f} s, peak {peak:.0f} MiB"
+    )
     shutil.rmtree(place)
 
 

@@ -23,15 +23,53 @@ from thermodata.virtual import Truth, simulate
 
 FIT = {"model", "name", "parent", "campaigns", "response", "parameters", "scores", "checks", "before"}
 PARAMETER = {"value", "unit", "low", "high"}
-SCORE = {"model", "campaign", "test", "role", "response", "phase", "fit", "rmse_um", "ptp_um", "ptp_residual_um",
-         "max_um", "n"}
+SCORE = {
+    "model",
+    "campaign",
+    "test",
+    "role",
+    "response",
+    "phase",
+    "fit",
+    "rmse_um",
+    "ptp_um",
+    "ptp_residual_um",
+    "max_um",
+    "n",
+}
 CHECK = {"name", "value", "threshold", "passed", "advice"}
-DIAGNOSIS = {"model", "response", "verdict", "noise_um", "rmse_um", "explainable", "weak_spots", "candidates",
-             "artefacts", "unknown", "next_test"}
+DIAGNOSIS = {
+    "model",
+    "response",
+    "verdict",
+    "noise_um",
+    "rmse_um",
+    "explainable",
+    "weak_spots",
+    "candidates",
+    "artefacts",
+    "unknown",
+    "next_test",
+}
 SPOT = {"campaign", "test", "from_s", "to_s", "rmse_um", "state"}
-CANDIDATE = {"rank", "id", "effect", "family", "drivers", "claimed", "p_value", "rmse_um_before", "rmse_um_after",
-             "fit_before", "fit_after", "locked_rmse_um_before", "locked_rmse_um_after", "parameters", "equivalent",
-             "why"}
+CANDIDATE = {
+    "rank",
+    "id",
+    "effect",
+    "family",
+    "drivers",
+    "claimed",
+    "p_value",
+    "rmse_um_before",
+    "rmse_um_after",
+    "fit_before",
+    "fit_after",
+    "locked_rmse_um_before",
+    "locked_rmse_um_after",
+    "parameters",
+    "equivalent",
+    "why",
+}
 ARTEFACT = {"kind", "campaign", "test", "at_s", "size_um", "why"}
 UNKNOWN = {"time_constants_h", "hours_of_day", "states"}
 
@@ -69,8 +107,14 @@ def make_lab(folder: Path, hide: str, seed: int) -> Lab:
     truth = simulate(folder, hide=hide, seed=seed, tests=8, hours=6.0, rate_hz=0.1)
     store = folder / "thermodata.store"
     program = Path(sys.executable).with_name("thermodata")
-    done = subprocess.run([program, "ingest", truth.campaign_file, "--json"], cwd=folder, capture_output=True,
-                          env={**os.environ, "THERMODATA_STORE": str(store)}, text=True, check=False)
+    done = subprocess.run(
+        [program, "ingest", truth.campaign_file, "--json"],
+        cwd=folder,
+        capture_output=True,
+        env={**os.environ, "THERMODATA_STORE": str(store)},
+        text=True,
+        check=False,
+    )
     assert done.returncode == 0, done.stderr
     ask = asker(store)
     return Lab(folder, truth, json.loads(done.stdout), ask("fit", truth.model_file), ask)
@@ -102,8 +146,18 @@ def error(scores: list[dict[str, Any]]) -> float:
 
 def test_the_logs_are_in_the_store_without_losses(lab: Lab) -> None:
     summary = lab.ingested
-    assert {"campaign", "tests", "files", "samples", "flags", "losses", "notes", "calibrations", "changed",
-            "seconds"} <= set(summary)
+    assert {
+        "campaign",
+        "tests",
+        "files",
+        "samples",
+        "flags",
+        "losses",
+        "notes",
+        "calibrations",
+        "changed",
+        "seconds",
+    } <= set(summary)
     assert (summary["campaign"], summary["tests"], summary["losses"]) == (lab.truth.campaign, 8, [])
     # a log of three sources for each test, and a jump test for each axis
     assert summary["files"] == 3 * 8 + 3
@@ -137,8 +191,11 @@ def test_jump_tests_give_gain_and_sign_of_the_probes(lab: Lab) -> None:
 def test_displacements_are_what_the_machine_did_sign_and_clock_included(lab: Lab, channel: str) -> None:
     for test in ("sp9000", "spectrum"):
         true = pq.read_table(lab.folder / "truth" / f"{test}.parquet", columns=["t_s", channel])
-        rows = lab.ask("sql", f"select t_s, value from displacement where test = '{test}' and channel = '{channel}' "
-                              "and flag = 0 order by t_s")
+        rows = lab.ask(
+            "sql",
+            f"select t_s, value from displacement where test = '{test}' and channel = '{channel}' "
+            "and flag = 0 order by t_s",
+        )
         measured = np.array([[r["t_s"], r["value"]] for r in rows])
         expected = np.interp(measured[:, 0], true["t_s"].to_numpy(), true[channel].to_numpy())
         slope = np.polyfit(expected, measured[:, 1], 1)[0]
@@ -214,8 +271,11 @@ def test_history_and_sql_tell_the_same_story(lab: Lab, better: dict[str, Any]) -
     assert [v["model"] for v in chain] == [lab.base, better["model"]]
     assert [v["added"] for v in chain] == [None, "feed_screw"]
     assert chain[1]["rmse_um"] < chain[0]["rmse_um"]
-    rows = lab.ask("sql", f"select sqrt(avg(residual ** 2)) as rmse from residual where model = '{lab.base}' "
-                          "and test = 'feed_z' and valid")
+    rows = lab.ask(
+        "sql",
+        f"select sqrt(avg(residual ** 2)) as rmse from residual where model = '{lab.base}' "
+        "and test = 'feed_z' and valid",
+    )
     score = next(s for s in lab.fitted["scores"] if s["test"] == "feed_z" and s["phase"] == "all")
     assert rows[0]["rmse"] == pytest.approx(score["rmse_um"], rel=1e-6)
     looks = lab.ask("sql", "select test, reason from locked_look")
@@ -242,7 +302,7 @@ def test_the_report_is_one_page_that_loads_nothing(lab: Lab, better: dict[str, A
     loads = Loads()
     loads.feed(page)
     assert loads.found == []
-    style = page[page.index("<style"):page.index("</style>")]
+    style = page[page.index("<style") : page.index("</style>")]
     assert "@import" not in style
     assert "url(http" not in style
     assert "feed_screw" in page

@@ -15,18 +15,27 @@ from thermodata.schema.model import Model
 from thermodata.view.dataset import ChannelInfo, Dataset, TestData
 
 STEP = 60.0
-CHANNELS = {c.name: c for c in (
-    ChannelInfo("dZ", "displacement", "um", "tcp", "Z"),
-    ChannelInfo("T_bearing", "temperature", "degC", "spindle.bearing.front"),
-    ChannelInfo("T_nut", "temperature", "degC", "axis.z.nut", resolution=0.1),
-    ChannelInfo("T_hall", "temperature", "degC", "hall"),
-    ChannelInfo("speed", "rotational_speed", "rpm", "spindle"),
-    ChannelInfo("coolant_on", "state", "1", "coolant.supply"),
-)}
+CHANNELS = {
+    c.name: c
+    for c in (
+        ChannelInfo("dZ", "displacement", "um", "tcp", "Z"),
+        ChannelInfo("T_bearing", "temperature", "degC", "spindle.bearing.front"),
+        ChannelInfo("T_nut", "temperature", "degC", "axis.z.nut", resolution=0.1),
+        ChannelInfo("T_hall", "temperature", "degC", "hall"),
+        ChannelInfo("speed", "rotational_speed", "rpm", "spindle"),
+        ChannelInfo("coolant_on", "state", "1", "coolant.supply"),
+    )
+}
 EFFECTS = ("spindle_bearing", "feed_screw", "ambient_frame", "centrifugal_shift", "coolant")
 TRUTH = {
-    "spindle_bearing.tau": 20.0, "spindle_bearing.gain": 1.5, "feed_screw.tau": 90.0, "feed_screw.gain": 2.0,
-    "ambient_frame.tau": 240.0, "ambient_frame.gain": -3.0, "centrifugal_shift.gain": -8.0, "coolant.tau": 30.0,
+    "spindle_bearing.tau": 20.0,
+    "spindle_bearing.gain": 1.5,
+    "feed_screw.tau": 90.0,
+    "feed_screw.gain": 2.0,
+    "ambient_frame.tau": 240.0,
+    "ambient_frame.gain": -3.0,
+    "centrifugal_shift.gain": -8.0,
+    "coolant.tau": 30.0,
     "coolant.gain": 6.0,
 }
 
@@ -46,12 +55,36 @@ def make_test(k: int, role: str, hours: float = 12.0, noise: float = 0.3, name: 
     bearing, nut = 3e-3 * lag(speed, 900, STEP), 8 * lag(feed, 2400, STEP)
     phase = rng.uniform()
     hall = 2 * (np.sin(2 * np.pi * (t / 86400 + phase)) - np.sin(2 * np.pi * phase))
-    y = (1.5 * lag(bearing, 1200, STEP) + 2.0 * lag(nut, 5400, STEP) - 3.0 * lag(hall, 14400, STEP)
-         - 8.0 * (speed / 1e4) ** 2 + 6.0 * lag(cool, 1800, STEP) + rng.normal(0, noise, n) + rng.normal(0, 20))
-    values = {"dZ": y, "T_bearing": 22 + bearing + rng.normal(0, 0.02, n), "T_nut": 21 + nut + rng.normal(0, 0.02, n),
-              "T_hall": 20 + hall + rng.normal(0, 0.02, n), "speed": speed, "coolant_on": cool}
-    return TestData("c", name or f"t{k}", "spectrum", role, t, values, {q: np.ones(n, bool) for q in values},
-                    np.ones(n, bool), {"spindle": "SP1"}, machine="m1", channels=CHANNELS)
+    y = (
+        1.5 * lag(bearing, 1200, STEP)
+        + 2.0 * lag(nut, 5400, STEP)
+        - 3.0 * lag(hall, 14400, STEP)
+        - 8.0 * (speed / 1e4) ** 2
+        + 6.0 * lag(cool, 1800, STEP)
+        + rng.normal(0, noise, n)
+        + rng.normal(0, 20)
+    )
+    values = {
+        "dZ": y,
+        "T_bearing": 22 + bearing + rng.normal(0, 0.02, n),
+        "T_nut": 21 + nut + rng.normal(0, 0.02, n),
+        "T_hall": 20 + hall + rng.normal(0, 0.02, n),
+        "speed": speed,
+        "coolant_on": cool,
+    }
+    return TestData(
+        "c",
+        name or f"t{k}",
+        "spectrum",
+        role,
+        t,
+        values,
+        {q: np.ones(n, bool) for q in values},
+        np.ones(n, bool),
+        {"spindle": "SP1"},
+        machine="m1",
+        channels=CHANNELS,
+    )
 
 
 @pytest.fixture(scope="session")
@@ -69,8 +102,17 @@ def spec() -> Spec:
 
     def make(*effects: str | Mapping[str, Any], **more: Any) -> Model:
         lines = [{"effect": e} if isinstance(e, str) else dict(e) for e in effects]
-        return Model.model_validate({"schema": "thermodata/model/1", "name": "base", "campaign": "c", "step": "60 s",
-                                     "response": {"axis": "Z", "at": "tcp"}, "effects": lines} | more)
+        return Model.model_validate(
+            {
+                "schema": "thermodata/model/1",
+                "name": "base",
+                "campaign": "c",
+                "step": "60 s",
+                "response": {"axis": "Z", "at": "tcp"},
+                "effects": lines,
+            }
+            | more
+        )
 
     return make
 

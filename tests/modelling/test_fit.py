@@ -90,23 +90,38 @@ def test_a_cut_test_without_its_history_is_worse(world: Dataset, spec: Spec) -> 
     test = world.test("c", "t5")
     with_history = replace(test, t_s=test.t_s - 21600.0, in_window=test.t_s >= 21600.0)
     keep = test.t_s >= 21600.0
-    without = replace(test, t_s=test.t_s[keep] - 21600.0, in_window=np.ones(keep.sum(), bool),
-                      values={k: v[keep] for k, v in test.values.items()},
-                      valid={k: v[keep] for k, v in test.valid.items()})
+    without = replace(
+        test,
+        t_s=test.t_s[keep] - 21600.0,
+        in_window=np.ones(keep.sum(), bool),
+        values={k: v[keep] for k, v in test.values.items()},
+        valid={k: v[keep] for k, v in test.valid.items()},
+    )
     error = [float(np.sqrt(np.mean(fitted.residual(t)[fitted.mask(t)] ** 2))) for t in (with_history, without)]
     assert error[0] < 0.5 < error[1]
 
 
 def test_an_effect_identified_first_is_then_held(world: Dataset, spec: Spec) -> None:
     """The hall's effect from an idle test alone does not move when the others are fitted."""
-    etve = replace(world.tests[0], test="etve", values={
-        **world.tests[0].values, **{k: np.zeros(721) for k in ("speed", "coolant_on")},
-        "T_bearing": np.full(721, 22.0), "T_nut": np.full(721, 21.0),
-        "dZ": -3.0 * fit_hall(world)})
+    etve = replace(
+        world.tests[0],
+        test="etve",
+        values={
+            **world.tests[0].values,
+            **{k: np.zeros(721) for k in ("speed", "coolant_on")},
+            "T_bearing": np.full(721, 22.0),
+            "T_nut": np.full(721, 21.0),
+            "dZ": -3.0 * fit_hall(world),
+        },
+    )
     data = replace(world, tests=(etve, *world.tests))
     alone = fit_model(spec("ambient_frame", calibrate_on=["etve"]), data).parameters()
-    staged = spec(*EFFECTS[:2], {"effect": "ambient_frame", "calibrate_on": ["etve"]}, *EFFECTS[3:],
-                  calibrate_on=["t0", "t1", "t2", "t3"])
+    staged = spec(
+        *EFFECTS[:2],
+        {"effect": "ambient_frame", "calibrate_on": ["etve"]},
+        *EFFECTS[3:],
+        calibrate_on=["t0", "t1", "t2", "t3"],
+    )
     fitted = fit_model(staged, data)
     for name in ("ambient_frame.tau", "ambient_frame.gain"):
         assert fitted.parameters()[name].value == alone[name].value
@@ -152,8 +167,11 @@ def _two_spindles(world: Dataset) -> Dataset:
     tests = []
     for i, test in enumerate(world.tests):
         more = 1.5 * lag(test.values["T_bearing"] - 22.0, 1200.0, 60.0) * (i % 2)
-        tests.append(replace(test, values={**test.values, "dZ": test.values["dZ"] + more},
-                             conditions={"spindle": f"SP{i % 2 + 1}"}))
+        tests.append(
+            replace(
+                test, values={**test.values, "dZ": test.values["dZ"] + more}, conditions={"spindle": f"SP{i % 2 + 1}"}
+            )
+        )
     return replace(world, tests=tuple(tests))
 
 
@@ -184,8 +202,9 @@ def test_tests_without_a_driver_are_skipped_and_named(world: Dataset, spec: Spec
 
 
 def test_nothing_to_fit_is_said(world: Dataset, spec: Spec) -> None:
-    dead = replace(world, tests=tuple(
-        replace(t, valid={**t.valid, "dZ": np.zeros(len(t.t_s), bool)}) for t in world.tests))
+    dead = replace(
+        world, tests=tuple(replace(t, valid={**t.valid, "dZ": np.zeros(len(t.t_s), bool)}) for t in world.tests)
+    )
     with pytest.raises(UsageError, match="no sample counts"):
         fit_model(spec(*EFFECTS), dead)
 

@@ -41,8 +41,12 @@ def test_a_driver_that_heats_up_from_rest_has_no_lead() -> None:
 
 
 def test_what_does_not_cycle_was_at_rest_before() -> None:
-    both = Drivers(np.arange(600) * STEP_S, {"a": cycle(600, 6), "n": np.full(600, 3000.0)},
-                   {"a": np.ones(600, bool), "n": np.ones(600, bool)}, {})
+    both = Drivers(
+        np.arange(600) * STEP_S,
+        {"a": cycle(600, 6), "n": np.full(600, 3000.0)},
+        {"a": np.ones(600, bool), "n": np.ones(600, bool)},
+        {},
+    )
     led, lead = with_lead(both)
     assert lead > 0
     assert not led.values["n"][:lead].any()

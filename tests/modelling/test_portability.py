@@ -23,26 +23,31 @@ def test_the_rule_gives_the_thesis_counts() -> None:
     found: Counter[str] = Counter()
     with PUBLISHED.open() as file:
         for row in csv.DictReader(file):
-            numbers = [float(row[k]) if row[k] else None for k in
-                       ("g", "fit_n", "fit_c", "ptp_mea", "ptp_res_n", "ptp_res_c")]
+            numbers = [
+                float(row[k]) if row[k] else None for k in ("g", "fit_n", "fit_c", "ptp_mea", "ptp_res_n", "ptp_res_c")
+            ]
             if row["machine"] in ("79", "103", "118"):
                 g, fit_n, fit_c, *ptp = numbers
                 found[classify(g, fit_n, fit_c, *(p or 0.0 for p in ptp))] += 1
     assert found == {"portable": 1, "with_correction": 18, "not_portable": 17}
 
 
-@pytest.mark.parametrize(("g", "fit_n", "fit_c", "ptp", "verdict"), [
-    (1.0, 90.0, 90.0, (50.0, 8.0, 8.0), "portable"),
-    (1.1, 85.0, 90.0, (50.0, 8.0, 8.0), "portable"),
-    (1.0, 79.0, 90.0, (50.0, 8.0, 8.0), "with_correction"),
-    (1.5, 40.0, 88.0, (50.0, 25.0, 8.0), "with_correction"),
-    (0.2, 40.0, 88.0, (50.0, 25.0, 8.0), "not_portable"),
-    (1.5, 40.0, 10.0, (50.0, 25.0, 8.0), "not_portable"),
-    (1.5, 40.0, 88.0, (50.0, 25.0, 51.0), "not_portable"),
-    (None, None, None, (50.0, 50.0, 50.0), "not_portable"),
-])
-def test_the_rule(g: float | None, fit_n: float | None, fit_c: float | None, ptp: tuple[float, float, float],
-                  verdict: str) -> None:
+@pytest.mark.parametrize(
+    ("g", "fit_n", "fit_c", "ptp", "verdict"),
+    [
+        (1.0, 90.0, 90.0, (50.0, 8.0, 8.0), "portable"),
+        (1.1, 85.0, 90.0, (50.0, 8.0, 8.0), "portable"),
+        (1.0, 79.0, 90.0, (50.0, 8.0, 8.0), "with_correction"),
+        (1.5, 40.0, 88.0, (50.0, 25.0, 8.0), "with_correction"),
+        (0.2, 40.0, 88.0, (50.0, 25.0, 8.0), "not_portable"),
+        (1.5, 40.0, 10.0, (50.0, 25.0, 8.0), "not_portable"),
+        (1.5, 40.0, 88.0, (50.0, 25.0, 51.0), "not_portable"),
+        (None, None, None, (50.0, 50.0, 50.0), "not_portable"),
+    ],
+)
+def test_the_rule(
+    g: float | None, fit_n: float | None, fit_c: float | None, ptp: tuple[float, float, float], verdict: str
+) -> None:
     assert classify(g, fit_n, fit_c, *ptp) == verdict
 
 

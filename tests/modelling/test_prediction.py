@@ -53,11 +53,14 @@ def test_beyond_its_end_a_prediction_says_nothing(world: Dataset, tmp_path: Path
     assert mask.sum() == (world.tests[0].t_s <= 9000).sum()
 
 
-@pytest.mark.parametrize(("text", "says"), [
-    ("test,time,predicted\na,0,1\n", "no column 't_s'"),
-    ("test,t_s,predicted\na,0,x\n", ":2"),
-    ("", "no column 'test'"),
-])
+@pytest.mark.parametrize(
+    ("text", "says"),
+    [
+        ("test,time,predicted\na,0,1\n", "no column 't_s'"),
+        ("test,t_s,predicted\na,0,x\n", ":2"),
+        ("", "no column 'test'"),
+    ],
+)
 def test_a_file_that_is_none_is_refused(tmp_path: Path, text: str, says: str) -> None:
     path = tmp_path / "bad.csv"
     path.write_text(text)

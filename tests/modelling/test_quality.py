@@ -27,18 +27,36 @@ def test_a_sound_fit_passes_its_checks(world: Dataset, spec: Spec) -> None:
 
 def test_twins_are_named(world: Dataset, spec: Spec) -> None:
     twin = ChannelInfo("T_twin", "temperature", "degC", "spindle.motor")
-    tests = tuple(replace(t, values={**t.values, "T_twin": t.values["T_bearing"] * 2 + 3},
-                          channels={**t.channels, "T_twin": twin}) for t in world.tests)
-    fitted = fit_model(spec({"effect": "spindle_bearing", "fixed": {"tau": 20.0}},
-                            {"effect": "spindle_motor", "fixed": {"tau": 20.0}}), replace(world, tests=tests))
+    tests = tuple(
+        replace(
+            t, values={**t.values, "T_twin": t.values["T_bearing"] * 2 + 3}, channels={**t.channels, "T_twin": twin}
+        )
+        for t in world.tests
+    )
+    fitted = fit_model(
+        spec(
+            {"effect": "spindle_bearing", "fixed": {"tau": 20.0}}, {"effect": "spindle_motor", "fixed": {"tau": 20.0}}
+        ),
+        replace(world, tests=tests),
+    )
     assert not _check(fitted, "collinear:spindle_bearing.gain:spindle_motor.gain").passed
     assert not _check(fitted, "condition_number").passed
 
 
 def test_a_time_constant_longer_than_the_record_is_named(world: Dataset, spec: Spec) -> None:
-    short = replace(world, tests=tuple(
-        replace(t, t_s=t.t_s[:120], in_window=t.in_window[:120], valid={k: v[:120] for k, v in t.valid.items()},
-                values={k: v[:120] for k, v in t.values.items()}) for t in world.tests))
+    short = replace(
+        world,
+        tests=tuple(
+            replace(
+                t,
+                t_s=t.t_s[:120],
+                in_window=t.in_window[:120],
+                valid={k: v[:120] for k, v in t.valid.items()},
+                values={k: v[:120] for k, v in t.values.items()},
+            )
+            for t in world.tests
+        ),
+    )
     fitted = fit_model(spec({"effect": "ambient_frame", "bounds": {"tau": [150.0, 600.0]}}), short)
     assert not _check(fitted, "tau_longer_than_record:ambient_frame.tau").passed
 
@@ -52,9 +70,20 @@ def test_an_effect_that_nothing_moves_is_named(world: Dataset, spec: Spec) -> No
 
 def test_a_coarse_sensor_before_a_sharp_function_ripples(world: Dataset, spec: Spec) -> None:
     """Paper 003: 82 um/K at high frequency times 0.1 K is 8 um."""
-    turning = {"effect": "transfer_function", "drivers": {"u": "T_nut"}, "fixed": {
-        "gain": 1.0, "a0": -82.41672, "a1": 82.41479, "b0": 1.0, "b1": -0.64533, "b2": 0.10375, "b3": -0.45835,
-        "sample_s": 60.0}}
+    turning = {
+        "effect": "transfer_function",
+        "drivers": {"u": "T_nut"},
+        "fixed": {
+            "gain": 1.0,
+            "a0": -82.41672,
+            "a1": 82.41479,
+            "b0": 1.0,
+            "b1": -0.64533,
+            "b2": 0.10375,
+            "b3": -0.45835,
+            "sample_s": 60.0,
+        },
+    }
     check = _check(fit_model(spec(turning), world), "quantisation_ripple:transfer_function")
     assert not check.passed
     assert check.value == pytest.approx(8.24, abs=0.1)
@@ -77,8 +106,17 @@ def _one_lag(seed: int, slow: bool) -> TestData:
     noise = white * 0.5 if not slow else lag(white, 1800, 60.0) * 4
     values = {"y": 2 * lag(u, 3600, 60) + noise, "T": 20 + u}
     infos = {"y": ChannelInfo("y", "displacement", "um", "tcp", "Z"), "T": ChannelInfo("T", "temperature", "degC")}
-    return TestData("c", f"s{seed}", "other", "calibration", t, values, {k: np.ones(n, bool) for k in values},
-                    np.ones(n, bool), channels=infos)
+    return TestData(
+        "c",
+        f"s{seed}",
+        "other",
+        "calibration",
+        t,
+        values,
+        {k: np.ones(n, bool) for k in values},
+        np.ones(n, bool),
+        channels=infos,
+    )
 
 
 def test_intervals_hold_the_truth_though_the_residual_hangs_together(spec: Spec) -> None:

@@ -18,19 +18,26 @@ from .conftest import Spec
 
 def _more(world: Dataset, **infos: ChannelInfo) -> Dataset:
     """The world with further channels (copies of T_hall)."""
-    tests = tuple(replace(t, channels={**t.channels, **infos},
-                          values={**t.values, **dict.fromkeys(infos, t.values["T_hall"])}) for t in world.tests)
+    tests = tuple(
+        replace(t, channels={**t.channels, **infos}, values={**t.values, **dict.fromkeys(infos, t.values["T_hall"])})
+        for t in world.tests
+    )
     return replace(world, tests=tests, channels={**world.channels, **infos})
 
 
 def test_drivers_are_found_by_place_and_by_name(world: Dataset, spec: Spec) -> None:
-    model = spec("spindle_bearing", {"effect": "lag", "drivers": {"u": {"at": "axis.z.nut"}}},
-                 {"effect": "lag", "drivers": {"u": "T_nut - T_hall"}})
+    model = spec(
+        "spindle_bearing",
+        {"effect": "lag", "drivers": {"u": {"at": "axis.z.nut"}}},
+        {"effect": "lag", "drivers": {"u": "T_nut - T_hall"}},
+    )
     _, (response,) = resolve(model, world)
     assert response.name == "dZ"
     assert [(t.id, dict(t.binding), t.family) for t in response.terms] == [
-        ("spindle_bearing", {"temperature": "T_bearing"}, "spindle"), ("lag", {"u": "T_nut"}, "generic"),
-        ("lag_2", {"u": "T_nut - T_hall"}, "generic")]
+        ("spindle_bearing", {"temperature": "T_bearing"}, "spindle"),
+        ("lag", {"u": "T_nut"}, "generic"),
+        ("lag_2", {"u": "T_nut - T_hall"}, "generic"),
+    ]
 
 
 def test_roles_come_from_the_tests_or_from_the_file(world: Dataset, spec: Spec) -> None:
@@ -45,29 +52,39 @@ def test_roles_come_from_the_tests_or_from_the_file(world: Dataset, spec: Spec) 
     assert roles.verify == (("c", "t5"),)
 
 
-@pytest.mark.parametrize(("effects", "more", "says"), [
-    (["spindle_bering"], {}, "spindle_bearing'"),
-    ([{"effect": "lag", "drivers": {"u": "T_nuts"}}], {}, "did you mean 'T_nut'"),
-    ([{"effect": "lag", "drivers": {"u": "T_nut - T_amb"}}], {}, "no channel 'T_amb'"),
-    ([{"effect": "lag", "drivers": {"v": "T_nut"}}], {}, "no driver role 'v'"),
-    ([{"effect": "lag", "drivers": {"u": {"at": "axis.x"}}}], {}, "no channels lie at 'axis.x'"),
-    (["lag"], {}, "several channels fit"),
-    (["tool_elongation"], {}, "temperature at tool"),
-    ([{"effect": "spindle_bearing", "fixed": {"tua": 3.0}}], {}, "did you mean 'tau'"),
-    ([{"effect": "spindle_bearing", "orders": [2, 2]}], {}, "belongs to transfer_function"),
-    ([{"effect": "spindle_bearing", "tests": ["t99"]}], {}, "no test 't99'"),
-    ([{"effect": "spindle_bearing", "calibrate_on": ["etve"]}], {}, "no test 'etve'"),
-    ([{"effect": "prediction"}], {}, "needs 'file'"),
-    ([{"effect": "lag", "id": "a", "drivers": {"u": "T_nut"}},
-      {"effect": "lag", "id": "a", "drivers": {"u": "T_hall"}}], {}, "two effects have the id"),
-    ([], {"calibrate_on": ["t0"], "verify_on": ["t0"]}, "two roles"),
-    ([], {"calibrate_on": []}, "no test to calibrate on"),
-    ([], {"response": {"axis": "X", "at": "tcp"}}, "dZ (axis Z"),
-    ([], {"response": {"channel": "dz1"}}, "no channel 'dz1'"),
-    ([{"effect": "spindle_bearing", "gain_by": "conditions.tool"}], {}, "no condition 'tool'"),
-])
-def test_what_does_not_fit_is_refused(world: Dataset, spec: Spec, effects: list[Any], more: dict[str, Any],
-                                      says: str) -> None:
+@pytest.mark.parametrize(
+    ("effects", "more", "says"),
+    [
+        (["spindle_bering"], {}, "spindle_bearing'"),
+        ([{"effect": "lag", "drivers": {"u": "T_nuts"}}], {}, "did you mean 'T_nut'"),
+        ([{"effect": "lag", "drivers": {"u": "T_nut - T_amb"}}], {}, "no channel 'T_amb'"),
+        ([{"effect": "lag", "drivers": {"v": "T_nut"}}], {}, "no driver role 'v'"),
+        ([{"effect": "lag", "drivers": {"u": {"at": "axis.x"}}}], {}, "no channels lie at 'axis.x'"),
+        (["lag"], {}, "several channels fit"),
+        (["tool_elongation"], {}, "temperature at tool"),
+        ([{"effect": "spindle_bearing", "fixed": {"tua": 3.0}}], {}, "did you mean 'tau'"),
+        ([{"effect": "spindle_bearing", "orders": [2, 2]}], {}, "belongs to transfer_function"),
+        ([{"effect": "spindle_bearing", "tests": ["t99"]}], {}, "no test 't99'"),
+        ([{"effect": "spindle_bearing", "calibrate_on": ["etve"]}], {}, "no test 'etve'"),
+        ([{"effect": "prediction"}], {}, "needs 'file'"),
+        (
+            [
+                {"effect": "lag", "id": "a", "drivers": {"u": "T_nut"}},
+                {"effect": "lag", "id": "a", "drivers": {"u": "T_hall"}},
+            ],
+            {},
+            "two effects have the id",
+        ),
+        ([], {"calibrate_on": ["t0"], "verify_on": ["t0"]}, "two roles"),
+        ([], {"calibrate_on": []}, "no test to calibrate on"),
+        ([], {"response": {"axis": "X", "at": "tcp"}}, "dZ (axis Z"),
+        ([], {"response": {"channel": "dz1"}}, "no channel 'dz1'"),
+        ([{"effect": "spindle_bearing", "gain_by": "conditions.tool"}], {}, "no condition 'tool'"),
+    ],
+)
+def test_what_does_not_fit_is_refused(
+    world: Dataset, spec: Spec, effects: list[Any], more: dict[str, Any], says: str
+) -> None:
     from thermodata.modelling import fit_model
 
     with pytest.raises(UsageError) as caught:
@@ -105,9 +122,16 @@ def test_campaigns_may_name_the_same_place_differently(world: Dataset, spec: Spe
     def rename(d: Any) -> Any:
         return {names.get(k, k): v for k, v in d.items()}
 
-    other = tuple(replace(t, campaign="d", values=rename(t.values), valid=rename(t.valid),
-                          channels={names.get(n, n): replace(i, name=names.get(n, n)) for n, i in t.channels.items()})
-                  for t in world.tests)
+    other = tuple(
+        replace(
+            t,
+            campaign="d",
+            values=rename(t.values),
+            valid=rename(t.valid),
+            channels={names.get(n, n): replace(i, name=names.get(n, n)) for n, i in t.channels.items()},
+        )
+        for t in world.tests
+    )
     data = replace(world, tests=world.tests + other)
     model = spec("spindle_bearing", campaign=None, campaigns=["c", "d"], calibrate_on=["c/t0", "d/t1"])
     _, (response,) = resolve(model, data)
@@ -118,8 +142,12 @@ def test_campaigns_may_name_the_same_place_differently(world: Dataset, spec: Spe
 
 
 def test_ids_are_numbered_and_never_collide() -> None:
-    specs = [EffectSpec(effect="spindle_bearing"), EffectSpec(effect="spindle_bearing"),
-             EffectSpec(effect="spindle_bearing_2"), EffectSpec(effect="lag", id="spindle_bearing_3")]
+    specs = [
+        EffectSpec(effect="spindle_bearing"),
+        EffectSpec(effect="spindle_bearing"),
+        EffectSpec(effect="spindle_bearing_2"),
+        EffectSpec(effect="lag", id="spindle_bearing_3"),
+    ]
     assert len(set(term_ids(specs))) == 4
 
 

@@ -28,14 +28,25 @@ def store(world: Dataset, tmp_path_factory: pytest.TempPathFactory) -> Store:
         lines += [";".join(f"{v:.6f}" for v in row) for row in table]
         (folder / "raw" / f"{test.test}.csv").write_text("\n".join(lines) + "\n")
     units = {"displacement": "um", "temperature": "degC", "rotational_speed": "rpm", "state": "1"}
-    channels = {c.name: {"source": "log", "signal": c.name, "quantity": c.quantity, "unit": units[c.quantity],
-                         "at": c.at} for c in CHANNELS.values()}
+    channels = {
+        c.name: {"source": "log", "signal": c.name, "quantity": c.quantity, "unit": units[c.quantity], "at": c.at}
+        for c in CHANNELS.values()
+    }
     channels["dZ"]["axis"] = "Z"
-    campaign = {"schema": "thermodata/campaign/1", "id": "c", "machine": {"id": "m1", "spindle": "SP1"},
-                "sources": {"log": {"reader": "table", "files": "raw/{test}.csv", "table": {
-                    "delimiter": ";", "decimal": ".", "header_rows": 1, "time": {"column": 1, "unit": "s"}}}},
-                "channels": channels,
-                "tests": [{"id": t.test, "kind": "spectrum", "role": t.role} for t in world.tests]}
+    campaign = {
+        "schema": "thermodata/campaign/1",
+        "id": "c",
+        "machine": {"id": "m1", "spindle": "SP1"},
+        "sources": {
+            "log": {
+                "reader": "table",
+                "files": "raw/{test}.csv",
+                "table": {"delimiter": ";", "decimal": ".", "header_rows": 1, "time": {"column": 1, "unit": "s"}},
+            }
+        },
+        "channels": channels,
+        "tests": [{"id": t.test, "kind": "spectrum", "role": t.role} for t in world.tests],
+    }
     (folder / "campaign.yaml").write_text(yaml.safe_dump(campaign))
     made = Store(folder / "store", create=True)
     ingest(made, folder / "campaign.yaml")
@@ -49,8 +60,11 @@ def test_a_fit_is_kept_with_its_scores_and_contributions(store: Store, spec: Spe
     assert find_model(store, result.model).result == result
     assert run.fit(store, spec(*EFFECTS)).model == result.model
     with store.reader() as con:
-        rows = con.execute("select test, count(*), avg(abs(residual)) from residual where model = ? and valid "
-                           "group by test order by test", [result.model]).fetchall()
+        rows = con.execute(
+            "select test, count(*), avg(abs(residual)) from residual where model = ? and valid "
+            "group by test order by test",
+            [result.model],
+        ).fetchall()
         roles = con.execute("select distinct role from score where model = ? order by 1", [result.model]).fetchall()
     assert [r[0] for r in rows] == [f"t{k}" for k in range(7)]
     assert all(n == 721 and error < 0.6 for _, n, error in rows)
@@ -83,12 +97,34 @@ def test_a_candidate_goes_by_its_rank(store: Store, spec: Spec) -> None:
     parent = run.fit(store, spec("spindle_bearing", name="bare"))
     with pytest.raises(UsageError, match="no diagnosis"):
         run.add(store, parent.model, 1)
-    found = Candidate(rank=1, id="coolant:coolant_on", effect="coolant", family="coolant", drivers=["coolant_on"],
-                      claimed=True, p_value=0.01, rmse_um_before=5.0, rmse_um_after=3.0, fit_before=50.0,
-                      fit_after=70.0)
-    save_diagnosis(store, parent.model, Diagnosis(
-        model=parent.model, response="dZ", verdict="effect", noise_um=0.3, rmse_um=5.0, explainable=0.9, weak_spots=[],
-        candidates=[found], artefacts=[]))
+    found = Candidate(
+        rank=1,
+        id="coolant:coolant_on",
+        effect="coolant",
+        family="coolant",
+        drivers=["coolant_on"],
+        claimed=True,
+        p_value=0.01,
+        rmse_um_before=5.0,
+        rmse_um_after=3.0,
+        fit_before=50.0,
+        fit_after=70.0,
+    )
+    save_diagnosis(
+        store,
+        parent.model,
+        Diagnosis(
+            model=parent.model,
+            response="dZ",
+            verdict="effect",
+            noise_um=0.3,
+            rmse_um=5.0,
+            explainable=0.9,
+            weak_spots=[],
+            candidates=[found],
+            artefacts=[],
+        ),
+    )
     with pytest.raises(UsageError, match="no candidate of rank 7"):
         run.add(store, parent.model, "7")
     assert "coolant.tau" in run.add(store, parent.model, "1").parameters

@@ -24,8 +24,13 @@ def test_fit_is_the_papers_and_is_not_clipped() -> None:
     assert figures(y, 3 * (y - y.mean()))["fit"] == pytest.approx(-200.0)
     assert figures(np.full(4, 5.0), np.ones(4))["fit"] is None
     found = figures(y, np.array([1.0, -2.0, 1.0, 0.0]))
-    assert found == {"fit": found["fit"], "rmse_um": pytest.approx(np.sqrt(1.5)), "ptp_um": 30.0,
-                     "ptp_residual_um": 3.0, "max_um": 2.0}
+    assert found == {
+        "fit": found["fit"],
+        "rmse_um": pytest.approx(np.sqrt(1.5)),
+        "ptp_um": 30.0,
+        "ptp_residual_um": 3.0,
+        "max_um": 2.0,
+    }
     assert peak_sum(np.array([3.0, 5.0])) == 8.0
     assert share_removed(y, y / 10, np.ones(4, bool)) == pytest.approx(0.9)
     assert set(figures(y[:0], y[:0]).values()) == {None}
@@ -55,7 +60,8 @@ def test_the_offset_of_an_unseen_test_is_its_first_ten_minutes(world: Dataset, s
     gap = response.measured(test) - response.predict(test)
     assert response.offset(test) == pytest.approx(gap[:10].mean())
     assert response.offset(world.tests[0]) == pytest.approx(
-        (response.measured(world.tests[0]) - response.predict(world.tests[0])).mean())
+        (response.measured(world.tests[0]) - response.predict(world.tests[0])).mean()
+    )
     # an offset wrong on purpose in the first minutes is not hidden by the rest
     late = replace(test, zero_s=60.0)
     assert response.offset(late) == pytest.approx(gap[0])
@@ -79,8 +85,11 @@ def test_phases_are_told_from_what_the_machine_does(world: Dataset) -> None:
     n = len(test.t_s)
     on = (test.t_s > 3600) & (test.t_s < 25200)
     y = np.where(test.t_s < 3600, 0, 20 * (1 - np.exp(-(test.t_s - 3600) / 3000)))
-    test = replace(test, values={"speed": on * 6000.0, "dZ": np.where(test.t_s > 25200, y * 0.5, y)},
-                   valid={k: np.ones(n, bool) for k in ("speed", "dZ")})
+    test = replace(
+        test,
+        values={"speed": on * 6000.0, "dZ": np.where(test.t_s > 25200, y * 0.5, y)},
+        valid={k: np.ones(n, bool) for k in ("speed", "dZ")},
+    )
     found = phases(test, "dZ")
     assert set(found) == {"heating", "steady", "cooling"}
     assert test.t_s[found["heating"]].min() == 3660

@@ -38,7 +38,7 @@ def _spectrum(seed: int, hours: int) -> Float1D:
     out, at = np.zeros(hours * 3600), 600
     while at < len(out):
         length = int(rng.uniform(600, 7200))
-        out[at:at + length] = rng.choice([0.0, 3.0, 6.0, 9.0, 12.0])
+        out[at : at + length] = rng.choice([0.0, 3.0, 6.0, 9.0, 12.0])
         at += length
     return out
 
@@ -50,11 +50,22 @@ def _two_lags(seed: int, role: str, resolution: float, noise: float = 0.3, step:
     y = 1.2 * lag(warmth, 1200, 1.0) + 2.0 * lag(warmth, 10800, 1.0) + rng.normal(0, noise, len(warmth))
     read = 22 + np.round(warmth / resolution) * resolution
     n = len(y) // step
-    values = {k: v[:n * step].reshape(n, step).mean(axis=1) for k, v in (("dZ", y), ("T", read))}
-    infos = {"dZ": ChannelInfo("dZ", "displacement", "um", "tcp", "Z"),
-             "T": ChannelInfo("T", "temperature", "degC", "spindle.bearing")}
-    return TestData("c", f"s{seed}", "spectrum", role, np.arange(n) * float(step), values,
-                    {k: np.ones(n, bool) for k in values}, np.ones(n, bool), channels=infos)
+    values = {k: v[: n * step].reshape(n, step).mean(axis=1) for k, v in (("dZ", y), ("T", read))}
+    infos = {
+        "dZ": ChannelInfo("dZ", "displacement", "um", "tcp", "Z"),
+        "T": ChannelInfo("T", "temperature", "degC", "spindle.bearing"),
+    }
+    return TestData(
+        "c",
+        f"s{seed}",
+        "spectrum",
+        role,
+        np.arange(n) * float(step),
+        values,
+        {k: np.ones(n, bool) for k in values},
+        np.ones(n, bool),
+        channels=infos,
+    )
 
 
 @pytest.fixture(scope="module")
@@ -73,11 +84,14 @@ def _unseen(fitted: Any, data: Dataset) -> float:
     return float(next(s.fit for s in scores(fitted, data, "m") if s.role == "verification" and s.phase == "all"))
 
 
-@pytest.mark.parametrize("effect", [
-    {"effect": "spindle_bearing_2"},
-    {"effect": "transfer_function", "drivers": {"u": "T"}},
-    {"effect": "transfer_function", "drivers": {"u": "T"}, "method": "varpro", "orders": [2, 2]},
-])
+@pytest.mark.parametrize(
+    "effect",
+    [
+        {"effect": "spindle_bearing_2"},
+        {"effect": "transfer_function", "drivers": {"u": "T"}},
+        {"effect": "transfer_function", "drivers": {"u": "T"}, "method": "varpro", "orders": [2, 2]},
+    ],
+)
 def test_two_lags_are_found_and_predict_an_unseen_spectrum(fine: Dataset, spec: Spec, effect: dict[str, Any]) -> None:
     fitted = fit_model(spec(effect), fine)
     taus = sorted(p.value for name, p in fitted.parameters().items() if "tau" in name)
@@ -184,14 +198,17 @@ def test_g_times_a_given_function(fine: Dataset, spec: Spec) -> None:
     assert free.responses[0].noise < held.responses[0].noise
 
 
-@pytest.mark.parametrize(("fixed", "says"), [
-    ({"a0": 1.0, "a2": 1.0, "b0": 1.0}, "hole"),
-    ({"a0": 1.0, "b0": 0.0}, "leading"),
-    ({"a0": 1.0, "b0": 1.0, "b1": -1.0}, "not stable"),
-    ({"num0": 1.0, "den0": 1.0, "den1": -3.0}, "not stable"),
-    ({"num0": 1.0, "num1": 1.0, "num2": 1.0, "den0": 1.0, "den1": 2.0}, "more numerator"),
-    ({"a0": 1.0, "b0": 1.0, "sample_s": 0.0}, "sample time"),
-])
+@pytest.mark.parametrize(
+    ("fixed", "says"),
+    [
+        ({"a0": 1.0, "a2": 1.0, "b0": 1.0}, "hole"),
+        ({"a0": 1.0, "b0": 0.0}, "leading"),
+        ({"a0": 1.0, "b0": 1.0, "b1": -1.0}, "not stable"),
+        ({"num0": 1.0, "den0": 1.0, "den1": -3.0}, "not stable"),
+        ({"num0": 1.0, "num1": 1.0, "num2": 1.0, "den0": 1.0, "den1": 2.0}, "more numerator"),
+        ({"a0": 1.0, "b0": 1.0, "sample_s": 0.0}, "sample time"),
+    ],
+)
 def test_coefficients_that_make_no_function_are_refused(fixed: dict[str, float], says: str) -> None:
     with pytest.raises(SpecError, match=says):
         given(fixed)

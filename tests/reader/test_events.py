@@ -10,8 +10,15 @@ from thermodata.reader.events import HeldRows, fill_forward, held_blocks
 from thermodata.schema.flag import INVALID, Flag
 
 SIGNALS = (Signal("T", "nc"), Signal("mode", "nc", dtype="str"), Signal("other", "elsewhere"))
-EVENTS = [(10, "T", 1.0), (10, "mode", "AUTO"), (20, "T", 2.0), (20, "T", 2.5), (30, "mode", None), (40, "T", None),
-          (50, "mode", "MDI")]
+EVENTS = [
+    (10, "T", 1.0),
+    (10, "mode", "AUTO"),
+    (20, "T", 2.0),
+    (20, "T", 2.5),
+    (30, "mode", None),
+    (40, "T", None),
+    (50, "mode", "MDI"),
+]
 
 
 @pytest.mark.parametrize("rows", [1, 2, 100])
@@ -36,15 +43,23 @@ def test_before_the_first_value_and_while_unavailable_a_signal_is_flagged() -> N
 @pytest.mark.parametrize("rows", [1, 100])
 def test_the_first_value_after_a_hole_is_flagged_as_such_once(rows: int) -> None:
     events = [(1, "T", 1.0), (2, "T", None), (3, "T", 3.0), (4, "mode", "A"), (5, "T", 5.0)]
-    flags = np.concatenate([np.zeros(b.t_ns.size, np.uint16) if b.flags is None or "T" not in b.flags else b.flags["T"]
-                            for b in held_blocks(events, SIGNALS, "nc", rows)])
+    flags = np.concatenate(
+        [
+            np.zeros(b.t_ns.size, np.uint16) if b.flags is None or "T" not in b.flags else b.flags["T"]
+            for b in held_blocks(events, SIGNALS, "nc", rows)
+        ]
+    )
     assert flags.tolist() == [0, Flag.NOT_MEASURING, Flag.GAP, 0, 0]
 
 
 def test_a_bad_value_is_kept_and_flagged_while_it_holds() -> None:
     held = HeldRows[int]({"T": "float64", "n": "float64"}, "nc")
-    for t, name, value, flag in ((1, "T", 20.0, 0), (2, "T", 99.0, Flag.NOT_MEASURING), (3, "n", 1.0, 0),
-                                 (4, "T", 21.0, 0)):
+    for t, name, value, flag in (
+        (1, "T", 20.0, 0),
+        (2, "T", 99.0, Flag.NOT_MEASURING),
+        (3, "n", 1.0, 0),
+        (4, "T", 21.0, 0),
+    ):
         held.add(t, name, value, int(flag))
     block, bad = held.take(lambda stamps: np.array(stamps, np.int64))
     assert block is not None

@@ -8,17 +8,35 @@ from thermodata.errors import UsageError
 from thermodata.plugin import Signal
 from thermodata.reader.match import match_signal
 
-SIGNALS = [Signal(n, s) for n, s in [
-    ("Eddy/Z", "Eddy"), ("Eddy/Y", "Eddy"), ("Temp/T01 [degC]", "Temp"), ("ch3(um)", "table"), ("CH3", "table"),
-    ("fast/Z", "fast"), ("nActSpeed", "nc"),
-]]
+SIGNALS = [
+    Signal(n, s)
+    for n, s in [
+        ("Eddy/Z", "Eddy"),
+        ("Eddy/Y", "Eddy"),
+        ("Temp/T01 [degC]", "Temp"),
+        ("ch3(um)", "table"),
+        ("CH3", "table"),
+        ("fast/Z", "fast"),
+        ("nActSpeed", "nc"),
+    ]
+]
 
 
-@pytest.mark.parametrize(("wanted", "found"), [
-    ("Eddy/Z", "Eddy/Z"), ("Y", "Eddy/Y"), ("Temp/T01", "Temp/T01 [degC]"), ("T01", "Temp/T01 [degC]"),
-    ("ch3(um)", "ch3(um)"), ("ch3", "ch3(um)"), ("CH3", "CH3"), ("eddy/z", "Eddy/Z"), ("nactspeed", "nActSpeed"),
-    ("fast:Z", "fast/Z"),
-])
+@pytest.mark.parametrize(
+    ("wanted", "found"),
+    [
+        ("Eddy/Z", "Eddy/Z"),
+        ("Y", "Eddy/Y"),
+        ("Temp/T01", "Temp/T01 [degC]"),
+        ("T01", "Temp/T01 [degC]"),
+        ("ch3(um)", "ch3(um)"),
+        ("ch3", "ch3(um)"),
+        ("CH3", "CH3"),
+        ("eddy/z", "Eddy/Z"),
+        ("nactspeed", "nActSpeed"),
+        ("fast:Z", "fast/Z"),
+    ],
+)
 def test_exact_then_without_unit_then_the_last_part_then_any_case(wanted: str, found: str) -> None:
     assert match_signal(wanted, SIGNALS).name == found
 

@@ -30,7 +30,7 @@ class Fake:
         t = START + S * np.array([0, 1, 2, 3, 63, 64, 64, 65, 60, 66])
         v = np.array([np.nan, *range(1, 10)], float)
         for i in range(0, 10, 4):
-            yield Block("s", t[i:i + 4], {"T": v[i:i + 4]})
+            yield Block("s", t[i : i + 4], {"T": v[i : i + 4]})
         yield Loss("byte 9", START + 66 * S, None, 0.25, "cut")
 
 

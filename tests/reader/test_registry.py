@@ -49,6 +49,7 @@ CLASSES = {"one": One, "two": Two, "stumbling": Stumbling}
 @pytest.fixture
 def install(monkeypatch: pytest.MonkeyPatch) -> Iterator[object]:
     """install("one", "missing") as if distributions had these entry points."""
+
     def put(*names: str) -> None:
         points = [EntryPoint(n, f"module_{n}:Reader", registry.GROUP) for n in names]
         monkeypatch.setattr(registry, "entry_points", lambda group: points)

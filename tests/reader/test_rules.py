@@ -12,8 +12,12 @@ from thermodata.reader import rules
 
 T = np.arange(3, dtype=np.int64)
 GOOD = Recording((Signal("a", "s"), Signal("n", "s", dtype="int16"), Signal("w", "s", dtype="str")), "relative")
-BLOCK = Block("s", T, {"a": np.zeros(3), "n": np.zeros(3, np.int16), "w": np.array(["x", None, ""], object)},
-              {"a": np.zeros(3, np.uint16)})
+BLOCK = Block(
+    "s",
+    T,
+    {"a": np.zeros(3), "n": np.zeros(3, np.int16), "w": np.array(["x", None, ""], object)},
+    {"a": np.zeros(3, np.uint16)},
+)
 LOSS = Loss("byte 7", 1, 2, 0.5, "cut")
 
 
@@ -78,4 +82,6 @@ def test_blocks_of_several_files_in_turn_are_each_held_against_their_own_file() 
             block = Block(f"s{i}", np.array([1], np.int64), {"a": np.array([1.0])})
             assert rules.broken_rule(said, block) is None
             assert rules.broken_rule(files[i - 1], block) == (
-                "the stream was declared", f"stream 's{i}' was not declared")
+                "the stream was declared",
+                f"stream 's{i}' was not declared",
+            )

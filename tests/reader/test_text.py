@@ -83,10 +83,18 @@ def test_decimal_mark_from_the_data() -> None:
         decimal_mark(["1,5", "2.5"])
 
 
-@pytest.mark.parametrize(("line", "before", "whole"), [
-    ("3;12.75", "2;12.50", True), ("3;12,75", "2;9,50", True), ("3;12.7", "2;12.50", False), ("3", "2;12.50", False),
-    ("3;100", "2;900", False), ("3;o", "2;ok", False), ("3;", "2;", False),
-    ("3;AUTO", "2;AUTO", True),
-])
+@pytest.mark.parametrize(
+    ("line", "before", "whole"),
+    [
+        ("3;12.75", "2;12.50", True),
+        ("3;12,75", "2;9,50", True),
+        ("3;12.7", "2;12.50", False),
+        ("3", "2;12.50", False),
+        ("3;100", "2;900", False),
+        ("3;o", "2;ok", False),
+        ("3;", "2;", False),
+        ("3;AUTO", "2;AUTO", True),
+    ],
+)
 def test_a_last_line_without_end_is_trusted_where_nothing_can_be_missing(line: str, before: str, whole: bool) -> None:
     assert last_line_is_whole(line, before, ";") is whole

@@ -50,8 +50,8 @@ def test_a_file_wholly_inside_the_repeated_hour_is_a_noted_guess() -> None:
 
 
 def test_jitter_is_not_the_repeated_hour() -> None:
-    utc, local = walk("2025-10-25T23:00", 80, AUTUMN)      # ends in the first pass
-    local[70] -= np.timedelta64(61, "s")                   # 1 s before its predecessor
+    utc, local = walk("2025-10-25T23:00", 80, AUTUMN)  # ends in the first pass
+    local[70] -= np.timedelta64(61, "s")  # 1 s before its predecessor
     utc[70] -= 61 * 1_000_000_000
     got, _ = local_to_utc_ns(local, "Europe/Prague")
     np.testing.assert_array_equal(got, utc)

@@ -29,9 +29,12 @@ def main() -> None:
                     if best is None:
                         cells += ["-", "" if found["rmse_um"] is None else f"{found['rmse_um']:.2f}", "", ""]
                     else:
-                        cells += [best["id"], f"{best['rmse_um_before']:.2f} -> {best['rmse_um_after']:.2f}",
-                                  f"{best['locked_rmse_um_before']:.2f} -> {best['locked_rmse_um_after']:.2f}",
-                                  ", ".join(best["equivalent"])]
+                        cells += [
+                            best["id"],
+                            f"{best['rmse_um_before']:.2f} -> {best['rmse_um_after']:.2f}",
+                            f"{best['locked_rmse_um_before']:.2f} -> {best['locked_rmse_um_after']:.2f}",
+                            ", ".join(best["equivalent"]),
+                        ]
                     print("| " + " | ".join(cells) + " |", flush=True)
 
 

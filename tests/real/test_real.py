@@ -48,23 +48,33 @@ def told(rounds: list[Any]) -> str:
     lines = []
     for r in rounds:
         c = r.claimed
-        lines.append(f"{r.diagnosis['response']} {r.diagnosis['verdict']}" + (
-            f": {c['id']}, left-out tests {c['rmse_um_before']:.2f} -> {c['rmse_um_after']:.2f}, locked tests "
-            f"{c['locked_rmse_um_before']:.2f} -> {c['locked_rmse_um_after']:.2f}" if c else ""))
+        lines.append(
+            f"{r.diagnosis['response']} {r.diagnosis['verdict']}"
+            + (
+                f": {c['id']}, left-out tests {c['rmse_um_before']:.2f} -> {c['rmse_um_after']:.2f}, locked tests "
+                f"{c['locked_rmse_um_before']:.2f} -> {c['locked_rmse_um_after']:.2f}"
+                if c
+                else ""
+            )
+        )
     return "\n".join(lines)
 
 
 def holds(rounds: list[Any]) -> bool:
     """Whether every claim lowers the error, on the locked tests too."""
     claims = [r.claimed for r in rounds if r.claimed]
-    return all(c["rmse_um_after"] < c["rmse_um_before"] and c["locked_rmse_um_after"] < c["locked_rmse_um_before"]
-               for c in claims)
+    return all(
+        c["rmse_um_after"] < c["rmse_um_before"] and c["locked_rmse_um_after"] < c["locked_rmse_um_before"]
+        for c in claims
+    )
 
 
 def test_the_spindle_recording_is_read_whole(spindle: Any) -> None:
     assert spindle.ingested["losses"] == []
-    rows = spindle.ask("sql", "select test, count(*) as n, max(t_s) as last from sample where channel = 'ch3' "
-                              "group by test order by test")
+    rows = spindle.ask(
+        "sql",
+        "select test, count(*) as n, max(t_s) as last from sample where channel = 'ch3' group by test order by test",
+    )
     # 11,115 rows at 15 s; both ends of a window belong to it, and to the next
     assert sum(r["n"] for r in rows) == pytest.approx(11_115, abs=3)
     assert [r["test"] for r in rows] == ["first", "last30", "second"]
@@ -88,8 +98,9 @@ def test_speed_alone_fails_on_ch3_and_t4_is_found(spindle: Any, capsys: pytest.C
 
 
 @pytest.mark.parametrize("model", ["ch1", "ch5"])
-def test_no_claim_without_a_falling_error_on_the_locked_part(spindle: Any, model: str,
-                                                             capsys: pytest.CaptureFixture[str]) -> None:
+def test_no_claim_without_a_falling_error_on_the_locked_part(
+    spindle: Any, model: str, capsys: pytest.CaptureFixture[str]
+) -> None:
     rounds = list(spindle.rounds(model))
     with capsys.disabled():
         print("\n" + told(rounds))

@@ -26,7 +26,7 @@ def _keep(page: str, name: str) -> None:
 def test_a_page_holds_everything_and_asks_the_network_for_nothing(data: ReportData) -> None:
     page = render(data)
     _keep(page, "after")
-    assert not re.search(r'<(script|link|img|iframe)[^>]+(src|href)\s*=', body(page))
+    assert not re.search(r"<(script|link|img|iframe)[^>]+(src|href)\s*=", body(page))
     assert not re.search(r"url\(\s*['\"]?http", body(page))
     assert len(page) < 8_000_000
     figures = {key: json.loads(text) for key, text in _FIGURE.findall(page)}
@@ -47,8 +47,11 @@ def test_without_a_parent_the_headline_is_the_verdict(blind: ReportData) -> None
 def test_weak_spots_are_shaded_in_their_own_test_only(blind: ReportData) -> None:
     page = render(blind)
     figures = {key: json.loads(text) for key, text in _FIGURE.findall(page)}
-    shaded = {key: [s for s in f["layout"]["shapes"] if s["type"] == "rect" and s["yref"] == "y2 domain"]
-              for key, f in figures.items() if key.startswith("test")}
+    shaded = {
+        key: [s for s in f["layout"]["shapes"] if s["type"] == "rect" and s["yref"] == "y2 domain"]
+        for key, f in figures.items()
+        if key.startswith("test")
+    }
     assert [len(shaded[k]) for k in ("test0", "test1", "test2")] == [1, 0, 1]
     assert shaded["test2"][0]["x0"] == 11000 / 3600
 

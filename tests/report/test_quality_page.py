@@ -30,12 +30,24 @@ def trace(name: str, quantity: str = "temperature", bad: slice | None = None, fl
 
 @pytest.fixture
 def tests() -> list[TestQuality]:
-    event = {"channel": "T_column", "source": "daq", "flag": "offset", "from_s": 3000.0, "to_s": 6000.0, "n": 3000,
-             "detail": "a step of +30.0 K within one sample"}
+    event = {
+        "channel": "T_column",
+        "source": "daq",
+        "flag": "offset",
+        "from_s": 3000.0,
+        "to_s": 6000.0,
+        "n": 3000,
+        "detail": "a step of +30.0 K within one sample",
+    }
     gap = {"channel": None, "source": "nc", "flag": "gap", "from_s": 100.0, "to_s": 1600.0, "n": 0, "detail": "1500 s"}
     sound = TestQuality("c", "day1", "spindle", 6000.0, 0.0, 100.0, (trace("T_column"), trace("T_bed")), (), ())
-    failed = dataclasses.replace(sound, test="day2", events=(gap, event), losses=("raw/day2.tdms, byte 7: cut",),
-                                 traces=(trace("T_column", bad=slice(30, 60)), trace("T_bed")))
+    failed = dataclasses.replace(
+        sound,
+        test="day2",
+        events=(gap, event),
+        losses=("raw/day2.tdms, byte 7: cut",),
+        traces=(trace("T_column", bad=slice(30, 60)), trace("T_bed")),
+    )
     return [sound, failed]
 
 
@@ -45,15 +57,17 @@ def figures(page: str) -> dict[str, dict]:
 
 def test_the_page_tells_the_share_the_reason_and_the_loss(tests: list[TestQuality]) -> None:
     assert headline(tests) == "12 % of 24 k samples do not count: offset".replace("24 k", "24\u00a0k")
-    assert sentences(tests) == ["Data were lost in day2: see below.",
-                                "1 channel stepped against what came before: T_column (from day2)."]
+    assert sentences(tests) == [
+        "Data were lost in day2: see below.",
+        "1 channel stepped against what came before: T_column (from day2).",
+    ]
     page = render(tests)
     if os.environ.get("REPORT_PAGES"):
         (Path(os.environ["REPORT_PAGES"]) / "quality.html").write_text(page, encoding="utf-8")
     body = page[: page.index("<script>")]
     assert "raw/day2.tdms, byte 7: cut" in body
     assert "a step of +30.0 K" in body
-    assert not re.search(r'<(script|link|img|iframe)[^>]+(src|href)\s*=', body)
+    assert not re.search(r"<(script|link|img|iframe)[^>]+(src|href)\s*=", body)
     assert headline(tests[:1]) == "All of 12\u00a0k samples in 1 tests count"
 
 
@@ -64,7 +78,7 @@ def test_a_picture_a_test_with_marks_lanes_and_gaps(tests: list[TestQuality]) ->
     assert [t["type"] for t in sound["data"]] == ["scatter", "scatter"]
     marks = [t for t in failed["data"] if t.get("mode") == "markers"]
     assert [len(t["x"]) for t in marks] == [30]
-    lanes, = (t for t in failed["data"] if t["type"] == "heatmap")
+    (lanes,) = (t for t in failed["data"] if t["type"] == "heatmap")
     assert lanes["y"] == ["T_column"]
     assert [v for v in lanes["z"][0] if v is not None] == [SEVERITY.index(Flag.OFFSET)] * 30
     bands = [s for s in failed["layout"]["shapes"] if s["type"] == "rect"]
@@ -76,7 +90,7 @@ def test_what_dwarfs_the_panel_is_drawn_at_its_edge_with_its_value(tests: list[T
     far.low[10:12] = 850.0
     made = draw_test(dataclasses.replace(tests[0], traces=(far, trace("T_bed"))))
     low, high = made["layout"]["yaxis"]["range"]
-    mark, = (t for t in made["data"] if t.get("mode") == "markers")
+    (mark,) = (t for t in made["data"] if t.get("mode") == "markers")
     assert high < 30
     assert all(low < y < high for y in mark["y"])
     assert mark["customdata"][0][0] == 850.0
@@ -90,7 +104,8 @@ def test_the_worst_flag_of_a_bin_gives_its_colour() -> None:
 
 def test_names_from_data_can_not_break_the_page(tests: list[TestQuality]) -> None:
     evil = "</script><script>alert(1)</script>"
-    named = dataclasses.replace(tests[1], test=evil, campaign=evil, losses=(evil,),
-                                traces=(dataclasses.replace(tests[1].traces[0], name=evil),))
+    named = dataclasses.replace(
+        tests[1], test=evil, campaign=evil, losses=(evil,), traces=(dataclasses.replace(tests[1].traces[0], name=evil),)
+    )
     assert evil not in render([named])
     assert render([])

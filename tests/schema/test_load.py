@@ -71,7 +71,8 @@ def _from_names(tmp_path: Path, extra: str = "") -> Path:
         "schema: thermodata/campaign/1\nid: c\nsources: {nc: {reader: cnc}}\ntests_from:\n"
         '  files: "raw/S{speed}_F{feed}_{nr}.csv"\n'
         f"  table: {{file: tests.csv, key: nr, columns: {{air: air{extra}}}}}\n"
-        "  units: {speed: rpm, feed: mm/min, air: degC}\n  set: {kind: spindle, role: calibration}\n")
+        "  units: {speed: rpm, feed: mm/min, air: degC}\n  set: {kind: spindle, role: calibration}\n"
+    )
     return path
 
 
@@ -90,8 +91,7 @@ def test_a_file_name_that_contradicts_the_table_is_an_error(tmp_path: Path) -> N
 
 def test_a_model_names_its_nearest_right_key() -> None:
     good = (
-        "schema: thermodata/model/1\nname: b\ncampaign: c\nresponse: {axis: Z, at: tcp}\neffects:\n"
-        "  - {effect: lag}\n"
+        "schema: thermodata/model/1\nname: b\ncampaign: c\nresponse: {axis: Z, at: tcp}\neffects:\n  - {effect: lag}\n"
     )
     assert parse_model(good).campaign_ids == ("c",)
     with pytest.raises(SpecError, match=r"model\.yaml:6.*\n.*\n.*did you mean 'drivers'"):

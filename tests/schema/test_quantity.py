@@ -18,23 +18,55 @@ from thermodata.schema.quantity import (
 )
 
 
-@pytest.mark.parametrize(("written", "target", "factor", "offset"), [
-    ("1/min", "rpm", 1, 0), ("U/min", "rpm", 1, 0), ("min-1", "rpm", 1, 0), ("min⁻¹", "rpm", 1, 0),
-    ("ot/min", "rpm", 1, 0),
-    ("RPM", "rpm", 1, 0), ("1/s", "rpm", 60, 0), ("Hz", "rpm", 60, 0), ("1/ min", "rpm", 1, 0),
-    ("Deg C", "degC", 1, 0), ("Grd C", "degC", 1, 0), ("°C", "degC", 1, 0), ("C", "degC", 1, 0),
-    ("[degC]", "degC", 1, 0),
-    ("K", "degC", 1, -273.15), ("degF", "degC", 5 / 9, -160 / 9), ("µm", "um", 1, 0), ("μm", "um", 1, 0),
-    ("mm", "um", 1000, 0), ("nm", "um", 1e-3, 0), ("Nm", "N m", 1, 0), ("N·m", "N m", 1, 0), ("W", "kW", 1e-3, 0),
-    ("KW", "kW", 1, 0), ("mm/min", "m/min", 1e-3, 0), ("mm/s", "m/min", 0.06, 0), ("% RH", "%", 1, 0),
-    ("Volts", "V", 1, 0), ("mV", "V", 1e-3, 0), ("mA", "A", 1e-3, 0), ("um/m", "urad", 1, 0), ("mm/m", "urad", 1e3, 0),
-    ("mrad", "urad", 1e3, 0), ("mbar", "bar", 1e-3, 0), ("l/h", "l/min", 1 / 60, 0), ("W/m²", "W/m2", 1, 0)])
+@pytest.mark.parametrize(
+    ("written", "target", "factor", "offset"),
+    [
+        ("1/min", "rpm", 1, 0),
+        ("U/min", "rpm", 1, 0),
+        ("min-1", "rpm", 1, 0),
+        ("min⁻¹", "rpm", 1, 0),
+        ("ot/min", "rpm", 1, 0),
+        ("RPM", "rpm", 1, 0),
+        ("1/s", "rpm", 60, 0),
+        ("Hz", "rpm", 60, 0),
+        ("1/ min", "rpm", 1, 0),
+        ("Deg C", "degC", 1, 0),
+        ("Grd C", "degC", 1, 0),
+        ("°C", "degC", 1, 0),
+        ("C", "degC", 1, 0),
+        ("[degC]", "degC", 1, 0),
+        ("K", "degC", 1, -273.15),
+        ("degF", "degC", 5 / 9, -160 / 9),
+        ("µm", "um", 1, 0),
+        ("μm", "um", 1, 0),
+        ("mm", "um", 1000, 0),
+        ("nm", "um", 1e-3, 0),
+        ("Nm", "N m", 1, 0),
+        ("N·m", "N m", 1, 0),
+        ("W", "kW", 1e-3, 0),
+        ("KW", "kW", 1, 0),
+        ("mm/min", "m/min", 1e-3, 0),
+        ("mm/s", "m/min", 0.06, 0),
+        ("% RH", "%", 1, 0),
+        ("Volts", "V", 1, 0),
+        ("mV", "V", 1e-3, 0),
+        ("mA", "A", 1e-3, 0),
+        ("um/m", "urad", 1, 0),
+        ("mm/m", "urad", 1e3, 0),
+        ("mrad", "urad", 1e3, 0),
+        ("mbar", "bar", 1e-3, 0),
+        ("l/h", "l/min", 1 / 60, 0),
+        ("W/m²", "W/m2", 1, 0),
+    ],
+)
 def test_conversions(written: str, target: str, factor: float, offset: float) -> None:
     assert linear_conversion(written, target) == pytest.approx((factor, offset), rel=1e-9, abs=1e-9)
 
 
-@pytest.mark.parametrize(("written", "target"), [
-    ("V", "um"), ("degC", "um"), ("rpm", "m/min"), ("furlongs per nonsense", "um"), ("um", "degC"), ("m", "m/min")])
+@pytest.mark.parametrize(
+    ("written", "target"),
+    [("V", "um"), ("degC", "um"), ("rpm", "m/min"), ("furlongs per nonsense", "um"), ("um", "degC"), ("m", "m/min")],
+)
 def test_units_of_another_kind_are_refused(written: str, target: str) -> None:
     with pytest.raises(UsageError, match="does not convert"):
         linear_conversion(written, target)
@@ -65,13 +97,30 @@ def test_compound_units() -> None:
 
 
 def test_what_is_a_unit() -> None:
-    assert [is_unit(u) for u in ("mm", "m/min", "°C", "1/min", "x", "mm/x", "", "speed")] == \
-        [True, True, True, True, False, False, False, False]
+    assert [is_unit(u) for u in ("mm", "m/min", "°C", "1/min", "x", "mm/x", "", "speed")] == [
+        True,
+        True,
+        True,
+        True,
+        False,
+        False,
+        False,
+        False,
+    ]
 
 
-@pytest.mark.parametrize(("text", "wanted"), [
-    ("9000 rpm", (9000.0, "rpm")), ("-3.2 s", (-3.2, "s")), ("1,5 mm", (1.5, "mm")), ("1e3um", (1000.0, "um")),
-    (5, (5.0, "")), ("210", (210.0, "")), ("6000 1/min", (6000.0, "1/min"))])
+@pytest.mark.parametrize(
+    ("text", "wanted"),
+    [
+        ("9000 rpm", (9000.0, "rpm")),
+        ("-3.2 s", (-3.2, "s")),
+        ("1,5 mm", (1.5, "mm")),
+        ("1e3um", (1000.0, "um")),
+        (5, (5.0, "")),
+        ("210", (210.0, "")),
+        ("6000 1/min", (6000.0, "1/min")),
+    ],
+)
 def test_values_split_from_their_units(text: str | int, wanted: tuple[float, str]) -> None:
     assert split_value(text) == wanted
 

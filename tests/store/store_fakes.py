@@ -57,10 +57,10 @@ class NpzReader:
             t = data[f"{stream}:t_ns"]
             names = [k.split(":")[1] for k in data if k.startswith(f"{stream}:") and not k.endswith(":t_ns")]
             for a in range(0, len(t), 500):
-                values = {n: data[f"{stream}:{n}"][a:a + 500] for n in names}
+                values = {n: data[f"{stream}:{n}"][a : a + 500] for n in names}
                 values = {n: v.astype(object) if v.dtype.kind == "U" else v for n, v in values.items()}
-                flags = {flagged: np.full(len(t[a:a + 500]), 4, np.uint16)} if flagged in names and a >= 500 else None
-                yield Block(stream, t[a:a + 500], values, flags)
+                flags = {flagged: np.full(len(t[a : a + 500]), 4, np.uint16)} if flagged in names and a >= 500 else None
+                yield Block(stream, t[a : a + 500], values, flags)
         if "_lost" in data:
             yield Loss("at the end", reason=str(data["_lost"]), fraction=0.1)
 
@@ -80,9 +80,14 @@ def times(n: int, step_s: float = 1.0, start_s: float = 0.0, start_ns: int = STA
 def daq(n: int = 1200, seed: int = 0, start_s: float = 0.0, step_s: float = 1.0) -> dict[str, dict[str, Any]]:
     rng = np.random.default_rng(seed)
     s = start_s + np.arange(n) * step_s
-    return {"main": {"t_ns": times(n, step_s, start_s), "Z": 5 + 0.1 * np.sin(s / 300) + 1e-4 * rng.standard_normal(n),
-                     "T1": 20 + s / 600 + 0.01 * rng.standard_normal(n),
-                     "T2": (200 + s // 60).astype(np.int16)}}
+    return {
+        "main": {
+            "t_ns": times(n, step_s, start_s),
+            "Z": 5 + 0.1 * np.sin(s / 300) + 1e-4 * rng.standard_normal(n),
+            "T1": 20 + s / 600 + 0.01 * rng.standard_normal(n),
+            "T2": (200 + s // 60).astype(np.int16),
+        }
+    }
 
 
 CAMPAIGN = """
@@ -115,9 +120,16 @@ def write_campaign(folder: Path, text: str = CAMPAIGN, *, logs: bool = True) -> 
         for i, test in enumerate(("one", "two")):
             write_log(folder / f"raw/{test}_a.npz", daq(seed=i))
             n = 130
-            write_log(folder / f"raw/{test}.nc.npz", {"nc": {
-                "t_ns": times(n, 10.0), "n": np.where(np.arange(n) < 60, 9000.0, 0.0),
-                "msg": np.where(np.arange(n) < 60, "RUN", "STOP")}})
+            write_log(
+                folder / f"raw/{test}.nc.npz",
+                {
+                    "nc": {
+                        "t_ns": times(n, 10.0),
+                        "n": np.where(np.arange(n) < 60, 9000.0, 0.0),
+                        "msg": np.where(np.arange(n) < 60, "RUN", "STOP"),
+                    }
+                },
+            )
     return path
 
 

@@ -13,9 +13,10 @@ from thermodata.schema.flag import Flag
 from thermodata.store import Store
 from thermodata.store.ingest import ingest
 
-ALIGNED = CAMPAIGN.replace('files: "raw/{test}.nc.npz"}',
-                           'files: "raw/{test}.nc.npz", clock: {align_to: daq, by: [{here: speed, there: n_daq}]}}') \
-    .replace("calibrations:", "  n_daq: {source: daq, signal: n, quantity: rotational_speed}\ncalibrations:")
+ALIGNED = CAMPAIGN.replace(
+    'files: "raw/{test}.nc.npz"}',
+    'files: "raw/{test}.nc.npz", clock: {align_to: daq, by: [{here: speed, there: n_daq}]}}',
+).replace("calibrations:", "  n_daq: {source: daq, signal: n, quantity: rotational_speed}\ncalibrations:")
 
 
 def steps(t_s: np.ndarray) -> np.ndarray:
@@ -31,9 +32,16 @@ def lab(folder: Path, text: str, *, off_s: float, constant: bool = False) -> Pat
     log["main"]["n"] = np.zeros(n) if constant else steps(np.arange(n, dtype=float))
     write_log(path.parent / "raw/one_a.npz", log)
     t = np.arange(0, 3500, 2.0)
-    write_log(path.parent / "raw/one.nc.npz", {"nc": {
-        "t_ns": START_NS + np.rint((t - off_s) * 1e9).astype(np.int64), "n": steps(t),
-        "msg": np.array(["RUN"] * len(t))}})
+    write_log(
+        path.parent / "raw/one.nc.npz",
+        {
+            "nc": {
+                "t_ns": START_NS + np.rint((t - off_s) * 1e9).astype(np.int64),
+                "n": steps(t),
+                "msg": np.array(["RUN"] * len(t)),
+            }
+        },
+    )
     return path
 
 
@@ -41,8 +49,8 @@ def test_a_clock_is_aligned_by_what_both_sources_logged(store: Store, tmp_path: 
     path = lab(tmp_path / "lab", ALIGNED, off_s=7_203.4)
     summary = ingest(store, path)
     with store.reader() as con:
-        offset, = con.execute("select offset_ns from source where source = 'nc'").fetchone() or (None,)
-        first, = con.execute("select min(t_s) from driver where channel = 'speed'").fetchone() or (None,)
+        (offset,) = con.execute("select offset_ns from source where source = 'nc'").fetchone() or (None,)
+        (first,) = con.execute("select min(t_s) from driver where channel = 'speed'").fetchone() or (None,)
     assert offset == pytest.approx(7_203.4e9, abs=1.5e9)
     assert first == pytest.approx(0.0, abs=1.5)
     assert any("aligned to 'daq'" in note for note in summary.notes)
@@ -59,24 +67,33 @@ def test_a_clock_that_cannot_be_aligned_is_suspect_and_told(store: Store, tmp_pa
 
 
 def test_clocks_in_a_circle_are_refused(store: Store, tmp_path: Path) -> None:
-    text = ALIGNED.replace('files: "raw/{test}_*.npz"}',
-                           'files: "raw/{test}_*.npz", clock: {align_to: nc, by: [{here: n_daq, there: speed}]}}')
+    text = ALIGNED.replace(
+        'files: "raw/{test}_*.npz"}',
+        'files: "raw/{test}_*.npz", clock: {align_to: nc, by: [{here: n_daq, there: speed}]}}',
+    )
     summary_or_error = lab(tmp_path / "lab", text, off_s=0.0)
     with pytest.raises(SpecError):
         ingest(store, summary_or_error)
 
 
 def test_the_test_begins_with_the_probes_and_a_shared_logger_is_cut_to_it(store: Store, tmp_path: Path) -> None:
-    path = write_campaign(tmp_path / "lab", CAMPAIGN.replace("channels:", """\
+    path = write_campaign(
+        tmp_path / "lab",
+        CAMPAIGN.replace(
+            "channels:",
+            """\
   hall: {reader: npz, files: raw/hall.npz}
 channels:
-  T_hall: {source: hall, signal: T1, quantity: temperature, at: hall.top}"""))
+  T_hall: {source: hall, signal: T1, quantity: temperature, at: hall.top}""",
+        ),
+    )
     log = daq(4000, start_s=-20_000.0, step_s=10.0)
     write_log(path.parent / "raw/hall.npz", {"main": {k: log["main"][k] for k in ("t_ns", "T1")}})
     assert ingest(store, path).losses == []
     with store.reader() as con:
-        found = con.execute("select test, min(t_s), max(t_s) from sample where channel = 'T_hall' group by 1 "
-                            "order by 1").fetchall()
+        found = con.execute(
+            "select test, min(t_s), max(t_s) from sample where channel = 'T_hall' group by 1 order by 1"
+        ).fetchall()
         duration = con.execute("select distinct duration_s from test").fetchall()
     assert found == [("one", 0.0, 1190.0), ("two", 0.0, 1190.0)]
     assert duration == [(1199.0,)]
@@ -84,13 +101,17 @@ channels:
 
 def test_a_relative_clock_beside_an_absolute_one_starts_with_the_test(store: Store, tmp_path: Path) -> None:
     path = write_campaign(tmp_path / "lab")
-    write_log(path.parent / "raw/one.nc.npz", {"nc": {
-        "t_ns": times(50, 10.0, start_ns=0), "n": np.arange(50.0), "msg": np.array(["A"] * 50)}}, clock="relative")
+    write_log(
+        path.parent / "raw/one.nc.npz",
+        {"nc": {"t_ns": times(50, 10.0, start_ns=0), "n": np.arange(50.0), "msg": np.array(["A"] * 50)}},
+        clock="relative",
+    )
     summary = ingest(store, path)
     assert any("relative clock" in note for note in summary.notes)
     with store.reader() as con:
-        found = con.execute("select min(t_s), max(t_s), min(epoch_ns(t)) from sample "
-                            "where channel = 'speed' and test = 'one'").fetchone()
+        found = con.execute(
+            "select min(t_s), max(t_s), min(epoch_ns(t)) from sample where channel = 'speed' and test = 'one'"
+        ).fetchone()
     assert found == (0.0, 490.0, START_NS)
 
 
@@ -99,14 +120,18 @@ def test_a_clock_is_aligned_by_declared_events(store: Store, tmp_path: Path) -> 
     path = lab(tmp_path / "lab", text, off_s=0.0, constant=True)
     summary = ingest(store, path)
     with store.reader() as con:
-        offset, = con.execute("select offset_ns from source where source = 'nc'").fetchone() or (None,)
+        (offset,) = con.execute("select offset_ns from source where source = 'nc'").fetchone() or (None,)
     assert offset == 60.5e9
     assert any("declared events" in note for note in summary.notes)
 
 
-@pytest.mark.parametrize(("events", "said"), [
-    ("[{here: 0 s, there: 0 s}, {here: 3000 s, there: 3200 s}]", "contradict"),
-    ("[{here: 2026-03-02 10:00:00, there: 10 furlongs}]", "furlongs")])
+@pytest.mark.parametrize(
+    ("events", "said"),
+    [
+        ("[{here: 0 s, there: 0 s}, {here: 3000 s, there: 3200 s}]", "contradict"),
+        ("[{here: 2026-03-02 10:00:00, there: 10 furlongs}]", "furlongs"),
+    ],
+)
 def test_declared_events_that_make_no_sense_are_told(store: Store, tmp_path: Path, events: str, said: str) -> None:
     text = ALIGNED.replace("by: [{here: speed, there: n_daq}]", f"events: {events}")
     path = lab(tmp_path / "lab", text, off_s=0.0)

@@ -25,8 +25,12 @@ def samples(store: Store) -> int:
 
 def files(store: Store, layer: str, test: str = "one") -> list[Path]:
     with store.reader() as con:
-        return [store.path / r[0] for r in con.execute(
-            "select path from file where layer = ? and test = ? order by 1", [layer, test]).fetchall()]
+        return [
+            store.path / r[0]
+            for r in con.execute(
+                "select path from file where layer = ? and test = ? order by 1", [layer, test]
+            ).fetchall()
+        ]
 
 
 def spoil(path: Path, harm: str) -> None:
@@ -34,12 +38,12 @@ def spoil(path: Path, harm: str) -> None:
     if harm == "gone":
         path.unlink()
     elif harm == "cut":
-        path.write_bytes(data[:len(data) // 2])
+        path.write_bytes(data[: len(data) // 2])
     elif harm == "empty":
         path.write_bytes(b"")
     else:
         middle = len(data) // 3
-        path.write_bytes(data[:middle] + bytes(b ^ 0x5A for b in data[middle:middle + 8]) + data[middle + 8:])
+        path.write_bytes(data[:middle] + bytes(b ^ 0x5A for b in data[middle : middle + 8]) + data[middle + 8 :])
 
 
 @pytest.mark.parametrize("layer", ["raw", "tidy"])
@@ -63,7 +67,7 @@ def test_an_altered_file_is_found_by_the_check_and_made_again(filled: Store, cam
     path = files(filled, layer)[0]
     whole = path.read_bytes()
     spoil(path, "altered")
-    damaged, = check_store(filled).damaged
+    (damaged,) = check_store(filled).damaged
     assert damaged.path == path.relative_to(filled.path).as_posix()
     assert damaged.campaign == "shop"
     check_store(filled, repair=True)
@@ -75,7 +79,8 @@ def test_an_altered_file_is_found_by_the_check_and_made_again(filled: Store, cam
 
 @pytest.mark.parametrize("harm", ["gone", "cut"])
 def test_a_query_over_a_damaged_file_says_which_and_what_to_do(
-        filled: Store, harm: str, capsys: pytest.CaptureFixture[str]) -> None:
+    filled: Store, harm: str, capsys: pytest.CaptureFixture[str]
+) -> None:
     path = files(filled, "tidy")[0]
     spoil(path, harm)
     assert run(["--store", str(filled.path), "sql", "select sum(value) from sample"]) == 4
@@ -85,8 +90,9 @@ def test_a_query_over_a_damaged_file_says_which_and_what_to_do(
 
 
 @pytest.mark.parametrize("harm", ["gone", "cut"])
-def test_a_damaged_campaign_does_not_block_another(filled: Store, campaign: Path, tmp_path: Path, harm: str,
-                                                      capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_damaged_campaign_does_not_block_another(
+    filled: Store, campaign: Path, tmp_path: Path, harm: str, capsys: pytest.CaptureFixture[str]
+) -> None:
     other = write_campaign(tmp_path / "other", CAMPAIGN.replace("id: shop", "id: other").replace("10 um/V", "7 um/V"))
     for path in {*files(filled, "tidy"), *files(filled, "tidy", "two")}:
         spoil(path, harm)
@@ -133,8 +139,7 @@ def read_only(monkeypatch: pytest.MonkeyPatch, folder: Path) -> None:
 
 
 @pytest.mark.parametrize("locks", [True, False])
-def test_a_store_on_a_read_only_disk_can_be_read(
-        filled: Store, monkeypatch: pytest.MonkeyPatch, locks: bool) -> None:
+def test_a_store_on_a_read_only_disk_can_be_read(filled: Store, monkeypatch: pytest.MonkeyPatch, locks: bool) -> None:
     if not locks:
         for path in filled.path.glob("*.lock"):
             path.unlink()
@@ -146,7 +151,7 @@ def test_a_store_on_a_read_only_disk_can_be_read(
 
 
 def test_a_store_stands_anywhere(filled: Store, campaign: Path, tmp_path: Path) -> None:
-    place = tmp_path / "Měření 23 °C 测试/o'clock \"quoted\" %20;x"
+    place = tmp_path / 'Měření 23 °C 测试/o\'clock "quoted" %20;x'
     place.parent.mkdir()
     shutil.move(filled.path, place)
     store = Store(place)

@@ -40,13 +40,19 @@ class Full:
         return self.right(*args, **more)
 
 
-POINTS = {"fsync": (os, "fsync"), "rename": (os, "replace"), "row group": (pq.ParquetWriter, "write_table"),
-          "footer": (pq.ParquetWriter, "close"), "new file": (pq, "ParquetWriter")}
+POINTS = {
+    "fsync": (os, "fsync"),
+    "rename": (os, "replace"),
+    "row group": (pq.ParquetWriter, "write_table"),
+    "footer": (pq.ParquetWriter, "close"),
+    "new file": (pq, "ParquetWriter"),
+}
 
 
 @pytest.mark.parametrize("point", POINTS)
 def test_a_full_disk_at_every_point_of_an_ingest_leaves_the_store_as_it_was(
-        store: Store, campaign: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, point: str) -> None:
+    store: Store, campaign: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, point: str
+) -> None:
     owner, name = POINTS[point]
     right = getattr(owner, name)
 
@@ -76,9 +82,21 @@ def test_a_full_disk_at_every_point_of_an_ingest_leaves_the_store_as_it_was(
 def limited(op: str, store: Path, argument: object, most_bytes: int) -> subprocess.CompletedProcess[str]:
     """An operation in a process that may write no file longer than that, by whatever library."""
     return subprocess.run(
-        [sys.executable, str(HARDENING / "victim.py"), op, str(store), str(argument), "--fakes",
-         str(Path(__file__).parent)], capture_output=True, text=True, timeout=120, check=False,
-        preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (most_bytes, most_bytes)))
+        [
+            sys.executable,
+            str(HARDENING / "victim.py"),
+            op,
+            str(store),
+            str(argument),
+            "--fakes",
+            str(Path(__file__).parent),
+        ],
+        capture_output=True,
+        text=True,
+        timeout=120,
+        check=False,
+        preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (most_bytes, most_bytes)),
+    )
 
 
 def test_a_catalogue_that_cannot_grow_is_a_full_disk(store: Store, campaign: Path) -> None:
@@ -105,7 +123,8 @@ def test_a_snapshot_on_a_full_disk_is_no_file(filled: Store, tmp_path: Path) -> 
 
 
 def test_a_file_that_is_too_big_for_the_disk_says_how_much_it_needs(
-        store: Store, campaign: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    store: Store, campaign: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     write_log(campaign.parent / "raw/one_a.npz", daq(100_000))
     monkeypatch.setattr(pq, "ParquetWriter", Full(pq.ParquetWriter, 1))
     with pytest.raises(StoreError, match=r"about 5 MB for raw/one_a\.npz"):

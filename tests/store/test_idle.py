@@ -12,7 +12,7 @@ def activity(*phases: tuple[int, int], n: int = 1000, piece: int = 37) -> Activi
         mask[a:b] = True
     made = Activity()
     for i in range(0, n, piece):
-        made.add(np.arange(i, min(i + piece, n), dtype=np.int64), mask[i:i + piece])
+        made.add(np.arange(i, min(i + piece, n), dtype=np.int64), mask[i : i + piece])
     return made
 
 
@@ -22,12 +22,19 @@ def event(flag: str, a: int, b: int, channel: str | None = "dZ") -> QualityEvent
 
 def test_events_between_measuring_phases_become_one_that_says_so() -> None:
     times = {"dZ": activity((100, 200), (500, 600))}
-    events = [event("saturated", 0, 50), event("saturated", 90, 100), event("saturated", 210, 499),
-              event("gap", 210, 220), event("saturated", 0, 50, "dX")]
+    events = [
+        event("saturated", 0, 50),
+        event("saturated", 90, 100),
+        event("saturated", 210, 499),
+        event("gap", 210, 220),
+        event("saturated", 0, 50, "dX"),
+    ]
     assert without_idle(events, times) == [
         QualityEvent("dX", "saturated", 0, 50, 51),
         QualityEvent("dZ", "saturated", 0, 499, 341, "only while not measuring"),
-        event("saturated", 90, 100), event("gap", 210, 220)]
+        event("saturated", 90, 100),
+        event("gap", 210, 220),
+    ]
 
 
 def test_the_pieces_in_which_the_mask_comes_do_not_matter() -> None:

@@ -23,8 +23,9 @@ def rows(store: Store, query: str, *params: Any) -> list[tuple[Any, ...]]:
 
 def column(store: Store, test: str, channel: str) -> Any:
     with store.reader() as con:
-        found = con.execute("select t_s, value, flag from signal('shop', ?, ?) order by t_s",
-                            [test, channel]).fetchnumpy()
+        found = con.execute(
+            "select t_s, value, flag from signal('shop', ?, ?) order by t_s", [test, channel]
+        ).fetchnumpy()
     return found
 
 
@@ -40,19 +41,24 @@ def test_values_are_calibrated_into_canonical_units(store: Store, campaign: Path
     assert summary.samples == 2 * (3 * 1200 + 2 * 130)
     raw = daq(seed=1)["main"]
     found = column(store, "two", "dZ")
-    np.testing.assert_allclose(found["value"], -10 * raw["Z"])       # faces -Z, volts rise with the gap
+    np.testing.assert_allclose(found["value"], -10 * raw["Z"])  # faces -Z, volts rise with the gap
     np.testing.assert_array_equal(found["t_s"], np.arange(1200.0))
     np.testing.assert_array_equal(column(store, "two", "T_b")["value"], raw["T2"].astype(float))
-    assert rows(store, "select unit, sign, signal, calibration from channel where channel = 'dZ' and test = 'one'") \
-        == [("um", "+", "Z", "lvdt")]
-    assert rows(store, "select epoch_ns(start), duration_s, json_extract_string(conditions, '$.speed') from test "
-                       "where test = 'one'") == [(START_NS, 1199.0, "9000.0")]
+    assert rows(store, "select unit, sign, signal, calibration from channel where channel = 'dZ' and test = 'one'") == [
+        ("um", "+", "Z", "lvdt")
+    ]
+    assert rows(
+        store,
+        "select epoch_ns(start), duration_s, json_extract_string(conditions, '$.speed') from test where test = 'one'",
+    ) == [(START_NS, 1199.0, "9000.0")]
 
 
 def test_labels_stay_text(filled: Store, campaign: Path) -> None:
     store = filled
-    assert rows(store, "select message, count(*) from wide_shop_nc where test = 'one' group by 1 order by 1") \
-        == [("RUN", 60), ("STOP", 70)]
+    assert rows(store, "select message, count(*) from wide_shop_nc where test = 'one' group by 1 order by 1") == [
+        ("RUN", 60),
+        ("STOP", 70),
+    ]
 
 
 def test_the_raw_layer_keeps_the_files_own_types(filled: Store, campaign: Path) -> None:
@@ -107,8 +113,11 @@ def test_a_changed_file_supersedes_its_rows(filled: Store, campaign: Path) -> No
     write_log(campaign.parent / "raw/one_a.npz", daq(n=700, seed=9))
     ingest(store, campaign)
     assert len(column(store, "one", "dZ")["value"]) == 700
-    assert rows(store, "select layer from file where test = 'one' and source = 'daq' order by 1") \
-        == [("raw",), ("superseded",), ("tidy",)]
+    assert rows(store, "select layer from file where test = 'one' and source = 'daq' order by 1") == [
+        ("raw",),
+        ("superseded",),
+        ("tidy",),
+    ]
 
 
 def test_one_bad_file_is_a_loss_and_the_others_stay(store: Store, campaign: Path) -> None:
@@ -146,8 +155,12 @@ def test_several_files_are_joined_in_the_order_of_time(store: Store, tmp_path: P
 
 
 def test_a_window_cuts_a_recording_and_keeps_its_history(store: Store, campaign: Path) -> None:
-    edit(campaign, "- {id: two,", "- {id: late, files: {daq: raw/two_a.npz}, window: [10 min, 15 min], "
-                                  "history: recording, phases: {all: [10 min, 12 min]}}\n  - {id: two,")
+    edit(
+        campaign,
+        "- {id: two,",
+        "- {id: late, files: {daq: raw/two_a.npz}, window: [10 min, 15 min], "
+        "history: recording, phases: {all: [10 min, 12 min]}}\n  - {id: two,",
+    )
     ingest(store, campaign)
     found = column(store, "late", "dZ")
     assert found["t_s"].tolist() == list(np.arange(300.0))
@@ -192,10 +205,14 @@ def test_a_clock_reset_is_a_loss_unless_allowed(store: Store, campaign: Path) ->
 
 
 def test_derived_and_scheduled_channels(store: Store, campaign: Path) -> None:
-    edit(campaign, "calibrations:", """\
+    edit(
+        campaign,
+        "calibrations:",
+        """\
   dT: {derive: "T_a - T_b", quantity: temperature_difference}
   plan: {schedule: [[0 h, conditions.speed], [10 min, 0 rpm]], quantity: rotational_speed}
-calibrations:""")
+calibrations:""",
+    )
     edit(campaign, "role: verification, ", "role: verification, conditions: {speed: 6000 rpm}, ")
     summary = ingest(store, campaign)
     assert summary.losses == []
@@ -234,13 +251,15 @@ def test_a_channel_that_cannot_be_calibrated_is_a_loss_told_each_time(store: Sto
     assert rows(store, "select count(*) from temperature") == [(4800,)]
 
 
-JUMP = "  jump: {kind: jump, axis: Z, source: daq, file: raw/jump.npz, signal: Z, moves: [100 um, -100 um], " \
-       "dwell: 10 s%s}\ntests:"
+JUMP = (
+    "  jump: {kind: jump, axis: Z, source: daq, file: raw/jump.npz, signal: Z, moves: [100 um, -100 um], "
+    "dwell: 10 s%s}\ntests:"
+)
 
 
 def write_jump(folder: Path) -> None:
     t = np.arange(400) * 0.1
-    volts = 5 - 0.1 * ((t >= 12) & (t < 26)) * 100 / 1.0 / 10     # 1 V a 100 um, falling as the axis moves up
+    volts = 5 - 0.1 * ((t >= 12) & (t < 26)) * 100 / 1.0 / 10  # 1 V a 100 um, falling as the axis moves up
     rng = np.random.default_rng(5)
     volts += 1e-4 * rng.standard_normal(400)
     write_log(folder / "raw/jump.npz", {"main": {"t_ns": times(400, 0.1), "Z": volts}})
@@ -299,8 +318,10 @@ def test_two_campaigns_share_a_store_and_equal_files(filled: Store, campaign: Pa
     NpzReader.reads = 0
     ingest(store, other)
     assert NpzReader.reads == 0
-    assert rows(store, "select campaign, count(*) from displacement group by 1 order by 1") \
-        == [("shop", 2400), ("shop2", 2400)]
+    assert rows(store, "select campaign, count(*) from displacement group by 1 order by 1") == [
+        ("shop", 2400),
+        ("shop2", 2400),
+    ]
 
 
 def test_relative_clocks_that_overlap_are_joined_end_to_end(store: Store, tmp_path: Path) -> None:
@@ -324,7 +345,8 @@ def test_tests_stand_in_the_order_of_the_campaign_file(filled: Store, campaign: 
 
 
 def test_a_long_stream_goes_piece_by_piece_with_the_same_values(
-        store: Store, campaign: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    store: Store, campaign: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     import pyarrow.parquet as pq
 
     from thermodata.store import encoder, rawfile, windows
@@ -341,13 +363,13 @@ def test_a_long_stream_goes_piece_by_piece_with_the_same_values(
     for channel in ("dZ", "T_a", "T_b"):
         for key, values in column(whole, "one", channel).items():
             np.testing.assert_array_equal(column(store, "one", channel)[key], values, err_msg=f"{channel} {key}")
-    path, = rows(store, "select path from file where layer = 'tidy' and test = 'one' and source = 'daq'")[0]
+    (path,) = rows(store, "select path from file where layer = 'tidy' and test = 'one' and source = 'daq'")[0]
     groups = pq.ParquetFile(store.path / path).metadata
     assert max(groups.row_group(i).num_rows for i in range(groups.num_row_groups)) <= 100
 
 
 def test_a_channel_may_be_overridden_or_absent_in_one_test(store: Store, campaign: Path) -> None:
-    edit(campaign, "- {id: two, ", '- {id: two, channels: {T_b: {absent: true}, T_a: {signal: T2, at: ram}}, ')
+    edit(campaign, "- {id: two, ", "- {id: two, channels: {T_b: {absent: true}, T_a: {signal: T2, at: ram}}, ")
     assert ingest(store, campaign).losses == []
     np.testing.assert_array_equal(column(store, "two", "T_a")["value"], daq(seed=1)["main"]["T2"].astype(float))
     assert rows(store, "select test from channel where channel = 'T_b'") == [("one",)]

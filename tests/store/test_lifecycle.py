@@ -80,7 +80,9 @@ QUESTIONS = (
     "select * from binned('shop', 'one', '60 s') order by t_s limit 5",
     "select * from aligned('shop', 'two', '60 s') order by t_s limit 5",
     "select message, count(*) from wide_shop_nc group by all order by all",
-    "select count(*) from residual", "select test, role from test order by 1", "select count(*) from score",
+    "select count(*) from residual",
+    "select test, role from test order by 1",
+    "select count(*) from score",
 )
 
 
@@ -97,8 +99,9 @@ def test_a_sample_is_traced_to_file_hash_and_row(filled: Store, campaign: Path) 
 
 
 def test_a_snapshot_sweeps_what_killed_ones_have_left_beside_it_and_nothing_else(store: Store, tmp_path: Path) -> None:
-    old, young, foreign = (tmp_path / n for n in (".out.duckdb.0a1b2c3d.tmp", ".out.duckdb.4e5f6a7b.tmp.wal",
-                                                  ".else.duckdb.0a1b2c3d.tmp"))
+    old, young, foreign = (
+        tmp_path / n for n in (".out.duckdb.0a1b2c3d.tmp", ".out.duckdb.4e5f6a7b.tmp.wal", ".else.duckdb.0a1b2c3d.tmp")
+    )
     for path in (old, young, foreign):
         path.write_bytes(b"cut")
     for path in (old, foreign):

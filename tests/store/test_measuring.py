@@ -22,23 +22,24 @@ from thermodata.store.measuring import find_stretches
 
 @settings(max_examples=60, deadline=None)
 @given(st.integers(0, 10_000), st.integers(1, 50), st.floats(0, 5), st.floats(0, 8), st.booleans())
-def test_stretches_of_pieces_are_those_of_the_whole(seed: int, rows: int, settle: float, for_: float,
-                                                     pause: bool) -> None:
+def test_stretches_of_pieces_are_those_of_the_whole(
+    seed: int, rows: int, settle: float, for_: float, pause: bool
+) -> None:
     rng = np.random.default_rng(seed)
     n = 120
     t: Int1D = times(n)
     if pause:
-        t[n // 2:] += 3600 * 1_000_000_000
+        t[n // 2 :] += 3600 * 1_000_000_000
     on = np.repeat(rng.random(n) < 0.5, rng.integers(1, 9, n))[:n].astype(float)
     spec = Measuring.model_validate({"when": "x == 1", "settle": f"{settle} s", "for": f"{for_} s"})
     whole = measuring_mask(t, spec, {"x": on}, {"x": "1"})
 
     def parts() -> Iterator[tuple[int, Int1D, Bool1D]]:
         for a in range(0, n, rows):
-            yield a, t[a:a + rows], on[a:a + rows] == 1
+            yield a, t[a : a + rows], on[a : a + rows] == 1
 
     found = find_stretches(parts(), float(np.median(np.diff(t))), spec)
-    made = np.concatenate([found.mask(a, t[a:a + rows]) for a in range(0, n, rows)])
+    made = np.concatenate([found.mask(a, t[a : a + rows]) for a in range(0, n, rows)])
     np.testing.assert_array_equal(made, whole)
 
 
@@ -49,19 +50,25 @@ def flags(store: Store, channel: str) -> np.ndarray:
 
 
 def declare(campaign: Path, measuring: str) -> None:
-    text = campaign.read_text().replace("conditions: {speed: 9000 rpm}}",
-                                        f"conditions: {{speed: 9000 rpm}}, measuring: {measuring}}}", 1)
+    text = campaign.read_text().replace(
+        "conditions: {speed: 9000 rpm}}", f"conditions: {{speed: 9000 rpm}}, measuring: {measuring}}}", 1
+    )
     campaign.write_text(text)
 
 
-@pytest.mark.parametrize("measuring", ['"speed > 100 rpm"', '{when: "speed > 100 rpm", settle: 20 s, for: 30 s}',
-                                       '{in_range: in_range, settle: 20 s}'])
+@pytest.mark.parametrize(
+    "measuring",
+    ['"speed > 100 rpm"', '{when: "speed > 100 rpm", settle: 20 s, for: 30 s}', "{in_range: in_range, settle: 20 s}"],
+)
 def test_measuring_does_not_depend_on_the_pieces(
-        store: Store, campaign: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, measuring: str) -> None:
+    store: Store, campaign: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, measuring: str
+) -> None:
     declare(campaign, measuring)
     n = 150
-    write_log(campaign.parent / "raw/one.nc.npz", {"nc": {
-        "t_ns": times(n, 7.0), "n": np.where(np.arange(n) % 20 < 9, 9000.0, 0.0), "msg": np.full(n, "RUN")}})
+    write_log(
+        campaign.parent / "raw/one.nc.npz",
+        {"nc": {"t_ns": times(n, 7.0), "n": np.where(np.arange(n) % 20 < 9, 9000.0, 0.0), "msg": np.full(n, "RUN")}},
+    )
     log = daq(1200)
     log["main"]["Z"][[200, 201, 700]] = np.nan
     write_log(campaign.parent / "raw/one_a.npz", log)
@@ -80,8 +87,9 @@ def test_a_channel_measures_where_another_is_in_its_range(store: Store, campaign
     log = daq(1200)
     log["main"]["T1"][300:400] = 95.0
     write_log(campaign.parent / "raw/one_a.npz", log)
-    text = campaign.read_text().replace("quantity: temperature, at: spindle}",
-                                        "quantity: temperature, at: spindle, sensor: {range: [0 degC, 80 degC]}}")
+    text = campaign.read_text().replace(
+        "quantity: temperature, at: spindle}", "quantity: temperature, at: spindle, sensor: {range: [0 degC, 80 degC]}}"
+    )
     campaign.write_text(text)
     declare(campaign, "{in_range: T_a}")
     ingest(store, campaign)

@@ -25,25 +25,68 @@ from thermodata.store.models import (
     save_fit,
 )
 
-SPEC: dict[str, Any] = {"schema": "thermodata/model/1", "name": "base", "campaign": "shop",
-                        "response": {"axis": "Z", "at": "tcp"}, "step": "30 s", "effects": [{"effect": "lag"}]}
+SPEC: dict[str, Any] = {
+    "schema": "thermodata/model/1",
+    "name": "base",
+    "campaign": "shop",
+    "response": {"axis": "Z", "at": "tcp"},
+    "step": "30 s",
+    "effects": [{"effect": "lag"}],
+}
 
 
-def fit(model: str, name: str = "base", parent: str | None = None,
-        tests: tuple[str, ...] = ("one", "two")) -> FitResult:
+def fit(
+    model: str, name: str = "base", parent: str | None = None, tests: tuple[str, ...] = ("one", "two")
+) -> FitResult:
     return FitResult(
-        model=model, name=name, parent=parent, campaigns=["shop"], response="dZ", checks=[],
+        model=model,
+        name=name,
+        parent=parent,
+        campaigns=["shop"],
+        response="dZ",
+        checks=[],
         parameters={"lag.tau": Parameter(value=1800.0, unit="s", low=1700.0, high=None)},
-        scores=[Score(model=model, campaign="shop", test=t, role="calibration", response="dZ", phase="all", fit=80.0,
-                      rmse_um=1.5, ptp_um=30.0, ptp_residual_um=4.0, max_um=3.0, n=40) for t in tests])
+        scores=[
+            Score(
+                model=model,
+                campaign="shop",
+                test=t,
+                role="calibration",
+                response="dZ",
+                phase="all",
+                fit=80.0,
+                rmse_um=1.5,
+                ptp_um=30.0,
+                ptp_residual_um=4.0,
+                max_um=3.0,
+                n=40,
+            )
+            for t in tests
+        ],
+    )
 
 
-def save(store: Store, model: str, name: str = "base", parent: str | None = None,
-         tests: tuple[str, ...] = ("one", "two")) -> str:
-    table = pa.table({"t_s": [0.0, 30.0], "measured": [0.0, 1.0], "predicted": [0.0, 0.5], "residual": [0.0, 0.5],
-                      "valid": [True, True], "c__lag": [0.0, 0.5]})
-    return save_fit(store, spec=Model.model_validate(SPEC | {"name": name}), result=fit(model, name, parent, tests),
-                    parent=parent, predictions={("shop", t, "dZ"): table for t in tests}, data_version="v")
+def save(
+    store: Store, model: str, name: str = "base", parent: str | None = None, tests: tuple[str, ...] = ("one", "two")
+) -> str:
+    table = pa.table(
+        {
+            "t_s": [0.0, 30.0],
+            "measured": [0.0, 1.0],
+            "predicted": [0.0, 0.5],
+            "residual": [0.0, 0.5],
+            "valid": [True, True],
+            "c__lag": [0.0, 0.5],
+        }
+    )
+    return save_fit(
+        store,
+        spec=Model.model_validate(SPEC | {"name": name}),
+        result=fit(model, name, parent, tests),
+        parent=parent,
+        predictions={("shop", t, "dZ"): table for t in tests},
+        data_version="v",
+    )
 
 
 def test_a_fit_comes_back_as_it_was_saved(filled: Store) -> None:
@@ -53,10 +96,12 @@ def test_a_fit_comes_back_as_it_was_saved(filled: Store) -> None:
     assert found.spec == Model.model_validate(SPEC)
     assert (found.name, found.parent, found.stale) == ("base", None, False)
     with filled.reader() as con:
-        assert con.execute("select test, t_s, residual from residual where model = 'abc123' order by all").fetchall() \
-            == [("one", 0.0, 0.0), ("one", 30.0, 0.5), ("two", 0.0, 0.0), ("two", 30.0, 0.5)]
-        assert con.execute("select parameter, value, unit, low, high from fit").fetchall() \
-            == [("lag.tau", 1800.0, "s", 1700.0, None)]
+        assert con.execute(
+            "select test, t_s, residual from residual where model = 'abc123' order by all"
+        ).fetchall() == [("one", 0.0, 0.0), ("one", 30.0, 0.5), ("two", 0.0, 0.0), ("two", 30.0, 0.5)]
+        assert con.execute("select parameter, value, unit, low, high from fit").fetchall() == [
+            ("lag.tau", 1800.0, "s", 1700.0, None)
+        ]
         assert con.execute("select count(*) from score where model = 'abc123'").fetchone() == (2,)
 
 
@@ -95,18 +140,38 @@ def test_an_edit_makes_only_the_fits_stale_that_used_the_test(filled: Store, cam
     campaign.write_text(text.replace("spindle, role: verification", "spindle, notes: hm, role: verification"))
     save(filled, "both")
     ingest(filled, campaign)
-    assert find_model(filled, "both").stale        # the phases changed back
+    assert find_model(filled, "both").stale  # the phases changed back
     campaign.write_text(campaign.read_text().replace("notes: hm", "notes: well"))
     save(filled, "both")
-    assert ingest(filled, campaign).stale == []    # words only
+    assert ingest(filled, campaign).stale == []  # words only
 
 
 DIAGNOSIS = Diagnosis(
-    model="m1", response="dZ", verdict="effect", noise_um=0.2, rmse_um=1.5, explainable=0.9, next_test=None,
+    model="m1",
+    response="dZ",
+    verdict="effect",
+    noise_um=0.2,
+    rmse_um=1.5,
+    explainable=0.9,
+    next_test=None,
     weak_spots=[WeakSpot(campaign="shop", test="one", from_s=0.0, to_s=600.0, rmse_um=2.0, state="heating")],
-    candidates=[Candidate(rank=1, id="lag:T_a", effect="lag", family="generic", drivers=["T_a"], claimed=True,
-                          p_value=0.001, rmse_um_before=1.5, rmse_um_after=0.4, fit_before=50.0, fit_after=90.0)],
-    artefacts=[Artefact(kind="step", campaign="shop", test="two", at_s=30.0, size_um=5.0, why="a slip")])
+    candidates=[
+        Candidate(
+            rank=1,
+            id="lag:T_a",
+            effect="lag",
+            family="generic",
+            drivers=["T_a"],
+            claimed=True,
+            p_value=0.001,
+            rmse_um_before=1.5,
+            rmse_um_after=0.4,
+            fit_before=50.0,
+            fit_after=90.0,
+        )
+    ],
+    artefacts=[Artefact(kind="step", campaign="shop", test="two", at_s=30.0, size_um=5.0, why="a slip")],
+)
 
 
 def test_a_diagnosis_is_kept_whole_and_in_rows(filled: Store) -> None:
@@ -116,14 +181,19 @@ def test_a_diagnosis_is_kept_whole_and_in_rows(filled: Store) -> None:
         save_diagnosis(filled, "m1", DIAGNOSIS)
     assert load_diagnosis(filled, "m1") == DIAGNOSIS
     with filled.reader() as con:
-        assert con.execute("select kind, count(*) from finding group by 1 order by 1").fetchall() \
-            == [("artefact", 1), ("candidate", 1), ("diagnosis", 1), ("weak_spot", 1)]
+        assert con.execute("select kind, count(*) from finding group by 1 order by 1").fetchall() == [
+            ("artefact", 1),
+            ("candidate", 1),
+            ("diagnosis", 1),
+            ("weak_spot", 1),
+        ]
         assert con.execute("select test, from_s, state from weak_spot").fetchall() == [("one", 0.0, "heating")]
         assert con.execute("select effect, drivers, claimed from candidate").fetchall() == [("lag", ["T_a"], True)]
     save_findings(filled, "m1", "portability", [("shop", "one", {"rmse_um": 3.0, "machine": "139"})])
     with filled.reader() as con:
-        assert con.execute("select test, payload->>'$.machine' from finding where kind = 'portability'").fetchall() \
-            == [("one", "139")]
+        assert con.execute("select test, payload->>'$.machine' from finding where kind = 'portability'").fetchall() == [
+            ("one", "139")
+        ]
     with pytest.raises(StoreError, match="m9"):
         save_diagnosis(filled, "m9", DIAGNOSIS)
 

@@ -22,17 +22,17 @@ def clock(n: int, step_s: float = 1.0) -> Int1D:
 def ordered(t: Int1D, *, allowed: bool = False) -> tuple[Order, Int1D]:
     """(order, the times that come of it, in order)."""
     found = find_order(lambda a, b: t[a:b], len(t), resets_allowed=allowed)
-    made = found.moved(t[:found.keep].copy(), 0)
+    made = found.moved(t[: found.keep].copy(), 0)
     for a, b in found.islands.tolist():
         made[a:b] = np.sort(made[a:b])
     return found, made
 
 
-@pytest.mark.parametrize("stray", [10**18, -10**18, 3600 * S, -3600 * S, 30 * 365 * 86_400 * S])
+@pytest.mark.parametrize("stray", [10**18, -(10**18), 3600 * S, -3600 * S, 30 * 365 * 86_400 * S])
 @pytest.mark.parametrize(("row", "rows"), [(500, 1), (500, 3), (1, 2), (996, 3)])
 def test_a_few_stray_times_are_drawn_between_their_neighbours(stray: int, row: int, rows: int) -> None:
     t = clock(1000)
-    t[row:row + rows] += stray
+    t[row : row + rows] += stray
     found, made = ordered(t)
     assert found.keep == 1000
     assert np.abs(made - clock(1000)).max() <= S
@@ -41,11 +41,13 @@ def test_a_few_stray_times_are_drawn_between_their_neighbours(stray: int, row: i
     assert "stray" in found.notes[0]
 
 
-@pytest.mark.parametrize(("row", "rows", "stray"), [(0, 1, 10**18), (0, 3, 7200 * S), (997, 3, -7200 * S),
-                                                    (999, 1, 10**18), (999, 1, -10**18)])
+@pytest.mark.parametrize(
+    ("row", "rows", "stray"),
+    [(0, 1, 10**18), (0, 3, 7200 * S), (997, 3, -7200 * S), (999, 1, 10**18), (999, 1, -(10**18))],
+)
 def test_strays_at_the_ends(row: int, rows: int, stray: int) -> None:
     t = clock(1000)
-    t[row:row + rows] += stray
+    t[row : row + rows] += stray
     found, made = ordered(t)
     assert made.tolist() == clock(1000).tolist()
     assert found.marked.tolist() == list(range(row, row + rows))
@@ -62,7 +64,7 @@ def test_a_pause_is_no_fault_of_the_clock() -> None:
 
 def test_a_clock_that_was_set_while_it_ran_moves_what_came_before_up_to_it() -> None:
     t = clock(1000)
-    t[:300] -= t[0] + 66 * 365 * 86_400 * S               # begins in 1904, before any time server
+    t[:300] -= t[0] + 66 * 365 * 86_400 * S  # begins in 1904, before any time server
     found, made = ordered(t)
     assert made.tolist() == clock(1000).tolist()
     assert found.marked.tolist() == [300]
@@ -99,8 +101,13 @@ def test_disorder_within_a_second_is_sorted_and_no_fault() -> None:
 
 
 @settings(max_examples=150, deadline=None)
-@given(st.lists(st.tuples(st.integers(0, 199), st.sampled_from(["stray", "back", "set"]),
-                          st.integers(-10**17, 10**17)), max_size=4), st.sampled_from([7, 50, 1000]))
+@given(
+    st.lists(
+        st.tuples(st.integers(0, 199), st.sampled_from(["stray", "back", "set"]), st.integers(-(10**17), 10**17)),
+        max_size=4,
+    ),
+    st.sampled_from([7, 50, 1000]),
+)
 def test_the_size_of_the_chunks_does_not_matter(faults: list[tuple[int, str, int]], chunk: int) -> None:
     t = clock(200)
     for row, kind, size in faults:

@@ -12,19 +12,23 @@ from thermodata.schema.flag import Flag
 from thermodata.store import Store
 from thermodata.store.ingest import ingest
 
-DAYS = """
+DAYS = (
+    """
 schema: thermodata/campaign/1
 id: days
 machine: {id: m}
 sources:
   daq: {reader: npz, files: "raw/{test}.npz"}
 channels:
-""" + "".join(f"  T_{i}: {{source: daq, signal: T{i}, quantity: temperature, unit: degC}}\n" for i in range(5)) + """
+"""
+    + "".join(f"  T_{i}: {{source: daq, signal: T{i}, quantity: temperature, unit: degC}}\n" for i in range(5))
+    + """
 tests:
   - {id: day1, kind: spindle}
   - {id: day2, kind: spindle}
   - {id: day3, kind: spindle}
 """
+)
 N = 600
 
 
@@ -32,14 +36,19 @@ def day(number: int, **off: float) -> dict[str, dict[str, Any]]:
     rng = np.random.default_rng(number)
     t = START_NS + number * 86_400 * 10**9 + np.arange(N, dtype=np.int64) * 30 * 10**9
     rise = 1 - np.exp(-np.arange(N) / 100)
-    return {"main": {"t_ns": t, **{
-        f"T{i}": 22 + 4 * i * rise + rng.normal(0, 0.05, N) + off.get(f"T{i}", 0.0) for i in range(5)}}}
+    return {
+        "main": {
+            "t_ns": t,
+            **{f"T{i}": 22 + 4 * i * rise + rng.normal(0, 0.05, N) + off.get(f"T{i}", 0.0) for i in range(5)},
+        }
+    }
 
 
 def flags(store: Store, channel: str) -> list[tuple[str, int]]:
     with store.reader() as con:
-        return con.execute("select test, bit_and(flag) from sample where channel = ? group by 1 order by 1",
-                           [channel]).fetchall()
+        return con.execute(
+            "select test, bit_and(flag) from sample where channel = ? group by 1 order by 1", [channel]
+        ).fetchall()
 
 
 def test_a_sensor_that_failed_between_two_days_is_flagged_from_then_on(store: Store, tmp_path: Path) -> None:
@@ -63,24 +72,30 @@ def test_a_sensor_that_failed_between_two_days_is_flagged_from_then_on(store: St
 
 
 def test_a_probe_out_of_reach_while_the_axis_moves_is_one_event_that_says_so(store: Store, tmp_path: Path) -> None:
-    text = DAYS.replace("channels:\n", "channels:\n  pos: {source: daq, signal: pos, quantity: position, unit: mm}\n"
-                        "  dZ: {source: daq, signal: dZ, quantity: displacement, unit: um, "
-                        "sensor: {range: [-200 um, 200 um]}}\n")
+    text = DAYS.replace(
+        "channels:\n",
+        "channels:\n  pos: {source: daq, signal: pos, quantity: position, unit: mm}\n"
+        "  dZ: {source: daq, signal: dZ, quantity: displacement, unit: um, "
+        "sensor: {range: [-200 um, 200 um]}}\n",
+    )
     text = text.replace("{id: day1, kind: spindle}", '{id: day1, kind: linear_axis, measuring: "pos < 1 mm"}')
     path = write_campaign(tmp_path / "lab", text, logs=False)
     log = day(1)
     moves = np.arange(N) % 60 >= 30
     log["main"]["pos"] = np.where(moves, 400.0, 0.0)
     log["main"]["dZ"] = np.where(moves, 200.0, np.random.default_rng(0).normal(0, 1, N))
-    log["main"]["dZ"][10] = 200.0                         # and once where it does measure
+    log["main"]["dZ"][10] = 200.0  # and once where it does measure
     write_log(path.parent / "raw/day1.npz", log)
     for number in (2, 3):
-        write_log(path.parent / f"raw/day{number}.npz", log | {"main": log["main"] | {
-            "t_ns": log["main"]["t_ns"] + number * 86_400 * 10**9}})
+        write_log(
+            path.parent / f"raw/day{number}.npz",
+            log | {"main": log["main"] | {"t_ns": log["main"]["t_ns"] + number * 86_400 * 10**9}},
+        )
     ingest(store, path)
     with store.reader() as con:
-        events = con.execute("select flag, n, detail from quality where test = 'day1' and channel = 'dZ' "
-                             "order by from_s").fetchall()
+        events = con.execute(
+            "select flag, n, detail from quality where test = 'day1' and channel = 'dZ' order by from_s"
+        ).fetchall()
     assert [(flag, n) for flag, n, _ in events if flag == "saturated"] == [("saturated", 1), ("saturated", 300)]
     assert events[-1][2] == "only while not measuring"
 
@@ -97,8 +112,9 @@ def test_faults_of_a_clock_are_flagged_and_listed(store: Store, tmp_path: Path) 
     assert summary.losses == []
     with store.reader() as con:
         events = con.execute("select test, flag, n, detail from quality where flag = 'clock_suspect'").fetchall()
-        rows = con.execute("select test, count(*), max(t_s), min(epoch_ns(t)) from sample where channel = 'T_0' "
-                           "group by 1 order by 1").fetchall()
+        rows = con.execute(
+            "select test, count(*), max(t_s), min(epoch_ns(t)) from sample where channel = 'T_0' group by 1 order by 1"
+        ).fetchall()
     assert [(e[0], e[2]) for e in sorted(events)] == [("day1", 1), ("day2", 1), ("day3", 1)]
     assert [(r[1], r[2]) for r in rows] == [(N, (N - 1) * 30.0)] * 3
     assert rows[2][3] == START_NS + 3 * 86_400 * 10**9

@@ -29,8 +29,9 @@ class LineReader:
         return None
 
     def describe(self, path: Path, source: Source) -> Recording:
-        return Recording((Signal("T1", "main", "degC"), Signal("T2", "main", "degC"), Signal("Z", "main", "V")),
-                         "absolute", 0)
+        return Recording(
+            (Signal("T1", "main", "degC"), Signal("T2", "main", "degC"), Signal("Z", "main", "V")), "absolute", 0
+        )
 
     def blocks(self, path: Path, source: Source) -> Iterator[Block]:
         if type(self).meddle:
@@ -48,8 +49,9 @@ def lines(campaign: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     monkeypatch.setattr(gather, "find_reader", lambda name: LineReader())
     monkeypatch.setattr(LineReader, "meddle", None)
     text = campaign.read_text().replace("raw/{test}_*.npz", "raw/{test}.txt")
-    campaign.write_text("\n".join(x for x in text.splitlines() if "nc," not in x and "nc:" not in x
-                                  and "id: two" not in x))
+    campaign.write_text(
+        "\n".join(x for x in text.splitlines() if "nc," not in x and "nc:" not in x and "id: two" not in x)
+    )
     (campaign.parent / "raw/one.txt").write_text("".join(f"{20 + i % 7}\n" for i in range(50)))
     return campaign
 
@@ -65,7 +67,8 @@ def hashes(store: Store) -> list[str]:
 
 
 def test_hash_and_rows_agree_where_a_logger_is_still_writing(
-        store: Store, lines: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    store: Store, lines: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     log = lines.parent / "raw/one.txt"
 
     def grow() -> None:
@@ -86,13 +89,14 @@ def test_hash_and_rows_agree_where_a_logger_is_still_writing(
 
 
 def test_a_file_replaced_during_the_ingest_is_not_taken_for_the_hashed_one(
-        store: Store, lines: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    store: Store, lines: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     log = lines.parent / "raw/one.txt"
     status = log.stat()
 
     def swap() -> None:
         other = log.with_name("other")
-        other.write_text("".join(f"{40 + i % 7}\n" for i in range(50)))       # as long, and as old
+        other.write_text("".join(f"{40 + i % 7}\n" for i in range(50)))  # as long, and as old
         os.utime(other, ns=(status.st_atime_ns, status.st_mtime_ns))
         other.replace(log)
 
@@ -182,9 +186,16 @@ def test_an_empty_file_is_a_loss_and_the_others_stay(store: Store, campaign: Pat
     assert summary.samples == 2 * (3 * 1200 + 2 * 130)
 
 
-@pytest.mark.parametrize("name", [
-    "one_měření 23 °C 日本 'x' \"y\"; drop table file; --.npz", "one_" + "n" * 240 + ".npz", "one_\n\t.npz",
-    os.fsdecode(b"one_\xff\xfe.npz"), "one_a,b{c}[d]%e.npz"])
+@pytest.mark.parametrize(
+    "name",
+    [
+        "one_měření 23 °C 日本 'x' \"y\"; drop table file; --.npz",
+        "one_" + "n" * 240 + ".npz",
+        "one_\n\t.npz",
+        os.fsdecode(b"one_\xff\xfe.npz"),
+        "one_a,b{c}[d]%e.npz",
+    ],
+)
 def test_any_file_name_that_a_disk_takes_is_read(store: Store, campaign: Path, name: str) -> None:
     raw = campaign.parent / "raw"
     (raw / "one_a.npz").unlink()
@@ -195,6 +206,7 @@ def test_any_file_name_that_a_disk_takes_is_read(store: Store, campaign: Path, n
     assert summary.samples == 2 * (3 * 1200 + 2 * 130)
     assert ingest(store, campaign).changed is False
     with store.reader() as con:
-        path, = con.execute("select source_path from file where layer = 'raw' and test = 'one' and source = 'daq'"
-                            ).fetchone() or ("",)
+        (path,) = con.execute(
+            "select source_path from file where layer = 'raw' and test = 'one' and source = 'daq'"
+        ).fetchone() or ("",)
     assert path.encode("utf-8", "replace")[:8] == b"raw/one_"

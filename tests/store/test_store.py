@@ -22,8 +22,9 @@ WORKER = Path(__file__).parent / "worker.py"
 
 
 def worker(*arguments: object) -> subprocess.Popen[str]:
-    return subprocess.Popen([sys.executable, str(WORKER), *map(str, arguments)], stdout=subprocess.PIPE,
-                            stderr=subprocess.PIPE, text=True)
+    return subprocess.Popen(
+        [sys.executable, str(WORKER), *map(str, arguments)], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+    )
 
 
 def count(store: Store, what: str) -> int:
@@ -78,9 +79,17 @@ def test_a_moved_store_works(filled: Store, tmp_path: Path, monkeypatch: pytest.
 
 def test_duckdb_alone_opens_the_catalogue_from_inside_the_folder(filled: Store) -> None:
     done = subprocess.run(
-        [sys.executable, "-c", "import duckdb; print(duckdb.connect('catalog.duckdb', read_only=True)"
-                               ".execute('select count(*) from displacement').fetchone())"],
-        cwd=filled.path, capture_output=True, text=True, check=True)
+        [
+            sys.executable,
+            "-c",
+            "import duckdb; print(duckdb.connect('catalog.duckdb', read_only=True)"
+            ".execute('select count(*) from displacement').fetchone())",
+        ],
+        cwd=filled.path,
+        capture_output=True,
+        text=True,
+        check=True,
+    )
     assert done.stdout.strip() == "(2400,)"
 
 
@@ -151,8 +160,11 @@ def test_two_processes_ingest_while_one_reads(tmp_path: Path) -> None:
     first = write_campaign(tmp_path / "a")
     text = first.read_text().replace("id: shop", "id: other")
     second = write_campaign(tmp_path / "b", text)
-    running = [worker("ingest", store.path, first), worker("ingest", store.path, second),
-               worker("read", store.path, 20)]
+    running = [
+        worker("ingest", store.path, first),
+        worker("ingest", store.path, second),
+        worker("read", store.path, 20),
+    ]
     for process in running:
         out, err = process.communicate(timeout=60)
         assert process.returncode == 0, out + err
@@ -176,7 +188,7 @@ def test_kill_9_at_any_moment_leaves_a_store_that_works(tmp_path: Path) -> None:
         process.send_signal(signal.SIGKILL)
         process.wait()
         store = Store(folder)
-        assert count(store, "sample") in (0, expected)       # nothing by halves
+        assert count(store, "sample") in (0, expected)  # nothing by halves
         ingest(store, campaign)
         assert count(store, "sample") == expected
         gc(store, grace_s=0)
@@ -189,8 +201,9 @@ def test_a_path_with_a_comma_is_refused_with_the_reason(tmp_path: Path) -> None:
         Store(tmp_path / "a,b", create=True)
 
 
-def test_a_full_disk_is_a_store_error_and_leaves_nothing(store: Store, campaign: Path,
-                                                         monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_full_disk_is_a_store_error_and_leaves_nothing(
+    store: Store, campaign: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     import pyarrow.parquet as pq
 
     def full(*args: object, **kwargs: object) -> None:

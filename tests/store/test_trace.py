@@ -37,8 +37,12 @@ def agree(store: Store, campaign: Path, test: str, channel: str, at: list[float]
 
 
 def test_a_window_and_its_history(store: Store, campaign: Path) -> None:
-    edit(campaign, "- {id: two,", "- {id: late, files: {daq: raw/two_a.npz}, window: [10 min, 15 min], "
-                                  "history: recording, phases: {all: [10 min, 12 min]}}\n  - {id: two,")
+    edit(
+        campaign,
+        "- {id: two,",
+        "- {id: late, files: {daq: raw/two_a.npz}, window: [10 min, 15 min], "
+        "history: recording, phases: {all: [10 min, 12 min]}}\n  - {id: two,",
+    )
     ingest(store, campaign)
     found = agree(store, campaign, "late", "T_a", [-600.0, -1.0, 0.0, 299.0])
     assert [s["raw"]["row"] for s in found] == [0, 599, 600, 899]
@@ -49,13 +53,19 @@ def test_joined_files_that_are_out_of_order(store: Store, tmp_path: Path) -> Non
     path = write_campaign(tmp_path / "lab", logs=False)
     write_log(path.parent / "raw/one_b.npz", daq(300, seed=1, start_s=0.0))
     late = daq(300, seed=2, start_s=400.0)
-    late["main"]["t_ns"][100] -= 500_000_000          # a row that came half a second late
+    late["main"]["t_ns"][100] -= 500_000_000  # a row that came half a second late
     late["main"]["t_ns"][[50, 51]] = late["main"]["t_ns"][[51, 50]]
     write_log(path.parent / "raw/one_a.npz", late)
     ingest(store, path)
     found = agree(store, path, "one", "T_a", [0.0, 299.0, 400.0, 450.0, 451.0, 499.5])
-    assert [(s["raw"]["source_path"][8], s["raw"]["row"]) for s in found] \
-        == [("b", 0), ("b", 299), ("a", 0), ("a", 51), ("a", 50), ("a", 100)]
+    assert [(s["raw"]["source_path"][8], s["raw"]["row"]) for s in found] == [
+        ("b", 0),
+        ("b", 299),
+        ("a", 0),
+        ("a", 51),
+        ("a", 50),
+        ("a", 100),
+    ]
 
 
 def test_relative_files_joined_end_to_end_and_a_clock_that_was_reset(store: Store, tmp_path: Path) -> None:
@@ -69,8 +79,10 @@ def test_relative_files_joined_end_to_end_and_a_clock_that_was_reset(store: Stor
     write_log(path.parent / "raw/two_a.npz", reset)
     edit(path, 'files: "raw/{test}_*.npz"}', 'files: "raw/{test}_*.npz", clock: {resets: allow}}')
     ingest(store, path)
-    assert [(s["raw"]["source_path"], s["raw"]["row"]) for s in agree(store, path, "one", "T_a", [99.0, 100.0])] \
-        == [("raw/one_2.npz", 99), ("raw/one_10.npz", 0)]
+    assert [(s["raw"]["source_path"], s["raw"]["row"]) for s in agree(store, path, "one", "T_a", [99.0, 100.0])] == [
+        ("raw/one_2.npz", 99),
+        ("raw/one_10.npz", 0),
+    ]
     assert [s["raw"]["row"] for s in agree(store, path, "two", "T_a", [59.0, 60.0, 99.0])] == [59, 60, 99]
 
 
@@ -78,18 +90,22 @@ def test_another_clock_with_offset_and_drift_and_labels(store: Store, campaign: 
     edit(campaign, 'files: "raw/{test}.nc.npz"}', 'files: "raw/{test}.nc.npz", clock: {offset: -3.5 s, drift_ppm: 50}}')
     ingest(store, campaign)
     assert [s["raw"]["row"] for s in agree(store, campaign, "one", "speed", [-3.5, 596.5, 1300.0])] == [0, 60, 129]
-    label, = agree(store, campaign, "one", "message", [-3.5])
+    (label,) = agree(store, campaign, "one", "message", [-3.5])
     assert label["value"] == label["raw"]["raw_value"] == "RUN"
 
 
 def test_a_derived_channel_names_the_rows_of_its_operands(store: Store, campaign: Path) -> None:
-    edit(campaign, "calibrations:", """\
+    edit(
+        campaign,
+        "calibrations:",
+        """\
   dT: {derive: "T_a - T_b", quantity: temperature_difference}
   mix: {derive: "T_a + 0 * 1 degC", quantity: temperature}
-calibrations:""")
+calibrations:""",
+    )
     edit(campaign, 'files: "raw/{test}.nc.npz"}', 'files: "raw/{test}.nc.npz", clock: {offset: 3 s}}')
     ingest(store, campaign)
-    sample, = agree(store, campaign, "one", "dT", [77.0])
+    (sample,) = agree(store, campaign, "one", "dT", [77.0])
     assert [(o["channel"], o["row"]) for o in sample["operands"]] == [("T_a", 77), ("T_b", 77)]
     assert sample["value"] == pytest.approx(sample["operands"][0]["raw_value"] - sample["operands"][1]["raw_value"])
     whole = trace(store, "shop", "one", "dT")
@@ -98,10 +114,10 @@ calibrations:""")
 
 
 def test_a_trace_stays_right_when_the_calibration_changes(filled: Store, campaign: Path) -> None:
-    before, = agree(filled, campaign, "one", "dZ", [500.0])
+    (before,) = agree(filled, campaign, "one", "dZ", [500.0])
     edit(campaign, "10 um/V", "20 um/V")
     ingest(filled, campaign)
-    after, = agree(filled, campaign, "one", "dZ", [500.0])
+    (after,) = agree(filled, campaign, "one", "dZ", [500.0])
     assert after["raw"] == before["raw"]
     assert after["value"] == pytest.approx(2 * before["value"])
 
@@ -120,8 +136,15 @@ def test_the_text_is_what_an_auditor_reads(filled: Store, campaign: Path, capsys
     store = ["--store", str(filled.path)]
     assert run([*store, "trace", "shop", "one", "dZ", "--at", "2 min", "--verify"]) == 0
     said = capsys.readouterr().out
-    for words in ("raw/one_a.npz, stream main, row 121 of 1200", "the same", "unchanged", "lvdt (scale), gain -10",
-                  "SHA-256", "npz 1", "sign"):
+    for words in (
+        "raw/one_a.npz, stream main, row 121 of 1200",
+        "the same",
+        "unchanged",
+        "lvdt (scale), gain -10",
+        "SHA-256",
+        "npz 1",
+        "sign",
+    ):
         assert words in said, words
     assert run([*store, "trace", "shop", "one", "dZ", "--at", "2 min", "--json"]) == 0
     assert json.loads(capsys.readouterr().out)["sample"]["raw"]["row"] == 120

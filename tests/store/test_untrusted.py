@@ -15,8 +15,22 @@ from thermodata.plugin import Block, Head, Recording, Signal, Source
 from thermodata.store import Store
 from thermodata.store.ingest import IngestSummary, ingest
 
-NAMES = ["x'; drop table file; --", 'double "quoted"', "line\nbreak\ttab", "温度 主轴 °C", "Ä/ö\\ü", "case", "CASE",
-         "t_ns", "Z__flag", " ", "%s {0} $1 ?", "\u202eright to left", "emoji 🌡", "a" * 1_000_000]
+NAMES = [
+    "x'; drop table file; --",
+    'double "quoted"',
+    "line\nbreak\ttab",
+    "温度 主轴 °C",
+    "Ä/ö\\ü",
+    "case",
+    "CASE",
+    "t_ns",
+    "Z__flag",
+    " ",
+    "%s {0} $1 ?",
+    "\u202eright to left",
+    "emoji 🌡",
+    "a" * 1_000_000,
+]
 
 
 class GivenReader:
@@ -43,19 +57,28 @@ def given(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Any:
 
     monkeypatch.setattr(gather, "find_reader", lambda name: GivenReader())
 
-    def ingested(values: dict[str, Any], t_ns: Any, channels: dict[str, str], test: str = "one") \
-            -> tuple[IngestSummary, Store]:
+    def ingested(
+        values: dict[str, Any], t_ns: Any, channels: dict[str, str], test: str = "one"
+    ) -> tuple[IngestSummary, Store]:
         monkeypatch.setattr(GivenReader, "signals", tuple(Signal(n, "main", None, "float64") for n in values))
-        monkeypatch.setattr(GivenReader, "made", [Block("main", np.asarray(t_ns, np.int64), {
-            n: np.asarray(v, np.float64) for n, v in values.items()})])
+        monkeypatch.setattr(
+            GivenReader,
+            "made",
+            [Block("main", np.asarray(t_ns, np.int64), {n: np.asarray(v, np.float64) for n, v in values.items()})],
+        )
         import yaml
 
         (tmp_path / "lab/raw").mkdir(parents=True, exist_ok=True)
         (tmp_path / "lab/raw/x.dat").write_bytes(b"x")
-        campaign = {"schema": "thermodata/campaign/1", "id": "c", "sources": {"s": {"reader": "given",
-                    "files": "raw/x.dat"}}, "tests": [{"id": test}],
-                    "channels": {c: {"source": "s", "signal": s, "quantity": "temperature", "unit": "degC"}
-                                 for c, s in channels.items()}}
+        campaign = {
+            "schema": "thermodata/campaign/1",
+            "id": "c",
+            "sources": {"s": {"reader": "given", "files": "raw/x.dat"}},
+            "tests": [{"id": test}],
+            "channels": {
+                c: {"source": "s", "signal": s, "quantity": "temperature", "unit": "degC"} for c, s in channels.items()
+            },
+        }
         path = tmp_path / "lab/campaign.yaml"
         path.write_text(yaml.safe_dump(campaign, allow_unicode=True), encoding="utf-8")
         store = Store(tmp_path / "store", create=True)
@@ -99,11 +122,16 @@ def test_nan_and_infinity_stay_in_the_raw_layer_and_are_no_number_in_the_tidy_on
     np.testing.assert_array_equal(pq.read_table(store.path / path)["v"].to_numpy(), values)
 
 
-@pytest.mark.parametrize("t_ns", [
-    [-2**63 + 2, 0, 2**63 - 2],                                                # the limits of what 64 bits tell
-    [-9_214_560_000_000_000_000, -9_214_560_000_000_000_000 + 10**9],          # 1678
-    [9_214_646_400_000_000_000, 9_214_646_400_000_000_000 + 10**9],            # 2262
-    [0, 1], [START_NS, START_NS + 9 * 10**18 - START_NS]])
+@pytest.mark.parametrize(
+    "t_ns",
+    [
+        [-(2**63) + 2, 0, 2**63 - 2],  # the limits of what 64 bits tell
+        [-9_214_560_000_000_000_000, -9_214_560_000_000_000_000 + 10**9],  # 1678
+        [9_214_646_400_000_000_000, 9_214_646_400_000_000_000 + 10**9],  # 2262
+        [0, 1],
+        [START_NS, START_NS + 9 * 10**18 - START_NS],
+    ],
+)
 def test_times_at_the_limits_are_right_or_refused(given: Any, t_ns: list[int]) -> None:
     try:
         summary, store = given({"v": np.arange(float(len(t_ns)))}, t_ns, {"T_a": "v"})
@@ -116,10 +144,10 @@ def test_times_at_the_limits_are_right_or_refused(given: Any, t_ns: list[int]) -
     assert [t for t, _ in found] == [(t - t_ns[0]) / 1e9 for t in t_ns]
     with store.reader() as con:
         stored = con.execute("select epoch_ns(t) from sample order by t").fetchall()
-    assert [t for t, in stored] == t_ns
+    assert [t for (t,) in stored] == t_ns
 
 
-@pytest.mark.parametrize("test", ["x'; drop table test; --", "Zkouška 23 °C 日本", "a\"b", "sp 9000, 1.5 $x"])
+@pytest.mark.parametrize("test", ["x'; drop table test; --", "Zkouška 23 °C 日本", 'a"b', "sp 9000, 1.5 $x"])
 def test_ids_of_tests_are_only_names(given: Any, test: str) -> None:
     summary, store = given({"v": [1.0, 2.0]}, times(2), {"T_a": "v"}, test)
     assert summary.losses == []
@@ -143,11 +171,17 @@ def test_many_channels_of_which_few_are_wanted(given: Any) -> None:
     assert sampled(store, "c7") == [(0.0, 700.0), (1.0, 701.0)]
 
 
-@pytest.mark.parametrize("bomb", [
-    "a: &a [x, x, x, x, x, x, x, x, x]\n" + "".join(
-        f"{chr(98 + i)}: &{chr(98 + i)} [{', '.join(['*' + chr(97 + i)] * 9)}]\n" for i in range(12)),
-    "notes: " + "[" * 5000, "notes: " + "{a: " * 200 + "1" + "}" * 200, "notes: !!python/object/apply:os.system [id]",
-    "<<: &x {<<: *x}"])
+@pytest.mark.parametrize(
+    "bomb",
+    [
+        "a: &a [x, x, x, x, x, x, x, x, x]\n"
+        + "".join(f"{chr(98 + i)}: &{chr(98 + i)} [{', '.join(['*' + chr(97 + i)] * 9)}]\n" for i in range(12)),
+        "notes: " + "[" * 5000,
+        "notes: " + "{a: " * 200 + "1" + "}" * 200,
+        "notes: !!python/object/apply:os.system [id]",
+        "<<: &x {<<: *x}",
+    ],
+)
 def test_a_campaign_file_that_is_a_bomb_is_refused(store: Store, campaign: Path, bomb: str) -> None:
     campaign.write_text(campaign.read_text() + "\n" + bomb)
     with pytest.raises(SpecError):

@@ -44,7 +44,7 @@ def changed(filled: Store, campaign: Path) -> tuple[Store, Path, str, str]:
 def test_a_changed_file_is_a_version_beside_the_old(changed: tuple[Store, Path, str, str]) -> None:
     store, _, old, new = changed
     np.testing.assert_array_equal(values(store), daq(700, seed=9)["main"]["T1"])
-    file, = (f for f in trace(store, "shop", "one", "T_a")["files"])
+    (file,) = (f for f in trace(store, "shop", "one", "T_a")["files"])
     assert file["sha256"] == new
     assert [v["sha256"] for v in file["earlier"]] == [old]
     assert file["earlier"][0]["superseded_at"] > file["earlier"][0]["added_at"][:10]
@@ -66,7 +66,8 @@ def test_the_campaign_file_goes_back_to_a_version(changed: tuple[Store, Path, st
 
 
 def test_a_version_that_is_not_there_is_refused_with_those_that_are(
-        changed: tuple[Store, Path, str, str], campaign: Path) -> None:
+    changed: tuple[Store, Path, str, str], campaign: Path
+) -> None:
     store, _, old, _ = changed
     pin(campaign, "raw/one_a.npz", "0123456789")
     with pytest.raises(UsageError, match=old[:12]):
@@ -117,7 +118,8 @@ def test_a_copy_beside_the_file_counts_once(store: Store, campaign: Path) -> Non
 
 
 def test_a_file_that_cannot_be_read_any_more_keeps_what_was_read(
-        filled: Store, campaign: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    filled: Store, campaign: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     import thermodata.store.gather as gather
 
     right = gather.settled
@@ -142,7 +144,8 @@ def test_a_file_that_was_spoilt_keeps_what_was_read(filled: Store, campaign: Pat
 
 
 def test_a_reader_that_refuses_the_same_bytes_now_is_believed(
-        filled: Store, campaign: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    filled: Store, campaign: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     def refuse(self: Any, path: Path, source: Any) -> Any:
         raise FormatError("an unknown scale", where=path.name)
 

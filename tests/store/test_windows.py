@@ -29,9 +29,12 @@ def clock() -> Int1D:
 def sound() -> dict[str, Float1D]:
     rng = np.random.default_rng(1)
     s = np.arange(N)
-    return {"dZ": 20 * np.sin(s / 3000) + 0.1 * rng.standard_normal(N),
-            **{f"T_{c}": 25 + 3 * np.sin(s / (4000 + 500 * i)) + 0.02 * rng.standard_normal(N)
-               for i, c in enumerate("abc")}}
+    return {
+        "dZ": 20 * np.sin(s / 3000) + 0.1 * rng.standard_normal(N),
+        **{
+            f"T_{c}": 25 + 3 * np.sin(s / (4000 + 500 * i)) + 0.02 * rng.standard_normal(N) for i, c in enumerate("abc")
+        },
+    }
 
 
 def whole(t: Int1D, values: dict[str, Float1D]) -> tuple[dict[str, Array], list[QualityEvent]]:
@@ -43,8 +46,14 @@ def by_windows(t: Int1D, values: dict[str, Float1D], size: int = SIZE) -> tuple[
     parts: dict[str, list[Array]] = {n: [] for n in values}
     for a in range(0, len(t), size):
         low, high = max(0, a - MARGIN), min(len(t), a + size + MARGIN)
-        columns = {n: Column(Bound(n, Channel(source="daq", signal=n, quantity=QUANTITIES[n]), "daq", "main"),
-                             x[low:high], np.zeros(high - low, np.uint16)) for n, x in values.items()}
+        columns = {
+            n: Column(
+                Bound(n, Channel(source="daq", signal=n, quantity=QUANTITIES[n]), "daq", "main"),
+                x[low:high],
+                np.zeros(high - low, np.uint16),
+            )
+            for n, x in values.items()
+        }
         for n, flags in joined.add(t[low:high], columns, a - low, min(a + size, len(t)) - low).items():
             parts[n].append(flags)
     return {n: np.concatenate(p) for n, p in parts.items()}, joined.events
@@ -101,9 +110,19 @@ def standing_time_over_a_border(t: Int1D, x: dict[str, Float1D]) -> None:
     t[3998:4003] = t[3998]
 
 
-DEFECTS = [held_across_windows, held_over_a_border, stuck_across_windows, off_until_the_end, off_for_some_windows,
-           off_from_a_border, spikes_at_borders, gaps_at_a_border, another_rate, missing_over_a_border,
-           standing_time_over_a_border]
+DEFECTS = [
+    held_across_windows,
+    held_over_a_border,
+    stuck_across_windows,
+    off_until_the_end,
+    off_for_some_windows,
+    off_from_a_border,
+    spikes_at_borders,
+    gaps_at_a_border,
+    another_rate,
+    missing_over_a_border,
+    standing_time_over_a_border,
+]
 
 
 @pytest.mark.parametrize("defect", DEFECTS, ids=lambda f: f.__name__)
@@ -134,7 +153,8 @@ def test_what_is_off_from_the_first_window_on_is_so_in_every_later_one() -> None
 
 
 def test_a_smooth_reading_that_is_held_over_windows_is_told_by_its_release(
-        store: Store, campaign: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    store: Store, campaign: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     log = daq(6000)
     log["main"]["Z"][1500:4200] = log["main"]["Z"][1500]
     write_log(campaign.parent / "raw/one_a.npz", log)
@@ -144,14 +164,17 @@ def test_a_smooth_reading_that_is_held_over_windows_is_told_by_its_release(
     monkeypatch.setattr(windows, "WINDOW_VALUES", 3000)
     monkeypatch.setattr(windows, "MARGIN_ROWS", 200)
     assert ingest(store, campaign).flags["held"] == 2700
-    for query in ("select * from sample order by all",
-                  "select channel, flag, from_s, to_s, n from quality_event order by all"):
+    for query in (
+        "select * from sample order by all",
+        "select channel, flag, from_s, to_s, n from quality_event order by all",
+    ):
         with store.reader() as one, beside.reader() as other:
             assert one.sql(query).fetchall() == other.sql(query).fetchall()
 
 
 def test_more_columns_than_are_judged_together_have_the_same_flags(
-        store: Store, campaign: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    store: Store, campaign: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     log = daq(6000)
     log["main"]["T1"][2500:] += 30.0
     log["main"]["Z"][1000:1400] = log["main"]["Z"][1000]

@@ -1,8 +1,8 @@
 """One store, two versions of DuckDB: each step checks what the other version left, and writes more.
 
-    uv run --isolated --with duckdb==1.5.5 tests/store/two_versions.py make DIR
-    uv run tests/store/two_versions.py grow DIR
-    uv run --isolated --with duckdb==1.5.5 tests/store/two_versions.py check DIR
+uv run --isolated --with duckdb==1.5.5 tests/store/two_versions.py make DIR
+uv run tests/store/two_versions.py grow DIR
+uv run --isolated --with duckdb==1.5.5 tests/store/two_versions.py check DIR
 """
 
 from __future__ import annotations

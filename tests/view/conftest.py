@@ -35,21 +35,56 @@ class Builder:
     def test(self, campaign: str, test: str, **more: Any) -> None:
         if not any(r["campaign"] == campaign for r in self.rows.get("campaign", [])):
             self.add("campaign", campaign=campaign, spec="{}", spec_hash="h", ingested_at=NOW, data_version="v1")
-        self.add("test", **{"campaign": campaign, "test": test, "kind": "spindle", "role": "calibration",
-                            "start_ns": self.start, "clock": "absolute", "conditions": "{}", **more})
+        self.add(
+            "test",
+            **{
+                "campaign": campaign,
+                "test": test,
+                "kind": "spindle",
+                "role": "calibration",
+                "start_ns": self.start,
+                "clock": "absolute",
+                "conditions": "{}",
+                **more,
+            },
+        )
 
-    def channel(self, campaign: str, test: str, channel: str, quantity: str = "displacement", source: str = "daq",
-                **more: Any) -> None:
-        self.add("channel", **{"campaign": campaign, "test": test, "channel": channel, "source": source,
-                               "stream": source, "quantity": quantity, "unit": UNITS[quantity], "sign": "+",
-                               "dtype": "str" if quantity == "label" else "float64", **more})
+    def channel(
+        self, campaign: str, test: str, channel: str, quantity: str = "displacement", source: str = "daq", **more: Any
+    ) -> None:
+        self.add(
+            "channel",
+            **{
+                "campaign": campaign,
+                "test": test,
+                "channel": channel,
+                "source": source,
+                "stream": source,
+                "quantity": quantity,
+                "unit": UNITS[quantity],
+                "sign": "+",
+                "dtype": "str" if quantity == "label" else "float64",
+                **more,
+            },
+        )
 
-    def tidy(self, campaign: str, test: str, t_s: Any, columns: Mapping[str, Any], *, source: str = "daq",
-             stream: str | None = None, part: str = "test", name: str | None = None) -> Path:
+    def tidy(
+        self,
+        campaign: str,
+        test: str,
+        t_s: Any,
+        columns: Mapping[str, Any],
+        *,
+        source: str = "daq",
+        stream: str | None = None,
+        part: str = "test",
+        name: str | None = None,
+    ) -> Path:
         times = np.asarray(t_s, dtype=float)
         data: dict[str, Any] = {
             "t": pa.array(self.start + np.round(times * 1e9).astype("int64")).cast(pa.timestamp("ns")),
-            "t_s": times}
+            "t_s": times,
+        }
         for channel, given in columns.items():
             values, flags = given if isinstance(given, tuple) else (given, np.zeros(times.size))
             data[channel] = pa.array(values)
@@ -57,30 +92,77 @@ class Builder:
         path = f"tidy/{name or len(self.rows.get('file', []))}.parquet"
         (self.folder / "tidy").mkdir(parents=True, exist_ok=True)
         pq.write_table(pa.table(data), self.folder / path)
-        self.add("file", campaign=campaign, test=test, source=source, stream=stream or source, layer="tidy",
-                 part=part, key=path, path=path, rows=times.size, added_at=NOW)
-        if not any((r["campaign"], r["test"], r["source"], r["stream"]) == (campaign, test, source, stream or source)
-                   for r in self.rows.get("source", [])):
-            self.add("source", campaign=campaign, test=test, source=source, stream=stream or source, reader="table",
-                     clock="absolute", rows=times.size, offset_ns=0,
-                     step_s=float(np.median(np.diff(times))) if times.size > 1 else None)
+        self.add(
+            "file",
+            campaign=campaign,
+            test=test,
+            source=source,
+            stream=stream or source,
+            layer="tidy",
+            part=part,
+            key=path,
+            path=path,
+            rows=times.size,
+            added_at=NOW,
+        )
+        if not any(
+            (r["campaign"], r["test"], r["source"], r["stream"]) == (campaign, test, source, stream or source)
+            for r in self.rows.get("source", [])
+        ):
+            self.add(
+                "source",
+                campaign=campaign,
+                test=test,
+                source=source,
+                stream=stream or source,
+                reader="table",
+                clock="absolute",
+                rows=times.size,
+                offset_ns=0,
+                step_s=float(np.median(np.diff(times))) if times.size > 1 else None,
+            )
         return self.folder / path
 
     def prediction(self, campaign: str, test: str, model: str, response: str, data: Mapping[str, Any]) -> None:
         path = f"model/{len(self.rows.get('prediction', []))}.parquet"
         (self.folder / "model").mkdir(parents=True, exist_ok=True)
         pq.write_table(pa.table(dict(data)), self.folder / path)
-        self.add("prediction", campaign=campaign, test=test, model=model, response=response, path=path,
-                 rows=len(data["t_s"]))
+        self.add(
+            "prediction", campaign=campaign, test=test, model=model, response=response, path=path, rows=len(data["t_s"])
+        )
 
     def model(self, model: str, name: str, parent: str | None = None, **more: Any) -> None:
-        self.add("model", **{"model": model, "name": name, "parent": parent, "campaigns": ["c"], "response": "dZ",
-                             "spec": "{}", "data_version": "v1", "stale": False, "created_at": NOW,
-                             "result": "{}", **more})
+        self.add(
+            "model",
+            **{
+                "model": model,
+                "name": name,
+                "parent": parent,
+                "campaigns": ["c"],
+                "response": "dZ",
+                "spec": "{}",
+                "data_version": "v1",
+                "stale": False,
+                "created_at": NOW,
+                "result": "{}",
+                **more,
+            },
+        )
 
     def finding(self, model: str, kind: str, payload: Mapping[str, Any], **more: Any) -> None:
-        self.add("finding", **{"campaign": "", "test": "", "model": model, "kind": kind, "rank": None,
-                               "payload": json.dumps(payload), "created_at": NOW, **more})
+        self.add(
+            "finding",
+            **{
+                "campaign": "",
+                "test": "",
+                "model": model,
+                "kind": kind,
+                "rank": None,
+                "payload": json.dumps(payload),
+                "created_at": NOW,
+                **more,
+            },
+        )
 
     def store(self) -> Store:
         store = Store(self.folder, create=True)

@@ -18,8 +18,9 @@ Build = Callable[..., Any]
 def columns(store: Store, query: str, *params: object) -> dict[str, np.ndarray]:
     with store.reader() as con:
         got = (con.execute(query, list(params)) if params else con.execute(query)).fetchnumpy()
-    return {n: np.ma.filled(np.ma.asarray(a).astype(float), np.nan) if a.dtype.kind in "fiu" else a
-            for n, a in got.items()}
+    return {
+        n: np.ma.filled(np.ma.asarray(a).astype(float), np.nan) if a.dtype.kind in "fiu" else a for n, a in got.items()
+    }
 
 
 @pytest.fixture(scope="module")
@@ -37,8 +38,9 @@ def mixed(build_once: Build) -> Store:
     b.tidy("c", "a", slow, {"T1": 20 + slow / 60}, source="pt")
     b.channel("c", "a", "door", "state", source="plc")
     b.channel("c", "a", "program", "label", source="plc")
-    b.tidy("c", "a", [10.0, 95.0, 300.0], {"door": ([0.0, 1.0, 0.0], [0, 0, 0]), "program": ["A", "B", "C"]},
-           source="plc")
+    b.tidy(
+        "c", "a", [10.0, 95.0, 300.0], {"door": ([0.0, 1.0, 0.0], [0, 0, 0]), "program": ["A", "B", "C"]}, source="plc"
+    )
     b.channel("c", "a", "n_table", "rotational_speed", source="schedule")
     b.tidy("c", "a", [0.0, 60.0, 120.0], {"n_table": [0.0, 100.0, 50.0]}, source="schedule")
     return b.store()
@@ -75,7 +77,7 @@ def test_bins_are_means_of_valid_samples(mixed: Store) -> None:
     for t, value in zip(got["t_s"], got["dZ"], strict=True):
         inside = good & (fast >= t) & (fast < t + 30)
         assert (np.isnan(value) and not inside.any()) or value == pytest.approx(2 * fast[inside].mean())
-    assert np.isnan(got["dZ"]).sum() == 1            # 120 s to 150 s; a fast source's hole is never filled
+    assert np.isnan(got["dZ"]).sum() == 1  # 120 s to 150 s; a fast source's hole is never filled
     assert got["ns"][2] == 1_772_000_060_000_000_000
 
 
@@ -100,7 +102,7 @@ def test_missing_numbers_are_no_samples(build: Build) -> None:
 def test_a_source_slower_than_the_step_is_interpolated_but_not_over_long_holes(mixed: Store) -> None:
     got = columns(mixed, "select t_s, T1 from binned('c', 'a', '30 s')")
     t, value = got["t_s"], got["T1"]
-    inside = (t > 240) & (t < 480)                   # 4 periods without a sample
+    inside = (t > 240) & (t < 480)  # 4 periods without a sample
     after = t > 540
     assert np.isnan(value[inside | after]).all()
     assert value[~inside & ~after] == pytest.approx(20 + t[~inside & ~after] / 60)
@@ -124,11 +126,11 @@ def test_invalid_states_are_not_held(build: Build) -> None:
 def test_aligned_shows_the_last_sample_and_its_flag(mixed: Store) -> None:
     got = columns(mixed, "select t_s, dZ, dZ__flag, T1, door from aligned('c', 'a', '30 s')")
     t = got["t_s"]
-    assert np.isnan(got["dZ"][0])                    # before its first sample
+    assert np.isnan(got["dZ"][0])  # before its first sample
     assert got["dZ"][1:].tolist() == (2 * t[1:]).tolist()
     assert got["dZ__flag"][(t >= 100) & (t < 160)].tolist() == [int(Flag.SPIKE)] * 2
     assert got["T1"][3] == 21.0
-    assert np.isnan(got["T1"][t == 450]).all()       # 3.5 periods after the last one
+    assert np.isnan(got["T1"][t == 450]).all()  # 3.5 periods after the last one
     assert got["door"].tolist()[:5] == [np.nan, 0.0, 0.0, 0.0, 1.0] or np.isnan(got["door"][0])
     assert got["door"][-1] == 0.0
 

@@ -26,12 +26,20 @@ def test_values_are_the_bins_of_sql(build: Build) -> None:
     b = build()
     rng = np.random.default_rng(1)
     t = np.arange(0.0, 900.0, 0.7)
-    for test in ("z", "y", "x"):                     # neither the order of names nor of paths
+    for test in ("z", "y", "x"):  # neither the order of names nor of paths
         b.test("c", test)
         describe(b, "c", test)
-        b.tidy("c", test, t, {"dZ": (rng.normal(size=t.size), rng.choice([0, 1, 8, 128], t.size)),
-                              "T1": rng.normal(size=t.size), "program": ["P"] * t.size},
-               name=f"{'zyx'.index(test)}{test}")
+        b.tidy(
+            "c",
+            test,
+            t,
+            {
+                "dZ": (rng.normal(size=t.size), rng.choice([0, 1, 8, 128], t.size)),
+                "T1": rng.normal(size=t.size),
+                "program": ["P"] * t.size,
+            },
+            name=f"{'zyx'.index(test)}{test}",
+        )
     store = b.store()
     data = load_dataset(store, "c", 10)
     assert [x.test for x in data.tests] == ["z", "y", "x"]
@@ -103,20 +111,47 @@ def test_a_history_comes_first_and_outside_the_window(build: Build) -> None:
 
 def test_descriptions(build: Build) -> None:
     b = build()
-    b.test("c", "a", kind="etve", role="verification", zero_s=120.0, start_state="warm",
-           conditions='{"speed": 9000.0, "air": "on", "feed": "10 m/min", "coolant": true}',
-           pose='{"X": "1 m"}', tool='{"length": 120.0}', phases='{"idle": [0, 7200]}')
+    b.test(
+        "c",
+        "a",
+        kind="etve",
+        role="verification",
+        zero_s=120.0,
+        start_state="warm",
+        conditions='{"speed": 9000.0, "air": "on", "feed": "10 m/min", "coolant": true}',
+        pose='{"X": "1 m"}',
+        tool='{"length": 120.0}',
+        phases='{"idle": [0, 7200]}',
+    )
     describe(b, "c", "a")
-    b.add("machine", campaign="c", test="a", machine="138",
-          attributes=json.dumps({"spindle": "SP1", "speed": 1.0, "axes": {"Y": {"preload": "2.1 kN"}}}))
+    b.add(
+        "machine",
+        campaign="c",
+        test="a",
+        machine="138",
+        attributes=json.dumps({"spindle": "SP1", "speed": 1.0, "axes": {"Y": {"preload": "2.1 kN"}}}),
+    )
     b.tidy("c", "a", np.arange(0.0, 100.0), {"dZ": np.zeros(100), "T1": np.zeros(100), "program": ["x"] * 100})
     data = load_dataset(b.store(), ["c"], 10)
     test = data.tests[0]
     assert test.key == ("c", "a")
     assert (test.kind, test.role, test.zero_s, test.start_state, test.machine) == (
-        "etve", "verification", 120.0, "warm", "138")
-    assert test.conditions == {"spindle": "SP1", "axes.Y.preload": 2100.0, "pose.X": 1000.0, "tool.length": 120.0,
-                               "speed": 9000.0, "air": "on", "feed": 10.0, "coolant": 1.0}
+        "etve",
+        "verification",
+        120.0,
+        "warm",
+        "138",
+    )
+    assert test.conditions == {
+        "spindle": "SP1",
+        "axes.Y.preload": 2100.0,
+        "pose.X": 1000.0,
+        "tool.length": 120.0,
+        "speed": 9000.0,
+        "air": "on",
+        "feed": 10.0,
+        "coolant": 1.0,
+    }
     assert test.phases == {"idle": (0.0, 7200.0)}
     assert test.start_unix_s == 1_772_000_000.0
     assert test.channels["dZ"].axis == "Z"
@@ -157,9 +192,16 @@ def test_several_campaigns_and_chosen_channels(build: Build) -> None:
     assert data.data_version == load_dataset(store, ["c1", "c2"], 20).data_version
 
 
-@pytest.mark.parametrize(("campaign", "step", "channels", "word"), [
-    ("x", 10, None, "no campaign 'x'"), ("c", 0, None, "a step is positive"), ("c", float("nan"), None, "a step is"),
-    ("c", 10, ["T_1"], "did you mean 'T1'"), ("c", 1e-7, None, "choose a longer step")])
+@pytest.mark.parametrize(
+    ("campaign", "step", "channels", "word"),
+    [
+        ("x", 10, None, "no campaign 'x'"),
+        ("c", 0, None, "a step is positive"),
+        ("c", float("nan"), None, "a step is"),
+        ("c", 10, ["T_1"], "did you mean 'T1'"),
+        ("c", 1e-7, None, "choose a longer step"),
+    ],
+)
 def test_refusals(build: Build, campaign: str, step: float, channels: list[str] | None, word: str) -> None:
     b = build()
     b.test("c", "a")

@@ -24,8 +24,19 @@ def view(build: Build) -> StoreView:
     b.tidy("it's", "a", [0.0, 10.0, 20.0], {"dZ": [1.0, 2.0, 6.0]})
     for model, name, day in (("aa11", "base", 1), ("aa22", "base", 2), ("bb33", "other", 3)):
         b.model(model, name, created_at=datetime(2026, 1, day))
-        b.prediction("it's", "a", model, "dZ", {"t_s": [0.0, 30.0], "measured": [1.0, 2.0], "predicted": [0.0, 0.0],
-                                               "residual": [1.0, 2.0], "valid": [True, True]})
+        b.prediction(
+            "it's",
+            "a",
+            model,
+            "dZ",
+            {
+                "t_s": [0.0, 30.0],
+                "measured": [1.0, 2.0],
+                "predicted": [0.0, 0.0],
+                "residual": [1.0, 2.0],
+                "valid": [True, True],
+            },
+        )
     return thermodata.open(b.store().path)
 
 
@@ -46,8 +57,10 @@ def test_relations_outlive_a_commit(view: StoreView) -> None:
     assert view.tests().fetchall() == []
 
 
-@pytest.mark.parametrize(("query", "word"), [("select * from samples", "sample"), ("selec 1", "syntax"),
-                                             ("select dX from binned('it''s', 'a')", "dX")])
+@pytest.mark.parametrize(
+    ("query", "word"),
+    [("select * from samples", "sample"), ("selec 1", "syntax"), ("select dX from binned('it''s', 'a')", "dX")],
+)
 def test_a_wrong_query_is_a_usage_error(view: StoreView, query: str, word: str) -> None:
     with pytest.raises(UsageError, match=word):
         view.sql(query)
@@ -83,8 +96,16 @@ def test_no_store_and_a_lost_file(view: StoreView, tmp_path: Any) -> None:
         view.sql("select * from sample")
 
 
-@pytest.mark.parametrize("query", ["drop view sample", "delete from test", "select 1; delete from test",
-                                   "create table mine as from test", "set threads = 1"])
+@pytest.mark.parametrize(
+    "query",
+    [
+        "drop view sample",
+        "delete from test",
+        "select 1; delete from test",
+        "create table mine as from test",
+        "set threads = 1",
+    ],
+)
 def test_a_query_cannot_write(view: StoreView, query: str) -> None:
     before = view.sql("from test").fetchall()
     with pytest.raises(UsageError, match="only reads"):
@@ -94,6 +115,12 @@ def test_a_query_cannot_write(view: StoreView, query: str) -> None:
 
 
 def test_all_ways_to_read_are_open(view: StoreView) -> None:
-    for query in ("show tables", "describe sample", "summarize test", "pivot test on kind using count(*)",
-                  "values (1)", "explain from test"):
+    for query in (
+        "show tables",
+        "describe sample",
+        "summarize test",
+        "pivot test on kind using count(*)",
+        "values (1)",
+        "explain from test",
+    ):
         assert view.sql(query).fetchall()

@@ -16,11 +16,26 @@ from thermodata.store.views import regenerate
 Build = Callable[..., "Builder"]  # noqa: F821
 LONG = ["campaign", "test", "source", "channel", "t", "t_s", "value", "flag"]
 VIEWS = {
-    "sample": LONG, "displacement": LONG, "temperature": LONG, "driver": LONG,
+    "sample": LONG,
+    "displacement": LONG,
+    "temperature": LONG,
+    "driver": LONG,
     "phase": ["campaign", "test", "phase", "from_s", "to_s"],
     "residual": ["campaign", "test", "model", "response", "t_s", "measured", "predicted", "residual", "valid"],
-    "score": ["campaign", "test", "model", "role", "response", "phase", "fit", "rmse_um", "ptp_um",
-              "ptp_residual_um", "max_um", "n"],
+    "score": [
+        "campaign",
+        "test",
+        "model",
+        "role",
+        "response",
+        "phase",
+        "fit",
+        "rmse_um",
+        "ptp_um",
+        "ptp_residual_um",
+        "max_um",
+        "n",
+    ],
 }
 
 
@@ -54,8 +69,10 @@ def own(small: Store, tmp_path: Path) -> Store:
     return Store(shutil.copytree(small.path, tmp_path / "own"))
 
 
-@pytest.mark.parametrize("view", [*VIEWS, "gap", "quality", "weak_spot", "candidate", "history", "portability",
-                                  "artefact", "diagnosis", "wide"])
+@pytest.mark.parametrize(
+    "view",
+    [*VIEWS, "gap", "quality", "weak_spot", "candidate", "history", "portability", "artefact", "diagnosis", "wide"],
+)
 def test_an_empty_store_has_every_view_empty_and_typed(empty_store: Store, view: str) -> None:
     with empty_store.reader() as con:
         relation = con.sql(f"select * from {view}")
@@ -72,17 +89,21 @@ def test_macros_of_an_empty_store_are_empty(empty_store: Store, macro: str) -> N
 def test_sample_is_long_over_numeric_channels(small: Store) -> None:
     assert sql(small, "select distinct channel from sample order by 1") == [("T1",), ("dZ",), ("speed",)]
     assert sql(small, "select test, count(*), sum(value) from sample where channel = 'dZ' group by 1 order by 1") == [
-        ("a", 6, 150.0), ("b", 6, 750.0)]
+        ("a", 6, 150.0),
+        ("b", 6, 750.0),
+    ]
     assert sql(small, "select t_s, flag, epoch_ns(t) from sample where test = 'b' and channel = 'dZ' and t_s = 20") == [
-        (20.0, 8, 1_772_000_020_000_000_000)]
+        (20.0, 8, 1_772_000_020_000_000_000)
+    ]
     with small.reader() as con:
         relation = con.sql("select * from sample")
         assert relation.columns == LONG
         assert [str(t) for t in relation.types][4:] == ["TIMESTAMP_NS", "DOUBLE", "DOUBLE", "USMALLINT"]
 
 
-@pytest.mark.parametrize(("view", "channels"), [("displacement", {"dZ"}), ("temperature", {"T1"}),
-                                                ("driver", {"T1", "speed"})])
+@pytest.mark.parametrize(
+    ("view", "channels"), [("displacement", {"dZ"}), ("temperature", {"T1"}), ("driver", {"T1", "speed"})]
+)
 def test_selections_by_quantity(small: Store, view: str, channels: set[str]) -> None:
     assert {c for (c,) in sql(small, f"select distinct channel from {view}")} == channels
 
@@ -98,10 +119,15 @@ def test_signal_of_a_test_without_files_is_empty(small: Store) -> None:
     assert sql(small, "select * from signal('c', 'nothing', 'dZ')") == []
 
 
-@pytest.mark.parametrize(("call", "word"), [("'x', 'a', 'dZ'", "no campaign 'x'; there is: c"),
-                                            ("'c', 'x', 'dZ'", "no test 'x' in campaign 'c'; there is: a, b, nothing"),
-                                            ("'c', 'a', 'x'", "no channel of numbers 'x'"),
-                                            ("'c', 'a', 'program'", "no channel of numbers 'program'")])
+@pytest.mark.parametrize(
+    ("call", "word"),
+    [
+        ("'x', 'a', 'dZ'", "no campaign 'x'; there is: c"),
+        ("'c', 'x', 'dZ'", "no test 'x' in campaign 'c'; there is: a, b, nothing"),
+        ("'c', 'a', 'x'", "no channel of numbers 'x'"),
+        ("'c', 'a', 'program'", "no channel of numbers 'program'"),
+    ],
+)
 def test_signal_names_the_choices(small: Store, call: str, word: str) -> None:
     with pytest.raises(duckdb.Error, match=word):
         sql(small, f"select * from signal({call})")
@@ -110,15 +136,20 @@ def test_signal_names_the_choices(small: Store, call: str, word: str) -> None:
 def test_wide_views_have_units_as_comments(small: Store) -> None:
     assert sql(small, "select source, view from wide order by 1") == [("daq", "wide_c_daq"), ("nc", "wide_c_nc")]
     assert sql(small, "select test, dZ, dZ__flag from wide_c_daq where t_s = 20 order by 1") == [
-        ("a", 20.0, 8), ("b", 120.0, 8)]
+        ("a", 20.0, 8),
+        ("b", 120.0, 8),
+    ]
     assert sql(small, "select program from wide_c_nc where test = 'a' and t_s = 40") == [("P2",)]
-    assert sql(small, "select comment from duckdb_columns() where table_name = 'wide_c_daq' and column_name = 'dZ'"
-               ) == [("[um] displacement, axis Z, at tcp, relative to table",)]
+    assert sql(
+        small, "select comment from duckdb_columns() where table_name = 'wide_c_daq' and column_name = 'dZ'"
+    ) == [("[um] displacement, axis Z, at tcp, relative to table",)]
 
 
 def test_phases_gaps_and_quality(small: Store) -> None:
-    assert sql(small, "select * from phase") == [("c", "a", "heating", 0.0, 30.0),
-                                                 ("c", "a", "odd '$.name\"", 30.0, 60.0)]
+    assert sql(small, "select * from phase") == [
+        ("c", "a", "heating", 0.0, 30.0),
+        ("c", "a", "odd '$.name\"", 30.0, 60.0),
+    ]
     assert sql(small, "select test, channel, duration_s from gap") == [("a", "dZ", 3.0)]
     assert sql(small, "select flag, n from quality") == [("gap", 1)]
 
@@ -135,19 +166,26 @@ HOSTILE = ["it's", 'quo"te', "a b; drop table test; --", "ünï", "x' || error('
 
 
 def test_hostile_names_stay_names(build: Build) -> None:
-    b = build("st'ore \"x\" ü")
+    b = build('st\'ore "x" ü')
     for k, test in enumerate(HOSTILE):
         b.test("c", test)
-        b.tidy("c", test, [0.0, 1.0], {"k": [k + 0.25, k + 0.75], "step": [1.0, 2.0], "g": [0.0, 1.0],
-                                       "channel": [5.0, 5.0]},
-               source="s'r\"c", name=f"f{k}'%s" if k % 2 else f"h'\"{k}")
+        b.tidy(
+            "c",
+            test,
+            [0.0, 1.0],
+            {"k": [k + 0.25, k + 0.75], "step": [1.0, 2.0], "g": [0.0, 1.0], "channel": [5.0, 5.0]},
+            source="s'r\"c",
+            name=f"f{k}'%s" if k % 2 else f"h'\"{k}",
+        )
     store = b.store()
     for k, test in enumerate(HOSTILE):
         assert sql(store, "select test, value from signal('c', ?, 'k')", test) == [(test, k + 0.25), (test, k + 0.75)]
-        assert sql(store, "select test, source, sum(value) from sample where test = ? and channel = 'k' group by all",
-                   test) == [(test, "s'r\"c", 2 * k + 1.0)]
+        assert sql(
+            store, "select test, source, sum(value) from sample where test = ? and channel = 'k' group by all", test
+        ) == [(test, "s'r\"c", 2 * k + 1.0)]
         assert sql(store, "select test, k, step, g, channel from binned('c', ?, '2 s')", test) == [
-            (test, k + 0.5, 1.5, 0.5, 5.0)]
+            (test, k + 0.5, 1.5, 0.5, 5.0)
+        ]
         assert sql(store, "select test, k from aligned('c', ?, 1)", test) == [(test, k + 0.25), (test, k + 0.75)]
     assert sql(store, "select count(*) from test") == [(len(HOSTILE),)]
 
@@ -166,7 +204,7 @@ def test_names_that_sanitise_alike_get_their_own_views(build: Build) -> None:
     b = build()
     for campaign in ("a-b", "a_b", "A.b"):
         b.test(campaign, "t")
-        b.tidy(campaign, "t", [0.0], {"dZ": [float(len(b.rows['file']) if 'file' in b.rows else 0)]})
+        b.tidy(campaign, "t", [0.0], {"dZ": [float(len(b.rows["file"]) if "file" in b.rows else 0)]})
     store = b.store()
     assert sql(store, 'select count(distinct lower("view")) from wide') == [(3,)]
     found = [sql(store, "select campaign, value from signal(?, 't', 'dZ')", c) for c in ("a-b", "a_b", "A.b")]
@@ -197,12 +235,25 @@ def test_a_channel_that_moved_to_another_source_is_one_channel(build: Build) -> 
 def test_residuals_of_models_with_different_effects(build: Build) -> None:
     b = build()
     for k, extra in enumerate(({}, {"c__a": [0.1, 0.2]}, {"c__b": [0.3, 0.4]})):
-        b.prediction("c", "t", f"m{k}", "dZ", {**extra, "t_s": [0.0, 30.0], "measured": [1.0 + k, 2.0],
-                                              "predicted": [0.5, 0.5], "residual": [0.5 + k, 1.5],
-                                              "valid": [True, False]})
+        b.prediction(
+            "c",
+            "t",
+            f"m{k}",
+            "dZ",
+            {
+                **extra,
+                "t_s": [0.0, 30.0],
+                "measured": [1.0 + k, 2.0],
+                "predicted": [0.5, 0.5],
+                "residual": [0.5 + k, 1.5],
+                "valid": [True, False],
+            },
+        )
     store = b.store()
     assert sql(store, "select * from residual where model = 'm1' order by t_s") == [
-        ("c", "t", "m1", "dZ", 0.0, 2.0, 0.5, 1.5, True), ("c", "t", "m1", "dZ", 30.0, 2.0, 0.5, 1.5, False)]
+        ("c", "t", "m1", "dZ", 0.0, 2.0, 0.5, 1.5, True),
+        ("c", "t", "m1", "dZ", 30.0, 2.0, 0.5, 1.5, False),
+    ]
     assert sql(store, "select count(*) from residual") == [(6,)]
 
 
@@ -212,28 +263,78 @@ def test_findings_and_history(build: Build) -> None:
     b.model("m2", "baseline", "m1")
     for model, rmse in (("m1", 4.0), ("m2", 1.0)):
         for test, role, n in (("t1", "calibration", 10), ("t2", "verification", 30), ("t3", "verification", 10)):
-            b.add("score_row", campaign="c", test=test, model=model, role=role, response="dZ", phase="all",
-                  fit=90.0, rmse_um=rmse * (2 if test == "t3" else 1), n=n)
-    b.finding("m1", "weak_spot", {"campaign": "c", "test": "t2", "from_s": 0, "to_s": 60, "rmse_um": 5.5,
-                                  "state": "heating"}, campaign="c", test="t2", rank=1)
-    b.finding("m1", "candidate", {"rank": 1, "id": "x", "effect": "lag", "family": "generic", "drivers": ["T1"],
-                                  "claimed": True, "p_value": None, "rmse_um_before": 4, "equivalent": [],
-                                  "parameters": {}, "why": "it's"}, rank=1)
+            b.add(
+                "score_row",
+                campaign="c",
+                test=test,
+                model=model,
+                role=role,
+                response="dZ",
+                phase="all",
+                fit=90.0,
+                rmse_um=rmse * (2 if test == "t3" else 1),
+                n=n,
+            )
+    b.finding(
+        "m1",
+        "weak_spot",
+        {"campaign": "c", "test": "t2", "from_s": 0, "to_s": 60, "rmse_um": 5.5, "state": "heating"},
+        campaign="c",
+        test="t2",
+        rank=1,
+    )
+    b.finding(
+        "m1",
+        "candidate",
+        {
+            "rank": 1,
+            "id": "x",
+            "effect": "lag",
+            "family": "generic",
+            "drivers": ["T1"],
+            "claimed": True,
+            "p_value": None,
+            "rmse_um_before": 4,
+            "equivalent": [],
+            "parameters": {},
+            "why": "it's",
+        },
+        rank=1,
+    )
     b.finding("m1", "diagnosis", {"verdict": "effect", "response": "dZ"})
-    b.finding("m1", "portability", {"machine": "139", "campaign": "d", "test": "t", "role": "none",
-                                    "response": "dZ", "g": 0.5, "fit_n": None, "verdict": "portable"})
+    b.finding(
+        "m1",
+        "portability",
+        {
+            "machine": "139",
+            "campaign": "d",
+            "test": "t",
+            "role": "none",
+            "response": "dZ",
+            "g": 0.5,
+            "fit_n": None,
+            "verdict": "portable",
+        },
+    )
     store = b.store()
-    assert sql(store, "select version, model, rmse_um_calibration, round(rmse_um_verification, 6), rmse_um_locked, "
-                      "tests from history") == [
+    assert sql(
+        store,
+        "select version, model, rmse_um_calibration, round(rmse_um_verification, 6), rmse_um_locked, "
+        "tests from history",
+    ) == [
         (1, "m1", 4.0, round(float(np.sqrt((16 * 30 + 64 * 10) / 40)), 6), None, 3),
-        (2, "m2", 1.0, round(float(np.sqrt((30 + 4 * 10) / 40)), 6), None, 3)]
+        (2, "m2", 1.0, round(float(np.sqrt((30 + 4 * 10) / 40)), 6), None, 3),
+    ]
     assert sql(store, "select campaign, test, to_s, rmse_um, state from weak_spot") == [
-        ("c", "t2", 60.0, 5.5, "heating")]
+        ("c", "t2", 60.0, 5.5, "heating")
+    ]
     assert sql(store, "select rank, id, drivers, claimed, p_value, rmse_um_before, why from candidate") == [
-        (1, "x", ["T1"], True, None, 4.0, "it's")]
+        (1, "x", ["T1"], True, None, 4.0, "it's")
+    ]
     assert sql(store, "select verdict from diagnosis") == [("effect",)]
     assert sql(store, "select machine, campaign, test, g, fit_n, verdict from portability") == [
-        ("139", "d", "t", 0.5, None, "portable")]
+        ("139", "d", "t", 0.5, None, "portable")
+    ]
 
 
 def test_views_follow_the_tables(own: Store) -> None:
@@ -243,11 +344,12 @@ def test_views_follow_the_tables(own: Store) -> None:
     with own.write() as con:
         con.execute("delete from file")
     assert sql(own, "select count(*) from sample") == [(0,)]
-    assert sql(own, 'select count(*) from wide') == [(0,)]
+    assert sql(own, "select count(*) from wide") == [(0,)]
 
 
-def test_a_moved_store_works_also_from_inside_its_folder(own: Store, tmp_path: Path,
-                                                         monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_moved_store_works_also_from_inside_its_folder(
+    own: Store, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     moved = tmp_path / "elsewhere"
     shutil.move(own.path, moved)
     assert sql(Store(moved), "select count(*) from sample where test = 'a'") == [(15,)]
@@ -273,23 +375,30 @@ def test_a_lost_file_is_named_to_who_asks_for_it_and_stops_nobody_else(own: Stor
 
 def texts_of(store: Store) -> list[tuple[object, ...]]:
     # words sorted: DuckDB keeps the names after EXCLUDE in no order
-    return sql(store, "select view_name, list_sort(string_split_regex(sql, '\\W+'))::varchar, comment "
-                      "from duckdb_views() where not internal "
-                      "union all select function_name || function_type, coalesce(macro_definition, ''), comment "
-                      "from duckdb_functions() where not internal "
-                      "union all select table_name || '.' || column_name, data_type, comment from duckdb_columns() "
-                      "where not internal order by all")
+    return sql(
+        store,
+        "select view_name, list_sort(string_split_regex(sql, '\\W+'))::varchar, comment "
+        "from duckdb_views() where not internal "
+        "union all select function_name || function_type, coalesce(macro_definition, ''), comment "
+        "from duckdb_functions() where not internal "
+        "union all select table_name || '.' || column_name, data_type, comment from duckdb_columns() "
+        "where not internal order by all",
+    )
 
 
 def test_what_commits_change_step_by_step_equals_what_is_made_at_once(own: Store) -> None:
-    for statement in ("delete from file where test = 'a'", "update channel set unit = 'mm' where channel = 'dZ'",
-                      "insert into campaign select 'd', spec, spec_hash, path, ingested_at, data_version from campaign",
-                      "delete from campaign where campaign = 'd'", "delete from file"):
+    for statement in (
+        "delete from file where test = 'a'",
+        "update channel set unit = 'mm' where channel = 'dZ'",
+        "insert into campaign select 'd', spec, spec_hash, path, ingested_at, data_version from campaign",
+        "delete from campaign where campaign = 'd'",
+        "delete from file",
+    ):
         with own.write() as con:
             con.execute(statement)
         stepwise = texts_of(own)
         with own.write() as con:
-            con.execute("drop view made_from")          # as in a store of another version: all is made anew
+            con.execute("drop view made_from")  # as in a store of another version: all is made anew
         assert set(texts_of(own)) ^ set(stepwise) == set(), statement
 
 

@@ -65,7 +65,7 @@ def test_tdms_holds_volts_that_a_signed_sensitivity_turns_into_the_truth(lab: tu
             volts = channel[:]
             assert len(volts) == run.op.n * 5
             free = np.repeat(run.op.measuring, 5)
-            assert np.all(volts[~free] == 20.0)             # rails while the axis is away
+            assert np.all(volts[~free] == 20.0)  # rails while the axis is away
             um = truth["probes_um_per_v"][probe.axis] * (volts - probe.zero_v)
             expected = np.repeat(run.displacement[i], 5)
             assert np.median(np.abs(um - expected)[free]) < 1.0
@@ -79,7 +79,7 @@ def test_the_jump_test_moves_by_what_the_campaign_file_says(lab: tuple[Path, Wor
     for probe in Logbook.draw(world).probes:
         file = TdmsFile.read(folder / "raw" / f"jump_{probe.axis}.tdms")
         um = probe.um_per_v * (file["Eddy"][probe.axis][:] - probe.zero_v)
-        levels = [np.median(um[k * 120 + 20:(k + 1) * 120 - 20]) for k in range(7)]
+        levels = [np.median(um[k * 120 + 20 : (k + 1) * 120 - 20]) for k in range(7)]
         np.testing.assert_allclose(np.diff(levels), [0, 100, 50, -200, -50, 100], atol=3.0)
 
 

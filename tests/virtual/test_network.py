@@ -20,7 +20,7 @@ def test_at_rest_all_heat_leaves_to_the_surroundings(machine: Machine) -> None:
     q = sum(machine.sources[k] * 100.0 for k in ("bearing_front", "motor", "cabinet", "nut_z", "table"))[:, None]
     t = machine.network.steady(q, air)
     assert machine.network.outflow(t, air)[0] == pytest.approx(500.0, rel=1e-9)
-    assert t.min() >= 21.0 - 1e-9                            # heat only warms
+    assert t.min() >= 21.0 - 1e-9  # heat only warms
 
 
 def test_without_sources_everything_is_as_warm_as_the_air(machine: Machine) -> None:
@@ -55,7 +55,7 @@ def test_stepping_ends_at_the_steady_state() -> None:
     for _ in range(3000):
         t = stepper.step(t, q, air)
     np.testing.assert_allclose(t, net.steady(q, air), atol=1e-6)
-    assert np.all(np.diff(t[:, 0]) < 0)                     # hottest where the heat goes in
+    assert np.all(np.diff(t[:, 0]) < 0)  # hottest where the heat goes in
 
 
 def test_a_rod_has_the_time_constant_of_the_heat_equation() -> None:

@@ -88,7 +88,7 @@ def test_the_dataset_is_complete(worlds: dict[str, World]) -> None:
         np.testing.assert_array_equal(np.isfinite(response), test.valid["dZ"])
         assert np.all(np.diff(test.t_s) == 60.0)
     feed = next(t for t in data.tests if t.kind == "linear_axis")
-    assert 0.1 < feed.valid["dZ"].mean() < 0.9              # measured between the moves only
+    assert 0.1 < feed.valid["dZ"].mean() < 0.9  # measured between the moves only
 
 
 def test_a_cause_that_is_not_measured_is_in_no_channel() -> None:
@@ -102,18 +102,31 @@ def test_a_copy_of_a_known_effect_is_not_its_own() -> None:
     world = make_world("none", 3, tests=3, hours=4)
     ops = [r.op for r in world.runs]
     lever = np.ones(3)
-    units = [{"spindle_bearing": r.contributions["spindle_bearing"][2], "twin": r.contributions["spindle_bearing"][2],
-              "other": np.sin(r.op.t_s / 2000.0)} for r in world.runs]
+    units = [
+        {
+            "spindle_bearing": r.contributions["spindle_bearing"][2],
+            "twin": r.contributions["spindle_bearing"][2],
+            "other": np.sin(r.op.t_s / 2000.0),
+        }
+        for r in world.runs
+    ]
     levers = {"spindle_bearing": lever, "twin": lever}
     assert own_um("twin", levers, 2, units, ops) < 1e-3
     assert own_um("other", levers | {"other": lever}, 2, units, ops) > 0.1
 
 
-@pytest.mark.parametrize(("kwargs", "word"), [
-    ({"hide": "feed_scerw"}, "feed_screw"), ({"tests": 1}, "locked"), ({"seed": -1}, "seed"), ({"hours": 0.5}, "heat")])
+@pytest.mark.parametrize(
+    ("kwargs", "word"),
+    [
+        ({"hide": "feed_scerw"}, "feed_screw"),
+        ({"tests": 1}, "locked"),
+        ({"seed": -1}, "seed"),
+        ({"hours": 0.5}, "heat"),
+    ],
+)
 def test_what_cannot_be_simulated_is_refused(kwargs: dict[str, object], word: str) -> None:
     with pytest.raises(UsageError, match=word):
-        make_world(**kwargs)                                # type: ignore[arg-type]
+        make_world(**kwargs)  # type: ignore[arg-type]
 
 
 def test_a_sum_of_lags_comes_near_but_does_not_reach_the_noise() -> None:

@@ -99,8 +99,9 @@ def unit_contradiction(channel: Channel, signal_unit: str | None) -> str | None:
     return None
 
 
-def reading_unit(channel: Channel, signal_unit: str | None, calibrations: Sequence[CalibrationResult],
-                 where: str | None = None) -> str:
+def reading_unit(
+    channel: Channel, signal_unit: str | None, calibrations: Sequence[CalibrationResult], where: str | None = None
+) -> str:
     """The unit of the scaled reading, before any calibration. CalibrationError where nothing tells it."""
     unit = channel.unit or signal_unit
     if unit:
@@ -110,9 +111,12 @@ def reading_unit(channel: Channel, signal_unit: str | None, calibrations: Sequen
     if calibrations and calibrations[0].unit_in:
         return calibrations[0].unit_in
     raise CalibrationError(
-        f"no unit is known of {where or 'a channel'}", where=where,
-        expected=f"a unit that converts to {canonical(channel.quantity)}", got="none in the file, none declared",
-        hint=f"add 'unit: {canonical(channel.quantity)}' (or what the signal is in) to the channel")
+        f"no unit is known of {where or 'a channel'}",
+        where=where,
+        expected=f"a unit that converts to {canonical(channel.quantity)}",
+        got="none in the file, none declared",
+        hint=f"add 'unit: {canonical(channel.quantity)}' (or what the signal is in) to the channel",
+    )
 
 
 def _applied(values: Float1D, unit: str, calibration: CalibrationResult, where: str | None) -> tuple[Float1D, str]:
@@ -121,9 +125,12 @@ def _applied(values: Float1D, unit: str, calibration: CalibrationResult, where: 
             factor, shift = linear_conversion(unit, calibration.unit_in)
         except UsageError as error:
             raise CalibrationError(
-                f"calibration '{calibration.name}' takes {calibration.unit_in}, the channel gives {unit}", where=where,
-                expected=calibration.unit_in, got=unit,
-                hint="declare the channel's unit, or use the calibration of the right sensor") from error
+                f"calibration '{calibration.name}' takes {calibration.unit_in}, the channel gives {unit}",
+                where=where,
+                expected=calibration.unit_in,
+                got=unit,
+                hint="declare the channel's unit, or use the calibration of the right sensor",
+            ) from error
         values = values * factor + shift if (factor, shift) != (1.0, 0.0) else values
         unit = calibration.unit_out
     offset = calibration.offset
@@ -133,8 +140,11 @@ def _applied(values: Float1D, unit: str, calibration: CalibrationResult, where: 
             offset *= delta_factor(written, unit)
         except UsageError as error:
             raise CalibrationError(
-                f"calibration '{calibration.name}': its offset is in {written}, the channel in {unit}", where=where,
-                expected=unit, got=written) from error
+                f"calibration '{calibration.name}': its offset is in {written}, the channel in {unit}",
+                where=where,
+                expected=unit,
+                got=written,
+            ) from error
     return values * calibration.gain + offset, unit
 
 
@@ -146,10 +156,13 @@ def _canonical(values: Float1D, unit: str, channel: Channel, calibrated: bool, w
         factor, shift = (delta_factor(unit, target), 0.0) if difference else linear_conversion(unit, target)
     except UsageError as error:
         raise CalibrationError(
-            f"a {channel.quantity} in {unit}" + ("" if calibrated else " without a calibration"), where=where,
-            expected=f"a unit that converts to {target}", got=unit,
+            f"a {channel.quantity} in {unit}" + ("" if calibrated else " without a calibration"),
+            where=where,
+            expected=f"a unit that converts to {target}",
+            got=unit,
             hint="add 'calibration:' with a jump test (kind: jump) or the data sheet's gain "
-                 f"(kind: scale, gain: ... {target}/{normal_unit(unit)}), or correct the unit") from error
+            f"(kind: scale, gain: ... {target}/{normal_unit(unit)}), or correct the unit",
+        ) from error
     return values if (factor, shift) == (1.0, 0.0) else values * factor + shift
 
 
@@ -157,12 +170,16 @@ def _same_axis(channel: Channel, calibration: CalibrationResult, where: str | No
     if channel.axis is not None and calibration.axis is not None and channel.axis != calibration.axis:
         raise CalibrationError(
             f"the channel measures {channel.axis}, its calibration '{calibration.name}' moved {calibration.axis}",
-            where=where, expected=f"a calibration of axis {channel.axis}", got=f"axis {calibration.axis}",
-            hint="use the jump test of this axis, or correct 'axis'")
+            where=where,
+            expected=f"a calibration of axis {channel.axis}",
+            got=f"axis {calibration.axis}",
+            hint="use the jump test of this axis, or correct 'axis'",
+        )
 
 
-def _range_flags(sensor: Sensor, readings: Float1D, reading: str, values: Float1D, target: str,
-                 where: str | None) -> Array:
+def _range_flags(
+    sensor: Sensor, readings: Float1D, reading: str, values: Float1D, target: str, where: str | None
+) -> Array:
     """The range is in the unit of the reading, or (written so) in the canonical unit."""
     assert sensor.range is not None
     unit = next((u for u in (split_value(v)[1] for v in sensor.range) if u), reading)
@@ -178,8 +195,12 @@ def _range_flags(sensor: Sensor, readings: Float1D, reading: str, values: Float1
         limits.append(value * factor + shift)
     low, high = limits
     if not low < high:
-        raise CalibrationError("a sensor range without width", where=where, expected="[low, high] with low < high",
-                               got=f"[{sensor.range[0]}, {sensor.range[1]}]")
+        raise CalibrationError(
+            "a sensor range without width",
+            where=where,
+            expected="[low, high] with low < high",
+            got=f"[{sensor.range[0]}, {sensor.range[1]}]",
+        )
     edge = _EDGE * (high - low)
     flags = np.zeros(len(x), dtype=np.uint16)
     with np.errstate(invalid="ignore"):

@@ -18,7 +18,7 @@ from thermodata.plugin import Array, Float1D, Int1D
 
 _MOST_CELLS = 2**16
 _LEAST_CORRELATION = 0.8
-_RIVAL = 0.97                                             # another peak as high as this is a rival
+_RIVAL = 0.97  # another peak as high as this is a rival
 _LEAST_OVERLAP = 0.25
 
 
@@ -57,30 +57,47 @@ def estimate_offset(t_here_ns: Int1D, here: Array, t_there_ns: Int1D, there: Arr
     cell = max(period, (t_a[-1] + t_b[-1]) / _MOST_CELLS)
     lag_s, correlation = _coarse(_grid(t_a, a, cell), _grid(t_b, b, cell), cell)
     if correlation < _LEAST_CORRELATION:
-        raise _thin("the logs don't look alike at any offset", f"a correlation of {_LEAST_CORRELATION} or more",
-                    f"{correlation:.2f}", "are 'here' and 'there' the same quantity?")
+        raise _thin(
+            "the logs don't look alike at any offset",
+            f"a correlation of {_LEAST_CORRELATION} or more",
+            f"{correlation:.2f}",
+            "are 'here' and 'there' the same quantity?",
+        )
     parts = stretches_with_events(t_a, a, lag_s, t_b)
     if not parts:
-        raise _thin("no event that both logs saw", "at least two changes within both", "none",
-                    "choose a quantity that changes, e.g. the spindle's speed")
+        raise _thin(
+            "no event that both logs saw",
+            "at least two changes within both",
+            "none",
+            "choose a quantity that changes, e.g. the spindle's speed",
+        )
     found = [f for f in (refine(t_a[s], a[s], t_b, b, lag_s, 3 * cell) for s in parts) if f is not None]
     if len(found) < 2:
-        raise _thin("one event is not enough to tell which event it is in the other log", "at least two events",
-                    str(len(found)))
+        raise _thin(
+            "one event is not enough to tell which event it is in the other log", "at least two events", str(len(found))
+        )
     at, lags, weights, matches = (np.array(x) for x in zip(*found, strict=True))
     offset, uncertainty, drift_ppm = _line(at, lags, weights, period)
     common = _common_phase(lags, [float(np.median(np.diff(t))) for t in (t_a, t_b)])
     if common and all(_sudden(a[s]) and _sudden(_between(t_b, b, t_a[s] + lag_s)) for s in parts):
         uncertainty = float(np.hypot(uncertainty, common))
     return ClockEstimate(
-        offset_ns=origin_b - origin_a + round(offset * 1e9), uncertainty_ns=max(1, round(uncertainty * 1e9)),
-        drift_ppm=drift_ppm, correlation=float(np.average(matches, weights=weights)), origin_ns=origin_a,
-        stretches=len(found))
+        offset_ns=origin_b - origin_a + round(offset * 1e9),
+        uncertainty_ns=max(1, round(uncertainty * 1e9)),
+        drift_ppm=drift_ppm,
+        correlation=float(np.average(matches, weights=weights)),
+        origin_ns=origin_a,
+        stretches=len(found),
+    )
 
 
 def _thin(what: str, expected: str, got: str, hint: str | None = None) -> CalibrationError:
-    return CalibrationError(f"clock offset: {what}", expected=expected, got=got,
-                            hint=hint or "give 'clock: {offset: ...}' by hand, from a common event")
+    return CalibrationError(
+        f"clock offset: {what}",
+        expected=expected,
+        got=got,
+        hint=hint or "give 'clock: {offset: ...}' by hand, from a common event",
+    )
 
 
 def _prepared(t_ns: Int1D, values: Array, label: str) -> tuple[Float1D, Float1D, int]:
@@ -98,8 +115,12 @@ def _prepared(t_ns: Int1D, values: Array, label: str) -> tuple[Float1D, Float1D,
         raise _thin(f"'{label}' has hardly any samples", "at least 10", str(len(t_ns)))
     spread = float(values.std())
     if spread <= 1e-9 * max(float(np.abs(values).max()), 1e-300):
-        raise _thin(f"'{label}' never changes", "a signal with events", f"{values[0]:g} all along",
-                    "choose a quantity that changes, e.g. the spindle's speed")
+        raise _thin(
+            f"'{label}' never changes",
+            "a signal with events",
+            f"{values[0]:g} all along",
+            "choose a quantity that changes, e.g. the spindle's speed",
+        )
     return (t_ns - t_ns[0]) / 1e9, (values - values.mean()) / spread, int(t_ns[0])
 
 
@@ -123,12 +144,11 @@ def _coarse(a: tuple[Float1D, Float1D], b: tuple[Float1D, Float1D], cell: float)
     """(lag [s] that `here` must be shifted by, its correlation); refuses rivals."""
     (x, wx), (y, wy) = a, b
     size = 1 << int(np.ceil(np.log2(len(x) + len(y))))
-    ft = {k: np.fft.rfft(v, size) for k, v in
-          {"x": x, "xx": x * x, "wx": wx, "y": y, "yy": y * y, "wy": wy}.items()}
+    ft = {k: np.fft.rfft(v, size) for k, v in {"x": x, "xx": x * x, "wx": wx, "y": y, "yy": y * y, "wy": wy}.items()}
 
     def over(p: str, q: str) -> Float1D:
         full: Float1D = np.fft.irfft(np.conj(ft[p]) * ft[q], size)
-        return np.concatenate([full[size - len(x) + 1:], full[:len(y)]])
+        return np.concatenate([full[size - len(x) + 1 :], full[: len(y)]])
 
     n = over("wx", "wy")
     enough = n >= max(_LEAST_OVERLAP * min(wx.sum(), wy.sum()), 8)
@@ -146,20 +166,23 @@ def _coarse(a: tuple[Float1D, Float1D], b: tuple[Float1D, Float1D], cell: float)
 def _refuse_rivals(r: Float1D, n: Float1D, best: int, cell: float) -> None:
     if r[best] < _LEAST_CORRELATION:
         return
-    left, right = best, best                              # the peak's own flanks are no rivals
+    left, right = best, best  # the peak's own flanks are no rivals
     while left > 0 and r[left - 1] < r[left] + 1e-3 and r[left] > 0.5 * r[best]:
         left -= 1
     while right < len(r) - 1 and r[right + 1] < r[right] + 1e-3 and r[right] > 0.5 * r[best]:
         right += 1
     outside = r.copy()
-    outside[left:right + 1] = -1.0
+    outside[left : right + 1] = -1.0
     # at the same height, a longer overlap is better evidence
     rival = int(np.argmax(outside))
     if outside[rival] >= _RIVAL * r[best]:
-        raise _thin("several offsets fit equally well", "one offset",
-                    f"{outside[rival]:.3f} at {(rival - best) * cell:+.0f} s from the best ({r[best]:.3f})",
-                    "a periodic programme can't tell the clocks apart: give 'clock: {offset: ...}', or align by a "
-                    "quantity that isn't periodic")
+        raise _thin(
+            "several offsets fit equally well",
+            "one offset",
+            f"{outside[rival]:.3f} at {(rival - best) * cell:+.0f} s from the best ({r[best]:.3f})",
+            "a periodic programme can't tell the clocks apart: give 'clock: {offset: ...}', or align by a "
+            "quantity that isn't periodic",
+        )
 
 
 def _sudden(x: Float1D) -> bool:
@@ -169,7 +192,7 @@ def _sudden(x: Float1D) -> bool:
 
 def _between(t: Float1D, x: Float1D, span: Float1D) -> Float1D:
     first, last = np.searchsorted(t, [span[0], span[-1]])
-    return x[first:last + 1]
+    return x[first : last + 1]
 
 
 def _common_phase(lags: Float1D, periods: list[float]) -> float:
@@ -183,7 +206,7 @@ def _common_phase(lags: Float1D, periods: list[float]) -> float:
 
 def _line(at: Float1D, lags: Float1D, weights: Float1D, period: float) -> tuple[float, float, float]:
     """(offset [s] at time 0, its standard uncertainty [s], drift [ppm]); the drift only where it is significant."""
-    floor = period / np.sqrt(12.0)                        # a sample's own time is no better known
+    floor = period / np.sqrt(12.0)  # a sample's own time is no better known
     middle = float(np.median(lags))
     keep = np.abs(lags - middle) <= max(6 * 1.4826 * float(np.median(np.abs(lags - middle))), 2 * period)
     at, lags, weights = at[keep], lags[keep], weights[keep]

@@ -8,9 +8,9 @@ from thermodata.calibration.clock import ClockEstimate
 from thermodata.errors import CalibrationError
 from thermodata.plugin import Int1D
 
-_LEAST_SPAN_S = 3600.0                                    # closer events give an offset, but no rate
-_MOST_PPM = 500.0                                         # a bad quartz drifts by 100 ppm; beyond is a mistake
-_TYPED_S = 1.0                                            # how well an event's time is known: typed to the second
+_LEAST_SPAN_S = 3600.0  # closer events give an offset, but no rate
+_MOST_PPM = 500.0  # a bad quartz drifts by 100 ppm; beyond is a mistake
+_TYPED_S = 1.0  # how well an event's time is known: typed to the second
 
 
 def offset_from_events(here_ns: Int1D, there_ns: Int1D) -> ClockEstimate:
@@ -23,8 +23,11 @@ def offset_from_events(here_ns: Int1D, there_ns: Int1D) -> ClockEstimate:
     """
     here, there = np.asarray(here_ns, np.int64), np.asarray(there_ns, np.int64)
     if not here.size or here.shape != there.shape:
-        raise CalibrationError("clock: no events to align by", expected="events: [{here: ..., there: ...}]",
-                               got=f"{here.size} and {there.size} times")
+        raise CalibrationError(
+            "clock: no events to align by",
+            expected="events: [{here: ..., there: ...}]",
+            got=f"{here.size} and {there.size} times",
+        )
     order = np.argsort(here, kind="stable")
     here, there = here[order], there[order]
     origin = int(here[0])
@@ -40,10 +43,11 @@ def offset_from_events(here_ns: Int1D, there_ns: Int1D) -> ClockEstimate:
     left = off - (start + slope * at)
     if abs(slope) > _MOST_PPM * 1e-6:
         raise CalibrationError(
-            "clock: the declared events contradict each other", expected=f"a drift of at most {_MOST_PPM:.0f} ppm",
+            "clock: the declared events contradict each other",
+            expected=f"a drift of at most {_MOST_PPM:.0f} ppm",
             got=f"offsets that change by {off[-1] - off[0]:+.1f} s in {at[-1] / 3600:.1f} h ({slope * 1e6:+.0f} ppm)",
-            hint="check which event is which, and the day of each time; a clock that was reset needs "
-                 "'resets: allow'")
+            hint="check which event is which, and the day of each time; a clock that was reset needs 'resets: allow'",
+        )
     _refuse(left, at)
     return _estimate(base, float(start), max(float(np.abs(left).max()), typed), float(slope) * 1e6, origin, len(off))
 
@@ -51,13 +55,17 @@ def offset_from_events(here_ns: Int1D, there_ns: Int1D) -> ClockEstimate:
 def _refuse(left: np.ndarray, at: np.ndarray) -> None:
     worst = int(np.argmax(np.abs(left)))
     if abs(float(left[worst])) > 30 * _TYPED_S:
-        raise CalibrationError("clock: the declared events contradict each other",
-                               expected="all within half a minute of one line",
-                               got=f"event {worst + 1} ({at[worst] / 3600:.2f} h after the first) is off by "
-                                   f"{left[worst]:+.0f} s", hint="check which event is which")
+        raise CalibrationError(
+            "clock: the declared events contradict each other",
+            expected="all within half a minute of one line",
+            got=f"event {worst + 1} ({at[worst] / 3600:.2f} h after the first) is off by {left[worst]:+.0f} s",
+            hint="check which event is which",
+        )
 
 
-def _estimate(base_ns: int, offset_s: float, uncertainty_s: float, drift_ppm: float, origin: int,
-              events: int) -> ClockEstimate:
-    return ClockEstimate(base_ns + round(offset_s * 1e9), round(uncertainty_s * 1e9), drift_ppm, float("nan"), origin,
-                         events)
+def _estimate(
+    base_ns: int, offset_s: float, uncertainty_s: float, drift_ppm: float, origin: int, events: int
+) -> ClockEstimate:
+    return ClockEstimate(
+        base_ns + round(offset_s * 1e9), round(uncertainty_s * 1e9), drift_ppm, float("nan"), origin, events
+    )

@@ -10,7 +10,7 @@ from thermodata.plugin import Float1D, Int1D
 
 _MOST_STRETCHES = 24
 _MOST_SAMPLES = 4000
-_QUIET = 8                                                # samples without a change that part two events
+_QUIET = 8  # samples without a change that part two events
 
 
 def stretches_with_events(t_a: Float1D, a: Float1D, lag: float, t_b: Float1D) -> list[slice]:
@@ -36,8 +36,9 @@ def _cuts(change: Float1D) -> Int1D:
     return np.unique(np.concatenate([[0], inner, [n]])).astype(np.int64)
 
 
-def refine(t_a: Float1D, a: Float1D, t_b: Float1D, b: Float1D, lag: float,
-           reach: float) -> tuple[float, float, float, float] | None:
+def refine(
+    t_a: Float1D, a: Float1D, t_b: Float1D, b: Float1D, lag: float, reach: float
+) -> tuple[float, float, float, float] | None:
     """(time of the events, lag, weight, correlation) of a stretch; None where it can't be told.
 
     The lag is the best correlation of `a` with `b` read at t + lag between its samples, found by a grid over
@@ -81,6 +82,6 @@ def _near_events(a: Float1D) -> Int1D:
     if len(a) <= _MOST_SAMPLES:
         return np.arange(len(a))
     change = np.abs(np.diff(a, prepend=a[0]))
-    rows = np.argsort(-change, kind="stable")[:_MOST_SAMPLES // 40]
+    rows = np.argsort(-change, kind="stable")[: _MOST_SAMPLES // 40]
     near = np.unique(np.clip((rows[:, None] + np.arange(-10, 11)).ravel(), 0, len(a) - 1))
     return np.union1d(near, np.linspace(0, len(a) - 1, _MOST_SAMPLES // 2).astype(np.int64))

@@ -30,8 +30,14 @@ from thermodata.plugin import Array
 from thermodata.schema.quantity import compound_unit, delta_factor, linear_conversion, normal_unit
 
 _OFFSET_UNITS = ("degC", "degF")
-_COMPARE = {"<": np.less, "<=": np.less_equal, ">": np.greater, ">=": np.greater_equal, "==": np.equal,
-            "!=": np.not_equal}
+_COMPARE = {
+    "<": np.less,
+    "<=": np.less_equal,
+    ">": np.greater,
+    ">=": np.greater_equal,
+    "==": np.equal,
+    "!=": np.not_equal,
+}
 
 
 @dataclass(frozen=True, slots=True)
@@ -98,12 +104,20 @@ class Evaluation:
     def _name(self, name: str) -> Number:
         if name not in self.values:
             close = nearest(name, list(self.values))
-            raise self._refuse(f"no channel '{name}'", ", ".join(sorted(self.values)) or "nothing: there is none", name,
-                               f"did you mean '{close}'?" if close else None)
+            raise self._refuse(
+                f"no channel '{name}'",
+                ", ".join(sorted(self.values)) or "nothing: there is none",
+                name,
+                f"did you mean '{close}'?" if close else None,
+            )
         value = np.asarray(self.values[name])
         if value.dtype.kind not in "biuf":
-            raise self._refuse(f"channel '{name}' is text", "numbers", str(value.dtype),
-                               "labels can't be compared; make it a channel of quantity 'state'")
+            raise self._refuse(
+                f"channel '{name}' is text",
+                "numbers",
+                str(value.dtype),
+                "labels can't be compared; make it a channel of quantity 'state'",
+            )
         unit = self.units.get(name)
         if unit is not None and normal_unit(unit) == "dimensionless":
             unit = ""
@@ -117,8 +131,12 @@ class Evaluation:
             return a.value, b.value, None, False
         if a.unit is None or b.unit is None:
             unknown, known = (a, b) if a.unit is None else (b, a)
-            raise self._refuse(f"no unit is known of '{unknown.label}'", f"one that converts to {known.unit or '1'}",
-                               "no unit", "declare the channel's unit, or leave the unit of the number away")
+            raise self._refuse(
+                f"no unit is known of '{unknown.label}'",
+                f"one that converts to {known.unit or '1'}",
+                "no unit",
+                "declare the channel's unit, or leave the unit of the number away",
+            )
         if a.unit == b.unit:
             return a.value, b.value, a.unit, False
         try:
@@ -126,15 +144,16 @@ class Evaluation:
                 return a.value, b.value * delta_factor(b.unit or "1", a.unit or "1"), a.unit, False
             factor, offset = linear_conversion(b.unit or "1", a.unit or "1")
         except UsageError as error:
-            raise self._refuse(f"'{a.label}' and '{b.label}' have units that don't fit", a.unit or "no unit",
-                               b.unit or "no unit") from error
+            raise self._refuse(
+                f"'{a.label}' and '{b.label}' have units that don't fit", a.unit or "no unit", b.unit or "no unit"
+            ) from error
         return a.value, b.value * factor + offset, a.unit, False
 
     def _sum(self, operator: str, a: Number, b: Number) -> Number:
         sign = 1.0 if operator == "+" else -1.0
         label = f"{a.label} {operator} {b.label}"
         if _is_offset(b) and b.literal and a.unit == "K":
-            b = _as_difference(b)                         # (T_nut - T_amb) - 1 degC
+            b = _as_difference(b)  # (T_nut - T_amb) - 1 degC
         a_abs, b_abs = _is_offset(a), _is_offset(b)
         if b_abs and not a_abs and not a.bare and a.unit is not None:
             if operator == "-":
@@ -150,7 +169,7 @@ class Evaluation:
         label = f"{a.label} {operator} {b.label}"
         with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
             value = a.value * b.value if operator == "*" else np.true_divide(a.value, b.value)
-        value = np.where(np.isfinite(value), value, np.nan)            # x / 0 is a missing value
+        value = np.where(np.isfinite(value), value, np.nan)  # x / 0 is a missing value
         if a.bare and b.bare:
             return Number(value, "", True, label)
         a_unit, b_unit = "" if a.bare else a.unit, "" if b.bare else b.unit
@@ -158,8 +177,12 @@ class Evaluation:
             with_unit = next((n for n in (a, b) if n.unit and not n.bare), None)
             if with_unit is not None:
                 unknown = a if a_unit is None else b
-                raise self._refuse(f"no unit is known of '{unknown.label}'", "a unit, beside "
-                                   f"'{with_unit.label}' in {with_unit.unit}", "no unit", "declare the channel's unit")
+                raise self._refuse(
+                    f"no unit is known of '{unknown.label}'",
+                    f"a unit, beside '{with_unit.label}' in {with_unit.unit}",
+                    "no unit",
+                    "declare the channel's unit",
+                )
             return Number(value, None, False, label)
         if not b_unit:
             return Number(value, a_unit, False, label)
@@ -173,8 +196,11 @@ class Evaluation:
             # 1 degC against a difference is 1 K; 293 K against a temperature is 19.85 degC
             a, b = (_as_difference(x) if _is_offset(x) and x.literal else x for x in (a, b))
             if not (a.literal or b.literal):
-                raise self._refuse("a temperature compared with a difference", "both of a kind",
-                                   f"'{a.label}' in {a.unit} and '{b.label}' in {b.unit}")
+                raise self._refuse(
+                    "a temperature compared with a difference",
+                    "both of a kind",
+                    f"'{a.label}' in {a.unit} and '{b.label}' in {b.unit}",
+                )
         x, y, _, _ = self._right_in_left(a, b, difference=False)
         known = ~(np.isnan(x) | np.isnan(y))
         holds = _COMPARE[operator](x, y)

@@ -29,8 +29,10 @@ from thermodata.errors import UsageError
 from thermodata.plugin import Array, Bool1D, Float1D
 from thermodata.schema.quantity import is_unit, linear_conversion, normal_unit
 
-_TOKEN = re.compile(r"\s*(?:(?P<number>(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)"
-                    r"|(?P<name>[^\W\d]\w*(?:\.[^\W\d]\w*)*)|(?P<op><=|>=|==|!=|[<>=+\-*/()]))")
+_TOKEN = re.compile(
+    r"\s*(?:(?P<number>(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)"
+    r"|(?P<name>[^\W\d]\w*(?:\.[^\W\d]\w*)*)|(?P<op><=|>=|==|!=|[<>=+\-*/()]))"
+)
 _UNIT = re.compile(r"[ \t]*(?P<unit>N[ ]m\b|1/[^\W\d]\w*|[°%]?(?:[^\W\d][\w°²³⁻¹^·]*(?:-\d)?)?(?:/[^\W\d][\w²³^]*)*)")
 _WORDS = frozenset({"and", "or", "not", "abs"})
 _COMPARATORS = frozenset({"<", "<=", ">", ">=", "==", "!="})
@@ -85,15 +87,22 @@ class Expression:
         unit = result.unit or "1"
         if (normal_unit(unit) == "degC") != (normal_unit(target) == "degC"):
             raise UsageError(
-                f"the expression gives {unit}, the channel is in {target}", where=f"expression '{self.text}'",
-                expected=target, got=unit,
-                hint="a difference of two temperatures is of quantity temperature_difference (K)")
+                f"the expression gives {unit}, the channel is in {target}",
+                where=f"expression '{self.text}'",
+                expected=target,
+                got=unit,
+                hint="a difference of two temperatures is of quantity temperature_difference (K)",
+            )
         try:
             return linear_conversion(unit, target)
         except UsageError as error:
-            raise UsageError(f"the expression gives {unit}, the channel is in {target}",
-                             where=f"expression '{self.text}'", expected=target, got=unit,
-                             hint="correct the expression or the channel's quantity") from error
+            raise UsageError(
+                f"the expression gives {unit}, the channel is in {target}",
+                where=f"expression '{self.text}'",
+                expected=target,
+                got=unit,
+                hint="correct the expression or the channel's quantity",
+            ) from error
 
 
 @lru_cache(maxsize=1024)
@@ -118,13 +127,18 @@ class _Parser:
 
     def _fail(self, what: str, expected: str, at: int | None = None, hint: str | None = None) -> UsageError:
         place = self.at - len(self.token) if at is None else at
-        return UsageError(what, where=f"expression '{self.text}', column {place + 1}", expected=expected,
-                          got=repr(self.token) if self.token else "the end", hint=hint)
+        return UsageError(
+            what,
+            where=f"expression '{self.text}', column {place + 1}",
+            expected=expected,
+            got=repr(self.token) if self.token else "the end",
+            hint=hint,
+        )
 
     def _next(self) -> None:
         match = _TOKEN.match(self.text, self.at)
         if match is None:
-            rest = self.text[self.at:].strip()
+            rest = self.text[self.at :].strip()
             self.kind, self.token, at = "end", rest[:1], self.at
             self.at = len(self.text)
             if rest:
@@ -180,7 +194,7 @@ class _Parser:
         left = part()
         while operator := self._take(*operators):
             self.size += 1
-            if self.size > 5 * _DEEPEST:                  # a left-leaning chain is as deep as it is long
+            if self.size > 5 * _DEEPEST:  # a left-leaning chain is as deep as it is long
                 raise self._fail("an expression with too many operations", f"at most {5 * _DEEPEST}")
             left = nodes.Arithmetic(cast(nodes.Operator, operator), left, part())
         return left
@@ -203,8 +217,10 @@ class _Parser:
             return self._closed(self._nested(self.either))
         if self.kind == "name" and self.token not in _WORDS - {"abs"}:
             return self._name()
-        raise self._fail(f"unexpected '{self.token}'" if self.token else "the expression ends too early",
-                         "a channel, a number or '('")
+        raise self._fail(
+            f"unexpected '{self.token}'" if self.token else "the expression ends too early",
+            "a channel, a number or '('",
+        )
 
     def _closed(self, node: Node) -> Node:
         if not self._take(")"):
@@ -228,7 +244,7 @@ class _Parser:
         value = float(self.token)
         match: Any = _UNIT.match(self.text, self.at)
         words = match["unit"]
-        while words and not is_unit(words):               # "100 mm/x": mm is the unit, x a channel
+        while words and not is_unit(words):  # "100 mm/x": mm is the unit, x a channel
             words = words.rpartition("/")[0] if "/" in words else (words[:-2] if words[-2:-1] == "-" else "")
         if words and words.split("/")[0] not in _WORDS:
             self.at = match.start("unit") + len(words)
@@ -236,8 +252,11 @@ class _Parser:
             return nodes.Constant(value, words)
         self._next()
         if self.kind == "name" and self.token not in _WORDS:
-            raise self._fail(f"'{self.token}' after a number is not a unit", "an operator or a unit",
-                             hint=f"write '{value:g} * {self.token}'")
+            raise self._fail(
+                f"'{self.token}' after a number is not a unit",
+                "an operator or a unit",
+                hint=f"write '{value:g} * {self.token}'",
+            )
         return nodes.Constant(value, "")
 
 

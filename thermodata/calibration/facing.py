@@ -23,6 +23,9 @@ def facing_axis(name: str, facing: str | None, axis: str | None) -> str | None:
     if facing is not None and axis is not None and facing[1:] != axis:
         raise CalibrationError(
             f"calibration '{name}' is for axis {axis}, but its probe faces {facing}",
-            where=f"calibrations.{name}", expected=f"facing +{axis} or -{axis}", got=facing,
-            hint="a probe measures along the direction in which it looks; correct axis or facing")
+            where=f"calibrations.{name}",
+            expected=f"facing +{axis} or -{axis}",
+            got=facing,
+            hint="a probe measures along the direction in which it looks; correct axis or facing",
+        )
     return axis if axis is not None else (facing[1:] if facing is not None else None)

@@ -51,28 +51,48 @@ def evaluate_jump(
         raise _not_found(name, spec, moves, steps, t_s, probes)
     if match.rivals:
         raise CalibrationError(
-            f"jump test '{name}': the moves can be read with either sign", where=where,
+            f"jump test '{name}': the moves can be read with either sign",
+            where=where,
             expected=f"one place for the moves {moves} um among {len(steps)} steps",
             got=f"{1 / match.volts_per_um:+.4g} and {1 / match.rivals[0]:+.4g} um/{unit}",
-            hint="cut the recording to the commanded moves, or move by unequal steps, e.g. [100 um, 50 um, -150 um]")
+            hint="cut the recording to the commanded moves, or move by unequal steps, e.g. [100 um, 50 um, -150 um]",
+        )
     found = plateaus(t_s, v, match, steps, spec.dwell)
     if any(p.n < 3 or not np.isfinite(p.mean) for p in found):
-        raise CalibrationError(f"jump test '{name}': a plateau with under 3 samples", where=where,
-                               expected="at least 3 samples a plateau", got=f"{min(p.n for p in found)}",
-                               hint="dwell longer or sample faster")
+        raise CalibrationError(
+            f"jump test '{name}': a plateau with under 3 samples",
+            where=where,
+            expected="at least 3 samples a plateau",
+            got=f"{min(p.n for p in found)}",
+            hint="dwell longer or sample faster",
+        )
     levels = np.concatenate([[0.0], np.cumsum(moves)])
     fit = fit_plateaus(found, levels, spec.move_uncertainty)
     _agrees_with_facing(name, spec, fit.gain, unit)
     crosstalk = {k: _crosstalk(t_s, x, match, steps, levels, spec, fit) for k, x in probes.items()}
     return CalibrationResult(
-        name=name, kind="jump", axis=axis, gain=fit.gain, gain_unit=f"um/{unit}", offset=fit.offset,
-        sign="+" if fit.gain > 0 else "-", uncertainty_pct=fit.uncertainty_pct, noise_um=fit.noise_um,
-        nonlinearity_pct=fit.nonlinearity_pct, drift_um=fit.drift_um, crosstalk=crosstalk,
+        name=name,
+        kind="jump",
+        axis=axis,
+        gain=fit.gain,
+        gain_unit=f"um/{unit}",
+        offset=fit.offset,
+        sign="+" if fit.gain > 0 else "-",
+        uncertainty_pct=fit.uncertainty_pct,
+        noise_um=fit.noise_um,
+        nonlinearity_pct=fit.nonlinearity_pct,
+        drift_um=fit.drift_um,
+        crosstalk=crosstalk,
         checks=jump_checks.rows(spec, moves, fit, crosstalk, found, unit),
-        detail={"unit_in": unit, "unit_out": "um", "moves_um": moves, "steps_found": len(steps),
-                "drift_um_per_h": None if fit.drift_um_per_s is None else fit.drift_um_per_s * 3600.0,
-                "plateaus": [_row(p, level, rest) for p, level, rest in zip(found, levels, fit.residual_um,
-                                                                            strict=True)]})
+        detail={
+            "unit_in": unit,
+            "unit_out": "um",
+            "moves_um": moves,
+            "steps_found": len(steps),
+            "drift_um_per_h": None if fit.drift_um_per_s is None else fit.drift_um_per_s * 3600.0,
+            "plateaus": [_row(p, level, rest) for p, level, rest in zip(found, levels, fit.residual_um, strict=True)],
+        },
+    )
 
 
 def _matched(t_s: Float1D, v: Float1D, moves: list[float], dwell_s: float) -> tuple[list[Step], Match | None]:
@@ -91,48 +111,64 @@ def _checked_moves(name: str, spec: JumpCalibration) -> list[float]:
     wrong = not moves or any(m == 0 or not np.isfinite(m) for m in moves)
     if wrong or not spec.dwell > 0 or spec.move_uncertainty < 0:
         raise CalibrationError(
-            f"jump test '{name}': not a jump test", where=f"calibrations.{name}",
+            f"jump test '{name}': not a jump test",
+            where=f"calibrations.{name}",
             expected="moves other than 0, a dwell above 0 s, a move_uncertainty of 0 um or more",
-            got=f"moves {moves}, dwell {spec.dwell} s, move_uncertainty {spec.move_uncertainty} um")
+            got=f"moves {moves}, dwell {spec.dwell} s, move_uncertainty {spec.move_uncertainty} um",
+        )
     return moves
 
 
-def _clean(name: str, t_ns: Int1D, volts: Array,
-           probes: dict[str, Array]) -> tuple[Float1D, Float1D, dict[str, Float1D]]:
+def _clean(
+    name: str, t_ns: Int1D, volts: Array, probes: dict[str, Array]
+) -> tuple[Float1D, Float1D, dict[str, Float1D]]:
     """Times [s] that strictly increase and finite volts; the other probes at the same samples."""
     for label, x in [("the probe", volts), *probes.items()]:
         if x.shape != t_ns.shape or t_ns.ndim != 1:
-            raise CalibrationError(f"jump test '{name}': {label} has another length than the time",
-                                   expected=str(t_ns.shape), got=str(x.shape))
+            raise CalibrationError(
+                f"jump test '{name}': {label} has another length than the time",
+                expected=str(t_ns.shape),
+                got=str(x.shape),
+            )
     v = volts.astype(np.float64, copy=False)
     keep: Bool1D = np.isfinite(v)
     if keep.any():
         newest = np.maximum.accumulate(np.where(keep, t_ns, t_ns.min()))
         keep[1:] &= t_ns[1:] > newest[:-1]
     if keep.sum() < _LEAST_SAMPLES:
-        raise CalibrationError(f"jump test '{name}': hardly any data", where=f"calibrations.{name}",
-                               expected=f"at least {_LEAST_SAMPLES} samples", got=str(int(keep.sum())),
-                               hint="is this the right file and signal?")
+        raise CalibrationError(
+            f"jump test '{name}': hardly any data",
+            where=f"calibrations.{name}",
+            expected=f"at least {_LEAST_SAMPLES} samples",
+            got=str(int(keep.sum())),
+            hint="is this the right file and signal?",
+        )
     t = t_ns[keep]
-    return ((t - t[0]) / 1e9, v[keep],
-            {k: np.asarray(x, dtype=np.float64)[keep] for k, x in probes.items()})
+    return ((t - t[0]) / 1e9, v[keep], {k: np.asarray(x, dtype=np.float64)[keep] for k, x in probes.items()})
 
 
-def _not_found(name: str, spec: JumpCalibration, moves: list[float], steps: list[Step], t_s: Float1D,
-               probes: Mapping[str, Float1D]) -> CalibrationError:
+def _not_found(
+    name: str, spec: JumpCalibration, moves: list[float], steps: list[Step], t_s: Float1D, probes: Mapping[str, Float1D]
+) -> CalibrationError:
     answering = []
     for other, x in probes.items():
         fine = np.isfinite(x)
-        if fine.sum() >= _LEAST_SAMPLES and match_moves(find_steps(t_s[fine], x[fine], spec.dwell)[0], moves,
-                                                        spec.dwell) is not None:
+        if (
+            fine.sum() >= _LEAST_SAMPLES
+            and match_moves(find_steps(t_s[fine], x[fine], spec.dwell)[0], moves, spec.dwell) is not None
+        ):
             answering.append(other)
     seen = ", ".join(f"{s.size:+.3g} at {s.t_s:.1f} s" for s in steps[:12]) or "no step at all"
     hint = f"check moves and dwell ({spec.dwell:g} s) against the recording"
     if answering:
         hint = f"{', '.join(repr(a) for a in answering)} shows these moves: are the cables swapped?"
     return CalibrationError(
-        f"jump test '{name}': the commanded moves are not found in '{spec.signal}'", where=f"calibrations.{name}",
-        expected=f"{len(moves)} steps in proportion to {moves} um", got=seen, hint=hint)
+        f"jump test '{name}': the commanded moves are not found in '{spec.signal}'",
+        where=f"calibrations.{name}",
+        expected=f"{len(moves)} steps in proportion to {moves} um",
+        got=seen,
+        hint=hint,
+    )
 
 
 def _agrees_with_facing(name: str, spec: JumpCalibration, gain: float, unit: str) -> None:
@@ -141,14 +177,17 @@ def _agrees_with_facing(name: str, spec: JumpCalibration, gain: float, unit: str
     sign = geometric_sign(spec.facing, spec.increases_with)
     if sign * gain < 0:
         raise CalibrationError(
-            f"jump test '{name}': the measured sign contradicts the way the probe looks", where=f"calibrations.{name}",
+            f"jump test '{name}': the measured sign contradicts the way the probe looks",
+            where=f"calibrations.{name}",
             expected=f"{sign * abs(gain):+.6g} um/{unit} (facing {spec.facing}, increases with {spec.increases_with})",
             got=f"{gain:+.6g} um/{unit} measured",
-            hint="check facing and increases_with, the signs of the moves (machine coordinates), and the cables")
+            hint="check facing and increases_with, the signs of the moves (machine coordinates), and the cables",
+        )
 
 
-def _crosstalk(t_s: Float1D, x: Float1D, match: Match, steps: list[Step], levels: Float1D, spec: JumpCalibration,
-               fit: JumpFit) -> float:
+def _crosstalk(
+    t_s: Float1D, x: Float1D, match: Match, steps: list[Step], levels: Float1D, spec: JumpCalibration, fit: JumpFit
+) -> float:
     """The other probe's answer to the move, of this one's [%], signed; NaN where it has no data."""
     fine = np.isfinite(x)
     if fine.sum() < _LEAST_SAMPLES:
@@ -158,5 +197,12 @@ def _crosstalk(t_s: Float1D, x: Float1D, match: Match, steps: list[Step], levels
 
 
 def _row(p: Plateau, level: float, rest: float) -> dict[str, float | int]:
-    return {"from_s": p.from_s, "to_s": p.to_s, "commanded_um": float(level), "volts": p.mean,
-            "noise_volts": p.noise, "residual_um": float(rest), "n": p.n}
+    return {
+        "from_s": p.from_s,
+        "to_s": p.to_s,
+        "commanded_um": float(level),
+        "volts": p.mean,
+        "noise_volts": p.noise,
+        "residual_um": float(rest),
+        "n": p.n,
+    }

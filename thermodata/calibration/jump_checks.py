@@ -20,37 +20,87 @@ NOISE_PCT = 5.0
 CROSSTALK_PCT = 10.0
 
 
-def rows(spec: JumpCalibration, moves: list[float], fit: JumpFit, crosstalk: dict[str, float],
-         found: list[Plateau], unit: str) -> list[Check]:
+def rows(
+    spec: JumpCalibration,
+    moves: list[float],
+    fit: JumpFit,
+    crosstalk: dict[str, float],
+    found: list[Plateau],
+    unit: str,
+) -> list[Check]:
     """All checks of one jump test. unit: of the readings."""
     smallest = min(abs(m) for m in moves)
     noise_pct = 100.0 * fit.noise_um / smallest
     answers = {k: abs(c) for k, c in crosstalk.items() if np.isfinite(c)}
     most = max(answers, key=lambda k: answers[k]) if answers else None
     table = [
-        check("uncertainty_pct", fit.uncertainty_pct, UNCERTAINTY_PCT, fit.uncertainty_pct <= UNCERTAINTY_PCT,
-              "move further or more often: the axis's positioning weighs too much on these moves"),
-        check("noise_pct_of_move", noise_pct, NOISE_PCT, noise_pct <= NOISE_PCT,
-              "larger moves, or look for the noise: earthing, a turning spindle, a loose probe"),
+        check(
+            "uncertainty_pct",
+            fit.uncertainty_pct,
+            UNCERTAINTY_PCT,
+            fit.uncertainty_pct <= UNCERTAINTY_PCT,
+            "move further or more often: the axis's positioning weighs too much on these moves",
+        ),
+        check(
+            "noise_pct_of_move",
+            noise_pct,
+            NOISE_PCT,
+            noise_pct <= NOISE_PCT,
+            "larger moves, or look for the noise: earthing, a turning spindle, a loose probe",
+        ),
     ]
     if fit.nonlinearity_pct is not None:
-        table.append(check("nonlinearity_pct", fit.nonlinearity_pct, NONLINEARITY_PCT,
-                           fit.nonlinearity_pct <= NONLINEARITY_PCT,
-                           "the steps give different sensitivities: is the probe within its linear range?"))
+        table.append(
+            check(
+                "nonlinearity_pct",
+                fit.nonlinearity_pct,
+                NONLINEARITY_PCT,
+                fit.nonlinearity_pct <= NONLINEARITY_PCT,
+                "the steps give different sensitivities: is the probe within its linear range?",
+            )
+        )
     if fit.drift_um is not None:
         drift_pct = 100.0 * abs(fit.drift_um) / fit.span_um
-        table.append(check("drift_pct", drift_pct, DRIFT_PCT, drift_pct <= DRIFT_PCT,
-                           "let the machine and the probe's amplifier come to rest first"))
+        table.append(
+            check(
+                "drift_pct",
+                drift_pct,
+                DRIFT_PCT,
+                drift_pct <= DRIFT_PCT,
+                "let the machine and the probe's amplifier come to rest first",
+            )
+        )
     if most is not None:
-        table.append(check("crosstalk_pct", answers[most], CROSSTALK_PCT, answers[most] <= CROSSTALK_PCT,
-                           f"'{most}' answers this axis too: align the probes with the axes"))
-        table.append(check("answers_most", answers[most], 100.0, answers[most] < 100.0,
-                           f"'{most}' answers the move of {spec.axis} more than '{spec.signal}': swapped cables?"))
+        table.append(
+            check(
+                "crosstalk_pct",
+                answers[most],
+                CROSSTALK_PCT,
+                answers[most] <= CROSSTALK_PCT,
+                f"'{most}' answers this axis too: align the probes with the axes",
+            )
+        )
+        table.append(
+            check(
+                "answers_most",
+                answers[most],
+                100.0,
+                answers[most] < 100.0,
+                f"'{most}' answers the move of {spec.axis} more than '{spec.signal}': swapped cables?",
+            )
+        )
     if spec.gain is not None:
         table.append(_data_sheet(spec, fit, unit))
     dwell = float(np.median([p.to_s - p.from_s for p in found[1:-1]])) if len(found) > 2 else spec.dwell
-    table.append(check("dwell_s", dwell, spec.dwell, 0.4 * spec.dwell <= dwell <= 2.5 * spec.dwell,
-                       "the plateaus don't last as long as declared: are these the commanded moves?"))
+    table.append(
+        check(
+            "dwell_s",
+            dwell,
+            spec.dwell,
+            0.4 * spec.dwell <= dwell <= 2.5 * spec.dwell,
+            "the plateaus don't last as long as declared: are these the commanded moves?",
+        )
+    )
     return table
 
 
@@ -62,7 +112,8 @@ def _data_sheet(spec: JumpCalibration, fit: JumpFit, unit: str) -> Check:
         out, into = ratio_units(written, "gain")
         expected = abs(value) * delta_factor(out, "um") / delta_factor(into, unit)
     except UsageError:
-        return check("data_sheet_gain_pct", None, DATA_SHEET_PCT, False,
-                     f"gain '{spec.gain}' is not a displacement over {unit}")
+        return check(
+            "data_sheet_gain_pct", None, DATA_SHEET_PCT, False, f"gain '{spec.gain}' is not a displacement over {unit}"
+        )
     off = 100.0 * abs(abs(fit.gain) / expected - 1.0) if expected else float("inf")
     return check("data_sheet_gain_pct", off, DATA_SHEET_PCT, off <= DATA_SHEET_PCT, advice)

@@ -9,7 +9,7 @@ import numpy as np
 from thermodata.calibration.plateaus import Plateau
 from thermodata.plugin import Float1D, Float2D
 
-_COLLINEAR = 0.9                                          # |correlation| of position and time above which drift hides
+_COLLINEAR = 0.9  # |correlation| of position and time above which drift hides
 
 
 @dataclass(frozen=True, slots=True)
@@ -62,9 +62,16 @@ def fit_plateaus(found: list[Plateau], levels_um: Float1D, move_uncertainty_um: 
     nonlinear = freedom > 0 and len(np.unique(levels_um)) >= 3
     length = max(p.to_s for p in found) - min(p.from_s for p in found)
     return JumpFit(
-        gain=gain, offset=-gain * float(v[0]), uncertainty_pct=uncertainty, noise_um=abs(gain) * float(noise_v),
+        gain=gain,
+        offset=-gain * float(v[0]),
+        uncertainty_pct=uncertainty,
+        noise_um=abs(gain) * float(noise_v),
         nonlinearity_pct=100.0 * float(np.max(np.abs(rest))) / span if nonlinear else None,
-        drift_um=None if drift is None else drift * length, drift_um_per_s=drift, residual_um=rest, span_um=span)
+        drift_um=None if drift is None else drift * length,
+        drift_um_per_s=drift,
+        residual_um=rest,
+        span_um=span,
+    )
 
 
 def _drift_within(found: list[Plateau]) -> tuple[float | None, float]:
@@ -94,7 +101,7 @@ def answer(found: list[Plateau], levels_um: Float1D) -> float:
 def _weighted(X: Float2D, y: Float1D, sigma: Float1D) -> tuple[Float1D, Float2D, Float1D]:
     """(coefficients, covariance scaled by the scatter, residuals) of weighted least squares."""
     weight = 1.0 / sigma
-    scale = np.maximum(np.abs(X).max(axis=0), 1e-300)     # volts and seconds differ by orders
+    scale = np.maximum(np.abs(X).max(axis=0), 1e-300)  # volts and seconds differ by orders
     A = X / scale * weight[:, None]
     beta = np.linalg.lstsq(A, y * weight, rcond=None)[0]
     rest = y - X / scale @ beta

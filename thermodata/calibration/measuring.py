@@ -18,7 +18,7 @@ from thermodata.schema.flag import Flag
 from thermodata.schema.quantity import linear_conversion, split_value
 
 _OUT = int(Flag.OUT_OF_RANGE | Flag.SATURATED)
-_BREAK = 10.0                                             # a pause of so many periods ends a stretch
+_BREAK = 10.0  # a pause of so many periods ends a stretch
 
 
 def measuring_names(measuring: str | Measuring | None) -> frozenset[str]:
@@ -102,16 +102,20 @@ def _long_form(measuring: str | Measuring | None) -> Measuring:
 def _known(name: str, names: Mapping[str, object]) -> None:
     if name not in names:
         close = nearest(name, list(names))
-        raise UsageError(f"measuring: no channel '{name}'", where=f"in_range: {name}",
-                         expected=", ".join(sorted(names)) or "nothing: there is none", got=name,
-                         hint=f"did you mean '{close}'?" if close else None)
+        raise UsageError(
+            f"measuring: no channel '{name}'",
+            where=f"in_range: {name}",
+            expected=", ".join(sorted(names)) or "nothing: there is none",
+            got=name,
+            hint=f"did you mean '{close}'?" if close else None,
+        )
 
 
 def _sensor_in_range(name: str, values: Mapping[str, Array], flags: Mapping[str, Array], n: int) -> Bool1D:
     mask: Bool1D = np.ones(n, dtype=bool)
     if name != "in_range":
         _known(name, {**flags, **values})
-    for channel in (flags if name == "in_range" else [name]):
+    for channel in flags if name == "in_range" else [name]:
         if channel in flags:
             mask &= (np.asarray(flags[channel]) & _OUT) == 0
         if channel in values and np.asarray(values[channel]).dtype.kind == "f":

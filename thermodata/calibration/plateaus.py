@@ -14,8 +14,8 @@ import numpy as np
 from thermodata.plugin import Bool1D, Float1D
 
 _CELLS_PER_DWELL = 40
-_WINDOW, _GAP = 0.2, 0.05                                 # of a dwell
-_TOLERANCE = 0.30                                         # a probe may be this nonlinear and still be matched
+_WINDOW, _GAP = 0.2, 0.05  # of a dwell
+_TOLERANCE = 0.30  # a probe may be this nonlinear and still be matched
 _MOST_STEPS = 80
 
 
@@ -49,7 +49,7 @@ class Match:
     steps: tuple[Step, ...]
     volts_per_um: float
     misfit: float
-    rivals: tuple[float, ...] = ()                        # sensitivities of equally good matches of other sign
+    rivals: tuple[float, ...] = ()  # sensitivities of equally good matches of other sign
 
 
 def cells(t_s: Float1D, volts: Float1D, dwell_s: float) -> tuple[Float1D, Float1D]:
@@ -75,14 +75,14 @@ def find_steps(t_s: Float1D, volts: Float1D, dwell_s: float) -> tuple[list[Step]
     """All significant steps in order of time, and the noise of a cell [V]. volts: finite, t_s: increasing."""
     t, v = cells(t_s, volts, dwell_s)
     if len(v) < 3:
-        return [], 0.0                                     # a file that was cut behind its first samples
+        return [], 0.0  # a file that was cut behind its first samples
     cell = float(np.median(np.diff(t)))
     window, gap = max(2, round(_WINDOW * dwell_s / cell)), max(1, round(_GAP * dwell_s / cell))
     if len(v) < 2 * window + gap + 1:
         return [], 0.0
     noise = _noise(v)
     medians = np.median(np.lib.stride_tricks.sliding_window_view(v, window), axis=1)
-    jump = medians[window + gap:] - medians[:-(window + gap)]
+    jump = medians[window + gap :] - medians[: -(window + gap)]
     centre = np.arange(len(jump)) + window + gap // 2
     # a drift adds the same to every difference; its own scatter is what a step must stand out of (the 30 %
     # quantile, for where moves follow each other closely up to half of the differences hold a step)
@@ -98,7 +98,7 @@ def find_steps(t_s: Float1D, volts: Float1D, dwell_s: float) -> tuple[list[Step]
             # on a slow ramp the difference has a flat top, with ripples of the cells
             ripple = max(tolerance, 0.05 * abs(float(jump[k])))
             low, high = _flanks(jump * np.sign(jump[k]), k, threshold, ripple, window + gap, taken)
-            taken[low:high + 1] = True
+            taken[low : high + 1] = True
             # at the flank's foot the window on the far side just touches the ramp
             reach = window + gap // 2 - 1
             found.append(_step(t, v, int(centre[low]) + reach, int(centre[high]) - reach, int(centre[k]), window))
@@ -107,8 +107,9 @@ def find_steps(t_s: Float1D, volts: Float1D, dwell_s: float) -> tuple[list[Step]
     return sorted((s for s in found if s.size != 0), key=lambda s: s.t_s), noise
 
 
-def _flanks(height: Float1D, peak: int, threshold: float, tolerance: float, least: int,
-            taken: Bool1D) -> tuple[int, int]:
+def _flanks(
+    height: Float1D, peak: int, threshold: float, tolerance: float, least: int, taken: Bool1D
+) -> tuple[int, int]:
     """The first and last row of a step around its peak: as far as it falls, so that a slow ramp is one step, and
     at least as far as the windows that make a sharp one."""
     ends = []
@@ -125,7 +126,7 @@ def _flanks(height: Float1D, peak: int, threshold: float, tolerance: float, leas
 
 
 def _noise(v: Float1D) -> float:
-    second = v[2:] - 2 * v[1:-1] + v[:-2]                 # blind to level and slope
+    second = v[2:] - 2 * v[1:-1] + v[:-2]  # blind to level and slope
     return 1.4826 * float(np.median(np.abs(second - np.median(second)))) / np.sqrt(6.0) if len(v) > 4 else 0.0
 
 
@@ -133,15 +134,15 @@ def _step(t: Float1D, v: Float1D, low: int, high: int, centre: int, window: int)
     """Its size, middle and ramp, where the voltage leaves 5 % and reaches 95 % of the way. low, high: the ramp's ends
     to a cell or two."""
     low, high = min(max(low, 0), centre), max(min(high, len(v) - 1), centre)
-    before = float(np.median(v[max(0, low - window):max(low, 1)]))
-    after = float(np.median(v[min(high + 1, len(v) - 1):high + 1 + window]))
+    before = float(np.median(v[max(0, low - window) : max(low, 1)]))
+    after = float(np.median(v[min(high + 1, len(v) - 1) : high + 1 + window]))
     size = after - before
     if size == 0:
         return Step(float(t[centre]), 0.0, float(t[centre]), float(t[centre]))
     a, b = max(0, low - window), min(len(v), high + 1 + window)
     way = (v[a:b] - before) / size
     middle = int(np.argmax(way > 0.5))
-    below, above = np.flatnonzero(way[:middle + 1] < 0.05), np.flatnonzero(way[middle:] > 0.95)
+    below, above = np.flatnonzero(way[: middle + 1] < 0.05), np.flatnonzero(way[middle:] > 0.95)
     start = a + (int(below[-1]) if len(below) else 0)
     stop = a + middle + int(above[0]) if len(above) else b - 1
     return Step(float((t[start] + t[stop]) / 2), size, float(t[start]), float(t[stop]))
@@ -175,8 +176,9 @@ def match_moves(steps: list[Step], moves_um: list[float], dwell_s: float) -> Mat
     return Match(match.steps, match.volts_per_um, match.misfit, rivals)
 
 
-def _follow(sizes: Float1D, times: Float1D, moves: list[float], k: float, first: int,
-            dwell_s: float) -> tuple[list[int] | None, float]:
+def _follow(
+    sizes: Float1D, times: Float1D, moves: list[float], k: float, first: int, dwell_s: float
+) -> tuple[list[int] | None, float]:
     """From a first step, the next one each time that fits its move; the cost of odd dwells and of left-over steps."""
     chain, cost = [first], 0.0
     smallest = min(abs(m) for m in moves) * abs(k)

@@ -24,11 +24,22 @@ from thermodata.plugin import Array, Bool1D, Float1D, Int1D
 from thermodata.schema.flag import Flag
 
 # Quantities whose readings carry noise, so that an exactly constant stretch is suspicious ...
-ANALOG = frozenset({"displacement", "tilt", "temperature", "temperature_difference", "voltage", "resistance",
-                     "humidity", "irradiance", "pressure"})
+ANALOG = frozenset(
+    {
+        "displacement",
+        "tilt",
+        "temperature",
+        "temperature_difference",
+        "voltage",
+        "resistance",
+        "humidity",
+        "irradiance",
+        "pressure",
+    }
+)
 # ... and which can't leave and come back within a few samples. (Position, speed, power and flow can.)
 _INERT = frozenset({"displacement", "tilt", "temperature", "temperature_difference", "humidity"})
-MOST_EVENTS = 2000                                        # of a channel and flag; `concise` makes fewer of them
+MOST_EVENTS = 2000  # of a channel and flag; `concise` makes fewer of them
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,9 +65,7 @@ class QualityEvent:
     detail: str = ""
 
 
-def flag_stream(
-    t_ns: Int1D, columns: Mapping[str, ColumnInput]
-) -> tuple[dict[str, Array], list[QualityEvent]]:
+def flag_stream(t_ns: Int1D, columns: Mapping[str, ColumnInput]) -> tuple[dict[str, Array], list[QualityEvent]]:
     """(channel -> uint16 flags, shape (n,); events in order of time, at most MOST_EVENTS a channel and
     flag; see `concise`).
 
@@ -82,8 +91,14 @@ def _analog(column: ColumnInput) -> Float1D | None:
     return np.asarray(column.values, dtype=np.float64)
 
 
-def _column(name: str, column: ColumnInput, t_ns: Int1D, time: TimeFlags, stats: Mapping[str, RunStats],
-            columns: Mapping[str, ColumnInput]) -> tuple[Array, list[QualityEvent]]:
+def _column(
+    name: str,
+    column: ColumnInput,
+    t_ns: Int1D,
+    time: TimeFlags,
+    stats: Mapping[str, RunStats],
+    columns: Mapping[str, ColumnInput],
+) -> tuple[Array, list[QualityEvent]]:
     n = len(t_ns)
     flags = np.zeros(n, np.uint16) if column.flags is None else column.flags.astype(np.uint16)
     if column.values.shape != t_ns.shape or flags.shape != t_ns.shape:
@@ -94,7 +109,7 @@ def _column(name: str, column: ColumnInput, t_ns: Int1D, time: TimeFlags, stats:
         others = {k: columns[k].values for k in stats if k != name} if len(stats[name].starts) else {}
         for start, stop, stuck, why in held_runs(x, t_ns, stats[name], others, stats):
             if (flags[start:stop] & np.uint16(Flag.SATURATED | Flag.OUT_OF_RANGE)).all():
-                continue                                  # at the end of its range a reading stands still
+                continue  # at the end of its range a reading stands still
             flag = Flag.STUCK if stuck else Flag.HELD
             flags[start:stop] |= np.uint16(flag)
             events.append(_event(name, str(flag.name).lower(), t_ns, start, stop, why))
@@ -149,9 +164,17 @@ def _mark_spikes(name: str, x: Float1D, flags: Array, t_ns: Int1D, stats: RunSta
     hit, many = spikes(x, stats)
     where = np.flatnonzero(hit)
     if many and len(where):
-        return [QualityEvent(name, "spike", int(t_ns[where[0]]), int(t_ns[where[-1]]), len(where),
-                             f"not flagged: {100 * len(where) / len(x):.1f} % of the samples stand out for 1 to 3 "
-                             "samples: measuring phases? say when with 'measuring'")]
+        return [
+            QualityEvent(
+                name,
+                "spike",
+                int(t_ns[where[0]]),
+                int(t_ns[where[-1]]),
+                len(where),
+                f"not flagged: {100 * len(where) / len(x):.1f} % of the samples stand out for 1 to 3 "
+                "samples: measuring phases? say when with 'measuring'",
+            )
+        ]
     flags[hit] |= np.uint16(Flag.SPIKE)
     return _events(name, "spike", hit, t_ns, "")
 
@@ -173,13 +196,18 @@ def _event(name: str, flag: str, t_ns: Int1D, start: int, stop: int, detail: str
 def _events(name: str, flag: str, hit: Bool1D, t_ns: Int1D, detail: str) -> list[QualityEvent]:
     """One event a stretch of True; the last of too many stands for the rest."""
     starts, stops = true_runs(hit)
-    found = [_event(name, flag, t_ns, int(a), int(b), detail)
-             for a, b in zip(starts[:MOST_EVENTS - 1], stops[:MOST_EVENTS - 1], strict=True)]
+    found = [
+        _event(name, flag, t_ns, int(a), int(b), detail)
+        for a, b in zip(starts[: MOST_EVENTS - 1], stops[: MOST_EVENTS - 1], strict=True)
+    ]
     if len(starts) >= MOST_EVENTS:
         a, b = int(starts[MOST_EVENTS - 1]), int(stops[-1])
-        rest = int((stops - starts)[MOST_EVENTS - 1:].sum())
-        found.append(QualityEvent(name, flag, int(t_ns[a]), int(t_ns[b - 1]), rest,
-                                  f"{len(starts) - MOST_EVENTS + 1} further stretches"))
+        rest = int((stops - starts)[MOST_EVENTS - 1 :].sum())
+        found.append(
+            QualityEvent(
+                name, flag, int(t_ns[a]), int(t_ns[b - 1]), rest, f"{len(starts) - MOST_EVENTS + 1} further stretches"
+            )
+        )
     return found
 
 

@@ -14,9 +14,9 @@ import numpy as np
 
 from thermodata.plugin import Float1D
 
-POINTS = 24                                               # of a test, evenly spread over it
+POINTS = 24  # of a test, evenly spread over it
 _LEAST_K = 8.0
-_RESTED_S = 4 * 3600.0                                    # bearings and motors cool in one to two hours
+_RESTED_S = 4 * 3600.0  # bearings and motors cool in one to two hours
 _LEAST_OTHERS = 3
 
 
@@ -37,8 +37,9 @@ def offsets_between_tests(tests: Sequence[Levels]) -> dict[tuple[str, str], floa
     no later test began after a rest, for then a part that stays hot would look the same.
     """
     ordered = sorted(tests, key=lambda t: t.start_s)
-    rested = [i > 0 and ordered[i].start_s - max(t.end_s for t in ordered[:i]) >= _RESTED_S
-              for i in range(len(ordered))]
+    rested = [
+        i > 0 and ordered[i].start_s - max(t.end_s for t in ordered[:i]) >= _RESTED_S for i in range(len(ordered))
+    ]
     found: dict[tuple[str, str], float] = {}
     for channel in dict.fromkeys(c for t in ordered for c in t.series):
         spans = [_difference(t, channel) for t in ordered]

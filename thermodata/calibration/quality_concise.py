@@ -7,8 +7,8 @@ from dataclasses import replace
 
 from thermodata.calibration.quality import QualityEvent
 
-_FEW, _MOST = 8, 50                                       # of a channel and flag
-_NEAR = 200                                               # the part of the whole time that may lie between two
+_FEW, _MOST = 8, 50  # of a channel and flag
+_NEAR = 200  # the part of the whole time that may lie between two
 
 
 def concise(events: Sequence[QualityEvent]) -> list[QualityEvent]:
@@ -42,5 +42,9 @@ def _one(group: Sequence[QualityEvent]) -> QualityEvent:
     if len(group) == 1:
         return group[0]
     reason = next((e.detail for e in group if e.detail), "")
-    return replace(group[0], to_ns=max(e.to_ns for e in group), n=sum(e.n for e in group),
-                   detail=f"{reason}{'; ' if reason else ''}{len(group)} stretches")
+    return replace(
+        group[0],
+        to_ns=max(e.to_ns for e in group),
+        n=sum(e.n for e in group),
+        detail=f"{reason}{'; ' if reason else ''}{len(group)} stretches",
+    )

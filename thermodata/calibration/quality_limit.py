@@ -11,22 +11,47 @@ from thermodata.plugin import Array, Bool1D, Float1D
 
 # What can be measured in a lab, in canonical units: heaters and cuts are hot, no machine is colder than -60 degC.
 _POSSIBLE = {
-    "temperature": (-60.0, 1500.0), "humidity": (-5.0, 110.0), "rotational_speed": (-500_000.0, 500_000.0),
-    "temperature_difference": (-1500.0, 1500.0), "irradiance": (-100.0, 3000.0), "flow": (-1e5, 1e5),
+    "temperature": (-60.0, 1500.0),
+    "humidity": (-5.0, 110.0),
+    "rotational_speed": (-500_000.0, 500_000.0),
+    "temperature_difference": (-1500.0, 1500.0),
+    "irradiance": (-100.0, 3000.0),
+    "flow": (-1e5, 1e5),
 }
 # What loggers write for "no value": full scale of their counters (with one decimal too), and rows of nines.
-_SENTINELS = np.array([32767.0, -32768.0, 3276.7, -3276.8, 6553.5, 65535.0, 9999.0, -9999.0, 99999.0, -99999.0,
-                       999.9, -999.9, 9999.9, -9999.9])
+_SENTINELS = np.array(
+    [
+        32767.0,
+        -32768.0,
+        3276.7,
+        -3276.8,
+        6553.5,
+        65535.0,
+        9999.0,
+        -9999.0,
+        99999.0,
+        -99999.0,
+        999.9,
+        -999.9,
+        9999.9,
+        -9999.9,
+    ]
+)
 _HUGE = 1e30
-_HOT, _LEAP_K = 250.0, 100.0                              # a broken Pt100 reads 850 degC from one sample to the next
+_HOT, _LEAP_K = 250.0, 100.0  # a broken Pt100 reads 850 degC from one sample to the next
 _ANALOG_FULL_SCALE = frozenset({"displacement", "voltage", "tilt"})
 
 
 def impossible(x: Float1D, quantity: str, own: RunStats | None = None) -> Bool1D:
     """Where x, shape (n,), in the quantity's canonical unit, is no reading of it."""
     low, high = _POSSIBLE.get(quantity, (-_HUGE, _HUGE))
-    if own is not None and own.low >= low and own.high <= (_HOT if quantity == "temperature" else high) and \
-            own.low > -_HUGE and own.high < _HUGE:
+    if (
+        own is not None
+        and own.low >= low
+        and own.high <= (_HOT if quantity == "temperature" else high)
+        and own.low > -_HUGE
+        and own.high < _HUGE
+    ):
         return np.zeros(len(x), dtype=bool)
     with np.errstate(invalid="ignore"):
         beyond = np.abs(x) >= _HUGE
@@ -59,7 +84,7 @@ def sentinels(x: Float1D, own: RunStats) -> Bool1D:
         return none
     low, high = float(finite.min()), float(finite.max())
     coded = _SENTINELS[(low <= _SENTINELS) & (high >= _SENTINELS)]
-    coded = coded[(coded == low) | (coded == high)]       # a code is an extreme; between others it is a reading
+    coded = coded[(coded == low) | (coded == high)]  # a code is an extreme; between others it is a reading
     if not len(coded):
         return none
     hit = np.isin(x, coded)
@@ -94,9 +119,13 @@ def clipped(x: Float1D, own: RunStats, quantity: str) -> Iterator[tuple[Bool1D, 
             if not (noisy and creeps.mean() > 0.5 and len(starts) > 1):
                 continue
         elif not (len(starts) > 2 or (noisy and bool(creeps.all()) and starts[0] > 0)):
-            continue                                      # from the first row on, it may as well be held
-        yield at, limit, f"{side} limit {limit:.6g}, {len(starts)} times exactly: the end of a range? say it in " \
-                         "'sensor: {range: ...}'"
+            continue  # from the first row on, it may as well be held
+        yield (
+            at,
+            limit,
+            f"{side} limit {limit:.6g}, {len(starts)} times exactly: the end of a range? say it in "
+            "'sensor: {range: ...}'",
+        )
 
 
 def _approach(x: Float1D, starts: Array, stops: Array) -> Float1D:

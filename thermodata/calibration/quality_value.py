@@ -14,9 +14,9 @@ import numpy as np
 from thermodata.plugin import Array, Bool1D, Float1D, Int1D
 from thermodata.schema.flag import Flag
 
-_LEAST_HELD = 10                                          # samples
+_LEAST_HELD = 10  # samples
 _LEAST_HELD_S = 5.0
-_SPIKE = 10.0                                             # of the noise of a difference
+_SPIKE = 10.0  # of the noise of a difference
 _REACH = 8
 _OFFSET_K = 5.0
 _MANY_SPIKES = 0.005
@@ -50,7 +50,7 @@ class RunStats:
 def run_stats(x: Float1D) -> RunStats:
     """One pass over the differences of x, shape (n,); NaN parts runs."""
     low, high = (float(np.min(x)), float(np.max(x))) if len(x) else (np.nan, np.nan)
-    with np.errstate(invalid="ignore"):                   # inf - inf
+    with np.errstate(invalid="ignore"):  # inf - inf
         d = np.diff(x)
         leap = float(max(np.max(d), -np.min(d))) if len(d) else np.nan
     if not np.isfinite(leap) or not np.isfinite(high - low):
@@ -67,7 +67,7 @@ def run_stats(x: Float1D) -> RunStats:
     moving = d if not equals and np.isfinite(leap) else d[~equal & np.isfinite(d)]
     if len(moving) < 10:
         return RunStats(starts, lengths, 0.0, 0.0, 1.0, 0.0, low, high, leap)
-    if len(moving) > 50_000:                              # a sample of whole stretches is enough, and far quicker
+    if len(moving) > 50_000:  # a sample of whole stretches is enough, and far quicker
         blocks = np.linspace(0, len(moving) - 500, 100).astype(np.int64)
         moving = moving[(blocks[:, None] + np.arange(500)).ravel()]
     size = np.abs(moving)
@@ -86,8 +86,9 @@ def true_runs(hit: Bool1D) -> tuple[Int1D, Int1D]:
     return rows[np.concatenate([[True], parted])], rows[np.concatenate([parted, [True]])] + 1
 
 
-def held_runs(x: Float1D, t_ns: Array, own: RunStats, others: Mapping[str, Array],
-              stats: Mapping[str, RunStats]) -> Iterator[tuple[int, int, bool, str]]:
+def held_runs(
+    x: Float1D, t_ns: Array, own: RunStats, others: Mapping[str, Array], stats: Mapping[str, RunStats]
+) -> Iterator[tuple[int, int, bool, str]]:
     """(start, stop, stuck, why) of exactly constant stretches that chance can't explain.
 
     The channel must be fine-grained, and either noisy of its own, or jump where it is released while others moved
@@ -114,12 +115,12 @@ def held_runs(x: Float1D, t_ns: Array, own: RunStats, others: Mapping[str, Array
 
 
 def _moves(x: Array, start: int, stop: int) -> bool:
-    part = x[start:min(stop, start + 2000)]
+    part = x[start : min(stop, start + 2000)]
     return bool(np.mean(part[1:] != part[:-1]) > 0.2)
 
 
 def _spread(x: Float1D, before: int) -> float:
-    past = x[max(0, before - 2000):before]
+    past = x[max(0, before - 2000) : before]
     past = past[np.isfinite(past)]
     return float(np.ptp(past)) if len(past) else 0.0
 
@@ -163,8 +164,9 @@ def spikes(x: Float1D, own: RunStats) -> tuple[Bool1D, bool]:
     return hit, count > max(10, _MANY_SPIKES * n)
 
 
-def offset_steps(x: Float1D, t_ns: Array, flags: Array, of_time: Array,
-                 own: RunStats) -> Iterator[tuple[int, int, float, str]]:
+def offset_steps(
+    x: Float1D, t_ns: Array, flags: Array, of_time: Array, own: RunStats
+) -> Iterator[tuple[int, int, float, str]]:
     """(start, stop, size [K], how) where a temperature steps by more than 5 K within one sample, or over a pause by
     more than it ever changes in such a time, and stays there: thermal mass forbids it, a failing sensor or a
     changed plug does it. Ends at a step back, or at the end.
@@ -204,10 +206,10 @@ def _beyond_its_pace(y: Float1D, t_ns: Array, d: Float1D, j: int) -> bool:
     pause = int(t_ns[j + 1] - t_ns[j])
     later = np.searchsorted(t_ns, t_ns + pause)
     inside = later < len(y)
-    inside[max(0, int(np.searchsorted(t_ns, t_ns[j] - pause))):j + 1] = False        # those that span the pause itself
+    inside[max(0, int(np.searchsorted(t_ns, t_ns[j] - pause))) : j + 1] = False  # those that span the pause itself
     rows = np.flatnonzero(inside)
-    spread = max(float(np.ptp(y[:j + 1])), float(np.ptp(y[j + 1:])))
-    if len(rows) < 20:                                    # a pause longer than what was recorded on either side
+    spread = max(float(np.ptp(y[: j + 1])), float(np.ptp(y[j + 1 :])))
+    if len(rows) < 20:  # a pause longer than what was recorded on either side
         return abs(float(d[j])) > max(2 * _OFFSET_K, 3 * spread)
     usual = float(np.max(np.abs(y[later[rows]] - y[rows])))
     return abs(float(d[j])) > max(2 * usual, 1.2 * spread)
@@ -215,9 +217,9 @@ def _beyond_its_pace(y: Float1D, t_ns: Array, d: Float1D, j: int) -> bool:
 
 def _stays(y: Float1D, d: Float1D, j: int) -> bool:
     """Whether the step after row j lasts, and stands out of the changes around it."""
-    before, after = y[max(0, j - 20):j + 1], y[j + 1:j + 21]
+    before, after = y[max(0, j - 20) : j + 1], y[j + 1 : j + 21]
     if len(before) < 5 or len(after) < 5 or abs(np.median(after) - np.median(before)) < 0.7 * abs(d[j]):
         return False
-    around = np.abs(np.concatenate([d[max(0, j - 200):j], d[j + 1:j + 201]]))
+    around = np.abs(np.concatenate([d[max(0, j - 200) : j], d[j + 1 : j + 201]]))
     around = around[around > 0]
     return not len(around) or bool(abs(d[j]) > 3 * np.quantile(around, 0.9))

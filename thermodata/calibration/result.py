@@ -8,8 +8,20 @@ from typing import Any, Literal
 
 Sign = Literal["+", "-", "unknown"]
 Check = dict[str, Any]
-_SAME_NAME = ("kind", "axis", "gain", "gain_unit", "sign", "uncertainty_pct", "noise_um", "nonlinearity_pct",
-              "drift_um", "crosstalk", "checks", "detail")
+_SAME_NAME = (
+    "kind",
+    "axis",
+    "gain",
+    "gain_unit",
+    "sign",
+    "uncertainty_pct",
+    "noise_um",
+    "nonlinearity_pct",
+    "drift_um",
+    "crosstalk",
+    "checks",
+    "detail",
+)
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,19 +68,26 @@ class CalibrationResult:
 
     def row(self, campaign: str) -> dict[str, Any]:
         """The row of table `calibration`; crosstalk, checks and detail are plain data, to be stored as JSON."""
-        return {"campaign": campaign, "calibration": self.name, "offset_value": self.offset,
-                **{k: getattr(self, k) for k in _SAME_NAME}}
+        return {
+            "campaign": campaign,
+            "calibration": self.name,
+            "offset_value": self.offset,
+            **{k: getattr(self, k) for k in _SAME_NAME},
+        }
 
     @classmethod
     def from_row(cls, row: Mapping[str, Any]) -> CalibrationResult:
         """The reverse of `row` (JSON columns already decoded)."""
         offset = row["offset_value"]
-        return cls(name=row["calibration"], offset=0.0 if offset is None else offset,
-                   **{k: row[k] for k in _SAME_NAME})
+        return cls(name=row["calibration"], offset=0.0 if offset is None else offset, **{k: row[k] for k in _SAME_NAME})
 
 
 def check(name: str, value: float | None, threshold: float | None, passed: bool, advice: str) -> Check:
     """One row of a calibration's checks; advice is empty where there is nothing to do."""
-    return {"name": name, "value": None if value is None else float(value),
-            "threshold": None if threshold is None else float(threshold), "passed": bool(passed),
-            "advice": "" if passed else advice}
+    return {
+        "name": name,
+        "value": None if value is None else float(value),
+        "threshold": None if threshold is None else float(threshold),
+        "passed": bool(passed),
+        "advice": "" if passed else advice,
+    }

@@ -17,12 +17,22 @@ import numpy as np
 from thermodata.errors import CalibrationError, ThermodataError
 from thermodata.plugin import Array, Float1D, Scaling
 
-NI_SCALE_TYPES = ("AdvancedAPI", "Add", "Linear", "Polynomial", "RTD", "Strain", "Subtract", "Table", "Thermistor",
-                  "Thermocouple")
+NI_SCALE_TYPES = (
+    "AdvancedAPI",
+    "Add",
+    "Linear",
+    "Polynomial",
+    "RTD",
+    "Strain",
+    "Subtract",
+    "Table",
+    "Thermistor",
+    "Thermocouple",
+)
 _TYPE_KEY = re.compile(r"^NI_Scale\[(\d+)\]_Scale_Type$")
 _SOURCE_KEY = re.compile(r"^NI_Scale\[(\d+)\]_\w*Input_Source$")
 _RAW_INPUT = 0xFFFFFFFF
-_MOST_SCALES = 200                                        # a damaged count must not become a huge allocation
+_MOST_SCALES = 200  # a damaged count must not become a huge allocation
 
 Raw = Array | Mapping[int, Array]
 
@@ -42,7 +52,7 @@ def apply_scaling(scaling: Scaling | None, raw: Raw, *, channel: str | None = No
         return _plain(raw, channel) * gain + offset
     check_scaling(scaling, channel=channel)
     scale = _ni(scaling)
-    if scale is None:                                     # status "scaled": the file holds scaled values
+    if scale is None:  # status "scaled": the file holds scaled values
         return _plain(raw, channel)
     data, scalers = _inputs(scaling, raw, channel)
     # npTDMS adds raw integers in their own width, where 200 + 100 is 44, and cuts what it makes of them to integers
@@ -70,31 +80,43 @@ def check_scaling(scaling: Scaling | None, *, channel: str | None = None) -> Non
     for index in range(count):
         kind = properties.get(f"NI_Scale[{index}]_Scale_Type")
         if kind is not None and kind not in NI_SCALE_TYPES:
-            raise _refused(f"unknown NI scale type '{kind}' (NI_Scale[{index}])", channel, ", ".join(NI_SCALE_TYPES),
-                           str(kind))
+            raise _refused(
+                f"unknown NI scale type '{kind}' (NI_Scale[{index}])", channel, ", ".join(NI_SCALE_TYPES), str(kind)
+            )
     _check_graph(properties, count, channel)
     try:
         _ni(scaling)
     except ThermodataError:
         raise
     except Exception as error:
-        raise _refused(f"malformed NI scaling: {type(error).__name__}: {error}", channel, "all of its properties",
-                       ", ".join(sorted(k for k in properties if k.startswith("NI_Scale")))[:300]) from error
+        raise _refused(
+            f"malformed NI scaling: {type(error).__name__}: {error}",
+            channel,
+            "all of its properties",
+            ", ".join(sorted(k for k in properties if k.startswith("NI_Scale")))[:300],
+        ) from error
 
 
 def scaler_ids(scaling: Scaling | None) -> tuple[int, ...]:
     """Numbers of the DAQmx raw scalers that an NI scaling reads, ascending; () where it reads plain raw data."""
     if scaling is None or scaling.kind != "ni":
         return ()
-    return tuple(i for i in range(min(_count(scaling.properties), _MOST_SCALES))
-                 if f"NI_Scale[{i}]_Scale_Type" not in scaling.properties)
+    return tuple(
+        i
+        for i in range(min(_count(scaling.properties), _MOST_SCALES))
+        if f"NI_Scale[{i}]_Scale_Type" not in scaling.properties
+    )
 
 
 def _refused(what: str, channel: str | None, expected: str, got: str) -> CalibrationError:
     return CalibrationError(
-        what if channel is None else f"channel '{channel}': {what}", where=channel, expected=expected, got=got,
+        what if channel is None else f"channel '{channel}': {what}",
+        where=channel,
+        expected=expected,
+        got=got,
         hint="export the channel already scaled, or leave it out of the campaign file: raw counts are never "
-             "passed for values")
+        "passed for values",
+    )
 
 
 def _number(scaling: Scaling, key: str, default: float, channel: str | None) -> float:
@@ -125,15 +147,20 @@ def _check_graph(properties: Mapping[str, Any], count: int, channel: str | None)
             raise _refused(f"NI scaling with input {source!r}", channel, "a scale's number", f"{key} = {source!r}")
         if int(source) != _RAW_INPUT:
             if not 0 <= int(source) < count:
-                raise _refused("NI scaling reads a scale that is not there", channel, f"0 to {count - 1}",
-                               f"{key} = {source}")
+                raise _refused(
+                    "NI scaling reads a scale that is not there", channel, f"0 to {count - 1}", f"{key} = {source}"
+                )
             inputs.setdefault(int(match[1]), set()).add(int(source))
     settled: set[int] = set()
     while len(settled) < count:
         ready = {i for i in range(count) if i not in settled and inputs.get(i, set()) <= settled}
         if not ready:
-            raise _refused("NI scaling feeds itself", channel, "a chain without a loop",
-                           f"scales {sorted(set(range(count)) - settled)}")
+            raise _refused(
+                "NI scaling feeds itself",
+                channel,
+                "a chain without a loop",
+                f"scales {sorted(set(range(count)) - settled)}",
+            )
         settled |= ready
 
 
@@ -174,8 +201,12 @@ def _inputs(scaling: Scaling, raw: Raw, channel: str | None) -> tuple[Array | No
         return raw, dict.fromkeys(ids, raw)
     missing = [i for i in ids if i not in scalers]
     if missing or not scalers or len({len(v) for v in scalers.values()}) > 1:
-        raise _refused(f"NI scaling needs the raw scalers {list(ids)}", channel, "one equally long array for each",
-                       f"{sorted(scalers) or getattr(raw, 'shape', '')}")
+        raise _refused(
+            f"NI scaling needs the raw scalers {list(ids)}",
+            channel,
+            "one equally long array for each",
+            f"{sorted(scalers) or getattr(raw, 'shape', '')}",
+        )
     return None, scalers
 
 
@@ -183,8 +214,10 @@ def _scale(scale: Any, data: Array | None, scalers: Mapping[int, Array], rows: A
     """Scales all rows in one call; where npTDMS raises (one broken wire spoils the block), halves the block
     until the rows at fault stand alone, and gives NaN for those."""
     whole = len(rows) == len(data if data is not None else next(iter(scalers.values())))
-    view = SimpleNamespace(data=None if data is None else (data if whole else data[rows]),
-                           scaler_data={k: (v if whole else v[rows]) for k, v in scalers.items()})
+    view = SimpleNamespace(
+        data=None if data is None else (data if whole else data[rows]),
+        scaler_data={k: (v if whole else v[rows]) for k, v in scalers.items()},
+    )
     try:
         with np.errstate(all="ignore"):
             return np.asarray(scale.scale(view), dtype=np.float64)

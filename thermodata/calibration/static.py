@@ -13,9 +13,13 @@ def ratio_units(unit: str, name: str) -> tuple[str, str]:
     """'um/V' -> ('um', 'V'): what comes out, and what goes in (split at the last '/')."""
     out, slash, into = unit.rpartition("/")
     if not slash or not out.strip() or not into.strip():
-        raise CalibrationError(f"calibration '{name}': the gain has no unit of the form out/in",
-                               where=f"calibrations.{name}.gain", expected="for example '250 um/V'",
-                               got=repr(unit), hint="write what comes out over what the sensor gives")
+        raise CalibrationError(
+            f"calibration '{name}': the gain has no unit of the form out/in",
+            where=f"calibrations.{name}.gain",
+            expected="for example '250 um/V'",
+            got=repr(unit),
+            hint="write what comes out over what the sensor gives",
+        )
     return out.strip(), into.strip()
 
 
@@ -26,29 +30,55 @@ def evaluate_scale(name: str, spec: ScaleCalibration) -> CalibrationResult:
     """
     gain, unit = split_value(spec.gain)
     if gain == 0:
-        raise CalibrationError(f"calibration '{name}': a gain of zero", where=f"calibrations.{name}.gain",
-                               expected="a number other than 0", got=str(spec.gain))
+        raise CalibrationError(
+            f"calibration '{name}': a gain of zero",
+            where=f"calibrations.{name}.gain",
+            expected="a number other than 0",
+            got=str(spec.gain),
+        )
     unit_out, unit_in = ratio_units(unit, name)
     axis = facing_axis(name, spec.facing, spec.axis)
     sign: Sign = "unknown"
     if spec.facing is not None:
         if gain < 0:
             raise CalibrationError(
-                f"calibration '{name}': the sign is given twice", where=f"calibrations.{name}",
-                expected="a positive gain beside 'facing', which gives the sign", got=f"gain {spec.gain}",
-                hint="drop the minus and say increases_with: approach, if the reading falls as the gap grows")
+                f"calibration '{name}': the sign is given twice",
+                where=f"calibrations.{name}",
+                expected="a positive gain beside 'facing', which gives the sign",
+                got=f"gain {spec.gain}",
+                hint="drop the minus and say increases_with: approach, if the reading falls as the gap grows",
+            )
         gain *= geometric_sign(spec.facing, spec.increases_with)
         sign = "+" if gain > 0 else "-"
     offset = _offset(name, spec.offset, unit_out)
     uncertainty = _percent_of_gain(name, spec, abs(gain), unit)
     known = sign != "unknown"
     return CalibrationResult(
-        name=name, kind="scale", axis=axis, gain=gain, gain_unit=f"{unit_out}/{unit_in}", offset=offset, sign=sign,
-        uncertainty_pct=uncertainty, detail={"unit_in": unit_in, "unit_out": unit_out, "facing": spec.facing,
-                                             "increases_with": spec.increases_with if spec.facing else None},
-        checks=[check("sign_known", None, None, known,
-                      "give 'facing' (the way the probe looks), or make a jump test: until then the channel can "
-                      "be modelled, not compared in sign")])
+        name=name,
+        kind="scale",
+        axis=axis,
+        gain=gain,
+        gain_unit=f"{unit_out}/{unit_in}",
+        offset=offset,
+        sign=sign,
+        uncertainty_pct=uncertainty,
+        detail={
+            "unit_in": unit_in,
+            "unit_out": unit_out,
+            "facing": spec.facing,
+            "increases_with": spec.increases_with if spec.facing else None,
+        },
+        checks=[
+            check(
+                "sign_known",
+                None,
+                None,
+                known,
+                "give 'facing' (the way the probe looks), or make a jump test: until then the channel can "
+                "be modelled, not compared in sign",
+            )
+        ],
+    )
 
 
 def evaluate_linear(name: str, spec: LinearCalibration, unit: str | None = None) -> CalibrationResult:
@@ -58,14 +88,23 @@ def evaluate_linear(name: str, spec: LinearCalibration, unit: str | None = None)
     """
     gain, gain_unit = split_value(spec.gain)
     if gain == 0:
-        raise CalibrationError(f"calibration '{name}': a gain of zero", where=f"calibrations.{name}.gain",
-                               expected="a number other than 0", got=str(spec.gain))
+        raise CalibrationError(
+            f"calibration '{name}': a gain of zero",
+            where=f"calibrations.{name}.gain",
+            expected="a number other than 0",
+            got=str(spec.gain),
+        )
     unit_out, unit_in = ratio_units(gain_unit, name) if gain_unit not in ("", "1") else (unit or "", unit or "")
     written = split_value(spec.offset)[1]
     offset = _offset(name, spec.offset, unit_out or written)
     return CalibrationResult(
-        name=name, kind="linear", gain=gain, gain_unit=gain_unit or "1", offset=offset,
-        detail={"unit_in": unit_in, "unit_out": unit_out, "offset_unit": unit_out or written})
+        name=name,
+        kind="linear",
+        gain=gain,
+        gain_unit=gain_unit or "1",
+        offset=offset,
+        detail={"unit_in": unit_in, "unit_out": unit_out, "offset_unit": unit_out or written},
+    )
 
 
 def _offset(name: str, offset: str | float | int, unit: str) -> float:
@@ -76,8 +115,12 @@ def _offset(name: str, offset: str | float | int, unit: str) -> float:
         return value * delta_factor(written, unit)
     except UsageError as error:
         raise CalibrationError(
-            f"calibration '{name}': the offset is not in the unit of the result", where=f"calibrations.{name}.offset",
-            expected=unit, got=str(offset), hint=f"the offset is added after the gain: give it in {unit}") from error
+            f"calibration '{name}': the offset is not in the unit of the result",
+            where=f"calibrations.{name}.offset",
+            expected=unit,
+            got=str(offset),
+            hint=f"the offset is added after the gain: give it in {unit}",
+        ) from error
 
 
 def _percent_of_gain(name: str, spec: ScaleCalibration, gain: float, gain_unit: str) -> float | None:
@@ -87,7 +130,10 @@ def _percent_of_gain(name: str, spec: ScaleCalibration, gain: float, gain_unit: 
     if unit in ("%", "percent"):
         return value
     if not unit:
-        raise CalibrationError(f"calibration '{name}': an uncertainty without a unit",
-                               where=f"calibrations.{name}.uncertainty", expected="for example '2 %'",
-                               got=str(spec.uncertainty))
+        raise CalibrationError(
+            f"calibration '{name}': an uncertainty without a unit",
+            where=f"calibrations.{name}.uncertainty",
+            expected="for example '2 %'",
+            got=str(spec.uncertainty),
+        )
     return 100.0 * value * delta_factor(unit, gain_unit) / gain

@@ -27,6 +27,10 @@ def zero_value(t_s: Float1D, values: Float1D, valid: Bool1D, over_s: float = 600
     values = np.asarray(values, float)
     mask = zero_mask(t_s, np.asarray(valid, bool) & np.isfinite(values), over_s)
     if not mask.any():
-        raise UsageError("no valid sample to take the zero from", expected="at least one", got="0",
-                         hint="look at `thermodata quality`: are all samples flagged, or is 'measuring' never true?")
+        raise UsageError(
+            "no valid sample to take the zero from",
+            expected="at least one",
+            got="0",
+            hint="look at `thermodata quality`: are all samples flagged, or is 'measuring' never true?",
+        )
     return float(values[mask].mean())

@@ -18,10 +18,26 @@ from thermodata.errors import ThermodataError, unknown_name
 # Section of the help -> command -> module. The order is the order of the work.
 SECTIONS: dict[str, dict[str, str]] = {
     "Start": {"demo": "demo", "init": "files", "sniff": "files", "preview": "files", "ingest": "ingest"},
-    "Look": {"tests": "look", "channels": "look", "calibrations": "look", "quality": "quality", "trace": "look",
-             "sql": "query", "export": "take", "snapshot": "take"},
-    "Model": {"fit": "fitting", "compare": "fitting", "add": "fitting", "history": "fitting",
-              "portability": "fitting", "diagnose": "diagnosing", "report": "reporting", "workbench": "reporting"},
+    "Look": {
+        "tests": "look",
+        "channels": "look",
+        "calibrations": "look",
+        "quality": "quality",
+        "trace": "look",
+        "sql": "query",
+        "export": "take",
+        "snapshot": "take",
+    },
+    "Model": {
+        "fit": "fitting",
+        "compare": "fitting",
+        "add": "fitting",
+        "history": "fitting",
+        "portability": "fitting",
+        "diagnose": "diagnosing",
+        "report": "reporting",
+        "workbench": "reporting",
+    },
     "Check": {"simulate": "simulating", "benchmark-diagnosis": "simulating"},
     "Keep": {"plugins": "plugins", "schema": "schema", "check": "remove", "forget": "remove", "gc": "remove"},
 }
@@ -59,8 +75,13 @@ class Commands(click.Group):
 
 
 @click.group(cls=Commands, context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 110})
-@click.option("--store", envvar="THERMODATA_STORE", default="thermodata.store", metavar="DIR",
-              help="The store's folder (or THERMODATA_STORE; default ./thermodata.store).")
+@click.option(
+    "--store",
+    envvar="THERMODATA_STORE",
+    default="thermodata.store",
+    metavar="DIR",
+    help="The store's folder (or THERMODATA_STORE; default ./thermodata.store).",
+)
 @click.version_option(__version__, prog_name="thermodata")
 @click.pass_context
 def cli(ctx: click.Context, store: str) -> None:
@@ -103,9 +124,12 @@ def run(argv: Sequence[str] | None = None) -> int:
         if os.environ.get("THERMODATA_DEBUG"):
             raise
         last = traceback.extract_tb(error.__traceback__)[-1]
-        return _fail(f"a defect in thermodata: {type(error).__name__}: {error}\n"
-                     f"where: {last.filename}:{last.lineno} in {last.name}\n"
-                     "try: THERMODATA_DEBUG=1 shows the whole traceback", 1)
+        return _fail(
+            f"a defect in thermodata: {type(error).__name__}: {error}\n"
+            f"where: {last.filename}:{last.lineno} in {last.name}\n"
+            "try: THERMODATA_DEBUG=1 shows the whole traceback",
+            1,
+        )
 
 
 def _warn(message: Warning | str, category: type[Warning], *where: object, **more: object) -> None:

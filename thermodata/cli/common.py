@@ -48,8 +48,9 @@ class Session:
 
     def answer(self, payload: Any, text: Callable[[], str]) -> None:
         """Data, on stdout: the payload as JSON, or its text."""
-        click.echo(json.dumps(plain(payload), indent=2, ensure_ascii=False, allow_nan=False)
-                   if self.as_json else text())
+        click.echo(
+            json.dumps(plain(payload), indent=2, ensure_ascii=False, allow_nan=False) if self.as_json else text()
+        )
 
 
 def known_failure(error: Exception) -> ThermodataError | None:
@@ -58,8 +59,12 @@ def known_failure(error: Exception) -> ThermodataError | None:
     if isinstance(error, OSError):
         if error.errno not in (errno.ENOSPC, errno.EDQUOT):
             return None
-        return StoreError("the disk is full", where=str(error.filename) if error.filename else None,
-                          got=error.strerror, hint="free space and run it again")
+        return StoreError(
+            "the disk is full",
+            where=str(error.filename) if error.filename else None,
+            got=error.strerror,
+            hint="free space and run it again",
+        )
     # by name: DuckDB is imported in the store and its views only, and only where it is needed
     if not type(error).__module__.lstrip("_").startswith("duckdb"):
         return None
@@ -93,11 +98,11 @@ def plain(value: Any) -> Any:
         return {f.name: plain(getattr(value, f.name)) for f in dataclasses.fields(value)}
     if isinstance(value, Mapping):
         return {str(k): plain(v) for k, v in value.items()}
-    if hasattr(value, "tolist"):                      # numpy scalars and arrays
+    if hasattr(value, "tolist"):  # numpy scalars and arrays
         return plain(value.tolist())
     if isinstance(value, list | tuple | set | frozenset):
         return [plain(v) for v in value]
-    if hasattr(value, "isoformat"):                   # times; what is no time (NaT) differs from itself
+    if hasattr(value, "isoformat"):  # times; what is no time (NaT) differs from itself
         return value.isoformat() if value == value else None
     return str(value)
 

@@ -14,7 +14,7 @@ from thermodata.cli.table import fields
 from thermodata.errors import UsageError
 from thermodata.report.words import change, duration, number, pooled, verdict_sentence
 
-_MARK = ".thermodata-demo"          # a folder that holds it was made by a demo and may be made anew
+_MARK = ".thermodata-demo"  # a folder that holds it was made by a demo and may be made anew
 _MADE = ("raw", "campaign.yaml", "model.yaml", "truth", "thermodata.store", "report.html")
 
 
@@ -35,8 +35,7 @@ class Step:
 
 
 @command("demo")
-@click.argument("folder", default="thermodata-demo", metavar="[DIR]",
-                type=click.Path(path_type=Path, file_okay=False))
+@click.argument("folder", default="thermodata-demo", metavar="[DIR]", type=click.Path(path_type=Path, file_okay=False))
 @click.option("--hide", metavar="EFFECT", help="The hidden effect (default: the seed picks one); or none.")
 @click.option("--seed", default=3, show_default=True, type=click.IntRange(0), help="Another seed, another machine.")
 def demo_command(session: Session, folder: Path, hide: str | None, seed: int) -> None:
@@ -63,8 +62,12 @@ def prepare(folder: Path, hide: str | None, seed: int) -> str:
         hide = random.Random(seed).choice(sorted(HIDEABLE))
     if folder.is_dir() and any(folder.iterdir()):
         if not (folder / _MARK).is_file():
-            raise UsageError("the folder is not empty and was not made by a demo", where=str(folder),
-                             expected="a new or empty folder, or an earlier demo's", hint="thermodata demo OTHER_DIR")
+            raise UsageError(
+                "the folder is not empty and was not made by a demo",
+                where=str(folder),
+                expected="a new or empty folder, or an earlier demo's",
+                hint="thermodata demo OTHER_DIR",
+            )
         for made in (folder / name for name in _MADE):
             if made.is_dir() and not made.is_symlink():
                 shutil.rmtree(made)
@@ -86,8 +89,10 @@ def story(step: Step, folder: Path, hide: str, seed: int) -> dict[str, Any]:
     truth = plain(simulate(folder, hide=hide, seed=seed))
     raw = [p for p in (folder / "raw").rglob("*") if p.is_file()]
     kinds = ", ".join(f"{sum(p.suffix == s for p in raw)} {s[1:]}" for s in sorted({p.suffix for p in raw}))
-    step.line(f"{len(raw)} files ({kinds}), {sum(p.stat().st_size for p in raw) / 1e6:.0f} MB, in {folder / 'raw'}; "
-              "what the model lacks, if anything, nobody tells it")
+    step.line(
+        f"{len(raw)} files ({kinds}), {sum(p.stat().st_size for p in raw) / 1e6:.0f} MB, in {folder / 'raw'}; "
+        "what the model lacks, if anything, nobody tells it"
+    )
 
     step.title(2, "ingest: raw and calibrated layers, by the campaign file")
     from thermodata.store import Store
@@ -95,15 +100,23 @@ def story(step: Step, folder: Path, hide: str, seed: int) -> dict[str, Any]:
 
     store = Store(folder / "thermodata.store", create=True)
     summary = plain(ingest(store, folder / "campaign.yaml").to_json())
-    flags = ", ".join(f"{name.replace('_', ' ')} {100 * n / max(summary['samples'], 1):.2g} %"
-                      for name, n in summary["flags"].items() if n) or "nothing"
+    flags = (
+        ", ".join(
+            f"{name.replace('_', ' ')} {100 * n / max(summary['samples'], 1):.2g} %"
+            for name, n in summary["flags"].items()
+            if n
+        )
+        or "nothing"
+    )
     step.line(f"{summary['tests']} tests, {summary['samples'] / 1e6:.1f} million samples; flagged: {flags}")
     for row in summary["calibrations"]:
         name = row.get("calibration") or row.get("name")
-        step.line(f"jump test {name}: {row.get('sign', '')}{number(abs(row['gain']))} {row.get('gain_unit', '')} "
-                  f"± {number(row.get('uncertainty_pct'), 2)} %, noise {number(row.get('noise_um'), 2)} um"
-                  if row.get("kind") == "jump" else
-                  f"{row.get('kind')} {name}: {number(row['gain'])} {row.get('gain_unit') or ''}")
+        step.line(
+            f"jump test {name}: {row.get('sign', '')}{number(abs(row['gain']))} {row.get('gain_unit', '')} "
+            f"± {number(row.get('uncertainty_pct'), 2)} %, noise {number(row.get('noise_um'), 2)} um"
+            if row.get("kind") == "jump"
+            else f"{row.get('kind')} {name}: {number(row['gain'])} {row.get('gain_unit') or ''}"
+        )
 
     step.title(3, "fit: the baseline model, with the effects that one would expect")
     from thermodata.modelling.run import add, fit
@@ -111,16 +124,19 @@ def story(step: Step, folder: Path, hide: str, seed: int) -> dict[str, Any]:
 
     base = fit(store, load_model(folder / "model.yaml"), base=folder)
     effects = sorted({key.split(".")[0] for key in base.parameters})
-    step.line(f"{', '.join(effects)}; error {number(pooled(base.scores, 'calibration'))} um in calibration, "
-              f"{number(pooled(base.scores, 'verification'))} um in verification")
+    step.line(
+        f"{', '.join(effects)}; error {number(pooled(base.scores, 'calibration'))} um in calibration, "
+        f"{number(pooled(base.scores, 'verification'))} um in verification"
+    )
 
     step.title(4, "compare: where it fails")
     from thermodata.diagnosis.run import diagnose
 
     found = diagnose(store, base.model)
     for spot in found.weak_spots[:3]:
-        step.line(f"{spot.test}, {duration(spot.from_s)} to {duration(spot.to_s)}: "
-                  f"{number(spot.rmse_um)} um ({spot.state})")
+        step.line(
+            f"{spot.test}, {duration(spot.from_s)} to {duration(spot.to_s)}: {number(spot.rmse_um)} um ({spot.state})"
+        )
     if not found.weak_spots:
         step.line("nowhere that stands out of the noise")
 
@@ -154,27 +170,37 @@ def story(step: Step, folder: Path, hide: str, seed: int) -> dict[str, Any]:
     return {
         "hidden": None if hide == "none" else truth.get("hidden", hide),
         "found": claimed.effect if claimed else None,
-        "verdict": found.verdict, "family": claimed.family if claimed else None,
+        "verdict": found.verdict,
+        "family": claimed.family if claimed else None,
         "equivalents": claimed.equivalent if claimed else [],
-        "rmse_um_before": before, "rmse_um_after": after,
+        "rmse_um_before": before,
+        "rmse_um_after": after,
         "locked_rmse_um_before": claimed.locked_rmse_um_before if claimed else None,
         "locked_rmse_um_after": claimed.locked_rmse_um_after if claimed else None,
-        "model": model, "store": str(folder / "thermodata.store"), "report": str(page),
+        "model": model,
+        "store": str(folder / "thermodata.store"),
+        "report": str(page),
     }
 
 
 def summary_text(result: dict[str, Any]) -> str:
     """The end of the story."""
+
     def pair(a: Any, b: Any) -> str:
         return f"{number(a)} -> {number(b)} um" if b is not None else f"{number(a)} um"
 
-    rows = [("hidden", result["hidden"] or "nothing"),
-            ("found", result["found"] or f"nothing claimed ({result['verdict']})")]
+    rows = [
+        ("hidden", result["hidden"] or "nothing"),
+        ("found", result["found"] or f"nothing claimed ({result['verdict']})"),
+    ]
     if result["equivalents"]:
         rows.append(("not told from", ", ".join(result["equivalents"])))
     rows.append(("error", pair(result["rmse_um_before"], result["rmse_um_after"])))
     if result["locked_rmse_um_after"] is not None:
         rows.append(("locked tests", pair(result["locked_rmse_um_before"], result["locked_rmse_um_after"])))
-    rows += [("report", result["report"]), ("look around", f"thermodata --store {result['store']} tests"),
-             ("took", f"{result['seconds']:.0f} s")]
+    rows += [
+        ("report", result["report"]),
+        ("look around", f"thermodata --store {result['store']} tests"),
+        ("took", f"{result['seconds']:.0f} s"),
+    ]
     return "\n" + fields(rows)

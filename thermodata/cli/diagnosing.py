@@ -39,29 +39,54 @@ def diagnosis_text(found: Diagnosis, top: int = 8) -> str:
     share = found.explainable
     head = verdict_sentence(found) + (
         f"\nresidual {number(found.rmse_um)} um, noise {number(found.noise_um)} um"
-        + (f", {100 * share:.0f} % of it could be explained" if share is not None else ""))
+        + (f", {100 * share:.0f} % of it could be explained" if share is not None else "")
+    )
     parts = [head]
     if found.candidates:
-        rows = [{**c.model_dump(), "claimed": "yes" if c.claimed else ""}
-                for c in found.candidates[:top]]
-        parts.append(table(rows, [("rank", "#"), ("id", "candidate"), ("family", "family"), ("claimed", "claimed"),
-                                  ("p_value", "p"), ("rmse_um_before", "before [um]"),
-                                  ("rmse_um_after", "after [um]"), ("equivalent", "can't be told from")], widest=44))
+        rows = [{**c.model_dump(), "claimed": "yes" if c.claimed else ""} for c in found.candidates[:top]]
+        parts.append(
+            table(
+                rows,
+                [
+                    ("rank", "#"),
+                    ("id", "candidate"),
+                    ("family", "family"),
+                    ("claimed", "claimed"),
+                    ("p_value", "p"),
+                    ("rmse_um_before", "before [um]"),
+                    ("rmse_um_after", "after [um]"),
+                    ("equivalent", "can't be told from"),
+                ],
+                widest=44,
+            )
+        )
         first = found.candidates[0]
         if first.why:
             parts.append(f"why {first.id}: {first.why}")
     if found.weak_spots:
         parts.append(spots_text(found.weak_spots, most=top))
     if found.artefacts:
-        parts.append("artefacts\n" + "\n".join(
-            f"  ! {a.kind} in {a.campaign}/{a.test} at {duration(a.at_s)}: {number(a.size_um)} um. "
-            f"{a.why}" for a in found.artefacts))
+        parts.append(
+            "artefacts\n"
+            + "\n".join(
+                f"  ! {a.kind} in {a.campaign}/{a.test} at {duration(a.at_s)}: {number(a.size_um)} um. {a.why}"
+                for a in found.artefacts
+            )
+        )
     if found.unknown:
         hints = found.unknown.model_dump()
-        parts.append("what is left behaves like\n" + "\n".join(
-            f"  {name}: {', '.join(number(v) if isinstance(v, float) else str(v) for v in hints[key])}"
-            for name, key in (("time constants [h]", "time_constants_h"), ("hours of the day", "hours_of_day"),
-                              ("states", "states")) if hints[key]))
+        parts.append(
+            "what is left behaves like\n"
+            + "\n".join(
+                f"  {name}: {', '.join(number(v) if isinstance(v, float) else str(v) for v in hints[key])}"
+                for name, key in (
+                    ("time constants [h]", "time_constants_h"),
+                    ("hours of the day", "hours_of_day"),
+                    ("states", "states"),
+                )
+                if hints[key]
+            )
+        )
     if found.next_test:
         parts.append(f"next test: {found.next_test}")
     return "\n\n".join(parts)

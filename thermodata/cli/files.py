@@ -34,13 +34,20 @@ def init_command(session: Session, folder: Path, force: bool) -> None:
 
     out = folder / "campaign.yaml"
     if out.exists() and not force:
-        raise UsageError("the campaign file exists, and is never overwritten", where=str(out),
-                         hint="--force keeps it as campaign.1.yaml and drafts anew")
+        raise UsageError(
+            "the campaign file exists, and is never overwritten",
+            where=str(out),
+            hint="--force keeps it as campaign.1.yaml and drafts anew",
+        )
     found = scan(folder, _progress(session))
     if not found.logs:
-        raise UsageError("no file that a reader claims", where=str(folder), expected="raw logs",
-                         got="; ".join(f"{p}: {w}" for p, w in found.ignored[:5]) or "nothing",
-                         hint="thermodata plugins lists the installed readers; thermodata sniff FILE says more")
+        raise UsageError(
+            "no file that a reader claims",
+            where=str(folder),
+            expected="raw logs",
+            got="; ".join(f"{p}: {w}" for p, w in found.ignored[:5]) or "nothing",
+            hint="thermodata plugins lists the installed readers; thermodata sniff FILE says more",
+        )
     name = re.sub(r"[^A-Za-z0-9._-]+", "-", plain_name(folder.resolve().name)).strip("-._")[:100] or "campaign"
     draft = plan(name, folder, found)
     text = text_of(draft)
@@ -49,11 +56,13 @@ def init_command(session: Session, folder: Path, force: bool) -> None:
         out.rename(kept)
         session.say(f"the campaign file that was there is now {kept}")
     _write_new(out, text)
-    load_campaign(out)                           # a draft that doesn't load is a defect: it raises here
+    load_campaign(out)  # a draft that doesn't load is a defect: it raises here
     asked = questions_in(text)
-    session.say(f"{len(found.logs)} files, {len(draft.tests)} tests, {len(draft.sources)} sources, "
-                f"{sum(c.said.quantity is not None for c in draft.channels)} channels; {asked} lines hold a question: "
-                f"grep '# ?' {out}")
+    session.say(
+        f"{len(found.logs)} files, {len(draft.tests)} tests, {len(draft.sources)} sources, "
+        f"{sum(c.said.quantity is not None for c in draft.channels)} channels; {asked} lines hold a question: "
+        f"grep '# ?' {out}"
+    )
     session.answer(as_json(draft, out, len(found.logs), asked), lambda: str(out))
 
 
@@ -100,8 +109,18 @@ def sniff_command(session: Session, files: tuple[Path, ...]) -> int:
     found = [explain(path) for path in _each(files)]
     if not found:
         raise UsageError("no file in the folder", where=", ".join(map(str, files)))
-    rows = [{"file": e.file, "size_bytes": e.size_bytes, "kind": e.kind, "reader": e.reader, "claims": e.claims,
-             "others": e.others, "advice": e.advice} for e in found]
+    rows = [
+        {
+            "file": e.file,
+            "size_bytes": e.size_bytes,
+            "kind": e.kind,
+            "reader": e.reader,
+            "claims": e.claims,
+            "others": e.others,
+            "advice": e.advice,
+        }
+        for e in found
+    ]
     session.answer(rows, lambda: "\n\n".join(map(_explained, rows)) if len(rows) <= 5 else _summary(rows))
     return 0 if all(e.reader for e in found) else 2
 
@@ -111,8 +130,13 @@ def _each(given: tuple[Path, ...]) -> list[Path]:
     found: list[Path] = []
     for path in given:
         if path.is_dir():
-            found += sorted(p for p in path.rglob("*") if p.is_file() and not p.is_symlink()
-                            and not any(part.startswith(".") for part in p.relative_to(path).parts))
+            found += sorted(
+                p
+                for p in path.rglob("*")
+                if p.is_file()
+                and not p.is_symlink()
+                and not any(part.startswith(".") for part in p.relative_to(path).parts)
+            )
         else:
             found.append(path)
     return list(dict.fromkeys(found))
@@ -128,12 +152,21 @@ def _explained(row: dict[str, Any]) -> str:
 
 def _summary(rows: list[dict[str, Any]]) -> str:
     """One line a file, for many files."""
+
     def why(row: dict[str, Any]) -> str:
         return "; ".join(f"{k}: {v}" for k, v in row["claims"].items()) or row["kind"]
 
-    return table([{"file": r["file"], "reader": r["reader"] or ("several" if r["claims"] else "none"), "why": why(r)}
-                  for r in rows], [("file", "file"), ("reader", "reader"), ("why", "why")], widest=100) + \
-        "\n\nname up to five files for every reader's answer"
+    return (
+        table(
+            [
+                {"file": r["file"], "reader": r["reader"] or ("several" if r["claims"] else "none"), "why": why(r)}
+                for r in rows
+            ],
+            [("file", "file"), ("reader", "reader"), ("why", "why")],
+            widest=100,
+        )
+        + "\n\nname up to five files for every reader's answer"
+    )
 
 
 @command("preview")
@@ -141,10 +174,14 @@ def _summary(rows: list[dict[str, Any]]) -> str:
 @click.option("--reader", "name", help="Use this reader (default: the one that claims FILE).")
 @click.option("--timezone", help="IANA zone of local times, for example Europe/Prague.")
 @click.option("--rows", default=5, show_default=True, type=click.IntRange(0, 1000), help="Rows of each stream.")
-@click.option("--campaign", type=click.Path(path_type=Path, exists=True, dir_okay=False),
-              help="Read FILE as this campaign file declares it (default: the campaign.yaml beside or above it).")
-def preview_command(session: Session, file: Path, name: str | None, timezone: str | None, rows: int,
-                    campaign: Path | None) -> None:
+@click.option(
+    "--campaign",
+    type=click.Path(path_type=Path, exists=True, dir_okay=False),
+    help="Read FILE as this campaign file declares it (default: the campaign.yaml beside or above it).",
+)
+def preview_command(
+    session: Session, file: Path, name: str | None, timezone: str | None, rows: int, campaign: Path | None
+) -> None:
     """Show what would be ingested from FILE, and what would be flagged.
 
     Its clock and time zone, signals with units and their course, rate, gaps, losses, flags, and first rows. Stores

@@ -27,7 +27,7 @@ def resolve(store: Store, ref: str) -> str:
     from thermodata.store.models import find_model
 
     spec = load_model(Path(ref))
-    if not any(e.file for e in spec.effects):        # a file's content is known to the fit only
+    if not any(e.file for e in spec.effects):  # a file's content is known to the fit only
         try:
             return find_model(store, model_id(spec, load_data(store, spec).data_version)).model
         except UsageError:
@@ -80,8 +80,16 @@ def compare_command(session: Session, models: tuple[str, ...]) -> None:
     payload: dict[str, Any] = {**plain(results[0]), "weak_spots": weak}
     if len(results) > 1:
         payload |= {"scores": [s for r in results for s in r.scores], "models": results}
-    session.answer(payload, lambda: in_units_of(session, results[0].response, "\n\n".join([compare_text(results), *(
-        spots_text(found, response) for response, found in weak.items() if found)])))
+    session.answer(
+        payload,
+        lambda: in_units_of(
+            session,
+            results[0].response,
+            "\n\n".join(
+                [compare_text(results), *(spots_text(found, response) for response, found in weak.items() if found)]
+            ),
+        ),
+    )
 
 
 @command("add")
@@ -99,8 +107,12 @@ def add_command(session: Session, model: str, candidate: str) -> None:
     store = session.store()
     with counting_line() as tell, watched(tell):
         result = add(store, resolve(store, model), candidate)
-    session.answer(result, lambda: in_units_of(
-        session, result.response, "\n\n".join([before_after_text(result), fit_text(result, scores=False)])))
+    session.answer(
+        result,
+        lambda: in_units_of(
+            session, result.response, "\n\n".join([before_after_text(result), fit_text(result, scores=False)])
+        ),
+    )
 
 
 @command("history")
@@ -112,13 +124,34 @@ def history_command(session: Session, model: str) -> None:
 
     store = session.store()
     stored = model_chain(store, resolve(store, model))
-    chain = [{"model": v.model, "name": v.name, "parent": m.parent, "added": v.added, "rmse_um": v.all_um,
-              "calibration_rmse_um": v.calibration_um, "verification_rmse_um": v.verification_um, "stale": v.stale}
-             for v, m in zip(versions(stored), stored, strict=True)]
-    session.answer(chain, lambda: table(chain, [
-        ("name", "name"), ("model", "model"), ("added", "added"), ("rmse_um", "RMSE [um]"),
-        ("calibration_rmse_um", "calibration [um]"), ("verification_rmse_um", "verification [um]"),
-        ("stale", "stale")]))
+    chain = [
+        {
+            "model": v.model,
+            "name": v.name,
+            "parent": m.parent,
+            "added": v.added,
+            "rmse_um": v.all_um,
+            "calibration_rmse_um": v.calibration_um,
+            "verification_rmse_um": v.verification_um,
+            "stale": v.stale,
+        }
+        for v, m in zip(versions(stored), stored, strict=True)
+    ]
+    session.answer(
+        chain,
+        lambda: table(
+            chain,
+            [
+                ("name", "name"),
+                ("model", "model"),
+                ("added", "added"),
+                ("rmse_um", "RMSE [um]"),
+                ("calibration_rmse_um", "calibration [um]"),
+                ("verification_rmse_um", "verification [um]"),
+                ("stale", "stale"),
+            ],
+        ),
+    )
 
 
 @command("portability")
@@ -133,11 +166,26 @@ def portability_command(session: Session, model: str) -> None:
 
     store = session.store()
     rows = [plain(row) for row in transfer(store, resolve(store, model))]
-    session.answer(rows, lambda: table(rows, [
-        ("campaign", "campaign"), ("test", "test"), ("machine", "machine"), ("role", "role"), ("g", "g"),
-        ("g_end", "g at end of heating"), ("fit_n", "FIT n [%]"), ("fit_c", "FIT c [%]"),
-        ("ptp_measured", "PTP measured [um]"), ("ptp_n", "PTP n [um]"), ("ptp_c", "PTP c [um]"),
-        ("verdict", "class")]))
+    session.answer(
+        rows,
+        lambda: table(
+            rows,
+            [
+                ("campaign", "campaign"),
+                ("test", "test"),
+                ("machine", "machine"),
+                ("role", "role"),
+                ("g", "g"),
+                ("g_end", "g at end of heating"),
+                ("fit_n", "FIT n [%]"),
+                ("fit_c", "FIT c [%]"),
+                ("ptp_measured", "PTP measured [um]"),
+                ("ptp_n", "PTP n [um]"),
+                ("ptp_c", "PTP c [um]"),
+                ("verdict", "class"),
+            ],
+        ),
+    )
 
 
 def fit_text(result: FitResult, *, scores: bool = True) -> str:
@@ -146,15 +194,19 @@ def fit_text(result: FitResult, *, scores: bool = True) -> str:
     parts = [f"{result.name}  {result.model}{parent}"]
     if scores:
         parts.append(scores_text(result.scores))
-    parameters = [{"parameter": k, "value": p.value, "unit": p.unit, "range": span(p)}
-                  for k, p in result.parameters.items()]
+    parameters = [
+        {"parameter": k, "value": p.value, "unit": p.unit, "range": span(p)} for k, p in result.parameters.items()
+    ]
     if parameters:
-        parts.append(table(parameters, [("parameter", "parameter"), ("value", "value"), ("unit", "unit"),
-                                        ("range", "95 %")]))
+        parts.append(
+            table(parameters, [("parameter", "parameter"), ("value", "value"), ("unit", "unit"), ("range", "95 %")])
+        )
     failed = [c for c in result.checks if not c.passed]
     if failed:
-        parts.append("worth a look\n" + "\n".join(
-            f"  ! {c.name}: {number(c.value)} (limit {number(c.threshold)}). {c.advice}" for c in failed))
+        parts.append(
+            "worth a look\n"
+            + "\n".join(f"  ! {c.name}: {number(c.value)} (limit {number(c.threshold)}). {c.advice}" for c in failed)
+        )
     return "\n\n".join(parts)
 
 
@@ -171,8 +223,14 @@ def scores_text(scores: list[Score], phases: bool = False) -> str:
     columns = [("campaign", "campaign"), ("test", "test"), ("role", "role")]
     columns += [("response", "response")] if many else []
     columns += [("phase", "phase")] if phases else []
-    columns += [("fit", "FIT [%]"), ("rmse_um", "RMSE [um]"), ("max_um", "max [um]"),
-                ("ptp_um", "PTP measured [um]"), ("ptp_residual_um", "PTP left [um]"), ("n", "n")]
+    columns += [
+        ("fit", "FIT [%]"),
+        ("rmse_um", "RMSE [um]"),
+        ("max_um", "max [um]"),
+        ("ptp_um", "PTP measured [um]"),
+        ("ptp_residual_um", "PTP left [um]"),
+        ("n", "n"),
+    ]
     return table([s.model_dump() for s in shown], columns)
 
 
@@ -197,8 +255,11 @@ def spots_text(spots: list[WeakSpot], response: str = "", most: int = 8) -> str:
     """Weak spots as a table: where, when, how much, and what the machine did."""
     rows = [{**w.model_dump(), "span": f"{duration(w.from_s)} – {duration(w.to_s)}"} for w in spots[:most]]
     title = f"where the model of {response} fails" if response else "where the model fails"
-    return f"{title}\n" + table(rows, [("campaign", "campaign"), ("test", "test"), ("span", "when"),
-                                       ("rmse_um", "RMSE [um]"), ("state", "state")], widest=80)
+    return f"{title}\n" + table(
+        rows,
+        [("campaign", "campaign"), ("test", "test"), ("span", "when"), ("rmse_um", "RMSE [um]"), ("state", "state")],
+        widest=80,
+    )
 
 
 def before_after_text(result: FitResult) -> str:
@@ -212,6 +273,14 @@ def before_after_text(result: FitResult) -> str:
     for role in dict.fromkeys(base_role(row["role"]) for row in rows):
         a, b = pooled(result.before or [], role), pooled(result.scores, role)
         rows.append({"test": "all", "role": role, "before": a, "rmse_um": b, "change": change(a, b)})
-    return table(rows, [("campaign", "campaign"), ("test", "test"), ("role", "role"), ("before", "before [um]"),
-                        ("rmse_um", "after [um]"), ("change", "change")])
-
+    return table(
+        rows,
+        [
+            ("campaign", "campaign"),
+            ("test", "test"),
+            ("role", "role"),
+            ("before", "before [um]"),
+            ("rmse_um", "after [um]"),
+            ("change", "change"),
+        ],
+    )

@@ -31,12 +31,25 @@ def ingest_command(session: Session, campaign: Path) -> int:
 def ingest_text(summary: dict[str, Any]) -> str:
     """The summary of an ingest for a person: counts, calibrations, flags, losses, notes."""
     flags = {name: n for name, n in summary["flags"].items() if n}
-    parts = [fields([
-        ("campaign", summary["campaign"]), ("tests", summary["tests"]), ("files", summary["files"]),
-        ("samples", f"{_number(summary['samples'])}"), ("flagged", flags or "none"),
-        ("new", f"{summary['read']} files read, {summary['made']} streams made" if summary["changed"] else "nothing"),
-        *([("stale models", summary["stale"])] if summary["stale"] else []), ("took", f"{summary['seconds']:.1f} s"),
-    ])]
+    parts = [
+        fields(
+            [
+                ("campaign", summary["campaign"]),
+                ("tests", summary["tests"]),
+                ("files", summary["files"]),
+                ("samples", f"{_number(summary['samples'])}"),
+                ("flagged", flags or "none"),
+                (
+                    "new",
+                    f"{summary['read']} files read, {summary['made']} streams made"
+                    if summary["changed"]
+                    else "nothing",
+                ),
+                *([("stale models", summary["stale"])] if summary["stale"] else []),
+                ("took", f"{summary['seconds']:.1f} s"),
+            ]
+        )
+    ]
     if summary["calibrations"]:
         parts.append(calibrations_text(summary["calibrations"]))
     for title, key in (("losses", "losses"), ("notes", "notes")):
@@ -47,14 +60,36 @@ def ingest_text(summary: dict[str, Any]) -> str:
 
 def calibrations_text(rows: list[dict[str, Any]]) -> str:
     """Calibrations as a table; what failed follows with its advice."""
-    shown = [{**row, "calibration": row.get("calibration", row.get("name")),
-              "ok": all(c.get("passed", True) for c in row.get("checks") or [])} for row in rows]
-    text = table(shown, [("calibration", "calibration"), ("kind", "kind"), ("axis", "axis"), ("gain", "gain"),
-                         ("gain_unit", "unit"), ("sign", "sign"), ("uncertainty_pct", "± [%]"),
-                         ("noise_um", "noise [um]"), ("nonlinearity_pct", "nonlin. [%]"),
-                         ("drift_um", "drift [um]"), ("ok", "checks")])
-    failed = [f"  ! {row['calibration']}: {c['name']}: {c.get('advice', '')}"
-              for row in shown for c in row.get("checks") or [] if not c.get("passed", True)]
+    shown = [
+        {
+            **row,
+            "calibration": row.get("calibration", row.get("name")),
+            "ok": all(c.get("passed", True) for c in row.get("checks") or []),
+        }
+        for row in rows
+    ]
+    text = table(
+        shown,
+        [
+            ("calibration", "calibration"),
+            ("kind", "kind"),
+            ("axis", "axis"),
+            ("gain", "gain"),
+            ("gain_unit", "unit"),
+            ("sign", "sign"),
+            ("uncertainty_pct", "± [%]"),
+            ("noise_um", "noise [um]"),
+            ("nonlinearity_pct", "nonlin. [%]"),
+            ("drift_um", "drift [um]"),
+            ("ok", "checks"),
+        ],
+    )
+    failed = [
+        f"  ! {row['calibration']}: {c['name']}: {c.get('advice', '')}"
+        for row in shown
+        for c in row.get("checks") or []
+        if not c.get("passed", True)
+    ]
     return "\n".join([text, *failed])
 
 

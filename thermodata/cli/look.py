@@ -27,8 +27,18 @@ def rows_of(session: Session, query: str, campaign: str | None, order: str) -> l
     where = " where campaign = ?" if campaign is not None else ""
     found = records(view, f"{query}{where} order by {order}", [campaign] if campaign is not None else None)
     for row in found:
-        for key in ("conditions", "pose", "tool", "phases", "measuring", "sensor", "crosstalk", "checks", "detail",
-                    "notes"):
+        for key in (
+            "conditions",
+            "pose",
+            "tool",
+            "phases",
+            "measuring",
+            "sensor",
+            "crosstalk",
+            "checks",
+            "detail",
+            "notes",
+        ):
             if isinstance(row.get(key), str) and row[key][:1] in ("{", "[", '"'):
                 row[key] = json.loads(row[key])
     return found
@@ -41,11 +51,30 @@ def tests_command(session: Session, campaign: str | None) -> None:
     rows = rows_of(session, "select * from test", campaign, "campaign, test")
     specs = records(session.view(), "select spec from campaign")
     written = written_conditions(row["spec"] for row in specs)
-    shown = [{**row, "length": duration(row["duration_s"]), "begin": str(row["start"] or "-")[:16],
-              "conditions": written.get((row["campaign"], row["test"]), row["conditions"])} for row in rows]
-    session.answer(rows, lambda: table(shown, [
-        ("campaign", "campaign"), ("test", "test"), ("kind", "kind"), ("role", "role"), ("begin", "start (UTC)"),
-        ("length", "length"), ("conditions", "conditions")]))
+    shown = [
+        {
+            **row,
+            "length": duration(row["duration_s"]),
+            "begin": str(row["start"] or "-")[:16],
+            "conditions": written.get((row["campaign"], row["test"]), row["conditions"]),
+        }
+        for row in rows
+    ]
+    session.answer(
+        rows,
+        lambda: table(
+            shown,
+            [
+                ("campaign", "campaign"),
+                ("test", "test"),
+                ("kind", "kind"),
+                ("role", "role"),
+                ("begin", "start (UTC)"),
+                ("length", "length"),
+                ("conditions", "conditions"),
+            ],
+        ),
+    )
 
 
 @command("channels")
@@ -60,10 +89,26 @@ def channels_command(session: Session, campaign: str | None, test: str | None) -
         rows = [row for row in rows if row["test"] == test]
     else:
         rows = list({(row["campaign"], row["channel"]): row for row in rows}.values())
-    session.answer(rows, lambda: table(rows, [
-        ("campaign", "campaign"), ("channel", "channel"), ("quantity", "quantity"), ("unit", "unit"),
-        ("at", "at"), ("axis", "axis"), ("sign", "sign"), ("source", "source"), ("signal", "signal"),
-        ("raw_unit", "raw unit"), ("calibration", "calibration")], widest=36))
+    session.answer(
+        rows,
+        lambda: table(
+            rows,
+            [
+                ("campaign", "campaign"),
+                ("channel", "channel"),
+                ("quantity", "quantity"),
+                ("unit", "unit"),
+                ("at", "at"),
+                ("axis", "axis"),
+                ("sign", "sign"),
+                ("source", "source"),
+                ("signal", "signal"),
+                ("raw_unit", "raw unit"),
+                ("calibration", "calibration"),
+            ],
+            widest=36,
+        ),
+    )
 
 
 @command("calibrations")
@@ -83,8 +128,9 @@ def calibrations_command(session: Session, campaign: str | None) -> None:
 @click.argument("channel", required=False)
 @click.option("--at", metavar="TIME", help="One sample, for example '2.5 h' from the start of the test.")
 @click.option("--verify", is_flag=True, help="Hash the source files again, and read the sample in its file again.")
-def trace_command(session: Session, what: str, test: str | None, channel: str | None, at: str | None,
-                  verify: bool) -> None:
+def trace_command(
+    session: Session, what: str, test: str | None, channel: str | None, at: str | None, verify: bool
+) -> None:
     """Show where a value comes from.
 
     Of a TEST or of one CHANNEL: raw files with their SHA-256 and their earlier versions, reader, scaling,

@@ -14,8 +14,10 @@ from typing import Any
 from thermodata.errors import UsageError
 
 TEMPLATES = Path(__file__).with_name("plugin_templates")
-RULE = ("reader-NAME or effect-NAME; NAME of at most 24 small letters, digits and single hyphens, a letter first, "
-        "such as reader-hbm2")
+RULE = (
+    "reader-NAME or effect-NAME; NAME of at most 24 small letters, digits and single hyphens, a letter first, "
+    "such as reader-hbm2"
+)
 _NAME = re.compile(r"(reader|effect)-([a-z][a-z0-9]*(?:-[a-z0-9]+)*)")
 
 
@@ -41,11 +43,15 @@ def make(name: str | None, here: Path) -> Made:
     """
     match = _NAME.fullmatch(name or "")
     if name is None or match is None or len(match[2]) > 24:
-        raise UsageError("a new plugin needs a name" if name is None else f"'{name}' is no name for a plugin",
-                         expected=RULE, got=name, hint=f"thermodata plugins new {_suggested(name)}")
+        raise UsageError(
+            "a new plugin needs a name" if name is None else f"'{name}' is no name for a plugin",
+            expected=RULE,
+            got=name,
+            hint=f"thermodata plugins new {_suggested(name)}",
+        )
     kind, bare = match[1], match[2].replace("-", "_")
     class_name = bare.title().replace("_", "")
-    class_name += "Effect" * keyword.iskeyword(class_name)         # effect-none
+    class_name += "Effect" * keyword.iskeyword(class_name)  # effect-none
     _refuse_installed(kind, bare)
     root = checkout(here)
     folder = (root / "plugins" if root else here) / name
@@ -55,10 +61,21 @@ def make(name: str | None, here: Path) -> Made:
     pyproject = root / "pyproject.toml" if root else None
     text = with_member(pyproject.read_text("utf-8"), distribution, str(pyproject)) if pyproject else ""
     # with `uv run` the plugin is there at once; a package of its own is installed once
-    run = (("uv run thermodata plugins", f"uv run pytest plugins/{name}") if root else
-           (f"pip install -e {name}", "thermodata plugins", f"pytest {name}"))
-    words = {"name": bare, "folder": name, "distribution": distribution, "package": package, "magic": bare.upper(),
-             "title": bare.upper(), "class_name": class_name, "pytest": run[-1]}
+    run = (
+        ("uv run thermodata plugins", f"uv run pytest plugins/{name}")
+        if root
+        else (f"pip install -e {name}", "thermodata plugins", f"pytest {name}")
+    )
+    words = {
+        "name": bare,
+        "folder": name,
+        "distribution": distribution,
+        "package": package,
+        "magic": bare.upper(),
+        "title": bare.upper(),
+        "class_name": class_name,
+        "pytest": run[-1],
+    }
     files = _files(kind, words)
     if root:
         files["pyproject.toml"] += "\n[tool.uv.sources]\nthermodata = { workspace = true }\n"
@@ -92,17 +109,21 @@ def with_member(text: str, distribution: str, where: str) -> str:
     a line in each, where it stands in alphabetical order. UsageError where the text is laid out otherwise."""
     before = tomllib.loads(text)
     edited = _line_in(text, r"(?m)^plugins\s*=\s*\[[^\S\n]*(?:#.*)?\r?$", r"\s*\]", f'    "{distribution}",')
-    edited = _line_in(edited, r"(?m)^\[tool\.uv\.sources\][^\S\n]*(?:#.*)?\r?$", r"\s*\[",
-                      f"{distribution} = {{ workspace = true }}")
+    edited = _line_in(
+        edited, r"(?m)^\[tool\.uv\.sources\][^\S\n]*(?:#.*)?\r?$", r"\s*\[", f"{distribution} = {{ workspace = true }}"
+    )
     try:
         after = tomllib.loads(edited)
     except tomllib.TOMLDecodeError:
         after = {}
     if not _differs_by(before, after, distribution):
-        raise UsageError("pyproject.toml is laid out in a way that is not edited here", where=where,
-                         hint=f"add \"{distribution}\" to the dependency group 'plugins' and "
-                              f"'{distribution} = {{ workspace = true }}' to [tool.uv.sources] by hand, "
-                              "then run this again")
+        raise UsageError(
+            "pyproject.toml is laid out in a way that is not edited here",
+            where=where,
+            hint=f"add \"{distribution}\" to the dependency group 'plugins' and "
+            f"'{distribution} = {{ workspace = true }}' to [tool.uv.sources] by hand, "
+            "then run this again",
+        )
     return edited
 
 
@@ -111,19 +132,25 @@ def _line_in(text: str, opening: str, closing: str, new: str) -> str:
     found = re.search(opening, text)
     if found is None:
         return text
-    lines = text[found.end() + 1:].splitlines(keepends=True)
+    lines = text[found.end() + 1 :].splitlines(keepends=True)
     end = next((i for i, line in enumerate(lines) if re.match(closing, line)), len(lines))
     while end and not lines[end - 1].strip():
-        end -= 1                                           # blank lines before the next table stay behind it
+        end -= 1  # blank lines before the next table stay behind it
     if any(line.strip().rstrip(",") == new.strip().rstrip(",") for line in lines[:end]):
         return text
-    at = next((i for i, line in enumerate(lines[:end])
-               if line.strip() and not line.strip().startswith("#") and line.strip() > new.strip()), end)
+    at = next(
+        (
+            i
+            for i, line in enumerate(lines[:end])
+            if line.strip() and not line.strip().startswith("#") and line.strip() > new.strip()
+        ),
+        end,
+    )
     new_line = new + ("\r\n" if found[0].endswith("\r") else "\n")
     if at and not lines[at - 1].endswith("\n"):
         lines[at - 1] += "\n"
     if at and new.endswith(",") and re.search(r"[\"']\s*$", lines[at - 1]):
-        lines[at - 1] = re.sub(r"([\"'])(\s*)$", r"\1,\2", lines[at - 1])      # a last item without its comma
+        lines[at - 1] = re.sub(r"([\"'])(\s*)$", r"\1,\2", lines[at - 1])  # a last item without its comma
     lines.insert(at, new_line)
     return text[: found.end() + 1] + "".join(lines)
 
@@ -134,19 +161,32 @@ def _differs_by(before: Mapping[str, Any], after: Mapping[str, Any], distributio
         group = [*before["dependency-groups"]["plugins"]]
         sources = {**before["tool"]["uv"]["sources"], distribution: {"workspace": True}}
         wanted_group = group if distribution in group else [*group, distribution]
-        same = {**after, "dependency-groups": {**after["dependency-groups"], "plugins": group},
-                "tool": {**after["tool"], "uv": {**after["tool"]["uv"], "sources": before["tool"]["uv"]["sources"]}}}
-        return (same == before and after["tool"]["uv"]["sources"] == sources
-                and sorted(map(str, after["dependency-groups"]["plugins"])) == sorted(map(str, wanted_group)))
+        same = {
+            **after,
+            "dependency-groups": {**after["dependency-groups"], "plugins": group},
+            "tool": {**after["tool"], "uv": {**after["tool"]["uv"], "sources": before["tool"]["uv"]["sources"]}},
+        }
+        return (
+            same == before
+            and after["tool"]["uv"]["sources"] == sources
+            and sorted(map(str, after["dependency-groups"]["plugins"])) == sorted(map(str, wanted_group))
+        )
     except KeyError:
         return False
 
 
 def _files(kind: str, words: Mapping[str, str]) -> dict[str, str]:
-    places = {"pyproject.toml.txt": "pyproject.toml", "README.md.txt": "README.md", "sample.txt": "tests/sample.txt",
-              "package.py.txt": f"src/{words['package']}/__init__.py", "test.py.txt": f"tests/test_{words['name']}.py"}
-    return {places[path.name]: Template(path.read_text("utf-8")).substitute(words)
-            for path in sorted((TEMPLATES / kind).iterdir())} | {f"src/{words['package']}/py.typed": ""}
+    places = {
+        "pyproject.toml.txt": "pyproject.toml",
+        "README.md.txt": "README.md",
+        "sample.txt": "tests/sample.txt",
+        "package.py.txt": f"src/{words['package']}/__init__.py",
+        "test.py.txt": f"tests/test_{words['name']}.py",
+    }
+    return {
+        places[path.name]: Template(path.read_text("utf-8")).substitute(words)
+        for path in sorted((TEMPLATES / kind).iterdir())
+    } | {f"src/{words['package']}/py.typed": ""}
 
 
 def _suggested(name: str | None) -> str:
@@ -161,5 +201,9 @@ def _refuse_installed(kind: str, bare: str) -> None:
 
     taken = {point.name: point.value for point in entry_points(group=f"thermodata.{kind}")}
     if bare in taken:
-        raise UsageError(f"a {kind} '{bare}' is installed", got=taken[bare], expected="a name that is free",
-                         hint="take another name; taken: " + ", ".join(sorted(taken)))
+        raise UsageError(
+            f"a {kind} '{bare}' is installed",
+            got=taken[bare],
+            expected="a name that is free",
+            hint="take another name; taken: " + ", ".join(sorted(taken)),
+        )

@@ -27,9 +27,20 @@ def plugins_command(session: Session, action: str | None, name: str | None) -> N
         _new(session, name)
         return
     rows = installed()
-    session.answer(rows, lambda: table(rows, [
-        ("kind", "kind"), ("name", "name"), ("distribution", "distribution"), ("version", "version"),
-        ("about", "about"), ("error", "error")]))
+    session.answer(
+        rows,
+        lambda: table(
+            rows,
+            [
+                ("kind", "kind"),
+                ("name", "name"),
+                ("distribution", "distribution"),
+                ("version", "version"),
+                ("about", "about"),
+                ("error", "error"),
+            ],
+        ),
+    )
 
 
 def _new(session: Session, name: str | None) -> None:
@@ -62,9 +73,16 @@ def installed() -> list[dict[str, Any]]:
         for name in names:
             # an entry point may stand for several effects; those carry their module's distribution
             dist = origin.get((kind, name)) or _distribution(plugins.get(name))
-            rows.append({"kind": kind, "name": name, "distribution": dist.name if dist else None,
-                         "version": dist.version if dist else None, "about": _about(plugins.get(name)),
-                         "error": failed.get(name) if kind == "reader" else None})
+            rows.append(
+                {
+                    "kind": kind,
+                    "name": name,
+                    "distribution": dist.name if dist else None,
+                    "version": dist.version if dist else None,
+                    "about": _about(plugins.get(name)),
+                    "error": failed.get(name) if kind == "reader" else None,
+                }
+            )
     return rows
 
 

@@ -33,14 +33,22 @@ def previewed(file: Path, name: str | None, timezone: str | None, rows: int, cam
         own = [s for s in signals if s.stream == stream["stream"]]
         told, events = flagged(watch, stream["stream"], own, meant, absolute)
         for signal in stream["signals"]:
-            signal.update(told.get(signal["name"], {"quantity": None, "channel": None, "guess": None, "flags": {},
-                                                    "values": None, "sparkline": None}))
+            signal.update(
+                told.get(
+                    signal["name"],
+                    {"quantity": None, "channel": None, "guess": None, "flags": {}, "values": None, "sparkline": None},
+                )
+            )
         stream["events"] = events
     found["file"] = str(file)
-    found["campaign"] = None if meant is None else {"file": str(meant.campaign), "source": meant.source,
-                                                    "test": meant.test}
-    found["signals"] = [{"stream": s["stream"], "signal": x["name"], **{k: x[k] for k in ("unit", "dtype", "scaling")}}
-                        for s in found["streams"] for x in s["signals"]]
+    found["campaign"] = (
+        None if meant is None else {"file": str(meant.campaign), "source": meant.source, "test": meant.test}
+    )
+    found["signals"] = [
+        {"stream": s["stream"], "signal": x["name"], **{k: x[k] for k in ("unit", "dtype", "scaling")}}
+        for s in found["streams"]
+        for x in s["signals"]
+    ]
     found["first_rows"] = {s["stream"]: s["first_rows"] for s in found["streams"] if s["rows"]}
     return found
 
@@ -58,12 +66,16 @@ def _declared(file: Path, campaign: Path | None) -> tuple[Meant | None, Source, 
     except UsageError:
         if campaign is not None:
             raise
-        return None, Source(name="preview"), None          # a draft in the making does not hinder a look at its files
+        return None, Source(name="preview"), None  # a draft in the making does not hinder a look at its files
     meant = meaning_of(loaded, at, file)
     if meant is None:
         if campaign is not None:
-            raise UsageError("the campaign file does not name this file", where=str(campaign), got=str(file),
-                             hint="correct 'files' of a source or a test, or leave out --campaign")
+            raise UsageError(
+                "the campaign file does not name this file",
+                where=str(campaign),
+                got=str(file),
+                hint="correct 'files' of a source or a test, or leave out --campaign",
+            )
         return None, Source(name="preview"), None
     spec = loaded.sources[meant.source]
     return meant, declared(meant.source, spec), reader(spec.reader)
@@ -72,46 +84,91 @@ def _declared(file: Path, campaign: Path | None) -> tuple[Meant | None, Source, 
 def preview_text(found: dict[str, Any]) -> str:
     """A preview for a person."""
     campaign = found["campaign"]
-    said = None if campaign is None else \
-        f"{campaign['file']}: source {campaign['source']}" + (f", test {campaign['test']}" if campaign["test"] else "")
+    said = (
+        None
+        if campaign is None
+        else f"{campaign['file']}: source {campaign['source']}"
+        + (f", test {campaign['test']}" if campaign["test"] else "")
+    )
     local = any("no time zone" in n for n in found["notes"])
     zone = found["timezone"] or ("UTC: no zone is declared" if local else None)
     whole = {True: "yes", False: "no: it is cut or damaged", None: "the format does not say"}[found["complete"]]
-    parts = [fields([
-        ("file", found["file"]), ("size", _size(found["size_bytes"])), ("reader", f"{found['reader']} "
-                                                                       f"({found['reason'] or 'as declared'})"),
-        ("campaign", said), ("clock", found["clock"]), ("timezone", zone), ("start", found["start"]),
-        ("complete", whole),
-        ("read", f"all {found['rows_read']} rows" if found["whole"] else
-         f"the first {found['rows_read']} rows only: the file is large; what follows holds for them")])]
+    parts = [
+        fields(
+            [
+                ("file", found["file"]),
+                ("size", _size(found["size_bytes"])),
+                ("reader", f"{found['reader']} ({found['reason'] or 'as declared'})"),
+                ("campaign", said),
+                ("clock", found["clock"]),
+                ("timezone", zone),
+                ("start", found["start"]),
+                ("complete", whole),
+                (
+                    "read",
+                    f"all {found['rows_read']} rows"
+                    if found["whole"]
+                    else f"the first {found['rows_read']} rows only: the file is large; what follows holds for them",
+                ),
+            ]
+        )
+    ]
     if found["notes"] or found["losses"]:
-        parts.append("\n".join([*(f"note: {n}" for n in found["notes"]),
-                                *(f"loss: {_loss(x)}" for x in found["losses"][:10])]))
+        parts.append(
+            "\n".join([*(f"note: {n}" for n in found["notes"]), *(f"loss: {_loss(x)}" for x in found["losses"][:10])])
+        )
     for stream in found["streams"]:
         parts += _stream(stream)
     return "\n\n".join(parts)
 
 
 def _stream(s: dict[str, Any]) -> list[str]:
-    rate = "no rows" if not s["rows"] else f"{s['rows']} rows" + (
-        f", every {s['step_s']:.6g} s, {_span(s['duration_s'])}, {s['start']} to {s['end']}" if s["step_s"] else "")
+    rate = (
+        "no rows"
+        if not s["rows"]
+        else f"{s['rows']} rows"
+        + (f", every {s['step_s']:.6g} s, {_span(s['duration_s'])}, {s['start']} to {s['end']}" if s["step_s"] else "")
+    )
     told = (("gaps", "gaps"), ("backward", "steps back"), ("repeated", "times repeated"))
     faults = [f"{s[k]} {what}" for k, what in told if s[k]]
     if s["gaps"]:
         faults[0] += f" (longest step {_span(s['largest_step_s'])})"
     head = f"stream {s['stream']}: {rate}" + (f"; {', '.join(faults)}" if faults else "")
-    rows = [{"signal": x["name"], "unit": x["unit"], "dtype": x["dtype"], "scaling": x["scaling"],
-             "is": (x["channel"] and f"{x['channel']} ({x['quantity']})") or (x["quantity"] or "?"),
-             "low": x["values"] and x["values"]["low"], "high": x["values"] and x["values"]["high"],
-             "flagged": ", ".join(f"{k} {n}" for k, n in x["flags"].items()) or None, "course": x["sparkline"]}
-            for x in s["signals"][:200]]
-    columns = [("signal", "signal"), ("unit", "unit"), ("dtype", "dtype"), ("scaling", "scaling"), ("is", "is"),
-               ("low", "low"), ("high", "high"), ("flagged", "would be flagged"), ("course", "course")]
+    rows = [
+        {
+            "signal": x["name"],
+            "unit": x["unit"],
+            "dtype": x["dtype"],
+            "scaling": x["scaling"],
+            "is": (x["channel"] and f"{x['channel']} ({x['quantity']})") or (x["quantity"] or "?"),
+            "low": x["values"] and x["values"]["low"],
+            "high": x["values"] and x["values"]["high"],
+            "flagged": ", ".join(f"{k} {n}" for k, n in x["flags"].items()) or None,
+            "course": x["sparkline"],
+        }
+        for x in s["signals"][:200]
+    ]
+    columns = [
+        ("signal", "signal"),
+        ("unit", "unit"),
+        ("dtype", "dtype"),
+        ("scaling", "scaling"),
+        ("is", "is"),
+        ("low", "low"),
+        ("high", "high"),
+        ("flagged", "would be flagged"),
+        ("course", "course"),
+    ]
     shown = [c for c in columns if c[0] not in ("scaling", "flagged") or any(r[c[0]] for r in rows)]
     parts = [head + "\n" + table(rows, shown, widest=44)]
     if s["events"]:
-        parts.append("\n".join(f"  {e['flag']}{' ' + e['signal'] if e['signal'] else ''}: {e['from']} to {e['to']}, "
-                               f"{e['n']} rows{'; ' + e['detail'] if e['detail'] else ''}" for e in s["events"][:10]))
+        parts.append(
+            "\n".join(
+                f"  {e['flag']}{' ' + e['signal'] if e['signal'] else ''}: {e['from']} to {e['to']}, "
+                f"{e['n']} rows{'; ' + e['detail'] if e['detail'] else ''}"
+                for e in s["events"][:10]
+            )
+        )
     if s["first_rows"]:
         names = list(s["first_rows"][0])
         more = f" (and {len(names) - 9} more columns)" if len(names) > 9 else ""
@@ -132,5 +189,10 @@ def _size(n: int) -> str:
 def _span(seconds: float | None) -> str:
     if seconds is None:
         return "-"
-    return f"{seconds / 3600:.2f} h" if seconds >= 7200 else f"{seconds / 60:.1f} min" if seconds >= 180 \
+    return (
+        f"{seconds / 3600:.2f} h"
+        if seconds >= 7200
+        else f"{seconds / 60:.1f} min"
+        if seconds >= 180
         else f"{seconds:.6g} s"
+    )

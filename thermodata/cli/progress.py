@@ -57,7 +57,9 @@ class Line:
         elapsed = max(self.bar.format_dict["elapsed"], 1e-6)
         self.bar.set_postfix_str(
             f"{self.files}/{self.total} files, {self.bar.n / 1e6 / elapsed:.1f} MB/s, "
-            f"{self.count / 1e6 / elapsed:.2f} Msamples/s, {self._text[:40]}", refresh=False)
+            f"{self.count / 1e6 / elapsed:.2f} Msamples/s, {self._text[:40]}",
+            refresh=False,
+        )
         self.bar.update(0)
 
 
@@ -105,5 +107,6 @@ def counting_line(quiet: bool = False) -> Iterator[Tell | None]:
 
 
 def _bar(text: str) -> Any:
-    return import_module("tqdm").tqdm(total=1, file=sys.stderr, leave=False, bar_format=text, miniters=0,
-                                      ncols=_columns(), unit="")
+    return import_module("tqdm").tqdm(
+        total=1, file=sys.stderr, leave=False, bar_format=text, miniters=0, ncols=_columns(), unit=""
+    )

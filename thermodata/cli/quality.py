@@ -16,8 +16,13 @@ from thermodata.report.words import duration
 @command("quality")
 @campaign_option
 @click.option("--events", is_flag=True, help="Each event with its time, not the sums.")
-@click.option("--report", "-o", type=click.Path(path_type=Path, dir_okay=False), metavar="FILE",
-              help="Write an HTML page with a picture a test.")
+@click.option(
+    "--report",
+    "-o",
+    type=click.Path(path_type=Path, dir_okay=False),
+    metavar="FILE",
+    help="Write an HTML page with a picture a test.",
+)
 def quality_command(session: Session, campaign: str | None, events: bool, report: Path | None) -> None:
     """Show what was flagged.
 
@@ -35,14 +40,30 @@ def quality_command(session: Session, campaign: str | None, events: bool, report
         sums: dict[tuple[str, ...], dict[str, Any]] = {}
         for row in rows:
             key = tuple(str(row[k]) for k in ("campaign", "test", "source", "channel", "flag"))
-            total = sums.setdefault(key, {**{k: row[k] for k in ("campaign", "test", "source", "channel", "flag")},
-                                          "events": 0, "n": 0, "from_s": row["from_s"], "to_s": row["to_s"]})
+            total = sums.setdefault(
+                key,
+                {
+                    **{k: row[k] for k in ("campaign", "test", "source", "channel", "flag")},
+                    "events": 0,
+                    "n": 0,
+                    "from_s": row["from_s"],
+                    "to_s": row["to_s"],
+                },
+            )
             total["events"] += 1
             total["n"] += row["n"] or 0
             total["to_s"] = max((v for v in (total["to_s"], row["to_s"]) if v is not None), default=None)
         rows = list(sums.values())
     shown = [{**row, "first": duration(row["from_s"]), "last": duration(row["to_s"])} for row in rows]
-    columns = [("campaign", "campaign"), ("test", "test"), ("source", "source"), ("channel", "channel"),
-               ("flag", "flag"), ("n", "samples"), ("first", "from"), ("last", "to")]
+    columns = [
+        ("campaign", "campaign"),
+        ("test", "test"),
+        ("source", "source"),
+        ("channel", "channel"),
+        ("flag", "flag"),
+        ("n", "samples"),
+        ("first", "from"),
+        ("last", "to"),
+    ]
     columns += [("detail", "detail")] if events else [("events", "events")]
     session.answer(rows, lambda: table(shown, columns) if rows else "nothing was flagged")

@@ -47,8 +47,12 @@ def sql_command(session: Session, query: str | None, as_csv: bool, rows: int) ->
         _write_json(columns, _batches(relation))
     else:
         found = relation.limit(rows + 1).fetchall()
-        click.echo(table([{str(i): v for i, v in enumerate(r)} for r in found[:rows]],
-                         [(str(i), name) for i, name in enumerate(columns)]))       # by position: names may repeat
+        click.echo(
+            table(
+                [{str(i): v for i, v in enumerate(r)} for r in found[:rows]],
+                [(str(i), name) for i, name in enumerate(columns)],
+            )
+        )  # by position: names may repeat
         if len(found) > rows:
             session.say(f"the first {rows} rows; --rows N shows more, --csv all")
 

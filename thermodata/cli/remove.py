@@ -47,6 +47,9 @@ def check_command(session: Session, repair: bool) -> int:
     found = plain(check_store(session.store(), repair=repair).to_json())
     session.answer(found, lambda: check_text(found))
     if found["damaged"]:
-        session.say("ingest the campaigns named again: what can be made anew is made anew" if repair else
-                    "thermodata check --repair removes them, and the next ingest makes them anew")
+        session.say(
+            "ingest the campaigns named again: what can be made anew is made anew"
+            if repair
+            else "thermodata check --repair removes them, and the next ingest makes them anew"
+        )
     return 4 if found["damaged"] else 0

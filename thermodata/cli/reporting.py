@@ -13,8 +13,13 @@ from thermodata.errors import UsageError
 
 @command("report")
 @click.argument("model")
-@click.option("--out", "-o", type=click.Path(path_type=Path, dir_okay=False), metavar="FILE",
-              help="The page to write (default: report-MODEL.html).")
+@click.option(
+    "--out",
+    "-o",
+    type=click.Path(path_type=Path, dir_okay=False),
+    metavar="FILE",
+    help="The page to write (default: report-MODEL.html).",
+)
 def report_command(session: Session, model: str, out: Path | None) -> None:
     """Write one self-contained HTML page about MODEL.
 

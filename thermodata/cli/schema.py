@@ -12,10 +12,18 @@ from thermodata.errors import ThermodataError, unknown_name
 
 @command("schema")
 @click.argument("document", required=False)
-@click.option("--write", type=click.Path(path_type=Path, file_okay=False), metavar="FOLDER",
-              help="Write all documents into FOLDER.")
-@click.option("--check", type=click.Path(path_type=Path, file_okay=False), metavar="FOLDER",
-              help="Compare FOLDER with the code; exit code 1 names what differs.")
+@click.option(
+    "--write",
+    type=click.Path(path_type=Path, file_okay=False),
+    metavar="FOLDER",
+    help="Write all documents into FOLDER.",
+)
+@click.option(
+    "--check",
+    type=click.Path(path_type=Path, file_okay=False),
+    metavar="FOLDER",
+    help="Compare FOLDER with the code; exit code 1 names what differs.",
+)
 def schema_command(session: Session, document: str | None, write: Path | None, check: Path | None) -> None:
     """Print, write or check the published documents.
 
@@ -30,8 +38,9 @@ def schema_command(session: Session, document: str | None, write: Path | None, c
     if check is not None:
         differ = differences(check, texts)
         if differ:
-            raise ThermodataError(f"{', '.join(differ)} differ from the code", where=str(check),
-                                  hint=f"thermodata schema --write {check}")
+            raise ThermodataError(
+                f"{', '.join(differ)} differ from the code", where=str(check), hint=f"thermodata schema --write {check}"
+            )
         session.say(f"{check}: {len(texts)} documents match the code")
     if document is not None:
         if document not in texts:
@@ -52,7 +61,10 @@ def documents() -> dict[str, str]:
 
 def differences(folder: Path, texts: dict[str, str]) -> list[str]:
     """Names of documents that are missing in the folder, differ from it, or stand there without a source."""
-    wrong = [name for name, text in texts.items()
-             if not (folder / name).is_file() or (folder / name).read_text(encoding="utf-8") != text]
+    wrong = [
+        name
+        for name, text in texts.items()
+        if not (folder / name).is_file() or (folder / name).read_text(encoding="utf-8") != text
+    ]
     there = {path.name for path in folder.glob("*") if path.is_file()} if folder.is_dir() else set()
     return wrong + sorted(there - set(texts))

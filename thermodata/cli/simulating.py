@@ -15,8 +15,13 @@ from thermodata.errors import UsageError, unknown_name
 
 @command("simulate")
 @click.argument("folder", type=click.Path(path_type=Path, file_okay=False), metavar="DIR")
-@click.option("--hide", default="none", show_default=True, metavar="EFFECT",
-              help="The effect that the machine has and the baseline model lacks; or none.")
+@click.option(
+    "--hide",
+    default="none",
+    show_default=True,
+    metavar="EFFECT",
+    help="The effect that the machine has and the baseline model lacks; or none.",
+)
 @click.option("--seed", default=0, show_default=True, type=click.IntRange(0), help="Another seed, another machine.")
 def simulate_command(session: Session, folder: Path, hide: str, seed: int) -> None:
     """Write a simulated campaign with a known truth into DIR.
@@ -38,8 +43,9 @@ def simulate_command(session: Session, folder: Path, hide: str, seed: int) -> No
 @click.option("--seeds", default=1, show_default=True, type=click.IntRange(1), help="Machines for each.")
 @click.option("--first-seed", default=0, show_default=True, type=click.IntRange(0), help="The first seed.")
 @click.option("--not-logged", is_flag=True, help="Leave the channels of the hidden effect out of the log.")
-def benchmark_diagnosis_command(session: Session, hide: tuple[str, ...], seeds: int, first_seed: int,
-                                not_logged: bool) -> None:
+def benchmark_diagnosis_command(
+    session: Session, hide: tuple[str, ...], seeds: int, first_seed: int, not_logged: bool
+) -> None:
     """Run the blind benchmark of the diagnosis.
 
     Simulated machines with one effect hidden, or none; the truth is used for marking only.
@@ -60,11 +66,27 @@ def benchmark_diagnosis_command(session: Session, hide: tuple[str, ...], seeds: 
             if tell is not None:
                 tell("machines", len(trials), total)
     summary = marks(trials)
-    session.answer({"summary": summary, "trials": trials}, lambda: table(trials, [
-        ("hidden", "hidden"), ("seed", "seed"), ("found", "found"), ("outcome", "outcome"),
-        ("rmse_um_before", "before [um]"), ("rmse_um_after", "after [um]"),
-        ("locked_rmse_um_before", "locked before [um]"), ("locked_rmse_um_after", "locked after [um]"),
-        ("seconds", "s")]) + "\n\n" + fields(summary.items()))
+    session.answer(
+        {"summary": summary, "trials": trials},
+        lambda: (
+            table(
+                trials,
+                [
+                    ("hidden", "hidden"),
+                    ("seed", "seed"),
+                    ("found", "found"),
+                    ("outcome", "outcome"),
+                    ("rmse_um_before", "before [um]"),
+                    ("rmse_um_after", "after [um]"),
+                    ("locked_rmse_um_before", "locked before [um]"),
+                    ("locked_rmse_um_after", "locked after [um]"),
+                    ("seconds", "s"),
+                ],
+            )
+            + "\n\n"
+            + fields(summary.items())
+        ),
+    )
 
 
 def marks(trials: list[dict[str, Any]]) -> dict[str, int]:
@@ -76,5 +98,6 @@ def marks(trials: list[dict[str, Any]]) -> dict[str, int]:
 def empty_folder(folder: Path) -> None:
     """Refuse a folder that holds something: a simulation never mixes with measured files."""
     if folder.is_dir() and any(folder.iterdir()):
-        raise UsageError("the folder is not empty", where=str(folder), expected="an empty or new folder",
-                         hint="name another folder")
+        raise UsageError(
+            "the folder is not empty", where=str(folder), expected="an empty or new folder", hint="name another folder"
+        )

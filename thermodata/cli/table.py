@@ -7,7 +7,7 @@ from typing import Any
 
 from thermodata.report.words import number
 
-Column = tuple[str, str]          # (key of the row, heading)
+Column = tuple[str, str]  # (key of the row, heading)
 
 
 def cell(value: Any) -> str:

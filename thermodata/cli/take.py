@@ -31,13 +31,19 @@ def snapshot_command(session: Session, out: Path) -> None:
 @click.argument("campaign")
 @click.argument("test")
 @click.argument("out", type=click.Path(path_type=Path, dir_okay=False))
-@click.option("--step", default="30 s", show_default=True,
-              help="Means of this long, states held; 'logged': as it was logged, with flags (MAT, MDF4).")
-@click.option("--format", "kind", type=click.Choice(["parquet", "csv", "mat", "mdf4"]),
-              help="Default: by the name of OUT.")
+@click.option(
+    "--step",
+    default="30 s",
+    show_default=True,
+    help="Means of this long, states held; 'logged': as it was logged, with flags (MAT, MDF4).",
+)
+@click.option(
+    "--format", "kind", type=click.Choice(["parquet", "csv", "mat", "mdf4"]), help="Default: by the name of OUT."
+)
 @click.option("--force", is_flag=True, help="Replace OUT where it exists.")
-def export_command(session: Session, campaign: str, test: str, out: Path, step: str, kind: str | None,
-                   force: bool) -> None:
+def export_command(
+    session: Session, campaign: str, test: str, out: Path, step: str, kind: str | None, force: bool
+) -> None:
     """Write one TEST as Parquet, CSV, MAT or MDF4.
 
     All sources together on a uniform grid, or as logged; the name of OUT says the format.

@@ -13,12 +13,36 @@ def trace_text(found: Found) -> str:
     """A test, a channel, one sample or a model, and the way back to the files."""
     if "model" in found:
         head = [(k, found[k]) for k in ("model", "name", "parent", "stale", "data_version", "created_at")]
-        return "\n\n".join([fields(head), table(found["files"], [
-            ("campaign", "campaign"), ("test", "test"), ("source", "source"), ("source_path", "file"),
-            ("sha256", "SHA-256")], widest=64)])
-    parts = [fields([(name, found.get(key)) for key, name in (
-        ("campaign", "campaign"), ("test", "test"), ("campaign_file", "campaign file"),
-        ("data_version", "data version"), ("ingested_at", "ingested (UTC)"))])]
+        return "\n\n".join(
+            [
+                fields(head),
+                table(
+                    found["files"],
+                    [
+                        ("campaign", "campaign"),
+                        ("test", "test"),
+                        ("source", "source"),
+                        ("source_path", "file"),
+                        ("sha256", "SHA-256"),
+                    ],
+                    widest=64,
+                ),
+            ]
+        )
+    parts = [
+        fields(
+            [
+                (name, found.get(key))
+                for key, name in (
+                    ("campaign", "campaign"),
+                    ("test", "test"),
+                    ("campaign_file", "campaign file"),
+                    ("data_version", "data version"),
+                    ("ingested_at", "ingested (UTC)"),
+                )
+            ]
+        )
+    ]
     if "channel" in found:
         parts.append(_channel(found))
     else:
@@ -34,14 +58,23 @@ def trace_text(found: Found) -> str:
 def _channel(found: Found) -> str:
     clock = found.get("clock") or {}
     lines: list[tuple[str, Any]] = [
-        ("channel", f"{found['channel']} [{found['unit']}] {found['quantity']}"
-                    + (f" at {found['at']}" if found.get("at") else "")),
+        (
+            "channel",
+            f"{found['channel']} [{found['unit']}] {found['quantity']}"
+            + (f" at {found['at']}" if found.get("at") else ""),
+        ),
         ("sign", found["sign"]),
-        ("signal", f"{found['signal']} [{found['raw_unit'] or 'no unit'}] of {found['source']}/{found['stream']}"
-         if found["signal"] else None),
-        ("derived", found.get("derive")), ("schedule", found.get("schedule")),
+        (
+            "signal",
+            f"{found['signal']} [{found['raw_unit'] or 'no unit'}] of {found['source']}/{found['stream']}"
+            if found["signal"]
+            else None,
+        ),
+        ("derived", found.get("derive")),
+        ("schedule", found.get("schedule")),
         ("scaling in the file", found["scaling"]),
-        ("clock", f"{clock.get('clock')}, {clock.get('offset_ns', 0) / 1e9:+.6f} s" if clock else None)]
+        ("clock", f"{clock.get('clock')}, {clock.get('offset_ns', 0) / 1e9:+.6f} s" if clock else None),
+    ]
     for step in found["calibrations"]:
         about = f"{step['calibration']} ({step['kind']})"
         gain = f", gain {step['gain']} {step['gain_unit'] or ''}".rstrip() if step.get("gain") is not None else ""
@@ -55,13 +88,17 @@ def _sample(sample: Found, unit: str) -> str:
         ("value", f"{sample['value']!r} {unit}" if isinstance(sample["value"], float) else sample["value"]),
         ("time", f"{sample['t_s']!r} s" + (f" = {sample['t']}" if sample["t"] else "")),
         ("flags", ", ".join(sample["flags"]) or "none"),
-        ("tidy", f"{sample['tidy']['path']}, row {sample['tidy']['row'] + 1}")]
-    for raw in ([sample["raw"]] if sample["raw"] else sample.get("operands", [])):
+        ("tidy", f"{sample['tidy']['path']}, row {sample['tidy']['row'] + 1}"),
+    ]
+    for raw in [sample["raw"]] if sample["raw"] else sample.get("operands", []):
         if raw.get("schedule"):
             lines.append((raw["channel"], "from its schedule, not logged"))
             continue
-        where = f"{raw['source_path']}, stream {raw['stream']}, row {raw['row'] + 1} of {raw['rows']}: " \
-            if raw.get("rows") else f"{raw['source_path']}: "
+        where = (
+            f"{raw['source_path']}, stream {raw['stream']}, row {raw['row'] + 1} of {raw['rows']}: "
+            if raw.get("rows")
+            else f"{raw['source_path']}: "
+        )
         name = raw.get("channel", "raw")
         lines += [(name, where + f"{raw['raw_value']!r}"), ("  SHA-256", raw["sha256"])]
         if raw.get("again"):
@@ -85,19 +122,47 @@ def _files(files: list[Found]) -> str:
         rows.append({**file, "state": file.get("now", "current")})
         for i, old in enumerate(reversed(file.get("earlier", [])), 1):
             rows.append({**old, "state": f"earlier {i}, until {old.get('superseded_at') or '-'}"})
-    shown = table(rows, [("source_path", "file"), ("stream", "stream"), ("sha256", "SHA-256"), ("bytes", "bytes"),
-                         ("rows", "rows"), ("reader", "reader"), ("added_at", "stored (UTC)"), ("state", "version")],
-                  widest=64)
+    shown = table(
+        rows,
+        [
+            ("source_path", "file"),
+            ("stream", "stream"),
+            ("sha256", "SHA-256"),
+            ("bytes", "bytes"),
+            ("rows", "rows"),
+            ("reader", "reader"),
+            ("added_at", "stored (UTC)"),
+            ("state", "version"),
+        ],
+        widest=64,
+    )
     said = [f"  ! {f['source_path']}: {cell(x)}" for f in files for x in [*f["losses"], *f["notes"]]]
     return "\n".join([shown, *said])
 
 
 def check_text(found: Found) -> str:
     """What a check of the store found."""
-    head = fields([("files", found["files"]), ("MB", round(found["bytes"] / 1e6, 1)),
-                   ("damaged", len(found["damaged"]) or "none")])
+    head = fields(
+        [
+            ("files", found["files"]),
+            ("MB", round(found["bytes"] / 1e6, 1)),
+            ("damaged", len(found["damaged"]) or "none"),
+        ]
+    )
     if not found["damaged"]:
         return head
-    return head + "\n\n" + table(found["damaged"], [
-        ("path", "file"), ("layer", "layer"), ("campaign", "campaign"), ("test", "test"), ("problem", "problem"),
-        ("source_path", "made from")])
+    return (
+        head
+        + "\n\n"
+        + table(
+            found["damaged"],
+            [
+                ("path", "file"),
+                ("layer", "layer"),
+                ("campaign", "campaign"),
+                ("test", "test"),
+                ("problem", "problem"),
+                ("source_path", "made from"),
+            ],
+        )
+    )

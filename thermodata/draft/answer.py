@@ -11,22 +11,60 @@ from thermodata.draft.plan import Draft, DraftChannel
 def as_json(draft: Draft, out: Path, files: int, questions: int) -> dict[str, Any]:
     """Plain data. Keys that do not apply are None, never absent."""
     return {
-        "campaign": str(out), "id": draft.campaign, "files": files, "questions": questions,
-        "sources": [{"name": s.name, "reader": s.reader, "files": s.files, "questions": list(s.questions),
-                     "clock": None if s.align is None else {
-                         "align_to": s.align.there, "by": [{"here": s.align.by[0], "there": s.align.by[1]}],
-                         "offset_s": s.align.offset_s, "uncertainty_s": s.align.uncertainty_s, "test": s.align.test,
-                         "refused": s.align.why}}
-                    for s in draft.sources],
+        "campaign": str(out),
+        "id": draft.campaign,
+        "files": files,
+        "questions": questions,
+        "sources": [
+            {
+                "name": s.name,
+                "reader": s.reader,
+                "files": s.files,
+                "questions": list(s.questions),
+                "clock": None
+                if s.align is None
+                else {
+                    "align_to": s.align.there,
+                    "by": [{"here": s.align.by[0], "there": s.align.by[1]}],
+                    "offset_s": s.align.offset_s,
+                    "uncertainty_s": s.align.uncertainty_s,
+                    "test": s.align.test,
+                    "refused": s.align.why,
+                },
+            }
+            for s in draft.sources
+        ],
         "channels": [_channel(c) for c in draft.channels if c.said.quantity],
         "left_out": [_channel(c) for c in draft.channels if not c.said.quantity],
-        "calibrations": [{"name": j.name, "kind": "jump", "source": j.source, "file": j.file, "signal": j.signal,
-                          "axis": j.axis, "dwell_s": j.dwell_s, "steps_seen": list(j.seen), "unit": j.unit,
-                          "questions": [j.question]} for j in draft.jumps],
-        "tests": [{"id": t.id, "kind": t.kind.kind, "role": "none", "conditions": t.conditions, "files": t.files,
-                   "sure": t.kind.comment.startswith("sure"), "basis": t.kind.comment,
-                   "questions": [*filter(None, (t.kind.question,)), *t.doubts, "role"],
-                   "role_hint": t.kind.role_hint} for t in draft.tests],
+        "calibrations": [
+            {
+                "name": j.name,
+                "kind": "jump",
+                "source": j.source,
+                "file": j.file,
+                "signal": j.signal,
+                "axis": j.axis,
+                "dwell_s": j.dwell_s,
+                "steps_seen": list(j.seen),
+                "unit": j.unit,
+                "questions": [j.question],
+            }
+            for j in draft.jumps
+        ],
+        "tests": [
+            {
+                "id": t.id,
+                "kind": t.kind.kind,
+                "role": "none",
+                "conditions": t.conditions,
+                "files": t.files,
+                "sure": t.kind.comment.startswith("sure"),
+                "basis": t.kind.comment,
+                "questions": [*filter(None, (t.kind.question,)), *t.doubts, "role"],
+                "role_hint": t.kind.role_hint,
+            }
+            for t in draft.tests
+        ],
         "table": None if draft.table is None else {"file": draft.table.file, "key": draft.table.key},
         "ignored": [{"file": p, "why": w} for p, w in draft.not_used],
         "damaged": [{"file": p, "what": w} for p, w in draft.damaged],
@@ -36,9 +74,19 @@ def as_json(draft: Draft, out: Path, files: int, questions: int) -> dict[str, An
 
 def _channel(c: DraftChannel) -> dict[str, Any]:
     said = c.said
-    return {"name": c.name if said.quantity else None, "source": c.source, "signal": c.signal, "stream": c.stream,
-            "quantity": said.quantity, "unit": said.unit, "axis": said.axis, "at": said.at,
-            "calibration": c.calibration,
-            "sure": said.sure and not said.questions, "basis": list(said.basis),
-            "questions": list(said.questions) or ([said.why_not] if said.why_not else []),
-            "only_in": list(c.only_in) or None, "note": c.note}
+    return {
+        "name": c.name if said.quantity else None,
+        "source": c.source,
+        "signal": c.signal,
+        "stream": c.stream,
+        "quantity": said.quantity,
+        "unit": said.unit,
+        "axis": said.axis,
+        "at": said.at,
+        "calibration": c.calibration,
+        "sure": said.sure and not said.questions,
+        "basis": list(said.basis),
+        "questions": list(said.questions) or ([said.why_not] if said.why_not else []),
+        "only_in": list(c.only_in) or None,
+        "note": c.note,
+    }

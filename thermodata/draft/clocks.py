@@ -15,9 +15,21 @@ from thermodata.errors import ThermodataError
 
 Named = Mapping[tuple[str, str], tuple[str, str | None, str]]
 _HOUR_NS = 3_600_000_000_000
-_ZONES = ("UTC", "Europe/Prague", "Europe/Berlin", "Europe/London", "Europe/Helsinki", "Europe/Moscow", "Asia/Shanghai",
-          "Asia/Tokyo", "Asia/Kolkata", "America/New_York", "America/Chicago", "America/Los_Angeles",
-          "America/Sao_Paulo")
+_ZONES = (
+    "UTC",
+    "Europe/Prague",
+    "Europe/Berlin",
+    "Europe/London",
+    "Europe/Helsinki",
+    "Europe/Moscow",
+    "Asia/Shanghai",
+    "Asia/Tokyo",
+    "Asia/Kolkata",
+    "America/New_York",
+    "America/Chicago",
+    "America/Los_Angeles",
+    "America/Sao_Paulo",
+)
 _ALIGNABLE = ("rotational_speed", "position", "feed", "power", "temperature", "load")
 
 
@@ -39,17 +51,23 @@ def zone_question(group: Group, groups: Sequence[Group]) -> str | None:
     """What to ask about the zone of a source that logs local times; None where it names its zone or has no dates."""
     if not any(f.local for f in group.files):
         return None
-    pairs = [(f.start_ns, begin) for g in groups if g is not group and not any(f.local for f in g.files)
-             for test, files in group.tests.items() if test in g.tests
-             for f in files[:1] if f.start_ns is not None
-             and (begin := _begin(g.tests[test])) is not None]
+    pairs = [
+        (f.start_ns, begin)
+        for g in groups
+        if g is not group and not any(f.local for f in g.files)
+        for test, files in group.tests.items()
+        if test in g.tests
+        for f in files[:1]
+        if f.start_ns is not None and (begin := _begin(g.tests[test])) is not None
+    ]
     hours = [round((a - b) / _HOUR_NS) for a, b in pairs if abs((a - b) / _HOUR_NS - round((a - b) / _HOUR_NS)) < 0.25]
     if not pairs or len(hours) < 0.6 * len(pairs) or max(map(abs, hours)) > 14:
         return "timezone? it logs local times without a zone; taken as UTC. e.g. timezone: Europe/Prague"
     fitting = [z for z in _ZONES if all(_offset(z, begin) == h for (_, begin), h in zip(pairs, hours, strict=False))]
     ahead = "/".join(f"{h:+d} h" for h in sorted(set(hours)))
-    return (f"timezone? local times, {ahead} from the other sources' UTC: "
-            + (f"fits {', '.join(fitting[:3])}" if fitting else "or a clock that is wrong by whole hours"))
+    return f"timezone? local times, {ahead} from the other sources' UTC: " + (
+        f"fits {', '.join(fitting[:3])}" if fitting else "or a clock that is wrong by whole hours"
+    )
 
 
 def _begin(files: Sequence[RawFile]) -> int | None:
@@ -68,10 +86,11 @@ def alignments(groups: Sequence[Group], channels: Mapping[str, Named]) -> list[A
     """
     found: list[Alignment] = []
     aligned: set[str] = set()
-    order = sorted((g for g in groups if g.files),
-                   key=lambda g: -sum(s.unit in ("V", "um", "µm") for s, _ in g.signals))
+    order = sorted(
+        (g for g in groups if g.files), key=lambda g: -sum(s.unit in ("V", "um", "µm") for s, _ in g.signals)
+    )
     for i, there in enumerate(order):
-        for here in order[i + 1:]:
+        for here in order[i + 1 :]:
             if here.source in aligned:
                 continue
             made = _alignment(here, there, channels)
@@ -82,9 +101,12 @@ def alignments(groups: Sequence[Group], channels: Mapping[str, Named]) -> list[A
 
 
 def _alignment(here: Group, there: Group, channels: Mapping[str, Named]) -> Alignment | None:
-    pairs = [(a, b, name_a, name_b) for a, (quantity, place, name_a) in channels[here.source].items()
-             for b, (other, where, name_b) in channels[there.source].items()
-             if quantity == other and quantity in _ALIGNABLE and place == where and place is not None]
+    pairs = [
+        (a, b, name_a, name_b)
+        for a, (quantity, place, name_a) in channels[here.source].items()
+        for b, (other, where, name_b) in channels[there.source].items()
+        if quantity == other and quantity in _ALIGNABLE and place == where and place is not None
+    ]
     refused: Alignment | None = None
     pairs.sort(key=lambda p: _ALIGNABLE.index(channels[here.source][p[0]][0]))
     for test in [t for t in here.tests if t in there.tests][:6]:
@@ -96,9 +118,11 @@ def _alignment(here: Group, there: Group, channels: Mapping[str, Named]) -> Alig
             try:
                 said = estimate_offset(one.t_ns, one.values, two.t_ns, two.values)
             except ThermodataError as error:
-                refused = refused or Alignment(here.source, there.source, (name_a, name_b), None, None, test,
-                                               error.what)
+                refused = refused or Alignment(
+                    here.source, there.source, (name_a, name_b), None, None, test, error.what
+                )
                 continue
-            return Alignment(here.source, there.source, (name_a, name_b), said.offset_ns / 1e9,
-                             said.uncertainty_ns / 1e9, test)
+            return Alignment(
+                here.source, there.source, (name_a, name_b), said.offset_ns / 1e9, said.uncertainty_ns / 1e9, test
+            )
     return refused

@@ -66,7 +66,7 @@ def _by_stem(paths: Sequence[PurePosixPath]) -> Iterator[Naming]:
                 ids = tuple(strip.sub("", c[1]) or c[1] for c in cut)
                 if ids == tuple(c[1] for c in cut):
                     continue
-                seps = {c[1][len(d):][:1] for c, d in zip(cut, ids, strict=True) if c[1] != d}
+                seps = {c[1][len(d) :][:1] for c, d in zip(cut, ids, strict=True) if c[1] != d}
                 sep = seps.pop() if len(seps) == 1 else ""
                 sep = sep if sep and not sep.isalnum() else ""
                 rest = f"{_literal(sep)}*{_literal(cut[0][2])}{paths[0].suffix}"
@@ -76,7 +76,7 @@ def _by_stem(paths: Sequence[PurePosixPath]) -> Iterator[Naming]:
 
 def _may_cut(pieces: Sequence[str], lead: int, trail: int) -> bool:
     """Of a single name no pattern shows: only one piece of letters ('daq', 'nc') may be no part of the test."""
-    gone = [*pieces[:lead], *pieces[len(pieces) - trail:]]
+    gone = [*pieces[:lead], *pieces[len(pieces) - trail :]]
     return len(gone) <= 1 and all(p.isalpha() and len(p) > 1 for p in gone)
 
 
@@ -88,17 +88,21 @@ def _by_folder(paths: Sequence[PurePosixPath]) -> Iterator[Naming]:
         if len(set(ids)) < 2:
             continue
         above = {p.parts[:level] for p in paths}
-        below = {p.parts[level + 1:] for p in paths}
+        below = {p.parts[level + 1 :] for p in paths}
         suffixes = {p.suffix for p in paths}
         one = len(above) == 1 and len({len(p.parts) for p in paths}) == 1 and len(suffixes) == 1
         first = "/".join((*map(_literal, paths[0].parts[:level]), "{test}"))
         if one and len(below) == 1:
-            yield Naming(ids, f"{first}/{'/'.join(map(_literal, paths[0].parts[level + 1:]))}", 0.0)
+            yield Naming(ids, f"{first}/{'/'.join(map(_literal, paths[0].parts[level + 1 :]))}", 0.0)
         elif one and level == depth - 1:
             stems = [p.stem for p in paths]
             lead = _common(stems)
-            yield Naming(ids, f"{first}/{_literal(lead)}*{paths[0].suffix}",
-                         0.4 if len(set(ids)) < len(ids) else 0.1, len(set(ids)) < len(ids))
+            yield Naming(
+                ids,
+                f"{first}/{_literal(lead)}*{paths[0].suffix}",
+                0.4 if len(set(ids)) < len(ids) else 0.1,
+                len(set(ids)) < len(ids),
+            )
         else:
             yield Naming(ids, None, 0.8, len(set(ids)) < len(ids))
 
@@ -151,9 +155,9 @@ def _regex(pattern: str) -> re.Pattern[str]:
             out, i = out + "[^/]*", i + 1
         elif pattern[i] == "?":
             out, i = out + "[^/]", i + 1
-        elif pattern[i] == "[" and "]" in pattern[i + 2:]:
+        elif pattern[i] == "[" and "]" in pattern[i + 2 :]:
             end = pattern.index("]", i + 2)
-            inside = re.sub(r"([\[\\&~|])", r"\\\1", pattern[i + 1:end])
+            inside = re.sub(r"([\[\\&~|])", r"\\\1", pattern[i + 1 : end])
             out, i = out + "[" + re.sub(r"^!", "^", inside) + "]", end + 1
         else:
             out, i = out + re.escape(pattern[i]), i + 1

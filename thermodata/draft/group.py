@@ -36,8 +36,9 @@ def tests_of(groups: Sequence[Group]) -> list[Group]:
     made = {s: replace(g, tests={legal[t]: f for t, f in g.tests.items()}) for s, g in made.items()}
     ids = list(dict.fromkeys(t for g in made.values() for t in g.tests))
     every = [str(f.path) for g in groups for f in (*g.files, *g.calibrations)]
-    return [_with_template(made[g.source], chosen[g.source].template, ids, every) if g.source in made else g
-            for g in groups]
+    return [
+        _with_template(made[g.source], chosen[g.source].template, ids, every) if g.source in made else g for g in groups
+    ]
 
 
 def _legal(ids: Iterable[str]) -> dict[str, str]:
@@ -80,7 +81,7 @@ def _one_recording(group: Group, way: Naming) -> bool | None:
         for (begin, end, whole), (following, _, _) in pairwise(spans):
             pause, length = following - end, max(end - begin, 1)
             if following <= begin or pause < -length // 10:
-                verdicts.append(False)                    # they ran at once
+                verdicts.append(False)  # they ran at once
             elif whole:
                 verdicts.append(pause <= max(length // 4, 60_000_000_000))
             elif len(spans) >= 3:
@@ -99,8 +100,10 @@ def _agreeing(groups: Sequence[Group], ways: Mapping[str, list[Naming]]) -> dict
             for other in groups:
                 if other is lead:
                     continue
-                scored = [((sum(normal(i) in ids for i in w.ids) / len(w.ids), -_price(other, w)), n)
-                          for n, w in enumerate(ways[other.source])]
+                scored = [
+                    ((sum(normal(i) in ids for i in w.ids) / len(w.ids), -_price(other, w)), n)
+                    for n, w in enumerate(ways[other.source])
+                ]
                 (share, price), n = max(scored, key=lambda s: (s[0], -s[1]))
                 chosen[other.source] = ways[other.source][n]
                 both = {normal(i) for i in ways[other.source][n].ids} & ids
@@ -146,8 +149,10 @@ def _by_time(group: Group, others: Sequence[Group]) -> Group:
     if not begins or len(own) < len(group.files):
         return group
     spans = [(f.start_ns or 0, max(f.sample.last_ns or 0, f.start_ns or 0)) for f in own]
-    inside = {t: [f for f, (a, b) in zip(own, spans, strict=True) if a - _NEAR_NS <= begin <= b + _NEAR_NS]
-              for t, begin in begins.items()}
+    inside = {
+        t: [f for f, (a, b) in zip(own, spans, strict=True) if a - _NEAR_NS <= begin <= b + _NEAR_NS]
+        for t, begin in begins.items()
+    }
     if len(begins) > len(own) and sum(map(bool, inside.values())) > len(own):
         return replace(group, shared=True, tests={}, questions=("one log for many tests?",))
     best: dict[str, RawFile] = {}
@@ -165,8 +170,9 @@ def _by_time(group: Group, others: Sequence[Group]) -> Group:
         return group
     joined = {f.path for f in best.values()}
     left = {t: f for t, f in group.tests.items() if not any(x.path in joined for x in f)}
-    return replace(group, tests={**{t: (f,) for t, f in best.items()}, **left},
-                   questions=("files joined to tests by their times",))
+    return replace(
+        group, tests={**{t: (f,) for t, f in best.items()}, **left}, questions=("files joined to tests by their times",)
+    )
 
 
 def _with_template(group: Group, template: str | None, ids: Sequence[str], every: Sequence[str]) -> Group:
@@ -175,8 +181,11 @@ def _with_template(group: Group, template: str | None, ids: Sequence[str], every
         paths = [str(f.path) for f in group.files]
         return replace(group, template=_glob(paths, every))
     many = len(group.tests) > 1 or len(ids) == 1
-    if template is not None and many and all(
-            sorted(matches(template, t, every)) == sorted(str(f.path) for f in group.tests.get(t, ())) for t in ids):
+    if (
+        template is not None
+        and many
+        and all(sorted(matches(template, t, every)) == sorted(str(f.path) for f in group.tests.get(t, ())) for t in ids)
+    ):
         return replace(group, template=template)
     return replace(group, template=None)
 
@@ -188,7 +197,7 @@ def _glob(paths: Sequence[str], every: Sequence[str]) -> str | None:
     shortest = min(map(len, paths))
     lead = next((i for i in range(shortest) if len({p[i] for p in paths}) > 1), shortest)
     trail = next((i for i in range(shortest - lead) if len({p[-1 - i] for p in paths}) > 1), 0)
-    made = f"{paths[0][:lead]}*{paths[0][len(paths[0]) - trail:]}"
+    made = f"{paths[0][:lead]}*{paths[0][len(paths[0]) - trail :]}"
     return made if sorted(matches(made, "", every)) == sorted(paths) else None
 
 

@@ -19,21 +19,46 @@ from thermodata.draft.words import words
 from thermodata.reader.text import split_unit
 from thermodata.schema.quantity import is_unit, normal_unit
 
-_IMPLIED = {"temperature": "degC", "rotational_speed": "rpm", "position": "mm", "load": "%", "humidity": "%",
-            "current": "A", "torque": "N m", "voltage": "V"}
-_PLAUSIBLE = {"temperature": (-40.0, 200.0), "rotational_speed": (-60_000.0, 60_000.0),
-              "position": (-30_000.0, 30_000.0),
-              "load": (-400.0, 400.0), "humidity": (0.0, 100.0), "current": (-1000.0, 1000.0),
-              "torque": (-5000.0, 5000.0), "voltage": (-1000.0, 1000.0)}
+_IMPLIED = {
+    "temperature": "degC",
+    "rotational_speed": "rpm",
+    "position": "mm",
+    "load": "%",
+    "humidity": "%",
+    "current": "A",
+    "torque": "N m",
+    "voltage": "V",
+}
+_PLAUSIBLE = {
+    "temperature": (-40.0, 200.0),
+    "rotational_speed": (-60_000.0, 60_000.0),
+    "position": (-30_000.0, 30_000.0),
+    "load": (-400.0, 400.0),
+    "humidity": (0.0, 100.0),
+    "current": (-1000.0, 1000.0),
+    "torque": (-5000.0, 5000.0),
+    "voltage": (-1000.0, 1000.0),
+}
 _NEVER_DIFFERENCES = ("feed", "position", "rotational_speed", "torque", "current", "pressure")
-_NEEDS_PLACE = ("temperature", "temperature_difference", "power", "load", "current", "torque", "position", "flow",
-                "pressure", "displacement", "rotational_speed")
+_NEEDS_PLACE = (
+    "temperature",
+    "temperature_difference",
+    "power",
+    "load",
+    "current",
+    "torque",
+    "position",
+    "flow",
+    "pressure",
+    "displacement",
+    "rotational_speed",
+)
 
 
 @lru_cache(maxsize=50_000)
 def guess(name: str, unit: str | None, dtype: str = "float64", values: Values | None = None) -> Guess:
     """Quantity, unit, place and axis of a signal. unit: as the file writes it; values: of a sample, if there is one."""
-    bare = split_unit(name)[0]                            # the 'min' of 'n [1/min]' is no limit
+    bare = split_unit(name)[0]  # the 'min' of 'n [1/min]' is no limit
     own, text = words(_last(bare)), words(bare)
     written = (units.from_name(_last(bare)) or units.from_name(_field(bare))) if not unit else None
     field = words(_field(bare))
@@ -45,8 +70,11 @@ def guess(name: str, unit: str | None, dtype: str = "float64", values: Values | 
         if _digital(dtype, values):
             return _place(found, own, text)
         asked = f"unit: the file says '{known}', which is no unit known here"
-        return replace(_place(replace(found, unit=None), own, text), sure=False, questions=(asked,)) \
-            if found.quantity else found
+        return (
+            replace(_place(replace(found, unit=None), own, text), sure=False, questions=(asked,))
+            if found.quantity
+            else found
+        )
     found = quantity_of(what, text, known, dtype, values)
     if found.quantity is None or found.quantity == "label":
         return found
@@ -85,8 +113,13 @@ def _unit(found: Guess, unit: str | None, written: str | None, values: Values | 
         return replace(found, unit="K", sure=False, basis=(*found.basis, "values"))
     if implied and values is None and quantity in ("temperature", "rotational_speed"):
         return replace(found, unit=implied, sure=False, questions=(*found.questions, f"unit: {implied}?"))
-    hint = {"displacement": "um, mm or V?", "feed": "m/min or mm/min?", "power": "kW or W?", "pressure": "bar or MPa?",
-            "flow": "l/min?"}.get(quantity, "")
+    hint = {
+        "displacement": "um, mm or V?",
+        "feed": "m/min or mm/min?",
+        "power": "kW or W?",
+        "pressure": "bar or MPa?",
+        "flow": "l/min?",
+    }.get(quantity, "")
     asked = f"unit: {hint} ({seen(values)})" if hint else f"unit? ({seen(values)})"
     return replace(found, unit=None, sure=False, questions=(*found.questions, asked))
 
@@ -132,7 +165,7 @@ def _place(found: Guess, own: str, text: str) -> Guess:
     elif says(DIFFERENCE, own) and quantity in _NEVER_DIFFERENCES:
         questions.append("a difference, not the quantity itself?")
     if found.basis == ("unit",) and place.sure and quantity not in ("position", "voltage"):
-        found = replace(found, basis=("name", "unit"), sure=True)      # degC at a bearing: the name need not say T
+        found = replace(found, basis=("name", "unit"), sure=True)  # degC at a bearing: the name need not say T
     sure = found.sure and (place.sure or place.at is None) and not questions
     return replace(found, at=place.at, axis=letter, sure=sure, questions=tuple(dict.fromkeys(questions)))
 

@@ -17,8 +17,9 @@ from thermodata.draft.vocabulary import says
 from thermodata.draft.words import words
 from thermodata.plugin import Float1D
 
-NAMED = ("^jump ^skok ^sprung ^kalib ^calib ^einmess stufe. stufen schritt. staircase cal. 标定 校准 跳变 阶跃 "
-         "step. steps.")
+NAMED = (
+    "^jump ^skok ^sprung ^kalib ^calib ^einmess stufe. stufen schritt. staircase cal. 标定 校准 跳变 阶跃 step. steps."
+)
 _LONGEST_S = 3600.0
 _MOST_STEPS, _LEAST_STEPS = 40, 2
 
@@ -40,8 +41,11 @@ def jump_of(file: RawFile) -> JumpTest | None:
     signal None: a person must look."""
     named = says(NAMED, words(file.path.stem)) or says(NAMED, words(" ".join(file.path.parent.parts)))
     best: JumpTest | None = None
-    probes = {(s.stream, s.name): s for s in file.signals
-              if guess(s.name, s.unit, s.dtype).quantity in ("displacement", "voltage")}
+    probes = {
+        (s.stream, s.name): s
+        for s in file.signals
+        if guess(s.name, s.unit, s.dtype).quantity in ("displacement", "voltage")
+    }
     stirred = _others_move(file, set(probes))
     for key, _ in probes.items():
         course = file.sample.courses.get(key)

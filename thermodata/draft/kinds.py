@@ -16,28 +16,45 @@ from thermodata.draft.words import words
 from thermodata.plugin import Float1D
 
 _KINDS: tuple[tuple[str, str], ...] = (
-    ("etve", "etve. idle. ambient ^amb. klid. klidov ruhe. umgebung okoli stillstand standstill leerlauf~aus 环境 "
-             "静止 待机 evt."),
+    (
+        "etve",
+        "etve. idle. ambient ^amb. klid. klidov ruhe. umgebung okoli stillstand standstill leerlauf~aus 环境 "
+        "静止 待机 evt.",
+    ),
     ("spectrum", "spectrum spektrum spec. spektr 谱 转速谱 drehzahlspektrum stufenprogramm"),
     ("cutting", "^cut. cutting ^fras ^frez ^milling zerspan obrabeni obrab. bearbeit 切削 加工 铣"),
     ("rotary_axis", "rotary table. tisch. ^stul. drehtisch rundachse otocn 转台 [bc]~axis achse~[bc] osa~[bc]"),
-    ("linear_axis", "feed. linear axis. ^vorschub ^posuv feedaxis linearachse achse. osa. osy. 进给 直线 丝杠 screw. "
-                    "kgt."),
-    ("spindle", "spindle spindel ^vreten sp. speed. rpm. ^otac drehzahl warmup. warm~up aufwarm zahriv 主轴 转速 "
-                "预热 const. "
-                "heat. heating heating. heizen n."),
+    (
+        "linear_axis",
+        "feed. linear axis. ^vorschub ^posuv feedaxis linearachse achse. osa. osy. 进给 直线 丝杠 screw. kgt.",
+    ),
+    (
+        "spindle",
+        "spindle spindel ^vreten sp. speed. rpm. ^otac drehzahl warmup. warm~up aufwarm zahriv 主轴 转速 "
+        "预热 const. "
+        "heat. heating heating. heizen n.",
+    ),
     ("mixed", "mixed. mix. day. tag. ^den. dny. shift. schicht smena. kombin combin production produktion 混合 综合"),
 )
 _ROLES: tuple[tuple[str, str], ...] = (
-    ("locked", "locked secret geheim blind. zamcen"), ("verification", "verif valid overe pruf check. 验证"),
-    ("calibration", "train. training identif fit. ident. 辨识 建模"))
-_AGREE = {"spindle": {"spindle", "spectrum"}, "spectrum": {"spindle", "spectrum"},
-          "cutting": {"mixed", "cutting", "spindle"},
-          "mixed": {"mixed", "spindle", "spectrum", "linear_axis", "cutting"}, "etve": {"etve"},
-          "linear_axis": {"linear_axis", "mixed"}, "rotary_axis": {"rotary_axis", "mixed"}}
-_SPEED = re.compile(r"(?<!\S)(?:s|n|sp|rpm|speed|spindle|spindel|drehzahl|otacky|ot|nspi|转速|主轴) ?(\d{3,5})(?!\S)|"
-                    r"(?<!\S)(\d{3,5}) ?(?:rpm|ot|otmin|u min|1 min|min 1|umin|转)(?!\S)|(?<!\S)(\d{1,2}) "
-                     r"?(?:k|krpm)(?!\S)")
+    ("locked", "locked secret geheim blind. zamcen"),
+    ("verification", "verif valid overe pruf check. 验证"),
+    ("calibration", "train. training identif fit. ident. 辨识 建模"),
+)
+_AGREE = {
+    "spindle": {"spindle", "spectrum"},
+    "spectrum": {"spindle", "spectrum"},
+    "cutting": {"mixed", "cutting", "spindle"},
+    "mixed": {"mixed", "spindle", "spectrum", "linear_axis", "cutting"},
+    "etve": {"etve"},
+    "linear_axis": {"linear_axis", "mixed"},
+    "rotary_axis": {"rotary_axis", "mixed"},
+}
+_SPEED = re.compile(
+    r"(?<!\S)(?:s|n|sp|rpm|speed|spindle|spindel|drehzahl|otacky|ot|nspi|转速|主轴) ?(\d{3,5})(?!\S)|"
+    r"(?<!\S)(\d{3,5}) ?(?:rpm|ot|otmin|u min|1 min|min 1|umin|转)(?!\S)|(?<!\S)(\d{1,2}) "
+    r"?(?:k|krpm)(?!\S)"
+)
 _FEED = re.compile(r"(?<!\S)(?:f|vf|feed|vorschub|posuv|进给) ?(\d{1,5})(?: ?(m|mm) min)?(?!\S)")
 
 
@@ -105,8 +122,12 @@ def _decided(by_name: str | None, by_data: str | None, moved: _Moved) -> tuple[s
 def _told(moved: _Moved) -> str:
     said = []
     if moved.speeds:
-        said.append("spindle at " + ", ".join(f"{s:g}" for s in moved.speeds[:4]) +
-                    (f" and {len(moved.speeds) - 4} more" if len(moved.speeds) > 4 else "") + " rpm")
+        said.append(
+            "spindle at "
+            + ", ".join(f"{s:g}" for s in moved.speeds[:4])
+            + (f" and {len(moved.speeds) - 4} more" if len(moved.speeds) > 4 else "")
+            + " rpm"
+        )
     if moved.axes:
         said.append(f"{'/'.join(sorted(moved.axes)).upper()} moves")
     if moved.rotary:
@@ -142,13 +163,21 @@ def _moved(files: Sequence[RawFile]) -> _Moved:
                 continue
             said = guess(signal.name, signal.unit, signal.dtype, seen)
             largest = max(abs(seen.low), abs(seen.high))
-            _add(found, said.quantity, said.at or "", said.unit, largest, seen.high - seen.low,
-                 None if course is None else course.values)
+            _add(
+                found,
+                said.quantity,
+                said.at or "",
+                said.unit,
+                largest,
+                seen.high - seen.low,
+                None if course is None else course.values,
+            )
     return found
 
 
-def _add(found: _Moved, quantity: str | None, at: str, unit: str | None, largest: float, span: float,
-         course: Float1D | None) -> None:
+def _add(
+    found: _Moved, quantity: str | None, at: str, unit: str | None, largest: float, span: float, course: Float1D | None
+) -> None:
     axis = at.split(".")[1] if at.startswith("axis.") and at.count(".") == 1 else None
     if quantity == "rotational_speed":
         found.seen = True
@@ -185,8 +214,9 @@ def _plateaus(speed: Float1D) -> tuple[float, ...]:
     return tuple(float(f"{f:.3g}") if f >= 1000 else round(f) for f in found)
 
 
-def _conditions(text: str, speed: re.Match[str] | None, feed: re.Match[str] | None,
-                moved: _Moved) -> tuple[dict[str, str], list[str]]:
+def _conditions(
+    text: str, speed: re.Match[str] | None, feed: re.Match[str] | None, moved: _Moved
+) -> tuple[dict[str, str], list[str]]:
     found: dict[str, str] = {}
     doubts = []
     if speed:

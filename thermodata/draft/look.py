@@ -93,13 +93,17 @@ def meaning_of(campaign: Campaign, at: Path, file: Path) -> Meant | None:
 
 
 def _meant(campaign: Campaign, at: Path, source: str, test: str | None) -> Meant:
-    found = {c.signal: (str(c.quantity), c.unit, name) for name, c in campaign.channels.items()
-             if c.source == source and c.signal is not None}
+    found = {
+        c.signal: (str(c.quantity), c.unit, name)
+        for name, c in campaign.channels.items()
+        if c.source == source and c.signal is not None
+    }
     return Meant(at, source, test, found)
 
 
-def flagged(watch: Watch, stream: str, signals: list[Signal], meant: Meant | None,
-            absolute: bool) -> tuple[dict[str, dict[str, Any]], list[dict[str, Any]]]:
+def flagged(
+    watch: Watch, stream: str, signals: list[Signal], meant: Meant | None, absolute: bool
+) -> tuple[dict[str, dict[str, Any]], list[dict[str, Any]]]:
     """(signal -> quantity, channel, counts of flags and a sparkline; the first events) of one stream as it was read.
 
     Quantities are those of the campaign file, else guesses from names, units and values.
@@ -123,19 +127,34 @@ def flagged(watch: Watch, stream: str, signals: list[Signal], meant: Meant | Non
             continue
         guessed = guess(signal.name, signal.unit, signal.dtype, None if signal.scaling else values_of(column))
         quantity, unit, channel = said.get(signal.name) or (guessed.quantity or "voltage", guessed.unit, None)
-        told[signal.name] = {"quantity": quantity if channel or guessed.quantity else None, "channel": channel,
-                             "guess": None if channel else guessed.comment(), "flags": {}, "values": None,
-                             "sparkline": sparkline(column)}
+        told[signal.name] = {
+            "quantity": quantity if channel or guessed.quantity else None,
+            "channel": channel,
+            "guess": None if channel else guessed.comment(),
+            "flags": {},
+            "values": None,
+            "sparkline": sparkline(column),
+        }
         seen = values_of(column)
         if seen is not None:
             told[signal.name]["values"] = {"low": seen.low, "high": seen.high, "median": seen.median}
             inputs[signal.name] = ColumnInput(_canonical(column, quantity, unit), quantity, own[signal.name])
     flags, events = flag_stream(t_ns, inputs) if t_ns.size and inputs else ({}, [])
     for name, column in flags.items():
-        told[name]["flags"] = {f.name.lower(): n for f in Flag
-                               if f.name and (n := int(((column & np.uint16(f)) != 0).sum()))}
-    listed = [{"signal": e.channel, "flag": e.flag, "from": when(e.from_ns, absolute), "to": when(e.to_ns, absolute),
-               "n": e.n, "detail": e.detail} for e in concise(events)[:20]]
+        told[name]["flags"] = {
+            f.name.lower(): n for f in Flag if f.name and (n := int(((column & np.uint16(f)) != 0).sum()))
+        }
+    listed = [
+        {
+            "signal": e.channel,
+            "flag": e.flag,
+            "from": when(e.from_ns, absolute),
+            "to": when(e.to_ns, absolute),
+            "n": e.n,
+            "detail": e.detail,
+        }
+        for e in concise(events)[:20]
+    ]
     return told, listed
 
 
@@ -157,8 +176,7 @@ def sparkline(column: Array, width: int = 32) -> str | None:
     x = column.astype(np.float64)
     x[~np.isfinite(x)] = np.nan
     edges = np.linspace(0, x.size, min(width, x.size) + 1).astype(int)
-    means = np.array([np.nan if np.isnan(x[a:b]).all() else np.nanmean(x[a:b])
-                      for a, b in pairwise(edges)])
+    means = np.array([np.nan if np.isnan(x[a:b]).all() else np.nanmean(x[a:b]) for a, b in pairwise(edges)])
     if np.isnan(means).all():
         return " " * means.size
     low, span = float(np.nanmin(means)), float(np.nanmax(means) - np.nanmin(means))

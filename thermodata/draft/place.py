@@ -8,17 +8,32 @@ from dataclasses import dataclass
 
 from thermodata.draft.vocabulary import places_in
 
-_BESIDE = (r"d|e|ed|eddy|wz|pos|feed|nut|ax|axis|achse|osa|mot|motor|tcp|err|error|delta|disp|act|ist|load|cur|curr|"
-           r"current|torque|acs|mcs|wcs|bcs|temp|temper|speed|vel|rapid|v|s|i|t|m|p|f")
+_BESIDE = (
+    r"d|e|ed|eddy|wz|pos|feed|nut|ax|axis|achse|osa|mot|motor|tcp|err|error|delta|disp|act|ist|load|cur|curr|"
+    r"current|torque|acs|mcs|wcs|bcs|temp|temper|speed|vel|rapid|v|s|i|t|m|p|f"
+)
 _AFTER = r"abs|act|pos|mpos|wpos|load|axis|achse|mot|motor|temp|frt|com|curr|vel|speed|ist|soll|position|feedrate"
 _LINEAR = re.compile(rf"(?<!\S)(?:{_BESIDE})?([xyz])(?!\S)|(?<!\S)([xyz])(?:{_AFTER})(?!\S)")
-_ROTARY = re.compile(r"(?<!\S)(?:axis|achse|osa|ax|rotary|act|ist|pos|mot|motor|load|curr|current|torque|speed|"
-                     r"drehzahl|otacky) ?([abc])(?!\S)"
-                     r"|(?<!\S)([abc])(?: \d)? ?(?:axis|achse|osa|act|actm|actw|abs|pos|load|mot|motor)(?!\S)"
-                     r"|(?<!\S)([abc]) ?轴")
+_ROTARY = re.compile(
+    r"(?<!\S)(?:axis|achse|osa|ax|rotary|act|ist|pos|mot|motor|load|curr|current|torque|speed|"
+    r"drehzahl|otacky) ?([abc])(?!\S)"
+    r"|(?<!\S)([abc])(?: \d)? ?(?:axis|achse|osa|act|actm|actw|abs|pos|load|mot|motor)(?!\S)"
+    r"|(?<!\S)([abc]) ?轴"
+)
 _SIDES = ("front", "rear", "left", "right")
-_PLAIN = ("headstock", "ram", "saddle", "crossbeam", "workpiece", "fixture", "tool", "floor", "cabinet", "bed",
-          "outside")
+_PLAIN = (
+    "headstock",
+    "ram",
+    "saddle",
+    "crossbeam",
+    "workpiece",
+    "fixture",
+    "tool",
+    "floor",
+    "cabinet",
+    "bed",
+    "outside",
+)
 _ON_AXIS = ("nut", "screw", "scale", "guide")
 
 
@@ -182,7 +197,7 @@ def _fluid(said: set[str], axis: str | None) -> Place:
     for key in ("hydraulics", "lubrication", "chiller", "coolant", "pneumatics"):
         if key in said:
             return Place(key + (_way(said) if key in ("coolant", "chiller") else ""), True)
-    if "hall" in said:                                    # 'air pressure': of the hall, or of the compressed air?
+    if "hall" in said:  # 'air pressure': of the hall, or of the compressed air?
         return Place("pneumatics", question="at: pneumatics, or hall?")
     return Place(None, question="at: coolant, hydraulics or else?")
 
@@ -218,8 +233,20 @@ def _irradiance(said: set[str], axis: str | None) -> Place:
 
 
 _RULES: dict[str, Callable[[set[str], str | None], Place]] = {
-    "temperature": _temperature, "temperature_difference": _temperature, "rotational_speed": _speed, "feed": _feed,
-    "power": _driven, "load": _driven, "current": _driven, "torque": _driven, "position": _on_axis, "flow": _fluid,
-    "pressure": _fluid, "state": _state, "displacement": _displacement, "tilt": _displacement,
-    "humidity": _humidity, "irradiance": _irradiance,
+    "temperature": _temperature,
+    "temperature_difference": _temperature,
+    "rotational_speed": _speed,
+    "feed": _feed,
+    "power": _driven,
+    "load": _driven,
+    "current": _driven,
+    "torque": _driven,
+    "position": _on_axis,
+    "flow": _fluid,
+    "pressure": _fluid,
+    "state": _state,
+    "displacement": _displacement,
+    "tilt": _displacement,
+    "humidity": _humidity,
+    "irradiance": _irradiance,
 }

@@ -98,8 +98,7 @@ def plan(campaign: str, folder: Path, found: Scan) -> Draft:
     """What the folder holds, as a campaign."""
     early = _claimed_table(folder, found)
     if early is not None:
-        found = replace(found, logs=tuple(f for f in found.logs if str(f.path) != early),
-                        others=(*found.others, early))
+        found = replace(found, logs=tuple(f for f in found.logs if str(f.path) != early), others=(*found.others, early))
     jumps = [j for f in found.logs if (j := jump_of(f)) is not None and (j.named or _short(j, found.logs))]
     groups = tests_of(sources_of(found.logs, [j.file for j in jumps]))
     taken: set[str] = set()
@@ -111,22 +110,33 @@ def plan(campaign: str, folder: Path, found: Scan) -> Draft:
         made, left = _channels(g, [j for j in jumps if j.file in g.calibrations], taken, calibrations)
         channels += made
         notes += left
-        by_signal[g.source] = {(c.stream or "", c.signal): (c.said.quantity, c.said.at, c.name)
-                               for c in made if c.said.quantity}
+        by_signal[g.source] = {
+            (c.stream or "", c.signal): (c.said.quantity, c.said.at, c.name) for c in made if c.said.quantity
+        }
     aligned = {a.source: a for a in alignments(groups, {g.source: _keyed(g, by_signal[g.source]) for g in groups})}
-    sources = tuple(DraftSource(g.source, g.reader, g.template,
-                                tuple(q for q in (zone_question(g, groups), *g.questions) if q), aligned.get(g.source))
-                    for g in groups)
+    sources = tuple(
+        DraftSource(
+            g.source,
+            g.reader,
+            g.template,
+            tuple(q for q in (zone_question(g, groups), *g.questions) if q),
+            aligned.get(g.source),
+        )
+        for g in groups
+    )
     ids = list(dict.fromkeys(t for g in groups for t in g.tests))
     table = find_table(folder, found.others, ids)
     tests = tuple(_test(t, groups, table) for t in ids)
     left_out = tuple(x for x in found.ignored if table is None or x[0] != table.file)
     like = [f for f in found.logs if f.like]
     if like:
-        notes.append(f"{len(like)} files were not opened (too many): taken to be like others of their name, "
-                     f"e.g. {like[0].path} like {like[0].like}")
-    return Draft(campaign, sources, tuple(channels), tuple(calibrations), tests, table, left_out, found.damaged,
-                 tuple(notes))
+        notes.append(
+            f"{len(like)} files were not opened (too many): taken to be like others of their name, "
+            f"e.g. {like[0].path} like {like[0].like}"
+        )
+    return Draft(
+        campaign, sources, tuple(channels), tuple(calibrations), tests, table, left_out, found.damaged, tuple(notes)
+    )
 
 
 def _claimed_table(folder: Path, found: Scan) -> str | None:
@@ -144,12 +154,16 @@ def _claimed_table(folder: Path, found: Scan) -> str | None:
     return None
 
 
-def _keyed(group: Group, named: dict[tuple[str, str], tuple[str, str | None, str]]) \
-        -> dict[tuple[str, str], tuple[str, str | None, str]]:
+def _keyed(
+    group: Group, named: dict[tuple[str, str], tuple[str, str | None, str]]
+) -> dict[tuple[str, str], tuple[str, str | None, str]]:
     """The channels by (stream, signal) of the files, whatever the campaign file calls them."""
     plain = {signal.split(":", 1)[-1] if stream else signal: value for (stream, signal), value in named.items()}
-    return {(s.stream, s.name): named.get((s.stream, f"{s.stream}:{s.name}")) or plain[s.name]
-            for s, _ in group.signals if s.name in plain}
+    return {
+        (s.stream, s.name): named.get((s.stream, f"{s.stream}:{s.name}")) or plain[s.name]
+        for s, _ in group.signals
+        if s.name in plain
+    }
 
 
 def _short(jump: JumpTest, files: Sequence[RawFile]) -> bool:
@@ -159,18 +173,20 @@ def _short(jump: JumpTest, files: Sequence[RawFile]) -> bool:
     return bool(spans) and own * 3 < spans[len(spans) // 2]
 
 
-def _channels(group: Group, jumps: Sequence[JumpTest], taken: set[str],
-              calibrations: list[DraftJump]) -> tuple[list[DraftChannel], list[str]]:
+def _channels(
+    group: Group, jumps: Sequence[JumpTest], taken: set[str], calibrations: list[DraftJump]
+) -> tuple[list[DraftChannel], list[str]]:
     found = group.signals
     more = len(found) - _MOST_SIGNALS
     notes = [f"{group.source}: {more} more signals, left out of the draft"] if more > 0 else []
-    twice = {n for f in (*group.files, *group.calibrations)
-             for n, k in Counter(s.name for s in f.signals).items() if k > 1}
+    twice = {
+        n for f in (*group.files, *group.calibrations) for n, k in Counter(s.name for s in f.signals).items() if k > 1
+    }
     made, seen = [], set()
     streams = {s.stream for s, _ in found}
     for signal, files in found[:_MOST_SIGNALS]:
         if signal.name in seen and signal.name not in twice:
-            continue                                       # the same signal, in a stream of another name
+            continue  # the same signal, in a stream of another name
         seen.add(signal.name)
         said, note = _said(signal, files)
         jump = next((j for j in jumps if j.signal == (signal.stream, signal.name)), None)
@@ -185,8 +201,11 @@ def _channels(group: Group, jumps: Sequence[JumpTest], taken: set[str],
             note = "; ".join(filter(None, (note, "its sign is unknown until a calibration says which way it counts")))
         having = {t for t, fs in group.tests.items() if any(f in files for f in fs)}
         only = tuple(t for t in group.tests if t in having) if len(having) < len(group.tests) and having else ()
-        made.append(DraftChannel(name, group.source, named, signal.stream if len(streams) > 1 else None, said,
-                                 calibration, only, note))
+        made.append(
+            DraftChannel(
+                name, group.source, named, signal.stream if len(streams) > 1 else None, said, calibration, only, note
+            )
+        )
     return made, notes
 
 
@@ -201,8 +220,15 @@ def _said(signal: Signal, files: Sequence[RawFile]) -> tuple[Guess, str | None]:
     said = guess(signal.name, units.most_common(1)[0][0], signal.dtype, None if signal.scaling else values)
     if len(units) > 1 and said.quantity:
         names = ", ".join(f"{u or 'none'} ({n})" for u, n in units.most_common())
-        return Guess(said.quantity, None, said.at, said.axis, False, said.basis,
-                     (*said.questions, f"unit: the files disagree: {names}; each file's own is taken")), None
+        return Guess(
+            said.quantity,
+            None,
+            said.at,
+            said.axis,
+            False,
+            said.basis,
+            (*said.questions, f"unit: the files disagree: {names}; each file's own is taken"),
+        ), None
     return said, None
 
 
@@ -211,39 +237,79 @@ def _wished(signal: str, said: Guess) -> str:
     bare = split_unit(signal)[0]
     parts = [p for p in bare.replace("\\", "/").split("/") if p.strip()] or [bare]
     last = parts[-1]
-    if len(last.strip()) <= 2 and len(parts) > 1:                # Eddy/Z says more than Z
+    if len(last.strip()) <= 2 and len(parts) > 1:  # Eddy/Z says more than Z
         last = "_".join(parts[-2:])
-    foreign = sum(ord(c) > 0x2ff for c in bare)
+    foreign = sum(ord(c) > 0x2FF for c in bare)
     if foreign and said.at and said.quantity in CANONICAL_UNIT:
         where = "_".join(p for p in said.at.split(".") if p not in ("axis",))
         tail = "".join(c for c in bare if c.isascii() and c.isdigit())
-        return "_".join(filter(None, (_SHORT.get(said.quantity, said.quantity),
-                                      f"{said.axis}" if said.axis else where, tail)))
+        return "_".join(
+            filter(None, (_SHORT.get(said.quantity, said.quantity), f"{said.axis}" if said.axis else where, tail))
+        )
     return last
 
 
-def _calibration(name: str, signal: Signal, said: Guess, jump: JumpTest | None, group: Group, jumps: Sequence[JumpTest],
-                 calibrations: list[DraftJump]) -> tuple[str | None, Guess]:
+def _calibration(
+    name: str,
+    signal: Signal,
+    said: Guess,
+    jump: JumpTest | None,
+    group: Group,
+    jumps: Sequence[JumpTest],
+    calibrations: list[DraftJump],
+) -> tuple[str | None, Guess]:
     """The jump test of a probe in volts; without one, the question for it."""
     key = (signal.stream, signal.name)
-    fitting = [j for j in jumps if j.signal == key] or \
-        [j for j in jumps if j.signal is None and any((s.stream, s.name) == key for s in j.file.signals)
-         and axis_of(words(j.file.path.stem)) in (None, (said.axis or "").lower())]
+    fitting = [j for j in jumps if j.signal == key] or [
+        j
+        for j in jumps
+        if j.signal is None
+        and any((s.stream, s.name) == key for s in j.file.signals)
+        and axis_of(words(j.file.path.stem)) in (None, (said.axis or "").lower())
+    ]
     jump = jump or (fitting[0] if fitting else None)
     if jump is None:
-        return None, Guess(said.quantity, said.unit, said.at, said.axis, False, said.basis,
-                           (*said.questions, "calibration? a jump test, or kind: scale with a gain in um/V"))
+        return None, Guess(
+            said.quantity,
+            said.unit,
+            said.at,
+            said.axis,
+            False,
+            said.basis,
+            (*said.questions, "calibration? a jump test, or kind: scale with a gain in um/V"),
+        )
     letter = axis_of(words(jump.file.path.stem))
     axis = said.axis or (letter.upper() if letter and letter in "xyz" else None)
     if said.axis is None and axis is not None:
-        said = Guess(said.quantity, said.unit, said.at, axis, False, said.basis,
-                     (*(q for q in said.questions if q != "axis?"), f"axis: {axis} by {jump.file.path.name}?"))
+        said = Guess(
+            said.quantity,
+            said.unit,
+            said.at,
+            axis,
+            False,
+            said.basis,
+            (*(q for q in said.questions if q != "axis?"), f"axis: {axis} by {jump.file.path.name}?"),
+        )
     seen = tuple(float(f"{s.size:.3g}") for s in jump.steps)
     question = "moves: the commanded ones, signed, in machine coordinates"
-    question += f"; seen: steps of {', '.join(f'{s:+g}' for s in seen[:8])} {said.unit or 'V'}" if seen else \
-        "; no steps were seen in it"
-    calibrations.append(DraftJump(f"jump_{name}", group.source, str(jump.file.path),
-                                  signal.name, axis, float(f"{jump.dwell_s:.2g}"), seen, said.unit, question))
+    question += (
+        f"; seen: steps of {', '.join(f'{s:+g}' for s in seen[:8])} {said.unit or 'V'}"
+        if seen
+        else "; no steps were seen in it"
+    )
+    calibrations.append(
+        DraftJump(
+            f"jump_{name}",
+            group.source,
+            str(jump.file.path),
+            signal.name,
+            axis,
+            float(f"{jump.dwell_s:.2g}"),
+            seen,
+            said.unit,
+            question,
+        )
+    )
     return (f"jump_{name}" if axis else None), said
 
 

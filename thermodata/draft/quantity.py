@@ -10,7 +10,7 @@ from thermodata.draft.values import Values
 from thermodata.draft.vocabulary import DIFFERENCE, foreign_in, places_in, quantities_in, says
 from thermodata.schema.quantity import normal_unit
 
-_WEAK = ("a time stamp", "a number")                    # words that stand beside others: 'Temp block 3'
+_WEAK = ("a time stamp", "a number")  # words that stand beside others: 'Temp block 3'
 # what creeps there between 5 and 80 is a temperature
 _AIR = {"hall", "floor", "bearing", "coolant", "outside", "window"}
 
@@ -51,8 +51,11 @@ def quantity_of(own: str, text: str, unit: str | None, dtype: str, values: Value
     if dtype == "bool":
         return Guess("state", sure=True, basis=("type",))
     if bare and not foreign and _on_off(own, named, values):
-        return Guess("state", basis=("name", "values") if values is not None else ("name",),
-                     sure=values is not None and values.switch and "state" in named)
+        return Guess(
+            "state",
+            basis=("name", "values") if values is not None else ("name",),
+            sure=values is not None and values.switch and "state" in named,
+        )
     if foreign and not _stronger(named, own, unit):
         return Guess(None, unit, why_not=f"{foreign}: none of the quantities")
     if says(DIFFERENCE, own) and "temperature" in named:
@@ -99,14 +102,15 @@ def _by_unit(named: tuple[str, ...], unit: str, own: str, values: Values | None)
     if normal == "percent":
         return Guess(None, unit, why_not="a share in %: of what? quantity: load, humidity, or none")
     if first == "voltage" and not against and (axis_of(own) or "") in ("x", "y", "z") and places_in(own) <= {"probe"}:
-        return Guess("displacement", unit, basis=("name", "unit"))      # 'probe X', in volts
+        return Guess("displacement", unit, basis=("name", "unit"))  # 'probe X', in volts
     if first == "voltage":
         return Guess("voltage", unit, basis=("unit",), questions=("what does it measure? then: quantity, calibration",))
     if normal == "mA" and against:
         return Guess("current", unit, basis=("unit",), questions=(f"a sensor's 4..20 mA? of {against[0]}",))
     if against and first not in ("temperature", "rotational_speed"):
-        return Guess(first, unit, basis=("unit",),
-                     questions=(f"quantity: the name says {against[0]}, the unit {first}",))
+        return Guess(
+            first, unit, basis=("unit",), questions=(f"quantity: the name says {against[0]}, the unit {first}",)
+        )
     if first == "position" and axis_of(own) is None:
         return Guess("position", unit, basis=("unit",), questions=("quantity: a length: position, or displacement?",))
     return Guess(first, unit, basis=("unit",))
@@ -115,8 +119,13 @@ def _by_unit(named: tuple[str, ...], unit: str, own: str, values: Values | None)
 def _loosely(unit: str, quantity: str) -> bool:
     """Whether a unit that several quantities share can be this one: %, deg, Hz, um/m."""
     normal = normal_unit(unit)
-    allowed = {"percent": ("load", "humidity"), "turn/second": ("rotational_speed",), "urad": ("tilt",),
-               "deg": ("tilt", "angle"), "rpm": ("rotational_speed",)}
+    allowed = {
+        "percent": ("load", "humidity"),
+        "turn/second": ("rotational_speed",),
+        "urad": ("tilt",),
+        "deg": ("tilt", "angle"),
+        "rpm": ("rotational_speed",),
+    }
     return quantity in allowed.get(normal, ())
 
 
@@ -127,8 +136,12 @@ def _kelvin(named: tuple[str, ...], unit: str, values: Values | None) -> Guess:
     if values is not None and values.low > 200:
         return Guess("temperature", unit, sure="temperature" in named, basis=("unit", "values"))
     if values is not None and values.high < 150 and values.low < 60:
-        return Guess("temperature_difference", unit, basis=("unit", "values"),
-                     questions=(f"quantity: {values.span()} K is a difference; or are they degC?",))
+        return Guess(
+            "temperature_difference",
+            unit,
+            basis=("unit", "values"),
+            questions=(f"quantity: {values.span()} K is a difference; or are they degC?",),
+        )
     return Guess("temperature", unit, basis=("unit",), questions=("quantity: temperature, or temperature_difference?",))
 
 
@@ -147,12 +160,21 @@ def _by_name(named: tuple[str, ...], own: str, values: Values | None, dtype: str
         return Guess(None, why_not=f"quantity: {' or '.join(named)}? ({seen(values)})")
     if named:
         return Guess(named[0], basis=("name",), sure=False)
-    if values is not None and not values.constant and values.slow and values.low >= 5 and values.high <= 80 \
-            and values.high - values.low <= 60:
+    if (
+        values is not None
+        and not values.constant
+        and values.slow
+        and values.low >= 5
+        and values.high <= 80
+        and values.high - values.low <= 60
+    ):
         if places_in(own) & _AIR:
             return Guess("temperature", basis=("name", "values"))
-        return Guess("temperature", basis=("values",),
-                     questions=(f"quantity: {values.span()}, changing slowly: a temperature in degC?",))
+        return Guess(
+            "temperature",
+            basis=("values",),
+            questions=(f"quantity: {values.span()}, changing slowly: a temperature in degC?",),
+        )
     if "door" in places_in(own) and (values is None or values.distinct <= 2):
         return Guess("state", basis=("name",))
     return Guess(None, why_not=f"quantity and unit? ({seen(values)})")

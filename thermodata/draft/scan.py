@@ -22,10 +22,10 @@ from thermodata.plugin import Array, Block, Float1D, Int1D, Loss, Reader, Record
 from thermodata.reader.guard import described, guarded
 from thermodata.reader.registry import claims, reader
 
-_SAMPLE_ROWS, _SAMPLE_S = 400_000, 1.0       # of one file
-_SMALL = 4_000_000                           # bytes; smaller files are read whole
-_SAMPLES_S, _HEADERS_S = 15.0, 40.0          # of the whole folder
-_KEPT_ROWS = 3000                            # of a signal whose course tells what a test is
+_SAMPLE_ROWS, _SAMPLE_S = 400_000, 1.0  # of one file
+_SMALL = 4_000_000  # bytes; smaller files are read whole
+_SAMPLES_S, _HEADERS_S = 15.0, 40.0  # of the whole folder
+_KEPT_ROWS = 3000  # of a signal whose course tells what a test is
 _COURSE = ("rotational_speed", "feed", "displacement", "voltage", "position", "state")
 _MOST_COURSES = 40
 _NOT_LOGS = frozenset((".yaml", ".yml", ".md", ".tdms_index"))
@@ -106,8 +106,9 @@ def scan(folder: Path, progress: Progress | None = None) -> Scan:
         try:
             like = shapes.get(_shape(path)) if time.monotonic() - began > _HEADERS_S else None
             if like is not None:
-                logs[str(path)] = RawFile(path, like.reader, _without_start(like.recording), full.stat().st_size,
-                                          like=str(like.path))
+                logs[str(path)] = RawFile(
+                    path, like.reader, _without_start(like.recording), full.stat().st_size, like=str(like.path)
+                )
                 continue
             who, why = _claimant(full)
             if who is None:
@@ -125,8 +126,12 @@ def scan(folder: Path, progress: Progress | None = None) -> Scan:
     damaged = [(str(f.path), _damage(f)) for f in sampled if _damage(f)]
     position = {p: i for i, p in enumerate(ordered)}
     ignored.sort(key=lambda item: position[item[0]])
-    return Scan(tuple(sorted(sampled, key=lambda f: position[str(f.path)])), tuple(ignored), tuple(damaged),
-                tuple(p for p, _ in ignored))
+    return Scan(
+        tuple(sorted(sampled, key=lambda f: position[str(f.path)])),
+        tuple(ignored),
+        tuple(damaged),
+        tuple(p for p, _ in ignored),
+    )
 
 
 def _files(folder: Path) -> Iterator[PurePosixPath]:
@@ -230,7 +235,7 @@ def _sample(path: Path, file: RawFile) -> Sample:
     except (ThermodataError, OSError):
         losses, whole = losses + 1, False
     finally:
-        items.close()                                    # type: ignore[attr-defined]
+        items.close()  # type: ignore[attr-defined]
     return Sample(values, {k: _thinned(v) for k, v in parts.items()}, whole, first, last, losses)
 
 
@@ -244,8 +249,12 @@ def _courses(signals: Sequence[Signal]) -> set[tuple[str, str]]:
     return set(found[:_MOST_COURSES])
 
 
-def _take(block: Block, values: dict[tuple[str, str], Values], parts: dict[tuple[str, str], list[tuple[Int1D, Array]]],
-          wanted: set[tuple[str, str]]) -> None:
+def _take(
+    block: Block,
+    values: dict[tuple[str, str], Values],
+    parts: dict[tuple[str, str], list[tuple[Int1D, Array]]],
+    wanted: set[tuple[str, str]],
+) -> None:
     for name, column in block.values.items():
         key = (block.stream, name)
         seen = values_of(column)

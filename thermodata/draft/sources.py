@@ -13,7 +13,7 @@ from thermodata.plugin import Signal
 from thermodata.reader.text import split_unit
 
 _NAMES = {"crio": "daq", "cnc": "nc", "mcap": "rec", "table": "log"}
-_ALIKE = 0.5                                              # of the shorter list of signals
+_ALIKE = 0.5  # of the shorter list of signals
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,9 +47,15 @@ def sources_of(files: Sequence[RawFile], jumps: Sequence[RawFile]) -> list[Group
     names: list[set[str]] = []
     for file in sorted(files, key=lambda f: -len(f.signals)):
         own = {split_unit(s.name)[0] for s in file.signals}
-        home = next((i for i, c in enumerate(clusters)
-                     if (c[0].reader, c[0].path.suffix.lower()) == (file.reader, file.path.suffix.lower())
-                     and (len(own & names[i]) >= _ALIKE * min(len(own), len(names[i])) or _twin(file, c))), None)
+        home = next(
+            (
+                i
+                for i, c in enumerate(clusters)
+                if (c[0].reader, c[0].path.suffix.lower()) == (file.reader, file.path.suffix.lower())
+                and (len(own & names[i]) >= _ALIKE * min(len(own), len(names[i])) or _twin(file, c))
+            ),
+            None,
+        )
         if home is None:
             clusters.append([file])
             names.append(own)
@@ -63,19 +69,23 @@ def sources_of(files: Sequence[RawFile], jumps: Sequence[RawFile]) -> list[Group
     taken: set[str] = set()
     for cluster in clusters:
         logs = tuple(f for f in cluster if f not in jumps)
-        groups.append(Group(_name(cluster, clusters, taken), cluster[0].reader, logs,
-                            tuple(f for f in cluster if f in jumps)))
+        groups.append(
+            Group(_name(cluster, clusters, taken), cluster[0].reader, logs, tuple(f for f in cluster if f in jumps))
+        )
     return groups
 
 
 def _twin(file: RawFile, cluster: Sequence[RawFile]) -> bool:
     """Whether another file has the same name and signals but for axis letters and numbers: posuv_X, posuv_Y."""
+
     def shape(text: str) -> str:
         return re.sub(r"\d+", "#", re.sub(r"(?<![A-Za-z])[XYZABCxyzabc](?![A-Za-z])", "@", text))
 
     own = {shape(split_unit(s.name)[0]) for s in file.signals}
-    return any(shape(str(other.path)) == shape(str(file.path))
-               and own == {shape(split_unit(s.name)[0]) for s in other.signals} for other in cluster[:20])
+    return any(
+        shape(str(other.path)) == shape(str(file.path)) and own == {shape(split_unit(s.name)[0]) for s in other.signals}
+        for other in cluster[:20]
+    )
 
 
 def _loggers(cluster: list[RawFile], jumps: Sequence[RawFile]) -> list[list[RawFile]]:
@@ -88,8 +98,10 @@ def _loggers(cluster: list[RawFile], jumps: Sequence[RawFile]) -> list[list[RawF
         values = Counter(pieces[f.path][place] for f in logs)
         rest = Counter(_but(pieces[f.path], place) for f in logs)
         if 2 <= len(values) <= 4 and set(rest.values()) == {len(values)} and len(set(values.values())) == 1:
-            together = all(max(s) - min(s) < 10_000_000_000 for s in (
-                [f.start_ns or 0 for f in logs if _but(pieces[f.path], place) == key] for key in rest))
+            together = all(
+                max(s) - min(s) < 10_000_000_000
+                for s in ([f.start_ns or 0 for f in logs if _but(pieces[f.path], place) == key] for key in rest)
+            )
             if together:
                 found = [[f for f in logs if pieces[f.path][place] == value] for value in sorted(values)]
                 found[0] += [f for f in cluster if f in jumps]

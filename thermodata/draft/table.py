@@ -17,10 +17,16 @@ from thermodata.reader.text import decode, split_unit
 
 _LARGEST = 4_000_000
 _SUFFIXES = (".csv", ".txt", ".tsv", ".xlsx", ".xlsm")
-_NAMED = ("test tests versuch zkousk mereni plan protocol protokoll matrix 试验 测试 实验 runs uebersicht ubersicht "
-          "overview")
-_KNOWN = (("speed", "speed. drehzahl otack rpm. 转速 n. s."), ("feed", "feed. vorschub posuv 进给 f. vf."),
-          ("air", "air. luft. vzduch 气"), ("tool", "tool. werkzeug nastroj 刀具"), ("axis", "axis. achse. osa. 轴"))
+_NAMED = (
+    "test tests versuch zkousk mereni plan protocol protokoll matrix 试验 测试 实验 runs uebersicht ubersicht overview"
+)
+_KNOWN = (
+    ("speed", "speed. drehzahl otack rpm. 转速 n. s."),
+    ("feed", "feed. vorschub posuv 进给 f. vf."),
+    ("air", "air. luft. vzduch 气"),
+    ("tool", "tool. werkzeug nastroj 刀具"),
+    ("axis", "axis. achse. osa. 轴"),
+)
 
 
 @dataclass(frozen=True, slots=True)
@@ -33,8 +39,9 @@ class TestTable:
     rows: Mapping[str, Mapping[str, str]]
 
 
-def find_table(folder: Path, candidates: Sequence[str], tests: Sequence[str],
-               by_number: bool = True) -> TestTable | None:
+def find_table(
+    folder: Path, candidates: Sequence[str], tests: Sequence[str], by_number: bool = True
+) -> TestTable | None:
     """The first small table in which most tests are named, each once; None where there is none. by_number: by the
     number at the end of their names too."""
     if not tests:
@@ -103,8 +110,14 @@ def _read(file: str, rows: list[list[str]], tests: Sequence[str], by_number: boo
     _, key_column, named = best
     found: dict[str, dict[str, str]] = {}
     for i, test in named.items():
-        found[test] = {name: value for c, title in enumerate(header) if c != key_column and c < len(lines[i])
-                       and (name := _condition(title)) and (value := _with_unit(lines[i][c], title, name))}
+        found[test] = {
+            name: value
+            for c, title in enumerate(header)
+            if c != key_column
+            and c < len(lines[i])
+            and (name := _condition(title))
+            and (value := _with_unit(lines[i][c], title, name))
+        }
     return TestTable(file, header[key_column], found)
 
 

@@ -10,9 +10,12 @@ from pathlib import PurePosixPath
 from thermodata.draft.plan import Draft
 
 _LEAST = 3
-_FIELDS: tuple[tuple[str, str, str], ...] = (              # name before the number, condition, its unit
-    (r"s|n|sp|rpm|speed|drehzahl|otacky", "speed", "rpm"), (r"f|vf|feed|vorschub|posuv", "feed", ""),
-    (r"ap", "depth", "mm"), (r"ae", "width", "mm"))
+_FIELDS: tuple[tuple[str, str, str], ...] = (  # name before the number, condition, its unit
+    (r"s|n|sp|rpm|speed|drehzahl|otacky", "speed", "rpm"),
+    (r"f|vf|feed|vorschub|posuv", "feed", ""),
+    (r"ap", "depth", "mm"),
+    (r"ae", "width", "mm"),
+)
 _PIECE = re.compile(r"[_\-. ]")
 
 
@@ -32,8 +35,17 @@ def pattern_of(draft: Draft) -> Pattern | None:
     tests = draft.tests
     if len(tests) < _LEAST or len({t.kind.kind for t in tests}) > 1 or any(t.files for t in tests) or draft.table:
         return None
-    source = next((s for s in draft.sources if s.files and s.files.count("{test}") == 1
-                   and PurePosixPath(s.files).stem == "{test}" and "*" not in s.files), None)
+    source = next(
+        (
+            s
+            for s in draft.sources
+            if s.files
+            and s.files.count("{test}") == 1
+            and PurePosixPath(s.files).stem == "{test}"
+            and "*" not in s.files
+        ),
+        None,
+    )
     if source is None or source.files is None or any(s.files is None for s in draft.sources):
         return None
     found = _fields([t.id for t in tests])

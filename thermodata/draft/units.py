@@ -8,20 +8,41 @@ from thermodata.errors import UsageError
 from thermodata.schema.quantity import CANONICAL_UNIT, linear_conversion, normal_unit
 
 _BY_UNIT: dict[str, tuple[str, ...]] = {
-    "degC": ("temperature", "temperature_difference"), "degF": ("temperature",),
+    "degC": ("temperature", "temperature_difference"),
+    "degF": ("temperature",),
     "K": ("temperature", "temperature_difference"),
-    "um": ("displacement",), "nm": ("displacement",), "mm": ("position", "displacement"),
-    "rpm": ("rotational_speed",), "turn/second": ("rotational_speed",),
-    "V": ("voltage", "displacement"), "mV": ("voltage", "displacement"),
-    "percent": ("load", "humidity"), "dimensionless": ("state",), "A": ("current",), "mA": ("current",),
-    "kW": ("power",), "W": ("power",), "N*m": ("torque",), "W/m**2": ("irradiance",), "urad": ("tilt",),
-    "deg": ("angle",), "bar": ("pressure",), "l/min": ("flow",), "ohm": ("resistance",), "m/min": ("feed",),
-    "m": ("position", "displacement"), "cm": ("position",), "inch": ("position",), "in": ("position",),
+    "um": ("displacement",),
+    "nm": ("displacement",),
+    "mm": ("position", "displacement"),
+    "rpm": ("rotational_speed",),
+    "turn/second": ("rotational_speed",),
+    "V": ("voltage", "displacement"),
+    "mV": ("voltage", "displacement"),
+    "percent": ("load", "humidity"),
+    "dimensionless": ("state",),
+    "A": ("current",),
+    "mA": ("current",),
+    "kW": ("power",),
+    "W": ("power",),
+    "N*m": ("torque",),
+    "W/m**2": ("irradiance",),
+    "urad": ("tilt",),
+    "deg": ("angle",),
+    "bar": ("pressure",),
+    "l/min": ("flow",),
+    "ohm": ("resistance",),
+    "m/min": ("feed",),
+    "m": ("position", "displacement"),
+    "cm": ("position",),
+    "inch": ("position",),
+    "in": ("position",),
 }
-_LOOSE = ("label", "state", "load", "humidity", "tilt", "angle")           # pint turns any bare number into these
+_LOOSE = ("label", "state", "load", "humidity", "tilt", "angle")  # pint turns any bare number into these
 # A unit at the end of a name, after a separator: unmistakable ones only.
-_IN_NAME = re.compile(r"(?:^|[_.\s-])(degC|°C|℃|Celsius|rpm|RPM|kW|um|µm|μm|mm|lpm|bar|mbar|kPa|MPa|mA|mV|Nm|urad|pct|"
-                      r"(?:mm|m|l|1|U)[_/](?:min))$")
+_IN_NAME = re.compile(
+    r"(?:^|[_.\s-])(degC|°C|℃|Celsius|rpm|RPM|kW|um|µm|μm|mm|lpm|bar|mbar|kPa|MPa|mA|mV|Nm|urad|pct|"
+    r"(?:mm|m|l|1|U)[_/](?:min))$"
+)
 
 
 def from_name(name: str) -> str | None:
@@ -37,7 +58,7 @@ def quantities_of(unit: str) -> tuple[str, ...]:
     """
     bare = re.sub(r"\s", "", unit).strip("[]()").lower()
     if bare in ("hz", "s-1", "1/s", "s^-1") or bare in ("um/m", "µm/m", "μm/m"):
-        return ()                                         # a frequency or a strain, unless the name knows better
+        return ()  # a frequency or a strain, unless the name knows better
     normal = normal_unit(unit)
     if normal in _BY_UNIT:
         return _BY_UNIT[normal]

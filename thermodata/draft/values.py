@@ -54,10 +54,16 @@ def values_of(column: Array) -> Values | None:
         return None
     change = np.abs(np.diff(x))
     few = np.unique(x[:: max(1, x.size // 2000)])
-    return Values(int(x.size), float(x.min()), float(x.max()), float(np.median(x)),
-                  float(np.median(change[change > 0])) if (change > 0).any() else 0.0,
-                  float((change > 0).mean()) if change.size else 0.0,
-                  min(int(few.size), _FEW + 1), bool((x == np.round(x)).all()))
+    return Values(
+        int(x.size),
+        float(x.min()),
+        float(x.max()),
+        float(np.median(x)),
+        float(np.median(change[change > 0])) if (change > 0).any() else 0.0,
+        float((change > 0).mean()) if change.size else 0.0,
+        min(int(few.size), _FEW + 1),
+        bool((x == np.round(x)).all()),
+    )
 
 
 def joined(one: Values | None, other: Values | None) -> Values | None:
@@ -68,7 +74,13 @@ def joined(one: Values | None, other: Values | None) -> Values | None:
     levels = main.distinct
     if one.constant and other.constant and one.low != other.low:
         levels = 2
-    return Values(one.n + other.n, min(one.low, other.low), max(one.high, other.high), main.median,
-                  max(one.step, other.step) if min(one.step, other.step) == 0 else min(one.step, other.step),
-                  (one.moves * one.n + other.moves * other.n) / (one.n + other.n),
-                  max(levels, one.distinct, other.distinct), one.whole and other.whole)
+    return Values(
+        one.n + other.n,
+        min(one.low, other.low),
+        max(one.high, other.high),
+        main.median,
+        max(one.step, other.step) if min(one.step, other.step) == 0 else min(one.step, other.step),
+        (one.moves * one.n + other.moves * other.n) / (one.n + other.n),
+        max(levels, one.distinct, other.distinct),
+        one.whole and other.whole,
+    )

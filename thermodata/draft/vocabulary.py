@@ -12,55 +12,55 @@ from functools import lru_cache
 
 QUANTITY_WORDS: dict[str, str] = {
     "temperature": "temper temp teplot ^tepl tmp. t. theta. pt~100 pt~1000 rtd. rtds. thermocouple thermoel thermistor "
-                   "^thermo. ntc. tc. celsius degc. waerme. temperatura 温度 溫度 温 溫",
+    "^thermo. ntc. tc. celsius degc. waerme. temperatura 温度 溫度 温 溫",
     "rotational_speed": "drehzahl drehz. otack otacek otac. rpm. rpm rotat~speed rotation~speed spindle~speed "
-                        "spindlespeed "
-                        "spindle~velocity spindel~speed umdrehung revolution n~act n~ist n~actual n~spindle n~soll "
-                        "s~act~speed acts. sspeed. srpm. spd. act~speed actspeed speed.~act speed. ^speed rpms. "
-                        "转速 轉速 回转速度 主轴速度 vact~spindle "
-                        "n. rotvel",
+    "spindlespeed "
+    "spindle~velocity spindel~speed umdrehung revolution n~act n~ist n~actual n~spindle n~soll "
+    "s~act~speed acts. sspeed. srpm. spd. act~speed actspeed speed.~act speed. ^speed rpms. "
+    "转速 轉速 回转速度 主轴速度 vact~spindle "
+    "n. rotvel",
     "feed": "vorschub feedrate feed. ^feed~rate feed~act actfeed posuv 进给 進給 frt. actf. fact. pathfeed "
-            "v~act v~actual vact. vaxis. bahngeschw feed~speed",
+    "v~act v~actual vact. vaxis. bahngeschw feed~speed",
     "power": "power. ^power leistung wirkl vykon prikon 功率 pwr. watt. p~act p~mech p~elec p~el. puissance "
-             "activepower",
+    "activepower",
     "load": "load. ^load. auslast motorlast spindellast zatizen zatez vytizen 负载 負載 负荷 負荷 utiliz utilis util. "
-            "spindleload servoload loadmeter last.",
+    "spindleload servoload loadmeter last.",
     "torque": "torque drehmoment moment. momente. krout trq. 扭矩 转矩 轉矩 力矩 mdreh m~act",
     "current": "current. currents. ^current motorstrom strom. stroms. strom ^proud 电流 電流 curr. curr ampere amps. "
-               "amp. "
-               "i~act i~ist i~actual i~nom iact. imot. irms. iq. courant",
+    "amp. "
+    "i~act i~ist i~actual i~nom iact. imot. irms. iq. courant",
     "position": "position ^pos. pos. ^poloh 位置 坐标 坐標 coordinate koordinat encoder. enc. istpos actm. actw. "
-                "xpos. ypos. zpos. "
-                "xabs. yabs. zabs. xact. yact. zact. s~act s~actual abspos mcs. wcs. machinecoord",
+    "xpos. ypos. zpos. "
+    "xabs. yabs. zabs. xact. yact. zact. s~act s~actual abspos mcs. wcs. machinecoord",
     "flow": "flow. ^flow~ flowrate durchfluss durchfl. prutok 流量 volumenstrom volume~flow throughput. flowmeter",
     "pressure": "pressure press. ^druck. druck. hydraulikdruck oldruck luftdruck druck~ tlak 压力 壓力 压强 气压 "
-                "油压 液压力",
+    "油压 液压力",
     "humidity": "humid feucht ^vlhkost vlhk. 湿度 濕度 rh. relhum hum.",
     "irradiance": "irradia solar. sonnen sonne. slunecn slunce. zaren 日照 辐射 辐照 pyranom sunlight sun. "
-                  "globalstrahl",
+    "globalstrahl",
     "displacement": "eddy displac verlager verschieb posunut posuv~vretene vychylk deformac deform. deformation "
-                    "wirbelstrom wegsens wegaufnehmer wegmess messtaster lvdt. lvdts. gap. gapsensor abstand. "
-                    "vzdalenost "
-                    "位移 热误差 熱誤差 热变形 变形 热伸长 伸长 热漂移 thermal~error thermal~drift thermal~growth "
-                    "dilatac "
-                    "ausdehn capacitive~s kapazitiv elongat prodlouz nci. d~x d~y d~z dx. dy. dz. ex. ey. ez. "
-                    "delta~x delta~y delta~z err~x err~y err~z error~x error~y error~z deltax. deltay. deltaz. "
-                    "disp. tcp~x tcp~y tcp~z",
+    "wirbelstrom wegsens wegaufnehmer wegmess messtaster lvdt. lvdts. gap. gapsensor abstand. "
+    "vzdalenost "
+    "位移 热误差 熱誤差 热变形 变形 热伸长 伸长 热漂移 thermal~error thermal~drift thermal~growth "
+    "dilatac "
+    "ausdehn capacitive~s kapazitiv elongat prodlouz nci. d~x d~y d~z dx. dy. dz. ex. ey. ez. "
+    "delta~x delta~y delta~z err~x err~y err~z error~x error~y error~z deltax. deltay. deltaz. "
+    "disp. tcp~x tcp~y tcp~z",
     "tilt": "tilt neigung naklon inclin pitch. roll. yaw. 倾斜 倾角 drot. rx. ry. rz. d~rx d~ry d~rz",
     "angle": "angle. winkel uhel. uhlu. 角度 转角",
     "voltage": "voltage spannung napeti 电压 電壓 volt. volts. uzk. u~zk u~dc udc. dc~link zwischenkreis dcvolt",
     "resistance": "resistanc widerstand odpor. 电阻 電阻",
     "state": "on. off. ein. zap. vyp. zapnut. vypnut. open. opened. closed. offen. geschlossen. active. aktiv. "
-             "aktivni. "
-             "status. state. ^state. stav. stavu. zustand. enabled. enable. running. run. flag. alarm. alarms. "
-             "fault. mode. "
-             "modus. rezim. 状态 狀態 开关 运行 报警 启动 停止 is~on isopen. ok. ready. freigabe. execution. otevren. "
-             "zavren.",
+    "aktivni. "
+    "status. state. ^state. stav. stavu. zustand. enabled. enable. running. run. flag. alarm. alarms. "
+    "fault. mode. "
+    "modus. rezim. 状态 狀態 开关 运行 报警 启动 停止 is~on isopen. ok. ready. freigabe. execution. otevren. "
+    "zavren.",
 }
 
 PLACE_WORDS: dict[str, str] = {
     "spindle": "mot~s. current~s. curr~s. load~s. s~load. s~temp. s~mot. s~current. spindel "
-               "spindle vreten 主轴 主軸 电主轴 spdl. spnd. spin. sp. hsp. spi. spindl",
+    "spindle vreten 主轴 主軸 电主轴 spdl. spnd. spin. sp. hsp. spi. spindl",
     "not spindle": "gewindespindel kugelspindel spindelmutter kugelgewinde leadspindle",
     "bearing": "bearing bearings. lager ^lozis ^loz. 轴承 軸承 brg. brng. bear. lagerung roulement",
     "front": "front vorn vorder ^predni pred. predn. 前 fr. frt~b nose. spindlenose nase. vl.",
@@ -81,7 +81,7 @@ PLACE_WORDS: dict[str, str] = {
     "bed": "bed. bett. maschinenbett ^loze. lozi. 床身 底座 machinebase base. bedplate podstav machine~base",
     "table": "table. tables. tisch ^stul. ^stol. stolu. stole. 工作台 转台 轉台 drehtisch rotarytable worktable",
     "headstock": "headstock spindelstock spindelkasten spindelgehaus spindelkopf vretenik 主轴箱 床头箱 spindle~head "
-                 "spindlehead spindle~housing spindle~box head~stock 主轴头",
+    "spindlehead spindle~housing spindle~box head~stock 主轴头",
     "ram": "ram. pinole ^smykadl 滑枕 quill.",
     "saddle": "saddle schlitten ^sane. 滑座 滑板 滑台 carriage crossslide cross~slide slide. sani.",
     "crossbeam": "crossbeam querbalken querbal traverse. ^pricni 横梁 gantry. cross~rail crossrail beam. portal.",
@@ -90,11 +90,11 @@ PLACE_WORDS: dict[str, str] = {
     "fixture": "fixture vorrichtung pripravek pripravku 夹具 halterung drzak. sensorhalter",
     "probe": "probe. probes. taster. messtaster sonda. sondy. 测头 touchprobe",
     "coolant": "coolant kuhlm kuehlm kss. kuhlschm kuehlschm chladic ^chlaz chladiv emulz emulsion 冷却液 冷卻液 "
-               "切削液 冷却 "
-               "cooling kuhlung kuehlung cool. kuhlflu kuhlkreis cutting~fluid cutfluid kuhlen.",
+    "切削液 冷却 "
+    "cooling kuhlung kuehlung cool. kuhlflu kuhlkreis cutting~fluid cutfluid kuhlen.",
     "chiller": "chiller ruckkuhl rueckkuhl kuhlaggregat 冷水机 水冷机 油冷机 oilcooler oil~cooler oelkuhler water. "
-               "wasser "
-               "^vod[ay]. kuhlwasser 冷却水 chlazeni~vretene",
+    "wasser "
+    "^vod[ay]. kuhlwasser 冷却水 chlazeni~vretene",
     "supply": "supply. inlet. in. vorlauf zulauf ^privod vstup. 入口 进口 进水 供液 进油 vl. input.",
     "return": "return. outlet. out. rucklauf ruecklauf ablauf zpatec ^odvod vystup. 出口 回水 回油 回液 rl. output.",
     "tank": "tank. tanks. nadrz behalter 水箱 油箱 reservoir",
@@ -103,15 +103,15 @@ PLACE_WORDS: dict[str, str] = {
     "lubrication": "lubric schmier mazan mazac 润滑 潤滑 lube.",
     "cabinet": "cabinet schaltschrank schrank rozvade 电柜 电气柜 控制柜 電櫃 elektroschrank switch~box e~cabinet",
     "hall": "hall. ^halle. ^hallen hala. haly. hale. ^ambi amb. umgeb okoli. okoln. okolni raum. raumt raumluft room. "
-            "workshop shop. shopfloor luft. lufttemp air. vzduch 室温 环境 環境 车间 車間 气温 室内 空气 environ "
-            "env. prostred "
-            "indoor",
+    "workshop shop. shopfloor luft. lufttemp air. vzduch 室温 环境 環境 车间 車間 气温 室内 空气 environ "
+    "env. prostred "
+    "indoor",
     "pneumatics": "druckluft compressed~air pneumat stlacen 压缩空气 气源 airpressure",
     "outside": "outdoor outside aussen. aussent ^venk[uo] 室外",
     "floor": "floor. boden. bodent fundament foundation podlah ^zaklad 地面 地基 地板",
     "door": "door doors. tur. tuer. schutztur tor. dvere dveri vrata vrat. gate. 门 門",
     "enclosure": "machine~door schutztur schutztuer safety~door guard~door 防护门 安全门 workspace. arbeitsraum "
-                 "pracovni~prostor",
+    "pracovni~prostor",
     "window": "window fenster okno. okna. 窗",
     "sun": "sun. sonne. slunce. solar. sunlight",
     "cnc": "cnc. cnc~temp steuerung. ridici. 数控 control~unit ncu. ipc.",
@@ -122,34 +122,45 @@ PLACE_WORDS: dict[str, str] = {
 
 # Names of what no quantity of a channel holds; the words to the right are told in the draft.
 FOREIGN: tuple[tuple[str, str], ...] = (
-    ("a time stamp", "timestamp ^stamp. stamp. nsec. nanosec. publish~time log~time uptime zeitstempel zeit. ^cas. "
-                     "时间 "
-                     "时刻 datum. elapsed. time. date. cas~s sec. secs. laufzeit epoch."),
+    (
+        "a time stamp",
+        "timestamp ^stamp. stamp. nsec. nanosec. publish~time log~time uptime zeitstempel zeit. ^cas. "
+        "时间 "
+        "时刻 datum. elapsed. time. date. cas~s sec. secs. laufzeit epoch.",
+    ),
     ("a vibration or an acceleration", "vibrat vibrac accel beschleun schwing zrychl 振动 加速度 ^acc. rms~v"),
     ("a force", "force. forces. kraft. sila. sily. 切削力 作用力 loadcell load~cell. cutting~force vorschubkraft"),
     ("an energy", "energy energie 能耗 电能 kwh."),
     ("a frequency", "frequenc frequenz frekvenc 频率 freq."),
     ("a fill level", "level. fluidlevel oillevel fullstand fuellstand hladin 液位 油位 niveau."),
     ("a strain", "strain. dehnung. dms. 应变 strain~gauge tenzomet"),
-    ("what a control computes, not the machine",
-     "foll~err follow~err follerr following schlepp 跟随误差 distance~to~go dtg. restweg lag~err"),
+    (
+        "what a control computes, not the machine",
+        "foll~err follow~err follerr following schlepp 跟随误差 distance~to~go dtg. restweg lag~err",
+    ),
     ("an override", "override ovr. ovrd. fovr. sovr. korekce~posuvu 倍率"),
-    ("a number, a count or an identifier",
-     "counter count. counts. zaehler zahler. pocitadlo pocet. cislo. nummer. number. nr. index. idx. id. ids. seq. "
-     "sequence block. line. satz. satznr program. programm. version checksum crc. sample~nr sample. samples. zeile. "
-     "record. "
-     "partcount 编号 序号 工件计数 计数 frame~id toolnr. lfdnr. tno. toolid. tool~number current~tool asset"),
+    (
+        "a number, a count or an identifier",
+        "counter count. counts. zaehler zahler. pocitadlo pocet. cislo. nummer. number. nr. index. idx. id. ids. seq. "
+        "sequence block. line. satz. satznr program. programm. version checksum crc. sample~nr sample. samples. zeile. "
+        "record. "
+        "partcount 编号 序号 工件计数 计数 frame~id toolnr. lfdnr. tno. toolid. tool~number current~tool asset",
+    ),
     ("a sound level", "sound noise~level larm. hluk"),
     ("a density, a mass or a concentration", "density weight. mass. concentrat dichte. gewicht. ph."),
     ("a duty or quality figure", "duty. quality. snr. rssi."),
 )
 
-SETPOINT = ("soll. ^soll. sollwert set. setpoint. setp. cmd. command. commanded. nominal. nom. target. zadan ziel. "
-            "pozadov "
-            "设定 目标 指令 给定 demand. desired. reference. ref. programmed. prog.")
+SETPOINT = (
+    "soll. ^soll. sollwert set. setpoint. setp. cmd. command. commanded. nominal. nom. target. zadan ziel. "
+    "pozadov "
+    "设定 目标 指令 给定 demand. desired. reference. ref. programmed. prog."
+)
 LIMIT = "limit. limits. max. min. maximum. minimum. threshold. grenze. grenzwert warn. warning. 上限 下限 mezni."
-DIFFERENCE = ("diff. difference differenz rozdil. rozdilu. delta~t deltat. dt. gradient. spread. 温差 温升 "
-              "ubertemp temperature~rise rise.")
+DIFFERENCE = (
+    "diff. difference differenz rozdil. rozdilu. delta~t deltat. dt. gradient. spread. 温差 温升 "
+    "ubertemp temperature~rise rise."
+)
 
 
 @lru_cache(maxsize=256)

@@ -7,11 +7,32 @@ import unicodedata
 
 from thermodata.schema.campaign import RESERVED_NAMES
 
-_LETTERS = str.maketrans({"ß": "ss", "ẞ": "SS", "Ł": "L", "ł": "l", "Ø": "O", "ø": "o", "đ": "d", "Đ": "D", "Æ": "AE",
-                          "æ": "ae", "œ": "oe", "Œ": "OE", "ı": "i", "µ": "u", "μ": "u", "°": "", "℃": "degC"})
+_LETTERS = str.maketrans(
+    {
+        "ß": "ss",
+        "ẞ": "SS",
+        "Ł": "L",
+        "ł": "l",
+        "Ø": "O",
+        "ø": "o",
+        "đ": "d",
+        "Đ": "D",
+        "Æ": "AE",
+        "æ": "ae",
+        "œ": "oe",
+        "Œ": "OE",
+        "ı": "i",
+        "µ": "u",
+        "μ": "u",
+        "°": "",
+        "℃": "degC",
+    }
+)
 # 'Xload', 'S1rpm': an axis letter before a word, as MTConnect adapters write it; S is the spindle
-_MTCONNECT = re.compile(r"(?<![A-Za-z])([XYZABCS])(\d?)(abs|actm|actw|act|com|cmd|current|curr|cur|frt|load|motor|"
-                        r"mot|ovr|pos|rpm|speed|temperature|temp|torque|velocity|vel|axis|travel|position)(?![a-z])")
+_MTCONNECT = re.compile(
+    r"(?<![A-Za-z])([XYZABCS])(\d?)(abs|actm|actw|act|com|cmd|current|curr|cur|frt|load|motor|"
+    r"mot|ovr|pos|rpm|speed|temperature|temp|torque|velocity|vel|axis|travel|position)(?![a-z])"
+)
 _LETTERS_OF_CYRILLIC = """а:a б:b в:v г:g д:d е:e ё:e ж:zh з:z и:i й:j к:k л:l м:m н:n о:o п:p р:r с:s
 т:t у:u ф:f х:h ц:c ч:ch ш:sh щ:sch ъ:_ ы:y ь:_ э:e ю:yu я:ya і:i ї:yi є:ye ґ:g"""
 _CYRILLIC = dict(pair.split(":") for pair in _LETTERS_OF_CYRILLIC.split())
@@ -35,7 +56,7 @@ _PINYIN = dict(pair.split(":") for pair in _SYLLABLES.split())
 def _apart(text: str) -> str:
     """Without diacritics, but with signs of scripts that have no letters as they are."""
     bare = "".join(c for c in unicodedata.normalize("NFKD", text.translate(_LETTERS)) if not unicodedata.combining(c))
-    return unicodedata.normalize("NFC", bare)             # or a syllable of Hangul would stay in pieces
+    return unicodedata.normalize("NFC", bare)  # or a syllable of Hangul would stay in pieces
 
 
 def words(name: str) -> str:

@@ -17,11 +17,20 @@ _HEAD = """\
 
 def text_of(draft: Draft) -> str:
     """The whole campaign file; it loads as it stands."""
-    lines = [_HEAD, "schema: thermodata/campaign/1", f"id: {_scalar(draft.campaign)}",
-             "machine:", "  id: unknown                      # ? the machine's number", "sources:"]
+    lines = [
+        _HEAD,
+        "schema: thermodata/campaign/1",
+        f"id: {_scalar(draft.campaign)}",
+        "machine:",
+        "  id: unknown                      # ? the machine's number",
+        "sources:",
+    ]
     lines += [_source(s) for s in draft.sources]
-    lines.append("channels:" if any(c.said.quantity for c in draft.channels) else
-                 "channels: {}                       # ? no signal whose quantity can be told")
+    lines.append(
+        "channels:"
+        if any(c.said.quantity for c in draft.channels)
+        else "channels: {}                       # ? no signal whose quantity can be told"
+    )
     lines += [_channel(c) for c in draft.channels]
     live = [j for j in draft.jumps if j.axis and j.signal]
     lines += ["calibrations:"] if live else []
@@ -60,11 +69,22 @@ def _source(s: DraftSource) -> str:
 def _channel(c: DraftChannel) -> str:
     said = c.said
     moves = said.quantity == "displacement" and said.at == "tcp"
-    keys = {"source": c.source, "signal": c.signal, "quantity": said.quantity, "unit": said.unit, "axis": said.axis,
-            "at": said.at, "relative_to": "table" if moves else None, "calibration": c.calibration}
-    notes = [said.comment(), f"stream {c.stream}" if c.stream else "",
-             f"only in {', '.join(c.only_in[:5])}{' ...' if len(c.only_in) > 5 else ''}" if c.only_in else "",
-             c.note or ""]
+    keys = {
+        "source": c.source,
+        "signal": c.signal,
+        "quantity": said.quantity,
+        "unit": said.unit,
+        "axis": said.axis,
+        "at": said.at,
+        "relative_to": "table" if moves else None,
+        "calibration": c.calibration,
+    }
+    notes = [
+        said.comment(),
+        f"stream {c.stream}" if c.stream else "",
+        f"only in {', '.join(c.only_in[:5])}{' ...' if len(c.only_in) > 5 else ''}" if c.only_in else "",
+        c.note or "",
+    ]
     mark = "  " if said.quantity else "  # "
     name = c.name if said.quantity else _scalar(c.name)
     return f"{mark}{name}: {{{_flow(keys)}}}   # {_line('; '.join(filter(None, notes)))}"
@@ -105,16 +125,19 @@ def _test_comment(t: DraftTest) -> str:
 
 def _tests_from(p: Pattern, draft: Draft) -> list[str]:
     kinds = {t.kind.kind for t in draft.tests}
-    lines = [f"tests_from:   # {len(draft.tests)} tests: {_line(', '.join(t.id for t in draft.tests[:4]))} ...",
-             f"  files: {_scalar(p.files)}"]
+    lines = [
+        f"tests_from:   # {len(draft.tests)} tests: {_line(', '.join(t.id for t in draft.tests[:4]))} ...",
+        f"  files: {_scalar(p.files)}",
+    ]
     if len(draft.sources) > 1:
         lines.append(f"  source: {p.source}")
     if p.units:
         asked = f"   # ? {', '.join(p.doubts)}" if p.doubts else ""
         lines.append(f"  units: {{{_flow(p.units)}}}{asked}")
     said = "; ".join(dict.fromkeys(t.kind.question or f"kind {t.kind.comment}" for t in draft.tests[:3]))
-    lines.append(f"  set: {{kind: {kinds.pop()}, role: none}}   # ? role: calibration, verification or locked?; "
-                 f"{_line(said)}")
+    lines.append(
+        f"  set: {{kind: {kinds.pop()}, role: none}}   # ? role: calibration, verification or locked?; {_line(said)}"
+    )
     return lines
 
 
@@ -132,8 +155,10 @@ def _value(value: object) -> str:
 def _scalar(value: object) -> str:
     """A YAML scalar, quoted where it must be (inside a flow mapping)."""
     text = str(value)
-    safe = re.fullmatch(r"[A-Za-z_][A-Za-z0-9_./%*-]*|\d+(?:\.\d+)? [A-Za-z%][A-Za-z0-9/%^]*", text) \
+    safe = (
+        re.fullmatch(r"[A-Za-z_][A-Za-z0-9_./%*-]*|\d+(?:\.\d+)? [A-Za-z%][A-Za-z0-9/%^]*", text)
         and text.lower() not in _WORDS
+    )
     return text if safe else json.dumps(text, ensure_ascii=not text.isprintable())
 
 

@@ -76,18 +76,23 @@ def _alternatives(needs: Sequence[Need]) -> Iterator[tuple[Need, ...]]:
         yield tuple(needs)
         return
     for i in range(counts.pop()):
-        yield tuple(Need(n.role, n.quantity, n.places[i:i + 1] if len(n.places) > 1 else n.places, n.optional)
-                    for n in needs)
+        yield tuple(
+            Need(n.role, n.quantity, n.places[i : i + 1] if len(n.places) > 1 else n.places, n.optional) for n in needs
+        )
 
 
-def _extend(needs: Sequence[Need], channels: Mapping[str, Described], found: dict[str, str],
-            variables: dict[str, str]) -> Iterator[tuple[dict[str, str], dict[str, str]]]:
+def _extend(
+    needs: Sequence[Need], channels: Mapping[str, Described], found: dict[str, str], variables: dict[str, str]
+) -> Iterator[tuple[dict[str, str], dict[str, str]]]:
     if not needs:
         yield found, variables
         return
     need, rest = needs[0], needs[1:]
-    fitting = [(name, v) for name, info in channels.items()
-               if name not in found.values() and (v := _fits(need, info, variables)) is not None]
+    fitting = [
+        (name, v)
+        for name, info in channels.items()
+        if name not in found.values() and (v := _fits(need, info, variables)) is not None
+    ]
     for name, v in fitting:
         yield from _extend(rest, channels, {**found, need.role: name}, v)
     if need.optional and not fitting:

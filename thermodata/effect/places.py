@@ -18,7 +18,7 @@ def match(pattern: str, place: str | None, known: Mapping[str, str] | None = Non
         return None
     found = dict(known or {})
     wanted, parts = pattern.lower().split("."), place.lower().split(".")
-    if wanted[-1] == "*":                                   # hall.* holds hall itself: one sensor named 'hall'
+    if wanted[-1] == "*":  # hall.* holds hall itself: one sensor named 'hall'
         wanted = wanted[:-1]
     if len(parts) < len(wanted):
         return None

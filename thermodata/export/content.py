@@ -17,8 +17,21 @@ if TYPE_CHECKING:
     from thermodata.view import StoreView
 
 LOGGED = "logged"
-_INFO = ("source", "stream", "signal", "quantity", "unit", "raw_unit", "axis", "at", "relative_to", "sign",
-         "calibration", "sensor", "notes")
+_INFO = (
+    "source",
+    "stream",
+    "signal",
+    "quantity",
+    "unit",
+    "raw_unit",
+    "axis",
+    "at",
+    "relative_to",
+    "sign",
+    "calibration",
+    "sensor",
+    "notes",
+)
 
 
 @dataclass(frozen=True)
@@ -62,27 +75,50 @@ def check_test(view: StoreView, campaign: str, test: str) -> None:
 
 def read_content(view: StoreView, campaign: str, test: str, step: str) -> Content:
     """A test on one grid of `step`, or as it was logged where step is 'logged'."""
-    rows = view.sql("select kind, role, start_ns, clock, conditions, machine, notes, duration_s from test left join "
-                   "machine using (campaign, test) where campaign = ? and test = ?", [campaign, test]).fetchall()
+    rows = view.sql(
+        "select kind, role, start_ns, clock, conditions, machine, notes, duration_s from test left join "
+        "machine using (campaign, test) where campaign = ? and test = ?",
+        [campaign, test],
+    ).fetchall()
     kind, role, start_ns, clock, conditions, machine, notes, duration_s = rows[0]
-    about = {"campaign": campaign, "test": test, "kind": kind, "role": role, "machine": machine, "notes": notes,
-             "duration_s": None if duration_s is None else f"{duration_s:.9g}", "clock": clock}
+    about = {
+        "campaign": campaign,
+        "test": test,
+        "kind": kind,
+        "role": role,
+        "machine": machine,
+        "notes": notes,
+        "duration_s": None if duration_s is None else f"{duration_s:.9g}",
+        "clock": clock,
+    }
     columns = ", ".join(quoted(c) for c in _INFO)
-    found = view.sql(f"select channel, {columns} from channel where campaign = ? and test = ?",
-                     [campaign, test]).fetchall()
-    channels = {str(name): {k: str(v) for k, v in zip(_INFO, values, strict=True) if v not in (None, "")}
-                for name, *values in found}
+    found = view.sql(
+        f"select channel, {columns} from channel where campaign = ? and test = ?", [campaign, test]
+    ).fetchall()
+    channels = {
+        str(name): {k: str(v) for k, v in zip(_INFO, values, strict=True) if v not in (None, "")}
+        for name, *values in found
+    }
     streams = _logged(view, campaign, test) if step == LOGGED else [_binned(view, campaign, test, step)]
     absolute = clock == "absolute" and start_ns is not None
-    return Content(campaign, test, {k: str(v) for k, v in about.items() if v not in (None, "")},
-                   _plain(conditions), channels, int(start_ns) if absolute else None, step,
-                   tuple(s for s in streams if s.values))
+    return Content(
+        campaign,
+        test,
+        {k: str(v) for k, v in about.items() if v not in (None, "")},
+        _plain(conditions),
+        channels,
+        int(start_ns) if absolute else None,
+        step,
+        tuple(s for s in streams if s.values),
+    )
 
 
 def _plain(conditions: Any) -> dict[str, float | str]:
     given = json.loads(conditions) if isinstance(conditions, str) else (conditions or {})
-    return {str(k): float(v) if isinstance(v, int | float) else v if isinstance(v, str) else json.dumps(v)
-            for k, v in given.items()}
+    return {
+        str(k): float(v) if isinstance(v, int | float) else v if isinstance(v, str) else json.dumps(v)
+        for k, v in given.items()
+    }
 
 
 def _binned(view: StoreView, campaign: str, test: str, step: str) -> Stream:
@@ -95,8 +131,10 @@ def _logged(view: StoreView, campaign: str, test: str) -> list[Stream]:
     wide = view.sql('select source, stream, "view" from wide where campaign = ?', [campaign]).fetchall()
     streams = []
     for source, stream, name in wide:
-        table: Any = view.sql(f"select * exclude (campaign, test, source, t) from {quoted(str(name))} "
-                              f"where test = {literal(test)} order by t").to_arrow_table()
+        table: Any = view.sql(
+            f"select * exclude (campaign, test, source, t) from {quoted(str(name))} "
+            f"where test = {literal(test)} order by t"
+        ).to_arrow_table()
         if not table.num_rows:
             continue
         names = [n for n in table.column_names if n != "t_s" and not n.endswith("__flag")]

@@ -16,8 +16,8 @@ import numpy as np
 from thermodata.errors import UsageError
 from thermodata.export.content import Content, Stream
 
-MOST_BYTES = (1 << 31) - (1 << 20)          # of all variables in a file of version 5
-_NAME = 63                                  # characters of a name in MATLAB
+MOST_BYTES = (1 << 31) - (1 << 20)  # of all variables in a file of version 5
+_NAME = 63  # characters of a name in MATLAB
 
 
 def variables(content: Content) -> dict[str, Any]:
@@ -61,8 +61,13 @@ def _safe(name: str) -> str:
     safe = re.sub(r"\W", "_", name, flags=re.ASCII)
     safe = safe if re.match(r"[A-Za-z]", safe) else f"x{safe}"
     if len(safe) > _NAME:
-        raise UsageError("a name is too long for MATLAB", where=name, expected=f"at most {_NAME} characters",
-                         got=str(len(safe)), hint="export CSV or Parquet")
+        raise UsageError(
+            "a name is too long for MATLAB",
+            where=name,
+            expected=f"at most {_NAME} characters",
+            got=str(len(safe)),
+            hint="export CSV or Parquet",
+        )
     return safe
 
 
@@ -114,8 +119,12 @@ def _write73(found: Mapping[str, Any], path: Path) -> None:
     try:
         import h5py
     except ImportError:
-        raise UsageError("the test is too large for a MAT file of version 5", expected=f"at most {MOST_BYTES} bytes",
-                         got=str(size_of(found)), hint="a longer --step, or pip install h5py for version 7.3") from None
+        raise UsageError(
+            "the test is too large for a MAT file of version 5",
+            expected=f"at most {MOST_BYTES} bytes",
+            got=str(size_of(found)),
+            hint="a longer --step, or pip install h5py for version 7.3",
+        ) from None
     with h5py.File(path, "w", userblock_size=512) as file:
         _Writer(file).struct(file, found)
     with path.open("r+b") as raw:
@@ -144,8 +153,9 @@ class _Writer:
 
     def numbers(self, group: Any, key: str, values: Any) -> Any:
         kind = {"float64": "double", "float32": "single"}.get(values.dtype.name, values.dtype.name)
-        more: dict[str, Any] = {"chunks": (1, 65536), "compression": "gzip", "shuffle": True} \
-            if values.shape[0] > 65536 else {}
+        more: dict[str, Any] = (
+            {"chunks": (1, 65536), "compression": "gzip", "shuffle": True} if values.shape[0] > 65536 else {}
+        )
         made = group.create_dataset(key, data=values.T, **more)
         made.attrs["MATLAB_class"] = np.bytes_(kind)
         return made

@@ -30,7 +30,7 @@ def write_mdf(content: Content, path: Path) -> None:
         # exact to the nanosecond, in UTC; 0 says that no clock was absolute
         header.abs_time, header.tz_offset, header.daylight_save_time = content.start_ns or 0, 0, 0
         header.time_flags = 2
-        header.comment = _comment(content)              # first: it clears what is set below
+        header.comment = _comment(content)  # first: it clears what is set below
         header.project, header.subject = content.campaign, content.test
         for stream in content.streams:
             mdf.append(_signals(library.Signal, content, stream), acq_name=stream.name)

@@ -36,17 +36,25 @@ def export_test(
     source at its own times, with its flags. UsageError on unknown names."""
     kind = kind or _BY_SUFFIX.get(out.suffix.lower())
     if kind not in FORMATS:
-        raise UsageError("the file's name does not say the format", where=str(out),
-                         expected=".parquet, .csv, .mat or .mf4", got=out.suffix or "no suffix",
-                         hint="--format parquet")
+        raise UsageError(
+            "the file's name does not say the format",
+            where=str(out),
+            expected=".parquet, .csv, .mat or .mf4",
+            got=out.suffix or "no suffix",
+            hint="--format parquet",
+        )
     check_test(view, campaign, test)
     if step == LOGGED and kind in ("parquet", "csv"):
-        raise UsageError("sources that were logged at their own times are no one table", expected="a step such as 1 s",
-                         got=f"{step} as {kind}", hint="--format mat or mdf4")
+        raise UsageError(
+            "sources that were logged at their own times are no one table",
+            expected="a step such as 1 s",
+            got=f"{step} as {kind}",
+            hint="--format mat or mdf4",
+        )
     out.parent.mkdir(parents=True, exist_ok=True)
-    part = out.with_name(f".{out.name}.{os.getpid()}.part")          # a cut write never looks like a whole file
+    part = out.with_name(f".{out.name}.{os.getpid()}.part")  # a cut write never looks like a whole file
     if kind == "mdf4":
-        part = part.with_suffix(".mf4")                              # asammdf names the file itself
+        part = part.with_suffix(".mf4")  # asammdf names the file itself
     try:
         write = _write_table if kind in ("parquet", "csv") else _write_streams
         rows, columns, units = write(view, campaign, test, step, part, kind)
@@ -56,8 +64,9 @@ def export_test(
     return Exported(str(out), kind, rows, columns, units)
 
 
-def _write_streams(view: StoreView, campaign: str, test: str, step: str, part: Path,
-                   kind: str) -> tuple[int, list[str], dict[str, str]]:
+def _write_streams(
+    view: StoreView, campaign: str, test: str, step: str, part: Path, kind: str
+) -> tuple[int, list[str], dict[str, str]]:
     content = read_content(view, campaign, test, step)
     if kind == "mat":
         from thermodata.export.mat import write_mat
@@ -68,12 +77,16 @@ def _write_streams(view: StoreView, campaign: str, test: str, step: str, part: P
 
         write_mdf(content, part)
     columns = [name for s in content.streams for name in s.values]
-    return (max((s.t_s.size for s in content.streams), default=0), ["t_s", *columns],
-            {"t_s": "s", **{c: content.unit(c) for c in columns if content.unit(c)}})
+    return (
+        max((s.t_s.size for s in content.streams), default=0),
+        ["t_s", *columns],
+        {"t_s": "s", **{c: content.unit(c) for c in columns if content.unit(c)}},
+    )
 
 
-def _write_table(view: StoreView, campaign: str, test: str, step: str, part: Path,
-                 kind: str) -> tuple[int, list[str], dict[str, str]]:
+def _write_table(
+    view: StoreView, campaign: str, test: str, step: str, part: Path, kind: str
+) -> tuple[int, list[str], dict[str, str]]:
     table: Any = view.binned(campaign, test, step=step).to_arrow_table()
     units = _units(view, campaign, test, table.column_names)
     if kind == "parquet":

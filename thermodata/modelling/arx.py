@@ -22,8 +22,13 @@ def placeholder(term: BoundTerm) -> BoundTerm:
     return replace(term, effect=cast(Effect, FreeFunction("varpro", (1, 1))), _drivers={})
 
 
-def identify_arx(bound: BoundResponse, i: int, fitted: Mapping[int, FittedTerm], tests: Sequence[TestData],
-                 wanted: tuple[str, ...] | None) -> BoundResponse:
+def identify_arx(
+    bound: BoundResponse,
+    i: int,
+    fitted: Mapping[int, FittedTerm],
+    tests: Sequence[TestData],
+    wanted: tuple[str, ...] | None,
+) -> BoundResponse:
     """The response with term i as an ARX function of what the other effects leave. orders: numerator, denominator.
 
     y(k) = -b1 y(k-1) - ... + a0 u(k) + a1 u(k-1) + ... + one constant a test; least squares over all tests.
@@ -49,14 +54,23 @@ def identify_arx(bound: BoundResponse, i: int, fitted: Mapping[int, FittedTerm],
         targets.append(rest[good])
     x, y = np.concatenate(rows), np.concatenate(targets)
     if len(y) < 4 * (na + nb):
-        raise UsageError("too few consecutive samples for an ARX function", where=term.id,
-                         expected=f"at least {4 * (na + nb)}", got=str(len(y)), hint="method: oe")
+        raise UsageError(
+            "too few consecutive samples for an ARX function",
+            where=term.id,
+            expected=f"at least {4 * (na + nb)}",
+            got=str(len(y)),
+            hint="method: oe",
+        )
     found = np.linalg.lstsq(x, y, rcond=None)[0]
     try:
-        function = GivenFunction(found[nb:nb + na], [1.0, *-found[:nb]], step_s(tests[0]), where=term.id)
+        function = GivenFunction(found[nb : nb + na], [1.0, *-found[:nb]], step_s(tests[0]), where=term.id)
     except SpecError as error:
-        raise UsageError("the ARX function is not stable", where=term.id, got=error.got,
-                         hint="method: oe, other orders, or a longer step") from None
+        raise UsageError(
+            "the ARX function is not stable",
+            where=term.id,
+            got=error.got,
+            hint="method: oe, other orders, or a longer step",
+        ) from None
     spec = term.spec.model_copy(update={"fixed": {"gain": 1.0}})
     made = replace(term, effect=cast(Effect, function), spec=spec, _drivers={})
     return replace(bound, terms=tuple(made if k == i else t for k, t in enumerate(bound.terms)))

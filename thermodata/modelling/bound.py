@@ -16,7 +16,7 @@ from thermodata.plugin import Bool1D, Drivers, Effect, Float2D
 from thermodata.schema.model import EffectSpec
 from thermodata.view.dataset import TestData
 
-KEPT_TESTS = 1024               # drivers a term keeps; changed copies of tests count too
+KEPT_TESTS = 1024  # drivers a term keeps; changed copies of tests count too
 
 
 @dataclass(frozen=True)
@@ -28,10 +28,11 @@ class BoundTerm:
     spec: EffectSpec
     bindings: Mapping[str, Mapping[str, str]]
     family: str
-    only: frozenset[Key] | None = None                      # the tests it exists in; None: all
-    calibrate: frozenset[Key] | None = None                 # identified on these first, then held
+    only: frozenset[Key] | None = None  # the tests it exists in; None: all
+    calibrate: frozenset[Key] | None = None  # identified on these first, then held
     _drivers: dict[int, tuple[TestData, Drivers, tuple[Drivers, int]]] = field(
-        default_factory=dict, repr=False, compare=False)
+        default_factory=dict, repr=False, compare=False
+    )
 
     @property
     def binding(self) -> Mapping[str, str]:
@@ -93,8 +94,12 @@ class BoundTerm:
         if by in ("test", "machine", "campaign"):
             return str(getattr(test, by))
         if name not in test.conditions:
-            raise unknown_name("condition", name, [*test.conditions, "test", "machine", "campaign"],
-                               where=f"gain_by of effect '{self.id}', test {test.campaign}/{test.test}")
+            raise unknown_name(
+                "condition",
+                name,
+                [*test.conditions, "test", "machine", "campaign"],
+                where=f"gain_by of effect '{self.id}', test {test.campaign}/{test.test}",
+            )
         value = test.conditions[name]
         return f"{value:g}" if isinstance(value, float | int) else str(value)
 

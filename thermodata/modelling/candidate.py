@@ -22,10 +22,12 @@ def candidate_spec(candidate: str, channels: Mapping[str, Described]) -> EffectS
     fitting = [c for c in choices if list(c.values()) == given or not given]
     if len(fitting) == 1:
         return EffectSpec(effect=name, drivers=dict(fitting[0]))
-    if len(given) == len(found.needs):                      # a channel without a place, named on purpose
+    if len(given) == len(found.needs):  # a channel without a place, named on purpose
         return EffectSpec(effect=name, drivers={n.role: c for n, c in zip(found.needs, given, strict=True)})
-    raise UsageError(f"candidate '{candidate}' fits {len(fitting) or 'no'} sets of channels",
-                     expected=", ".join(f"{name}:{','.join(c.values())}" for c in choices) or "an effect that fits")
+    raise UsageError(
+        f"candidate '{candidate}' fits {len(fitting) or 'no'} sets of channels",
+        expected=", ".join(f"{name}:{','.join(c.values())}" for c in choices) or "an effect that fits",
+    )
 
 
 def with_effect(spec: Model, effect: EffectSpec) -> Model:

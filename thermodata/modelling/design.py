@@ -16,9 +16,9 @@ from thermodata.modelling.fitted import fit_mask
 from thermodata.plugin import Bool1D, Float1D, Float2D, Param
 from thermodata.view.dataset import TestData
 
-KEPT_BYTES = 256 * 2**20        # of columns, before they all go
-GRID = 9                        # first look at a time constant or an exponent
-MOMENTS = 145                   # first look at a moment: its error has no slope to follow
+KEPT_BYTES = 256 * 2**20  # of columns, before they all go
+GRID = 9  # first look at a time constant or an exponent
+MOMENTS = 145  # first look at a moment: its error has no slope to follow
 
 
 @dataclass(frozen=True)
@@ -53,8 +53,13 @@ class Nonlinear:
 class Design:
     """What stays the same while a fit searches: tests, masks, centred response, slots."""
 
-    def __init__(self, bound: BoundResponse, terms: Sequence[BoundTerm], tests: Sequence[TestData],
-                 wanted: tuple[str, ...] | None) -> None:
+    def __init__(
+        self,
+        bound: BoundResponse,
+        terms: Sequence[BoundTerm],
+        tests: Sequence[TestData],
+        wanted: tuple[str, ...] | None,
+    ) -> None:
         self.bound, self.terms, self.tests = bound, tuple(terms), tuple(tests)
         self.masks: list[Bool1D] = [fit_mask(bound, list(terms), wanted, t) for t in tests]
         self.counts = [int(m.sum()) for m in self.masks]
@@ -63,7 +68,8 @@ class Design:
         self.n = int(edges[-1])
         self.y: Float1D = np.concatenate(
             [_centred(t.values[bound.channel_of(t)][m]) for t, m in zip(tests, self.masks, strict=True)]
-            or [np.zeros(0)])
+            or [np.zeros(0)]
+        )
         self.slots = tuple(self._slots())
         self._kept: dict[tuple[int, tuple[float, ...]], Float2D] = {}
 

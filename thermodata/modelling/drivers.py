@@ -16,15 +16,25 @@ from thermodata.plugin import Bool1D, Drivers, Effect, Float1D
 from thermodata.view.dataset import TestData
 
 # zero means at rest; everything else has an arbitrary zero and counts from the start of the record
-ZERO_AT_REST = frozenset({
-    "rotational_speed", "feed", "power", "load", "current", "torque", "flow", "state", "irradiance",
-})
-FILL_S = 1800.0                 # a driver may be missing this long before what it predicts stops counting
-CYCLE_S = 7200.0                # a driver that changes sides TURNS times within this long goes in cycles
+ZERO_AT_REST = frozenset(
+    {
+        "rotational_speed",
+        "feed",
+        "power",
+        "load",
+        "current",
+        "torque",
+        "flow",
+        "state",
+        "irradiance",
+    }
+)
+FILL_S = 1800.0  # a driver may be missing this long before what it predicts stops counting
+CYCLE_S = 7200.0  # a driver that changes sides TURNS times within this long goes in cycles
 TURNS = 4
-BAND = 0.15                     # of its range, about its mean: no side
-EDGE = 0.08                     # of its range: where a start is a start
-START_S = 300.0                 # the start value is a mean of at most this, while the driver does not move
+BAND = 0.15  # of its range, about its mean: no side
+EDGE = 0.08  # of its range: where a start is a start
+START_S = 300.0  # the start value is a mean of at most this, while the driver does not move
 
 
 def make_drivers(test: TestData, effect: Effect, binding: Mapping[str, str]) -> Drivers:
@@ -34,7 +44,7 @@ def make_drivers(test: TestData, effect: Effect, binding: Mapping[str, str]) -> 
     quantity = {need.role: need.quantity for need in effect.needs}
     for role, text in binding.items():
         raw, good, relative = evaluate(test, text)
-        if quantity.get(role) == "position":                # an effect that names position means the coordinate
+        if quantity.get(role) == "position":  # an effect that names position means the coordinate
             relative = False
         values[role], valid[role] = prepare(raw, good, step_s(test), relative)
     return Drivers(test.t_s, values, valid, test.conditions)
@@ -51,8 +61,9 @@ def names_of(text: str) -> tuple[str, ...]:
 
 def has_drivers(test: TestData, binding: Mapping[str, str]) -> bool:
     """Whether the test has all that the binding reads, with at least one valid sample each."""
-    return all(name in test.values and bool(np.any(_good(test, name)))
-               for text in binding.values() for name in names_of(text))
+    return all(
+        name in test.values and bool(np.any(_good(test, name))) for text in binding.values() for name in names_of(text)
+    )
 
 
 def evaluate(test: TestData, text: str) -> tuple[Float1D, Bool1D, bool]:
@@ -73,7 +84,7 @@ def evaluate(test: TestData, text: str) -> tuple[Float1D, Bool1D, bool]:
         tree = parse(text)
         found = tree.evaluate({name: test.values[name] for name in names}, {name: _unit(test, name) for name in names})
         raw = np.asarray(found, dtype=np.float64)
-        relative = relative and not tree.logical            # a condition is a state: zero is off
+        relative = relative and not tree.logical  # a condition is a state: zero is off
     return np.where(good, raw, np.nan), good & np.isfinite(raw), relative
 
 

@@ -43,8 +43,14 @@ def fit_model(spec: Model, data: Dataset, *, base: Path | None = None, uncertain
     return FittedModel(spec, roles, tuple(responses), tuple(dict.fromkeys(skipped)))
 
 
-def fit_response(bound: BoundResponse, tests: Sequence[TestData], wanted: tuple[str, ...] | None,
-                 data: Dataset | None = None, *, uncertainty: bool = True) -> FittedResponse:
+def fit_response(
+    bound: BoundResponse,
+    tests: Sequence[TestData],
+    wanted: tuple[str, ...] | None,
+    data: Dataset | None = None,
+    *,
+    uncertainty: bool = True,
+) -> FittedResponse:
     """Fit one response to some tests (all must have its drivers). data: where effects that are identified first
     find their own tests (default: among `tests`)."""
     for i in open_orders(bound):
@@ -53,12 +59,15 @@ def fit_response(bound: BoundResponse, tests: Sequence[TestData], wanted: tuple[
     held: dict[int, FittedTerm] = {}
     for own, members in _stages(bound.terms):
         pool = tests if data is None else data.tests
-        first, _ = _usable(replace(bound, terms=tuple(bound.terms[i] for i in members)),
-                           [t for t in pool if t.key in own])
+        first, _ = _usable(
+            replace(bound, terms=tuple(bound.terms[i] for i in members)), [t for t in pool if t.key in own]
+        )
         if not first:
-            raise UsageError("no usable test for an effect that is identified first",
-                             where=", ".join(bound.terms[i].id for i in members),
-                             expected="the response and the drivers in " + ", ".join("/".join(k) for k in own))
+            raise UsageError(
+                "no usable test for an effect that is identified first",
+                where=", ".join(bound.terms[i].id for i in members),
+                expected="the response and the drivers in " + ", ".join("/".join(k) for k in own),
+            )
         part = _fit(bound, members, {}, first, wanted, uncertainty)
         held |= {i: replace(part[i], held=True) for i in members}
     rest = [i for i in range(len(bound.terms)) if i not in held]
@@ -101,15 +110,24 @@ def _stages(terms: Sequence[BoundTerm]) -> list[tuple[frozenset[Key], list[int]]
     return list(found.items())
 
 
-def _fit(bound: BoundResponse, members: Sequence[int], held: Mapping[int, FittedTerm], tests: Sequence[TestData],
-         wanted: tuple[str, ...] | None, uncertainty: bool) -> dict[int, FittedTerm]:
+def _fit(
+    bound: BoundResponse,
+    members: Sequence[int],
+    held: Mapping[int, FittedTerm],
+    tests: Sequence[TestData],
+    wanted: tuple[str, ...] | None,
+    uncertainty: bool,
+) -> dict[int, FittedTerm]:
     """Fit some terms of a response together, with others held."""
     order = [*members, *held]
     design = Design(bound, [bound.terms[i] for i in order], tests, wanted)
     if not design.n:
-        raise UsageError("no sample counts in the calibration tests", where=f"response '{bound.name}'",
-                         got=", ".join(f"{t.campaign}/{t.test}" for t in tests) or "no test",
-                         hint="look at the response's flags (thermodata quality) and at 'phases'")
+        raise UsageError(
+            "no sample counts in the calibration tests",
+            where=f"response '{bound.name}'",
+            got=", ".join(f"{t.campaign}/{t.test}" for t in tests) or "no test",
+            hint="look at the response's flags (thermodata quality) and at 'phases'",
+        )
     problem = make_problem(design, {order.index(i): term for i, term in held.items()})
     x = search(problem)
     gains = problem.gains(problem.matrix(x))
@@ -118,16 +136,19 @@ def _fit(bound: BoundResponse, members: Sequence[int], held: Mapping[int, Fitted
     for s, (slot, params) in enumerate(zip(design.slots, problem.params(x), strict=True)):
         if order[slot.term] in found:
             names = [g.name for g in bound.terms[order[slot.term]].effect.gains]
-            values = gains[problem.starts[s]:problem.starts[s + 1]]
+            values = gains[problem.starts[s] : problem.starts[s + 1]]
             found[order[slot.term]][slot.group] = Values(
-                params, dict(zip(names, map(float, values), strict=True)), sds[s], logs, problem.silent[s])
+                params, dict(zip(names, map(float, values), strict=True)), sds[s], logs, problem.silent[s]
+            )
     return {i: FittedTerm(bound.terms[i], groups or {"": _at_start(bound.terms[i])}) for i, groups in found.items()}
 
 
 def _at_start(term: BoundTerm) -> Values:
     """A term that none of the tests covers: at its start, with no gain."""
-    return Values({p.name: p.start for p in term.effect.params},
-                  {g.name: term.spec.fixed.get(g.name, 0.0) for g in term.effect.gains})
+    return Values(
+        {p.name: p.start for p in term.effect.params},
+        {g.name: term.spec.fixed.get(g.name, 0.0) for g in term.effect.gains},
+    )
 
 
 def make_problem(design: Design, held: Mapping[int, FittedTerm]) -> Problem:
@@ -163,15 +184,23 @@ def make_problem(design: Design, held: Mapping[int, FittedTerm]) -> Problem:
             if param.name in term.spec.fixed:
                 continue
             together = not term.spec.shared or param.name in term.spec.shared
-            for group in ([tuple(slots)] if together else [(s,) for s in slots]):
+            for group in [tuple(slots)] if together else [(s,) for s in slots]:
                 _add(design, term, param, group, free, fixed)
-    silent = [frozenset(set(p) - set(design.terms[slot.term].spec.fixed)) if slot.term not in held else frozenset[str]()
-              for slot, p in zip(design.slots, fixed, strict=True)]
+    silent = [
+        frozenset(set(p) - set(design.terms[slot.term].spec.fixed)) if slot.term not in held else frozenset[str]()
+        for slot, p in zip(design.slots, fixed, strict=True)
+    ]
     return Problem(design, free, fixed, np.array(low), np.array(high), silent)
 
 
-def _add(design: Design, term: BoundTerm, param: Param, slots: tuple[int, ...], free: list[Nonlinear],
-         fixed: list[dict[str, float]]) -> None:
+def _add(
+    design: Design,
+    term: BoundTerm,
+    param: Param,
+    slots: tuple[int, ...],
+    free: list[Nonlinear],
+    fixed: list[dict[str, float]],
+) -> None:
     lower, upper = term.spec.bounds.get(param.name, (param.lower, param.upper))
     moment = param.unit == "min" and param.lower <= 0
     if moment and param.name not in term.spec.bounds:
@@ -186,8 +215,7 @@ def _add(design: Design, term: BoundTerm, param: Param, slots: tuple[int, ...], 
             fixed[s][param.name] = start
 
 
-def _matters(design: Design, term: BoundTerm, param: Param, slots: tuple[int, ...],
-             ends: tuple[float, float]) -> bool:
+def _matters(design: Design, term: BoundTerm, param: Param, slots: tuple[int, ...], ends: tuple[float, float]) -> bool:
     """An exponent of a speed means nothing where a temperature drives the effect."""
     if not design.slots or len(term.effect.params) == 1:
         return True

@@ -26,7 +26,7 @@ class Values:
     gains: Mapping[str, float]
     sd: Mapping[str, float] = field(default_factory=dict)
     log_names: frozenset[str] = frozenset()
-    silent: frozenset[str] = frozenset()                    # params that change nothing with these drivers
+    silent: frozenset[str] = frozenset()  # params that change nothing with these drivers
 
 
 @dataclass(frozen=True)
@@ -35,7 +35,7 @@ class FittedTerm:
 
     bound: BoundTerm
     groups: Mapping[str, Values]
-    held: bool = False                                      # identified on its own tests, then held
+    held: bool = False  # identified on its own tests, then held
 
     @property
     def id(self) -> str:
@@ -99,7 +99,7 @@ class FittedResponse:
     phases: tuple[str, ...] | None
     calibrate: frozenset[Key]
     checks: tuple[Check, ...] = ()
-    noise: float | None = None                              # rms of the calibration residual
+    noise: float | None = None  # rms of the calibration residual
 
     @property
     def name(self) -> str:
@@ -131,8 +131,12 @@ class FittedResponse:
     def offset(self, test: TestData, how: str | None = None) -> float:
         """Measured minus predicted: 'free' over all that counts (calibration tests), 'zero' over the first zero_s
         of it (all others). 0 where nothing counts."""
-        return _offset(self.measured(test) - self.predict(test), self.mask(test), test,
-                       how or ("free" if test.key in self.calibrate else "zero"))
+        return _offset(
+            self.measured(test) - self.predict(test),
+            self.mask(test),
+            test,
+            how or ("free" if test.key in self.calibrate else "zero"),
+        )
 
     def residual(self, test: TestData) -> Float1D:
         """Measured minus predicted minus offset; NaN where there is no measurement."""
@@ -146,7 +150,7 @@ class FittedModel:
     spec: Model
     roles: Roles
     responses: tuple[FittedResponse, ...]
-    skipped: tuple[str, ...] = ()                           # tests without the response or a driver, and why
+    skipped: tuple[str, ...] = ()  # tests without the response or a driver, and why
     detail: Mapping[str, Any] = field(default_factory=dict)
 
     def parameters(self) -> dict[str, Parameter]:
@@ -170,8 +174,7 @@ def has_response(bound: BoundResponse, test: TestData) -> bool:
     return name in test.values and bool(np.isfinite(test.values[name]).any())
 
 
-def fit_mask(bound: BoundResponse, terms: list[BoundTerm], wanted: tuple[str, ...] | None,
-             test: TestData) -> Bool1D:
+def fit_mask(bound: BoundResponse, terms: list[BoundTerm], wanted: tuple[str, ...] | None, test: TestData) -> Bool1D:
     """See FittedResponse.mask."""
     name = bound.channel_of(test)
     if name not in test.values:

@@ -15,7 +15,7 @@ from thermodata.modelling.drivers import CYCLE_S, cycle_mean
 from thermodata.plugin import Drivers, Effect, Float1D, Float2D
 
 LEAD_S = 4 * 3600.0
-ALIKE = 0.5                     # autocorrelation at the period that makes it one
+ALIKE = 0.5  # autocorrelation at the period that makes it one
 
 
 def with_lead(drivers: Drivers) -> tuple[Drivers, int]:

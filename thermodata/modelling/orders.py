@@ -17,16 +17,19 @@ from thermodata.modelling.transfer import MOST, NAME, FreeFunction
 from thermodata.plugin import Effect
 from thermodata.view.dataset import TestData
 
-AS_GOOD = 0.5                   # points of FIT
-APART = 1.5                     # ratio of two time constants
-SURE = 0.7                      # standard deviation of log(tau)
+AS_GOOD = 0.5  # points of FIT
+APART = 1.5  # ratio of two time constants
+SURE = 0.7  # standard deviation of log(tau)
 Fit = Callable[[BoundResponse], FittedResponse]
 
 
 def open_orders(bound: BoundResponse) -> list[int]:
     """Places of the terms whose orders the file leaves open."""
-    return [i for i, t in enumerate(bound.terms)
-            if t.spec.effect == NAME and t.spec.orders is None and isinstance(t.effect, FreeFunction)]
+    return [
+        i
+        for i, t in enumerate(bound.terms)
+        if t.spec.effect == NAME and t.spec.orders is None and isinstance(t.effect, FreeFunction)
+    ]
 
 
 def choose_orders(bound: BoundResponse, i: int, tests: Sequence[TestData], fit: Fit) -> BoundResponse:
@@ -48,7 +51,7 @@ def choose_orders(bound: BoundResponse, i: int, tests: Sequence[TestData], fit: 
         trial = with_orders(bound, i, orders)
         try:
             tried.append((free_run_fit(fit(trial), tests), sum(orders), trial))
-        except UsageError:                                  # not stable
+        except UsageError:  # not stable
             continue
     if not tried:
         raise UsageError("no order from 1 to 4 gives a stable function", where=bound.terms[i].id, hint="method: varpro")

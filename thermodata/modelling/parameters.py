@@ -28,8 +28,11 @@ def term_parameters(response: FittedResponse, term: FittedTerm) -> dict[str, Par
     found: dict[str, Parameter] = {}
     for group, values in term.groups.items():
         tag = f"[{group}]" if term.bound.spec.gain_by else ""
-        own = {p.name for p in term.effect.params
-               if term.bound.spec.gain_by and term.bound.spec.shared and p.name not in term.bound.spec.shared}
+        own = {
+            p.name
+            for p in term.effect.params
+            if term.bound.spec.gain_by and term.bound.spec.shared and p.name not in term.bound.spec.shared
+        }
         for param in term.effect.params:
             if param.name in values.silent:
                 continue

@@ -8,7 +8,7 @@ from thermodata.plugin import Bool1D
 from thermodata.view.dataset import TestData
 
 _ACTIVITY = ("rotational_speed", "feed", "power", "load")
-STEADY = 0.9                     # heating ends where the response has covered this part of its way
+STEADY = 0.9  # heating ends where the response has covered this part of its way
 SHORTEST_S = 600.0
 
 

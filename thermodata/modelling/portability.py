@@ -15,7 +15,7 @@ from thermodata.plugin import Bool1D, Float1D
 from thermodata.view.dataset import Dataset, TestData
 
 Verdict = Literal["portable", "with_correction", "not_portable"]
-END_S = 1800.0                  # the end of heating is a mean over this long
+END_S = 1800.0  # the end of heating is a mean over this long
 
 
 @dataclass(frozen=True)
@@ -52,8 +52,9 @@ def portability(fitted: FittedModel, data: Dataset, *, locked: bool = False) -> 
     return found
 
 
-def classify(g: float | None, fit_n: float | None, fit_c: float | None, ptp_measured: float, ptp_n: float,
-             ptp_c: float) -> Verdict:
+def classify(
+    g: float | None, fit_n: float | None, fit_c: float | None, ptp_measured: float, ptp_n: float, ptp_c: float
+) -> Verdict:
     """Portable: |g - 1| <= 0.1, uncorrected FIT > 80 and the peak to peak falls. Not portable: no g, g outside
     0.33..3, corrected FIT < 20, or the peak to peak rises. Else with correction. Source: paper 000."""
     if g is None or not math.isfinite(g) or fit_c is None:
@@ -83,9 +84,19 @@ def _carry(response: FittedResponse, test: TestData, role: str) -> Portability:
     plain = y - p
     numbers = (peak_sum(y[mask]), peak_sum(plain[mask]), peak_sum(corrected[mask]))
     fit_n, fit_c = fit_percent(y[mask], plain[mask]), fit_percent(y[mask], corrected[mask])
-    return Portability(test.campaign, test.test, test.machine, role, response.name, g,
-                       _end_of_heating(response, test, mask, y, p), fit_n, fit_c, *numbers,
-                       classify(g, fit_n, fit_c, *numbers))
+    return Portability(
+        test.campaign,
+        test.test,
+        test.machine,
+        role,
+        response.name,
+        g,
+        _end_of_heating(response, test, mask, y, p),
+        fit_n,
+        fit_c,
+        *numbers,
+        classify(g, fit_n, fit_c, *numbers),
+    )
 
 
 def _end_of_heating(response: FittedResponse, test: TestData, mask: Bool1D, y: Float1D, p: Float1D) -> float | None:

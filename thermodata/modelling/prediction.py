@@ -63,8 +63,13 @@ def read_prediction(path: Path) -> Prediction:
             for column in _COLUMNS:
                 if column not in names:
                     close = nearest(column, list(names))
-                    raise SpecError(f"no column '{column}'", where=str(path), expected=", ".join(_COLUMNS),
-                                    got=", ".join(names), hint=f"rename '{close}'" if close else None)
+                    raise SpecError(
+                        f"no column '{column}'",
+                        where=str(path),
+                        expected=", ".join(_COLUMNS),
+                        got=", ".join(names),
+                        hint=f"rename '{close}'" if close else None,
+                    )
             for row in rows:
                 try:
                     t, y = float(row[names["t_s"]]), float(row[names["predicted"]])

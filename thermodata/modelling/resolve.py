@@ -28,9 +28,15 @@ def resolve(spec: Model, data: Dataset, base: Path | None = None) -> tuple[Roles
     for response in spec.responses:
         names = {c: find_response(response, channels, c) for c, channels in by_campaign.items()}
         first = next(iter(names))
-        responses.append(BoundResponse(names[first], by_campaign[first][names[first]].unit, names,
-                                       bind_terms(spec.effects, data, by_campaign, base),
-                                       {n: i.unit for infos in by_campaign.values() for n, i in infos.items()}))
+        responses.append(
+            BoundResponse(
+                names[first],
+                by_campaign[first][names[first]].unit,
+                names,
+                bind_terms(spec.effects, data, by_campaign, base),
+                {n: i.unit for infos in by_campaign.values() for n, i in infos.items()},
+            )
+        )
     return roles, tuple(responses)
 
 
@@ -41,34 +47,53 @@ def find_response(response: Response, channels: Mapping[str, ChannelInfo], campa
             raise unknown_name("channel", response.channel, list(channels), where=f"response, campaign {campaign}")
         return response.channel
     moving = {n: i for n, i in channels.items() if i.quantity in ("displacement", "tilt")}
-    hits = [n for n, i in moving.items() if i.axis == response.axis
-            and (response.at is None or i.at == response.at or holds(response.at, i.at))]
+    hits = [
+        n
+        for n, i in moving.items()
+        if i.axis == response.axis and (response.at is None or i.at == response.at or holds(response.at, i.at))
+    ]
     exact = [n for n in hits if response.at is not None and moving[n].at == response.at]
     hits = exact or hits
     wanted = f"{{axis: {response.axis}{f', at: {response.at}' if response.at else ''}}}"
     if not hits:
-        raise SpecError(f"no displacement is {wanted}", where=f"response, campaign {campaign}", expected=", ".join(
-            f"{n} (axis {i.axis}, at {i.at})" for n, i in moving.items()) or "a displacement channel")
+        raise SpecError(
+            f"no displacement is {wanted}",
+            where=f"response, campaign {campaign}",
+            expected=", ".join(f"{n} (axis {i.axis}, at {i.at})" for n, i in moving.items())
+            or "a displacement channel",
+        )
     if len(hits) > 1:
-        raise SpecError(f"several displacements are {wanted}", where=f"response, campaign {campaign}",
-                        got=", ".join(f"{n} (at {moving[n].at})" for n in hits),
-                        hint=f"name one: response: {{channel: {hits[0]}}}")
+        raise SpecError(
+            f"several displacements are {wanted}",
+            where=f"response, campaign {campaign}",
+            got=", ".join(f"{n} (at {moving[n].at})" for n in hits),
+            hint=f"name one: response: {{channel: {hits[0]}}}",
+        )
     return hits[0]
 
 
-def bind_terms(effects: Sequence[EffectSpec], data: Dataset, by_campaign: Mapping[str, Mapping[str, ChannelInfo]],
-               base: Path | None = None) -> tuple[BoundTerm, ...]:
+def bind_terms(
+    effects: Sequence[EffectSpec],
+    data: Dataset,
+    by_campaign: Mapping[str, Mapping[str, ChannelInfo]],
+    base: Path | None = None,
+) -> tuple[BoundTerm, ...]:
     ids = term_ids(effects)
     terms = []
     for name, given in zip(ids, effects, strict=True):
         spec = as_it_was_made(given)
         made = make_effect(spec, name, base)
-        found = {c: bind(made, spec.drivers, channels, f"effect '{name}', campaign {c}")
-                 for c, channels in by_campaign.items()}
+        found = {
+            c: bind(made, spec.drivers, channels, f"effect '{name}', campaign {c}")
+            for c, channels in by_campaign.items()
+        }
         first = next(iter(by_campaign))
         only = None if spec.tests is None else frozenset(find_tests(spec.tests, data, f"effect '{name}': tests"))
-        calibrate = (None if spec.calibrate_on is None
-                     else frozenset(find_tests(spec.calibrate_on, data, f"effect '{name}': calibrate_on")))
+        calibrate = (
+            None
+            if spec.calibrate_on is None
+            else frozenset(find_tests(spec.calibrate_on, data, f"effect '{name}': calibrate_on"))
+        )
         known = [p.name for p in made.params] + [g.name for g in made.gains]
         for key in [*spec.fixed, *spec.start, *spec.bounds, *spec.shared]:
             if key not in known and not (spec.effect == transfer.NAME and transfer.is_coefficient(key)):
@@ -118,8 +143,9 @@ def make_effect(spec: EffectSpec, where: str, base: Path | None) -> Effect:
     return find_effect(spec.effect)
 
 
-def bind(effect: Effect, given: Mapping[str, Driver], channels: Mapping[str, ChannelInfo],
-         where: str) -> dict[str, str]:
+def bind(
+    effect: Effect, given: Mapping[str, Driver], channels: Mapping[str, ChannelInfo], where: str
+) -> dict[str, str]:
     """role -> channel or expression. What is not given is found by place; several fits are an error."""
     needs = {n.role: n for n in effect.needs}
     found: dict[str, str] = {}
@@ -134,26 +160,40 @@ def bind(effect: Effect, given: Mapping[str, Driver], channels: Mapping[str, Cha
         return found
     choices = bindings(cast(Effect, SimpleNamespace(needs=rest)), channels)
     if not choices:
-        raise SpecError(f"no channel fits what '{effect.name}' needs", where=where, expected="; ".join(
-            f"{n.role}: {n.quantity} at {' or '.join(n.places) or 'any place'}" for n in rest),
+        raise SpecError(
+            f"no channel fits what '{effect.name}' needs",
+            where=where,
+            expected="; ".join(f"{n.role}: {n.quantity} at {' or '.join(n.places) or 'any place'}" for n in rest),
             got=", ".join(f"{n} ({i.quantity} at {i.at})" for n, i in channels.items()),
-            hint=f"name it: drivers: {{{rest[0].role}: CHANNEL}}")
+            hint=f"name it: drivers: {{{rest[0].role}: CHANNEL}}",
+        )
     if len(choices) > 1:
-        raise SpecError(f"several channels fit what '{effect.name}' needs", where=where,
-                        got="; ".join(", ".join(f"{r}: {c}" for r, c in choice.items()) for choice in choices[:20]),
-                        hint=f"name one: drivers: {{{', '.join(f'{r}: {c}' for r, c in choices[0].items())}}}")
+        raise SpecError(
+            f"several channels fit what '{effect.name}' needs",
+            where=where,
+            got="; ".join(", ".join(f"{r}: {c}" for r, c in choice.items()) for choice in choices[:20]),
+            hint=f"name one: drivers: {{{', '.join(f'{r}: {c}' for r, c in choices[0].items())}}}",
+        )
     return {**found, **choices[0]}
 
 
 def _driver(driver: Driver, quantity: str, channels: Mapping[str, ChannelInfo], where: str) -> str:
     if isinstance(driver, Place):
-        hits = [n for n, i in channels.items() if holds(driver.at, i.at)
-                and (i.quantity == quantity if quantity != ANY else i.quantity not in ("displacement", "label"))]
+        hits = [
+            n
+            for n, i in channels.items()
+            if holds(driver.at, i.at)
+            and (i.quantity == quantity if quantity != ANY else i.quantity not in ("displacement", "label"))
+        ]
         if len(hits) != 1:
             places = sorted({i.at for i in channels.values() if i.at})
-            raise SpecError(f"{len(hits) or 'no'} channels lie at '{driver.at}'", where=where, expected="one",
-                            got=", ".join(hits) or f"places: {', '.join(places)}",
-                            hint="name the channel" if hits else None)
+            raise SpecError(
+                f"{len(hits) or 'no'} channels lie at '{driver.at}'",
+                where=where,
+                expected="one",
+                got=", ".join(hits) or f"places: {', '.join(places)}",
+                hint="name the channel" if hits else None,
+            )
         return hits[0]
     for name in names_of(driver):
         if name not in channels:

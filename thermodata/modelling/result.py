@@ -25,12 +25,28 @@ def model_id(spec: Model, data_version: str, base: Path | None = None) -> str:
     return digest.hexdigest()[:ID_LENGTH]
 
 
-def make_result(fitted: FittedModel, data: Dataset, identity: str, *, parent: str | None = None,
-                before: list[Score] | None = None, locked: bool = False) -> FitResult:
+def make_result(
+    fitted: FittedModel,
+    data: Dataset,
+    identity: str,
+    *,
+    parent: str | None = None,
+    before: list[Score] | None = None,
+    locked: bool = False,
+) -> FitResult:
     names = [r.name for r in fitted.responses]
-    skipped = [Check(name=f"skipped:{why.split(':')[0]}", value=None, threshold=None, passed=False, advice=why)
-               for why in fitted.skipped]
+    skipped = [
+        Check(name=f"skipped:{why.split(':')[0]}", value=None, threshold=None, passed=False, advice=why)
+        for why in fitted.skipped
+    ]
     return FitResult(
-        model=identity, name=fitted.spec.name, parent=parent, campaigns=list(fitted.spec.campaign_ids),
-        response=names[0] if len(names) == 1 else names, parameters=fitted.parameters(),
-        scores=scores(fitted, data, identity, locked=locked), checks=[*fitted.checks(), *skipped], before=before)
+        model=identity,
+        name=fitted.spec.name,
+        parent=parent,
+        campaigns=list(fitted.spec.campaign_ids),
+        response=names[0] if len(names) == 1 else names,
+        parameters=fitted.parameters(),
+        scores=scores(fitted, data, identity, locked=locked),
+        checks=[*fitted.checks(), *skipped],
+        before=before,
+    )

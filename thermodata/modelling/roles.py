@@ -29,25 +29,35 @@ class Roles:
 
 def resolve_roles(spec: Model, data: Dataset) -> Roles:
     """Named tests, else by the tests' own roles. SpecError where nothing is left to calibrate on or roles overlap."""
-    explicit = {name: None if names is None else find_tests(names, data, name)
-                for name, names in (("calibrate_on", spec.calibrate_on), ("verify_on", spec.verify_on),
-                                    ("locked", spec.locked))}
+    explicit = {
+        name: None if names is None else find_tests(names, data, name)
+        for name, names in (("calibrate_on", spec.calibrate_on), ("verify_on", spec.verify_on), ("locked", spec.locked))
+    }
     taken: dict[Key, str] = {}
     for name, keys in explicit.items():
         for key in keys or ():
             if taken.setdefault(key, name) != name:
-                raise SpecError(f"test '{'/'.join(key)}' has two roles", where=f"model '{spec.name}'",
-                                got=f"{taken[key]} and {name}", hint="a locked or verification test is not fitted to")
+                raise SpecError(
+                    f"test '{'/'.join(key)}' has two roles",
+                    where=f"model '{spec.name}'",
+                    got=f"{taken[key]} and {name}",
+                    hint="a locked or verification test is not fitted to",
+                )
 
     def default(role: str) -> tuple[Key, ...]:
         return tuple(t.key for t in data.tests if t.role == role and t.key not in taken)
 
-    found = [default(role) if explicit[name] is None else explicit[name] or ()
-             for name, role in (("calibrate_on", "calibration"), ("verify_on", "verification"), ("locked", "locked"))]
+    found = [
+        default(role) if explicit[name] is None else explicit[name] or ()
+        for name, role in (("calibrate_on", "calibration"), ("verify_on", "verification"), ("locked", "locked"))
+    ]
     if not found[0]:
-        raise SpecError("no test to calibrate on", where=f"model '{spec.name}'",
-                        expected="calibrate_on: [...], or tests with role: calibration",
-                        got=", ".join(f"{t.test} ({t.role})" for t in data.tests) or "no tests at all")
+        raise SpecError(
+            "no test to calibrate on",
+            where=f"model '{spec.name}'",
+            expected="calibrate_on: [...], or tests with role: calibration",
+            got=", ".join(f"{t.test} ({t.role})" for t in data.tests) or "no tests at all",
+        )
     return Roles(*found)
 
 
@@ -59,7 +69,8 @@ def find_tests(names: Sequence[str], data: Dataset, where: str) -> tuple[Key, ..
         if not hits:
             raise unknown_name("test", name, [t.test for t in data.tests], where=where)
         if len(hits) > 1:
-            raise SpecError(f"test '{name}' is in several campaigns", where=where,
-                            expected=" or ".join("/".join(h) for h in hits))
+            raise SpecError(
+                f"test '{name}' is in several campaigns", where=where, expected=" or ".join("/".join(h) for h in hits)
+            )
         found.append(hits[0])
     return tuple(dict.fromkeys(found))

@@ -47,8 +47,9 @@ def load_data(store: Store, spec: Model) -> Dataset:
     return load_dataset(store, list(spec.campaign_ids), spec.step)
 
 
-def fit(store: Store, spec: Model, *, base: Path | None = None, parent: str | None = None,
-        before: list[Score] | None = None) -> FitResult:
+def fit(
+    store: Store, spec: Model, *, base: Path | None = None, parent: str | None = None, before: list[Score] | None = None
+) -> FitResult:
     """Fit and save. base: the folder of the model file, which `file` of an effect is relative to."""
     from thermodata.store.models import save_fit
 
@@ -56,8 +57,14 @@ def fit(store: Store, spec: Model, *, base: Path | None = None, parent: str | No
     data = load_data(store, spec)
     fitted = fit_model(spec, data)
     result = make_result(fitted, data, model_id(spec, data.data_version), parent=parent, before=before)
-    save_fit(store, spec=spec, result=result, parent=parent, predictions=prediction_tables(fitted, data),
-             data_version=data.data_version)
+    save_fit(
+        store,
+        spec=spec,
+        result=result,
+        parent=parent,
+        predictions=prediction_tables(fitted, data),
+        data_version=data.data_version,
+    )
     return result
 
 
@@ -102,8 +109,11 @@ def _candidate(store: Store, model: str, spec: Model, candidate: str | int) -> E
             raise UsageError(f"model '{model}' has no diagnosis yet", hint=f"thermodata diagnose {model}")
         ranks = {c.rank: c.id for c in diagnosis.candidates}
         if int(name) not in ranks:
-            raise UsageError(f"no candidate of rank {name}", expected=", ".join(f"{r} ({i})" for r, i in ranks.items())
-                             or "none: the diagnosis has no candidates", got=name)
+            raise UsageError(
+                f"no candidate of rank {name}",
+                expected=", ".join(f"{r} ({i})" for r, i in ranks.items()) or "none: the diagnosis has no candidates",
+                got=name,
+            )
         name = ranks[int(name)]
     return candidate_spec(name, load_data(store, spec).channels)
 
@@ -111,6 +121,8 @@ def _candidate(store: Store, model: str, spec: Model, candidate: str | int) -> E
 def _absolute(spec: Model, base: Path | None) -> Model:
     if not any(e.file for e in spec.effects):
         return spec
-    effects = [e if e.file is None else e.model_copy(update={"file": str(((base or Path()) / e.file).resolve())})
-               for e in spec.effects]
+    effects = [
+        e if e.file is None else e.model_copy(update={"file": str(((base or Path()) / e.file).resolve())})
+        for e in spec.effects
+    ]
     return spec.model_copy(update={"effects": effects})

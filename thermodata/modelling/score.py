@@ -47,8 +47,16 @@ def score_test(response: FittedResponse, test: TestData, model_id: str, role: st
         if phase != ALL and not counted.any():
             continue
         numbers = figures(measured[counted], residual[counted])
-        yield Score(model=model_id, campaign=test.campaign, test=test.test, role=role, response=response.name,
-                    phase=phase, n=int(counted.sum()), **numbers)
+        yield Score(
+            model=model_id,
+            campaign=test.campaign,
+            test=test.test,
+            role=role,
+            response=response.name,
+            phase=phase,
+            n=int(counted.sum()),
+            **numbers,
+        )
 
 
 def figures(measured: Float1D, residual: Float1D) -> dict[str, float | None]:

@@ -124,7 +124,17 @@ def _refine(problem: Problem, x: Float1D) -> Float1D:
     high = np.array([f.outside(f.upper) for f in problem.free])
     margin = 1e-6 * (high - low)
     inside = np.clip(x, low + margin, high - margin)
-    found = least_squares(problem.residual, inside, bounds=(low, high), method="trf", diff_step=1e-5,
-                          x_scale=high - low, xtol=1e-7, ftol=1e-9, gtol=1e-12, max_nfev=60)
+    found = least_squares(
+        problem.residual,
+        inside,
+        bounds=(low, high),
+        method="trf",
+        diff_step=1e-5,
+        x_scale=high - low,
+        xtol=1e-7,
+        ftol=1e-9,
+        gtol=1e-12,
+        max_nfev=60,
+    )
     at_x = problem.residual(x)
     return np.asarray(found.x) if 2 * found.cost <= float(at_x @ at_x) else x

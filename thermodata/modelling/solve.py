@@ -6,7 +6,7 @@ import numpy as np
 
 from thermodata.plugin import Float1D, Float2D
 
-RIDGE = 1e-10                   # relative; keeps equal columns from giving gains of 1e9 and their opposites
+RIDGE = 1e-10  # relative; keeps equal columns from giving gains of 1e9 and their opposites
 
 
 def solve_gains(gram: Float2D, cross: Float1D, lower: Float1D, upper: Float1D) -> Float1D:

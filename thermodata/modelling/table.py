@@ -22,8 +22,14 @@ def prediction_columns(response: FittedResponse, test: TestData) -> dict[str, Ar
     predicted = np.sum(list(parts.values()), axis=0) if parts else np.zeros(len(test.t_s))
     measured = response.measured(test)
     predicted = predicted + response.offset(test)
-    found: dict[str, Array] = {"t_s": test.t_s, "measured": measured, "predicted": predicted,
-                               "residual": measured - predicted, "valid": response.mask(test), **parts}
+    found: dict[str, Array] = {
+        "t_s": test.t_s,
+        "measured": measured,
+        "predicted": predicted,
+        "residual": measured - predicted,
+        "valid": response.mask(test),
+        **parts,
+    }
     return {name: values[test.in_window] for name, values in found.items()}
 
 
@@ -31,5 +37,9 @@ def prediction_tables(fitted: FittedModel, data: Dataset) -> dict[tuple[str, str
     """(campaign, test, response) -> pyarrow table; locked tests stay closed."""
     import pyarrow as pa
 
-    return {(test.campaign, test.test, response.name): pa.table(prediction_columns(response, test))
-            for test in fitted.tests(data) for response in fitted.responses if response.can_predict(test)}
+    return {
+        (test.campaign, test.test, response.name): pa.table(prediction_columns(response, test))
+        for test in fitted.tests(data)
+        for response in fitted.responses
+        if response.can_predict(test)
+    }

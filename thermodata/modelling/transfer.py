@@ -33,21 +33,25 @@ class FreeFunction:
 
     def __init__(self, method: str, orders: tuple[int, int]) -> None:
         if not (1 <= orders[0] <= MOST and 1 <= orders[1] <= MOST):
-            raise SpecError("orders of a transfer function", expected=f"two whole numbers from 1 to {MOST}",
-                            got=str(list(orders)))
+            raise SpecError(
+                "orders of a transfer function", expected=f"two whole numbers from 1 to {MOST}", got=str(list(orders))
+            )
         self.method, self.orders = method, orders
         self.name, self.needs = NAME, _ANY
         self.meaning = f"{method} {orders[0]},{orders[1]}: real poles as time constants, gains linear"
         starts = np.geomspace(10.0, 300.0, orders[1]) if orders[1] > 1 else [60.0]
         names = [f"tau_{i + 1}" for i in range(orders[1])] if orders[1] > 1 else ["tau"]
-        self.params = tuple(Param(n, "min", float(s), 0.5, 2880.0, "time constant of a pole")
-                            for n, s in zip(names, starts, strict=True))
+        self.params = tuple(
+            Param(n, "min", float(s), 0.5, 2880.0, "time constant of a pole")
+            for n, s in zip(names, starts, strict=True)
+        )
         if method == "varpro":
             gains = [f"gain_{i + 1}" for i in range(orders[1])] if orders[1] > 1 else ["gain"]
         else:
             gains = ["gain"] + [f"lead_{j}" for j in range(1, orders[0])]
-        self.gains = tuple(Gain(n, "um/u", (0.0, _INF), "any", "gain at rest" if n == "gain" else "gain")
-                           for n in gains)
+        self.gains = tuple(
+            Gain(n, "um/u", (0.0, _INF), "any", "gain at rest" if n == "gain" else "gain") for n in gains
+        )
 
     def basis(self, drivers: Drivers, p: Mapping[str, float]) -> Float2D:
         u, step = drivers.values["u"], step_of(drivers)
@@ -77,8 +81,14 @@ class GivenFunction:
     params: tuple[Param, ...] = ()
     gains = (Gain("gain", "1", (0.0, _INF), "any", "factor on the printed function"),)
 
-    def __init__(self, num: Sequence[float], den: Sequence[float], sample_s: float | None, time_s: float = 1.0,
-                 where: str | None = None) -> None:
+    def __init__(
+        self,
+        num: Sequence[float],
+        den: Sequence[float],
+        sample_s: float | None,
+        time_s: float = 1.0,
+        where: str | None = None,
+    ) -> None:
         self.num, self.den = np.asarray(num, float), np.asarray(den, float)
         self.sample_s, self.time_s = sample_s, time_s
         self.meaning = f"given function, {len(num)} over {len(den)} coefficients"
@@ -119,10 +129,13 @@ class GivenFunction:
         poles = np.roots(self.den if self.sample_s is not None else self.den[::-1])
         bad = poles[poles.real >= 0] if self.sample_s is None else poles[np.abs(poles) >= 1]
         if len(bad):
-            raise SpecError("the transfer function is not stable: its free run grows without end", where=where,
-                            expected="poles inside the unit circle" if self.sample_s else "poles left of zero",
-                            got=", ".join(f"{p:.9g}" for p in bad),
-                            hint="give its coefficients with more digits, or identify it from data")
+            raise SpecError(
+                "the transfer function is not stable: its free run grows without end",
+                where=where,
+                expected="poles inside the unit circle" if self.sample_s else "poles left of zero",
+                got=", ".join(f"{p:.9g}" for p in bad),
+                hint="give its coefficients with more digits, or identify it from data",
+            )
 
 
 def given(fixed: Mapping[str, float], where: str | None = None) -> GivenFunction | None:
@@ -139,8 +152,9 @@ def given(fixed: Mapping[str, float], where: str | None = None) -> GivenFunction
         if order[0] not in (0, 1) or any(b - a != 1 for a, b in pairwise(order)):
             raise SpecError(f"coefficients {name}0, {name}1, ... with a hole", where=where, got=str(order))
     if "num" in lists or "den" in lists:
-        return GivenFunction(_run(lists.get("num", {})), _run(lists.get("den", {})), None,
-                             fixed.get("time_s", 1.0), where)
+        return GivenFunction(
+            _run(lists.get("num", {})), _run(lists.get("den", {})), None, fixed.get("time_s", 1.0), where
+        )
     den = lists.get("b", {})
     return GivenFunction(_run(lists.get("a", {})), _run({0: 1.0, **den}), fixed.get("sample_s", 1.0), where=where)
 

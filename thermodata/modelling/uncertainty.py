@@ -7,7 +7,7 @@ import numpy as np
 from thermodata.modelling.search import Problem
 from thermodata.plugin import Float1D, Float2D
 
-_LONGEST = 0.25                 # of a test; a longer memory cannot be told from a trend
+_LONGEST = 0.25  # of a test; a longer memory cannot be told from a trend
 
 
 def deviations(problem: Problem, x: Float1D, gains: Float1D) -> tuple[list[dict[str, float]], frozenset[str]]:
@@ -87,8 +87,9 @@ def _robust(jacobian: Float2D, residual: Float1D, parts: list[slice]) -> Float1D
         if len(own):
             # the Bartlett-weighted sum of lagged products is the mean product of moving sums
             span = max(1, min(width, len(own)))
-            total = np.cumsum(np.concatenate([np.zeros((span, own.shape[1])), own, np.zeros((span - 1, own.shape[1]))]),
-                              axis=0)
+            total = np.cumsum(
+                np.concatenate([np.zeros((span, own.shape[1])), own, np.zeros((span - 1, own.shape[1]))]), axis=0
+            )
             moving = total[span:] - total[:-span]
             meat += moving.T @ moving / span
     n, k = jacobian.shape

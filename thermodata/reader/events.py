@@ -104,7 +104,7 @@ class HeldRows(Generic[Stamp]):
         kind = object if dtype == "str" else np.float64
         rows, values, flags = self._changes.get(name, ([], [], []))
         at = place[rows] if rows else np.empty(0, np.int64)
-        order = np.argsort(at, kind="stable")[np.count_nonzero(at < 0):]
+        order = np.argsort(at, kind="stable")[np.count_nonzero(at < 0) :]
         known = np.empty(order.size + 1, kind)
         marks = np.empty(order.size + 1, np.uint16)
         known[0], marks[0] = _cell(self._held[name][0], dtype), self._held[name][1]

@@ -14,16 +14,27 @@ from thermodata.reader.text import decode_head
 
 # First bytes of what lies in folders of logs without being one
 _MAGIC: tuple[tuple[bytes, str], ...] = (
-    (b"TDSm", "TDMS of LabVIEW"), (b"TDSh", "the index of a TDMS file, which is never read: it may be stale"),
-    (b"\x89MCAP", "MCAP"), (b"PAR1", "Parquet"), (b"PK\x03\x04", "a ZIP file (XLSX, DOCX and others are)"),
-    (b"\x89HDF\r\n", "HDF5 (MAT 7.3 is)"), (b"MATLAB 5.0", "MAT 5 of MATLAB"),
+    (b"TDSm", "TDMS of LabVIEW"),
+    (b"TDSh", "the index of a TDMS file, which is never read: it may be stale"),
+    (b"\x89MCAP", "MCAP"),
+    (b"PAR1", "Parquet"),
+    (b"PK\x03\x04", "a ZIP file (XLSX, DOCX and others are)"),
+    (b"\x89HDF\r\n", "HDF5 (MAT 7.3 is)"),
+    (b"MATLAB 5.0", "MAT 5 of MATLAB"),
     (b"MDF     ", "MDF of a measuring system"),
-    (b"UnFinMF ", "MDF that was not finished"), (b"%PDF", "PDF"), (b"\x89PNG", "a PNG picture"),
-    (b"\xff\xd8\xff", "a JPEG picture"), (b"SQLite format 3", "an SQLite database"),
+    (b"UnFinMF ", "MDF that was not finished"),
+    (b"%PDF", "PDF"),
+    (b"\x89PNG", "a PNG picture"),
+    (b"\xff\xd8\xff", "a JPEG picture"),
+    (b"SQLite format 3", "an SQLite database"),
     (b"\x1f\x8b", "gzip: unpack it first"),
-    (b"\x28\xb5\x2f\xfd", "Zstandard: unpack it first"), (b"7z\xbc\xaf", "7-Zip: unpack it first"),
-    (b"Rar!", "RAR: unpack it first"), (b"\xd0\xcf\x11\xe0", "an old Office file (XLS, DOC): save it as XLSX"),
-    (b"\x7fELF", "a program"), (b"MZ", "a program"), (b"#ROSBAG", "a ROS 1 bag: convert it to MCAP"),
+    (b"\x28\xb5\x2f\xfd", "Zstandard: unpack it first"),
+    (b"7z\xbc\xaf", "7-Zip: unpack it first"),
+    (b"Rar!", "RAR: unpack it first"),
+    (b"\xd0\xcf\x11\xe0", "an old Office file (XLS, DOC): save it as XLSX"),
+    (b"\x7fELF", "a program"),
+    (b"MZ", "a program"),
+    (b"#ROSBAG", "a ROS 1 bag: convert it to MCAP"),
 )
 
 

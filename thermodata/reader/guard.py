@@ -18,11 +18,13 @@ def described(reader: Reader, path: Path, source: Source) -> Recording:
     except (ThermodataError, OSError, MemoryError):
         raise
     except Exception as error:
-        raise PluginError(f"reader '{reader.name}' failed to describe a file", where=str(path),
-                          got=f"{type(error).__name__}: {error}") from error
+        raise PluginError(
+            f"reader '{reader.name}' failed to describe a file", where=str(path), got=f"{type(error).__name__}: {error}"
+        ) from error
     if not isinstance(recording, Recording):
-        raise PluginError(f"reader '{reader.name}' describes with {type(recording).__name__}", where=str(path),
-                          expected="a Recording")
+        raise PluginError(
+            f"reader '{reader.name}' describes with {type(recording).__name__}", where=str(path), expected="a Recording"
+        )
     for rule in RECORDING_RULES:
         wrong = rule(recording)
         if wrong is not None:
@@ -45,13 +47,15 @@ def guarded(reader: Reader, path: Path, source: Source, recording: Recording | N
         except (ThermodataError, OSError, MemoryError):
             raise
         except Exception as error:
-            raise PluginError(f"reader '{reader.name}' failed", where=where,
-                              got=f"{type(error).__name__}: {error}") from error
+            raise PluginError(
+                f"reader '{reader.name}' failed", where=where, got=f"{type(error).__name__}: {error}"
+            ) from error
         if item is None:
             return
         if not isinstance(item, Block | Loss):
-            raise PluginError(f"reader '{reader.name}' yielded {type(item).__name__}", where=where,
-                              expected="a Block or a Loss")
+            raise PluginError(
+                f"reader '{reader.name}' yielded {type(item).__name__}", where=where, expected="a Block or a Loss"
+            )
         broken = broken_rule(said, item)
         if broken is not None:
             raise PluginError(f"reader '{reader.name}' broke the rule: {broken[0]}", where=where, got=broken[1])

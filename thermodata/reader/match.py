@@ -40,10 +40,18 @@ def match_signal(wanted: str, signals: Sequence[Signal]) -> Signal:
                 return found[0]
             if found:
                 names = ", ".join(f"{s.stream}:{s.name}" for s in found)
-                raise UsageError(f"signal '{wanted}' is ambiguous", expected="one signal", got=names,
-                                 hint=f"write '{found[0].name}' or '{found[0].stream}:{found[0].name}'")
+                raise UsageError(
+                    f"signal '{wanted}' is ambiguous",
+                    expected="one signal",
+                    got=names,
+                    hint=f"write '{found[0].name}' or '{found[0].stream}:{found[0].name}'",
+                )
     names_by_fold = {spell(s.name).casefold(): s.name for s in signals for spell in reversed(_SPELLINGS)}
     close = list(dict.fromkeys(names_by_fold[c] for c in get_close_matches(wanted.casefold(), names_by_fold, 3, 0.5)))
     listed = [s.name for s in signals[:20]] + (["..."] if len(signals) > 20 else [])
-    raise UsageError(f"no signal '{wanted}' in the file", expected=", ".join(close or listed) or "the file has none",
-                     got=wanted, hint=f"did you mean '{close[0]}'?" if close else None)
+    raise UsageError(
+        f"no signal '{wanted}' in the file",
+        expected=", ".join(close or listed) or "the file has none",
+        got=wanted,
+        hint=f"did you mean '{close[0]}'?" if close else None,
+    )

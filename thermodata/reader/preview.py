@@ -15,8 +15,8 @@ from thermodata.reader.guard import described, guarded
 from thermodata.reader.registry import claims, sniff
 
 FIRST_ROWS = 5
-MOST_ROWS, MOST_S = 3_000_000, 8.0   # a preview of a file of any size takes seconds
-_GAP_FACTOR = 3.0   # an interval of more than so many usual ones is a gap
+MOST_ROWS, MOST_S = 3_000_000, 8.0  # a preview of a file of any size takes seconds
+_GAP_FACTOR = 3.0  # an interval of more than so many usual ones is a gap
 
 
 @dataclass
@@ -53,9 +53,16 @@ class _Stream:
         self.last = int(t[-1])
 
 
-def preview(path: Path | str, source: Source | None = None, reader: Reader | None = None, *, rows: int = FIRST_ROWS,
-            most_rows: int = MOST_ROWS, most_s: float = MOST_S,
-            watch: Callable[[Block], None] | None = None) -> dict[str, Any]:
+def preview(
+    path: Path | str,
+    source: Source | None = None,
+    reader: Reader | None = None,
+    *,
+    rows: int = FIRST_ROWS,
+    most_rows: int = MOST_ROWS,
+    most_s: float = MOST_S,
+    watch: Callable[[Block], None] | None = None,
+) -> dict[str, Any]:
     """A file as plain data, ready for JSON. reader: which one (default: the one that claims the file).
 
     rows: first rows a stream; most_rows, most_s: where reading ends in a large file ('whole' is False then, and what is
@@ -97,11 +104,20 @@ def preview(path: Path | str, source: Source | None = None, reader: Reader | Non
         "whole": whole,
         "rows_read": read,
         "notes": list(said.notes),
-        "losses": [{"where": x.where, "reason": x.reason, "fraction": x.fraction,
-                    "from": None if x.from_ns is None else when(x.from_ns, absolute),
-                    "to": None if x.to_ns is None else when(x.to_ns, absolute)} for x in losses],
-        "streams": [_shown(name, stream, [s for s in said.signals if s.stream == name], absolute)
-                    for name, stream in streams.items()],
+        "losses": [
+            {
+                "where": x.where,
+                "reason": x.reason,
+                "fraction": x.fraction,
+                "from": None if x.from_ns is None else when(x.from_ns, absolute),
+                "to": None if x.to_ns is None else when(x.to_ns, absolute),
+            }
+            for x in losses
+        ],
+        "streams": [
+            _shown(name, stream, [s for s in said.signals if s.stream == name], absolute)
+            for name, stream in streams.items()
+        ],
     }
 
 
@@ -119,8 +135,10 @@ def _shown(name: str, stream: _Stream, signals: list[Signal], absolute: bool) ->
         "largest_step_s": stream.largest / 1e9 if stream.largest else None,
         "backward": stream.backward,
         "repeated": stream.repeated,
-        "signals": [{"name": s.name, "unit": s.unit, "dtype": s.dtype,
-                     "scaling": None if s.scaling is None else s.scaling.kind} for s in signals],
+        "signals": [
+            {"name": s.name, "unit": s.unit, "dtype": s.dtype, "scaling": None if s.scaling is None else s.scaling.kind}
+            for s in signals
+        ],
         "first_rows": stream.head,
     }
 
@@ -129,8 +147,11 @@ def when(t_ns: int, absolute: bool) -> str | float:
     """A time for people: ISO in UTC, or seconds of a relative clock."""
     if not absolute:
         return t_ns / 1e9
-    return str(np.datetime64(t_ns, "ns")).rstrip("0").rstrip(".") + "Z" if t_ns % 1_000_000_000 else \
-        str(np.datetime64(t_ns // 1_000_000_000, "s")) + "Z"
+    return (
+        str(np.datetime64(t_ns, "ns")).rstrip("0").rstrip(".") + "Z"
+        if t_ns % 1_000_000_000
+        else str(np.datetime64(t_ns // 1_000_000_000, "s")) + "Z"
+    )
 
 
 def _plain(value: Any) -> Any:

@@ -20,8 +20,12 @@ def installed() -> dict[str, EntryPoint]:
     for point in entry_points(group=GROUP):
         other = found.get(point.name)
         if other is not None and other.value != point.value:
-            raise UsageError(f"two readers are called '{point.name}'", expected="one",
-                             got=f"{other.value} and {point.value}", hint="uninstall one of their distributions")
+            raise UsageError(
+                f"two readers are called '{point.name}'",
+                expected="one",
+                got=f"{other.value} and {point.value}",
+                hint="uninstall one of their distributions",
+            )
         found[point.name] = point
     return dict(sorted(found.items()))
 
@@ -94,8 +98,9 @@ def claims(path: Path | str) -> dict[str, str]:
         try:
             reason = each.sniff(start)
         except Exception as error:  # a sniff that stumbles over a foreign file claims nothing
-            warnings.warn(f"reader '{name}' failed to sniff {start.name}: {type(error).__name__}: {error}",
-                          stacklevel=2)
+            warnings.warn(
+                f"reader '{name}' failed to sniff {start.name}: {type(error).__name__}: {error}", stacklevel=2
+            )
             continue
         if reason is not None:
             found[name] = reason
@@ -110,9 +115,16 @@ def sniff(path: Path | str) -> Reader:
         return reader(next(iter(found)))
     if not found:
         names = ", ".join(readers())
-        raise FormatError(f"no reader claims {path.name}", where=str(path),
-                          expected=f"a file of one of: {names}" if names else "a reader; none is installed",
-                          hint=None if names else INSTALL)
+        raise FormatError(
+            f"no reader claims {path.name}",
+            where=str(path),
+            expected=f"a file of one of: {names}" if names else "a reader; none is installed",
+            hint=None if names else INSTALL,
+        )
     reasons = " and ".join(f'{name} ("{why}")' for name, why in found.items())
-    raise FormatError(f"{reasons} claim {path.name}", where=str(path), expected="one reader",
-                      hint="set 'reader' in the campaign file's source")
+    raise FormatError(
+        f"{reasons} claim {path.name}",
+        where=str(path),
+        expected="one reader",
+        hint="set 'reader' in the campaign file's source",
+    )

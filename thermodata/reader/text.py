@@ -14,8 +14,19 @@ from thermodata.errors import FormatError
 from thermodata.reader.zone import local_to_utc_ns
 from thermodata.schema.quantity import _ALIAS
 
-__all__ = ["clean", "decimal_mark", "decode", "decode_head", "file_encoding", "find_encoding", "last_line_is_whole",
-           "local_to_utc_ns", "looks_like_unit", "split_unit", "to_float"]
+__all__ = [
+    "clean",
+    "decimal_mark",
+    "decode",
+    "decode_head",
+    "file_encoding",
+    "find_encoding",
+    "last_line_is_whole",
+    "local_to_utc_ns",
+    "looks_like_unit",
+    "split_unit",
+    "to_float",
+]
 
 _PART = 4 * 1024 * 1024
 _BOMS = ((codecs.BOM_UTF8, "utf-8-sig"), (codecs.BOM_UTF16_LE, "utf-16"), (codecs.BOM_UTF16_BE, "utf-16"))
@@ -24,7 +35,7 @@ _BOMS = ((codecs.BOM_UTF8, "utf-8-sig"), (codecs.BOM_UTF16_LE, "utf-16"), (codec
 # µ ° ± § ä ö ü ß é á í š ž are the same in both.
 _CENTRAL = dict.fromkeys("čěřůňďČĚŘŮŇĎŤťążćęŁłńőű".encode("cp1250"), 1)
 _WESTERN = dict.fromkeys("²¼½¾àãåÀÅÃ".encode("cp1252"), 2)
-_CUBIC = re.compile(rb"m\xb3(?![A-Za-z\x80-\xff])")        # m³ in cp1252, mł in cp1250
+_CUBIC = re.compile(rb"m\xb3(?![A-Za-z\x80-\xff])")  # m³ in cp1252, mł in cp1250
 
 
 def _single_byte(data: bytes) -> str:
@@ -52,16 +63,20 @@ def _refuse_other_scripts(data: bytes) -> None:
     if found is None:
         return
     at = found.start()
-    line = data[data.rfind(b"\n", 0, at) + 1:].split(b"\n", 1)[0][:200]
+    line = data[data.rfind(b"\n", 0, at) + 1 :].split(b"\n", 1)[0][:200]
     seen = []
     for name in ("gb18030", "shift_jis", "euc_kr", "cp1251"):
         try:
             seen.append(f"{name}: {line.decode(name).strip()[:24]!r}")
         except UnicodeDecodeError:
             continue
-    raise FormatError("text in an encoding that the file does not name", where=f"byte {at}",
-                      expected="UTF-8, or an encoding that is declared", hint=_DECLARE,
-                      got="; ".join(seen) or found[0][:8].hex(" "))
+    raise FormatError(
+        "text in an encoding that the file does not name",
+        where=f"byte {at}",
+        expected="UTF-8, or an encoding that is declared",
+        hint=_DECLARE,
+        got="; ".join(seen) or found[0][:8].hex(" "),
+    )
 
 
 def find_encoding(data: bytes, declared: str | None = None) -> tuple[str, str | None]:
@@ -72,8 +87,9 @@ def find_encoding(data: bytes, declared: str | None = None) -> tuple[str, str | 
         try:
             name = codecs.lookup(declared).name
         except LookupError:
-            raise FormatError(f"no encoding '{declared}'", expected="utf-8, cp1250, cp1252, utf-16, ...",
-                              got=declared) from None
+            raise FormatError(
+                f"no encoding '{declared}'", expected="utf-8, cp1250, cp1252, utf-16, ...", got=declared
+            ) from None
         _try(data, declared)
         return ("utf-8-sig" if name == "utf-8" and data.startswith(codecs.BOM_UTF8) else declared), None
     for mark, name in _BOMS:
@@ -82,7 +98,7 @@ def find_encoding(data: bytes, declared: str | None = None) -> tuple[str, str | 
             return name, None
     head = data[:4096]
     for start, name in ((1, "utf-16-le"), (0, "utf-16-be")):
-        if len(head) >= 4 and head[start::2].count(0) > 0.8 * len(head[start::2]) and not head[1 - start::2].count(0):
+        if len(head) >= 4 and head[start::2].count(0) > 0.8 * len(head[start::2]) and not head[1 - start :: 2].count(0):
             return name, f"no byte order mark; read as {name}"
     try:
         data.decode("utf-8")
@@ -100,8 +116,11 @@ def file_encoding(path: Path, declared: str | None = None) -> tuple[str, str | N
     with path.open("rb") as file:
         start = file.read(_PART)
         if declared is not None or start.startswith(tuple(mark for mark, _ in _BOMS)) or b"\0" in start[:4096]:
-            return find_encoding(start[: len(start) // 2 * 2] if len(start) == _PART else start, declared) \
-                if len(start) < _PART or declared is None else (declared, None)
+            return (
+                find_encoding(start[: len(start) // 2 * 2] if len(start) == _PART else start, declared)
+                if len(start) < _PART or declared is None
+                else (declared, None)
+            )
         decoder = codecs.getincrementaldecoder("utf-8")()
         part = start
         while part:
@@ -136,8 +155,11 @@ def _try(data: bytes, encoding: str) -> str:
         return data.decode(encoding)
     except UnicodeDecodeError as error:
         raise FormatError(
-            "text does not decode", where=f"byte {error.start}", expected=encoding,
-            got=data[error.start:error.start + 4].hex(" "), hint="declare the source's encoding",
+            "text does not decode",
+            where=f"byte {error.start}",
+            expected=encoding,
+            got=data[error.start : error.start + 4].hex(" "),
+            hint="declare the source's encoding",
         ) from None
 
 
@@ -168,11 +190,16 @@ def decode_head(start: bytes) -> str | None:
 
 # ---- units ---------------------------------------------------------------------------------------
 
-_BASE = (r"(?:[kMGmunµμcdh]?(?:m|g|s|A|V|W|K|N|Pa|Hz|J|C|F|bar|l|L|rad|Ohm|ohm|Ω|VA|Wh|mol|lm|lx|T)|min|h|d|rpm|RPM|"
-         r"inch|deg|U|rev|mas|arcsec|ppm|RH|dB|psi|inc|imp|1|bit|counts?|digits?)")
+_BASE = (
+    r"(?:[kMGmunµμcdh]?(?:m|g|s|A|V|W|K|N|Pa|Hz|J|C|F|bar|l|L|rad|Ohm|ohm|Ω|VA|Wh|mol|lm|lx|T)|min|h|d|rpm|RPM|"
+    r"inch|deg|U|rev|mas|arcsec|ppm|RH|dB|psi|inc|imp|1|bit|counts?|digits?)"
+)
 _UNIT = re.compile(rf"^{_BASE}(?:\s?\^?-?[1-4]|[²³⁻¹]+)?(?:\s?[/*·.]\s?{_BASE}(?:\^?-?[1-4]|[²³⁻¹]+)?){{0,3}}$")
-_TRAILING = re.compile(r"^(?P<name>.*?)(?P<gap>\s*)"
-                       r"(?:\[(?P<square>[^\[\]]*)\]|\((?P<round>[^()]*)\)|(?P<fullwidth>（[^（）]*）))$", re.DOTALL)
+_TRAILING = re.compile(
+    r"^(?P<name>.*?)(?P<gap>\s*)"
+    r"(?:\[(?P<square>[^\[\]]*)\]|\((?P<round>[^()]*)\)|(?P<fullwidth>（[^（）]*）))$",
+    re.DOTALL,
+)
 
 
 def looks_like_unit(text: str) -> bool:
@@ -221,8 +248,12 @@ def decimal_mark(cells: Iterable[str]) -> str | None:
         points += _POINT.match(text) is not None
         commas += _COMMA.match(text) is not None
     if points and commas:
-        raise FormatError("numbers with a decimal point and with a decimal comma", expected="one of them",
-                          got=f"{points} with a point, {commas} with a comma", hint="declare table: {decimal: ...}")
+        raise FormatError(
+            "numbers with a decimal point and with a decimal comma",
+            expected="one of them",
+            got=f"{points} with a point, {commas} with a comma",
+            hint="declare table: {decimal: ...}",
+        )
     return "." if points else "," if commas else None
 
 

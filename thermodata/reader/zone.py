@@ -76,14 +76,18 @@ def local_to_utc_ns(naive: npt.NDArray[Any], timezone: str | None) -> tuple[Int1
         when = datetime.fromtimestamp(instant // _S, UTC).strftime("%Y-%m-%dT%H:%M:%SZ")
         if after > before:
             utc[inside] = local[inside] - before
-            notes.append(f"{int(inside.sum())} local times in the hour that {timezone} skips at {when}: the logger's "
-                         "clock does not follow daylight saving, or not at once")
+            notes.append(
+                f"{int(inside.sum())} local times in the hour that {timezone} skips at {when}: the logger's "
+                "clock does not follow daylight saving, or not at once"
+            )
         else:
             second, sure = _second_pass(local, inside, before - after)
             utc[inside] = local[inside] - before
             utc[second] = local[second] - after
-            notes.append(f"the hour that repeats at {when}: {int((inside & ~second).sum())} rows in its first pass, "
-                         f"{int(second.sum())} in its second" + ("" if sure else " (no row steps back: a guess)"))
+            notes.append(
+                f"the hour that repeats at {when}: {int((inside & ~second).sum())} rows in its first pass, "
+                f"{int(second.sum())} in its second" + ("" if sure else " (no row steps back: a guess)")
+            )
     return utc, notes
 
 
@@ -94,7 +98,7 @@ def _second_pass(local: Int1D, inside: Bool1D, shift: int) -> tuple[Bool1D, bool
     for start, stop in zip(edges[::2], edges[1::2], strict=True):
         steps = np.diff(local[start:stop])
         if steps.size and steps.min() < -_STEP_BACK:
-            second[start + 1 + int(np.argmax(steps < -_STEP_BACK)):stop] = True
+            second[start + 1 + int(np.argmax(steps < -_STEP_BACK)) : stop] = True
             continue
         joins_before = start > 0 and local[start - 1] != NAT and 0 <= local[start] - local[start - 1] < shift
         joins_after = stop < local.size and local[stop] != NAT and 0 <= local[stop] - local[stop - 1] < shift

@@ -43,15 +43,27 @@ def collect(store: Store, ref: str) -> ReportData:
     result = stored.result
     before = result.before or (chain[-2].result.scores if len(chain) > 1 else [])
     return ReportData(
-        model=stored.model, name=stored.name, campaigns=stored.spec.campaign_ids, machine=_machines(loaded),
-        responses=responses, unit=next((r.unit for r in loaded.fitted.responses), "um"),
+        model=stored.model,
+        name=stored.name,
+        campaigns=stored.spec.campaign_ids,
+        machine=_machines(loaded),
+        responses=responses,
+        unit=next((r.unit for r in loaded.fitted.responses), "um"),
         effects=tuple(t.id for t in loaded.fitted.responses[0].terms) if responses else (),
-        created=_created(store, stored.model), parameters=result.parameters, scores=_by_role(result.scores),
-        checks=result.checks, before=before, tests=tuple(_by_role(_tests(store, stored.model, loaded))),
-        versions=versions(chain), diagnosis=diagnosis,
-        reason=reason, weak=weak_spots_of(loaded, (reason, diagnosis)),
+        created=_created(store, stored.model),
+        parameters=result.parameters,
+        scores=_by_role(result.scores),
+        checks=result.checks,
+        before=before,
+        tests=tuple(_by_role(_tests(store, stored.model, loaded))),
+        versions=versions(chain),
+        diagnosis=diagnosis,
+        reason=reason,
+        weak=weak_spots_of(loaded, (reason, diagnosis)),
         calibrations=tuple(_calibrations(store, stored.spec.campaign_ids)),
-        looks=_looks(store, [m.model for m in chain]), stale=stored.stale)
+        looks=_looks(store, [m.model for m in chain]),
+        stale=stored.stale,
+    )
 
 
 def _by_role(rows: Iterable[Part]) -> list[Part]:
@@ -66,11 +78,23 @@ def versions(chain: Sequence[StoredModel]) -> tuple[Version, ...]:
     made, known = [], set[str]()
     for i, m in enumerate(chain):
         ids = term_ids(m.spec.effects)
-        fresh = [_in_words(spec, name) for spec, name in zip(m.spec.effects, ids, strict=True)
-                 if name not in known] if i else []
+        fresh = (
+            [_in_words(spec, name) for spec, name in zip(m.spec.effects, ids, strict=True) if name not in known]
+            if i
+            else []
+        )
         scores = m.result.scores
-        made.append(Version(m.model, m.name, ", ".join(fresh) or None, pooled(scores, "calibration", "verification"),
-                            pooled(scores, "calibration"), pooled(scores, "verification"), m.stale))
+        made.append(
+            Version(
+                m.model,
+                m.name,
+                ", ".join(fresh) or None,
+                pooled(scores, "calibration", "verification"),
+                pooled(scores, "calibration"),
+                pooled(scores, "verification"),
+                m.stale,
+            )
+        )
         known = set(ids)
     return tuple(made)
 
@@ -92,12 +116,14 @@ def _tests(store: Store, model: str, loaded: Loaded) -> Iterable[TestPart]:
         for response in loaded.fitted.responses:
             path = paths.get((test.campaign, test.test, response.name))
             if path is not None and path.is_file():
-                yield _part(test, response.name, loaded.fitted.roles.role(test.key), path, drivers,
-                            conditions.get(test.key, {}))
+                yield _part(
+                    test, response.name, loaded.fitted.roles.role(test.key), path, drivers, conditions.get(test.key, {})
+                )
 
 
-def _part(test: TestData, response: str, role: str, path: Path, drivers: Sequence[str],
-          conditions: dict[str, Any]) -> TestPart:
+def _part(
+    test: TestData, response: str, role: str, path: Path, drivers: Sequence[str], conditions: dict[str, Any]
+) -> TestPart:
     """One prediction with the state of its test, on the prediction's own grid."""
     import pyarrow.parquet as pq
 
@@ -118,20 +144,35 @@ def _part(test: TestData, response: str, role: str, path: Path, drivers: Sequenc
     prefix = "c__"
     inside = (test.t_s >= start - step / 2) & (test.t_s < start + (n - 0.5) * step)
     return TestPart(
-        campaign=test.campaign, test=test.test, kind=test.kind, role=role, response=response,
-        start_s=start, step_s=step, measured=spread(columns["measured"]), predicted=spread(columns["predicted"]),
+        campaign=test.campaign,
+        test=test.test,
+        kind=test.kind,
+        role=role,
+        response=response,
+        start_s=start,
+        step_s=step,
+        measured=spread(columns["measured"]),
+        predicted=spread(columns["predicted"]),
         residual=spread(np.where(valid, columns["residual"], np.nan)),
-        contributions=tuple(Curve(name.removeprefix(prefix), "", spread(values))
-                            for name, values in columns.items() if name.startswith(prefix)),
+        contributions=tuple(
+            Curve(name.removeprefix(prefix), "", spread(values))
+            for name, values in columns.items()
+            if name.startswith(prefix)
+        ),
         drivers=_curves(test, drivers, inside)[:_MOST_DRIVERS],
         lanes=_curves(test, _lane_names(test), inside)[:_MOST_LANES],
-        conditions=conditions, phases=dict(test.phases))
+        conditions=conditions,
+        phases=dict(test.phases),
+    )
 
 
 def _curves(test: TestData, names: Iterable[str], inside: Bool1D) -> tuple[Curve, ...]:
     """The channels that move in this test; NaN where they are not valid."""
-    return tuple(Curve(name, test.channels[name].unit, np.where(test.valid[name], test.values[name], np.nan)[inside])
-                 for name in names if _moves(test, name, inside))
+    return tuple(
+        Curve(name, test.channels[name].unit, np.where(test.valid[name], test.values[name], np.nan)[inside])
+        for name in names
+        if _moves(test, name, inside)
+    )
 
 
 def _moves(test: TestData, name: str, inside: Bool1D) -> bool:
@@ -151,8 +192,13 @@ def _driver_names(loaded: Loaded) -> list[str]:
     """The temperatures that the model's effects are driven by."""
     from thermodata.modelling.drivers import names_of
 
-    names = [name for response in loaded.fitted.responses for term in response.terms
-             for text in term.binding.values() for name in names_of(text)]
+    names = [
+        name
+        for response in loaded.fitted.responses
+        for term in response.terms
+        for text in term.binding.values()
+        for name in names_of(text)
+    ]
     info = loaded.data.channels
     return [n for n in dict.fromkeys(names) if n in info and info[n].quantity.startswith("temperature")]
 
@@ -168,15 +214,19 @@ def _created(store: Store, model: str) -> str:
 
 def _calibrations(store: Store, campaigns: Sequence[str]) -> list[dict[str, Any]]:
     marks = ", ".join("?" for _ in campaigns)
-    rows = _rows(store, f"select * from calibration where campaign in ({marks}) order by campaign, calibration",
-                 list(campaigns))
+    rows = _rows(
+        store, f"select * from calibration where campaign in ({marks}) order by campaign, calibration", list(campaigns)
+    )
     return [{**row, "checks": json.loads(row["checks"] or "[]")} for row in rows]
 
 
 def _looks(store: Store, models: Sequence[str]) -> dict[str, int]:
     marks = ", ".join("?" for _ in models)
-    rows = _rows(store, f"select campaign, test, count(*) as n from locked_look where model in ({marks}) group by all",
-                 list(models))
+    rows = _rows(
+        store,
+        f"select campaign, test, count(*) as n from locked_look where model in ({marks}) group by all",
+        list(models),
+    )
     return {f"{row['campaign']}/{row['test']}": int(row["n"]) for row in rows}
 
 

@@ -32,26 +32,44 @@ def render(data: ReportData) -> str:
 
     here = files("thermodata.report")
     environment = jinja2.Environment(autoescape=True, trim_blocks=True, lstrip_blocks=True)
-    environment.filters.update(base_role=base_role, duration=duration, typeset=typeset,
-                               number=lambda value, digits=3: typeset(number(value, digits)))
+    environment.filters.update(
+        base_role=base_role,
+        duration=duration,
+        typeset=typeset,
+        number=lambda value, digits=3: typeset(number(value, digits)),
+    )
     template = environment.from_string((here / "page.html.j2").read_text(encoding="utf-8"))
     colours = effect_colours([*data.effects, *(c.name for t in data.tests for c in t.contributions)])
     figures = _figures(data, colours)
     return template.render(
-        data=data, unit=typeset(data.unit), version=__version__, colours=colours, figures=figures,
+        data=data,
+        unit=typeset(data.unit),
+        version=__version__,
+        colours=colours,
+        figures=figures,
         json={key: Markup(script_json(figure)) for key, figure in figures.items()},
         css=Markup((here / "page.css").read_text(encoding="utf-8")),
-        js=Markup((here / "page.js").read_text(encoding="utf-8")), plotly=Markup(get_plotlyjs()),
-        overview="overview" in figures, waterfall="waterfall" in figures,
+        js=Markup((here / "page.js").read_text(encoding="utf-8")),
+        plotly=Markup(get_plotlyjs()),
+        overview="overview" in figures,
+        waterfall="waterfall" in figures,
         weak=sorted((w for found in data.weak.values() for w in found), key=lambda w: -w.rmse_um),
-        headline=typeset(headline(data)), sentences=[typeset(line) for line in _sentences(data)], tiles=tiles(data),
+        headline=typeset(headline(data)),
+        sentences=[typeset(line) for line in _sentences(data)],
+        tiles=tiles(data),
         verdict=typeset(_capital(verdict_sentence(data.diagnosis))) if data.diagnosis else "",
         reason=typeset(_capital(verdict_sentence(data.reason))) if data.reason else "",
         tests=[_test(data, part, f"test{i}") for i, part in enumerate(data.tests)],
-        parameters=[{"effect": key.rpartition(".")[0] or key, "name": key.rpartition(".")[2], **p.model_dump()}
-                    for key, p in data.parameters.items()],
-        checks=[c for c in data.checks if not c.passed], several=len(data.responses) > 1,
-        phased=[s for s in data.scores if s.phase != "all"], locked_note=locked_note(data), **_score_rows(data))
+        parameters=[
+            {"effect": key.rpartition(".")[0] or key, "name": key.rpartition(".")[2], **p.model_dump()}
+            for key, p in data.parameters.items()
+        ],
+        checks=[c for c in data.checks if not c.passed],
+        several=len(data.responses) > 1,
+        phased=[s for s in data.scores if s.phase != "all"],
+        locked_note=locked_note(data),
+        **_score_rows(data),
+    )
 
 
 def _figures(data: ReportData, colours: dict[str, str]) -> dict[str, Figure]:
@@ -74,8 +92,10 @@ def headline(data: ReportData) -> str:
     if data.added and before and after is not None:
         if after >= before:
             return f"{data.added} does not lower the error: {number(before)} -> {number(after)} {data.unit}"
-        return (f"With {data.added} the error of {', '.join(data.responses)} falls from {number(before)} to "
-                f"{number(after)} {data.unit} ({change(before, after)})")
+        return (
+            f"With {data.added} the error of {', '.join(data.responses)} falls from {number(before)} to "
+            f"{number(after)} {data.unit} ({change(before, after)})"
+        )
     if data.diagnosis:
         claimed = next((c for c in data.diagnosis.candidates if c.claimed), None)
         if claimed:
@@ -111,8 +131,17 @@ def tiles(data: ReportData) -> list[dict[str, str]]:
         made.append(_tile("Error in locked tests", *locked, data.unit, "took no part in the choice"))
     fits = sorted(s.fit for s in data.scores if s.phase == "all" and s.fit is not None)
     if fits:
-        made.append({"what": "FIT, median over tests", "was": "", "value": number(fits[len(fits) // 2]), "unit": "%",
-                     "badge": "", "tone": "", "note": f"worst {number(fits[0])} %, best {number(fits[-1])} %"})
+        made.append(
+            {
+                "what": "FIT, median over tests",
+                "was": "",
+                "value": number(fits[len(fits) // 2]),
+                "unit": "%",
+                "badge": "",
+                "tone": "",
+                "note": f"worst {number(fits[0])} %, best {number(fits[-1])} %",
+            }
+        )
     found = data.diagnosis or data.reason
     if found and found.noise_um:
         share = found.explainable
@@ -123,9 +152,15 @@ def tiles(data: ReportData) -> list[dict[str, str]]:
 
 def _tile(what: str, before: float | None, after: float, unit: str, note: str) -> dict[str, str]:
     better = before is not None and after < before
-    return {"what": what, "was": number(before) if before is not None else "", "value": number(after),
-            "unit": typeset(unit), "badge": typeset(change(before, after)) if before is not None else "",
-            "tone": "good" if better else "bad", "note": note}
+    return {
+        "what": what,
+        "was": number(before) if before is not None else "",
+        "value": number(after),
+        "unit": typeset(unit),
+        "badge": typeset(change(before, after)) if before is not None else "",
+        "tone": "good" if better else "bad",
+        "note": note,
+    }
 
 
 def _locked(data: ReportData) -> tuple[float | None, float] | None:
@@ -146,15 +181,25 @@ def locked_note(data: ReportData) -> str:
 
 
 def _test(data: ReportData, part: TestPart, key: str) -> dict[str, Any]:
-    row = next((s for s in data.scores if (s.campaign, s.test, s.response, s.phase)
-                == (part.campaign, part.test, part.response, "all")), None)
+    row = next(
+        (
+            s
+            for s in data.scores
+            if (s.campaign, s.test, s.response, s.phase) == (part.campaign, part.test, part.response, "all")
+        ),
+        None,
+    )
     title = part.test if len(data.campaigns) == 1 else f"{part.campaign} / {part.test}"
     conditions = ", ".join(f"{k} {number(v) if isinstance(v, float) else v}" for k, v in part.conditions.items())
     length = duration(part.step_s * len(part.measured))
     facts = f"RMSE {number(row.rmse_um)} {data.unit} · FIT {number(row.fit)} %" if row else ""
-    return {"part": part, "key": key, "title": title if len(data.responses) == 1 else f"{title} · {part.response}",
-            "about": typeset(" · ".join(filter(None, [part.kind.replace("_", " "), length, conditions]))),
-            "facts": typeset(facts)}
+    return {
+        "part": part,
+        "key": key,
+        "title": title if len(data.responses) == 1 else f"{title} · {part.response}",
+        "about": typeset(" · ".join(filter(None, [part.kind.replace("_", " "), length, conditions]))),
+        "facts": typeset(facts),
+    }
 
 
 def _score_rows(data: ReportData) -> dict[str, Any]:

@@ -22,6 +22,9 @@ def weak_spots_of(loaded: Loaded, diagnoses: Iterable[Diagnosis | None] = ()) ->
 
     noises = {d.response: d.noise_um for d in diagnoses if d is not None and d.noise_um is not None}
     tests = loaded.fitted.tests(loaded.data)
-    return {r.name: weak_spots([(t, r.residual(t), r.mask(t)) for t in tests if r.can_predict(t)],
-                               noises.get(r.name, math.nan))
-            for r in loaded.fitted.responses}
+    return {
+        r.name: weak_spots(
+            [(t, r.residual(t), r.mask(t)) for t in tests if r.can_predict(t)], noises.get(r.name, math.nan)
+        )
+        for r in loaded.fitted.responses
+    }

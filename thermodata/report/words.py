@@ -31,7 +31,7 @@ def number(value: Any, digits: int = 3) -> str:
 def typeset(text: str) -> str:
     """A terminal's text as a page shows it: 'um' as 'µm', '->' as an arrow, hyphens before digits as minus."""
     text = re.sub(r"\bum\b", "µm", text).replace("->", "→")
-    text = re.sub(r"(?<=\d) (?=%|µm|rpm)", "\u00a0", text)          # a number stays with its unit
+    text = re.sub(r"(?<=\d) (?=%|µm|rpm)", "\u00a0", text)  # a number stays with its unit
     return re.sub(r"(?<![\w.])-(?=\d)", "−", text)
 
 
@@ -56,8 +56,9 @@ def base_role(role: str) -> str:
 
 def pooled(scores: list[Score], *roles: str) -> float | None:
     """Root mean square [um] over whole tests of these roles (none named: all), each sample counted once."""
-    rows = [s for s in scores if s.phase == "all" and s.rmse_um is not None
-            and (not roles or base_role(s.role) in roles)]
+    rows = [
+        s for s in scores if s.phase == "all" and s.rmse_um is not None and (not roles or base_role(s.role) in roles)
+    ]
     n = sum(s.n for s in rows)
     return math.sqrt(sum(s.n * (s.rmse_um or 0.0) ** 2 for s in rows) / n) if n else None
 
@@ -67,11 +68,14 @@ def verdict_sentence(found: Diagnosis) -> str:
     claimed = next((c for c in found.candidates if c.claimed), None)
     if found.verdict == "effect" and claimed:
         drivers = f" ({', '.join(claimed.drivers)})" if claimed.drivers else ""
-        text = (f"missing: {claimed.effect}{drivers}, error {number(claimed.rmse_um_before)} -> "
-                f"{number(claimed.rmse_um_after)} um")
+        text = (
+            f"missing: {claimed.effect}{drivers}, error {number(claimed.rmse_um_before)} -> "
+            f"{number(claimed.rmse_um_after)} um"
+        )
         if claimed.locked_rmse_um_after is not None:
-            text += (f", locked tests {number(claimed.locked_rmse_um_before)} -> "
-                     f"{number(claimed.locked_rmse_um_after)} um")
+            text += (
+                f", locked tests {number(claimed.locked_rmse_um_before)} -> {number(claimed.locked_rmse_um_after)} um"
+            )
         return text
     return {
         "effect": "missing: an effect that the data point to",

@@ -19,7 +19,7 @@ Value = str | float | int
 Direction = Literal["+X", "-X", "+Y", "-Y", "+Z", "-Z", "+A", "-A", "+B", "-B", "+C", "-C"]
 
 
-STORED = {"stored": True}        # validation context of what model_dump_json wrote: plain numbers in canonical units
+STORED = {"stored": True}  # validation context of what model_dump_json wrote: plain numbers in canonical units
 
 
 def _in(unit: str) -> BeforeValidator:
@@ -61,18 +61,18 @@ class Machine(Strict):
 
 
 class TimeColumn(Strict):
-    column: int | str | list[int | str] | None = None     # 1-based, or the header's text; a list joins date and time
-    signals: list[int | str] | None = None                # of several times: its columns; None: those behind it
-    unit: str | None = None                               # relative times: s, min, h; None: found
-    format: str | None = None                             # strptime, where the text is ambiguous
+    column: int | str | list[int | str] | None = None  # 1-based, or the header's text; a list joins date and time
+    signals: list[int | str] | None = None  # of several times: its columns; None: those behind it
+    unit: str | None = None  # relative times: s, min, h; None: found
+    format: str | None = None  # strptime, where the text is ambiguous
 
 
 class TableLayout(Strict):
-    sheet: int | str | None = None                        # 1-based, or its name
+    sheet: int | str | None = None  # 1-based, or its name
     header_rows: int | None = None
-    units_row: int | None = None                          # 1-based row that holds the units
+    units_row: int | None = None  # 1-based row that holds the units
     skip_rows: int = 0
-    time: TimeColumn | list[TimeColumn] | None = None     # a list where columns have times of their own
+    time: TimeColumn | list[TimeColumn] | None = None  # a list where columns have times of their own
     delimiter: str | None = None
     decimal: Literal[".", ","] | None = None
 
@@ -115,7 +115,7 @@ class SourceSpec(Strict):
 class Sensor(Strict):
     model_config = ConfigDict(extra="allow", frozen=True)
     serial: str | None = None
-    range: tuple[Value, Value] | None = None              # in the unit of the raw signal, or with units
+    range: tuple[Value, Value] | None = None  # in the unit of the raw signal, or with units
     resolution: Value | None = None
 
 
@@ -125,7 +125,7 @@ class Channel(Strict):
     source: str | None = None
     signal: str | None = None
     derive: str | None = None
-    schedule: list[tuple[Value, Value]] | None = None     # [[time, value], ...], held between
+    schedule: list[tuple[Value, Value]] | None = None  # [[time, value], ...], held between
     quantity: Quantity
     unit: str | None = None
     axis: Literal["X", "Y", "Z", "A", "B", "C"] | None = None
@@ -151,12 +151,12 @@ class JumpCalibration(Strict):
     source: str
     file: str
     signal: str
-    moves: list[Um] | Literal["unknown"]                  # unknown: nothing is calibrated until they are written
+    moves: list[Um] | Literal["unknown"]  # unknown: nothing is calibrated until they are written
     dwell: Seconds = 10.0
     move_uncertainty: Um = 1.0
     facing: Direction | None = None
     increases_with: Literal["gap", "approach"] | None = None
-    gain: Value | None = None                             # data sheet, cross-checked
+    gain: Value | None = None  # data sheet, cross-checked
 
 
 class ScaleCalibration(Strict):
@@ -166,7 +166,7 @@ class ScaleCalibration(Strict):
     offset: Value = 0
     facing: Direction | None = None
     increases_with: Literal["gap", "approach"] = "gap"
-    uncertainty: Value | None = None                      # of the gain, e.g. "2 %"
+    uncertainty: Value | None = None  # of the gain, e.g. "2 %"
 
 
 class LinearCalibration(Strict):
@@ -225,7 +225,7 @@ class Test(Strict):
     machine: dict[str, Any] = {}
     channels: dict[str, ChannelOverride] = {}
     files: dict[str, str | list[str]] = {}
-    window: tuple[Seconds, Seconds] | None = None         # from the start of the recording
+    window: tuple[Seconds, Seconds] | None = None  # from the start of the recording
     history: Literal["test", "recording"] = "test"
     phases: dict[str, tuple[Seconds, Seconds]] = {}
     measuring: str | Measuring | None = None
@@ -246,7 +246,7 @@ class TestsTable(Strict):
     __test__ = False
     file: str
     key: str
-    columns: dict[str, str] = {}                          # condition -> column of the table
+    columns: dict[str, str] = {}  # condition -> column of the table
     sheet: int | str | None = None
 
 
@@ -254,9 +254,9 @@ class TestsFrom(Strict):
     """Many tests whose conditions stand in file names, or in a table beside them."""
 
     __test__ = False
-    files: str                                            # "raw/S{speed}_F{feed}_{nr}.csv"
-    source: str | None = None                             # default: the campaign's only source
-    id: str | None = None                                 # default: the file's stem; may use the fields
+    files: str  # "raw/S{speed}_F{feed}_{nr}.csv"
+    source: str | None = None  # default: the campaign's only source
+    id: str | None = None  # default: the file's stem; may use the fields
     table: TestsTable | None = None
     units: dict[str, str] = {}
     disagree: Literal["error", "table", "name"] = "error"
@@ -274,7 +274,7 @@ class Campaign(Strict):
     calibrations: dict[str, Calibration] = {}
     tests: list[Test] = []
     tests_from: TestsFrom | list[TestsFrom] | None = None
-    versions: dict[str, str] = {}                         # file -> the SHA-256 (or its beginning) of an earlier version
+    versions: dict[str, str] = {}  # file -> the SHA-256 (or its beginning) of an earlier version
     notes: str = ""
 
     @field_validator("id")
@@ -300,7 +300,8 @@ class Campaign(Strict):
             if not NAME.match(name) or "__" in name or name.lower() in RESERVED_NAMES:
                 raise ValueError(
                     f"channel name '{name}': letters, digits and single '_', starting with a letter, "
-                    f"and none of {', '.join(sorted(RESERVED_NAMES))}")
+                    f"and none of {', '.join(sorted(RESERVED_NAMES))}"
+                )
             if name.lower() in seen:
                 raise ValueError(f"channels '{seen[name.lower()]}' and '{name}' differ only in case")
             seen[name.lower()] = name
@@ -308,7 +309,30 @@ class Campaign(Strict):
 
 
 __all__ = [
-    "QUANTITIES", "AlignBy", "Axis", "Calibration", "Campaign", "Channel", "ChannelOverride", "Clock", "ClockEvent",
-    "Direction", "JumpCalibration", "LinearCalibration", "Machine", "Measuring", "Role", "ScaleCalibration", "Sensor",
-    "SourceSpec", "TableLayout", "Test", "TestKind", "TestsFrom", "TestsTable", "TimeColumn", "Tool", "Zero",
+    "QUANTITIES",
+    "AlignBy",
+    "Axis",
+    "Calibration",
+    "Campaign",
+    "Channel",
+    "ChannelOverride",
+    "Clock",
+    "ClockEvent",
+    "Direction",
+    "JumpCalibration",
+    "LinearCalibration",
+    "Machine",
+    "Measuring",
+    "Role",
+    "ScaleCalibration",
+    "Sensor",
+    "SourceSpec",
+    "TableLayout",
+    "Test",
+    "TestKind",
+    "TestsFrom",
+    "TestsTable",
+    "TimeColumn",
+    "Tool",
+    "Zero",
 ]

@@ -22,18 +22,26 @@ def _known(kind: str, name: str, choices: Collection[str], document: Document, p
     if name in choices:
         return
     close = nearest(name, list(choices))
-    raise SpecError(f"no {kind} '{name}'", where=document.where(place),
-                    expected="one of " + ", ".join(sorted(choices)) if choices else f"a {kind} declared in this file",
-                    got=name, hint=f"did you mean '{close}'?" if close else f"declare it, or correct the {kind}'s name")
+    raise SpecError(
+        f"no {kind} '{name}'",
+        where=document.where(place),
+        expected="one of " + ", ".join(sorted(choices)) if choices else f"a {kind} declared in this file",
+        got=name,
+        hint=f"did you mean '{close}'?" if close else f"declare it, or correct the {kind}'s name",
+    )
 
 
 def inside(text: str, document: Document, place: Place) -> None:
     """Refuses a path that leaves the campaign's folder."""
     pure = PurePosixPath(text.replace("\\", "/"))
     if pure.is_absolute() or ".." in pure.parts or PureWindowsPath(text).drive:
-        raise SpecError("a path that leaves the campaign's folder", where=document.where(place),
-                        expected="a path below the folder of the campaign file", got=text,
-                        hint="move the file below the campaign file, or the campaign file above it")
+        raise SpecError(
+            "a path that leaves the campaign's folder",
+            where=document.where(place),
+            expected="a path below the folder of the campaign file",
+            got=text,
+            hint="move the file below the campaign file, or the campaign file above it",
+        )
 
 
 def _channels(campaign: Campaign, document: Document) -> None:
@@ -52,9 +60,12 @@ def _calibrations(campaign: Campaign, document: Document) -> None:
             inside(calibration.file, document, ("calibrations", name, "file"))
             known = calibration.moves if isinstance(calibration.moves, list) else [1.0]
             if not known or any(move == 0 for move in known):
-                raise SpecError("a jump test needs moves, none of them 0",
-                                where=document.where(("calibrations", name, "moves")),
-                                expected="for example [100 um, -100 um]", got=str(calibration.moves))
+                raise SpecError(
+                    "a jump test needs moves, none of them 0",
+                    where=document.where(("calibrations", name, "moves")),
+                    expected="for example [100 um, -100 um]",
+                    got=str(calibration.moves),
+                )
 
 
 def _sources(campaign: Campaign, document: Document) -> None:
@@ -65,9 +76,12 @@ def _sources(campaign: Campaign, document: Document) -> None:
             if source.clock.align_to == name:
                 raise SpecError("a source cannot be aligned to itself", where=document.where(place))
             if not source.clock.by and not source.clock.events:
-                raise SpecError("'align_to' needs 'by' or 'events'", where=document.where(place),
-                                expected="by: [{here: channel_of_this_source, there: channel_of_the_other}], or "
-                                         "events: [{here: a time, there: the same moment}]")
+                raise SpecError(
+                    "'align_to' needs 'by' or 'events'",
+                    where=document.where(place),
+                    expected="by: [{here: channel_of_this_source, there: channel_of_the_other}], or "
+                    "events: [{here: a time, there: the same moment}]",
+                )
             for i, pair in enumerate(source.clock.by):
                 _known("channel", pair.here, campaign.channels, document, ("sources", name, "clock", "by", i, "here"))
                 _known("channel", pair.there, campaign.channels, document, ("sources", name, "clock", "by", i, "there"))
@@ -85,19 +99,31 @@ def _timezone(name: str, document: Document, place: Place) -> None:
         ZoneInfo(name)
     except (KeyError, ValueError, OSError):
         close = nearest(name, sorted(available_timezones()))
-        raise SpecError(f"no time zone '{name}'", where=document.where(place), expected="an IANA name, Europe/Prague",
-                        got=name, hint=f"did you mean '{close}'?" if close else None) from None
+        raise SpecError(
+            f"no time zone '{name}'",
+            where=document.where(place),
+            expected="an IANA name, Europe/Prague",
+            got=name,
+            hint=f"did you mean '{close}'?" if close else None,
+        ) from None
 
 
 def _tests(campaign: Campaign, document: Document) -> None:
     if not campaign.tests and campaign.tests_from is None:
-        raise SpecError("the campaign has no tests", where=document.where(("tests",)),
-                        expected="tests: [{id: ..., ...}] or tests_from: {files: ...}")
+        raise SpecError(
+            "the campaign has no tests",
+            where=document.where(("tests",)),
+            expected="tests: [{id: ..., ...}] or tests_from: {files: ...}",
+        )
     seen: dict[str, str] = {}
     for i, test in enumerate(campaign.tests):
         if test.id.lower() in seen:
-            raise SpecError(f"the test '{test.id}' stands twice", where=document.where(("tests", i, "id")),
-                            expected="unique ids, ignoring case", got=seen[test.id.lower()])
+            raise SpecError(
+                f"the test '{test.id}' stands twice",
+                where=document.where(("tests", i, "id")),
+                expected="unique ids, ignoring case",
+                got=seen[test.id.lower()],
+            )
         seen[test.id.lower()] = test.id
     for i, test in enumerate(campaign.tests):
         for source, files in test.files.items():
@@ -109,12 +135,18 @@ def _tests(campaign: Campaign, document: Document) -> None:
         if test.repeat_of is not None:
             _known("test", test.repeat_of, list(seen.values()), document, ("tests", i, "repeat_of"))
         if test.window is not None and test.window[1] <= test.window[0]:
-            raise SpecError("a window that ends before it starts", where=document.where(("tests", i, "window")),
-                            expected="[from, to] with from < to", got=f"[{test.window[0]:g} s, {test.window[1]:g} s]")
+            raise SpecError(
+                "a window that ends before it starts",
+                where=document.where(("tests", i, "window")),
+                expected="[from, to] with from < to",
+                got=f"[{test.window[0]:g} s, {test.window[1]:g} s]",
+            )
         for name, (begin, end) in test.phases.items():
             if test.window is not None and (end <= test.window[0] or begin >= test.window[1]):
-                raise SpecError(f"the phase '{name}' lies outside the test's window",
-                                where=document.where(("tests", i, "phases", name)),
-                                expected=f"a part of [{test.window[0]:g} s, {test.window[1]:g} s]",
-                                got=f"[{begin:g} s, {end:g} s]",
-                                hint="phases count from the start of the recording, as the window does")
+                raise SpecError(
+                    f"the phase '{name}' lies outside the test's window",
+                    where=document.where(("tests", i, "phases", name)),
+                    expected=f"a part of [{test.window[0]:g} s, {test.window[1]:g} s]",
+                    got=f"[{begin:g} s, {end:g} s]",
+                    hint="phases count from the start of the recording, as the window does",
+                )

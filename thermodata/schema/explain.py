@@ -29,9 +29,13 @@ def _as_error(document: Document, problems: list[SpecError]) -> SpecError:
         return first
     others = "; ".join(f"{p.where}: {p.what}" + (f" ({p.hint})" if p.hint else "") for p in problems[1:SHOWN])
     more = f"; and {len(problems) - SHOWN} more" if len(problems) > SHOWN else ""
-    return SpecError(f"{first.what} (the first of {len(problems)} problems)", where=first.where,
-                     expected=first.expected, got=first.got,
-                     hint=". ".join(filter(None, [first.hint, f"then also {others}{more}"])))
+    return SpecError(
+        f"{first.what} (the first of {len(problems)} problems)",
+        where=first.where,
+        expected=first.expected,
+        got=first.got,
+        hint=". ".join(filter(None, [first.hint, f"then also {others}{more}"])),
+    )
 
 
 def _problems(model: type[BaseModel], document: Document, error: ValidationError) -> Iterator[SpecError]:
@@ -61,20 +65,30 @@ def _one(model: type[BaseModel], document: Document, place: Place, detail: Any, 
     if kind == "extra_forbidden":
         keys = sorted(_keys_at(model, place[:-1], tags))
         close = nearest(str(name), keys)
-        return SpecError(f"unknown key '{name}'", where=where, expected="one of " + ", ".join(keys), got=str(name),
-                         hint=f"did you mean '{close}'?" if close else None)
+        return SpecError(
+            f"unknown key '{name}'",
+            where=where,
+            expected="one of " + ", ".join(keys),
+            got=str(name),
+            hint=f"did you mean '{close}'?" if close else None,
+        )
     if kind == "missing":
-        return SpecError(f"the key '{name}' is missing", where=document.where(place[:-1]),
-                         expected=f"{dotted_place(place)}: ...")
+        return SpecError(
+            f"the key '{name}' is missing", where=document.where(place[:-1]), expected=f"{dotted_place(place)}: ..."
+        )
     value = at_place(document.data, place)
     message = str(detail["msg"]).removeprefix("Value error, ")
     close = None
     if kind == "literal_error":
         choices = [c.strip("' ") for c in str(detail["ctx"]["expected"]).replace(" or ", ", ").split(",")]
         close = nearest(str(value), choices)
-        return SpecError(f"'{name}' is not one of the allowed words", where=where,
-                         expected=", ".join(c for c in choices if c), got=repr(value),
-                         hint=f"did you mean '{close}'?" if close else None)
+        return SpecError(
+            f"'{name}' is not one of the allowed words",
+            where=where,
+            expected=", ".join(c for c in choices if c),
+            got=repr(value),
+            hint=f"did you mean '{close}'?" if close else None,
+        )
     return SpecError(f"'{name}': {message}" if name != "" else message, where=where, got=_short(value))
 
 
@@ -99,7 +113,8 @@ def _real_place(data: Any, loc: tuple[str | int, ...], kind: str) -> tuple[Place
     for i, part in enumerate(loc):
         value = at_place(data, place)
         exists = (isinstance(value, dict) and part in value) or (
-            isinstance(value, list) and isinstance(part, int) and part < len(value))
+            isinstance(value, list) and isinstance(part, int) and part < len(value)
+        )
         if exists or (i == last and kind == "missing"):
             place.append(part)
         elif isinstance(part, str):

@@ -24,6 +24,12 @@ class Flag(IntFlag):
 # A sample with any of these does not count in means, fits and scores. A gap marks the first sample after it
 # (a good value), an interpolated value and a rate change are information only.
 INVALID = (
-    Flag.HELD | Flag.SATURATED | Flag.SPIKE | Flag.OUT_OF_RANGE | Flag.NOT_MEASURING
-    | Flag.STUCK | Flag.OFFSET | Flag.DUPLICATE_TIME
+    Flag.HELD
+    | Flag.SATURATED
+    | Flag.SPIKE
+    | Flag.OUT_OF_RANGE
+    | Flag.NOT_MEASURING
+    | Flag.STUCK
+    | Flag.OFFSET
+    | Flag.DUPLICATE_TIME
 )

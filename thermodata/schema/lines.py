@@ -60,6 +60,7 @@ class SlowLoader(yaml.SafeLoader):
 _LOOSE = "\ufeff\t"
 FastLoader: type[Any] | None = None
 if hasattr(yaml, "CSafeLoader"):
+
     class _FastLoader(yaml.CSafeLoader):
         """The parser in C: a tenth of the time, where PyYAML was built with it."""
 
@@ -72,21 +73,35 @@ def read_document(path: Path) -> Document:
     """Parse a YAML file; SpecError names file and line where it is not one mapping of plain values."""
     if path.is_dir():
         own = path / "campaign.yaml"
-        raise SpecError(f"'{path}' is a folder", where=str(path), expected="a YAML file", got="a folder",
-                        hint=f"name the file: {own}" if own.is_file() else f"thermodata init {path} drafts {own}")
+        raise SpecError(
+            f"'{path}' is a folder",
+            where=str(path),
+            expected="a YAML file",
+            got="a folder",
+            hint=f"name the file: {own}" if own.is_file() else f"thermodata init {path} drafts {own}",
+        )
     try:
         raw = path.read_bytes()
     except OSError as error:
-        raise SpecError(f"cannot read '{path}'", where=str(path), got=error.strerror or str(error),
-                        hint="give the path of the YAML file") from None
+        raise SpecError(
+            f"cannot read '{path}'",
+            where=str(path),
+            got=error.strerror or str(error),
+            hint="give the path of the YAML file",
+        ) from None
     if len(raw) > MAX_BYTES:
-        raise SpecError("the file is too large for a YAML description", where=str(path),
-                        expected=f"under {MAX_BYTES} bytes", got=str(len(raw)))
+        raise SpecError(
+            "the file is too large for a YAML description",
+            where=str(path),
+            expected=f"under {MAX_BYTES} bytes",
+            got=str(len(raw)),
+        )
     try:
         text = raw.decode("utf-8-sig")
     except UnicodeDecodeError as error:
-        raise SpecError("the file is not UTF-8", where=f"{path.name}, byte {error.start}",
-                        hint="save it as UTF-8") from None
+        raise SpecError(
+            "the file is not UTF-8", where=f"{path.name}, byte {error.start}", hint="save it as UTF-8"
+        ) from None
     return parse_document(text, path)
 
 
@@ -96,15 +111,18 @@ def parse_document(text: str, path: Path) -> Document:
         try:
             return _parsed(FastLoader(text), path)
         except yaml.YAMLError:
-            pass                     # what it refuses the other one reads, or says where and why in its own words
+            pass  # what it refuses the other one reads, or says where and why in its own words
     try:
         return _parsed(SlowLoader(text), path)
     except (yaml.YAMLError, RecursionError) as error:
         mark = getattr(error, "problem_mark", None)
         line = f":{mark.line + 1}, column {mark.column + 1}" if mark else ""
-        raise SpecError("not valid YAML", where=f"{path.name}{line}",
-                        got=str(getattr(error, "problem", None) or type(error).__name__),
-                        hint="check indentation, quotes and brackets near that line") from None
+        raise SpecError(
+            "not valid YAML",
+            where=f"{path.name}{line}",
+            got=str(getattr(error, "problem", None) or type(error).__name__),
+            hint="check indentation, quotes and brackets near that line",
+        ) from None
 
 
 def _is_shallow(text: str, loader: Any) -> bool:
@@ -125,8 +143,12 @@ def _parsed(loader: Any, path: Path) -> Document:
     try:
         root = loader.get_single_node()
         if root is None or not isinstance(root, yaml.MappingNode):
-            raise SpecError("the file holds no keys", where=f"{path.name}:1", expected="key: value lines",
-                            hint="thermodata init FOLDER drafts a campaign file from raw files")
+            raise SpecError(
+                "the file holds no keys",
+                where=f"{path.name}:1",
+                expected="key: value lines",
+                hint="thermodata init FOLDER drafts a campaign file from raw files",
+            )
         document = Document(path, None)
         document.data = _Builder(loader, document).build(root, (), 0)
         return document
@@ -145,8 +167,11 @@ class _Builder:
         name, line = self.document.path.name, node.start_mark.line + 1
         # aliases may nest: a file of a few lines can describe more nodes than memory holds
         if self.count > MAX_NODES or depth > MAX_DEPTH:
-            raise SpecError("the file describes too much", where=f"{name}:{line}",
-                            expected=f"at most {MAX_NODES} values and {MAX_DEPTH} levels")
+            raise SpecError(
+                "the file describes too much",
+                where=f"{name}:{line}",
+                expected=f"at most {MAX_NODES} values and {MAX_DEPTH} levels",
+            )
         self.document.line.setdefault(place, line)
         if isinstance(node, yaml.MappingNode):
             return self._mapping(node, place, depth)
@@ -155,8 +180,12 @@ class _Builder:
         try:
             return self.loader.construct_object(node)
         except (yaml.YAMLError, ValueError):
-            raise SpecError("a value that YAML cannot read", where=f"{name}:{line}", got=str(node.value)[:80],
-                            hint="put it in quotes") from None
+            raise SpecError(
+                "a value that YAML cannot read",
+                where=f"{name}:{line}",
+                got=str(node.value)[:80],
+                hint="put it in quotes",
+            ) from None
 
     def _mapping(self, node: yaml.MappingNode, place: Place, depth: int) -> dict[str, Any]:
         result: dict[str, Any] = {}
@@ -167,9 +196,12 @@ class _Builder:
                 raise SpecError("a key must be a word", where=f"{name}:{line}")
             key = str(key_node.value)
             if key in result:
-                raise SpecError(f"the key '{key}' stands twice", where=f"{name}:{line}",
-                                got=f"first at line {self.document.line[(*place, key)]}",
-                                hint="keep one of them")
+                raise SpecError(
+                    f"the key '{key}' stands twice",
+                    where=f"{name}:{line}",
+                    got=f"first at line {self.document.line[(*place, key)]}",
+                    hint="keep one of them",
+                )
             self.document.line[(*place, key)] = line
             result[key] = self.build(value_node, (*place, key), depth + 1)
         return result

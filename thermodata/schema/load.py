@@ -48,6 +48,8 @@ def _expect_schema(document: Document, expected: str) -> None:
         other = isinstance(got, str) and got.startswith("thermodata/")
         raise SpecError(
             f"not a {kind} file" if not other else f"this is a '{got}' file",
-            where=document.where(("schema",)), expected=f"schema: {expected}",
+            where=document.where(("schema",)),
+            expected=f"schema: {expected}",
             got="no 'schema' key" if got is None else f"schema: {got}",
-            hint=f"start the file with 'schema: {expected}'" if got is None else None)
+            hint=f"start the file with 'schema: {expected}'" if got is None else None,
+        )

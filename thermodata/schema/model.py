@@ -30,18 +30,18 @@ class Place(Strict):
     at: str
 
 
-Driver = str | Place                                       # a channel, a difference "T_a - T_b", or a place
+Driver = str | Place  # a channel, a difference "T_a - T_b", or a place
 
 
 class EffectSpec(Strict):
     effect: str
-    id: str | None = None                                  # default: the effect's name, numbered when repeated
+    id: str | None = None  # default: the effect's name, numbered when repeated
     drivers: dict[str, Driver] = {}
     calibrate_on: list[str] | None = None
-    tests: list[str] | None = None                         # the effect exists in these tests only (a slip)
+    tests: list[str] | None = None  # the effect exists in these tests only (a slip)
     method: Literal["oe", "arx", "varpro"] | None = None
     orders: tuple[int, int] | None = None
-    gain_by: str | None = None                             # "conditions.spindle": one gain for each value
+    gain_by: str | None = None  # "conditions.spindle": one gain for each value
     shared: list[str] = []
     fixed: dict[str, float] = {}
     start: dict[str, float] = {}
@@ -61,7 +61,7 @@ class Model(Strict):
     phases: list[str] | None = None
     step: Annotated[Seconds, Field(gt=0), _WITH_UNIT] = 30.0
     effects: list[EffectSpec] = []
-    in_sample: bool = False                                # verify_on is fitted too, and its scores say so (set by add)
+    in_sample: bool = False  # verify_on is fitted too, and its scores say so (set by add)
     notes: str = ""
 
     @field_validator("response")

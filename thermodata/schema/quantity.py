@@ -13,44 +13,160 @@ from typing import Any, Literal, get_args
 from thermodata.errors import UsageError, nearest
 
 Quantity = Literal[
-    "displacement", "tilt", "angle", "temperature", "temperature_difference", "rotational_speed", "feed",
-    "power", "load", "current", "torque", "position", "flow", "pressure", "humidity", "irradiance", "voltage",
-    "resistance", "state", "label",
+    "displacement",
+    "tilt",
+    "angle",
+    "temperature",
+    "temperature_difference",
+    "rotational_speed",
+    "feed",
+    "power",
+    "load",
+    "current",
+    "torque",
+    "position",
+    "flow",
+    "pressure",
+    "humidity",
+    "irradiance",
+    "voltage",
+    "resistance",
+    "state",
+    "label",
 ]
 QUANTITIES: tuple[str, ...] = get_args(Quantity)
 
 CANONICAL_UNIT: dict[str, str] = {
-    "displacement": "um", "tilt": "urad", "angle": "deg", "temperature": "degC", "temperature_difference": "K",
-    "rotational_speed": "rpm", "feed": "m/min", "power": "kW", "load": "%", "current": "A", "torque": "N m",
-    "position": "mm", "flow": "l/min", "pressure": "bar", "humidity": "%", "irradiance": "W/m2", "voltage": "V",
-    "resistance": "Ohm", "state": "1", "label": "1",
+    "displacement": "um",
+    "tilt": "urad",
+    "angle": "deg",
+    "temperature": "degC",
+    "temperature_difference": "K",
+    "rotational_speed": "rpm",
+    "feed": "m/min",
+    "power": "kW",
+    "load": "%",
+    "current": "A",
+    "torque": "N m",
+    "position": "mm",
+    "flow": "l/min",
+    "pressure": "bar",
+    "humidity": "%",
+    "irradiance": "W/m2",
+    "voltage": "V",
+    "resistance": "Ohm",
+    "state": "1",
+    "label": "1",
 }
 
 # What labs write -> what pint reads. Pint misreads several of the left side without a word (1/min as
 # 0.159 rpm, U/min as enzyme units, Grd C as coulombs), so the alias comes first. Keys are casefolded with
 # blanks removed; a unit that case distinguishes (mW / MW) stays out of this table.
 _ALIAS: dict[str, str] = {
-    "1/min": "rpm", "u/min": "rpm", "ot/min": "rpm", "ot./min": "rpm", "min-1": "rpm", "min^-1": "rpm",
-    "min⁻¹": "rpm", "rev/min": "rpm", "r/min": "rpm", "rpm": "rpm", "upm": "rpm", "tr/min": "rpm", "/min": "rpm",
-    "1/s": "turn/second", "u/s": "turn/second", "ot/s": "turn/second", "s-1": "turn/second", "s^-1": "turn/second",
-    "rev/s": "turn/second", "rps": "turn/second", "hz": "turn/second",
-    "degc": "degC", "°c": "degC", "℃": "degC", "grdc": "degC", "celsius": "degC", "deg.c": "degC",
-    "c": "degC", "c°": "degC", "°celsius": "degC",
-    "gradc": "degC", "ºc": "degC", "degcelsius": "degC", "degreec": "degC", "degreescelsius": "degC",
-    "stc": "degC", "degf": "degF", "°f": "degF", "fahrenheit": "degF",
-    "um": "um", "µm": "um", "μm": "um", "micron": "um", "microns": "um", "micrometer": "um", "mikrometer": "um",
-    "urad": "urad", "µrad": "urad", "μrad": "urad", "um/m": "urad", "µm/m": "urad",
-    "deg": "deg", "°": "deg", "grad": "deg", "volts": "V", "volt": "V", "v": "V",
-    "%": "percent", "percent": "percent", "pct": "percent", "proz": "percent",
-    "%rh": "percent", "rh%": "percent", "rh": "percent", "%r.h.": "percent", "%rf": "percent", "kw": "kW",
-    "nm": "N*m", "n·m": "N*m", "n*m": "N*m", "n.m": "N*m", "newtons": "N",
-    "w/m2": "W/m**2", "w/m²": "W/m**2", "w/m^2": "W/m**2",
-    "ohm": "ohm", "ω": "ohm", "ohms": "ohm", "l/min": "l/min", "lpm": "l/min",
-    "m/min": "m/min", "mm/min": "mm/min", "1": "dimensionless", "-": "dimensionless", "bool": "dimensionless",
-    "": "dimensionless", "none": "dimensionless", "0/1": "dimensionless", "on/off": "dimensionless",
-    "k": "K", "kelvin": "K", "amps": "A", "ampere": "A", "amp": "A",
-    "hours": "h", "hour": "h", "std": "h", "hod": "h", "secs": "s", "sec": "s", "sek": "s", "seconds": "s",
-    "minutes": "min", "minuten": "min",
+    "1/min": "rpm",
+    "u/min": "rpm",
+    "ot/min": "rpm",
+    "ot./min": "rpm",
+    "min-1": "rpm",
+    "min^-1": "rpm",
+    "min⁻¹": "rpm",
+    "rev/min": "rpm",
+    "r/min": "rpm",
+    "rpm": "rpm",
+    "upm": "rpm",
+    "tr/min": "rpm",
+    "/min": "rpm",
+    "1/s": "turn/second",
+    "u/s": "turn/second",
+    "ot/s": "turn/second",
+    "s-1": "turn/second",
+    "s^-1": "turn/second",
+    "rev/s": "turn/second",
+    "rps": "turn/second",
+    "hz": "turn/second",
+    "degc": "degC",
+    "°c": "degC",
+    "℃": "degC",
+    "grdc": "degC",
+    "celsius": "degC",
+    "deg.c": "degC",
+    "c": "degC",
+    "c°": "degC",
+    "°celsius": "degC",
+    "gradc": "degC",
+    "ºc": "degC",
+    "degcelsius": "degC",
+    "degreec": "degC",
+    "degreescelsius": "degC",
+    "stc": "degC",
+    "degf": "degF",
+    "°f": "degF",
+    "fahrenheit": "degF",
+    "um": "um",
+    "µm": "um",
+    "μm": "um",
+    "micron": "um",
+    "microns": "um",
+    "micrometer": "um",
+    "mikrometer": "um",
+    "urad": "urad",
+    "µrad": "urad",
+    "μrad": "urad",
+    "um/m": "urad",
+    "µm/m": "urad",
+    "deg": "deg",
+    "°": "deg",
+    "grad": "deg",
+    "volts": "V",
+    "volt": "V",
+    "v": "V",
+    "%": "percent",
+    "percent": "percent",
+    "pct": "percent",
+    "proz": "percent",
+    "%rh": "percent",
+    "rh%": "percent",
+    "rh": "percent",
+    "%r.h.": "percent",
+    "%rf": "percent",
+    "kw": "kW",
+    "nm": "N*m",
+    "n·m": "N*m",
+    "n*m": "N*m",
+    "n.m": "N*m",
+    "newtons": "N",
+    "w/m2": "W/m**2",
+    "w/m²": "W/m**2",
+    "w/m^2": "W/m**2",
+    "ohm": "ohm",
+    "ω": "ohm",
+    "ohms": "ohm",
+    "l/min": "l/min",
+    "lpm": "l/min",
+    "m/min": "m/min",
+    "mm/min": "mm/min",
+    "1": "dimensionless",
+    "-": "dimensionless",
+    "bool": "dimensionless",
+    "": "dimensionless",
+    "none": "dimensionless",
+    "0/1": "dimensionless",
+    "on/off": "dimensionless",
+    "k": "K",
+    "kelvin": "K",
+    "amps": "A",
+    "ampere": "A",
+    "amp": "A",
+    "hours": "h",
+    "hour": "h",
+    "std": "h",
+    "hod": "h",
+    "secs": "s",
+    "sec": "s",
+    "sek": "s",
+    "seconds": "s",
+    "minutes": "min",
+    "minuten": "min",
 }
 _QUANTITY_TEXT = re.compile(r"^\s*([+-]?(?:\d+(?:[.,]\d*)?|[.,]\d+)(?:[eE][+-]?\d+)?)\s*(.*?)\s*$")
 
@@ -109,8 +225,10 @@ def is_unit(text: str) -> bool:
 def compound_unit(left: str, operator: Literal["*", "/"], right: str) -> str:
     """The unit of a product or quotient, '' where it has none; a temperature counts as a difference in it."""
     registry = _registry()
-    a, b = (registry.parse_units({"degC": "K", "degF": "delta_degF"}.get(n, n) if (n := normal_unit(u)) else "")
-            for u in (left, right))
+    a, b = (
+        registry.parse_units({"degC": "K", "degF": "delta_degF"}.get(n, n) if (n := normal_unit(u)) else "")
+        for u in (left, right)
+    )
     unit = a * b if operator == "*" else a / b
     return "" if unit == registry.dimensionless else str(unit)
 
@@ -119,8 +237,12 @@ def canonical(quantity: str) -> str:
     """The canonical unit of a quantity."""
     if quantity not in CANONICAL_UNIT:
         close = nearest(quantity, QUANTITIES)
-        raise UsageError(f"no quantity '{quantity}'", expected=", ".join(QUANTITIES), got=quantity,
-                         hint=f"did you mean '{close}'?" if close else None)
+        raise UsageError(
+            f"no quantity '{quantity}'",
+            expected=", ".join(QUANTITIES),
+            got=quantity,
+            hint=f"did you mean '{close}'?" if close else None,
+        )
     return CANONICAL_UNIT[quantity]
 
 
@@ -142,7 +264,11 @@ def value_in(text: str | float | int, unit: str) -> float:
     if not written:
         if value == 0 or unit in ("1", "dimensionless"):
             return value
-        raise UsageError("a value without a unit", expected=f"a unit, for example '{text} {unit}'", got=str(text),
-                         hint=f"write '{text} {unit}'")
+        raise UsageError(
+            "a value without a unit",
+            expected=f"a unit, for example '{text} {unit}'",
+            got=str(text),
+            hint=f"write '{text} {unit}'",
+        )
     factor, offset = linear_conversion(written, unit)
     return factor * value + offset

@@ -26,14 +26,22 @@ def expand(campaign: Campaign, document: Document) -> Campaign:
         found: dict[str, str] = {}
         for test, file in _from_files(campaign, spec, document, place):
             if test.id.lower() in found:
-                raise SpecError(f"two files give the test '{test.id}'", where=document.where(place),
-                                got=f"{found[test.id.lower()]} and {file}", hint="set 'id' so that they differ")
+                raise SpecError(
+                    f"two files give the test '{test.id}'",
+                    where=document.where(place),
+                    got=f"{found[test.id.lower()]} and {file}",
+                    hint="set 'id' so that they differ",
+                )
             found[test.id.lower()] = file
             tests.setdefault(test.id.lower(), test)
         if not found:
-            raise SpecError("no file fits the pattern", where=document.where((*place, "files")),
-                            expected=spec.files, got=f"nothing below {document.path.parent.name or '.'}",
-                            hint="check the folder and the spelling; {name} stands for one part of a file name")
+            raise SpecError(
+                "no file fits the pattern",
+                where=document.where((*place, "files")),
+                expected=spec.files,
+                got=f"nothing below {document.path.parent.name or '.'}",
+                hint="check the folder and the spelling; {name} stands for one part of a file name",
+            )
     return campaign.model_copy(update={"tests": list(tests.values()), "tests_from": None})
 
 
@@ -41,8 +49,12 @@ def _from_files(campaign: Campaign, spec: TestsFrom, document: Document, place: 
     inside(spec.files, document, (*place, "files"))
     source = spec.source or next(iter(campaign.sources), None)
     if source is None or (spec.source is None and len(campaign.sources) != 1) or source not in campaign.sources:
-        raise SpecError("which source are these files?", where=document.where((*place, "source")),
-                        expected="source: one of " + ", ".join(sorted(campaign.sources)), got=str(spec.source))
+        raise SpecError(
+            "which source are these files?",
+            where=document.where((*place, "source")),
+            expected="source: one of " + ", ".join(sorted(campaign.sources)),
+            got=str(spec.source),
+        )
     folder = document.path.parent.resolve()
     pattern = _pattern(spec.files)
     table = _read_table(spec, folder, document, place) if spec.table else {}
@@ -61,8 +73,13 @@ def _from_files(campaign: Campaign, spec: TestsFrom, document: Document, place: 
         try:
             tests.append((validate(Test, Document(document.path, given)), name))
         except SpecError as error:
-            raise SpecError(error.what, where=f"{document.where((*place, 'set'))}, for {name}", expected=error.expected,
-                            got=error.got, hint=error.hint) from None
+            raise SpecError(
+                error.what,
+                where=f"{document.where((*place, 'set'))}, for {name}",
+                expected=error.expected,
+                got=error.got,
+                hint=error.hint,
+            ) from None
     return tests
 
 
@@ -70,7 +87,7 @@ def _pattern(files: str) -> re.Pattern[str]:
     """A glob with {names} as a regular expression; the same name twice must match the same text."""
     text, seen, last = "", set(), 0
     for field in _FIELD.finditer(files):
-        text += _glob_to_regex(files[last:field.start()])
+        text += _glob_to_regex(files[last : field.start()])
         text += f"(?P={field[1]})" if field[1] in seen else f"(?P<{field[1]}>[^/]+?)"
         seen.add(field[1])
         last = field.end()
@@ -81,8 +98,14 @@ def _glob_to_regex(text: str) -> str:
     return re.escape(text).replace(r"\*\*/", "(?:.*/)?").replace(r"\*", "[^/]*").replace(r"\?", "[^/]")
 
 
-def _conditions(spec: TestsFrom, fields: Mapping[str, str], table: Mapping[str, Mapping[str, Any]], name: str,
-                document: Document, place: Place) -> dict[str, Any]:
+def _conditions(
+    spec: TestsFrom,
+    fields: Mapping[str, str],
+    table: Mapping[str, Mapping[str, Any]],
+    name: str,
+    document: Document,
+    place: Place,
+) -> dict[str, Any]:
     result: dict[str, Any] = {}
     key = spec.table.key if spec.table else None
     for field, text in fields.items():
@@ -92,16 +115,23 @@ def _conditions(spec: TestsFrom, fields: Mapping[str, str], table: Mapping[str, 
         return result
     row = table.get(_norm(fields.get(spec.table.key, "")))
     if row is None:
-        raise SpecError(f"the table has no row for '{name}'", where=document.where((*place, "table")),
-                        expected=f"{spec.table.key} = {fields.get(spec.table.key)}",
-                        got=f"{len(table)} rows in {spec.table.file}")
+        raise SpecError(
+            f"the table has no row for '{name}'",
+            where=document.where((*place, "table")),
+            expected=f"{spec.table.key} = {fields.get(spec.table.key)}",
+            got=f"{len(table)} rows in {spec.table.file}",
+        )
     for condition, column in spec.table.columns.items():
         value = _with_unit(row[column], spec.units.get(condition))
         if condition in result and not _same(result[condition], value):
             if spec.disagree == "error":
-                raise SpecError(f"file name and table disagree on '{condition}'", where=f"{name} and {spec.table.file}",
-                                expected=f"{result[condition]} (name)", got=f"{value} (table)",
-                                hint="correct one, or set disagree: table or disagree: name")
+                raise SpecError(
+                    f"file name and table disagree on '{condition}'",
+                    where=f"{name} and {spec.table.file}",
+                    expected=f"{result[condition]} (name)",
+                    got=f"{value} (table)",
+                    hint="correct one, or set disagree: table or disagree: name",
+                )
             if spec.disagree == "name":
                 continue
         result[condition] = value
@@ -145,20 +175,28 @@ def _read_table(spec: TestsFrom, folder: Path, document: Document, place: Place)
     try:
         if path.suffix.lower() in (".xlsx", ".xls", ".ods"):
             sheet = spec.table.sheet
-            frame = pd.read_excel(path, sheet_name=sheet - 1 if isinstance(sheet, int) else sheet or 0, dtype=object,
-                                  engine="calamine")
+            frame = pd.read_excel(
+                path, sheet_name=sheet - 1 if isinstance(sheet, int) else sheet or 0, dtype=object, engine="calamine"
+            )
         else:
             frame = pd.read_csv(path, sep=_delimiter(path), dtype=str, keep_default_na=False, encoding="utf-8-sig")
     except (OSError, ValueError, ImportError) as error:
-        raise SpecError("cannot read the table of tests", where=document.where((*place, "table", "file")),
-                        got=f"{spec.table.file}: {error}") from None
+        raise SpecError(
+            "cannot read the table of tests",
+            where=document.where((*place, "table", "file")),
+            got=f"{spec.table.file}: {error}",
+        ) from None
     columns = [str(c) for c in frame.columns]
     for wanted in (spec.table.key, *spec.table.columns.values()):
         if wanted not in columns:
             close = nearest(wanted, columns)
-            raise SpecError(f"the table has no column '{wanted}'", where=document.where((*place, "table")),
-                            expected=", ".join(columns), got=wanted,
-                            hint=f"did you mean '{close}'?" if close else None)
+            raise SpecError(
+                f"the table has no column '{wanted}'",
+                where=document.where((*place, "table")),
+                expected=", ".join(columns),
+                got=wanted,
+                hint=f"did you mean '{close}'?" if close else None,
+            )
     frame.columns = pd.Index(columns)
     rows: Sequence[Mapping[Any, Any]] = frame.to_dict("records")
     return {_norm(row[spec.table.key]): row for row in rows}

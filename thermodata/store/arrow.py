@@ -74,8 +74,9 @@ def to_numpy(column: pa.ChunkedArray) -> Array:
 
 def _chunk(chunk: pa.Array) -> Array:
     n, start = len(chunk), chunk.offset
-    values = np.frombuffer(chunk.buffers()[1], dtype=_dtype(chunk.type), count=n,
-                           offset=start * chunk.type.bit_width // 8)
+    values = np.frombuffer(
+        chunk.buffers()[1], dtype=_dtype(chunk.type), count=n, offset=start * chunk.type.bit_width // 8
+    )
     if chunk.null_count == 0:
         return values
     bits = np.unpackbits(np.frombuffer(chunk.buffers()[0], dtype=np.uint8), bitorder="little", count=start + n)

@@ -15,7 +15,7 @@ from thermodata.store.order import Order, find_order, in_order
 from thermodata.store.raw import RawStream
 from thermodata.store.rawread import RawFiles
 
-_IN_MEMORY = 1_000_000                # rows: so many times are kept [8 MB]; of longer streams they are read again
+_IN_MEMORY = 1_000_000  # rows: so many times are kept [8 MB]; of longer streams they are read again
 _PROBE = 4096
 _MOST_STRETCHES = 50
 
@@ -73,24 +73,30 @@ class Timeline:
         t = self._file_times(low, high)
         late = np.zeros(high - low, dtype=bool)
         for a, b in self._islands_in(low, high):
-            part = t[a - low:b - low]
-            late[a - low:b - low] = part < np.maximum.accumulate(part)
+            part = t[a - low : b - low]
+            late[a - low : b - low] = part < np.maximum.accumulate(part)
         late[self._marked_in(low, high) - low] = True
-        found = (late if order is None else late[order])[start - low:stop - low]
+        found = (late if order is None else late[order])[start - low : stop - low]
         moved = np.where(found, np.uint16(Flag.CLOCK_SUSPECT), np.uint16(0))
         return moved if made is None else made | moved
 
     def clock_stretches(self) -> list[tuple[int, int, int, str]]:
         """(first time, last time [ns], rows, why) of the stretches with a doubtful time; at most 50."""
         if self.suspect and self.rows:
-            return [(int(self.times(0, 1)[0]), int(self.times(self.rows - 1, self.rows)[0]), self.rows,
-                     "the whole clock is doubtful")]
+            return [
+                (
+                    int(self.times(0, 1)[0]),
+                    int(self.times(self.rows - 1, self.rows)[0]),
+                    self.rows,
+                    "the whole clock is doubtful",
+                )
+            ]
         marked, found = self.order.marked, []
         groups = np.split(marked, np.flatnonzero(np.diff(marked) > 1) + 1) if marked.size else []
         for rows in groups[:_MOST_STRETCHES]:
             t = self._file_times(int(rows[0]), int(rows[-1]) + 1)
             found.append((int(t.min()), int(t.max()), len(rows), "; ".join(self.order.notes)))
-        for a, b in self.order.islands[:_MOST_STRETCHES - len(found)].tolist():
+        for a, b in self.order.islands[: _MOST_STRETCHES - len(found)].tolist():
             t = self._file_times(a, b)
             late = int(np.count_nonzero(t < np.maximum.accumulate(t)))
             found.append((int(t.min()), int(t.max()), late, "rows out of order, sorted"))
@@ -115,7 +121,7 @@ class Timeline:
             if all(isinstance(p, int) for p in some):
                 continue
             joined = _joined(some, zero=flags)
-            found[signal] = (joined if order is None else joined[order])[start - low:stop - low]
+            found[signal] = (joined if order is None else joined[order])[start - low : stop - low]
         return found
 
     def place(self, row: int) -> tuple[RawStream, int]:
@@ -153,8 +159,10 @@ class Timeline:
     def _file_times(self, start: int, stop: int) -> Int1D:
         """Times in file order, corrected and with what resets add."""
         shifts = {id(raw): shift for raw, shift in self.pieces}
-        parts = [self._read(raw, ["t_ns"], a, b)[0].astype(np.int64, copy=False) + np.int64(shifts[id(raw)])
-                 for raw, a, b in self._within(start, stop)]
+        parts = [
+            self._read(raw, ["t_ns"], a, b)[0].astype(np.int64, copy=False) + np.int64(shifts[id(raw)])
+            for raw, a, b in self._within(start, stop)
+        ]
         if not parts:
             return np.empty(0, np.int64)
         return self.order.moved(self.correct(parts[0] if len(parts) == 1 else np.concatenate(parts)), start)
@@ -164,7 +172,7 @@ class Timeline:
             raise AssertionError("a timeline without files has its times")
         low, high, order = self._window(start, stop)
         t = self._file_times(low, high)
-        return (t if order is None else t[order])[start - low:stop - low]
+        return (t if order is None else t[order])[start - low : stop - low]
 
     def _window(self, start: int, stop: int) -> tuple[int, int, Int1D | None]:
         """(low, high, order): the rows in file order that hold rows start to stop, and the permutation that sorts
@@ -176,7 +184,7 @@ class Timeline:
         order = np.arange(high - low)
         t = self._file_times(low, high)
         for a, b in some.tolist():
-            order[a - low:b - low] = a - low + np.argsort(t[a - low:b - low], kind="stable")
+            order[a - low : b - low] = a - low + np.argsort(t[a - low : b - low], kind="stable")
         return low, high, order
 
     def _islands_in(self, start: int, stop: int) -> Int1D:
@@ -187,7 +195,7 @@ class Timeline:
 
     def _marked_in(self, start: int, stop: int) -> Int1D:
         marked = self.order.marked
-        return marked[np.searchsorted(marked, start):np.searchsorted(marked, stop)]
+        return marked[np.searchsorted(marked, start) : np.searchsorted(marked, stop)]
 
 
 def given_timeline(t_ns: Int1D) -> Timeline:
@@ -195,8 +203,15 @@ def given_timeline(t_ns: Int1D) -> Timeline:
     return Timeline(len(t_ns), order=in_order(len(t_ns)), _times=t_ns)
 
 
-def make_timeline(store: Path, pieces: Sequence[tuple[RawStream, int]], correct: Callable[[Int1D], Int1D], *,
-                  suspect: bool, resets_allowed: bool, notes: Sequence[str] = ()) -> Timeline:
+def make_timeline(
+    store: Path,
+    pieces: Sequence[tuple[RawStream, int]],
+    correct: Callable[[Int1D], Int1D],
+    *,
+    suspect: bool,
+    resets_allowed: bool,
+    notes: Sequence[str] = (),
+) -> Timeline:
     """Puts the rows of the files of one stream in order.
 
     pieces: (raw, what is added to its times) in file order. correct: recorded times -> the test's axis.
@@ -217,16 +232,20 @@ def make_timeline(store: Path, pieces: Sequence[tuple[RawStream, int]], correct:
 
 def _known_ordered(pieces: Sequence[tuple[RawStream, int]]) -> bool:
     return all(raw.ordered for raw, _ in pieces) and all(
-        a.last_ns + s <= b.first_ns + r for (a, s), (b, r) in pairwise(pieces))
+        a.last_ns + s <= b.first_ns + r for (a, s), (b, r) in pairwise(pieces)
+    )
 
 
 def _lost(line: Timeline, keep: int, n: int) -> Loss:
     at, before = int(line._file_times(keep, keep + 1)[0]), int(line._file_times(keep - 1, keep)[0])
     return Loss(
-        where=f"{line.pieces[0][0].source_path} row {keep}", from_ns=at, to_ns=int(line._file_times(n - 1, n)[0]),
+        where=f"{line.pieces[0][0].source_path} row {keep}",
+        from_ns=at,
+        to_ns=int(line._file_times(n - 1, n)[0]),
         fraction=(n - keep) / n,
         reason=f"clock goes backwards: expected >= 0 ns, got {at - before}; split the test there "
-               "or set clock: {resets: allow}")
+        "or set clock: {resets: allow}",
+    )
 
 
 def _joined(parts: list[Array | int], *, zero: bool) -> Array:

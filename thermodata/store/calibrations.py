@@ -17,8 +17,9 @@ from thermodata.store.raw import RawStream
 from thermodata.store.timeline import Clock, build
 
 
-def evaluate(store: Path, campaign: Campaign, jump_files: Mapping[str, list[RawStream]]) \
-        -> tuple[dict[str, CalibrationResult], list[str]]:
+def evaluate(
+    store: Path, campaign: Campaign, jump_files: Mapping[str, list[RawStream]]
+) -> tuple[dict[str, CalibrationResult], list[str]]:
     """(results by name, problems). jump_files: calibration -> the raw streams of its file, where there are any.
 
     CalibrationError where a calibration contradicts itself: nothing is ingested with it. A jump test that
@@ -33,8 +34,10 @@ def evaluate(store: Path, campaign: Campaign, jump_files: Mapping[str, list[RawS
         if isinstance(spec, JumpCalibration):
             raws = jump_files.get(name)
             if spec.moves == "unknown":
-                problems.append(f"calibration '{name}': its moves are unknown, so nothing is calibrated with it; try: "
-                                "write the commanded moves, for example moves: [100 um, -100 um]")
+                problems.append(
+                    f"calibration '{name}': its moves are unknown, so nothing is calibrated with it; try: "
+                    "write the commanded moves, for example moves: [100 um, -100 um]"
+                )
                 continue
             if not raws:
                 continue
@@ -55,27 +58,42 @@ def evaluate(store: Path, campaign: Campaign, jump_files: Mapping[str, list[RawS
 
 def _unit_of(campaign: Campaign, calibration: str) -> str | None:
     """The declared unit of the channels that use a calibration, where they agree on one."""
-    units = {c.unit for c in campaign.channels.values()
-             if c.calibration == calibration or (isinstance(c.calibration, list) and calibration in c.calibration)}
+    units = {
+        c.unit
+        for c in campaign.channels.values()
+        if c.calibration == calibration or (isinstance(c.calibration, list) and calibration in c.calibration)
+    }
     return next(iter(units)) if len(units) == 1 else None
 
 
-def _jump_data(store: Path, campaign: Campaign, spec: JumpCalibration, raws: list[RawStream]) \
-        -> tuple[Int1D, Array, dict[str, Array], str]:
+def _jump_data(
+    store: Path, campaign: Campaign, spec: JumpCalibration, raws: list[RawStream]
+) -> tuple[Int1D, Array, dict[str, Array], str]:
     """(times, the probe's signal, the other probes' signals, their unit): volts where the unit is a voltage."""
     raw, signal, written = find_signal(raws, spec.signal)
     line = build(store, [r for r in raws if r.stream == raw.stream], Clock(), resets_allowed=False)
-    written = next((c.unit for c in campaign.channels.values()
-                    if c.source == spec.source and c.signal == spec.signal and c.unit), None) or written or "V"
+    written = (
+        next(
+            (
+                c.unit
+                for c in campaign.channels.values()
+                if c.source == spec.source and c.signal == spec.signal and c.unit
+            ),
+            None,
+        )
+        or written
+        or "V"
+    )
     unit = "V" if _converts(written, "V") else written
     probe = _scaled(store, line, raw, signal.name, written, unit)
-    wanted = [c for c in campaign.channels.values()
-              if c.source == spec.source and c.quantity == "displacement" and c.signal]
+    wanted = [
+        c for c in campaign.channels.values() if c.source == spec.source and c.quantity == "displacement" and c.signal
+    ]
     others: dict[str, Array] = {}
     for channel in wanted:
         try:
             _, other, other_unit = find_signal([raw], channel.signal or "")
-        except ThermodataError:      # the jump test's file need not hold every probe
+        except ThermodataError:  # the jump test's file need not hold every probe
             continue
         other_unit = channel.unit or other_unit or unit
         if other.name != signal.name and other.name not in others and _converts(other_unit, unit):

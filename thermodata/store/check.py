@@ -44,12 +44,18 @@ def check_store(store: Store, *, repair: bool = False) -> Checked:
     files from their source files.
     """
     with store.reader() as con:
-        rows = fetch(con, "select path, first(layer order by rowid) as layer, first(campaign order by rowid) as "
-                          "campaign, first(test order by rowid) as test, first(rows order by rowid) as rows, "
-                          "first(source_path order by rowid) as source_path, "
-                          "max(case when layer = 'tidy' then bytes end) as bytes from file group by path order by path")
-        rows += fetch(con, "select path, 'model' as layer, campaign, test, rows, null as source_path, "
-                           "null as bytes from prediction order by path")
+        rows = fetch(
+            con,
+            "select path, first(layer order by rowid) as layer, first(campaign order by rowid) as "
+            "campaign, first(test order by rowid) as test, first(rows order by rowid) as rows, "
+            "first(source_path order by rowid) as source_path, "
+            "max(case when layer = 'tidy' then bytes end) as bytes from file group by path order by path",
+        )
+        rows += fetch(
+            con,
+            "select path, 'model' as layer, campaign, test, rows, null as source_path, "
+            "null as bytes from prediction order by path",
+        )
     found = Checked()
     for row in rows:
         path = store.path / row["path"]
@@ -58,8 +64,9 @@ def check_store(store: Store, *, repair: bool = False) -> Checked:
         with contextlib.suppress(OSError):
             found.bytes += path.stat().st_size
         if problem is not None:
-            found.damaged.append(Damaged(row["path"], row["layer"], row["campaign"], row["test"], problem,
-                                         row["source_path"]))
+            found.damaged.append(
+                Damaged(row["path"], row["layer"], row["campaign"], row["test"], problem, row["source_path"])
+            )
             if repair and path.exists():
                 try:
                     path.unlink()

@@ -15,9 +15,9 @@ import numpy as np
 
 from thermodata.plugin import Int1D
 
-JITTER_NS = 1_000_000_000                                 # a step back up to this is disorder
-SMALL_NS = 120_000_000_000                                # up to this, what a time server corrects
-LEAP_NS = 365 * 86_400 * 1_000_000_000                    # no pause of a test is as long
+JITTER_NS = 1_000_000_000  # a step back up to this is disorder
+SMALL_NS = 120_000_000_000  # up to this, what a time server corrects
+LEAP_NS = 365 * 86_400 * 1_000_000_000  # no pause of a test is as long
 MOST_STRAYS = 3
 _RECENT = 100
 
@@ -36,8 +36,8 @@ class Faults:
     marked: set[int] = field(default_factory=set)
     lowest: list[int] = field(default_factory=list)
     strays: int = 0
-    resets: list[int] = field(default_factory=list)       # how far back [ns]
-    leaps: list[int] = field(default_factory=list)        # how far ahead [ns]
+    resets: list[int] = field(default_factory=list)  # how far back [ns]
+    leaps: list[int] = field(default_factory=list)  # how far ahead [ns]
     _highest: int = np.iinfo(np.int64).min
     _recent: Int1D = field(default_factory=lambda: np.empty(0, np.int64))
 
@@ -56,7 +56,7 @@ class Faults:
             high = max(self._highest, int(t[at:row].max(initial=self._highest)))
             stray = self._stray(t, at, row, high, more)
             if row >= own and (stray is None or stray[0] >= own):
-                break                                     # the next chunk's, which sees more of it
+                break  # the next chunk's, which sees more of it
             if stray is not None:
                 self._mend(t, *stray, first)
                 at = max(stray[0] - 1, 0)
@@ -84,12 +84,16 @@ class Faults:
         if self.strays:
             said.append(f"{self.strays} rows with a stray time: drawn between their neighbours and flagged")
         if self.leaps:
-            said.append(f"the clock was set ahead by {_long(max(self.leaps))} while it ran: what came before was moved "
-                        "up to it; how long it paused is not known")
+            said.append(
+                f"the clock was set ahead by {_long(max(self.leaps))} while it ran: what came before was moved "
+                "up to it; how long it paused is not known"
+            )
         if self.resets:
             often = "once, by" if len(self.resets) == 1 else f"{len(self.resets)} times, by up to"
-            said.append(f"the clock was set back {often} {_long(max(self.resets))}: what follows was moved behind "
-                        "what came before")
+            said.append(
+                f"the clock was set back {often} {_long(max(self.resets))}: what follows was moved behind "
+                "what came before"
+            )
         return tuple(said)
 
     def _next_fault(self, t: Int1D, at: int) -> int | None:
@@ -106,13 +110,13 @@ class Faults:
     def _stray(self, t: Int1D, at: int, row: int, high: int, more: bool) -> tuple[int, int] | None:
         """(first, past-the-last) of up to three rows around `row` without which the clock is sound."""
         none = np.iinfo(np.int64).min
-        step = min((x for x in (self._step(t[:row]), _median_step(t[row:row + _RECENT])) if x), default=0)
-        for stop in range(row + 1, min(row + 1 + MOST_STRAYS, len(t))):           # sound again soon behind it?
+        step = min((x for x in (self._step(t[:row]), _median_step(t[row : row + _RECENT])) if x), default=0)
+        for stop in range(row + 1, min(row + 1 + MOST_STRAYS, len(t))):  # sound again soon behind it?
             # rows that go on from a smaller time come back to the old one too, but later than they should
             least = high - JITTER_NS if step < JITTER_NS else high + step * (stop - row + 1) // 2
             if high == none or least <= int(t[stop]) <= high + LEAP_NS:
                 return row, stop
-        if int(t[row]) < high:                            # or is it sound, and those before it were ahead?
+        if int(t[row]) < high:  # or is it sound, and those before it were ahead?
             for start in range(row - 1, max(at - 1, row - 1 - MOST_STRAYS), -1):
                 before = max(self._highest, int(t[at:start].max(initial=self._highest)))
                 if before == none and start:
@@ -127,7 +131,7 @@ class Faults:
         """Draws the times of rows start to stop between their neighbours."""
         n = stop - start
         step = self._step(t[:start]) or self._step(t[stop:])
-        before = t[start - 1:start] if start else self._recent[-1:]
+        before = t[start - 1 : start] if start else self._recent[-1:]
         left = int(before[0]) if len(before) else int(t[stop]) - step * (n + 1)
         right = int(t[stop]) if stop < len(t) else left + step * (n + 1)
         going = self.shifts[-1]

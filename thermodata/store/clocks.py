@@ -25,8 +25,9 @@ if TYPE_CHECKING:
     from thermodata.calibration.clock import ClockEstimate
 
 
-def clocks_of(store: Path, plan: TestPlan, calibrations: Mapping[str, CalibrationResult],
-              known: Mapping[str, Clock]) -> dict[str, Clock]:
+def clocks_of(
+    store: Path, plan: TestPlan, calibrations: Mapping[str, CalibrationResult], known: Mapping[str, Clock]
+) -> dict[str, Clock]:
     """The clocks of a test's sources. known: estimates of earlier runs by their key, for estimating reads data."""
     base, notes = bases(plan)
     plan.notes += notes
@@ -40,8 +41,13 @@ def clocks_of(store: Path, plan: TestPlan, calibrations: Mapping[str, Calibratio
         if spec.align_to is None or not source.raws:
             continue
         if there is None or not there.raws:
-            found[name] = Clock(declared.offset_ns, declared.drift_ppm, declared.base_ns, True,
-                                notes=(f"clock not aligned: source '{spec.align_to}' has no data in this test",))
+            found[name] = Clock(
+                declared.offset_ns,
+                declared.drift_ppm,
+                declared.base_ns,
+                True,
+                notes=(f"clock not aligned: source '{spec.align_to}' has no data in this test",),
+            )
             continue
         key = _key(plan, source, there, found[there.name], declared, calibrations)
         found[name] = known.get(key) or _estimate(store, plan, source, there, found, calibrations, key)
@@ -50,9 +56,25 @@ def clocks_of(store: Path, plan: TestPlan, calibrations: Mapping[str, Calibratio
 
 def clock_to_json(clock: Clock) -> str:
     """For the table `source`."""
-    return json.dumps([*clock.notes, *([{"clock_key": clock.key, "offset_ns": clock.offset_ns,
-                                         "drift_ppm": clock.drift_ppm, "base_ns": clock.base_ns,
-                                         "suspect": clock.suspect, "notes": list(clock.notes)}] if clock.key else [])])
+    return json.dumps(
+        [
+            *clock.notes,
+            *(
+                [
+                    {
+                        "clock_key": clock.key,
+                        "offset_ns": clock.offset_ns,
+                        "drift_ppm": clock.drift_ppm,
+                        "base_ns": clock.base_ns,
+                        "suspect": clock.suspect,
+                        "notes": list(clock.notes),
+                    }
+                ]
+                if clock.key
+                else []
+            ),
+        ]
+    )
 
 
 def clock_from_json(text: str | None) -> Clock | None:
@@ -61,8 +83,9 @@ def clock_from_json(text: str | None) -> Clock | None:
     kept = next((i for i in items if isinstance(i, dict) and "clock_key" in i), None)
     if kept is None:
         return None
-    return Clock(kept["offset_ns"], kept["drift_ppm"], kept["base_ns"], kept["suspect"], kept["clock_key"],
-                 tuple(kept["notes"]))
+    return Clock(
+        kept["offset_ns"], kept["drift_ppm"], kept["base_ns"], kept["suspect"], kept["clock_key"], tuple(kept["notes"])
+    )
 
 
 def _ordered(plan: TestPlan) -> list[str]:
@@ -73,8 +96,11 @@ def _ordered(plan: TestPlan) -> list[str]:
         if name in done:
             return
         if name in above:
-            raise SpecError("the clocks are aligned in a circle", where=f"sources.{name}.clock.align_to",
-                            got=" -> ".join((*above, name)))
+            raise SpecError(
+                "the clocks are aligned in a circle",
+                where=f"sources.{name}.clock.align_to",
+                got=" -> ".join((*above, name)),
+            )
         there = plan.campaign.sources[name].clock.align_to
         if there is not None:
             if there not in plan.campaign.sources:
@@ -88,37 +114,69 @@ def _ordered(plan: TestPlan) -> list[str]:
     return done
 
 
-def _key(plan: TestPlan, source: SourcePlan, there: SourcePlan, other: Clock, declared: Clock,
-         calibrations: Mapping[str, CalibrationResult]) -> str:
+def _key(
+    plan: TestPlan,
+    source: SourcePlan,
+    there: SourcePlan,
+    other: Clock,
+    declared: Clock,
+    calibrations: Mapping[str, CalibrationResult],
+) -> str:
     names = [n for pair in source.spec.clock.by for n in (pair.here, pair.there)]
     channels = [channel_text(plan.bound[n], calibrations) if n in plan.bound else n for n in names]
-    return key_of("clock 1", repr([r.key for r in source.raws]), repr([r.key for r in there.raws]),
-                  source.spec.clock.model_dump_json(), repr((other.offset_ns, other.drift_ppm, other.base_ns)),
-                  repr(declared), *channels)
+    return key_of(
+        "clock 1",
+        repr([r.key for r in source.raws]),
+        repr([r.key for r in there.raws]),
+        source.spec.clock.model_dump_json(),
+        repr((other.offset_ns, other.drift_ppm, other.base_ns)),
+        repr(declared),
+        *channels,
+    )
 
 
-def _estimate(store: Path, plan: TestPlan, source: SourcePlan, there: SourcePlan, clocks: dict[str, Clock],
-              calibrations: Mapping[str, CalibrationResult], key: str) -> Clock:
+def _estimate(
+    store: Path,
+    plan: TestPlan,
+    source: SourcePlan,
+    there: SourcePlan,
+    clocks: dict[str, Clock],
+    calibrations: Mapping[str, CalibrationResult],
+    key: str,
+) -> Clock:
     declared = clocks[source.name]
     reasons: list[str] = []
     best = _by_events(source, there, clocks, reasons) or _by_channels(
-        TestSeries(store, plan, clocks, Span(0, None, None, False, False), calibrations), source, reasons)
+        TestSeries(store, plan, clocks, Span(0, None, None, False, False), calibrations), source, reasons
+    )
     if best is None:
         why = "; ".join(reasons) or "neither 'by' nor 'events' names anything that both logged"
-        return Clock(declared.offset_ns, declared.drift_ppm, declared.base_ns, True, key,
-                     (f"clock not aligned to '{there.name}': {why}",))
-    how = (f"from {best.stretches} declared events" if source.spec.clock.events and np.isnan(best.correlation)
-           else f"correlation {best.correlation:.3f}")
-    note = (f"clock aligned to '{there.name}': {best.offset_ns / 1e9:+.3f} s, drift {best.drift_ppm:+.1f} ppm, "
-            f"uncertainty {best.uncertainty_ns / 1e9:.3f} s, {how}")
+        return Clock(
+            declared.offset_ns,
+            declared.drift_ppm,
+            declared.base_ns,
+            True,
+            key,
+            (f"clock not aligned to '{there.name}': {why}",),
+        )
+    how = (
+        f"from {best.stretches} declared events"
+        if source.spec.clock.events and np.isnan(best.correlation)
+        else f"correlation {best.correlation:.3f}"
+    )
+    note = (
+        f"clock aligned to '{there.name}': {best.offset_ns / 1e9:+.3f} s, drift {best.drift_ppm:+.1f} ppm, "
+        f"uncertainty {best.uncertainty_ns / 1e9:.3f} s, {how}"
+    )
     # the estimate's offset holds at its own origin, a Clock's at the first recorded time
     first = first_ns(source) + declared.offset_ns + declared.base_ns
     offset = declared.offset_ns + best.offset_ns + round((first - best.origin_ns) * best.drift_ppm * 1e-6)
     return Clock(offset, declared.drift_ppm + best.drift_ppm, declared.base_ns, False, key, (note,))
 
 
-def _by_events(source: SourcePlan, there: SourcePlan, clocks: Mapping[str, Clock],
-               reasons: list[str]) -> ClockEstimate | None:
+def _by_events(
+    source: SourcePlan, there: SourcePlan, clocks: Mapping[str, Clock], reasons: list[str]
+) -> ClockEstimate | None:
     from thermodata.calibration.clock_events import offset_from_events
 
     events = source.spec.clock.events
@@ -143,9 +201,12 @@ def moment_ns(moment: str | float, source: SourcePlan, clock: Clock, where: str)
     else:
         recorded = int(local_to_utc_ns(np.array([naive]), source.spec.timezone)[0][0])
         if is_relative(source):
-            raise SpecError("a source that counts from its own start has no dates", got=str(moment),
-                            where=f"sources.{source.name}.clock.events.{where}",
-                            expected="a time since its first sample, e.g. 12.5 min")
+            raise SpecError(
+                "a source that counts from its own start has no dates",
+                got=str(moment),
+                where=f"sources.{source.name}.clock.events.{where}",
+                expected="a time since its first sample, e.g. 12.5 min",
+            )
     return int(clock.correct(np.array([recorded], np.int64), first)[0])
 
 

@@ -71,8 +71,12 @@ def _changed(planned: Mapping[str, list[Row]], known: Mapping[str, list[Row]]) -
 
 def nothing_new(planned: Planned, known: Known) -> bool:
     """Whether the catalogue says already what the plan says."""
-    return (known.campaign is not None and json.loads(known.campaign["spec"]) == json.loads(planned.spec)
-            and comparable(planned.calibrations) == comparable(known.calibrations) and not changes(planned, known))
+    return (
+        known.campaign is not None
+        and json.loads(known.campaign["spec"]) == json.loads(planned.spec)
+        and comparable(planned.calibrations) == comparable(known.calibrations)
+        and not changes(planned, known)
+    )
 
 
 def commit(con: duckdb.DuckDBPyConnection, store: Path, planned: Planned, known: Known, now: datetime) -> list[str]:
@@ -85,8 +89,9 @@ def commit(con: duckdb.DuckDBPyConnection, store: Path, planned: Planned, known:
         raise VanishedError(missing[0])
     campaign = planned.campaign.id
     changed = changes(planned, known)
-    stale = {t for t in changed if known.rows["test"].get(t)
-             and version_of(planned.rows, t) != version_of(known.rows, t)}
+    stale = {
+        t for t in changed if known.rows["test"].get(t) and version_of(planned.rows, t) != version_of(known.rows, t)
+    }
     for table in BY_TEST:
         gone = _changed(planned.rows[table], known.rows[table])
         if table == "test" and (gone or list(planned.rows[table]) != list(known.rows[table])):
@@ -95,13 +100,28 @@ def commit(con: duckdb.DuckDBPyConnection, store: Path, planned: Planned, known:
         if gone:
             con.execute(f"delete from {table} where campaign = ? and list_contains(?, test)", [campaign, sorted(gone)])
         insert(con, table, [row for t, rows in planned.rows[table].items() if t in gone for row in rows])
-    con.execute("update test set start = make_timestamp_ns(start_ns) where campaign = ? and start_ns is not null "
-                "and start is null", [campaign])
+    con.execute(
+        "update test set start = make_timestamp_ns(start_ns) where campaign = ? and start_ns is not null "
+        "and start is null",
+        [campaign],
+    )
     con.execute("delete from calibration where campaign = ?", [campaign])
     insert(con, "calibration", planned.calibrations)
     con.execute("delete from campaign where campaign = ?", [campaign])
-    insert(con, "campaign", [{"campaign": campaign, "spec": planned.spec, "spec_hash": key_of(planned.spec),
-                              "path": str(planned.path), "ingested_at": now, "data_version": planned.data_version()}])
+    insert(
+        con,
+        "campaign",
+        [
+            {
+                "campaign": campaign,
+                "spec": planned.spec,
+                "spec_hash": key_of(planned.spec),
+                "path": str(planned.path),
+                "ingested_at": now,
+                "data_version": planned.data_version(),
+            }
+        ],
+    )
     drop_results(con, campaign, stale - set(planned.rows["test"]))
     return mark_stale(con, campaign, stale)
 
@@ -116,12 +136,16 @@ def mark_stale(con: duckdb.DuckDBPyConnection, campaign: str, tests: set[str]) -
     """Marks the models that used any of the tests; one that names no tests used the whole campaign."""
     if not tests:
         return []
-    rows = fetch(con, """
+    rows = fetch(
+        con,
+        """
         with used as (select distinct model, campaign, test from score_row
                       union select distinct model, campaign, test from prediction)
         select m.model from model m where list_contains(m.campaigns, $1) and not m.stale and (
             exists (from used u where u.model = m.model and u.campaign = $1 and list_contains($2, u.test))
-            or not exists (from used u where u.model = m.model and u.campaign = $1))""", [campaign, sorted(tests)])
+            or not exists (from used u where u.model = m.model and u.campaign = $1))""",
+        [campaign, sorted(tests)],
+    )
     models = [r["model"] for r in rows]
     for model in models:
         con.execute("update model set stale = true where model = ?", [model])

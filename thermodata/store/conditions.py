@@ -40,6 +40,11 @@ def plain_value(value: Any) -> float | str | bool | None:
 
 def plain_values(values: dict[str, Any]) -> dict[str, Any]:
     """As `plain_value`, for each of a mapping, nested ones too."""
-    return {k: plain_values(v) if isinstance(v, dict) else
-            [plain_value(x) for x in v] if isinstance(v, list | tuple) else plain_value(v)
-            for k, v in values.items()}
+    return {
+        k: plain_values(v)
+        if isinstance(v, dict)
+        else [plain_value(x) for x in v]
+        if isinstance(v, list | tuple)
+        else plain_value(v)
+        for k, v in values.items()
+    }

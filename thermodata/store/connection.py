@@ -55,7 +55,7 @@ def detach(con: duckdb.DuckDBPyConnection) -> None:
 
     try:
         con.execute("use memory; detach catalog")
-    except duckdb.Error:      # no room to tidy up the file: what was committed is safe in the log beside it
+    except duckdb.Error:  # no room to tidy up the file: what was committed is safe in the log beside it
         con.close()
 
 
@@ -78,7 +78,7 @@ def settle(con: duckdb.DuckDBPyConnection, folder: Path) -> None:
     con.execute(f"set global file_search_path = {literal(str(folder))}")
     con.execute("set enable_progress_bar = false")
     # an ASOF join of a few probes falls back to a nested loop that takes 12-20 s instead of 20 ms
-    with contextlib.suppress(duckdb.CatalogException):       # a version that has no such loop
+    with contextlib.suppress(duckdb.CatalogException):  # a version that has no such loop
         con.execute("set global asof_loop_join_threshold = 0")
 
 
@@ -93,10 +93,14 @@ def damaged(path: Path, error: Exception) -> StoreError:
     busy = any(word in low for word in ("lock on file", "being used", "different configuration", "handle conflict"))
     return StoreError(
         "the catalogue is open in another program" if busy else "the catalogue is damaged",
-        where=str(path), expected="a DuckDB database of this program", got=text,
-        hint="close the other program (for example a duckdb shell on catalog.duckdb)" if busy else
-        "the Parquet files are unharmed: put a backup of catalog.duckdb back, or move the damaged one away and ingest "
-        "the campaigns again (from their source files)")
+        where=str(path),
+        expected="a DuckDB database of this program",
+        got=text,
+        hint="close the other program (for example a duckdb shell on catalog.duckdb)"
+        if busy
+        else "the Parquet files are unharmed: put a backup of catalog.duckdb back, or move the damaged one away and "
+        "ingest the campaigns again (from their source files)",
+    )
 
 
 _DAMAGE = ("damaged store:", "No magic bytes", "Parquet", ".parquet")
@@ -108,9 +112,13 @@ def damaged_data(folder: Path, error: Exception) -> StoreError | None:
     if not any(word in text for word in _DAMAGE) or ".parquet" not in text:
         return None
     said, _, todo = text.partition("damaged store: ")[2].partition("; try: ")
-    return StoreError("a file of the store is damaged", where=str(folder), got=said or text,
-                      hint=(todo or "ingest the campaign again: what can be made anew is made anew") +
-                      "; 'thermodata check' lists what is damaged")
+    return StoreError(
+        "a file of the store is damaged",
+        where=str(folder),
+        got=said or text,
+        hint=(todo or "ingest the campaign again: what can be made anew is made anew")
+        + "; 'thermodata check' lists what is damaged",
+    )
 
 
 def cursor_of(con: duckdb.DuckDBPyConnection) -> duckdb.DuckDBPyConnection:
@@ -131,13 +139,22 @@ def insert(con: duckdb.DuckDBPyConnection, table: str, rows: Iterable[Mapping[st
     # a tenth of the time that information_schema takes
     found = con.execute(f"pragma table_info({literal(table)})").fetchall()
     types = {name: kind for _, name, kind, *_ in found if name in listed[0]}
-    shape = {name: "VARCHAR" if kind in ("JSON", "TIMESTAMP", "TIMESTAMP_NS") else
-             [kind.removesuffix("[]")] if kind.endswith("[]") else kind for name, kind in types.items()}
+    shape = {
+        name: "VARCHAR"
+        if kind in ("JSON", "TIMESTAMP", "TIMESTAMP_NS")
+        else [kind.removesuffix("[]")]
+        if kind.endswith("[]")
+        else kind
+        for name, kind in types.items()
+    }
     text = json.dumps([{name: row.get(name) for name in types} for row in listed], default=str)
     columns = ", ".join(quoted(n) for n in types)
     casts = ", ".join(f"cast(r.{quoted(n)} as {kind})" for n, kind in types.items())
-    con.execute(f"insert into {table} ({columns}) select {casts} from "
-                f"(select unnest(from_json(cast(? as json), {literal(json.dumps([shape]))})) as r)", [text])
+    con.execute(
+        f"insert into {table} ({columns}) select {casts} from "
+        f"(select unnest(from_json(cast(? as json), {literal(json.dumps([shape]))})) as r)",
+        [text],
+    )
     return len(listed)
 
 

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     import pyarrow as pa
 
 COMPRESSION = "lz4"
-_WIDE = 300                           # columns
+_WIDE = 300  # columns
 
 
 class Encoder:
@@ -34,9 +34,15 @@ class Encoder:
         repeats = [f.name for f in schema if pa.types.is_string(f.type) or f.name.endswith("__flag")]
         times = [f.name for f in schema if f.name in ("t_ns", "t", "t_s")]
         try:
-            self._writer = pq.ParquetWriter(part, schema, compression=COMPRESSION, use_dictionary=repeats or False,
-                                            column_encoding=_encodings(schema, repeats),
-                                            write_statistics=times, write_page_checksum=True)
+            self._writer = pq.ParquetWriter(
+                part,
+                schema,
+                compression=COMPRESSION,
+                use_dictionary=repeats or False,
+                column_encoding=_encodings(schema, repeats),
+                write_statistics=times,
+                write_page_checksum=True,
+            )
         except OSError as error:
             raise write_error(part, error) from error
         # row groups of wide streams are large, and so is the footer that grows with their columns

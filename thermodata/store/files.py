@@ -12,7 +12,7 @@ from pathlib import Path
 
 from thermodata.errors import StoreError
 
-TEMPORARY = re.compile(r"^\..*\.tmp(\.wal)?$")          # DuckDB puts a .wal beside a database in the making
+TEMPORARY = re.compile(r"^\..*\.tmp(\.wal)?$")  # DuckDB puts a .wal beside a database in the making
 
 
 def temporary(target: Path) -> Path:
@@ -27,17 +27,25 @@ def write_error(path: Path, error: Exception, needed: str | None = None) -> Stor
     """A failure to write below the store: full disk, read-only folder, or else. needed: how much room, in words."""
     text = str(error).strip().splitlines()[0] if str(error).strip() else type(error).__name__
     full = getattr(error, "errno", None) in (errno.ENOSPC, errno.EDQUOT, errno.EFBIG) or any(
-        word in text for word in ("No space left", "not enough space", "Disk quota", "File too large",
-                                  "Could not write file"))
+        word in text
+        for word in ("No space left", "not enough space", "Disk quota", "File too large", "Could not write file")
+    )
     if not full:
         locked = getattr(error, "errno", None) in (errno.EACCES, errno.EPERM, errno.EROFS)
-        return StoreError("the store can only be read" if locked else "the store cannot be written", where=str(path),
-                          got=text, hint="give yourself the right to write there, or copy the store's folder"
-                          if locked else None)
-    return StoreError(DISK_FULL, where=str(path), expected=needed or "room for the file",
-                      got=_free(path, text),
-                      hint="free space ('thermodata gc' deletes what the store no longer needs) and run it again: "
-                           "the store is as it was before")
+        return StoreError(
+            "the store can only be read" if locked else "the store cannot be written",
+            where=str(path),
+            got=text,
+            hint="give yourself the right to write there, or copy the store's folder" if locked else None,
+        )
+    return StoreError(
+        DISK_FULL,
+        where=str(path),
+        expected=needed or "room for the file",
+        got=_free(path, text),
+        hint="free space ('thermodata gc' deletes what the store no longer needs) and run it again: "
+        "the store is as it was before",
+    )
 
 
 def _free(path: Path, text: str) -> str:

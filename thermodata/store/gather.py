@@ -22,12 +22,25 @@ from thermodata.store.versions import pinned, read_otherwise, twins
 Losses = list[dict[str, Any]]
 
 
-def loss_row(reason: str, *, test: str | None = None, source: str | None = None, file: str | None = None,
-             loss: Loss | None = None) -> dict[str, Any]:
+def loss_row(
+    reason: str,
+    *,
+    test: str | None = None,
+    source: str | None = None,
+    file: str | None = None,
+    loss: Loss | None = None,
+) -> dict[str, Any]:
     """A loss as the summary tells it; times in seconds of the file's own clock."""
-    return {"test": test, "source": source, "file": file, "where": loss.where if loss else None,
-            "from_ns": loss.from_ns if loss else None, "to_ns": loss.to_ns if loss else None,
-            "fraction": loss.fraction if loss else None, "reason": reason}
+    return {
+        "test": test,
+        "source": source,
+        "file": file,
+        "where": loss.where if loss else None,
+        "from_ns": loss.from_ns if loss else None,
+        "to_ns": loss.to_ns if loss else None,
+        "fraction": loss.fraction if loss else None,
+        "reason": reason,
+    }
 
 
 @dataclass(slots=True)
@@ -97,8 +110,9 @@ class Gatherer:
             elif path not in there and (new := self._renamed_to(before[path], found.paths)):
                 self.notes.append(f"{path}: is {new} now, with the same content")
             else:
-                plan.raws += self._file(path, name, spec, before.get(path, []), test.id, (test.id, name),
-                                        gone=path not in there)
+                plan.raws += self._file(
+                    path, name, spec, before.get(path, []), test.id, (test.id, name), gone=path not in there
+                )
         if not found.paths and not plan.raws and found.patterns:
             text = f"test '{test.id}': no file of source '{name}' ({', '.join(found.patterns)})"
             if found.explicit:
@@ -115,8 +129,11 @@ class Gatherer:
                 if any(row["source"] == name for row in self.losses):
                     continue
                 patterns = [spec.files] if isinstance(spec.files, str) else spec.files or ["no 'files'"]
-                self.losses.append(loss_row(f"no file in any test ({', '.join(patterns)}); try: correct "
-                                            f"'files' of the source", source=name))
+                self.losses.append(
+                    loss_row(
+                        f"no file in any test ({', '.join(patterns)}); try: correct 'files' of the source", source=name
+                    )
+                )
 
     def jump_files(self) -> dict[str, list[RawStream]]:
         """Calibration -> the raw streams of its jump test."""
@@ -128,15 +145,30 @@ class Gatherer:
             before = self.known.raw_rows("", name)
             source = self.campaign.sources[spec.source]
             if path.is_file() or before:
-                found[name] = self._file(spec.file, spec.source, source, before, f"calibration {name}",
-                                         ("", name), gone=not path.is_file())
+                found[name] = self._file(
+                    spec.file, spec.source, source, before, f"calibration {name}", ("", name), gone=not path.is_file()
+                )
             else:
-                self.losses.append(loss_row("no such file: the calibration can't be evaluated", file=spec.file,
-                                            test=f"calibration {name}", source=spec.source))
+                self.losses.append(
+                    loss_row(
+                        "no such file: the calibration can't be evaluated",
+                        file=spec.file,
+                        test=f"calibration {name}",
+                        source=spec.source,
+                    )
+                )
         return found
 
-    def _file(self, path: str, source: str, spec: SourceSpec, before: list[RawStream], test: str,
-              kept_as: tuple[str, str], gone: bool) -> list[RawStream]:
+    def _file(
+        self,
+        path: str,
+        source: str,
+        spec: SourceSpec,
+        before: list[RawStream],
+        test: str,
+        kept_as: tuple[str, str],
+        gone: bool,
+    ) -> list[RawStream]:
         """The raw streams of one file; [] and a loss where it can't be read. kept_as: test and source of its rows."""
         raws: list[RawStream] = []
         reader = self._reader(spec.reader, source)
@@ -169,8 +201,12 @@ class Gatherer:
     def _copy(self, path: str, before: list[RawStream], reader: Reader, said: Source) -> list[RawStream]:
         """The store's own copy of a file that isn't there any more."""
         if before and not all(is_whole(self.store / r.path) for r in before):
-            raise StoreError("a raw file of the store is gone or cut, and its source is gone", where=before[0].path,
-                             got=f"no {path}", hint="put the source file back, or forget the test")
+            raise StoreError(
+                "a raw file of the store is gone or cut, and its source is gone",
+                where=before[0].path,
+                got=f"no {path}",
+                hint="put the source file back, or forget the test",
+            )
         if before:
             self.notes.append(f"{path}: not there any more; the store's raw copy is used")
             why = read_otherwise(before[0], reader, said)
@@ -181,9 +217,12 @@ class Gatherer:
     def _former(self, path: str, before: list[RawStream]) -> list[RawStream]:
         """What the store holds of a file that can't be read now: what was read once isn't lost by that."""
         hashed = self._settled.get(path)
-        if not before or not all(is_whole(self.store / r.path) for r in before) \
-                or (hashed is not None and hashed.sha256 == before[0].sha256):
-            return []          # a reader that refuses the bytes that an older one took has its reason
+        if (
+            not before
+            or not all(is_whole(self.store / r.path) for r in before)
+            or (hashed is not None and hashed.sha256 == before[0].sha256)
+        ):
+            return []  # a reader that refuses the bytes that an older one took has its reason
         self.notes.append(f"{path}: the version that was read before is used ({before[0].sha256[:12]})")
         return before
 
@@ -194,7 +233,7 @@ class Gatherer:
             try:
                 found[path] = self._settle(path).sha256
             except (OSError, ThermodataError):
-                continue       # told where the file is read
+                continue  # told where the file is read
         return found
 
     def _settle(self, path: str) -> SourceFile:
@@ -220,8 +259,13 @@ class Gatherer:
             try:
                 self._readers[name] = find_reader(name)
             except UsageError as error:
-                raise UsageError(error.what, where=f"sources.{source}.reader", expected=error.expected,
-                                 got=error.got, hint=error.hint) from error
+                raise UsageError(
+                    error.what,
+                    where=f"sources.{source}.reader",
+                    expected=error.expected,
+                    got=error.got,
+                    hint=error.hint,
+                ) from error
         return self._readers[name]
 
     def _read(self, path: str, source: str, spec: SourceSpec, reader: Reader) -> list[RawStream]:
@@ -240,8 +284,9 @@ class Gatherer:
                     if error.what == DISK_FULL:
                         # raw Parquet takes about as much as the log, and the tidy layer as much again
                         needed = f"about {max(1, 2 * file.bytes // 1_000_000)} MB for {path}"
-                        raise StoreError(error.what, where=error.where, expected=needed, got=error.got,
-                                         hint=error.hint) from error
+                        raise StoreError(
+                            error.what, where=error.where, expected=needed, got=error.got, hint=error.hint
+                        ) from error
                     raise
                 except (ThermodataError, OSError) as error:
                     self._made[key] = error
@@ -251,20 +296,19 @@ class Gatherer:
         # the same bytes may stand under another name, in another test or campaign
         return [r if r.source_path == path else _renamed(r, path) for r in made]
 
-
     def _read_settled(self, path: str, file: SourceFile, reader: Reader, said: Source) -> list[RawStream]:
         """Reads a file so that hash and rows agree: where it changes meanwhile, from a copy of what is there now."""
         try:
             try:
-                return read_raw(self.store, file.path, path, file.sha256, counted(reader, self.watch), said,
-                                file.check)
+                return read_raw(self.store, file.path, path, file.sha256, counted(reader, self.watch), said, file.check)
             except FormatError:
-                file.check()         # half of a file that is being written may look like a damaged one
+                file.check()  # half of a file that is being written may look like a damaged one
                 raise
         except ChangedError:
             with frozen(self._full(path), self.store / "raw") as copy:
                 raws = self.known.raws.get(raw_key(copy.sha256, reader, said)) or read_raw(
-                    self.store, copy.path, path, copy.sha256, counted(reader, self.watch), said)
+                    self.store, copy.path, path, copy.sha256, counted(reader, self.watch), said
+                )
             self._settled[path] = copy
             self.notes.append(f"{path}: {copy.note}")
             return [replace(r, notes=tuple(dict.fromkeys((*r.notes, copy.note or "")))) for r in raws]

@@ -44,12 +44,24 @@ def without_idle(events: Sequence[QualityEvent], activity: dict[str, Activity]) 
     idle: dict[tuple[str, str], list[QualityEvent]] = {}
     for event in events:
         times = activity.get(event.channel or "")
-        if times is None or event.flag not in _OF_VALUES or event.channel is None or bool(
-                times.during(np.array([event.from_ns]), np.array([event.to_ns]))[0]):
+        if (
+            times is None
+            or event.flag not in _OF_VALUES
+            or event.channel is None
+            or bool(times.during(np.array([event.from_ns]), np.array([event.to_ns]))[0])
+        ):
             kept.append(event)
         else:
             idle.setdefault((event.channel, event.flag), []).append(event)
     for (channel, flag), some in idle.items():
-        kept.append(QualityEvent(channel, flag, min(e.from_ns for e in some), max(e.to_ns for e in some),
-                         sum(e.n for e in some), "only while not measuring"))
+        kept.append(
+            QualityEvent(
+                channel,
+                flag,
+                min(e.from_ns for e in some),
+                max(e.to_ns for e in some),
+                sum(e.n for e in some),
+                "only while not measuring",
+            )
+        )
     return sorted(kept, key=lambda e: (e.from_ns, e.channel or ""))

@@ -52,8 +52,9 @@ class IngestSummary:
         return asdict(self)
 
 
-def ingest(store: Store, campaign_path: Path | str,
-           progress: Progress | Callable[[str], None] | None = None) -> IngestSummary:
+def ingest(
+    store: Store, campaign_path: Path | str, progress: Progress | Callable[[str], None] | None = None
+) -> IngestSummary:
     """Brings a campaign into the store: raw layer, calibrations, tidy layer, and then one commit.
 
     The same again changes nothing. After an edit of the campaign file only what the edit touches is made anew,
@@ -67,8 +68,12 @@ def ingest(store: Store, campaign_path: Path | str,
             return _ingest(store, Path(campaign_path), watch)
         except VanishedError as error:
             if attempt == _ATTEMPTS - 1:
-                raise StoreError("files of the store vanish while they are being made", where=str(store.path),
-                                 got=str(error), hint="end the other program that cleans this store") from error
+                raise StoreError(
+                    "files of the store vanish while they are being made",
+                    where=str(store.path),
+                    got=str(error),
+                    hint="end the other program that cleans this store",
+                ) from error
     raise AssertionError("unreachable")
 
 
@@ -89,17 +94,24 @@ def _ingest(store: Store, path: Path, watch: Progress) -> IngestSummary:
     gather.empty_sources(plans)
     made = make_tests(store.path, plans, results, known, now, watch.say)
     rows: dict[str, dict[str, list[Row]]] = {t: dict(made.rows[t]) for t in BY_TEST}
-    rows["file"][""] = [raw_row(campaign.id, "", name, raw, "calibration", now) for name, raws in jumps.items()
-                        for raw in raws]
+    rows["file"][""] = [
+        raw_row(campaign.id, "", name, raw, "calibration", now) for name, raws in jumps.items() for raw in raws
+    ]
     keep_earlier(rows["file"], known, now)
     calibration_rows = [calibration_row(campaign.id, r) for r in results.values()]
     planned = Planned(campaign, path.absolute(), rows, calibration_rows)
     summary = IngestSummary(
-        campaign.id, tests=len(plans), files=len(gather.files), samples=made.samples,
-        flags=dict(sorted(made.flags.items())), read=gather.read, made=made.made,
+        campaign.id,
+        tests=len(plans),
+        files=len(gather.files),
+        samples=made.samples,
+        flags=dict(sorted(made.flags.items())),
+        read=gather.read,
+        made=made.made,
         calibrations=[{**r.row(campaign.id), "name": r.name} for r in results.values()],
         losses=gather.losses + made.losses + [loss_row(p) for p in problems],
-        notes=list(dict.fromkeys(gather.notes + made.notes)))
+        notes=list(dict.fromkeys(gather.notes + made.notes)),
+    )
     # what was damaged and is made anew has the same rows: the views must see it all the same
     if nothing_new(planned, known) and not made.made and not gather.read:
         summary.notes.append("nothing changed: the store holds these files and this campaign file already")

@@ -19,8 +19,14 @@ TIDY_VERSION = "2"
 MEASURED = ("displacement", "tilt", "angle")
 
 
-def member_key(plan: TestPlan, member: Member, columns: Sequence[tuple[str, bool]], clocks: Mapping[str, Clock],
-               span: Span, calibrations: Mapping[str, CalibrationResult]) -> str:
+def member_key(
+    plan: TestPlan,
+    member: Member,
+    columns: Sequence[tuple[str, bool]],
+    clocks: Mapping[str, Clock],
+    span: Span,
+    calibrations: Mapping[str, CalibrationResult],
+) -> str:
     """The key of the tidy files of one stream of a test. Everything that its bytes depend on, and nothing else."""
     here = [b for b in plan.bound.values() if (b.source, b.stream) == member]
     used: dict[str, Bound] = {}
@@ -38,13 +44,27 @@ def member_key(plan: TestPlan, member: Member, columns: Sequence[tuple[str, bool
         if source in plan.sources:
             found = plan.sources[source]
             clock = clocks[source]
-            parts += [source, stream, repr([(r.key, r.path) for r in found.streams.get(stream, [])]),
-                      repr((clock.offset_ns, clock.drift_ppm, clock.base_ns, clock.suspect, found.spec.clock.resets,
-                            found.shared))]
+            parts += [
+                source,
+                stream,
+                repr([(r.key, r.path) for r in found.streams.get(stream, [])]),
+                repr(
+                    (
+                        clock.offset_ns,
+                        clock.drift_ppm,
+                        clock.base_ns,
+                        clock.suspect,
+                        found.spec.clock.resets,
+                        found.shared,
+                    )
+                ),
+            ]
     if any(s == SCHEDULE for s, _ in members):
         # the schedule's grid ends with the reference sources
-        parts += [repr([(r.key, clocks[s.name]) for s in plan.reference for r in s.raws]),
-                  json.dumps(plan.test.conditions, sort_keys=True, default=str)]
+        parts += [
+            repr([(r.key, clocks[s.name]) for s in plan.reference for r in s.raws]),
+            json.dumps(plan.test.conditions, sort_keys=True, default=str),
+        ]
     if any(s in plan.sources and plan.sources[s].shared for s, _ in members):
         parts.append(repr([(r.key, clocks[s.name]) for s in plan.reference for r in s.raws]))
     return key_of(*parts)
@@ -66,6 +86,14 @@ def channel_text(bound: Bound, calibrations: Mapping[str, CalibrationResult]) ->
     data = bound.channel.model_dump(mode="json", exclude={"at", "relative_to", "notes"})
     named = bound.channel.calibration
     names = [named] if isinstance(named, str) else list(named or [])
-    return json.dumps([bound.name, data, bound.unit, None if bound.signal is None else dataclasses.asdict(
-        dataclasses.replace(bound.signal, properties={})), [(n, repr(calibrations.get(n))) for n in names]],
-        sort_keys=True, default=str)
+    return json.dumps(
+        [
+            bound.name,
+            data,
+            bound.unit,
+            None if bound.signal is None else dataclasses.asdict(dataclasses.replace(bound.signal, properties={})),
+            [(n, repr(calibrations.get(n))) for n in names],
+        ],
+        sort_keys=True,
+        default=str,
+    )

@@ -37,13 +37,19 @@ class Known:
 
     def raw_rows(self, test: str, source: str) -> list[RawStream]:
         """The raw streams that the catalogue lists for a test's source ('' and its name for a calibration)."""
-        return [RawStream.from_row(r) for r in self.rows["file"].get(test, [])
-                if r["layer"] == "raw" and r["source"] == source]
+        return [
+            RawStream.from_row(r)
+            for r in self.rows["file"].get(test, [])
+            if r["layer"] == "raw" and r["source"] == source
+        ]
 
     def tidy(self, test: str, base: str) -> list[Row]:
         """The rows of the tidy files with that key, whatever sensors of theirs failed before the test."""
-        return [r for r in self.rows["file"].get(test, []) if r["layer"] == "tidy" and (
-            r["key"] == base or json.loads(r["columns"]).get("base") == base)]
+        return [
+            r
+            for r in self.rows["file"].get(test, [])
+            if r["layer"] == "tidy" and (r["key"] == base or json.loads(r["columns"]).get("base") == base)
+        ]
 
 
 def read_known(con: duckdb.DuckDBPyConnection, store: Path | None, campaign: str) -> Known:

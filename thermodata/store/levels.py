@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from thermodata.store.piece import Column
     from thermodata.store.plan import Bound
 
-Offsets = Mapping[str, float]                             # channel -> [K]
+Offsets = Mapping[str, float]  # channel -> [K]
 
 
 class Sampler:
@@ -23,8 +23,11 @@ class Sampler:
 
     def __init__(self, bounds: Sequence[Bound], start: int, stop: int) -> None:
         self._rows = np.linspace(start, max(stop - 1, start), POINTS).astype(np.int64)
-        self._found = {b.name: np.full(POINTS, np.nan) for b in bounds
-                       if b.channel.quantity == "temperature" and b.channel.derive is None and not b.is_text}
+        self._found = {
+            b.name: np.full(POINTS, np.nan)
+            for b in bounds
+            if b.channel.quantity == "temperature" and b.channel.derive is None and not b.is_text
+        }
 
     def take(self, first: int, made: Mapping[str, Column]) -> None:
         """The next piece: its first row, and its channels with their own flags."""
@@ -39,8 +42,11 @@ class Sampler:
 
     def series(self) -> dict[str, list[float | None]]:
         """Channel -> POINTS numbers, None where nothing valid is; ready for JSON."""
-        return {name: [round(float(v), 3) if np.isfinite(v) else None for v in found]
-                for name, found in self._found.items() if np.isfinite(found).any()}
+        return {
+            name: [round(float(v), 3) if np.isfinite(v) else None for v in found]
+            for name, found in self._found.items()
+            if np.isfinite(found).any()
+        }
 
 
 def levels_of(test: str, start_s: float | None, rows: Sequence[Mapping[str, Any]]) -> Levels | None:
@@ -52,8 +58,10 @@ def levels_of(test: str, start_s: float | None, rows: Sequence[Mapping[str, Any]
             continue
         meta = json.loads(row["columns"])
         end = max(end, meta["to_s"])
-        series |= {name: np.array([np.nan if v is None else v for v in values])
-                   for name, values in (meta.get("levels") or {}).items()}
+        series |= {
+            name: np.array([np.nan if v is None else v for v in values])
+            for name, values in (meta.get("levels") or {}).items()
+        }
     return None if start_s is None or not series else Levels(test, start_s, start_s + end, series)
 
 

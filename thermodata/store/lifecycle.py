@@ -19,7 +19,7 @@ from thermodata.store.trace import trace
 if TYPE_CHECKING:
     import duckdb
 
-_BATCH = 500              # files deleted in one turn at the catalogue: some 20 ms
+_BATCH = 500  # files deleted in one turn at the catalogue: some 20 ms
 LAYERS = ("raw", "tidy", "model")
 _OF_MODEL = ("fit", "score_row", "prediction", "finding", "locked_look")
 
@@ -46,8 +46,9 @@ def forget(store: Store, campaign: str, test: str | None = None, *, earlier: boo
         stale: list[str] = []
         models: list[str] = []
         if test is None:
-            models = [r["model"] for r in fetch(con, "select model from model where list_contains(campaigns, ?)",
-                                                [campaign])]
+            models = [
+                r["model"] for r in fetch(con, "select model from model where list_contains(campaigns, ?)", [campaign])
+            ]
             for table in (*BY_TEST, "calibration", "campaign"):
                 con.execute(f"delete from {table} where campaign = ?", [campaign])
             for table in ("prediction", "score_row", "finding", "locked_look"):
@@ -88,7 +89,7 @@ def gc(store: Store, grace_s: float = 3600.0) -> dict[str, Any]:
         # in turns, so that no writer waits for the whole of it
         with store.standstill() as con:
             kept = _kept(con)
-            for path in candidates[start:start + _BATCH]:
+            for path in candidates[start : start + _BATCH]:
                 if path.relative_to(store.path).as_posix() in kept:
                     continue
                 try:
@@ -103,7 +104,7 @@ def gc(store: Store, grace_s: float = 3600.0) -> dict[str, Any]:
                     raise StoreError("a file cannot be deleted", where=str(path), got=str(error)) from error
                 removed, freed = removed + 1, freed + status.st_size
     for folder in [*(store.path / "model").glob("*/"), *(store.path / "raw").glob(".*.growing.tmp/")]:
-        with contextlib.suppress(OSError):        # not empty, or filled again meanwhile
+        with contextlib.suppress(OSError):  # not empty, or filled again meanwhile
             folder.rmdir()
     return {"removed": removed, "bytes": freed, "too_young": young}
 

@@ -81,7 +81,7 @@ def _reading(folder: Path, deadline: float, timeout_s: float) -> Iterator[None]:
     try:
         fd = os.open(folder / CATALOGUE, os.O_RDONLY | _FLAGS)
     except OSError:
-        yield              # nobody ever wrote here since the store was copied
+        yield  # nobody ever wrote here since the store was copied
         return
     try:
         _wait(fd, False, deadline, folder, timeout_s)
@@ -109,8 +109,11 @@ def _wait(fd: int, exclusive: bool, deadline: float, folder: Path, timeout_s: fl
     while not attempt():
         if time.monotonic() > deadline:
             raise StoreError(
-                "the store is busy", where=str(folder), expected=f"a free catalogue within {timeout_s:g} s",
+                "the store is busy",
+                where=str(folder),
+                expected=f"a free catalogue within {timeout_s:g} s",
                 got="another process held it all the time",
-                hint="wait for the other program, or end one that hangs in this store")
+                hint="wait for the other program, or end one that hangs in this store",
+            )
         time.sleep(pause)
         pause = min(pause * 1.5, 0.005)

@@ -54,8 +54,14 @@ class _Tidied:
     events: dict[Member, list[Row]] = field(default_factory=dict)
 
 
-def make_tests(store: Path, plans: Sequence[TestPlan], calibrations: Mapping[str, CalibrationResult], known: Known,
-               now: datetime, say: Callable[[str], None]) -> Made:
+def make_tests(
+    store: Path,
+    plans: Sequence[TestPlan],
+    calibrations: Mapping[str, CalibrationResult],
+    known: Known,
+    now: datetime,
+    say: Callable[[str], None],
+) -> Made:
     """Tidies every stream of every test that isn't there under its content key.
 
     A sensor that failed between two tests shows only once all are tidied; the streams that it spoils are made again.
@@ -66,9 +72,18 @@ def make_tests(store: Path, plans: Sequence[TestPlan], calibrations: Mapping[str
     for plan in plans:
         with _told(made, plan):
             tidied[plan.test.id] = maker.tidy(plan)
-    levels = [x for t in tidied.values() if (x := levels_of(
-        t.plan.test.id, None if t.where.relative else t.where.zero_ns / 1e9,
-        [r for rows in t.files.values() for r in rows])) is not None]
+    levels = [
+        x
+        for t in tidied.values()
+        if (
+            x := levels_of(
+                t.plan.test.id,
+                None if t.where.relative else t.where.zero_ns / 1e9,
+                [r for rows in t.files.values() for r in rows],
+            )
+        )
+        is not None
+    ]
     failed = offsets_by_test(levels)
     for plan in plans:
         test = tidied.get(plan.test.id)
@@ -124,8 +139,11 @@ class _Maker:
             kept = self.known.tidy(plan.test.id, base)
             if kept and all(_still_there(self.store / row["path"], row["bytes"]) for row in kept):
                 test.files[member] = kept
-                test.events[member] = [r for r in self.known.rows["quality_event"].get(plan.test.id, [])
-                                       if (r["source"], r["stream"]) == member]
+                test.events[member] = [
+                    r
+                    for r in self.known.rows["quality_event"].get(plan.test.id, [])
+                    if (r["source"], r["stream"]) == member
+                ]
             else:
                 self._write(test, series, member, base, {})
         return test
@@ -153,8 +171,10 @@ class _Maker:
         result = write_member(series, member, self.columns[member], key, failed)
         self.made.made += 1
         test.files[member] = _tidy_rows(campaign, name, member, result, self.store, self.now, base, failed)
-        test.events[member] = [{"campaign": campaign, "test": name, "source": member[0], "stream": member[1],
-                                **dataclasses.asdict(e)} for e in result.events]
+        test.events[member] = [
+            {"campaign": campaign, "test": name, "source": member[0], "stream": member[1], **dataclasses.asdict(e)}
+            for e in result.events
+        ]
 
 
 def _gather(made: Made, tidied: _Tidied, calibrations: Mapping[str, CalibrationResult], now: datetime) -> None:
@@ -174,15 +194,16 @@ def _gather(made: Made, tidied: _Tidied, calibrations: Mapping[str, CalibrationR
     _add(made, test, "channel", make_rows.channel_rows(plan, calibrations))
     made.notes += [f"{test}, {name}: {n}" for name, clock in clocks.items() for n in clock.notes]
     made.notes += [f"{r.source_path}: {n}" for s in plan.sources.values() for r in s.raws for n in r.notes]
-    made.losses += [loss_row(n, test=test, source=name) for name, clock in clocks.items()
-                    for n in clock.notes if clock.suspect]
+    made.losses += [
+        loss_row(n, test=test, source=name) for name, clock in clocks.items() for n in clock.notes if clock.suspect
+    ]
 
 
 def _still_there(path: Path, size_bytes: int) -> bool:
     if not is_whole(path, size_bytes):
         return False
     try:
-        os.utime(path)       # so that a gc which runs meanwhile sees a young file
+        os.utime(path)  # so that a gc which runs meanwhile sees a young file
     except OSError:
         return False
     return True
@@ -190,8 +211,9 @@ def _still_there(path: Path, size_bytes: int) -> bool:
 
 def _duration(plan: TestPlan, files: Sequence[Row]) -> float | None:
     """How long the recording is [s]: that of its reference sources, as far as they were tidied."""
-    ends = {r["source"]: json.loads(r["columns"])["to_s"] for r in files
-            if r["layer"] == "tidy" and r["part"] == "test"}
+    ends = {
+        r["source"]: json.loads(r["columns"])["to_s"] for r in files if r["layer"] == "tidy" and r["part"] == "test"
+    }
     if plan.test.window is not None and ends:
         a, b = plan.test.window
         return float(min(b - a, max(ends.values())))
@@ -199,8 +221,16 @@ def _duration(plan: TestPlan, files: Sequence[Row]) -> float | None:
     return max(wanted, default=None)
 
 
-def _tidy_rows(campaign: str, test: str, member: Member, result: TidyResult, store: Path, now: datetime, base: str,
-               failed: Mapping[str, float]) -> list[Row]:
+def _tidy_rows(
+    campaign: str,
+    test: str,
+    member: Member,
+    result: TidyResult,
+    store: Path,
+    now: datetime,
+    base: str,
+    failed: Mapping[str, float],
+) -> list[Row]:
     rows: list[Row] = []
     for file in result.files:
         meta: dict[str, Any] = {"channels": file.columns, "to_s": file.to_s, "base": base}
@@ -209,12 +239,27 @@ def _tidy_rows(campaign: str, test: str, member: Member, result: TidyResult, sto
         meta |= {"offsets": dict(failed)} if failed else {}
         if file is result.files[-1]:
             meta |= {"samples": result.samples, "flags": dict(result.flags), "problems": result.problems}
-        rows.append({
-            "campaign": campaign, "test": test, "source": member[0], "stream": member[1], "layer": "tidy",
-            "part": file.part, "key": file.key, "path": file.path, "source_path": None, "sha256": None,
-            "bytes": (store / file.path).stat().st_size, "rows": file.rows, "columns": json.dumps(meta, sort_keys=True),
-            "losses": json.dumps([dataclasses.asdict(x) for x in result.losses] if file is result.files[-1] else []),
-            "added_at": now})
+        rows.append(
+            {
+                "campaign": campaign,
+                "test": test,
+                "source": member[0],
+                "stream": member[1],
+                "layer": "tidy",
+                "part": file.part,
+                "key": file.key,
+                "path": file.path,
+                "source_path": None,
+                "sha256": None,
+                "bytes": (store / file.path).stat().st_size,
+                "rows": file.rows,
+                "columns": json.dumps(meta, sort_keys=True),
+                "losses": json.dumps(
+                    [dataclasses.asdict(x) for x in result.losses] if file is result.files[-1] else []
+                ),
+                "added_at": now,
+            }
+        )
     return rows
 
 

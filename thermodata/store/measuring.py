@@ -16,7 +16,7 @@ from thermodata.schema.quantity import canonical
 from thermodata.store.piece import Column, Piece
 from thermodata.store.plan import TestPlan
 
-_BREAK = 10.0                         # a pause of so many periods ends a stretch, as in calibration.measuring
+_BREAK = 10.0  # a pause of so many periods ends a stretch, as in calibration.measuring
 
 
 def lasts(measuring: str | Measuring | None) -> bool:
@@ -69,11 +69,16 @@ class Stretches:
 
 def find_stretches(parts: Iterable[tuple[int, Int1D, Bool1D]], period_ns: float, spec: Measuring) -> Stretches:
     """parts: (first row, times, mask) of the pieces of a stream in order; a pause in the log ends a stretch too."""
-    found: list[tuple[int, int, int, int]] = []          # first row, past-the-last, first time, last time
+    found: list[tuple[int, int, int, int]] = []  # first row, past-the-last, first time, last time
     longest = _BREAK * max(period_ns, 1.0)
     for start, t, mask in parts:
-        goes_on = bool(found) and found[-1][1] == start and len(t) > 0 and bool(mask[0]) \
+        goes_on = (
+            bool(found)
+            and found[-1][1] == start
+            and len(t) > 0
+            and bool(mask[0])
             and int(t[0]) - found[-1][3] <= longest
+        )
         joined = mask[1:] & mask[:-1] & (np.diff(t) <= longest)
         first = np.flatnonzero(mask & np.concatenate([[True], ~joined]))
         last = np.flatnonzero(mask & np.concatenate([~joined, [True]]))
@@ -84,6 +89,7 @@ def find_stretches(parts: Iterable[tuple[int, Int1D, Bool1D]], period_ns: float,
                 found.append((start + a, start + b + 1, int(t[a]), int(t[b])))
     least = (spec.for_ or 0.0) * 1e9 * (1 - 1e-9)
     # n samples cover n periods, so ten samples at 1 Hz hold for 10 s
-    kept = np.array([(a, b, t + ceil(spec.settle * 1e9)) for a, b, t, end in found if end - t + period_ns >= least],
-                    np.int64).reshape(-1, 3)
+    kept = np.array(
+        [(a, b, t + ceil(spec.settle * 1e9)) for a, b, t, end in found if end - t + period_ns >= least], np.int64
+    ).reshape(-1, 3)
     return Stretches(kept[:, 0], kept[:, 1], kept[:, 2])

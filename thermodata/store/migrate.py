@@ -27,13 +27,18 @@ def check_format(con: duckdb.DuckDBPyConnection, path: Path, prefix: str = "") -
     except duckdb.CatalogException:
         found = None
     if found is None:
-        raise StoreError("this database is not a store", where=str(path), expected="a table 'store' with one row",
-                         got="none")
+        raise StoreError(
+            "this database is not a store", where=str(path), expected="a table 'store' with one row", got="none"
+        )
     version, made_by = int(found[0]), str(found[1])
     if version > FORMAT:
-        raise StoreError("the store was written by a newer version", where=str(path),
-                         expected=f"store format {FORMAT} or older", got=f"format {version}, made by {made_by}",
-                         hint=f"install a thermodata that knows store format {version}")
+        raise StoreError(
+            "the store was written by a newer version",
+            where=str(path),
+            expected=f"store format {FORMAT} or older",
+            got=f"format {version}, made by {made_by}",
+            hint=f"install a thermodata that knows store format {version}",
+        )
     return version
 
 
@@ -44,8 +49,13 @@ def migrate(con: duckdb.DuckDBPyConnection, folder: Path) -> None:
         return
     missing = [v for v in range(version, FORMAT) if v not in STEPS]
     if missing:
-        raise StoreError("the store's format is too old", where=str(folder), got=f"format {version}",
-                         expected=f"format {FORMAT}", hint="ingest the campaigns into a new store")
+        raise StoreError(
+            "the store's format is too old",
+            where=str(folder),
+            got=f"format {version}",
+            expected=f"format {FORMAT}",
+            hint="ingest the campaigns into a new store",
+        )
     # detached first: a copy through another descriptor would drop DuckDB's lock on the open file
     connection.detach(con)
     _backup(folder / "catalog.duckdb", folder / f"catalog.format{version}.duckdb.backup")
@@ -64,8 +74,12 @@ def _backup(catalogue: Path, target: Path) -> None:
         shutil.copyfile(catalogue, part)
         publish(part, target)
     except OSError as error:
-        raise StoreError("the backup before the migration cannot be written", where=str(target), got=str(error),
-                         expected=f"{catalogue.stat().st_size} bytes free",
-                         hint="free space; the store is as it was") from error
+        raise StoreError(
+            "the backup before the migration cannot be written",
+            where=str(target),
+            got=str(error),
+            expected=f"{catalogue.stat().st_size} bytes free",
+            hint="free space; the store is as it was",
+        ) from error
     finally:
         part.unlink(missing_ok=True)

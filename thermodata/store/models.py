@@ -34,35 +34,74 @@ class StoredModel:
     stale: bool
 
 
-def save_fit(store: Store, *, spec: Model, result: FitResult, parent: str | None,
-             predictions: Mapping[tuple[str, str, str], pa.Table], data_version: str) -> str:
+def save_fit(
+    store: Store,
+    *,
+    spec: Model,
+    result: FitResult,
+    parent: str | None,
+    predictions: Mapping[tuple[str, str, str], pa.Table],
+    data_version: str,
+) -> str:
     """Keeps a fit and its predictions ((campaign, test, response) -> table); returns the model's id.
 
     The same model again replaces its figures and keeps its place in the history. Prediction columns: t_s,
     measured, predicted, residual, valid, and `c__<term>` for each effect's contribution.
     """
     now = _now()
-    written = [(key, _write_prediction(store.path, result.model, key, table), table.num_rows)
-               for key, table in sorted(predictions.items())]
+    written = [
+        (key, _write_prediction(store.path, result.model, key, table), table.num_rows)
+        for key, table in sorted(predictions.items())
+    ]
     response = result.response if isinstance(result.response, str) else ", ".join(result.response)
     with store.write() as con:
         old = fetch(con, "select parent, created_at from model where model = ?", [result.model])
         for table in ("fit", "score_row", "prediction"):
             con.execute(f"delete from {table} where model = ?", [result.model])
         con.execute("delete from model where model = ?", [result.model])
-        insert(con, "model", [{
-            "model": result.model, "name": result.name,
-            "parent": parent if parent is not None or not old else old[0]["parent"],
-            "campaigns": list(result.campaigns), "response": response,
-            "spec": spec.model_dump_json(by_alias=True, exclude_none=True), "data_version": data_version,
-            "stale": False, "created_at": old[0]["created_at"] if old else now, "result": result.model_dump_json()}])
-        insert(con, "fit", [{
-            "model": result.model, "response": response if isinstance(result.response, str) else None,
-            "parameter": name, "value": p.value, "unit": p.unit, "low": p.low, "high": p.high}
-            for name, p in result.parameters.items()])
+        insert(
+            con,
+            "model",
+            [
+                {
+                    "model": result.model,
+                    "name": result.name,
+                    "parent": parent if parent is not None or not old else old[0]["parent"],
+                    "campaigns": list(result.campaigns),
+                    "response": response,
+                    "spec": spec.model_dump_json(by_alias=True, exclude_none=True),
+                    "data_version": data_version,
+                    "stale": False,
+                    "created_at": old[0]["created_at"] if old else now,
+                    "result": result.model_dump_json(),
+                }
+            ],
+        )
+        insert(
+            con,
+            "fit",
+            [
+                {
+                    "model": result.model,
+                    "response": response if isinstance(result.response, str) else None,
+                    "parameter": name,
+                    "value": p.value,
+                    "unit": p.unit,
+                    "low": p.low,
+                    "high": p.high,
+                }
+                for name, p in result.parameters.items()
+            ],
+        )
         insert(con, "score_row", [{**s.model_dump(), "model": result.model} for s in result.scores])
-        insert(con, "prediction", [{"campaign": c, "test": t, "model": result.model, "response": r, "path": path,
-                                    "rows": rows} for (c, t, r), path, rows in written])
+        insert(
+            con,
+            "prediction",
+            [
+                {"campaign": c, "test": t, "model": result.model, "response": r, "path": path, "rows": rows}
+                for (c, t, r), path, rows in written
+            ],
+        )
     return result.model
 
 
@@ -80,13 +119,21 @@ def find_model(store: Store, ref: str) -> StoredModel:
         elif len(begun) == 1:
             chosen = begun[0]
         elif begun:
-            raise UsageError(f"'{ref}' begins the ids of several models", expected=", ".join(begun), got=ref,
-                             hint="write more of the id")
+            raise UsageError(
+                f"'{ref}' begins the ids of several models",
+                expected=", ".join(begun),
+                got=ref,
+                hint="write more of the id",
+            )
         else:
             names = list(dict.fromkeys(r["name"] for r in listed))
             close = nearest(ref, names)
-            raise UsageError(f"no model '{ref}'", expected=", ".join(names) or "nothing: no model was fitted yet",
-                             got=ref, hint=f"did you mean '{close}'?" if close else "thermodata fit MODEL.yaml")
+            raise UsageError(
+                f"no model '{ref}'",
+                expected=", ".join(names) or "nothing: no model was fitted yet",
+                got=ref,
+                hint=f"did you mean '{close}'?" if close else "thermodata fit MODEL.yaml",
+            )
         return _stored(con, chosen)
 
 
@@ -96,7 +143,7 @@ def model_chain(store: Store, model: str) -> list[StoredModel]:
     with store.reader() as con:
         while (parent := chain[-1].parent) is not None and parent not in {m.model for m in chain}:
             if not con.execute("select 1 from model where model = ?", [parent]).fetchone():
-                break            # forgotten since
+                break  # forgotten since
             chain.append(_stored(con, parent))
     return chain[::-1]
 
@@ -107,8 +154,17 @@ def save_diagnosis(store: Store, model: str, diagnosis: Diagnosis) -> None:
     rows: list[dict[str, Any]] = []
 
     def add(kind: str, payload: Any, campaign: str = "", test: str = "", rank: int | None = None) -> None:
-        rows.append({"campaign": campaign, "test": test, "model": model, "kind": kind, "rank": rank,
-                     "payload": payload.model_dump_json(), "created_at": now})
+        rows.append(
+            {
+                "campaign": campaign,
+                "test": test,
+                "model": model,
+                "kind": kind,
+                "rank": rank,
+                "payload": payload.model_dump_json(),
+                "created_at": now,
+            }
+        )
 
     add("diagnosis", diagnosis)
     for i, spot in enumerate(diagnosis.weak_spots, 1):
@@ -119,16 +175,21 @@ def save_diagnosis(store: Store, model: str, diagnosis: Diagnosis) -> None:
         add("artefact", artefact, artefact.campaign, artefact.test, i)
     with store.write(views=False) as con:
         _must_exist(con, model)
-        con.execute("delete from finding where model = ? and kind in "
-                    "('diagnosis', 'weak_spot', 'candidate', 'artefact')", [model])
+        con.execute(
+            "delete from finding where model = ? and kind in ('diagnosis', 'weak_spot', 'candidate', 'artefact')",
+            [model],
+        )
         insert(con, "finding", rows)
 
 
 def load_diagnosis(store: Store, model: str) -> Diagnosis | None:
     """The model's latest diagnosis, or None."""
     with store.reader() as con:
-        found = fetch(con, "select payload from finding where model = ? and kind = 'diagnosis' "
-                           "order by created_at desc limit 1", [model])
+        found = fetch(
+            con,
+            "select payload from finding where model = ? and kind = 'diagnosis' order by created_at desc limit 1",
+            [model],
+        )
     return Diagnosis.model_validate_json(found[0]["payload"]) if found else None
 
 
@@ -138,31 +199,54 @@ def save_findings(store: Store, model: str, kind: str, rows: Iterable[tuple[str,
     with store.write(views=False) as con:
         _must_exist(con, model)
         con.execute("delete from finding where model = ? and kind = ?", [model, kind])
-        insert(con, "finding", [{"campaign": c, "test": t, "model": model, "kind": kind, "rank": i,
-                                 "payload": json.dumps(dict(p)), "created_at": now}
-                                for i, (c, t, p) in enumerate(rows, 1)])
+        insert(
+            con,
+            "finding",
+            [
+                {
+                    "campaign": c,
+                    "test": t,
+                    "model": model,
+                    "kind": kind,
+                    "rank": i,
+                    "payload": json.dumps(dict(p)),
+                    "created_at": now,
+                }
+                for i, (c, t, p) in enumerate(rows, 1)
+            ],
+        )
 
 
 def count_locked_look(store: Store, model: str, tests: Iterable[tuple[str, str]], reason: str) -> None:
     """Writes down that the locked tests ((campaign, test)) were looked at, and why."""
     now = _now()
     with store.write(views=False) as con:
-        insert(con, "locked_look", [{"campaign": c, "test": t, "model": model, "reason": reason, "at": now}
-                                    for c, t in tests])
+        insert(
+            con,
+            "locked_look",
+            [{"campaign": c, "test": t, "model": model, "reason": reason, "at": now} for c, t in tests],
+        )
 
 
 def locked_looks(store: Store, campaign: str, test: str) -> int:
     """How often the lock of a test was opened."""
     with store.reader() as con:
-        found = con.execute("select count(*) from locked_look where campaign = ? and test = ?",
-                            [campaign, test]).fetchone()
+        found = con.execute(
+            "select count(*) from locked_look where campaign = ? and test = ?", [campaign, test]
+        ).fetchone()
     return int(found[0]) if found else 0
 
 
 def _stored(con: duckdb.DuckDBPyConnection, model: str) -> StoredModel:
     row = fetch(con, "select * from model where model = ?", [model])[0]
-    return StoredModel(row["model"], row["name"], row["parent"], Model.model_validate_json(row["spec"]),
-                       FitResult.model_validate_json(row["result"]), bool(row["stale"]))
+    return StoredModel(
+        row["model"],
+        row["name"],
+        row["parent"],
+        Model.model_validate_json(row["spec"]),
+        FitResult.model_validate_json(row["result"]),
+        bool(row["stale"]),
+    )
 
 
 def _must_exist(con: duckdb.DuckDBPyConnection, model: str) -> None:

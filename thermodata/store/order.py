@@ -14,7 +14,7 @@ from thermodata.plugin import Int1D
 from thermodata.store.clockfaults import MOST_STRAYS, Faults, shifted
 
 CHUNK_ROWS = 500_000
-_NEAR, _LONGEST = 256, 65_536         # rows: stretches that lie so near are sorted as one, up to this length
+_NEAR, _LONGEST = 256, 65_536  # rows: stretches that lie so near are sorted as one, up to this length
 Times = Callable[[int, int], Int1D]
 
 
@@ -57,8 +57,15 @@ def find_order(times: Times, n: int, *, resets_allowed: bool) -> Order:
         if not faults.look(t, first, min(CHUNK_ROWS, len(t))):
             break
     keep = n if faults.keep is None else faults.keep
-    found = Order(keep, np.array(faults.at, np.int64), np.array(faults.shifts, np.int64),
-                  np.array(sorted(faults.marked), np.int64), np.empty((0, 2), np.int64), faults.extent, faults.notes())
+    found = Order(
+        keep,
+        np.array(faults.at, np.int64),
+        np.array(faults.shifts, np.int64),
+        np.array(sorted(faults.marked), np.int64),
+        np.empty((0, 2), np.int64),
+        faults.extent,
+        faults.notes(),
+    )
     return replace(found, islands=_islands(times, found, faults.lowest))
 
 
@@ -72,7 +79,7 @@ def _islands(times: Times, order: Order, lowest: list[int]) -> Int1D:
         t = order.moved(times(first, min(order.keep, first + CHUNK_ROWS)), first)
         before = np.maximum(np.concatenate([[highest], np.maximum.accumulate(t)[:-1]]), highest)
         behind = np.minimum(np.minimum.accumulate(t[::-1])[::-1], later[chunk + 1])
-        torn = (before > behind).view(np.int8)                  # no cut before this row
+        torn = (before > behind).view(np.int8)  # no cut before this row
         edges = np.flatnonzero(np.diff(np.concatenate([[0], torn, [0]])))
         for a, b in zip(edges[::2].tolist(), edges[1::2].tolist(), strict=True):
             _append(runs, first + a - 1, first + b)

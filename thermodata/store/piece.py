@@ -34,8 +34,9 @@ class Column:
 class Piece:
     """Rows start to stop of a stream, for the channels `bounds` (others are read when they are needed)."""
 
-    def __init__(self, series: TestSeries, member: tuple[str, str], start: int, stop: int,
-                 bounds: Sequence[Bound]) -> None:
+    def __init__(
+        self, series: TestSeries, member: tuple[str, str], start: int, stop: int, bounds: Sequence[Bound]
+    ) -> None:
         self.series, self.member, self.start, self.stop = series, member, start, stop
         self.line = series.timeline(member)
         signals = list(dict.fromkeys(b.signal.name for b in bounds if b.signal is not None))
@@ -56,7 +57,7 @@ class Piece:
     def part(self, start: int, stop: int) -> Piece:
         """Some of its rows, without their values."""
         made = Piece(self.series, self.member, start, stop, ())
-        made._t = self.t_ns[start - self.start:stop - self.start]
+        made._t = self.t_ns[start - self.start : stop - self.start]
         return made
 
     def values(self, bound: Bound) -> tuple[Array, Array]:
@@ -77,8 +78,9 @@ class Piece:
         n = self.stop - self.start
         raw = self._raw.get(signal)
         if raw is None:
-            return np.full(n, None if bound.is_text else np.nan, object if bound.is_text else float), \
-                np.zeros(n, np.uint16)
+            return np.full(n, None if bound.is_text else np.nan, object if bound.is_text else float), np.zeros(
+                n, np.uint16
+            )
         values, flags = self._calibrated(bound, raw)
         from_reader = self._flags.get(signal)
         if from_reader is not None:
@@ -98,10 +100,17 @@ class Piece:
         if missing:
             raise UsageError(f"calibration '{missing[0]}' is not available", where=f"channel {bound.name}")
         if bound.is_text:
-            return np.array([None if v is None else str(v) for v in raw.tolist()], dtype=object), \
-                np.zeros(len(raw), np.uint16)
-        values, flags = calibrate(raw, channel=bound.channel, signal_unit=bound.unit, scaling=bound.signal.scaling,
-                                  calibrations=[known[n] for n in names], name=bound.name)
+            return np.array([None if v is None else str(v) for v in raw.tolist()], dtype=object), np.zeros(
+                len(raw), np.uint16
+            )
+        values, flags = calibrate(
+            raw,
+            channel=bound.channel,
+            signal_unit=bound.unit,
+            scaling=bound.signal.scaling,
+            calibrations=[known[n] for n in names],
+            name=bound.name,
+        )
         return values, flags.astype(np.uint16, copy=False)
 
     def _derived(self, bound: Bound) -> tuple[Array, Array]:
@@ -110,8 +119,11 @@ class Piece:
         flags: Array = np.zeros(self.stop - self.start, np.uint16)
         for name in derive.names(text):
             other = self.series.plan.bound[name]
-            found, marks = self.values(other) if (other.source, other.stream) == self.member \
+            found, marks = (
+                self.values(other)
+                if (other.source, other.stream) == self.member
                 else self.series.sampled(name, self.t_ns)
+            )
             values[name], flags = found, flags | marks
         units = {n: canonical(self.series.plan.bound[n].channel.quantity) for n in values}
         return derive.evaluate(bound, values, units), flags
@@ -119,6 +131,7 @@ class Piece:
 
 def calibrated(piece: Piece, bounds: Sequence[Bound], problems: list[str], pool: Executor) -> dict[str, Column]:
     """The channels of a piece; one that can't be calibrated is left out, with the reason in `problems`."""
+
     def one(bound: Bound) -> Column | str:
         try:
             return Column(bound, *piece.values(bound))

@@ -76,8 +76,11 @@ class TestPlan:
 
         A control's or a hall logger's clock may be hours off, and its log may run for days; the probes' record
         is what the test is about. Where no source carries displacements, all of them count."""
-        names = {b.source for b in self.bound.values()
-                 if b.signal is not None and b.channel.quantity in ("displacement", "tilt")}
+        names = {
+            b.source
+            for b in self.bound.values()
+            if b.signal is not None and b.channel.quantity in ("displacement", "tilt")
+        }
         chosen = [s for s in self.sources.values() if s.name in names and s.raws]
         return chosen or [s for s in self.sources.values() if s.raws]
 
@@ -114,7 +117,7 @@ def bind(plan: TestPlan) -> None:
         elif channel.signal is not None and channel.source is not None:
             source = plan.sources.get(channel.source)
             if source is None or not source.raws:
-                continue           # the source's absence is told once, not for each channel
+                continue  # the source's absence is told once, not for each channel
             try:
                 raw, signal, unit = find_signal(source.raws, channel.signal)
             except UsageError as error:
@@ -135,8 +138,9 @@ def operands(expression: str, names: Iterable[str]) -> list[str]:
     return list(dict.fromkeys(found))
 
 
-def _bind_derived(plan: TestPlan, channels: Mapping[str, Channel], name: str, channel: Channel,
-                  above: tuple[str, ...]) -> Bound | None:
+def _bind_derived(
+    plan: TestPlan, channels: Mapping[str, Channel], name: str, channel: Channel, above: tuple[str, ...]
+) -> Bound | None:
     if name in plan.bound:
         return plan.bound[name]
     if name in above:
@@ -148,7 +152,7 @@ def _bind_derived(plan: TestPlan, channels: Mapping[str, Channel], name: str, ch
         if bound is None and channels[operand].derive is not None:
             bound = _bind_derived(plan, channels, operand, channels[operand], (*above, name))
         if bound is None:
-            return None            # an operand is absent in this test: so is what derives from it
+            return None  # an operand is absent in this test: so is what derives from it
         if home is None or (home.source == SCHEDULE and bound.source != SCHEDULE):
             home = bound
     if home is None:

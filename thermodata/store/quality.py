@@ -65,19 +65,25 @@ class Flagged:
             yield from self._measured(self._walk(rows, borders, pool), pool)
         self._found += self._of_the_clock()
         zero = self.series.span.zero_ns
-        self.events += [Event(e.channel, e.flag, (e.from_ns - zero) / 1e9, (e.to_ns - zero) / 1e9, e.n,
-                              e.detail or None) for e in concise(without_idle(self._found, self._activity))]
+        self.events += [
+            Event(e.channel, e.flag, (e.from_ns - zero) / 1e9, (e.to_ns - zero) / 1e9, e.n, e.detail or None)
+            for e in concise(without_idle(self._found, self._activity))
+        ]
 
     def _of_the_clock(self) -> list[QualityEvent]:
         if self.member[0] == SCHEDULE or self.start >= self.stop:
             return []
         line = self.series.timeline(self.member)
         first, last = int(line.times(self.start, self.start + 1)[0]), int(line.times(self.stop - 1, self.stop)[0])
-        return [QualityEvent(None, "clock_suspect", max(a, first), min(b, last), n, why)
-                for a, b, n, why in line.clock_stretches() if a <= last and b >= first]
+        return [
+            QualityEvent(None, "clock_suspect", max(a, first), min(b, last), n, why)
+            for a, b, n, why in line.clock_stretches()
+            if a <= last and b >= first
+        ]
 
-    def _walk(self, rows: int, borders: Sequence[int], pool: ThreadPoolExecutor) \
-            -> Iterator[tuple[Piece, dict[str, Column]]]:
+    def _walk(
+        self, rows: int, borders: Sequence[int], pool: ThreadPoolExecutor
+    ) -> Iterator[tuple[Piece, dict[str, Column]]]:
         if self.member[0] == SCHEDULE:
             for a, b in _cuts(self.start, self.stop, rows, borders):
                 piece = self._piece(a, b)
@@ -89,8 +95,9 @@ class Flagged:
         else:
             yield from self._wide(rows, borders, pool)
 
-    def _windows(self, bounds: Sequence[Bound], rows: int, pool: ThreadPoolExecutor) \
-            -> Iterator[tuple[Piece, dict[str, Column], int, int]]:
+    def _windows(
+        self, bounds: Sequence[Bound], rows: int, pool: ThreadPoolExecutor
+    ) -> Iterator[tuple[Piece, dict[str, Column], int, int]]:
         """(piece, its channels on the window's own rows, the first and past-the-last of these)."""
         wanted = min(windows.WINDOW_ROWS, windows.WINDOW_VALUES // max(1, len(bounds)))
         size = max(1, wanted // rows) * rows
@@ -106,7 +113,7 @@ class Flagged:
             b = min(a + size, self.stop)
             low = piece.start
             found = joined.add(piece.t_ns, seen, a - low, b - low)
-            yield piece, {n: Column(c.bound, c.values[a - low:b - low], found[n]) for n, c in made.items()}, a, b
+            yield piece, {n: Column(c.bound, c.values[a - low : b - low], found[n]) for n, c in made.items()}, a, b
         self._found += joined.events
 
     def _with_releases(self, made: Mapping[str, Column], own: int, stop: int) -> dict[str, Column]:
@@ -117,9 +124,14 @@ class Flagged:
             return seen
         for name, column in made.items():
             x = column.values
-            still = x[own - stop:]
-            if x.dtype.kind == "f" and column.bound.channel.quantity in ANALOG and len(still) > 1 \
-                    and still[0] == still[-1] and bool((still == still[0]).all()):
+            still = x[own - stop :]
+            if (
+                x.dtype.kind == "f"
+                and column.bound.channel.quantity in ANALOG
+                and len(still) > 1
+                and still[0] == still[-1]
+                and bool((still == still[0]).all())
+            ):
                 value = self._release(column.bound, float(still[0]), stop)
                 if value is not None:
                     x = x.copy()
@@ -145,12 +157,13 @@ class Flagged:
         # `measuring` may look into any stream, and timelines aren't for several threads
         return self.series.plan.test.measuring is None
 
-    def _wide(self, rows: int, borders: Sequence[int], pool: ThreadPoolExecutor) \
-            -> Iterator[tuple[Piece, dict[str, Column]]]:
+    def _wide(
+        self, rows: int, borders: Sequence[int], pool: ThreadPoolExecutor
+    ) -> Iterator[tuple[Piece, dict[str, Column]]]:
         """Judges some columns after the other, keeps where their flags change, and then reads all side by side."""
         changes: dict[str, tuple[list[Array], list[Array]]] = {}
         for i in range(0, len(self.bounds), windows.MOST_COLUMNS):
-            some = self.bounds[i:i + windows.MOST_COLUMNS]
+            some = self.bounds[i : i + windows.MOST_COLUMNS]
             before = len(self._found)
             for _, made, first, _ in self._windows(some, rows, pool):
                 for name, column in made.items():
@@ -158,7 +171,7 @@ class Flagged:
                     kept = changes.setdefault(name, ([], []))
                     kept[0].append(first + at)
                     kept[1].append(column.flags[at])
-            if i:      # what concerns the whole stream was said with the first columns
+            if i:  # what concerns the whole stream was said with the first columns
                 self._found[before:] = [e for e in self._found[before:] if e.channel is not None]
         joined = {n: (np.concatenate(a), np.concatenate(f)) for n, (a, f) in changes.items()}
         changes.clear()
@@ -170,15 +183,16 @@ class Flagged:
                     continue
                 at, flags = joined[name]
                 low, high = int(np.searchsorted(at, a, side="right")) - 1, int(np.searchsorted(at, b))
-                lengths = np.diff(np.concatenate([[a], at[low + 1:high], [b]]))
+                lengths = np.diff(np.concatenate([[a], at[low + 1 : high], [b]]))
                 column.flags = np.repeat(flags[low:high], lengths)
             yield piece, made
 
     def _piece(self, start: int, stop: int, bounds: Sequence[Bound] | None = None) -> Piece:
         return Piece(self.series, self.member, start, stop, self.bounds if bounds is None else bounds)
 
-    def _measured(self, walked: Iterator[tuple[Piece, dict[str, Column]]], pool: ThreadPoolExecutor) \
-            -> Iterator[tuple[int, Int1D, dict[str, Column]]]:
+    def _measured(
+        self, walked: Iterator[tuple[Piece, dict[str, Column]]], pool: ThreadPoolExecutor
+    ) -> Iterator[tuple[int, Int1D, dict[str, Column]]]:
         """Adds NOT_MEASURING to the channels that are measured."""
         spec = self.series.plan.test.measuring
         names = [b.name for b in self.bounds if b.channel.quantity in MEASURED] if spec is not None else []
@@ -214,15 +228,17 @@ class Flagged:
         rows = max(1, windows.WINDOW_VALUES // 8)
         found: dict[str, Stretches] = {}
         for bound in (b for b in self.bounds if b.name in names):
+
             def parts(bound: Bound = bound) -> Iterator[tuple[int, Int1D, Array]]:
                 for a, b in _cuts(self.start, self.stop, rows, ()):
                     piece = self._piece(a, b, [bound])
                     made = calibrated(piece, [bound], [], pool)
                     if made:
                         yield a, piece.t_ns, measures(piece, made[bound.name], made)
+
             found[bound.name] = find_stretches(parts(), period, spec)
             if spec.in_range != "in_range":
-                return dict.fromkeys(names, found[bound.name])     # says nothing of the channel itself
+                return dict.fromkeys(names, found[bound.name])  # says nothing of the channel itself
         return found
 
 

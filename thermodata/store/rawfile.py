@@ -21,10 +21,10 @@ from thermodata.store.rawread import RawFile
 if TYPE_CHECKING:
     import pyarrow as pa
 
-GROUP_VALUES = 2_000_000      # values in a row group: 16 MB of float64 ...
+GROUP_VALUES = 2_000_000  # values in a row group: 16 MB of float64 ...
 GROUP_ROWS = 250_000
-LEAST_ROWS = 10_000           # ... but not fewer rows than this: each column of a group costs 2 kB of the footer ...
-MOST_VALUES = 6_000_000       # ... unless there are so many columns that a group would be too large
+LEAST_ROWS = 10_000  # ... but not fewer rows than this: each column of a group costs 2 kB of the footer ...
+MOST_VALUES = 6_000_000  # ... unless there are so many columns that a group would be too large
 _MANY = 8
 
 
@@ -70,8 +70,11 @@ class StreamWriter:
     def _goes_on(self, t_ns: Int1D) -> bool:
         """Whether a block's times rise, from where the last one ended, and not by a year at once."""
         before = self.last_ns if self.rows else int(t_ns[0])
-        return 0 <= int(t_ns[0]) - before <= LEAP_NS and int(t_ns[-1]) - int(t_ns[0]) <= LEAP_NS and \
-            bool((t_ns[1:] >= t_ns[:-1]).all())
+        return (
+            0 <= int(t_ns[0]) - before <= LEAP_NS
+            and int(t_ns[-1]) - int(t_ns[0]) <= LEAP_NS
+            and bool((t_ns[1:] >= t_ns[:-1]).all())
+        )
 
     def finish(self, meta: Mapping[str, Any]) -> None:
         """Writes what waits and makes the file appear."""
@@ -147,8 +150,10 @@ def _chunked(parts: list[Array | None], blocks: list[Block], kind: pa.DataType) 
     if len(parts) > _MANY and len(whole) == len(parts):
         # a reader of many small blocks: joining them costs less than an Arrow array for each
         return pa.chunked_array([to_arrow(np.concatenate(whole))], type=kind)
-    return pa.chunked_array([pa.nulls(len(b.t_ns), kind) if p is None else to_arrow(p)
-                             for b, p in zip(blocks, parts, strict=True)], type=kind)
+    return pa.chunked_array(
+        [pa.nulls(len(b.t_ns), kind) if p is None else to_arrow(p) for b, p in zip(blocks, parts, strict=True)],
+        type=kind,
+    )
 
 
 def group_rows(columns: int) -> int:
@@ -165,8 +170,9 @@ def arrow_type(signal: Signal) -> pa.DataType:
     try:
         return pa.from_numpy_dtype(np.dtype(signal.dtype).newbyteorder("="))
     except (TypeError, NotImplementedError, pa.ArrowNotImplementedError) as error:
-        raise PluginError(f"signal '{signal.name}' has a dtype that cannot be stored", expected="a number or 'str'",
-                          got=signal.dtype) from error
+        raise PluginError(
+            f"signal '{signal.name}' has a dtype that cannot be stored", expected="a number or 'str'", got=signal.dtype
+        ) from error
 
 
 def _flags(block: Block, name: str) -> Array:
@@ -175,8 +181,12 @@ def _flags(block: Block, name: str) -> Array:
 
 
 def _slice(block: Block, start: int, stop: int) -> Block:
-    return Block(block.stream, block.t_ns[start:stop], {k: v[start:stop] for k, v in block.values.items()},
-                 None if block.flags is None else {k: v[start:stop] for k, v in block.flags.items()})
+    return Block(
+        block.stream,
+        block.t_ns[start:stop],
+        {k: v[start:stop] for k, v in block.values.items()},
+        None if block.flags is None else {k: v[start:stop] for k, v in block.flags.items()},
+    )
 
 
 def _column_names(signals: list[Signal]) -> dict[str, str]:

@@ -15,7 +15,7 @@ from thermodata.store.arrow import to_numpy, use_one_heap
 if TYPE_CHECKING:
     import pyarrow as pa
 
-_OPEN = 4                    # files held open: their footers stay parsed, which for wide files is most of the work
+_OPEN = 4  # files held open: their footers stay parsed, which for wide files is most of the work
 
 
 class RawFile:
@@ -77,7 +77,7 @@ def _filled(found: list[Array], parts: list[Array], at: int, rows: int) -> list[
         if part.dtype != found[i].dtype:
             # whole numbers become float64 in a row group that has NULLs
             found[i] = found[i].astype(np.result_type(found[i], part))
-        found[i][at:at + len(part)] = part
+        found[i][at : at + len(part)] = part
     return found
 
 
@@ -112,9 +112,12 @@ class _as_store_error:  # noqa: N801 - reads as a statement
         import pyarrow as pa
 
         if isinstance(error, OSError | pa.ArrowException):
-            raise StoreError("a file of the store cannot be read", where=str(self.path),
-                             got=str(error).splitlines()[0],
-                             hint="forget the campaign and ingest it again") from error
+            raise StoreError(
+                "a file of the store cannot be read",
+                where=str(self.path),
+                got=str(error).splitlines()[0],
+                hint="forget the campaign and ingest it again",
+            ) from error
 
 
 def read_column(path: Path, column: str, start: int, stop: int) -> Array:

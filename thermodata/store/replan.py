@@ -41,8 +41,11 @@ def read_series(con: duckdb.DuckDBPyConnection, store: Path, campaign: str, test
         estimated = clock_from_json(row["notes"])
         if estimated is not None:
             kept[row["source"]] = estimated
-    clocks = {name: kept.get(name) or Clock(round((s.spec.clock.offset or 0.0) * 1e9), s.spec.clock.drift_ppm or 0.0,
-                                            base[name]) for name, s in plan.sources.items()}
+    clocks = {
+        name: kept.get(name)
+        or Clock(round((s.spec.clock.offset or 0.0) * 1e9), s.spec.clock.drift_ppm or 0.0, base[name])
+        for name, s in plan.sources.items()
+    }
     return TestSeries(store, plan, clocks, span(plan, clocks), {})
 
 

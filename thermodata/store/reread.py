@@ -26,8 +26,7 @@ def reread(path: Path, raw: RawStream, row: int, signal: str, source: str, spec:
             if isinstance(item, Block) and item.stream == raw.stream:
                 if row < at + len(item.t_ns):
                     value = item.values[signal][row - at]
-                    return {"value": value.item() if hasattr(value, "item") else value, "place": where,
-                            "problem": None}
+                    return {"value": value.item() if hasattr(value, "item") else value, "place": where, "problem": None}
                 at += len(item.t_ns)
     except (ThermodataError, OSError, KeyError) as error:
         return {"value": None, "place": None, "problem": "; ".join(str(error).splitlines())}

@@ -61,8 +61,14 @@ def resolve(folder: Path, campaign: Campaign, test: Test, source: str) -> Found:
                 why = _refusal(root, name, named)
                 if why != "":
                     paths[relative] = why
-    return Found(patterns, tuple(p for p, why in paths.items() if why is None),
-                 tuple((p, why) for p, why in paths.items() if why is not None), shared, explicit, odd)
+    return Found(
+        patterns,
+        tuple(p for p, why in paths.items() if why is None),
+        tuple((p, why) for p, why in paths.items() if why is not None),
+        shared,
+        explicit,
+        odd,
+    )
 
 
 def _is_text(name: str) -> bool:
@@ -83,7 +89,7 @@ def _refusal(root: Path, name: str, named: bool) -> str | None:
     except FileNotFoundError:
         return "a link to nothing"
     except (OSError, RuntimeError, ValueError) as error:
-        return str(getattr(error, "strerror", None) or error)      # a loop of links, a folder that may not be entered
+        return str(getattr(error, "strerror", None) or error)  # a loop of links, a folder that may not be entered
     if kind is None:
         return None
     return "" if kind == "a folder" and not named else f"this is {kind}, not a file"
@@ -98,8 +104,12 @@ def inside(folder: Path, name: str, where: str) -> Path:
     except (OSError, RuntimeError, ValueError) as error:
         raise SpecError("a path that leads nowhere", where=where, got=f"{name}: {error}") from error
     if not real.is_relative_to(root):
-        raise SpecError("a path leads outside the campaign's folder", where=where, got=name,
-                        expected="a file inside the campaign's folder")
+        raise SpecError(
+            "a path leads outside the campaign's folder",
+            where=where,
+            got=name,
+            expected="a file inside the campaign's folder",
+        )
     return root / name
 
 
@@ -109,11 +119,19 @@ def natural(text: str) -> list[tuple[int, int, str]]:
 
 
 def _checked(pattern: str, test: str, where: str = "files") -> str:
-    if PurePosixPath(pattern).is_absolute() or Path(pattern).is_absolute() or re.match(r"^[A-Za-z]:", pattern) \
-            or ".." in re.split(r"[/\\]", pattern):
-        raise SpecError("a path leads outside the campaign's folder", where=where, got=pattern,
-                        expected="a path relative to the campaign file, without '..'",
-                        hint="put the files into the campaign's folder, or the campaign file above them")
+    if (
+        PurePosixPath(pattern).is_absolute()
+        or Path(pattern).is_absolute()
+        or re.match(r"^[A-Za-z]:", pattern)
+        or ".." in re.split(r"[/\\]", pattern)
+    ):
+        raise SpecError(
+            "a path leads outside the campaign's folder",
+            where=where,
+            got=pattern,
+            expected="a path relative to the campaign file, without '..'",
+            hint="put the files into the campaign's folder, or the campaign file above them",
+        )
     return pattern.replace("{test}", glob.escape(test))
 
 
@@ -126,9 +144,9 @@ def _regex(pattern: str) -> str:
             out, i = out + "[^/]*", i + 1
         elif pattern[i] == "?":
             out, i = out + "[^/]", i + 1
-        elif pattern[i] == "[" and "]" in pattern[i + 1:]:
+        elif pattern[i] == "[" and "]" in pattern[i + 1 :]:
             end = pattern.index("]", i + 2) if pattern.find("]", i + 2) > 0 else pattern.index("]", i + 1)
-            out, i = out + "[" + pattern[i + 1:end].replace("!", "^", 1).replace("\\", "\\\\") + "]", end + 1
+            out, i = out + "[" + pattern[i + 1 : end].replace("!", "^", 1).replace("\\", "\\\\") + "]", end + 1
         else:
             out, i = out + re.escape(pattern[i]), i + 1
     return out

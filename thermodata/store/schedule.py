@@ -23,8 +23,12 @@ def steps(name: str, channel: Channel, test: Test) -> tuple[Float1D, Array]:
         if isinstance(what, str) and what.startswith("conditions."):
             key = what.removeprefix("conditions.")
             if key not in test.conditions:
-                raise SpecError(f"test '{test.id}' has no condition '{key}'", where=where, got=what,
-                                expected=", ".join(f"conditions.{k}" for k in test.conditions) or "none")
+                raise SpecError(
+                    f"test '{test.id}' has no condition '{key}'",
+                    where=where,
+                    got=what,
+                    expected=", ".join(f"conditions.{k}" for k in test.conditions) or "none",
+                )
             what = test.conditions[key]
         times.append(value_in(at, "s"))
         values.append(str(what) if channel.quantity == "label" else _number(what, channel))
@@ -37,8 +41,11 @@ def held(t_s: Float1D, times: Float1D, values: Array) -> Array:
     """The value that holds at each time, shape (n,); NaN or None before the first."""
     index = np.searchsorted(times, t_s, side="right") - 1
     missing: Any = None if values.dtype == object else np.nan
-    found: Array = np.where(index >= 0, values[np.maximum(index, 0)], missing) if len(values) else \
-        np.full(len(t_s), missing, dtype=values.dtype)
+    found: Array = (
+        np.where(index >= 0, values[np.maximum(index, 0)], missing)
+        if len(values)
+        else np.full(len(t_s), missing, dtype=values.dtype)
+    )
     return found
 
 

@@ -18,7 +18,7 @@ from thermodata.store.timeline import Clock, Span, build, last_ns
 
 Member = tuple[str, str]
 _HELD = frozenset({"state", "label"})
-_SHORT = 1_000_000                    # rows: a stream that others look into is kept as a whole up to this length
+_SHORT = 1_000_000  # rows: a stream that others look into is kept as a whole up to this length
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,8 +38,14 @@ class TestSeries:
 
     __test__ = False
 
-    def __init__(self, store: Path, plan: TestPlan, clocks: Mapping[str, Clock], span: Span,
-                 calibrations: Mapping[str, CalibrationResult]) -> None:
+    def __init__(
+        self,
+        store: Path,
+        plan: TestPlan,
+        clocks: Mapping[str, Clock],
+        span: Span,
+        calibrations: Mapping[str, CalibrationResult],
+    ) -> None:
         self.store, self.plan, self.span, self.calibrations = store, plan, span, calibrations
         self.clocks = dict(clocks)
         self._lines: dict[Member, Timeline] = {}
@@ -52,8 +58,12 @@ class TestSeries:
                 self._lines[member] = given_timeline(self._schedule_grid())
             else:
                 source = self.plan.sources[member[0]]
-                self._lines[member] = build(self.store, source.streams[member[1]], self.clocks[member[0]],
-                                            resets_allowed=source.spec.clock.resets == "allow")
+                self._lines[member] = build(
+                    self.store,
+                    source.streams[member[1]],
+                    self.clocks[member[0]],
+                    resets_allowed=source.spec.clock.resets == "allow",
+                )
         return self._lines[member]
 
     def rows(self, member: Member) -> Rows:
@@ -103,12 +113,14 @@ class TestSeries:
             half = len(t_ns) // 2
             (a, f), (b, g) = self.sampled(name, t_ns[:half]), self.sampled(name, t_ns[half:])
             return np.concatenate([a, b]), np.concatenate([f, g])
-        return self._at(bound, t_ns, line.times(start, stop), *self.values(bound, start, stop),
-                        (start == 0, stop == line.rows))
+        return self._at(
+            bound, t_ns, line.times(start, stop), *self.values(bound, start, stop), (start == 0, stop == line.rows)
+        )
 
     @staticmethod
-    def _at(bound: Bound, t_ns: Int1D, t: Int1D, values: Array, flags: Array,
-            ends: tuple[bool, bool]) -> tuple[Array, Array]:
+    def _at(
+        bound: Bound, t_ns: Int1D, t: Int1D, values: Array, flags: Array, ends: tuple[bool, bool]
+    ) -> tuple[Array, Array]:
         """ends: whether t begins and ends with the stream. What lies beside t lies beside the stream then."""
         assert ends[0] or t[0] <= t_ns[0]
         index = np.clip(np.searchsorted(t, t_ns, side="right") - 1, 0, len(t) - 1)
@@ -125,8 +137,9 @@ class TestSeries:
         with np.errstate(invalid="ignore"):
             part = (t_ns - t[index]) / np.maximum(t[follows] - t[index], 1)
             found = np.where(exact, values[index], values[index] + (values[follows] - values[index]) * part)
-        return np.where(before | after, np.nan, found), flags[index] | np.where(exact, 0, flags[follows]) \
-            .astype(np.uint16)
+        return np.where(before | after, np.nan, found), flags[index] | np.where(exact, 0, flags[follows]).astype(
+            np.uint16
+        )
 
     def scheduled(self, bound: Bound, t_ns: Int1D) -> tuple[Array, Array]:
         """(values, flags) of a channel that nobody logged, shape of t_ns."""
@@ -144,8 +157,11 @@ class TestSeries:
         lines = [self.timeline(m) for m in _stored(self.plan) if self.plan.sources[m[0]] in self.plan.reference]
         ends = [int(line.times(line.rows - 1, line.rows)[0]) for line in lines if line.rows]
         end = max(ends, default=begin)
-        changes = [schedule.steps(b.name, b.channel, self.plan.test)[0] for b in self.plan.bound.values()
-                   if b.channel.schedule is not None]
+        changes = [
+            schedule.steps(b.name, b.channel, self.plan.test)[0]
+            for b in self.plan.bound.values()
+            if b.channel.schedule is not None
+        ]
         at = np.concatenate(changes) if changes else np.empty(0)
         return schedule.grid(begin, end, np.rint(at * 1e9).astype(np.int64) + begin)
 

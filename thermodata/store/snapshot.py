@@ -38,8 +38,10 @@ def snapshot(store: Store, out: Path | str) -> Path:
     con = store.private_copy()
     try:
         catalogue = read_catalogue(con)
-        con.execute(f"attach {connection.literal(str(part))} as snap "
-                    f"(storage_version {connection.literal(connection.STORAGE_VERSION)})")
+        con.execute(
+            f"attach {connection.literal(str(part))} as snap "
+            f"(storage_version {connection.literal(connection.STORAGE_VERSION)})"
+        )
         for statement in TABLES.split(";"):
             name = _TABLE.search(statement)
             if name is not None:
@@ -53,11 +55,16 @@ def snapshot(store: Store, out: Path | str) -> Path:
         groups = {g.name: f"wide_{g.name}" for g in catalogue.groups}
         for statement in listed:
             begun = statement.lstrip().lower()
-            if any(begun.startswith(f"{head} {name.lower()}") for name in [*wide, "residual"]
-                   for head in ("create view", "comment on view")):
+            if any(
+                begun.startswith(f"{head} {name.lower()}")
+                for name in [*wide, "residual"]
+                for head in ("create view", "comment on view")
+            ):
                 continue
-            per_campaign = {suffix: [g.name for g in catalogue.of(campaign) if g.columns]
-                            for campaign, suffix in catalogue.campaigns.items()}
+            per_campaign = {
+                suffix: [g.name for g in catalogue.of(campaign) if g.columns]
+                for campaign, suffix in catalogue.campaigns.items()
+            }
             con.execute(_from_tables(statement, groups, per_campaign))
         con.execute("use memory")
         con.execute("detach snap")
@@ -76,7 +83,7 @@ def _sweep(target: Path) -> None:
     limit = time.time() - _GRACE_S
     for path in target.parent.iterdir():
         ours = path.name.startswith(f".{target.name}.") and TEMPORARY.match(path.name)
-        with contextlib.suppress(OSError):          # another snapshot may sweep too
+        with contextlib.suppress(OSError):  # another snapshot may sweep too
             if ours and path.is_file() and not path.is_symlink() and path.stat().st_mtime < limit:
                 path.unlink()
 
@@ -104,7 +111,9 @@ def _from_tables(statement: str, groups: dict[str, str], campaigns: dict[str, li
     def table(match: re.Match[str]) -> str:
         group = macro[2] if match[2] is None else campaigns[macro[2]][int(match[2])]
         # tests with equal content share a file; the rows of either serve
-        return (f"(select * from {connection.quoted(groups[group])} where test = (select min(f.test) from file f "
-                f"where f.layer = 'tidy' and list_contains({match[1]}, f.path)))")
+        return (
+            f"(select * from {connection.quoted(groups[group])} where test = (select min(f.test) from file f "
+            f"where f.layer = 'tidy' and list_contains({match[1]}, f.path)))"
+        )
 
     return _READ.sub(table, statement)

@@ -17,8 +17,13 @@ from typing import BinaryIO
 
 from thermodata.errors import FormatError, StoreError
 
-_KINDS = ((stat.S_ISDIR, "a folder"), (stat.S_ISFIFO, "a pipe"), (stat.S_ISSOCK, "a socket"),
-          (stat.S_ISCHR, "a device"), (stat.S_ISBLK, "a device"))
+_KINDS = (
+    (stat.S_ISDIR, "a folder"),
+    (stat.S_ISFIFO, "a pipe"),
+    (stat.S_ISSOCK, "a socket"),
+    (stat.S_ISCHR, "a device"),
+    (stat.S_ISBLK, "a device"),
+)
 _CHUNK = 1 << 20
 
 
@@ -95,9 +100,14 @@ def frozen(path: Path, folder: Path) -> Iterator[SourceFile]:
                 _put(out, data, copy)
                 left -= len(data)
         status = copy.stat()
-        yield SourceFile(copy, digest.hexdigest(), status.st_size, mark_of(status),
-                         f"changed while it was read: its first {status.st_size} bytes are in the store; "
-                         "ingest again when the logger has ended")
+        yield SourceFile(
+            copy,
+            digest.hexdigest(),
+            status.st_size,
+            mark_of(status),
+            f"changed while it was read: its first {status.st_size} bytes are in the store; "
+            "ingest again when the logger has ended",
+        )
     finally:
         with contextlib.suppress(OSError):
             shutil.rmtree(place)
@@ -117,11 +127,15 @@ def _room(place: Path, copy: Path) -> Iterator[BinaryIO]:
 def _put(out: BinaryIO, data: bytes, copy: Path) -> None:
     try:
         while data:
-            data = data[out.write(data):]
+            data = data[out.write(data) :]
     except OSError as error:
         raise _no_room(copy, error) from error
 
 
 def _no_room(copy: Path, error: OSError) -> StoreError:
-    return StoreError("a file that grows while it is read cannot be copied", where=str(copy), got=str(error),
-                      hint="ingest again when the logger has ended, or free space on the store's disk")
+    return StoreError(
+        "a file that grows while it is read cannot be copied",
+        where=str(copy),
+        got=str(error),
+        hint="ingest again when the logger has ended, or free space on the store's disk",
+    )

@@ -39,13 +39,20 @@ class Store:
         self._guard = threading.RLock()
         self._copy: tuple[str, duckdb.DuckDBPyConnection] | None = None
         if "," in str(self.path):
-            raise StoreError("a store's path holds no comma", where=str(self.path),
-                             hint="DuckDB separates search paths by commas: move or rename the folder")
+            raise StoreError(
+                "a store's path holds no comma",
+                where=str(self.path),
+                hint="DuckDB separates search paths by commas: move or rename the folder",
+            )
         if not (self.path / CATALOGUE).exists():
             if not create:
-                raise UsageError("there is no store here", where=str(self.path), expected=CATALOGUE,
-                                 got="no such file",
-                                 hint="thermodata ingest CAMPAIGN.yaml makes one; --store names another folder")
+                raise UsageError(
+                    "there is no store here",
+                    where=str(self.path),
+                    expected=CATALOGUE,
+                    got="no such file",
+                    hint="thermodata ingest CAMPAIGN.yaml makes one; --store names another folder",
+                )
             self._create()
 
     def __repr__(self) -> str:
@@ -88,7 +95,7 @@ class Store:
 
     def _copied(self) -> tuple[str, duckdb.DuckDBPyConnection]:
         """The mark of a commit, and a copy in memory of the catalogue as of then."""
-        con = connection.memory(self.path)               # before the turn: it takes longer than the turn
+        con = connection.memory(self.path)  # before the turn: it takes longer than the turn
         try:
             with self._turn(exclusive=False):
                 mark = self._mark()
@@ -103,8 +110,9 @@ class Store:
 
         path = self.path / CATALOGUE
         if not path.exists():
-            raise StoreError("the store has no catalogue any more", where=str(path), expected="a DuckDB database",
-                             got="no such file")
+            raise StoreError(
+                "the store has no catalogue any more", where=str(path), expected="a DuckDB database", got="no such file"
+            )
         try:
             con.execute(f"attach {connection.literal(str(path))} as kept (read_only)")
             check_format(con, path, "kept.")
@@ -128,7 +136,7 @@ class Store:
 
         views: False where neither files nor tests nor channels change. Not to be entered twice in one thread."""
         with self._guard:
-            con = connection.memory(self.path)           # before the turn: it takes 20 ms
+            con = connection.memory(self.path)  # before the turn: it takes 20 ms
             try:
                 with self._turn(exclusive=True), self._opened(con):
                     con.execute("begin transaction")
@@ -180,7 +188,7 @@ class Store:
             raise StoreError("the store's folder cannot be made", where=str(self.path), got=str(error)) from error
         with self._turn(exclusive=True):
             target = self.path / CATALOGUE
-            if target.exists():        # another process was first
+            if target.exists():  # another process was first
                 return
             # made under another name: a half-made catalogue is never taken for a store
             part = self.path / f".{CATALOGUE}.{secrets.token_hex(4)}.tmp"
@@ -190,8 +198,10 @@ class Store:
             con = duckdb.connect(str(part))
             try:
                 con.execute(TABLES)
-                con.execute("insert into store values (?, ?, ?, 0)",
-                            [FORMAT, f"thermodata {_version()}", datetime.now(UTC).replace(tzinfo=None)])
+                con.execute(
+                    "insert into store values (?, ?, ?, 0)",
+                    [FORMAT, f"thermodata {_version()}", datetime.now(UTC).replace(tzinfo=None)],
+                )
                 regenerate_views(con, self.path)
             finally:
                 con.close()
@@ -205,7 +215,8 @@ class Store:
 def regenerate_views(con: duckdb.DuckDBPyConnection, folder: Path) -> None:
     """Makes all views and macros anew from the tables."""
     regenerate: Callable[[Any, Path], None] | None = getattr(
-        import_module("thermodata.store.views"), "regenerate", None)
+        import_module("thermodata.store.views"), "regenerate", None
+    )
     if regenerate is not None:
         regenerate(con, folder)
 
@@ -215,14 +226,14 @@ def _commit(con: duckdb.DuckDBPyConnection, path: Path) -> None:
 
     try:
         con.execute("commit")
-    except duckdb.Error as error:          # a full disk, or one that fails
+    except duckdb.Error as error:  # a full disk, or one that fails
         raise connection.damaged(path, error) from error
 
 
 def _rollback(con: duckdb.DuckDBPyConnection) -> None:
     import duckdb
 
-    with contextlib.suppress(duckdb.Error):      # the failure may have ended the transaction already
+    with contextlib.suppress(duckdb.Error):  # the failure may have ended the transaction already
         con.execute("rollback")
 
 

@@ -38,8 +38,8 @@ class TidyFile:
     key: str
     rows: int
     columns: list[str]
-    to_s: float = 0.0          # of the last row
-    levels: dict[str, list[float | None]] = field(default_factory=dict)      # see `levels.Sampler`
+    to_s: float = 0.0  # of the last row
+    levels: dict[str, list[float | None]] = field(default_factory=dict)  # see `levels.Sampler`
 
 
 @dataclass(slots=True)
@@ -53,8 +53,9 @@ class TidyResult:
     notes: tuple[str, ...] = ()
 
 
-def write_member(series: TestSeries, member: Member, columns: Columns, key: str,
-                 offsets: Mapping[str, float] | None = None) -> TidyResult:
+def write_member(
+    series: TestSeries, member: Member, columns: Columns, key: str, offsets: Mapping[str, float] | None = None
+) -> TidyResult:
     """Makes the tidy files of one stream of a test, one row group in memory at a time.
 
     columns: (channel, is text) of the campaign's stream, in the campaign's order; one that this test lacks is NULL.
@@ -71,8 +72,11 @@ def write_member(series: TestSeries, member: Member, columns: Columns, key: str,
     here = [b for b in series.plan.bound.values() if (b.source, b.stream) == member]
     walk = Flagged(series, member, here, rows.history, rows.stop, result.problems)
     sampler = Sampler(here, rows.start, rows.stop)
-    parts = [_Part(series, name, columns, key, a, b)
-             for name, a, b in (("history", rows.history, rows.start), ("test", rows.start, rows.stop)) if a < b]
+    parts = [
+        _Part(series, name, columns, key, a, b)
+        for name, a, b in (("history", rows.history, rows.start), ("test", rows.start, rows.stop))
+        if a < b
+    ]
     try:
         for first, t_ns, made in walk.pieces(group_rows(len(columns) + 1), [rows.start]):
             sampler.take(first, made)
@@ -93,15 +97,25 @@ def write_member(series: TestSeries, member: Member, columns: Columns, key: str,
     return result
 
 
-def _failed(series: TestSeries, line: Timeline, start: int, stop: int, here: Sequence[Bound],
-            offsets: Mapping[str, float]) -> list[Event]:
+def _failed(
+    series: TestSeries, line: Timeline, start: int, stop: int, here: Sequence[Bound], offsets: Mapping[str, float]
+) -> list[Event]:
     """One event over the whole test for each sensor that failed before it."""
     failed = [b.name for b in here if b.name in offsets] if start < stop else []
     if not failed:
         return []
     from_s, to_s = series.t_s(np.concatenate([line.times(start, start + 1), line.times(stop - 1, stop)])).tolist()
-    return [Event(name, "offset", from_s, to_s, stop - start,
-                  f"{offsets[name]:+.1f} K against its neighbours since an earlier test") for name in failed]
+    return [
+        Event(
+            name,
+            "offset",
+            from_s,
+            to_s,
+            stop - start,
+            f"{offsets[name]:+.1f} K against its neighbours since an earlier test",
+        )
+        for name in failed
+    ]
 
 
 class _Part:
@@ -130,8 +144,10 @@ class _Part:
             if column is None:
                 arrays += [pa.nulls(n, pa.string() if is_text else pa.float64()), pa.nulls(n, pa.uint16())]
             else:
-                arrays += [to_arrow(column.values, nan_is_null=True),
-                           to_arrow(column.flags) if column.flags.any() else unflagged]
+                arrays += [
+                    to_arrow(column.values, nan_is_null=True),
+                    to_arrow(column.flags) if column.flags.any() else unflagged,
+                ]
         self._encoder.put(pa.Table.from_arrays(arrays, schema=self.schema))
 
     def finish(self) -> TidyFile:
@@ -139,8 +155,14 @@ class _Part:
         self._encoder.close({})
         publish(self._encoder.part, self.target)
         self._encoder = None
-        return TidyFile(self.name, f"tidy/{self.target.name}", self.key, self.stop - self.start,
-                        [c for c, _ in self.columns], self._to_s)
+        return TidyFile(
+            self.name,
+            f"tidy/{self.target.name}",
+            self.key,
+            self.stop - self.start,
+            [c for c, _ in self.columns],
+            self._to_s,
+        )
 
     def discard(self) -> None:
         """Drops an unfinished file; nothing where it is finished."""
@@ -155,8 +177,10 @@ def tidy_schema(columns: Columns) -> pa.Schema:
 
     fields = [pa.field("t", pa.timestamp("ns"), nullable=False), pa.field("t_s", pa.float64(), nullable=False)]
     for channel, is_text in columns:
-        fields += [pa.field(channel, pa.string() if is_text else pa.float64()),
-                   pa.field(f"{channel}__flag", pa.uint16())]
+        fields += [
+            pa.field(channel, pa.string() if is_text else pa.float64()),
+            pa.field(f"{channel}__flag", pa.uint16()),
+        ]
     return pa.schema(fields)
 
 

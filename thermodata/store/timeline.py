@@ -54,8 +54,10 @@ def bases(plan: TestPlan) -> tuple[dict[str, int], list[str]]:
         if source.raws and is_relative(source) and absolute:
             reference = [first_ns(s) for s in plan.reference if not is_relative(s)]
             found[name] = min(reference or absolute)
-            notes.append(f"source '{name}' has a relative clock: taken to start with the test; "
-                         "set clock: {align_to: ...} or {offset: ...} where it does not")
+            notes.append(
+                f"source '{name}' has a relative clock: taken to start with the test; "
+                "set clock: {align_to: ...} or {offset: ...} where it does not"
+            )
     return found, notes
 
 
@@ -93,8 +95,11 @@ def build(store: Path, raws: list[RawStream], clock: Clock, *, resets_allowed: b
     """Joins the files of one stream in time order; see `axis` for how their rows are put in order."""
     ordered = sorted(raws, key=lambda r: (_start_of(r) + r.first_ns,))
     notes: list[str] = []
-    if len(ordered) > 1 and all(r.clock == "relative" and r.start_ns is None for r in ordered) and any(
-            b.first_ns <= a.last_ns for a, b in pairwise(ordered)):
+    if (
+        len(ordered) > 1
+        and all(r.clock == "relative" and r.start_ns is None for r in ordered)
+        and any(b.first_ns <= a.last_ns for a, b in pairwise(ordered))
+    ):
         ordered = list(raws)
         notes.append("relative files that overlap: joined end to end in the order of their names")
         end = None
@@ -105,5 +110,11 @@ def build(store: Path, raws: list[RawStream], clock: Clock, *, resets_allowed: b
     else:
         shifts = [_start_of(r) for r in ordered]
     first = min(s + r.first_ns for r, s in zip(ordered, shifts, strict=True))
-    return make_timeline(store, list(zip(ordered, shifts, strict=True)), lambda t: clock.correct(t, first),
-                         suspect=clock.suspect, resets_allowed=resets_allowed, notes=notes)
+    return make_timeline(
+        store,
+        list(zip(ordered, shifts, strict=True)),
+        lambda t: clock.correct(t, first),
+        suspect=clock.suspect,
+        resets_allowed=resets_allowed,
+        notes=notes,
+    )

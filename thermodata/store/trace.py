@@ -19,8 +19,15 @@ from thermodata.store.versions import SUPERSEDED
 Found = dict[str, Any]
 
 
-def trace(store: Store, campaign: str, test: str | None = None, channel: str | None = None,
-          t_s: float | None = None, *, verify: bool = False) -> Found:
+def trace(
+    store: Store,
+    campaign: str,
+    test: str | None = None,
+    channel: str | None = None,
+    t_s: float | None = None,
+    *,
+    verify: bool = False,
+) -> Found:
     """The way back from a model (one name), a test, a channel, or one sample (with t_s, seconds) to the raw files.
 
     verify: also hashes the source files that are still there, and reads a sample's row in its file again.
@@ -55,44 +62,65 @@ class _Tracer:
         self.sources = fetch(con, "select * from source where campaign = ? and test = ?", here)
         self.calibrations = fetch(con, "select * from calibration where campaign = ?", [campaign])
         self.jumps = fetch(con, "select * from file where campaign = ? and test = ''", [campaign])
-        self.kept = fetch(con, "select path, ingested_at, spec_hash, data_version from campaign where campaign = ?",
-                          [campaign])[0]
+        self.kept = fetch(
+            con, "select path, ingested_at, spec_hash, data_version from campaign where campaign = ?", [campaign]
+        )[0]
         self.spec = read_campaign(con, campaign)
         self._stands: dict[str, str] = {}
 
     def head(self) -> Found:
-        return {"campaign": self.name, "test": self.of, "campaign_file": self.kept["path"],
-                "spec_hash": self.kept["spec_hash"], "data_version": self.kept["data_version"],
-                "ingested_at": str(self.kept["ingested_at"])}
+        return {
+            "campaign": self.name,
+            "test": self.of,
+            "campaign_file": self.kept["path"],
+            "spec_hash": self.kept["spec_hash"],
+            "data_version": self.kept["data_version"],
+            "ingested_at": str(self.kept["ingested_at"]),
+        }
 
     def test(self) -> Found:
-        return self.head() | {"files": self._files(self.files), "tidy": self._tidy(self.files),
-                              "channels": list(self.channels)}
+        return self.head() | {
+            "files": self._files(self.files),
+            "tidy": self._tidy(self.files),
+            "channels": list(self.channels),
+        }
 
     def channel(self, name: str, t_s: float | None) -> Found:
         row = self.channels[name]
         here = [f for f in self.files if (f["source"], f["stream"]) == (row["source"], row["stream"])]
         source = next((s for s in self.sources if (s["source"], s["stream"]) == (row["source"], row["stream"])), None)
         named = [n for n in (row["calibration"] or "").split(", ") if n]
-        steps = [{k: _decoded(v) for k, v in c.items() if k != "campaign"} |
-                 {"files": self._files([f for f in self.jumps if f["source"] == c["calibration"]])}
-                 for n in named for c in self.calibrations if c["calibration"] == n]
+        steps = [
+            {k: _decoded(v) for k, v in c.items() if k != "campaign"}
+            | {"files": self._files([f for f in self.jumps if f["source"] == c["calibration"]])}
+            for n in named
+            for c in self.calibrations
+            if c["calibration"] == n
+        ]
         said = self.spec.channels.get(name)
-        found: Found = {"channel": name} | {k: row[k] for k in (
-            "quantity", "unit", "sign", "at", "axis", "source", "stream", "signal", "raw_unit")} | {
-            "derive": said.derive if said is not None and row["signal"] is None else None,
-            "schedule": None if said is None or said.schedule is None else repr(said.schedule),
-            "scaling": _scaling(here, row["signal"]), "calibrations": steps,
-            "clock": None if source is None else {k: _decoded(source[k]) for k in ("clock", "offset_ns", "notes")},
-            "files": self._files(here) if row["signal"] is not None else [], "tidy": self._tidy(here)}
+        found: Found = (
+            {"channel": name}
+            | {k: row[k] for k in ("quantity", "unit", "sign", "at", "axis", "source", "stream", "signal", "raw_unit")}
+            | {
+                "derive": said.derive if said is not None and row["signal"] is None else None,
+                "schedule": None if said is None or said.schedule is None else repr(said.schedule),
+                "scaling": _scaling(here, row["signal"]),
+                "calibrations": steps,
+                "clock": None if source is None else {k: _decoded(source[k]) for k in ("clock", "offset_ns", "notes")},
+                "files": self._files(here) if row["signal"] is not None else [],
+                "tidy": self._tidy(here),
+            }
+        )
         if t_s is not None:
-            found["sample"] = find_sample(self.con, self.store.path, self.name, self.of, row, t_s,
-                                          self._again if self.verify else None)
+            found["sample"] = find_sample(
+                self.con, self.store.path, self.name, self.of, row, t_s, self._again if self.verify else None
+            )
         if found["derive"]:
             from thermodata.store import derive as expressions
 
-            found["operands"] = [self.channel(n, None) for n in sorted(expressions.names(found["derive"]))
-                                 if n in self.channels]
+            found["operands"] = [
+                self.channel(n, None) for n in sorted(expressions.names(found["derive"])) if n in self.channels
+            ]
         return found
 
     def _files(self, rows: list[Found]) -> list[Found]:
@@ -128,8 +156,9 @@ class _Tracer:
         stand = self._stand({"source_path": raw.source_path, "sha256": raw.sha256})
         if stand != "unchanged":
             return {"file": stand, "value": None}
-        return {"file": stand} | reread(self._folder() / raw.source_path, raw, row, signal, source,
-                                        self.spec.sources[source])
+        return {"file": stand} | reread(
+            self._folder() / raw.source_path, raw, row, signal, source, self.spec.sources[source]
+        )
 
     @staticmethod
     def _tidy(rows: list[Found]) -> list[Found]:
@@ -140,22 +169,47 @@ def _model(store: Store, ref: str) -> Found:
     model = find_model(store, ref)
     with store.reader() as con:
         row = fetch(con, "select data_version, created_at from model where model = ?", [model.model])[0]
-        used = fetch(con, "select distinct s.campaign, s.test, f.source, f.source_path, f.sha256, f.part from "
-                          "score_row s join file f on f.campaign = s.campaign and f.test = s.test "
-                          "where s.model = ? and f.layer = 'raw' order by all", [model.model])
-        now = fetch(con, "select campaign, data_version from campaign where list_contains(?, campaign)",
-                    [list(model.spec.campaign_ids)])
-    return {"model": model.model, "name": model.name, "parent": model.parent, "stale": model.stale,
-            "data_version": row["data_version"], "created_at": str(row["created_at"]), "campaigns": now,
-            "files": used}
+        used = fetch(
+            con,
+            "select distinct s.campaign, s.test, f.source, f.source_path, f.sha256, f.part from "
+            "score_row s join file f on f.campaign = s.campaign and f.test = s.test "
+            "where s.model = ? and f.layer = 'raw' order by all",
+            [model.model],
+        )
+        now = fetch(
+            con,
+            "select campaign, data_version from campaign where list_contains(?, campaign)",
+            [list(model.spec.campaign_ids)],
+        )
+    return {
+        "model": model.model,
+        "name": model.name,
+        "parent": model.parent,
+        "stale": model.stale,
+        "data_version": row["data_version"],
+        "created_at": str(row["created_at"]),
+        "campaigns": now,
+        "files": used,
+    }
 
 
 def _file(row: Found) -> Found:
     raw = RawStream.from_row(row)
-    found = {"source_path": raw.source_path, "sha256": raw.sha256, "bytes": raw.bytes, "source": row["source"],
-             "stream": raw.stream, "reader": f"{raw.reader} {raw.reader_version}".strip(), "rows": raw.rows,
-             "from_ns": raw.first_ns, "to_ns": raw.last_ns, "added_at": str(row["added_at"]), "raw": raw.path,
-             "losses": [loss.reason for loss in raw.losses], "notes": list(raw.notes)}
+    found = {
+        "source_path": raw.source_path,
+        "sha256": raw.sha256,
+        "bytes": raw.bytes,
+        "source": row["source"],
+        "stream": raw.stream,
+        "reader": f"{raw.reader} {raw.reader_version}".strip(),
+        "rows": raw.rows,
+        "from_ns": raw.first_ns,
+        "to_ns": raw.last_ns,
+        "added_at": str(row["added_at"]),
+        "raw": raw.path,
+        "losses": [loss.reason for loss in raw.losses],
+        "notes": list(raw.notes),
+    }
     if row["layer"] == SUPERSEDED:
         found["superseded_at"] = json.loads(row["columns"]).get("superseded_at")
     return found

@@ -56,14 +56,21 @@ def _place(row: Mapping[str, Any]) -> tuple[str, str, str]:
 def pinned(known: Known, test: str, source: str, path: str, wanted: str) -> list[RawStream]:
     """The raw streams of the version of a file whose SHA-256 begins with `wanted`; UsageError where none or
     several do."""
-    listed = [r for r in known.rows["file"].get(test, []) if r["source_path"] == path and r["source"] == source
-              and r["layer"] in ("raw", SUPERSEDED)]
+    listed = [
+        r
+        for r in known.rows["file"].get(test, [])
+        if r["source_path"] == path and r["source"] == source and r["layer"] in ("raw", SUPERSEDED)
+    ]
     hashes = sorted({r["sha256"] for r in listed})
     fitting = [h for h in hashes if h.startswith(wanted.lower())]
     if len(fitting) != 1:
-        raise UsageError(f"no version '{wanted}' of '{path}'" if not fitting else f"several versions '{wanted}'",
-                         where=f"versions, {path}", expected=", ".join(h[:12] for h in hashes) or "a file in the store",
-                         got=wanted, hint=f"thermodata trace {known.name} {test} lists them")
+        raise UsageError(
+            f"no version '{wanted}' of '{path}'" if not fitting else f"several versions '{wanted}'",
+            where=f"versions, {path}",
+            expected=", ".join(h[:12] for h in hashes) or "a file in the store",
+            got=wanted,
+            hint=f"thermodata trace {known.name} {test} lists them",
+        )
     return [RawStream.from_row(r) for r in listed if r["sha256"] == fitting[0]]
 
 

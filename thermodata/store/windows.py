@@ -18,10 +18,10 @@ from thermodata.plugin import Array, Int1D
 from thermodata.schema.flag import Flag
 from thermodata.store.piece import Column
 
-WINDOW_VALUES = 8_000_000             # values in a window: 64 MB of float64, and about as much while they are judged
-WINDOW_ROWS = 2_000_000               # but not more rows: what is looked for in a column takes several times its size
-MARGIN_ROWS = 4096                    # of the neighbours, on both sides
-MOST_COLUMNS = 200                    # columns that are judged together
+WINDOW_VALUES = 8_000_000  # values in a window: 64 MB of float64, and about as much while they are judged
+WINDOW_ROWS = 2_000_000  # but not more rows: what is looked for in a column takes several times its size
+MARGIN_ROWS = 4096  # of the neighbours, on both sides
+MOST_COLUMNS = 200  # columns that are judged together
 _STANDS = np.uint16(Flag.HELD | Flag.STUCK)
 _OFFSET = np.uint16(Flag.OFFSET)
 _BY_NAME = {str(f.name).lower(): np.uint16(f) for f in Flag if f}
@@ -32,7 +32,7 @@ class _Carried:
     """What a column was like at the last row of a window's own."""
 
     value: float
-    stands: int = 0                   # HELD or STUCK
+    stands: int = 0  # HELD or STUCK
     off: bool = False
 
 
@@ -51,9 +51,13 @@ class Joined:
 
         t_ns: shape (n,), non-decreasing.
         """
-        found, events = flag_stream(t_ns, {
-            n: ColumnInput(values=c.values, quantity=c.bound.channel.quantity, flags=c.flags)
-            for n, c in columns.items()})
+        found, events = flag_stream(
+            t_ns,
+            {
+                n: ColumnInput(values=c.values, quantity=c.bound.channel.quantity, flags=c.flags)
+                for n, c in columns.items()
+            },
+        )
         for name, column in columns.items():
             carried = self._carried.get(name)
             if start and carried is not None:
@@ -61,13 +65,15 @@ class Joined:
         for name, column in columns.items():
             added = found[name][stop - 1] & ~column.flags[stop - 1]
             value = column.values[stop - 1]
-            self._carried[name] = _Carried(float(value) if column.values.dtype.kind in "iuf" else np.nan,
-                                           int(added & _STANDS), bool(added & _OFFSET))
+            self._carried[name] = _Carried(
+                float(value) if column.values.dtype.kind in "iuf" else np.nan,
+                int(added & _STANDS),
+                bool(added & _OFFSET),
+            )
         self._join(t_ns, found, events, start, stop)
         return {name: flags[start:stop] for name, flags in found.items()}
 
-    def _join(self, t_ns: Int1D, found: Mapping[str, Array], events: list[QualityEvent], start: int,
-              stop: int) -> None:
+    def _join(self, t_ns: Int1D, found: Mapping[str, Array], events: list[QualityEvent], start: int, stop: int) -> None:
         """Keeps the events of the window's own rows; one that began in the window before is made longer."""
         first, last = int(t_ns[start]), int(t_ns[stop - 1])
         for event in sorted(events, key=lambda e: e.from_ns):
@@ -76,8 +82,11 @@ class Joined:
             if at is not None and event.from_ns <= self.events[at].to_ns and event.from_ns <= first:
                 self.events[at] = _longer(self.events[at], event, t_ns, found)
                 continue
-            if event.to_ns < first or (start and event.from_ns < first and event.to_ns == first) \
-                    or (stop < len(t_ns) and event.from_ns > last):
+            if (
+                event.to_ns < first
+                or (start and event.from_ns < first and event.to_ns == first)
+                or (stop < len(t_ns) and event.from_ns > last)
+            ):
                 continue
             self._keep(key, event)
 
@@ -90,8 +99,9 @@ class Joined:
         at, more = self._open[key], self._count[key] - MOST_EVENTS
         kept = self.events[at]
         detail = re.sub(r"; and \d+ more$", "", kept.detail)
-        self.events[at] = replace(kept, to_ns=max(kept.to_ns, event.to_ns), n=kept.n + event.n,
-                                  detail=f"{detail}; and {more} more")
+        self.events[at] = replace(
+            kept, to_ns=max(kept.to_ns, event.to_ns), n=kept.n + event.n, detail=f"{detail}; and {more} more"
+        )
 
 
 def _longer(event: QualityEvent, more: QualityEvent, t_ns: Int1D, found: Mapping[str, Array]) -> QualityEvent:
@@ -104,25 +114,37 @@ def _longer(event: QualityEvent, more: QualityEvent, t_ns: Int1D, found: Mapping
     return replace(event, to_ns=more.to_ns, n=n, detail=re.sub(r"for \d+ samples", f"for {n} samples", event.detail))
 
 
-def _continued(name: str, x: Array, t_ns: Int1D, flags: Array, carried: _Carried, start: int,
-               events: list[QualityEvent]) -> list[QualityEvent]:
+def _continued(
+    name: str, x: Array, t_ns: Int1D, flags: Array, carried: _Carried, start: int, events: list[QualityEvent]
+) -> list[QualityEvent]:
     """Goes on with what the window before ended in: changes `flags`, and returns the events as they are then."""
     first = int(t_ns[start])
     if carried.stands:
         moved = np.flatnonzero(x[start:] != carried.value)
         stop = start + int(moved[0]) if moved.size else len(x)
         if stop > start:
-            flags[start - 1:stop] = (flags[start - 1:stop] & ~_STANDS) | np.uint16(carried.stands)
+            flags[start - 1 : stop] = (flags[start - 1 : stop] & ~_STANDS) | np.uint16(carried.stands)
             flag = Flag.STUCK if carried.stands & Flag.STUCK else Flag.HELD
-            events = [e for e in events if not (e.channel == name and e.flag in ("held", "stuck")
-                                                and e.from_ns <= first <= e.to_ns)]
-            events.append(QualityEvent(name, str(flag.name).lower(), int(t_ns[start - 1]), int(t_ns[stop - 1]),
-                                       stop - start + 1, f"exactly {carried.value:.6g} for {stop - start} samples"))
+            events = [
+                e
+                for e in events
+                if not (e.channel == name and e.flag in ("held", "stuck") and e.from_ns <= first <= e.to_ns)
+            ]
+            events.append(
+                QualityEvent(
+                    name,
+                    str(flag.name).lower(),
+                    int(t_ns[start - 1]),
+                    int(t_ns[stop - 1]),
+                    stop - start + 1,
+                    f"exactly {carried.value:.6g} for {stop - start} samples",
+                )
+            )
     if carried.off and not flags[start - 1] & _OFFSET:
         # this window has seen nothing but the sensor that is off: what it takes for a step away is the way back
-        flags[start - 1:] ^= _OFFSET
+        flags[start - 1 :] ^= _OFFSET
         events = [e for e in events if not (e.channel == name and e.flag == "offset")]
-        edges = np.flatnonzero(np.diff(np.concatenate([[0], ((flags[start - 1:] & _OFFSET) != 0).view(np.int8), [0]])))
+        edges = np.flatnonzero(np.diff(np.concatenate([[0], ((flags[start - 1 :] & _OFFSET) != 0).view(np.int8), [0]])))
         for a, b in zip((edges[::2] + start - 1).tolist(), (edges[1::2] + start - 1).tolist(), strict=True):
             events.append(QualityEvent(name, "offset", int(t_ns[a]), int(t_ns[b - 1]), b - a, "off again"))
     return events

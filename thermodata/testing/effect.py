@@ -30,8 +30,10 @@ def check_effect(effect: Effect) -> None:
     """Raises PluginError with every rule that the effect breaks."""
     found = faults(effect)
     if found:
-        raise PluginError(f"effect '{getattr(effect, 'name', effect)}' breaks its contract",
-                          got="; ".join(f"{rule}: {why}" for rule, why in found.items()))
+        raise PluginError(
+            f"effect '{getattr(effect, 'name', effect)}' breaks its contract",
+            got="; ".join(f"{rule}: {why}" for rule, why in found.items()),
+        )
 
 
 def faults(effect: Effect) -> dict[str, str]:
@@ -151,9 +153,17 @@ def every_parameter_changes_something(effect: Effect) -> Iterator[str]:
 
 
 RULES: tuple[Rule, ...] = (
-    it_has_all_that_the_contract_names, its_names_are_unique, it_needs_quantities_that_exist,
-    its_bounds_hold_its_start, it_gives_one_column_a_gain, it_is_finite_at_every_bound, it_is_zero_at_rest,
-    it_answers_to_its_drivers, it_does_not_look_ahead, it_says_the_same_twice, every_parameter_changes_something,
+    it_has_all_that_the_contract_names,
+    its_names_are_unique,
+    it_needs_quantities_that_exist,
+    its_bounds_hold_its_start,
+    it_gives_one_column_a_gain,
+    it_is_finite_at_every_bound,
+    it_is_zero_at_rest,
+    it_answers_to_its_drivers,
+    it_does_not_look_ahead,
+    it_says_the_same_twice,
+    every_parameter_changes_something,
 )
 
 
@@ -173,14 +183,19 @@ def _drivers(needs: tuple[Need, ...], n: int = 720) -> Drivers:
         top = _TOP.get(need.quantity, 1.0)
         switched = np.repeat(np.arange(n // 90 + 1) % (2 + i) > 0, 90)[:n].astype(np.float64)
         wave = np.sin(2 * np.pi * t / (86400.0 / (2 + i))) ** 2
-        values[need.role] = top * (switched if need.quantity in _BINARY or "speed" in need.quantity
-                                   else 0.5 * wave + 0.5 * switched * wave)
+        values[need.role] = top * (
+            switched if need.quantity in _BINARY or "speed" in need.quantity else 0.5 * wave + 0.5 * switched * wave
+        )
     return Drivers(t, values, {r: np.ones(n, bool) for r in values}, {})
 
 
 def _cut(drivers: Drivers, n: int) -> Drivers:
-    return Drivers(drivers.t_s[:n], {r: v[:n] for r, v in drivers.values.items()},
-                   {r: v[:n] for r, v in drivers.valid.items()}, drivers.conditions)
+    return Drivers(
+        drivers.t_s[:n],
+        {r: v[:n] for r, v in drivers.values.items()},
+        {r: v[:n] for r, v in drivers.valid.items()},
+        drivers.conditions,
+    )
 
 
 def _start(effect: Effect) -> Mapping[str, float]:

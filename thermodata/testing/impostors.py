@@ -16,11 +16,11 @@ IMPOSTORS: dict[str, bytes] = {
     "XLSX": _SPREADSHEET,
     "ZIP of pictures": b"PK\x03\x04\x14\0\0\0\x08\0" + bytes(16) + b"\x09\0\0\0photo.jpg" + bytes(40),
     "TRACE_XML": b'<?xml version="1.0" encoding="UTF-8"?>\n<traceSession version="1.0">\n<frameHeader '
-                 b'startTime="0"/>\n',
+    b'startTime="0"/>\n',
     "TRACE_CSV": b'"Time","/Nck/!SD/nckServoDataActCurr32 [u1; 1]"\n0.000,1.5\n0.002,1.6\n0.004,1.7\n',
     "SCO": b"%[GLOBAL]\r\n%VERSION=1\r\n%\r\n%[CURVE1]\r\n%CHANNELTYPE=1\r\n%\r\n%[DATA]\r\n0;1;2\r\n",
     "TWINCAT": b"Name\tProject\r\nFile\tC:\\scope.svdx\r\nStartTime of export\t131000000000000000\r\n\r\nName\tx\r\n"
-               b"SampleTime[ms]\t1\r\n0\t0.5\r\n1\t0.6\r\n",
+    b"SampleTime[ms]\t1\r\n0\t0.5\r\n1\t0.6\r\n",
     "SHDR": b"2009-06-15T00:00:00.000000|power|ON\n2009-06-15T00:00:00.010000|Xabs|1.5\n",
     "MTCONNECT": b'<?xml version="1.0"?>\n<MTConnectStreams xmlns="urn:mtconnect.org:MTConnectStreams:1.5">\n',
     "CSV": b"time [s];T1 [degC];speed [rpm]\n0;20.5;0\n1;20.6;100\n2;20.7;200\n3;20.8;300\n",

@@ -10,8 +10,13 @@ if TYPE_CHECKING:
     from thermodata.view.store_view import StoreView
 
 __all__ = ["ChannelInfo", "Dataset", "StoreView", "TestData", "load_dataset"]
-_HOME = {"ChannelInfo": "dataset", "Dataset": "dataset", "TestData": "dataset", "StoreView": "store_view",
-         "load_dataset": "load"}
+_HOME = {
+    "ChannelInfo": "dataset",
+    "Dataset": "dataset",
+    "TestData": "dataset",
+    "StoreView": "store_view",
+    "load_dataset": "load",
+}
 
 
 def __getattr__(name: str) -> Any:

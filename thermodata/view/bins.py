@@ -43,13 +43,16 @@ class Binned:
     series: dict[str, Series] = field(default_factory=dict)
 
 
-def bin_tests(con: duckdb.DuckDBPyConnection, campaigns: Sequence[str], step_s: float,
-              wanted: Callable[[str], bool]) -> dict[Key, Binned]:
+def bin_tests(
+    con: duckdb.DuckDBPyConnection, campaigns: Sequence[str], step_s: float, wanted: Callable[[str], bool]
+) -> dict[Key, Binned]:
     """(campaign, test) -> Binned, of every test that has tidy files; histories before windows included."""
     found: dict[Key, Binned] = {}
     history = _histories(con)
-    periods = {tuple(row[:4]): row[4] for row in con.execute(
-        "select campaign, test, source, stream, max(step_s) from source group by all").fetchall()}
+    periods = {
+        tuple(row[:4]): row[4]
+        for row in con.execute("select campaign, test, source, stream, max(step_s) from source group by all").fetchall()
+    }
     for group in read_catalogue(con).groups:
         if group.campaign in campaigns:
             _bin_group(con, group, step_s, wanted, history, periods, found)
@@ -57,17 +60,24 @@ def bin_tests(con: duckdb.DuckDBPyConnection, campaigns: Sequence[str], step_s: 
 
 
 def _histories(con: duckdb.DuckDBPyConnection) -> dict[tuple[str, ...], list[str]]:
-    rows = con.execute("select campaign, test, source, stream, path from file where layer = 'tidy' "
-                       "and part = 'history' order by path").fetchall()
+    rows = con.execute(
+        "select campaign, test, source, stream, path from file where layer = 'tidy' and part = 'history' order by path"
+    ).fetchall()
     found: dict[tuple[str, ...], list[str]] = {}
     for *key, path in rows:
         found.setdefault(tuple(key), []).append(path)
     return found
 
 
-def _bin_group(con: duckdb.DuckDBPyConnection, group: Group, step_s: float, wanted: Callable[[str], bool],
-               history: dict[tuple[str, ...], list[str]], periods: dict[tuple[str, ...], float | None],
-               found: dict[Key, Binned]) -> None:
+def _bin_group(
+    con: duckdb.DuckDBPyConnection,
+    group: Group,
+    step_s: float,
+    wanted: Callable[[str], bool],
+    history: dict[tuple[str, ...], list[str]],
+    periods: dict[tuple[str, ...], float | None],
+    found: dict[Key, Binned],
+) -> None:
     owners, files = [], []
     for test, paths in group.paths.items():
         for path in (*history.get((group.campaign, test, group.source, group.stream), ()), *paths):
@@ -79,9 +89,14 @@ def _bin_group(con: duckdb.DuckDBPyConnection, group: Group, step_s: float, want
     result = con.execute(
         f"select file_index as file__index, {bin_index(repr(float(step_s)))} as bin__k, count(*) as rows__n, "
         f"min(epoch_ns(r.t) - cast(round(r.t_s * 1e9) as bigint)) as zero__ns{values} "
-        f"from read_parquet({file_list(files)}, hive_partitioning = false) r group by 1, 2 order by 1, 2").fetchnumpy()
-    numbers = {name: np.ma.filled(array.astype(float), np.nan) if name not in ("file__index", "bin__k", "zero__ns")
-               else np.ma.getdata(array).astype(np.int64) for name, array in result.items()}
+        f"from read_parquet({file_list(files)}, hive_partitioning = false) r group by 1, 2 order by 1, 2"
+    ).fetchnumpy()
+    numbers = {
+        name: np.ma.filled(array.astype(float), np.nan)
+        if name not in ("file__index", "bin__k", "zero__ns")
+        else np.ma.getdata(array).astype(np.int64)
+        for name, array in result.items()
+    }
     by_test: dict[str, list[slice]] = {}
     index = numbers["file__index"]
     for i, test in enumerate(owners):
@@ -89,12 +104,28 @@ def _bin_group(con: duckdb.DuckDBPyConnection, group: Group, step_s: float, want
         if stop > start:
             by_test.setdefault(test, []).append(slice(int(start), int(stop)))
     for test, slices in by_test.items():
-        _collect(found, group, test, slices, columns, numbers, step_s,
-                 periods.get((group.campaign, test, group.source, group.stream)))
+        _collect(
+            found,
+            group,
+            test,
+            slices,
+            columns,
+            numbers,
+            step_s,
+            periods.get((group.campaign, test, group.source, group.stream)),
+        )
 
 
-def _collect(found: dict[Key, Binned], group: Group, test: str, slices: Sequence[slice], columns: Iterable[Column],
-             numbers: dict[str, Float1D | Int1D], step_s: float, period: float | None) -> None:
+def _collect(
+    found: dict[Key, Binned],
+    group: Group,
+    test: str,
+    slices: Sequence[slice],
+    columns: Iterable[Column],
+    numbers: dict[str, Float1D | Int1D],
+    step_s: float,
+    period: float | None,
+) -> None:
     k, rows = (np.concatenate([numbers[name][s] for s in slices]) for name in ("bin__k", "rows__n"))
     zero_ns = min(int(numbers["zero__ns"][s].min()) for s in slices)
     binned = found.setdefault((group.campaign, test), Binned(int(k.min()), int(k.max()), zero_ns))
@@ -110,5 +141,3 @@ def _collect(found: dict[Key, Binned], group: Group, test: str, slices: Sequence
         # a channel in two groups is another source's empty column in one of them
         if old is None or series.k.size > old.k.size:
             binned.series[column.name] = series
-
-

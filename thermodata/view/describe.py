@@ -27,16 +27,29 @@ def describe_tests(con: duckdb.DuckDBPyConnection, campaigns: Sequence[str]) -> 
         "(select campaign, test, any_value(machine) as machine, any_value(attributes) as attributes "
         "from machine group by all) m on m.campaign = t.campaign and m.test = t.test "
         "where list_contains(?, t.campaign) order by list_position(?, t.campaign), t.rowid",
-        [list(campaigns), list(campaigns)]).fetchall()
+        [list(campaigns), list(campaigns)],
+    ).fetchall()
     found = []
     for campaign, test, kind, role, clock, conditions, pose, tool, phases, zero_s, state, machine, attributes in rows:
-        found.append({
-            "campaign": campaign, "test": test, "kind": kind, "role": role, "clock": clock,
-            "conditions": {**flat(_json(attributes)), **flat(_json(pose), "pose."), **flat(_json(tool), "tool."),
-                           **flat(_json(conditions))},
-            "phases": {str(name): (float(a), float(b)) for name, (a, b) in _json(phases).items()},
-            "zero_s": 600.0 if zero_s is None else zero_s, "start_state": state or "balance",
-            "machine": machine or ""})
+        found.append(
+            {
+                "campaign": campaign,
+                "test": test,
+                "kind": kind,
+                "role": role,
+                "clock": clock,
+                "conditions": {
+                    **flat(_json(attributes)),
+                    **flat(_json(pose), "pose."),
+                    **flat(_json(tool), "tool."),
+                    **flat(_json(conditions)),
+                },
+                "phases": {str(name): (float(a), float(b)) for name, (a, b) in _json(phases).items()},
+                "zero_s": 600.0 if zero_s is None else zero_s,
+                "start_state": state or "balance",
+                "machine": machine or "",
+            }
+        )
     return found
 
 
@@ -53,18 +66,21 @@ def flat(values: Mapping[str, Any], prefix: str = "") -> dict[str, float | str]:
     return out
 
 
-def channel_infos(con: duckdb.DuckDBPyConnection,
-                  campaigns: Sequence[str]) -> dict[tuple[str, str], dict[str, ChannelInfo]]:
+def channel_infos(
+    con: duckdb.DuckDBPyConnection, campaigns: Sequence[str]
+) -> dict[tuple[str, str], dict[str, ChannelInfo]]:
     """(campaign, test) -> channel -> ChannelInfo, as in that test, in the campaign's order; texts left out."""
     rows = con.execute(
         'select campaign, test, channel, quantity, unit, "at", axis, relative_to, source, sign, sensor, raw_unit '
         "from channel where list_contains(?, campaign) and quantity <> 'label' order by rowid",
-        [list(campaigns)]).fetchall()
+        [list(campaigns)],
+    ).fetchall()
     found: dict[tuple[str, str], dict[str, ChannelInfo]] = {}
     for campaign, test, name, quantity, unit, at, axis, relative_to, source, sign, sensor, raw_unit in rows:
         resolution = _json(sensor).get("resolution")
         found.setdefault((campaign, test), {})[name] = ChannelInfo(
-            name, quantity, unit, at, axis, relative_to, source, sign, _resolution(resolution, unit, raw_unit))
+            name, quantity, unit, at, axis, relative_to, source, sign, _resolution(resolution, unit, raw_unit)
+        )
     return found
 
 

@@ -31,8 +31,9 @@ if TYPE_CHECKING:
 MAX_BINS = 20_000_000
 
 
-def load_dataset(store: Store | str | Path, campaigns: str | Sequence[str], step_s: float,
-                 channels: Collection[str] | None = None) -> Dataset:
+def load_dataset(
+    store: Store | str | Path, campaigns: str | Sequence[str], step_s: float, channels: Collection[str] | None = None
+) -> Dataset:
     """All tests of the campaigns that have data, in the order of the campaign files.
 
     step_s: [s] of the grid, > 0. channels: only these (default: all that are numbers).
@@ -50,8 +51,11 @@ def load_dataset(store: Store | str | Path, campaigns: str | Sequence[str], step
         _check_channels(channels, infos)
         only = None if channels is None else set(channels)
         binned = bin_tests(con, wanted, step_s, lambda name: only is None or name in only)
-        tests = tuple(_test_data(row, binned[row["campaign"], row["test"]], infos, step_s)
-                      for row in describe_tests(con, wanted) if (row["campaign"], row["test"]) in binned)
+        tests = tuple(
+            _test_data(row, binned[row["campaign"], row["test"]], infos, step_s)
+            for row in describe_tests(con, wanted)
+            if (row["campaign"], row["test"]) in binned
+        )
     union: dict[str, ChannelInfo] = {}
     for test in tests:
         for name, info in test.channels.items():
@@ -79,12 +83,16 @@ def _version(versions: Iterable[tuple[str, str]]) -> str:
     return hashlib.sha256(repr(listed).encode()).hexdigest()[:32]
 
 
-def _test_data(row: Mapping[str, Any], binned: Binned, infos: Mapping[tuple[str, str], Mapping[str, ChannelInfo]],
-               step_s: float) -> TestData:
+def _test_data(
+    row: Mapping[str, Any], binned: Binned, infos: Mapping[tuple[str, str], Mapping[str, ChannelInfo]], step_s: float
+) -> TestData:
     size = binned.last - binned.first + 1
     if size > MAX_BINS:
-        raise UsageError(f"a step of {step_s:g} s makes {size} points of test '{row['test']}'",
-                         expected=f"at most {MAX_BINS}", hint="choose a longer step")
+        raise UsageError(
+            f"a step of {step_s:g} s makes {size} points of test '{row['test']}'",
+            expected=f"at most {MAX_BINS}",
+            hint="choose a longer step",
+        )
     known = infos.get((row["campaign"], row["test"]), {})
     names = [n for n in known if n in binned.series] + [n for n in binned.series if n not in known and not known]
     channels = {n: known.get(n, ChannelInfo(n, "displacement", "um", sign="unknown")) for n in names}
@@ -94,11 +102,22 @@ def _test_data(row: Mapping[str, Any], binned: Binned, infos: Mapping[tuple[str,
     for name in names:
         values[name], valid[name] = _on_grid(binned.series[name], binned, channels[name].quantity, size, step_s)
     return TestData(
-        campaign=row["campaign"], test=row["test"], kind=row["kind"], role=row["role"], t_s=t_s, values=values,
-        valid=valid, in_window=t_s >= -1e-9, conditions=row["conditions"], phases=row["phases"],
-        start_state=row["start_state"], zero_s=row["zero_s"],
+        campaign=row["campaign"],
+        test=row["test"],
+        kind=row["kind"],
+        role=row["role"],
+        t_s=t_s,
+        values=values,
+        valid=valid,
+        in_window=t_s >= -1e-9,
+        conditions=row["conditions"],
+        phases=row["phases"],
+        start_state=row["start_state"],
+        zero_s=row["zero_s"],
         start_unix_s=None if row["clock"] == "relative" else binned.zero_ns / 1e9,
-        machine=row["machine"], channels=channels)
+        machine=row["machine"],
+        channels=channels,
+    )
 
 
 def _on_grid(series: Series, binned: Binned, quantity: str, size: int, step_s: float) -> tuple[Float1D, Bool1D]:

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from thermodata.view.dataset import Dataset
 
 
-_READING = frozenset({"SELECT", "EXPLAIN", "PRAGMA", "CALL", "COPY", "MULTI"})   # MULTI is what PIVOT becomes
+_READING = frozenset({"SELECT", "EXPLAIN", "PRAGMA", "CALL", "COPY", "MULTI"})  # MULTI is what PIVOT becomes
 
 
 class StoreView:
@@ -50,15 +50,23 @@ class StoreView:
             # the connection is a copy that later queries share: a write would spoil it and change nothing on disk
             for statement in con.extract_statements(query):
                 if statement.type.name not in _READING:
-                    raise UsageError("a query only reads the store", where=query.strip()[:200],
-                                     expected="SELECT, FROM, DESCRIBE, SHOW or COPY ... TO",
-                                     got=statement.type.name, hint="thermodata snapshot OUT.duckdb gives a file of "
-                                     "your own to write in; thermodata forget removes a test")
+                    raise UsageError(
+                        "a query only reads the store",
+                        where=query.strip()[:200],
+                        expected="SELECT, FROM, DESCRIBE, SHOW or COPY ... TO",
+                        got=statement.type.name,
+                        hint="thermodata snapshot OUT.duckdb gives a file of "
+                        "your own to write in; thermodata forget removes a test",
+                    )
             relation = con.sql(query, params=params) if params is not None else con.sql(query)
         except duckdb.IOException as error:
-            raise StoreError("a file of the store can't be read", where=str(self.path), got=str(error).strip(),
-                             hint="ingest the campaign again: what can be made anew is made anew; "
-                                  "'thermodata check' lists what is damaged") from error
+            raise StoreError(
+                "a file of the store can't be read",
+                where=str(self.path),
+                got=str(error).strip(),
+                hint="ingest the campaign again: what can be made anew is made anew; "
+                "'thermodata check' lists what is damaged",
+            ) from error
         except duckdb.Error as error:
             damage = damaged_data(self.path, error)
             if damage is not None:
@@ -80,8 +88,9 @@ class StoreView:
         """One row a point: each channel's last sample and its flag. step: '30 s' or seconds."""
         return self._macro("aligned", campaign, test, str(step))
 
-    def residual(self, model: str, campaign: str | None = None, test: str | None = None,
-                 response: str | None = None) -> duckdb.DuckDBPyRelation:
+    def residual(
+        self, model: str, campaign: str | None = None, test: str | None = None, response: str | None = None
+    ) -> duckdb.DuckDBPyRelation:
         """Measured and predicted of a model. model: its id, a unique prefix of it, or a name (the newest version)."""
         given = {"model": self.model_id(model), "campaign": campaign, "test": test, "response": response}
         where = " and ".join(f"{name} = {literal(value)}" for name, value in given.items() if value is not None)
@@ -111,8 +120,9 @@ class StoreView:
         """The table `channel`: one row a test and channel, with unit, place, axis and sign."""
         return self.sql(f"select * from channel{_where(campaign)}")
 
-    def dataset(self, campaigns: str | Sequence[str], step_s: float = 30.0,
-                channels: Collection[str] | None = None) -> Dataset:
+    def dataset(
+        self, campaigns: str | Sequence[str], step_s: float = 30.0, channels: Collection[str] | None = None
+    ) -> Dataset:
         """All tests of the campaigns on one grid; see `view.load.load_dataset`."""
         from thermodata.view.load import load_dataset
 

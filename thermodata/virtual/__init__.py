@@ -13,8 +13,14 @@ if TYPE_CHECKING:
     from thermodata.virtual.world import World, dataset, make_world
     from thermodata.virtual.writing import Truth, simulate
 
-_WHERE = {"HIDEABLE": "catalogue", "Truth": "writing", "simulate": "writing", "World": "world",
-          "dataset": "world", "make_world": "world"}
+_WHERE = {
+    "HIDEABLE": "catalogue",
+    "Truth": "writing",
+    "simulate": "writing",
+    "World": "world",
+    "dataset": "world",
+    "make_world": "world",
+}
 
 
 def __getattr__(name: str) -> Any:

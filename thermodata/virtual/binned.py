@@ -14,9 +14,17 @@ from thermodata.virtual.world import Run, World
 def to_dataset(world: World, step_s: float) -> Dataset:
     """Every test on a grid of step_s [s], a multiple of 10 s."""
     # the campaign file declares the resolution of temperatures only
-    infos = {s.name: ChannelInfo(s.name, s.quantity, CANONICAL_UNIT[s.quantity], at=s.at, source=s.source,
-                                 resolution=s.resolution if s.quantity == "temperature" else None)
-             for s in world.sensors}
+    infos = {
+        s.name: ChannelInfo(
+            s.name,
+            s.quantity,
+            CANONICAL_UNIT[s.quantity],
+            at=s.at,
+            source=s.source,
+            resolution=s.resolution if s.quantity == "temperature" else None,
+        )
+        for s in world.sensors
+    }
     for a in AXES:
         infos[f"d{a}"] = ChannelInfo(f"d{a}", "displacement", "um", at="tcp", axis=a, relative_to="table", source="daq")
     tests = tuple(_test(world, r, step_s, infos, i) for i, r in enumerate(world.runs))
@@ -47,6 +55,18 @@ def _test(world: World, run: Run, step_s: float, infos: dict[str, ChannelInfo], 
         unit = {"speed": "rpm", "table_speed": "rpm", "feed": "m/min"}.get(key)
         conditions[key] = value_in(text, unit) if unit else text
     t_s = np.asarray(np.arange(bins) * step_s, dtype=np.float64)
-    return TestData(world.campaign, op.id, op.kind, op.role, t_s, values, valid, np.ones(bins, dtype=np.bool_),
-                    conditions, dict(op.phases), start_unix_s=run.start_unix_s, machine=world.machine_id,
-                    channels=infos)
+    return TestData(
+        world.campaign,
+        op.id,
+        op.kind,
+        op.role,
+        t_s,
+        values,
+        valid,
+        np.ones(bins, dtype=np.bool_),
+        conditions,
+        dict(op.phases),
+        start_unix_s=run.start_unix_s,
+        machine=world.machine_id,
+        channels=infos,
+    )

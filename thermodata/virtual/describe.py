@@ -29,21 +29,38 @@ def campaign_file(world: World, book: Logbook) -> dict[str, Any]:
     return {
         "schema": "thermodata/campaign/1",
         "id": world.campaign,
-        "machine": {"id": world.machine_id, "description": "simulated 5-axis upper-gantry milling centre",
-                    "spindle": world.spindle},
+        "machine": {
+            "id": world.machine_id,
+            "description": "simulated 5-axis upper-gantry milling centre",
+            "spindle": world.spindle,
+        },
         "sources": {
             "daq": {"reader": "crio", "files": "raw/{test}.tdms"},
-            "nc": {"reader": "cnc", "files": "raw/{test}.csv", "timezone": ZONE, "encoding": "cp1250",
-                   "clock": {"offset": f"{book.nc_offset_s} s"}},
+            "nc": {
+                "reader": "cnc",
+                "files": "raw/{test}.csv",
+                "timezone": ZONE,
+                "encoding": "cp1250",
+                "clock": {"offset": f"{book.nc_offset_s} s"},
+            },
             "rec": {"reader": "mcap", "files": "raw/{test}.mcap", "clock": {"offset": f"{book.rec_offset_s} s"}},
         },
         "channels": channels,
         "calibrations": {
-            f"jump_{p.axis}": {"kind": "jump", "axis": p.axis, "source": "daq", "file": f"raw/jump_{p.axis}.tdms",
-                               "signal": book.names[f"d{p.axis}"], "moves": [f"{m:g} um" for m in MOVES_UM],
-                               "dwell": f"{DWELL_S:g} s", "move_uncertainty": "0.5 um", "facing": p.facing,
-                               "increases_with": "gap"}
-            for p in book.probes},
+            f"jump_{p.axis}": {
+                "kind": "jump",
+                "axis": p.axis,
+                "source": "daq",
+                "file": f"raw/jump_{p.axis}.tdms",
+                "signal": book.names[f"d{p.axis}"],
+                "moves": [f"{m:g} um" for m in MOVES_UM],
+                "dwell": f"{DWELL_S:g} s",
+                "move_uncertainty": "0.5 um",
+                "facing": p.facing,
+                "increases_with": "gap",
+            }
+            for p in book.probes
+        },
         "tests": [_test(r.op) for r in world.runs],
     }
 
@@ -64,21 +81,31 @@ def _test(op: Operation) -> dict[str, Any]:
 def model_file(world: World) -> dict[str, Any]:
     """The lab's baseline: every effect but the hidden one."""
     spec = world.baseline()
-    return {"schema": "thermodata/model/1", "name": spec.name, "campaign": world.campaign,
-            "response": {"axis": world.axis, "at": "tcp"}, "step": "60 s",
-            "effects": [{"effect": e.effect, "drivers": dict(e.drivers)} for e in spec.effects]}
+    return {
+        "schema": "thermodata/model/1",
+        "name": spec.name,
+        "campaign": world.campaign,
+        "response": {"axis": world.axis, "at": "tcp"},
+        "step": "60 s",
+        "effects": [{"effect": e.effect, "drivers": dict(e.drivers)} for e in spec.effects],
+    }
 
 
 def truth_file(world: World, book: Logbook) -> dict[str, Any]:
     """What the lab doesn't know."""
     hidden = None if world.hide == "none" else world.hide
     return {
-        "seed": world.seed, "hidden": hidden,
+        "seed": world.seed,
+        "hidden": hidden,
         "family": family_of(hidden, world.axis) if hidden else None,
         "drivers": drivers_of(hidden, world.axis) if hidden else {},
         "meaning": EFFECTS[hidden].meaning if hidden else None,
-        "campaign": world.campaign, "response": world.response, "axis": world.axis,
-        "noise_um": world.noise_um, "present": list(world.present), "rms_um": world.rms_um,
+        "campaign": world.campaign,
+        "response": world.response,
+        "axis": world.axis,
+        "noise_um": world.noise_um,
+        "present": list(world.present),
+        "rms_um": world.rms_um,
         "levers": {e: dict(zip(AXES, map(float, v), strict=True)) for e, v in world.levers.items()},
         "probes_um_per_v": {p.axis: p.um_per_v for p in book.probes},
     }

@@ -28,10 +28,16 @@ class Hall:
 
     @classmethod
     def draw(cls, rng: np.random.Generator) -> Hall:
-        return cls(mean=float(rng.uniform(20.5, 24)), daily=float(rng.uniform(1.8, 3.0)),
-                   warmest_h=float(rng.uniform(14.5, 17)), gradient=float(rng.uniform(0.6, 1.4)),
-                   heating=float(rng.uniform(0.5, 1.2)), door_drop=float(rng.uniform(1.5, 3.5)),
-                   doors_per_test=float(rng.uniform(3, 7)), wet_bulb=float(rng.uniform(4.5, 6.5)))
+        return cls(
+            mean=float(rng.uniform(20.5, 24)),
+            daily=float(rng.uniform(1.8, 3.0)),
+            warmest_h=float(rng.uniform(14.5, 17)),
+            gradient=float(rng.uniform(0.6, 1.4)),
+            heating=float(rng.uniform(0.5, 1.2)),
+            door_drop=float(rng.uniform(1.5, 3.5)),
+            doors_per_test=float(rng.uniform(3, 7)),
+            wet_bulb=float(rng.uniform(4.5, 6.5)),
+        )
 
 
 def smooth(rng: np.random.Generator, n: int, sd: float, tau_s: float) -> Float1D:
@@ -66,7 +72,7 @@ def air(hall: Hall, op: Operation, hour: float, day: int, rng: np.random.Generat
     for _ in range(int(rng.poisson(hall.doors_per_test))):
         start = int(rng.uniform(0.05, 0.95) * op.n)
         length = int(rng.uniform(12, 90))
-        op.door[start:start + length] = 1.0
+        op.door[start : start + length] = 1.0
     drop = hall.door_drop * _lagged(op.door, 500.0)
     middle = mean - 0.45 * drop + smooth(rng, op.n, 0.04, 240.0)
     bottom = mean - 0.5 * top_extra - drop + smooth(rng, op.n, 0.04, 240.0)

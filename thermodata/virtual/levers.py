@@ -16,13 +16,14 @@ from thermodata.virtual.catalogue import EFFECTS
 from thermodata.virtual.plan import STEP_S, Operation
 
 POOL = tuple(k for k in EFFECTS if k not in ("spindle_bearing", "ambient_frame"))
-DETECTABLE_UM, DETECTABLE_LOCKED_UM = 2.7, 2.3             # [um] standard deviation: third best test, locked test
-OWN_UM, LARGEST_UM, DRAWS = 1.1, 18.0, 40                  # [um] what no other effect can imitate; [um] best test
-EVERY = 30                                                 # steps: one sample in 300 s is enough to compare shapes
+DETECTABLE_UM, DETECTABLE_LOCKED_UM = 2.7, 2.3  # [um] standard deviation: third best test, locked test
+OWN_UM, LARGEST_UM, DRAWS = 1.1, 18.0, 40  # [um] what no other effect can imitate; [um] best test
+EVERY = 30  # steps: one sample in 300 s is enough to compare shapes
 
 
-def draw_levers(rng: np.random.Generator, hide: str, axis: int, units: Sequence[Mapping[str, Float1D]],
-                ops: Sequence[Operation]) -> dict[str, Float1D]:
+def draw_levers(
+    rng: np.random.Generator, hide: str, axis: int, units: Sequence[Mapping[str, Float1D]], ops: Sequence[Operation]
+) -> dict[str, Float1D]:
     """effect -> lever along X, Y, Z, shape (3,), for the effects that are present. units: micrometres at lever 1."""
     best: tuple[float, dict[str, Float1D]] = (-1.0, {})
     for _ in range(DRAWS):
@@ -40,14 +41,19 @@ def draw_levers(rng: np.random.Generator, hide: str, axis: int, units: Sequence[
     return best[1]
 
 
-def own_um(effect: str, levers: Mapping[str, Float1D], axis: int, units: Sequence[Mapping[str, Float1D]],
-           ops: Sequence[Operation]) -> float:
+def own_um(
+    effect: str,
+    levers: Mapping[str, Float1D],
+    axis: int,
+    units: Sequence[Mapping[str, Float1D]],
+    ops: Sequence[Operation],
+) -> float:
     """Root mean square of what the other effects, with any gains and slower by any lag, leave of `effect` [um]."""
     rows, wanted = [], []
     for unit, op in zip(units, ops, strict=True):
         if op.role == "locked":
             continue
-        at = np.flatnonzero(op.measuring)[::EVERY // 3 if not op.measuring.all() else EVERY]
+        at = np.flatnonzero(op.measuring)[:: EVERY // 3 if not op.measuring.all() else EVERY]
         columns = [w[at] for e in levers if e != effect for w in _shapes(unit[e])]
         block = np.stack(columns, axis=1) if columns else np.zeros((len(at), 1))
         rows.append(block - block.mean(axis=0))
@@ -89,16 +95,20 @@ def _spread(effect: str, units: Sequence[Mapping[str, Float1D]], ops: Sequence[O
     return [float(np.std(u[effect][op.measuring])) for u, op in zip(units, ops, strict=True)]
 
 
-def _lever(rng: np.random.Generator, effect: str, axis: int, units: Sequence[Mapping[str, Float1D]],
-           ops: Sequence[Operation]) -> Float1D:
+def _lever(
+    rng: np.random.Generator, effect: str, axis: int, units: Sequence[Mapping[str, Float1D]], ops: Sequence[Operation]
+) -> Float1D:
     """Drawn so that the effect is seen: in its best test, in three tests, in the locked one."""
     h = EFFECTS[effect]
     spread = _spread(effect, units, ops)
     ranked = sorted(spread, reverse=True)
     third = ranked[min(2, len(ranked) - 1)]
     locked = max(s for s, op in zip(spread, ops, strict=True) if op.role == "locked")
-    size = max(float(rng.uniform(*h.rms_um)) / ranked[0], DETECTABLE_UM / max(third, 1e-9),
-               DETECTABLE_LOCKED_UM / max(locked, 1e-9))
+    size = max(
+        float(rng.uniform(*h.rms_um)) / ranked[0],
+        DETECTABLE_UM / max(third, 1e-9),
+        DETECTABLE_LOCKED_UM / max(locked, 1e-9),
+    )
     size = min(size, LARGEST_UM / ranked[0])
     lever = size * np.array(h.axes) * rng.uniform(0.5, 1.0, 3) * rng.choice([-1.0, 1.0], 3)
     lever[axis] = size * rng.choice([-1.0, 1.0])

@@ -12,15 +12,35 @@ from thermodata.virtual.plan import AXES
 from thermodata.virtual.world import World
 
 PROBE_RANGE_V = 20.0
-MOVES_UM = (100.0, 50.0, -200.0, -50.0, 100.0)             # unequal, so that they can't be read with either sign
+MOVES_UM = (100.0, 50.0, -200.0, -50.0, 100.0)  # unequal, so that they can't be read with either sign
 DWELL_S = 12.0
 
-_CZECH = {"spindle_speed": "Otáčky vřetena", "spindle_power": "Výkon vřetena", "feed": "Posuv {a}", "pos": "Poloha {a}",
-          "T_motor_spindle": "Teplota motoru vřetena", "T_motor": "Teplota motoru {a}", "T_nut": "Teplota matice {a}",
-          "table_speed": "Otáčky stolu", "coolant_on": "Chlazení", "pump_on": "Čerpadlo", "door_open": "Dveře"}
-_SHORT = {"spindle_speed": "nActSpeed", "spindle_power": "pActSpindle", "feed": "vAct{a}", "pos": "sAct{a}1",
-          "T_motor_spindle": "tMotSP1", "T_motor": "tMot{a}1", "T_nut": "tNut{a}1", "table_speed": "nActC1",
-          "coolant_on": "bCoolant", "pump_on": "bHydPump", "door_open": "bDoor"}
+_CZECH = {
+    "spindle_speed": "Otáčky vřetena",
+    "spindle_power": "Výkon vřetena",
+    "feed": "Posuv {a}",
+    "pos": "Poloha {a}",
+    "T_motor_spindle": "Teplota motoru vřetena",
+    "T_motor": "Teplota motoru {a}",
+    "T_nut": "Teplota matice {a}",
+    "table_speed": "Otáčky stolu",
+    "coolant_on": "Chlazení",
+    "pump_on": "Čerpadlo",
+    "door_open": "Dveře",
+}
+_SHORT = {
+    "spindle_speed": "nActSpeed",
+    "spindle_power": "pActSpindle",
+    "feed": "vAct{a}",
+    "pos": "sAct{a}1",
+    "T_motor_spindle": "tMotSP1",
+    "T_motor": "tMot{a}1",
+    "T_nut": "tNut{a}1",
+    "table_speed": "nActC1",
+    "coolant_on": "bCoolant",
+    "pump_on": "bHydPump",
+    "door_open": "bDoor",
+}
 
 
 @dataclass(frozen=True, slots=True)
@@ -57,9 +77,15 @@ class Logbook:
     @classmethod
     def draw(cls, world: World) -> Logbook:
         rng = np.random.default_rng([world.seed, 15_485_863])
-        probes = tuple(Probe(a, str(rng.integers(4000, 4999)),
-                             float(rng.uniform(22, 58)) * float(rng.choice([-1, 1])), float(rng.uniform(9, 11)))
-                       for a in AXES)
+        probes = tuple(
+            Probe(
+                a,
+                str(rng.integers(4000, 4999)),
+                float(rng.uniform(22, 58)) * float(rng.choice([-1, 1])),
+                float(rng.uniform(9, 11)),
+            )
+            for a in AXES
+        )
         czech = bool(rng.random() < 0.5)
         style = _CZECH if czech else _SHORT
         first = int(rng.integers(1, 9))
@@ -75,12 +101,24 @@ class Logbook:
                 stem, _, letter = s.name.rpartition("_")
                 key = s.name if s.name in style else stem
                 names[s.name] = style[key].format(a=letter)
-        return cls(probes, names, czech, int(rng.integers(-45, 46)), round(float(rng.uniform(-5, 5)), 1),
-                   float(rng.uniform(0.002, 0.006)))
+        return cls(
+            probes,
+            names,
+            czech,
+            int(rng.integers(-45, 46)),
+            round(float(rng.uniform(-5, 5)), 1),
+            float(rng.uniform(0.002, 0.006)),
+        )
 
 
 def describe_probe(probe: Probe) -> dict[str, Any]:
     """The channel of a probe in the campaign file, without its signal."""
-    return {"quantity": "displacement", "unit": "V", "axis": probe.axis, "at": "tcp", "relative_to": "table",
-            "calibration": f"jump_{probe.axis}",
-            "sensor": {"serial": probe.serial, "range": ["0 V", f"{PROBE_RANGE_V:g} V"]}}
+    return {
+        "quantity": "displacement",
+        "unit": "V",
+        "axis": probe.axis,
+        "at": "tcp",
+        "relative_to": "table",
+        "calibration": f"jump_{probe.axis}",
+        "sensor": {"serial": probe.serial, "range": ["0 V", f"{PROBE_RANGE_V:g} V"]},
+    }

@@ -8,8 +8,8 @@ from thermodata.plugin import Float1D
 from thermodata.virtual.machine import SCREW_CELLS, Machine
 from thermodata.virtual.plan import MAX_SPEED, Operation
 
-VISCOUS = ("bearing_front", "bearing_rear", "sleeve")      # losses that fall as the lubricant warms
-COPPER = ("motor",)                                        # losses that rise with the winding's resistance
+VISCOUS = ("bearing_front", "bearing_rear", "sleeve")  # losses that fall as the lubricant warms
+COPPER = ("motor",)  # losses that rise with the winding's resistance
 
 
 def source_powers(machine: Machine, op: Operation) -> dict[str, Float1D]:

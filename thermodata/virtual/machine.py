@@ -16,10 +16,10 @@ from thermodata.plugin import Float1D, Float2D
 from thermodata.virtual.hall import BOUNDARIES
 from thermodata.virtual.network import Builder, Cells, Network
 
-ALPHA_UM = 11.5                                            # steel [um/m/K]
-RHO_C, CONDUCTIVITY = 3.69e6, 46.0                         # steel [J/m3/K], [W/m/K]
+ALPHA_UM = 11.5  # steel [um/m/K]
+RHO_C, CONDUCTIVITY = 3.69e6, 46.0  # steel [J/m3/K], [W/m/K]
 SCREW_CELLS = 12
-Draw = Callable[[float, float], float]                    # uniform between two bounds
+Draw = Callable[[float, float], float]  # uniform between two bounds
 
 
 @dataclass(frozen=True)
@@ -45,7 +45,7 @@ class Machine:
     def screw_share(self, axis: int, lo: Float1D, hi: Float1D) -> Float2D:
         """Share of time that the nut spends over each cell of a screw, shape (cells, n), sums to 1."""
         edges = self.screw_start[axis] + np.linspace(0, self.screw_length[axis], SCREW_CELLS + 1)
-        nut = 60.0                                         # half the length of a nut [mm]
+        nut = 60.0  # half the length of a nut [mm]
         low, high = lo - nut, hi + nut
         covered = np.minimum(edges[1:, None], high) - np.maximum(edges[:-1, None], low)
         covered = np.clip(covered, 0.0, None)
@@ -54,6 +54,7 @@ class Machine:
 
 def build(rng: np.random.Generator, home: Float1D) -> Machine:
     """A machine of its own; `home`: the measuring position of X, Y, Z [mm]."""
+
     def r(lo: float, hi: float) -> float:
         return float(rng.uniform(lo, hi))
 
@@ -71,14 +72,41 @@ def build(rng: np.random.Generator, home: Float1D) -> Machine:
         for cell, share in target.items():
             into[name][cell] += share
     growth = _growth(b, network.size, r, length, start, home)
-    heat = {"front": r(190, 300), "rear": r(120, 200), "bearing_exponent": r(1.35, 1.7), "motor_base": r(130, 220),
-            "motor": r(350, 600), "sleeve": r(70, 110), "sleeve_exponent": r(1.7, 2.3), "nut": r(42, 62),
-            "screw": r(26, 40), "feed_motor": r(45, 80), "holding": r(12, 22), "table": r(220, 340),
-            "table_exponent": r(1.3, 1.6), "cabinet": r(110, 170), "pump": r(220, 320), "windage": r(12, 16),
-            "tool": r(3.2, 5.2), "part": r(180, 280), "copper": 0.0039, "viscosity": r(0.012, 0.02)}
-    return Machine(network, b.cells, into, growth, length, start, r(0.4, 0.8),
-                   {"splash": r(11, 15), "probe": r(0.2, 0.35), "tool": r(0.3, 0.6)},
-                   r(1300, 1700), r(1.2, 1.7), heat)
+    heat = {
+        "front": r(190, 300),
+        "rear": r(120, 200),
+        "bearing_exponent": r(1.35, 1.7),
+        "motor_base": r(130, 220),
+        "motor": r(350, 600),
+        "sleeve": r(70, 110),
+        "sleeve_exponent": r(1.7, 2.3),
+        "nut": r(42, 62),
+        "screw": r(26, 40),
+        "feed_motor": r(45, 80),
+        "holding": r(12, 22),
+        "table": r(220, 340),
+        "table_exponent": r(1.3, 1.6),
+        "cabinet": r(110, 170),
+        "pump": r(220, 320),
+        "windage": r(12, 16),
+        "tool": r(3.2, 5.2),
+        "part": r(180, 280),
+        "copper": 0.0039,
+        "viscosity": r(0.012, 0.02),
+    }
+    return Machine(
+        network,
+        b.cells,
+        into,
+        growth,
+        length,
+        start,
+        r(0.4, 0.8),
+        {"splash": r(11, 15), "probe": r(0.2, 0.35), "tool": r(0.3, 0.6)},
+        r(1300, 1700),
+        r(1.2, 1.7),
+        heat,
+    )
 
 
 def _rod(area_m2: float, length_m: float, n: int) -> tuple[float, float]:
@@ -96,7 +124,7 @@ def _spindle(b: Builder, sources: dict[str, dict[int, float]], r: Draw) -> None:
         inner, outer = b.body(f"bearing_{name}_inner", r(350, 500)), b.body(f"bearing_{name}_outer", r(600, 900))
         b.link(inner, outer, r(2, 4))
         b.link(inner, shaft[at], r(15, 25))
-        b.link(outer, housing[at:at + 2], r(13, 18))
+        b.link(outer, housing[at : at + 2], r(13, 18))
         sources[f"bearing_{name}"] = {int(inner[0]): 0.45, int(outer[0]): 0.55}
     stator = b.body("stator", r(4500, 6500))
     b.link(stator, housing[3:6], r(2, 4))
@@ -214,21 +242,21 @@ def _growth(b: Builder, size: int, r: Draw, length: Float1D, start: Float1D, hom
     def add(effect: str, body: str, lengths_m: object, first: int = 0) -> None:
         target = out.setdefault(effect, np.zeros(size))
         values = np.asarray(lengths_m, dtype=np.float64)
-        target[b.cells[body][first:first + len(values)]] += ALPHA_UM * values
+        target[b.cells[body][first : first + len(values)]] += ALPHA_UM * values
 
     # behind the front bearing the shaft grows back into the housing; towards the tool it grows out
     add("spindle_bearing", "shaft", [0.03, 0.03, 0.03])
     add("spindle_bearing", "housing", [0.08, 0.09, 0.075, 0.05])
     add("spindle_motor", "headstock", [0.08, 0.08, 0.08, 0.08])
     add("spindle_friction", "nose_sleeve", [0.1, 0.1, 0.1])
-    low = r(0.15, 0.35)                                    # bed and portal do not share the loop evenly
+    low = r(0.15, 0.35)  # bed and portal do not share the loop evenly
     add("ambient_frame", "bed", np.full(3, 0.35 * (1 - low)))
     add("ambient_frame", "portal", np.full(4, 0.25 * low))
     add("vertical_gradient", "guide_top", np.full(3, 0.25))
     add("vertical_gradient", "guide_low", np.full(3, -0.25))
     heights = np.array([0.25, 0.5, 0.75, 1.0, 1.25])
     depth = r(0.45, 0.6)
-    arm = heights[::-1] * 0.25 / depth                     # the lower a cell bends, the more the top moves
+    arm = heights[::-1] * 0.25 / depth  # the lower a cell bends, the more the top moves
     add("column_bending", "column_rear", arm)
     add("column_bending", "column_front", -arm)
     for i, a in enumerate("xyz"):
@@ -242,8 +270,11 @@ def _growth(b: Builder, size: int, r: Draw, length: Float1D, start: Float1D, hom
     add("tool_elongation", "tool", np.full(4, 0.0275))
     add("cutting_power", "part", np.full(3, 0.06))
     add("coolant", "splash", np.full(3, 0.15))
-    for effect, body, share in (("spindle_friction", "nose_sleeve", 0.1), ("cutting_power", "part", 0.06),
-                                ("coolant", "splash", 0.15)):
+    for effect, body, share in (
+        ("spindle_friction", "nose_sleeve", 0.1),
+        ("cutting_power", "part", 0.06),
+        ("coolant", "splash", 0.15),
+    ):
         add(effect, f"{body}_mate", np.full(3, -share))
     add("coolant_temperature", "jacket", np.full(3, 0.15))
     add("hydraulics", "foot", np.full(3, 0.15))

@@ -96,9 +96,13 @@ class Network:
     @cached_property
     def exchange(self) -> Any:
         """G, sparse, shape (n, boundaries) [W/K]."""
-        return csr_matrix((np.array([k.w_per_k for k in self.outside]),
-                           (np.array([k.a for k in self.outside]), np.array([k.b for k in self.outside]))),
-                          (self.size, len(self.boundaries)))
+        return csr_matrix(
+            (
+                np.array([k.w_per_k for k in self.outside]),
+                (np.array([k.a for k in self.outside]), np.array([k.b for k in self.outside])),
+            ),
+            (self.size, len(self.boundaries)),
+        )
 
     def steady(self, sources: Float2D, boundary: Float2D) -> Float2D:
         """Temperatures at rest [degC]. sources: shape (n, k) [W]; boundary: shape (boundaries, k)."""

@@ -90,6 +90,7 @@ def _etve(op: Operation, rng: np.random.Generator) -> None:
 
 def _constant(speed: float, until: float, then: float = 0.0) -> Maker:
     """Heating at one speed, perhaps a while at a second one, and cooling."""
+
     def make(op: Operation, rng: np.random.Generator) -> None:
         op.speed[op.span(0.02, until)] = speed
         op.conditions = {"speed": f"{speed:.0f} rpm"}
@@ -101,6 +102,7 @@ def _constant(speed: float, until: float, then: float = 0.0) -> Maker:
             op.phases["second"] = (end, second.stop * STEP_S)
             end = second.stop * STEP_S
         op.phases["cooling"] = (end, op.n * STEP_S)
+
     return make
 
 
@@ -109,9 +111,9 @@ def _spectrum(op: Operation, rng: np.random.Generator) -> None:
     i = int(0.02 * op.n)
     while i < int(0.9 * op.n):
         length = int(rng.choice([60, 120, 180, 300]) * rng.uniform(0.8, 1.2))
-        op.speed[i:i + length] = rng.choice([0, 1500, 3000, 4500, 6000, 7500, 9000, 10_000])
+        op.speed[i : i + length] = rng.choice([0, 1500, 3000, 4500, 6000, 7500, 9000, 10_000])
         i += length
-    op.speed[int(0.92 * op.n):] = 0.0
+    op.speed[int(0.92 * op.n) :] = 0.0
 
 
 def _feed(axis: int, feeds: tuple[float, float]) -> Maker:
@@ -122,6 +124,7 @@ def _feed(axis: int, feeds: tuple[float, float]) -> Maker:
         op.move(op.span(0.52, 0.80), axis, feeds[1], half, cycle, 50.0)
         op.pump[op.span(0.0, 0.1)] = 1.0
         op.conditions = {"axis": AXES[axis], "feed": f"{feeds[0]:g} m/min"}
+
     return make
 
 
@@ -155,6 +158,7 @@ def _fluids(op: Operation, rng: np.random.Generator) -> None:
 
 def _mixed(axis: int) -> Maker:
     """A working day: warm up, feeds, cuts, table, rests, in an order of its own."""
+
     def make(op: Operation, rng: np.random.Generator) -> None:
         blocks = [str(b) for b in rng.permutation(["spin", "feed", "cut", "table", "fluid", "spin", "cut"])]
         at = 0.02
@@ -163,8 +167,8 @@ def _mixed(axis: int) -> Maker:
             part = op.span(at, stop)
             if name == "spin":
                 half = (part.start + part.stop) // 2
-                op.speed[part.start:half] = rng.choice([3000, 6000])
-                op.speed[half:part.stop] = rng.choice([8000, 10_000])
+                op.speed[part.start : half] = rng.choice([3000, 6000])
+                op.speed[half : part.stop] = rng.choice([8000, 10_000])
             elif name == "feed":
                 op.move(part, axis, float(rng.uniform(8, 16)), 160.0, 300.0, 50.0)
             elif name == "cut":
@@ -176,6 +180,7 @@ def _mixed(axis: int) -> Maker:
                 op.coolant[part] = 1.0
                 op.pump[op.span(at, min(stop + 0.05, 1.0))] = 1.0
             at = stop + float(rng.uniform(0.0, 0.02))
+
     return make
 
 

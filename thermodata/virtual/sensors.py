@@ -43,7 +43,7 @@ class Sensor:
 def make_sensors(rng: np.random.Generator) -> tuple[tuple[Sensor, ...], frozenset[str]]:
     """Every sensor that a lab could place, and the names of those that this one has left out unless needed."""
     fine = float(rng.choice([0.01, 0.02, 0.05]))
-    whole = bool(rng.random() < 0.25)                      # some controls show whole kelvin only
+    whole = bool(rng.random() < 0.25)  # some controls show whole kelvin only
     rows: list[Sensor] = []
     spare: set[str] = set()
 
@@ -51,12 +51,23 @@ def make_sensors(rng: np.random.Generator) -> tuple[tuple[Sensor, ...], frozense
         if rng.random() >= usual:
             spare.add(name)
         serial, offset = f"PT-{rng.integers(1000, 9999)}", float(rng.normal(0, 0.1))
-        rows.append(Sensor(name, "daq", "temperature", "degC", at, (body, cell), float(rng.uniform(0.008, 0.02)),
-                           fine, serial, offset))
+        rows.append(
+            Sensor(
+                name,
+                "daq",
+                "temperature",
+                "degC",
+                at,
+                (body, cell),
+                float(rng.uniform(0.008, 0.02)),
+                fine,
+                serial,
+                offset,
+            )
+        )
 
     def own(name: str, at: str, body: str, cell: int) -> None:
-        rows.append(Sensor(name, "nc", "temperature", "degC", at, (body, cell), 0.02,
-                           1.0 if whole else 0.1))
+        rows.append(Sensor(name, "nc", "temperature", "degC", at, (body, cell), 0.02, 1.0 if whole else 0.1))
 
     def state(name: str, quantity: str, unit: str, at: str, resolution: float = 0.0) -> None:
         rows.append(Sensor(name, "nc", quantity, unit, at, resolution=resolution))
@@ -78,8 +89,20 @@ def make_sensors(rng: np.random.Generator) -> tuple[tuple[Sensor, ...], frozense
         own(f"T_motor_{a}", f"axis.{a.lower()}.motor", f"feed_motor_{a.lower()}", 0)
         own(f"T_nut_{a}", f"axis.{a.lower()}.nut", f"nut_{a.lower()}", 0)
     for name, at in (("T_hall_top", "hall.top"), ("T_hall_bottom", "hall.bottom"), ("T_floor", "floor")):
-        rows.append(Sensor(name, "rec", "temperature", "degC", at, at, 0.015, 0.01,
-                           f"AIR-{rng.integers(100, 999)}", float(rng.normal(0, 0.1))))
+        rows.append(
+            Sensor(
+                name,
+                "rec",
+                "temperature",
+                "degC",
+                at,
+                at,
+                0.015,
+                0.01,
+                f"AIR-{rng.integers(100, 999)}",
+                float(rng.normal(0, 0.1)),
+            )
+        )
     state("spindle_speed", "rotational_speed", "rpm", "spindle", 1.0)
     state("spindle_power", "power", "kW", "spindle", 0.01)
     for a in AXES:

@@ -14,11 +14,12 @@ from thermodata.virtual.network import Stepper
 from thermodata.virtual.plan import STEP_S, Operation
 
 REFERENCE = 20.0
-SOAK_STEPS = 540                                           # an hour and a half at rest before each test
+SOAK_STEPS = 540  # an hour and a half at rest before each test
 
 
-def run(machine: Machine, ops: Sequence[Operation], boundary: Sequence[Float2D], observe: Float2D,
-        rng: np.random.Generator) -> list[Float2D]:
+def run(
+    machine: Machine, ops: Sequence[Operation], boundary: Sequence[Float2D], observe: Float2D, rng: np.random.Generator
+) -> list[Float2D]:
     """Temperatures seen through `observe`, shape (outputs, size): for each test an array (outputs, n).
 
     All tests have one length. Each starts from rest in the air of its first minute, the frame a little off.
@@ -27,16 +28,33 @@ def run(machine: Machine, ops: Sequence[Operation], boundary: Sequence[Float2D],
     names = list(machine.sources)
     into = csr_matrix(np.stack([machine.sources[k] for k in names], axis=1))
     powers = [source_powers(machine, op) for op in ops]
-    p = np.stack([[w.get(k, np.zeros(n)) for k in names] for w in powers], axis=-1)     # (sources, n, tests)
-    p = np.ascontiguousarray(p.transpose(1, 0, 2))                                       # (n, sources, tests)
+    p = np.stack([[w.get(k, np.zeros(n)) for k in names] for w in powers], axis=-1)  # (sources, n, tests)
+    p = np.ascontiguousarray(p.transpose(1, 0, 2))  # (n, sources, tests)
     outside = np.ascontiguousarray(np.stack(list(boundary), axis=-1).transpose(1, 0, 2))  # (n, boundaries, tests)
     c, h = machine.cells, machine.heat
-    viscous = [(names.index(k), c[{"bearing_front": "bearing_front_outer", "bearing_rear": "bearing_rear_outer",
-                                   "sleeve": "nose_sleeve"}[k]][0]) for k in VISCOUS]
+    viscous = [
+        (
+            names.index(k),
+            c[
+                {"bearing_front": "bearing_front_outer", "bearing_rear": "bearing_rear_outer", "sleeve": "nose_sleeve"}[
+                    k
+                ]
+            ][0],
+        )
+        for k in VISCOUS
+    ]
     copper = [(names.index(k), c["stator"][0]) for k in COPPER]
-    nuts = [(c[f"nut_{a}"][0], c[f"screw_{a}"], np.stack([machine.screw_share(i, op.stroke[i, 0], op.stroke[i, 1])
-             for op in ops], axis=-1).transpose(1, 0, 2)) for i, a in enumerate("xyz")]   # (n, cells, tests)
-    wet = np.stack([op.coolant for op in ops], axis=-1)                                  # (n, tests)
+    nuts = [
+        (
+            c[f"nut_{a}"][0],
+            c[f"screw_{a}"],
+            np.stack([machine.screw_share(i, op.stroke[i, 0], op.stroke[i, 1]) for op in ops], axis=-1).transpose(
+                1, 0, 2
+            ),
+        )
+        for i, a in enumerate("xyz")
+    ]  # (n, cells, tests)
+    wet = np.stack([op.coolant for op in ops], axis=-1)  # (n, tests)
     washed = [(c[k], w / len(c[k])) for k, w in machine.wash_w_per_k.items()]
     chiller = c["chiller"][0]
     fluid = machine.network.boundaries.index("fluid")
@@ -88,4 +106,3 @@ def _at_rest(machine: Machine, outside: Float2D, setpoint: Float1D) -> Float2D:
     unit[chiller] = 1.0
     answer = machine.network.steady(unit, np.zeros_like(outside))
     return np.asarray(base + answer * (setpoint - base[chiller]) / answer[chiller])
-

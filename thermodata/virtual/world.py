@@ -77,33 +77,47 @@ class World:
     @cached_property
     def rms_um(self) -> dict[str, dict[str, float]]:
         """effect -> test -> standard deviation of its contribution to the response over the measured samples [um]."""
-        return {e: {r.op.id: float(np.std(r.contributions[e][self.axis_index][r.op.measuring])) for r in self.runs}
-                for e in self.present}
+        return {
+            e: {r.op.id: float(np.std(r.contributions[e][self.axis_index][r.op.measuring])) for r in self.runs}
+            for e in self.present
+        }
 
     def baseline(self, *, without: str | None = None) -> Model:
         """The model of the lab: every effect of the world but the hidden one (or but `without`)."""
         gone = self.hide if without is None else without
-        return Model.model_validate({
-            "schema": "thermodata/model/1", "name": "baseline", "campaign": self.campaign,
-            "response": {"axis": self.axis, "at": "tcp"}, "step": "60 s",
-            "effects": [{"effect": e, "drivers": drivers_of(e, self.axis)} for e in self.present if e != gone]})
+        return Model.model_validate(
+            {
+                "schema": "thermodata/model/1",
+                "name": "baseline",
+                "campaign": self.campaign,
+                "response": {"axis": self.axis, "at": "tcp"},
+                "step": "60 s",
+                "effects": [{"effect": e, "drivers": drivers_of(e, self.axis)} for e in self.present if e != gone],
+            }
+        )
 
 
-def make_world(hide: str = "none", seed: int = 0, *, tests: int | None = None, hours: float = 12.0,
-               measured: bool = True) -> World:
+def make_world(
+    hide: str = "none", seed: int = 0, *, tests: int | None = None, hours: float = 12.0, measured: bool = True
+) -> World:
     """Simulates a campaign. measured=False leaves out the sensors that drive the hidden effect.
 
     UsageError for an unknown effect, fewer than two tests or less than two hours.
     """
     if hide != "none" and hide not in EFFECTS:
         close = nearest(hide, [*EFFECTS, "none"])
-        raise UsageError(f"no effect '{hide}' to hide", expected=", ".join([*EFFECTS, "none"]), got=hide,
-                         hint=f"did you mean '{close}'?" if close else None)
+        raise UsageError(
+            f"no effect '{hide}' to hide",
+            expected=", ".join([*EFFECTS, "none"]),
+            got=hide,
+            hint=f"did you mean '{close}'?" if close else None,
+        )
     if seed < 0:
         raise UsageError("a seed is a whole number from 0", expected="0, 1, 2, ...", got=str(seed))
     if tests is not None and not 2 <= tests <= 40:
-        raise UsageError("a campaign needs a test to learn from and a locked one", expected="2 to 40 tests",
-                         got=str(tests))
+        raise UsageError(
+            "a campaign needs a test to learn from and a locked one", expected="2 to 40 tests", got=str(tests)
+        )
     if not 2.0 <= hours <= 96.0:
         raise UsageError("tests of this length tell nothing about heat", expected="2 to 96 h", got=f"{hours} h")
     rng = np.random.default_rng([seed, 7919, sum(map(ord, hide))])
@@ -143,8 +157,15 @@ def make_world(hide: str = "none", seed: int = 0, *, tests: int | None = None, h
     return World(seed, hide, AXES[axis], machine, hall, sensors, present, levers, noise, white, tuple(runs))
 
 
-def dataset(hide: str = "none", seed: int = 0, step_s: float = 60.0, *, tests: int | None = None,
-            hours: float = 12.0, measured: bool = True) -> tuple[Dataset, Model]:
+def dataset(
+    hide: str = "none",
+    seed: int = 0,
+    step_s: float = 60.0,
+    *,
+    tests: int | None = None,
+    hours: float = 12.0,
+    measured: bool = True,
+) -> tuple[Dataset, Model]:
     """The data that the logs of this world give after ingest, and the lab's baseline model; no files are written.
 
     Sensor noise and resolution are in it; displacements are in um along the machine's axes.
@@ -155,7 +176,7 @@ def dataset(hide: str = "none", seed: int = 0, step_s: float = 60.0, *, tests: i
     return to_dataset(world, step_s), world.baseline()
 
 
-EPOCH_S = 1_771_801_200.0                                   # 2026-02-23 00:00 in Prague
+EPOCH_S = 1_771_801_200.0  # 2026-02-23 00:00 in Prague
 
 
 def _axis(rng: np.random.Generator, hide: str) -> int:
@@ -166,8 +187,9 @@ def _axis(rng: np.random.Generator, hide: str) -> int:
     return 1 if rng.random() < 0.12 else 2
 
 
-def _placed(sensors: tuple[Sensor, ...], spare: frozenset[str], present: tuple[str, ...], axis: str,
-            blind: str | None) -> tuple[Sensor, ...]:
+def _placed(
+    sensors: tuple[Sensor, ...], spare: frozenset[str], present: tuple[str, ...], axis: str, blind: str | None
+) -> tuple[Sensor, ...]:
     """The sensors of this lab: the usual ones and what the effects of the machine need, without those of `blind`."""
     needed = frozenset(c for e in present for c in drivers_of(e, axis).values())
     gone = spare - needed
@@ -197,6 +219,11 @@ def _true(sensor: Sensor, cells: dict[str, Float1D], boundary: Float2D, op: Oper
         return np.asarray(op.feed[AXES.index(letter)])
     if name == "pos":
         return np.asarray(op.position[AXES.index(letter)])
-    plain = {"spindle_speed": op.speed, "table_speed": op.table_speed, "coolant_on": op.coolant,
-             "pump_on": op.pump, "door_open": op.door}
+    plain = {
+        "spindle_speed": op.speed,
+        "table_speed": op.table_speed,
+        "coolant_on": op.coolant,
+        "pump_on": op.pump,
+        "door_open": op.door,
+    }
     return plain[sensor.name] if sensor.name in plain else spindle_power(op)

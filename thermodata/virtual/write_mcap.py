@@ -18,8 +18,10 @@ def write_mcap(path: Path, world: World, run: Run, book: Logbook) -> None:
     try:
         from mcap.writer import Writer
     except ImportError as error:
-        raise UsageError("an MCAP log can't be written without the package 'mcap'",
-                         hint="install thermodata-reader-mcap, which brings it") from error
+        raise UsageError(
+            "an MCAP log can't be written without the package 'mcap'",
+            hint="install thermodata-reader-mcap, which brings it",
+        ) from error
     sensors = [s for s in world.sensors if s.source == "rec"]
     fields = [book.names[s.name].rpartition(".")[2] for s in sensors]
     rows = zip(*(run.readings[s.name].tolist() for s in sensors), strict=True)
@@ -33,6 +35,7 @@ def write_mcap(path: Path, world: World, run: Run, book: Logbook) -> None:
         for k, row in enumerate(rows):
             t = start_ns + round(k * STEP_S * 1e9)
             message = json.dumps({f: round(x, 4) for f, x in zip(fields, row, strict=True)})
-            writer.add_message(channel_id=channel, log_time=t + 2_000_000, publish_time=t, sequence=k,
-                               data=message.encode())
+            writer.add_message(
+                channel_id=channel, log_time=t + 2_000_000, publish_time=t, sequence=k, data=message.encode()
+            )
         writer.finish()

@@ -25,8 +25,12 @@ def write_nc(path: Path, world: World, run: Run, book: Logbook) -> None:
     for s in sensors:
         form = f"%.{0 if s.resolution >= 1 else _DECIMALS[s.quantity]}f"
         columns.append([form % x for x in run.readings[s.name].tolist()])
-    lines = ["Datum a čas;" + ";".join(book.names[s.name] for s in sensors),
-             ";" + ";".join(_UNITS.get(s.unit, s.unit) for s in sensors)]
-    lines += [f"{t:%d.%m.%Y %H:%M:%S};" + ";".join(row).replace(".", ",")
-              for t, row in zip(times, zip(*columns, strict=True), strict=True)]
+    lines = [
+        "Datum a čas;" + ";".join(book.names[s.name] for s in sensors),
+        ";" + ";".join(_UNITS.get(s.unit, s.unit) for s in sensors),
+    ]
+    lines += [
+        f"{t:%d.%m.%Y %H:%M:%S};" + ";".join(row).replace(".", ",")
+        for t, row in zip(times, zip(*columns, strict=True), strict=True)
+    ]
     path.write_bytes("\r\n".join([*lines, ""]).encode("cp1250"))

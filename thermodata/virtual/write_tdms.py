@@ -50,8 +50,9 @@ def write_jump(path: Path, world: World, axis: int, book: Logbook, rng: np.rando
     _write(path, columns, start, 1.0 / JUMP_RATE_HZ, {"test": f"jump {'XYZ'[axis]}"})
 
 
-def _write(path: Path, columns: dict[str, tuple[Float1D, str]], start_s: float, step_s: float,
-           properties: dict[str, str]) -> None:
+def _write(
+    path: Path, columns: dict[str, tuple[Float1D, str]], start_s: float, step_s: float, properties: dict[str, str]
+) -> None:
     from nptdms import ChannelObject, GroupObject, RootObject, TdmsWriter
 
     start = np.datetime64(round(start_s * 1e6), "us")
@@ -59,8 +60,19 @@ def _write(path: Path, columns: dict[str, tuple[Float1D, str]], start_s: float, 
     objects += [GroupObject(g) for g in dict.fromkeys(name.split("/")[0] for name in columns)]
     for name, (values, unit) in columns.items():
         group, _, channel = name.partition("/")
-        objects.append(ChannelObject(group, channel, values, properties={
-            "wf_start_time": start, "wf_start_offset": 0.0, "wf_increment": step_s, "wf_samples": len(values),
-            "unit_string": unit}))
+        objects.append(
+            ChannelObject(
+                group,
+                channel,
+                values,
+                properties={
+                    "wf_start_time": start,
+                    "wf_start_offset": 0.0,
+                    "wf_increment": step_s,
+                    "wf_samples": len(values),
+                    "unit_string": unit,
+                },
+            )
+        )
     with TdmsWriter(path) as writer:
         writer.write_segment(objects)

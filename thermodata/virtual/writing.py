@@ -42,8 +42,17 @@ class Truth:
     model_file: str
 
 
-def simulate(folder: Path, hide: str = "none", seed: int = 0, *, tests: int | None = None, hours: float = 12.0,
-             rate_hz: float = 0.5, measured: bool = True, progress: Callable[[str], None] | None = None) -> Truth:
+def simulate(
+    folder: Path,
+    hide: str = "none",
+    seed: int = 0,
+    *,
+    tests: int | None = None,
+    hours: float = 12.0,
+    rate_hz: float = 0.5,
+    measured: bool = True,
+    progress: Callable[[str], None] | None = None,
+) -> Truth:
     """Simulates a campaign into `folder`: raw/, campaign.yaml, model.yaml, and truth/ apart.
 
     hide: an effect of `HIDEABLE`, which the machine has and the baseline lacks, or "none". rate_hz: of the cRIO.
@@ -52,8 +61,12 @@ def simulate(folder: Path, hide: str = "none", seed: int = 0, *, tests: int | No
     """
     folder = Path(folder)
     if (folder / "campaign.yaml").exists():
-        raise UsageError("the folder holds a campaign", where=str(folder), expected="a new or empty folder",
-                         hint="name another folder")
+        raise UsageError(
+            "the folder holds a campaign",
+            where=str(folder),
+            expected="a new or empty folder",
+            hint="name another folder",
+        )
     if not 0.1 <= rate_hz <= 10.0:
         raise UsageError("a rate that the simulation can't log", expected="0.1 to 10 Hz", got=f"{rate_hz} Hz")
     say = progress or (lambda _: None)
@@ -75,8 +88,19 @@ def simulate(folder: Path, hide: str = "none", seed: int = 0, *, tests: int | No
     _yaml(folder / "model.yaml", model_file(world))
     truth = truth_file(world, book)
     (folder / "truth" / "truth.json").write_text(json.dumps(truth, indent=1), encoding="utf-8")
-    return Truth(truth["hidden"], truth["family"], truth["drivers"], world.response, world.noise_um, world.present,
-                 world.rms_um, seed, world.campaign, str(folder / "campaign.yaml"), str(folder / "model.yaml"))
+    return Truth(
+        truth["hidden"],
+        truth["family"],
+        truth["drivers"],
+        world.response,
+        world.noise_um,
+        world.present,
+        world.rms_um,
+        seed,
+        world.campaign,
+        str(folder / "campaign.yaml"),
+        str(folder / "model.yaml"),
+    )
 
 
 def _yaml(path: Path, data: Mapping[str, Any]) -> None:
@@ -84,8 +108,11 @@ def _yaml(path: Path, data: Mapping[str, Any]) -> None:
     import yaml
 
     def flow(value: Any) -> str:
-        return yaml.safe_dump(value, sort_keys=False, allow_unicode=True, width=10_000,
-                              default_flow_style=True).removesuffix("\n").removesuffix("\n...")
+        return (
+            yaml.safe_dump(value, sort_keys=False, allow_unicode=True, width=10_000, default_flow_style=True)
+            .removesuffix("\n")
+            .removesuffix("\n...")
+        )
 
     lines = []
     for key, value in data.items():

@@ -62,8 +62,10 @@ def test_skin_is_gone_once_the_frame_has_followed() -> None:
 
 def test_a_screw_grows_with_position() -> None:
     p = {"tau": 1.0}
-    near, far = (ScrewGrowth().basis(_drivers(temperature=np.full(len(T), 2.0), position=np.full(len(T), x)), p)[-1]
-                 for x in (100.0, 600.0))
+    near, far = (
+        ScrewGrowth().basis(_drivers(temperature=np.full(len(T), 2.0), position=np.full(len(T), x)), p)[-1]
+        for x in (100.0, 600.0)
+    )
     assert near == pytest.approx([0.2, 2.0])
     assert far == pytest.approx([1.2, 2.0])
 

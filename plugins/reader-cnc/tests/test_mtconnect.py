@@ -69,8 +69,11 @@ def test_bad_lines_are_named_and_the_rest_is_kept(tmp_path: Path) -> None:
 def test_blocks_of_a_long_log_hold_over_their_borders(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     from thermodata_reader_cnc import events
 
-    path = written(tmp_path, SHDR + "".join(
-        f"2026-03-02T09:{k // 60:02d}:{k % 60:02d}.000Z|S1speed|{k}\n" for k in range(3000)), "log.txt")
+    path = written(
+        tmp_path,
+        SHDR + "".join(f"2026-03-02T09:{k // 60:02d}:{k % 60:02d}.000Z|S1speed|{k}\n" for k in range(3000)),
+        "log.txt",
+    )
     whole = load(Reader(), path, Source())
     monkeypatch.setattr(events, "_MOST_VALUES", 1)
     small = load(Reader(), path, Source())
@@ -83,10 +86,15 @@ def shdr(tmp_path: Path, *lines: str) -> Data:
 
 
 def test_the_special_forms_of_the_adapter_protocol(tmp_path: Path) -> None:
-    data = shdr(tmp_path, "2026-03-02T08:00:00Z@100.5|Xload|5|text|\"a \\| b\"",
-                "2026-03-02T08:00:01Z|servo|FAULT|E17|100|HIGH|too hot", "|Xload|6",
-                "2026-03-02T08:00:02Z|accel|4|100|1 2 3 4", "2026-03-02T08:00:03Z|servo|NORMAL||||",
-                "2026-03-02T08:00:04Z|accel|1|100|UNAVAILABLE")
+    data = shdr(
+        tmp_path,
+        '2026-03-02T08:00:00Z@100.5|Xload|5|text|"a \\| b"',
+        "2026-03-02T08:00:01Z|servo|FAULT|E17|100|HIGH|too hot",
+        "|Xload|6",
+        "2026-03-02T08:00:02Z|accel|4|100|1 2 3 4",
+        "2026-03-02T08:00:03Z|servo|NORMAL||||",
+        "2026-03-02T08:00:04Z|accel|1|100|UNAVAILABLE",
+    )
     assert ((data.t_ns["nc"] - T0) / 1e9).tolist() == [0, 1, 3]
     assert column(data, "Xload") == [5, 6, 6]
     assert data.flags["nc", "Xload"].tolist() == [0, Flag.CLOCK_SUSPECT, Flag.CLOCK_SUSPECT]
@@ -106,8 +114,13 @@ def test_times_relative_to_the_adapter(tmp_path: Path) -> None:
 
 
 def test_an_asset_without_an_end_is_a_loss(tmp_path: Path) -> None:
-    data = shdr(tmp_path, "2026-03-02T08:00:00Z|Xpos|1", "2026-03-02T08:00:01Z|@ASSET@|1|Part|--multiline--A", "<Part>",
-                "2026-03-02T08:00:02Z|Xpos|2")
+    data = shdr(
+        tmp_path,
+        "2026-03-02T08:00:00Z|Xpos|1",
+        "2026-03-02T08:00:01Z|@ASSET@|1|Part|--multiline--A",
+        "<Part>",
+        "2026-03-02T08:00:02Z|Xpos|2",
+    )
     assert column(data, "Xpos") == [1]
     assert ["asset without its end" in loss.reason for loss in data.losses] == [True]
 
@@ -124,21 +137,26 @@ def test_a_real_log_of_an_okuma() -> None:
 
 
 def document(instance: int, first: int, last: int, items: str) -> str:
-    return (f'<?xml version="1.0" encoding="UTF-8"?>\n<MTConnectStreams xmlns="urn:mtconnect.org:MTConnectStreams:1.5">'
-            f'<Header instanceId="{instance}" firstSequence="{first}" lastSequence="{last}" nextSequence="{last + 1}"/>'
-            f'<Streams><DeviceStream name="M1"><ComponentStream component="Rotary" name="C" componentId="c">'
-            f'<Samples>{items}</Samples></ComponentStream></DeviceStream></Streams></MTConnectStreams>\n')
+    return (
+        f'<?xml version="1.0" encoding="UTF-8"?>\n<MTConnectStreams xmlns="urn:mtconnect.org:MTConnectStreams:1.5">'
+        f'<Header instanceId="{instance}" firstSequence="{first}" lastSequence="{last}" nextSequence="{last + 1}"/>'
+        f'<Streams><DeviceStream name="M1"><ComponentStream component="Rotary" name="C" componentId="c">'
+        f"<Samples>{items}</Samples></ComponentStream></DeviceStream></Streams></MTConnectStreams>\n"
+    )
 
 
 def item(sequence: int, second: float, value: object, name: str = "Stemp") -> str:
     at = f"2026-03-02T08:00:{second:06.3f}Z"
-    return (f'<Temperature dataItemId="{name.lower()}" name="{name}" sequence="{sequence}" timestamp="{at}">{value}'
-            "</Temperature>")
+    return (
+        f'<Temperature dataItemId="{name.lower()}" name="{name}" sequence="{sequence}" timestamp="{at}">{value}'
+        "</Temperature>"
+    )
 
 
 def test_documents_are_put_in_the_agents_order_each_observation_once(tmp_path: Path) -> None:
-    log = (document(7, 1, 4, item(3, 2, 22) + item(1, 0, 20) + item(2, 1, 21) + item(4, 2.5, 5, "Sload"))
-           + document(7, 1, 6, item(3, 2, 22) + item(5, 3, 23) + item(6, 4, "UNAVAILABLE")))
+    log = document(7, 1, 4, item(3, 2, 22) + item(1, 0, 20) + item(2, 1, 21) + item(4, 2.5, 5, "Sload")) + document(
+        7, 1, 6, item(3, 2, 22) + item(5, 3, 23) + item(6, 4, "UNAVAILABLE")
+    )
     path = written(tmp_path, log, "streams.xml")
     assert "MTConnect" in (Reader().sniff(head(path)) or "")
     data = load(Reader(), path, Source())
@@ -151,8 +169,11 @@ def test_documents_are_put_in_the_agents_order_each_observation_once(tmp_path: P
 
 
 def test_missing_sequences_are_a_loss_and_a_restart_repeats_nothing(tmp_path: Path) -> None:
-    log = (document(7, 1, 2, item(1, 0, 20) + item(2, 1, 21)) + document(7, 9, 10, item(9, 5, 25) + item(10, 6, 26))
-           + document(8, 1, 2, item(1, 6, 26) + item(2, 7, 27)))
+    log = (
+        document(7, 1, 2, item(1, 0, 20) + item(2, 1, 21))
+        + document(7, 9, 10, item(9, 5, 25) + item(10, 6, 26))
+        + document(8, 1, 2, item(1, 6, 26) + item(2, 7, 27))
+    )
     data = load(Reader(), written(tmp_path, log, "streams.xml"), Source())
     assert column(data, "Stemp") == [20, 21, 25, 26, 27]
     assert len(data.losses) == 1
@@ -161,7 +182,7 @@ def test_missing_sequences_are_a_loss_and_a_restart_repeats_nothing(tmp_path: Pa
 
 def test_a_cut_document_keeps_its_whole_observations(tmp_path: Path) -> None:
     log = document(7, 1, 2, item(1, 0, 20) + item(2, 1, 21)) + document(7, 1, 4, item(3, 2, 22) + item(4, 3, 23))
-    data = load(Reader(), written(tmp_path, log[:log.rindex("23<") + 1], "streams.xml"), Source())
+    data = load(Reader(), written(tmp_path, log[: log.rindex("23<") + 1], "streams.xml"), Source())
     assert column(data, "Stemp") == [20, 21, 22]
     assert data.recording.complete is False
     assert "cut" in data.losses[-1].reason
@@ -183,21 +204,23 @@ def test_what_stands_between_documents_is_passed_over_and_a_cut_one_does_not_tak
     data = load(Reader(), written(tmp_path, one + boundary + two + boundary + three, "streams.xml"), Source())
     assert not data.losses
     assert column(data, "Stemp") == [1, 1, 2, 2, 3, 3]
-    for rest in (three, three.split("\n", 1)[1]):                   # with and without its XML declaration
-        data = load(Reader(), written(tmp_path, one + two[:two.index("</Samples>")] + rest, "streams.xml"), Source())
+    for rest in (three, three.split("\n", 1)[1]):  # with and without its XML declaration
+        data = load(Reader(), written(tmp_path, one + two[: two.index("</Samples>")] + rest, "streams.xml"), Source())
         assert column(data, "Stemp") == [1, 1, 2, 2, 3, 3]
         assert ["cut or damaged" in loss.reason for loss in data.losses] == [True]
 
 
 def test_data_sets_time_series_and_messages_of_conditions(tmp_path: Path) -> None:
     at = 'timestamp="2026-03-02T08:00:0{}Z" dataItemId="{}" sequence="{}"'
-    items = (f'<VariableDataSet {at.format(0, "vars", 1)}><Entry key="a">1</Entry><Entry key="b">x</Entry>'
-             f'</VariableDataSet><WorkOffsetTable {at.format(0, "wcs", 2)}><Entry key="G54"><Cell key="X">1.5</Cell>'
-             f'<Cell key="Y">2.5</Cell></Entry></WorkOffsetTable><AccelerationTimeSeries {at.format(1, "acc", 3)} '
-             'sampleCount="2" sampleRate="1000">0.5 0.75</AccelerationTimeSeries>'
-             f'<VariableDataSet {at.format(2, "vars", 4)}><Entry key="a" removed="true"/></VariableDataSet>'
-             f'<VariableDataSet {at.format(3, "vars", 5)}>UNAVAILABLE</VariableDataSet></Samples><Condition>'
-             f'<Fault {at.format(4, "servo", 6)} nativeCode="17">too hot</Fault></Condition><Samples>')
+    items = (
+        f'<VariableDataSet {at.format(0, "vars", 1)}><Entry key="a">1</Entry><Entry key="b">x</Entry>'
+        f'</VariableDataSet><WorkOffsetTable {at.format(0, "wcs", 2)}><Entry key="G54"><Cell key="X">1.5</Cell>'
+        f'<Cell key="Y">2.5</Cell></Entry></WorkOffsetTable><AccelerationTimeSeries {at.format(1, "acc", 3)} '
+        'sampleCount="2" sampleRate="1000">0.5 0.75</AccelerationTimeSeries>'
+        f'<VariableDataSet {at.format(2, "vars", 4)}><Entry key="a" removed="true"/></VariableDataSet>'
+        f"<VariableDataSet {at.format(3, 'vars', 5)}>UNAVAILABLE</VariableDataSet></Samples><Condition>"
+        f'<Fault {at.format(4, "servo", 6)} nativeCode="17">too hot</Fault></Condition><Samples>'
+    )
     data = load(Reader(), written(tmp_path, document(7, 1, 6, items), "streams.xml"), Source())
     np.testing.assert_array_equal(column(data, "vars[a]"), [1, np.nan, np.nan, np.nan])
     assert column(data, "vars[b]") == ["x", "x", None, None]
@@ -242,7 +265,9 @@ def test_a_real_document_of_a_mazak() -> None:
     assert column(data, "Stemp")[-1] == 24
     assert np.isnan(column(data, "S3temp")).all()
     assert load(Reader(), REAL / "Current-Simple.xml", Source()).values["nc", "comms_cond"].tolist() == [
-        "FAULT", "NORMAL"]
+        "FAULT",
+        "NORMAL",
+    ]
 
 
 @pytest.mark.parametrize("text", ["<MTConnectDevices/>", '<?xml version="1.0"?><traceOther/>', "a|b|c\n1|2|3\n"])
@@ -253,8 +278,9 @@ def test_other_text_is_not_claimed(text: str) -> None:
 @pytest.fixture(scope="module")
 def samples(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Path]:
     folder = tmp_path_factory.mktemp("kit")
-    log = "".join(document(7, 1, 3 * k, "".join(item(s, s, 20 + s) for s in range(3 * k - 2, 3 * k + 1)))
-                  for k in range(1, 9))
+    log = "".join(
+        document(7, 1, 3 * k, "".join(item(s, s, 20 + s) for s in range(3 * k - 2, 3 * k + 1))) for k in range(1, 9)
+    )
     return {"shdr": written(folder, SHDR, "log.txt"), "xml": written(folder, log, "streams.xml")}
 
 

@@ -60,7 +60,10 @@ def test_encodings_give_the_same_values(tmp_path: Path, encoding: str, newline: 
     recording, t_ns, values, losses = read(path)
     assert losses == []
     assert [(s.name, s.unit, s.dtype) for s in recording.signals] == [
-        ("T1 [°C]", "°C", "float64"), ("nActSpeed", "1/min", "int64"), ("Program", None, "str")]
+        ("T1 [°C]", "°C", "float64"),
+        ("nActSpeed", "1/min", "int64"),
+        ("Program", None, "str"),
+    ]
     assert recording.start_ns == t_ns[0] == ns("2026-03-02T07:00:00")
     np.testing.assert_array_equal(np.diff(t_ns), np.full(29, 10_000_000_000))
     np.testing.assert_allclose(values["T1 [°C]"], np.round(20 + np.arange(30) / 8, 3))
@@ -69,20 +72,23 @@ def test_encodings_give_the_same_values(tmp_path: Path, encoding: str, newline: 
     assert (recording.notes != ()) == (encoding == "cp1250")
 
 
-@pytest.mark.parametrize(("cells", "expected"), [
-    ("02.03.2026 08:00:00", "2026-03-02T07:00:00"),
-    ("2.3.2026 8:00:00", "2026-03-02T07:00:00"),
-    ("02.03.26 08:00:00,250", "2026-03-02T07:00:00.250"),
-    ("2026-03-02 08:00:00.5", "2026-03-02T07:00:00.5"),
-    ("2026-03-02T08:00:00,123456", "2026-03-02T07:00:00.123456"),
-    ("2026/03/02 08:00:00:042", "2026-03-02T07:00:00.042"),
-    ("2026-03-02T08:00:00Z", "2026-03-02T08:00:00"),
-    ("2026-03-02T08:00:00+05:30", "2026-03-02T02:30:00"),
-    ("03/25/2026 08:00:00", "2026-03-25T07:00:00"),
-    ("25/03/2026 08:00", "2026-03-25T07:00:00"),
-    ("3/25/2026 1:05:00 PM", "2026-03-25T12:05:00"),
-    ("3/4/2026 12:05:00 AM", "2026-03-03T23:05:00"),
-])
+@pytest.mark.parametrize(
+    ("cells", "expected"),
+    [
+        ("02.03.2026 08:00:00", "2026-03-02T07:00:00"),
+        ("2.3.2026 8:00:00", "2026-03-02T07:00:00"),
+        ("02.03.26 08:00:00,250", "2026-03-02T07:00:00.250"),
+        ("2026-03-02 08:00:00.5", "2026-03-02T07:00:00.5"),
+        ("2026-03-02T08:00:00,123456", "2026-03-02T07:00:00.123456"),
+        ("2026/03/02 08:00:00:042", "2026-03-02T07:00:00.042"),
+        ("2026-03-02T08:00:00Z", "2026-03-02T08:00:00"),
+        ("2026-03-02T08:00:00+05:30", "2026-03-02T02:30:00"),
+        ("03/25/2026 08:00:00", "2026-03-25T07:00:00"),
+        ("25/03/2026 08:00", "2026-03-25T07:00:00"),
+        ("3/25/2026 1:05:00 PM", "2026-03-25T12:05:00"),
+        ("3/4/2026 12:05:00 AM", "2026-03-03T23:05:00"),
+    ],
+)
 def test_times_as_controls_write_them(tmp_path: Path, cells: str, expected: str) -> None:
     path = write(tmp_path, "Zeitstempel\tF\n" + f"{cells}\t1.5\n" * 3)
     recording, t_ns, _, losses = read(path)
@@ -105,7 +111,9 @@ def test_a_number_above_12_late_in_the_file_tells_day_from_month(tmp_path: Path)
     text = "Date;F\n" + "03/04/2026 08:00:00;1\n" * 50_000 + "13/04/2026 08:00:00;1\n" * 50_000
     path = write(tmp_path, text)
     assert read(path, Source(timezone="UTC"))[1][[0, -1]].tolist() == [
-        ns("2026-04-03T08:00:00"), ns("2026-04-13T08:00:00")]
+        ns("2026-04-03T08:00:00"),
+        ns("2026-04-13T08:00:00"),
+    ]
 
 
 def test_times_without_a_zone_are_utc_with_a_note(tmp_path: Path) -> None:
@@ -122,11 +130,13 @@ def local_rows(first: str, last: str, zone: str, step_s: int) -> list[str]:
     return [f"{s:%d.%m.%Y;%H:%M:%S};{k}" for k, s in enumerate(stamps)]
 
 
-@pytest.mark.parametrize(("first", "last"), [("2026-10-24T20:00:00", "2026-10-25T06:00:00"),
-                                             ("2026-03-28T20:00:00", "2026-03-29T06:00:00")])
+@pytest.mark.parametrize(
+    ("first", "last"), [("2026-10-24T20:00:00", "2026-10-25T06:00:00"), ("2026-03-28T20:00:00", "2026-03-29T06:00:00")]
+)
 @pytest.mark.parametrize("chunk", [1 << 20, 700])
 def test_daylight_saving_is_resolved_across_chunks(
-        tmp_path: Path, monkeypatch: pytest.MonkeyPatch, first: str, last: str, chunk: int) -> None:
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, first: str, last: str, chunk: int
+) -> None:
     from thermodata_reader_cnc import chunks
 
     monkeypatch.setattr(chunks.chunks, "__defaults__", (chunk,))
@@ -139,8 +149,9 @@ def test_daylight_saving_is_resolved_across_chunks(
 
 
 def test_preamble_padding_unnamed_and_repeated_columns(tmp_path: Path) -> None:
-    text = ("Maschine: 138;;;;;\nAuftrag;4711;;;;\n\nDatum;Zeit;T;T;;\n"
-            + "".join(f"02.03.2026;08:00:{k:02d};{k},5;{k};;\n" for k in range(5)))
+    text = "Maschine: 138;;;;;\nAuftrag;4711;;;;\n\nDatum;Zeit;T;T;;\n" + "".join(
+        f"02.03.2026;08:00:{k:02d};{k},5;{k};;\n" for k in range(5)
+    )
     recording, _, values, losses = read(write(tmp_path, text))
     assert not losses
     assert values == {"T": [0.5, 1.5, 2.5, 3.5, 4.5], "T#2": [0, 1, 2, 3, 4]}
@@ -149,21 +160,25 @@ def test_preamble_padding_unnamed_and_repeated_columns(tmp_path: Path) -> None:
 
 def test_blank_cells_booleans_and_big_integers(tmp_path: Path) -> None:
     big = 2**53
-    lines = [f"2026-03-02 08:00:{k:02d};{k if k % 3 else ''};{'TRUE' if k % 2 else 'FALSE'};{big + k};{k}"
-             for k in range(6)]
+    lines = [
+        f"2026-03-02 08:00:{k:02d};{k if k % 3 else ''};{'TRUE' if k % 2 else 'FALSE'};{big + k};{k}" for k in range(6)
+    ]
     lines[4] = "2026-03-02 08:00:04;---;;;4"
     path = write(tmp_path, "Time;T;door;count;n\n" + "\n".join(lines) + "\n")
     recording, _, values, losses = read(path)
     assert not losses
     assert {s.name: s.dtype for s in recording.signals} == {
-        "T": "float64", "door": "bool", "count": "int64", "n": "int64"}
+        "T": "float64",
+        "door": "bool",
+        "count": "int64",
+        "n": "int64",
+    }
     np.testing.assert_array_equal(values["T"], [np.nan, 1, 2, np.nan, np.nan, 5])
     assert values["door"] == [False, True, False, True, False, True]
     assert values["count"] == [big, big + 1, big + 2, big + 3, 0, big + 5]
     flagged = next(item for item in guarded(Reader(), path, PRAGUE) if isinstance(item, Block)).flags
     assert flagged is not None
-    assert {k: v.tolist() for k, v in flagged.items()} == {
-        "door": [0, 0, 0, 0, 128, 0], "count": [0, 0, 0, 0, 128, 0]}
+    assert {k: v.tolist() for k, v in flagged.items()} == {"door": [0, 0, 0, 0, 128, 0], "count": [0, 0, 0, 0, 128, 0]}
 
 
 def test_separate_milliseconds_belong_to_the_time(tmp_path: Path) -> None:
@@ -204,7 +219,8 @@ def test_a_garbage_cell_loses_only_itself(tmp_path: Path) -> None:
     lines[200] = lines[200].replace(lines[200].split(";")[2], "4x,7")
     _, _, values, losses = read(write(tmp_path, damaged(lines)))
     assert [(loss.where, loss.reason) for loss in losses] == [
-        ("nc.csv line 203 column 'T1 [°C]'", "expected a number, got '4x,7'")]
+        ("nc.csv line 203 column 'T1 [°C]'", "expected a number, got '4x,7'")
+    ]
     assert np.flatnonzero(np.isnan(values["T1 [°C]"])).tolist() == [200]
     assert values["nActSpeed"] == list(range(1000, 1300))
 
@@ -268,7 +284,7 @@ def test_a_quote_that_is_never_closed_swallows_nothing(tmp_path: Path) -> None:
 
 def test_a_decimal_mark_that_comes_late_is_found(tmp_path: Path) -> None:
     text = "Time;T\n" + "".join(f"2026-03-02 08:00:{k % 60:02d};20\n" for k in range(300_000))
-    middle = len(text) // 2 + text[len(text) // 2:].find("\n") + 1
+    middle = len(text) // 2 + text[len(text) // 2 :].find("\n") + 1
     path = write(tmp_path, text[:middle] + "2026-03-02 09:00:00;20.25\n" + text[middle:])
     _, t_ns, values, losses = read(path)
     assert not losses
@@ -276,10 +292,17 @@ def test_a_decimal_mark_that_comes_late_is_found(tmp_path: Path) -> None:
     assert values["T"].count(20.25) == 1
 
 
-@pytest.mark.parametrize("text", [
-    "a,b,c\n1,2,3\n", "Time,T\n2026-03-02 08:00:00,1\n2026-03-02 08:00:01,1\n", "x;y\n1;2\n3;4\n",
-    "LabVIEW Measurement\t\nSeparator\tTab\n", "", "Zeit [s];T\n0;1\n1;2\n",
-])
+@pytest.mark.parametrize(
+    "text",
+    [
+        "a,b,c\n1,2,3\n",
+        "Time,T\n2026-03-02 08:00:00,1\n2026-03-02 08:00:01,1\n",
+        "x;y\n1;2\n3;4\n",
+        "LabVIEW Measurement\t\nSeparator\tTab\n",
+        "",
+        "Zeit [s];T\n0;1\n1;2\n",
+    ],
+)
 def test_other_files_are_not_claimed(text: str) -> None:
     assert Reader().sniff(Head("x.csv", len(text), text.encode())) is None
 
@@ -301,12 +324,18 @@ def test_it_keeps_the_rules_of_readers(sample: Path, number: int) -> None:
 
 
 ASIAN = "时间;主轴转速 (rpm);温度（°C）\n" + "".join(
-    f"2026-03-02 08:00:{k:02d};{k * 10};{20 + k / 4}\n" for k in range(30))
+    f"2026-03-02 08:00:{k:02d};{k * 10};{20 + k / 4}\n" for k in range(30)
+)
 
 
-@pytest.mark.parametrize(("encoding", "text"), [
-    ("gb18030", ASIAN), ("shift_jis", "時刻;主軸回転数;スピンドル温度\n" + ASIAN.split("\n", 1)[1]),
-    ("cp1251", "Время;Обороты;Температура\n" + ASIAN.split("\n", 1)[1])])
+@pytest.mark.parametrize(
+    ("encoding", "text"),
+    [
+        ("gb18030", ASIAN),
+        ("shift_jis", "時刻;主軸回転数;スピンドル温度\n" + ASIAN.split("\n", 1)[1]),
+        ("cp1251", "Время;Обороты;Температура\n" + ASIAN.split("\n", 1)[1]),
+    ],
+)
 def test_encodings_of_other_scripts_are_declared_never_guessed(tmp_path: Path, encoding: str, text: str) -> None:
     path = tmp_path / "nc.csv"
     path.write_bytes(text.encode(encoding))
@@ -338,13 +367,21 @@ def test_a_line_of_another_encoding_is_kept_and_named(tmp_path: Path) -> None:
     assert set(got.values["nc", "Ort"].tolist()) == {"Tür"}
 
 
-@pytest.mark.parametrize(("names", "bad"), [("T1;T1.Quality;T2", "0"), ("T1;T1_Quality;T2", "Bad"),
-                                            ("T1_VALUE;T1_QUALITY;T2", "24"), ("T1;Quality(T1);T2", "0x80000000")])
+@pytest.mark.parametrize(
+    ("names", "bad"),
+    [
+        ("T1;T1.Quality;T2", "0"),
+        ("T1;T1_Quality;T2", "Bad"),
+        ("T1_VALUE;T1_QUALITY;T2", "24"),
+        ("T1;Quality(T1);T2", "0x80000000"),
+    ],
+)
 def test_quality_columns_of_a_wide_table_flag_their_values(tmp_path: Path, names: str, bad: str) -> None:
     path = tmp_path / "nc.csv"
     good = "Good" if bad == "Bad" else "0" if bad.startswith("0x") else "192"
-    path.write_text(f"Time;{names}\n" + "".join(
-        f"2026-03-02T08:00:{k:02d}Z;{k}.5;{bad if k == 3 else good};1\n" for k in range(20)))
+    path.write_text(
+        f"Time;{names}\n" + "".join(f"2026-03-02T08:00:{k:02d}Z;{k}.5;{bad if k == 3 else good};1\n" for k in range(20))
+    )
     data = load(Reader(), path, Source())
     name = names.split(";", 1)[0]
     assert np.flatnonzero(data.flags["nc", name]).tolist() == [3]
@@ -353,9 +390,15 @@ def test_quality_columns_of_a_wide_table_flag_their_values(tmp_path: Path, names
 
 def test_text_states_numbers_with_exponents_and_groups(tmp_path: Path) -> None:
     path = tmp_path / "nc.csv"
-    path.write_text("Datum;Zeit;Pumpe;Čerpadlo;P;n\n;;;;[kW];[1/min]\n" + "".join(
-        f"02.03.26;08:00:{k:02d},250;{'EIN' if k % 2 else 'AUS'};{'ZAP' if k % 3 else 'VYP'};1,5E+0{k % 4};"
-        f"1.{k:03d},5\n" for k in range(30)), "utf-8")
+    path.write_text(
+        "Datum;Zeit;Pumpe;Čerpadlo;P;n\n;;;;[kW];[1/min]\n"
+        + "".join(
+            f"02.03.26;08:00:{k:02d},250;{'EIN' if k % 2 else 'AUS'};{'ZAP' if k % 3 else 'VYP'};1,5E+0{k % 4};"
+            f"1.{k:03d},5\n"
+            for k in range(30)
+        ),
+        "utf-8",
+    )
     data = load(Reader(), path, Source(timezone="Europe/Prague"))
     assert not data.losses
     assert data.values["nc", "P"].tolist() == [1.5 * 10 ** (k % 4) for k in range(30)]
@@ -374,21 +417,29 @@ def test_a_repeated_header_does_not_hide_the_milliseconds(tmp_path: Path) -> Non
     assert (np.diff(data.t_ns["nc"]) == 1_007_000_000).all()
 
 
-@pytest.mark.parametrize("junk", [";" * 100_000, "x" * 300_000, "\0" * 200_000, "\n" * 100_000, '"' * 99_999,
-                                  f'"{"x" * 200_000}";1'], ids=["cells", "text", "zeros", "blank", "quotes", "quoted"])
+@pytest.mark.parametrize(
+    "junk",
+    [";" * 100_000, "x" * 300_000, "\0" * 200_000, "\n" * 100_000, '"' * 99_999, f'"{"x" * 200_000}";1'],
+    ids=["cells", "text", "zeros", "blank", "quotes", "quoted"],
+)
 def test_huge_lines_are_lost_alone(tmp_path: Path, junk: str) -> None:
     path = tmp_path / "nc.csv"
     rows = [f'2026-03-02T08:00:{k:02d}Z;{k}.5;"A, B"\n' for k in range(40)]
     path.write_text("time;a;b\n" + "".join(rows[:20]) + junk + "\n" + "".join(rows[20:]))
     data = load(Reader(), path, Source())
     assert set(range(40)) - {int(v) for v in data.values["nc", "a"]} <= {19, 20}
-    assert data.losses or not junk.strip("\n;\t")               # a line of nothing is none
+    assert data.losses or not junk.strip("\n;\t")  # a line of nothing is none
 
 
 def test_rows_of_limits_between_names_and_units_are_no_names(tmp_path: Path) -> None:
-    lines = ['"DATUM:";"ZEIT:";"M00: Lager";"M01: Halle"', '"KOMMENTAR:";"";"Lager vorn";"Halle"',
-             '"GW-MAX:";"";"80,0";""', '"EINHEIT:";"";"°C";"°C"',
-             *(f'"27.03.26";"06:00:{i:02d}";{20 + i},5;19,25' for i in range(20)), ""]
+    lines = [
+        '"DATUM:";"ZEIT:";"M00: Lager";"M01: Halle"',
+        '"KOMMENTAR:";"";"Lager vorn";"Halle"',
+        '"GW-MAX:";"";"80,0";""',
+        '"EINHEIT:";"";"°C";"°C"',
+        *(f'"27.03.26";"06:00:{i:02d}";{20 + i},5;19,25' for i in range(20)),
+        "",
+    ]
     recording, _, values, _ = read(write(tmp_path, "\r\n".join(lines)))
     assert [(s.name, s.unit) for s in recording.signals] == [("Lager vorn", "°C"), ("Halle", "°C")]
     assert list(values["Lager vorn"]) == [20.5 + i for i in range(20)]

@@ -19,14 +19,22 @@ GLOBAL = "%[GLOBAL]\r\n%VERSION=1\r\n%DATE=02.03.2026\r\n%TIME=09:00:00\r\n%\r\n
 
 
 def curve(name: str, axis: str, count: int, cycle: int, unit: str = "mm", more: str = "") -> str:
-    return (f"%[CURVE]\r\n%CHANNELTYPE={name}\r\n%AXISTYPE={axis}\r\n%DIMENSION={unit}\r\n%COUNT={count}\r\n"
-            f"%CYCLETIME={cycle}\r\n{more}%\r\n")
+    return (
+        f"%[CURVE]\r\n%CHANNELTYPE={name}\r\n%AXISTYPE={axis}\r\n%DIMENSION={unit}\r\n%COUNT={count}\r\n"
+        f"%CYCLETIME={cycle}\r\n{more}%\r\n"
+    )
 
 
 def scope(rows: int = 20, start: str = GLOBAL) -> str:
     data = "".join(f"{k / 8:.3f};{k};{k * 2 if k < rows // 2 else ''}\r\n" for k in range(rows))
-    return (start + curve("s actual", "X", rows, 3000) + curve("v actual", "X", rows, 3000, "mm/min", "%FACTOR=0.5\r\n")
-            + curve("T", "S", rows // 2, 6000, "°C") + "%[DATA]\r\n" + data)
+    return (
+        start
+        + curve("s actual", "X", rows, 3000)
+        + curve("v actual", "X", rows, 3000, "mm/min", "%FACTOR=0.5\r\n")
+        + curve("T", "S", rows // 2, 6000, "°C")
+        + "%[DATA]\r\n"
+        + data
+    )
 
 
 def written(tmp_path: Path, text: str, name: str, encoding: str = "utf-8") -> Path:
@@ -43,7 +51,10 @@ def test_curves_of_one_cycle_time_are_a_stream(tmp_path: Path, encoding: str) ->
     assert not data.losses
     assert data.recording.start_ns == np.datetime64("2026-03-02T08:00:00", "ns").astype(np.int64)
     assert [(s.name, s.stream, s.unit) for s in data.recording.signals] == [
-        ("s actual X", "scope_3000us", "mm"), ("v actual X", "scope_3000us", "mm/min"), ("T S", "scope_6000us", "°C")]
+        ("s actual X", "scope_3000us", "mm"),
+        ("v actual X", "scope_3000us", "mm/min"),
+        ("T S", "scope_6000us", "°C"),
+    ]
     assert data.recording.signals[1].scaling == Scaling("linear", {"gain": 0.5, "offset": 0.0})
     assert np.diff(data.t_ns["scope_3000us"]).tolist() == [3_000_000] * 19
     assert np.diff(data.t_ns["scope_6000us"]).tolist() == [6_000_000] * 9
@@ -53,7 +64,7 @@ def test_curves_of_one_cycle_time_are_a_stream(tmp_path: Path, encoding: str) ->
 
 def test_fewer_values_than_announced_are_a_loss(tmp_path: Path) -> None:
     text = scope(start="%[GLOBAL]\r\n%VERSION=1\r\n%\r\n")
-    data = load(Reader(), written(tmp_path, text[:text.rindex("\r\n", 0, -40) + 2], "a.sco"), Source())
+    data = load(Reader(), written(tmp_path, text[: text.rindex("\r\n", 0, -40) + 2], "a.sco"), Source())
     assert data.recording.clock == "relative"
     assert any("announces 20 values" in loss.reason for loss in data.losses)
 
@@ -61,8 +72,9 @@ def test_fewer_values_than_announced_are_a_loss(tmp_path: Path) -> None:
 def counted(rows: list[int], end: str = ";", mark: str = ".") -> str:
     """As TNCscope writes it: the time of the row [us] first, every cell with its ';' behind it."""
     data = "".join(f"{k * 3000};{k / 8:.3f};{k}{end}\r\n" for k in rows).replace(".", mark)
-    return GLOBAL + curve("s actual", "X", 20, 3000) + curve("DSP-Debug", "X", 20, 3000, "id(10)") \
-        + "%[DATA]\r\n" + data
+    return (
+        GLOBAL + curve("s actual", "X", 20, 3000) + curve("DSP-Debug", "X", 20, 3000, "id(10)") + "%[DATA]\r\n" + data
+    )
 
 
 @pytest.mark.parametrize(("end", "mark"), [(";", "."), ("", "."), (";", ",")])
@@ -98,9 +110,21 @@ OPC = "DateTime,TagName,TagVal,TagQuality\n"
 
 
 def test_opc_values_are_held_and_bad_ones_are_flagged(tmp_path: Path) -> None:
-    path = written(tmp_path, OPC + "".join((
-        "2026-03-02 08:00:00,T1,20.5,192\n", "2026-03-02 08:00:00,speed,1000,192\n", "2026-03-02 08:00:05,T1,21,192\n",
-        "2026-03-02 08:00:06,T1,0,0x80000000\n", "2026-03-02 08:00:07,mode,AUTO,Good\n", "garbage\n")), "opc.csv")
+    path = written(
+        tmp_path,
+        OPC
+        + "".join(
+            (
+                "2026-03-02 08:00:00,T1,20.5,192\n",
+                "2026-03-02 08:00:00,speed,1000,192\n",
+                "2026-03-02 08:00:05,T1,21,192\n",
+                "2026-03-02 08:00:06,T1,0,0x80000000\n",
+                "2026-03-02 08:00:07,mode,AUTO,Good\n",
+                "garbage\n",
+            )
+        ),
+        "opc.csv",
+    )
     assert "OPC UA" in (Reader().sniff(head(path)) or "")
     data = load(Reader(), path, Source(timezone="Europe/Prague"))
     assert data.recording.start_ns == np.datetime64("2026-03-02T07:00:00", "ns").astype(np.int64)
@@ -112,8 +136,11 @@ def test_opc_values_are_held_and_bad_ones_are_flagged(tmp_path: Path) -> None:
 
 
 def test_a_table_sorted_by_tag_is_a_stream_a_tag(tmp_path: Path) -> None:
-    lines = [f"2026-03-02T08:{k // 60:02d}:{k % 60:02d}.000Z;{tag};{k + 0.5};Good"
-             for tag in ("T1", "T2") for k in range(100)]
+    lines = [
+        f"2026-03-02T08:{k // 60:02d}:{k % 60:02d}.000Z;{tag};{k + 0.5};Good"
+        for tag in ("T1", "T2")
+        for k in range(100)
+    ]
     path = written(tmp_path, "SourceTimestamp;NodeId;Value;StatusCode\n" + "\n".join(lines) + "\n", "opc.csv")
     data = load(Reader(), path, Source())
     assert set(data.t_ns) == {"T1", "T2"}
@@ -121,20 +148,41 @@ def test_a_table_sorted_by_tag_is_a_stream_a_tag(tmp_path: Path) -> None:
     assert (np.diff(data.t_ns["T1"]) > 0).all()
 
 
-@pytest.mark.parametrize(("text", "t1", "flagged"), [
-    ("nodeId,value,dataType,status,statusName,sourceTimestamp,serverTimestamp\n"
-     "T1,12.34,Float,0,Good,2026-03-02T08:00:00Z,2026-03-02T08:00:00Z\n"
-     "T1,13.5,Float,2147483648,Bad,2026-03-02T08:00:01Z,2026-03-02T08:00:01Z\n", [12.34, 13.5], [0, 128]),
-    ("ReceivedAt,SourceTimestamp,ServerTimestamp,Name,NodeId,Value,Status\n"
-     '2026-03-02T08:00:00.1000000+00:00,,,"x","T1","1",Good\n'
-     '2026-03-02T08:00:01.1000000+00:00,2026-03-02T08:00:01.0000000+00:00,,"x","T1","2,5",Good\n', [1, 2.5], [64, 0]),
-    ('"VarName";"TimeString";"VarValue";"Validity";"Time_ms"\n"T1";"13.03.26 11:02:52";66,00;1;46094460322,81\n'
-     '"T1";"13.03.26 11:02:53";0,00;0;46094460334,38\n', [66, 0], [0, 128]),
-    ("DateTime;TagName;TagVal;TagQuality\n2026-03-02 08:00:00;T1;1,5;192\n2026-03-02 08:00:01;T1;0;0\n",
-     [1.5, 0], [0, 128]),
-    ("SourceTime,NodeId,Value,StatusCode\n2026-03-02T08:00:00Z,T1,1,0x00000000\n2026-03-02T08:00:01Z,T1,2,0\n",
-     [1, 2], [0, 0]),
-])
+@pytest.mark.parametrize(
+    ("text", "t1", "flagged"),
+    [
+        (
+            "nodeId,value,dataType,status,statusName,sourceTimestamp,serverTimestamp\n"
+            "T1,12.34,Float,0,Good,2026-03-02T08:00:00Z,2026-03-02T08:00:00Z\n"
+            "T1,13.5,Float,2147483648,Bad,2026-03-02T08:00:01Z,2026-03-02T08:00:01Z\n",
+            [12.34, 13.5],
+            [0, 128],
+        ),
+        (
+            "ReceivedAt,SourceTimestamp,ServerTimestamp,Name,NodeId,Value,Status\n"
+            '2026-03-02T08:00:00.1000000+00:00,,,"x","T1","1",Good\n'
+            '2026-03-02T08:00:01.1000000+00:00,2026-03-02T08:00:01.0000000+00:00,,"x","T1","2,5",Good\n',
+            [1, 2.5],
+            [64, 0],
+        ),
+        (
+            '"VarName";"TimeString";"VarValue";"Validity";"Time_ms"\n"T1";"13.03.26 11:02:52";66,00;1;46094460322,81\n'
+            '"T1";"13.03.26 11:02:53";0,00;0;46094460334,38\n',
+            [66, 0],
+            [0, 128],
+        ),
+        (
+            "DateTime;TagName;TagVal;TagQuality\n2026-03-02 08:00:00;T1;1,5;192\n2026-03-02 08:00:01;T1;0;0\n",
+            [1.5, 0],
+            [0, 128],
+        ),
+        (
+            "SourceTime,NodeId,Value,StatusCode\n2026-03-02T08:00:00Z,T1,1,0x00000000\n2026-03-02T08:00:01Z,T1,2,0\n",
+            [1, 2],
+            [0, 0],
+        ),
+    ],
+)
 def test_the_layouts_of_loggers(tmp_path: Path, text: str, t1: list[float], flagged: list[int]) -> None:
     path = written(tmp_path, text, "opc.csv")
     assert "OPC UA" in (Reader().sniff(head(path)) or "")
@@ -145,16 +193,21 @@ def test_the_layouts_of_loggers(tmp_path: Path, text: str, t1: list[float], flag
 
 
 def test_a_quoted_value_may_hold_line_ends_and_one_node_needs_no_tag(tmp_path: Path) -> None:
-    text = ('#,Source Timestamp,Server Timestamp,Value,Status\n1,2026-03-02 08:00:00.5Z,,"12,""a""\nb","Good,Clamped"\n'
-            '2,2026-03-02 08:00:01.5Z,,c,Good\n')
+    text = (
+        '#,Source Timestamp,Server Timestamp,Value,Status\n1,2026-03-02 08:00:00.5Z,,"12,""a""\nb","Good,Clamped"\n'
+        "2,2026-03-02 08:00:01.5Z,,c,Good\n"
+    )
     data = load(Reader(), written(tmp_path, text, "opc.csv"), Source())
     assert data.values["nc", "Value"].tolist() == ['12,""a""\nb'.replace('""', '"'), "c"]
     assert not data.losses
 
 
 def test_tags_of_a_table_that_step_back_a_little_are_put_in_order(tmp_path: Path) -> None:
-    rows = "".join(f"2026-03-02T08:00:{k:02d}.{5 if k % 2 else 9}Z,T{k % 2},{k},Good\n"
-                   + (f"2026-03-02T08:00:{k:02d}.1Z,T2,{k},Good\n") for k in range(30))
+    rows = "".join(
+        f"2026-03-02T08:00:{k:02d}.{5 if k % 2 else 9}Z,T{k % 2},{k},Good\n"
+        + (f"2026-03-02T08:00:{k:02d}.1Z,T2,{k},Good\n")
+        for k in range(30)
+    )
     data = load(Reader(), written(tmp_path, OPC.replace("DateTime", "SourceTimestamp") + rows, "opc.csv"), Source())
     assert (np.diff(data.t_ns["nc"]) > 0).all()
     assert data.values["nc", "T2"].tolist()[::2] == list(range(30))

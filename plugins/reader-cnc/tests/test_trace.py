@@ -15,8 +15,11 @@ from thermodata.schema.flag import Flag
 from thermodata.testing.reader import load, reader_checks
 
 CLAIMS = ["SHDR", "MTCONNECT", "TWINCAT", "SCO", "TRACE_XML", "TRACE_CSV", "OPCUA"]
-CURRENT, POSITION, CHANNEL = ("/Nck/!SD/nckServoDataActCurr32 [u1, 7]", "/Nck/!SD/nckServoDataActPos1stEnc32 [u1, 1]",
-                              "/Channel/!RP/rpa [u1, 15]")
+CURRENT, POSITION, CHANNEL = (
+    "/Nck/!SD/nckServoDataActCurr32 [u1, 7]",
+    "/Nck/!SD/nckServoDataActPos1stEnc32 [u1, 1]",
+    "/Channel/!RP/rpa [u1, 15]",
+)
 
 
 def xml(rows: int = 300, count: int | None = None, start: str = "2026-03-02T09:00:00", more: str = "") -> str:
@@ -28,15 +31,20 @@ def xml(rows: int = 300, count: int | None = None, start: str = "2026-03-02T09:0
         cells += f' f2="{k / 8}"' if not 100 < k < 200 else ""
         if cells:
             recs.append(f'<rec time="{k * 0.002:.3f}"{cells}/>')
-    recs.append(f'<rec time="{rows * 0.002:.3f}" f1="{rows / 3:.6f}" f2="{rows / 8}"/>')    # the stop writes them all
+    recs.append(f'<rec time="{rows * 0.002:.3f}" f1="{rows / 3:.6f}" f2="{rows / 8}"/>')  # the stop writes them all
     count = rows + 1 if count is None else count
     signals = "".join(
         f'<dataSignal id="f{n}" name="{name}" interval="{step}" event="{event}" datapointCount="{size}" unitsType="x"/>'
         for n, (name, step, event, size) in enumerate(
-            ((CURRENT, 0.002, 255, count), (POSITION, 0.002, 255, count), (CHANNEL, 0.008, 1, -(-rows // 4))), 1))
-    return (f'<?xml version="1.0" encoding="UTF-8"?>\n<traceSession version="1.0">\n<traceData><dataFrame>\n'
-            f'<frameHeader startTime="{start}" startTriggerInc="0" {more}/>\n{signals}\n' + "\n".join(recs)
-            + "\n</dataFrame></traceData>\n</traceSession>\n")
+            ((CURRENT, 0.002, 255, count), (POSITION, 0.002, 255, count), (CHANNEL, 0.008, 1, -(-rows // 4))), 1
+        )
+    )
+    return (
+        f'<?xml version="1.0" encoding="UTF-8"?>\n<traceSession version="1.0">\n<traceData><dataFrame>\n'
+        f'<frameHeader startTime="{start}" startTriggerInc="0" {more}/>\n{signals}\n'
+        + "\n".join(recs)
+        + "\n</dataFrame></traceData>\n</traceSession>\n"
+    )
 
 
 def written(tmp_path: Path, text: str, name: str) -> Path:
@@ -75,7 +83,7 @@ def test_counts_and_dropouts_are_checked(tmp_path: Path) -> None:
 
 def test_a_cut_trace_keeps_what_is_there(tmp_path: Path) -> None:
     text = xml()
-    data = load(Reader(), written(tmp_path, text[:len(text) // 2], "trace.xml"), Source())
+    data = load(Reader(), written(tmp_path, text[: len(text) // 2], "trace.xml"), Source())
     assert data.recording.complete is False
     assert 50 < data.t_ns["servo@0.002"].size < 250
     assert any("ends or is damaged" in loss.reason for loss in data.losses)
@@ -92,19 +100,19 @@ def test_a_start_that_is_no_date_makes_times_relative_and_entities_are_refused(t
 def test_every_sample_is_counted(tmp_path: Path) -> None:
     whole = xml()
     at = whole.index('<rec time="0.400"')
-    data = load(Reader(), written(tmp_path, whole[:at] + whole[whole.index("/>", at) + 3:], "trace.xml"), Source())
+    data = load(Reader(), written(tmp_path, whole[:at] + whole[whole.index("/>", at) + 3 :], "trace.xml"), Source())
     assert ["datapointCount is 75, the file holds 74" in loss.reason for loss in data.losses] == [True]
     last = whole.rindex("<rec")
-    data = load(Reader(), written(tmp_path, whole[:last] + whole[whole.index("/>", last) + 3:], "trace.xml"), Source())
+    data = load(Reader(), written(tmp_path, whole[:last] + whole[whole.index("/>", last) + 3 :], "trace.xml"), Source())
     assert {"datapointCount is 301, the grid holds 300" in loss.reason for loss in data.losses} == {True}
 
 
 def test_several_frames_of_one_and_of_other_signals(tmp_path: Path) -> None:
     """Each frame starts by its own clock and count; one of other signals is a stream of its own."""
     first, second, third = xml(40), xml(20, start="2026-03-02T10:00:00"), xml(30).replace("ActCurr32", "DrvLoad32")
-    frames = [text[text.index("<dataFrame>"):text.index("</traceData>")] for text in (first, second, third)]
-    head = first[:first.index("<dataFrame>")].replace("<traceData>", '<traceData dataFrames="3">')
-    tail = first[first.index("</traceData>"):]
+    frames = [text[text.index("<dataFrame>") : text.index("</traceData>")] for text in (first, second, third)]
+    head = first[: first.index("<dataFrame>")].replace("<traceData>", '<traceData dataFrames="3">')
+    tail = first[first.index("</traceData>") :]
     data = load(Reader(), written(tmp_path, head + "".join(frames) + tail, "trace.xml"), Source())
     assert not data.losses
     servo = data.t_ns["servo@0.002"] - data.recording.start_ns
@@ -129,9 +137,12 @@ def test_an_interval_may_be_in_seconds_or_less(tmp_path: Path, interval: str, sc
 
 def test_a_rounded_interval_is_taken_from_length_and_count(tmp_path: Path) -> None:
     recs = "".join(f'<rec time="{k * 62.5e-6:.6f}" f1="{k}"/>' for k in range(2001))
-    text = ('<traceSession><traceData><dataFrame><frameHeader startTime="2026-03-02T09:00:00Z" stopInc="0.125000"/>'
-            '<dataSignal id="f1" name="a" interval="0.000063" event="255" datapointCount="2001"/>' + recs
-            + "</dataFrame></traceData></traceSession>")
+    text = (
+        '<traceSession><traceData><dataFrame><frameHeader startTime="2026-03-02T09:00:00Z" stopInc="0.125000"/>'
+        '<dataSignal id="f1" name="a" interval="0.000063" event="255" datapointCount="2001"/>'
+        + recs
+        + "</dataFrame></traceData></traceSession>"
+    )
     data = load(Reader(), written(tmp_path, text, "trace.xml"), Source())
     assert not data.losses
     assert np.diff(data.t_ns["servo"]).tolist() == [62_500] * 2000
@@ -139,16 +150,22 @@ def test_a_rounded_interval_is_taken_from_length_and_count(tmp_path: Path) -> No
 
 def test_signals_that_the_first_look_meets_in_two_parts(tmp_path: Path) -> None:
     """A frame's signals may stand on both sides of a border between the parts that are read."""
-    text = xml(40).replace("<traceData>", '<traceData dataFrames="1">').replace(
-        "<dataSignal", "<!--" + "x" * 30_000 + "--><dataSignal")
+    text = (
+        xml(40)
+        .replace("<traceData>", '<traceData dataFrames="1">')
+        .replace("<dataSignal", "<!--" + "x" * 30_000 + "--><dataSignal")
+    )
     data = load(Reader(), written(tmp_path, text, "trace.xml"), Source())
     assert not data.losses
     assert len(data.recording.signals) == 3
 
 
 def test_values_that_are_none_and_times_of_another_world(tmp_path: Path) -> None:
-    text = xml(60).replace('f1="4.000000"', 'f1="9218868437227405312"').replace(
-        "</dataFrame>", '<rec time="999999.0" f1="7"/></dataFrame>')
+    text = (
+        xml(60)
+        .replace('f1="4.000000"', 'f1="9218868437227405312"')
+        .replace("</dataFrame>", '<rec time="999999.0" f1="7"/></dataFrame>')
+    )
     data = load(Reader(), written(tmp_path, text, "trace.xml"), Source())
     values = data.values["servo@0.002", CURRENT]
     assert np.flatnonzero(np.isnan(values)).tolist() == [12, 13, 14]
@@ -160,8 +177,9 @@ def test_values_that_are_none_and_times_of_another_world(tmp_path: Path) -> None
 @pytest.mark.parametrize(("delimiter", "decimal"), [(",", "."), (";", ","), ("\t", ".")])
 def test_trace_csv_with_a_block_of_rows_before_the_header(tmp_path: Path, delimiter: str, decimal: str) -> None:
     names = delimiter.join(f'"{n}"' for n in ("Time", "/Nck/!SD/nckServoDataActCurr32 [u1; 1]", "+/Channel/!RP/rpa"))
-    rows = "".join(delimiter.join((f"{k * 0.002:.3f}", f"{k / 8}", f"{k}")).replace(".", decimal) + "\n"
-                   for k in range(50))
+    rows = "".join(
+        delimiter.join((f"{k * 0.002:.3f}", f"{k / 8}", f"{k}")).replace(".", decimal) + "\n" for k in range(50)
+    )
     path = written(tmp_path, "Session 1\n\n" + names + "\n" + rows + "x\n", "trace.csv")
     assert "Trace CSV" in (Reader().sniff(head(path)) or "")
     data = load(Reader(), path, Source())
@@ -173,9 +191,12 @@ def test_trace_csv_with_a_block_of_rows_before_the_header(tmp_path: Path, delimi
 @pytest.mark.parametrize("names", ["", "time, f2, f1\n"])
 def test_trace_csv_with_a_row_a_signal_before_the_data(tmp_path: Path, names: str) -> None:
     """The control replaces the comma in a signal's path, as it stands between the cells."""
-    text = ("id, key, domain, interval, name\nf1, s1, NCU_1, 0.002, /Nck/!SEMA/cmdContrPos [u1  1]\n"
-            "f2, s2, NCU_1, 0.002, /Nck/!SD/nckServoDataActCurr64 [u1  1]\n\n" + names
-            + "".join(f"{k * 0.002:.6f}, {k / 8}, {-k}\n" for k in range(20)))
+    text = (
+        "id, key, domain, interval, name\nf1, s1, NCU_1, 0.002, /Nck/!SEMA/cmdContrPos [u1  1]\n"
+        "f2, s2, NCU_1, 0.002, /Nck/!SD/nckServoDataActCurr64 [u1  1]\n\n"
+        + names
+        + "".join(f"{k * 0.002:.6f}, {k / 8}, {-k}\n" for k in range(20))
+    )
     data = load(Reader(), written(tmp_path, text, "trace.csv"), Source())
     assert not data.losses
     first, second = "/Nck/!SEMA/cmdContrPos [u1  1]", "/Nck/!SD/nckServoDataActCurr64 [u1  1]"
@@ -189,8 +210,10 @@ def test_trace_csv_with_a_row_a_signal_before_the_data(tmp_path: Path, names: st
 def kit_files(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Path]:
     folder = tmp_path_factory.mktemp("kit")
     rows = "".join(f"{k * 0.002:.3f},{k / 8}\n" for k in range(50))
-    return {"xml": written(folder, xml(60), "trace.xml"),
-            "csv": written(folder, '"Time","/Nck/!SD/nckServoDataActCurr32 [u1; 1]"\n' + rows, "trace.csv")}
+    return {
+        "xml": written(folder, xml(60), "trace.xml"),
+        "csv": written(folder, '"Time","/Nck/!SD/nckServoDataActCurr32 [u1; 1]"\n' + rows, "trace.csv"),
+    }
 
 
 @pytest.mark.parametrize("number", range(len(reader_checks(Reader, [(Path("x"), Source())]))))

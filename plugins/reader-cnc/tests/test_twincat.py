@@ -58,8 +58,11 @@ def test_groups_are_streams_with_their_own_time(tmp_path: Path, decimal: str, en
     assert data.recording.complete is True
     assert data.recording.start_ns == T0 == np.datetime64("2026-03-02T08:00:00", "ns").astype(np.int64)
     assert [(s.name, s.stream, s.unit, s.dtype) for s in data.recording.signals] == [
-        ("fast", "scope1", None, "float64"), ("T_front", "scope2", "°C", "float64"), ("door", "scope2", None, "bool"),
-        ("count", "scope2", None, "uint64")]
+        ("fast", "scope1", None, "float64"),
+        ("T_front", "scope2", "°C", "float64"),
+        ("door", "scope2", None, "bool"),
+        ("count", "scope2", None, "uint64"),
+    ]
     np.testing.assert_array_equal(data.t_ns["scope1"] - T0, np.arange(20) * 500_000)
     np.testing.assert_array_equal(data.t_ns["scope2"] - T0, np.arange(10) * 1_000_000)
     np.testing.assert_array_equal(data.values["scope1", "fast"], np.arange(20) / 8)
@@ -86,14 +89,22 @@ def test_a_cut_export_keeps_its_rows(tmp_path: Path) -> None:
 
 
 def small(rows: str, names: str = "Name\ta\tName\tb", start: str = "133238090039920000", more: str = "") -> str:
-    return (f"Name\tp\nFile\tC:\\x.csv\nStarttime of export\t{start}\tMontag\t19:03:23.992\n"
-            f"Endtime of export\t{int(start) + 60_000}\tMontag\n\n\n{names}\n{more}{rows}")
+    return (
+        f"Name\tp\nFile\tC:\\x.csv\nStarttime of export\t{start}\tMontag\t19:03:23.992\n"
+        f"Endtime of export\t{int(start) + 60_000}\tMontag\n\n\n{names}\n{more}{rows}"
+    )
 
 
-@pytest.mark.parametrize("rows", [
-    "0\t1,5\t0\t10\n2\t2\t4\t11\n4\t2\n6\t4\n", "0\t1,5\t0\t10\n2\t2\t4\t11\n4\t2\t\t\n6\t4\t\t\n",
-    "0\t1,5\t0\t10\n2\t2\t0\t10\n4\t2\t4\t11\n6\t4\t4\t11\n",
-    "0\t1,5\t0\t10\t\n2\t2\t4\t11\t\n4\t2\t\t\t\n6\t4\t\t\t\n"], ids=["short", "blank", "filled", "ended"])
+@pytest.mark.parametrize(
+    "rows",
+    [
+        "0\t1,5\t0\t10\n2\t2\t4\t11\n4\t2\n6\t4\n",
+        "0\t1,5\t0\t10\n2\t2\t4\t11\n4\t2\t\t\n6\t4\t\t\n",
+        "0\t1,5\t0\t10\n2\t2\t0\t10\n4\t2\t4\t11\n6\t4\t4\t11\n",
+        "0\t1,5\t0\t10\t\n2\t2\t4\t11\t\n4\t2\t\t\t\n6\t4\t\t\t\n",
+    ],
+    ids=["short", "blank", "filled", "ended"],
+)
 def test_a_slower_group_ends_sooner_or_is_filled_with_copies(tmp_path: Path, rows: str) -> None:
     """As Scope View writes them with interpolation off and with 'previous value'; a header of names alone."""
     data = load(Reader(), written(tmp_path, small(rows)), Source())
@@ -111,8 +122,11 @@ def test_full_time_stamps_are_ticks(tmp_path: Path) -> None:
 
 
 def test_a_comment_over_lines_triggers_before_the_names_and_a_scaling_that_nobody_knows(tmp_path: Path) -> None:
-    text = small("0\t1\t0\t10\n6\t2\t6\t11\n", more="SymbolComment\t(* torque\n12\nin Nm *)\tSymbolComment\tb\n"
-                 "Data-Type\tINT16\tData-Type\tINT16\nOffset\t1\tOffset\t0\nScaleFactor\t-2\tScaleFactor\t1,000\n\n")
+    text = small(
+        "0\t1\t0\t10\n6\t2\t6\t11\n",
+        more="SymbolComment\t(* torque\n12\nin Nm *)\tSymbolComment\tb\n"
+        "Data-Type\tINT16\tData-Type\tINT16\nOffset\t1\tOffset\t0\nScaleFactor\t-2\tScaleFactor\t1,000\n\n",
+    )
     text = text.replace("\n\n\nName", "\nTriggerGroup\tCount\tReleaseTime\tComment\nT1\t1\t5\t\n\nName", 1)
     data = load(Reader(), written(tmp_path, text), Source())
     assert not data.losses
@@ -132,10 +146,11 @@ def test_rows_that_do_not_reach_the_announced_end_are_a_loss(tmp_path: Path) -> 
 @pytest.mark.parametrize("junk", ["\t" * 100_000, "x" * 300_000, "\n" * 100_000, "1\t" * 50_000])
 def test_huge_lines_are_lost_alone(tmp_path: Path, junk: str) -> None:
     rows = [f"{k}\t{k}\n" for k in range(7)]
-    data = load(Reader(), written(tmp_path, small("".join(rows[:4]) + junk + "\n" + "".join(rows[4:]), "Name\ta")),
-                Source())
+    data = load(
+        Reader(), written(tmp_path, small("".join(rows[:4]) + junk + "\n" + "".join(rows[4:]), "Name\ta")), Source()
+    )
     assert data.values["scope1", "a"].tolist() == list(range(7))
-    assert data.losses or not junk.strip("\n;\t")               # a line of nothing is none
+    assert data.losses or not junk.strip("\n;\t")  # a line of nothing is none
 
 
 def test_a_header_without_a_start_is_refused(tmp_path: Path) -> None:

@@ -35,35 +35,65 @@ class Bytes:
             ns = int(value.astype("datetime64[ns]").astype(np.int64))
             seconds, rest = divmod(ns, 1_000_000_000)
             fraction = -(-(rest << 64) // 1_000_000_000)
-            both = ("Qq", fraction, seconds + 2_082_844_800) if self.order == "<" else \
-                ("qQ", seconds + 2_082_844_800, fraction)
+            both = (
+                ("Qq", fraction, seconds + 2_082_844_800)
+                if self.order == "<"
+                else ("qQ", seconds + 2_082_844_800, fraction)
+            )
             return head + self.pack("I", 0x44) + self.pack(*both)
         if isinstance(value, float):
             return head + self.pack("I", 10) + self.pack("d", value)
         return head + self.pack("I", 7) + self.pack("I", value)
 
-    def channel(self, group: str, name: str, dtype: str | None, n: int, properties: dict[str, Any] | None = None,
-                index: bytes | None = None) -> bytes:
+    def channel(
+        self,
+        group: str,
+        name: str,
+        dtype: str | None,
+        n: int,
+        properties: dict[str, Any] | None = None,
+        index: bytes | None = None,
+    ) -> bytes:
         """The metadata of one object; dtype None: no data in this segment; index: a raw data index of its own."""
         if index is None:
-            index = self.pack("I", 0xFFFFFFFF) if dtype is None else \
-                self.pack("IIIQ", 20, CODES[dtype], 1, n)
+            index = self.pack("I", 0xFFFFFFFF) if dtype is None else self.pack("IIIQ", 20, CODES[dtype], 1, n)
         items = properties or {}
-        return self.text(f"/'{group}'/'{name}'") + index + self.pack("I", len(items)) + \
-            b"".join(self.property(k, v) for k, v in items.items())
+        return (
+            self.text(f"/'{group}'/'{name}'")
+            + index
+            + self.pack("I", len(items))
+            + b"".join(self.property(k, v) for k, v in items.items())
+        )
 
     def daqmx_index(self, n: int, scalers: Sequence[tuple[int, int, int, int]], widths: Sequence[int]) -> bytes:
         """scalers: (DAQmx type, buffer, byte offset, scale id)."""
-        return self.pack("IIIQI", 0x1269, 0xFFFFFFFF, 1, n, len(scalers)) + \
-            b"".join(self.pack("IIIII", kind, buffer, offset, 0, scale) for kind, buffer, offset, scale in scalers) + \
-            self.pack("I", len(widths)) + b"".join(self.pack("I", w) for w in widths)
+        return (
+            self.pack("IIIQI", 0x1269, 0xFFFFFFFF, 1, n, len(scalers))
+            + b"".join(self.pack("IIIII", kind, buffer, offset, 0, scale) for kind, buffer, offset, scale in scalers)
+            + self.pack("I", len(widths))
+            + b"".join(self.pack("I", w) for w in widths)
+        )
 
-    def segment(self, objects: Sequence[bytes] | None, raw: bytes, *, interleaved: bool = False, new_list: bool = True,
-                to_next: int | None = None, daqmx: bool = False) -> bytes:
+    def segment(
+        self,
+        objects: Sequence[bytes] | None,
+        raw: bytes,
+        *,
+        interleaved: bool = False,
+        new_list: bool = True,
+        to_next: int | None = None,
+        daqmx: bool = False,
+    ) -> bytes:
         """A whole segment; objects None: no metadata, the raw data go on as before."""
         meta = b"" if objects is None else self.pack("I", len(objects)) + b"".join(objects)
-        toc = (0 if objects is None else 2) | (4 if new_list and objects is not None else 0) | (8 if raw else 0) | \
-            (32 if interleaved else 0) | (64 if self.order == ">" else 0) | (128 if daqmx else 0)
+        toc = (
+            (0 if objects is None else 2)
+            | (4 if new_list and objects is not None else 0)
+            | (8 if raw else 0)
+            | (32 if interleaved else 0)
+            | (64 if self.order == ">" else 0)
+            | (128 if daqmx else 0)
+        )
         end = len(meta) + len(raw) if to_next is None else to_next
         return b"TDSm" + struct.pack("<I", toc) + self.pack("IQQ", 4713, end, len(meta)) + meta + raw
 

@@ -25,7 +25,7 @@ def file_of(draw: Any, make: Callable[[str], Any]) -> bytes:
     absent; several chunks a segment; the last one cut short or not."""
     rng = np.random.default_rng(draw(st.integers(0, 2**32)))
     types = {name: draw(TYPES) for name in draw(st.lists(NAMES, min_size=1, max_size=4, unique=True))}
-    content, known, active = b"", {}, {}                # known: channel -> values a chunk
+    content, known, active = b"", {}, {}  # known: channel -> values a chunk
     for number in range(draw(st.integers(1, 5))):
         b = make(draw(st.sampled_from("<>")))
         interleaved, new = draw(st.booleans()), number == 0 or draw(st.booleans())
@@ -37,8 +37,7 @@ def file_of(draw: Any, make: Callable[[str], Any]) -> bytes:
             known[name] = known[name] if again else n
             active[name] = known[name]
             path = name.replace("'", "''")
-            objects.append(b.channel("g", path, types[name], known[name],
-                                     index=b.pack("I", 0) if again else None))
+            objects.append(b.channel("g", path, types[name], known[name], index=b.pack("I", 0) if again else None))
         interleaved = interleaved and len(set(active.values())) == 1
         width = sum(k * np.dtype(types[name]).itemsize for name, k in active.items())
         raw = rng.bytes(width * draw(st.integers(1, 3)))

@@ -20,6 +20,7 @@ ROWS = 10
 
 def parts(b) -> list[bytes]:  # type: ignore[no-untyped-def]
     """Three segments of 10 rows of two float channels, metadata in each, at 1 Hz."""
+
     def raw(i: int) -> bytes:
         rows = np.arange(ROWS * i, ROWS * (i + 1), dtype=float)
         return rows.tobytes() + (-rows).tobytes()
@@ -34,8 +35,10 @@ def read(tmp_path: Path, content: bytes) -> Data:
     return load(Reader(), path, Source())
 
 
-@pytest.mark.parametrize(("keep", "reason"), [(3, "inside a lead-in"), (27, "inside a lead-in"),
-                                              (40, "inside metadata"), (100, "inside metadata")])
+@pytest.mark.parametrize(
+    ("keep", "reason"),
+    [(3, "inside a lead-in"), (27, "inside a lead-in"), (40, "inside metadata"), (100, "inside metadata")],
+)
 def test_cut_in_lead_in_or_metadata_of_a_later_segment(tmp_path: Path, tdms, keep: int, reason: str) -> None:  # type: ignore[no-untyped-def]
     segments = parts(tdms)
     data = read(tmp_path, segments[0] + segments[1] + segments[2][:keep])
@@ -50,7 +53,7 @@ def test_cut_in_lead_in_or_metadata_of_a_later_segment(tmp_path: Path, tdms, kee
 def test_cut_in_raw_data_keeps_every_value_that_is_there(tmp_path: Path, tdms) -> None:  # type: ignore[no-untyped-def]
     segments = parts(tdms)
     whole = b"".join(segments)
-    data = read(tmp_path, whole[:-8 * 6 - 3])          # of the last 10 values of b, 3 and a half are left
+    data = read(tmp_path, whole[: -8 * 6 - 3])  # of the last 10 values of b, 3 and a half are left
     a, b = data.values["G", "G/a"], data.values["G", "G/b"]
     np.testing.assert_array_equal(a, np.arange(30))
     np.testing.assert_array_equal(b[:23], -np.arange(23))

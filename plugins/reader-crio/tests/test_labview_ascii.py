@@ -30,8 +30,10 @@ def read(tmp_path: Path, text: str, name: str = "log.txt", **options: object) ->
     return load(Reader(), path, Source(options=options))
 
 
-@pytest.mark.parametrize(("head", "names"), [("", ["column 2", "column 3"]), (NAMES, ["T1", "dZ"]),
-                                             ("Warm-up of 2026\n\n" + NAMES, ["T1", "dZ"])])
+@pytest.mark.parametrize(
+    ("head", "names"),
+    [("", ["column 2", "column 3"]), (NAMES, ["T1", "dZ"]), ("Warm-up of 2026\n\n" + NAMES, ["T1", "dZ"])],
+)
 def test_seconds_since_1904_with_and_without_names(tmp_path: Path, head: str, names: list[str]) -> None:
     data = read(tmp_path, head + rows())
     assert [s.name for s in data.recording.signals] == names
@@ -81,7 +83,10 @@ def test_damage_is_said_and_the_rest_is_kept(tmp_path: Path) -> None:
     np.testing.assert_array_equal(data.t_ns["data"], START + np.array([0, 1, 2, 3, 5, 6]) * S // 4)
     assert data.flags["data", "T1"][2] == Flag.NOT_MEASURING
     assert {x.reason.split(" ", 1)[1].split(":")[0] for x in data.losses} == {
-        "last line has no end", "lines that are no rows of 3 numbers with a time", "cells that are no numbers"}
+        "last line has no end",
+        "lines that are no rows of 3 numbers with a time",
+        "cells that are no numbers",
+    }
 
 
 def test_a_session_that_was_appended_with_its_header_is_read_on(tmp_path: Path) -> None:
@@ -91,8 +96,11 @@ def test_a_session_that_was_appended_with_its_header_is_read_on(tmp_path: Path) 
 
 
 def test_a_comment_column_is_text_and_flags_its_row(tmp_path: Path) -> None:
-    text = NAMES.strip() + "\tComment\n" + "".join(
-        line + ("\tLOST COMMUNICATION\n" if i == 2 else "\t\n") for i, line in enumerate(rows().splitlines()))
+    text = (
+        NAMES.strip()
+        + "\tComment\n"
+        + "".join(line + ("\tLOST COMMUNICATION\n" if i == 2 else "\t\n") for i, line in enumerate(rows().splitlines()))
+    )
     data = read(tmp_path, text)
     assert list(data.values["data", "Comment"]) == ["", "", "LOST COMMUNICATION", "", "", ""]
     assert data.flags["data", "dZ"][2] == Flag.NOT_MEASURING

@@ -14,14 +14,16 @@ from thermodata.schema.flag import Flag
 from thermodata.testing.reader import Data, load
 
 S = 1_000_000_000
-START = np.datetime64("2026-03-01T07:00:00", "ns").astype(np.int64).item()   # 08:00 in Prague
+START = np.datetime64("2026-03-01T07:00:00", "ns").astype(np.int64).item()  # 08:00 in Prague
 PRAGUE = Source(timezone="Europe/Prague")
 
 
 def head(columns: str, several: str = "No", decimal: str = "Decimal_Separator\t,\n") -> str:
-    return (f"LabVIEW Measurement\t\nWriter_Version\t2\nSeparator\tTab\n{decimal}Multi_Headings\t{several}\n"
-            f"X_Columns\t{columns}\nTime_Pref\tAbsolute\nDate\t2026/03/01\nTime\t08:00:00,0\n"
-            "***End_of_Header***\t\n\t\n")
+    return (
+        f"LabVIEW Measurement\t\nWriter_Version\t2\nSeparator\tTab\n{decimal}Multi_Headings\t{several}\n"
+        f"X_Columns\t{columns}\nTime_Pref\tAbsolute\nDate\t2026/03/01\nTime\t08:00:00,0\n"
+        "***End_of_Header***\t\n\t\n"
+    )
 
 
 def packet(names: list[str], *, start: str = "08:00:00,0", delta: str = "0,5", x: str = "", gap: str = "\t") -> str:
@@ -30,9 +32,18 @@ def packet(names: list[str], *, start: str = "08:00:00,0", delta: str = "0,5", x
     def row(key: str, value: str) -> str:
         return key + "".join(f"{gap}{value}" if i else f"\t{value}" for i in range(n)) + "\t\n"
 
-    return (f"Channels\t{n}\n" + row("Samples", "3") + row("Date", "2026/03/01") + row("Time", start)
-            + row("Y_Unit_Label", "V") + row("X0", "0,0E+0") + row("Delta_X", delta)
-            + "***End_of_Header***\t\n" + x + "\tComment\n")
+    return (
+        f"Channels\t{n}\n"
+        + row("Samples", "3")
+        + row("Date", "2026/03/01")
+        + row("Time", start)
+        + row("Y_Unit_Label", "V")
+        + row("X0", "0,0E+0")
+        + row("Delta_X", delta)
+        + "***End_of_Header***\t\n"
+        + x
+        + "\tComment\n"
+    )
 
 
 def read(tmp_path: Path, text: str, source: Source = PRAGUE) -> Data:
@@ -55,8 +66,13 @@ def test_a_comma_in_times_and_points_in_data_of_version_092(tmp_path: Path) -> N
 
 
 def test_several_packets_go_on_in_the_same_stream(tmp_path: Path) -> None:
-    text = head("One", "Yes") + packet(["a"], x="X_Value\ta") + "0,0\t1\n0,5\t2\n" \
-        + packet(["a"], x="X_Value\ta", start="09:00:00,25") + "0,0\t3\n0,5\t4\n"
+    text = (
+        head("One", "Yes")
+        + packet(["a"], x="X_Value\ta")
+        + "0,0\t1\n0,5\t2\n"
+        + packet(["a"], x="X_Value\ta", start="09:00:00,25")
+        + "0,0\t3\n0,5\t4\n"
+    )
     data = read(tmp_path, text)
     np.testing.assert_array_equal(data.values["data", "a"], [1, 2, 3, 4])
     np.testing.assert_array_equal(data.t_ns["data"] - START, [0, S // 2, 3600 * S + S // 4, 3600 * S + 3 * S // 4])
@@ -108,9 +124,17 @@ def test_a_row_with_a_cell_too_few_is_no_row(tmp_path: Path) -> None:
     assert "1 lines that are no rows of 3 numbers" in {x.reason for x in data.losses}
 
 
-@pytest.mark.parametrize(("comment", "flag"), [
-    ("LOST COMMUNICATION", Flag.NOT_MEASURING), ("Sensor timeout", Flag.NOT_MEASURING),
-    ("Overload ch 2", Flag.SATURATED), ("OK", 0), ("no error", 0), ("spindle on", 0)])
+@pytest.mark.parametrize(
+    ("comment", "flag"),
+    [
+        ("LOST COMMUNICATION", Flag.NOT_MEASURING),
+        ("Sensor timeout", Flag.NOT_MEASURING),
+        ("Overload ch 2", Flag.SATURATED),
+        ("OK", 0),
+        ("no error", 0),
+        ("spindle on", 0),
+    ],
+)
 def test_a_comment_that_says_that_nothing_was_measured_flags_its_row(tmp_path: Path, comment: str, flag: int) -> None:
     data = read(tmp_path, head("No") + packet(["a"], x="X_Value\ta") + f"\t1\n\t2\t{comment}\n\t3\n")
     np.testing.assert_array_equal(data.flags["data", "a"], [0, flag, 0])
@@ -118,8 +142,13 @@ def test_a_comment_that_says_that_nothing_was_measured_flags_its_row(tmp_path: P
 
 
 def test_packets_with_other_channels_are_streams_of_their_own(tmp_path: Path) -> None:
-    text = head("No", "Yes") + packet(["a"], x="X_Value\ta") + "\t1\n\t2\n\t3\n\n" \
-        + packet(["a", "b"], x="X_Value\ta\tb", start="09:00:00,0") + "\t4\t5\n\t6\t7\n\t8\t9\n"
+    text = (
+        head("No", "Yes")
+        + packet(["a"], x="X_Value\ta")
+        + "\t1\n\t2\n\t3\n\n"
+        + packet(["a", "b"], x="X_Value\ta\tb", start="09:00:00,0")
+        + "\t4\t5\n\t6\t7\n\t8\t9\n"
+    )
     data = read(tmp_path, text)
     np.testing.assert_array_equal(data.values["data@2", "b"], [5, 7, 9])
     assert data.t_ns["data@2"][0] - START == 3600 * S
@@ -133,8 +162,9 @@ def test_fewer_rows_than_the_heading_announces_are_a_loss(tmp_path: Path) -> Non
 
 def test_appended_rows_are_kept_whatever_the_heading_announced(tmp_path: Path) -> None:
     """One heading, then rows of many writes; the channels of a scan start microseconds apart."""
-    heading = packet(["a", "b"], x="X_Value\ta\tb").replace("Time\t08:00:00,0\t08:00:00,0",
-                                                           "Time\t08:00:00,000014\t08:00:00,0")
+    heading = packet(["a", "b"], x="X_Value\ta\tb").replace(
+        "Time\t08:00:00,0\t08:00:00,0", "Time\t08:00:00,000014\t08:00:00,0"
+    )
     data = read(tmp_path, head("No") + heading + "\t1\t2\n" * 50)
     assert data.t_ns["data"].size == 50
     assert data.losses == ()
@@ -149,9 +179,14 @@ def test_channels_with_fewer_samples_are_streams_of_their_own(tmp_path: Path) ->
 
 def test_notes_and_special_blocks_are_stepped_over(tmp_path: Path) -> None:
     special = "***Start_Special***\nWaveform\tstuff\n1\t2\t3\n***End_Special***\n"
-    text = head("One").replace("***End_of_Header***", special + "***End_of_Header***") \
-        + "Notes\tX values guaranteed for Dev0 only\n" + packet(["a"], x="X_Value\ta") \
-        + "0,0\t1\n" + special + "0,5\t2\n1,0\t3\n"
+    text = (
+        head("One").replace("***End_of_Header***", special + "***End_of_Header***")
+        + "Notes\tX values guaranteed for Dev0 only\n"
+        + packet(["a"], x="X_Value\ta")
+        + "0,0\t1\n"
+        + special
+        + "0,5\t2\n1,0\t3\n"
+    )
     data = read(tmp_path, text)
     np.testing.assert_array_equal(data.values["data", "a"], [1, 2, 3])
     assert data.losses == ()
@@ -163,8 +198,9 @@ def test_spectra_are_not_passed_for_rows_over_time(tmp_path: Path) -> None:
         read(tmp_path, head("No") + heading + "\t1\n")
 
 
-@pytest.mark.parametrize(("end", "encoding"), [("\r\n", "utf-8"), ("\r", "utf-8"), ("\n", "cp1252"),
-                                               ("\r\n", "utf-16"), ("\n", "utf-8-sig")])
+@pytest.mark.parametrize(
+    ("end", "encoding"), [("\r\n", "utf-8"), ("\r", "utf-8"), ("\n", "cp1252"), ("\r\n", "utf-16"), ("\n", "utf-8-sig")]
+)
 def test_line_ends_and_encodings(tmp_path: Path, end: str, encoding: str) -> None:
     heading = packet(["T °C"], x="X_Value\tT °C").replace("Y_Unit_Label\tV", "Y_Unit_Label\tµm")
     text = head("No") + heading + "\t1,5\n\t2,5\tprüfen\n\t3\n"
@@ -177,19 +213,29 @@ def test_line_ends_and_encodings(tmp_path: Path, end: str, encoding: str) -> Non
 
 
 def test_commas_between_cells(tmp_path: Path) -> None:
-    text = (head("One") + packet(["a", "b"], x="X_Value\ta\tb")).replace(",", ".").replace("\t", ",") \
-        .replace("Separator,Tab", "Separator,Comma").replace("Decimal_Separator,.", "Decimal_Separator,.")
+    text = (
+        (head("One") + packet(["a", "b"], x="X_Value\ta\tb"))
+        .replace(",", ".")
+        .replace("\t", ",")
+        .replace("Separator,Tab", "Separator,Comma")
+        .replace("Decimal_Separator,.", "Decimal_Separator,.")
+    )
     data = read(tmp_path, text + "0.0,1.5,2\n0.5,2.5,3\n1.0,3.5,4\n")
     np.testing.assert_array_equal(data.values["data", "a"], [1.5, 2.5, 3.5])
     assert data.t_ns["data"][1] - START == S // 2
 
 
-@pytest.mark.parametrize(("old", "new", "note"), [
-    ("Delta_X\t", "Delta_Y\t", "no Delta_X"), ("X_Columns\tNo", "X_Columns\tMulti", "X column is empty"),
-    ("Channels\t1", "Channels\t2", "announces 2 channels"),
-    ("Separator\tTab", "Separator\tComma", "names the separator"),
-    ("Decimal_Separator\t,", "Decimal_Separator\t.", "decimal mark"),
-    ("Date\t2026/03/01", "Date\t1.3.26", "not understood")])
+@pytest.mark.parametrize(
+    ("old", "new", "note"),
+    [
+        ("Delta_X\t", "Delta_Y\t", "no Delta_X"),
+        ("X_Columns\tNo", "X_Columns\tMulti", "X column is empty"),
+        ("Channels\t1", "Channels\t2", "announces 2 channels"),
+        ("Separator\tTab", "Separator\tComma", "names the separator"),
+        ("Decimal_Separator\t,", "Decimal_Separator\t.", "decimal mark"),
+        ("Date\t2026/03/01", "Date\t1.3.26", "not understood"),
+    ],
+)
 def test_a_header_that_contradicts_the_data_is_noted(tmp_path: Path, old: str, new: str, note: str) -> None:
     text = head("No") + packet(["a"], x="X_Value\ta") + "\t1,5\n\t2,5\n\t3,5\n"
     data = read(tmp_path, text.replace(old, new))
@@ -199,7 +245,8 @@ def test_a_header_that_contradicts_the_data_is_noted(tmp_path: Path, old: str, n
 def test_parts_of_any_size_give_the_same(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     text = head("One", "Yes") + "".join(
         packet(["a", "b"], x="X_Value\ta\tb", start=f"{8 + k:02}:00:00,0") + "0,0\t1\t2\n0,5\t3\t4\tLOST\n1,0\tx\t6\n\n"
-        for k in range(4))
+        for k in range(4)
+    )
     whole = read(tmp_path, text)
     for size in (1, 7, 64, 300):
         monkeypatch.setattr(textparts, "PART_BYTES", size)
@@ -211,8 +258,10 @@ def test_parts_of_any_size_give_the_same(tmp_path: Path, monkeypatch: pytest.Mon
 
 def test_the_fast_and_the_slow_parser_agree() -> None:
     rng = np.random.default_rng(3)
-    lines = [f"{i / 10:.6f}\t{v!r}\t{'' if i % 7 == 0 else f'{w:.3E}'}" + ("\r\n" if i % 2 else "\n")
-             for i, (v, w) in enumerate(rng.normal(size=(400, 2)).tolist())]
+    lines = [
+        f"{i / 10:.6f}\t{v!r}\t{'' if i % 7 == 0 else f'{w:.3E}'}" + ("\r\n" if i % 2 else "\n")
+        for i, (v, w) in enumerate(rng.normal(size=(400, 2)).tolist())
+    ]
     grid = rows.Grid(b"\t", b".", 3, False, 3)
     data = "".join(lines).encode()
     fast, slow = rows._fast(data, grid), rows._slow(data, grid)

@@ -44,10 +44,15 @@ def test_the_heater_test_has_its_time_and_units() -> None:
     assert data.recording.signals[0].dtype == "int32"
 
 
-@pytest.mark.parametrize(("name", "rows", "first"), [
-    ("short", 10, {"Excitation (Trigger)": 0.914018}), ("no_decimal_separator", 4, {"ax": -0.008807, "az": 0.021503}),
-    ("long_single_header_multi_ch", 16384, {"F": 0.05253}), ("with_comments", 9, {"Temperatura (°C)": 5.479238}),
-])
+@pytest.mark.parametrize(
+    ("name", "rows", "first"),
+    [
+        ("short", 10, {"Excitation (Trigger)": 0.914018}),
+        ("no_decimal_separator", 4, {"ax": -0.008807, "az": 0.021503}),
+        ("long_single_header_multi_ch", 16384, {"F": 0.05253}),
+        ("with_comments", 9, {"Temperatura (°C)": 5.479238}),
+    ],
+)
 def test_lvm(name: str, rows: int, first: dict[str, float]) -> None:
     path = DATA / "lvm" / f"{name}.lvm"
     data = load(Reader(), path, Source(timezone="Europe/Ljubljana"))

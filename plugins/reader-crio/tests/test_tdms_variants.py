@@ -38,8 +38,10 @@ def test_segments_of_both_byte_orders_in_one_file(tmp_path: Path, tdms_in) -> No
 
 
 def test_a_type_that_changes_is_delivered_in_the_one_that_holds_both(tmp_path: Path, tdms) -> None:  # type: ignore[no-untyped-def]
-    parts = [tdms.segment([tdms.channel("G", "a", kind, 2, tdms.wave())], np.array([1, -2], dtype).tobytes())
-             for kind, dtype in (("int16", "<i2"), ("float64", "<f8"))]
+    parts = [
+        tdms.segment([tdms.channel("G", "a", kind, 2, tdms.wave())], np.array([1, -2], dtype).tobytes())
+        for kind, dtype in (("int16", "<i2"), ("float64", "<f8"))
+    ]
     data = read(tmp_path, *parts)
     assert data.values["G", "G/a"].dtype == np.float64
     np.testing.assert_array_equal(data.values["G", "G/a"], [1, -2, 1, -2])
@@ -47,8 +49,10 @@ def test_a_type_that_changes_is_delivered_in_the_one_that_holds_both(tmp_path: P
 
 
 def test_complex_numbers_are_two_signals(tmp_path: Path, tdms) -> None:  # type: ignore[no-untyped-def]
-    objects = [tdms.channel("G", "c", None, 2, tdms.wave(), index(tdms, 0x10000D, 2)),
-               tdms.channel("G", "x", "float64", 2, tdms.wave())]
+    objects = [
+        tdms.channel("G", "c", None, 2, tdms.wave(), index(tdms, 0x10000D, 2)),
+        tdms.channel("G", "x", "float64", 2, tdms.wave()),
+    ]
     data = read(tmp_path, tdms.segment(objects, np.array([1 + 2j, 3 - 4j]).tobytes() + np.array([5.0, 6]).tobytes()))
     np.testing.assert_array_equal(data.values["G", "G/c (im)"], [2, -4])
     np.testing.assert_array_equal(data.values["G", "G/x"], [5, 6])
@@ -78,9 +82,12 @@ def test_text_whose_offsets_cannot_be_is_flagged(tmp_path: Path, tdms) -> None: 
 
 
 def test_groups_whose_streams_would_share_a_name(tmp_path: Path, tdms) -> None:  # type: ignore[no-untyped-def]
-    objects = [tdms.channel("G", "a", "float64", 2, tdms.wave(step=0.1)),
-               tdms.channel("G", "b", "float64", 2, tdms.wave(step=1.0)),
-               tdms.channel("g@2", "c", "float64", 2, tdms.wave(step=0.1)), tdms.channel("", "d", "float64", 2)]
+    objects = [
+        tdms.channel("G", "a", "float64", 2, tdms.wave(step=0.1)),
+        tdms.channel("G", "b", "float64", 2, tdms.wave(step=1.0)),
+        tdms.channel("g@2", "c", "float64", 2, tdms.wave(step=0.1)),
+        tdms.channel("", "d", "float64", 2),
+    ]
     data = read(tmp_path, tdms.segment(objects, bytes(64)))
     assert sorted(data.t_ns) == ["G", "G@2", "data", "g@2@2"]
 

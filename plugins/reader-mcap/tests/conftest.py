@@ -20,10 +20,17 @@ STEP = 10_000_000
 Message = tuple[str, int, Any]
 
 
-def _write(path: Path, messages: Iterable[Message], *, compression: CompressionType = CompressionType.ZSTD,
-           schema: Mapping[str, Any] | tuple[str, str, bytes] | None = None,
-           publish: Callable[[int], int] = lambda t: t, chunk: int = 4096, encoding: str = "json",
-           **options: Any) -> Path:
+def _write(
+    path: Path,
+    messages: Iterable[Message],
+    *,
+    compression: CompressionType = CompressionType.ZSTD,
+    schema: Mapping[str, Any] | tuple[str, str, bytes] | None = None,
+    publish: Callable[[int], int] = lambda t: t,
+    chunk: int = 4096,
+    encoding: str = "json",
+    **options: Any,
+) -> Path:
     with path.open("wb") as file:
         writer = Writer(file, compression=compression, chunk_size=chunk, **options)
         writer.start()
@@ -42,8 +49,16 @@ def _write(path: Path, messages: Iterable[Message], *, compression: CompressionT
     return path
 
 
-def _read(path: Path, source: Source = Source()) -> tuple[Recording, dict[str, np.ndarray], dict[str, list[Any]],  # noqa: B008
-                                                          dict[str, list[int]], list[Loss]]:
+def _read(
+    path: Path,
+    source: Source = Source(),  # noqa: B008
+) -> tuple[
+    Recording,
+    dict[str, np.ndarray],
+    dict[str, list[Any]],
+    dict[str, list[int]],
+    list[Loss],
+]:
     recording = described(Reader(), path, source)
     times: dict[str, list[np.ndarray]] = {}
     values: dict[str, list[Any]] = {s.name: [] for s in recording.signals}
@@ -61,8 +76,14 @@ def _read(path: Path, source: Source = Source()) -> tuple[Recording, dict[str, n
 
 
 def _axis(n: int) -> list[Message]:
-    return [("/axis", T0 + k * STEP, {"pos": {"x": k / 8, "z": -k}, "t": [20 + k / 4, 21.5], "on": k % 2 == 0,
-                                      "prog": f"MPF{k // 100}"}) for k in range(n)]
+    return [
+        (
+            "/axis",
+            T0 + k * STEP,
+            {"pos": {"x": k / 8, "z": -k}, "t": [20 + k / 4, 21.5], "on": k % 2 == 0, "prog": f"MPF{k // 100}"},
+        )
+        for k in range(n)
+    ]
 
 
 @pytest.fixture(scope="session")

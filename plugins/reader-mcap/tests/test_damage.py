@@ -17,13 +17,14 @@ COMPRESSIONS = [CompressionType.NONE, CompressionType.LZ4, CompressionType.ZSTD]
 
 
 @pytest.mark.parametrize("compression", COMPRESSIONS)
-def test_a_cut_file_keeps_what_is_there(tmp_path: Path, compression: CompressionType,
-                                        write: Any, read: Any, axis: Any) -> None:
+def test_a_cut_file_keeps_what_is_there(
+    tmp_path: Path, compression: CompressionType, write: Any, read: Any, axis: Any
+) -> None:
     content = write(tmp_path / "a.mcap", axis(3000), compression=compression, chunk=1 << 16).read_bytes()
     cut = tmp_path / "cut.mcap"
     last = 0
     for share in (0.2, 0.5, 0.8):
-        cut.write_bytes(content[:int(share * len(content))])
+        cut.write_bytes(content[: int(share * len(content))])
         recording, times, values, _, losses = read(cut)
         n = times["/axis"].size
         assert recording.complete is False
@@ -48,8 +49,9 @@ def chunk_places(content: bytes) -> list[tuple[int, int]]:
 
 
 @pytest.mark.parametrize("compression", COMPRESSIONS)
-def test_a_damaged_chunk_costs_only_itself(tmp_path: Path, compression: CompressionType,
-                                           write: Any, read: Any, axis: Any) -> None:
+def test_a_damaged_chunk_costs_only_itself(
+    tmp_path: Path, compression: CompressionType, write: Any, read: Any, axis: Any
+) -> None:
     path = write(tmp_path / "a.mcap", axis(3000), compression=compression, chunk=1 << 15)
     whole = read(path)[1]["/axis"]
     content = bytearray(path.read_bytes())
@@ -66,12 +68,13 @@ def test_a_damaged_chunk_costs_only_itself(tmp_path: Path, compression: Compress
 
 
 @pytest.mark.parametrize("compression", COMPRESSIONS)
-def test_a_damaged_length_is_skipped_to_the_next_chunk(tmp_path: Path, compression: CompressionType,
-                                                       write: Any, read: Any, axis: Any) -> None:
+def test_a_damaged_length_is_skipped_to_the_next_chunk(
+    tmp_path: Path, compression: CompressionType, write: Any, read: Any, axis: Any
+) -> None:
     path = write(tmp_path / "a.mcap", axis(3000), compression=compression, chunk=1 << 15)
     content = bytearray(path.read_bytes())
     start, _ = chunk_places(content)[3]
-    content[start + 1:start + 9] = struct.pack("<Q", 2**40)
+    content[start + 1 : start + 9] = struct.pack("<Q", 2**40)
     path.write_bytes(content)
     _, times, _, _, losses = read(path)
     assert "no record" in losses[0].reason
@@ -96,12 +99,13 @@ def test_an_index_that_lies_is_not_believed(tmp_path: Path, write: Any, read: An
     np.testing.assert_array_equal(times["/axis"], T0 + STEP * np.arange(600))
 
 
-def test_messages_outside_of_chunks_are_found_again_behind_damage(tmp_path: Path, write: Any, read: Any,
-                                                                  axis: Any) -> None:
+def test_messages_outside_of_chunks_are_found_again_behind_damage(
+    tmp_path: Path, write: Any, read: Any, axis: Any
+) -> None:
     path = write(tmp_path / "a.mcap", axis(300), use_chunking=False)
     content = bytearray(path.read_bytes())
     at = content.index(b"MPF1") - 200
-    content[at:at + 300] = b"\xff" * 300
+    content[at : at + 300] = b"\xff" * 300
     path.write_bytes(content)
     recording, times, values, _, losses = read(path)
     assert recording.complete is False
@@ -110,8 +114,9 @@ def test_messages_outside_of_chunks_are_found_again_behind_damage(tmp_path: Path
     np.testing.assert_array_equal(np.array(values["/axis.pos.x"]) * 8 * STEP, times["/axis"] - T0)
 
 
-def test_channels_whose_definition_is_lost_are_known_from_the_summary(tmp_path: Path, write: Any, read: Any,
-                                                                      axis: Any) -> None:
+def test_channels_whose_definition_is_lost_are_known_from_the_summary(
+    tmp_path: Path, write: Any, read: Any, axis: Any
+) -> None:
     path = write(tmp_path / "a.mcap", axis(3000), chunk=1 << 15)
     content = bytearray(path.read_bytes())
     start, stop = chunk_places(content)[0]
@@ -123,8 +128,9 @@ def test_channels_whose_definition_is_lost_are_known_from_the_summary(tmp_path: 
     assert values["/axis.pos.z"][-1] == -2999
 
 
-def test_messages_that_the_statistics_count_and_the_file_lacks_are_lost_by_name(tmp_path: Path, write: Any, read: Any,
-                                                                                axis: Any) -> None:
+def test_messages_that_the_statistics_count_and_the_file_lacks_are_lost_by_name(
+    tmp_path: Path, write: Any, read: Any, axis: Any
+) -> None:
     path = write(tmp_path / "a.mcap", axis(3000), chunk=1 << 15)
     content = path.read_bytes()
     start, stop = chunk_places(content)[3]
@@ -139,11 +145,13 @@ def test_messages_that_the_statistics_count_and_the_file_lacks_are_lost_by_name(
     gone = 3000 - times["/axis"].size
     assert gone > 100
     assert [(loss.where, loss.reason, loss.fraction) for loss in losses] == [
-        ("a.mcap topic '/axis'", f"{gone} of its 3000 messages are not in the file", gone / 3000)]
+        ("a.mcap topic '/axis'", f"{gone} of its 3000 messages are not in the file", gone / 3000)
+    ]
 
 
-def test_a_changed_value_is_told_by_the_checksum_of_the_whole_file(tmp_path: Path, write: Any, read: Any,
-                                                                   axis: Any) -> None:
+def test_a_changed_value_is_told_by_the_checksum_of_the_whole_file(
+    tmp_path: Path, write: Any, read: Any, axis: Any
+) -> None:
     path = write(tmp_path / "a.mcap", axis(50), use_chunking=False, enable_data_crcs=True)
     assert read(path)[4] == []
     path.write_bytes(path.read_bytes().replace(b'"x": 1.5', b'"x": 1.6'))
@@ -170,12 +178,13 @@ def test_a_decompression_bomb_is_bounded(tmp_path: Path, write: Any, read: Any, 
     assert resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before < 400 * 1024
 
 
-def test_records_in_a_chunk_that_its_checksum_does_not_cover_are_found_again(tmp_path: Path, write: Any, read: Any,
-                                                                             axis: Any) -> None:
+def test_records_in_a_chunk_that_its_checksum_does_not_cover_are_found_again(
+    tmp_path: Path, write: Any, read: Any, axis: Any
+) -> None:
     path = write(tmp_path / "a.mcap", axis(300), compression=CompressionType.NONE, chunk=1 << 20, enable_crcs=False)
     content = bytearray(path.read_bytes())
     at = content.index(b"MPF1") - 100
-    content[at:at + 150] = b"\xff" * 150
+    content[at : at + 150] = b"\xff" * 150
     path.write_bytes(content)
     _, times, _, _, losses = read(path)
     assert 290 < times["/axis"].size < 300

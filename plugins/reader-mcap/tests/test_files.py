@@ -22,8 +22,9 @@ REAL = Path(__file__).resolve().parents[4] / "shared" / "data" / "mcap"
 COMPRESSIONS = [CompressionType.NONE, CompressionType.LZ4, CompressionType.ZSTD]
 
 
-def test_a_long_file_without_chunks_is_read_by_its_head(tmp_path: Path, monkeypatch: pytest.MonkeyPatch,
-                                                        write: Any, read: Any, axis: Any) -> None:
+def test_a_long_file_without_chunks_is_read_by_its_head(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, write: Any, read: Any, axis: Any
+) -> None:
     from thermodata_reader_mcap import content, plan
 
     monkeypatch.setattr(plan, "WHOLE", 2000)
@@ -65,7 +66,8 @@ def test_ros2_messages_are_read(tmp_path: Path, read: Any) -> None:
     assert times["/topic"].size == 10
     assert values["/topic.data"][0] == "Hello, world! 0"
     assert values["/rosout.stamp.sec"][0] * 10**9 + values["/rosout.stamp.nanosec"][0] == pytest.approx(
-        int(times["/rosout"][0]), abs=10_000_000)
+        int(times["/rosout"][0]), abs=10_000_000
+    )
     _, _, arrays, _, _ = read(REAL / "cdr_test_0.mcap")
     assert arrays["/test_topic.int32_value"] == [123, 123, 123]
     recording, times, _, _, _ = read(REAL / "wbag_0.mcap")
@@ -105,7 +107,7 @@ def test_an_id_may_change_its_meaning_inside_a_chunk(tmp_path: Path, read: Any) 
         writer.finish()
     content = bytearray((tmp_path / "a.mcap").read_bytes())
     at = content.index(b"/bbbbb") - 8
-    struct.pack_into("<H", content, at, first)                  # both channels have the first one's id
+    struct.pack_into("<H", content, at, first)  # both channels have the first one's id
     message = content.index(b'{"v": 99.5}') - 22
     struct.pack_into("<H", content, message, first)
     (tmp_path / "b.mcap").write_bytes(content)
@@ -138,7 +140,9 @@ def test_metadata_and_attachments_are_notes(tmp_path: Path, read: Any) -> None:
         writer.add_attachment(T0, T0, "photo.png", "image/png", b"1234")
         writer.finish()
     assert read(tmp_path / "a.mcap")[0].notes == (
-        "metadata 'machine': serial: 4711, spindle: SP1", "attachment 'photo.png' (image/png, 4 bytes) is not read")
+        "metadata 'machine': serial: 4711, spindle: SP1",
+        "attachment 'photo.png' (image/png, 4 bytes) is not read",
+    )
 
 
 def test_a_file_without_messages_holds_nothing(tmp_path: Path, write: Any, read: Any) -> None:
@@ -154,13 +158,13 @@ def test_bare_lz4_blocks_and_several_frames_are_read(tmp_path: Path, write: Any,
     content = write(tmp_path / "a.mcap", axis(100), compression=CompressionType.NONE, chunk=1 << 20).read_bytes()
     at = 8 + 9 + struct.unpack_from("<Q", content, 9)[0]
     (length,) = struct.unpack_from("<Q", content, at + 1)
-    fixed, inner = content[at + 9:at + 9 + 28], content[at + 9 + 40:at + 9 + length]
+    fixed, inner = content[at + 9 : at + 9 + 28], content[at + 9 + 40 : at + 9 + length]
     half = len(inner) // 2
     frames = zstandard.ZstdCompressor().compress(inner[:half]) + zstandard.ZstdCompressor().compress(inner[half:])
     for name, stored in ((b"lz4", lz4.block.compress(inner, store_size=False)), (b"zstd", frames)):
         body = fixed + struct.pack("<I", len(name)) + name + struct.pack("<Q", len(stored)) + stored
         path = tmp_path / "b.mcap"
-        path.write_bytes(content[:at] + struct.pack("<BQ", 6, len(body)) + body + content[at + 9 + length:])
+        path.write_bytes(content[:at] + struct.pack("<BQ", 6, len(body)) + body + content[at + 9 + length :])
         _, times, _, _, losses = read(path)
         assert times["/axis"].size == 100
         assert not losses

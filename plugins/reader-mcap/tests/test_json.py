@@ -21,17 +21,40 @@ from thermodata_reader_mcap.seen import Survey
 from thermodata.plugin import Source
 
 T0 = 1_772_434_800_000_000_000
-numbers = st.one_of(st.integers(-5, 5), st.floats(), st.sampled_from([2**53 + 1, -2**60 - 1, 2**63, 10**20, 1e300]))
+numbers = st.one_of(st.integers(-5, 5), st.floats(), st.sampled_from([2**53 + 1, -(2**60) - 1, 2**63, 10**20, 1e300]))
 scalars = st.one_of(numbers, st.booleans(), st.none(), st.text(max_size=4))
 keys = st.sampled_from(["a", "b", "x y", ""])
-trees = st.recursive(scalars, lambda inner: st.one_of(
-    st.lists(inner, max_size=3), st.dictionaries(keys, inner, max_size=3)), max_leaves=6)
+trees = st.recursive(
+    scalars,
+    lambda inner: st.one_of(st.lists(inner, max_size=3), st.dictionaries(keys, inner, max_size=3)),
+    max_leaves=6,
+)
 objects = st.dictionaries(st.sampled_from(["a", "b", "c", "t"]), trees, max_size=4)
 payloads = st.one_of(
-    objects.map(lambda m: json.dumps(m).encode()), objects.map(lambda m: json.dumps(m, indent=1).encode()),
-    st.sampled_from([b"", b"{}", b'{"a": 1} {"a": 2}', b'{"a": 1,}', b'{"a": 1', b'"a": 1}', b"[1]", b" {} ", b"{}\n",
-                     b'{"a": "\xff"}', b'{"a": "\\ud800"}', b'{"a": 1, "a": 2}', b'{"a": 1e999}', b'{"a": 01}',
-                     b"\xef\xbb\xbf{}", b'{"a": "x\ny"}', b"}\n{"]))
+    objects.map(lambda m: json.dumps(m).encode()),
+    objects.map(lambda m: json.dumps(m, indent=1).encode()),
+    st.sampled_from(
+        [
+            b"",
+            b"{}",
+            b'{"a": 1} {"a": 2}',
+            b'{"a": 1,}',
+            b'{"a": 1',
+            b'"a": 1}',
+            b"[1]",
+            b" {} ",
+            b"{}\n",
+            b'{"a": "\xff"}',
+            b'{"a": "\\ud800"}',
+            b'{"a": 1, "a": 2}',
+            b'{"a": 1e999}',
+            b'{"a": 01}',
+            b"\xef\xbb\xbf{}",
+            b'{"a": "x\ny"}',
+            b"}\n{",
+        ]
+    ),
+)
 
 
 def joined(parts: list[Columns]) -> dict[str, Any]:
@@ -48,8 +71,9 @@ def shown(values: dict[str, list[Any]]) -> dict[str, list[str]]:
 
 
 @settings(deadline=None)
-@given(st.lists(payloads, min_size=1, max_size=5), st.lists(st.integers(0, 4), min_size=1, max_size=150),
-       st.integers(1, 3))
+@given(
+    st.lists(payloads, min_size=1, max_size=5), st.lists(st.integers(0, 4), min_size=1, max_size=150), st.integers(1, 3)
+)
 def test_columns_are_those_of_the_standard_library(kinds: list[bytes], order: list[int], step: int) -> None:
     messages = [kinds[k % len(kinds)] for k in order]
     topic = discover("/m", {"c": JsonDecoder(None)}, {"c": messages[::step]}, False, 1 << 20, [])
@@ -62,8 +86,9 @@ def test_columns_are_those_of_the_standard_library(kinds: list[bytes], order: li
     named = {(w.message, w.name, w.expected) for p in parts for w in p.wrong if w.expected is not None}
     assert named == {(w.message, w.name, w.expected) for w in alone.wrong if w.expected is not None}
     fields = {w.name.replace("[1]", "[0]").replace("[2]", "[0]") for w in alone.wrong if w.expected is None}
-    assert fields == {w.name.replace("[1]", "[0]").replace("[2]", "[0]") for p in parts for w in p.wrong
-                      if w.expected is None}
+    assert fields == {
+        w.name.replace("[1]", "[0]").replace("[2]", "[0]") for p in parts for w in p.wrong if w.expected is None
+    }
 
 
 @settings(deadline=None)
@@ -81,7 +106,10 @@ def test_signals_are_the_same_however_the_sample_was_parsed(messages: list[dict[
         if each.scalars:
             other = quick.seen[path]
             assert (other.bools, other.integers + other.floats, other.texts) == (
-                each.bools, each.integers + each.floats, each.texts)
+                each.bools,
+                each.integers + each.floats,
+                each.texts,
+            )
             assert other.floats >= each.floats
 
 
@@ -116,16 +144,22 @@ def test_text_that_is_not_utf8_is_read_with_a_note(tmp_path: Path, write: Any, r
 
 
 def test_a_schema_gives_units(tmp_path: Path, write: Any, read: Any) -> None:
-    schema = {"type": "object", "properties": {"T": {"type": "number", "unit": "degC", "description": "front bearing"},
-                                               "pos": {"type": "array", "items": {"type": "number", "units": "mm"}}}}
+    schema = {
+        "type": "object",
+        "properties": {
+            "T": {"type": "number", "unit": "degC", "description": "front bearing"},
+            "pos": {"type": "array", "items": {"type": "number", "units": "mm"}},
+        },
+    }
     recording, *_ = read(write(tmp_path / "a.mcap", [("/m", T0, {"T": 20, "pos": [1]})], schema=schema))
     assert {s.name: s.unit for s in recording.signals} == {"/m.T": "degC", "/m.pos[0]": "mm"}
     assert recording.signals[0].properties == {"description": "front bearing", "schema": "s"}
 
 
 def test_arrays_of_more_elements_than_are_read(tmp_path: Path, write: Any, read: Any) -> None:
-    recording, _, values, _, losses = read(write(
-        tmp_path / "a.mcap", [("/m", T0 + k, {"a": list(range(300)), "b": list(range(256))}) for k in range(40)]))
+    recording, _, values, _, losses = read(
+        write(tmp_path / "a.mcap", [("/m", T0 + k, {"a": list(range(300)), "b": list(range(256))}) for k in range(40)])
+    )
     assert not losses
     assert recording.notes == ("/m.a holds arrays of up to 300 elements; the first 256 are read",)
     assert len(values) == 512

@@ -25,10 +25,20 @@ from thermodata.plugin import Source
 
 T0 = 1_772_434_800_000_000_000
 STAMP = FileDescriptorProto.FromString(timestamp_pb2.DESCRIPTOR.serialized_pb)
-KINDS = {"double": Field.TYPE_DOUBLE, "float": Field.TYPE_FLOAT, "int32": Field.TYPE_INT32, "int64": Field.TYPE_INT64,
-         "uint32": Field.TYPE_UINT32, "uint64": Field.TYPE_UINT64, "sint64": Field.TYPE_SINT64,
-         "fixed64": Field.TYPE_FIXED64, "sfixed32": Field.TYPE_SFIXED32, "bool": Field.TYPE_BOOL,
-         "string": Field.TYPE_STRING, "bytes": Field.TYPE_BYTES}
+KINDS = {
+    "double": Field.TYPE_DOUBLE,
+    "float": Field.TYPE_FLOAT,
+    "int32": Field.TYPE_INT32,
+    "int64": Field.TYPE_INT64,
+    "uint32": Field.TYPE_UINT32,
+    "uint64": Field.TYPE_UINT64,
+    "sint64": Field.TYPE_SINT64,
+    "fixed64": Field.TYPE_FIXED64,
+    "sfixed32": Field.TYPE_SFIXED32,
+    "bool": Field.TYPE_BOOL,
+    "string": Field.TYPE_STRING,
+    "bytes": Field.TYPE_BYTES,
+}
 
 
 def machine_files() -> FileDescriptorSet:
@@ -47,16 +57,23 @@ def machine_files() -> FileDescriptorSet:
     main.oneof_decl.add(name="reading")
     main.oneof_decl.add(name="_maybe")
     one, many = Field.LABEL_OPTIONAL, Field.LABEL_REPEATED
-    for number, (name, kind, label, more) in enumerate((
+    for number, (name, kind, label, more) in enumerate(
+        (
             ("stamp", Field.TYPE_MESSAGE, one, {"type_name": ".google.protobuf.Timestamp"}),
-            ("x", Field.TYPE_DOUBLE, one, {}), ("n", Field.TYPE_INT32, one, {}),
+            ("x", Field.TYPE_DOUBLE, one, {}),
+            ("n", Field.TYPE_INT32, one, {}),
             ("state", Field.TYPE_ENUM, one, {"type_name": ".lab.State"}),
             ("speed", Field.TYPE_DOUBLE, one, {"oneof_index": 0}),
             ("error", Field.TYPE_STRING, one, {"oneof_index": 0}),
             ("maybe", Field.TYPE_INT32, one, {"oneof_index": 1, "proto3_optional": True}),
-            ("probes", Field.TYPE_MESSAGE, many, {"type_name": ".lab.Probe"}), ("load", Field.TYPE_FLOAT, many, {}),
+            ("probes", Field.TYPE_MESSAGE, many, {"type_name": ".lab.Probe"}),
+            ("load", Field.TYPE_FLOAT, many, {}),
             ("temps", Field.TYPE_MESSAGE, many, {"type_name": ".lab.Machine.TempsEntry"}),
-            ("big", Field.TYPE_UINT64, one, {}), ("data", Field.TYPE_BYTES, one, {})), 1):
+            ("big", Field.TYPE_UINT64, one, {}),
+            ("data", Field.TYPE_BYTES, one, {}),
+        ),
+        1,
+    ):
         main.field.add(name=name, number=number, type=kind, label=label, **more)
     return FileDescriptorSet(file=[own, STAMP])
 
@@ -72,8 +89,16 @@ def machines(n: int) -> list[bytes]:
     machine = message_class(machine_files(), "lab.Machine")
     found = []
     for k in range(n):
-        m = machine(x=k / 8, n=-k, state=k % 2, probes=[{"um": k / 4}] * (k % 3), load=[0.5] * (k % 2),
-                    temps={"front": 20 + k / 4}, big=2**63 + k, data=b"ab")
+        m = machine(
+            x=k / 8,
+            n=-k,
+            state=k % 2,
+            probes=[{"um": k / 4}] * (k % 3),
+            load=[0.5] * (k % 2),
+            temps={"front": 20 + k / 4},
+            big=2**63 + k,
+            data=b"ab",
+        )
         m.stamp.FromNanoseconds(T0 + k)
         if k % 4 == 0:
             m.error = f"E{k}"
@@ -86,31 +111,52 @@ def machines(n: int) -> list[bytes]:
 
 
 def test_every_kind_of_field(tmp_path: Path, write: Any, read: Any) -> None:
-    path = write(tmp_path / "a.mcap", [("/m", T0 + k, data) for k, data in enumerate(machines(40))],
-                 encoding="protobuf", schema=("lab.Machine", "protobuf", machine_files().SerializeToString()))
+    path = write(
+        tmp_path / "a.mcap",
+        [("/m", T0 + k, data) for k, data in enumerate(machines(40))],
+        encoding="protobuf",
+        schema=("lab.Machine", "protobuf", machine_files().SerializeToString()),
+    )
     recording, _, values, flags, losses = read(path)
     assert not losses
     assert {s.name: s.dtype for s in recording.signals} == {
-        "/m.stamp.seconds": "int64", "/m.stamp.nanos": "int64", "/m.x": "float64", "/m.n": "int64", "/m.state": "int64",
-        "/m.speed": "float64", "/m.error": "str", "/m.maybe": "int64", "/m.probes[0].um": "float64",
-        "/m.probes[1].um": "float64", "/m.load[0]": "float64", "/m.temps.front": "float64", "/m.big": "uint64",
-        "/m.data[0]": "int64", "/m.data[1]": "int64"}
+        "/m.stamp.seconds": "int64",
+        "/m.stamp.nanos": "int64",
+        "/m.x": "float64",
+        "/m.n": "int64",
+        "/m.state": "int64",
+        "/m.speed": "float64",
+        "/m.error": "str",
+        "/m.maybe": "int64",
+        "/m.probes[0].um": "float64",
+        "/m.probes[1].um": "float64",
+        "/m.load[0]": "float64",
+        "/m.temps.front": "float64",
+        "/m.big": "uint64",
+        "/m.data[0]": "int64",
+        "/m.data[1]": "int64",
+    }
     k = np.arange(40)
     np.testing.assert_array_equal(values["/m.x"], k / 8)
-    np.testing.assert_array_equal(values["/m.speed"], np.where(k % 4, k / 2, np.nan))      # a oneof: not 0, missing
+    np.testing.assert_array_equal(values["/m.speed"], np.where(k % 4, k / 2, np.nan))  # a oneof: not 0, missing
     assert values["/m.error"] == [f"E{j}" if j % 4 == 0 else None for j in range(40)]
     np.testing.assert_array_equal(values["/m.probes[1].um"], np.where(k % 3 == 2, k / 4, np.nan))
     np.testing.assert_array_equal(values["/m.load[0]"], np.where(k % 2, 0.5, np.nan))
     assert values["/m.big"] == [2**63 + j for j in range(40)]
-    assert [f == 0 for f in flags["/m.maybe"]] == [j == 5 for j in range(40)]              # set to 0 is not unset
+    assert [f == 0 for f in flags["/m.maybe"]] == [j == 5 for j in range(40)]  # set to 0 is not unset
     assert [s * 10**9 + n for s, n in zip(values["/m.stamp.seconds"], values["/m.stamp.nanos"], strict=True)] == [
-        T0 + j for j in range(40)]
+        T0 + j for j in range(40)
+    ]
     assert {s.name: dict(s.properties) for s in recording.signals}["/m.state"]["labels"] == "0 IDLE, 1 RUN"
 
 
 def test_enumerations_are_labels_where_asked_and_the_stamp_is_the_time(tmp_path: Path, write: Any, read: Any) -> None:
-    path = write(tmp_path / "a.mcap", [("/m", T0 + 99 + k, data) for k, data in enumerate(machines(20))],
-                 encoding="protobuf", schema=("lab.Machine", "protobuf", machine_files().SerializeToString()))
+    path = write(
+        tmp_path / "a.mcap",
+        [("/m", T0 + 99 + k, data) for k, data in enumerate(machines(20))],
+        encoding="protobuf",
+        schema=("lab.Machine", "protobuf", machine_files().SerializeToString()),
+    )
     _, times, values, _, losses = read(path, Source(options={"enums": "label", "time": "stamp"}))
     assert not losses
     assert values["/m.state"][:3] == ["IDLE", "RUN", "IDLE"]
@@ -120,16 +166,23 @@ def test_enumerations_are_labels_where_asked_and_the_stamp_is_the_time(tmp_path:
 def test_googles_own_types_may_be_missing_from_the_set(tmp_path: Path, write: Any, read: Any) -> None:
     files = machine_files()
     del files.file[1]
-    path = write(tmp_path / "a.mcap", [("/m", T0, machines(1)[0])], encoding="protobuf",
-                 schema=("lab.Machine", "protobuf", files.SerializeToString()))
+    path = write(
+        tmp_path / "a.mcap",
+        [("/m", T0, machines(1)[0])],
+        encoding="protobuf",
+        schema=("lab.Machine", "protobuf", files.SerializeToString()),
+    )
     assert read(path)[2]["/m.stamp.seconds"] == [T0 // 10**9]
 
 
 def test_long_binary_data_are_a_note_and_no_signals(tmp_path: Path, write: Any, read: Any) -> None:
     machine = message_class(machine_files(), "lab.Machine")
-    path = write(tmp_path / "a.mcap", [("/m", T0 + k, machine(x=k, data=bytes(5000)).SerializeToString())
-                                       for k in range(5)], encoding="protobuf",
-                 schema=("lab.Machine", "protobuf", machine_files().SerializeToString()))
+    path = write(
+        tmp_path / "a.mcap",
+        [("/m", T0 + k, machine(x=k, data=bytes(5000)).SerializeToString()) for k in range(5)],
+        encoding="protobuf",
+        schema=("lab.Machine", "protobuf", machine_files().SerializeToString()),
+    )
     recording, _, values, _, losses = read(path)
     assert not losses
     assert not any("data[" in name for name in values)
@@ -137,8 +190,9 @@ def test_long_binary_data_are_a_note_and_no_signals(tmp_path: Path, write: Any, 
 
 
 @pytest.mark.parametrize(("name", "data"), [("lab.Machine", b"\xff\xff"), ("lab.Nothing", None), ("lab.Machine", b"")])
-def test_a_schema_that_does_not_read_is_named(tmp_path: Path, write: Any, name: str, data: bytes | None,
-                                              read: Any) -> None:
+def test_a_schema_that_does_not_read_is_named(
+    tmp_path: Path, write: Any, name: str, data: bytes | None, read: Any
+) -> None:
     stored = machine_files().SerializeToString() if data is None else data
     path = write(tmp_path / "a.mcap", [("/m", T0, b"\x11")], encoding="protobuf", schema=(name, "protobuf", stored))
     with pytest.raises(FormatError, match=f"the schema '{name}' does not read"):
@@ -148,19 +202,31 @@ def test_a_schema_that_does_not_read_is_named(tmp_path: Path, write: Any, name: 
 def test_payloads_that_do_not_parse_are_lost_by_name(tmp_path: Path, write: Any, read: Any) -> None:
     payloads = machines(30)
     payloads[7] = payloads[7][:-1]
-    path = write(tmp_path / "a.mcap", [("/m", T0 + k, data) for k, data in enumerate(payloads)], encoding="protobuf",
-                 schema=("lab.Machine", "protobuf", machine_files().SerializeToString()))
+    path = write(
+        tmp_path / "a.mcap",
+        [("/m", T0 + k, data) for k, data in enumerate(payloads)],
+        encoding="protobuf",
+        schema=("lab.Machine", "protobuf", machine_files().SerializeToString()),
+    )
     _, times, _, _, losses = read(path)
     assert times["/m"].size == 29
     assert [loss.from_ns for loss in losses] == [T0 + 7]
 
 
-VALUES = {"double": st.floats(allow_nan=False, allow_infinity=False), "bool": st.booleans(),
-          "float": st.floats(width=32, allow_nan=False, allow_infinity=False),
-          "string": st.text(max_size=8), "bytes": st.binary(max_size=5), "int32": st.integers(-2**31, 2**31 - 1),
-          "sfixed32": st.integers(-2**31, 2**31 - 1), "int64": st.integers(-2**63, 2**63 - 1),
-          "sint64": st.integers(-2**63, 2**63 - 1), "uint32": st.integers(0, 2**32 - 1),
-          "uint64": st.integers(0, 2**64 - 1), "fixed64": st.integers(0, 2**64 - 1)}
+VALUES = {
+    "double": st.floats(allow_nan=False, allow_infinity=False),
+    "bool": st.booleans(),
+    "float": st.floats(width=32, allow_nan=False, allow_infinity=False),
+    "string": st.text(max_size=8),
+    "bytes": st.binary(max_size=5),
+    "int32": st.integers(-(2**31), 2**31 - 1),
+    "sfixed32": st.integers(-(2**31), 2**31 - 1),
+    "int64": st.integers(-(2**63), 2**63 - 1),
+    "sint64": st.integers(-(2**63), 2**63 - 1),
+    "uint32": st.integers(0, 2**32 - 1),
+    "uint64": st.integers(0, 2**64 - 1),
+    "fixed64": st.integers(0, 2**64 - 1),
+}
 
 
 @settings(deadline=None)
@@ -201,7 +267,7 @@ def test_many_at_once_are_as_one_by_one(order: list[int], data: st.DataObject) -
         payloads[place] = payloads[place][:kept] + tail
     enums = data.draw(st.sampled_from(["number", "label"]))
     decoder = protobuf_decoder(Schema("lab.Machine", "protobuf", machine_files().SerializeToString()), enums)
-    topic = discover("/m", {"c": decoder}, {"c": payloads[::data.draw(st.integers(1, 3))]}, False, 1 << 20, [])
+    topic = discover("/m", {"c": decoder}, {"c": payloads[:: data.draw(st.integers(1, 3))]}, False, 1 << 20, [])
     if topic is None:
         return
     a, b = decoder.columns(topic, payloads), one_by_one(topic, decoder.decode, payloads, 0)

@@ -86,19 +86,36 @@ SCHEMA = Schema("lab_msgs/msg/Machine", "ros2msg", MSG.encode())
 IDL_SCHEMA = Schema("lab_msgs/msg/Machine", "ros2idl", IDL.encode())
 ENCODE = serialize_dynamic("lab_msgs/msg/Machine", MSG)["lab_msgs/msg/Machine"]
 texts = st.text(st.characters(exclude_categories=["Cs"], exclude_characters="\0"), max_size=6)
-messages = st.fixed_dictionaries({
-    "header": st.fixed_dictionaries({"stamp": st.fixed_dictionaries(
-        {"sec": st.integers(0, 2**31 - 1), "nanosec": st.integers(0, 10**9)}), "frame_id": texts}),
-    "on": st.booleans(), "x": st.lists(st.floats(width=32, allow_nan=False), min_size=2, max_size=2),
-    "load": st.lists(st.integers(-2**15, 2**15 - 1), max_size=5), "prog": texts,
-    "probes": st.lists(st.fixed_dictionaries({"id": texts, "um": st.floats(allow_nan=False)}), max_size=3),
-    "count": st.integers(0, 2**64 - 1), "nothing": st.just({})})
+messages = st.fixed_dictionaries(
+    {
+        "header": st.fixed_dictionaries(
+            {
+                "stamp": st.fixed_dictionaries({"sec": st.integers(0, 2**31 - 1), "nanosec": st.integers(0, 10**9)}),
+                "frame_id": texts,
+            }
+        ),
+        "on": st.booleans(),
+        "x": st.lists(st.floats(width=32, allow_nan=False), min_size=2, max_size=2),
+        "load": st.lists(st.integers(-(2**15), 2**15 - 1), max_size=5),
+        "prog": texts,
+        "probes": st.lists(st.fixed_dictionaries({"id": texts, "um": st.floats(allow_nan=False)}), max_size=3),
+        "count": st.integers(0, 2**64 - 1),
+        "nothing": st.just({}),
+    }
+)
 
 
 def message(k: int) -> dict[str, Any]:
-    return {"header": {"stamp": {"sec": T0 // 10**9 + k, "nanosec": k}, "frame_id": "machine"}, "on": k % 2 == 0,
-            "x": [k / 8, -1.5], "load": list(range(k % 3)), "prog": f"MPF{k % 5}",
-            "probes": [{"id": "a", "um": k / 4}] * (k % 2), "count": 2**63 + k, "nothing": {}}
+    return {
+        "header": {"stamp": {"sec": T0 // 10**9 + k, "nanosec": k}, "frame_id": "machine"},
+        "on": k % 2 == 0,
+        "x": [k / 8, -1.5],
+        "load": list(range(k % 3)),
+        "prog": f"MPF{k % 5}",
+        "probes": [{"id": "a", "um": k / 4}] * (k % 2),
+        "count": 2**63 + k,
+        "nothing": {},
+    }
 
 
 @settings(deadline=None)
@@ -177,8 +194,12 @@ def test_big_endian_messages_are_read(value: dict[str, Any]) -> None:
 @pytest.mark.parametrize("schema", [("ros2msg", MSG), ("ros2idl", IDL)])
 def test_a_recording_in_both_byte_orders(tmp_path: Path, write: Any, read: Any, schema: tuple[str, str]) -> None:
     payloads = [ENCODE(message(k)) if k % 3 else big_endian(message(k)) for k in range(60)]
-    path = write(tmp_path / "a.mcap", [("/m", T0 + 7 + k, p) for k, p in enumerate(payloads)], encoding="cdr",
-                 schema=("lab_msgs/msg/Machine", schema[0], schema[1].encode()))
+    path = write(
+        tmp_path / "a.mcap",
+        [("/m", T0 + 7 + k, p) for k, p in enumerate(payloads)],
+        encoding="cdr",
+        schema=("lab_msgs/msg/Machine", schema[0], schema[1].encode()),
+    )
     recording, times, values, flags, losses = read(path, Source(options={"time": "header.stamp"}))
     assert not losses
     assert {s.name: s.dtype for s in recording.signals}["/m.count"] == "uint64"
@@ -190,12 +211,19 @@ def test_a_recording_in_both_byte_orders(tmp_path: Path, write: Any, read: Any, 
 
 
 def test_ros1_messages_are_read(tmp_path: Path, write: Any, read: Any) -> None:
-    text = f"Header header\nchar c\nbyte b\nduration d\nfloat32[] x\n{LINE}\nMSG: std_msgs/Header\nuint32 seq\n" \
-           "time stamp\nstring frame_id\n"
-    payloads = [struct.pack("<IIII3sBbiiI2f", k, T0 // 10**9, k, 3, b"abc", 200, -1, -1, 5, 2, k / 8, 0.5)
-                for k in range(30)]
-    path = write(tmp_path / "a.mcap", [("/m", T0 + k, p) for k, p in enumerate(payloads)], encoding="ros1",
-                 schema=("lab_msgs/M", "ros1msg", text.encode()))
+    text = (
+        f"Header header\nchar c\nbyte b\nduration d\nfloat32[] x\n{LINE}\nMSG: std_msgs/Header\nuint32 seq\n"
+        "time stamp\nstring frame_id\n"
+    )
+    payloads = [
+        struct.pack("<IIII3sBbiiI2f", k, T0 // 10**9, k, 3, b"abc", 200, -1, -1, 5, 2, k / 8, 0.5) for k in range(30)
+    ]
+    path = write(
+        tmp_path / "a.mcap",
+        [("/m", T0 + k, p) for k, p in enumerate(payloads)],
+        encoding="ros1",
+        schema=("lab_msgs/M", "ros1msg", text.encode()),
+    )
     _, times, values, _, losses = read(path, Source(options={"time": "header.stamp"}))
     assert not losses
     np.testing.assert_array_equal(times["/m"], T0 + np.arange(30))
@@ -208,22 +236,33 @@ def test_negative_durations_and_late_times_keep_their_sign() -> None:
     text = b"builtin_interfaces/Duration d\nbuiltin_interfaces/Time t"
     decoder = ros_decoder("cdr", Schema("a/msg/A", "ros2msg", text))
     assert decoder.decode(b"\0\1\0\0" + struct.pack("<iIiI", -3, 5, -1, 6)) == {
-        "d": {"sec": -3, "nanosec": 5}, "t": {"sec": -1, "nanosec": 6}}
+        "d": {"sec": -3, "nanosec": 5},
+        "t": {"sec": -1, "nanosec": 6},
+    }
 
 
-@pytest.mark.parametrize(("payload", "words"), [
-    (b"", "shorter"), (b"\0\3\0\0" + bytes(80), "encapsulation"), (ENCODE(message(4))[:-9], "early"),
-    (ENCODE(message(4)) + b"x" * 20, "more than the schema"), (b"\0\1\0\0" + b"\xff" * 60, "a length of")])
+@pytest.mark.parametrize(
+    ("payload", "words"),
+    [
+        (b"", "shorter"),
+        (b"\0\3\0\0" + bytes(80), "encapsulation"),
+        (ENCODE(message(4))[:-9], "early"),
+        (ENCODE(message(4)) + b"x" * 20, "more than the schema"),
+        (b"\0\1\0\0" + b"\xff" * 60, "a length of"),
+    ],
+)
 def test_payloads_of_another_shape_are_refused(payload: bytes, words: str) -> None:
     with pytest.raises(PayloadError, match=words):
         ros_decoder("cdr", SCHEMA).decode(payload)
 
 
-@pytest.mark.parametrize("text", ["Missing x", "B b\n===\nMSG: a/B\nA x", "A x", "int32", "wstring w",
-                                  f"B b\n{LINE}\nno name"])
+@pytest.mark.parametrize(
+    "text", ["Missing x", "B b\n===\nMSG: a/B\nA x", "A x", "int32", "wstring w", f"B b\n{LINE}\nno name"]
+)
 def test_definitions_that_do_not_resolve_are_named(tmp_path: Path, write: Any, read: Any, text: str) -> None:
-    path = write(tmp_path / "a.mcap", [("/m", T0, bytes(40))], encoding="cdr",
-                 schema=("a/msg/A", "ros2msg", text.encode()))
+    path = write(
+        tmp_path / "a.mcap", [("/m", T0, bytes(40))], encoding="cdr", schema=("a/msg/A", "ros2msg", text.encode())
+    )
     with pytest.raises(FormatError, match="topic '/m' is not read: the schema 'a/msg/A' does not read"):
         read(path)
 
@@ -240,8 +279,12 @@ def test_any_text_as_a_definition_parses_or_is_refused(text: str) -> None:
 
 def test_images_are_a_note_and_no_signals(tmp_path: Path, write: Any, read: Any) -> None:
     payload = b"\0\1\0\0" + struct.pack("<II", 3, 5000) + bytes(5000)
-    path = write(tmp_path / "a.mcap", [("/m", T0 + k, payload) for k in range(20)], encoding="cdr",
-                 schema=("a/msg/A", "ros2msg", b"uint32 n\nuint8[] data"))
+    path = write(
+        tmp_path / "a.mcap",
+        [("/m", T0 + k, payload) for k in range(20)],
+        encoding="cdr",
+        schema=("a/msg/A", "ros2msg", b"uint32 n\nuint8[] data"),
+    )
     recording, _, values, _, losses = read(path)
     assert not losses
     assert set(values) == {"/m.n"}

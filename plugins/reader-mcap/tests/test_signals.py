@@ -21,18 +21,34 @@ COMPRESSIONS = [CompressionType.NONE, CompressionType.LZ4, CompressionType.ZSTD]
 
 
 @pytest.mark.parametrize("compression", COMPRESSIONS)
-@pytest.mark.parametrize("options", [
-    {}, {"use_chunking": False},
-    {"use_summary_offsets": False, "use_statistics": False, "repeat_channels": False, "repeat_schemas": False,
-     "index_types": IndexType.NONE}])
-def test_nested_fields_arrays_and_types(tmp_path: Path, compression: CompressionType, options: dict[str, bool],
-                                        write: Any, read: Any, axis: Any) -> None:
+@pytest.mark.parametrize(
+    "options",
+    [
+        {},
+        {"use_chunking": False},
+        {
+            "use_summary_offsets": False,
+            "use_statistics": False,
+            "repeat_channels": False,
+            "repeat_schemas": False,
+            "index_types": IndexType.NONE,
+        },
+    ],
+)
+def test_nested_fields_arrays_and_types(
+    tmp_path: Path, compression: CompressionType, options: dict[str, bool], write: Any, read: Any, axis: Any
+) -> None:
     path = write(tmp_path / "a.mcap", axis(500), compression=compression, **options)
     recording, times, values, flags, losses = read(path)
     assert losses == []
     assert {s.name: s.dtype for s in recording.signals} == {
-        "/axis.pos.x": "float64", "/axis.pos.z": "int64", "/axis.t[0]": "float64", "/axis.t[1]": "float64",
-        "/axis.on": "bool", "/axis.prog": "str"}
+        "/axis.pos.x": "float64",
+        "/axis.pos.z": "int64",
+        "/axis.t[0]": "float64",
+        "/axis.t[1]": "float64",
+        "/axis.on": "bool",
+        "/axis.prog": "str",
+    }
     assert (recording.clock, recording.start_ns, recording.complete) == ("absolute", T0, True)
     np.testing.assert_array_equal(times["/axis"], T0 + STEP * np.arange(500))
     np.testing.assert_array_equal(values["/axis.pos.x"], np.arange(500) / 8)
@@ -44,8 +60,18 @@ def test_nested_fields_arrays_and_types(tmp_path: Path, compression: Compression
 
 
 def test_topics_are_streams_and_can_be_chosen(tmp_path: Path, write: Any, read: Any) -> None:
-    path = write(tmp_path / "a.mcap", [m for k in range(20) for m in (
-        ("/t", T0 + k * STEP, {"v": k}), ("/u", T0 + k * STEP + 1, {"v": 0.5}), ("odd", T0 + k * STEP, {"v": "x"}))])
+    path = write(
+        tmp_path / "a.mcap",
+        [
+            m
+            for k in range(20)
+            for m in (
+                ("/t", T0 + k * STEP, {"v": k}),
+                ("/u", T0 + k * STEP + 1, {"v": 0.5}),
+                ("odd", T0 + k * STEP, {"v": "x"}),
+            )
+        ],
+    )
     recording, times, _, _, _ = read(path)
     assert {s.stream for s in recording.signals} == set(times) == {"/t", "/u", "odd"}
     assert [s.name for s in read(path, Source(topics=("/u",)))[0].signals] == ["/u.v"]
@@ -56,8 +82,10 @@ def test_topics_are_streams_and_can_be_chosen(tmp_path: Path, write: Any, read: 
 
 def test_integers_beyond_a_float_stay_exact_with_and_without_gaps(tmp_path: Path, write: Any, read: Any) -> None:
     big = 2**53 + 1
-    path = write(tmp_path / "a.mcap", [("/c", T0 + k, {"n": big + k, "u": 2**63 + k} if k != 7 else {"n": None})
-                                       for k in range(20)])
+    path = write(
+        tmp_path / "a.mcap",
+        [("/c", T0 + k, {"n": big + k, "u": 2**63 + k} if k != 7 else {"n": None}) for k in range(20)],
+    )
     recording, _, values, flags, losses = read(path)
     assert not losses
     assert {s.name: s.dtype for s in recording.signals} == {"/c.n": "int64", "/c.u": "uint64"}
@@ -105,7 +133,8 @@ def test_words_among_numbers_are_lost_by_name_and_a_mixture_is_text(tmp_path: Pa
     recording, _, values, _, losses = read(path)
     assert {s.name: s.dtype for s in recording.signals} == {"/m.T": "float64", "/m.x": "str"}
     assert [(loss.where, loss.reason, loss.from_ns) for loss in losses] == [
-        ("a.mcap topic '/m' field '/m.T'", "expected float64, got 'ERROR'", T0 + 50)]
+        ("a.mcap topic '/m' field '/m.T'", "expected float64, got 'ERROR'", T0 + 50)
+    ]
     assert np.flatnonzero(np.isnan(values["/m.T"])).tolist() == [50]
     assert values["/m.x"][:4] == ["P0", "1", "P2", "3"]
 
@@ -121,10 +150,14 @@ def test_a_message_that_does_not_parse_is_one_loss(tmp_path: Path, write: Any, r
 
 def test_a_field_that_comes_late_is_named_once(tmp_path: Path, write: Any, read: Any) -> None:
     text = "x" * 2000
-    messages = [("/m", T0 + k, {"a": k / 2, "pad": text, **({"late": 1, "o": {"p": 2}} if 3400 < k < 3500 else {})})
-                for k in range(6000)]
+    messages = [
+        ("/m", T0 + k, {"a": k / 2, "pad": text, **({"late": 1, "o": {"p": 2}} if 3400 < k < 3500 else {})})
+        for k in range(6000)
+    ]
     _, times, values, _, losses = read(write(tmp_path / "a.mcap", messages, chunk=1 << 18))
     assert times["/m"].size == len(values["/m.a"]) == 6000
     assert sorted(loss.where for loss in losses) == [
-        "a.mcap topic '/m' field '/m.late'", "a.mcap topic '/m' field '/m.o.p'"]
+        "a.mcap topic '/m' field '/m.late'",
+        "a.mcap topic '/m' field '/m.o.p'",
+    ]
     assert losses[0].from_ns == T0 + 3401

@@ -41,13 +41,17 @@ def test_log_times_from_zero_are_a_relative_clock(tmp_path: Path, write: Any, re
 
 
 def stamped(k: int) -> dict[str, Any]:
-    return {"header": {"stamp": {"sec": (T0 + k * STEP) // 10**9, "nanosec": (T0 + k * STEP) % 10**9}}, "v": k,
-            "ms": (T0 + k * STEP) / 1e6}
+    return {
+        "header": {"stamp": {"sec": (T0 + k * STEP) // 10**9, "nanosec": (T0 + k * STEP) % 10**9}},
+        "v": k,
+        "ms": (T0 + k * STEP) / 1e6,
+    }
 
 
 def test_a_source_says_which_time_counts(tmp_path: Path, write: Any, read: Any) -> None:
-    path = write(tmp_path / "a.mcap", [("/m", T0 + k * STEP + 777, stamped(k)) for k in range(50)],
-                 publish=lambda t: t - 250)
+    path = write(
+        tmp_path / "a.mcap", [("/m", T0 + k * STEP + 777, stamped(k)) for k in range(50)], publish=lambda t: t - 250
+    )
     t = T0 + STEP * np.arange(50)
     for options, expected in (({}, t + 777), ({"time": "publish_time"}, t + 527), ({"time": "header.stamp"}, t)):
         _, times, values, _, losses = read(path, Source(options=options))
@@ -68,24 +72,36 @@ def test_a_message_without_its_stamp_keeps_its_log_time_and_is_flagged(tmp_path:
     assert ["log time stands for it" in loss.reason for loss in losses] == [True]
 
 
-@pytest.mark.parametrize(("options", "words"), [
-    ({"tme": "x"}, "did you mean 'time'"), ({"time": ""}, "header.stamp"), ({"time_unit": "h"}, "ms"),
-    ({"enums": "both"}, "label")])
-def test_options_that_are_none_are_refused(tmp_path: Path, write: Any, axis: Any, options: dict[str, str],
-                                           words: str) -> None:
+@pytest.mark.parametrize(
+    ("options", "words"),
+    [
+        ({"tme": "x"}, "did you mean 'time'"),
+        ({"time": ""}, "header.stamp"),
+        ({"time_unit": "h"}, "ms"),
+        ({"enums": "both"}, "label"),
+    ],
+)
+def test_options_that_are_none_are_refused(
+    tmp_path: Path, write: Any, axis: Any, options: dict[str, str], words: str
+) -> None:
     path = write(tmp_path / "a.mcap", axis(5))
     with pytest.raises(FormatError, match=words):
         described(Reader(), path, Source(options=options))
 
 
-def test_publish_times_that_differ_late_are_said(tmp_path: Path, write: Any, read: Any,
-                                                 monkeypatch: pytest.MonkeyPatch) -> None:
+def test_publish_times_that_differ_late_are_said(
+    tmp_path: Path, write: Any, read: Any, monkeypatch: pytest.MonkeyPatch
+) -> None:
     from thermodata_reader_mcap import content, plan
 
     monkeypatch.setattr(plan, "WHOLE", 2000)
     monkeypatch.setattr(content, "_LOOSE", 10)
-    path = write(tmp_path / "a.mcap", [("/m", T0 + k, {"v": k / 2}) for k in range(500)], use_chunking=False,
-                 publish=lambda t: t - 9 * (t > T0 + 400))
+    path = write(
+        tmp_path / "a.mcap",
+        [("/m", T0 + k, {"v": k / 2}) for k in range(500)],
+        use_chunking=False,
+        publish=lambda t: t - 9 * (t > T0 + 400),
+    )
     _, times, values, _, losses = read(path)
     assert times["/m"].size == 500
     assert ["publish_time: true" in loss.reason for loss in losses] == [True]
@@ -94,8 +110,11 @@ def test_publish_times_that_differ_late_are_said(tmp_path: Path, write: Any, rea
 
 
 def test_times_beyond_what_is_kept_are_lost_by_name(tmp_path: Path, write: Any, read: Any) -> None:
-    path = write(tmp_path / "a.mcap", [("/m", 2**64 - 1 if k == 3 else T0 + k, {"v": k / 2}) for k in range(10)],
-                 publish=lambda t: t if t == T0 + 5 else 2**63 + 5)
+    path = write(
+        tmp_path / "a.mcap",
+        [("/m", 2**64 - 1 if k == 3 else T0 + k, {"v": k / 2}) for k in range(10)],
+        publish=lambda t: t if t == T0 + 5 else 2**63 + 5,
+    )
     _, times, values, flags, losses = read(path)
     assert times["/m"].size == 9
     assert sum("2262" in loss.reason for loss in losses) == 2

@@ -16,8 +16,9 @@ from thermodata.testing.reader import Data, load
 S = 1_000_000_000
 
 
-def read(tmp_path: Path, text: str, encoding: str = "utf-8", timezone: str | None = "Europe/Prague",
-         **table: Any) -> Data:
+def read(
+    tmp_path: Path, text: str, encoding: str = "utf-8", timezone: str | None = "Europe/Prague", **table: Any
+) -> Data:
     path = tmp_path / "x.csv"
     path.write_bytes(text.encode(encoding))
     return load(Reader(), path, Source(timezone=timezone, table=table or None))
@@ -36,12 +37,19 @@ def test_semicolon_decimal_comma_units_row_and_cp1250(tmp_path: Path) -> None:
     assert "cp1250" in data.recording.notes[0]
 
 
-@pytest.mark.parametrize(("written", "meant"), [
-    ("2026-03-01 08:00:00.125", "2026-03-01T07:00:00.125"), ("2026-03-01T08:00:00Z", "2026-03-01T08:00:00"),
-    ("2026-03-01T08:00:00+02:00", "2026-03-01T06:00:00"), ("2026/3/1 8:00", "2026-03-01T07:00"),
-    ("01.03.2026 08:00:00", "2026-03-01T07:00"), ("1. 3. 2026 8:00:00", "2026-03-01T07:00"),
-    ("13/03/2026 08:00:00", "2026-03-13T07:00"), ("03/13/2026 08:00:00 PM", "2026-03-13T19:00"),
-])
+@pytest.mark.parametrize(
+    ("written", "meant"),
+    [
+        ("2026-03-01 08:00:00.125", "2026-03-01T07:00:00.125"),
+        ("2026-03-01T08:00:00Z", "2026-03-01T08:00:00"),
+        ("2026-03-01T08:00:00+02:00", "2026-03-01T06:00:00"),
+        ("2026/3/1 8:00", "2026-03-01T07:00"),
+        ("01.03.2026 08:00:00", "2026-03-01T07:00"),
+        ("1. 3. 2026 8:00:00", "2026-03-01T07:00"),
+        ("13/03/2026 08:00:00", "2026-03-13T07:00"),
+        ("03/13/2026 08:00:00 PM", "2026-03-13T19:00"),
+    ],
+)
 def test_dates_as_labs_write_them(tmp_path: Path, written: str, meant: str) -> None:
     data = read(tmp_path, f"time;T [degC]\n{written};1.5\n{written};2.5\n")
     assert data.t_ns["table"].tolist() == [utc(meant)] * 2
@@ -64,8 +72,7 @@ def test_the_day_may_show_far_down(tmp_path: Path) -> None:
 
 
 def test_date_and_time_columns_join_and_the_repeated_hour_is_resolved(tmp_path: Path) -> None:
-    rows = [("26.10.2025", f"{h:02}:{m:02}:00") for h, m in
-            [(1, 30), (2, 0), (2, 30), (2, 0), (2, 30), (3, 0)]]
+    rows = [("26.10.2025", f"{h:02}:{m:02}:00") for h, m in [(1, 30), (2, 0), (2, 30), (2, 0), (2, 30), (3, 0)]]
     text = "Datum;Uhrzeit;T [°C]\n" + "".join(f"{d};{t};{i},5\n" for i, (d, t) in enumerate(rows))
     data = read(tmp_path, text)
     assert set(np.diff(data.t_ns["table"]).tolist()) == {1800 * S}
@@ -150,11 +157,16 @@ def test_utf16_of_a_spreadsheet(tmp_path: Path) -> None:
     np.testing.assert_array_equal(data.values["table", "T [°C]"], [20.5, 20.75])
 
 
-@pytest.mark.parametrize("text", [
-    "LabVIEW Measurement\t\nWriter_Version\t2\n", "2009-06-15T00:00:00|power|ON\n2009-06-15T00:00:01|Xabs|1\n",
-    "Datum;T [°C]\n1.3.2026 8:00:00;20,5\n1.3.2026 8:00:10;20,6\n",       # a control's
-    "Dear reader,\nthe probe, as said, failed.\nYours, N.\n", "1;2;3\n4;5;6\n",
-])
+@pytest.mark.parametrize(
+    "text",
+    [
+        "LabVIEW Measurement\t\nWriter_Version\t2\n",
+        "2009-06-15T00:00:00|power|ON\n2009-06-15T00:00:01|Xabs|1\n",
+        "Datum;T [°C]\n1.3.2026 8:00:00;20,5\n1.3.2026 8:00:10;20,6\n",  # a control's
+        "Dear reader,\nthe probe, as said, failed.\nYours, N.\n",
+        "1;2;3\n4;5;6\n",
+    ],
+)
 def test_text_that_is_no_table_is_not_claimed(text: str) -> None:
     assert Reader().sniff(Head("x.csv", len(text), text.encode())) is None
 

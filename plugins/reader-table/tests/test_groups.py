@@ -38,15 +38,20 @@ def held(data: Data, stream: str, name: str, t: list[float], values: list[Any]) 
     np.testing.assert_array_equal(data.values[stream, name], values)
 
 
-@pytest.mark.parametrize(("header", "streams", "names"), [
-    ("t1;T1;t2;T2;T3", ("t1", "t2"), ("T1", "T2")), ("Time;CH1;Time;CH2;n", ("Time", "Time#2"), ("CH1", "CH2")),
-    ("Time.0 [s];CH1;Time.1 [s];CH2;n", ("Time.0 [s]", "Time.1 [s]"), ("CH1", "CH2")),
-    ("CH1 time;CH1;CH2 time;CH2;n", ("CH1 time", "CH2 time"), ("CH1", "CH2")),
-    ("Zeit 1 [s];a;Zeit 2 [s];b;c", ("Zeit 1 [s]", "Zeit 2 [s]"), ("a", "b")),
-    ("CH1;;CH2;;\nTime;Value;Time;Value;n", ("CH1/Time", "CH2/Time"), ("CH1/Value", "CH2/Value")),
-])
-def test_each_group_is_a_stream_of_its_own_length(tmp_path: Path, header: str, streams: tuple[str, str],
-                                                  names: tuple[str, str]) -> None:
+@pytest.mark.parametrize(
+    ("header", "streams", "names"),
+    [
+        ("t1;T1;t2;T2;T3", ("t1", "t2"), ("T1", "T2")),
+        ("Time;CH1;Time;CH2;n", ("Time", "Time#2"), ("CH1", "CH2")),
+        ("Time.0 [s];CH1;Time.1 [s];CH2;n", ("Time.0 [s]", "Time.1 [s]"), ("CH1", "CH2")),
+        ("CH1 time;CH1;CH2 time;CH2;n", ("CH1 time", "CH2 time"), ("CH1", "CH2")),
+        ("Zeit 1 [s];a;Zeit 2 [s];b;c", ("Zeit 1 [s]", "Zeit 2 [s]"), ("a", "b")),
+        ("CH1;;CH2;;\nTime;Value;Time;Value;n", ("CH1/Time", "CH2/Time"), ("CH1/Value", "CH2/Value")),
+    ],
+)
+def test_each_group_is_a_stream_of_its_own_length(
+    tmp_path: Path, header: str, streams: tuple[str, str], names: tuple[str, str]
+) -> None:
     data = read(tmp_path, header + "\n" + rows(A, VA, B, VB, VB))
     held(data, streams[0], names[0], A, VA)
     held(data, streams[1], names[1], B, VB)
@@ -61,8 +66,10 @@ def test_both_ways_through_the_text_agree(tmp_path: Path) -> None:
     source = Source(timezone="Europe/Prague")
     sheet = delimited.open_sheet(path, source)
     assert text_fast.suits(sheet)
-    ways = [list(text_fast.blocks(path, sheet, source, text_rows.Tally())),
-            list(text_rows.blocks(path, sheet, source, text_rows.Tally()))]
+    ways = [
+        list(text_fast.blocks(path, sheet, source, text_rows.Tally())),
+        list(text_rows.blocks(path, sheet, source, text_rows.Tally())),
+    ]
     for fast, slow in zip(*ways, strict=True):
         assert not isinstance(slow, Loss)
         assert fast.stream == slow.stream
@@ -96,10 +103,16 @@ def test_lines_that_end_with_their_group_are_whole_and_others_short(tmp_path: Pa
     assert "fewer cells" in read(tmp_path, "".join(lines)).losses[0].reason
 
 
-@pytest.mark.parametrize("header", [
-    "time [s];t1;t2;t3", "time [s];t1 [degC];T1;t2 [degC]", "Time;Elapsed;CH1;CH2", "time [s];t1;CH1;t2",
-    "Time;CH1;Operating time;CH2",
-])
+@pytest.mark.parametrize(
+    "header",
+    [
+        "time [s];t1;t2;t3",
+        "time [s];t1 [degC];T1;t2 [degC]",
+        "Time;Elapsed;CH1;CH2",
+        "time [s];t1;CH1;t2",
+        "Time;CH1;Operating time;CH2",
+    ],
+)
 def test_temperatures_and_second_clocks_stay_signals(tmp_path: Path, header: str) -> None:
     data = read(tmp_path, header + "\n" + rows(A, A, A, A))
     assert list(data.t_ns) == ["table"]
@@ -127,8 +140,11 @@ def test_times_behind_their_columns_are_asked_and_can_be_declared(tmp_path: Path
 
 def test_a_column_declared_twice_is_refused(tmp_path: Path) -> None:
     with pytest.raises(UsageError, match="declared twice"):
-        read(tmp_path, "t1;T1;t2;T2\n" + rows(A, VA, B, VB),
-             time=[{"column": 1, "signals": [2]}, {"column": 3, "signals": [2]}])
+        read(
+            tmp_path,
+            "t1;T1;t2;T2\n" + rows(A, VA, B, VB),
+            time=[{"column": 1, "signals": [2]}, {"column": 3, "signals": [2]}],
+        )
 
 
 def test_dates_beside_seconds_of_their_own_are_asked(tmp_path: Path) -> None:

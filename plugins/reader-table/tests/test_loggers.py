@@ -22,9 +22,21 @@ def test_a_units_row_among_words_and_signs_before_padding(tmp_path: Path) -> Non
     path = tmp_path / "logger.csv"
     rows = [f"{i + 1},2026/03/27 06:00:{i:02d},+   {20 + i / 10:.1f},-    3.5,+  1.2500,LLLL" for i in range(30)]
     rows[4] = "5,2026/03/27 06:00:04,BURNOUT,-    3.5,+  1.2500,LLLL"
-    path.write_text("\n".join([
-        "Vendor,SOMEBODY", "Sampling interval,1s", "CH,Signal name,Input,Range", 'CH1,"T front",TEMP,TC_K', "Data",
-        "Number,Date&Time,CH1,CH2,CH3,AlarmOut", "NO.,Time,degC,degC,V,A1234", *rows, ""]))
+    path.write_text(
+        "\n".join(
+            [
+                "Vendor,SOMEBODY",
+                "Sampling interval,1s",
+                "CH,Signal name,Input,Range",
+                'CH1,"T front",TEMP,TC_K',
+                "Data",
+                "Number,Date&Time,CH1,CH2,CH3,AlarmOut",
+                "NO.,Time,degC,degC,V,A1234",
+                *rows,
+                "",
+            ]
+        )
+    )
     units, values = read(path)
     assert units == {"Number": None, "CH1": "degC", "CH2": "degC", "CH3": "V", "AlarmOut": None}
     expected = 20 + np.arange(30) / 10
@@ -36,10 +48,20 @@ def test_a_units_row_among_words_and_signs_before_padding(tmp_path: Path) -> Non
 def test_a_list_of_channels_with_ranges_is_no_data(tmp_path: Path) -> None:
     path = tmp_path / "scan.csv"
     rows = [f"{i + 1},03/27/2026 06:00:{i:02d}:264,{20 + i / 10:.1f},0,21.5,0" for i in range(40)]
-    path.write_text("\n".join([
-        "Channel,Name,Function,Range,Resolution,Scale,Gain,Offset", "101,T_front,Temp (Type K),,C,No,1,0",
-        "102,T_hall,Temp (RTD),,C,No,1,0", "103,probe,DC voltage,10 V,5.5 digits,No,1,0", "",
-        "Scan,Time,101 <T_front> (C),Alarm 101,102 <T_hall> (C),Alarm 102", *rows, ""]))
+    path.write_text(
+        "\n".join(
+            [
+                "Channel,Name,Function,Range,Resolution,Scale,Gain,Offset",
+                "101,T_front,Temp (Type K),,C,No,1,0",
+                "102,T_hall,Temp (RTD),,C,No,1,0",
+                "103,probe,DC voltage,10 V,5.5 digits,No,1,0",
+                "",
+                "Scan,Time,101 <T_front> (C),Alarm 101,102 <T_hall> (C),Alarm 102",
+                *rows,
+                "",
+            ]
+        )
+    )
     units, values = read(path)
     assert list(units) == ["Scan", "101 <T_front> (C)", "Alarm 101", "102 <T_hall> (C)", "Alarm 102"]
     assert values["101 <T_front> (C)"].astype(float).tolist() == [20 + i / 10 for i in range(40)]
@@ -48,7 +70,8 @@ def test_a_list_of_channels_with_ranges_is_no_data(tmp_path: Path) -> None:
 
 def test_a_table_with_a_row_a_value_is_left_to_its_reader() -> None:
     text = "id,_NAME,_NUMERICID,_VALUE,_TIMESTAMP,_QUALITY\n" + "".join(
-        f"{i},Channel1.T,0,20.{i},2026-03-27 06:00:0{i}.123,192\n" for i in range(9))
+        f"{i},Channel1.T,0,20.{i},2026-03-27 06:00:0{i}.123,192\n" for i in range(9)
+    )
     assert Reader().sniff(Head("kepware.csv", len(text), text.encode())) is None
 
 

@@ -63,8 +63,18 @@ def utc(text: str) -> int:
 @pytest.mark.parametrize("packed", [True, False])
 @pytest.mark.parametrize("time", ["t", "time", "Zeit", "cas", "time_s", "tAxis"])
 def test_vectors_beside_a_time_keep_dtypes_and_scalars_are_properties(tmp_path: Path, time: str, packed: bool) -> None:
-    data = read(tmp_path, {time: col(T), "T1": col(WAVE), "i": col(np.arange(N, dtype=np.int16)),
-                           "door": col(WAVE > 0), "serial": 4711.0, "machine": "Gantry 138"}, packed)
+    data = read(
+        tmp_path,
+        {
+            time: col(T),
+            "T1": col(WAVE),
+            "i": col(np.arange(N, dtype=np.int16)),
+            "door": col(WAVE > 0),
+            "serial": 4711.0,
+            "machine": "Gantry 138",
+        },
+        packed,
+    )
     assert {s.name: s.dtype for s in data.recording.signals} == {"T1": "float64", "i": "int16", "door": "bool"}
     np.testing.assert_array_equal(only(data), (T * S).astype(np.int64))
     np.testing.assert_array_equal(column(data, "T1"), WAVE)
@@ -72,8 +82,10 @@ def test_vectors_beside_a_time_keep_dtypes_and_scalars_are_properties(tmp_path: 
 
 
 def test_a_matrix_with_names_has_its_time_where_the_name_says(tmp_path: Path) -> None:
-    data = read(tmp_path, {"log": np.stack([WAVE, T, -WAVE], 1), "names": cell("dZ", "Time", "T1"),
-                           "units": cell("um", "min", "degC")})
+    data = read(
+        tmp_path,
+        {"log": np.stack([WAVE, T, -WAVE], 1), "names": cell("dZ", "Time", "T1"), "units": cell("um", "min", "degC")},
+    )
     assert names(data) == [("dZ", "um"), ("T1", "degC")]
     np.testing.assert_array_equal(only(data), (T * 60 * S).astype(np.int64))
 
@@ -121,7 +133,7 @@ def test_two_times_of_one_length_are_told_apart_by_names_or_asked(tmp_path: Path
 
 
 def test_dates_as_datenum_text_and_unix_time(tmp_path: Path) -> None:
-    day = 740042.0                                                             # 2026-03-01
+    day = 740042.0  # 2026-03-01
     data = read(tmp_path, {"t": col(day + np.arange(4) / 24), "T1": col(WAVE[:4])})
     # a double of this size resolves 10 us
     np.testing.assert_allclose(only(data), utc("2026-02-28T23:00") + 3600 * S * np.arange(4), rtol=0, atol=10_000)
@@ -187,7 +199,7 @@ def test_a_chunk_that_a_search_misses_is_a_loss_and_no_zeros(tmp_path: Path, pac
         flipped[whole.index(key) + 24 + 3] ^= 1
         path.write_bytes(flipped)
         with h5py.File(path) as file:
-            assert not file[name][place[0]:place[0] + 1, place[1]:place[1] + 2].any()
+            assert not file[name][place[0] : place[0] + 1, place[1] : place[1] + 2].any()
         data = load(Reader(), path, Source())
         assert [x.where for x in data.losses] == [f"x.mat variable '{name}'"]
         assert "a search does not find the chunk" in data.losses[0].reason
@@ -212,8 +224,9 @@ def test_counts_that_pass_the_data_are_refused_before_anything_is_made(tmp_path:
     path = tmp_path / "x.mat"
     scipy.io.savemat(path, {"a": col(WAVE)})
     data = path.read_bytes()
-    path.write_bytes(data.replace((N).to_bytes(4, "little") + (1).to_bytes(4, "little"),
-                                  (2**31 - 1).to_bytes(4, "little") * 2))
+    path.write_bytes(
+        data.replace((N).to_bytes(4, "little") + (1).to_bytes(4, "little"), (2**31 - 1).to_bytes(4, "little") * 2)
+    )
     with pytest.raises(FormatError):
         load(Reader(), path, Source())
     path.write_bytes(data[:128] + (b"\x0e\0\0\0\x08\0\0\0" * 100_000))
@@ -247,8 +260,9 @@ def same(ours: Node, theirs: Any) -> None:
 
 
 @pytest.mark.skipif(not SCIPYS, reason="scipy ships no files")
-@pytest.mark.parametrize("path", [p for p in SCIPYS if p.read_bytes()[124:128] in (b"\0\1IM", b"\1\0MI")],
-                         ids=lambda p: p.stem)
+@pytest.mark.parametrize(
+    "path", [p for p in SCIPYS if p.read_bytes()[124:128] in (b"\0\1IM", b"\1\0MI")], ids=lambda p: p.stem
+)
 def test_scipys_own_files_read_as_scipy_reads_them(path: Path) -> None:
     tree = mat5.read(path)
     try:
@@ -286,17 +300,17 @@ def test_a_name_that_is_no_text_or_of_an_unknown_class_is_told(tmp_path: Path) -
 
 def test_a_packed_variable_with_bytes_behind_its_end_is_a_loss(tmp_path: Path) -> None:
     path = tmp_path / "x.mat"
-    scipy.io.savemat(path, {"t": col(np.arange(5.0)), "T1": col(np.arange(5.0)), "T2": col(np.arange(5.0))},
-                     do_compression=True)
+    scipy.io.savemat(
+        path, {"t": col(np.arange(5.0)), "T1": col(np.arange(5.0)), "T2": col(np.arange(5.0))}, do_compression=True
+    )
     data = path.read_bytes()
     size = int.from_bytes(data[132:136], "little")
     last = 136 + size
-    end = last + 8 + int.from_bytes(data[last + 4:last + 8], "little")
-    inside = bytearray(zlib.decompress(data[last + 8:end]))
-    inside[4:8] = b"\0" * 4                              # a matrix of no bytes, and its bytes behind it
+    end = last + 8 + int.from_bytes(data[last + 4 : last + 8], "little")
+    inside = bytearray(zlib.decompress(data[last + 8 : end]))
+    inside[4:8] = b"\0" * 4  # a matrix of no bytes, and its bytes behind it
     packed = zlib.compress(bytes(inside))
-    path.write_bytes(data[:last] + data[last:last + 4] + len(packed).to_bytes(4, "little") + packed
-                     + data[end:])
+    path.write_bytes(data[:last] + data[last : last + 4] + len(packed).to_bytes(4, "little") + packed + data[end:])
     found = load(Reader(), path, Source())
     assert [s.name for s in found.recording.signals] == ["T2"]
     assert any("bytes behind its end" in loss.reason for loss in found.losses)

@@ -32,10 +32,20 @@ def write(path: Path, version: str, compression: int = 0, start: dt.datetime | N
     signals = [
         make(WAVE * 40, T, name="T1", unit="degC", comment="front"),
         make((WAVE * 100).astype("<i2"), T, name="probe", unit="V", conversion={"a": 0.01, "b": -1.0}, **more),
-        make((np.arange(N) % 2).astype("u1"), T, name="door",
-             conversion={"val_0": 0, "text_0": b"open", "val_1": 1, "text_1": b"shut"}),
-        make((np.arange(N) % 2).astype("u1"), T, name="curve", unit="mm",
-             conversion={"raw_0": 0.0, "phys_0": 10.0, "raw_1": 1.0, "phys_1": 30.0, "interpolation": True})]
+        make(
+            (np.arange(N) % 2).astype("u1"),
+            T,
+            name="door",
+            conversion={"val_0": 0, "text_0": b"open", "val_1": 1, "text_1": b"shut"},
+        ),
+        make(
+            (np.arange(N) % 2).astype("u1"),
+            T,
+            name="curve",
+            unit="mm",
+            conversion={"raw_0": 0.0, "phys_0": 10.0, "raw_1": 1.0, "phys_1": 30.0, "interpolation": True},
+        ),
+    ]
     with asammdf.MDF(version=version) as mdf:
         mdf.start_time = start or dt.datetime(2026, 3, 1, 8, 0, 0, 500_000, dt.timezone(dt.timedelta(hours=1)))
         mdf.append(signals)
@@ -49,8 +59,9 @@ def read(path: Path, timezone: str | None = "Europe/Prague", **options: Any) -> 
 
 
 @pytest.mark.parametrize(("version", "compression"), [("4.10", 0), ("4.11", 2), ("3.30", 0)])
-def test_groups_are_streams_with_raw_values_and_declared_scalings(tmp_path: Path, version: str,
-                                                                  compression: int) -> None:
+def test_groups_are_streams_with_raw_values_and_declared_scalings(
+    tmp_path: Path, version: str, compression: int
+) -> None:
     data = read(write(tmp_path / ("x.mf4" if version >= "4" else "x.mdf"), version, compression))
     assert list(data.t_ns) == ["group 1", "group 2"]
     np.testing.assert_array_equal(data.values["group 1", "T1"], WAVE * 40)
@@ -87,7 +98,7 @@ def test_one_group_by_its_number(tmp_path: Path) -> None:
 def test_a_start_without_a_zone_takes_that_of_the_source(tmp_path: Path) -> None:
     path = write(tmp_path / "x.mf4", "4.10")
     data = bytearray(path.read_bytes())
-    data[64 + 24 + 48 + 12] |= 1                                                # hd_time_flags: local time
+    data[64 + 24 + 48 + 12] |= 1  # hd_time_flags: local time
     path.write_bytes(bytes(data))
     # what the header holds is 7:00 now, local
     assert abs(read(path).recording.start_ns - (START - 3_600_000_000_000)) < 1000
@@ -113,7 +124,7 @@ def test_links_in_a_circle_or_out_of_the_file_are_refused(tmp_path: Path, kind: 
     data = path.read_bytes()
     at = data.find(kind)
     for target in (at, len(data) + 8, 3):
-        path.write_bytes(data[:at + offset] + struct.pack("<Q", target) + data[at + offset + 8:])
+        path.write_bytes(data[: at + offset] + struct.pack("<Q", target) + data[at + offset + 8 :])
         with pytest.raises(FormatError, match=r"circle|out of the file|no block|another kind"):
             read(path)
 

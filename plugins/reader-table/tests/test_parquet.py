@@ -22,7 +22,7 @@ def _mixed(path: Path) -> None:
     begin = len(data) - 8 - int.from_bytes(data[-8:-4], "little")
     for at in range(begin, len(data) - 8):
         for bit in range(1, 4):
-            path.write_bytes(data[:at] + bytes((data[at] ^ 1 << bit,)) + data[at + 1:])
+            path.write_bytes(data[:at] + bytes((data[at] ^ 1 << bit,)) + data[at + 1 :])
             try:
                 file = pq.ParquetFile(path)
                 chunk = file.metadata.row_group(0).column(1)

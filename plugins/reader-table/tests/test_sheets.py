@@ -19,10 +19,12 @@ OFFICE = "http://schemas.openxmlformats.org/officeDocument/2006/relationships"
 PACKAGE = "http://schemas.openxmlformats.org/package/2006"
 TYPES = "application/vnd.openxmlformats-"
 # cell formats: 0 general, 1 date and time, 2 duration, 3 time of day, 4 date
-STYLES = (f'<styleSheet xmlns="{MAIN}"><numFmts count="1"><numFmt numFmtId="164" formatCode="[h]:mm:ss"/></numFmts>'
-          '<fonts count="1"><font/></fonts><fills count="1"><fill/></fills><borders count="1"><border/></borders>'
-          '<cellStyleXfs count="1"><xf/></cellStyleXfs><cellXfs count="5"><xf numFmtId="0"/><xf numFmtId="22"/>'
-          '<xf numFmtId="164"/><xf numFmtId="21"/><xf numFmtId="14"/></cellXfs></styleSheet>')
+STYLES = (
+    f'<styleSheet xmlns="{MAIN}"><numFmts count="1"><numFmt numFmtId="164" formatCode="[h]:mm:ss"/></numFmts>'
+    '<fonts count="1"><font/></fonts><fills count="1"><fill/></fills><borders count="1"><border/></borders>'
+    '<cellStyleXfs count="1"><xf/></cellStyleXfs><cellXfs count="5"><xf numFmtId="0"/><xf numFmtId="22"/>'
+    '<xf numFmtId="164"/><xf numFmtId="21"/><xf numFmtId="14"/></cellXfs></styleSheet>'
+)
 
 
 def sheet(rows: list[list[object]], styles: tuple[int, ...] = (), merged: str = "") -> str:
@@ -44,19 +46,24 @@ def sheet(rows: list[list[object]], styles: tuple[int, ...] = (), merged: str = 
 def workbook(path: Path, sheets: dict[str, str], properties: str = "") -> Path:
     numbers = range(1, len(sheets) + 1)
     named = "".join(f'<sheet name="{n}" sheetId="{i}" r:id="r{i}"/>' for i, n in zip(numbers, sheets, strict=True))
-    links = "".join(f'<Relationship Id="r{i}" Target="worksheets/sheet{i}.xml" Type="{OFFICE}/worksheet"/>'
-                    for i in numbers) + f'<Relationship Id="s" Target="styles.xml" Type="{OFFICE}/styles"/>'
+    links = (
+        "".join(
+            f'<Relationship Id="r{i}" Target="worksheets/sheet{i}.xml" Type="{OFFICE}/worksheet"/>' for i in numbers
+        )
+        + f'<Relationship Id="s" Target="styles.xml" Type="{OFFICE}/styles"/>'
+    )
     members = {
         "[Content_Types].xml": f'<Types xmlns="{PACKAGE}/content-types"><Default Extension="rels" ContentType="{TYPES}'
-                               f'package.relationships+xml"/><Default Extension="xml" ContentType="{TYPES}'
-                               'officedocument.spreadsheetml.worksheet+xml"/></Types>',
+        f'package.relationships+xml"/><Default Extension="xml" ContentType="{TYPES}'
+        'officedocument.spreadsheetml.worksheet+xml"/></Types>',
         "_rels/.rels": f'<Relationships xmlns="{PACKAGE}/relationships"><Relationship Id="r1" Target="xl/workbook.xml" '
-                       f'Type="{OFFICE}/officeDocument"/></Relationships>',
+        f'Type="{OFFICE}/officeDocument"/></Relationships>',
         "xl/workbook.xml": f'<workbook xmlns="{MAIN}" xmlns:r="{OFFICE}">{properties}<sheets>{named}</sheets>'
-                           '</workbook>',
+        "</workbook>",
         "xl/_rels/workbook.xml.rels": f'<Relationships xmlns="{PACKAGE}/relationships">{links}</Relationships>',
         "xl/styles.xml": STYLES,
-        **{f"xl/worksheets/sheet{i}.xml": text for i, text in zip(numbers, sheets.values(), strict=True)}}
+        **{f"xl/worksheets/sheet{i}.xml": text for i, text in zip(numbers, sheets.values(), strict=True)},
+    }
     return bomb(path, {name: text.encode() for name, text in members.items()})
 
 
@@ -69,11 +76,16 @@ def seconds(n: int, first: float = 20.0) -> list[list[object]]:
 
 
 def test_each_sheet_with_a_table_is_a_stream_and_others_are_notes(tmp_path: Path) -> None:
-    book = {"cover": sheet([["Machine", "138"], ["Operator", "Novák"]]), "run 1": sheet(seconds(5)),
-            "run 2": sheet(seconds(3, 50))}
+    book = {
+        "cover": sheet([["Machine", "138"], ["Operator", "Novák"]]),
+        "run 1": sheet(seconds(5)),
+        "run 2": sheet(seconds(3, 50)),
+    }
     data = read(tmp_path, book)
     assert [(s.name, s.stream, s.unit) for s in data.recording.signals] == [
-        ("run 1/T1 [degC]", "run 1", "degC"), ("run 2/T1 [degC]", "run 2", "degC")]
+        ("run 1/T1 [degC]", "run 1", "degC"),
+        ("run 2/T1 [degC]", "run 2", "degC"),
+    ]
     np.testing.assert_array_equal(data.values["run 1", "run 1/T1 [degC]"], 20 + np.arange(5))
     np.testing.assert_array_equal(data.values["run 2", "run 2/T1 [degC]"], 50 + np.arange(3))
     assert data.recording.notes[0].startswith("sheet 'cover' is not read as a table")
@@ -89,8 +101,12 @@ def test_a_cover_before_the_only_table(tmp_path: Path) -> None:
 
 
 def test_columns_with_times_of_their_own_in_sheets(tmp_path: Path) -> None:
-    pairs: list[list[object]] = [["t1", "T1", "t2", "T2"], *([i, 20 + i, i * 0.5, i] for i in range(4)),
-                                 [4, 24, None, None], [5, 25, None, None]]
+    pairs: list[list[object]] = [
+        ["t1", "T1", "t2", "T2"],
+        *([i, 20 + i, i * 0.5, i] for i in range(4)),
+        [4, 24, None, None],
+        [5, 25, None, None],
+    ]
     data = read(tmp_path, {"a": sheet(pairs)})
     assert {k: v.size for k, v in data.t_ns.items()} == {"t1": 6, "t2": 4}
     both = read(tmp_path, {"a": sheet(pairs), "b": sheet(pairs)})
@@ -105,12 +121,19 @@ def test_sheets_of_dates_and_of_seconds_are_asked(tmp_path: Path) -> None:
 
 
 def test_merged_headers_name_what_is_below_them(tmp_path: Path) -> None:
-    rows: list[list[object]] = [["time", "spindle", None, "column", None, "air"],
-                                [None, "front", "rear", "front", "rear", None],
-                                *([i, 1.5, 2.5, 3.5, 4.5, i] for i in range(4))]
+    rows: list[list[object]] = [
+        ["time", "spindle", None, "column", None, "air"],
+        [None, "front", "rear", "front", "rear", None],
+        *([i, 1.5, 2.5, 3.5, 4.5, i] for i in range(4)),
+    ]
     data = read(tmp_path, {"a": sheet(rows, (), "B1:C1")})
-    assert [s.name for s in data.recording.signals] == ["spindle/front", "spindle/rear", "column/front", "column/rear",
-                                                        "air"]
+    assert [s.name for s in data.recording.signals] == [
+        "spindle/front",
+        "spindle/rear",
+        "column/front",
+        "column/rear",
+        "air",
+    ]
     data = read(tmp_path, {"a": sheet([[r[0], *r[1:3], r[5]] for r in rows])})
     assert [s.name for s in data.recording.signals] == ["front", "rear", "air"]
 
@@ -142,8 +165,8 @@ def test_an_archive_whose_parts_are_said_to_begin_before_it_is_refused(tmp_path:
     path = workbook(tmp_path / "x.xlsx", {"a": sheet(seconds(4))})
     data = bytearray(path.read_bytes())
     end = data.rfind(b"PK\x05\x06")
-    at = int.from_bytes(data[end + 16:end + 20], "little")
-    data[end + 16:end + 20] = (at + 50).to_bytes(4, "little")       # all places are 50 bytes too far
+    at = int.from_bytes(data[end + 16 : end + 20], "little")
+    data[end + 16 : end + 20] = (at + 50).to_bytes(4, "little")  # all places are 50 bytes too far
     path.write_bytes(data)
     with pytest.raises(FormatError, match=r"damaged workbook|not a readable workbook"):
         load(Reader(), path, Source())

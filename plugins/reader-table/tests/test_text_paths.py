@@ -24,13 +24,20 @@ def read(tmp_path: Path, text: str, source: Source = PRAGUE) -> Data:
     return load(Reader(), path, source)
 
 
-@pytest.mark.parametrize(("head", "row"), [
-    ("time,T1,n,mode", "2026-03-01 08:{m:02}:00.125,{a},{i},idle"), ("Zeit;T1;n", "1.3.2026 {h}:{m:02}:00;{c};{i}"),
-    ("t [s],T1,n", "{i}.5,{a},-{i}e-3"), ("Datum;T1", "03/14/2026 08:{m:02}:30;{a}"), ("t (min)\tT1", "{i}\tnan"),
-])
+@pytest.mark.parametrize(
+    ("head", "row"),
+    [
+        ("time,T1,n,mode", "2026-03-01 08:{m:02}:00.125,{a},{i},idle"),
+        ("Zeit;T1;n", "1.3.2026 {h}:{m:02}:00;{c};{i}"),
+        ("t [s],T1,n", "{i}.5,{a},-{i}e-3"),
+        ("Datum;T1", "03/14/2026 08:{m:02}:30;{a}"),
+        ("t (min)\tT1", "{i}\tnan"),
+    ],
+)
 def test_both_ways_give_the_same(tmp_path: Path, head: str, row: str) -> None:
-    rows = [row.format(i=i, h=8 + i // 60, m=i % 60, a=20 + i / 7, c=f"{i / 8:.3f}".replace(".", ","))
-            for i in range(300)]
+    rows = [
+        row.format(i=i, h=8 + i // 60, m=i % 60, a=20 + i / 7, c=f"{i / 8:.3f}".replace(".", ",")) for i in range(300)
+    ]
     path = tmp_path / "x.csv"
     path.write_text("\n".join([head, *rows]) + "\n")
     sheet = delimited.open_sheet(path, PRAGUE)
@@ -39,8 +46,9 @@ def test_both_ways_give_the_same(tmp_path: Path, head: str, row: str) -> None:
     slow = [b for b in text_rows.blocks(path, sheet, PRAGUE, text_rows.Tally()) if not hasattr(b, "reason")]
     np.testing.assert_array_equal(np.concatenate([b.t_ns for b in fast]), np.concatenate([b.t_ns for b in slow]))
     for name in fast[0].values:
-        np.testing.assert_array_equal(np.concatenate([b.values[name] for b in fast]),
-                                      np.concatenate([b.values[name] for b in slow]))
+        np.testing.assert_array_equal(
+            np.concatenate([b.values[name] for b in fast]), np.concatenate([b.values[name] for b in slow])
+        )
 
 
 def test_what_is_odd_far_down_costs_its_own_rows_only(tmp_path: Path) -> None:
@@ -89,7 +97,7 @@ def test_days_of_a_spreadsheet_are_dates_where_named_so_and_asked_else(tmp_path:
 def test_seconds_with_milliseconds_are_exact(seconds: int, milli: int) -> None:
     got = to_ns(np.array([float(f"{seconds}.{milli:03}")]), 1.0)[0]
     want = seconds * 10**9 + (milli if not str(seconds).startswith("-") else -milli) * 10**6
-    assert abs(int(got) - want) <= max(1, abs(seconds) // 4_000_000)           # the step of a double of this size
+    assert abs(int(got) - want) <= max(1, abs(seconds) // 4_000_000)  # the step of a double of this size
 
 
 def test_tests_from_file_names_and_a_workbook_of_tests(tmp_path: Path) -> None:
@@ -105,9 +113,16 @@ def test_tests_from_file_names_and_a_workbook_of_tests(tmp_path: Path) -> None:
         (tmp_path / f"S{speed}_{nr}.csv").write_text("time [s],T1 [degC]\n" + rows)
 
     def words(row: int, *values: object) -> str:
-        return f'<row r="{row}">' + "".join(
-            f'<c r="{"ABC"[i]}{row}"><v>{v}</v></c>' if isinstance(v, int) else
-            f'<c r="{"ABC"[i]}{row}" t="inlineStr"><is><t>{v}</t></is></c>' for i, v in enumerate(values)) + "</row>"
+        return (
+            f'<row r="{row}">'
+            + "".join(
+                f'<c r="{"ABC"[i]}{row}"><v>{v}</v></c>'
+                if isinstance(v, int)
+                else f'<c r="{"ABC"[i]}{row}" t="inlineStr"><is><t>{v}</t></is></c>'
+                for i, v in enumerate(values)
+            )
+            + "</row>"
+        )
 
     least(tmp_path / "tests.xlsx", words(1, "nr", "air", "n") + words(2, 1, "on", 3000) + words(3, 2, "off", 9000))
     (tmp_path / "campaign.yaml").write_text("""
@@ -133,7 +148,7 @@ tests_from:
 @pytest.mark.parametrize("word", ["", ";idle"])
 def test_all_rows_come_whatever_ends_the_lines(tmp_path: Path, head: str, end: str, word: str) -> None:
     text = head + "".join(f"\n{i};{i / 4}" for i in range(50)) + "\n"
-    for more in ("", "x\n" if word else ""):                # the second of them goes the careful way
+    for more in ("", "x\n" if word else ""):  # the second of them goes the careful way
         data = read(tmp_path, (text + more).replace("\n", end))
         np.testing.assert_array_equal(data.t_ns["table"], np.arange(50) * 10**9)
         np.testing.assert_array_equal(data.values["table", "T"], np.arange(50) / 4)

@@ -82,14 +82,22 @@ def test_parquet_keeps_dtypes_and_takes_local_and_utc_times(tmp_path: Path) -> N
     import pyarrow.parquet as pq
 
     t = np.datetime64("2026-03-01T08:00:00", "ns") + np.arange(3) * np.timedelta64(1, "s")
-    columns = {"T [degC]": np.arange(3, dtype=np.float32), "n": pa.array([1, None, 3]),
-               "i": np.arange(3, dtype=np.int16), "mode": ["a", None, "c"]}
+    columns = {
+        "T [degC]": np.arange(3, dtype=np.float32),
+        "n": pa.array([1, None, 3]),
+        "i": np.arange(3, dtype=np.int16),
+        "mode": ["a", None, "c"],
+    }
     for zone, hour in ((None, 7), ("UTC", 8)):
         path = tmp_path / f"{zone}.parquet"
         pq.write_table(pa.table({"time": pa.array(t, pa.timestamp("ns", zone)), **columns}), path)
         data = load(Reader(), path, Source(timezone="Europe/Prague"))
         assert {s.name: s.dtype for s in data.recording.signals} == {
-            "T [degC]": "float32", "n": "float64", "i": "int16", "mode": "str"}
+            "T [degC]": "float32",
+            "n": "float64",
+            "i": "int16",
+            "mode": "str",
+        }
         assert data.t_ns["table"][0] == np.datetime64(f"2026-03-01T{hour:02}:00", "ns").astype(np.int64)
         np.testing.assert_array_equal(data.values["table", "n"], [1, np.nan, 3])
         assert list(data.values["table", "mode"]) == ["a", "", "c"]
@@ -111,36 +119,52 @@ def least(path: Path, sheet: str, more: str = "") -> Path:
     office = "http://schemas.openxmlformats.org/officeDocument/2006/relationships"
     types = "application/vnd.openxmlformats-"
     data = f'<worksheet xmlns="{main}"><sheetData>{sheet}</sheetData></worksheet>'.encode()
-    return bomb(path, {
-        "[Content_Types].xml": f'<Types xmlns="{package}/content-types"><Default Extension="rels" ContentType="{types}'
-                               f'package.relationships+xml"/><Default Extension="xml" ContentType="{types}'
-                               'officedocument.spreadsheetml.worksheet+xml"/></Types>'.encode(),
-        "_rels/.rels": f'<Relationships xmlns="{package}/relationships"><Relationship Id="r1" Target="xl/workbook.xml" '
-                       f'Type="{office}/officeDocument"/></Relationships>'.encode(),
-        "xl/workbook.xml": f'<workbook xmlns="{main}" xmlns:r="{office}"><sheets><sheet name="data" sheetId="1" '
-                           f'r:id="r1"/>{more}</sheets></workbook>'.encode(),
-        "xl/_rels/workbook.xml.rels": (
-            f'<Relationships xmlns="{package}/relationships">' + "".join(
-                f'<Relationship Id="r{i}" Target="worksheets/sheet1.xml" Type="{office}/worksheet"/>'
-                for i in (1, 2)) + "</Relationships>").encode(),
-        "xl/worksheets/sheet1.xml": data})
+    return bomb(
+        path,
+        {
+            "[Content_Types].xml": f'<Types xmlns="{package}/content-types"><Default Extension="rels" '
+            f'ContentType="{types}package.relationships+xml"/><Default Extension="xml" ContentType="{types}'
+            'officedocument.spreadsheetml.worksheet+xml"/></Types>'.encode(),
+            "_rels/.rels": f'<Relationships xmlns="{package}/relationships"><Relationship Id="r1" '
+            f'Target="xl/workbook.xml" Type="{office}/officeDocument"/></Relationships>'.encode(),
+            "xl/workbook.xml": f'<workbook xmlns="{main}" xmlns:r="{office}"><sheets><sheet name="data" sheetId="1" '
+            f'r:id="r1"/>{more}</sheets></workbook>'.encode(),
+            "xl/_rels/workbook.xml.rels": (
+                f'<Relationships xmlns="{package}/relationships">'
+                + "".join(
+                    f'<Relationship Id="r{i}" Target="worksheets/sheet1.xml" Type="{office}/worksheet"/>'
+                    for i in (1, 2)
+                )
+                + "</Relationships>"
+            ).encode(),
+            "xl/worksheets/sheet1.xml": data,
+        },
+    )
 
 
-HEAD = ('<row r="1"><c r="A1" t="inlineStr"><is><t>time [s]</t></is></c>'
-        '<c r="B1" t="inlineStr"><is><t>T</t></is></c></row>')
+HEAD = (
+    '<row r="1"><c r="A1" t="inlineStr"><is><t>time [s]</t></is></c><c r="B1" t="inlineStr"><is><t>T</t></is></c></row>'
+)
 
 
 def test_errors_formulas_without_value_and_hidden_rows_are_told(tmp_path: Path) -> None:
-    cells = ['<c r="B2" t="e"><v>#N/A</v></c>', '<c r="B3"><f>A1*2</f></c>', '<c r="B4"><v>5</v></c>',
-             '<c r="B5"><f>A1</f><v>7.5</v></c>']
-    rows = "".join(f'<row r="{i}"{" hidden=" + chr(34) + "1" + chr(34) if i == 4 else ""}><c r="A{i}"><v>{i}</v></c>'
-                   f"{c}</row>" for i, c in enumerate(cells, 2))
+    cells = [
+        '<c r="B2" t="e"><v>#N/A</v></c>',
+        '<c r="B3"><f>A1*2</f></c>',
+        '<c r="B4"><v>5</v></c>',
+        '<c r="B5"><f>A1</f><v>7.5</v></c>',
+    ]
+    rows = "".join(
+        f'<row r="{i}"{" hidden=" + chr(34) + "1" + chr(34) if i == 4 else ""}><c r="A{i}"><v>{i}</v></c>{c}</row>'
+        for i, c in enumerate(cells, 2)
+    )
     data = load(Reader(), least(tmp_path / "x.xlsx", HEAD + rows), Source())
     np.testing.assert_array_equal(data.values["table", "T"], [np.nan, np.nan, 5, 7.5])
     assert [x.reason.split(":")[0] for x in data.losses] == [
         "1 cells of the workbook hold an error such as #N/A",
         "1 cells of the workbook hold a formula without its value (open the workbook once in a spreadsheet and save "
-        "it)"]
+        "it)",
+    ]
     assert "1 hidden rows: they are read like the others" in data.recording.notes
 
 
@@ -158,11 +182,23 @@ def test_parquet_takes_structs_apart_and_reads_decimals_dictionaries_durations_a
 
     path = tmp_path / "x.parquet"
     probe = pa.StructArray.from_arrays([pa.array([1.5, 2.5]), pa.array([1, None])], ["X", "n"])
-    for time, clock in ((pa.array([0, 500], pa.duration("ms")), "relative"),
-                        (pa.array(["2026-03-01 08:00:00", "2026-03-01 08:00:00.5"]), "absolute"),
-                        (pa.array([1_770_000_000.0, 1_770_000_000.5]), "absolute")):
-        pq.write_table(pa.table({"time": time, "probe": probe, "kW": pa.array([Decimal("1.25"), None]),
-                                 "mode": pa.array(["a", None]).dictionary_encode(), "spectrum": [[1, 2], [3]]}), path)
+    for time, clock in (
+        (pa.array([0, 500], pa.duration("ms")), "relative"),
+        (pa.array(["2026-03-01 08:00:00", "2026-03-01 08:00:00.5"]), "absolute"),
+        (pa.array([1_770_000_000.0, 1_770_000_000.5]), "absolute"),
+    ):
+        pq.write_table(
+            pa.table(
+                {
+                    "time": time,
+                    "probe": probe,
+                    "kW": pa.array([Decimal("1.25"), None]),
+                    "mode": pa.array(["a", None]).dictionary_encode(),
+                    "spectrum": [[1, 2], [3]],
+                }
+            ),
+            path,
+        )
         data = load(Reader(), path, Source(timezone="UTC"))
         (t_ns,) = data.t_ns.values()
         assert (data.recording.clock, int(np.diff(t_ns)[0])) == (clock, 500_000_000)
@@ -173,10 +209,15 @@ def test_parquet_takes_structs_apart_and_reads_decimals_dictionaries_durations_a
         assert any("spectrum" in n for n in data.recording.notes)
 
 
-@pytest.mark.parametrize("cell", [
-    '<c r="A99999999999"><v>1</v></c>', "<c  r='XFD1048576'><v>1</v></c>", '<c s="0" r="zzzz9"><v>1</v></c>',
-    '<x:c r="A1048577"><x:v>1</x:v></x:c>',
-])
+@pytest.mark.parametrize(
+    "cell",
+    [
+        '<c r="A99999999999"><v>1</v></c>',
+        "<c  r='XFD1048576'><v>1</v></c>",
+        '<c s="0" r="zzzz9"><v>1</v></c>',
+        '<x:c r="A1048577"><x:v>1</x:v></x:c>',
+    ],
+)
 def test_cells_outside_of_any_sheet_are_refused_however_they_are_written(tmp_path: Path, cell: str) -> None:
     row = f'<row r="2"><c r="A2"><v>1</v></c>{cell}</row>'
     with pytest.raises(FormatError, match=r"outside of any sheet|absurd area"):

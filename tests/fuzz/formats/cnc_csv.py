@@ -51,9 +51,7 @@ def seeds() -> list[Seed]:
         + "time;ms;a;ok\n"
         + "2026-03-02T08:01:00Z;0;1;TRUE\n"
     )
-    relative = "Zeit [s];Kraft [N];n\n" + "".join(
-        f"{k / 4:.2f};{k / 3:.4f};{k}\n".replace(".", ",") for k in range(30)
-    )
+    relative = "Zeit [s];Kraft [N];n\n" + "".join(f"{k / 4:.2f};{k / 3:.4f};{k}\n".replace(".", ",") for k in range(30))
     return [
         Seed("german.csv", german.encode("cp1252"), _ZONE),
         Seed("czech.txt", czech.encode("cp1250"), _ZONE),

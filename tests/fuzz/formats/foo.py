@@ -47,7 +47,7 @@ class Foo:
                 continue
             if line.endswith(";") and abs(t) < 1e9:
                 rows.append((t, v))
-        return words, rows, len(rows) == int(words[3]) == len({t for t, _ in rows}) and lines[len(rows):] == [""]
+        return words, rows, len(rows) == int(words[3]) == len({t for t, _ in rows}) and lines[len(rows) :] == [""]
 
 
 READER: type = Foo
@@ -71,7 +71,7 @@ def mutate(seed: Seed, rng: random.Random) -> Mutation:
         place = sum(map(len, lines[:at]))
         return Mutation(insert(seed.data, rng, place), "junk between lines", False, False)
     if kind == "count":
-        other = b" %d\n" % rng.randrange(10**rng.randint(1, 12))
+        other = b" %d\n" % rng.randrange(10 ** rng.randint(1, 12))
         return Mutation(seed.data.replace(b" 40\n", other), kind, False, False)
     at = rng.randrange(1, len(lines))
     lines[at] = b"%d %d;\n" % (rng.randrange(100), rng.randrange(100))

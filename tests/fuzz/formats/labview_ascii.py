@@ -29,9 +29,11 @@ def _all() -> dict[str, bytes]:
         "names.txt": "Time\tT1 [degC]\tdZ (µm)\n" + _rows(rng, 50, "1904"),
         "title.txt": "Warm-up test\n\nTime\tT1\tdZ\n" + _rows(rng, 50, "1904"),
         "last.txt": "T1\tdZ\tTimestamp\n" + _rows(rng, 50, "1904", last=True),
-        "comment.txt": "Time\tT1\tdZ\tComment\n" + "".join(
+        "comment.txt": "Time\tT1\tdZ\tComment\n"
+        + "".join(
             line + ("\tLOST COMMUNICATION" if i % 9 == 4 else "\t") + "\n"
-            for i, line in enumerate(_rows(rng, 50, "1904").splitlines())),
+            for i, line in enumerate(_rows(rng, 50, "1904").splitlines())
+        ),
         "relative.lvm": _rows(rng, 50, "seconds"),
         "none.lvm": _rows(rng, 50, "none", 3),
     }
@@ -50,8 +52,11 @@ def seeds() -> list[Seed]:
 
 def mutate(seed: Seed, rng: random.Random) -> Mutation:
     lines = seed.data.splitlines(keepends=True)
-    first = next(i for i, line in enumerate(lines) if line[:1].isdigit() or line[:1] == b"-" or b"." in line[:12]
-                 or b"," in line[:12])
+    first = next(
+        i
+        for i, line in enumerate(lines)
+        if line[:1].isdigit() or line[:1] == b"-" or b"." in line[:12] or b"," in line[:12]
+    )
     kind = rng.choices(("cut", "row", "header", "cell", "junk", "bytes", "nul"), (3, 3, 2, 5, 3, 2, 1))[0]
     counted = seed.name == "none.lvm"
     if kind == "cut":
@@ -65,7 +70,7 @@ def mutate(seed: Seed, rng: random.Random) -> Mutation:
             return Mutation(b"T\tx\ty\n" + seed.data, "header added", True, seed.name.endswith(".lvm"))
         at = rng.randrange(first)
         changed = flip(lines[at], rng, 0, None, 2) if rng.random() < 0.6 else b""
-        return Mutation(b"".join([*lines[:at], changed, *lines[at + 1:]]), kind, True, True)
+        return Mutation(b"".join([*lines[:at], changed, *lines[at + 1 :]]), kind, True, True)
     if kind == "cell":
         return _cell(seed, lines, rng.randrange(first, len(lines)), rng)
     if kind == "junk":
@@ -73,7 +78,7 @@ def mutate(seed: Seed, rng: random.Random) -> Mutation:
         return Mutation(insert(seed.data, rng, sum(map(len, lines[:at]))), "junk between lines", False, False)
     if kind == "nul":
         at, many = rng.randrange(len(seed.data)), rng.randrange(1, 600)
-        return Mutation(seed.data[:at] + bytes(many) + seed.data[at + many:], "zeroed block", False, False)
+        return Mutation(seed.data[:at] + bytes(many) + seed.data[at + many :], "zeroed block", False, False)
     return Mutation(flip(seed.data, rng), "bytes", False, True)
 
 
@@ -91,4 +96,4 @@ def _cell(seed: Seed, lines: list[bytes], at: int, rng: random.Random) -> Mutati
         cells[i] = b""
     else:
         cells[i] = rng.choice(JUNK)
-    return Mutation(b"".join([*lines[:at], b"\t".join(cells) + end, *lines[at + 1:]]), f"cell {what}", free, free)
+    return Mutation(b"".join([*lines[:at], b"\t".join(cells) + end, *lines[at + 1 :]]), f"cell {what}", free, free)

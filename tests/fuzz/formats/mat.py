@@ -30,11 +30,22 @@ def _variables() -> dict[str, dict[str, Any]]:
     t = np.arange(_N) * 0.5
     wave = np.sin(t) * 40.0
     return {
-        "vectors": {"t": _column(t), "T_front": _column(wave), "speed": _column((wave * 50).astype(np.int16)),
-                    "door": _column(wave > 0), "machine": "gantry 138", "serial": 4711.0},
+        "vectors": {
+            "t": _column(t),
+            "T_front": _column(wave),
+            "speed": _column((wave * 50).astype(np.int16)),
+            "door": _column(wave > 0),
+            "machine": "gantry 138",
+            "serial": 4711.0,
+        },
         "matrix": {"log": np.stack([t, wave, wave[::-1]], 1), "names": ["time [s]", "dZ [um]", "n [rpm]"]},
-        "struct": {"run": {"time": _column(t), "Y": {"values": np.stack([wave, -wave], 1), "label": "probe"},
-                           "T": _column(wave)}},
+        "struct": {
+            "run": {
+                "time": _column(t),
+                "Y": {"values": np.stack([wave, -wave], 1), "label": "probe"},
+                "T": _column(wave),
+            }
+        },
         "records": {"ch": [{"name": f"T{i}", "unit": "degC", "dt": 0.5, "data": _column(wave + i)} for i in range(3)]},
         "dates": {"time": [f"2026-03-01 08:00:{i:02}" for i in range(_N)], "T": _column(wave)},
         "datenum": {"tm_time": _column(740000 + t / 86400), "T": _column(wave)},
@@ -86,12 +97,17 @@ def mat73(variables: dict[str, Any]) -> bytes:
                 if isinstance(value, list) and isinstance(value[0], dict):
                     group = classed(parent.create_group(name), "struct")
                     for key in value[0]:
-                        group.create_dataset(key, data=np.array([reference(x[key]) for x in value],
-                                                                h5py.ref_dtype).reshape(-1, 1))
+                        group.create_dataset(
+                            key, data=np.array([reference(x[key]) for x in value], h5py.ref_dtype).reshape(-1, 1)
+                        )
                     return group
                 if isinstance(value, list):
-                    return classed(parent.create_dataset(name, data=np.array([reference(x) for x in value],
-                                                                             h5py.ref_dtype).reshape(-1, 1)), "cell")
+                    return classed(
+                        parent.create_dataset(
+                            name, data=np.array([reference(x) for x in value], h5py.ref_dtype).reshape(-1, 1)
+                        ),
+                        "cell",
+                    )
                 array = np.atleast_2d(np.asarray(value))
                 kind = {"float64": "double", "bool": "logical"}.get(array.dtype.name, array.dtype.name)
                 stored = array.astype(np.uint8) if kind == "logical" else array
@@ -110,8 +126,10 @@ def mat73(variables: dict[str, Any]) -> bytes:
 def _seeds() -> tuple[Seed, ...]:
     made = []
     for name, variables in _variables().items():
-        made += [Seed(f"{name}_plain.mat", mat5(variables, packed=False), _PRAGUE),
-                 Seed(f"{name}_packed.mat", mat5(variables, packed=True), _PRAGUE)]
+        made += [
+            Seed(f"{name}_plain.mat", mat5(variables, packed=False), _PRAGUE),
+            Seed(f"{name}_packed.mat", mat5(variables, packed=True), _PRAGUE),
+        ]
         if name != "dates":
             made.append(Seed(f"{name}_73.mat", mat73(variables), _PRAGUE))
     return tuple(made)
@@ -125,8 +143,9 @@ def mutate(seed: Seed, rng: random.Random) -> Mutation:
     if seed.name.endswith("_73.mat"):
         return _mutate73(seed, rng)
     data = seed.data
-    what = rng.choice(("cut", "variable", "tag", "tag", "head", "head", "element", "junk", "header", "huge", "order",
-                       "nest"))
+    what = rng.choice(
+        ("cut", "variable", "tag", "tag", "head", "head", "element", "junk", "header", "huge", "order", "nest")
+    )
     if what == "cut":
         return Mutation(cut(data, rng), "cut", False, False)
     if what == "header":
@@ -158,8 +177,8 @@ def mutate(seed: Seed, rng: random.Random) -> Mutation:
 def _top(data: bytes) -> list[bytes]:
     parts, at = [], 128
     while at < len(data):
-        size = 8 + struct.unpack("<I", data[at + 4:at + 8])[0]
-        parts.append(data[at:at + size])
+        size = 8 + struct.unpack("<I", data[at + 4 : at + 8])[0]
+        parts.append(data[at : at + size])
         at += size
     return parts
 
@@ -169,10 +188,11 @@ def _elements(data: bytes, at: int, stop: int, depth: int = 0) -> list[tuple[int
     found = []
     place = 0
     while at < stop:
-        kind, size = struct.unpack("<II", data[at:at + 8])
+        kind, size = struct.unpack("<II", data[at : at + 8])
         small = kind >> 16
-        start, end, after = (at + 4, at + 4 + small, at + 8) if small else (at + 8, at + 8 + size,
-                                                                         at + 8 + (size + 7) // 8 * 8)
+        start, end, after = (
+            (at + 4, at + 4 + small, at + 8) if small else (at + 8, at + 8 + size, at + 8 + (size + 7) // 8 * 8)
+        )
         role = "matrix" if kind == 14 else ("flags", "dims", "name")[place] if depth and place < 3 else "data"
         found.append((at, start, end, kind & 0xFFFF if small else kind, role))
         if kind == 14 and size:
@@ -207,7 +227,7 @@ def _edit(data: bytearray, what: str, rng: random.Random) -> tuple[bool, bool, s
     at = rng.randrange(start, end)
     data[at] = rng.choice((0, 1, 2, 255, rng.randrange(256)))
     # a name changed is another name; a matrix turned to others of the same size is a matrix still
-    inner = role == "flags" and tag > 16                    # a name of another class is no name
+    inner = role == "flags" and tag > 16  # a name of another class is no name
     return role == "dims", role == "name" or inner, f"{role} changed"
 
 
@@ -219,6 +239,7 @@ def _values73(data: bytes) -> tuple[list[tuple[int, int]], list[tuple[int, int]]
     values: list[tuple[int, int]] = []
     words: list[tuple[int, int]] = []
     with h5py.File(io.BytesIO(data), "r") as file:
+
         def visit(name: str, item: Any) -> None:
             for part in name.encode().split(b"/"):
                 at = data.find(part + b"\0")
@@ -253,11 +274,11 @@ def _mutate73(seed: Seed, rng: random.Random) -> Mutation:
     changed = bytearray(data)
     if what == "huge":
         at -= at % 8
-        changed[at:at + 8] = struct.pack("<Q", rng.choice((0, 2**63, 2**64 - 1, 2**32, len(data), 1)))
+        changed[at : at + 8] = struct.pack("<Q", rng.choice((0, 2**63, 2**64 - 1, 2**32, len(data), 1)))
     elif what == "swap":
         other = rng.randrange(64, len(data) // 8 - 1) * 8
         at -= at % 8
-        changed[at:at + 8], changed[other:other + 8] = data[other:other + 8], data[at:at + 8]
+        changed[at : at + 8], changed[other : other + 8] = data[other : other + 8], data[at : at + 8]
         values = [*values, (other, other + 8)] if any(a < other + 8 and other < b for a, b in values) else values
         at = other if any(a < other + 8 and other < b for a, b in values) else at
     else:

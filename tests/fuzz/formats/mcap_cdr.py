@@ -61,9 +61,14 @@ module std_msgs {{ module msg {{ struct Header {{ builtin_interfaces::msg::Time 
 IDL: builtin_interfaces/msg/Time
 module builtin_interfaces {{ module msg {{ struct Time {{ int32 sec; uint32 nanosec; }}; }}; }};
 """
-MSG1 = MSG.replace("builtin_interfaces/Time", "time").replace("string<=20", "string").replace("[<=4]", "[]").replace(
-    "uint64 count 5", "uint64 count").replace("std_msgs/Header header", "Header header").replace(
-    "time stamp", "uint32 seq\ntime stamp")
+MSG1 = (
+    MSG.replace("builtin_interfaces/Time", "time")
+    .replace("string<=20", "string")
+    .replace("[<=4]", "[]")
+    .replace("uint64 count 5", "uint64 count")
+    .replace("std_msgs/Header header", "Header header")
+    .replace("time stamp", "uint32 seq\ntime stamp")
+)
 
 
 class Cdr:
@@ -136,13 +141,29 @@ def _ros1(writer: Writer) -> None:
 def seeds() -> list[Seed]:
     """Every way to hold messages, each kind of schema, and the header's stamp as time."""
     stamp = Source(options={"time": "header.stamp"})
-    return [*dialects("cdr", _msg), *dialects("idl", _idl)[:3], *dialects("ros1", _ros1)[:3],
-            *dialects("stamp", _msg, stamp)[:2]]
+    return [
+        *dialects("cdr", _msg),
+        *dialects("idl", _idl)[:3],
+        *dialects("ros1", _ros1)[:3],
+        *dialects("stamp", _msg, stamp)[:2],
+    ]
 
 
 def _payload(data: bytes, rng: random.Random) -> bytes:
-    return rng.choice((flip(data, rng), cut(data, rng), insert(data, rng), b"", data + data, data[:4], b"\0\1\0\0",
-                       b"\0\3" + data[2:], b"\0\7" + data[2:], data[:20] + b"\xff\xff\xff\xff" + data[24:]))
+    return rng.choice(
+        (
+            flip(data, rng),
+            cut(data, rng),
+            insert(data, rng),
+            b"",
+            data + data,
+            data[:4],
+            b"\0\1\0\0",
+            b"\0\3" + data[2:],
+            b"\0\7" + data[2:],
+            data[:20] + b"\xff\xff\xff\xff" + data[24:],
+        )
+    )
 
 
 def mutate(seed: Seed, rng: random.Random) -> Mutation:

@@ -21,8 +21,13 @@ MAGIC = b"\x89MCAP0\r\n"
 HEADER, FOOTER, SCHEMA, CHANNEL, MESSAGE, CHUNK, INDEX, CHUNK_INDEX, ATTACHMENT = range(1, 10)
 STATISTICS, METADATA, DATA_END = 11, 12, 15
 T0 = 1_772_434_800_000_000_000
-BARE = {"use_statistics": False, "use_summary_offsets": False, "repeat_channels": False, "repeat_schemas": False,
-        "index_types": IndexType.NONE}
+BARE = {
+    "use_statistics": False,
+    "use_summary_offsets": False,
+    "repeat_channels": False,
+    "repeat_schemas": False,
+    "index_types": IndexType.NONE,
+}
 
 
 @dataclass(frozen=True)
@@ -32,7 +37,7 @@ class Rec:
     op: int
     body: bytes = b""
     inner: tuple[Rec, ...] | None = None
-    head: tuple[int, int, int | None, int | None, bytes] = (0, 0, None, None, b"")   # times, size, crc, compression
+    head: tuple[int, int, int | None, int | None, bytes] = (0, 0, None, None, b"")  # times, size, crc, compression
     length: int | None = None
 
     def pack(self) -> bytes:
@@ -42,23 +47,31 @@ class Rec:
     def _chunk(self) -> bytes:
         records = b"".join(r.pack() for r in self.inner or ())
         start, end, size, crc, compression = self.head
-        stored = {b"zstd": zstandard.ZstdCompressor().compress, b"lz4": lz4.frame.compress}.get(
-            compression, bytes)(records)
-        return struct.pack("<QQQI", start, end, len(records) if size is None else size,
-                           zlib.crc32(records) if crc is None else crc) + \
-            struct.pack("<I", len(compression)) + compression + struct.pack("<Q", len(stored)) + stored
+        stored = {b"zstd": zstandard.ZstdCompressor().compress, b"lz4": lz4.frame.compress}.get(compression, bytes)(
+            records
+        )
+        return (
+            struct.pack(
+                "<QQQI", start, end, len(records) if size is None else size, zlib.crc32(records) if crc is None else crc
+            )
+            + struct.pack("<I", len(compression))
+            + compression
+            + struct.pack("<Q", len(stored))
+            + stored
+        )
 
 
 def records(data: bytes, at: int, stop: int) -> list[Rec]:
     found = []
     while at < stop:
         op, length = struct.unpack_from("<BQ", data, at)
-        body = data[at + 9:at + 9 + length]
+        body = data[at + 9 : at + 9 + length]
         if op == CHUNK:
             start, end, _, _, n = struct.unpack_from("<QQQII", body)
-            compression, stored = body[32:32 + n], body[40 + n:]
-            inner = {b"zstd": lambda b: zstandard.ZstdDecompressor().decompress(b),
-                     b"lz4": lz4.frame.decompress}.get(compression, bytes)(stored)
+            compression, stored = body[32 : 32 + n], body[40 + n :]
+            inner = {b"zstd": lambda b: zstandard.ZstdDecompressor().decompress(b), b"lz4": lz4.frame.decompress}.get(
+                compression, bytes
+            )(stored)
             found.append(Rec(op, b"", tuple(records(inner, 0, len(inner))), (start, end, None, None, compression)))
         else:
             found.append(Rec(op, body))
@@ -103,8 +116,12 @@ def written(add: Add, compression: CompressionType = ZSTD, chunk: int = 700, **o
 def dialects(name: str, add: Add, source: Source | None = None) -> list[Seed]:
     """One content in every way in which a file may hold it."""
     ways: dict[str, bytes] = {
-        "zstd": written(add), "lz4": written(add, CompressionType.LZ4), "plain": written(add, CompressionType.NONE),
-        "one": written(add, chunk=1 << 20), "bare": written(add, **BARE), "loose": written(add, use_chunking=False),
+        "zstd": written(add),
+        "lz4": written(add, CompressionType.LZ4),
+        "plain": written(add, CompressionType.NONE),
+        "one": written(add, chunk=1 << 20),
+        "bare": written(add, **BARE),
+        "loose": written(add, use_chunking=False),
         "loosebare": written(add, use_chunking=False, **BARE),
         "plainbare": written(add, CompressionType.NONE, **BARE),
         "crc": written(add, enable_data_crcs=True),
@@ -148,10 +165,10 @@ class Edit:
     def put(self, place: tuple[int, int | None], *new: Rec) -> None:
         k, j = place
         if j is None:
-            self.recs[k:k + 1] = new
+            self.recs[k : k + 1] = new
         else:
             inner = list(self.recs[k].inner or ())
-            inner[j:j + 1] = new
+            inner[j : j + 1] = new
             self.recs[k] = replace(self.recs[k], inner=tuple(inner))
 
 
@@ -180,9 +197,19 @@ def mutate(seed: Seed, rng: random.Random, payload: Callable[[bytes, random.Rand
 
 Done = tuple[str, bool, bool] | None
 Payload = Callable[[bytes, random.Random], bytes]
-_NAMES = {HEADER: "header", FOOTER: "footer", SCHEMA: "schema", CHANNEL: "channel", MESSAGE: "message", CHUNK: "chunk",
-          INDEX: "index", DATA_END: "data end", STATISTICS: "statistics", METADATA: "metadata",
-          ATTACHMENT: "attachment"}
+_NAMES = {
+    HEADER: "header",
+    FOOTER: "footer",
+    SCHEMA: "schema",
+    CHANNEL: "channel",
+    MESSAGE: "message",
+    CHUNK: "chunk",
+    INDEX: "index",
+    DATA_END: "data end",
+    STATISTICS: "statistics",
+    METADATA: "metadata",
+    ATTACHMENT: "attachment",
+}
 
 
 def _name(op: int) -> str:
@@ -281,8 +308,9 @@ def _chunk_field(e: Edit, _: Payload) -> Done:
     else:
         body = bytearray(rec.pack()[9:])
         name = e.rng.choice((b"", b"zstd", b"lz4", b"gzip", b"\xff" * 200))
-        e.recs[k] = Rec(CHUNK, bytes(body[:28]) + struct.pack("<I", len(name)) + name
-                        + bytes(body[32 + len(compression):]))
+        e.recs[k] = Rec(
+            CHUNK, bytes(body[:28]) + struct.pack("<I", len(name)) + name + bytes(body[32 + len(compression) :])
+        )
         return "chunk compression", False, False
     e.recs[k] = replace(rec, head=(start, end, size, crc, compression))
     return f"chunk {what}", what in ("no crc", "times"), False
@@ -334,7 +362,7 @@ def _inner_swapped(e: Edit, _: Payload) -> Done:
 
 def _text_at(body: bytes, at: int) -> tuple[bytes, int]:
     n = struct.unpack_from("<I", body, at)[0]
-    return body[at + 4:at + 4 + n], at + 4 + n
+    return body[at + 4 : at + 4 + n], at + 4 + n
 
 
 def _channel(e: Edit, _: Payload) -> Done:
@@ -393,7 +421,7 @@ def _message(e: Edit, payload: Payload) -> Done:
     elif what == "channel":
         struct.pack_into("<H", body, 0, e.rng.choice((0, 1, 2, 3, 65535)))
     elif what == "short":
-        body = body[:e.rng.randrange(22)]
+        body = body[: e.rng.randrange(22)]
         e.put(place, Rec(MESSAGE, bytes(body)))
         return "message short", False, False
     else:
@@ -407,8 +435,17 @@ def _index(e: Edit, _: Payload) -> Done:
     if k is None:
         return None
     body = e.recs[k].body
-    e.recs[k] = Rec(INDEX, e.rng.choice((flip(body, e.rng, 6), body[:6], body[:6] + body[6:][::-1],
-                                         struct.pack("<HI", 1, 16) + struct.pack("<QQ", 0, e.rng.choice(WRONG)))))
+    e.recs[k] = Rec(
+        INDEX,
+        e.rng.choice(
+            (
+                flip(body, e.rng, 6),
+                body[:6],
+                body[:6] + body[6:][::-1],
+                struct.pack("<HI", 1, 16) + struct.pack("<QQ", 0, e.rng.choice(WRONG)),
+            )
+        ),
+    )
     return "index content", False, False
 
 
@@ -416,7 +453,7 @@ def _summary_away(e: Edit, _: Payload) -> Done:
     end = next((k for k, r in enumerate(e.recs) if r.op == DATA_END), None)
     if end is None:
         return None
-    e.recs[end + 1:] = [Rec(FOOTER, b"\0" * 20)] if e.rng.random() < 0.8 else []
+    e.recs[end + 1 :] = [Rec(FOOTER, b"\0" * 20)] if e.rng.random() < 0.8 else []
     if e.recs[-1].op == FOOTER:
         e.recs[-1] = Rec(FOOTER, b"\0" * 20, length=20)
     return "summary away", False, False
@@ -457,6 +494,28 @@ def _bomb(e: Edit, _: Payload) -> Done:
 
 
 _STEPS: tuple[Callable[[Edit, Payload], Done], ...] = (
-    _top_dropped, _top_doubled, _top_swapped, _length, _opcode, _junk, _chunk_field, _recompressed, _stored_flip,
-    _inner_dropped, _inner_doubled, _inner_swapped, _channel, _reused, _schema, _message, _index, _summary_away,
-    _statistics, _end_early, _empty_chunk, _message, _length, _bomb)
+    _top_dropped,
+    _top_doubled,
+    _top_swapped,
+    _length,
+    _opcode,
+    _junk,
+    _chunk_field,
+    _recompressed,
+    _stored_flip,
+    _inner_dropped,
+    _inner_doubled,
+    _inner_swapped,
+    _channel,
+    _reused,
+    _schema,
+    _message,
+    _index,
+    _summary_away,
+    _statistics,
+    _end_early,
+    _empty_chunk,
+    _message,
+    _length,
+    _bomb,
+)

@@ -33,9 +33,14 @@ def _seeds() -> tuple[Seed, ...]:
         signals = [
             Signal(wave * 40, t, name="T1", unit="degC", comment="front"),
             Signal((wave * 1000).astype("<i2"), t, name="probe", unit="um", conversion={"a": 0.01, "b": -1.0}, **more),
-            Signal((np.arange(_N) % 2).astype("u1"), t, name="state",
-                   conversion={"val_0": 0, "text_0": b"off", "val_1": 1, "text_1": b"on"}),
-            Signal((wave * 9).astype("<f4"), t, name="load", unit="%")]
+            Signal(
+                (np.arange(_N) % 2).astype("u1"),
+                t,
+                name="state",
+                conversion={"val_0": 0, "text_0": b"off", "val_1": 1, "text_1": b"on"},
+            ),
+            Signal((wave * 9).astype("<f4"), t, name="load", unit="%"),
+        ]
         if version >= "4":
             signals.append(Signal(np.array([b"idle", b"cut"] * (_N // 2)), t, name="mode", encoding="utf-8"))
         with tempfile.TemporaryDirectory() as folder:
@@ -59,9 +64,9 @@ def _blocks(data: bytes) -> tuple[tuple[int, int, int, bytes], ...]:
     found, at = [], 64
     while (at := data.find(b"##", at)) >= 0:
         if at % 8 == 0 and at + 24 <= len(data):
-            length, links = struct.unpack("<QQ", data[at + 8:at + 24])
+            length, links = struct.unpack("<QQ", data[at + 8 : at + 24])
             if 24 <= length <= len(data) - at and links < 100:
-                found.append((at, length, links, data[at:at + 4]))
+                found.append((at, length, links, data[at : at + 4]))
         at += 2
     return tuple(found)
 
@@ -82,8 +87,9 @@ def mutate(seed: Seed, rng: random.Random) -> Mutation:
     changed = bytearray(data)
     start, length, links, kind = rng.choice(blocks)
     name = kind[2:].decode()
-    huge = rng.choice((0, 1, 64, 2**31, 2**63, 2**64 - 1, len(data), rng.randrange(len(data) // 8) * 8,
-                       rng.choice(blocks)[0]))
+    huge = rng.choice(
+        (0, 1, 64, 2**31, 2**63, 2**64 - 1, len(data), rng.randrange(len(data) // 8) * 8, rng.choice(blocks)[0])
+    )
     if what == "link" and links:
         struct.pack_into("<Q", changed, start + 24 + 8 * rng.randrange(links), huge)
         # a link to another whole block of the right kind is an honest link

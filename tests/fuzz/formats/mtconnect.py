@@ -15,9 +15,7 @@ _NS = 'xmlns="urn:mtconnect.org:MTConnectStreams:2.{}"'
 
 def _item(tag: str, name: str, sequence: int, value: str, more: str = "") -> str:
     time = f"2026-03-02T08:00:{sequence // 10:02d}.{sequence % 10}00Z"
-    return (
-        f'<{tag} dataItemId="{name}" name="{name}" sequence="{sequence}" timestamp="{time}"{more}>{value}</{tag}>\n'
-    )
+    return f'<{tag} dataItemId="{name}" name="{name}" sequence="{sequence}" timestamp="{time}"{more}>{value}</{tag}>\n'
 
 
 def _document(first: int, last: int, items: str, prefix: str = "") -> str:
@@ -75,9 +73,7 @@ def mutate(seed: Seed, rng: random.Random) -> Mutation:
         at = rng.choice(items)
         end = data.index(b"\n", at) + 1
         first, last = at == items[0], data.find(b"Temperature", end) < 0
-        return Mutation(
-            data[:at] + data[end:], "observation dropped", False, first or last or seed.name == "rich.xml"
-        )
+        return Mutation(data[:at] + data[end:], "observation dropped", False, first or last or seed.name == "rich.xml")
     if what == 3:
         tags = [m.end() for m in re.finditer(rb">", data)]
         at = rng.choice(tags)

@@ -23,12 +23,19 @@ def _seeds() -> tuple[Seed, ...]:
     import pyarrow.parquet as pq
 
     wave = np.sin(np.arange(_N) * 0.5)
-    columns = {"T1 [degC]": wave * 40, "n": (wave * 1000).astype(np.int32), "door": wave > 0,
-               "mode": pa.array(["idle", "cut", None] * (_N // 3)).dictionary_encode(),
-               "load": pa.array(np.where(wave > 0.9, np.nan, wave).astype(np.float32))}
+    columns = {
+        "T1 [degC]": wave * 40,
+        "n": (wave * 1000).astype(np.int32),
+        "door": wave > 0,
+        "mode": pa.array(["idle", "cut", None] * (_N // 3)).dictionary_encode(),
+        "load": pa.array(np.where(wave > 0.9, np.nan, wave).astype(np.float32)),
+    }
     when = np.datetime64("2026-03-01T08:00:00", "ms") + np.arange(_N) * np.timedelta64(500, "ms")
-    times = {"local": pa.array(when), "utc": pa.array(when, pa.timestamp("us", "UTC")),
-             "seconds": pa.array(np.arange(_N) * 0.5)}
+    times = {
+        "local": pa.array(when),
+        "utc": pa.array(when, pa.timestamp("us", "UTC")),
+        "seconds": pa.array(np.arange(_N) * 0.5),
+    }
     made = []
     for name, time in times.items():
         for packed in ("NONE", "zstd"):
@@ -36,8 +43,9 @@ def _seeds() -> tuple[Seed, ...]:
             pq.write_table(pa.table({"time": time, **columns}), out, row_group_size=25, compression=packed)
             made.append(Seed(f"{name}_{packed}.parquet", out.getvalue(), _PRAGUE))
     out = io.BytesIO()
-    nested = pa.table({"time": times["utc"], "probe": pa.StructArray.from_arrays(
-        [pa.array(wave), pa.array(wave * 2)], ["X", "Y"])})
+    nested = pa.table(
+        {"time": times["utc"], "probe": pa.StructArray.from_arrays([pa.array(wave), pa.array(wave * 2)], ["X", "Y"])}
+    )
     pq.write_table(nested, out)
     return (*made, Seed("nested.parquet", out.getvalue(), _PRAGUE))
 
@@ -67,6 +75,8 @@ def mutate(seed: Seed, rng: random.Random) -> Mutation:
         return Mutation(insert(data, rng, rng.randrange(4, start)), "junk in pages", False, True)
     if what == "drop":
         at = rng.randrange(4, start)
-        return Mutation(data[:at] + data[at + rng.choice((1, 8, 64)):], "bytes dropped", False, True)
+        return Mutation(data[:at] + data[at + rng.choice((1, 8, 64)) :], "bytes dropped", False, True)
     at = rng.randrange(start, len(data) - 8)
-    return Mutation(data[:at] + bytes((data[at] ^ (1 << rng.randrange(8)),)) + data[at + 1:], "footer bit", False, True)
+    return Mutation(
+        data[:at] + bytes((data[at] ^ (1 << rng.randrange(8)),)) + data[at + 1 :], "footer bit", False, True
+    )

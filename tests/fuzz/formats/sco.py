@@ -22,10 +22,7 @@ def _curve(name: str, axis: str, count: int, cycle: int) -> str:
 def seeds() -> list[Seed]:
     start = "%[GLOBAL]\r\n%DATE=02.03.2026\r\n%TIME=09:00:00\r\n%\r\n"
     head = (
-        _curve("s actual", "X", 60, 3000)
-        + _curve("v act.", "X", 60, 3000)
-        + _curve("T", "S", 30, 6000)
-        + "%[DATA]\r\n"
+        _curve("s actual", "X", 60, 3000) + _curve("v act.", "X", 60, 3000) + _curve("T", "S", 30, 6000) + "%[DATA]\r\n"
     )
     counted = start + head + "".join(f"{k * 3000};{k / 8:.3f};{k * k};{k if k < 30 else ''};\r\n" for k in range(60))
     plain = start + head + "".join(f"{k / 8:.3f};{k * k};{k if k < 30 else ''}\r\n" for k in range(60))

@@ -15,10 +15,17 @@ _N = 40
 def _rows(delimiter: str, decimal: str, time: str) -> list[str]:
     rows = []
     for i in range(_N):
-        stamp = {"iso": f"2026-03-01 08:{i:02}:00.125", "german": f"1.3.2026 {8 + i // 30}:{i % 30 * 2:02}:00",
-                 "us": f"03/14/2026 08:{i:02}:00 AM", "seconds": f"{i * 0.5:.1f}", "minutes": f"{i * 0.25:.2f}",
-                 "zone": f"2026-03-01T08:{i:02}:00+01:00", "two": f"2026-03-01{delimiter}08:{i:02}:00",
-                 "clock": f"08:{i:02}:00", "unix": f"{1_770_000_000 + i}.5"}[time]
+        stamp = {
+            "iso": f"2026-03-01 08:{i:02}:00.125",
+            "german": f"1.3.2026 {8 + i // 30}:{i % 30 * 2:02}:00",
+            "us": f"03/14/2026 08:{i:02}:00 AM",
+            "seconds": f"{i * 0.5:.1f}",
+            "minutes": f"{i * 0.25:.2f}",
+            "zone": f"2026-03-01T08:{i:02}:00+01:00",
+            "two": f"2026-03-01{delimiter}08:{i:02}:00",
+            "clock": f"08:{i:02}:00",
+            "unix": f"{1_770_000_000 + i}.5",
+        }[time]
         values = [f"{20 + i / 8:.3f}", f"{-i * 1.25:.2f}", f"{100 * i}"]
         if decimal == ",":
             values = [v.replace(".", ",") for v in values]
@@ -35,8 +42,15 @@ def seeds() -> list[Seed]:
     noted = [f"{r};{states[i % 3]};{'' if i % 4 else 'ok'}" for i, r in enumerate(_rows(";", ",", "seconds"))]
     return [
         Seed("iso.csv", text("time,T1 [degC],dZ [um],n [rpm]\n", _rows(",", ".", "iso")).encode(), _PRAGUE),
-        Seed("german.csv", text("Prüfstand 138\nBediener;Novák\n\nDatum;Temp;Weg;Drehzahl\n;°C;µm;U/min\n",
-                                _rows(";", ",", "german"), "\r\n").encode("cp1252"), _PRAGUE),
+        Seed(
+            "german.csv",
+            text(
+                "Prüfstand 138\nBediener;Novák\n\nDatum;Temp;Weg;Drehzahl\n;°C;µm;U/min\n",
+                _rows(";", ",", "german"),
+                "\r\n",
+            ).encode("cp1252"),
+            _PRAGUE,
+        ),
         Seed("us.csv", text("Date,T1,dZ,n\n", _rows(",", ".", "us")).encode(), _PRAGUE),
         Seed("seconds.csv", text("Čas [s];T1;dZ;n;stav;poznámka\n", noted).encode("cp1250"), _PRAGUE),
         Seed("minutes.txt", text("time (min)\tT1\tdZ\tn\n", _rows("\t", ".", "minutes")).encode("utf-16"), _PRAGUE),
@@ -44,8 +58,13 @@ def seeds() -> list[Seed]:
         Seed("two.csv", text("date;time;T1;dZ;n\n", _rows(";", ".", "two")).encode(), _PRAGUE),
         Seed("clock.csv", text("Uhrzeit;T1;dZ;n\n", _rows(";", ",", "clock")).encode(), _PRAGUE),
         Seed("unix.csv", text("timestamp,T1,dZ,n\n", _rows(",", ".", "unix")).encode(), _PRAGUE),
-        Seed("quoted.csv", text('"time [s]","T1 (degC)","dZ","n"\n',
-                                ['"' + r.replace(";", '","') + '"' for r in _rows(";", ".", "seconds")]).encode()),
+        Seed(
+            "quoted.csv",
+            text(
+                '"time [s]","T1 (degC)","dZ","n"\n',
+                ['"' + r.replace(";", '","') + '"' for r in _rows(";", ".", "seconds")],
+            ).encode(),
+        ),
         Seed("sep.csv", text("sep=;\ntime [s];T1;dZ;n\n", _rows(";", ",", "seconds"), "\r\n").encode()),
     ]
 
@@ -61,12 +80,29 @@ def mutate(seed: Seed, rng: random.Random) -> Mutation:
     lines = data.split(end)
     parts = [line + end for line in lines[:-1]] + ([lines[-1]] if lines[-1] else [])
     first = len(parts) - _N
-    what = rng.choice(("cut", "lines", "lines", "cell", "cell", "junk line", "flip head", "flip data", "junk", "nul",
-                       "end", "long", "short", "delimiter", "encoding"))
+    what = rng.choice(
+        (
+            "cut",
+            "lines",
+            "lines",
+            "cell",
+            "cell",
+            "junk line",
+            "flip head",
+            "flip data",
+            "junk",
+            "nul",
+            "end",
+            "long",
+            "short",
+            "delimiter",
+            "encoding",
+        )
+    )
     if what == "cut":
         left = cut(data, rng)
         # a last line that lacks nothing but its end is whole
-        return Mutation(left, "cut", left.endswith(end) or data[len(left):].startswith((end, b"\r", b"\n")), False)
+        return Mutation(left, "cut", left.endswith(end) or data[len(left) :].startswith((end, b"\r", b"\n")), False)
     if what == "lines":
         edited, how = edit_parts(parts, rng, first)
         # a clock without a date counts from its first row
@@ -92,8 +128,21 @@ def mutate(seed: Seed, rng: random.Random) -> Mutation:
         parts.insert(row, b"\0" * rng.choice((1, 16, 512)) + rng.choice((b"", b"\n")))
         return Mutation(b"".join(parts), "NULs between lines", False, False)
     if what == "junk line":
-        junk = rng.choice((b"# comment\n", b"\n", b"   \n", b"EOF\n", b";;;;;;\n", b"LOST CONNECTION\n", b'"\n',
-                           b"Datum;Temp\n", b"\x1a\n", b"=== restart ===\n", ",".join("9" * 30).encode() + b"\n"))
+        junk = rng.choice(
+            (
+                b"# comment\n",
+                b"\n",
+                b"   \n",
+                b"EOF\n",
+                b";;;;;;\n",
+                b"LOST CONNECTION\n",
+                b'"\n',
+                b"Datum;Temp\n",
+                b"\x1a\n",
+                b"=== restart ===\n",
+                ",".join("9" * 30).encode() + b"\n",
+            )
+        )
         parts.insert(row, junk)
         return Mutation(b"".join(parts), "line of junk", junk.strip() == b"", False)
     if what == "long":
@@ -114,8 +163,26 @@ def mutate(seed: Seed, rng: random.Random) -> Mutation:
     delimiter = next(d for d in (b"\t", b";", b",") if d in parts[row])
     cells = parts[row].rstrip(b"\r\n").split(delimiter)
     i = rng.randrange(len(cells))
-    new = rng.choice((b"", b"---", b"n/a", b"ERR", b"1e999", b"-inf", b"nan", b"#DIV/0!", b"1_000", b"0x10", b'"',
-                      b"1 234,5", b"99.99.9999 99:99:99", b"2026-13-45 00:00:00", "²".encode(), b"TRUE"))
+    new = rng.choice(
+        (
+            b"",
+            b"---",
+            b"n/a",
+            b"ERR",
+            b"1e999",
+            b"-inf",
+            b"nan",
+            b"#DIV/0!",
+            b"1_000",
+            b"0x10",
+            b'"',
+            b"1 234,5",
+            b"99.99.9999 99:99:99",
+            b"2026-13-45 00:00:00",
+            "²".encode(),
+            b"TRUE",
+        )
+    )
     quotes = cells[i].startswith(b'"')
     cells[i] = b'"' + new + b'"' if quotes else new
     parts[row] = delimiter.join(cells) + b"\n"

@@ -27,9 +27,7 @@ def seeds() -> list[Seed]:
         "SymbolComment\t\tSymbolComment\tLager\t\nData-Type\tREAL32\tData-Type"
         "\tREAL64\tBIT\nSampleTime[ms]\t0,5\tSampleTime[ms]\t1\t1\nUnit\t(None)\tUnit\t°C (Temperature)\t(None)\n",
     )
-    rows = "".join(
-        f"{k / 2}\t{k / 8}\t" + (f"{k}\t{20 + k / 4}\t{k % 2}\n" if k < 30 else "\t\t\n") for k in range(60)
-    )
+    rows = "".join(f"{k / 2}\t{k / 8}\t" + (f"{k}\t{20 + k / 4}\t{k % 2}\n" if k < 30 else "\t\t\n") for k in range(60))
     short = "".join(f"{k};{k / 8};{k * 2};{k * k}\n" if k < 20 else f"{k};{k / 8}\n" for k in range(40)).replace(
         ".", ","
     )

@@ -75,34 +75,67 @@ def collect(view: StoreView, campaign: str | None) -> list[TestQuality]:
         raise UsageError("the store holds several campaigns", expected="--campaign NAME", got=", ".join(names))
     if campaign is not None and campaign not in names:
         raise unknown_name("campaign", campaign, names)
-    tests = records(view, "select * from test where campaign = ? order by start_ns nulls last, test",
-                    [campaign or names[0]]) if names else []
+    tests = (
+        records(
+            view, "select * from test where campaign = ? order by start_ns nulls last, test", [campaign or names[0]]
+        )
+        if names
+        else []
+    )
     bins = MOST_BINS if len(tests) <= _MANY_TESTS else MOST_BINS // 2
     return [_test(view, row, bins) for row in tests]
 
 
 def _test(view: StoreView, test: dict[str, Any], bins: int) -> TestQuality:
     own = [test["campaign"], test["test"]]
-    channels = {row["channel"]: row for row in records(
-        view, "select distinct on (channel) channel, quantity, unit from channel "
-              "where campaign = ? and test = ? order by channel", own)}
-    first, last = records(view, "select min(t_s) as a, max(t_s) as b from sample where campaign = ? and test = ?",
-                          own)[0].values()
+    channels = {
+        row["channel"]: row
+        for row in records(
+            view,
+            "select distinct on (channel) channel, quantity, unit from channel "
+            "where campaign = ? and test = ? order by channel",
+            own,
+        )
+    }
+    first, last = records(view, "select min(t_s) as a, max(t_s) as b from sample where campaign = ? and test = ?", own)[
+        0
+    ].values()
     start, stop = float(first or 0.0), float(last or 0.0)
     width = max((stop - start) / bins, 1e-9)
-    found = records(view, _BINS, {
-        "start": start, "width": width, "last": bins - 1, "invalid": int(INVALID), "idle": int(Flag.NOT_MEASURING),
-        "campaign": own[0], "test": own[1]})
+    found = records(
+        view,
+        _BINS,
+        {
+            "start": start,
+            "width": width,
+            "last": bins - 1,
+            "invalid": int(INVALID),
+            "idle": int(Flag.NOT_MEASURING),
+            "campaign": own[0],
+            "test": own[1],
+        },
+    )
     rows: dict[str, list[dict[str, Any]]] = {}
     for row in found:
         rows.setdefault(row["channel"], []).append(row)
     events = records(view, "select * from quality where campaign = ? and test = ? order by from_s, channel", own)
-    lost = records(view, "select distinct source_path, losses from file where campaign = ? and test = ? and "
-                         "losses is not null and layer <> 'superseded' order by 1", own)
+    lost = records(
+        view,
+        "select distinct source_path, losses from file where campaign = ? and test = ? and "
+        "losses is not null and layer <> 'superseded' order by 1",
+        own,
+    )
     return TestQuality(
-        own[0], own[1], test["kind"], float(test["duration_s"] or stop - start), start, width,
-        tuple(_trace(channels[name], rows[name], bins) for name in channels if name in rows), tuple(events),
-        tuple(_losses(lost)))
+        own[0],
+        own[1],
+        test["kind"],
+        float(test["duration_s"] or stop - start),
+        start,
+        width,
+        tuple(_trace(channels[name], rows[name], bins) for name in channels if name in rows),
+        tuple(events),
+        tuple(_losses(lost)),
+    )
 
 
 def _trace(channel: dict[str, Any], rows: Sequence[dict[str, Any]], bins: int) -> Trace:
@@ -115,9 +148,18 @@ def _trace(channel: dict[str, Any], rows: Sequence[dict[str, Any]], bins: int) -
 
     flags = np.zeros(bins, np.uint16)
     flags[at] = [r["flags"] or 0 for r in rows]
-    return Trace(channel["channel"], channel["quantity"], channel["unit"], spread("good"), spread("low"),
-                 spread("high"), flags, sum(r["n"] for r in rows), sum(r["flagged"] for r in rows),
-                 sum(r["idle"] for r in rows))
+    return Trace(
+        channel["channel"],
+        channel["quantity"],
+        channel["unit"],
+        spread("good"),
+        spread("low"),
+        spread("high"),
+        flags,
+        sum(r["n"] for r in rows),
+        sum(r["flagged"] for r in rows),
+        sum(r["idle"] for r in rows),
+    )
 
 
 def _losses(rows: Sequence[dict[str, Any]]) -> list[str]:

@@ -15,16 +15,54 @@ from thermodata.report.words import duration
 from thermodata.schema.flag import INVALID, Flag
 
 # the worst of a bin's flags gives its colour: from what is only worth knowing to what must not be believed
-SEVERITY = (Flag.INTERPOLATED, Flag.RATE_CHANGE, Flag.GAP, Flag.NOT_MEASURING, Flag.DUPLICATE_TIME, Flag.CLOCK_SUSPECT,
-            Flag.SPIKE, Flag.SATURATED, Flag.OUT_OF_RANGE, Flag.HELD, Flag.STUCK, Flag.OFFSET)
+SEVERITY = (
+    Flag.INTERPOLATED,
+    Flag.RATE_CHANGE,
+    Flag.GAP,
+    Flag.NOT_MEASURING,
+    Flag.DUPLICATE_TIME,
+    Flag.CLOCK_SUSPECT,
+    Flag.SPIKE,
+    Flag.SATURATED,
+    Flag.OUT_OF_RANGE,
+    Flag.HELD,
+    Flag.STUCK,
+    Flag.OFFSET,
+)
 _DEFECT = int(INVALID & ~Flag.NOT_MEASURING)
-TINTS = {"interpolated": "#cbd5e1", "rate_change": "#a3b18a", "gap": "#94a3b8", "not_measuring": "#e5e7eb",
-         "duplicate_time": "#c4b5fd", "clock_suspect": "#8b5cf6", "spike": "#eab308", "saturated": "#f97316",
-         "out_of_range": "#a16207", "held": "#0ea5e9", "stuck": "#db2777", "offset": "#dc2626"}
-_PANEL, _LANE, _GAP, _TOP, _BOTTOM = 120, 17, 26, 26, 44          # [px]
+TINTS = {
+    "interpolated": "#cbd5e1",
+    "rate_change": "#a3b18a",
+    "gap": "#94a3b8",
+    "not_measuring": "#e5e7eb",
+    "duplicate_time": "#c4b5fd",
+    "clock_suspect": "#8b5cf6",
+    "spike": "#eab308",
+    "saturated": "#f97316",
+    "out_of_range": "#a16207",
+    "held": "#0ea5e9",
+    "stuck": "#db2777",
+    "offset": "#dc2626",
+}
+_PANEL, _LANE, _GAP, _TOP, _BOTTOM = 120, 17, 26, 26, 44  # [px]
 _MOST_PANELS = 6
-_ORDER = ("displacement", "tilt", "temperature", "temperature_difference", "rotational_speed", "feed", "power", "load",
-          "current", "torque", "position", "flow", "pressure", "humidity", "voltage")
+_ORDER = (
+    "displacement",
+    "tilt",
+    "temperature",
+    "temperature_difference",
+    "rotational_speed",
+    "feed",
+    "power",
+    "load",
+    "current",
+    "torque",
+    "position",
+    "flow",
+    "pressure",
+    "humidity",
+    "voltage",
+)
 
 
 def draw_test(test: TestQuality) -> Figure:
@@ -36,36 +74,68 @@ def draw_test(test: TestQuality) -> Figure:
     lane_height = _LANE * len(lanes) + (12 if lanes else 0)
     inner = _PANEL * len(panels) + _GAP * max(len(panels) - 1, 0) + ((_GAP + lane_height) if lanes else 0)
     layout = base_layout(max(inner, 60) + _TOP + _BOTTOM)
-    layout.update(margin={"l": 150, "r": 14, "t": _TOP, "b": _BOTTOM}, showlegend=False, annotations=[], shapes=[],
-                  hovermode="closest")
+    layout.update(
+        margin={"l": 150, "r": 14, "t": _TOP, "b": _BOTTOM},
+        showlegend=False,
+        annotations=[],
+        shapes=[],
+        hovermode="closest",
+    )
     traces: list[dict[str, Any]] = []
     top = float(inner)
     for i, (quantity, members) in enumerate(panels, 1):
         axis = "" if i == 1 else str(i)
         limits = _limits(members)
         layout[f"yaxis{axis}"] = {
-            "domain": [max(0.0, (top - _PANEL) / inner), min(1.0, top / inner)], "anchor": "x", "range": list(limits),
-            "gridcolor": colour.GRID, "zeroline": False, "nticks": 5, "tickfont": {"size": 11, "color": colour.MUTED}}
+            "domain": [max(0.0, (top - _PANEL) / inner), min(1.0, top / inner)],
+            "anchor": "x",
+            "range": list(limits),
+            "gridcolor": colour.GRID,
+            "zeroline": False,
+            "nticks": 5,
+            "tickfont": {"size": 11, "color": colour.MUTED},
+        }
         unit = f" [{members[0].unit}]" if members[0].unit not in ("", "1") else ""
         layout["annotations"].append(_title(f"<b>{quantity.replace('_', ' ')}</b>{unit}", top / inner))
         traces += _drawn(members, hours, f"y{axis}", limits)
         top -= _PANEL + _GAP
     if lanes:
         name = f"yaxis{len(panels) + 1}" if panels else "yaxis"
-        layout[name] = {"domain": [0, max(0.02, (top) / inner)], "anchor": "x", "autorange": "reversed",
-                        "tickfont": {"size": 11}, "ticks": "", "fixedrange": True, "showgrid": False}
+        layout[name] = {
+            "domain": [0, max(0.02, (top) / inner)],
+            "anchor": "x",
+            "autorange": "reversed",
+            "tickfont": {"size": 11},
+            "ticks": "",
+            "fixedrange": True,
+            "showgrid": False,
+        }
         layout["annotations"].append(_title("<b>flags</b>", max(0.02, top / inner)))
         traces.append(_heat(lanes, hours, "y" + name.removeprefix("yaxis")))
     for event in test.events:
         if event["flag"] == "gap" and event["channel"] is None and event["to_s"] - event["from_s"] > test.bin_s / 4:
-            layout["shapes"].append({
-                "type": "rect", "xref": "x", "x0": event["from_s"] / 3600, "x1": event["to_s"] / 3600, "yref": "paper",
-                "y0": 0, "y1": 1, "fillcolor": colour.faint("#64748b", 0.18), "line": {"width": 0}, "layer": "below"})
+            layout["shapes"].append(
+                {
+                    "type": "rect",
+                    "xref": "x",
+                    "x0": event["from_s"] / 3600,
+                    "x1": event["to_s"] / 3600,
+                    "yref": "paper",
+                    "y0": 0,
+                    "y1": 1,
+                    "fillcolor": colour.faint("#64748b", 0.18),
+                    "line": {"width": 0},
+                    "layer": "below",
+                }
+            )
     layout["xaxis"] = {
         "range": [test.start_s / 3600, (test.start_s + _bins(test) * test.bin_s) / 3600],
         "anchor": "free" if not panels and not lanes else f"y{len(panels) + 1 if lanes else len(panels)}",
-        "gridcolor": colour.GRID, "zeroline": False, "tickfont": {"size": 11, "color": colour.MUTED},
-        "title": {"text": "time from the start of the test [h]", "font": {"size": 11.5, "color": colour.MUTED}}}
+        "gridcolor": colour.GRID,
+        "zeroline": False,
+        "tickfont": {"size": 11, "color": colour.MUTED},
+        "title": {"text": "time from the start of the test [h]", "font": {"size": 11.5, "color": colour.MUTED}},
+    }
     if layout["xaxis"]["anchor"] == "y1":
         layout["xaxis"]["anchor"] = "y"
     return {"data": traces, "layout": layout}
@@ -129,9 +199,17 @@ def _drawn(members: Sequence[Trace], hours: Float1D, axis: str, limits: tuple[fl
 
 def _line(trace: Trace, hours: Float1D, axis: str, tint: str, width: float) -> dict[str, Any]:
     unit = "" if trace.unit == "1" else f" {trace.unit}"
-    return {"type": "scatter", "mode": "lines", "x": _short(hours, 4), "y": _short(trace.good), "yaxis": axis,
-            "name": trace.name, "connectgaps": False, "line": {"color": tint, "width": width},
-            "hovertemplate": f"{trace.name} %{{y:.5~g}}{unit}<extra></extra>"}
+    return {
+        "type": "scatter",
+        "mode": "lines",
+        "x": _short(hours, 4),
+        "y": _short(trace.good),
+        "yaxis": axis,
+        "name": trace.name,
+        "connectgaps": False,
+        "line": {"color": tint, "width": width},
+        "hovertemplate": f"{trace.name} %{{y:.5~g}}{unit}<extra></extra>",
+    }
 
 
 def _marks(trace: Trace, hours: Float1D, axis: str, limits: tuple[float, float]) -> list[dict[str, Any]]:
@@ -145,14 +223,26 @@ def _marks(trace: Trace, hours: Float1D, axis: str, limits: tuple[float, float])
         if not at.any() or (i and np.array_equal(values[at], trace.low[at])):
             continue
         names = [", ".join(flag_names(int(f) & _DEFECT)) for f in trace.flags[at]]
-        made.append({
-            "type": "scatter", "mode": "markers", "x": _short(hours[at], 4),
-            "y": _short(np.clip(values[at], *inside)), "yaxis": axis, "cliponaxis": False,
-            "marker": {"size": 4.5, "color": [TINTS[str(SEVERITY[w].name).lower()] for w in worst[at]],
-                       "symbol": ["circle" if limits[0] <= v <= limits[1] else "triangle-up" if v > limits[1]
-                                  else "triangle-down" for v in values[at]]},
-            "customdata": [[float(f"{v:.5g}"), n] for v, n in zip(values[at], names, strict=True)],
-            "hovertemplate": f"{trace.name} %{{customdata[0]}} {trace.unit}: %{{customdata[1]}}<extra></extra>"})
+        made.append(
+            {
+                "type": "scatter",
+                "mode": "markers",
+                "x": _short(hours[at], 4),
+                "y": _short(np.clip(values[at], *inside)),
+                "yaxis": axis,
+                "cliponaxis": False,
+                "marker": {
+                    "size": 4.5,
+                    "color": [TINTS[str(SEVERITY[w].name).lower()] for w in worst[at]],
+                    "symbol": [
+                        "circle" if limits[0] <= v <= limits[1] else "triangle-up" if v > limits[1] else "triangle-down"
+                        for v in values[at]
+                    ],
+                },
+                "customdata": [[float(f"{v:.5g}"), n] for v, n in zip(values[at], names, strict=True)],
+                "hovertemplate": f"{trace.name} %{{customdata[0]}} {trace.unit}: %{{customdata[1]}}<extra></extra>",
+            }
+        )
     return made
 
 
@@ -172,15 +262,35 @@ def _heat(lanes: Sequence[Trace], hours: Float1D, axis: str) -> dict[str, Any]:
         tint = TINTS[str(flag.name).lower()]
         scale += [[i / n, tint], [(i + 1) / n, tint]]
     text = [[", ".join(flag_names(int(f))) for f in t.flags] for t in lanes]
-    return {"type": "heatmap", "z": [[int(v) if v >= 0 else None for v in row] for row in z], "x": _short(hours, 4),
-            "y": [t.name for t in lanes], "yaxis": axis, "zmin": -0.5, "zmax": n - 0.5, "colorscale": scale,
-            "showscale": False, "ygap": 3, "hoverongaps": False, "text": text,
-            "hovertemplate": "%{y}, %{x:.2f} h: %{text}<extra></extra>"}
+    return {
+        "type": "heatmap",
+        "z": [[int(v) if v >= 0 else None for v in row] for row in z],
+        "x": _short(hours, 4),
+        "y": [t.name for t in lanes],
+        "yaxis": axis,
+        "zmin": -0.5,
+        "zmax": n - 0.5,
+        "colorscale": scale,
+        "showscale": False,
+        "ygap": 3,
+        "hoverongaps": False,
+        "text": text,
+        "hovertemplate": "%{y}, %{x:.2f} h: %{text}<extra></extra>",
+    }
 
 
 def _title(text: str, y: float) -> dict[str, Any]:
-    return {"text": text, "xref": "paper", "yref": "paper", "x": 0, "y": min(1.0, y), "xanchor": "left",
-            "yanchor": "bottom", "showarrow": False, "font": {"size": 11.5, "color": colour.INK}}
+    return {
+        "text": text,
+        "xref": "paper",
+        "yref": "paper",
+        "x": 0,
+        "y": min(1.0, y),
+        "xanchor": "left",
+        "yanchor": "bottom",
+        "showarrow": False,
+        "font": {"size": 11.5, "color": colour.INK},
+    }
 
 
 def _short(values: Float1D, digits: int = 6) -> list[float | None]:

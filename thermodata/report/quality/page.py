@@ -39,13 +39,21 @@ def render(tests: Sequence[TestQuality]) -> str:
     pictures = {f"test{i}": draw_test(t) for i, t in enumerate(tests)}
     shown = [_shown(t, f"test{i}", pictures[f"test{i}"]["layout"]["height"]) for i, t in enumerate(tests)]
     used = {name for row in shown for name, _ in row["counts"]} | {
-        n for t in tests for trace in t.traces for n in _names(trace)}
+        n for t in tests for trace in t.traces for n in _names(trace)
+    }
     return environment.from_string((own / "page.html.j2").read_text(encoding="utf-8")).render(
-        campaign=tests[0].campaign if tests else "no tests", tests=shown, tints=TINTS, version=__version__,
-        legend=[n for n in _WORST_FIRST if n in used], headline=headline(tests), sentences=sentences(tests),
+        campaign=tests[0].campaign if tests else "no tests",
+        tests=shown,
+        tints=TINTS,
+        version=__version__,
+        legend=[n for n in _WORST_FIRST if n in used],
+        headline=headline(tests),
+        sentences=sentences(tests),
         json={key: Markup(script_json(figure)) for key, figure in pictures.items()},
         css=Markup((report / "page.css").read_text(encoding="utf-8")),
-        js=Markup((report / "page.js").read_text(encoding="utf-8")), plotly=Markup(get_plotlyjs()))
+        js=Markup((report / "page.js").read_text(encoding="utf-8")),
+        plotly=Markup(get_plotlyjs()),
+    )
 
 
 def headline(tests: Sequence[TestQuality]) -> str:
@@ -71,10 +79,18 @@ def sentences(tests: Sequence[TestQuality]) -> list[str]:
     lost = [t.test for t in tests if t.losses]
     if lost:
         said.append(f"Data were lost in {', '.join(lost[:6])}{' and others' if len(lost) > 6 else ''}: see below.")
-    for flag, words in (("offset", "stepped against what came before"), ("stuck", "stuck at one value"),
-                        ("held", "frozen for a while"), ("clock_suspect", "with a suspect clock")):
-        where = {(e["channel"] or e["source"] or "all channels"): t.test for t in reversed(tests) for e in t.events
-                 if e["flag"] == flag}
+    for flag, words in (
+        ("offset", "stepped against what came before"),
+        ("stuck", "stuck at one value"),
+        ("held", "frozen for a while"),
+        ("clock_suspect", "with a suspect clock"),
+    ):
+        where = {
+            (e["channel"] or e["source"] or "all channels"): t.test
+            for t in reversed(tests)
+            for e in t.events
+            if e["flag"] == flag
+        }
         if where:
             named = ", ".join(f"{channel} (from {test})" for channel, test in list(where.items())[:5])
             more = " …" if len(where) > 5 else ""
@@ -113,10 +129,18 @@ def _shown(test: TestQuality, key: str, height: int) -> dict[str, Any]:
     longest = sorted(test.events, key=lambda e: -((e["to_s"] or 0) - (e["from_s"] or 0)))[:_MOST_EVENTS]
     longest.sort(key=lambda e: (e["from_s"] or 0, e["channel"] or ""))
     idle = sum(t.idle for t in test.traces)
-    return {"idle": f"; {share(idle, samples)} not measuring" if idle else "", "key": key,
-            "test": test.test, "kind": test.kind, "length": duration(test.duration_s),
-            "samples": count(samples), "share": share(flagged, samples), "height": height,
-            "counts": [(n, counts[n]) for n in _WORST_FIRST if n in counts], "losses": test.losses,
-            "worst": [f"{t.name} {share(t.flagged, t.samples)}" for t in worst], "total": len(test.events),
-            "events": [{**e, "when": when(e["from_s"], e["to_s"]), "detail": typeset(e["detail"] or "")}
-                       for e in longest]}
+    return {
+        "idle": f"; {share(idle, samples)} not measuring" if idle else "",
+        "key": key,
+        "test": test.test,
+        "kind": test.kind,
+        "length": duration(test.duration_s),
+        "samples": count(samples),
+        "share": share(flagged, samples),
+        "height": height,
+        "counts": [(n, counts[n]) for n in _WORST_FIRST if n in counts],
+        "losses": test.losses,
+        "worst": [f"{t.name} {share(t.flagged, t.samples)}" for t in worst],
+        "total": len(test.events),
+        "events": [{**e, "when": when(e["from_s"], e["to_s"]), "detail": typeset(e["detail"] or "")} for e in longest],
+    }

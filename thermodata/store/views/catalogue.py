@@ -89,9 +89,11 @@ def read_catalogue(con: duckdb.DuckDBPyConnection, folder: Path | None = None) -
     """
     rows = con.execute(
         "select campaign, source, stream, test, path, columns->>'$.channels', bytes from file "
-        "where layer = 'tidy' and part = 'test' order by campaign, source, stream, test, path").fetchall()
-    known = con.execute("select campaign from campaign union select campaign from test union "
-                        "select campaign from file order by 1").fetchall()
+        "where layer = 'tidy' and part = 'test' order by campaign, source, stream, test, path"
+    ).fetchall()
+    known = con.execute(
+        "select campaign from campaign union select campaign from test union select campaign from file order by 1"
+    ).fetchall()
     described = _described(con)
     namer, campaign_namer = Namer(), Namer()
     campaigns = {campaign: campaign_namer(campaign) for (campaign,) in known}
@@ -111,9 +113,17 @@ def read_catalogue(con: duckdb.DuckDBPyConnection, folder: Path | None = None) -
         broken = [p for p in listed if folder is not None and not _as_long(folder / p, sizes[p])]
         whole = next((p for p in listed if p not in broken), None)
         suffix = (campaign, source, stream) if len(streams[campaign, source]) > 1 else (campaign, source)
-        groups.append(Group(campaign, source, stream, namer(*suffix),
-                            _columns(con, whole, channels, source, described.get(campaign, {})), paths,
-                            broken[0] if broken else None))
+        groups.append(
+            Group(
+                campaign,
+                source,
+                stream,
+                namer(*suffix),
+                _columns(con, whole, channels, source, described.get(campaign, {})),
+                paths,
+                broken[0] if broken else None,
+            )
+        )
     order = {c: _ordered(described.get(c, {}), [g for g in groups if g.campaign == c]) for c in campaigns}
     return Catalogue(campaigns, tuple(groups), order)
 
@@ -122,8 +132,9 @@ def _described(con: duckdb.DuckDBPyConnection) -> dict[str, dict[str, tuple[str,
     """campaign -> channel -> (quantity, unit, comment), in the order of the table."""
     rows = con.execute(
         "select campaign, channel, first(quantity order by rowid), first(unit order by rowid), "
-        "first(axis order by rowid), first(\"at\" order by rowid), first(relative_to order by rowid), "
-        "first(sign order by rowid) from channel group by campaign, channel order by min(rowid)").fetchall()
+        'first(axis order by rowid), first("at" order by rowid), first(relative_to order by rowid), '
+        "first(sign order by rowid) from channel group by campaign, channel order by min(rowid)"
+    ).fetchall()
     found: dict[str, dict[str, tuple[str, str, str]]] = {}
     for campaign, channel, quantity, unit, axis, at, relative_to, sign in rows:
         words = [f"[{unit}] {quantity}"]
@@ -142,13 +153,20 @@ def _as_long(path: Path, size_bytes: int | None) -> bool:
         return False
 
 
-def _columns(con: duckdb.DuckDBPyConnection, path: str | None, channels: str | None, source: str,
-             described: Mapping[str, tuple[str, str, str]]) -> tuple[Column, ...]:
+def _columns(
+    con: duckdb.DuckDBPyConnection,
+    path: str | None,
+    channels: str | None,
+    source: str,
+    described: Mapping[str, tuple[str, str, str]],
+) -> tuple[Column, ...]:
     """The channels of a tidy file: the columns that have a flag column. Where no file is whole, what the catalogue
     says of them."""
     if path is None:
-        types = {n: "VARCHAR" if described.get(n, ("", "", ""))[0] == "label" else "DOUBLE"
-                 for n in json.loads(channels or "[]")}
+        types = {
+            n: "VARCHAR" if described.get(n, ("", "", ""))[0] == "label" else "DOUBLE"
+            for n in json.loads(channels or "[]")
+        }
         types |= {f"{n}__flag": "USMALLINT" for n in types}
     else:
         types = _types(con, path)
@@ -164,8 +182,12 @@ def _columns(con: duckdb.DuckDBPyConnection, path: str | None, channels: str | N
 
 
 def _types(con: duckdb.DuckDBPyConnection, path: str) -> dict[str, str]:
-    return {name: kind for name, kind, *_ in con.execute(
-        f"describe select * from read_parquet([{literal(path)}], hive_partitioning = false)").fetchall()}
+    return {
+        name: kind
+        for name, kind, *_ in con.execute(
+            f"describe select * from read_parquet([{literal(path)}], hive_partitioning = false)"
+        ).fetchall()
+    }
 
 
 def _ordered(described: Iterable[str], groups: Iterable[Group]) -> tuple[str, ...]:

@@ -17,20 +17,24 @@ _SHOWN = 30
 
 def lookup_macros(catalogue: Catalogue, tests: Mapping[str, Iterable[str]]) -> Iterator[str]:
     """Scalar macros: `sql_text` quotes, `files_<group>` and `known_<campaign>` give arguments as SQL text."""
-    yield ("create macro sql_text(x) as "
-           "coalesce('''' || replace(cast(x as varchar), '''', '''''') || '''', 'null')")
+    yield ("create macro sql_text(x) as coalesce('''' || replace(cast(x as varchar), '''', '''''') || '''', 'null')")
     for group in catalogue.groups:
-        entries = ", ".join(f"{literal(test)}: {literal(file_list(paths) + ', true')}"
-                            for test, paths in group.paths.items())
+        entries = ", ".join(
+            f"{literal(test)}: {literal(file_list(paths) + ', true')}" for test, paths in group.paths.items()
+        )
         # a test without this stream reads no row of another test's file
         fallback = literal(file_list([group.files[0]]) + ", false")
-        yield (f"create macro {quoted('files_' + group.name)}(test) as "
-               f"coalesce((map {{{entries}}})[cast(test as varchar)], {fallback})")
+        yield (
+            f"create macro {quoted('files_' + group.name)}(test) as "
+            f"coalesce((map {{{entries}}})[cast(test as varchar)], {fallback})"
+        )
     for campaign, suffix in catalogue.campaigns.items():
         names = sorted(tests.get(campaign, ()))
         refusal = refuse("no test ", "test", f" in campaign '{campaign}'", names)
-        yield (f"create macro {quoted('known_' + suffix)}(test) as case when list_contains("
-               f"{file_list(names)}::varchar[], cast(test as varchar)) then sql_text(test) else {refusal} end")
+        yield (
+            f"create macro {quoted('known_' + suffix)}(test) as case when list_contains("
+            f"{file_list(names)}::varchar[], cast(test as varchar)) then sql_text(test) else {refusal} end"
+        )
 
 
 def files_call(group: Group) -> str:
@@ -48,8 +52,9 @@ def known_call(catalogue: Catalogue, campaign: str) -> str:
     return f"{quoted('known_' + catalogue.campaigns[campaign])}(test)"
 
 
-def dispatcher(catalogue: Catalogue, name: str, parameters: Mapping[str, str | None],
-               texts: Mapping[str, str | None], empty: str) -> Iterator[str]:
+def dispatcher(
+    catalogue: Catalogue, name: str, parameters: Mapping[str, str | None], texts: Mapping[str, str | None], empty: str
+) -> Iterator[str]:
     """The table macro `name(campaign, parameters...)`: it runs the text that the campaign's expression gives.
 
     parameters: name -> default, or None. texts: campaign -> SQL over the parameters that gives the text of a
@@ -63,8 +68,11 @@ def dispatcher(catalogue: Catalogue, name: str, parameters: Mapping[str, str | N
         own = quoted(f"{name}_in_{catalogue.campaigns[campaign]}")
         yield f"create macro {own}({inner}) as table select * from query({text or literal(empty)})"
         cases.append(f"when {literal(campaign)} then {literal(f'select * from {own}(')} || {passed} || ')'")
-    choice = (f"case cast(campaign as varchar) {' '.join(cases)} "
-              f"else {refuse('no campaign ', 'campaign', '', texts)} end" if cases else literal(empty))
+    choice = (
+        f"case cast(campaign as varchar) {' '.join(cases)} else {refuse('no campaign ', 'campaign', '', texts)} end"
+        if cases
+        else literal(empty)
+    )
     yield f"create macro {quoted(name)}(campaign, {outer}) as table select * from query({choice})"
 
 

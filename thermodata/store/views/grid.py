@@ -25,8 +25,7 @@ AGED_PERIODS = 3.5
 MAX_POINTS = 20_000_000
 # 30 us on a grid of 30 s: times such as 29.999999999 belong to the point that they mean
 _SLACK = 1e-6
-_EMPTY = ("select null::varchar as campaign, null::varchar as test, null::timestamp_ns as t, "
-          "null::double as t_s limit 0")
+_EMPTY = "select null::varchar as campaign, null::varchar as test, null::timestamp_ns as t, null::double as t_s limit 0"
 
 STEP = f"""create macro step_seconds(step) as case
   when coalesce(try_cast(cast(step as varchar) as double), epoch(try_cast(cast(step as varchar) as interval))) > 0
@@ -47,11 +46,15 @@ def grid_macros(catalogue: Catalogue) -> Iterator[str]:
                 continue
             name = quoted(f"{kind}_grid_{suffix}")
             files = "".join(f", p__files_{i}, p__own_{i}" for i in range(len(groups)))
-            yield (f"create macro {name}(p__test, p__step{files}) as table "
-                   + body(campaign, groups, catalogue.channels[campaign]))
+            yield (
+                f"create macro {name}(p__test, p__step{files}) as table "
+                + body(campaign, groups, catalogue.channels[campaign])
+            )
             arguments = " || ', ' || ".join(files_call(g) for g in groups)
-            texts[campaign] = (f"{literal(f'select * from {name}(')} || {known_call(catalogue, campaign)} || ', ' || "
-                               f"cast(step_seconds(step) as varchar) || '::double, ' || {arguments} || ')'")
+            texts[campaign] = (
+                f"{literal(f'select * from {name}(')} || {known_call(catalogue, campaign)} || ', ' || "
+                f"cast(step_seconds(step) as varchar) || '::double, ' || {arguments} || ')'"
+            )
         yield from dispatcher(catalogue, kind, {"test": None, "step": "'30 s'"}, texts, _EMPTY)
 
 
@@ -64,26 +67,33 @@ def _grid(campaign: str, groups: list[Group]) -> str:
     extents = []
     for i, group in enumerate(groups):
         # the declared period first: a gap stretches the mean one
-        declared = (f"(select any_value(q.step_s) from source q where q.campaign = {literal(campaign)} "
-                    f"and q.test = p__test and q.source = {literal(group.source)} "
-                    f"and q.stream = {literal(group.stream)})")
+        declared = (
+            f"(select any_value(q.step_s) from source q where q.campaign = {literal(campaign)} "
+            f"and q.test = p__test and q.source = {literal(group.source)} "
+            f"and q.stream = {literal(group.stream)})"
+        )
         extents.append(
             f"e__{i} as (select min(r.t_s) as a, max(r.t_s) as b, "
             f"min(epoch_ns(r.t) - cast(round(r.t_s * 1e9) as bigint)) as t0, "
             f"coalesce({declared}, (max(r.t_s) - min(r.t_s)) / nullif(count(*) - 1, 0), 0) as period "
-            f"from {_source(i)})")
+            f"from {_source(i)})"
+        )
     union = " union all ".join(f"select a, b, t0 from e__{i}" for i in range(len(groups)))
     points = f"cast(floor(a / p__step + {_SLACK}) as bigint), cast(floor(b / p__step + {_SLACK}) as bigint)"
-    return (f"{', '.join(extents)}, e as (select min(a) as a, max(b) as b, min(t0) as t0 from ({union})), "
-            f"g as (select t0, unnest(generate_series({points})) as k from (select * from e where "
-            f"case when (b - a) / p__step > {MAX_POINTS} then error('the step is too small for this test: over "
-            f"{MAX_POINTS} points') else a is not null end))")
+    return (
+        f"{', '.join(extents)}, e as (select min(a) as a, max(b) as b, min(t0) as t0 from ({union})), "
+        f"g as (select t0, unnest(generate_series({points})) as k from (select * from e where "
+        f"case when (b - a) / p__step > {MAX_POINTS} then error('the step is too small for this test: over "
+        f"{MAX_POINTS} points') else a is not null end))"
+    )
 
 
 def _head(campaign: str, table: str) -> str:
-    return (f"{literal(campaign)} as campaign, p__test as test, "
-            f"make_timestamp_ns({table}.t0 + cast(round({table}.k * p__step * 1e9) as bigint)) as t, "
-            f"{table}.k * p__step as t_s")
+    return (
+        f"{literal(campaign)} as campaign, p__test as test, "
+        f"make_timestamp_ns({table}.t0 + cast(round({table}.k * p__step * 1e9) as bigint)) as t, "
+        f"{table}.k * p__step as t_s"
+    )
 
 
 def bin_index(step: str) -> str:
@@ -109,10 +119,12 @@ def _filled(i: int, column: Column) -> str:
     if column.held:
         return last
     at = f"case when {value} is not null then g.k end"
-    return (f"{value} as {quoted('v__' + n)}, {last}, "
-            f"last_value({at} ignore nulls) over before as {quoted('pk__' + n)}, "
-            f"first_value({value} ignore nulls) over behind as {quoted('nv__' + n)}, "
-            f"first_value({at} ignore nulls) over behind as {quoted('nk__' + n)}")
+    return (
+        f"{value} as {quoted('v__' + n)}, {last}, "
+        f"last_value({at} ignore nulls) over before as {quoted('pk__' + n)}, "
+        f"first_value({value} ignore nulls) over behind as {quoted('nv__' + n)}, "
+        f"first_value({at} ignore nulls) over behind as {quoted('nk__' + n)}"
+    )
 
 
 def _value(i: int, column: Column) -> str:
@@ -120,8 +132,10 @@ def _value(i: int, column: Column) -> str:
     v, pv, pk, nv, nk = (f"w.{quoted(f'{what}__{n}')}" for what in ("v", "pv", "pk", "nv", "nk"))
     if column.held:
         return pv
-    return (f"case when {v} is not null then {v} when {nk} - {pk} <= w.reach__{i} "
-            f"then {pv} + ({nv} - {pv}) * (w.k - {pk}) / ({nk} - {pk}) end")
+    return (
+        f"case when {v} is not null then {v} when {nk} - {pk} <= w.reach__{i} "
+        f"then {pv} + ({nv} - {pv}) * (w.k - {pk}) / ({nk} - {pk}) end"
+    )
 
 
 def _binned(campaign: str, groups: list[Group], channels: tuple[str, ...]) -> str:
@@ -129,16 +143,21 @@ def _binned(campaign: str, groups: list[Group], channels: tuple[str, ...]) -> st
     for i, group in enumerate(groups):
         values = ", ".join(f"{bin_value(c)} as {quoted(c.name)}" for c in group.columns)
         bins.append(f"s__{i} as (select {bin_index('p__step')} as b__k, {values} from {_source(i)} group by 1)")
-    reach = ", ".join(f"(select case when period > p__step / 2 then {INTERPOLATED_PERIODS} * period / p__step "
-                      f"else 0 end from e__{i}) as reach__{i}" for i in range(len(groups)))
+    reach = ", ".join(
+        f"(select case when period > p__step / 2 then {INTERPOLATED_PERIODS} * period / p__step "
+        f"else 0 end from e__{i}) as reach__{i}"
+        for i in range(len(groups))
+    )
     windows = ", ".join(_filled(i, c) for i, g in enumerate(groups) for c in g.columns)
     joins = " ".join(f"left join s__{i} on s__{i}.b__k = g.k" for i in range(len(groups)))
     out = _by_channel(groups, channels, _value)
-    return (f"with {_grid(campaign, groups)}, {', '.join(bins)}, "
-            f"w as (select g.k, g.t0, {reach}, {windows} from g {joins} window "
-            f"before as (order by g.k rows between unbounded preceding and current row), "
-            f"behind as (order by g.k rows between current row and unbounded following)) "
-            f"select {_head(campaign, 'w')}, {', '.join(out)} from w order by w.k")
+    return (
+        f"with {_grid(campaign, groups)}, {', '.join(bins)}, "
+        f"w as (select g.k, g.t0, {reach}, {windows} from g {joins} window "
+        f"before as (order by g.k rows between unbounded preceding and current row), "
+        f"behind as (order by g.k rows between current row and unbounded following)) "
+        f"select {_head(campaign, 'w')}, {', '.join(out)} from w order by w.k"
+    )
 
 
 def _aligned(campaign: str, groups: list[Group], channels: tuple[str, ...]) -> str:
@@ -151,19 +170,21 @@ def _aligned(campaign: str, groups: list[Group], channels: tuple[str, ...]) -> s
         return bare if column.held else f"case when {fresh(i)} then {bare} end"
 
     def fresh(i: int) -> str:
-        return (f"g.k * p__step - s__{i}.t_s < "
-                f"(select greatest({AGED_PERIODS} * period, p__step) from e__{i})")
+        return f"g.k * p__step - s__{i}.t_s < (select greatest({AGED_PERIODS} * period, p__step) from e__{i})"
 
-    joins = " ".join(f"asof left join (select * from {_source(i)}) s__{i} "
-                     f"on g.k * p__step + {_SLACK} >= s__{i}.t_s" for i in range(len(groups)))
+    joins = " ".join(
+        f"asof left join (select * from {_source(i)}) s__{i} on g.k * p__step + {_SLACK} >= s__{i}.t_s"
+        for i in range(len(groups))
+    )
     values = _by_channel(groups, channels, value)
     flags = _by_channel(groups, channels, flag, "__flag")
     out = ", ".join(text for pair in zip(values, flags, strict=True) for text in pair)
     return f"with {_grid(campaign, groups)} select {_head(campaign, 'g')}, {out} from g {joins} order by g.k"
 
 
-def _by_channel(groups: list[Group], channels: tuple[str, ...], expression: Callable[[int, Column], str],
-                suffix: str = "") -> list[str]:
+def _by_channel(
+    groups: list[Group], channels: tuple[str, ...], expression: Callable[[int, Column], str], suffix: str = ""
+) -> list[str]:
     """One expression a channel; a channel that moved between sources comes from whichever has it."""
     out = []
     for channel in channels:

@@ -9,12 +9,18 @@ from thermodata.store.views.catalogue import RESPONSES, Catalogue, Column, Group
 from thermodata.store.views.dispatch import dispatcher, files_call, from_files, known_call, refuse
 from thermodata.store.views.wide import wide_name
 
-_EMPTY = ("select null::varchar as campaign, null::varchar as test, null::varchar as source, "
-          "null::varchar as channel, null::timestamp_ns as t, null::double as t_s, null::double as value, "
-          "null::usmallint as flag limit 0")
-_COMMENTS = {"t": "UTC", "t_s": "[s] from the start of the test", "value": "in channel.unit",
-             "flag": "bit mask: 1 gap, 2 held, 4 saturated, 8 spike, 16 out of range, 32 interpolated, 64 clock "
-                     "suspect, 128 not measuring, 256 stuck, 512 offset, 1024 duplicate time, 2048 rate change"}
+_EMPTY = (
+    "select null::varchar as campaign, null::varchar as test, null::varchar as source, "
+    "null::varchar as channel, null::timestamp_ns as t, null::double as t_s, null::double as value, "
+    "null::usmallint as flag limit 0"
+)
+_COMMENTS = {
+    "t": "UTC",
+    "t_s": "[s] from the start of the test",
+    "value": "in channel.unit",
+    "flag": "bit mask: 1 gap, 2 held, 4 saturated, 8 spike, 16 out of range, 32 interpolated, 64 clock "
+    "suspect, 128 not measuring, 256 stuck, 512 offset, 1024 duplicate time, 2048 rate change",
+}
 
 VIEWS: dict[str, Callable[[Column], bool]] = {
     "sample": lambda column: True,
@@ -27,8 +33,11 @@ VIEWS: dict[str, Callable[[Column], bool]] = {
 def long_views(catalogue: Catalogue) -> Iterator[str]:
     """The statements that make `sample` and its selections by quantity."""
     for name, wanted in VIEWS.items():
-        parts = [_unpivoted(g, columns) for g in catalogue.groups
-                 if (columns := [c for c in g.columns if not c.text and wanted(c)])]
+        parts = [
+            _unpivoted(g, columns)
+            for g in catalogue.groups
+            if (columns := [c for c in g.columns if not c.text and wanted(c)])
+        ]
         yield f"create view {name} as {' union all '.join(parts) or _EMPTY}"
         for column, comment in _COMMENTS.items():
             yield f"comment on column {name}.{column} is {literal(comment)}"
@@ -40,10 +49,12 @@ def _unpivoted(group: Group, columns: list[Column]) -> str:
     value = " ".join(f"when {literal(c.name)} then cast(w.{quoted(c.name)} as double)" for c in columns)
     flag = " ".join(f"when {literal(c.name)} then w.{quoted(c.name + '__flag')}" for c in columns)
     names = ", ".join(f"({literal(c.name)})" for c in columns)
-    return (f"select * from (select w.campaign, w.test, w.source, c.channel, w.t, w.t_s, "
-            f"case c.channel {value} end as value, cast(case c.channel {flag} end as usmallint) as flag "
-            f"from {quoted(wide_name(group))} w cross join (values {names}) c(channel)) "
-            f"where value is not null or flag is not null")
+    return (
+        f"select * from (select w.campaign, w.test, w.source, c.channel, w.t, w.t_s, "
+        f"case c.channel {value} end as value, cast(case c.channel {flag} end as usmallint) as flag "
+        f"from {quoted(wide_name(group))} w cross join (values {names}) c(channel)) "
+        f"where value is not null or flag is not null"
+    )
 
 
 def signal_macros(catalogue: Catalogue) -> Iterator[str]:
@@ -58,7 +69,8 @@ def signal_macros(catalogue: Catalogue) -> Iterator[str]:
             f"create macro {quoted('signal_' + group.name)}(p__channel, p__files, p__own) as table "
             f"select * from (select {literal(group.source)} as source, r.t, r.t_s, "
             f"case p__channel {value} end as value, cast(case p__channel {flag} end as usmallint) as flag "
-            f"from {from_files('p__files', 'p__own')}) where value is not null or flag is not null")
+            f"from {from_files('p__files', 'p__own')}) where value is not null or flag is not null"
+        )
     texts = {campaign: _signal_text(catalogue, campaign) for campaign in catalogue.campaigns}
     yield from dispatcher(catalogue, "signal", {"test": None, "channel": None}, texts, _EMPTY)
 
@@ -72,15 +84,23 @@ def _signal_text(catalogue: Catalogue, campaign: str) -> str | None:
         names = [c.name for c in group.columns if not c.text]
         if names:
             channels.update(dict.fromkeys(names))
-            parts.append(f"case when cast(channel as varchar) in ({', '.join(map(literal, names))}) then "
-                         f"{literal('select * from ' + quoted('signal_' + group.name) + '(')} || "
-                         f"sql_text(channel) || ', ' || {files_call(group)} || ')' end")
+            parts.append(
+                f"case when cast(channel as varchar) in ({', '.join(map(literal, names))}) then "
+                f"{literal('select * from ' + quoted('signal_' + group.name) + '(')} || "
+                f"sql_text(channel) || ', ' || {files_call(group)} || ')' end"
+            )
     if not parts:
         return None
-    refusal = refuse("no channel of numbers ", "channel", f" in campaign '{campaign}'",
-                     [c for c in catalogue.channels[campaign] if c in channels])
+    refusal = refuse(
+        "no channel of numbers ",
+        "channel",
+        f" in campaign '{campaign}'",
+        [c for c in catalogue.channels[campaign] if c in channels],
+    )
     head = literal(f"select {literal(campaign)} as campaign, ")
-    return (f"case when cast(channel as varchar) in ({', '.join(map(literal, channels))}) then "
-            f"{head} || {known_call(catalogue, campaign)} || ' as test, source, ' || sql_text(channel) || "
-            f"' as channel, t, t_s, value, flag from (' || concat_ws(' union all ', {', '.join(parts)}) || ')' "
-            f"else {refusal} end")
+    return (
+        f"case when cast(channel as varchar) in ({', '.join(map(literal, channels))}) then "
+        f"{head} || {known_call(catalogue, campaign)} || ' as test, source, ' || sql_text(channel) || "
+        f"' as channel, t, t_s, value, flag from (' || concat_ws(' union all ', {', '.join(parts)}) || ')' "
+        f"else {refusal} end"
+    )

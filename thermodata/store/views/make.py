@@ -25,16 +25,31 @@ if TYPE_CHECKING:
     import duckdb
 
 _TABLE_COMMENTS = {
-    "test": {"start_ns": "[ns] UTC since 1970, NULL for relative clocks", "duration_s": "[s]",
-             "window_s": "[s] from the start of the recording", "zero_s": "[s]",
-             "phases": "[s] from the start of the test"},
-    "source": {"start_ns": "[ns] UTC since 1970", "step_s": "[s] median period",
-               "offset_ns": "[ns] added to its times"},
-    "channel": {"unit": "of the tidy layer", "raw_unit": "of the raw layer",
-                "sign": "+ where positive is the tool centre point along the machine's + axis relative to the table"},
+    "test": {
+        "start_ns": "[ns] UTC since 1970, NULL for relative clocks",
+        "duration_s": "[s]",
+        "window_s": "[s] from the start of the recording",
+        "zero_s": "[s]",
+        "phases": "[s] from the start of the test",
+    },
+    "source": {
+        "start_ns": "[ns] UTC since 1970",
+        "step_s": "[s] median period",
+        "offset_ns": "[ns] added to its times",
+    },
+    "channel": {
+        "unit": "of the tidy layer",
+        "raw_unit": "of the raw layer",
+        "sign": "+ where positive is the tool centre point along the machine's + axis relative to the table",
+    },
     "quality_event": {"from_s": "[s] from the start of the test", "to_s": "[s] from the start of the test"},
-    "calibration": {"gain": "in gain_unit", "uncertainty_pct": "[%]", "noise_um": "[um]", "nonlinearity_pct": "[%]",
-                    "drift_um": "[um]"},
+    "calibration": {
+        "gain": "in gain_unit",
+        "uncertainty_pct": "[%]",
+        "noise_um": "[um]",
+        "nonlinearity_pct": "[%]",
+        "drift_um": "[um]",
+    },
 }
 
 _MADE = "made_from"
@@ -54,24 +69,30 @@ def make(con: duckdb.DuckDBPyConnection, store: str | None) -> None:
         made = {name: _digest(texts) for name, texts in wanted.items()}
         for name, texts in wanted.items():
             if known is None or known.get(name) != made[name]:
-                todo += [text.replace("create ", "create or replace ", 1) if text.startswith("create ") else text
-                         for text in texts]
+                todo += [
+                    text.replace("create ", "create or replace ", 1) if text.startswith("create ") else text
+                    for text in texts
+                ]
         if known != made:
             rows = ", ".join(f"({literal(name)}, {literal(digest)})" for name, digest in made.items())
             todo.append(f"create or replace view {_MADE} as select * from (values {rows}) v(object, digest)")
             con.execute(";\n".join(todo))
     except duckdb.IOException as error:
         raise StoreError(
-            "a Parquet file that the catalogue lists can't be read", where=store,
+            "a Parquet file that the catalogue lists can't be read",
+            where=store,
             got=str(error).strip().splitlines()[0],
-            hint="put the file back, or forget its test and ingest it again") from error
+            hint="put the file back, or forget its test and ingest it again",
+        ) from error
 
 
 def statements(con: duckdb.DuckDBPyConnection, catalogue: Catalogue, folder: Path | None = None) -> Iterator[str]:
     """Everything to create, in an order in which each finds what it refers to."""
     tests: dict[str, list[str]] = {}
-    for campaign, test in con.execute("select campaign, test from test union select campaign, test from file "
-                                      "where part = 'test' and test <> '' order by all").fetchall():
+    for campaign, test in con.execute(
+        "select campaign, test from test union select campaign, test from file "
+        "where part = 'test' and test <> '' order by all"
+    ).fetchall():
         tests.setdefault(campaign, []).append(test)
     yield from wide_views(catalogue)
     yield from long_views(catalogue)
@@ -99,8 +120,13 @@ def _by_object(texts: Iterable[str]) -> dict[str, list[str]]:
         what, name = match[1], match[2].strip('"')
         if what == "create view":
             views.add(name)
-        kind = ("macro table" if match[3] else "macro") if what == "create macro" else \
-            "view" if name in views else "comment on"
+        kind = (
+            ("macro table" if match[3] else "macro")
+            if what == "create macro"
+            else "view"
+            if name in views
+            else "comment on"
+        )
         found.setdefault(f"{kind} {name}", []).append(text)
     return found
 
@@ -125,8 +151,10 @@ def _drop(name: str) -> str:
 
 def _dropped(con: duckdb.DuckDBPyConnection) -> list[str]:
     views = con.execute(f"select view_name from duckdb_views() where {_HERE}").fetchall()
-    macros = con.execute("select distinct function_name, function_type from duckdb_functions() "
-                         f"where {_HERE} and function_type in ('macro', 'table_macro')").fetchall()
-    return ([f"drop view if exists {quoted(name)}" for (name,) in views]
-            + [f"drop macro{' table' if kind == 'table_macro' else ''} if exists {quoted(name)}"
-               for name, kind in macros])
+    macros = con.execute(
+        "select distinct function_name, function_type from duckdb_functions() "
+        f"where {_HERE} and function_type in ('macro', 'table_macro')"
+    ).fetchall()
+    return [f"drop view if exists {quoted(name)}" for (name,) in views] + [
+        f"drop macro{' table' if kind == 'table_macro' else ''} if exists {quoted(name)}" for name, kind in macros
+    ]

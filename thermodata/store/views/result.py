@@ -37,13 +37,20 @@ select coalesce(nullif(campaign, ''), payload->>'$.campaign') as campaign,
        cast(payload->>'$.rmse_um' as double) as rmse_um, payload->>'$.state' as state
 from finding where kind = 'weak_spot'"""
 
-_NUMBERS = ("p_value", "rmse_um_before", "rmse_um_after", "fit_before", "fit_after", "locked_rmse_um_before",
-            "locked_rmse_um_after")
+_NUMBERS = (
+    "p_value",
+    "rmse_um_before",
+    "rmse_um_after",
+    "fit_before",
+    "fit_after",
+    "locked_rmse_um_before",
+    "locked_rmse_um_after",
+)
 CANDIDATE = f"""create view candidate as
 select campaign, test, model, coalesce(rank, cast(payload->>'$.rank' as integer)) as rank, payload->>'$.id' as id,
        payload->>'$.effect' as effect, payload->>'$.family' as family,
        cast(payload->'$.drivers' as varchar[]) as drivers, cast(payload->>'$.claimed' as boolean) as claimed,
-       {', '.join(f"cast(payload->>'$.{name}' as double) as {name}" for name in _NUMBERS)},
+       {", ".join(f"cast(payload->>'$.{name}' as double) as {name}" for name in _NUMBERS)},
        payload->'$.parameters' as parameters, cast(payload->'$.equivalent' as varchar[]) as equivalent,
        payload->>'$.why' as why
 from finding where kind = 'candidate'"""
@@ -69,7 +76,8 @@ _POOLED = ", ".join(
     f"sqrt(sum(s.rmse_um * s.rmse_um * s.n) filter (where {_IN}) / "
     f"nullif(sum(s.n) filter (where {_IN} and s.rmse_um is not null), 0)) as rmse_um_{{role}}, "
     f"avg(s.fit) filter (where {_IN}) as fit_{{role}}".format(role=role)
-    for role in ("calibration", "verification", "locked"))
+    for role in ("calibration", "verification", "locked")
+)
 HISTORY = f"""create view history as
 with recursive chain as (
   select model, model as root, 1 as version from model
@@ -88,7 +96,7 @@ PORTABILITY = f"""create view portability as
 select coalesce(nullif(campaign, ''), payload->>'$.campaign') as campaign,
        coalesce(nullif(test, ''), payload->>'$.test') as test, model, payload->>'$.machine' as machine,
        payload->>'$.role' as role, payload->>'$.response' as response,
-       {', '.join(f"cast(payload->>'$.{name}' as double) as {name}" for name in _TRANSFER)},
+       {", ".join(f"cast(payload->>'$.{name}' as double) as {name}" for name in _TRANSFER)},
        payload->>'$.verdict' as verdict
 from finding where kind = 'portability'"""
 
@@ -96,17 +104,41 @@ _COMMENTS = {
     "phase": {"from_s": "[s] from the start of the test", "to_s": "[s] from the start of the test"},
     "gap": {"from_s": "[s] from the start of the test", "to_s": "[s] from the start of the test", "duration_s": "[s]"},
     "quality": {"from_s": "[s] from the start of the test", "to_s": "[s] from the start of the test"},
-    "score": {"fit": "[%] free run, not clipped", "rmse_um": "[um]", "ptp_um": "[um] peak to peak, measured",
-              "ptp_residual_um": "[um] peak to peak", "max_um": "[um]"},
-    "residual": {"t_s": "[s] from the start of the test", "measured": "in channel.unit", "predicted": "in channel.unit",
-                 "residual": "measured - predicted, in channel.unit"},
-    "portability": {"g": "[1] gain that fits the test best", "g_end": "[1] from the end of heating",
-                    "fit_n": "[%] as it is", "fit_c": "[%] with the gain", "ptp_measured": "in the response's unit",
-                    "ptp_n": "residual as it is", "ptp_c": "residual with the gain"},
-    "weak_spot": {"from_s": "[s] from the start of the test", "to_s": "[s] from the start of the test",
-                  "rmse_um": "[um]"},
-    "history": {"rmse_um_calibration": "[um]", "rmse_um_verification": "[um]", "rmse_um_locked": "[um]",
-                "fit_calibration": "[%]", "fit_verification": "[%]", "fit_locked": "[%]"},
+    "score": {
+        "fit": "[%] free run, not clipped",
+        "rmse_um": "[um]",
+        "ptp_um": "[um] peak to peak, measured",
+        "ptp_residual_um": "[um] peak to peak",
+        "max_um": "[um]",
+    },
+    "residual": {
+        "t_s": "[s] from the start of the test",
+        "measured": "in channel.unit",
+        "predicted": "in channel.unit",
+        "residual": "measured - predicted, in channel.unit",
+    },
+    "portability": {
+        "g": "[1] gain that fits the test best",
+        "g_end": "[1] from the end of heating",
+        "fit_n": "[%] as it is",
+        "fit_c": "[%] with the gain",
+        "ptp_measured": "in the response's unit",
+        "ptp_n": "residual as it is",
+        "ptp_c": "residual with the gain",
+    },
+    "weak_spot": {
+        "from_s": "[s] from the start of the test",
+        "to_s": "[s] from the start of the test",
+        "rmse_um": "[um]",
+    },
+    "history": {
+        "rmse_um_calibration": "[um]",
+        "rmse_um_verification": "[um]",
+        "rmse_um_locked": "[um]",
+        "fit_calibration": "[%]",
+        "fit_verification": "[%]",
+        "fit_locked": "[%]",
+    },
 }
 
 
@@ -128,8 +160,11 @@ def _residual(paths: list[str], gone: str | None) -> str:
         empty = ", ".join(f"null::{n.split()[1]} as {n.split()[0]}" for n in names)
         text = f"damaged store: {gone} is gone or cut; try: fit the model again, or forget it"
         return f"{head}{empty} from prediction p " + (
-            f"where cast(error({literal(text)}) as boolean)" if gone else "limit 0")
+            f"where cast(error({literal(text)}) as boolean)" if gone else "limit 0"
+        )
     columns = ", ".join(f"r.{n.split()[0]}" for n in names)
-    return (f"{head}{columns} from read_parquet({file_list(paths)}, filename = true, hive_partitioning = false) r "
-            f"join (select q.*, p.prefix || q.path as filename from prediction q cross join {prefix(paths[0])}) p "
-            f"on p.filename = r.filename")
+    return (
+        f"{head}{columns} from read_parquet({file_list(paths)}, filename = true, hive_partitioning = false) r "
+        f"join (select q.*, p.prefix || q.path as filename from prediction q cross join {prefix(paths[0])}) p "
+        f"on p.filename = r.filename"
+    )

@@ -106,7 +106,11 @@ class Check:
 
 
 def reader_checks(
-    make: Callable[[], Reader], good_files: Files, *, claims: Sequence[str] = (), block_rows: str | None = None,
+    make: Callable[[], Reader],
+    good_files: Files,
+    *,
+    claims: Sequence[str] = (),
+    block_rows: str | None = None,
     mutate: Mutate | None = None,
 ) -> list[Check]:
     """All checks of a reader, for pytest.mark.parametrize(..., ids=str).
@@ -117,12 +121,17 @@ def reader_checks(
     mutate(data, rng): makes a hostile file of a good one (a huge count, a length past the end); called 60 times.
     """
     case = Case(make, tuple((Path(p), s) for p, s in good_files), tuple(claims), block_rows, mutate)
-    return [Check(run, case) for run in CASE_CHECKS] + \
-        [Check(run, case, file) for file in case.files for run in FILE_CHECKS]
+    return [Check(run, case) for run in CASE_CHECKS] + [
+        Check(run, case, file) for file in case.files for run in FILE_CHECKS
+    ]
 
 
 def check_reader(
-    make: Callable[[], Reader], good_files: Files, *, claims: Sequence[str] = (), block_rows: str | None = None,
+    make: Callable[[], Reader],
+    good_files: Files,
+    *,
+    claims: Sequence[str] = (),
+    block_rows: str | None = None,
     mutate: Mutate | None = None,
 ) -> None:
     """Runs all checks; AssertionError with every one that failed. The arguments are those of reader_checks."""
@@ -135,5 +144,14 @@ def check_reader(
     assert not failed, "\n".join(failed)
 
 
-__all__ = ["CASE_CHECKS", "FILE_CHECKS", "Case", "Check", "Data", "check_reader", "load", "reader_checks",
-           *(check.__name__ for check in (*CASE_CHECKS, *FILE_CHECKS))]
+__all__ = [
+    "CASE_CHECKS",
+    "FILE_CHECKS",
+    "Case",
+    "Check",
+    "Data",
+    "check_reader",
+    "load",
+    "reader_checks",
+    *(check.__name__ for check in (*CASE_CHECKS, *FILE_CHECKS)),
+]

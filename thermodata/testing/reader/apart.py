@@ -23,13 +23,13 @@ def together(task: Task, count: int = 1, memory_mib: int | None = None) -> list[
     """
     if "fork" not in multiprocessing.get_all_start_methods():
         return [task() for _ in range(count)]
-    context = multiprocessing.get_context("fork")     # the reader may be a class of a test module: not to be pickled
+    context = multiprocessing.get_context("fork")  # the reader may be a class of a test module: not to be pickled
     children, gate = [], context.Barrier(count)
     for _ in range(count):
         here, there = context.Pipe(duplex=False)
         child = context.Process(target=_run, args=(task, there, gate, memory_mib), daemon=True)
         with warnings.catch_warnings():
-            warnings.simplefilter("ignore", DeprecationWarning)       # threads of libraries that are idle
+            warnings.simplefilter("ignore", DeprecationWarning)  # threads of libraries that are idle
             child.start()
         there.close()
         children.append((child, here))

@@ -65,9 +65,13 @@ def gathered(recording: Recording, items: list[Block | Loss]) -> Data:
             values.setdefault((item.stream, name), []).append(column)
             none = np.zeros(column.shape, np.uint16)
             flags.setdefault((item.stream, name), []).append((item.flags or {}).get(name, none))
-    return Data(recording, {k: np.concatenate(v) for k, v in times.items()},
-                {k: np.concatenate(v) for k, v in values.items()},
-                {k: np.concatenate(v) for k, v in flags.items()}, tuple(losses))
+    return Data(
+        recording,
+        {k: np.concatenate(v) for k, v in times.items()},
+        {k: np.concatenate(v) for k, v in values.items()},
+        {k: np.concatenate(v) for k, v in flags.items()},
+        tuple(losses),
+    )
 
 
 def fault(what: str, do: str) -> NoReturn:
@@ -109,10 +113,15 @@ def refused_or_read(case: Case, path: Path, source: Source, what: str) -> Data |
     try:
         return load(case.make(), path, source)
     except PluginError as error:
-        fault(f"{what}: {error}", "raise thermodata.errors.FormatError where a file cannot be read, and yield a Loss "
-              "where only a part of it cannot; check every length, count and number of the file before using it")
+        fault(
+            f"{what}: {error}",
+            "raise thermodata.errors.FormatError where a file cannot be read, and yield a Loss "
+            "where only a part of it cannot; check every length, count and number of the file before using it",
+        )
     except ThermodataError:
         return None
     except (OSError, MemoryError) as error:
-        fault(f"{what}: {type(error).__name__}: {error}",
-              "check lengths, counts and offsets against the file's size before reading or allocating by them")
+        fault(
+            f"{what}: {type(error).__name__}: {error}",
+            "check lengths, counts and offsets against the file's size before reading or allocating by them",
+        )

@@ -15,8 +15,10 @@ def it_is_made_without_arguments_and_has_a_name(case: Case) -> None:
     try:
         reader = case.make()
     except TypeError as error:
-        fault(f"not made without arguments: {error}",
-              "give __init__ no arguments; what a user may choose comes in `source.options`")
+        fault(
+            f"not made without arguments: {error}",
+            "give __init__ no arguments; what a user may choose comes in `source.options`",
+        )
     if not isinstance(reader, Reader):
         missing = [n for n in ("name", "sniff", "describe", "blocks") if not hasattr(reader, n)]
         fault(f"no reader: {', '.join(missing)} missing", "add them; thermodata.plugin.Reader states their signatures")
@@ -27,11 +29,16 @@ def it_is_made_without_arguments_and_has_a_name(case: Case) -> None:
 def it_claims_its_own_file_and_says_why(case: Case, path: Path, source: Source) -> None:
     reason = case.make().sniff(head(path))
     if reason is None:
-        fault(f"{path.name}: not claimed", "let sniff return a reason for this file's first bytes; `head.start` holds "
-              "at most 64 KiB, `head.size_bytes` is the whole file's")
+        fault(
+            f"{path.name}: not claimed",
+            "let sniff return a reason for this file's first bytes; `head.start` holds "
+            "at most 64 KiB, `head.size_bytes` is the whole file's",
+        )
     if not isinstance(reason, str) or len(reason) <= 3:
-        fault(f"{path.name}: the reason is {reason!r}",
-              "return a few words that a user understands, such as 'starts with FOO1'")
+        fault(
+            f"{path.name}: the reason is {reason!r}",
+            "return a few words that a user understands, such as 'starts with FOO1'",
+        )
 
 
 def it_claims_no_file_of_another_format(case: Case) -> None:
@@ -43,9 +50,11 @@ def it_claims_no_file_of_another_format(case: Case) -> None:
         for size in (len(start), 10_000_000):
             reason = reader.sniff(Head(f"file{suffix}", size, start))
             if reason is not None:
-                fault(f"claims a file of {name}: {reason}",
-                      f"sniff by content (a magic word, a header line), never by the suffix '{suffix}' alone; where "
-                      f"{name.split(' ')[0]} is this reader's own format, pass claims=({name.split(' ')[0]!r},)")
+                fault(
+                    f"claims a file of {name}: {reason}",
+                    f"sniff by content (a magic word, a header line), never by the suffix '{suffix}' alone; where "
+                    f"{name.split(' ')[0]} is this reader's own format, pass claims=({name.split(' ')[0]!r},)",
+                )
 
 
 def a_sniff_survives_any_head(case: Case, path: Path, source: Source) -> None:
@@ -58,6 +67,7 @@ def a_sniff_survives_any_head(case: Case, path: Path, source: Source) -> None:
             except Exception as error:
                 raise AssertionError(
                     f"sniff raised {error!r} at a head of {len(start)} bytes\ntry: return None for what is not "
-                    "yours; look at the length of `head.start` before unpacking or decoding it") from error
+                    "yours; look at the length of `head.start` before unpacking or decoding it"
+                ) from error
             if reason is not None and not isinstance(reason, str):
                 fault(f"sniff returned {type(reason).__name__}", "return the reason as text, or None")

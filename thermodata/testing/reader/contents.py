@@ -18,8 +18,10 @@ def its_data_follow_the_rules(case: Case, path: Path, source: Source) -> None:
     try:
         data = load(case.make(), path, source)
     except PluginError as error:
-        raise AssertionError(f"{error}\ntry: hold blocks against thermodata.plugin.Block: int64 nanoseconds of shape "
-                             "(n,), every declared signal of the stream with n values of its declared dtype") from error
+        raise AssertionError(
+            f"{error}\ntry: hold blocks against thermodata.plugin.Block: int64 nanoseconds of shape "
+            "(n,), every declared signal of the stream with n values of its declared dtype"
+        ) from error
     if not data.t_ns:
         fault(f"{path.name}: no data", "yield a Block for a good file; is the file given to the kit a whole one?")
 
@@ -28,17 +30,21 @@ def every_declared_signal_arrives(case: Case, path: Path, source: Source) -> Non
     data = load(case.make(), path, source)
     missing = [s.name for s in data.recording.signals if (s.stream, s.name) not in data.values]
     if missing:
-        fault(f"{path.name}: declared, never delivered: {missing}",
-              "yield a Block for each declared stream, or declare only what the file holds")
+        fault(
+            f"{path.name}: declared, never delivered: {missing}",
+            "yield a Block for each declared stream, or declare only what the file holds",
+        )
 
 
 def a_whole_file_is_read_without_a_loss(case: Case, path: Path, source: Source) -> None:
     data = load(case.make(), path, source)
     if data.losses or data.recording.complete is False:
         said = "; ".join(f"{loss.where}: {loss.reason}" for loss in data.losses) or "complete is False"
-        fault(f"{path.name}: a good file is said to be damaged: {said}",
-              "yield a Loss only where something is gone, and set complete to True, or to None where the format "
-              "cannot tell; give the kit whole files")
+        fault(
+            f"{path.name}: a good file is said to be damaged: {said}",
+            "yield a Loss only where something is gone, and set complete to True, or to None where the format "
+            "cannot tell; give the kit whole files",
+        )
 
 
 def an_absolute_recording_starts_when_it_says(case: Case, path: Path, source: Source) -> None:
@@ -48,9 +54,11 @@ def an_absolute_recording_starts_when_it_says(case: Case, path: Path, source: So
         start = data.recording.start_ns
         if start is None or abs(first - start) >= _DAY_NS:
             says = "nothing" if start is None else np.datetime64(start, "ns")
-            fault(f"{path.name}: says that it starts at {says}, and starts at {np.datetime64(first, 'ns')}",
-                  "set start_ns to the first sample's UTC nanoseconds; an absolute clock yields UTC in t_ns, a "
-                  "relative one counts from 0")
+            fault(
+                f"{path.name}: says that it starts at {says}, and starts at {np.datetime64(first, 'ns')}",
+                "set start_ns to the first sample's UTC nanoseconds; an absolute clock yields UTC in t_ns, a "
+                "relative one counts from 0",
+            )
 
 
 def a_block_stays_as_it_was_yielded(case: Case, path: Path, source: Source) -> None:
@@ -62,8 +70,11 @@ def a_block_stays_as_it_was_yielded(case: Case, path: Path, source: Source) -> N
     kept, then = [], []
     for item in guarded(reader, path, small, recording):
         kept.append(item)
-        then.append(Block(item.stream, item.t_ns.copy(), {n: v.copy() for n, v in item.values.items()})
-                    if isinstance(item, Block) else item)
+        then.append(
+            Block(item.stream, item.t_ns.copy(), {n: v.copy() for n, v in item.values.items()})
+            if isinstance(item, Block)
+            else item
+        )
     now, before = gathered(recording, kept), gathered(recording, then)
     for stream, t_ns in before.t_ns.items():
         if not equal(t_ns, now.t_ns[stream]):
@@ -74,5 +85,7 @@ def a_block_stays_as_it_was_yielded(case: Case, path: Path, source: Source) -> N
 
 
 def _overwritten(path: Path, name: str) -> None:
-    fault(f"{path.name}: '{name}' of an earlier block changed while later ones were read",
-          "yield new arrays (.copy()), not views of a buffer that is filled again: blocks are kept and written later")
+    fault(
+        f"{path.name}: '{name}' of an earlier block changed while later ones were read",
+        "yield new arrays (.copy()), not views of a buffer that is filled again: blocks are kept and written later",
+    )

@@ -15,10 +15,10 @@ from thermodata.schema.flag import INVALID
 from thermodata.testing.reader.apart import together
 from thermodata.testing.reader.case import Case, Data, equal, fault, load, refused_or_read
 
-EVERY_CUT_BYTES = 2048      # a file up to this size is cut at every byte, a larger one at so many places:
+EVERY_CUT_BYTES = 2048  # a file up to this size is cut at every byte, a larger one at so many places:
 SAMPLED_CUTS = 150
 HOSTILE_FILES = 60
-HOSTILE_MIB = 512           # what a hostile header may make a reader allocate
+HOSTILE_MIB = 512  # what a hostile header may make a reader allocate
 
 
 def an_empty_file_is_refused_or_holds_nothing(case: Case, path: Path, source: Source) -> None:
@@ -33,8 +33,12 @@ def an_empty_file_is_refused_or_holds_nothing(case: Case, path: Path, source: So
 def garbage_is_refused_or_holds_nothing(case: Case, path: Path, source: Source) -> None:
     rng = np.random.default_rng(1)
     start = path.read_bytes()[:64]
-    contents = {"random bytes": rng.bytes(5000), "zeros": b"\0" * 5000, "fifty lines 'x'": b"x\n" * 50,
-                "the first 64 bytes of a good file, then random ones": start + rng.bytes(5000)}
+    contents = {
+        "random bytes": rng.bytes(5000),
+        "zeros": b"\0" * 5000,
+        "fifty lines 'x'": b"x\n" * 50,
+        "the first 64 bytes of a good file, then random ones": start + rng.bytes(5000),
+    }
     with tempfile.TemporaryDirectory() as folder:
         for number, (what, content) in enumerate(contents.items()):
             garbage = Path(folder) / f"{number}{path.suffix}"
@@ -56,8 +60,10 @@ def a_cut_file_keeps_its_good_part_and_says_what_is_gone(case: Case, path: Path,
             data = refused_or_read(case, cut_path, source, what)
             if data is None:
                 if readable:
-                    fault(f"{what} is refused, though its first {readable} bytes alone are read",
-                          "keep the good part: yield the blocks before the damage, then a Loss")
+                    fault(
+                        f"{what} is refused, though its first {readable} bytes alone are read",
+                        "keep the good part: yield the blocks before the damage, then a Loss",
+                    )
                 continue
             _stands_in(data, whole, what)
             # from a row or two a layout cannot be told, so that much may be refused
@@ -93,9 +99,11 @@ def a_hostile_header_costs_no_memory(case: Case, path: Path, source: Source) -> 
 
     wrong = together(read_them, memory_mib=HOSTILE_MIB)[0]
     if wrong is not None and "\ntry: " not in wrong:
-        fault(f"{path.name} with a hostile header: {wrong}",
-              "hold every declared count and length against the file's size before you allocate or loop by it; "
-              "read in blocks")
+        fault(
+            f"{path.name} with a hostile header: {wrong}",
+            "hold every declared count and length against the file's size before you allocate or loop by it; "
+            "read in blocks",
+        )
     if wrong is not None:
         raise AssertionError(wrong)
 
@@ -115,12 +123,14 @@ def _hostile(content: bytes, case: Case) -> Iterator[tuple[str, bytes]]:
         at = rng.randrange(max(1, min(len(content), 400 if number % 2 else 48)))
         wide = rng.choice((2, 4, 8))
         value = rng.choice((b"\xff" * wide, b"\xff" * (wide - 1) + b"\x7f", b"\x7f" + b"\xff" * (wide - 1)))
-        yield f"with {value.hex()} at byte {at}", content[:at] + value + content[at + wide:]
+        yield f"with {value.hex()} at byte {at}", content[:at] + value + content[at + wide :]
     numbers = list(re.finditer(rb"\d+", content[:2000]))
     for match in rng.sample(numbers, min(len(numbers), HOSTILE_FILES // 2)):
         for huge in (b"999999999999999999", b"-1", b"1e308"):
-            yield (f"with {huge.decode()} at byte {match.start()}",
-                   content[: match.start()] + huge + content[match.end():])
+            yield (
+                f"with {huge.decode()} at byte {match.start()}",
+                content[: match.start()] + huge + content[match.end() :],
+            )
     for number in range(HOSTILE_FILES if case.mutate is not None else 0):
         assert case.mutate is not None
         yield f"as mutate(..., random.Random({number})) makes it", case.mutate(content, random.Random(number))
@@ -138,8 +148,10 @@ def _stands_in(part: Data, whole: Data, what: str) -> None:
         fewer = fewer or got.size < t_ns.size
     for key, values in part.values.items():
         if key not in whole.values:
-            fault(f"{what}: signal '{key[1]}' in stream '{key[0]}', which the whole file does not have",
-                  "refuse a header that is not whole with FormatError")
+            fault(
+                f"{what}: signal '{key[1]}' in stream '{key[0]}', which the whole file does not have",
+                "refuse a header that is not whole with FormatError",
+            )
         good = (part.flags[key] & np.uint16(INVALID)) == 0
         fewer = fewer or not bool(good.all())
         same_rows = whole.values[key][: values.size]
@@ -147,9 +159,13 @@ def _stands_in(part: Data, whole: Data, what: str) -> None:
             fault(f"{what}: other values in '{key[1]}' than in the whole file", other)
     if fewer and whole.recording.complete is not None:
         if not part.losses:
-            fault(f"{what}: rows are gone and no Loss says so",
-                  "yield Loss(where, fraction=..., reason=...) behind the last good block; where the format cannot "
-                  "tell a cut file, describe with complete=None")
+            fault(
+                f"{what}: rows are gone and no Loss says so",
+                "yield Loss(where, fraction=..., reason=...) behind the last good block; where the format cannot "
+                "tell a cut file, describe with complete=None",
+            )
         if part.recording.complete is not False:
-            fault(f"{what}: rows are gone and complete is {part.recording.complete}",
-                  "let describe compare what the header promises with the file's size, and set complete=False")
+            fault(
+                f"{what}: rows are gone and complete is {part.recording.complete}",
+                "let describe compare what the header promises with the file's size, and set complete=False",
+            )

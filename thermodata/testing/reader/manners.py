@@ -39,9 +39,11 @@ def the_file_and_its_folder_stay_as_they_were(case: Case, path: Path, source: So
             fault(f"{path.name} was changed", "open the file with mode 'rb': logs are read, never written")
         left = sorted(p.name for p in copy.parent.iterdir() if p != copy)
         if left:
-            fault(f"left beside the file: {left}",
-                  "write no index or cache beside the file (the folder may be read-only, and is hashed); keep it in "
-                  "memory, or in tempfile.TemporaryDirectory")
+            fault(
+                f"left beside the file: {left}",
+                "write no index or cache beside the file (the folder may be read-only, and is hashed); keep it in "
+                "memory, or in tempfile.TemporaryDirectory",
+            )
 
 
 def the_file_is_closed_after_use(case: Case, path: Path, source: Source) -> None:
@@ -64,7 +66,7 @@ def the_file_is_closed_after_use(case: Case, path: Path, source: Source) -> None
             copy.write_bytes(content[:size])
             with contextlib.suppress(ThermodataError, OSError):
                 load(reader, copy, source)
-            gc.collect()                  # the exception's traceback may have held frames, with their files
+            gc.collect()  # the exception's traceback may have held frames, with their files
             _closed(copy, f"reading its first {size} bytes")
         _kept(reader)
 
@@ -80,18 +82,21 @@ def _closed(path: Path, after: str) -> None:
         for number in os.listdir("/proc/self/fd"):
             with contextlib.suppress(OSError):
                 held += ["file"] * (os.readlink(f"/proc/self/fd/{number}") == real)
-        held += ["mapping"] * any(line.rstrip().endswith(real) for line in
-                                  Path("/proc/self/maps").read_text("utf-8", "replace").splitlines())
+        held += ["mapping"] * any(
+            line.rstrip().endswith(real) for line in Path("/proc/self/maps").read_text("utf-8", "replace").splitlines()
+        )
     else:
-        moved = path.with_name("moved")       # Windows renames no open file
+        moved = path.with_name("moved")  # Windows renames no open file
         try:
             path.rename(moved).rename(path)
         except PermissionError:
             held = ["file"]
     if held:
-        fault(f"{path.suffix or path.name}: the {held[0]} is still open after {after}",
-              "open the file in a `with` inside describe and blocks (a generator's `with` closes when it is given "
-              "up), and let no reader, cache or cycle keep the file object")
+        fault(
+            f"{path.suffix or path.name}: the {held[0]} is still open after {after}",
+            "open the file in a `with` inside describe and blocks (a generator's `with` closes when it is given "
+            "up), and let no reader, cache or cycle keep the file object",
+        )
 
 
 def it_prints_nothing(case: Case, path: Path, source: Source) -> None:
@@ -99,8 +104,10 @@ def it_prints_nothing(case: Case, path: Path, source: Source) -> None:
     with contextlib.redirect_stdout(said):
         load(case.make(), path, source)
     if said.getvalue():
-        fault(f"{path.name}: printed {said.getvalue()[:60]!r}",
-              "stdout is data: put what a user should know into Recording.notes or a Loss")
+        fault(
+            f"{path.name}: printed {said.getvalue()[:60]!r}",
+            "stdout is data: put what a user should know into Recording.notes or a Loss",
+        )
 
 
 def it_leaves_the_process_as_it_was(case: Case, path: Path, source: Source) -> None:
@@ -108,14 +115,23 @@ def it_leaves_the_process_as_it_was(case: Case, path: Path, source: Source) -> N
     environment, imports = dict(os.environ), list(sys.path)
     try:
         load(case.make(), path, source)
-        changed = [name for name, same in (
-            ("the working folder", os.getcwd() == folder), ("the locale", locale.setlocale(locale.LC_ALL) == language),
-            ("numpy's error state", np.geterr() == numeric), ("the environment", dict(os.environ) == environment),
-            ("the import path", sys.path == imports)) if not same]
+        changed = [
+            name
+            for name, same in (
+                ("the working folder", os.getcwd() == folder),
+                ("the locale", locale.setlocale(locale.LC_ALL) == language),
+                ("numpy's error state", np.geterr() == numeric),
+                ("the environment", dict(os.environ) == environment),
+                ("the import path", sys.path == imports),
+            )
+            if not same
+        ]
     finally:
         os.chdir(folder)
         locale.setlocale(locale.LC_ALL, language)
         np.seterr(**numeric)
     if changed:
-        fault(f"{path.name}: reading changed {', '.join(changed)}",
-              "parse with explicit arguments (a decimal mark, a full path) instead of setting them for everybody")
+        fault(
+            f"{path.name}: reading changed {', '.join(changed)}",
+            "parse with explicit arguments (a decimal mark, a full path) instead of setting them for everybody",
+        )

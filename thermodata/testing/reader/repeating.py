@@ -30,8 +30,7 @@ def reading_again_gives_the_same(case: Case, path: Path, source: Source) -> None
 def two_readings_at_once_do_not_mix(case: Case, path: Path, source: Source) -> None:
     """One reader, two files open, a block of each in turn: as when sources are read side by side."""
     reader = case.make()
-    small = source if case.block_rows is None else \
-        replace(source, options={**source.options, case.block_rows: 5})
+    small = source if case.block_rows is None else replace(source, options={**source.options, case.block_rows: 5})
     alone, recording = load(reader, path, small), described(reader, path, small)
     pairs = list(zip_longest(guarded(reader, path, small, recording), guarded(reader, path, small, recording)))
     for items in zip(*pairs, strict=True):
@@ -66,9 +65,11 @@ def processes_read_the_same(case: Case, path: Path, source: Source) -> None:
 
     for wrong in together(read_for_a_while, 2):
         if wrong is not None:
-            fault(f"{path.name} read by two processes: {wrong}",
-                  "write no scratch or lock file at a fixed place, and open the file for reading only; where scratch "
-                  "is needed, tempfile.TemporaryDirectory gives each reading its own")
+            fault(
+                f"{path.name} read by two processes: {wrong}",
+                "write no scratch or lock file at a fixed place, and open the file for reading only; where scratch "
+                "is needed, tempfile.TemporaryDirectory gives each reading its own",
+            )
 
 
 def the_size_of_blocks_changes_nothing(case: Case, path: Path, source: Source) -> None:
@@ -81,5 +82,7 @@ def the_size_of_blocks_changes_nothing(case: Case, path: Path, source: Source) -
         small = replace(source, options={**source.options, case.block_rows: rows})
         differs = difference(whole, load(case.make(), path, small))
         if differs is not None:
-            fault(f"{path.name} in blocks of {rows} rows: {differs}",
-                  "carry over the seam what the next block needs (the last time, a step-held value, a half line)")
+            fault(
+                f"{path.name} in blocks of {rows} rows: {differs}",
+                "carry over the seam what the next block needs (the last time, a step-held value, a half line)",
+            )

@@ -29,8 +29,10 @@ class AmbientSkin:
     meaning = "thin parts follow the hall's air before the frame does: k (F_fast{dT} - F_slow{dT}); door events"
     source = "modelling.md section 5, row 9"
     needs = _HALL
-    params = (tau(15, 5, 40, "tau_fast", "time constant of thin parts"),
-              tau(240, 120, 480, "tau_slow", "time constant of the frame"))
+    params = (
+        tau(15, 5, 40, "tau_fast", "time constant of thin parts"),
+        tau(240, 120, 480, "tau_slow", "time constant of the frame"),
+    )
     gains = (gain("um/K", 0.1, 15, "displacement a kelvin between skin and frame"),)
 
     def basis(self, drivers: Drivers, p: Mapping[str, float]) -> Float2D:

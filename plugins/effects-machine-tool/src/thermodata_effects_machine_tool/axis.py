@@ -17,8 +17,10 @@ class FeedScrew(Lagged):
     family = "feed_{a}"
     meaning = "growth of the feed screw from friction: k F{dT of the nut}, or k F{|v/10 m/min|^p} without a sensor"
     source = "modelling.md section 5, row 13; paper 000 (inputs dyn and stat)"
-    needs = (Need("temperature", "temperature", ("axis.{a}.nut", "axis.{a}.screw", "axis.{a}.bearing"), True),
-             Need("feed", "feed", ("axis.{a}",), True))
+    needs = (
+        Need("temperature", "temperature", ("axis.{a}.nut", "axis.{a}.screw", "axis.{a}.bearing"), True),
+        Need("feed", "feed", ("axis.{a}",), True),
+    )
     params = (tau(60, 18, 240), exponent(1.0))
     gains = (gain("um/K", 0.5, 5, "displacement at rest a kelvin (um at 10 m/min where the feed drives it)"),)
 
@@ -44,8 +46,10 @@ class ScrewGrowth:
     family = "feed_{a}"
     meaning = "growth of a screw without a scale, with position: alpha x dT and the fixed end's alpha x0 dT"
     source = "modelling.md section 5, row 15"
-    needs = (Need("temperature", "temperature", ("axis.{a}.screw", "axis.{a}.nut")),
-             Need("position", "position", ("axis.{a}",)))
+    needs = (
+        Need("temperature", "temperature", ("axis.{a}.screw", "axis.{a}.nut")),
+        Need("position", "position", ("axis.{a}",)),
+    )
     params = (tau(20, 1, 240),)
     gains = (gain("um/m/K", 1, 14, "expansion", "alpha"), gain("um/K", 0, 14, "part of the fixed end", "fixed_end"))
 
@@ -59,8 +63,10 @@ class TableBearing(Lagged):
     family = "table"
     meaning = "growth of the table with its bearing: k F{dT}, or k F{(n/1000 rpm)^p} without a sensor"
     source = "modelling.md section 5, row 18; paper 003 (turning)"
-    needs = (Need("temperature", "temperature", ("table.bearing", "table"), True),
-             Need("speed", "rotational_speed", ("table",), True))
+    needs = (
+        Need("temperature", "temperature", ("table.bearing", "table"), True),
+        Need("speed", "rotational_speed", ("table",), True),
+    )
     params = (tau(60, 2, 360), exponent(1.5))
     gains = (gain("um/K", 0.2, 60, "displacement at rest a kelvin (um at 1000 rpm where the speed drives it)"),)
 

@@ -29,8 +29,10 @@ class SpindleBearing2:
     meaning = "growth of the spindle in two modes: k1 F_fast{dT} + k2 F_slow{dT}; two slopes in cooling"
     source = "modelling.md section 5, row 1; papers 000, 002 (second-order functions)"
     needs = (Need("temperature", "temperature", ("spindle.bearing",)),)
-    params = (tau(15, 1, 60, "tau_fast", "time constant of the shaft and bearings"),
-              tau(150, 60, 360, "tau_slow", "time constant of the housing"))
+    params = (
+        tau(15, 1, 60, "tau_fast", "time constant of the shaft and bearings"),
+        tau(150, 60, 360, "tau_slow", "time constant of the housing"),
+    )
     gains = (gain("um/K", 0, 40, "fast part", "gain_fast"), gain("um/K", 0, 40, "slow part", "gain_slow"))
 
     def basis(self, drivers: Drivers, p: Mapping[str, float]) -> Float2D:
@@ -82,10 +84,11 @@ class SpindleHeatingCooling:
     family = "spindle"
     meaning = "heating that differs from cooling: k F{dT} with tau_on while the spindle turns, else tau_off"
     source = "modelling.md section 5, row 5; paper 001 (separate functions for heating and cooling)"
-    needs = (Need("temperature", "temperature", ("spindle.bearing",)),
-             Need("speed", "rotational_speed", ("spindle",)))
-    params = (tau(45, 1, 360, "tau_on", "time constant while turning"),
-              tau(90, 1, 720, "tau_off", "time constant while standing"))
+    needs = (Need("temperature", "temperature", ("spindle.bearing",)), Need("speed", "rotational_speed", ("spindle",)))
+    params = (
+        tau(45, 1, 360, "tau_on", "time constant while turning"),
+        tau(90, 1, 720, "tau_off", "time constant while standing"),
+    )
     gains = (gain("um/K", 0.2, 40, "displacement at rest a kelvin of the bearing"),)
 
     def basis(self, drivers: Drivers, p: Mapping[str, float]) -> Float2D:
@@ -95,9 +98,9 @@ class SpindleHeatingCooling:
         out, state = np.empty(len(u)), 0.0
         for a, b in zip([0, *edges], [*edges, len(u)], strict=True):
             seconds = p["tau_on" if turning[a] else "tau_off"] * 60
-            first = max(a - 1, 0)                           # carry the state over from the last sample before
+            first = max(a - 1, 0)  # carry the state over from the last sample before
             part = lag(u[first:b], seconds, step, state)
-            out[a:b] = part[a - first:]
+            out[a:b] = part[a - first :]
             state = float(part[-1])
         return column(out)
 
@@ -110,8 +113,7 @@ class SpeedDependentGain:
     family = "spindle"
     meaning = "the gain of the bearing temperature depends on the speed: k F{dT (n/10000 rpm)}"
     source = "modelling.md section 5, row 26"
-    needs = (Need("temperature", "temperature", ("spindle.bearing",)),
-             Need("speed", "rotational_speed", ("spindle",)))
+    needs = (Need("temperature", "temperature", ("spindle.bearing",)), Need("speed", "rotational_speed", ("spindle",)))
     params = (tau(45, 1, 360),)
     gains = (gain("um/K", 0, 20, "change of the gain at 10000 rpm"),)
 

@@ -14,8 +14,10 @@ class ColumnBending(Lagged):
     family = "column"
     meaning = "the column bends with the difference of its sides: k F{dT rear - dT front} or left - right"
     source = "modelling.md section 5, row 38"
-    needs = (Need("warm_side", "temperature", ("column.rear", "column.left")),
-             Need("cold_side", "temperature", ("column.front", "column.right")))
+    needs = (
+        Need("warm_side", "temperature", ("column.rear", "column.left")),
+        Need("cold_side", "temperature", ("column.front", "column.right")),
+    )
     params = (tau(20, 0.5, 120),)
     gains = (gain("um/K", 1, 60, "displacement at rest a kelvin between the sides"),)
 

@@ -12,7 +12,7 @@ from thermodata.schema.flag import Flag
 if TYPE_CHECKING:
     import pyarrow as pa
 
-MISSING = np.uint16(Flag.NOT_MEASURING)      # no NaN in integers and booleans: 0, and not valid
+MISSING = np.uint16(Flag.NOT_MEASURING)  # no NaN in integers and booleans: 0, and not valid
 
 
 def relative_ns(values: Array, unit_ns: int) -> Int1D:

@@ -68,7 +68,7 @@ def sample(path: Path, declared: str | None, whole_up_to: int = WHOLE) -> Sample
         start = head[: len(head) // 2 * 2]
     else:
         start = head[: head.rfind(b"\n") + 1] or head
-    inner = [p[p.find(b"\n") + 1:p.rfind(b"\n") + 1] for p in pieces] if not wide else []
+    inner = [p[p.find(b"\n") + 1 : p.rfind(b"\n") + 1] for p in pieces] if not wide else []
     encoding, note = _mostly_utf8(start + b"".join(inner)) if declared is None else ("", None)
     if not encoding:
         encoding, note = find_encoding(start + b"".join(inner), declared)
@@ -147,7 +147,7 @@ def _chunks(path: Path, encoding: str, size: int) -> Iterator[Chunk]:
             data = rest + data
             cut = len(data) if last else data.rfind(b"\n") + 1
             if not cut and len(data) > 4 * size:
-                cut = len(data)                          # no lines: zeros where a file was allocated in advance
+                cut = len(data)  # no lines: zeros where a file was allocated in advance
             part, rest = data[:cut], data[cut:]
             if part or last:
                 part, odd = (part, ()) if wide else _utf8(part, encoding, line)
@@ -163,7 +163,7 @@ def _utf8(data: bytes, encoding: str, first: int) -> tuple[bytes, tuple[int, ...
     if data.isascii():
         return data, ()
     name = _bare(encoding)
-    with suppress(UnicodeDecodeError):                    # then line by line
+    with suppress(UnicodeDecodeError):  # then line by line
         text = data.decode(name)
         return (data if name == "utf-8" else text.encode()), ()
     lines, odd = data.split(b"\n"), []

@@ -9,17 +9,47 @@ from dataclasses import dataclass
 from thermodata.reader.text import decimal_mark
 
 # What instruments write where they have no value. Anything else that is no number is a loss with a name.
-NOTHING = ("", "-", "--", "---", "----", "*", "***", "****", "?", "???", "n/a", "N/A", "n.a.", "#N/A", "#NV", "NULL",
-           "null", "None", "NaN", "nan", "NAN", "-nan", "-NaN", "1.#QNAN", "-1.#IND", "1,#QNAN", "-1,#IND",
-           "UNAVAILABLE")
+NOTHING = (
+    "",
+    "-",
+    "--",
+    "---",
+    "----",
+    "*",
+    "***",
+    "****",
+    "?",
+    "???",
+    "n/a",
+    "N/A",
+    "n.a.",
+    "#N/A",
+    "#NV",
+    "NULL",
+    "null",
+    "None",
+    "NaN",
+    "nan",
+    "NAN",
+    "-nan",
+    "-NaN",
+    "1.#QNAN",
+    "-1.#IND",
+    "1,#QNAN",
+    "-1,#IND",
+    "UNAVAILABLE",
+)
 _NOTHING = frozenset(NOTHING)
 TRUE = ("TRUE", "True", "true", "WAHR", "Wahr", "wahr")
 FALSE = ("FALSE", "False", "false", "FALSCH", "Falsch", "falsch")
 _INTEGER = re.compile(r"^[+-]?\d{1,19}$")
-_NUMBER = re.compile(r"^[+-]?(?:\d+(?:[.,]\d*)?|[.,]\d+)(?:[eE][+-]?\d+)?$|^[+-]?inf(?:inity)?$"
-                     r"|^[+-]?\d{1,3}(?:[. ]\d{3})+,\d+$|^[+-]?\d{1,3}(?:[, ]\d{3})+\.\d+$", re.IGNORECASE)
+_NUMBER = re.compile(
+    r"^[+-]?(?:\d+(?:[.,]\d*)?|[.,]\d+)(?:[eE][+-]?\d+)?$|^[+-]?inf(?:inity)?$"
+    r"|^[+-]?\d{1,3}(?:[. ]\d{3})+,\d+$|^[+-]?\d{1,3}(?:[, ]\d{3})+\.\d+$",
+    re.IGNORECASE,
+)
 _EXACT = 2**53
-_FRACTIONS = 200        # numbers of a column that are asked for their decimal mark
+_FRACTIONS = 200  # numbers of a column that are asked for their decimal mark
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,7 +68,7 @@ def dtype_of(cells: Sequence[str], exact: bool) -> str:
     Integers of a file that was only sampled stay float64, for a fraction may follow; those that a float64 would
     change are int64. A few words among numbers are defects, named where they are read.
     """
-    full = [c for c in (cell.strip(" \t\r\"") for cell in cells) if c not in _NOTHING]
+    full = [c for c in (cell.strip(' \t\r"') for cell in cells) if c not in _NOTHING]
     if not full:
         return "float64"
     if all(c in TRUE or c in FALSE for c in full):
@@ -54,8 +84,9 @@ def dtype_of(cells: Sequence[str], exact: bool) -> str:
     return "float64"
 
 
-def find_columns(names: Sequence[str], units: Sequence[str | None], rows: Sequence[Sequence[str]],
-                 times: Sequence[int], exact: bool) -> tuple[tuple[Column, ...], str | None]:
+def find_columns(
+    names: Sequence[str], units: Sequence[str | None], rows: Sequence[Sequence[str]], times: Sequence[int], exact: bool
+) -> tuple[tuple[Column, ...], str | None]:
     """The value columns, and the decimal mark (None where no sampled number has a fraction). A column without
     name and without a cell is none (rows that end with a delimiter). FormatError: both marks occur."""
     columns, numbers = [], []

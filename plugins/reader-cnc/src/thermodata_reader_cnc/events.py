@@ -21,9 +21,9 @@ from thermodata_reader_cnc.when import TimeFormat
 STREAM = "nc"
 GONE = "UNAVAILABLE"
 _NUMBER = re.compile(r"^\s*[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?\s*$")
-_MOST_VALUES = 1_000_000        # of a block: rows times signals
-_MOST_TOGETHER = 1_000          # signals that share their rows; with more, each item is a stream
-_MOST_WORDS = 16                # numbers in one text that are signals of their own
+_MOST_VALUES = 1_000_000  # of a block: rows times signals
+_MOST_TOGETHER = 1_000  # signals that share their rows; with more, each item is a stream
+_MOST_WORDS = 16  # numbers in one text that are signals of their own
 _ZONE = re.compile(r":\d{2}(?:[.,]\d+)?\s?[+-]\d{2}:?\d{2}\s*$")
 ISO = when.DATETIME["ymd"]
 
@@ -92,8 +92,9 @@ class Plan:
         return key if self.apart else STREAM
 
 
-def plan(events: Iterable[Event | Loss], measured: Callable[[str], bool] = lambda key: False,
-         form: TimeFormat = ISO) -> Plan:
+def plan(
+    events: Iterable[Event | Loss], measured: Callable[[str], bool] = lambda key: False, form: TimeFormat = ISO
+) -> Plan:
     """The signals of sampled events. measured: which items are numbers though none was seen."""
     items: dict[str, Item] = {}
     first = None
@@ -107,7 +108,7 @@ def plan(events: Iterable[Event | Loss], measured: Callable[[str], bool] = lambd
     found: dict[str, list[Target]] = {}
     for key, item in items.items():
         each = targets(key, item, measured(key))
-        if taken.intersection(t.name for t in each):      # 'a' of two numbers beside an item called 'a[0]'
+        if taken.intersection(t.name for t in each):  # 'a' of two numbers beside an item called 'a[0]'
             each = [Target(_free(key, taken), "str")]
         taken.update(t.name for t in each)
         found[key] = each
@@ -137,11 +138,19 @@ def _has_zone(text: str) -> bool:
     return text.rstrip().endswith(("Z", "UTC")) or _ZONE.search(text) is not None
 
 
-def recording(found: Plan, source: Source, properties: dict[str, dict[str, str]] | None = None,
-              complete: bool | None = None, notes: Iterable[str] = ()) -> Recording:
+def recording(
+    found: Plan,
+    source: Source,
+    properties: dict[str, dict[str, str]] | None = None,
+    complete: bool | None = None,
+    notes: Iterable[str] = (),
+) -> Recording:
     """The description of a log of changes."""
-    signals = tuple(Signal(t.name, found.stream(key), None, t.dtype, None, (properties or {}).get(key, {}))
-                    for key, each in found.items.items() for t in each)
+    signals = tuple(
+        Signal(t.name, found.stream(key), None, t.dtype, None, (properties or {}).get(key, {}))
+        for key, each in found.items.items()
+        for t in each
+    )
     start, said = 0, list(notes)
     if found.first is not None:
         start = int(to_utc([found.first], LocalClock(source.timezone), found.form)[0])
@@ -153,8 +162,9 @@ def recording(found: Plan, source: Source, properties: dict[str, dict[str, str]]
 class HeldTable:
     """Collects events into blocks of rows. Events that share a time stamp and stand together share a row."""
 
-    def __init__(self, found: Plan, source: Source, complain: Callable[[Event, str], Iterator[Loss]],
-                 ordered: bool = True) -> None:
+    def __init__(
+        self, found: Plan, source: Source, complain: Callable[[Event, str], Iterator[Loss]], ordered: bool = True
+    ) -> None:
         self.plan, self.complain = found, complain
         self.clock = LocalClock(source.timezone)
         self._rows: dict[str, HeldRows[str]] = {}

@@ -9,7 +9,7 @@ import numpy as np
 
 from thermodata.plugin import Array
 
-_SHOWN = 200            # bytes of a line that does not read
+_SHOWN = 200  # bytes of a line that does not read
 EMPTY = ("", "NaN", "nan", "-nan", "-nan(ind)", "1.#QNAN", "-1.#IND", "UNAVAILABLE")
 
 
@@ -83,7 +83,7 @@ class Grid:
             return None
         try:
             return self._numbers(data)
-        except ValueError:                               # Arrow's is one
+        except ValueError:  # Arrow's is one
             return None
 
     def _numbers(self, data: bytes) -> Numbers:
@@ -93,11 +93,17 @@ class Grid:
 
         names = [str(k) for k in range(len(self.dtypes))]
         table = pc.read_csv(
-            pa.BufferReader(data), pc.ReadOptions(column_names=names),
+            pa.BufferReader(data),
+            pc.ReadOptions(column_names=names),
             pc.ParseOptions(delimiter=self.delimiter, quote_char=False),
-            pc.ConvertOptions(column_types={n: pa.type_for_alias(k) for n, k in zip(names, self.dtypes, strict=True)},
-                              null_values=list(EMPTY), decimal_point=self.decimal,
-                              true_values=["1", "True", "TRUE", "true"], false_values=["0", "False", "FALSE", "false"]))
+            pc.ConvertOptions(
+                column_types={n: pa.type_for_alias(k) for n, k in zip(names, self.dtypes, strict=True)},
+                null_values=list(EMPTY),
+                decimal_point=self.decimal,
+                true_values=["1", "True", "TRUE", "true"],
+                false_values=["0", "False", "FALSE", "false"],
+            ),
+        )
         columns, there = [], []
         for name, kind in zip(names, self.dtypes, strict=True):
             column = table.column(name)

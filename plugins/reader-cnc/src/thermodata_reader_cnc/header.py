@@ -22,8 +22,14 @@ class Header:
     lines: tuple[str, ...]
 
 
-def find_header(above: Sequence[Sequence[str]], lines: Sequence[str], width: int,
-                times: set[int], table: Mapping[str, Any], skip: int) -> Header:
+def find_header(
+    above: Sequence[Sequence[str]],
+    lines: Sequence[str],
+    width: int,
+    times: set[int],
+    table: Mapping[str, Any],
+    skip: int,
+) -> Header:
     """Names and units from the rows above the data: the units from the lowest row that reads as units, the
     names from the row above it; without units from the lowest row."""
     block: list[tuple[int, list[str]]] = []
@@ -32,7 +38,7 @@ def find_header(above: Sequence[Sequence[str]], lines: Sequence[str], width: int
         if not width - 1 <= len(cells) <= width + 1:
             break
         if block and 2 * sum(map(bool, cells)) < sum(map(bool, block[-1][1])):
-            break                        # a preamble that a spreadsheet padded with empty cells
+            break  # a preamble that a spreadsheet padded with empty cells
         block.append((k, cells))
     units: list[str] | None = None
     if table.get("units_row") is not None:
@@ -42,7 +48,7 @@ def find_header(above: Sequence[Sequence[str]], lines: Sequence[str], width: int
     elif len(block) > 1:
         for place, (_, cells) in enumerate(block[:-1]):
             if _are_units(cells, times):
-                units, block = cells, block[place + 1:]
+                units, block = cells, block[place + 1 :]
                 break
     names = next((cells for _, cells in block if _are_names(cells, times)), block[0][1] if block else [])
     names = [names[c] if c < len(names) else "" for c in range(width)]
@@ -58,7 +64,7 @@ def _are_units(cells: Sequence[str], times: set[int]) -> bool:
         return False
     full = [c for k, c in enumerate(cells) if c and k not in times]
     good = sum(looks_like_unit(c) or bool(re.fullmatch(r"\[.*\]|\(.*\)|-|1", c)) for c in full)
-    return good >= 0.5 * len(full)       # a row of blanks under the names too
+    return good >= 0.5 * len(full)  # a row of blanks under the names too
 
 
 def _are_names(cells: Sequence[str], times: set[int]) -> bool:

@@ -25,11 +25,11 @@ class LocalClock:
             return local_ns
         joined = np.concatenate([self._before, local_ns])
         utc, _ = local_to_utc_ns(joined.view("datetime64[ns]"), self.timezone)
-        result = utc[self._before.size:]
+        result = utc[self._before.size :]
         self._before = joined[-1:]
         if self._repeats(int(joined[-1])):
             far = np.flatnonzero(np.abs(joined - joined[-1]) > _NEAR)
-            self._before = joined[far[-1] if far.size else 0:]
+            self._before = joined[far[-1] if far.size else 0 :]
         return result
 
     def _repeats(self, local_ns: int) -> bool:

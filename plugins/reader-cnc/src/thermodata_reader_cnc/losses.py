@@ -14,8 +14,8 @@ class _Waiting:
     where: str
     reason: str
     size: int
-    row: int             # of the part: the row it happened in, or would have been
-    in_row: bool         # a cell of a row that is kept
+    row: int  # of the part: the row it happened in, or would have been
+    in_row: bool  # a cell of a row that is kept
 
 
 @dataclass(slots=True)
@@ -49,7 +49,7 @@ class Losses:
             if each.in_row:
                 before = after
             if before is not None and after is not None and after < before:
-                after = None                             # the clock steps back here
+                after = None  # the clock steps back here
             result.append(Loss(each.where, before, after, min(1.0, each.size / self.file_size), each.reason))
         self._waiting = []
         if t_ns.size:
@@ -60,5 +60,10 @@ class Losses:
         """One loss for all that were only counted."""
         if not self._more:
             return []
-        return [Loss(self.name, fraction=min(1.0, self._more_bytes / self.file_size),
-                     reason=f"{self._more} more cells or rows that do not read")]
+        return [
+            Loss(
+                self.name,
+                fraction=min(1.0, self._more_bytes / self.file_size),
+                reason=f"{self._more} more cells or rows that do not read",
+            )
+        ]

@@ -19,9 +19,9 @@ from thermodata_reader_cnc.mtparse import Document, Names, Observation
 
 _END = re.compile(rb"</(?:[\w.-]+:)?MTConnectStreams\s*>")
 _LOOK = 8 << 20
-_PIECES = 24                 # places of a long log that the first look sees beside its beginning
+_PIECES = 24  # places of a long log that the first look sees beside its beginning
 _PIECE = 1 << 18
-_DENSE = 0.9                 # sequences of a document that are there, from where on the others are missing
+_DENSE = 0.9  # sequences of a document that are there, from where on the others are missing
 
 
 def claims(text: str) -> str | None:
@@ -55,7 +55,7 @@ class Order:
             again = each.key not in self.seen and self.times.get(each.key, "") >= each.time
             self.seen[each.key] = each.sequence
             if again:
-                continue                                 # a restarted agent sends what it had
+                continue  # a restarted agent sends what it had
             self.times[each.key] = max(each.time, self.times.get(each.key, ""))
             if each.series:
                 yield each
@@ -68,21 +68,27 @@ class Order:
         """Sequences that the agent no longer held, and holes in documents that hold all of a range."""
         held = sorted({o.sequence for o in found})
         if self.next is not None and document.first is not None and document.first > self.next:
-            yield Loss(document.place, reason=f"sequences {self.next} to {document.first - 1} are lost: the agent's "
-                                              "buffer no longer held them when it was asked")
+            yield Loss(
+                document.place,
+                reason=f"sequences {self.next} to {document.first - 1} are lost: the agent's "
+                "buffer no longer held them when it was asked",
+            )
         elif self.dense and self.next is not None and held and held[0] > self.next:
             yield Loss(document.place, reason=f"sequences {self.next} to {held[0] - 1} are not in the log")
         if not held:
             return
         first, stop = held[0], held[-1] + 1
         if document.whole and document.next is not None and self._near(document.next, stop, len(held)):
-            stop = max(stop, document.next)              # the answer runs up to here
+            stop = max(stop, document.next)  # the answer runs up to here
         if self.next is not None and self.dense and self.next < first and self._near(first, self.next, len(held)):
             first = self.next
         whole = len(held) + document.undated >= _DENSE * (stop - first)
         if whole and len(held) + document.undated < stop - first and len(held) > 1:
-            yield Loss(document.place, fraction=None, reason=(
-                f"{stop - first - len(held)} of the sequences {first} to {stop - 1} are missing"))
+            yield Loss(
+                document.place,
+                fraction=None,
+                reason=(f"{stop - first - len(held)} of the sequences {first} to {stop - 1} are missing"),
+            )
         self.dense = whole
 
     @staticmethod
@@ -110,8 +116,9 @@ class _Look:
         self.series: set[str] = set()
         size = path.stat().st_size
         self.sampled = size > _LOOK
-        self.plan = events.plan(self._known(path, size), lambda key: self.names.properties.get(key, {}).get(
-            "category") == "SAMPLE")
+        self.plan = events.plan(
+            self._known(path, size), lambda key: self.names.properties.get(key, {}).get("category") == "SAMPLE"
+        )
 
     def _known(self, path: Path, size: int) -> Iterator[Event]:
         for event in _events(path, self.names, 20_000 if self.sampled else None):
@@ -134,15 +141,15 @@ def describe(path: Path, source: Source) -> Recording:
     """Items and the first time of a log, by its first documents."""
     look = _Look(path)
     if not look.plan.items and not look.series:
-        raise FormatError("no observations", where=path.name, expected="MTConnectStreams with observations",
-                          got="none")
+        raise FormatError("no observations", where=path.name, expected="MTConnectStreams with observations", got="none")
     with path.open("rb") as file:
         file.seek(max(0, path.stat().st_size - 4096))
         behind = _END.split(file.read())
         # a log may end behind any document, so a whole last one proves nothing
         complete = len(behind) > 1 and b"<" not in behind[-1]
-    said = events.recording(look.plan, source, look.names.properties, None if complete else False,
-                            (series.NOTE,) if look.series else ())
+    said = events.recording(
+        look.plan, source, look.names.properties, None if complete else False, (series.NOTE,) if look.series else ()
+    )
     signals = tuple(series.signal(key, look.names.properties.get(key)) for key in sorted(look.series))
     return Recording((*said.signals, *signals), said.clock, said.start_ns, said.complete, said.notes)
 
@@ -164,10 +171,19 @@ def blocks(path: Path, source: Source) -> Iterator[Block | Loss]:
         elif isinstance(event, Event):
             yield from table.add(event)
         elif event.key in look.series:
-            yield series.rows(event.key, event.time, event.rate_hz, event.value, event.count, table.clock,
-                              f"{path.name} sequence {event.sequence}")
+            yield series.rows(
+                event.key,
+                event.time,
+                event.rate_hz,
+                event.value,
+                event.count,
+                table.clock,
+                f"{path.name} sequence {event.sequence}",
+            )
         elif event.key not in told:
             told.add(event.key)
-            yield Loss(f"{path.name} sequence {event.sequence}",
-                       reason=f"'{event.key}': a time series that the first look did not meet; it is not read")
+            yield Loss(
+                f"{path.name} sequence {event.sequence}",
+                reason=f"'{event.key}': a time series that the first look did not meet; it is not read",
+            )
     yield from table.flush()

@@ -16,8 +16,8 @@ from thermodata_reader_cnc.mtparse import Document, EndError, Names, NextError, 
 ROOT = re.compile(rb"<(?:[\w.-]+:)?MTConnectStreams[\s>/]")
 _ENCODING = re.compile(rb"<\?xml[^>]{0,200}encoding=[\"']([\w.-]+)")
 _PART = 1 << 18
-_TAIL = 512                  # bytes kept of what is no document: a root or its XML declaration may begin there
-_MOST = 200_000              # observations of a document that wait to be put in order
+_TAIL = 512  # bytes kept of what is no document: a root or its XML declaration may begin there
+_MOST = 200_000  # observations of a document that wait to be put in order
 
 
 def documents(path: Path, names: Names, start: int = 0, stop: int | None = None) -> Iterator[Document | Loss]:
@@ -31,19 +31,19 @@ def documents(path: Path, names: Names, start: int = 0, stop: int | None = None)
             root = ROOT.search(data)
             if root is None:
                 keep = 0 if ended else _TAIL
-                lost += data[:len(data) - keep].count(b"<") if len(data) > keep else 0
-                offset, data = offset + max(0, len(data) - keep), data[max(0, len(data) - keep):] if keep else b""
+                lost += data[: len(data) - keep].count(b"<") if len(data) > keep else 0
+                offset, data = offset + max(0, len(data) - keep), data[max(0, len(data) - keep) :] if keep else b""
                 if (stop is not None and offset > stop) or ended:
                     break
                 part = file.read(_PART)
                 data, ended = data + part, len(part) < _PART
                 continue
-            before = data[:root.start()]
+            before = data[: root.start()]
             lost += _fragments(before)
             if lost and start == 0:
                 yield Loss(f"{path.name} before byte {offset + root.start()}", reason="a part of a document; not read")
             lost = 0
-            offset, data = offset + root.start(), data[root.start():]
+            offset, data = offset + root.start(), data[root.start() :]
             if stop is not None and offset > stop:
                 return
             counted += 1
@@ -68,8 +68,11 @@ def documents(path: Path, names: Names, start: int = 0, stop: int | None = None)
             if wrong != "refused":
                 yield parser.document
             if wrong:
-                said = ("a document type, entities, or a value too long: not read" if wrong == "refused" else
-                        f"the document is cut or damaged ({wrong}); the observations before are kept")
+                said = (
+                    "a document type, entities, or a value too long: not read"
+                    if wrong == "refused"
+                    else f"the document is cut or damaged ({wrong}); the observations before are kept"
+                )
                 yield Loss(place, fraction=min(1.0, (offset - begin) / size), reason=said)
         if lost and start == 0:
             yield Loss(f"{path.name} after byte {offset}", reason="a part of a document; not read")

@@ -6,7 +6,7 @@ import re
 from dataclasses import dataclass, field
 from xml.parsers import expat
 
-_MOST_TEXT = 1 << 24         # characters of one value
+_MOST_TEXT = 1 << 24  # characters of one value
 _DEEP = 256
 
 
@@ -54,8 +54,14 @@ class Names:
         for candidate in (name, item, owner):
             if self.taken.setdefault(candidate, owner) == owner:
                 if candidate not in self.properties:
-                    said = {"dataItemId": item, "device": device, "component": component, "type": tag,
-                            "subType": attributes.get("subType", ""), "category": group.rstrip("s").upper()}
+                    said = {
+                        "dataItemId": item,
+                        "device": device,
+                        "component": component,
+                        "type": tag,
+                        "subType": attributes.get("subType", ""),
+                        "category": group.rstrip("s").upper(),
+                    }
                     self.properties[candidate] = {k: v for k, v in said.items() if v}
                 return candidate
         return owner
@@ -87,7 +93,7 @@ class Parser:
         self.parser.EntityDeclHandler = self._refuse
         self.depth = self.stop = 0
         self.device = self.component = self.group = ""
-        self.at = [0, 0, 0, 0]                      # depths of device, component, group, observation (0: none)
+        self.at = [0, 0, 0, 0]  # depths of device, component, group, observation (0: none)
         self.tag = ""
         self.attributes: dict[str, str] = {}
         self.words: list[str] = []
@@ -104,7 +110,7 @@ class Parser:
             raise UntrustedError
         tag = name.rsplit(":", 1)[-1]
         if tag == "MTConnectStreams" and self.depth > 1:
-            self.stop = self.parser.CurrentByteIndex     # expat itself runs on to the end of the part
+            self.stop = self.parser.CurrentByteIndex  # expat itself runs on to the end of the part
             raise NextError
         if self.at[3]:
             if tag in ("Entry", "Cell"):
@@ -163,8 +169,11 @@ class Parser:
         add = document.observations.append
         if self.group == "Condition":
             add(Observation(sequence, time, key, self.tag.upper()))
-            text = "; ".join(p for p in (said.get("nativeCode", ""), said.get("nativeSeverity", ""),
-                                         said.get("qualifier", ""), value) if p)
+            text = "; ".join(
+                p
+                for p in (said.get("nativeCode", ""), said.get("nativeSeverity", ""), said.get("qualifier", ""), value)
+                if p
+            )
             if text or self.tag == "Normal":
                 add(Observation(sequence, time, f"{key}[message]", text or "UNAVAILABLE"))
         elif self.tag.endswith("TimeSeries") or ("sampleRate" in said and len(value.split(None, 1)) > 1):

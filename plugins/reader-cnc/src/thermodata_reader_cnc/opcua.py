@@ -7,7 +7,7 @@ Where the table is sorted by tag, each tag is a stream of its own, for there is 
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
 from pathlib import Path
@@ -27,9 +27,18 @@ from thermodata_reader_cnc.timecolumns import absolute
 from thermodata_reader_cnc.when import TimeFormat
 
 _LOOK = 4 << 20
-_MOST_LINES = 64             # of one quoted value
-_TIMES = ("sourcetimestamp", "sourcetime", "datetime", "timestamp", "timestring", "servertimestamp", "servertime",
-          "time", "receivedat")
+_MOST_LINES = 64  # of one quoted value
+_TIMES = (
+    "sourcetimestamp",
+    "sourcetime",
+    "datetime",
+    "timestamp",
+    "timestring",
+    "servertimestamp",
+    "servertime",
+    "time",
+    "receivedat",
+)
 _TAGS = ("tagname", "varname", "nodeid", "node", "displayname", "browsename", "tag", "itemid", "name")
 _VALUES = ("tagval", "tagvalue", "varvalue", "value")
 _STATUS = ("statusname", "statustext", "tagquality", "quality", "statuscode", "status", "validity")
@@ -62,7 +71,7 @@ def find(lines: Sequence[str], where: str) -> Layout | None:
             status = next((names.index(n) for n in _STATUS if n in names), None)
             if value is None or not times or (tag is None and ("sourcetimestamp" not in names or status is None)):
                 continue
-            body = [fields(text, delimiter, True) for text in lines[row + 1:row + 2000]]
+            body = [fields(text, delimiter, True) for text in lines[row + 1 : row + 2000]]
             body = [cells for cells in body if len(cells) == len(names)]
             stamps = [[_time(cells, times)] for cells in body if _time(cells, times)]
             found = absolute(stamps, [], where) if stamps else None
@@ -124,7 +133,8 @@ def _events(layout: Layout, lines: Iterable[str], first: int, name: str) -> Iter
             flag |= BAD
         value = clean(cells[layout.value])
         if (layout.delimiter != "," and _COMMA.match(value)) or (
-                layout.delimiter == "," and '"' in text and _COMMA.match(value)):
+            layout.delimiter == "," and '"' in text and _COMMA.match(value)
+        ):
             value = value.replace(",", ".")
         tag = "Value" if layout.tag is None else clean(cells[layout.tag])
         if not tag:
@@ -147,8 +157,12 @@ def _look(path: Path, source: Source) -> _Look:
     first = sample(path, source.encoding, _LOOK)
     layout = find(first.head, path.name)
     if layout is None:
-        raise FormatError("no long table", where=path.name, expected="columns of time, tag and value",
-                          got=first.head[0][:80] if first.head else "nothing")
+        raise FormatError(
+            "no long table",
+            where=path.name,
+            expected="columns of time, tag and value",
+            got=first.head[0][:80] if first.head else "nothing",
+        )
     lines = first.head[:-1] if first.whole and not first.ends_with_newline else first.head
     head = [e for e in _events(layout, lines, 0, path.name) if isinstance(e, Event)]
     rest = [e for e in _events(layout, first.rest, layout.row + 1, path.name) if isinstance(e, Event)]
@@ -160,8 +174,9 @@ def _look(path: Path, source: Source) -> _Look:
     by_tag = 0 < changes < 0.1 * len(head) and 2 * back > changes
     notes = [first.note] if first.note else []
     notes += ["sorted by tag: each tag is a stream"] if by_tag else []
-    return _Look(layout, replace(plan, apart=plan.apart or by_tag), first.encoding, by_tag, first.ends_with_newline,
-                 tuple(notes))
+    return _Look(
+        layout, replace(plan, apart=plan.apart or by_tag), first.encoding, by_tag, first.ends_with_newline, tuple(notes)
+    )
 
 
 def describe(path: Path, source: Source) -> Recording:
@@ -180,8 +195,9 @@ def blocks(path: Path, source: Source) -> Iterator[Block | Loss]:
         if counts[key] <= (1 if key else NAMED):
             yield loss
 
-    complain: Callable[[Event, str], Iterator[Loss]] = \
-        lambda event, reason: limited(event.key, Loss(event.at, reason=f"'{event.key}': {reason}"))  # noqa: E731
+    def complain(event: Event, reason: str) -> Iterator[Loss]:
+        return limited(event.key, Loss(event.at, reason=f"'{event.key}': {reason}"))
+
     table = HeldTable(look.plan, source, complain, ordered=look.by_tag)
     for event in _all(path, look):
         if isinstance(event, Loss):
@@ -191,8 +207,11 @@ def blocks(path: Path, source: Source) -> Iterator[Block | Loss]:
     yield from table.flush()
     for key, count in counts.items():
         if count > (1 if key else NAMED):
-            yield Loss(path.name, reason=f"{count - (1 if key else NAMED)} more " + (
-                f"values of '{key}' that do not read" if key else "lines that do not read"))
+            yield Loss(
+                path.name,
+                reason=f"{count - (1 if key else NAMED)} more "
+                + (f"values of '{key}' that do not read" if key else "lines that do not read"),
+            )
 
 
 def _all(path: Path, look: _Look) -> Iterator[Event | Loss]:

@@ -17,7 +17,7 @@ import numpy as np
 from thermodata.plugin import Block, Loss, Source
 from thermodata_reader_cnc.chunks import CUT, Chunk
 
-_PIECES = 512               # of a chunk that is read again
+_PIECES = 512  # of a chunk that is read again
 _Row = tuple[int, tuple[Any, ...]]
 _Blocks = Callable[[Path, Source], Iterator[Block | Loss]]
 

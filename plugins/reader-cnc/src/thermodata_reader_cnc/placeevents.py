@@ -51,16 +51,21 @@ def _all(form: str, path: Path, source: Source) -> tuple[Plan, Iterator[Any]]:
     if form == "shdr":
         look = shdr._Look(path, source)
         lines = Lines(path.name)
-        return look.plan, (e for number, line in shdr._lines(path, look.encoding)
-                           if isinstance(number, int) and number >= 0 for e in lines.events(line, number))
+        return look.plan, (
+            e
+            for number, line in shdr._lines(path, look.encoding)
+            if isinstance(number, int) and number >= 0
+            for e in lines.events(line, number)
+        )
     if form == "opcua":
         table = opcua._look(path, source)
         return table.plan, opcua._all(path, table)
     return mtconnect._Look(path).plan, mtconnect._events(path, Names())
 
 
-def _sample(items: Iterator[Event | Series | Observation | Loss], clock: LocalClock, stream: str, row: int,
-            name: str) -> str | None:
+def _sample(
+    items: Iterator[Event | Series | Observation | Loss], clock: LocalClock, stream: str, row: int, name: str
+) -> str | None:
     done = 0
     for item in items:
         if not isinstance(item, Series | Observation) or series.stream(item.key) != stream:

@@ -40,9 +40,12 @@ def place(path: Path, source: Source, stream: str, row: int) -> str | None:
             wrong = parser.feed(data, not data)
             found, parser.frames = parser.frames, parser.frames[-1:]
             for frame in found:
-                if frame is not frames.frame and frame.signals and (frame.started or frame.done
-                                                                    or frame is not found[-1]):
-                    list(frames.begin(frame))             # what it says is lost is of no interest here
+                if (
+                    frame is not frames.frame
+                    and frame.signals
+                    and (frame.started or frame.done or frame is not found[-1])
+                ):
+                    list(frames.begin(frame))  # what it says is lost is of no interest here
                 if frame is frames.frame:
                     best = _nearest(frame, frames, parser.where.pop(frame.number, []), stream, wanted[0], best)
             if wrong is not None or not data:
@@ -53,8 +56,14 @@ def place(path: Path, source: Source, stream: str, row: int) -> str | None:
     return f"record {record}, byte {byte}" + (" (held since then)" if time < wanted[0] else "")
 
 
-def _nearest(frame: Frame, frames: _Frames, where: list[tuple[int, int]], stream: str, t_ns: int,
-             best: tuple[int, int, int] | None) -> tuple[int, int, int] | None:
+def _nearest(
+    frame: Frame,
+    frames: _Frames,
+    where: list[tuple[int, int]],
+    stream: str,
+    t_ns: int,
+    best: tuple[int, int, int] | None,
+) -> tuple[int, int, int] | None:
     """(time, record, byte) of the last record of a stream at or before a time, of these records and the best so far.
     Takes the records."""
     group = next((g for g in frames.groups if g.stream == stream), None)

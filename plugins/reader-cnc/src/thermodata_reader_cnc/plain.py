@@ -27,7 +27,7 @@ class Plan:
     layout: Layout
     columns: tuple[Column, ...]
     decimal: str | None
-    utc: bool                        # the cells carry an offset from UTC
+    utc: bool  # the cells carry an offset from UTC
     quality: dict[str, tuple[str, bool]]
 
 
@@ -37,10 +37,14 @@ def plan(path: Path, source: Source) -> Plan:
     # a last line without its end may be half a row: it decides nothing
     head = first.head[:-1] if first.whole and not first.ends_with_newline else first.head
     if not head:
-        raise FormatError("no whole line", where=path.name, expected="lines that end",
-                          got=repr(first.head[0][:60]) if first.head else "nothing")
+        raise FormatError(
+            "no whole line",
+            where=path.name,
+            expected="lines that end",
+            got=repr(first.head[0][:60]) if first.head else "nothing",
+        )
     layout = find_layout(head, first.rest, source.table, path.name)
-    body = head[layout.first_row:] + first.rest
+    body = head[layout.first_row :] + first.rest
     rows = [r for r in map(layout.row, body) if len(r) == layout.width]
     if layout.absolute:
         good = [parse([r[place] for r in rows], form) != NAT for place, form in layout.time]
@@ -52,8 +56,16 @@ def plan(path: Path, source: Source) -> Plan:
     told = quality.pairs(columns, rows[:2000])
     text = set(source.options.get("text") or ()) | quality.words(columns, rows, told)
     columns = tuple(Column(c.place, c.name, c.unit, "str") if c.name in text else c for c in columns)
-    utc = any(form.pattern is not None and (m := form.pattern.fullmatch(rows[0][place])) is not None
-              and bool(m.groupdict().get("z")) for place, form in layout.time) if rows else False
+    utc = (
+        any(
+            form.pattern is not None
+            and (m := form.pattern.fullmatch(rows[0][place])) is not None
+            and bool(m.groupdict().get("z"))
+            for place, form in layout.time
+        )
+        if rows
+        else False
+    )
     return Plan(first, layout, columns, decimal, utc, told)
 
 
@@ -63,7 +75,7 @@ def describe(path: Path, source: Source) -> Recording:
     layout, first = found.layout, found.sample
     notes = [first.note] if first.note else []
     start = end = None
-    for line in first.head[layout.first_row:]:
+    for line in first.head[layout.first_row :]:
         if layout.absolute and (start := _ns(layout, line)) is not None:
             break
     for line in reversed((first.rest or first.head)[-50:]):
@@ -77,11 +89,13 @@ def describe(path: Path, source: Source) -> Recording:
         notes += decided
         shift = [int(t) - int(u) for t, u in zip(times.astype("int64"), utc, strict=True)]
         if shift[0] != shift[1]:
-            notes.append(f"daylight saving of {source.timezone} changes in this file; rows of a repeated hour are told "
-                         "apart by their order")
+            notes.append(
+                f"daylight saving of {source.timezone} changes in this file; rows of a repeated hour are told "
+                "apart by their order"
+            )
         start = int(utc[0])
     if layout.absolute and start is None:
-        start = 0 if not first.head[layout.first_row:] else start
+        start = 0 if not first.head[layout.first_row :] else start
     if any(name.startswith("column ") for name in (c.name for c in found.columns)):
         notes.append("columns without a name are called by their place")
     if any("#" in c.name and c.name.rsplit("#", 1)[-1].isdigit() for c in found.columns):
@@ -92,8 +106,11 @@ def describe(path: Path, source: Source) -> Recording:
     cut = not first.ends_with_newline and not _whole(first, layout.delimiter)
     return Recording(
         tuple(Signal(c.name, STREAM, c.unit, c.dtype) for c in found.columns),
-        "absolute" if layout.absolute else "relative", start if layout.absolute else 0,
-        False if cut else None, tuple(notes))
+        "absolute" if layout.absolute else "relative",
+        start if layout.absolute else 0,
+        False if cut else None,
+        tuple(notes),
+    )
 
 
 def _ns(layout: Layout, line: str) -> int | None:
@@ -130,4 +147,3 @@ def _without_header(chunk: Chunk, first_row: int) -> Chunk:
             return Chunk(b"", first_row, chunk.size, chunk.last)
     odd = tuple(line for line in chunk.odd if line >= first_row)
     return Chunk(chunk.data[at:], first_row, chunk.size, chunk.last, odd)
-

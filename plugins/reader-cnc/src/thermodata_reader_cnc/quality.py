@@ -11,8 +11,9 @@ from thermodata.plugin import Array, Block
 from thermodata_reader_cnc.columns import Column
 from thermodata_reader_cnc.status import BAD, is_good, zero_is_good
 
-_QUALITY = re.compile(r"^(?P<base>.+?)[ ._:/-]*(?:quality|qualit[äa]t|tagquality|status ?code|validity)$",
-                      re.IGNORECASE)
+_QUALITY = re.compile(
+    r"^(?P<base>.+?)[ ._:/-]*(?:quality|qualit[äa]t|tagquality|status ?code|validity)$", re.IGNORECASE
+)
 _CODE = re.compile(r"^[+-]?\d*$")
 _ROUND = re.compile(r"^quality ?\((?P<base>.+)\)$", re.IGNORECASE)
 _VALUE = re.compile(r"[ ._:/-]*(?:value|wert)$", re.IGNORECASE)
@@ -28,8 +29,11 @@ def pairs(columns: Sequence[Column], rows: Sequence[Sequence[str]]) -> dict[str,
             continue
         base = match["base"].casefold()
         for other in columns:
-            if other is not column and _VALUE.sub("", other.name).casefold() == base and base in (
-                    other.name.casefold(), _VALUE.sub("", other.name).casefold()):
+            if (
+                other is not column
+                and _VALUE.sub("", other.name).casefold() == base
+                and base in (other.name.casefold(), _VALUE.sub("", other.name).casefold())
+            ):
                 zero = zero_is_good((row[column.place] for row in rows), column.name)
                 found[other.name] = column.name, zero
                 break
@@ -39,8 +43,11 @@ def pairs(columns: Sequence[Column], rows: Sequence[Sequence[str]]) -> dict[str,
 def words(columns: Sequence[Column], rows: Sequence[Sequence[str]], found: Mapping[str, tuple[str, bool]]) -> set[str]:
     """The quality columns that hold words or hexadecimal codes: text, however few these are."""
     told = {column for column, _ in found.values()}
-    return {c.name for c in columns if c.name in told
-            and any(not _CODE.match(row[c.place].strip().strip('"')) for row in rows)}
+    return {
+        c.name
+        for c in columns
+        if c.name in told and any(not _CODE.match(row[c.place].strip().strip('"')) for row in rows)
+    }
 
 
 def flagged(block: Block, found: Mapping[str, tuple[str, bool]]) -> Block:

@@ -88,7 +88,7 @@ class RowReader:
 
         layout = self.layout
         if data.count(b"\r") != data.count(b"\r\n"):
-            raise _OddError                              # a lone CR ends a row for Arrow, and none for _slow
+            raise _OddError  # a lone CR ends a row for Arrow, and none for _slow
         if b"\0" in data or (layout.quoted and data.count(b'"') % 2) or odd_lines(data, layout.delimiter, layout.width):
             raise _OddError
         names = [str(i) for i in range(layout.width)]
@@ -103,9 +103,17 @@ class RowReader:
                 pa.BufferReader(data),
                 pc.ReadOptions(column_names=names, block_size=1 << 20),
                 pc.ParseOptions(delimiter=layout.delimiter, quote_char='"' if layout.quoted else False),
-                pc.ConvertOptions(column_types=kinds, include_columns=list(kinds), null_values=list(NOTHING),
-                                  true_values=list(TRUE), false_values=list(FALSE), decimal_point=self.decimal,
-                                  strings_can_be_null=False, check_utf8=True))
+                pc.ConvertOptions(
+                    column_types=kinds,
+                    include_columns=list(kinds),
+                    null_values=list(NOTHING),
+                    true_values=list(TRUE),
+                    false_values=list(FALSE),
+                    decimal_point=self.decimal,
+                    strings_can_be_null=False,
+                    check_utf8=True,
+                ),
+            )
         except pa.ArrowInvalid as error:
             raise _OddError from error
         local = self._time(table)
@@ -140,8 +148,9 @@ class RowReader:
         for k, text in enumerate(lines):
             if not text.strip(f"{self.layout.delimiter} \r\t\0"):
                 if "\0" in text:
-                    self.losses.add(line + k, f"{len(text)} NUL bytes: what was written here is lost", len(text),
-                                    len(times))
+                    self.losses.add(
+                        line + k, f"{len(text)} NUL bytes: what was written here is lost", len(text), len(times)
+                    )
                 continue
             row = self._row(text, line + k, len(times))
             if self.stopped:
@@ -167,19 +176,24 @@ class RowReader:
     def _row(self, text: str, line: int, row: int) -> tuple[int, list[Any]] | None:
         bare = text.replace("\0", "").rstrip("\r")
         if bare in self.layout.header.lines:
-            return None                                   # the logger was restarted into the same file
+            return None  # the logger was restarted into the same file
         cells = self.layout.row(bare)
         if "\0" in text:
             nuls = text.count("\0")
             self.losses.add(line, f"{nuls} NUL bytes: what was written before this row is lost", nuls, row)
         if len(cells) != self.layout.width:
-            self.losses.add(line, f"expected {self.layout.width} cells, got {len(cells)}: '{bare[:80]}'", len(text),
-                            row)
+            self.losses.add(
+                line, f"expected {self.layout.width} cells, got {len(cells)}: '{bare[:80]}'", len(text), row
+            )
             return None
         if self._other_header(cells):
             self.stopped = True
-            self.losses.add(line, f"another header begins here, nothing after it is read: '{bare[:120]}'; split the "
-                                  "file there", len(text), row)
+            self.losses.add(
+                line,
+                f"another header begins here, nothing after it is read: '{bare[:120]}'; split the file there",
+                len(text),
+                row,
+            )
             return None
         ns = self._row_ns(cells)
         if ns is None:
@@ -219,7 +233,7 @@ class RowReader:
         if value is None and not self.sure:
             other = "." if self.decimal == "," else ","
             value = as_float(cell, other)
-            if value is not None:                         # the first number with a fraction tells the mark
+            if value is not None:  # the first number with a fraction tells the mark
                 self.decimal, self.sure = other, True
         return value
 
@@ -234,8 +248,9 @@ class RowReader:
         end = before.rstrip(b"\n").rfind(b"\n") + 1
         previous = before[end:].decode("utf-8", "replace").rstrip("\r\n")
         if not previous or not last_line_is_whole(text, previous, self.layout.delimiter):
-            self.losses.add(line, f"expected a whole row (the file ends without a line end), got '{text[:80]}'",
-                            len(tail), 0)
+            self.losses.add(
+                line, f"expected a whole row (the file ends without a line end), got '{text[:80]}'", len(tail), 0
+            )
             yield from self.losses.dated(np.empty(0, np.int64))
             return
         yield from self._part(tail + b"\n", line)

@@ -19,7 +19,7 @@ from thermodata_reader_cnc.halves import BadLine, Grid
 from thermodata_reader_cnc.losses import Losses
 from thermodata_reader_cnc.scoheader import Curve, Header, read_header
 
-_FAR = 1 << 20                # rows that the first column may skip
+_FAR = 1 << 20  # rows that the first column may skip
 
 
 def claims(lines: Sequence[str]) -> str | None:
@@ -43,8 +43,13 @@ def describe(path: Path, source: Source) -> Recording:
     notes = [first.note] if first.note else []
     if not relative and source.timezone is None:
         notes.append("no time zone declared: times are taken as UTC")
-    return Recording(signals, "relative" if relative else "absolute", 0 if relative else header.start_ns,
-                     None if first.ends_with_newline else False, tuple(notes))
+    return Recording(
+        signals,
+        "relative" if relative else "absolute",
+        0 if relative else header.start_ns,
+        None if first.ends_with_newline else False,
+        tuple(notes),
+    )
 
 
 def blocks(path: Path, source: Source) -> Iterator[Block | Loss]:
@@ -66,7 +71,7 @@ def blocks(path: Path, source: Source) -> Iterator[Block | Loss]:
             if isinstance(part, BadLine):
                 if part.text.strip() not in ("", "%"):
                     losses.add(part.line, f"expected {header.width} numbers, got '{part.text[:80]}'", len(part.text), 0)
-                    rows.next += 1                       # its time has passed all the same
+                    rows.next += 1  # its time has passed all the same
                 continue
             yield from rows.blocks(part.columns, line, losses)
         yield from losses.dated(np.empty(0, np.int64))
@@ -122,8 +127,11 @@ class _Rows:
             column = columns[curve.column]
             if curve.count is not None and (place >= curve.count).any():
                 tail = column[place >= curve.count]
-                odd = np.isfinite(tail) & (tail != 0) & (tail != column[0] if place[0] >= curve.count else
-                                                         tail != column[place < curve.count][-1])
+                odd = (
+                    np.isfinite(tail)
+                    & (tail != 0)
+                    & (tail != column[0] if place[0] >= curve.count else tail != column[place < curve.count][-1])
+                )
                 self.behind[curve.name] += int(odd.sum())
                 column = np.where(place < curve.count, column, np.nan)
             finite = np.isfinite(column)
@@ -141,8 +149,12 @@ class _Rows:
         for curve in self.header.curves:
             where = f"{name} curve '{curve.name}'"
             if curve.count is not None and self.seen[curve.name] < curve.count:
-                yield Loss(where, fraction=1 - self.seen[curve.name] / curve.count, reason=(
-                    f"the header announces {curve.count} values, the file holds {self.seen[curve.name]}"))
+                yield Loss(
+                    where,
+                    fraction=1 - self.seen[curve.name] / curve.count,
+                    reason=(f"the header announces {curve.count} values, the file holds {self.seen[curve.name]}"),
+                )
             if self.behind[curve.name]:
-                yield Loss(where, reason=f"{self.behind[curve.name]} values behind the announced {curve.count} are not "
-                                         "read")
+                yield Loss(
+                    where, reason=f"{self.behind[curve.name]} values behind the announced {curve.count} are not read"
+                )

@@ -60,32 +60,61 @@ def read_header(lines: Sequence[str], where: str, source: Source) -> Header:
             blocks[-1][1][match[1].strip().upper()] = match[2].strip().strip('"')
     found = [keys for name, keys in blocks if name == "CURVE"]
     if first is None or not found:
-        raise FormatError("no curves or no data", where=where, expected="%[CURVE...] blocks, then %[DATA]",
-                          got=", ".join(name for name, _ in blocks) or "nothing")
-    data = [line.rstrip() for line in lines[first:first + 500] if line.strip() and not line.startswith("%")]
+        raise FormatError(
+            "no curves or no data",
+            where=where,
+            expected="%[CURVE...] blocks, then %[DATA]",
+            got=", ".join(name for name, _ in blocks) or "nothing",
+        )
+    data = [line.rstrip() for line in lines[first : first + 500] if line.strip() and not line.startswith("%")]
     width = Counter(line.count(";") + 1 for line in data).most_common(1)[0][0] if data else len(found)
-    cells = width - 1 if data and sum(line.endswith(";") for line in data) > 0.9 * len(data) and width > len(found) \
+    cells = (
+        width - 1
+        if data and sum(line.endswith(";") for line in data) > 0.9 * len(data) and width > len(found)
         else width
+    )
     index = cells - len(found)
     if index not in (0, 1):
-        raise FormatError("columns do not fit the curves", where=f"{where} line {first + 1}",
-                          expected=f"{len(found)} columns, or one more for an index", got=str(cells))
+        raise FormatError(
+            "columns do not fit the curves",
+            where=f"{where} line {first + 1}",
+            expected=f"{len(found)} columns, or one more for an index",
+            got=str(cells),
+        )
     curves, taken = [], dict[str, int]()
     for k, keys in enumerate(found):
         cycle = _number(keys.get("CYCLETIME"), where)
         if not cycle or not 1e-3 <= cycle <= 1e12:
-            raise FormatError("a curve without a cycle time", where=f"{where} curve {k + 1}",
-                              expected="%CYCLETIME= in us", got=keys.get("CYCLETIME", "nothing"))
+            raise FormatError(
+                "a curve without a cycle time",
+                where=f"{where} curve {k + 1}",
+                expected="%CYCLETIME= in us",
+                got=keys.get("CYCLETIME", "nothing"),
+            )
         kind = " ".join(filter(None, (keys.get("CHANNELTYPE"), keys.get("AXISTYPE"))))
         name = keys.get("NAME") or kind or f"curve {k + 1}"
         taken[name] = taken.get(name, 0) + 1
         name += f"#{taken[name]}" if taken[name] > 1 else ""
         count = _number(keys.get("COUNT"), where)
         if count is not None and not 0 <= count < 1e15:
-            raise FormatError("a curve with an impossible count", where=f"{where} curve {k + 1}",
-                              expected="%COUNT= of values", got=keys["COUNT"][:40])
-        curves.append(Curve(k + index, name, f"scope_{cycle:g}us", keys.get("DIMENSION") or None,
-                            None if count is None else int(count), round(cycle * 1000), _scaling(keys, where), keys))
+            raise FormatError(
+                "a curve with an impossible count",
+                where=f"{where} curve {k + 1}",
+                expected="%COUNT= of values",
+                got=keys["COUNT"][:40],
+            )
+        curves.append(
+            Curve(
+                k + index,
+                name,
+                f"scope_{cycle:g}us",
+                keys.get("DIMENSION") or None,
+                None if count is None else int(count),
+                round(cycle * 1000),
+                _scaling(keys, where),
+                keys,
+            )
+        )
     shared = next((keys for name, keys in blocks if name == "GLOBAL"), {})
     decimal = "," if any("," in line for line in data) else "."
     step = _step([line.split(";")[0].replace(",", ".") for line in data]) if index else None

@@ -22,8 +22,9 @@ def signal(key: str, properties: dict[str, str] | None = None) -> Signal:
     return Signal(key, stream(key), None, "float64", None, properties or {})
 
 
-def rows(key: str, time: str, rate_hz: float | None, text: str, count: int | None, clock: LocalClock,
-         at: str) -> Block | Loss:
+def rows(
+    key: str, time: str, rate_hz: float | None, text: str, count: int | None, clock: LocalClock, at: str
+) -> Block | Loss:
     """The rows of one report. count: the samples that it announces."""
     words = text.split()
     if len(words) == 1 and words[0] == "UNAVAILABLE":

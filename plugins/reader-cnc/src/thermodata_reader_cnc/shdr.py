@@ -14,7 +14,7 @@ from thermodata_reader_cnc.shdrlines import Lines, Series, is_offset, is_time, l
 from thermodata_reader_cnc.when import OFFSET_MS, TimeFormat
 
 _NAMED = 20
-_LOOK = 8 << 20          # an item may be reported for the first time late in a log
+_LOOK = 8 << 20  # an item may be reported for the first time late in a log
 
 
 def claims(lines: list[str]) -> str | None:
@@ -64,23 +64,35 @@ def describe(path: Path, source: Source) -> Recording:
     """Items and the first time of a log, by samples of it."""
     look = _Look(path, source)
     if not look.plan.items and not look.series:
-        raise FormatError("no SHDR data", where=path.name, expected="lines of time|item|value",
-                          got=repr(look.head[0][:60]) if look.head else "nothing")
+        raise FormatError(
+            "no SHDR data",
+            where=path.name,
+            expected="lines of time|item|value",
+            got=repr(look.head[0][:60]) if look.head else "nothing",
+        )
     notes = [note for note in (look.note, series.NOTE if look.series else None) if note]
     if look.relative:
         notes.append("times are relative to the adapter's start")
     said = events.recording(look.plan, source, complete=None if look.whole else False, notes=notes)
     signals = (*said.signals, *(series.signal(key) for key in sorted(look.series)))
-    return Recording(signals, "relative" if look.relative else "absolute", 0 if look.relative else said.start_ns,
-                     said.complete, said.notes)
+    return Recording(
+        signals,
+        "relative" if look.relative else "absolute",
+        0 if look.relative else said.start_ns,
+        said.complete,
+        said.notes,
+    )
 
 
 def blocks(path: Path, source: Source) -> Iterator[Block | Loss]:
     """Rows of held values, and lines that do not read."""
     look = _Look(path, source)
     losses = _Some()
-    table = HeldTable(look.plan, source, lambda event, reason: losses.some(event.key, Loss(event.at, reason=(
-        f"'{event.key}': {reason}"))))
+    table = HeldTable(
+        look.plan,
+        source,
+        lambda event, reason: losses.some(event.key, Loss(event.at, reason=(f"'{event.key}': {reason}"))),
+    )
     reader, size = Lines(path.name), max(1, path.stat().st_size)
     for number, line in _lines(path, look.encoding):
         if isinstance(number, str):
@@ -89,10 +101,13 @@ def blocks(path: Path, source: Source) -> Iterator[Block | Loss]:
         if number < 0:
             time = line.split("|", 1)[0].partition("@")[0]
             if table.last_time is not None and (not time or table.last_time.startswith(time)):
-                table.drop_last()                           # more of this row stood in the lines that are gone
+                table.drop_last()  # more of this row stood in the lines that are gone
             yield from table.flush()
-            yield Loss(f"{path.name} last line", fraction=min(1.0, len(line) / size),
-                       reason=f"it has no line end and may be cut: '{line[:60]}'")
+            yield Loss(
+                f"{path.name} last line",
+                fraction=min(1.0, len(line) / size),
+                reason=f"it has no line end and may be cut: '{line[:60]}'",
+            )
             continue
         for event in reader.events(line, number):
             if isinstance(event, Loss):
@@ -103,8 +118,16 @@ def blocks(path: Path, source: Source) -> Iterator[Block | Loss]:
                 found = series.rows(event.key, event.time, event.rate_hz, event.values, None, table.clock, event.at)
                 yield from losses.some(event.key, found) if isinstance(found, Loss) else (found,)
             else:
-                yield from losses.some(event.key, Loss(event.at, reason=(
-                    f"'{event.key}': a time series that the first look did not meet, or without a date; not read")))
+                yield from losses.some(
+                    event.key,
+                    Loss(
+                        event.at,
+                        reason=(
+                            f"'{event.key}': a time series that the first look did not meet, or without a date; "
+                            "not read"
+                        ),
+                    ),
+                )
     yield from table.flush()
     yield from reader.end()
     yield from losses.rest(path.name)
@@ -130,7 +153,7 @@ class _Some:
 
     def some(self, key: str, loss: Loss) -> Iterator[Loss]:
         if key not in self.count and len(self.count) > 50 * _NAMED:
-            key = ""                                     # names of any number are no reason for any number of losses
+            key = ""  # names of any number are no reason for any number of losses
         self.count[key] = self.count.get(key, 0) + 1
         most = 1 if "first look" in loss.reason else _NAMED
         if self.count[key] <= most:

@@ -52,7 +52,7 @@ def fields(text: str) -> list[str]:
     found, at = [], 0
     while at <= len(text):
         match = _FIELD.match(text, at)
-        assert match is not None                     # the second form matches anything, nothing too
+        assert match is not None  # the second form matches anything, nothing too
         found.append(match[1].replace("\\|", "|").replace('\\"', '"') if match[1] is not None else match[2])
         at = match.end() + 1
     return found
@@ -118,7 +118,7 @@ class Lines:
             if rate is not None or not parts[3].strip():
                 yield Series(time, key, rate or None, parts[4], at)
                 return
-        if count == 4:                                      # a message: item, native code, text
+        if count == 4:  # a message: item, native code, text
             yield Event(time, key, parts[3], at, flag)
             if parts[2].strip():
                 yield Event(time, f"{key}[code]", parts[2], at, flag)
@@ -134,5 +134,7 @@ class Lines:
     def end(self) -> Iterator[Loss]:
         """What is missing at the end of the log."""
         if self.until is not None:
-            yield Loss(f"{self.name} line {self.opened + 1}",
-                       reason=f"an asset without its end ({self.until}): what follows it is not read")
+            yield Loss(
+                f"{self.name} line {self.opened + 1}",
+                reason=f"an asset without its end ({self.until}): what follows it is not read",
+            )

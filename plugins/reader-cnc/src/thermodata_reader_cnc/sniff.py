@@ -27,11 +27,16 @@ def claim(head: Head) -> tuple[str, str] | None:
         return None
     lines = [line.rstrip("\r") for line in text.lstrip("\ufeff").split("\n")]
     if head.size_bytes > len(head.start) and len(lines) > 1:
-        lines.pop()                                       # the head ends inside a line
+        lines.pop()  # the head ends inside a line
     if lines[0].startswith("LabVIEW"):
         return None
-    for form, claims in (("shdr", shdr.claims), ("twincat", twincat.claims), ("sco", sco.claims),
-                         ("opcua", opcua.claims), ("tracecsv", tracecsv.claims)):
+    for form, claims in (
+        ("shdr", shdr.claims),
+        ("twincat", twincat.claims),
+        ("sco", sco.claims),
+        ("opcua", opcua.claims),
+        ("tracecsv", tracecsv.claims),
+    ):
         if (reason := claims(lines)) is not None:
             return form, reason
     return _plain(lines, head.name)

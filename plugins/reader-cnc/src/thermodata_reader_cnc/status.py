@@ -15,7 +15,7 @@ def _code(text: str) -> int | None:
         code = int(text, 0) if text[:2].lower() == "0x" else int(float(text.replace(",", ".")))
     except (ValueError, OverflowError):
         return None
-    return code % 2**32 if code < 0 else code           # a signed 32-bit status code
+    return code % 2**32 if code < 0 else code  # a signed 32-bit status code
 
 
 def zero_is_good(statuses: Iterable[str], name: str) -> bool:

@@ -16,9 +16,16 @@ from thermodata_reader_cnc.when import TimeFormat
 TimeColumns: TypeAlias = tuple[tuple[int, TimeFormat], ...]
 _MILLISECONDS = re.compile(r"^(ms|msec|millise[ck]\w*|millis)\b", re.IGNORECASE)
 _RELATIVE = re.compile(r"^(t|time|zeit|čas|cas|elapsed\w*|laufzeit|时间|時間|時刻|시간)$", re.IGNORECASE)
-_UNIT_NS = {"s": 10**9, "sec": 10**9, "sek": 10**9, "ms": 10**6, "us": 10**3, "µs": 10**3, "min": 60 * 10**9,
-            "h": 3600 * 10**9}
-
+_UNIT_NS = {
+    "s": 10**9,
+    "sec": 10**9,
+    "sek": 10**9,
+    "ms": 10**6,
+    "us": 10**3,
+    "µs": 10**3,
+    "min": 60 * 10**9,
+    "h": 3600 * 10**9,
+}
 
 
 def _share(cells: Sequence[str], form: TimeFormat) -> float:
@@ -31,8 +38,7 @@ def _spread(rows: Sequence[Sequence[str]], most: int = 40) -> list[Sequence[str]
     return list(rows[:: max(1, len(rows) // most)])
 
 
-def absolute(tail: Sequence[Sequence[str]], others: Sequence[Sequence[str]],
-             where: str) -> TimeColumns | None:
+def absolute(tail: Sequence[Sequence[str]], others: Sequence[Sequence[str]], where: str) -> TimeColumns | None:
     """Columns of absolute times: a date and time in one, or a date and a time of day. None where there are none."""
     few = _spread(tail)
     if not few:
@@ -49,8 +55,9 @@ def absolute(tail: Sequence[Sequence[str]], others: Sequence[Sequence[str]],
             order = _order(orders, [r[column] for r in _spread(tail, 2000)] + [r[column] for r in others], forms, where)
             if forms is when.DATETIME:
                 return ((column, forms[order]),)
-            clock = next((c for c in columns if c != column
-                          and _share([r[c] for r in few], when.TIME_OF_DAY) > 0.8), None)
+            clock = next(
+                (c for c in columns if c != column and _share([r[c] for r in few], when.TIME_OF_DAY) > 0.8), None
+            )
             if clock is not None:
                 return (column, forms[order]), (clock, when.TIME_OF_DAY)
     return None
@@ -69,12 +76,16 @@ def _order(orders: list[str], cells: Sequence[str], forms: Mapping[str, TimeForm
         return left[0]
     if any(re.search(r"[ap]\.?m", c, re.IGNORECASE) for c in cells[:5]) and "mdy" in left:
         return "mdy"
-    raise FormatError("day and month cannot be told apart", where=where, expected="DD/MM or MM/DD",
-                      got=cells[0].strip(), hint="declare table: {time: {format: '%d/%m/%Y %H:%M:%S'}}")
+    raise FormatError(
+        "day and month cannot be told apart",
+        where=where,
+        expected="DD/MM or MM/DD",
+        got=cells[0].strip(),
+        hint="declare table: {time: {format: '%d/%m/%Y %H:%M:%S'}}",
+    )
 
 
-def relative(rows: Sequence[Sequence[str]],
-             tail: Sequence[Sequence[str]]) -> TimeColumns | None:
+def relative(rows: Sequence[Sequence[str]], tail: Sequence[Sequence[str]]) -> TimeColumns | None:
     """A column named Time with a unit of time in its name or in the row below."""
     for k, row in enumerate(rows[:60]):
         for column, cell in enumerate(row[:40]):
@@ -96,8 +107,9 @@ def _is_number(cell: str) -> bool:
     return True
 
 
-def declared_time(table: Mapping[str, Any], rows: Sequence[Sequence[str]], body: Sequence[Sequence[str]],
-                  where: str) -> TimeColumns | None:
+def declared_time(
+    table: Mapping[str, Any], rows: Sequence[Sequence[str]], body: Sequence[Sequence[str]], where: str
+) -> TimeColumns | None:
     """The time columns that the campaign declares; FormatError where they do not read."""
     time = table["time"]
     wanted = time.get("column")
@@ -108,14 +120,19 @@ def declared_time(table: Mapping[str, Any], rows: Sequence[Sequence[str]], body:
         few = _spread(body)
         found = [c for c in range(len(few[0]) if few else 0) if _share([r[c] for r in few], forms[0]) > 0.8]
         if forms[0].role != "datetime" and len(found) == 1:
-            others = [c for c in range(len(few[0])) if c != found[0]
-                      and _share([r[c] for r in few], when.TIME_OF_DAY) > 0.8]
+            others = [
+                c for c in range(len(few[0])) if c != found[0] and _share([r[c] for r in few], when.TIME_OF_DAY) > 0.8
+            ]
             if forms[0].role == "date" and others:
                 return (found[0], forms[0]), (others[0], when.TIME_OF_DAY)
         if found and forms[0].role == "datetime":
             return ((found[0], forms[0]),)
-        raise FormatError("no column reads with the declared time format", where=where, expected=forms[0].text,
-                          got="; ".join(few[0])[:120] if few else "no rows")
+        raise FormatError(
+            "no column reads with the declared time format",
+            where=where,
+            expected=forms[0].text,
+            got="; ".join(few[0])[:120] if few else "no rows",
+        )
     columns = [_column(c, rows, where) for c in (wanted if isinstance(wanted, list) else [wanted])]
     if time.get("unit"):
         unit = str(time["unit"])
@@ -134,9 +151,13 @@ def declared_time(table: Mapping[str, Any], rows: Sequence[Sequence[str]], body:
                 pairs.append((column, group[_order(orders, cells, group, where) if orders != [""] else ""]))
                 break
         else:
-            raise FormatError("the declared time column holds no times", where=f"{where} column {column + 1}",
-                              expected="a date, a time, or both", got=cells[0] if cells else "nothing",
-                              hint="declare table: {time: {unit: s}} for numbers, or a format")
+            raise FormatError(
+                "the declared time column holds no times",
+                where=f"{where} column {column + 1}",
+                expected="a date, a time, or both",
+                got=cells[0] if cells else "nothing",
+                hint="declare table: {time: {unit: s}} for numbers, or a format",
+            )
     return tuple(pairs)
 
 
@@ -148,15 +169,20 @@ def _column(wanted: int | str, rows: Sequence[Sequence[str]], where: str) -> int
         for spelled in (names, [split_unit(n)[0] for n in names]):
             if wanted in spelled:
                 return spelled.index(wanted)
-    raise FormatError(f"no column '{wanted}'", where=where, expected="; ".join(clean(c) for c in rows[0])[:200],
-                      got=wanted)
+    raise FormatError(
+        f"no column '{wanted}'", where=where, expected="; ".join(clean(c) for c in rows[0])[:200], got=wanted
+    )
 
 
 def with_milliseconds(time: TimeColumns, header: Header, rows: Sequence[Sequence[str]]) -> TimeColumns:
     """A column of milliseconds right after the time belongs to it."""
     after = time[-1][0] + 1
-    if (time[0][1].role != "relative" and after < len(header.names) and _MILLISECONDS.match(header.names[after])
-            and _share([r[after] for r in rows], when.MILLISECOND) == 1.0):
+    if (
+        time[0][1].role != "relative"
+        and after < len(header.names)
+        and _MILLISECONDS.match(header.names[after])
+        and _share([r[after] for r in rows], when.MILLISECOND) == 1.0
+    ):
         return (*time, (after, when.MILLISECOND))
     return time
 
@@ -168,8 +194,9 @@ def first_row(rows: Sequence[Sequence[str]], width: int, time: TimeColumns, tabl
     for k, row in enumerate(rows):
         if len(row) != width:
             continue
-        if all((_is_number(row[c]) if form.role == "relative" else when.parse_one(row[c], form) != NAT)
-               for c, form in time):
+        if all(
+            (_is_number(row[c]) if form.role == "relative" else when.parse_one(row[c], form) != NAT) for c, form in time
+        ):
             while k and _torn(rows[k - 1], width, time):
                 k -= 1
             return k
@@ -178,5 +205,8 @@ def first_row(rows: Sequence[Sequence[str]], width: int, time: TimeColumns, tabl
 
 def _torn(row: Sequence[str], width: int, time: TimeColumns) -> bool:
     """Whether a row of another width is data all the same: it has its date and time, and something beside it."""
-    return len(row) != width and len(row) > len(time) and all(
-        form.role != "relative" and c < len(row) and when.parse_one(row[c], form) != NAT for c, form in time)
+    return (
+        len(row) != width
+        and len(row) > len(time)
+        and all(form.role != "relative" and c < len(row) and when.parse_one(row[c], form) != NAT for c, form in time)
+    )

@@ -45,9 +45,9 @@ def find(lines: Sequence[str]) -> Header | None:
         delimiter = max(",;\t", key=re.sub(r"\[[^\]]*\]", "", line).count)
         names = [clean(c) for c in fields(line, delimiter, True)]
         many = sum(_PATH.search(name) is not None for name in names)
-        if many == 1 and sum(_PATH.search(text) is not None for text in lines[row + 1:row + _MOST_ROWS]) > 0:
+        if many == 1 and sum(_PATH.search(text) is not None for text in lines[row + 1 : row + _MOST_ROWS]) > 0:
             return _block(lines, row, delimiter)
-        data = [text for text in lines[row + 1:row + 200] if _is_data(text, delimiter)]
+        data = [text for text in lines[row + 1 : row + 200] if _is_data(text, delimiter)]
         if len(names) < 2 or (len(lines) > row + 3 and not data):
             continue
         width = _width(data, delimiter) if data else len(names)
@@ -69,8 +69,14 @@ def _is_data(line: str, delimiter: str) -> bool:
 def _block(lines: Sequence[str], row: int, delimiter: str) -> Header | None:
     """A block of one row a signal: the columns behind the time in its order, or by the ids (f1, f2, ...) of a row of
     names before the data."""
-    first = next((k for k in range(row, min(len(lines), row + _MOST_ROWS)) if _is_data(lines[k], delimiter)
-                  and lines[k].count(delimiter)), None)
+    first = next(
+        (
+            k
+            for k in range(row, min(len(lines), row + _MOST_ROWS))
+            if _is_data(lines[k], delimiter) and lines[k].count(delimiter)
+        ),
+        None,
+    )
     if first is None:
         return None
     by_id: dict[str, str] = {}
@@ -83,9 +89,9 @@ def _block(lines: Sequence[str], row: int, delimiter: str) -> Header | None:
             paths.append(path)
             last = number
             by_id.update({c: path for c in cells if re.fullmatch(r"[fs]\d+", c)})
-    data = [text for text in lines[first:first + 200] if _is_data(text, delimiter)]
+    data = [text for text in lines[first : first + 200] if _is_data(text, delimiter)]
     width = _width(data, delimiter)
-    for number in range(last + 1, first):                  # a damaged row of data is no row of names
+    for number in range(last + 1, first):  # a damaged row of data is no row of names
         cells = [clean(c) for c in fields(lines[number], delimiter, True)]
         if cells[0][:1] in "0123456789+-." and cells[0] and not any(c in by_id or _TIME.match(c) for c in cells):
             first = number
@@ -93,7 +99,7 @@ def _block(lines: Sequence[str], row: int, delimiter: str) -> Header | None:
     columns = [clean(c) for c in fields(lines[first - 1], delimiter, True)]
     if len(columns) >= width - 1 and any(c in by_id for c in columns):
         names = [by_id.get(c, c) for c in columns]
-    elif len(paths) in (width - 1, width - 2):             # a last delimiter makes one more
+    elif len(paths) in (width - 1, width - 2):  # a last delimiter makes one more
         names = ["time", *paths]
     else:
         return None
@@ -120,8 +126,12 @@ def _header(path: Path, source: Source) -> tuple[Header, str, bool]:
     first = sample(path, source.encoding)
     header = find(first.head[:-1] if first.whole and not first.ends_with_newline else first.head)
     if header is None:
-        raise FormatError("no header of a trace", where=path.name, expected="columns named /Nck/... or /Channel/...",
-                          got=first.head[0][:80] if first.head else "nothing")
+        raise FormatError(
+            "no header of a trace",
+            where=path.name,
+            expected="columns named /Nck/... or /Channel/...",
+            got=first.head[0][:80] if first.head else "nothing",
+        )
     return header, first.encoding, first.ends_with_newline
 
 
@@ -150,16 +160,18 @@ def blocks(path: Path, source: Source) -> Iterator[Block | Loss]:
         for part in grid.parts(data.replace(b'"', b""), line):
             if isinstance(part, BadLine):
                 if part.text.strip():
-                    losses.add(part.line, f"expected {header.width} numbers, got '{part.text[:80]}'", len(part.text),
-                               last.size)
+                    losses.add(
+                        part.line, f"expected {header.width} numbers, got '{part.text[:80]}'", len(part.text), last.size
+                    )
                 continue
-            good = np.abs(part.columns[header.time]) < 9e9            # NaN is not
+            good = np.abs(part.columns[header.time]) < 9e9  # NaN is not
             if not good.all():
                 losses.add(line, f"{int((~good).sum())} rows without a time, or with one that is none", 0, last.size)
             if not good.any():
                 continue
             last = np.round(part.columns[header.time][good] * 1e9).astype(np.int64)
-            yield Block(STREAM, last, {n: part.columns[k][good] for k, n in enumerate(header.names)
-                                       if n and k != header.time})
+            yield Block(
+                STREAM, last, {n: part.columns[k][good] for k, n in enumerate(header.names) if n and k != header.time}
+            )
         yield from losses.dated(last)
     yield from losses.rest()

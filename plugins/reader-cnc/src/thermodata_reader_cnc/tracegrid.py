@@ -12,11 +12,11 @@ from thermodata.reader.events import fill_forward
 from thermodata.schema.flag import Flag
 from thermodata_reader_cnc.traceparse import Frame
 
-LOOK = 2000                             # records by which an interval's unit is found
-_NO_VALUE = 9.218868437227405e18        # the bits of a double's infinity and what is no number, as an integer
+LOOK = 2000  # records by which an interval's unit is found
+_NO_VALUE = 9.218868437227405e18  # the bits of a double's infinity and what is no number, as an integer
 _SERVO = "255"
-_ROWS = 1 << 20                         # of a block
-_JUMP = 1 << 21                         # rows of a grid that one record may skip: 70 min at 2 ms
+_ROWS = 1 << 20  # of a block
+_JUMP = 1 << 21  # rows of a grid that one record may skip: 70 min at 2 ms
 _MISSING = np.uint16(Flag.NOT_MEASURING)
 
 
@@ -55,8 +55,11 @@ def groups_of(frame: Frame, taken: Iterable[str] = ()) -> list[Group]:
         groups[servo, interval].names[key] = name
     for (servo, interval), group in groups.items():
         if servo:
-            times = [t for t, cells in zip(frame.times[:LOOK], frame.cells, strict=False)
-                     if not group.names.keys().isdisjoint(cells)]
+            times = [
+                t
+                for t, cells in zip(frame.times[:LOOK], frame.cells, strict=False)
+                if not group.names.keys().isdisjoint(cells)
+            ]
             group.step_s = _step(interval, np.array(times), frame, group)
     return list(groups.values())
 
@@ -79,8 +82,11 @@ def _step(interval: str, times: Float1D, frame: Frame, group: Group) -> float | 
     for unit in (1.0, 1e-3, 1e-6):
         for step in _steps(value * unit, frame, group):
             steps, places = gaps / step, since / step
-            if np.abs(places - np.round(places)).max() < 0.05 and steps.min() > 0.5 and (
-                    unit == 1.0 or steps.min() < 16.5):
+            if (
+                np.abs(places - np.round(places)).max() < 0.05
+                and steps.min() > 0.5
+                and (unit == 1.0 or steps.min() < 16.5)
+            ):
                 return step
     return None
 
@@ -88,8 +94,10 @@ def _step(interval: str, times: Float1D, frame: Frame, group: Group) -> float | 
 def _steps(step: float, frame: Frame, group: Group) -> Iterator[float]:
     """The step as announced; and as the frame's length and count say, for it may be rounded to whole microseconds."""
     yield step
-    count = next((int(c) for k in group.names if (c := frame.signals[k].get("datapointCount", "")).isdecimal()
-                  and len(c) < 12), 0)
+    count = next(
+        (int(c) for k in group.names if (c := frame.signals[k].get("datapointCount", "")).isdecimal() and len(c) < 12),
+        0,
+    )
     length = _float(frame.header.get("stopInc", ""))
     if count > 1 and length and abs(length / (count - 1) / step - 1) < 0.02:
         yield length / (count - 1)
@@ -127,8 +135,9 @@ def rows(group: Group, times: Float1D, columns: dict[str, tuple[Int1D, Float1D]]
     yield _block(group.stream, t_ns, values)
 
 
-def _on_grid(group: Group, times: Float1D, which: Int1D, present: dict[str, tuple[Int1D, Float1D]],
-             start_ns: int) -> Iterator[Block]:
+def _on_grid(
+    group: Group, times: Float1D, which: Int1D, present: dict[str, tuple[Int1D, Float1D]], start_ns: int
+) -> Iterator[Block]:
     """Servo signals on the grid of their interval, in bounded blocks."""
     assert group.step_s is not None
     grid = np.round(times / group.step_s).astype(np.int64)
@@ -205,15 +214,24 @@ def counted(where: str, frame: Frame, groups: list[Group]) -> Iterator[Loss]:
     """What of a frame is missing by its own `datapointCount`, and records that step back in time."""
     for group in groups:
         if group.too_far:
-            yield Loss(f"{where} stream '{group.stream}'", reason=(
-                f"{group.too_far} records lie more than {_JUMP} intervals behind those before; they are not read"))
+            yield Loss(
+                f"{where} stream '{group.stream}'",
+                reason=(
+                    f"{group.too_far} records lie more than {_JUMP} intervals behind those before; they are not read"
+                ),
+            )
         if group.stepped_back:
-            yield Loss(f"{where} stream '{group.stream}'", reason=(
-                f"{group.stepped_back} records step back in time; they are not read"))
+            yield Loss(
+                f"{where} stream '{group.stream}'",
+                reason=(f"{group.stepped_back} records step back in time; they are not read"),
+            )
         for key, name in group.names.items():
             said = frame.signals[key].get("datapointCount", "")
             holds = group.next if group.servo and group.step_s is not None else group.counts.get(key, 0)
             if (group.servo and group.step_s is None) or not said.isdecimal() or int(said[:15]) == holds:
                 continue
-            yield Loss(f"{where} signal '{name}'", fraction=max(0.0, 1 - holds / max(1, int(said[:15]))),
-                       reason=f"datapointCount is {said[:15]}, the {'grid' if group.servo else 'file'} holds {holds}")
+            yield Loss(
+                f"{where} signal '{name}'",
+                fraction=max(0.0, 1 - holds / max(1, int(said[:15]))),
+                reason=f"datapointCount is {said[:15]}, the {'grid' if group.servo else 'file'} holds {holds}",
+            )

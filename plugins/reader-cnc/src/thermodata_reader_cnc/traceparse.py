@@ -24,7 +24,7 @@ class Frame:
     times: list[float] = field(default_factory=list)
     cells: list[dict[str, str]] = field(default_factory=list)
     bad: int = 0
-    started: bool = False            # it has records
+    started: bool = False  # it has records
     done: bool = False
 
 
@@ -46,7 +46,7 @@ class TraceParser:
             self.parser.Parse(data, final)
         except expat.ExpatError as error:
             return str(error)
-        except (LookupError, ValueError) as error:              # an encoding that nobody knows
+        except (LookupError, ValueError) as error:  # an encoding that nobody knows
             return str(error)
         return None
 
@@ -56,8 +56,12 @@ class TraceParser:
         return max(0, self.parser.ErrorByteIndex)
 
     def _refuse(self, *_: Any) -> None:
-        raise FormatError("the XML declares a document type or entities", where=self.name,
-                          expected="a trace without them", got="<!DOCTYPE or <!ENTITY")
+        raise FormatError(
+            "the XML declares a document type or entities",
+            where=self.name,
+            expected="a trace without them",
+            got="<!DOCTYPE or <!ENTITY",
+        )
 
     def _frame(self, header: dict[str, str]) -> Frame:
         self.count += 1
@@ -84,10 +88,11 @@ class TraceParser:
             key = attributes.get("id", str(len(frame.signals) + 1))
             key = f"f{key}" if _ID.match(key) else key
             if len(frame.signals) >= _MOST_SIGNALS:
-                raise FormatError("too many signals in a frame", where=self.name, expected=f"up to {_MOST_SIGNALS}",
-                                  got="more")
+                raise FormatError(
+                    "too many signals in a frame", where=self.name, expected=f"up to {_MOST_SIGNALS}", got="more"
+                )
             while key in frame.signals:
-                key += "'"                                      # announced twice: no record can be told to be its
+                key += "'"  # announced twice: no record can be told to be its
             frame.signals[key] = dict(attributes)
         elif tag == "traceData":
             text = attributes.get("dataFrames", "").strip()

@@ -25,7 +25,7 @@ from thermodata_reader_cnc.traceparse import Frame, TraceParser
 _FEED = 1 << 20
 _ROOT = re.compile(r"<(traceSession|traceDataRoot|traceData)[\s>]")
 _CLOSED = re.compile(rb"</(traceSession|traceDataRoot|traceData)\s*>\s*(<!--[^>]*-->\s*)?$")
-_PROPERTIES = 300                    # characters of a property
+_PROPERTIES = 300  # characters of a property
 _SUSPECT = np.uint16(Flag.CLOCK_SUSPECT)
 _CLOCK = "times are by the control's own clock (startTime), which may be far off"
 
@@ -47,7 +47,7 @@ def _look(path: Path) -> list[Frame]:
             several = several or (parser.announced or 0) > 1
             for frame in parser.frames:
                 kind = _kind(frame)
-                known = frame.started or frame.done                # else more signals may follow
+                known = frame.started or frame.done  # else more signals may follow
                 if known and frame.signals and (kind not in found or found[kind] is frame):
                     found[kind] = frame
                     if len(frame.times) < LOOK and not frame.done and not wrong:
@@ -70,8 +70,10 @@ def _look(path: Path) -> list[Frame]:
 
 def _kind(frame: Frame) -> tuple[tuple[str, ...], ...]:
     """What tells frames of one layout from others."""
-    return tuple((key, *(said.get(k, "") for k in ("name", "event", "interval", "description")))
-                 for key, said in frame.signals.items())
+    return tuple(
+        (key, *(said.get(k, "") for k in ("name", "event", "interval", "description")))
+        for key, said in frame.signals.items()
+    )
 
 
 def _layouts(frames: list[Frame]) -> dict[tuple[tuple[str, ...], ...], list[Group]]:
@@ -105,8 +107,10 @@ def describe(path: Path, source: Source) -> Recording:
                 signals.append(Signal(name, group.stream, None, "float64", None, said))
             if group.servo and group.step_s is None:
                 interval = frame.signals[next(iter(group.names))].get("interval", "")[:40]
-                notes.append(f"stream '{group.stream}': the records lie on no grid of interval '{interval}'; their own "
-                             "times are kept")
+                notes.append(
+                    f"stream '{group.stream}': the records lie on no grid of interval '{interval}'; their own "
+                    "times are kept"
+                )
     told = frames[0].header.get("startTime", "")[:80]
     notes.append(_CLOCK if start is not None else f"startTime '{told}' is no date: times are relative")
     with path.open("rb") as file:
@@ -144,8 +148,10 @@ class _Frames:
         count = frame.header.get("dropOuts", "0").strip()
         if count not in ("", "0", "false", "False"):
             self.drops = True
-            yield Loss(f"{where} frameHeader", reason=f"the control reports drop-outs: {count[:40]}; "
-                                                      "the frame's rows are flagged")
+            yield Loss(
+                f"{where} frameHeader",
+                reason=f"the control reports drop-outs: {count[:40]}; the frame's rows are flagged",
+            )
 
     def end(self) -> Iterator[Loss]:
         """What the frame lacks."""
@@ -168,8 +174,9 @@ class _Frames:
 
 
 def _suspect(block: Block) -> Block:
-    flags = {name: (block.flags or {}).get(name, np.uint16(0)) | np.full(block.t_ns.size, _SUSPECT)
-             for name in block.values}
+    flags = {
+        name: (block.flags or {}).get(name, np.uint16(0)) | np.full(block.t_ns.size, _SUSPECT) for name in block.values
+    }
     return Block(block.stream, block.t_ns, block.values, flags)
 
 
@@ -193,7 +200,10 @@ def blocks(path: Path, source: Source) -> Iterator[Block | Loss]:
                 break
     yield from frames.end()
     if wrong is not None:
-        yield Loss(f"{path.name} byte {parser.at_byte}", fraction=max(0.0, 1 - parser.at_byte / size),
-                   reason=f"the XML ends or is damaged: {wrong}")
+        yield Loss(
+            f"{path.name} byte {parser.at_byte}",
+            fraction=max(0.0, 1 - parser.at_byte / size),
+            reason=f"the XML ends or is damaged: {wrong}",
+        )
     elif parser.announced is not None and parser.announced != parser.count:
         yield Loss(path.name, reason=f"{parser.announced} frames are announced, {parser.count} are there")

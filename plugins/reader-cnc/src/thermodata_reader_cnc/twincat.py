@@ -20,22 +20,28 @@ from thermodata_reader_cnc.twincatheader import Header, read_header
 
 _STARTS = re.compile(r"^Start\s?(?:time of (?:export|record)|Record)\b", re.IGNORECASE)
 _EPOCH_TICKS = 116_444_736_000_000_000
-_FAR_MS = 3e12                      # 95 years of a recording
+_FAR_MS = 3e12  # 95 years of a recording
 _SOME = 5
 
 
 def claims(lines: Sequence[str]) -> str | None:
     """The reason for claiming lines of text, or None."""
-    if lines and any(_STARTS.match(line) for line in lines[:20]) and any(
-            re.match(r"^\"?Name\"?[\t;,|]", line) for line in lines[:2]):
+    if (
+        lines
+        and any(_STARTS.match(line) for line in lines[:20])
+        and any(re.match(r"^\"?Name\"?[\t;,|]", line) for line in lines[:2])
+    ):
         return "TwinCAT Scope: the header names the start of the export"
     return None
 
 
 def _header(path: Path, source: Source) -> tuple[Header, Sample]:
     first = sample(path, source.encoding)
-    lines = first.head[:-1] if first.whole and not first.ends_with_newline and first.head[-1].strip() != "EOF" \
+    lines = (
+        first.head[:-1]
+        if first.whole and not first.ends_with_newline and first.head[-1].strip() != "EOF"
         else first.head
+    )
     return read_header(lines, path.name), first
 
 
@@ -73,10 +79,17 @@ def describe(path: Path, source: Source) -> Recording:
     scaled = [f"'{c.name}' ({c.scaling})" for c in channels if c.scaling]
     if scaled:
         more = f" and {len(scaled) - _SOME} more" if len(scaled) > _SOME else ""
-        notes.append(f"the header names a scaling for {', '.join(scaled[:_SOME])}{more}; whether the values were "
-                     "exported with it, the file does not say: they are kept as they stand")
-    return Recording(tuple(Signal(c.name, c.stream, c.unit, c.dtype, None, c.properties) for c in channels),
-                     "absolute", header.start_ns, _complete(header, first), tuple(notes))
+        notes.append(
+            f"the header names a scaling for {', '.join(scaled[:_SOME])}{more}; whether the values were "
+            "exported with it, the file does not say: they are kept as they stand"
+        )
+    return Recording(
+        tuple(Signal(c.name, c.stream, c.unit, c.dtype, None, c.properties) for c in channels),
+        "absolute",
+        header.start_ns,
+        _complete(header, first),
+        tuple(notes),
+    )
 
 
 def blocks(path: Path, source: Source) -> Iterator[Block | Loss]:
@@ -109,8 +122,12 @@ def blocks(path: Path, source: Source) -> Iterator[Block | Loss]:
                 yield block
         if tail.strip() not in (b"", b"EOF"):
             text = tail.decode("utf-8", "replace")
-            losses.add(line + data.count(b"\n"), f"the last row has no line end and may be cut: '{text[:60]}'",
-                       len(tail), last.size)
+            losses.add(
+                line + data.count(b"\n"),
+                f"the last row has no line end and may be cut: '{text[:60]}'",
+                len(tail),
+                last.size,
+            )
         yield from losses.dated(last)
     yield from losses.rest()
     yield from rows.missing(path.name, _complete(header, first))
@@ -121,7 +138,7 @@ class _Rows:
 
     def __init__(self, header: Header) -> None:
         self.header = header
-        self.width = header.width                      # of the rows by now: it only shrinks, as groups end
+        self.width = header.width  # of the rows by now: it only shrinks, as groups end
         self.starts = sorted(header.groups)
         self.last: dict[int, tuple[int, list[object]]] = {}
         self.reached: int | None = None
@@ -137,9 +154,12 @@ class _Rows:
             row = text.rstrip(b"\r")
             count = row.count(mark)
             if count > full and row.endswith(mark) and not row[:-1].count(mark) > full:
-                row = row[:-1]                         # older exports end their rows with a delimiter
-            elif count < full and row.strip() and (count + 1 in self.starts or (count in self.starts
-                                                   and row.endswith(mark))):
+                row = row[:-1]  # older exports end their rows with a delimiter
+            elif (
+                count < full
+                and row.strip()
+                and (count + 1 in self.starts or (count in self.starts and row.endswith(mark)))
+            ):
                 cells = count + 1 if count + 1 in self.starts else count
                 if cells > self.width:
                     losses.add(line + number, f"expected {self.width} cells as in the rows before, got {cells}", 0, 0)
@@ -166,14 +186,20 @@ class _Rows:
             if lost.any():
                 losses.add(line, f"{int(lost.sum())} rows of '{channels[0].name}' with a blank cell", 0, 0)
             times = part.columns[time]
-            good = there & (np.abs(times) < _FAR_MS if not self.header.ticks
-                            else (times > _EPOCH_TICKS) & (times < 2 * _EPOCH_TICKS))
+            good = there & (
+                np.abs(times) < _FAR_MS
+                if not self.header.ticks
+                else (times > _EPOCH_TICKS) & (times < 2 * _EPOCH_TICKS)
+            )
             if int((there & ~good).sum()) and (self.header.ticks or np.isfinite(times[there & ~good]).any()):
                 losses.add(line, f"{int((there & ~good).sum())} rows whose time is none", 0, 0)
             if not good.any():
                 continue
-            t_ns = ((times[good] - _EPOCH_TICKS) * 100 if self.header.ticks
-                    else self.header.start_ns + np.round(times[good] * 1e6).astype(np.int64))
+            t_ns = (
+                (times[good] - _EPOCH_TICKS) * 100
+                if self.header.ticks
+                else self.header.start_ns + np.round(times[good] * 1e6).astype(np.int64)
+            )
             values = {c.name: part.columns[c.column][good] for c in channels}
             fresh = self._fresh(time, t_ns, values)
             if fresh.any():
@@ -202,8 +228,13 @@ class _Rows:
         first = self.header.start_ns if reached is None else reached
         whole = max(1, end - self.header.start_ns)
         gone = min(1.0, max(0.0, (end - first) / whole))
-        yield Loss(f"{name} end", max(first, self.header.start_ns), max(end, first), gone,
-                   "the header announces a later end of the export than its rows reach")
+        yield Loss(
+            f"{name} end",
+            max(first, self.header.start_ns),
+            max(end, first),
+            gone,
+            "the header announces a later end of the export than its rows reach",
+        )
 
 
 def _holds(column: Array) -> Bool1D:

@@ -16,11 +16,31 @@ START = re.compile(r"^Start\s?(?:time of (?:export|record)|Record)\s*([\t;,|])\s
 _END = re.compile(r"^End\s?(?:time of (?:export|record)|Record)\s*[\t;,|]\s*\"?(\d{15,19})\b", re.IGNORECASE)
 _NAME = re.compile(r"^\"?Name\"?([\t;,|])")
 _MOST_LINES = 5000
-_EPOCH_100NS = 116_444_736_000_000_000       # from 1601-01-01 to 1970-01-01
-_LATEST_100NS = 206_000_000_000_000_000      # 2253
-_KEYS = frozenset({"symbolcomment", "data-type", "sampletime[ms]", "sampletime", "variablesize", "symbolbased",
-                   "indexgroup", "indexoffset", "symbolname", "netid", "port", "offset", "scalefactor", "bitmask",
-                   "unit", "unit scalefactor", "unit offset", "starttime", "endtime"})
+_EPOCH_100NS = 116_444_736_000_000_000  # from 1601-01-01 to 1970-01-01
+_LATEST_100NS = 206_000_000_000_000_000  # 2253
+_KEYS = frozenset(
+    {
+        "symbolcomment",
+        "data-type",
+        "sampletime[ms]",
+        "sampletime",
+        "variablesize",
+        "symbolbased",
+        "indexgroup",
+        "indexoffset",
+        "symbolname",
+        "netid",
+        "port",
+        "offset",
+        "scalefactor",
+        "bitmask",
+        "unit",
+        "unit scalefactor",
+        "unit offset",
+        "starttime",
+        "endtime",
+    }
+)
 _NUMBER = re.compile(r"^\s*\"?[+-]?\d[\d.,eE+-]*\"?\s*$")
 _WORDS = frozenset({"true", "false", "nan", "-nan(ind)", "inf", "-inf"})
 _SIGNED = re.compile(r"^(?:SINT|INT|DINT|LINT|INT(?:8|16|32|64))$")
@@ -60,8 +80,9 @@ class Header:
 def filetime_ns(ticks: int, where: str) -> int:
     """A FILETIME (100 ns since 1601) in UTC nanoseconds since 1970; FormatError where it is no time of our days."""
     if not _EPOCH_100NS <= ticks <= _LATEST_100NS:
-        raise FormatError("no time in the header", where=where, expected="a FILETIME between 1970 and 2253",
-                          got=str(ticks))
+        raise FormatError(
+            "no time in the header", where=where, expected="a FILETIME between 1970 and 2253", got=str(ticks)
+        )
     return (ticks - _EPOCH_100NS) * 100
 
 
@@ -69,35 +90,60 @@ def read_header(lines: Sequence[str], where: str) -> Header:
     """The header of an export; FormatError for what is missing."""
     start = next((m for line in lines[:20] if (m := START.match(line))), None)
     if start is None:
-        raise FormatError("no start of the export", where=where, expected="'Starttime of export' and a FILETIME",
-                          got=lines[1][:60] if len(lines) > 1 else "nothing")
+        raise FormatError(
+            "no start of the export",
+            where=where,
+            expected="'Starttime of export' and a FILETIME",
+            got=lines[1][:60] if len(lines) > 1 else "nothing",
+        )
     end = next((m for line in lines[:20] if (m := _END.match(line))), None)
     names_at = next((k for k, line in enumerate(lines[1:_MOST_LINES], 1) if _NAME.match(line)), None)
     if names_at is None:
-        raise FormatError("no row of channel names", where=where, expected="a second row 'Name' between tabs or ';'",
-                          got=lines[5][:60] if len(lines) > 5 else "nothing")
+        raise FormatError(
+            "no row of channel names",
+            where=where,
+            expected="a second row 'Name' between tabs or ';'",
+            got=lines[5][:60] if len(lines) > 5 else "nothing",
+        )
     match = _NAME.match(lines[names_at])
     assert match is not None
     delimiter = match[1]
     rows, first = _rows(lines, names_at, delimiter)
     names = rows["name"]
     while names and not names[-1]:
-        names.pop()                                        # older exports end their rows with a delimiter
-    body = [line for line in lines[first:first + 500] if _is_data(line, delimiter)]
+        names.pop()  # older exports end their rows with a delimiter
+    body = [line for line in lines[first : first + 500] if _is_data(line, delimiter)]
     if not body:
-        raise FormatError("no data behind the header", where=where, expected="rows of numbers",
-                          got=lines[first][:60] if first < len(lines) else "the end of the file")
+        raise FormatError(
+            "no data behind the header",
+            where=where,
+            expected="rows of numbers",
+            got=lines[first][:60] if first < len(lines) else "the end of the file",
+        )
     widths = [line.count(delimiter) + 1 for line in body]
     width = max((w for w in widths if w <= len(names) + 1), default=0)
     if not width or (delimiter == "," and sum(w >= 2 * len(names) > 2 for w in widths) > len(widths) / 2):
-        raise FormatError("cells and decimals cannot be told apart", where=where,
-                          expected=f"{len(names)} cells between '{delimiter}'", got=str(max(widths)),
-                          hint="export with tabs or ';' between the cells")
+        raise FormatError(
+            "cells and decimals cannot be told apart",
+            where=where,
+            expected=f"{len(names)} cells between '{delimiter}'",
+            got=str(max(widths)),
+            hint="export with tabs or ';' between the cells",
+        )
     decimal = "," if delimiter != "," and any("," in line for line in body) else "."
     ticks = sum(len(line.split(delimiter, 1)[0].strip().lstrip("-")) >= 17 for line in body) > len(body) / 2
     groups = _groups(names, rows)
-    return Header(filetime_ns(int(start[2]), where), None if end is None else filetime_ns(int(end[1]), where),
-                  delimiter, decimal, max(width, len(names)), first, groups, ticks, _fastest(rows, names))
+    return Header(
+        filetime_ns(int(start[2]), where),
+        None if end is None else filetime_ns(int(end[1]), where),
+        delimiter,
+        decimal,
+        max(width, len(names)),
+        first,
+        groups,
+        ticks,
+        _fastest(rows, names),
+    )
 
 
 def _rows(lines: Sequence[str], names_at: int, delimiter: str) -> tuple[dict[str, list[str]], int]:
@@ -111,8 +157,7 @@ def _rows(lines: Sequence[str], names_at: int, delimiter: str) -> tuple[dict[str
         if word in _KEYS or number == names_at:
             key = "name" if number == names_at else word
             rows[key] = cells
-        elif _is_data(line, delimiter) and not (
-                key == "symbolcomment" and len(rows[key]) < len(rows["name"])):
+        elif _is_data(line, delimiter) and not (key == "symbolcomment" and len(rows[key]) < len(rows["name"])):
             return rows, number
         elif key == "symbolcomment" and line.strip():
             rows[key][-1] += " " + cells[0]
@@ -123,13 +168,16 @@ def _rows(lines: Sequence[str], names_at: int, delimiter: str) -> tuple[dict[str
 def _is_data(line: str, delimiter: str) -> bool:
     cells = line.split(delimiter)
     full = [cell for cell in cells if cell.strip()]
-    return bool(full) and _NUMBER.match(full[0]) is not None and all(
-        _NUMBER.match(cell) or cell.strip().casefold() in _WORDS for cell in full)
+    return (
+        bool(full)
+        and _NUMBER.match(full[0]) is not None
+        and all(_NUMBER.match(cell) or cell.strip().casefold() in _WORDS for cell in full)
+    )
 
 
 def _fastest(rows: dict[str, list[str]], names: list[str]) -> float:
     found = []
-    for cell in rows.get("sampletime[ms]", [])[:len(names)]:
+    for cell in rows.get("sampletime[ms]", [])[: len(names)]:
         if re.fullmatch(r"\d{1,9}(?:[.,]\d{1,9})?", cell):
             found.append(float(cell.replace(",", ".")))
     return min(found, default=0.0)
@@ -154,15 +202,30 @@ def _channel(column: int, name: str, group: int, rows: dict[str, list[str]]) -> 
         cells = rows.get(key, [])
         return cells[column] if column < len(cells) else ""
 
-    unit = re.sub(r"\s*\(.*\)$", "", cell("unit")) or None          # "V (Voltage)", "(None)"
+    unit = re.sub(r"\s*\(.*\)$", "", cell("unit")) or None  # "V (Voltage)", "(None)"
     factors = [(key, cell(key)) for key in ("scalefactor", "offset", "unit scalefactor", "unit offset")]
-    odd = [f"{key} {value}" for key, value in factors
-           if re.sub(r"[.,]0+$", "", value) not in ("", "1" if "factor" in key else "0")]
+    odd = [
+        f"{key} {value}"
+        for key, value in factors
+        if re.sub(r"[.,]0+$", "", value) not in ("", "1" if "factor" in key else "0")
+    ]
     kind = cell("data-type").upper().removeprefix("ADST_")
     dtype = "float64"
     if not odd:
-        dtype = ("bool" if kind in ("BIT", "BOOL") else "int64" if _SIGNED.match(kind) or _UNSIGNED.match(kind)
-                 else "uint64" if _UNSIGNED_64.match(kind) else "float64")
-    said = {"SymbolName": cell("symbolname"), "SymbolComment": cell("symbolcomment"), "Data-Type": cell("data-type"),
-            "SampleTime[ms]": cell("sampletime[ms]"), "Scaling": "; ".join(odd)}
+        dtype = (
+            "bool"
+            if kind in ("BIT", "BOOL")
+            else "int64"
+            if _SIGNED.match(kind) or _UNSIGNED.match(kind)
+            else "uint64"
+            if _UNSIGNED_64.match(kind)
+            else "float64"
+        )
+    said = {
+        "SymbolName": cell("symbolname"),
+        "SymbolComment": cell("symbolcomment"),
+        "Data-Type": cell("data-type"),
+        "SampleTime[ms]": cell("sampletime[ms]"),
+        "Scaling": "; ".join(odd),
+    }
     return Channel(column, name, f"scope{group}", unit, dtype, "; ".join(odd), {k: v for k, v in said.items() if v})

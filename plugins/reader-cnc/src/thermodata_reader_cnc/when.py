@@ -23,7 +23,7 @@ _DAY = 86_400 * _S
 _EPOCH = date(1970, 1, 1)
 _DAYS_IN_MONTH = np.array([0, 31, 29, 31, 30, 31, 30, 31, 31, 30, 31, 30, 31])
 
-_TIME = (r"(?P<H>\d{1,2}):(?P<M>\d{2})(?::(?P<S>\d{2})(?:[.,:](?P<f>\d{1,9}))?)?(?:\s?(?P<p>[AaPp]\.?[Mm]\.?))?")
+_TIME = r"(?P<H>\d{1,2}):(?P<M>\d{2})(?::(?P<S>\d{2})(?:[.,:](?P<f>\d{1,9}))?)?(?:\s?(?P<p>[AaPp]\.?[Mm]\.?))?"
 _DATES = {
     "ymd": r"(?P<Y>\d{4})(?P<s>[-/.])(?P<m>\d{1,2})(?P=s)(?P<d>\d{1,2})",
     "dmy": r"(?P<d>\d{1,2})(?P<s>[-/.]) ?(?P<m>\d{1,2})(?P=s) ?(?:(?P<Y>\d{4})|(?P<y>\d{2}))",
@@ -32,9 +32,18 @@ _DATES = {
 }
 _ZONE = r"(?P<z>\s?(?:Z|UTC|[+-]\d{2}:?\d{2}))?"
 _STRPTIME = {
-    "Y": r"(?P<Y>\d{4})", "y": r"(?P<y>\d{2})", "m": r"(?P<m>\d{1,2})", "d": r"(?P<d>\d{1,2})", "H": r"(?P<H>\d{1,2})",
-    "I": r"(?P<H>\d{1,2})", "M": r"(?P<M>\d{1,2})", "S": r"(?P<S>\d{1,2})", "f": r"(?P<f>\d{1,9})",
-    "p": r"(?P<p>[AaPp]\.?[Mm]\.?)", "z": r"(?P<z>Z|[+-]\d{2}:?\d{2})", "%": "%",
+    "Y": r"(?P<Y>\d{4})",
+    "y": r"(?P<y>\d{2})",
+    "m": r"(?P<m>\d{1,2})",
+    "d": r"(?P<d>\d{1,2})",
+    "H": r"(?P<H>\d{1,2})",
+    "I": r"(?P<H>\d{1,2})",
+    "M": r"(?P<M>\d{1,2})",
+    "S": r"(?P<S>\d{1,2})",
+    "f": r"(?P<f>\d{1,9})",
+    "p": r"(?P<p>[AaPp]\.?[Mm]\.?)",
+    "z": r"(?P<z>Z|[+-]\d{2}:?\d{2})",
+    "%": "%",
 }
 
 
@@ -45,8 +54,8 @@ class TimeFormat:
 
     role: str
     pattern: re.Pattern[str] | None
-    text: str                       # for messages: "DD.MM.YYYY HH:MM:SS"
-    unit_ns: int = 0                # relative: nanoseconds a unit
+    text: str  # for messages: "DD.MM.YYYY HH:MM:SS"
+    unit_ns: int = 0  # relative: nanoseconds a unit
 
 
 def _compile(body: str) -> re.Pattern[str]:
@@ -54,14 +63,18 @@ def _compile(body: str) -> re.Pattern[str]:
 
 
 TIME_OF_DAY = TimeFormat("time", _compile(_TIME + _ZONE), "HH:MM:SS")
-OFFSET_MS = TimeFormat("offset", _compile(r"(?P<oms>\d{1,12})(?:\.(?P<of>\d{1,6})\d*|\.)?"),
-                       "milliseconds")
+OFFSET_MS = TimeFormat("offset", _compile(r"(?P<oms>\d{1,12})(?:\.(?P<of>\d{1,6})\d*|\.)?"), "milliseconds")
 MILLISECOND = TimeFormat("millisecond", _compile(r"(?P<ms>\d{1,3})"), "0...999")
-DATE = {o: TimeFormat("date", _compile(p), {"ymd": "YYYY-MM-DD", "dmy": "DD.MM.YYYY", "mdy": "MM/DD/YYYY",
-                                         "cjk": "YYYY年MM月DD日"}[o])
-        for o, p in _DATES.items()}
-DATETIME = {o: TimeFormat("datetime", _compile(p + r"(?:[T,]?\s*|\s+)" + _TIME + _ZONE), f"{DATE[o].text} HH:MM:SS")
-            for o, p in _DATES.items()}
+DATE = {
+    o: TimeFormat(
+        "date", _compile(p), {"ymd": "YYYY-MM-DD", "dmy": "DD.MM.YYYY", "mdy": "MM/DD/YYYY", "cjk": "YYYY年MM月DD日"}[o]
+    )
+    for o, p in _DATES.items()
+}
+DATETIME = {
+    o: TimeFormat("datetime", _compile(p + r"(?:[T,]?\s*|\s+)" + _TIME + _ZONE), f"{DATE[o].text} HH:MM:SS")
+    for o, p in _DATES.items()
+}
 
 
 def declared_format(text: str) -> TimeFormat:
@@ -74,8 +87,9 @@ def declared_format(text: str) -> TimeFormat:
             body += _STRPTIME[part[1:]]
             used.add(part[1:])
         else:
-            raise FormatError(f"time format '{text}' cannot be used", expected="%Y %y %m %d %H %I %M %S %f %p %z",
-                              got=part)
+            raise FormatError(
+                f"time format '{text}' cannot be used", expected="%Y %y %m %d %H %I %M %S %f %p %z", got=part
+            )
     day, clock = bool(used & {"Y", "y"}), bool(used & {"H", "I"})
     try:
         pattern = _compile(body)
@@ -92,7 +106,7 @@ def parse(cells: Any, form: TimeFormat) -> Int1D:
     column = pa.array(cells, pa.string()) if isinstance(cells, list) else cells
     if isinstance(column, pa.ChunkedArray):
         column = column.combine_chunks()
-    if isinstance(column, pa.ChunkedArray):                       # pyarrow may return one of no chunks
+    if isinstance(column, pa.ChunkedArray):  # pyarrow may return one of no chunks
         column = pa.array([], pa.string())
     n, start = len(column), column.offset
     result = np.full(n, NAT, np.int64)
@@ -102,7 +116,7 @@ def parse(cells: Any, form: TimeFormat) -> Int1D:
     _, offsets_buffer, data_buffer = column.buffers()
     if data_buffer is None:
         return result
-    offsets = np.frombuffer(offsets_buffer, np.int32)[start:start + n + 1].astype(np.int64)
+    offsets = np.frombuffer(offsets_buffer, np.int32)[start : start + n + 1].astype(np.int64)
     data = np.frombuffer(data_buffer, np.uint8)
     widths = np.diff(offsets)
     open_rows = np.ones(n, bool)
@@ -110,8 +124,11 @@ def parse(cells: Any, form: TimeFormat) -> Int1D:
         if not 0 < width <= 64:
             continue
         rows = np.flatnonzero(widths == width)
-        matrix = (data[offsets[0]:offsets[-1]].reshape(n, width) if rows.size == n
-                  else data[offsets[rows][:, None] + np.arange(width)])
+        matrix = (
+            data[offsets[0] : offsets[-1]].reshape(n, width)
+            if rows.size == n
+            else data[offsets[rows][:, None] + np.arange(width)]
+        )
         first = bytes(matrix[0]).decode("ascii", "replace")
         match = form.pattern.fullmatch(first)
         if match is None:
@@ -120,7 +137,7 @@ def parse(cells: Any, form: TimeFormat) -> Int1D:
         result[rows[good]] = ns[good]
         open_rows[rows[good]] = False
     for row in np.flatnonzero(open_rows):
-        result[row] = parse_one(bytes(data[offsets[row]:offsets[row + 1]]).decode("utf-8", "replace"), form)
+        result[row] = parse_one(bytes(data[offsets[row] : offsets[row + 1]]).decode("utf-8", "replace"), form)
     return result
 
 

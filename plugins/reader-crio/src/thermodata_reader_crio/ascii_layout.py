@@ -74,14 +74,18 @@ def _lines(text: str) -> list[str]:
 def find_layout(text: str | list[str], name: str, wanted: Any) -> Layout:
     """The layout by a file's first text or lines. wanted: the time column as declared (name, or number from 1).
     FormatError where they are no rows of numbers."""
-    lines = (_lines(text) if isinstance(text, str) else text)[:_MOST_HEADER + _MOST_ROWS]
+    lines = (_lines(text) if isinstance(text, str) else text)[: _MOST_HEADER + _MOST_ROWS]
     for delimiter in ("\t", ";", ",", " "):
         found = _rows(lines, delimiter)
         if found is not None:
             return _made(lines, delimiter, *found, name, wanted)
-    raise FormatError("no rows of numbers", where=name, expected="numbers between tabs, with at most "
-                      f"{_MOST_HEADER} lines before them", got=lines[0][:60] if lines else "nothing",
-                      hint="dates and times of day are read by the readers cnc and table")
+    raise FormatError(
+        "no rows of numbers",
+        where=name,
+        expected=f"numbers between tabs, with at most {_MOST_HEADER} lines before them",
+        got=lines[0][:60] if lines else "nothing",
+        hint="dates and times of day are read by the readers cnc and table",
+    )
 
 
 def _split(line: str, delimiter: str) -> list[str]:
@@ -91,14 +95,14 @@ def _split(line: str, delimiter: str) -> list[str]:
 def _rows(lines: list[str], delimiter: str) -> tuple[int, int, str, bool] | None:
     """(line of the first row, columns of numbers, decimal mark, whether free text follows them)."""
     cells = [_split(line, delimiter) for line in lines]
-    counts = Counter(len(row) for row in cells[len(cells) // 2:] if any(row))
+    counts = Counter(len(row) for row in cells[len(cells) // 2 :] if any(row))
     if not counts:
         return None
     width = counts.most_common(1)[0][0]
     if width < 2:
         return None
     body = [row for row in cells if len(row) == width]
-    body = body[len(body) // 2:][-100:]               # behind any header
+    body = body[len(body) // 2 :][-100:]  # behind any header
     try:
         decimal = "." if delimiter == "," else decimal_mark(c for row in body for c in row) or "."
     except FormatError:
@@ -109,18 +113,30 @@ def _rows(lines: list[str], delimiter: str) -> tuple[int, int, str, bool] | None
     odd = sum(number(c.encode(), mark) is None for c in last)
     text = odd * 2 > sum(map(bool, last)) or not any(last)
     columns = width - 1 if text else width
-    first = next((i for i, row in enumerate(cells) if len(row) in (columns, columns + text)
-                  and all(number(c.encode(), mark) is not None for c in row[:columns]) and any(row[:columns])), None)
+    first = next(
+        (
+            i
+            for i, row in enumerate(cells)
+            if len(row) in (columns, columns + text)
+            and all(number(c.encode(), mark) is not None for c in row[:columns])
+            and any(row[:columns])
+        ),
+        None,
+    )
     if columns < 2 or first is None or first > _MOST_HEADER:
         return None
-    good = sum(all(number(c.encode(), mark) is not None for c in row[:columns]) for row in cells[first:]
-               if len(row) in (columns, columns + text))
+    good = sum(
+        all(number(c.encode(), mark) is not None for c in row[:columns])
+        for row in cells[first:]
+        if len(row) in (columns, columns + text)
+    )
     many = sum(any(row) for row in cells[first:])
     return (first, columns, decimal, text) if good >= max(_FEWEST_ROWS, 0.6 * many) else None
 
 
-def _made(lines: list[str], delimiter: str, first: int, columns: int, decimal: str, text: bool, name: str,
-          wanted: Any) -> Layout:
+def _made(
+    lines: list[str], delimiter: str, first: int, columns: int, decimal: str, text: bool, name: str, wanted: Any
+) -> Layout:
     heads = [row for line in lines[:first] if len(row := _split(line, delimiter)) >= columns and any(row)]
     units_row = len(heads) > 1 and _is_units(heads[-1])
     titles = heads[-2] if units_row else heads[-1] if heads else []
@@ -131,16 +147,26 @@ def _made(lines: list[str], delimiter: str, first: int, columns: int, decimal: s
         names.append(title or f"column {i + 1}")
         units.append(below or unit)
     rows = [_split(line, delimiter) for line in lines[first:]]
-    values = np.array([[v if (v := number(c.encode(), decimal.encode())) is not None else np.nan for c in r[:columns]]
-                       for r in rows if len(r) in (columns, columns + text)], np.float64)
+    values = np.array(
+        [
+            [v if (v := number(c.encode(), decimal.encode())) is not None else np.nan for c in r[:columns]]
+            for r in rows
+            if len(r) in (columns, columns + text)
+        ],
+        np.float64,
+    )
     clock, time = _clock(values, names, wanted, name)
     free = None
     if text:
         title = titles[columns] if columns < len(titles) and titles[columns] else "Comment"
         free = title if title not in names else f"{title} (text)"
     header = frozenset(line.strip() for line in lines[:first])
-    doubtful = tuple(i + 1 for i, line in enumerate(lines[:first]) if "\0" in line or any(
-        number(c.encode(), decimal.encode()) is not None for c in _split(line, delimiter)[1:] if c))
+    doubtful = tuple(
+        i + 1
+        for i, line in enumerate(lines[:first])
+        if "\0" in line
+        or any(number(c.encode(), decimal.encode()) is not None for c in _split(line, delimiter)[1:] if c)
+    )
     return Layout(delimiter, decimal, first, header, _unique(names), tuple(units), clock, time, free, doubtful)
 
 
@@ -170,8 +196,12 @@ def _clock(values: Float2D, names: list[str], wanted: Any, name: str) -> tuple[L
 def _since_1904(column: Any) -> bool:
     """Seconds since 1904 of the years 1997 to 2040 that do not run back."""
     full = column[np.isfinite(column)]
-    return full.size >= _FEWEST_ROWS and bool((full >= LABVIEW_SECONDS[0]).all()) \
-        and bool((full <= LABVIEW_SECONDS[1]).all()) and float(np.mean(np.diff(full) >= 0)) > 0.9
+    return (
+        full.size >= _FEWEST_ROWS
+        and bool((full >= LABVIEW_SECONDS[0]).all())
+        and bool((full <= LABVIEW_SECONDS[1]).all())
+        and float(np.mean(np.diff(full) >= 0)) > 0.9
+    )
 
 
 def _unique(names: list[str]) -> tuple[str, ...]:

@@ -16,8 +16,18 @@ from thermodata_reader_crio.gather import read
 
 # "t" is a time, "T" a temperature
 _TIME_NAME = re.compile(r"^(t|(?i:time|zeit|čas|cas|time ?stamp|elapsed( time)?|x_?value|uhrzeit|时间|時間))$")
-_SECONDS = {"s": 1.0, "sec": 1.0, "seconds": 1.0, "min": 60.0, "h": 3600.0, "ms": 1e-3, "us": 1e-6, "µs": 1e-6,
-            "μs": 1e-6, "ns": 1e-9}
+_SECONDS = {
+    "s": 1.0,
+    "sec": 1.0,
+    "seconds": 1.0,
+    "min": 60.0,
+    "h": 3600.0,
+    "ms": 1e-3,
+    "us": 1e-6,
+    "µs": 1e-6,
+    "μs": 1e-6,
+    "ns": 1e-9,
+}
 EPOCH_1904_NS = -2_082_844_800 * 1_000_000_000
 # seconds since 1904 of the years 1997 to 2040; since 1970 of 2001 to 2033
 LABVIEW_SECONDS, UNIX_SECONDS = (2_934_748_800, 4_291_747_200), (978_307_200, 1_988_150_400)
@@ -59,9 +69,13 @@ def is_time(channel: Channel, source: Source) -> bool:
         return wanted in (channel.signal.name, channel.short)
     if channel.is_timestamp:
         return True
-    return channel.signal.dtype not in ("str", "bool") and channel.signal.scaling is None \
-        and channel.joined_by is None and _TIME_NAME.match(split_unit(channel.short)[0]) is not None \
+    return (
+        channel.signal.dtype not in ("str", "bool")
+        and channel.signal.scaling is None
+        and channel.joined_by is None
+        and _TIME_NAME.match(split_unit(channel.short)[0]) is not None
         and _unit_seconds(channel) is not None
+    )
 
 
 def axis(channel: Channel, file: BinaryIO, notes: list[str]) -> Axis:

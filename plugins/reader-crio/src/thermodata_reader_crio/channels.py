@@ -17,8 +17,18 @@ from thermodata_reader_crio.index import Index
 from thermodata_reader_crio.layout import BOOL, TIMESTAMP
 from thermodata_reader_crio.pieces import clock_of
 
-KNOWN_SCALES = ("Linear", "Polynomial", "RTD", "Strain", "Table", "Thermistor", "Thermocouple", "Add", "Subtract",
-                "AdvancedAPI")
+KNOWN_SCALES = (
+    "Linear",
+    "Polynomial",
+    "RTD",
+    "Strain",
+    "Table",
+    "Thermistor",
+    "Thermocouple",
+    "Add",
+    "Subtract",
+    "AdvancedAPI",
+)
 _SCALE_TYPE = re.compile(r"^NI_Scale\[(\d+)\]_Scale_Type$")
 _PATH = re.compile(r"/'((?:[^']|'')*)'")
 
@@ -71,16 +81,21 @@ def scaling(layers: Sequence[Mapping[str, Any]], where: str) -> Scaling | None:
             return None
         for number, kind in scales.items():
             if kind not in KNOWN_SCALES:
-                raise FormatError(f"NI scale {number} has the unknown type '{kind}'", where=where,
-                                  expected=", ".join(KNOWN_SCALES), got=str(kind),
-                                  hint=f"options: {{unscaled: ['{where.split(' ', 1)[-1]}']}} takes the raw numbers")
+                raise FormatError(
+                    f"NI scale {number} has the unknown type '{kind}'",
+                    where=where,
+                    expected=", ".join(KNOWN_SCALES),
+                    got=str(kind),
+                    hint=f"options: {{unscaled: ['{where.split(' ', 1)[-1]}']}} takes the raw numbers",
+                )
         found = {k: v for k, v in properties.items() if k.startswith("NI_Scal") or k == "NI_Number_Of_Scales"}
         return Scaling("ni", found)
     return None
 
 
-def channels(index: Index, cols: Mapping[str, list[Column]], file: str, unscaled: set[str],
-             notes: list[str]) -> dict[str, list[Channel]]:
+def channels(
+    index: Index, cols: Mapping[str, list[Column]], file: str, unscaled: set[str], notes: list[str]
+) -> dict[str, list[Channel]]:
     """Group -> its channels, in the file's order."""
     types = {path: found.type for layout in index.layouts for path, found in layout.objects}
     groups: dict[str, list[Channel]] = {}
@@ -95,8 +110,17 @@ def channels(index: Index, cols: Mapping[str, list[Column]], file: str, unscaled
     return groups
 
 
-def _made(index: Index, path: str, found: list[Column], kind: int, file: str, full: str, unscaled: set[str],
-          notes: list[str], clocks: dict[Any, Clock | None]) -> list[Channel]:
+def _made(
+    index: Index,
+    path: str,
+    found: list[Column],
+    kind: int,
+    file: str,
+    full: str,
+    unscaled: set[str],
+    notes: list[str],
+    clocks: dict[Any, Clock | None],
+) -> list[Channel]:
     own = index.properties.get(path, {})
     clock = clock_of(index, found[0], own, clocks)
     if clock is not None and not clock.ends_before(max(found[0].length, found[0].planned)):
@@ -105,9 +129,14 @@ def _made(index: Index, path: str, found: list[Column], kind: int, file: str, fu
     unit = own.get("unit_string") or own.get("NI_UnitDescription") or None
     unit = str(unit) if unit else None
     group, short = names(path)
-    scale = None if full in unscaled or short in unscaled else scaling(
-        [own, index.properties.get("/'" + group.replace("'", "''") + "'", {}), index.properties.get("/", {})],
-        f"{file} {full}")
+    scale = (
+        None
+        if full in unscaled or short in unscaled
+        else scaling(
+            [own, index.properties.get("/'" + group.replace("'", "''") + "'", {}), index.properties.get("/", {})],
+            f"{file} {full}",
+        )
+    )
     properties = {k: str(v) for k, v in own.items()}
     if found[0].part in ("re", "im"):
         notes.append(f"{full}: complex numbers, delivered as two signals")
@@ -116,11 +145,16 @@ def _made(index: Index, path: str, found: list[Column], kind: int, file: str, fu
         notes.append(f"{full}: its type changes within the file; delivered as {found[0].dtype}")
     if len(found) > 1:
         if scale is None:
-            raise FormatError("a DAQmx channel of several raw numbers without a scaling that joins them",
-                              where=f"{file} {full}", hint="leave it out, or read its raw numbers with NI's tools")
+            raise FormatError(
+                "a DAQmx channel of several raw numbers without a scaling that joins them",
+                where=f"{file} {full}",
+                hint="leave it out, or read its raw numbers with NI's tools",
+            )
         properties["scaled_by_reader"] = f"{len(found)} raw inputs"
-        notes.append(f"{full}: its scaling joins {len(found)} raw numbers (a thermocouple and its cold junction, "
-                     "say), so it is delivered scaled by the file's own formula")
+        notes.append(
+            f"{full}: its scaling joins {len(found)} raw numbers (a thermocouple and its cold junction, "
+            "say), so it is delivered scaled by the file's own formula"
+        )
         return [_channel(full, short, found, None, unit, properties, clock, "float64", scale)]
     if found[0].dtype == "V16":
         properties["kind"] = "timestamp"
@@ -129,9 +163,17 @@ def _made(index: Index, path: str, found: list[Column], kind: int, file: str, fu
     return [_channel(full, short, found, scale, unit, properties, clock, dtype)]
 
 
-def _channel(full: str, short: str, found: list[Column], scale: Scaling | None, unit: str | None,
-             properties: Mapping[str, str], clock: Clock | None, dtype: str | None = None,
-             joined_by: Scaling | None = None) -> Channel:
+def _channel(
+    full: str,
+    short: str,
+    found: list[Column],
+    scale: Scaling | None,
+    unit: str | None,
+    properties: Mapping[str, str],
+    clock: Clock | None,
+    dtype: str | None = None,
+    joined_by: Scaling | None = None,
+) -> Channel:
     if dtype is None:
         dtype = "str" if found[0].dtype == TEXT else np.dtype(found[0].dtype).name
     return Channel(Signal(full, "", unit, dtype, scale, properties), short, tuple(found), clock, joined_by)

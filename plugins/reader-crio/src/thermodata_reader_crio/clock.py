@@ -14,7 +14,7 @@ from thermodata.plugin import Bool1D, Int1D
 from thermodata_reader_crio.metadata import Timestamp
 
 _BILLION = 1_000_000_000
-LAST_NS = 8_900_000_000 * _BILLION     # the year 2252; int64 ends in 2262
+LAST_NS = 8_900_000_000 * _BILLION  # the year 2252; int64 ends in 2262
 
 
 def step_ns(increment_s: float) -> Fraction:
@@ -48,16 +48,21 @@ class Waveform:
 def waveform(properties: Mapping[str, Any]) -> Waveform | None:
     """A channel's waveform clock, or None where it has no usable increment."""
     increment = properties.get("wf_increment")
-    if isinstance(increment, bool) or not isinstance(increment, int | float) or not math.isfinite(increment) \
-            or not 1e-12 < increment < 1e9:
+    if (
+        isinstance(increment, bool)
+        or not isinstance(increment, int | float)
+        or not math.isfinite(increment)
+        or not 1e-12 < increment < 1e9
+    ):
         return None
     start = properties.get("wf_start_time")
     start_ns = start.ns if isinstance(start, Timestamp) and start.seconds > 0 else None
     if start_ns is not None and not 0 < start_ns < LAST_NS:
         start_ns = None
     offset = properties.get("wf_start_offset", 0.0)
-    usable = not isinstance(offset, bool) and isinstance(offset, int | float) and math.isfinite(offset) \
-        and abs(offset) < 1e9
+    usable = (
+        not isinstance(offset, bool) and isinstance(offset, int | float) and math.isfinite(offset) and abs(offset) < 1e9
+    )
     offset_ns = round(Fraction(repr(float(offset))) * _BILLION) if usable else 0
     return Waveform(start_ns, offset_ns, step_ns(float(increment)))
 
@@ -102,15 +107,20 @@ class Clock:
     def ends_before(self, rows: int) -> bool:
         """Whether all rows have a time that a store can hold."""
         ends = [*self.row[1:].tolist(), rows]
-        return all(abs(int(base) + (int(origin) + max(0, end - int(row))) * step) < LAST_NS
-                   for row, end, base, origin, step in
-                   zip(self.row, ends, self.base_ns, self.origin, self.steps, strict=True))
+        return all(
+            abs(int(base) + (int(origin) + max(0, end - int(row))) * step) < LAST_NS
+            for row, end, base, origin, step in zip(self.row, ends, self.base_ns, self.origin, self.steps, strict=True)
+        )
 
     def nearly(self, other: Clock, within_ns: int) -> bool:
         """Equal, but for a shift of less than `within_ns` and half a step."""
-        if self.absolute != other.absolute or self.steps != other.steps \
-                or not np.array_equal(self.row, other.row) or not np.array_equal(self.suspect, other.suspect) \
-                or not np.array_equal(self.origin, other.origin):
+        if (
+            self.absolute != other.absolute
+            or self.steps != other.steps
+            or not np.array_equal(self.row, other.row)
+            or not np.array_equal(self.suspect, other.suspect)
+            or not np.array_equal(self.origin, other.origin)
+        ):
             return False
         apart = np.abs(self.base_ns - other.base_ns)
         return all(d == 0 or d < min(within_ns, step / 2) for d, step in zip(apart.tolist(), self.steps, strict=True))

@@ -116,8 +116,9 @@ def columns(index: Index) -> tuple[dict[str, list[Column]], list[str]]:
             key = slot.path, slot.part
             found = places[key] if key in places else places.setdefault(key, _Places())
             if found.kinds and not _join(found.kinds[0].dtype, slot.kind.dtype):
-                wrong[slot.path] = f"it changes from {_name(found.kinds[0])} to {_name(slot.kind)}; only the " \
-                                   "first sort is read"
+                wrong[slot.path] = (
+                    f"it changes from {_name(found.kinds[0])} to {_name(slot.kind)}; only the first sort is read"
+                )
                 continue
             found.kinds.append(slot.kind)
             found.shapes.append(number)
@@ -131,7 +132,8 @@ def columns(index: Index) -> tuple[dict[str, list[Column]], list[str]]:
         held = int((shared.chunks * n[shared.which]).sum())
         cut = int((full - n).sum()) if any(index.shapes[number].cut for number in shapes) else 0
         made.setdefault(path, []).append(
-            Column(path, part, shared, n, start, stride, tuple(found.kinds), shapes, held + cut))
+            Column(path, part, shared, n, start, stride, tuple(found.kinds), shapes, held + cut)
+        )
     return made, [f"{path}: {text}" for path, text in wrong.items()]
 
 
@@ -158,14 +160,19 @@ class _RunsOf:
 
     def of(self, shapes: tuple[int, ...]) -> Runs:
         if shapes not in self.made:
-            parts = [self.order[self.bounds[s]:self.bounds[s + 1]] for s in shapes]
+            parts = [self.order[self.bounds[s] : self.bounds[s + 1]] for s in shapes]
             piece = np.concatenate(parts) if parts else np.zeros(0, np.int64)
             which = np.repeat(np.arange(len(parts)), [p.size for p in parts])
             in_order = np.argsort(piece, kind="stable")
             piece, which = piece[in_order].astype(np.int64), which[in_order].astype(np.int64)
             layouts = [self.index.layouts[self.index.shapes[s].layout] for s in shapes]
-            self.made[shapes] = Runs(self.position[piece], self.chunks[piece], which, piece,
-                                     np.array([layout.chunk_bytes for layout in layouts], np.int64))
+            self.made[shapes] = Runs(
+                self.position[piece],
+                self.chunks[piece],
+                which,
+                piece,
+                np.array([layout.chunk_bytes for layout in layouts], np.int64),
+            )
         return self.made[shapes]
 
 
@@ -195,8 +202,17 @@ def _daqmx(layout: Layout, tail: int | None) -> list[_Slot]:
         have = min(bases[s.buffer][1] for s in index.scalers)
         for scaler in index.scalers:
             base, _, width = bases[scaler.buffer]
-            found.append(_Slot(path, scaler.scale_id, Kind(scaler.dtype, layout.big_endian, scaler.bit),
-                               base + scaler.offset, min(index.n, have), width, index.n))
+            found.append(
+                _Slot(
+                    path,
+                    scaler.scale_id,
+                    Kind(scaler.dtype, layout.big_endian, scaler.bit),
+                    base + scaler.offset,
+                    min(index.n, have),
+                    width,
+                    index.n,
+                )
+            )
     return found
 
 

@@ -10,9 +10,11 @@ from thermodata.plugin import Array
 from thermodata.schema.flag import Flag
 from thermodata_reader_crio.textparts import decode
 
-_LOST = re.compile(r"(?i)\b(lost|communication|comm\.? ?(error|fail)|time-?out|error|fault|fail(ed|ure)?|disconnect|"
-                   r"offline|invalid|no (data|signal|response)|not (connected|responding)|"
-                   r"fehler|ausfall|störung|unterbrochen|chyba|výpadek|ztráta)")
+_LOST = re.compile(
+    r"(?i)\b(lost|communication|comm\.? ?(error|fail)|time-?out|error|fault|fail(ed|ure)?|disconnect|"
+    r"offline|invalid|no (data|signal|response)|not (connected|responding)|"
+    r"fehler|ausfall|störung|unterbrochen|chyba|výpadek|ztráta)"
+)
 _GOOD = re.compile(r"(?i)\b(no|without|0|kein(e)?|ohne|bez) (error|fault|fehler|chyb)|\brestored\b|\bok\b")
 _OVER = re.compile(r"(?i)overload|over ?range|overflow|saturat|clipp(ed|ing)|übersteuer")
 

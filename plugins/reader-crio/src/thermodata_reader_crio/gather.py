@@ -16,8 +16,8 @@ from thermodata.plugin import Array, Int1D
 from thermodata_reader_crio.columns import TEXT, Column, Kind
 from thermodata_reader_crio.words import read_words
 
-_GAP_BYTES = 16 * 1024          # a hole up to this size is cheaper to read over than to seek over
-_LONG_RUN_BYTES = 32 * 1024     # a run from this size on is read straight into its place
+_GAP_BYTES = 16 * 1024  # a hole up to this size is cheaper to read over than to seek over
+_LONG_RUN_BYTES = 32 * 1024  # a run from this size on is read straight into its place
 _BUFFER_BYTES = 32 * 1024 * 1024
 _MANY_RANGES = 64
 
@@ -52,7 +52,7 @@ def _numbers(file: BinaryIO, wanted: list[Column], first: int, last: int) -> lis
         cuts = [_cut(c, a, b, memo) for c in wanted]
         if all(_long(cut, c) for cut, c in zip(cuts, wanted, strict=True)):
             for cut, c, to in zip(cuts, wanted, out, strict=True):
-                _straight(file, cut, c.kinds[0], to[a - first:b - first])
+                _straight(file, cut, c.kinds[0], to[a - first : b - first])
             continue
         start, end, base, places = _extents(cuts, wanted)
         if int((end - start).sum()) > _BUFFER_BYTES and b - a > 1:
@@ -60,7 +60,7 @@ def _numbers(file: BinaryIO, wanted: list[Column], first: int, last: int) -> lis
             continue
         buffer = _fetch(file, start, end, base)
         for cut, c, place, to in zip(cuts, wanted, places, out, strict=True):
-            _place(buffer, place, cut, c, to[a - first:b - first])
+            _place(buffer, place, cut, c, to[a - first : b - first])
     return out
 
 
@@ -122,7 +122,7 @@ def _straight(file: BinaryIO, cut: _Cut, kind: Kind, out: Array) -> None:
     view = memoryview(out.view(np.uint8).data)
     at = 0
     for offset, count in zip(cut.offset.tolist(), (cut.n * kind.item).tolist(), strict=True):
-        _exactly(file, offset, view[at:at + count])
+        _exactly(file, offset, view[at : at + count])
         at += count
 
 
@@ -142,8 +142,9 @@ def _extents(cuts: list[_Cut], columns: list[Column]) -> tuple[Int1D, Int1D, Int
     if not starts.size:
         empty = np.zeros(0, np.int64)
         return empty, empty, empty, [empty] * len(cuts)
-    ends = np.concatenate([c.offset + (c.n - 1) * c.stride + item[c.which]
-                           for c, item in zip(cuts, items, strict=True)])
+    ends = np.concatenate(
+        [c.offset + (c.n - 1) * c.stride + item[c.which] for c, item in zip(cuts, items, strict=True)]
+    )
     order = np.argsort(starts, kind="stable")
     sorted_starts = starts[order]
     reach = np.maximum.accumulate(ends[order])
@@ -161,7 +162,7 @@ def _fetch(file: BinaryIO, start: Int1D, end: Int1D, base: Int1D) -> Array:
     buffer = np.empty(int((end - start).sum()), np.uint8)
     view = memoryview(buffer.data)
     for at, begin, count in zip(base.tolist(), start.tolist(), (end - start).tolist(), strict=True):
-        _exactly(file, begin, view[at:at + count])
+        _exactly(file, begin, view[at : at + count])
     return buffer
 
 
@@ -175,7 +176,7 @@ def _place(buffer: Array, place: Int1D, cut: _Cut, column: Column, out: Array) -
     for a, b in pairwise(edges):
         part = _Cut(cut.offset[a:b], cut.n[a:b], cut.stride[a:b], cut.which[a:b])
         values = _values(buffer, place[a:b], part, column.kinds[int(cut.which[a])])
-        out[done:done + values.size] = values
+        out[done : done + values.size] = values
         done += values.size
 
 
@@ -204,7 +205,7 @@ def _bytes(buffer: Array, place: Int1D, n: Int1D, stride: Int1D, item: int) -> A
         k, rows, step = b - a, int(n[a]), int(stride[a])
         pitch = int(place[a + 1] - place[a]) if k > 1 else 0
         block = np.ndarray((k, rows, item), np.uint8, buffer.data, int(place[a]), (pitch, step, 1))
-        out[done:done + k * rows].reshape(k, rows, item)[:] = block
+        out[done : done + k * rows].reshape(k, rows, item)[:] = block
         done += k * rows
     return out.reshape(-1)
 

@@ -14,8 +14,10 @@ from thermodata_reader_crio.clock import LAST_NS
 
 _BILLION = 1_000_000_000
 _TIME = re.compile(r"^(\d{1,2}):(\d{2})(?::(\d{2})(?:[.,](\d+))?)?\s*([AaPp])?\.?(?:[Mm]\.?)?$")
-_DATES = (re.compile(r"^(?P<y>\d{4})[/.\-](?P<m>\d{1,2})[/.\-](?P<d>\d{1,2})\.?$"),
-          re.compile(r"^(?P<d>\d{1,2})\.\s?(?P<m>\d{1,2})\.\s?(?P<y>\d{4})$"))
+_DATES = (
+    re.compile(r"^(?P<y>\d{4})[/.\-](?P<m>\d{1,2})[/.\-](?P<d>\d{1,2})\.?$"),
+    re.compile(r"^(?P<d>\d{1,2})\.\s?(?P<m>\d{1,2})\.\s?(?P<y>\d{4})$"),
+)
 
 
 def local_ns(date: str, time: str) -> int | None:
@@ -28,8 +30,9 @@ def local_ns(date: str, time: str) -> int | None:
     if hour[5]:
         h = h % 12 + (12 if hour[5] in "pP" else 0)
     try:
-        naive = np.datetime64(f"{int(day['y']):04}-{int(day['m']):02}-{int(day['d']):02}T{h:02}:{hour[2]}:"
-                              f"{hour[3] or '00'}", "s")
+        naive = np.datetime64(
+            f"{int(day['y']):04}-{int(day['m']):02}-{int(day['d']):02}T{h:02}:{hour[2]}:{hour[3] or '00'}", "s"
+        )
     except ValueError:
         return None
     if not 1904 <= int(day["y"]) <= 2200:

@@ -46,8 +46,7 @@ def describe(path: Path, source: Source) -> Recording:
     elif layout.clock == "seconds":
         notes.append(f"'{layout.names[layout.time]}' rises from row to row: taken as seconds from a start")
     elif source.options.get("increment") is None:
-        notes.append("no time column: rows are counted as 1 s each; declare options: {increment: 0.1 s}, or "
-                     "{time: 1}")
+        notes.append("no time column: rows are counted as 1 s each; declare options: {increment: 0.1 s}, or {time: 1}")
     signals = [Signal(layout.names[i], STREAM, layout.units[i]) for i in layout.values]
     if layout.text:
         signals.append(Signal(layout.text, STREAM, None, "str"))
@@ -60,21 +59,32 @@ def describe(path: Path, source: Source) -> Recording:
 
 def blocks(path: Path, source: Source) -> Iterator[Block | Loss]:
     layout, encoding, _ = _layout(path, source)
-    grid = Grid(layout.delimiter.encode(), layout.decimal.encode(), len(layout.names), layout.text is not None,
-                len(layout.names))
+    grid = Grid(
+        layout.delimiter.encode(),
+        layout.decimal.encode(),
+        len(layout.names),
+        layout.text is not None,
+        len(layout.names),
+    )
     size = int(source.options.get("block_rows", 0))
     step = source.options.get("increment")
     step_s = 1.0 if step is None else value_in(step, "s")
     done, last_ns = 0, None
     if layout.doubtful:
-        yield Loss(f"{path.name} line {layout.doubtful[0]}", reason=f"{len(layout.doubtful)} lines before the first "
-                   "row that hold numbers: damaged rows, or a header of another kind")
+        yield Loss(
+            f"{path.name} line {layout.doubtful[0]}",
+            reason=f"{len(layout.doubtful)} lines before the first "
+            "row that hold numbers: damaged rows, or a header of another kind",
+        )
     for part in parts(path, encoding):
         data, line = part.data, part.line
         if not part.ended and not _whole(data, layout, encoding):
-            data = data[:data.rfind(b"\n") + 1]
-            yield Loss(f"{path.name} line {line + count_lines(data)}", last_ns,
-                       reason="the last line has no end: it may be cut")
+            data = data[: data.rfind(b"\n") + 1]
+            yield Loss(
+                f"{path.name} line {line + count_lines(data)}",
+                last_ns,
+                reason="the last line has no end: it may be cut",
+            )
         data, line = _behind_header(data, line, layout)
         rows = parse(data, grid)
         block, good = _block(rows, layout, encoding, done, step_s, line)
@@ -98,8 +108,9 @@ def _behind_header(data: bytes, line: int, layout: Layout) -> tuple[bytes, int]:
 
 def _whole(data: bytes, layout: Layout, encoding: str) -> bool:
     lines = data.rsplit(b"\n", 2)
-    return len(lines) > 1 and last_line_is_whole(decode(lines[-1], encoding), decode(lines[-2].rstrip(b"\r"), encoding),
-                                                 layout.delimiter)
+    return len(lines) > 1 and last_line_is_whole(
+        decode(lines[-1], encoding), decode(lines[-2].rstrip(b"\r"), encoding), layout.delimiter
+    )
 
 
 def _times(rows: Rows, layout: Layout, done: int, step_s: float) -> tuple[Int1D, Bool1D]:
@@ -110,8 +121,7 @@ def _times(rows: Rows, layout: Layout, done: int, step_s: float) -> tuple[Int1D,
     return counted_ns(done, rows.n, step_ns(step_s), 0)
 
 
-def _block(rows: Rows, layout: Layout, encoding: str, done: int, step_s: float,
-           line: int) -> tuple[LineBlock, Bool1D]:
+def _block(rows: Rows, layout: Layout, encoding: str, done: int, step_s: float, line: int) -> tuple[LineBlock, Bool1D]:
     t_ns, good = _times(rows, layout, done, step_s)
     words = None if rows.text is None else texts(rows.text, encoding)
     said = None if words is None else flags_of(words)
@@ -129,22 +139,36 @@ def _block(rows: Rows, layout: Layout, encoding: str, done: int, step_s: float,
     return LineBlock(STREAM, t_ns[good], values, flags or None, rows.line[good] + line), good
 
 
-def _losses(path: Path, rows: Rows, good: Bool1D, data: bytes, line: int, layout: Layout,
-            encoding: str) -> Iterator[Loss]:
+def _losses(
+    path: Path, rows: Rows, good: Bool1D, data: bytes, line: int, layout: Layout, encoding: str
+) -> Iterator[Loss]:
     lost = sorted({*rows.bad, *rows.line[~good].tolist()})
     if lost:
         # a session that was appended begins with the header again
         lines = data.split(b"\n")
         lost = [i for i in lost if decode(lines[i], encoding).strip() not in layout.header]
     if lost:
-        yield Loss(f"{path.name} line {line + lost[0]}", reason=f"{len(lost)} lines that are no rows of "
-                   f"{len(layout.names)} numbers with a time")
-    odd = [] if rows.text is None else [i for i, w in enumerate(rows.text.tolist()) if w and (
-        b"\0" in w or number(w.strip(), layout.decimal.encode()) is not None)]
+        yield Loss(
+            f"{path.name} line {line + lost[0]}",
+            reason=f"{len(lost)} lines that are no rows of {len(layout.names)} numbers with a time",
+        )
+    odd = (
+        []
+        if rows.text is None
+        else [
+            i
+            for i, w in enumerate(rows.text.tolist())
+            if w and (b"\0" in w or number(w.strip(), layout.decimal.encode()) is not None)
+        ]
+    )
     if odd:
-        yield Loss(f"{path.name} line {line + int(rows.line[odd[0]])}", reason=f"{len(odd)} rows with a number, or "
-                   "bytes of no text, where the comment stands")
+        yield Loss(
+            f"{path.name} line {line + int(rows.line[odd[0]])}",
+            reason=f"{len(odd)} rows with a number, or bytes of no text, where the comment stands",
+        )
     wrong = [r for r, _ in rows.wrong if good[r]]
     if wrong:
-        yield Loss(f"{path.name} line {line + int(rows.line[wrong[0]])}", reason=f"{len(wrong)} cells that are no "
-                   "numbers: these values are flagged")
+        yield Loss(
+            f"{path.name} line {line + int(rows.line[wrong[0]])}",
+            reason=f"{len(wrong)} cells that are no numbers: these values are flagged",
+        )

@@ -5,14 +5,41 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import cached_property
 
-MOST = 1 << 48      # values or bytes a chunk; more is damage, and would overflow
+MOST = 1 << 48  # values or bytes a chunk; more is damage, and would overflow
 STRING, BOOL, TIMESTAMP, DAQMX = 0x20, 0x21, 0x44, 0xFFFFFFFF
 
 # TDMS type -> numpy's name; a timestamp is 16 bytes (fraction of 2^-64 s, seconds since 1904)
-NUMPY = {1: "i1", 2: "i2", 3: "i4", 4: "i8", 5: "u1", 6: "u2", 7: "u4", 8: "u8", 9: "f4", 10: "f8",
-         0x19: "f4", 0x1A: "f8", BOOL: "u1", TIMESTAMP: "V16", 0x08000C: "c8", 0x10000D: "c16"}
-DAQMX_NUMPY = {0: "u1", 1: "i1", 2: "u2", 3: "i2", 4: "u4", 5: "i4", 6: "u8", 7: "i8", 8: "f4", 9: "f8",
-               0xFFFFFFFF: "V16"}
+NUMPY = {
+    1: "i1",
+    2: "i2",
+    3: "i4",
+    4: "i8",
+    5: "u1",
+    6: "u2",
+    7: "u4",
+    8: "u8",
+    9: "f4",
+    10: "f8",
+    0x19: "f4",
+    0x1A: "f8",
+    BOOL: "u1",
+    TIMESTAMP: "V16",
+    0x08000C: "c8",
+    0x10000D: "c16",
+}
+DAQMX_NUMPY = {
+    0: "u1",
+    1: "i1",
+    2: "u2",
+    3: "i2",
+    4: "u4",
+    5: "i4",
+    6: "u8",
+    7: "i8",
+    8: "f4",
+    9: "f8",
+    0xFFFFFFFF: "V16",
+}
 
 
 class DamageError(Exception):
@@ -84,11 +111,15 @@ def check(layout: Layout) -> None:
             raise DamageError("DAQmx channels with different buffers in one segment")
         for path, index in layout.objects:
             for scaler in index.scalers:
-                if scaler.buffer >= len(index.widths) or \
-                        scaler.offset + int(scaler.dtype[1:]) > index.widths[scaler.buffer]:
+                if (
+                    scaler.buffer >= len(index.widths)
+                    or scaler.offset + int(scaler.dtype[1:]) > index.widths[scaler.buffer]
+                ):
                     raise DamageError(f"{path[:80]} lies outside its DAQmx buffer")
-    elif layout.interleaved and len(layout.objects) > 1 and (
-        len({index.n for _, index in layout.objects}) > 1 or any(i.type == STRING for _, i in layout.objects)
+    elif (
+        layout.interleaved
+        and len(layout.objects) > 1
+        and (len({index.n for _, index in layout.objects}) > 1 or any(i.type == STRING for _, i in layout.objects))
     ):
         raise DamageError("interleaved channels of different lengths, or of text")
     if layout.objects and layout.chunk_bytes >= 1 << 62:

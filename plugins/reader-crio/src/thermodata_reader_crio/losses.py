@@ -20,8 +20,13 @@ def losses(file: File, path: Path, last_ns: int | None) -> Iterator[Loss]:
         length = "" if hole.chunks is None else "; as long as the segments before it, so times go on behind it"
         if hole.chunks is None:
             length = "; how many values is not known: times behind it are in doubt, unless the file dates them anew"
-        yield Loss(f"{path.name} byte {hole.start}", from_ns, to_ns, gone / index.size,
-                   f"{hole.reason}; {gone} bytes are skipped{length}")
+        yield Loss(
+            f"{path.name} byte {hole.start}",
+            from_ns,
+            to_ns,
+            gone / index.size,
+            f"{hole.reason}; {gone} bytes are skipped{length}",
+        )
     for sentence in file.partly:
         yield Loss(path.name, reason=sentence)
     if index.damage is not None:
@@ -52,8 +57,11 @@ def _row(stream: Stream, hole: Hole) -> int:
 def _end(file: File, path: Path, last_ns: int | None) -> Loss:
     index = file.index
     missing = (index.expected_end or index.size) - index.good_end
-    planned = [int(s.clock.times(s.planned - 1, s.planned)[0]) for s in file.streams
-               if s.clock is not None and s.planned > s.rows]
+    planned = [
+        int(s.clock.times(s.planned - 1, s.planned)[0])
+        for s in file.streams
+        if s.clock is not None and s.planned > s.rows
+    ]
     to_ns = max(planned, default=None)
     if to_ns is not None and last_ns is not None and to_ns < last_ns:
         to_ns = None

@@ -55,13 +55,22 @@ def describe(path: Path, source: Source) -> Recording:
             if last:
                 break
     if not signals:
-        raise FormatError("an LVM file without a channel over time", where=path.name, expected="X_Dimension Time",
-                          got="spectra, or no channel")
+        raise FormatError(
+            "an LVM file without a channel over time",
+            where=path.name,
+            expected="X_Dimension Time",
+            got="spectra, or no channel",
+        )
     if not dated:
         notes.append("no date in the file: times count from its start")
     shown = notes[:20] + ([f"and {len(notes) - 20} notes more"] if len(notes) > 20 else [])
-    return Recording(tuple(signals.values()), "absolute" if dated else "relative",
-                     (start or 0) if dated else None, None, tuple(dict.fromkeys(shown)))
+    return Recording(
+        tuple(signals.values()),
+        "absolute" if dated else "relative",
+        (start or 0) if dated else None,
+        None,
+        tuple(dict.fromkeys(shown)),
+    )
 
 
 def _streams(path: Path, encoding: str) -> Streams:
@@ -155,15 +164,16 @@ class _Part:
 class _Reading:
     """The rows of one packet, part by part."""
 
-    def __init__(self, path: Path, header: Header, packet: Packet, streams: Streams, source: Source,
-                 encoding: str) -> None:
+    def __init__(
+        self, path: Path, header: Header, packet: Packet, streams: Streams, source: Source, encoding: str
+    ) -> None:
         self.path, self.header, self.packet, self.streams = path, header, packet, streams
         self.source, self.encoding = source, encoding
         self.times: Times | None = None
         self.grid: Grid | None = None
         self.done = 0
         for group in streams.groups(packet):
-            streams.of(packet, group)                # named in the order of the headings, whether rows follow or not
+            streams.of(packet, group)  # named in the order of the headings, whether rows follow or not
 
     def begin(self, part: RowPart, pool: Executor) -> _Part | None:
         """Has lines parsed, while what came before them is used."""
@@ -186,8 +196,9 @@ class _Reading:
 
     def _whole(self, data: bytes) -> bool:
         *_, before, last = [b"", *data.rsplit(b"\n", 2)][-3:] if data.count(b"\n") > 1 else [b"", b"", data]
-        return bool(before) and last_line_is_whole(decode(last, self.encoding), decode(before, self.encoding),
-                                                   self.header.separator)
+        return bool(before) and last_line_is_whole(
+            decode(last, self.encoding), decode(before, self.encoding), self.header.separator
+        )
 
     def _blocks(self, rows: Rows, line: int) -> Iterator[Block | Loss]:
         assert self.grid is not None
@@ -214,8 +225,15 @@ class _Reading:
         hopeless = words | np.logical_and.reduce([*empty.values(), wrong]) if wrong.any() else None
         return {c: m for c, m in empty.items() if m.any()}, hopeless
 
-    def _block(self, rows: Rows, group: list[int], words: Array | None, empty: dict[int, Bool1D],
-               hopeless: Bool1D | None, line: int) -> tuple[LineBlock, Bool1D | None]:
+    def _block(
+        self,
+        rows: Rows,
+        group: list[int],
+        words: Array | None,
+        empty: dict[int, Bool1D],
+        hopeless: Bool1D | None,
+        line: int,
+    ) -> tuple[LineBlock, Bool1D | None]:
         """One group's block; and which rows have a time and a value: None for all."""
         assert self.times is not None
         packet, n = self.packet, rows.n
@@ -270,16 +288,22 @@ class _Reading:
 
     def _losses(self, rows: Rows, lost: list[int], odd: list[int], line: int) -> Iterator[Loss]:
         if lost:
-            yield Loss(f"{self.path.name} line {line + lost[0]}", reason=f"{len(lost)} lines that are no rows of "
-                       f"{self.packet.width} numbers")
+            yield Loss(
+                f"{self.path.name} line {line + lost[0]}",
+                reason=f"{len(lost)} lines that are no rows of {self.packet.width} numbers",
+            )
         cells = len({r for r, _ in rows.wrong} - set(lost))
         if cells:
             first = line + int(rows.line[rows.wrong[0][0]])
-            yield Loss(f"{self.path.name} line {first}", reason=f"{len(rows.wrong)} cells that are no numbers: their "
-                       "rows are kept, these values are flagged")
+            yield Loss(
+                f"{self.path.name} line {first}",
+                reason=f"{len(rows.wrong)} cells that are no numbers: their rows are kept, these values are flagged",
+            )
         if odd:
-            yield Loss(f"{self.path.name} line {line + int(rows.line[odd[0]])}", reason=f"{len(odd)} rows with a "
-                       "number, or bytes of no text, where the comment stands")
+            yield Loss(
+                f"{self.path.name} line {line + int(rows.line[odd[0]])}",
+                reason=f"{len(odd)} rows with a number, or bytes of no text, where the comment stands",
+            )
 
     def _sliced(self, block: LineBlock) -> Iterator[LineBlock]:
         size = int(self.source.options.get("block_rows", 0)) or max(1, block.t_ns.size)
@@ -292,7 +316,12 @@ class _Reading:
         most = max((s for i in range(len(packet.names)) if (s := packet.samples(i)) is not None), default=0)
         where = f"{self.path.name} line {packet.line}"
         if self.done < most:
-            yield Loss(where, last_ns, None, (most - self.done) / most,
-                       f"{self.done} rows of {most} that the heading announces")
+            yield Loss(
+                where,
+                last_ns,
+                None,
+                (most - self.done) / most,
+                f"{self.done} rows of {most} that the heading announces",
+            )
         elif self.header.several and most and self.done > most:
             yield Loss(where, reason=f"{self.done} rows where the heading announces {most}: a heading may be missing")

@@ -51,8 +51,7 @@ class Packet:
     def key(self, name: str, channel: int, default: str = "") -> str:
         """A key's value for a channel: with an X column each, the values stand in every second cell."""
         values = self.keys.get(name, [])
-        at = 2 * channel if self.multi and len([v for v in values if v]) <= len(self.names) < len(values) \
-            else channel
+        at = 2 * channel if self.multi and len([v for v in values if v]) <= len(self.names) < len(values) else channel
         return values[at] if at < len(values) else default
 
     def samples(self, channel: int) -> int | None:
@@ -71,15 +70,18 @@ def is_file_header(lines: list[str]) -> bool:
 
 def split_heading(lines: list[str]) -> tuple[list[str], list[str]]:
     """(lines of the file's header, lines of a packet's heading that follow it, for want of an end between)."""
-    at = next((i for i, line in enumerate(lines) if re.split(r"[\t,; ]", line, maxsplit=1)[0] in _PACKET_KEYS),
-              len(lines))
+    at = next(
+        (i for i, line in enumerate(lines) if re.split(r"[\t,; ]", line, maxsplit=1)[0] in _PACKET_KEYS), len(lines)
+    )
     return lines[:at], lines[at:]
 
 
 def read_header(lines: list[str], notes: list[str]) -> Header:
     """The file's header. Its own lines show the separator even where the tag is damaged."""
-    separator = next((s for s in ("\t", ",", ";") if any(re.match(rf"^(X_Columns|Multi_Headings|Date){s}", line)
-                                                         for line in lines)), "\t")
+    separator = next(
+        (s for s in ("\t", ",", ";") if any(re.match(rf"^(X_Columns|Multi_Headings|Date){s}", line) for line in lines)),
+        "\t",
+    )
     keys: dict[str, str] = {}
     for line in lines:
         name, _, value = line.partition(separator)
@@ -87,11 +89,19 @@ def read_header(lines: list[str], notes: list[str]) -> Header:
     said = keys.get("Separator", "")
     named = _SEPARATORS.get(said.lower(), said if said in ("\t", ",", ";") else None)
     if named is not None and named != separator:
-        notes.append(f"the header names the separator '{said}', but is itself separated by "
-                     f"{'tabs' if separator == chr(9) else repr(separator)}")
+        notes.append(
+            f"the header names the separator '{said}', but is itself separated by "
+            f"{'tabs' if separator == chr(9) else repr(separator)}"
+        )
     decimal = keys.get("Decimal_Separator", "")[:1]
-    return Header(separator, decimal if decimal in (".", ",") else None, keys.get("X_Columns", "").strip(),
-                  keys.get("Multi_Headings", "No").strip() == "Yes", keys.get("Date", ""), keys.get("Time", ""))
+    return Header(
+        separator,
+        decimal if decimal in (".", ",") else None,
+        keys.get("X_Columns", "").strip(),
+        keys.get("Multi_Headings", "No").strip() == "Yes",
+        keys.get("Date", ""),
+        keys.get("Time", ""),
+    )
 
 
 def read_packet(lines: list[str], names_line: str, header: Header, path: Path, number: int) -> Packet:
@@ -111,26 +121,47 @@ def read_packet(lines: list[str], names_line: str, header: Header, path: Path, n
         last -= 1
     xs = [i for i in range(last) if row[i] == "X_Value"]
     if not xs or xs[0] != 0 or last < 2:
-        raise FormatError("LVM heading without channels", where=f"{path.name} line {number}",
-                          expected="X_Value and the names of channels", got=names_line[:80])
+        raise FormatError(
+            "LVM heading without channels",
+            where=f"{path.name} line {number}",
+            expected="X_Value and the names of channels",
+            got=names_line[:80],
+        )
     multi = len(xs) > 1 and xs == list(range(0, last, 2))
     if len(xs) > 1 and not multi:
-        raise FormatError("LVM heading whose X columns do not alternate with its channels",
-                          where=f"{path.name} line {number}", got=names_line[:80])
+        raise FormatError(
+            "LVM heading whose X columns do not alternate with its channels",
+            where=f"{path.name} line {number}",
+            got=names_line[:80],
+        )
     columns = list(range(1, last, 2 if multi else 1))
     said = header.x_columns
     if said not in ("No", "One", "Multi") or ((said == "Multi") != multi and len(columns) > 1):
-        notes.append(f"line {number}: X_Columns is '{said}', but the names have "
-                     f"{'an X column for each channel' if multi else 'one X column'}")
+        notes.append(
+            f"line {number}: X_Columns is '{said}', but the names have "
+            f"{'an X column for each channel' if multi else 'one X column'}"
+        )
     x: list[int | None] = [c - 1 if multi else 0 if said != "No" else None for c in columns]
     count = keys.get("Channels", [""])[0]
     if count != str(len(columns)):
-        notes.append(f"line {number}: the heading announces {count or 'no number of'} channels and names "
-                     f"{len(columns)}")
-    notes += [f"line {number}: the heading has no {key}" for key in ("Samples", "Date", "Time", "X0", "Delta_X")
-              if key not in keys]
-    return Packet(keys, _unique([row[c] or f"column {c + 1}" for c in columns]), tuple(columns), tuple(x), comment,
-                  last, number, tuple(notes))
+        notes.append(
+            f"line {number}: the heading announces {count or 'no number of'} channels and names {len(columns)}"
+        )
+    notes += [
+        f"line {number}: the heading has no {key}"
+        for key in ("Samples", "Date", "Time", "X0", "Delta_X")
+        if key not in keys
+    ]
+    return Packet(
+        keys,
+        _unique([row[c] or f"column {c + 1}" for c in columns]),
+        tuple(columns),
+        tuple(x),
+        comment,
+        last,
+        number,
+        tuple(notes),
+    )
 
 
 def _unique(names: list[str]) -> tuple[str, ...]:

@@ -75,10 +75,10 @@ class _Scan:
         self.packets = 0
         self.lost = False
         self.lines: list[str] = []
-        self.state = "heading"          # or: names, rows, special
+        self.state = "heading"  # or: names, rows, special
         self.before_special = ""
         self.rest, self.line, self.byte = b"", 1, 0
-        self.strays: list[int] = []     # lines in a heading that are none of its
+        self.strays: list[int] = []  # lines in a heading that are none of its
 
     def part(self, part: Part, last: bool = False) -> Iterator[Item]:
         data, at, line = part.data, 0, part.line
@@ -141,8 +141,10 @@ class _Scan:
                 yield from self._names(text, line)
         elif text.startswith(MARK):
             if self.strays:
-                yield Loss(f"{self.path.name} line {self.strays[0]}",
-                           reason=f"{len(self.strays)} lines before a heading's end that belong to no heading")
+                yield Loss(
+                    f"{self.path.name} line {self.strays[0]}",
+                    reason=f"{len(self.strays)} lines before a heading's end that belong to no heading",
+                )
                 self.strays = []
             if self.header is None or is_file_header(self.lines):
                 own, heading = split_heading(self.lines)
@@ -163,8 +165,12 @@ class _Scan:
         elif text.strip(" \t,;"):
             self.lines.append(text)
             if len(self.lines) > _MOST_HEADER_LINES:
-                raise FormatError("LVM header without an end", where=f"{self.path.name} line {line}", expected=MARK,
-                                  got=f"{_MOST_HEADER_LINES} lines without it")
+                raise FormatError(
+                    "LVM header without an end",
+                    where=f"{self.path.name} line {line}",
+                    expected=MARK,
+                    got=f"{_MOST_HEADER_LINES} lines without it",
+                )
 
     def _names(self, text: str, line: int) -> Iterator[Item]:
         assert self.header is not None

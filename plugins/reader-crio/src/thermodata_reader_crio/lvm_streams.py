@@ -11,7 +11,7 @@ from thermodata_reader_crio.labtime import local_ns
 from thermodata_reader_crio.lvm_header import Packet
 
 STREAM = "data"
-_SAME_SCAN_NS = 1_000_000     # channels of one scan may start up to this apart (a multiplexed converter)
+_SAME_SCAN_NS = 1_000_000  # channels of one scan may start up to this apart (a multiplexed converter)
 
 
 def is_time(packet: Packet, channel: int) -> bool:

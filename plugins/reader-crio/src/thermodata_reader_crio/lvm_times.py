@@ -18,7 +18,7 @@ _FIRST_BYTES = 16 * 1024
 def decimal_of(data: bytes, header: Header, packet: Packet, notes: list[str]) -> str:
     """The decimal mark that the data show; where they show none, what the header says."""
     lines = data[:_FIRST_BYTES].decode("latin-1").splitlines()[:200]
-    cells = (c for line in lines for c in line.split(header.separator)[:packet.width])
+    cells = (c for line in lines for c in line.split(header.separator)[: packet.width])
     try:
         found = decimal_mark(cells)
     except FormatError:
@@ -31,8 +31,9 @@ def decimal_of(data: bytes, header: Header, packet: Packet, notes: list[str]) ->
 def first_rows(data: bytes, header: Header, packet: Packet) -> Rows:
     """The first rows of a packet, for what only the data tell."""
     end = data.rfind(b"\n", 0, _FIRST_BYTES) + 1 or len(data)
-    grid = Grid(header.separator.encode(), decimal_of(data, header, packet, []).encode(), packet.width, packet.comment,
-                2)
+    grid = Grid(
+        header.separator.encode(), decimal_of(data, header, packet, []).encode(), packet.width, packet.comment, 2
+    )
     return parse(data[:end], grid)
 
 
@@ -55,8 +56,11 @@ class Times:
     def base(self, channel: int) -> int:
         """The time of X = 0, or of the first row where rows are counted; 0 where the file names no date."""
         if self._seconds(channel):
-            return EPOCH_1904_NS if self.packet.x[channel] is not None else \
-                EPOCH_1904_NS + round(self._number("X0", channel, 0.0) * 1e9)
+            return (
+                EPOCH_1904_NS
+                if self.packet.x[channel] is not None
+                else EPOCH_1904_NS + round(self._number("X0", channel, 0.0) * 1e9)
+            )
         start = self._start(channel) or 0
         if self.packet.x[channel] is not None:
             return start
@@ -89,8 +93,10 @@ class Times:
         local = local_ns(date, time)
         if local is None:
             if date or time:
-                self._say(f"line {self.packet.line}: date '{date[:20]}' and time '{time[:30]}' are not understood; "
-                          "times count from the start of the rows")
+                self._say(
+                    f"line {self.packet.line}: date '{date[:20]}' and time '{time[:30]}' are not understood; "
+                    "times count from the start of the rows"
+                )
             return None
         return utc_ns(local, self.source.timezone, self.notes)
 

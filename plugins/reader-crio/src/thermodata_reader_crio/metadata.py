@@ -12,8 +12,11 @@ NO_DATA, SAME_DATA = 0xFFFFFFFF, 0
 # the documentation names the second one 0x1369; files hold 0x126A
 FORMAT_CHANGING, DIGITAL_LINES = 0x1269, (0x126A, 0x1369)
 _VOID, _BOOL = 0, 0x21
-_UNSIZED = {0x0B: "extended floating point numbers", 0x1B: "extended floating point numbers with unit",
-            0x4F: "fixed-point numbers"}
+_UNSIZED = {
+    0x0B: "extended floating point numbers",
+    0x1B: "extended floating point numbers with unit",
+    0x4F: "fixed-point numbers",
+}
 _CODES = {1: "b", 2: "h", 3: "i", 4: "q", 5: "B", 6: "H", 7: "I", 8: "Q", 9: "f", 10: "d", 0x19: "f", 0x1A: "d"}
 
 
@@ -78,7 +81,7 @@ class Cursor:
         if n > len(self.data) - self.at:
             raise DamageError(f"a field of {n} bytes in metadata that ends after {len(self.data) - self.at}")
         self.at += n
-        return self.data[self.at - n:self.at]
+        return self.data[self.at - n : self.at]
 
     def number(self, code: str) -> Any:
         return struct.unpack(self.order + code, self.take(struct.calcsize(code)))[0]
@@ -139,8 +142,10 @@ class Cursor:
         if n == 0 and (kind == _VOID or kind in _UNSIZED):
             return RawIndex(5, 0, 0)
         if kind in _UNSIZED:
-            raise DamageError(f"{path[:80]} holds {_UNSIZED[kind]} (type 0x{kind:X}), whose size the format leaves to "
-                              "the computer that wrote them: convert them to DBL in LabVIEW")
+            raise DamageError(
+                f"{path[:80]} holds {_UNSIZED[kind]} (type 0x{kind:X}), whose size the format leaves to "
+                "the computer that wrote them: convert them to DBL in LabVIEW"
+            )
         raise DamageError(f"{path[:80]} has the unknown data type 0x{kind:X}")
 
     def daqmx(self, header: int) -> RawIndex:

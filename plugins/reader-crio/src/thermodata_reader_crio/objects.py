@@ -12,7 +12,7 @@ from thermodata_reader_crio.metadata import SAME, Object, parse
 # what says which values the numbers stand for
 _MEANING = ("NI_Scal", "NI_Number_Of_Scales", "unit_string", "NI_UnitDescription")
 _MEMO_BYTES = 8 * 1024 * 1024
-_MOST_IDS = 500_000     # entries of the lists that are remembered
+_MOST_IDS = 500_000  # entries of the lists that are remembered
 _Members = tuple[tuple[str, RawIndex], ...]
 
 

@@ -73,8 +73,14 @@ def _clock(index: Index, column: Column) -> Clock | None:
             made.start(row, wave, made.time(row), 0, made.suspect[-1])
     if not made.row:
         return None
-    return Clock(np.array(made.row, np.int64), np.array(made.base, np.int64), np.array(made.origin, np.int64),
-                 tuple(w.step for w in made.waves), np.array(made.suspect, bool), made.waves[0].start_ns is not None)
+    return Clock(
+        np.array(made.row, np.int64),
+        np.array(made.base, np.int64),
+        np.array(made.origin, np.int64),
+        tuple(w.step for w in made.waves),
+        np.array(made.suspect, bool),
+        made.waves[0].start_ns is not None,
+    )
 
 
 def counted_clock(index: Index, column: Column, step_s: float) -> Clock:
@@ -83,15 +89,22 @@ def counted_clock(index: Index, column: Column, step_s: float) -> Clock:
     made.start(0, Waveform(None, 0, clock.steps[0]), 0, 0, False)
     for hole in index.holes:
         _skip(made, index, column, hole, column.row_at(hole.piece))
-    return Clock(np.array(made.row, np.int64), np.array(made.base, np.int64), np.array(made.origin, np.int64),
-                 tuple(w.step for w in made.waves), np.array(made.suspect, bool), False)
+    return Clock(
+        np.array(made.row, np.int64),
+        np.array(made.base, np.int64),
+        np.array(made.origin, np.int64),
+        tuple(w.step for w in made.waves),
+        np.array(made.suspect, bool),
+        False,
+    )
 
 
 def _events(index: Index, path: str) -> list[tuple[int, dict[str, Any] | Hole]]:
     """Holes and changed properties in the file's order, a hole before what follows it."""
     found: list[tuple[int, int, dict[str, Any] | Hole]] = [(h.piece, 0, h) for h in index.holes]
-    found += [(c.piece, 1, {k: v for k, v in c.properties.items() if k in CLOCK})
-              for c in index.clock_changes.get(path, [])]
+    found += [
+        (c.piece, 1, {k: v for k, v in c.properties.items() if k in CLOCK}) for c in index.clock_changes.get(path, [])
+    ]
     return [(piece, what) for piece, _, what in sorted(found, key=lambda e: e[:2])]
 
 

@@ -12,8 +12,8 @@ from thermodata_reader_crio.columns import TEXT, Column
 from thermodata_reader_crio.gather import read
 from thermodata_reader_crio.streams import Stream, open_file
 
-_NAMED = 12                # channels whose bytes are told one by one
-_ROWS = 1_000_000          # times read at once
+_NAMED = 12  # channels whose bytes are told one by one
+_ROWS = 1_000_000  # times read at once
 
 
 def place(path: Path, source: Source, stream: str, row: int) -> str | None:
@@ -36,10 +36,16 @@ def place(path: Path, source: Source, stream: str, row: int) -> str | None:
             part = "" if column.part is None or len(channel.columns) == 1 else f" part {column.part}"
             text = "offset of its text at " if column.dtype == TEXT else ""
             named.setdefault(int(np.searchsorted(starts, byte, "right")), []).append(
-                f"{text}byte {byte} ({channel.signal.name}{part})")
+                f"{text}byte {byte} ({channel.signal.name}{part})"
+            )
     more = f" and {len(channels) - 2} channels between" if len(channels) > _NAMED else ""
-    return "; ".join(f"segment {number} of {file.index.segments}, {', '.join(bytes_)}"
-                     for number, bytes_ in sorted(named.items())) + more
+    return (
+        "; ".join(
+            f"segment {number} of {file.index.segments}, {', '.join(bytes_)}"
+            for number, bytes_ in sorted(named.items())
+        )
+        + more
+    )
 
 
 def byte_of(column: Column, row: int) -> int:

@@ -17,7 +17,7 @@ _TAG = b"TDSm"
 _WINDOW = 1 << 20
 _KNOWN_FLAGS = 0xEE
 _MOST_TRIES = 10_000
-_MOST_PARSED = 512 * 1024 * 1024    # bytes of metadata: a hostile file may nest lead-ins in each other
+_MOST_PARSED = 512 * 1024 * 1024  # bytes of metadata: a hostile file may nest lead-ins in each other
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,8 +35,9 @@ class Found:
 def find(walk: Walk, searched: int, start: int) -> Found | None:
     """The next usable segment from byte `searched` on, where a segment was expected at `start`."""
     for passed, (lead, objects) in enumerate(_candidates(walk.file, searched, walk.index.size)):
-        alone = bool(lead.toc & META and lead.toc & NEW_LIST) and \
-            all(o.held is None or o.held != SAME for o in objects or ())
+        alone = bool(lead.toc & META and lead.toc & NEW_LIST) and all(
+            o.held is None or o.held != SAME for o in objects or ()
+        )
         missing = _missing(walk, start, lead)
         follows = lead.start <= start and _whole(walk, lead.start)
         if alone or follows or (missing[1] is not None and _twin(walk, lead)):
@@ -60,7 +61,7 @@ def _candidates(file: BinaryIO, at: int, size: int) -> Iterator[tuple[LeadIn, li
                 objects = parse(read_metadata(file, lead), lead.order)[0] if lead.toc & META else None
                 found = lead, objects
         except DamageError:
-            pass                                     # a tag by chance, or of another damaged segment: search on
+            pass  # a tag by chance, or of another damaged segment: search on
         if found is None:
             at += len(_TAG)
         else:

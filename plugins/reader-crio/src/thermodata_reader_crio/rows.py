@@ -12,10 +12,19 @@ import numpy as np
 from thermodata.plugin import Array, Bool1D, Float1D, Int1D
 
 _NUMBER = re.compile(rb"^[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?$")
-_WORDS = {b"nan": np.nan, b"-nan": np.nan, b"+nan": np.nan, b"inf": np.inf, b"+inf": np.inf, b"-inf": -np.inf,
-          b"infinity": np.inf, b"-infinity": -np.inf, b"+infinity": np.inf}
-_SMALL = 4096                # bytes below which starting a parser costs more than it saves
-_CELLWISE = 64 * 1024        # a damaged part is halved down to this size, so that little of it is read slowly
+_WORDS = {
+    b"nan": np.nan,
+    b"-nan": np.nan,
+    b"+nan": np.nan,
+    b"inf": np.inf,
+    b"+inf": np.inf,
+    b"-inf": -np.inf,
+    b"infinity": np.inf,
+    b"-infinity": -np.inf,
+    b"+infinity": np.inf,
+}
+_SMALL = 4096  # bytes below which starting a parser costs more than it saves
+_CELLWISE = 64 * 1024  # a damaged part is halved down to this size, so that little of it is read slowly
 
 
 @dataclass(frozen=True)
@@ -63,11 +72,18 @@ def parse(data: bytes, grid: Grid) -> Rows:
 
 
 def _joined(a: Rows, b: Rows, lines: int) -> Rows:
-    text = None if a.text is None and b.text is None else np.concatenate(
-        [np.full(r.n, None, object) if r.text is None else r.text for r in (a, b)])
-    return Rows([np.concatenate(pair) for pair in zip(a.numbers, b.numbers, strict=True)], text,
-                np.concatenate([a.line, b.line + lines]), a.wrong + [(r + a.n, c) for r, c in b.wrong],
-                a.bad + [i + lines for i in b.bad])
+    text = (
+        None
+        if a.text is None and b.text is None
+        else np.concatenate([np.full(r.n, None, object) if r.text is None else r.text for r in (a, b)])
+    )
+    return Rows(
+        [np.concatenate(pair) for pair in zip(a.numbers, b.numbers, strict=True)],
+        text,
+        np.concatenate([a.line, b.line + lines]),
+        a.wrong + [(r + a.n, c) for r, c in b.wrong],
+        a.bad + [i + lines for i in b.bad],
+    )
 
 
 # ---- the fast way --------------------------------------------------------------------------------
@@ -78,7 +94,7 @@ def _fast(data: bytes, grid: Grid) -> Rows | None:
     import pyarrow as pa
     import pyarrow.csv as pc
 
-    first = data[:data.find(b"\n")].rstrip(b"\r")
+    first = data[: data.find(b"\n")].rstrip(b"\r")
     cells = first.count(grid.delimiter) + 1
     if b"\0" in data or not grid.least <= cells <= grid.numeric + grid.text or not first.strip():
         return None
@@ -93,22 +109,32 @@ def _fast(data: bytes, grid: Grid) -> Rows | None:
         table = pc.read_csv(
             pa.BufferReader(data),
             read_options=pc.ReadOptions(column_names=names, block_size=1 << 20),
-            parse_options=pc.ParseOptions(delimiter=grid.delimiter.decode(), quote_char=False,
-                                          ignore_empty_lines=False),
-            convert_options=pc.ConvertOptions(column_types=kinds, null_values=[""], strings_can_be_null=True,
-                                              decimal_point=grid.decimal.decode(), check_utf8=False))
+            parse_options=pc.ParseOptions(
+                delimiter=grid.delimiter.decode(), quote_char=False, ignore_empty_lines=False
+            ),
+            convert_options=pc.ConvertOptions(
+                column_types=kinds,
+                null_values=[""],
+                strings_can_be_null=True,
+                decimal_point=grid.decimal.decode(),
+                check_utf8=False,
+            ),
+        )
     except pa.ArrowInvalid:
         return None
     numbers = [_numpy(table.column(i)) if i < cells else np.full(table.num_rows, np.nan) for i in range(grid.numeric)]
     if any(np.isinf(c).any() for c in numbers if np.isinf(c.sum()) or np.isnan(c.sum())):
-        return None                                  # a number too large for a double, or Inf itself
+        return None  # a number too large for a double, or Inf itself
     if table.num_rows > 1 and cells == 1 and np.isnan(numbers[0]).any():
-        return None                                  # an empty line is an empty cell where there is one column
+        return None  # an empty line is an empty cell where there is one column
     text = None
     if cells > grid.numeric:
         text = _texts(table.column(grid.numeric))
-    whole = cells >= grid.numeric and all(table.column(i).null_count == 0 for i in range(grid.numeric)) \
+    whole = (
+        cells >= grid.numeric
+        and all(table.column(i).null_count == 0 for i in range(grid.numeric))
         and not any(np.isnan(c[0]) or np.isnan(c.sum()) for c in numbers)
+    )
     return Rows(numbers, text, np.arange(table.num_rows, dtype=np.int64), [], [], whole)
 
 
@@ -119,11 +145,10 @@ def _numpy(column: Any) -> Float1D:
     for chunk in column.chunks:
         n = len(chunk)
         values = np.frombuffer(chunk.buffers()[1], np.float64, n, chunk.offset * 8)
-        out[at:at + n] = values
+        out[at : at + n] = values
         if chunk.null_count:
-            bits = np.unpackbits(np.frombuffer(chunk.buffers()[0], np.uint8), bitorder="little",
-                                 count=chunk.offset + n)
-            out[at:at + n][bits[chunk.offset:] == 0] = np.nan
+            bits = np.unpackbits(np.frombuffer(chunk.buffers()[0], np.uint8), bitorder="little", count=chunk.offset + n)
+            out[at : at + n][bits[chunk.offset :] == 0] = np.nan
         at += n
     return out
 
@@ -174,8 +199,9 @@ def _slow(data: bytes, grid: Grid) -> Rows:
         numbers.append(values)
     text = None
     if grid.text and any(len(cells[i]) > grid.numeric for i in kept):
-        text = np.array([cells[i][grid.numeric] or None if len(cells[i]) > grid.numeric else None for i in kept],
-                        object)
+        text = np.array(
+            [cells[i][grid.numeric] or None if len(cells[i]) > grid.numeric else None for i in kept], object
+        )
     return Rows(numbers, text, np.array(kept, np.int64), sorted(wrong), bad)
 
 
@@ -189,7 +215,7 @@ def number(cell: bytes, decimal: bytes = b".") -> float | None:
         cell = cell.replace(b",", b".")
     if _NUMBER.match(cell):
         value = float(cell)
-        return value if np.isfinite(value) else None     # 1e999
+        return value if np.isfinite(value) else None  # 1e999
     return _WORDS.get(cell.lower())
 
 

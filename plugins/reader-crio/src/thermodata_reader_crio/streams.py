@@ -22,7 +22,7 @@ from thermodata_reader_crio.walk import walk
 
 _KEPT: dict[tuple[object, ...], File] = {}
 _LOCK = Lock()
-_SAME_SCAN_NS = 1_000_000   # channels of one scan may start up to this apart (a multiplexed converter)
+_SAME_SCAN_NS = 1_000_000  # channels of one scan may start up to this apart (a multiplexed converter)
 
 
 @dataclass(frozen=True, eq=False)
@@ -61,7 +61,7 @@ class File:
     index: Index
     streams: tuple[Stream, ...]
     notes: tuple[str, ...]
-    partly: tuple[str, ...]      # what was left out of channels, as sentences
+    partly: tuple[str, ...]  # what was left out of channels, as sentences
 
 
 def open_file(path: Path, source: Source, *, keep: bool = False) -> File:
@@ -96,14 +96,25 @@ def _opened(path: Path, source: Source) -> File:
         for group, members in groups.items():
             found += _streams(group, members, index, source, notes, taken, file)
     if not found:
-        raise FormatError("a TDMS file without values", where=path.name, expected="channels with raw data",
-                          got=f"{index.segments} segments, {len(index.properties)} objects",
-                          hint=index.damage)
+        raise FormatError(
+            "a TDMS file without values",
+            where=path.name,
+            expected="channels with raw data",
+            got=f"{index.segments} segments, {len(index.properties)} objects",
+            hint=index.damage,
+        )
     return File(index, tuple(found), tuple(notes), tuple(partly))
 
 
-def _streams(group: str, members: list[Channel], index: Index, source: Source, notes: list[str], taken: dict[str, int],
-             file: BinaryIO) -> Iterable[Stream]:
+def _streams(
+    group: str,
+    members: list[Channel],
+    index: Index,
+    source: Source,
+    notes: list[str],
+    taken: dict[str, int],
+    file: BinaryIO,
+) -> Iterable[Stream]:
     filled = [c for c in members if c.planned or c.length]
     notes.extend(f"{c.signal.name} holds no values" for c in members if not (c.planned or c.length))
     clocks = [c for c in filled if c.clock is None and is_time(c, source)]
@@ -123,11 +134,15 @@ def _streams(group: str, members: list[Channel], index: Index, source: Source, n
         if clock is None:
             clock = counted_clock(index, part[0].columns[0], step or 1.0)
             if step is None:
-                notes.append(f"stream '{name}' has no time: its rows are counted as 1 s each; declare "
-                             "options: {increment: 0.1 s}, or {time: CHANNEL}")
+                notes.append(
+                    f"stream '{name}' has no time: its rows are counted as 1 s each; declare "
+                    "options: {increment: 0.1 s}, or {time: CHANNEL}"
+                )
         elif any(not np.array_equal(c.clock.base_ns, clock.base_ns) for c in part if c.clock is not None):
-            notes.append(f"stream '{name}': its channels start up to 1 ms apart (one scan of a multiplexed converter); "
-                         "rows carry the time of the first; each channel's own start stands in its wf_start_time")
+            notes.append(
+                f"stream '{name}': its channels start up to 1 ms apart (one scan of a multiplexed converter); "
+                "rows carry the time of the first; each channel's own start stands in its wf_start_time"
+            )
         if part[0].length and int(part[0].columns[0].runs.piece[0]) > late:
             notes.append(f"stream '{name}' begins after others of its group; its time is what its own properties say")
         yield Stream(name, own, clock, None)
@@ -155,8 +170,15 @@ def _parts(members: list[Channel], index: Index) -> Iterable[list[Channel]]:
     parts: list[list[Channel]] = []
     for c in members:
         key, cell = _key(c, index)
-        fit = next((p for at in (cell, cell - 1, cell + 1) for p in near.get((key, at), ())
-                    if _same_clock(p[0], c) and _same_rows(p[0], c, index)), None)
+        fit = next(
+            (
+                p
+                for at in (cell, cell - 1, cell + 1)
+                for p in near.get((key, at), ())
+                if _same_clock(p[0], c) and _same_rows(p[0], c, index)
+            ),
+            None,
+        )
         if fit is None:
             parts.append([c])
             near.setdefault((key, cell), []).append(parts[-1])

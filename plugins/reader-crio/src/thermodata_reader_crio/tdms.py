@@ -16,8 +16,8 @@ from thermodata_reader_crio.gather import read
 from thermodata_reader_crio.losses import losses
 from thermodata_reader_crio.streams import File, Stream, open_file
 
-BLOCK_VALUES = 2_000_000       # values a block, over all its signals: 16 MB, a row group of the store
-_TEXT_BYTES = 16 << 20         # and bytes of text
+BLOCK_VALUES = 2_000_000  # values a block, over all its signals: 16 MB, a row group of the store
+_TEXT_BYTES = 16 << 20  # and bytes of text
 
 
 def describe(path: Path, source: Source) -> Recording:
@@ -80,15 +80,22 @@ def blocks(path: Path, source: Source) -> Iterator[Block | Loss]:
                     last_ns = max(int(block.t_ns[-1]), last_ns if last_ns is not None else int(block.t_ns[-1]))
                     yield block
             if timeless:
-                yield Loss(f"{path.name} stream '{stream.name}'", fraction=timeless / stream.rows,
-                           reason=f"{timeless} rows whose time channel holds no time")
+                yield Loss(
+                    f"{path.name} stream '{stream.name}'",
+                    fraction=timeless / stream.rows,
+                    reason=f"{timeless} rows whose time channel holds no time",
+                )
     yield from losses(file, path, last_ns)
 
 
 def _block_rows(stream: Stream, source: Source) -> int:
     rows = BLOCK_VALUES // (len(stream.channels) + 1)
-    wide = sum(int(c.stride.max()) // max(1, int(c.n[int(c.stride.argmax())])) + 8
-               for channel in stream.channels for c in channel.columns if c.dtype == TEXT)
+    wide = sum(
+        int(c.stride.max()) // max(1, int(c.n[int(c.stride.argmax())])) + 8
+        for channel in stream.channels
+        for c in channel.columns
+        if c.dtype == TEXT
+    )
     if wide:
         rows = min(rows, _TEXT_BYTES // wide)
     return max(1, int(source.options.get("block_rows", rows)))
@@ -112,7 +119,7 @@ def _block(handle: BinaryIO, stream: Stream, first: int, last: int, shift: int) 
     flags: dict[str, Array] = {}
     at = 0
     for channel in stream.channels:
-        parts = raw[at:at + len(channel.columns)]
+        parts = raw[at : at + len(channel.columns)]
         at += len(channel.columns)
         value, flag = _whole(_joined(channel, parts), last - first)
         if suspect is not None:
@@ -150,6 +157,6 @@ def _whole(value: Array, n: int) -> tuple[Array, Array | None]:
     if value.size < n:
         fill = {"f": np.nan, "O": ""}.get(value.dtype.kind, 0)
         missing = np.full(n, Flag.NOT_MEASURING, np.uint16)
-        missing[:value.size] = 0 if flag is None else flag
+        missing[: value.size] = 0 if flag is None else flag
         flag, value = missing, np.concatenate([value, np.full(n - value.size, fill, value.dtype)])
     return value, flag

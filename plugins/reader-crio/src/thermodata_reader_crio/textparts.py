@@ -36,13 +36,18 @@ class LineBlock(Block):
     def part(self, first: int, last: int) -> LineBlock:
         """Rows [first, last)."""
         cut = slice(first, last)
-        return LineBlock(self.stream, self.t_ns[cut], {k: v[cut] for k, v in self.values.items()},
-                         None if self.flags is None else {k: v[cut] for k, v in self.flags.items()},
-                         None if self.lines is None else self.lines[cut])
+        return LineBlock(
+            self.stream,
+            self.t_ns[cut],
+            {k: v[cut] for k, v in self.values.items()},
+            None if self.flags is None else {k: v[cut] for k, v in self.flags.items()},
+            None if self.lines is None else self.lines[cut],
+        )
 
 
-def place(blocks: Callable[[Path, Source], Iterator[Block | Loss]], path: Path, source: Source, stream: str,
-          row: int) -> str | None:
+def place(
+    blocks: Callable[[Path, Source], Iterator[Block | Loss]], path: Path, source: Source, stream: str, row: int
+) -> str | None:
     """The line of a row (counted from 0) of a stream, as an editor counts; None where there is no such row."""
     done = 0
     for block in blocks(path, source):
@@ -58,15 +63,16 @@ def encoding_of(path: Path, declared: str | None) -> tuple[str, str | None]:
     with path.open("rb") as file:
         head = file.read(_HEAD_BYTES)
     if len(head) == _HEAD_BYTES:
-        head = head[:max(head.rfind(b"\n"), head.rfind(b"\r"), _HEAD_BYTES // 2) + 1]
+        head = head[: max(head.rfind(b"\n"), head.rfind(b"\r"), _HEAD_BYTES // 2) + 1]
         if head[1:2] == b"\0" or head[:2] in (codecs.BOM_UTF16_BE, codecs.BOM_UTF16_LE):
-            head = head[:len(head) // 2 * 2]
+            head = head[: len(head) // 2 * 2]
     if declared is not None:
         try:
             codecs.lookup(declared)
         except LookupError:
-            raise FormatError(f"no encoding '{declared}'", expected="utf-8, cp1250, cp1252, utf-16, ...",
-                              got=declared) from None
+            raise FormatError(
+                f"no encoding '{declared}'", expected="utf-8, cp1250, cp1252, utf-16, ...", got=declared
+            ) from None
         return declared, None
     return find_encoding(head)
 
@@ -89,8 +95,12 @@ def parts(path: Path, encoding: str, size: int | None = None) -> Iterator[Part]:
             if end == 0:
                 carry += block
                 if len(carry) > _LONGEST_LINE:
-                    raise FormatError("a line without an end", where=f"{path.name} line {line}",
-                                      expected=f"lines of less than {_LONGEST_LINE} bytes", got=f"{len(carry)} bytes")
+                    raise FormatError(
+                        "a line without an end",
+                        where=f"{path.name} line {line}",
+                        expected=f"lines of less than {_LONGEST_LINE} bytes",
+                        got=f"{len(carry)} bytes",
+                    )
                 continue
             data = carry + block[:end] if carry else block[:end]
             carry = block[end:]

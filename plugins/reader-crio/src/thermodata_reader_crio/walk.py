@@ -73,16 +73,20 @@ class Walk:
             return
         index, chunk = self.index, self.index.layouts[layout].chunk_bytes
         if not lead.toc & RAW and (chunks or tail):
-            index.note(f"byte {lead.start}: the lead-in says that no raw data follow; {chunks * chunk + tail} bytes of "
-                       "them do, and are taken")
+            index.note(
+                f"byte {lead.start}: the lead-in says that no raw data follow; {chunks * chunk + tail} bytes of "
+                "them do, and are taken"
+            )
         at = lead.data + chunks * chunk
         if chunks:
             index.pieces.add(lead.data, chunks, self._shape(Shape(layout)))
         if tail or (cut and not chunks and chunk):
             index.pieces.add(at, 1, self._shape(Shape(layout, tail, cut)))
         if tail and not cut:
-            index.note(f"byte {at}: a chunk of {tail} bytes instead of {chunk}: taken as all of its channels written "
-                       "shorter by the same share")
+            index.note(
+                f"byte {at}: a chunk of {tail} bytes instead of {chunk}: taken as all of its channels written "
+                "shorter by the same share"
+            )
 
     def _shape(self, shape: Shape) -> int:
         number = self._shapes.setdefault(shape, len(self.index.shapes))
@@ -119,7 +123,7 @@ class Walk:
                 if last is not None:
                     index.pieces.restore(last.first_piece, kept)
                 search, failed = found.lead.start + 4, failed + 1 + found.passed
-                self.lists.forget()                  # what follows may be read only where it names all that it needs
+                self.lists.forget()  # what follows may be read only where it names all that it needs
                 self.last = None
                 continue
             if index.damage == reason:
@@ -164,6 +168,10 @@ def walk(path: Path) -> Index:
                     index.damage = f"byte {index.good_end}: {reason}"
                 goes_on = goes_on and index.damage is None
     if not index.segments:
-        raise FormatError("not a readable TDMS file", where=f"{path.name} {index.damage or 'byte 0'}",
-                          expected="a lead-in, its metadata and raw data", got=f"a file of {index.size} bytes")
+        raise FormatError(
+            "not a readable TDMS file",
+            where=f"{path.name} {index.damage or 'byte 0'}",
+            expected="a lead-in, its metadata and raw data",
+            got=f"a file of {index.size} bytes",
+        )
     return index

@@ -9,9 +9,9 @@ import numpy as np
 from thermodata.plugin import Array
 from thermodata_reader_crio.columns import Column
 
-_PART = 50_000              # texts at once
-_PART_BYTES = 8 << 20       # and their bytes
-_LONGEST = 64 << 20         # a text of more is damage
+_PART = 50_000  # texts at once
+_PART_BYTES = 8 << 20  # and their bytes
+_LONGEST = 64 << 20  # a text of more is damage
 
 
 def read_words(file: BinaryIO, column: Column, first: int, last: int) -> Array:
@@ -32,7 +32,7 @@ def read_words(file: BinaryIO, column: Column, first: int, last: int) -> Array:
         begin = int(runs.position[piece]) + chunk * int(runs.pitch[place]) + int(column.start[place])
         order = ">u4" if column.kinds[place].big_endian else "<u4"
         words = _chunk(file, begin, n, size, skip, count, order)
-        out[at - first:at - first + len(words)] = words
+        out[at - first : at - first + len(words)] = words
         at += len(words)
     return out
 
@@ -49,15 +49,17 @@ def _chunk(file: BinaryIO, begin: int, n: int, size: int, skip: int, count: int,
     good = (ends[1:] >= ends[:-1]) & (ends[1:] <= body) & (ends[1:] - ends[:-1] < _LONGEST)
     fits = int(np.searchsorted(np.cumsum(np.where(good, ends[1:] - ends[:-1], 0)), _PART_BYTES, "right"))
     count = max(1, min(count, fits))
-    good, ends = good[:count], ends[:count + 1]
+    good, ends = good[:count], ends[: count + 1]
     if not good.any():
         return [None] * count
     if not good.all():
-        return [_one(file, begin + 4 * n + a, b - a) if fine else None
-                for a, b, fine in zip(ends[:-1].tolist(), ends[1:].tolist(), good.tolist(), strict=True)]
+        return [
+            _one(file, begin + 4 * n + a, b - a) if fine else None
+            for a, b, fine in zip(ends[:-1].tolist(), ends[1:].tolist(), good.tolist(), strict=True)
+        ]
     low, high = int(ends[0]), int(ends[-1])
     raw = _exactly(file, begin + 4 * n + low, high - low)
-    return [_text(raw[a - low:b - low]) for a, b in zip(ends[:-1].tolist(), ends[1:].tolist(), strict=True)]
+    return [_text(raw[a - low : b - low]) for a, b in zip(ends[:-1].tolist(), ends[1:].tolist(), strict=True)]
 
 
 def _one(file: BinaryIO, at: int, size: int) -> str:

@@ -22,8 +22,8 @@ from thermodata_reader_mcap.seen import MOST_ELEMENTS, MOST_SIGNALS_IN_ARROW
 if TYPE_CHECKING:
     import pyarrow as pa
 
-_FEW = 256            # messages that are parsed at a time where fields come that the schema does not have,
-_SHORT = 64 << 10     # and bytes: each of them may bring fields of its own, and Arrow makes a column of each
+_FEW = 256  # messages that are parsed at a time where fields come that the schema does not have,
+_SHORT = 64 << 10  # and bytes: each of them may bring fields of its own, and Arrow makes a column of each
 _SMALL = 32
 _EXACT = 2.0**53
 _OPENING, _CLOSING = b"{}"
@@ -81,8 +81,10 @@ def _by_arrow(topic: Topic, payloads: Sequence[bytes], at: int, infer: bool) -> 
         raise _OddError
     try:
         table = pj.read_json(
-            pa.BufferReader(text), pj.ReadOptions(use_threads=False, block_size=len(text) + 16),
-            pj.ParseOptions(explicit_schema=wanted, unexpected_field_behavior="infer" if infer else "error"))
+            pa.BufferReader(text),
+            pj.ReadOptions(use_threads=False, block_size=len(text) + 16),
+            pj.ParseOptions(explicit_schema=wanted, unexpected_field_behavior="infer" if infer else "error"),
+        )
         if table.num_rows != len(payloads):
             raise _OddError
         wrong = [Wrong(at, path_name(topic.name, path), None, "") for path in unexpected(table.schema, wanted)]
@@ -91,7 +93,7 @@ def _by_arrow(topic: Topic, payloads: Sequence[bytes], at: int, infer: bool) -> 
         done: dict[Any, Selection] = {}
         for path, count in arrays(topic).items():
             longest = pc.max(pc.list_value_length(at_leaf(table, path, done).array)).as_py() or 0
-            real = path[topic.wrapped:]
+            real = path[topic.wrapped :]
             if count < min(longest, MOST_ELEMENTS) or (longest > MOST_ELEMENTS and real not in topic.long):
                 wrong.append(Wrong(at, path_name(topic.name, (*real, count)), None, ""))
         for leaf in topic.leaves:
@@ -102,7 +104,7 @@ def _by_arrow(topic: Topic, payloads: Sequence[bytes], at: int, infer: bool) -> 
     except (pa.ArrowException, UnicodeDecodeError) as error:
         raise (_UnexpectedError if not infer and "unexpected field" in str(error) else _OddError) from error
     if any(v.dtype == np.float64 and _large(v) for v in values.values()) and _LONG_INTEGER.search(text):
-        raise _OddError                                     # integers that a float64 may have rounded
+        raise _OddError  # integers that a float64 may have rounded
     return Columns(np.arange(at, at + len(payloads)), values, flags, wrong)
 
 
@@ -134,11 +136,11 @@ def arrow_schema(topic: Topic) -> pa.Schema:
     tree: dict[str | int, Any] = {}
     for leaf in topic.leaves:
         node, path = tree, ("", *leaf.path) if topic.wrapped else leaf.path
-        path = tuple(0 if isinstance(part, int) else part for part in path)     # all elements of an array are one
+        path = tuple(0 if isinstance(part, int) else part for part in path)  # all elements of an array are one
         for part in path[:-1]:
             node = node.setdefault(part, {})
             if not isinstance(node, dict):
-                raise _OddError                             # a number here and an object there
+                raise _OddError  # a number here and an object there
         if node.setdefault(path[-1], leaf.dtype) != leaf.dtype:
             raise _OddError
     return pa.schema([pa.field(str(k), _arrow_type(v)) for k, v in tree.items()])
@@ -151,7 +153,7 @@ def _arrow_type(node: Any) -> pa.DataType:
         return {"str": pa.string(), "bool": pa.bool_()}.get(node) or pa.type_for_alias(node)
     if 0 in node:
         if len(node) > 1:
-            raise _OddError                                 # an array here and an object there
+            raise _OddError  # an array here and an object there
         return pa.list_(_arrow_type(node[0]))
     return pa.struct([pa.field(k, _arrow_type(v)) for k, v in node.items()])
 

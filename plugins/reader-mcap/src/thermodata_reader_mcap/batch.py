@@ -13,7 +13,7 @@ from thermodata_reader_mcap.definitions import Channel
 from thermodata_reader_mcap.records import Bytes
 
 U64 = npt.NDArray[np.uint64]
-_HEAD = 31                       # bytes of a message's record before its payload
+_HEAD = 31  # bytes of a message's record before its payload
 
 
 @dataclass(slots=True)
@@ -43,8 +43,15 @@ class Batch:
 Key = Callable[[Channel], Hashable | None]
 
 
-def take(inner: Bytes, at: Int1D, channel_of: Callable[[int], Channel | None], key: Key,
-         into: dict[Hashable, Batch], counts: dict[int, int], lost: dict[int, int]) -> U64:
+def take(
+    inner: Bytes,
+    at: Int1D,
+    channel_of: Callable[[int], Channel | None],
+    key: Key,
+    into: dict[Hashable, Batch],
+    counts: dict[int, int],
+    lost: dict[int, int],
+) -> U64:
     """Puts the messages whose records begin at these places into the batches of their keys (None: not wanted);
     returns their log times. counts: messages by channel id; lost: those whose channel nothing defines."""
     data = np.frombuffer(inner, np.uint8)
@@ -70,9 +77,11 @@ def take(inner: Bytes, at: Int1D, channel_of: Callable[[int], Channel | None], k
     for batch, members in groups.values():
         mine = _places(numbers, [number for number, _ in members])
         first, last = (starts, stops) if mine is None else (starts[mine], stops[mine])
-        batch.payloads += [bytes(inner[a:b]) for a, b in zip(first.tolist(), last.tolist(), strict=True)] \
-            if isinstance(inner, memoryview) else \
-            [inner[a:b] for a, b in zip(first.tolist(), last.tolist(), strict=True)]
+        batch.payloads += (
+            [bytes(inner[a:b]) for a, b in zip(first.tolist(), last.tolist(), strict=True)]
+            if isinstance(inner, memoryview)
+            else [inner[a:b] for a, b in zip(first.tolist(), last.tolist(), strict=True)]
+        )
         batch.log_ns.append(log_ns if mine is None else log_ns[mine])
         batch.publish_ns.append(publish_ns if mine is None else publish_ns[mine])
         if len(members) == 1:

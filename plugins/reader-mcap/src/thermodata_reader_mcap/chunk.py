@@ -12,8 +12,8 @@ from typing import Any
 
 from thermodata_reader_mcap.records import Bytes, ChunkHead
 
-_MOST = 1 << 30           # a chunk of more is damaged, not large
-_RATIO, _FREE = 2000, 64 << 20    # above so many bytes, no log packs better than this
+_MOST = 1 << 30  # a chunk of more is damaged, not large
+_RATIO, _FREE = 2000, 64 << 20  # above so many bytes, no log packs better than this
 _STEP = 64 * 1024
 _LZ4_FRAME = b"\x04\x22\x4d\x18"
 
@@ -27,7 +27,7 @@ def records(view: memoryview, head: ChunkHead, cut: bool) -> Bytes:
 
     ChunkError: unknown compression, damaged data, a size that cannot be, or a checksum that differs.
     """
-    stored = view[head.start:head.stop]
+    stored = view[head.start : head.stop]
     if head.compression == "":
         data: Bytes = bytes(stored) if cut or len(stored) <= _FREE else stored
     elif head.compression in ("zstd", "lz4"):
@@ -37,7 +37,7 @@ def records(view: memoryview, head: ChunkHead, cut: bool) -> Bytes:
     else:
         raise ChunkError(f"compression '{head.compression}' is not known")
     if cut:
-        return data[:head.size]
+        return data[: head.size]
     if len(data) != head.size:
         more = "more than " if len(data) > head.size else ""
         raise ChunkError(f"{more}{min(len(data), head.size)} bytes instead of {head.size}")
@@ -53,20 +53,21 @@ def _zstd(stored: memoryview, size: int, cut: bool) -> bytes:
         claimed = zstandard.frame_content_size(stored)
     except zstandard.ZstdError:
         claimed = -1
-    if not cut and claimed == size:                          # one frame that says the same: in one go
+    if not cut and claimed == size:  # one frame that says the same: in one go
         try:
             return zstandard.ZstdDecompressor().decompress(stored, max_output_size=size)
         except zstandard.ZstdError as error:
             raise ChunkError(f"zstd: {error}") from None
-    return _in_steps(lambda: zstandard.ZstdDecompressor().decompressobj(), stored, size, cut, "zstd",
-                     (zstandard.ZstdError, EOFError))
+    return _in_steps(
+        lambda: zstandard.ZstdDecompressor().decompressobj(), stored, size, cut, "zstd", (zstandard.ZstdError, EOFError)
+    )
 
 
 def _lz4(stored: memoryview, size: int, cut: bool) -> bytes:
     import lz4.block  # type: ignore[import-untyped]
     import lz4.frame  # type: ignore[import-untyped]
 
-    if stored[:4] != _LZ4_FRAME and not cut:                 # some writers store a bare block
+    if stored[:4] != _LZ4_FRAME and not cut:  # some writers store a bare block
         try:
             return bytes(lz4.block.decompress(bytes(stored), uncompressed_size=size))
         except (lz4.block.LZ4BlockError, ValueError, MemoryError) as error:
@@ -94,7 +95,7 @@ def _pieces(make: Any, stored: memoryview) -> Iterator[bytes]:
     decompressor, waiting, at = make(), b"", 0
     while at < len(stored) or waiting:
         if not waiting:
-            waiting, at = bytes(stored[at:at + _STEP]), at + _STEP
+            waiting, at = bytes(stored[at : at + _STEP]), at + _STEP
         if decompressor.eof:
             decompressor = make()
         part = decompressor.decompress(waiting)

@@ -91,6 +91,10 @@ def merged(parts: Mapping[int, list[Columns]], places: Mapping[int, Int1D]) -> C
         if any(name in part.flags for part in every):
             none = [part.flags.get(name, np.zeros(part.kept.size, np.uint16)) for part in every]
             result.flags[name] = np.concatenate(none)[order]
-    result.wrong = [Wrong(int(places[k][w.message]), w.name, w.expected, w.got)
-                    for k, each in parts.items() for part in each for w in part.wrong]
+    result.wrong = [
+        Wrong(int(places[k][w.message]), w.name, w.expected, w.got)
+        for k, each in parts.items()
+        for part in each
+        for w in part.wrong
+    ]
     return result

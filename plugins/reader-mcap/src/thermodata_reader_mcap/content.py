@@ -36,8 +36,8 @@ from thermodata_reader_mcap.records import (
 from thermodata_reader_mcap.walk import Damage, data_section
 
 LATEST_NS = 9_000_000_000_000_000_000
-_PIECE = 16 << 20         # of a chunk that is taken at a time
-_LOOSE = 2000             # messages outside of chunks that are taken at a time
+_PIECE = 16 << 20  # of a chunk that is taken at a time
+_LOOSE = 2000  # messages outside of chunks that are taken at a time
 
 
 @dataclass(slots=True)
@@ -54,11 +54,11 @@ class Content:
     counts: dict[int, int] = field(default_factory=dict)
     undefined: dict[int, int] = field(default_factory=dict)
     foreign: dict[int, int] = field(default_factory=dict)
-    recordings: int = 0              # headers: more than one where files were joined
-    pending: int = 0                 # bytes of messages taken since the batches were emptied
+    recordings: int = 0  # headers: more than one where files were joined
+    pending: int = 0  # bytes of messages taken since the batches were emptied
     last_ns: int | None = None
-    chunk: tuple[int, int] | None = None      # number and first byte of the one that is taken; None outside of any
-    follow: Callable[[Bytes, npt.NDArray[np.int64]], None] | None = None      # sees all messages as they are taken
+    chunk: tuple[int, int] | None = None  # number and first byte of the one that is taken; None outside of any
+    follow: Callable[[Bytes, npt.NDArray[np.int64]], None] | None = None  # sees all messages as they are taken
 
     def loss(self, start: int, stop: int, reason: str, from_ns: int | None = None, to_ns: int | None = None) -> Loss:
         """A loss of bytes of the file, dated by the chunk or by the last message before."""
@@ -80,19 +80,20 @@ def opened(path: Path) -> Iterator[memoryview]:
     try:
         yield view
     finally:
-        with suppress(BufferError):          # a payload that somebody still holds points into it
+        with suppress(BufferError):  # a payload that somebody still holds points into it
             view.release()
             mapped.close()
 
 
-def walk(view: memoryview, content: Content, full: Callable[[], bool],
-         wanted: Callable[[int], bool] | None = None) -> Iterator[Loss | None]:
+def walk(
+    view: memoryview, content: Content, full: Callable[[], bool], wanted: Callable[[int], bool] | None = None
+) -> Iterator[Loss | None]:
     """Walks the data section: messages go into the content's batches; yields None whenever full() says that these
     should be emptied, and each loss. wanted(k): whether to open the k-th chunk (default: all)."""
     number = -1
-    waiting: tuple[Record, list[npt.NDArray[np.int64]]] | None = None      # a chunk, and the indexes behind it
+    waiting: tuple[Record, list[npt.NDArray[np.int64]]] | None = None  # a chunk, and the indexes behind it
 
-    loose: list[int] = []                                                  # messages outside of chunks
+    loose: list[int] = []  # messages outside of chunks
     for record in data_section(view):
         if isinstance(record, Record) and record.opcode == MESSAGE and not record.cut:
             if waiting is not None:
@@ -128,7 +129,7 @@ def walk(view: memoryview, content: Content, full: Callable[[], bool],
             yield None
             yield content.loss(record.start - HEAD.size, record.stop, "the file ends inside a record: it was cut")
         else:
-            define(view[record.start:record.stop], record.opcode, content)
+            define(view[record.start : record.stop], record.opcode, content)
             if full():
                 yield None
     if loose:
@@ -137,8 +138,14 @@ def walk(view: memoryview, content: Content, full: Callable[[], bool],
         yield from _chunk(view, waiting[0], content, number, waiting[1], full)
 
 
-def _chunk(view: memoryview, record: Record, content: Content, number: int, index: list[npt.NDArray[np.int64]],
-           full: Callable[[], bool]) -> Iterator[Loss | None]:
+def _chunk(
+    view: memoryview,
+    record: Record,
+    content: Content,
+    number: int,
+    index: list[npt.NDArray[np.int64]],
+    full: Callable[[], bool],
+) -> Iterator[Loss | None]:
     begin, stop, before = record.start - HEAD.size, record.stop, content.last_ns
     head = chunk_head(view, record)
     if head is None:
@@ -171,9 +178,13 @@ def _chunk(view: memoryview, record: Record, content: Content, number: int, inde
     if record.cut:
         missing = 1 - used / head.size if head.size else 0.0
         yield None
-        yield content.loss(begin + round((stop - begin) * (1 - missing)), stop,
-                           f"chunk {number}: the file ends inside it; {100 * missing:.0f} % of the chunk is lost",
-                           content.last_ns if used else times[0] or before, times[1])
+        yield content.loss(
+            begin + round((stop - begin) * (1 - missing)),
+            stop,
+            f"chunk {number}: the file ends inside it; {100 * missing:.0f} % of the chunk is lost",
+            content.last_ns if used else times[0] or before,
+            times[1],
+        )
     if lost:
         yield None
         yield content.loss(begin, stop, f"chunk {number}: {lost} of its {len(inner)} bytes are no records", *times)
@@ -191,8 +202,9 @@ def _slices(at: npt.NDArray[np.int64]) -> Iterator[npt.NDArray[np.int64]]:
 def _take(inner: Bytes, at: npt.NDArray[np.int64], content: Content) -> None:
     if content.follow is not None:
         content.follow(inner, at)
-    log_ns = take(inner, at, content.definitions.channel, content.key, content.batches, content.counts,
-                  content.undefined)
+    log_ns = take(
+        inner, at, content.definitions.channel, content.key, content.batches, content.counts, content.undefined
+    )
     content.last_ns = int(log_ns[-1]) if log_ns[-1] < LATEST_NS else content.last_ns
 
 

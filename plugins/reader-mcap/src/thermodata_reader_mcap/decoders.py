@@ -49,8 +49,9 @@ class JsonDecoder:
             kind = next((k for k in kind if k != "null"), None)
         unit = next((node[k] for k in _UNIT_KEYS if isinstance(node.get(k), str)), None)
         said = node.get("description")
-        return Hint(kind if isinstance(kind, str) else None, unit,
-                    (("description", said),) if isinstance(said, str) else ())
+        return Hint(
+            kind if isinstance(kind, str) else None, unit, (("description", said),) if isinstance(said, str) else ()
+        )
 
 
 def decoder(channel: Channel, enums: str = "number") -> Decoder:
@@ -60,8 +61,11 @@ def decoder(channel: Channel, enums: str = "number") -> Decoder:
     if channel.encoding == "json":
         told = schema is not None and schema.encoding == "jsonschema"
         return JsonDecoder(_json_schema(schema.data) if told and schema is not None else None)
-    if channel.encoding in ("cdr", "ros1") and schema is not None and schema.encoding in ("ros2msg", "ros2idl",
-                                                                                        "ros1msg"):
+    if (
+        channel.encoding in ("cdr", "ros1")
+        and schema is not None
+        and schema.encoding in ("ros2msg", "ros2idl", "ros1msg")
+    ):
         from thermodata_reader_mcap.ros import ros_decoder
 
         made: Decoder = ros_decoder(channel.encoding, schema)

@@ -14,11 +14,16 @@ from thermodata_reader_mcap.leaves import Declared, Hint, find_leaves
 from thermodata_reader_mcap.options import Options
 from thermodata_reader_mcap.seen import Path, Survey, UnsureError
 
-_ROWS, _BYTES = 512, 128 << 10       # inferred at a time: each message may bring fields of its own
+_ROWS, _BYTES = 512, 128 << 10  # inferred at a time: each message may bring fields of its own
 
 
-def readers(channels: Sequence[Channel], samples: Mapping[Channel, Sequence[bytes]], options: Options,
-            encoding: str | None, notes: list[str]) -> tuple[dict[Channel, Decoder], dict[Channel, str]]:
+def readers(
+    channels: Sequence[Channel],
+    samples: Mapping[Channel, Sequence[bytes]],
+    options: Options,
+    encoding: str | None,
+    notes: list[str],
+) -> tuple[dict[Channel, Decoder], dict[Channel, str]]:
     """The decoders of channels, and why others have none."""
     made: dict[Channel, Decoder] = {}
     problems: dict[Channel, str] = {}
@@ -30,8 +35,10 @@ def readers(channels: Sequence[Channel], samples: Mapping[Channel, Sequence[byte
             continue
         if isinstance(one, JsonDecoder) and not _is_utf8(b"\n".join(samples.get(channel, ()))):
             one = replace(one, encoding=encoding or "cp1252")
-            notes.append(f"topic '{channel.topic}': the text is not UTF-8; it is read as {one.encoding}"
-                         + ("" if encoding else " (set encoding: if that is wrong)"))
+            notes.append(
+                f"topic '{channel.topic}': the text is not UTF-8; it is read as {one.encoding}"
+                + ("" if encoding else " (set encoding: if that is wrong)")
+            )
         made[channel] = one
     return made, problems
 
@@ -44,8 +51,14 @@ def _is_utf8(payload: bytes) -> bool:
     return True
 
 
-def discover(name: str, made: Mapping[Channel, Decoder], samples: Mapping[Channel, Sequence[bytes]], whole: bool,
-             budget: int, notes: list[str]) -> Topic | None:
+def discover(
+    name: str,
+    made: Mapping[Channel, Decoder],
+    samples: Mapping[Channel, Sequence[bytes]],
+    whole: bool,
+    budget: int,
+    notes: list[str],
+) -> Topic | None:
     """The topic; None where no message decodes. whole: the samples are all messages. budget: bytes to look at."""
     objects, others = Survey(), Survey()
     exact = whole
@@ -84,7 +97,7 @@ def _survey(one: Decoder, payloads: Sequence[bytes], budget: int, objects: Surve
         chosen += [*payloads[:20], *payloads[-1:]]
     rows = max(1, min(_ROWS, _BYTES * len(payloads) // max(1, size)))
     for begin in range(0, len(chosen), rows):
-        part = chosen[begin:begin + rows]
+        part = chosen[begin : begin + rows]
         if not (quick and len(part) > 16 and _by_arrow(part, objects)):
             for payload in part:
                 _one(one, payload, objects, others)
@@ -111,6 +124,6 @@ def _by_arrow(payloads: Sequence[bytes], into: Survey) -> bool:
 def _one(one: Decoder, payload: bytes, objects: Survey, others: Survey) -> None:
     try:
         message: Any = one.decode(payload)
-    except Exception:                                       # counted and named when it is read
+    except Exception:  # counted and named when it is read
         return
     (objects if isinstance(message, dict) else others).add(message)

@@ -50,8 +50,13 @@ def at_leaf(table: Any, path: Path, done: dict[Any, Selection]) -> Selection:
         return done[path]
     if len(path) == 1:
         column = table.column(path[0])
-        found = Selection(column.chunk(0) if column.num_chunks == 1 else
-                          pa.concat_arrays(column.chunks) if column.num_chunks else pa.array([], column.type))
+        found = Selection(
+            column.chunk(0)
+            if column.num_chunks == 1
+            else pa.concat_arrays(column.chunks)
+            if column.num_chunks
+            else pa.array([], column.type)
+        )
     else:
         parent, part = at_leaf(table, path[:-1], done), path[-1]
         if isinstance(part, str):
@@ -59,8 +64,11 @@ def at_leaf(table: Any, path: Path, done: dict[Any, Selection]) -> Selection:
         else:
             values, length = _uniform(parent, path[:-1], done)
             if values is not None:
-                found = Selection(values, parent.first * length + part, parent.step * length) if part < length \
+                found = (
+                    Selection(values, parent.first * length + part, parent.step * length)
+                    if part < length
                     else Selection(pa.nulls(len(parent.alone()), values.type))
+                )
             else:
                 lists = parent.alone()
                 fixed = pc.list_slice(lists, part, part + 1, return_fixed_size_list=True)

@@ -70,7 +70,7 @@ def _by_index(inner: Bytes, at: Int1D) -> list[Part] | None:
             record = Record(opcode, place + HEAD.size, place + HEAD.size + length)
             if record.stop > stop or opcode == MESSAGE or not _known(inner, record):
                 return None
-            between.append((inner[record.start:record.stop], opcode))
+            between.append((inner[record.start : record.stop], opcode))
             place = record.stop
     if between or done < at.size:
         parts.append(Part(tuple(between), at[done:], len(inner)))
@@ -85,8 +85,12 @@ def _by_walking(inner: Bytes) -> Iterator[Part | Damage]:
         opcode, length = unpack(inner, at)
         stop = at + HEAD.size + length
         if opcode == MESSAGE and length >= MESSAGE_HEAD and stop <= size:
-            if stop == size or inner[stop] in _IN_CHUNK or inner[stop] >= PRIVATE or \
-                    next_record(inner, at + HEAD.size, min(stop, at + _LOOKED_AHEAD), _IN_CHUNK) is None:
+            if (
+                stop == size
+                or inner[stop] in _IN_CHUNK
+                or inner[stop] >= PRIVATE
+                or next_record(inner, at + HEAD.size, min(stop, at + _LOOKED_AHEAD), _IN_CHUNK) is None
+            ):
                 found.append(at)
                 at = stop
                 continue
@@ -94,7 +98,7 @@ def _by_walking(inner: Bytes) -> Iterator[Part | Damage]:
             if found:
                 yield Part(tuple(between), np.array(found, np.int64), at)
                 between, found = [], []
-            between.append((inner[at + HEAD.size:stop], opcode))
+            between.append((inner[at + HEAD.size : stop], opcode))
             at = stop
             continue
         if found or between:

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 from thermodata_reader_mcap.seen import MOST_ELEMENTS, Path, Seen, Survey
 
-MOST_SIGNALS = 5_000    # of a topic; more are keys that hold data, no set of signals
+MOST_SIGNALS = 5_000  # of a topic; more are keys that hold data, no set of signals
 _EXACT = 2**53
 _DTYPES = {"string": "str", "boolean": "bool", "integer": "int64", "uint64": "uint64"}
 
@@ -44,17 +44,21 @@ def find_leaves(topic: str, survey: Survey, declared: Declared, exact: bool) -> 
     """The leaves of sampled messages, and notes. exact: the messages are all of the topic. Whole numbers of a
     sampled topic become int64 only where the schema says so or a float64 would change them; else float64, for a
     fraction may follow."""
-    notes = [f"{path_name(topic, path)} holds arrays of up to {n} elements; the first {MOST_ELEMENTS} are read"
-             for path, n in survey.long.items()]
-    notes += [f"{path_name(topic, path)} holds up to {n} bytes of binary data; they are not read"
-              for path, n in survey.binary.items()]
+    notes = [
+        f"{path_name(topic, path)} holds arrays of up to {n} elements; the first {MOST_ELEMENTS} are read"
+        for path, n in survey.long.items()
+    ]
+    notes += [
+        f"{path_name(topic, path)} holds up to {n} bytes of binary data; they are not read"
+        for path, n in survey.binary.items()
+    ]
     notes += [f"{path_name(topic, path)} is nested deeper than is read" for path in survey.deep]
     seen = survey.seen
     inner = {path[:k] for path in seen for k in range(len(path))}
     leaves, names = list[Leaf](), set[str]()
     for path, each in seen.items():
         if path in inner and not each.scalars:
-            continue                                   # null or empty here, an object elsewhere
+            continue  # null or empty here, an object elsewhere
         if len(leaves) == MOST_SIGNALS:
             notes.append(f"topic '{topic}' has {len(seen)} fields; the first {MOST_SIGNALS} are read")
             break
@@ -74,8 +78,11 @@ def _one_type_an_array(leaves: Iterable[Leaf]) -> tuple[Leaf, ...]:
     for leaf in leaves:
         kinds.setdefault(anywhere(leaf.path), set()).add(leaf.dtype)
     return tuple(
-        replace(leaf, dtype="float64") if len(k := kinds[anywhere(leaf.path)]) > 1
-        and k <= {"int64", "uint64", "float64"} else leaf for leaf in leaves)
+        replace(leaf, dtype="float64")
+        if len(k := kinds[anywhere(leaf.path)]) > 1 and k <= {"int64", "uint64", "float64"}
+        else leaf
+        for leaf in leaves
+    )
 
 
 def anywhere(path: Path) -> Path:

@@ -14,10 +14,10 @@ from thermodata_reader_mcap.columns import Columns, Topic, Wrong
 from thermodata_reader_mcap.leaves import path_name
 from thermodata_reader_mcap.seen import MOST_DEPTH, MOST_ELEMENTS, Path
 
-MISSING = np.uint16(Flag.NOT_MEASURING)      # no NaN in integers and booleans: 0, and not valid
+MISSING = np.uint16(Flag.NOT_MEASURING)  # no NaN in integers and booleans: 0, and not valid
 _EXACT = 2**53
-_MANY = 100                                  # signals from which on a message is taken apart once
-_NEW = 50                                    # new fields of one message that are named
+_MANY = 100  # signals from which on a message is taken apart once
+_NEW = 50  # new fields of one message that are named
 
 
 def columns(topic: Topic, decode: Callable[[bytes], Any], payloads: Sequence[bytes], at: int) -> Columns:
@@ -29,7 +29,7 @@ def columns(topic: Topic, decode: Callable[[bytes], Any], payloads: Sequence[byt
     for k, payload in enumerate(payloads, at):
         try:
             message = decode(payload)
-        except Exception as error:                          # a decoder may stumble over anything
+        except Exception as error:  # a decoder may stumble over anything
             got = payload[:60].decode("utf-8", "replace")
             result.wrong.append(Wrong(k, "", "a message", f"{type(error).__name__}: {str(error)[:80]}; {got!r}"))
             continue
@@ -47,8 +47,9 @@ def columns(topic: Topic, decode: Callable[[bytes], Any], payloads: Sequence[byt
             if good is None and not _has_inner(value):
                 result.wrong.append(Wrong(k, leaf.name, leaf.dtype, repr(value)[:60]))
             elif leaf.dtype == "float64" and isinstance(value, int) and abs(value) > _EXACT and value != good:
-                result.wrong.append(Wrong(k, leaf.name, "a number that a float64 holds; it is rounded",
-                                          str(value)[:60]))
+                result.wrong.append(
+                    Wrong(k, leaf.name, "a number that a float64 holds; it is rounded", str(value)[:60])
+                )
             column.append(good)
         for count, path in enumerate(_new(message, known, topic.long)):
             if count == _NEW:
@@ -67,8 +68,11 @@ def _flat(message: Any, path: Path = ()) -> Iterator[tuple[Path, Any]]:
     if not _has_inner(message):
         yield path, message
     elif len(path) < MOST_DEPTH:
-        inner = ((str(k), v) for k, v in message.items()) if isinstance(message, Mapping) else \
-            enumerate(message[:MOST_ELEMENTS])
+        inner = (
+            ((str(k), v) for k, v in message.items())
+            if isinstance(message, Mapping)
+            else enumerate(message[:MOST_ELEMENTS])
+        )
         for part, value in inner:
             yield from _flat(value, (*path, part))
 

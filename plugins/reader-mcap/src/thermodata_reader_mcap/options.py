@@ -44,18 +44,27 @@ def options(source: Source) -> Options:
     for key in source.options:
         if key not in known:
             near = get_close_matches(str(key), known, 1)
-            raise FormatError(f"no option '{key}' of the mcap reader", where=f"source '{source.name}'",
-                              expected=", ".join(known), got=str(key),
-                              hint=f"did you mean '{near[0]}'?" if near else "remove it")
+            raise FormatError(
+                f"no option '{key}' of the mcap reader",
+                where=f"source '{source.name}'",
+                expected=", ".join(known),
+                got=str(key),
+                hint=f"did you mean '{near[0]}'?" if near else "remove it",
+            )
     unit, enums = source.options.get("time_unit"), source.options.get("enums", "number")
     if unit is not None and unit not in _SCALES:
-        raise FormatError("time_unit is none", where=f"source '{source.name}'", expected=", ".join(_SCALES),
-                          got=str(unit))
+        raise FormatError(
+            "time_unit is none", where=f"source '{source.name}'", expected=", ".join(_SCALES), got=str(unit)
+        )
     if enums not in ("number", "label"):
         raise FormatError("enums is none", where=f"source '{source.name}'", expected="number, label", got=str(enums))
     time = source.options.get("time", LOG)
     if not isinstance(time, str) or not time.strip("."):
-        raise FormatError("time is none", where=f"source '{source.name}'",
-                          expected="log_time, publish_time, or a field such as header.stamp", got=str(time))
+        raise FormatError(
+            "time is none",
+            where=f"source '{source.name}'",
+            expected="log_time, publish_time, or a field such as header.stamp",
+            got=str(time),
+        )
     publish = bool(source.options.get("publish_time", False))
     return Options(time, None if unit is None else _SCALES[unit], enums, publish)

@@ -87,14 +87,20 @@ class _Seen:
             return
         heads = np.lib.stride_tricks.sliding_window_view(np.frombuffer(inner, np.uint8), HEAD.size + MESSAGE_HEAD)[at]
         numbers = np.ascontiguousarray(heads[:, 9:11]).view("<u2")[:, 0]
-        wanted = [n for n in np.unique(numbers).tolist()
-                  if (channel := self.content.definitions.channel(n)) is not None and channel.topic == self.topic]
+        wanted = [
+            n
+            for n in np.unique(numbers).tolist()
+            if (channel := self.content.definitions.channel(n)) is not None and channel.topic == self.topic
+        ]
         mine = np.flatnonzero(np.isin(numbers, wanted))
         if self.wanted < self.count + mine.size:
             which = int(mine[self.wanted - self.count])
             log_ns = int(np.ascontiguousarray(heads[which, 15:23]).view("<u8")[0])
             byte, chunk = int(at[which]), self.content.chunk
-            where = f"byte {byte}" if chunk is None else \
-                f"chunk {chunk[0] + 1} (at byte {chunk[1]}), byte {byte} of its records"
+            where = (
+                f"byte {byte}"
+                if chunk is None
+                else f"chunk {chunk[0] + 1} (at byte {chunk[1]}), byte {byte} of its records"
+            )
             self.found = f"message {self.wanted + 1}, {where}, log_time {log_ns}"
         self.count += int(mine.size)

@@ -22,9 +22,9 @@ from thermodata_reader_mcap.records import ATTACHMENT, CHUNK, MESSAGE_INDEX, MET
 from thermodata_reader_mcap.summary import Summary, summary
 from thermodata_reader_mcap.walk import Damage, data_section, is_complete
 
-WHOLE = 8 << 20          # uncompressed bytes that are looked at completely
-_SEARCHED = 64 << 20     # the same, of a file whose chunks do not say which topics they hold
-EARLIEST_NS = 10**17     # log times before 1973 count from the start of the recording
+WHOLE = 8 << 20  # uncompressed bytes that are looked at completely
+_SEARCHED = 64 << 20  # the same, of a file whose chunks do not say which topics they hold
+EARLIEST_NS = 10**17  # log times before 1973 count from the start of the recording
 
 
 @dataclass(slots=True)
@@ -110,7 +110,7 @@ def plan(view: memoryview, name: str, source: Source) -> Plan:
     damaged = chunks.damaged
     for loss in walk(view, met, lambda: met.pending >= WHOLE, None if chosen is None else chosen.__contains__):
         damaged |= loss is not None
-        if not chunks.sizes and met.pending >= WHOLE:       # messages outside of chunks: their head must do
+        if not chunks.sizes and met.pending >= WHOLE:  # messages outside of chunks: their head must do
             whole = False
             break
     _refuse_missing(source, [*met.definitions.met, *said.channels.values()], name)
@@ -121,8 +121,12 @@ def plan(view: memoryview, name: str, source: Source) -> Plan:
     found = _topics(batches, chosen_options, source, whole, notes)
     unknown = [f"topic '{t}' is not read: {why}" for t, why in found.unsupported.items()]
     if unknown and not found.topics:
-        raise FormatError("no topic of this recording can be read", where=name, got="; ".join(unknown),
-                          expected="messages in json, cdr, ros1 or protobuf with their schemas")
+        raise FormatError(
+            "no topic of this recording can be read",
+            where=name,
+            got="; ".join(unknown),
+            expected="messages in json, cdr, ros1 or protobuf with their schemas",
+        )
     used = [b for c, b in batches.items() if c.topic in found.topics]
     logs = [b.times()[0] for b in used]
     times = np.concatenate([np.empty(0, np.uint64), *logs])
@@ -138,9 +142,18 @@ def plan(view: memoryview, name: str, source: Source) -> Plan:
             stamped[topic] = "log_time"
         elif not same:
             stamped[topic] = PUBLISH
-    return Plan(chosen_options, said, found.topics, found.readers, found.unsupported, stamped,
-                int(times.min()) if times.size else None, relative, is_complete(view) and not damaged,
-                [*notes, *unknown])
+    return Plan(
+        chosen_options,
+        said,
+        found.topics,
+        found.readers,
+        found.unsupported,
+        stamped,
+        int(times.min()) if times.size else None,
+        relative,
+        is_complete(view) and not damaged,
+        [*notes, *unknown],
+    )
 
 
 @dataclass(slots=True)
@@ -176,7 +189,7 @@ def _empty(made: dict[Channel, Decoder], samples: dict[Channel, list[bytes]]) ->
         for payload in samples[channel][:3]:
             try:
                 one.decode(payload)
-            except Exception:                               # whatever a decoder raises: it does not decode
+            except Exception:  # whatever a decoder raises: it does not decode
                 return False
     return True
 
@@ -190,7 +203,6 @@ def _refuse_missing(source: Source, channels: Iterable[Channel], name: str) -> N
     present = sorted({c.topic for c in channels})
     for wanted in source.topics:
         if not any(t == wanted or fnmatchcase(t, wanted) for t in present):
-            raise FormatError(f"no topic '{wanted}'", where=name, expected=", ".join(present) or "the file has none",
-                              got=wanted)
-
-
+            raise FormatError(
+                f"no topic '{wanted}'", where=name, expected=", ".join(present) or "the file has none", got=wanted
+            )

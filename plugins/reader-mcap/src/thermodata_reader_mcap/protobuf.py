@@ -12,9 +12,22 @@ from thermodata_reader_mcap.definitions import Schema
 from thermodata_reader_mcap.leaves import Hint
 from thermodata_reader_mcap.seen import MOST_DEPTH, MOST_ELEMENTS, Path
 
-_GOOGLE = frozenset(f"google/protobuf/{name}.proto" for name in (
-    "any", "api", "descriptor", "duration", "empty", "field_mask", "source_context", "struct", "timestamp", "type",
-    "wrappers"))
+_GOOGLE = frozenset(
+    f"google/protobuf/{name}.proto"
+    for name in (
+        "any",
+        "api",
+        "descriptor",
+        "duration",
+        "empty",
+        "field_mask",
+        "source_context",
+        "struct",
+        "timestamp",
+        "type",
+        "wrappers",
+    )
+)
 
 
 @dataclass(slots=True)
@@ -89,8 +102,13 @@ class ProtobufDecoder:
         if f.enum_type is not None:
             labels = ", ".join(f"{v.number} {v.name}" for v in f.enum_type.values)
             return Hint("string" if self.labels else "integer", None, (("labels", labels),))
-        kind = {f.CPPTYPE_UINT64: "uint64", f.CPPTYPE_DOUBLE: "number", f.CPPTYPE_FLOAT: "number",
-                f.CPPTYPE_BOOL: "boolean", f.CPPTYPE_STRING: "string"}.get(f.cpp_type, "integer")
+        kind = {
+            f.CPPTYPE_UINT64: "uint64",
+            f.CPPTYPE_DOUBLE: "number",
+            f.CPPTYPE_FLOAT: "number",
+            f.CPPTYPE_BOOL: "boolean",
+            f.CPPTYPE_STRING: "string",
+        }.get(f.cpp_type, "integer")
         return Hint("integer" if f.type == f.TYPE_BYTES else kind)
 
 
@@ -108,9 +126,10 @@ def protobuf_decoder(schema: Schema, enums: str) -> ProtobufDecoder:
         for each in _in_order(files, _well_known(files)):
             pool.Add(each)
         descriptor = pool.FindMessageTypeByName(schema.name.lstrip("."))
-    except Exception as error:                              # the package's own errors are of many kinds
-        raise UnsupportedError(f"the schema '{schema.name}' does not read: {type(error).__name__}: "
-                               f"{str(error).strip()[:120]}") from None
+    except Exception as error:  # the package's own errors are of many kinds
+        raise UnsupportedError(
+            f"the schema '{schema.name}' does not read: {type(error).__name__}: {str(error).strip()[:120]}"
+        ) from None
     return ProtobufDecoder(GetMessageClass(descriptor), enums == "label")
 
 

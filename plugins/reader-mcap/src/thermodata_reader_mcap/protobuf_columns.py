@@ -29,7 +29,7 @@ def columns(decoder: ProtobufDecoder, topic: Topic, payloads: Sequence[bytes]) -
         try:
             messages.append(parse(payload))
             kept.append(k)
-        except Exception as error:                          # whatever the package raises: no message
+        except Exception as error:  # whatever the package raises: no message
             got = payload[:60].decode("utf-8", "replace")
             wrong.append(Wrong(k, "", "a message", f"{type(error).__name__}: {str(error)[:80]}; {got!r}"))
     result = Columns(np.array(kept, np.int64), {}, {}, wrong)
@@ -74,8 +74,12 @@ class _Extractor:
             elif f.has_presence and not f.has_default_value:
                 self._value(f, [get(m) if m is not None and m.HasField(name) else None for m in messages], node, here)
             else:
-                self._value(f, list(map(get, messages)) if whole else
-                            [None if m is None else get(m) for m in messages], node, here)
+                self._value(
+                    f,
+                    list(map(get, messages)) if whole else [None if m is None else get(m) for m in messages],
+                    node,
+                    here,
+                )
 
     def _value(self, f: Any, values: list[Any], node: Any, path: tuple[str | int, ...]) -> None:
         if f.message_type is not None:

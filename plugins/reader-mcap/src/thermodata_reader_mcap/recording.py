@@ -15,8 +15,8 @@ from thermodata_reader_mcap.summary import Summary
 from thermodata_reader_mcap.writer import BATCH, Writer, time_name
 
 _CRC_STEP = 16 << 20
-_KEPT = 2                # first looks that are remembered
-_LONGEST = 200           # of a channel's own texts that become properties of its signals
+_KEPT = 2  # first looks that are remembered
+_LONGEST = 200  # of a channel's own texts that become properties of its signals
 _PLANS: dict[tuple[object, ...], Plan] = {}
 _LOCK = Lock()
 
@@ -33,13 +33,16 @@ def describe(path: Path, source: Source) -> Recording:
     told = _properties(found)
     for topic in found.topics.values():
         properties = told.get(topic.name, {})
-        signals += [Signal(leaf.name, topic.name, leaf.unit, leaf.dtype, None, {**properties, **dict(leaf.properties)})
-                    for leaf in topic.leaves]
+        signals += [
+            Signal(leaf.name, topic.name, leaf.unit, leaf.dtype, None, {**properties, **dict(leaf.properties)})
+            for leaf in topic.leaves
+        ]
         if topic.name in found.stamped:
             signals.append(Signal(time_name(topic, found.stamped[topic.name]), topic.name, "ns", "int64"))
     start = found.start_ns if signals and not found.relative else 0
-    return Recording(tuple(signals), "relative" if found.relative else "absolute", start, found.complete,
-                     tuple(found.notes))
+    return Recording(
+        tuple(signals), "relative" if found.relative else "absolute", start, found.complete, tuple(found.notes)
+    )
 
 
 def _key(view: memoryview, path: Path, source: Source) -> tuple[object, ...]:
@@ -98,18 +101,22 @@ def _contradictions(view: memoryview, said: Summary, writer: Writer) -> Iterator
             topic = f"topic '{channel.topic}'" if channel is not None else f"channel {number}"
             if got < wanted:
                 missing = True
-                yield Loss(f"{name} {topic}", fraction=(wanted - got) / wanted,
-                           reason=f"{wanted - got} of its {wanted} messages are not in the file")
+                yield Loss(
+                    f"{name} {topic}",
+                    fraction=(wanted - got) / wanted,
+                    reason=f"{wanted - got} of its {wanted} messages are not in the file",
+                )
     got = sum(counts.values())
     if not missing and said.total is not None and got < said.total:
         missing = True
-        yield Loss(name, fraction=(said.total - got) / said.total,
-                   reason=f"{said.total - got} of {said.total} messages are not in the file")
+        yield Loss(
+            name,
+            fraction=(said.total - got) / said.total,
+            reason=f"{said.total - got} of {said.total} messages are not in the file",
+        )
     if said.data_crc and not missing:
         crc = 0
         for at in range(0, said.data_end, _CRC_STEP):
-            crc = zlib.crc32(view[at:min(at + _CRC_STEP, said.data_end)], crc)
+            crc = zlib.crc32(view[at : min(at + _CRC_STEP, said.data_end)], crc)
         if crc != said.data_crc:
             yield Loss(name, reason="the checksum of the whole file differs: some value or time in it may be wrong")
-
-

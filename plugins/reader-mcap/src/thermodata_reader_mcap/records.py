@@ -15,9 +15,9 @@ IN_DATA = frozenset({HEADER, SCHEMA, CHANNEL, MESSAGE, CHUNK, MESSAGE_INDEX, ATT
 IN_SUMMARY = frozenset({SCHEMA, CHANNEL, CHUNK_INDEX, ATTACHMENT_INDEX, STATISTICS, METADATA_INDEX, SUMMARY_OFFSET})
 MESSAGES = frozenset({MESSAGE, CHUNK, MESSAGE_INDEX})
 CHUNKS = frozenset({CHUNK})
-PRIVATE = 0x80                      # opcodes from here on belong to applications
+PRIVATE = 0x80  # opcodes from here on belong to applications
 HEAD = struct.Struct("<BQ")
-MESSAGE_HEAD = 22                   # channel, sequence, log time, publish time
+MESSAGE_HEAD = 22  # channel, sequence, log time, publish time
 _U16, _U32, _U64 = struct.Struct("<H"), struct.Struct("<I"), struct.Struct("<Q")
 _CHUNK = struct.Struct("<QQQI")
 Bytes = bytes | memoryview
@@ -76,7 +76,7 @@ def octets(view: Bytes, at: int, stop: int) -> tuple[Bytes, int]:
     size, at = u32(view, at, stop)
     if at + size > stop:
         raise ShortError
-    return view[at:at + size], at + size
+    return view[at : at + size], at + size
 
 
 def text(view: Bytes, at: int, stop: int) -> tuple[str, int]:
@@ -107,8 +107,9 @@ def chunk_head(view: Bytes, record: Record) -> ChunkHead | None:
         return None
     if len(name) > 16 or (not record.cut and at + stored > record.stop):
         return None
-    return ChunkHead(start_ns, end_ns, size, crc, bytes(name).decode("ascii", "replace"), at,
-                     min(at + stored, record.stop), stored)
+    return ChunkHead(
+        start_ns, end_ns, size, crc, bytes(name).decode("ascii", "replace"), at, min(at + stored, record.stop), stored
+    )
 
 
 def _schema(view: Bytes, at: int, stop: int) -> int:
@@ -187,9 +188,18 @@ def _summary_offset(view: Bytes, at: int, stop: int) -> int:
 
 
 _ENDS: dict[int, Callable[[Bytes, int, int], int]] = {
-    HEADER: _header, SCHEMA: _schema, CHANNEL: _channel, MESSAGE: _message, CHUNK: _chunk,
-    MESSAGE_INDEX: _message_index, ATTACHMENT: _attachment, METADATA: _metadata, CHUNK_INDEX: _chunk_index,
-    ATTACHMENT_INDEX: _attachment_index, STATISTICS: _statistics, METADATA_INDEX: _metadata_index,
+    HEADER: _header,
+    SCHEMA: _schema,
+    CHANNEL: _channel,
+    MESSAGE: _message,
+    CHUNK: _chunk,
+    MESSAGE_INDEX: _message_index,
+    ATTACHMENT: _attachment,
+    METADATA: _metadata,
+    CHUNK_INDEX: _chunk_index,
+    ATTACHMENT_INDEX: _attachment_index,
+    STATISTICS: _statistics,
+    METADATA_INDEX: _metadata_index,
     SUMMARY_OFFSET: _summary_offset,
 }
 

@@ -22,9 +22,9 @@ from thermodata_reader_mcap.records import (
 )
 
 _WINDOW = 4 << 20
-MAPPED = 64 << 20         # of the file that stays mapped behind a walk or a search
-_FOLLOWING = 2            # so many records must follow in a chain, or the end of the bytes
-_MOST_MESSAGE = 1 << 32   # a message of more bytes is no message, where nothing else vouches for it
+MAPPED = 64 << 20  # of the file that stays mapped behind a walk or a search
+_FOLLOWING = 2  # so many records must follow in a chain, or the end of the bytes
+_MOST_MESSAGE = 1 << 32  # a message of more bytes is no message, where nothing else vouches for it
 
 
 def let_go(view: memoryview, start: int, stop: int) -> int:
@@ -45,10 +45,10 @@ def next_record(view: Bytes, at: int, stop: int | None = None, kinds: frozenset[
     for begin in range(at, size - HEAD.size + 1, _WINDOW):
         if begin - gone > MAPPED and isinstance(view, memoryview):
             gone = let_go(view, -(-gone // mmap.PAGESIZE) * mmap.PAGESIZE, begin)
-        part = data[begin:min(begin + _WINDOW, size - HEAD.size + 1) + HEAD.size - 1]
+        part = data[begin : min(begin + _WINDOW, size - HEAD.size + 1) + HEAD.size - 1]
         n = part.size - HEAD.size + 1
         # the three highest bytes of a length are zero: no record has 2^40 bytes
-        found = wanted[part[:n]] & (part[6:6 + n] == 0) & (part[7:7 + n] == 0) & (part[8:8 + n] == 0)
+        found = wanted[part[:n]] & (part[6 : 6 + n] == 0) & (part[7 : 7 + n] == 0) & (part[8 : 8 + n] == 0)
         for place in (np.flatnonzero(found) + begin).tolist():
             if _chain(view, place):
                 return int(place)
@@ -58,7 +58,7 @@ def next_record(view: Bytes, at: int, stop: int | None = None, kinds: frozenset[
 def _chain(view: Bytes, at: int) -> bool:
     strong = False
     for k in range(_FOLLOWING + 1):
-        if at == len(view) or view[at:at + len(MAGIC)] == MAGIC:
+        if at == len(view) or view[at : at + len(MAGIC)] == MAGIC:
             return k > 0
         if at + HEAD.size > len(view):
             return strong
@@ -71,13 +71,13 @@ def _chain(view: Bytes, at: int) -> bool:
         if opcode not in IN_DATA:
             return False
         if stop > len(view):
-            return strong                        # the file is cut inside it
+            return strong  # the file is cut inside it
         if opcode == MESSAGE and length > _MOST_MESSAGE:
             return False
         if content_end(view, Record(opcode, at + HEAD.size, stop)) != stop:
             return False
         if opcode == CHUNK:
-            return True                          # its lengths agree three times
+            return True  # its lengths agree three times
         strong = strong or opcode != MESSAGE or k > 0
         at = stop
     return True

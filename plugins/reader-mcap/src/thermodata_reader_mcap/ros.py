@@ -13,9 +13,20 @@ from thermodata_reader_mcap.ros_idl import idl_types
 from thermodata_reader_mcap.ros_types import Field, LineError, Types, TypeTextError, is_struct, message_types
 from thermodata_reader_mcap.seen import MOST_ELEMENTS, Path
 
-FORMATS = {"?": "?", "i1": "b", "u1": "B", "i2": "h", "u2": "H", "i4": "i", "u4": "I", "i8": "q", "u8": "Q",
-            "f4": "f", "f8": "d"}
-PADDING = 7              # bytes behind a message that writers leave
+FORMATS = {
+    "?": "?",
+    "i1": "b",
+    "u1": "B",
+    "i2": "h",
+    "u2": "H",
+    "i4": "i",
+    "u4": "I",
+    "i8": "q",
+    "u8": "Q",
+    "f4": "f",
+    "f8": "d",
+}
+PADDING = 7  # bytes behind a message that writers leave
 
 
 class PayloadError(Exception):
@@ -55,7 +66,7 @@ class Place:
         return int(n)
 
 
-_KINDS = {0: (">", 8), 1: ("<", 8), 6: (">", 4), 7: ("<", 4)}       # CDR and plain CDR 2, big and little endian
+_KINDS = {0: (">", 8), 1: ("<", 8), 6: (">", 4), 7: ("<", 4)}  # CDR and plain CDR 2, big and little endian
 
 
 def begin(payload: bytes, ros1: bool) -> Place:
@@ -93,7 +104,7 @@ class RosDecoder:
     def _struct(self, name: str, place: Place) -> dict[str, Any]:
         fields = self.types.structs[name]
         if not fields and not self.ros1:
-            place.take(1)                                   # ROS 2 stores one byte for an empty message
+            place.take(1)  # ROS 2 stores one byte for an empty message
         return {f.name: self._field(f, place) for f in fields}
 
     def _field(self, f: Field, place: Place) -> Any:
@@ -109,7 +120,7 @@ class RosDecoder:
         place.align(size)
         at = place.take(n * size)
         if f.kind == "u1" and n > MOST_ELEMENTS:
-            return place.data[at:at + n]
+            return place.data[at : at + n]
         return list(struct.unpack_from(f"{place.order}{n}{letter}", place.data, at))
 
     def _one(self, kind: str, place: Place) -> Any:
@@ -118,7 +129,7 @@ class RosDecoder:
         if kind == "string":
             n = place.length()
             at = place.take(n)
-            return place.data[at:at + n].removesuffix(b"\0").decode("utf-8", "backslashreplace")
+            return place.data[at : at + n].removesuffix(b"\0").decode("utf-8", "backslashreplace")
         letter = FORMATS[kind]
         size = struct.calcsize("=" + letter)
         place.align(size)
@@ -138,8 +149,15 @@ class RosDecoder:
             if f is None:
                 return None
             kind = f.kind
-        return None if is_struct(kind) else Hint(
-            {"?": "boolean", "string": "string", "u8": "uint64"}.get(kind, "number" if kind[0] == "f" else "integer"))
+        return (
+            None
+            if is_struct(kind)
+            else Hint(
+                {"?": "boolean", "string": "string", "u8": "uint64"}.get(
+                    kind, "number" if kind[0] == "f" else "integer"
+                )
+            )
+        )
 
 
 def ros_decoder(encoding: str, schema: Schema) -> Any:

@@ -19,8 +19,8 @@ from thermodata_reader_mcap.ros import FORMATS, PADDING, PayloadError, Place, Ro
 from thermodata_reader_mcap.ros_types import Field, is_struct
 from thermodata_reader_mcap.seen import MOST_ELEMENTS, Path
 
-_FEW = 8                 # messages of one layout that go one by one
-_LAYOUTS = 50            # of one length; the rest goes one by one
+_FEW = 8  # messages of one layout that go one by one
+_LAYOUTS = 50  # of one length; the rest goes one by one
 _NATURAL = {"?": "bool", "string": "str", "u8": "uint64", "f4": "float64", "f8": "float64"}
 
 
@@ -59,8 +59,9 @@ class RosColumns(RosDecoder):
             parts[len(parts)] = [one_by_one.columns(topic, self.decode, [payloads[k] for k in where], 0)]
         return merged(parts, places)
 
-    def _of_one_size(self, topic: Topic, payloads: Sequence[bytes], mine: Int1D, size: int) \
-            -> Iterator[tuple[Int1D, Columns | None]]:
+    def _of_one_size(
+        self, topic: Topic, payloads: Sequence[bytes], mine: Int1D, size: int
+    ) -> Iterator[tuple[Int1D, Columns | None]]:
         """(which messages, their columns); None for those that go one by one."""
         for _ in range(_LAYOUTS):
             if mine.size <= _FEW:
@@ -153,8 +154,12 @@ class _Reader:
 
     def columns(self, topic: Topic, rows: npt.NDArray[np.uint8]) -> Columns:
         n = rows.shape[0]
-        result = Columns(np.arange(n), {}, {}, [Wrong(k, path_name(topic.name, path), None, "")
-                                                for path in self.new for k in range(n)])
+        result = Columns(
+            np.arange(n),
+            {},
+            {},
+            [Wrong(k, path_name(topic.name, path), None, "") for path in self.new for k in range(n)],
+        )
         for leaf in topic.leaves:
             slot = self.layout.slots.get(leaf.path)
             if slot is not None:
@@ -169,7 +174,7 @@ class _Reader:
         return result
 
     def _values(self, rows: npt.NDArray[np.uint8], kind: str, at: int, size: int) -> Array:
-        part = np.ascontiguousarray(rows[:, at:at + size])
+        part = np.ascontiguousarray(rows[:, at : at + size])
         if kind == "string":
             return _texts(part)
         if kind == "?":
@@ -187,6 +192,7 @@ def _texts(part: npt.NDArray[np.uint8]) -> Array:
         result[:] = part[0].tobytes().removesuffix(b"\0").decode("utf-8", "backslashreplace")
         return result
     whole, size = part.tobytes(), part.shape[1]
-    result[:] = [whole[k:k + size].removesuffix(b"\0").decode("utf-8", "backslashreplace")
-                 for k in range(0, len(whole), size)]
+    result[:] = [
+        whole[k : k + size].removesuffix(b"\0").decode("utf-8", "backslashreplace") for k in range(0, len(whole), size)
+    ]
     return result

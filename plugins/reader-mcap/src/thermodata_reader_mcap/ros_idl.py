@@ -8,14 +8,33 @@ from dataclasses import dataclass, field, replace
 
 from thermodata_reader_mcap.ros_types import Field, Types, TypeTextError, is_struct, resolved, short
 
-_TOKEN = re.compile(r'"(?:[^"\\]|\\.)*"|\'(?:[^\'\\]|\\.)*\'|::|'
-                    r'[A-Za-z_]\w*|\d[\w.+-]*|[{}<>();,\[\]=@:*/+|&~^%-]', re.ASCII)
-_COMMENT = re.compile(r'//[^\n]*|/\*.*?\*/|^[ \t]*#[^\n]*|^=+[ \t]*\n[ \t]*IDL:[^\n]*', re.DOTALL | re.MULTILINE)
+_TOKEN = re.compile(
+    r'"(?:[^"\\]|\\.)*"|\'(?:[^\'\\]|\\.)*\'|::|'
+    r"[A-Za-z_]\w*|\d[\w.+-]*|[{}<>();,\[\]=@:*/+|&~^%-]",
+    re.ASCII,
+)
+_COMMENT = re.compile(r"//[^\n]*|/\*.*?\*/|^[ \t]*#[^\n]*|^=+[ \t]*\n[ \t]*IDL:[^\n]*", re.DOTALL | re.MULTILINE)
 _BASIC = {
-    "boolean": "?", "octet": "u1", "char": "u1", "short": "i2", "long": "i4", "long long": "i8",
-    "unsigned short": "u2", "unsigned long": "u4", "unsigned long long": "u8", "float": "f4", "double": "f8",
-    "int8": "i1", "uint8": "u1", "int16": "i2", "uint16": "u2", "int32": "i4", "uint32": "u4", "int64": "i8",
-    "uint64": "u8", "string": "string",
+    "boolean": "?",
+    "octet": "u1",
+    "char": "u1",
+    "short": "i2",
+    "long": "i4",
+    "long long": "i8",
+    "unsigned short": "u2",
+    "unsigned long": "u4",
+    "unsigned long long": "u8",
+    "float": "f4",
+    "double": "f8",
+    "int8": "i1",
+    "uint8": "u1",
+    "int16": "i2",
+    "uint16": "u2",
+    "int32": "i4",
+    "uint32": "u4",
+    "int64": "i8",
+    "uint64": "u8",
+    "string": "string",
 }
 
 
@@ -33,7 +52,7 @@ class _Parser:
     def next(self, wanted: str | None = None) -> str:
         token = self.peek()
         if not token or (wanted is not None and token != wanted):
-            got = " ".join(self.tokens[self.at:self.at + 5])
+            got = " ".join(self.tokens[self.at : self.at + 5])
             raise TypeTextError(f"IDL: expected {wanted or 'more'!r}, got {got!r}")
         self.at += 1
         return token
@@ -41,8 +60,12 @@ class _Parser:
     def definitions(self, scope: tuple[str, ...]) -> None:
         """What stands between two braces, or in the file."""
         kinds: dict[str, Callable[[tuple[str, ...]], None]] = {
-            "module": self._module, "struct": self._struct, "typedef": self._typedef, "enum": self._enum,
-            "const": self._const}
+            "module": self._module,
+            "struct": self._struct,
+            "typedef": self._typedef,
+            "enum": self._enum,
+            "const": self._const,
+        }
         while self.peek() not in ("", "}"):
             self._annotations()
             word = self.next()
@@ -98,7 +121,7 @@ class _Parser:
     def _enum(self, scope: tuple[str, ...]) -> None:
         name = self.next()
         self.next("{")
-        list(iter(self.next, "}"))                        # names of the values: a message holds their numbers
+        list(iter(self.next, "}"))  # names of the values: a message holds their numbers
         self.aliases["::".join((*scope, name))] = Field(name, "u4")
 
     def _const(self, scope: tuple[str, ...]) -> None:
@@ -181,7 +204,7 @@ def idl_types(name: str, text: str) -> Types:
     parts = [_TOKEN.findall(part) for part in plain.split("\f")]
     parser = _Parser([])
     waiting = [part for part in parts if part]
-    while waiting:                                          # a part may need aliases of one that stands behind it
+    while waiting:  # a part may need aliases of one that stands behind it
         failed: list[list[str]] = []
         problem: TypeTextError | None = None
         for part in waiting:
@@ -197,8 +220,9 @@ def idl_types(name: str, text: str) -> Types:
             raise problem
         waiting = failed
     names = {full: short(full) for full in parser.structs}
-    structs = {names[full]: tuple(_named(f, full, parser, names) for f in fields)
-               for full, fields in parser.structs.items()}
+    structs = {
+        names[full]: tuple(_named(f, full, parser, names) for f in fields) for full, fields in parser.structs.items()
+    }
     for built_in in ("Time", "Duration"):
         structs.setdefault(f"builtin_interfaces/{built_in}", (Field("sec", "i4"), Field("nanosec", "u4")))
     return Types(short(name), resolved(structs))
@@ -210,12 +234,16 @@ def _named(f: Field, inside: str, parser: _Parser, names: dict[str, str]) -> Fie
         return f
     parts = f.kind.split("::")
     scope = inside.split("::")[:-1]
-    tail = parts[len(scope):] if parts[:len(scope)] == scope else parts
+    tail = parts[len(scope) :] if parts[: len(scope)] == scope else parts
     for candidate in ["::".join((*scope[:k], *tail)) for k in range(len(scope), -1, -1)] + [f.kind]:
         if candidate in names:
             return replace(f, kind=names[candidate])
         if candidate in parser.aliases:
             alias = parser.aliases[candidate]
-            return replace(alias, name=f.name, fixed=alias.fixed if f.fixed is None else f.fixed,
-                           sequence=alias.sequence or f.sequence)
+            return replace(
+                alias,
+                name=f.name,
+                fixed=alias.fixed if f.fixed is None else f.fixed,
+                sequence=alias.sequence or f.sequence,
+            )
     return replace(f, kind=short(f.kind))

@@ -28,7 +28,7 @@ def package_decoder(schema: Schema) -> PackageDecoder | None:
     theirs = Theirs(id=1, name=schema.name, encoding=schema.encoding, data=schema.data)
     try:
         made = DecoderFactory().decoder_for("cdr", theirs)
-    except Exception:                                       # its parser of definitions raises what it likes
+    except Exception:  # its parser of definitions raises what it likes
         return None
     return None if made is None else PackageDecoder(made)
 

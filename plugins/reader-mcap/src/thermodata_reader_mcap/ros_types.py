@@ -8,8 +8,19 @@ from dataclasses import dataclass
 
 # name -> numpy's letter; bytes = the letter's number
 PRIMITIVES = {
-    "bool": "?", "byte": "u1", "char": "u1", "int8": "i1", "uint8": "u1", "int16": "i2", "uint16": "u2",
-    "int32": "i4", "uint32": "u4", "int64": "i8", "uint64": "u8", "float32": "f4", "float64": "f8",
+    "bool": "?",
+    "byte": "u1",
+    "char": "u1",
+    "int8": "i1",
+    "uint8": "u1",
+    "int16": "i2",
+    "uint16": "u2",
+    "int32": "i4",
+    "uint32": "u4",
+    "int64": "i8",
+    "uint64": "u8",
+    "float32": "f4",
+    "float64": "f8",
 }
 ROS1 = {"byte": "i1", "char": "u1"}
 TEXTS = frozenset({"string"})
@@ -46,8 +57,10 @@ _LINE = re.compile(r"([A-Za-z][\w/]*)(<=\d+)?\s*(?:\[(<=)?(\d*)\])?\s+([A-Za-z_]
 _BREAK = re.compile(r"^={3,}[ \t]*$", re.MULTILINE)
 _STAMPS = (Field("sec", "i4"), Field("nanosec", "u4"))
 _BUILT_IN = {"builtin_interfaces/Time": _STAMPS, "builtin_interfaces/Duration": _STAMPS}
-_ROS1_BUILT_IN = {"time": (Field("secs", "u4"), Field("nsecs", "u4")),
-                  "duration": (Field("secs", "i4"), Field("nsecs", "i4"))}
+_ROS1_BUILT_IN = {
+    "time": (Field("secs", "u4"), Field("nsecs", "u4")),
+    "duration": (Field("secs", "i4"), Field("nsecs", "i4")),
+}
 
 
 def short(name: str) -> str:
@@ -81,10 +94,16 @@ def _fields(text: str, package: str, ros1: bool) -> tuple[Field, ...]:
             raise LineError(f"line {number} of a definition: {line[:60]!r}")
         kind, _, bound, count, name, rest = match.groups()
         if rest.startswith("="):
-            continue                                        # a constant
+            continue  # a constant
         array = count is not None
-        found.append(Field(name, _kind(kind, package, ros1), int(count) if array and count and not bound else None,
-                           array and (not count or bool(bound))))
+        found.append(
+            Field(
+                name,
+                _kind(kind, package, ros1),
+                int(count) if array and count and not bound else None,
+                array and (not count or bool(bound)),
+            )
+        )
     return tuple(found)
 
 
@@ -102,6 +121,7 @@ def _kind(kind: str, package: str, ros1: bool) -> str:
 
 def resolved(structs: Mapping[str, tuple[Field, ...]]) -> Mapping[str, tuple[Field, ...]]:
     """The same, once every named type is there and none holds itself."""
+
     def check(name: str, above: tuple[str, ...]) -> None:
         if name in above:
             raise TypeTextError(f"{name} holds itself")
@@ -126,4 +146,3 @@ def is_struct(kind: str) -> bool:
 
 
 _LETTERS = frozenset(PRIMITIVES.values()) | TEXTS
-

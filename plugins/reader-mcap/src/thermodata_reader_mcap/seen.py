@@ -10,7 +10,7 @@ import numpy as np
 if TYPE_CHECKING:
     import pyarrow as pa
 
-MOST_ELEMENTS = 256      # of an array; a longer one is an image or a point cloud, no set of signals
+MOST_ELEMENTS = 256  # of an array; a longer one is an image or a point cloud, no set of signals
 MOST_DEPTH = 32
 MOST_SIGNALS_IN_ARROW = 2000
 _EXACT = 2**53

@@ -15,8 +15,9 @@ from thermodata_reader_mcap.options import Options
 Bools = npt.NDArray[np.bool_]
 
 
-def stamps(topic: Topic, options: Options, values: Mapping[str, Array], flags: Mapping[str, Array], logs: U64) \
-        -> tuple[U64, Bools]:
+def stamps(
+    topic: Topic, options: Options, values: Mapping[str, Array], flags: Mapping[str, Array], logs: U64
+) -> tuple[U64, Bools]:
     """Times [ns] of a topic's messages, shape (n,), and where the log time stands for a missing one."""
     names = {leaf.path: leaf.name for leaf in topic.leaves if leaf.dtype != "str"}
     paths = next((p for p in options.stamps() if all(part in names for part in p)), None)

@@ -40,7 +40,7 @@ class Summary:
 def summary(view: memoryview) -> Summary:
     """The summary of a file; an empty one where there is none, or where its checksum differs."""
     foot = len(view) - len(MAGIC) - _FOOTER.size - HEAD.size
-    if foot < len(MAGIC) or view[-len(MAGIC):] != MAGIC or HEAD.unpack_from(view, foot) != (FOOTER, _FOOTER.size):
+    if foot < len(MAGIC) or view[-len(MAGIC) :] != MAGIC or HEAD.unpack_from(view, foot) != (FOOTER, _FOOTER.size):
         return Summary()
     start, _, crc = _FOOTER.unpack_from(view, foot + HEAD.size)
     if start and not len(MAGIC) <= start <= foot:
@@ -48,7 +48,7 @@ def summary(view: memoryview) -> Summary:
     data_end, data_crc = _data_end(view, start or foot)
     if not start:
         return Summary(data_end=data_end, data_crc=data_crc)
-    if crc and zlib.crc32(view[start:len(view) - len(MAGIC) - 4]) != crc:
+    if crc and zlib.crc32(view[start : len(view) - len(MAGIC) - 4]) != crc:
         return Summary(damaged=True)
     schemas, bodies = dict[int, Schema](), list[memoryview]()
     counts: dict[int, int] | None = None
@@ -58,7 +58,7 @@ def summary(view: memoryview) -> Summary:
         stop = fits(view, at, IN_SUMMARY)
         if stop is None:
             return Summary(_channels(bodies, schemas), None, None, data_end, data_crc, True)
-        body = view[at + HEAD.size:stop]
+        body = view[at + HEAD.size : stop]
         if view[at] == SCHEMA:
             number, schema = parsed_schema(body)
             schemas[number] = schema

@@ -61,7 +61,7 @@ def data_section(view: memoryview) -> Iterator[Record | Damage]:
             end = end_of_file(view, at)
             if end == size:
                 return
-            if end is not None and view[end:end + len(MAGIC)] == MAGIC:      # recordings joined into one file
+            if end is not None and view[end : end + len(MAGIC)] == MAGIC:  # recordings joined into one file
                 at = first = end + len(MAGIC)
                 continue
         elif not record.cut and _stands(view, record, first):
@@ -73,7 +73,7 @@ def data_section(view: memoryview) -> Iterator[Record | Damage]:
         inside = opcode == CHUNK and record.cut and _may_be_cut(view, record)
         following = next_record(view, at + 1, kinds=CHUNKS if inside else MESSAGES if ended else IN_DATA)
         if ended and following is None:
-            return                                          # only what stands behind the data is damaged
+            return  # only what stands behind the data is damaged
         if record.cut and following is None and _may_be_cut(view, record):
             yield record
             return
@@ -135,7 +135,7 @@ def end_of_file(view: memoryview, at: int) -> int | None:
         opcode, length = HEAD.unpack_from(view, at)
         stop = at + HEAD.size + length
         if opcode == FOOTER:
-            ended = length == _FOOTER_BYTES and MAGIC.startswith(bytes(view[stop:stop + len(MAGIC)]))
+            ended = length == _FOOTER_BYTES and MAGIC.startswith(bytes(view[stop : stop + len(MAGIC)]))
             return min(stop + len(MAGIC), size) if ended else None
         if opcode not in IN_SUMMARY or (stop <= size and fits(view, at, IN_SUMMARY) is None):
             return None
@@ -145,4 +145,4 @@ def end_of_file(view: memoryview, at: int) -> int | None:
 
 def is_complete(view: memoryview) -> bool:
     """Whether the file ends as a finished recording does."""
-    return len(view) >= 2 * len(MAGIC) and view[-len(MAGIC):] == MAGIC
+    return len(view) >= 2 * len(MAGIC) and view[-len(MAGIC) :] == MAGIC

@@ -21,8 +21,8 @@ from thermodata_reader_mcap.options import LOG, PUBLISH
 from thermodata_reader_mcap.plan import Plan, wanted_topic
 from thermodata_reader_mcap.stamps import stamps
 
-BATCH = 16 << 20        # bytes of messages that are collected,
-PART = 2 << 20          # and that become columns at a time
+BATCH = 16 << 20  # bytes of messages that are collected,
+PART = 2 << 20  # and that become columns at a time
 _AHEAD = 3
 _Job = tuple[Topic, Batch, slice, U64, U64]
 _NAMED = 20
@@ -79,8 +79,9 @@ class Writer:
                 continue
             size = sum(map(len, batch.payloads))
             step = max(1, len(batch.payloads) * PART // max(1, size))
-            jobs += [(topic, batch, slice(at, at + step), logs, publishes)
-                     for at in range(0, len(batch.payloads), step)]
+            jobs += [
+                (topic, batch, slice(at, at + step), logs, publishes) for at in range(0, len(batch.payloads), step)
+            ]
         for (topic, _, part, logs, publishes), made in self._ahead(jobs):
             for each in made:
                 yield from self._blocks(topic, each, logs[part], publishes[part])
@@ -121,8 +122,14 @@ class Writer:
         for channel, kind in batch.members.items():
             made = self._reader(channel)
             if made is not None:
-                same = next((k for k, (other, _) in groups.items()
-                             if other is made or (other.json and made.json and _text(other) == _text(made))), kind)
+                same = next(
+                    (
+                        k
+                        for k, (other, _) in groups.items()
+                        if other is made or (other.json and made.json and _text(other) == _text(made))
+                    ),
+                    kind,
+                )
                 groups.setdefault(same, (made, []))[1].append(kind)
         parts: dict[int, list[Columns]] = {}
         places: dict[int, Int1D] = {}
@@ -185,28 +192,46 @@ class Writer:
         name = self.content.name
         for key, tally in self._wrong.items():
             if tally.count > _NAMED:
-                yield Loss(f"{name} '{key}'", tally.first_ns, tally.last_ns, None,
-                           f"{tally.count - _NAMED} more values that do not read")
+                yield Loss(
+                    f"{name} '{key}'",
+                    tally.first_ns,
+                    tally.last_ns,
+                    None,
+                    f"{tally.count - _NAMED} more values that do not read",
+                )
         for count, (key, tally) in enumerate(self._new.items()):
             if count == _NAMED:
-                yield Loss(name, reason=f"{len(self._new) - _NAMED} more fields that the first look at the file did "
-                                        "not meet; they are not read")
+                yield Loss(
+                    name,
+                    reason=f"{len(self._new) - _NAMED} more fields that the first look at the file did "
+                    "not meet; they are not read",
+                )
                 break
-            yield Loss(f"{name} topic '{tally.topic}' field '{key}'", tally.first_ns, tally.last_ns, None,
-                       "publish times that differ from the log times, which the first look at the file did not meet; "
-                       "set options: {publish_time: true}" if key.endswith(f".{PUBLISH}") else
-                       "a field that the first look at the file did not meet; it is not read")
+            yield Loss(
+                f"{name} topic '{tally.topic}' field '{key}'",
+                tally.first_ns,
+                tally.last_ns,
+                None,
+                "publish times that differ from the log times, which the first look at the file did not meet; "
+                "set options: {publish_time: true}"
+                if key.endswith(f".{PUBLISH}")
+                else "a field that the first look at the file did not meet; it is not read",
+            )
         for topic, n in self._unread.items():
             if wanted_topic(topic, self.source):
-                why = self._why.get(topic) or self.plan.unsupported.get(topic) \
+                why = (
+                    self._why.get(topic)
+                    or self.plan.unsupported.get(topic)
                     or "the first look at the file did not meet it"
+                )
                 yield Loss(f"{name} topic '{topic}'", reason=f"{n} messages not read: {why}")
         for number, n in self.content.undefined.items():
             yield Loss(f"{name} channel {number}", reason=f"{n} messages of a channel that the file does not describe")
         for opcode, n in self.content.foreign.items():
             if n:
-                yield Loss(name, reason=f"{n} records of kind 0x{opcode:02x}, which only their writer knows, "
-                                        "are not read")
+                yield Loss(
+                    name, reason=f"{n} records of kind 0x{opcode:02x}, which only their writer knows, are not read"
+                )
 
 
 def _text(one: Decoder) -> object:

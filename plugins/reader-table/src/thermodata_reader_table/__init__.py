@@ -71,9 +71,9 @@ def _sniff_text(head: Head) -> str | None:
     except ThermodataError:
         return None
     if _is_long(layout.names):
-        return None                                  # a row a value: OPC UA logs, which have a reader of their own
+        return None  # a row a value: OPC UA logs, which have a reader of their own
     if layout.first == 0:
-        return None                                  # without a header, nothing says what the columns are
+        return None  # without a header, nothing says what the columns are
     if layout.groups[0].seconds is None and delimiter in (";", "\t"):
         # local dates between ';' or tabs are how controls export; the cnc reader claims them. Named in the campaign
         # file, this reader takes such a table just as well.

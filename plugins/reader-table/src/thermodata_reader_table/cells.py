@@ -7,11 +7,12 @@ from typing import Any
 
 from thermodata_reader_table.stamps import is_date, is_time_of_day
 
-Cell = Any   # text, or what a workbook holds: numbers, bool, datetime, date, time, timedelta
+Cell = Any  # text, or what a workbook holds: numbers, bool, datetime, date, time, timedelta
 # "t" is a time, "T" a temperature
 TIME_WORD = re.compile(
     r"^(t|(?i:time|zeit|čas|cas|temps|tiempo|tempo|datum|date|dátum|uhrzeit|timestamp|date[ _/]?time|datetime|"
-    r"zeitstempel|elapsed([ _]?time)?|時間|时间|日時|日期|時刻|rel(ative)?[ _.]?time|t_s|time_s))\.?:?$")
+    r"zeitstempel|elapsed([ _]?time)?|時間|时间|日時|日期|時刻|rel(ative)?[ _.]?time|t_s|time_s))\.?:?$"
+)
 WORDS = {"nan", "inf", "-inf", "true", "false", "---", "-", "n/a", "#n/a", "null", ""}
 # loggers that pad their numbers write the sign first: "+   23.5"
 _NUMBER = re.compile(r"^[+-]? *(\d+([.,]\d*)?|[.,]\d+)([eE][+-]?\d+)?$")

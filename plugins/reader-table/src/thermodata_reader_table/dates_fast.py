@@ -12,7 +12,7 @@ from thermodata.plugin import Int1D
 from thermodata.reader.zone import NAT
 
 _ISO = re.compile(r"^\d{4}-\d\d-\d\d[T ]\d\d:\d\d(:\d\d(\.\d{1,9})?)?$")
-_WIDTHS = 12                                # different lengths of cells; more are read one by one
+_WIDTHS = 12  # different lengths of cells; more are read one by one
 
 
 def local_times(column: Any, pattern: re.Pattern[str], *, year_first: bool, month_first: bool) -> Int1D | None:
@@ -24,13 +24,16 @@ def local_times(column: Any, pattern: re.Pattern[str], *, year_first: bool, mont
         return None
     if year_first and (iso := _iso(column)) is not None:
         return iso
-    offsets = np.frombuffer(column.buffers()[1], np.int32)[column.offset:column.offset + len(column) + 1]
+    offsets = np.frombuffer(column.buffers()[1], np.int32)[column.offset : column.offset + len(column) + 1]
     letters = np.frombuffer(column.buffers()[2], np.uint8)
     widths = np.diff(offsets)
     first = int(widths[0])
     if (widths == first).all():
-        return _of_width(letters[offsets[0]:offsets[-1]].reshape(-1, first), pattern, year_first, month_first) \
-            if first else None
+        return (
+            _of_width(letters[offsets[0] : offsets[-1]].reshape(-1, first), pattern, year_first, month_first)
+            if first
+            else None
+        )
     kinds = np.unique(widths)
     if kinds.size > _WIDTHS or kinds[0] == 0:
         return None
@@ -57,8 +60,9 @@ def _iso(column: Any) -> Int1D | None:
     return np.frombuffer(cast.buffers()[1], np.int64, len(cast), cast.offset * 8)
 
 
-def _of_width(cells: npt.NDArray[np.uint8], pattern: re.Pattern[str], year_first: bool,
-              month_first: bool) -> Int1D | None:
+def _of_width(
+    cells: npt.NDArray[np.uint8], pattern: re.Pattern[str], year_first: bool, month_first: bool
+) -> Int1D | None:
     try:
         sample = cells[0].tobytes().decode("ascii")
     except UnicodeDecodeError:
@@ -66,8 +70,9 @@ def _of_width(cells: npt.NDArray[np.uint8], pattern: re.Pattern[str], year_first
     match = pattern.match(sample)
     if match is None:
         return None
-    day, month, year, hour, minute, second, fraction, half, zone = \
+    day, month, year, hour, minute, second, fraction, half, zone = (
         (3, 2, 1, 4, 5, 6, 7, 8, 9) if year_first else (1, 3, 4, 5, 6, 7, 8, 9, 10)
+    )
     if match[half] or match[zone]:
         return None
     if month_first and not year_first:
@@ -87,7 +92,7 @@ def _of_width(cells: npt.NDArray[np.uint8], pattern: re.Pattern[str], year_first
         start, stop = match.span(group)
         total = np.zeros(len(cells), np.int32)
         for at in range(start, stop):
-            digit = cells[:, at] - np.uint8(48)              # what is no digit wraps to above 9
+            digit = cells[:, at] - np.uint8(48)  # what is no digit wraps to above 9
             if (digit > 9).any():
                 raise ValueError
             total = total * np.int32(10) + digit

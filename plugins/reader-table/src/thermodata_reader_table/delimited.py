@@ -22,7 +22,7 @@ from thermodata_reader_table.text_rows import Sheet
 DELIMITERS = (";", "\t", ",", "|")
 _HEAD_BYTES = 256 * 1024
 _HEAD_LINES = 500
-_ENDS = re.compile("\r\n|\n|\r")       # str.splitlines takes more for line ends than any program that wrote a table
+_ENDS = re.compile("\r\n|\n|\r")  # str.splitlines takes more for line ends than any program that wrote a table
 _TEXT_NAME = ("comment", "note", "alarm", "message", "text", "label", "remark", "bemerk", "pozn", "hinweis")
 
 
@@ -41,7 +41,7 @@ def find_delimiter(lines: list[str]) -> str | None:
     if lines and lines[0].lower().startswith("sep=") and len(lines[0].strip()) == 5:
         return lines[0].strip()[-1]
     body = [line for line in lines if line.strip()]
-    body = body[len(body) // 3:][-100:]                  # preamble has other lengths
+    body = body[len(body) // 3 :][-100:]  # preamble has other lengths
     best: tuple[float, str] | None = None
     for delimiter in DELIMITERS:
         counts = [len(split(line, delimiter)) for line in body]
@@ -56,7 +56,7 @@ def head_rows(text: str, declared: str | None) -> tuple[str, list[list[str]]] | 
     """(delimiter, rows) of a file's first text; a last line without an end, which may be cut, is left out."""
     lines = _ENDS.split(text)
     if len(lines) > 2 or not lines[-1]:
-        lines.pop()                                     # empty, or a line without an end, which may be cut
+        lines.pop()  # empty, or a line without an end, which may be cut
     lines = lines[:_HEAD_LINES]
     delimiter = declared or find_delimiter(lines)
     if delimiter is None:
@@ -87,27 +87,44 @@ def _open(asked: _Asked) -> Sheet:
         data = file.read(_HEAD_BYTES)
     if not data:
         raise FormatError("an empty file", where=path.name, expected="a table")
-    text = data.decode(encoding, "replace") if source.encoding or encoding.startswith("utf-16") else \
-        (decode_head(data) if encoding.startswith("utf-8") else data.decode(encoding))
+    text = (
+        data.decode(encoding, "replace")
+        if source.encoding or encoding.startswith("utf-16")
+        else (decode_head(data) if encoding.startswith("utf-8") else data.decode(encoding))
+    )
     text = (text or "").lstrip("\ufeff")
     found = head_rows(text, said.get("delimiter"))
     if found is None:
-        raise FormatError("no delimiter gives lines of equal length", where=path.name,
-                          expected="; tab , or |", hint="declare table: {delimiter: ...}")
+        raise FormatError(
+            "no delimiter gives lines of equal length",
+            where=path.name,
+            expected="; tab , or |",
+            hint="declare table: {delimiter: ...}",
+        )
     delimiter, rows_of = found
     if rows_of and len(rows_of[0]) <= 2 and text[:4].lower() == "sep=":
         rows_of[0] = [""]
     cut = _cut(path, encoding, delimiter)
     layout = find(rows_of, said, path.name)
     width = len(layout.names)
-    body = [r + [""] * (width - len(r)) for r in rows_of[layout.first:]]
+    body = [r + [""] * (width - len(r)) for r in rows_of[layout.first :]]
     numbers = [c for r in body for i, c in enumerate(r[:width]) if i not in layout.dated]
     decimal = said.get("decimal") or (decimal_mark(numbers) if delimiter != "," else _quoted_mark(numbers)) or "."
     kinds = tuple(_kind(layout, i, [r[i] for r in body]) for i in range(width))
     notes = [*([note] if note else []), *layout.notes]
-    usual = Counter(len(r) for r in rows_of[layout.first:] if any(r)).most_common(1)
-    return Sheet(encoding, delimiter, decimal, layout, kinds, '"' in text, tuple(notes), cut,
-                 usual[0][0] if usual else width, tuple(tuple(r[:width]) for r in body if any(r)))
+    usual = Counter(len(r) for r in rows_of[layout.first :] if any(r)).most_common(1)
+    return Sheet(
+        encoding,
+        delimiter,
+        decimal,
+        layout,
+        kinds,
+        '"' in text,
+        tuple(notes),
+        cut,
+        usual[0][0] if usual else width,
+        tuple(tuple(r[:width]) for r in body if any(r)),
+    )
 
 
 def _quoted_mark(cells: list[str]) -> str:
@@ -136,7 +153,7 @@ def _cut(path: Path, encoding: str, delimiter: str) -> str | None:
     if encoding.startswith("utf-16"):
         if len(tail) % 2:
             return "the file ends inside a character"
-        big = encoding == "utf-16-be" or (encoding == "utf-16" and start ==  b"\xfe\xff")
+        big = encoding == "utf-16-be" or (encoding == "utf-16" and start == b"\xfe\xff")
         text = tail.decode("utf-16-be" if big else "utf-16-le", "replace")
     else:
         text = tail.decode("utf-8" if encoding.startswith("utf-8") else encoding, "replace")
@@ -151,13 +168,17 @@ def _cut(path: Path, encoding: str, delimiter: str) -> str | None:
 def describe(path: Path, source: Source) -> Recording:
     sheet = open_sheet(path, source)
     layout = sheet.layout
-    signals = tuple(Signal(layout.names[i], group.stream, layout.units[i], sheet.kinds[i])
-                    for group in layout.groups for i in group.columns)
+    signals = tuple(
+        Signal(layout.names[i], group.stream, layout.units[i], sheet.kinds[i])
+        for group in layout.groups
+        for i in group.columns
+    )
     first = rows.first_times(path, sheet, source)
     notes = dict.fromkeys([*sheet.notes, *(note for f in first for note in f.notes)])
     clock, start_ns = one_clock(first, layout.groups, path.name)
-    return Recording(signals, clock, start_ns, False if sheet.cut else None,
-                     (*notes, sheet.cut) if sheet.cut else tuple(notes))
+    return Recording(
+        signals, clock, start_ns, False if sheet.cut else None, (*notes, sheet.cut) if sheet.cut else tuple(notes)
+    )
 
 
 def blocks(path: Path, source: Source) -> Iterator[Block | Loss]:

@@ -20,8 +20,10 @@ from thermodata_reader_table.cells import TIME_WORD, Cell, is_empty, is_number, 
 from thermodata_reader_table.clocks import EPOCHS, SECONDS
 
 _NUMBERED = re.compile(r"^(?P<word>.*?)[ _.#-]*(?P<number>\d{1,3})$")
-_HINT = ("declare table: {time: [{column: 1, unit: s}, {column: 3, unit: s}]}, each with the columns behind it, or "
-         "with signals: [...]; or one time for all: table: {time: {column: 1}}")
+_HINT = (
+    "declare table: {time: [{column: 1, unit: s}, {column: 3, unit: s}]}, each with the columns behind it, or "
+    "with signals: [...]; or one time for all: table: {time: {column: 1}}"
+)
 
 
 @dataclass(frozen=True)
@@ -38,7 +40,7 @@ class _Name:
 
     word: str
     beside: str
-    bare: bool                       # the word alone, or numbered
+    bare: bool  # the word alone, or numbered
 
 
 def one_time(table: Mapping[str, Any] | None, where: str) -> Mapping[str, Any]:
@@ -46,9 +48,13 @@ def one_time(table: Mapping[str, Any] | None, where: str) -> Mapping[str, Any]:
     said = (table or {}).get("time") or {}
     if isinstance(said, list | tuple):
         if len(said) > 1:
-            raise UsageError("several times are declared", where=where, expected="one: in this format the file "
-                             "itself tells which signals belong to which time", got=f"{len(said)} in a list",
-                             hint="declare table: {time: {column: ...}}, or none")
+            raise UsageError(
+                "several times are declared",
+                where=where,
+                expected="one: in this format the file itself tells which signals belong to which time",
+                got=f"{len(said)} in a list",
+                hint="declare table: {time: {column: ...}}, or none",
+            )
         said = said[0] if said else {}
     found: Mapping[str, Any] = said
     return found
@@ -71,8 +77,9 @@ def time_name(header: str) -> _Name | None:
     return None
 
 
-def spans(names: Sequence[str], units: Sequence[str | None], data: Sequence[Sequence[Cell]],
-          where: str) -> tuple[list[Span], list[str]]:
+def spans(
+    names: Sequence[str], units: Sequence[str | None], data: Sequence[Sequence[Cell]], where: str
+) -> tuple[list[Span], list[str]]:
     """(groups, notes) of a table by its headers and first rows; no groups where one time is for all columns.
 
     FormatError where a second time may be one of its own rows or of the first's.
@@ -93,8 +100,13 @@ def spans(names: Sequence[str], units: Sequence[str | None], data: Sequence[Sequ
     if len(own) < 2:
         return [], notes
     if own[0][0] > 0 and own[-1][-1] == len(names) - 1:
-        raise FormatError("several time columns, each behind its columns or before them", where=where,
-                          got=", ".join(names[:12]), expected="a time before the columns that it is of", hint=_HINT)
+        raise FormatError(
+            "several time columns, each behind its columns or before them",
+            where=where,
+            got=", ".join(names[:12]),
+            expected="a time before the columns that it is of",
+            hint=_HINT,
+        )
     if own[-1][-1] == len(names) - 1:
         notes.append(_kept(names[own.pop()[0]]))
     if len(own) < 2 or (first.word == "t" and own[0][0] != 0):
@@ -104,8 +116,10 @@ def spans(names: Sequence[str], units: Sequence[str | None], data: Sequence[Sequ
 
 
 def _kept(name: str) -> str:
-    return (f"column '{name}' is named like a time and rises: it is read as a signal; declare table: {{time: "
-            "[{column: ...}, {column: ...}]} if columns behind it have it for their time")
+    return (
+        f"column '{name}' is named like a time and rises: it is read as a signal; declare table: {{time: "
+        "[{column: ...}, {column: ...}]} if columns behind it have it for their time"
+    )
 
 
 def _runs(said: Mapping[int, _Name]) -> list[list[int]]:
@@ -144,24 +158,38 @@ def _rises(column: int, name: _Name, unit: str | None, data: Sequence[Sequence[C
     return bool((steps > 0).all() if name.word == "t" and unit is None else (steps >= 0).mean() > 0.98)
 
 
-def _other(first: int, second: int, said: Mapping[int, _Name], names: Sequence[str], units: Sequence[str | None],
-           data: Sequence[Sequence[Cell]], where: str) -> list[str]:
+def _other(
+    first: int,
+    second: int,
+    said: Mapping[int, _Name],
+    names: Sequence[str],
+    units: Sequence[str | None],
+    data: Sequence[Sequence[Cell]],
+    where: str,
+) -> list[str]:
     """Another word for time behind columns: the same clock in other words is a signal (no note), one that runs
     apart from the first is asked."""
     if said[second].word == "t" and units[second] is None:
-        return []                                            # a temperature that rises
+        return []  # a temperature that rises
     alone = sum(is_empty(r[first]) != is_empty(r[second]) for r in data)
     if not alone and (not said[second].bare or second == len(names) - 1):
         return [_kept(names[second])]
     pairs = [(number_of(r[first]), number_of(r[second])) for r in data]
     rows = np.array([(a, b) for a, b in pairs if a is not None and b is not None]).reshape(-1, 2)
     if not alone and rows.shape[0] < 2:
-        return [_kept(names[second])]                        # a date and a number of seconds
+        return [_kept(names[second])]  # a date and a number of seconds
     if not alone:
-        a, b = (rows[:, k] * SECONDS.get((units[i] or "s").strip("[]() ").lower(), 1.0)
-                for k, i in ((0, first), (1, second)))
+        a, b = (
+            rows[:, k] * SECONDS.get((units[i] or "s").strip("[]() ").lower(), 1.0)
+            for k, i in ((0, first), (1, second))
+        )
         step = float(np.median(np.abs(np.diff(a)))) or 1.0
         if np.ptp(b - a) <= max(2 * step, 1e-3 * float(np.ptp(a))):
             return []
-    raise FormatError("two time columns that run apart", where=where, got=f"'{names[first]}' and '{names[second]}'",
-                      expected="one time for all columns, or each for its own", hint=_HINT)
+    raise FormatError(
+        "two time columns that run apart",
+        where=where,
+        got=f"'{names[first]}' and '{names[second]}'",
+        expected="one time for all columns, or each for its own",
+        hint=_HINT,
+    )

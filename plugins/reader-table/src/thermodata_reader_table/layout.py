@@ -18,6 +18,7 @@ from thermodata_reader_table.time_columns import column, time_of
 
 STREAM = "table"
 
+
 @dataclass(frozen=True)
 class Group:
     """Columns with one time. stream: its name; time: columns of the time, from 0; seconds: of one unit of a relative
@@ -86,8 +87,11 @@ def find(rows: Sequence[Sequence[Cell]], declared: Mapping[str, Any] | None, whe
     row_of_units = None if units_row is None else int(units_row) - 1 - skip
     heads, units = _heads([r[:width] for r in rows[skip:first]], width, row_of_units)
     names = unique(heads)
-    data = [list(r[:width]) + [""] * (width - len(r)) for r in rows[first:first + 200]
-            if any(c not in ("", None) for c in r)]
+    data = [
+        list(r[:width]) + [""] * (width - len(r))
+        for r in rows[first : first + 200]
+        if any(c not in ("", None) for c in r)
+    ]
     if not data:
         raise FormatError("a table without data rows", where=where, expected=f"data after row {first}")
     lost = _between(rows[skip:first], width, skip) if header is None else []
@@ -95,8 +99,13 @@ def find(rows: Sequence[Sequence[Cell]], declared: Mapping[str, Any] | None, whe
     return Layout(first, tuple(names), tuple(units), tuple(groups), (*notes, *lost))
 
 
-def _groups(said: Mapping[str, Any] | Sequence[Mapping[str, Any]], names: list[str], units: list[str | None],
-            data: list[list[Cell]], where: str) -> tuple[list[Group], list[str]]:
+def _groups(
+    said: Mapping[str, Any] | Sequence[Mapping[str, Any]],
+    names: list[str],
+    units: list[str | None],
+    data: list[list[Cell]],
+    where: str,
+) -> tuple[list[Group], list[str]]:
     """The times of a table, each with its columns: as declared (one, or a list), or as found."""
     width = len(names)
     if not isinstance(said, Mapping):
@@ -115,23 +124,35 @@ def _groups(said: Mapping[str, Any] | Sequence[Mapping[str, Any]], names: list[s
     for span in found:
         rows = [[r[i] for i in span.columns] for r in data if any(not is_empty(r[i]) for i in span.times)]
         start = span.columns[0]
-        time, unit, form, more = time_of(said, [names[i] for i in span.columns], [units[i] for i in span.columns], rows,
-                                       where, tuple(i - start for i in span.times))
+        time, unit, form, more = time_of(
+            said,
+            [names[i] for i in span.columns],
+            [units[i] for i in span.columns],
+            rows,
+            where,
+            tuple(i - start for i in span.times),
+        )
         time = tuple(i + start for i in time)
         groups.append(_group(names[time[0]], time, unit, form, tuple(i for i in span.columns if i not in time)))
         notes += more
-    return groups, [f"{len(groups)} time columns, each with the columns behind it: streams "
-                    + ", ".join(g.stream for g in groups), *notes]
+    return groups, [
+        f"{len(groups)} time columns, each with the columns behind it: streams " + ", ".join(g.stream for g in groups),
+        *notes,
+    ]
 
 
-def declared_groups(said: Sequence[Mapping[str, Any]], names: list[str], units: list[str | None],
-                    data: list[list[Cell]], where: str) -> tuple[list[Group], list[str]]:
+def declared_groups(
+    said: Sequence[Mapping[str, Any]], names: list[str], units: list[str | None], data: list[list[Cell]], where: str
+) -> tuple[list[Group], list[str]]:
     """Groups of a declared list of times: each with its `signals`, or with the columns behind it up to the next."""
     width, notes, found = len(names), [], []
     for one in said:
         if one.get("column") is None:
-            raise UsageError("a time of several without its column", where=where,
-                             expected="table: {time: [{column: ...}, {column: ...}]}")
+            raise UsageError(
+                "a time of several without its column",
+                where=where,
+                expected="table: {time: [{column: ...}, {column: ...}]}",
+            )
         wanted = one["column"]
         columns = [column(w, names, where) for w in (wanted if isinstance(wanted, list | tuple) else [wanted])]
         rows = [r for r in data if not is_empty(r[columns[0]])]
@@ -146,8 +167,11 @@ def declared_groups(said: Sequence[Mapping[str, Any]], names: list[str], units: 
     counts = [i for *_, own in found for i in own or ()]
     twice += sorted({i for i in counts if counts.count(i) > 1})
     if twice:
-        raise UsageError(f"column '{names[twice[0]]}' is declared twice", where=where,
-                         expected="each column once, as a time or as a signal of one")
+        raise UsageError(
+            f"column '{names[twice[0]]}' is declared twice",
+            where=where,
+            expected="each column once, as a time or as a signal of one",
+        )
     groups, left = [], set(range(width)) - set(times) - taken
     for time, unit, form, own in found:
         if own is None:
@@ -158,26 +182,33 @@ def declared_groups(said: Sequence[Mapping[str, Any]], names: list[str], units: 
     if left:
         first = groups[0]
         groups[0] = replace(first, columns=tuple(sorted((*first.columns, *left))))
-        notes.append(f"columns of no declared time are read with '{first.stream}': "
-                     + ", ".join(names[i] for i in sorted(left)))
+        notes.append(
+            f"columns of no declared time are read with '{first.stream}': " + ", ".join(names[i] for i in sorted(left))
+        )
     return groups, notes
 
 
 def _group(stream: str, time: tuple[int, ...], unit: str | None, form: str | None, columns: tuple[int, ...]) -> Group:
-    return Group(stream, time, None if unit is None else SECONDS.get(unit), form, unit if unit in EPOCHS else None,
-                 columns)
+    return Group(
+        stream, time, None if unit is None else SECONDS.get(unit), form, unit if unit in EPOCHS else None, columns
+    )
 
 
-def one_clock(times: Sequence[Stamps], groups: Sequence[Group], where: str) -> tuple[
-        Literal["absolute", "relative"], int | None]:
+def one_clock(
+    times: Sequence[Stamps], groups: Sequence[Group], where: str
+) -> tuple[Literal["absolute", "relative"], int | None]:
     """(clock, start_ns) of a recording, by the times of each group. FormatError where some are dates and others not."""
     kinds = {t.absolute for t in times if t.t_ns.size}
     if len(kinds) > 1:
-        raise FormatError("some times are dates and others count from their start", where=where,
-                          got=", ".join(f"{g.stream}: {'dates' if t.absolute else 'relative'}"
-                                        for g, t in zip(groups, times, strict=True)),
-                          expected="one kind in a source",
-                          hint="declare one time: table: {time: {column: ...}}, and a second source for the others")
+        raise FormatError(
+            "some times are dates and others count from their start",
+            where=where,
+            got=", ".join(
+                f"{g.stream}: {'dates' if t.absolute else 'relative'}" for g, t in zip(groups, times, strict=True)
+            ),
+            expected="one kind in a source",
+            hint="declare one time: table: {time: {column: ...}}, and a second source for the others",
+        )
     absolute = kinds.pop() if kinds else groups[0].seconds is None
     starts = [int(good[0]) for t in times if (good := t.t_ns[t.t_ns != NAT]).size]
     return ("absolute", min(starts, default=0)) if absolute else ("relative", None)
@@ -191,9 +222,13 @@ def _spanning(rows: Sequence[Sequence[Cell]], width: int) -> list[int]:
     while len(found) > 1 and _are_numbers(filled[found[-1]]):
         found.pop()
     last = len(rows) - 1
-    if found and found[-1] == last - 1 and len(filled[last]) > 1 and not any(
-            is_number(c) or is_stamp(c) for c in filled[last]) \
-            and not _are_units(filled[found[-1]]):
+    if (
+        found
+        and found[-1] == last - 1
+        and len(filled[last]) > 1
+        and not any(is_number(c) or is_stamp(c) for c in filled[last])
+        and not _are_units(filled[found[-1]])
+    ):
         found.append(last)
     return found
 
@@ -214,14 +249,17 @@ def _are_units(cells: Sequence[Cell]) -> bool:
 def _between(rows: Sequence[Sequence[Cell]], width: int, skip: int) -> list[str]:
     """A note for lines between the header and the data that are part of neither."""
     spanning = _spanning(rows, width)
-    odd = [i + skip + 1 for i in range(spanning[-1] + 1, len(rows))
-           if any(c not in ("", None) for c in rows[i][:width])] if spanning else []
+    odd = (
+        [i + skip + 1 for i in range(spanning[-1] + 1, len(rows)) if any(c not in ("", None) for c in rows[i][:width])]
+        if spanning
+        else []
+    )
     return [f"line {odd[0]} between header and data is not read ({len(odd)} such)"] if odd else []
 
 
 def _width(body: Sequence[Sequence[Cell]]) -> int:
     """Cells of most rows of the second half, where preamble is rare; the larger of two that are as frequent."""
-    lengths = [len(r) for r in body[len(body) // 2:] if any(c not in ("", None) for c in r)]
+    lengths = [len(r) for r in body[len(body) // 2 :] if any(c not in ("", None) for c in r)]
     return max(set(lengths), key=lambda n: (lengths.count(n), n), default=0)
 
 
@@ -229,23 +267,28 @@ def _first_data(body: Sequence[Sequence[Cell]], width: int, where: str) -> int:
     stamped = _stamped(body, width)
     for i, row in enumerate(body):
         if stamped and not any(is_stamp(c) for k, c in enumerate(row) if k in stamped):
-            continue                                         # a row of a list of channels with their ranges
-        following = [r for r in body[i + 1:i + 11] if any(c not in ("", None) for c in r)]
+            continue  # a row of a list of channels with their ranges
+        following = [r for r in body[i + 1 : i + 11] if any(c not in ("", None) for c in r)]
         if not _is_data(row, width) or sum(_is_data(r, width) for r in following) * 2 < len(following):
             continue
         words = [c for c in row if isinstance(c, str) and c and not is_number(c) and not is_stamp(c)]
         if words and following and not _is_data(following[0], width):
-            continue                                         # "Serial;4711" above the header
+            continue  # "Serial;4711" above the header
         return i
-    raise FormatError("no data rows found", where=where, expected="rows of numbers and times",
-                      hint="declare table: {header_rows: ..., skip_rows: ...}")
+    raise FormatError(
+        "no data rows found",
+        where=where,
+        expected="rows of numbers and times",
+        hint="declare table: {header_rows: ..., skip_rows: ...}",
+    )
 
 
 def _stamped(body: Sequence[Sequence[Cell]], width: int) -> set[int]:
     """Columns that hold dates or times in nearly all rows of the second half, where preamble is rare."""
-    late = [r for r in body[len(body) // 2:] if len(r) >= width - 1]
-    return {k for k in range(width)
-            if len(late) >= 5 and sum(k < len(r) and is_stamp(r[k]) for r in late) > 0.9 * len(late)}
+    late = [r for r in body[len(body) // 2 :] if len(r) >= width - 1]
+    return {
+        k for k in range(width) if len(late) >= 5 and sum(k < len(r) and is_stamp(r[k]) for r in late) > 0.9 * len(late)
+    }
 
 
 def _heads(rows: Sequence[Sequence[Cell]], width: int, units_row: int | None) -> tuple[list[str], list[str | None]]:
@@ -276,8 +319,12 @@ def _units_among(above: Sequence[str], row: Sequence[str]) -> bool:
     named = [c for c in above if c]
     units = [c for c in said if looks_like_unit(c)]
     again = len(set(said)) < len(said) or any(a == c for a, c in zip(above, row, strict=True) if looks_like_unit(c))
-    return (len(set(named)) == len(named) >= len(said) and again and len(units) * 3 >= len(said)
-            and len(units) > sum(map(looks_like_unit, named)))
+    return (
+        len(set(named)) == len(named) >= len(said)
+        and again
+        and len(units) * 3 >= len(said)
+        and len(units) > sum(map(looks_like_unit, named))
+    )
 
 
 def _under(above: list[str], names: list[str]) -> list[str]:

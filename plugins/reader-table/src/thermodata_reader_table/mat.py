@@ -26,7 +26,7 @@ _LOOK = 2000
 
 def is_hdf5(start: bytes) -> bool:
     """Whether a file's first kilobyte holds the signature of HDF5 (after MATLAB's block of 512 bytes)."""
-    return any(start[at:at + 8] == b"\x89HDF\r\n\x1a\n" for at in (0, 512))
+    return any(start[at : at + 8] == b"\x89HDF\r\n\x1a\n" for at in (0, 512))
 
 
 @contextmanager
@@ -87,12 +87,14 @@ class Clocked:
             self.streams.append(self._timed(name, stream))
         kinds = {s.absolute for s in self.streams}
         if len(kinds) > 1:
-            raise FormatError("some times are dates, others count from a start", where=where,
-                              got=", ".join(f"{s.axis.path} ({'date' if s.absolute else s.unit})"
-                                            for s in self.streams[:8]),
-                              expected="one kind of time in a file",
-                              hint="name the one to read: table: {time: {column: ...}}, and the others in a source "
-                              "of their own, or save them so")
+            raise FormatError(
+                "some times are dates, others count from a start",
+                where=where,
+                got=", ".join(f"{s.axis.path} ({'date' if s.absolute else s.unit})" for s in self.streams[:8]),
+                expected="one kind of time in a file",
+                hint="name the one to read: table: {time: {column: ...}}, and the others in a source "
+                "of their own, or save them so",
+            )
         self.absolute = kinds == {True}
 
     def _timed(self, name: str, stream: Stream) -> Timed:
@@ -127,11 +129,16 @@ class Clocked:
                 self._note((f"unit '{text}' of '{axis.path}' is none of time",))
         epoch = clocks.found_epoch(axis.load(0, _LOOK))
         if epoch is not None:
-            self._note((f"'{axis.path}' has no unit: by its size it is {epoch}; declare table: {{time: {{unit: ...}}}} "
-                        "if that is wrong",))
+            self._note(
+                (
+                    f"'{axis.path}' has no unit: by its size it is {epoch}; declare table: {{time: {{unit: ...}}}} "
+                    "if that is wrong",
+                )
+            )
             return epoch
-        self._note((f"'{axis.path}' has no unit: taken as seconds; declare table: {{time: {{unit: ...}}}} if that is "
-                    "wrong",))
+        self._note(
+            (f"'{axis.path}' has no unit: taken as seconds; declare table: {{time: {{unit: ...}}}} if that is wrong",)
+        )
         return "s"
 
     def _note(self, notes: tuple[str, ...]) -> None:
@@ -143,13 +150,16 @@ def describe(path: Path, source: Source) -> Recording:
         found = Clocked(tree, source, path.name)
         signals = tuple(
             Signal(name, s.name, column.unit or split_unit(name)[1], column.dtype, None, s.properties)
-            for s in found.streams for name, column in zip(s.names, s.columns, strict=True))
+            for s in found.streams
+            for name, column in zip(s.names, s.columns, strict=True)
+        )
         start: int | None = None
         if found.absolute:
             firsts = [int(t[t != NAT][0]) for s in found.streams if (t := s.times(0, _LOOK))[t != NAT].size]
             start = min(firsts, default=0)
-        return Recording(signals, "absolute" if found.absolute else "relative", start, tree.complete,
-                         tuple(found.notes))
+        return Recording(
+            signals, "absolute" if found.absolute else "relative", start, tree.complete, tuple(found.notes)
+        )
 
 
 def blocks(path: Path, source: Source) -> Iterator[Block | Loss]:
@@ -171,11 +181,13 @@ def _blocks(stream: Timed, source: Source, where: str) -> Iterator[Block | Loss]
         for name, column in zip(stream.names, stream.columns, strict=True):
             part: Any = column.load(start, start + rows)
             if part.size != t_ns.size:
-                raise FormatError(f"'{name}' ends before its time", where=where, expected=f"{t_ns.size} values",
-                                  got=str(part.size))
+                raise FormatError(
+                    f"'{name}' ends before its time", where=where, expected=f"{t_ns.size} values", got=str(part.size)
+                )
             values[name] = part if whole else part[good]
         missing += int((~good).sum())
         yield Block(stream.name, t_ns if whole else t_ns[good], values)
     if missing:
-        yield Loss(f"{where} {stream.axis.path}", None, None, missing / stream.axis.length,
-                   f"{missing} rows without a time")
+        yield Loss(
+            f"{where} {stream.axis.path}", None, None, missing / stream.axis.length, f"{missing} rows without a time"
+        )

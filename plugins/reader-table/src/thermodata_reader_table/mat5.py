@@ -36,10 +36,20 @@ from thermodata_reader_table.mat_tree import (
 )
 
 _STORED = {1: "i1", 2: "u1", 3: "i2", 4: "u2", 5: "i4", 6: "u4", 7: "f4", 9: "f8", 12: "i8", 13: "u8"}
-_CLASS = {6: "float64", 7: "float32", 8: "int8", 9: "uint8", 10: "int16", 11: "uint16", 12: "int32", 13: "uint32",
-          14: "int64", 15: "uint64"}
+_CLASS = {
+    6: "float64",
+    7: "float32",
+    8: "int8",
+    9: "uint8",
+    10: "int16",
+    11: "uint16",
+    12: "int32",
+    13: "uint32",
+    14: "int64",
+    15: "uint64",
+}
 _MATRIX, _PACKED, _UTF8, _UTF16, _UTF32 = 14, 15, 16, 17, 18
-_IN_MEMORY = 32 << 20                       # longer variables are unpacked to a temporary file
+_IN_MEMORY = 32 << 20  # longer variables are unpacked to a temporary file
 MAX_UNPACKED = 6 << 30
 
 
@@ -64,13 +74,15 @@ def read(path: Path) -> Tree:
         data = memoryview(mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ))
     mark = bytes(data[126:128])
     if mark not in (b"IM", b"MI"):
-        raise FormatError("not a MAT file of version 5", where=f"{path.name} byte 126",
-                          expected="byte order IM or MI", got=repr(mark))
+        raise FormatError(
+            "not a MAT file of version 5", where=f"{path.name} byte 126", expected="byte order IM or MI", got=repr(mark)
+        )
     order = "<" if mark == b"IM" else ">"
-    version, = struct.unpack(f"{order}H", data[124:126])
+    (version,) = struct.unpack(f"{order}H", data[124:126])
     if version != 0x0100:
-        raise FormatError("not a MAT file of version 5", where=f"{path.name} byte 124", expected="version 0x0100",
-                          got=hex(version))
+        raise FormatError(
+            "not a MAT file of version 5", where=f"{path.name} byte 124", expected="version 0x0100", got=hex(version)
+        )
     variables: dict[str, Node] = {}
     losses: list[Loss] = []
     at, cut, budget = 128, False, [MAX_UNPACKED]
@@ -123,7 +135,7 @@ def _unpacked(packed: memoryview, budget: list[int]) -> memoryview:
     kept, spill, total = bytearray(), None, 0
     try:
         for at in range(0, len(packed), 1 << 18):
-            raw = bytes(packed[at:at + (1 << 18)])
+            raw = bytes(packed[at : at + (1 << 18)])
             while raw:
                 part = unpack.decompress(raw, 1 << 20)
                 raw = unpack.unconsumed_tail
@@ -238,7 +250,7 @@ class _Parser:
     def _latin(self, element: _Element) -> str:
         if element.kind not in (1, 2, _UTF8) or element.stop - element.start > 4096:
             raise _DamagedError(f"a name of type {element.kind}")
-        raw = bytes(self.data[element.start:element.stop]).split(b"\0")[0]
+        raw = bytes(self.data[element.start : element.stop]).split(b"\0")[0]
         try:
             return raw.decode("utf-8")
         except UnicodeDecodeError:
@@ -250,8 +262,11 @@ class _Parser:
             raise _DamagedError(f"{flat.size} numbers for {'x'.join(map(str, dims))}")
         wide = np.dtype(dtype).kind == "f"
         # writers shorten what fits into a smaller type, and never the other way
-        if not np.can_cast(flat.dtype, np.dtype(dtype)) or (not wide and flat.dtype.kind == "f") or (
-                wide and flat.dtype.kind in "iu" and flat.dtype.itemsize > 4):
+        if (
+            not np.can_cast(flat.dtype, np.dtype(dtype))
+            or (not wide and flat.dtype.kind == "f")
+            or (wide and flat.dtype.kind in "iu" and flat.dtype.itemsize > 4)
+        ):
             raise _DamagedError(f"{dtype} written as {flat.dtype.name}")
         if bits & 0x08:
             return Odd(f"complex {dtype}")
@@ -262,8 +277,14 @@ class _Parser:
         # logical arrays are bytes of 0 and 1; on anything else the mark is damage, or of no weight
         kind = "bool" if bits & 0x02 and dtype == "uint8" and bool((flat <= 1).all()) else dtype
         table = flat.reshape((dims[0], dims[1]) if count else (0, 0), order="F")
-        return Numbers(table.shape[0], table.shape[1], kind, lambda fixed, axis, start, stop: np.ascontiguousarray(
-            table[start:stop, fixed] if axis == 0 else table[fixed, start:stop]).astype(kind))
+        return Numbers(
+            table.shape[0],
+            table.shape[1],
+            kind,
+            lambda fixed, axis, start, stop: np.ascontiguousarray(
+                table[start:stop, fixed] if axis == 0 else table[fixed, start:stop]
+            ).astype(kind),
+        )
 
     def _text(self, parts: Iterator[_Element], dims: list[int], count: int) -> Text:
         found = next(parts, None)
@@ -271,10 +292,16 @@ class _Parser:
             return Text(())
         if count > MAX_TEXT:
             raise _DamagedError(f"{count} characters")
-        raw = bytes(self.data[found.start:found.stop])
+        raw = bytes(self.data[found.start : found.stop])
         endian = "le" if self.order == "<" else "be"
-        codec = {1: "utf-8", 2: "utf-8", _UTF8: "utf-8", 4: f"utf-16-{endian}", _UTF16: f"utf-16-{endian}",
-                 _UTF32: f"utf-32-{endian}"}.get(found.kind)
+        codec = {
+            1: "utf-8",
+            2: "utf-8",
+            _UTF8: "utf-8",
+            4: f"utf-16-{endian}",
+            _UTF16: f"utf-16-{endian}",
+            _UTF32: f"utf-32-{endian}",
+        }.get(found.kind)
         if codec is None:
             raise _DamagedError(f"text of type {found.kind}")
         try:
@@ -308,20 +335,24 @@ class _Parser:
             return Odd(self._latin(self._next(parts)) or "object")
         length = int(self._ints(self._next(parts), (5,), 1)[0])
         names_at = self._next(parts)
-        raw = bytes(self.data[names_at.start:names_at.stop])
+        raw = bytes(self.data[names_at.start : names_at.stop])
         if length < 1 or len(raw) % length or len(raw) > 1 << 22:
             raise _DamagedError(f"field names of {length} bytes in {len(raw)}")
-        names = [raw[i:i + length].split(b"\0")[0].decode("utf-8", "backslashreplace")
-                 for i in range(0, len(raw), length)]
+        names = [
+            raw[i : i + length].split(b"\0")[0].decode("utf-8", "backslashreplace") for i in range(0, len(raw), length)
+        ]
         items = self._items(parts, count * len(names), depth)
         each = len(names)
         if len(set(names)) < each:
             names = [n if n not in names[:i] else f"{n}#{i + 1}" for i, n in enumerate(names)]
-        structs = tuple(Struct(dict(zip(names, items[i * each:(i + 1) * each], strict=True))) for i in range(count))
+        structs = tuple(Struct(dict(zip(names, items[i * each : (i + 1) * each], strict=True))) for i in range(count))
         return structs[0] if count == 1 else Structs(structs)
 
 
 def odd_variables(tree: Tree, where: str) -> list[Loss]:
     """A loss for each variable that holds an object."""
-    return [Loss(f"{where} variable '{name}'", None, None, None, refusal(node.kind))
-            for name, node in tree.variables.items() if isinstance(node, Odd) and node.kind != "function_handle"]
+    return [
+        Loss(f"{where} variable '{name}'", None, None, None, refusal(node.kind))
+        for name, node in tree.variables.items()
+        if isinstance(node, Odd) and node.kind != "function_handle"
+    ]

@@ -28,7 +28,7 @@ from thermodata_reader_table.mat_tree import (
 
 _NUMBERS = {"double": "float64", "single": "float32", "logical": "bool"}
 _NUMBERS |= {f"{sign}int{bits}": f"{sign}int{bits}" for sign in ("", "u") for bits in (8, 16, 32, 64)}
-_CACHE = 64 << 20                           # a chunk is unpacked once, not once a block
+_CACHE = 64 << 20  # a chunk is unpacked once, not once a block
 
 
 @contextmanager
@@ -36,10 +36,27 @@ def damaged(where: str) -> Iterator[None]:
     """h5py raises many unrelated classes for a damaged file; all of them mean the same."""
     try:
         yield
-    except (OSError, RuntimeError, ValueError, KeyError, TypeError, AttributeError, IndexError, OverflowError,
-            UnicodeError, SystemError, NotImplementedError, RecursionError, ZeroDivisionError) as error:
-        raise FormatError("a damaged HDF5 file", where=where, got=(str(error).splitlines() or ["?"])[0][:200],
-                          hint="save it again, or with -v7") from None
+    except (
+        OSError,
+        RuntimeError,
+        ValueError,
+        KeyError,
+        TypeError,
+        AttributeError,
+        IndexError,
+        OverflowError,
+        UnicodeError,
+        SystemError,
+        NotImplementedError,
+        RecursionError,
+        ZeroDivisionError,
+    ) as error:
+        raise FormatError(
+            "a damaged HDF5 file",
+            where=where,
+            got=(str(error).splitlines() or ["?"])[0][:200],
+            hint="save it again, or with -v7",
+        ) from None
 
 
 @contextmanager
@@ -73,8 +90,9 @@ class _Walk:
                 with damaged(f"{self.where} variable '{name}'"):
                     variables[name] = self.node(self.file[name], 0)
             except FormatError as error:
-                losses.append(Loss(f"{self.where} variable '{name}'", None, None, None,
-                                   f"a damaged variable: {error.got}"))
+                losses.append(
+                    Loss(f"{self.where} variable '{name}'", None, None, None, f"a damaged variable: {error.got}")
+                )
         return Tree(variables, tuple(losses), True if not losses else None)
 
     def node(self, item: Any, depth: int) -> Node:
@@ -128,8 +146,9 @@ class _Walk:
             columns = {n: self._cells(f, depth).items for n, f in fields.items()}
             if len({len(c) for c in columns.values()}) != 1:
                 raise ValueError("fields of a struct array differ in count")
-            return Structs(tuple(Struct(dict(zip(columns, row, strict=True)))
-                                 for row in zip(*columns.values(), strict=True)))
+            return Structs(
+                tuple(Struct(dict(zip(columns, row, strict=True))) for row in zip(*columns.values(), strict=True))
+            )
         return Struct({n: self.node(f, depth + 1) for n, f in fields.items()})
 
     def _cells(self, item: Any, depth: int) -> Cells:
@@ -137,10 +156,13 @@ class _Walk:
             raise ValueError(f"{item.size} parts")
         check_found(item)
         shape = item.shape
-        references = np.asarray(item[()]).ravel()       # C order of the turned shape is MATLAB's column by column
+        references = np.asarray(item[()]).ravel()  # C order of the turned shape is MATLAB's column by column
         rows = int(shape[-1]) if len(shape) else 1
-        return Cells(rows, int(item.size) // rows if rows else 0,
-                     tuple(self.node(self.file[r], depth + 1) if r else _no_numbers() for r in references))
+        return Cells(
+            rows,
+            int(item.size) // rows if rows else 0,
+            tuple(self.node(self.file[r], depth + 1) if r else _no_numbers() for r in references),
+        )
 
 
 def _holds_references(item: Any) -> bool:
@@ -190,10 +212,9 @@ def _loader(item: Any, ndim: int, dtype: str, where: str) -> Callable[[int, int,
             if ndim == 0:
                 found = np.asarray([item[()]])[start:stop]
             elif ndim == 1:
-                found = item[start:stop] if axis == 0 else item[fixed:fixed + 1]
+                found = item[start:stop] if axis == 0 else item[fixed : fixed + 1]
             else:
-                found = item[(*front, fixed, slice(start, stop)) if axis == 0 else
-                             (*front, slice(start, stop), fixed)]
+                found = item[(*front, fixed, slice(start, stop)) if axis == 0 else (*front, slice(start, stop), fixed)]
             got: Array = np.asarray(found).astype(dtype)
         return got
 

@@ -10,10 +10,10 @@ from typing import Any
 import numpy as np
 
 _DEFLATE, _SHUFFLE, _FLETCHER = 1, 2, 3
-_FEW = 5000                                 # chunks up to which they are held against the other data sets
+_FEW = 5000  # chunks up to which they are held against the other data sets
 _MAX_CHUNK = 256 << 20
-_NONE = bytearray(1)                        # room for no chunk: a search without a read
-_RATIO = 1100                               # deflate packs to a thousandth at best
+_NONE = bytearray(1)  # room for no chunk: a search without a read
+_RATIO = 1100  # deflate packs to a thousandth at best
 
 
 class Spans:
@@ -123,7 +123,8 @@ def _check_chunks(item: Any, size: int, declared: int, taken: Spans) -> None:
 
     item.id.chunk_iter(look)
     if len(places) != wanted or any(
-            o % c or o >= n for place in places for o, c, n in zip(place, item.chunks, item.shape, strict=True)):
+        o % c or o >= n for place in places for o, c, n in zip(place, item.chunks, item.shape, strict=True)
+    ):
         raise ValueError("chunks that are not where they belong")
     spans.sort()
     if len(spans) < _FEW:

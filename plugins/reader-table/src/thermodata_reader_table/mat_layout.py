@@ -16,9 +16,9 @@ from thermodata_reader_table import mat_names as say
 from thermodata_reader_table.groups import one_time
 from thermodata_reader_table.mat_tree import Cells, Node, Numbers, Odd, Struct, Structs, Text, Tree, refusal
 
-_LOOK = 2000                       # values by which a time is judged
-_SHORT = 20                        # a vector no longer than this, without a time, is a property
-_MANY = 100_000                    # signals of a file
+_LOOK = 2000  # values by which a time is judged
+_SHORT = 20  # a vector no longer than this, without a time, is a property
+_MANY = 100_000  # signals of a file
 
 
 @dataclass(frozen=True, slots=True)
@@ -87,16 +87,24 @@ class Planner:
         time = one_time(said, where)
         self.wanted, self.unit = time.get("column"), time.get("unit")
         if isinstance(self.wanted, list):
-            raise UsageError("a MAT file has one time for a stream", where=where, got=str(self.wanted),
-                             expected="table: {time: {column: NAME}}")
+            raise UsageError(
+                "a MAT file has one time for a stream",
+                where=where,
+                got=str(self.wanted),
+                expected="table: {time: {column: NAME}}",
+            )
         variables = dict(tree.variables)
         sheet = said.get("sheet")
         if isinstance(sheet, str):
             if sheet not in variables:
                 close = nearest(sheet, list(variables))
-                raise UsageError(f"no variable '{sheet}'", where=where, got=sheet,
-                                 expected=", ".join(list(variables)[:30]),
-                                 hint=f"did you mean '{close}'?" if close else None)
+                raise UsageError(
+                    f"no variable '{sheet}'",
+                    where=where,
+                    got=sheet,
+                    expected=", ".join(list(variables)[:30]),
+                    hint=f"did you mean '{close}'?" if close else None,
+                )
             variables = {sheet: variables[sheet]}
         if not variables and not self.losses:
             raise FormatError("a MAT file without variables", where=where)
@@ -160,8 +168,9 @@ class Planner:
             scope.properties[name] = f"{value:.12g}"
         elif node.is_vector:
             if self._is_axis(name, path, node):
-                scope.axes.append(Axis(path, node.size, node.vector, unit=split_unit(name)[1]
-                                       or say.unit_in_name(name)))
+                scope.axes.append(
+                    Axis(path, node.size, node.vector, unit=split_unit(name)[1] or say.unit_in_name(name))
+                )
             else:
                 scope.columns.append(Column(path, split_unit(name)[1], node.dtype, node.size, node.vector))
         elif node.size:
@@ -206,8 +215,15 @@ class Planner:
                 assert isinstance(item, Numbers)
                 scope.columns.append(Column(f"{path}{{{i}}}", None, item.dtype, item.size, item.vector))
         elif items:
-            self.losses.append(Loss(f"{self.where} variable '{path}'", None, None, None,
-                                    "a cell array of mixed content: save its columns as vectors"))
+            self.losses.append(
+                Loss(
+                    f"{self.where} variable '{path}'",
+                    None,
+                    None,
+                    None,
+                    "a cell array of mixed content: save its columns as vectors",
+                )
+            )
 
     # ---- matrices: a signal a column, the time one of them or beside them --------------------------
 
@@ -217,12 +233,23 @@ class Planner:
             axis = 0 if node.rows in lengths or node.columns not in lengths else 1
             count, length = (node.columns, node.rows) if axis == 0 else (node.rows, node.columns)
             if count > _MANY:
-                raise FormatError("more signals than any lab has", where=f"{self.where} {path}", got=str(count),
-                                  expected=f"at most {_MANY}")
+                raise FormatError(
+                    "more signals than any lab has",
+                    where=f"{self.where} {path}",
+                    got=str(count),
+                    expected=f"at most {_MANY}",
+                )
             heads = _fitting(scope, "names", count)
             if self.cut and heads is None:
-                self.losses.append(Loss(f"{self.where} variable '{path}'", None, None, None,
-                                        "the file is cut, and the names of its columns may stand in what is lost"))
+                self.losses.append(
+                    Loss(
+                        f"{self.where} variable '{path}'",
+                        None,
+                        None,
+                        None,
+                        "the file is cut, and the names of its columns may stand in what is lost",
+                    )
+                )
                 continue
             units = _fitting(scope, "units", count) or [""] * len(heads or ())
             names = [f"{path}/{h}" if h else "" for h in heads] if heads and len(scope.matrices) > 1 else heads
@@ -237,27 +264,38 @@ class Planner:
                 made.pop(at)
             scope.columns.extend(made)
 
-    def _time_column(self, scope: Scope, path: str, node: Numbers, axis: int, heads: list[str] | None,
-                     length: int) -> int | None:
+    def _time_column(
+        self, scope: Scope, path: str, node: Numbers, axis: int, heads: list[str] | None, length: int
+    ) -> int | None:
         """The column of a matrix that is its time, or None where another variable is."""
         if isinstance(self.wanted, int):
             count = node.columns if axis == 0 else node.rows
             if not 1 <= self.wanted <= count:
-                raise UsageError(f"no column {self.wanted}", where=f"{self.where} {path}", expected=f"1 to {count}",
-                                 got=str(self.wanted))
+                raise UsageError(
+                    f"no column {self.wanted}",
+                    where=f"{self.where} {path}",
+                    expected=f"1 to {count}",
+                    got=str(self.wanted),
+                )
             return self.wanted - 1
         if heads and isinstance(self.wanted, str):
             return next((i for i, h in enumerate(heads) if self.wanted in (h, split_unit(h)[0])), None)
-        if self.wanted is not None or scope.step_s is not None or any(
-                a.length == length for s in _up(scope) for a in s.axes):
+        if (
+            self.wanted is not None
+            or scope.step_s is not None
+            or any(a.length == length for s in _up(scope) for a in s.axes)
+        ):
             return None
         if heads:
             return next((i for i, h in enumerate(heads) if say.names_time(split_unit(h)[0])), None)
-        rising = [i for i in range(min(node.columns if axis == 0 else node.rows, 200))
-                  if _rises(node.line(i, axis, 0, _LOOK))]
+        rising = [
+            i for i in range(min(node.columns if axis == 0 else node.rows, 200)) if _rises(node.line(i, axis, 0, _LOOK))
+        ]
         if rising == [0]:
-            self.notes.append(f"'{path}' has no names: its first {'column' if axis == 0 else 'row'}, the only one "
-                              "that always rises, is taken as the time")
+            self.notes.append(
+                f"'{path}' has no names: its first {'column' if axis == 0 else 'row'}, the only one "
+                "that always rises, is taken as the time"
+            )
             return 0
         return None
 
@@ -266,8 +304,9 @@ class Planner:
     def _assign(self, scope: Scope) -> None:
         """Each column of the scope to the time that its name or its length points to."""
         given = scope.unit_of
-        scope.axes = [a if a.unit or a.texts else replace(a, unit=given.get(_last(a.path)) or scope.time_unit)
-                      for a in scope.axes]
+        scope.axes = [
+            a if a.unit or a.texts else replace(a, unit=given.get(_last(a.path)) or scope.time_unit) for a in scope.axes
+        ]
         scope.columns = [c if c.unit else replace(c, unit=given.get(_last(c.name))) for c in scope.columns]
         left: list[Column] = []
         for column in scope.columns:
@@ -296,14 +335,22 @@ class Planner:
             fits = [a for a in level.axes if a.length == length]
             if len(fits) > 1:
                 own = say.squeezed(name.rsplit("/", 1)[-1])
-                near = [a for a in fits if (stem := say.without_time(a.path.rsplit("/", 1)[-1]))
-                        and (stem == own or own.startswith(stem) or own.endswith(stem))]
+                near = [
+                    a
+                    for a in fits
+                    if (stem := say.without_time(a.path.rsplit("/", 1)[-1]))
+                    and (stem == own or own.startswith(stem) or own.endswith(stem))
+                ]
                 if len(near) != 1 and all(_same_axis(fits[0], a) for a in fits[1:]):
                     near = fits[:1]
                 if len(near) != 1:
-                    raise FormatError(f"which is the time of '{name}'?", where=self.where,
-                                      expected="one time of its length", got=", ".join(a.path for a in fits),
-                                      hint=f"declare table: {{time: {{column: {fits[0].path}}}}}")
+                    raise FormatError(
+                        f"which is the time of '{name}'?",
+                        where=self.where,
+                        expected="one time of its length",
+                        got=", ".join(a.path for a in fits),
+                        hint=f"declare table: {{time: {{column: {fits[0].path}}}}}",
+                    )
                 return near[0]
             if fits:
                 return fits[0]
@@ -329,8 +376,10 @@ class Planner:
         elif record.step_s is not None and record.step_s > 0:
             axis = Axis(f"{path}/time", longest, step_s=record.step_s, zero_s=record.zero, unit="s")
         else:
-            axis = next((a for n in (node.rows, node.columns, longest)
-                         if (a := self._axis_of(scope, path, n)) is not None), None)
+            axis = next(
+                (a for n in (node.rows, node.columns, longest) if (a := self._axis_of(scope, path, n)) is not None),
+                None,
+            )
         step = next((s.step_s for s in _up(scope) if s.step_s is not None), None)
         if axis is None and step is not None:
             axis = Axis(scope.path or "grid", longest, step_s=step, unit="s")
@@ -342,20 +391,35 @@ class Planner:
         side = 0 if node.rows == axis.length else 1
         count = node.columns if side == 0 else node.rows
         for i in range(count):
-            stream.columns.append(Column(name if count == 1 else f"{name}({i + 1})", record.unit, node.dtype,
-                                         axis.length, partial(node.line, i, side)))
+            stream.columns.append(
+                Column(
+                    name if count == 1 else f"{name}({i + 1})",
+                    record.unit,
+                    node.dtype,
+                    axis.length,
+                    partial(node.line, i, side),
+                )
+            )
 
     def _nothing(self, variables: Mapping[str, Node]) -> FormatError:
         shown = ", ".join(f"{k} ({_size(v)})" for k, v in list(variables.items())[:12]) or "nothing readable"
         if self.losses and all(isinstance(v, Odd | Text) for v in variables.values()):
-            return FormatError("no variable can be read", where=self.where, got=self.losses[0].reason.split(". ")[0],
-                               expected="vectors, matrices, structs, cells",
-                               hint=[*self.losses[0].reason.split(". "), "save the variables as plain vectors"][1])
-        return FormatError("no time and signals found", where=self.where, got=shown,
-                           expected="a vector called t, time, Zeit, čas or 时间 as long as the signals; a matrix with "
-                           "its time in a column; structs with data and time, or dt",
-                           hint="declare table: {time: {column: NAME or number, unit: s}}, and sheet: VARIABLE to "
-                           "read one variable only")
+            return FormatError(
+                "no variable can be read",
+                where=self.where,
+                got=self.losses[0].reason.split(". ")[0],
+                expected="vectors, matrices, structs, cells",
+                hint=[*self.losses[0].reason.split(". "), "save the variables as plain vectors"][1],
+            )
+        return FormatError(
+            "no time and signals found",
+            where=self.where,
+            got=shown,
+            expected="a vector called t, time, Zeit, čas or 时间 as long as the signals; a matrix with "
+            "its time in a column; structs with data and time, or dt",
+            hint="declare table: {time: {column: NAME or number, unit: s}}, and sheet: VARIABLE to "
+            "read one variable only",
+        )
 
 
 def _up(scope: Scope | None) -> Iterator[Scope]:

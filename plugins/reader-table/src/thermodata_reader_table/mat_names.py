@@ -9,23 +9,124 @@ from dataclasses import dataclass
 from thermodata_reader_table.clocks import EPOCHS, SECONDS
 from thermodata_reader_table.mat_tree import Cells, Node, Numbers, Struct, Text
 
-_TIME = {"time", "zeit", "čas", "cas", "temps", "tiempo", "tempo", "datum", "date", "datetime", "timestamp", "times",
-         "timestamps", "datenum", "时间", "時間", "tid", "uhrzeit", "zeitstempel", "tvec", "timevec", "timevector",
-         "tiempos", "abscissa", "seconds", "elapsed", "posixtime", "clock", "日時", "時刻", "日期"}
-_NAMES = {"names", "name", "labels", "label", "header", "headers", "colheaders", "channels", "channelnames", "signals",
-          "signalnames", "columns", "columnnames", "varnames", "variablenames", "colnames", "kanal", "kanäle", "namen",
-          "nazvy", "názvy", "legend", "titles", "channelname", "signalname", "textdata", "variables"}
-_UNITS = {"units", "unit", "einheiten", "einheit", "jednotky", "jednotka", "unitnames", "channelunits", "yunits",
-          "variableunits"}
-_STEP = {"dt", "ts", "samplingtime", "sampletime", "samplingperiod", "sampleperiod", "interval", "sampleinterval",
-         "samplinginterval", "timestep", "deltat", "increment", "abtastzeit"}
-_RATE = {"fs", "samplerate", "samplingrate", "samplefrequency", "samplingfrequency", "rate", "frate", "abtastrate",
-         "abtastfrequenz", "fsample"}
+_TIME = {
+    "time",
+    "zeit",
+    "čas",
+    "cas",
+    "temps",
+    "tiempo",
+    "tempo",
+    "datum",
+    "date",
+    "datetime",
+    "timestamp",
+    "times",
+    "timestamps",
+    "datenum",
+    "时间",
+    "時間",
+    "tid",
+    "uhrzeit",
+    "zeitstempel",
+    "tvec",
+    "timevec",
+    "timevector",
+    "tiempos",
+    "abscissa",
+    "seconds",
+    "elapsed",
+    "posixtime",
+    "clock",
+    "日時",
+    "時刻",
+    "日期",
+}
+_NAMES = {
+    "names",
+    "name",
+    "labels",
+    "label",
+    "header",
+    "headers",
+    "colheaders",
+    "channels",
+    "channelnames",
+    "signals",
+    "signalnames",
+    "columns",
+    "columnnames",
+    "varnames",
+    "variablenames",
+    "colnames",
+    "kanal",
+    "kanäle",
+    "namen",
+    "nazvy",
+    "názvy",
+    "legend",
+    "titles",
+    "channelname",
+    "signalname",
+    "textdata",
+    "variables",
+}
+_UNITS = {
+    "units",
+    "unit",
+    "einheiten",
+    "einheit",
+    "jednotky",
+    "jednotka",
+    "unitnames",
+    "channelunits",
+    "yunits",
+    "variableunits",
+}
+_STEP = {
+    "dt",
+    "ts",
+    "samplingtime",
+    "sampletime",
+    "samplingperiod",
+    "sampleperiod",
+    "interval",
+    "sampleinterval",
+    "samplinginterval",
+    "timestep",
+    "deltat",
+    "increment",
+    "abtastzeit",
+}
+_RATE = {
+    "fs",
+    "samplerate",
+    "samplingrate",
+    "samplefrequency",
+    "samplingfrequency",
+    "rate",
+    "frate",
+    "abtastrate",
+    "abtastfrequenz",
+    "fsample",
+}
 
 _DATA = ("data", "values", "value", "y", "samples", "ydata", "y_values/values", "signal", "y_data")
 _ABSCISSA = ("time", "t", "x", "times", "timestamp", "timestamps", "xdata", "zeit", "x_values/values", "x_data")
-_DELTA = ("dt", "dx", "delta", "delta_x", "increment", "interval", "x_values/increment", "sampleinterval", "ts",
-          "sampletime", "wf_increment", "xdelta")
+_DELTA = (
+    "dt",
+    "dx",
+    "delta",
+    "delta_x",
+    "increment",
+    "interval",
+    "x_values/increment",
+    "sampleinterval",
+    "ts",
+    "sampletime",
+    "wf_increment",
+    "xdelta",
+)
 _PER_SECOND = ("fs", "rate", "samplerate", "sample_rate", "samplingrate", "sampling_rate", "frequency")
 _ZERO = ("x0", "t0", "start", "xstart", "start_value", "x_values/start_value", "wf_start_offset")
 _TITLE = ("name", "label", "signalname", "title", "channel", "channelname", "function_record/name", "signal_name")
@@ -84,9 +185,19 @@ def unit_in_name(name: str) -> str | None:
     """The unit at the end of a time's name: 'time_s', 'tMin', 'time [h]'."""
     parts = tokens(name)
     last = parts[-1].lower() if len(parts) > 1 else ""
-    return last if last in SECONDS and last != "d" else "datenum" if "datenum" in [p.lower() for p in parts] else (
-        "unix" if {"posix", "posixtime", "unix", "epoch"} & {p.lower() for p in parts} else
-        last if last in EPOCHS else None)
+    return (
+        last
+        if last in SECONDS and last != "d"
+        else "datenum"
+        if "datenum" in [p.lower() for p in parts]
+        else (
+            "unix"
+            if {"posix", "posixtime", "unix", "epoch"} & {p.lower() for p in parts}
+            else last
+            if last in EPOCHS
+            else None
+        )
+    )
 
 
 def one_text(node: Node | None) -> str | None:
@@ -123,7 +234,7 @@ class Record:
     title: str | None
     unit: str | None
     time_unit: str | None
-    odd: tuple[str, ...] = ()           # fields for a name or a unit that hold no text
+    odd: tuple[str, ...] = ()  # fields for a name or a unit that hold no text
 
 
 def _get(fields: Mapping[str, Node], paths: tuple[str, ...]) -> tuple[str, Node] | None:
@@ -161,7 +272,13 @@ def as_record(struct: Struct) -> Record | None:
     if any(isinstance(v, Numbers) and v.size > 2 and k not in used for k, v in fields.items()):
         return None
     zero, x_unit = _get(fields, _ZERO), _get(fields, _TIME_UNIT)
-    return Record(data[1], time[1] if time else None, step, (one_number(zero[1]) if zero else None) or 0.0,
-                  one_text(title[1]) if title else None, one_text(unit[1]) if unit else None,
-                  one_text(x_unit[1]) if x_unit else None,
-                  tuple(f[0] for f in (title, unit, x_unit) if f and isinstance(f[1], Numbers) and f[1].size))
+    return Record(
+        data[1],
+        time[1] if time else None,
+        step,
+        (one_number(zero[1]) if zero else None) or 0.0,
+        one_text(title[1]) if title else None,
+        one_text(unit[1]) if unit else None,
+        one_text(x_unit[1]) if x_unit else None,
+        tuple(f[0] for f in (title, unit, x_unit) if f and isinstance(f[1], Numbers) and f[1].size),
+    )

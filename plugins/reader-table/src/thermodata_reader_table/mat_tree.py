@@ -10,7 +10,7 @@ from thermodata.plugin import Array, Loss
 
 MAX_DEPTH = 24
 MAX_NODES = 400_000
-MAX_TEXT = 4_000_000                   # characters of one array of text
+MAX_TEXT = 4_000_000  # characters of one array of text
 
 
 @dataclass(frozen=True, slots=True)

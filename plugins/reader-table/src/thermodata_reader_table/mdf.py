@@ -36,7 +36,7 @@ def _ours(where: str) -> Iterator[None]:
         yield
     except (ThermodataError, GeneratorExit):
         raise
-    except Exception as error:      # MemoryError too: pieces are small, so only a damaged length asks for that much
+    except Exception as error:  # MemoryError too: pieces are small, so only a damaged length asks for that much
         raise FormatError("a damaged MDF file", where=where, got=f"{type(error).__name__}: {error}"[:200]) from None
 
 
@@ -47,7 +47,7 @@ def opened(path: Path) -> Iterator[Any]:
         import asammdf
     except ImportError:
         raise FormatError("MDF needs asammdf, which is not installed", where=path.name, hint=INSTALL) from None
-    logging.getLogger("asammdf").setLevel(logging.CRITICAL)      # what it would say comes as losses and notes
+    logging.getLogger("asammdf").setLevel(logging.CRITICAL)  # what it would say comes as losses and notes
     mdf = None
     try:
         with _ours(path.name):
@@ -112,8 +112,12 @@ class File:
     def _choose(self, wanted: int | str) -> None:
         kept = [g for g in self.groups if wanted in (g.stream, g.index + 1)]
         if not kept:
-            raise UsageError(f"no channel group '{wanted}'", where=self.where, got=str(wanted),
-                             expected=", ".join(f"{g.index + 1}: {g.stream}" for g in self.groups[:30]))
+            raise UsageError(
+                f"no channel group '{wanted}'",
+                where=self.where,
+                got=str(wanted),
+                expected=", ".join(f"{g.index + 1}: {g.stream}" for g in self.groups[:30]),
+            )
         self.groups = kept
 
     def _label(self, group: Any, index: int) -> str:
@@ -146,17 +150,25 @@ class File:
                 own = unique([*taken, one.signal.name])[-1]
                 taken.append(own)
                 s = one.signal
-                found.append(Channel(one.index, Signal(own, stream, s.unit, s.dtype, s.scaling, s.properties),
-                                     one.raw, one.text))
+                found.append(
+                    Channel(one.index, Signal(own, stream, s.unit, s.dtype, s.scaling, s.properties), one.raw, one.text)
+                )
         return found
 
     def _channel(self, channel: Any, group: int, index: int, piece: Any, stream: str, name: str) -> list[Channel]:
         values, _ = self.get(group, index, piece, raw=True)
         if values.dtype.names is not None or values.ndim != 1:
             if values.dtype.names is not None and self.v4 and not _is_array(self.mdf.groups[group], index):
-                return []                                      # its parts are channels of their own
-            self.losses.append(Loss(f"{self.where} channel '{stream}/{name}'", None, None, None,
-                                    f"an array of shape {values.shape[1:] or values.dtype} in each row"))
+                return []  # its parts are channels of their own
+            self.losses.append(
+                Loss(
+                    f"{self.where} channel '{stream}/{name}'",
+                    None,
+                    None,
+                    None,
+                    f"an array of shape {values.shape[1:] or values.dtype} in each row",
+                )
+            )
             return []
         conversion = channel.conversion
         unit = str((conversion is not None and conversion.unit) or getattr(channel, "unit", "") or "").strip() or None
@@ -176,8 +188,10 @@ class File:
             scaling = None if (gain, offset) == (1.0, 0.0) else Scaling("linear", {"gain": gain, "offset": offset})
             return [Channel(index, Signal(name, stream, unit, raw.dtype, scaling, properties), True, None)]
         if kind in (_TEXT_V4 if self.v4 else _TEXT_V3):
-            return [Channel(index, Signal(name, stream, None, "str", None, properties), False, ""),
-                    Channel(index, Signal(f"{name}.raw", stream, None, raw.dtype, None, properties), True, None)]
+            return [
+                Channel(index, Signal(name, stream, None, "str", None, properties), False, ""),
+                Channel(index, Signal(f"{name}.raw", stream, None, raw.dtype, None, properties), True, None),
+            ]
         self.notes.append(f"'{stream}/{name}' is given in physical values: its conversion (type {kind}) is not linear")
         return [Channel(index, Signal(name, stream, unit, "float64", None, properties), False, None)]
 
@@ -189,8 +203,9 @@ class File:
 
     def get(self, group: int, index: int, piece: Any, *, raw: bool) -> tuple[Array, Array | None]:
         """Values of one channel in a piece, and where they are invalid."""
-        values, invalid = self.inner.get(group=group, index=index, data=piece, raw=raw, samples_only=True,
-                                         ignore_invalidation_bits=True)
+        values, invalid = self.inner.get(
+            group=group, index=index, data=piece, raw=raw, samples_only=True, ignore_invalidation_bits=True
+        )
         return np.asarray(values), None if invalid is None else np.asarray(invalid, bool)
 
     def blocks(self, group: Group, rows: int | None) -> Iterator[Block | Loss]:
@@ -288,6 +303,7 @@ def _is_array(group: Any, index: int) -> bool:
 
 def _words(values: Array, encoding: str) -> Array:
     """Text of a channel; numbers among the words (ranges without a word) as they print."""
+
     def word(value: Any) -> str:
         if isinstance(value, bytes):
             try:
@@ -305,8 +321,12 @@ def _split(block: Block, rows: int | None) -> Iterator[Block]:
         return
     for i in range(0, block.t_ns.size, rows):
         part = slice(i, i + rows)
-        yield Block(block.stream, block.t_ns[part], {k: v[part] for k, v in block.values.items()},
-                    None if block.flags is None else {k: v[part] for k, v in block.flags.items()})
+        yield Block(
+            block.stream,
+            block.t_ns[part],
+            {k: v[part] for k, v in block.values.items()},
+            None if block.flags is None else {k: v[part] for k, v in block.flags.items()},
+        )
 
 
 def _checked(path: Path) -> tuple[str | None, bool]:
@@ -324,15 +344,19 @@ def describe(path: Path, source: Source) -> Recording:
     with opened(path) as mdf, _ours(path.name):
         file = File(mdf, source, path.name)
         if not file.groups:
-            raise FormatError("no channel group with rows and a time", where=path.name,
-                              got="; ".join([*file.notes, *(x.reason for x in file.losses)][:4]) or "an empty file")
+            raise FormatError(
+                "no channel group with rows and a time",
+                where=path.name,
+                got="; ".join([*file.notes, *(x.reason for x in file.losses)][:4]) or "an empty file",
+            )
         signals = tuple(c.signal for g in file.groups for c in g.channels)
         notes = [cut] if cut else []
         if not finished:
             notes.append("the file was not finished by its writer")
         start = file.start_ns
-        return Recording(signals, "relative" if start is None else "absolute", start, not cut and finished,
-                         (*notes, *file.notes))
+        return Recording(
+            signals, "relative" if start is None else "absolute", start, not cut and finished, (*notes, *file.notes)
+        )
 
 
 def blocks(path: Path, source: Source) -> Iterator[Block | Loss]:

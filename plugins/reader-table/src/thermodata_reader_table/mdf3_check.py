@@ -11,8 +11,19 @@ from pathlib import Path
 from thermodata.errors import FormatError
 
 _MOST = 500_000
-_FIXED = {b"HD": 164, b"DG": 24, b"CG": 26, b"CN": 218, b"CC": 46, b"TX": 4, b"PR": 4, b"TR": 10, b"CE": 6, b"CD": 8,
-          b"SR": 24}
+_FIXED = {
+    b"HD": 164,
+    b"DG": 24,
+    b"CG": 26,
+    b"CN": 218,
+    b"CC": 46,
+    b"TX": 4,
+    b"PR": 4,
+    b"TR": 10,
+    b"CE": 6,
+    b"CD": 8,
+    b"SR": 24,
+}
 
 
 class _File:
@@ -20,7 +31,7 @@ class _File:
         self.where, self.data, self.seen = path.name, path.read_bytes() if path.stat().st_size < 1 << 28 else b"", 0
         if not self.data:
             with path.open("rb") as file:
-                self.data = file.read(1 << 28)          # blocks of the header stand before the data, or not far behind
+                self.data = file.read(1 << 28)  # blocks of the header stand before the data, or not far behind
         self.size = path.stat().st_size
         self.order = ">" if self.data[24:26] not in (b"\0\0", b"") else "<"
 
@@ -34,9 +45,13 @@ class _File:
                 return _FIXED[kind]
             raise FormatError("a link out of the file", where=self.where, got=f"{at} ({whose})")
         length = self.number("H", at + 2)
-        if self.data[at:at + 2] != kind or length < _FIXED[kind] or at + length > self.size:
-            raise FormatError("no whole block where a link leads", where=f"{self.where} byte {at}",
-                              expected=kind.decode(), got=f"{self.data[at:at + 2]!r} of {length} bytes ({whose})")
+        if self.data[at : at + 2] != kind or length < _FIXED[kind] or at + length > self.size:
+            raise FormatError(
+                "no whole block where a link leads",
+                where=f"{self.where} byte {at}",
+                expected=kind.decode(),
+                got=f"{self.data[at : at + 2]!r} of {length} bytes ({whose})",
+            )
         return length
 
     def number(self, form: str, at: int) -> int:
@@ -76,8 +91,12 @@ def _group(file: _File, at: int) -> int:
         file.block(text, b"TX", f"CG at byte {at}")
     record, cycles = file.number("H", at + 20), file.number("I", at + 22)
     if record * cycles > file.size:
-        raise FormatError("more rows than the file has bytes for", where=f"{file.where} byte {at}",
-                          got=f"{cycles} rows of {record} bytes", expected=f"{file.size} bytes at most")
+        raise FormatError(
+            "more rows than the file has bytes for",
+            where=f"{file.where} byte {at}",
+            got=f"{cycles} rows of {record} bytes",
+            expected=f"{file.size} bytes at most",
+        )
     while channel:
         length = file.block(channel, b"CN", f"CG at byte {at}")
         following, *rest = file.links(channel, 4, 20)
@@ -90,9 +109,12 @@ def _group(file: _File, at: int) -> int:
         more = file.number("H", channel + 226) if length >= 228 else 0
         number = file.number("H", channel + 190)
         if start + bits + 8 * more > 8 * record or not bits or (number < 7 and bits > 64) or number > 16:
-            raise FormatError("a channel that does not fit its record", where=f"{file.where} byte {channel}",
-                              expected=f"{8 * record} bits", got=f"{bits} bits of type {number} at bit "
-                              f"{start + 8 * more}")
+            raise FormatError(
+                "a channel that does not fit its record",
+                where=f"{file.where} byte {channel}",
+                expected=f"{8 * record} bits",
+                got=f"{bits} bits of type {number} at bit {start + 8 * more}",
+            )
         channel = following
     return after
 
@@ -104,5 +126,8 @@ def _conversion(file: _File, at: int) -> None:
     if each is None and kind != 65535:
         raise FormatError("an unknown conversion", where=f"{file.where} byte {at}", got=str(kind))
     if each is not None and kind not in (10,) and 46 + each * count > length:
-        raise FormatError("a conversion longer than its block", where=f"{file.where} byte {at}",
-                          got=f"{count} parameters in {length} bytes")
+        raise FormatError(
+            "a conversion longer than its block",
+            where=f"{file.where} byte {at}",
+            got=f"{count} parameters in {length} bytes",
+        )

@@ -34,8 +34,9 @@ def _ours(path: Path) -> Iterator[None]:
     try:
         yield
     except (pa.ArrowException, OSError, ValueError, OverflowError, MemoryError, KeyError, IndexError) as error:
-        raise FormatError("not a readable Parquet file", where=path.name,
-                          got=(str(error).splitlines() or ["?"])[0]) from None
+        raise FormatError(
+            "not a readable Parquet file", where=path.name, got=(str(error).splitlines() or ["?"])[0]
+        ) from None
 
 
 def _check_types(file: Any) -> None:
@@ -64,8 +65,12 @@ class Table:
             _check_types(self.file)
         twice = [n for n, k in Counter(self.places).items() if k > 1]
         if twice:
-            raise FormatError("two columns of one name, which Parquet's own readers mix up", where=path.name,
-                              got=twice[0], hint="write the file again with names of their own")
+            raise FormatError(
+                "two columns of one name, which Parquet's own readers mix up",
+                where=path.name,
+                got=twice[0],
+                hint="write the file again with names of their own",
+            )
         self.names = unique([str(n).strip() for n in self.schema.names])
         self.notes = _left_out(self.file.schema_arrow)
         if not self.names:
@@ -79,8 +84,10 @@ class Table:
         wanted = list(dict.fromkeys(place.split(".")[0] for place in self.places)) if columns is None else columns
         with _ours(self.path):
             for batch in self.file.iter_batches(rows, columns=wanted):
-                yield pa.table([_at(batch, place) for place in self.places if place.split(".")[0] in wanted],
-                               names=[str(i) for i, place in enumerate(self.places) if place.split(".")[0] in wanted])
+                yield pa.table(
+                    [_at(batch, place) for place in self.places if place.split(".")[0] in wanted],
+                    names=[str(i) for i, place in enumerate(self.places) if place.split(".")[0] in wanted],
+                )
 
     def _find(self) -> tuple[int, str | None]:
         """The time column and its unit: None for timestamps, dates and text."""
@@ -111,8 +118,12 @@ class Table:
         if pt.is_date(kind) or pt.is_string(_plain(kind)) or pt.is_large_string(_plain(kind)):
             return column, None
         if not (pt.is_integer(kind) or pt.is_floating(kind) or pt.is_decimal(kind) or pt.is_duration(kind)):
-            raise FormatError(f"'{self.names[column]}' is no time", where=self.path.name, got=str(kind),
-                              expected="timestamps, dates, text or numbers")
+            raise FormatError(
+                f"'{self.names[column]}' is no time",
+                where=self.path.name,
+                got=str(kind),
+                expected="timestamps, dates, text or numbers",
+            )
         if pt.is_duration(kind):
             return column, "duration"
         text = unit or units[column]
@@ -120,8 +131,10 @@ class Table:
             found = next(self.batches(1000), None)
             values = np.zeros(0) if found is None else _numbers(found.column(column))
             text = found_epoch(values) or "s"
-            self.notes.append(f"time column '{self.names[column]}' has no unit: " + (
-                "taken as seconds" if text == "s" else f"by its size it is {text}"))
+            self.notes.append(
+                f"time column '{self.names[column]}' has no unit: "
+                + ("taken as seconds" if text == "s" else f"by its size it is {text}")
+            )
         return column, check_unit(str(text), self.path.name)
 
     def times(self, column: Any) -> stamps.Stamps:
@@ -166,8 +179,9 @@ class Table:
         meta, place = self.file.metadata, self.places[column]
         for number in range(meta.num_row_groups):
             group = meta.row_group(number)
-            leaf = next((group.column(i) for i in range(group.num_columns)
-                         if group.column(i).path_in_schema == place), None)
+            leaf = next(
+                (group.column(i) for i in range(group.num_columns) if group.column(i).path_in_schema == place), None
+            )
             statistics = None if leaf is None else leaf.statistics
             if statistics is None or not statistics.has_null_count or statistics.null_count:
                 return False
@@ -243,8 +257,9 @@ def describe(path: Path, source: Source) -> Recording:
     with _ours(path):
         found = nothing if head is None else table.times(head.column(table.time))
     good = found.t_ns[found.t_ns != NAT]
-    signals = tuple(Signal(n, STREAM, split_unit(n)[1], table.dtype(i))
-                    for i, n in enumerate(table.names) if i != table.time)
+    signals = tuple(
+        Signal(n, STREAM, split_unit(n)[1], table.dtype(i)) for i, n in enumerate(table.names) if i != table.time
+    )
     start = (int(good[0]) if good.size else 0) if found.absolute else None
     return Recording(signals, "absolute" if found.absolute else "relative", start, True, (*table.notes, *found.notes))
 
@@ -262,7 +277,7 @@ def blocks(path: Path, source: Source) -> Iterator[Block | Loss]:
     columns = [(i, n, table.dtype(i)) for i, n in enumerate(table.names) if i != table.time]
     size = max(1, int(source.options.get("block_rows", min(_ROWS, 1_000_000 // len(table.names)))))
     for batch in table.batches(size):
-        t_ns = times[at:at + batch.num_rows]
+        t_ns = times[at : at + batch.num_rows]
         good = t_ns != NAT
         at += batch.num_rows
         missing += int((~good).sum())

@@ -19,8 +19,8 @@ from thermodata.reader.text import clean
 from thermodata.reader.zone import NAT
 
 _CLEAN = re.compile(r"[ \u00a0\u202f'’%]")
-_Record = tuple[int, Sequence[Any]]         # number of the line or row from 1, its cells
-_Found = tuple[list[Any], int]              # a row's values, the rows of its stream
+_Record = tuple[int, Sequence[Any]]  # number of the line or row from 1, its cells
+_Found = tuple[list[Any], int]  # a row's values, the rows of its stream
 
 
 def place(module: ModuleType, path: Path, source: Source, stream: str, row: int) -> str | None:
@@ -30,7 +30,8 @@ def place(module: ModuleType, path: Path, source: Source, stream: str, row: int)
         from thermodata_reader_table import placearrays
 
         return {"parquet": placearrays.parquet_row, "mat": placearrays.mat_row, "mdf": placearrays.mdf_row}[form](
-            path, source, stream, row)
+            path, source, stream, row
+        )
     return (_in_workbook if form == "workbook" else _in_text)(module, path, source, stream, row)
 
 
@@ -44,8 +45,9 @@ def _in_text(module: ModuleType, path: Path, source: Source, stream: str, row: i
             if number > sheet.layout.first:
                 yield number, text
 
-    made = _numbered(module.blocks, path, source, stream, row, records,
-                     lambda text: split(text, sheet.delimiter), sheet.decimal)
+    made = _numbered(
+        module.blocks, path, source, stream, row, records, lambda text: split(text, sheet.delimiter), sheet.decimal
+    )
     return None if made is None else f"line {made}"
 
 
@@ -66,7 +68,7 @@ def _lines(path: Path, encoding: str, quoted: bool) -> Iterator[tuple[int, str]]
 
 
 def _in_workbook(module: ModuleType, path: Path, source: Source, stream: str, row: int) -> str | None:
-    found = _values(module.blocks, path, source, stream, row)          # what is no safe workbook is refused here
+    found = _values(module.blocks, path, source, stream, row)  # what is no safe workbook is refused here
     if found is None:
         return None
     import python_calamine
@@ -92,8 +94,9 @@ def _in_workbook(module: ModuleType, path: Path, source: Source, stream: str, ro
     return None
 
 
-def _values(blocks: Callable[[Path, Source], Iterator[Block | Loss]], path: Path, source: Source, stream: str,
-            row: int) -> _Found | None:
+def _values(
+    blocks: Callable[[Path, Source], Iterator[Block | Loss]], path: Path, source: Source, stream: str, row: int
+) -> _Found | None:
     """(values of a row, rows of its stream); None where there is no such row."""
     done, values = 0, None
     for item in blocks(path, source):
@@ -104,9 +107,16 @@ def _values(blocks: Callable[[Path, Source], Iterator[Block | Loss]], path: Path
     return None if values is None else (values, done)
 
 
-def _numbered(blocks: Callable[[Path, Source], Iterator[Block | Loss]], path: Path, source: Source, stream: str,
-              row: int, records: Callable[[], Iterable[tuple[int, Any]]], split: Callable[[Any], Sequence[Any]],
-              decimal: str) -> int | None:
+def _numbered(
+    blocks: Callable[[Path, Source], Iterator[Block | Loss]],
+    path: Path,
+    source: Source,
+    stream: str,
+    row: int,
+    records: Callable[[], Iterable[tuple[int, Any]]],
+    split: Callable[[Any], Sequence[Any]],
+    decimal: str,
+) -> int | None:
     """The number of the record that is a row: the last ones, one a row, where each is one; else record by record."""
     found = _values(blocks, path, source, stream, row)
     if found is None:

@@ -9,7 +9,7 @@ import numpy as np
 from thermodata.plugin import Source
 from thermodata_reader_table.place import nth_good
 
-_NAMED = 12                 # variables that are told one by one
+_NAMED = 12  # variables that are told one by one
 _ROWS = 1_000_000
 
 
@@ -61,7 +61,9 @@ def mdf_row(path: Path, source: Source, stream: str, row: int) -> str | None:
         group = next((g for g in file.groups if g.stream == stream), None)
         if group is None:
             return None
-        times = (clocks.to_ns(np.asarray(file.inner.get_master(group.index, data=piece)), 1.0)
-                 for piece in file._fragments(group.index))
+        times = (
+            clocks.to_ns(np.asarray(file.inner.get_master(group.index, data=piece)), 1.0)
+            for piece in file._fragments(group.index)
+        )
         at = nth_good(times, row)
         return None if at is None else f"group {group.index + 1} ('{stream}'), record {at + 1} of {group.rows}"

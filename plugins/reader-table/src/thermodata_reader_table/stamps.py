@@ -16,8 +16,10 @@ from thermodata.reader.zone import NAT
 
 _CLOCK = r"(\d{1,2}):(\d{2})(?::(\d{2})(?:[.,:](\d{1,9}))?\d*)?\s*([AaPp][Mm])?"
 _ZONE = r"\s*(Z|[+-]\d{2}:?\d{2})?"
-_YEAR_FIRST = re.compile(rf"^(\d{{4}})[-/.年년]\s?(\d{{1,2}})[-/.月월]\s?(\d{{1,2}})[日일]?"
-                         rf"(?:(?:[T _]+|(?<=[日일])){_CLOCK}{_ZONE})?$")
+_YEAR_FIRST = re.compile(
+    rf"^(\d{{4}})[-/.年년]\s?(\d{{1,2}})[-/.月월]\s?(\d{{1,2}})[日일]?"
+    rf"(?:(?:[T _]+|(?<=[日일])){_CLOCK}{_ZONE})?$"
+)
 _YEAR_LAST = re.compile(rf"^(\d{{1,2}})([-/.])\s?(\d{{1,2}})\2\s?(\d{{4}}|\d{{2}})(?:,?[T _]+{_CLOCK}{_ZONE})?$")
 _ISO = re.compile(r"^\d{4}-\d\d-\d\d[T ]\d\d:\d\d(:\d\d(\.\d{1,9})?)?$")
 _TIME_ONLY = re.compile(rf"^{_CLOCK}$")
@@ -81,11 +83,19 @@ def find_writing(parts: Iterable[Sequence[str]], form: str | None, where: str) -
             if int(match[3]) > 12:
                 return Writing("year_last", month_first=True)
     if first is None:
-        raise FormatError("no date in the time column", where=where, expected="2026-03-01 08:00:00, 1.3.2026 8:00, ...",
-                          hint="declare table: {time: {column: ..., format: '%d.%m.%Y %H:%M:%S'}}")
-    raise FormatError("day and month of the dates could be either way round", where=where,
-                      expected="one date with a day above 12", got=first[0],
-                      hint="declare table: {time: {format: '%d/%m/%Y %H:%M:%S'}} or '%m/%d/%Y ...'")
+        raise FormatError(
+            "no date in the time column",
+            where=where,
+            expected="2026-03-01 08:00:00, 1.3.2026 8:00, ...",
+            hint="declare table: {time: {column: ..., format: '%d.%m.%Y %H:%M:%S'}}",
+        )
+    raise FormatError(
+        "day and month of the dates could be either way round",
+        where=where,
+        expected="one date with a day above 12",
+        got=first[0],
+        hint="declare table: {time: {format: '%d/%m/%Y %H:%M:%S'}} or '%m/%d/%Y ...'",
+    )
 
 
 @dataclass(frozen=True, slots=True)
@@ -102,8 +112,12 @@ def local(cells: Sequence[str], writing: Writing) -> Local:
     if writing.kind == "form":
         return _by_format(cells, writing.form or "")
     if writing.kind == "clock":
-        return Local(np.array([_clock_ns(list(m.groups())) if (m := _TIME_ONLY.match(c.strip())) else NAT
-                               for c in cells], np.int64), False)
+        return Local(
+            np.array(
+                [_clock_ns(list(m.groups())) if (m := _TIME_ONLY.match(c.strip())) else NAT for c in cells], np.int64
+            ),
+            False,
+        )
     fast = _iso(cells) if writing.kind == "year_first" else None
     if fast is not None:
         return Local(fast.astype("datetime64[ns]").view(np.int64), False)
@@ -190,11 +204,16 @@ def _by_format(cells: Sequence[str], form: str) -> Local:
     import pandas as pd
 
     try:
-        parsed = pd.to_datetime(pd.Series(list(cells), dtype=object).str.strip(), format=form, errors="coerce",
-                                utc="%z" in form)
+        parsed = pd.to_datetime(
+            pd.Series(list(cells), dtype=object).str.strip(), format=form, errors="coerce", utc="%z" in form
+        )
     except ValueError as error:
-        raise UsageError("no such format of dates", expected="strptime's, such as %d.%m.%Y %H:%M:%S", got=form,
-                         hint=str(error).splitlines()[0]) from None
+        raise UsageError(
+            "no such format of dates",
+            expected="strptime's, such as %d.%m.%Y %H:%M:%S",
+            got=form,
+            hint=str(error).splitlines()[0],
+        ) from None
     zoned = "%z" in form
     naive = parsed.dt.tz_localize(None) if zoned else parsed
     return Local(naive.to_numpy("datetime64[ns]").view(np.int64), zoned)

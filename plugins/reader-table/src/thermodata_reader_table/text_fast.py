@@ -32,8 +32,12 @@ class UnsuitableError(Exception):
 def suits(sheet: Sheet) -> bool:
     """Whether the head of the file gives hope: one time column, and an encoding that keeps line ends."""
     layout = sheet.layout
-    return all(len(g.time) == 1 and g.epoch is None and g.form is None for g in layout.groups) \
-        and not sheet.encoding.startswith("utf-16") and len(sheet.delimiter) == 1 and len(layout.names) < 5000
+    return (
+        all(len(g.time) == 1 and g.epoch is None and g.form is None for g in layout.groups)
+        and not sheet.encoding.startswith("utf-16")
+        and len(sheet.delimiter) == 1
+        and len(layout.names) < 5000
+    )
 
 
 def blocks(path: Path, sheet: Sheet, source: Source, tally: Tally) -> Iterator[Block]:
@@ -43,7 +47,7 @@ def blocks(path: Path, sheet: Sheet, source: Source, tally: Tally) -> Iterator[B
     held: Any = None
     for batch in _batches(path, sheet):
         if sheet.cut:
-            held, batch = batch, held                       # the last row of the last batch is not to be trusted
+            held, batch = batch, held  # the last row of the last batch is not to be trusted
             if batch is None:
                 continue
         yield from _delivered(batch, sheet, times, tally, size)
@@ -130,12 +134,19 @@ def _batches(path: Path, sheet: Sheet) -> Iterator[Any]:
     try:
         reader = pc.open_csv(
             path,
-            read_options=pc.ReadOptions(block_size=_PART, skip_rows=layout.first, column_names=names,
-                                        encoding=sheet.encoding.replace("utf-8-sig", "utf-8")),
-            parse_options=pc.ParseOptions(delimiter=sheet.delimiter, quote_char='"' if sheet.quoted else False,
-                                          newlines_in_values=False),
-            convert_options=pc.ConvertOptions(column_types=types, decimal_point=sheet.decimal, null_values=_NULLS,
-                                              strings_can_be_null=False))
+            read_options=pc.ReadOptions(
+                block_size=_PART,
+                skip_rows=layout.first,
+                column_names=names,
+                encoding=sheet.encoding.replace("utf-8-sig", "utf-8"),
+            ),
+            parse_options=pc.ParseOptions(
+                delimiter=sheet.delimiter, quote_char='"' if sheet.quoted else False, newlines_in_values=False
+            ),
+            convert_options=pc.ConvertOptions(
+                column_types=types, decimal_point=sheet.decimal, null_values=_NULLS, strings_can_be_null=False
+            ),
+        )
         with ThreadPoolExecutor(1) as pool:
             ahead = pool.submit(next, reader, None)
             while (batch := ahead.result()) is not None:
@@ -164,8 +175,9 @@ class _Times:
         self.seen = True
         if writing.kind == "clock":
             raise UnsuitableError
-        ns = local_times(column, writing.pattern, year_first=writing.kind == "year_first",
-                         month_first=writing.month_first)
+        ns = local_times(
+            column, writing.pattern, year_first=writing.kind == "year_first", month_first=writing.month_first
+        )
         if ns is None:
             found = stamps.local(column.to_pylist(), writing)
             if found.zoned:

@@ -21,11 +21,13 @@ from thermodata_reader_table.layout import Group, Layout
 from thermodata_reader_table.time_columns import MILLISECONDS
 
 BLOCK_VALUES = 1_000_000
-_SPARE = 8                 # cells that a line may have too many before the file is refused
+_SPARE = 8  # cells that a line may have too many before the file is refused
 EMPTY = {"", "nan", "null", "none", "n/a", "#n/a", "na", "-", "--", "---", "?"}
-_LINE = re.compile(r"line (\d+)")            # as pandas counts, from the first row of data
-_GROUPED = {",": re.compile(r"^[+-]?\d{1,3}(?:[. \u00a0\u202f'’]\d{3})+(?:,\d*)?$"),
-            ".": re.compile(r"^[+-]?\d{1,3}(?:[, \u00a0\u202f'’]\d{3})+(?:\.\d*)?$")}
+_LINE = re.compile(r"line (\d+)")  # as pandas counts, from the first row of data
+_GROUPED = {
+    ",": re.compile(r"^[+-]?\d{1,3}(?:[. \u00a0\u202f'’]\d{3})+(?:,\d*)?$"),
+    ".": re.compile(r"^[+-]?\d{1,3}(?:[, \u00a0\u202f'’]\d{3})+(?:\.\d*)?$"),
+}
 
 
 @dataclass(frozen=True)
@@ -41,7 +43,7 @@ class Sheet:
     notes: tuple[str, ...]
     cut: str | None
     cells: int
-    head: tuple[tuple[str, ...], ...]      # its first rows of data, as wide as the header
+    head: tuple[tuple[str, ...], ...]  # its first rows of data, as wide as the header
 
 
 @dataclass
@@ -64,18 +66,37 @@ class Tally:
         """Losses of the whole file; FormatError where most rows hold no time."""
         at = max(self.at, 1)
         if self.at and self.bad_rows * 2 > self.at:
-            raise FormatError("most rows hold no time", where=path.name, got=f"{self.bad_rows} of {self.at}",
-                              hint="declare table: {time: {column: ..., format: ...}}")
+            raise FormatError(
+                "most rows hold no time",
+                where=path.name,
+                got=f"{self.bad_rows} of {self.at}",
+                hint="declare table: {time: {column: ..., format: ...}}",
+            )
         for name, cells in self.odd.items():
             n = self.odd_count[name]
-            yield Loss(f"{path.name} column '{name}'", None, None, min(1.0, n / at),
-                       f"{n} cells are no numbers, such as '{cells[0]}'")
+            yield Loss(
+                f"{path.name} column '{name}'",
+                None,
+                None,
+                min(1.0, n / at),
+                f"{n} cells are no numbers, such as '{cells[0]}'",
+            )
         if self.bad_rows:
-            yield Loss(path.name, None, None, min(1.0, self.bad_rows / at),
-                       f"{self.bad_rows} rows without a time, or with too many cells")
+            yield Loss(
+                path.name,
+                None,
+                None,
+                min(1.0, self.bad_rows / at),
+                f"{self.bad_rows} rows without a time, or with too many cells",
+            )
         if self.short_rows:
-            yield Loss(path.name, None, None, min(1.0, self.short_rows / at),
-                       f"{self.short_rows} lines have fewer cells than the others: their last cell may be cut")
+            yield Loss(
+                path.name,
+                None,
+                None,
+                min(1.0, self.short_rows / at),
+                f"{self.short_rows} lines have fewer cells than the others: their last cell may be cut",
+            )
         if sheet.cut:
             yield Loss(f"{path.name} row {sheet.layout.first + self.at}", self.last_ns, None, 1 / at, sheet.cut)
 
@@ -97,20 +118,40 @@ def chunks(path: Path, sheet: Sheet, rows: int, only: tuple[int, ...] | None = N
     text = {i: str for i, kind in enumerate(sheet.kinds) if kind == "str"}
     text |= dict.fromkeys(sheet.layout.dated, str)
     try:
-        with _behind_head(path, sheet) as file, pd.read_csv(
-            file, sep=sheet.delimiter, header=None, names=list(range(width + _SPARE)), index_col=False, dtype=text,
-            keep_default_na=False, na_values=[""], decimal=sheet.decimal,
-            quoting=0 if sheet.quoted else 3, skip_blank_lines=True, chunksize=rows,
-            engine="c", low_memory=True, on_bad_lines="error", **exact,
-        ) as reader:
+        with (
+            _behind_head(path, sheet) as file,
+            pd.read_csv(
+                file,
+                sep=sheet.delimiter,
+                header=None,
+                names=list(range(width + _SPARE)),
+                index_col=False,
+                dtype=text,
+                keep_default_na=False,
+                na_values=[""],
+                decimal=sheet.decimal,
+                quoting=0 if sheet.quoted else 3,
+                skip_blank_lines=True,
+                chunksize=rows,
+                engine="c",
+                low_memory=True,
+                on_bad_lines="error",
+                **exact,
+            ) as reader,
+        ):
             for chunk in reader:
                 yield chunk if only is None else chunk[list(only)]
     except pd.errors.EmptyDataError:
         return
     except (pd.errors.ParserError, UnicodeError) as error:
-        raise FormatError("a line that does not fit the table", where=path.name, expected=f"{width} cells",
-                          got=_LINE.sub(lambda m: f"line {int(m[1]) + sheet.layout.first}",
-                                        (str(error).strip().splitlines() or ["?"])[-1])) from None
+        raise FormatError(
+            "a line that does not fit the table",
+            where=path.name,
+            expected=f"{width} cells",
+            got=_LINE.sub(
+                lambda m: f"line {int(m[1]) + sheet.layout.first}", (str(error).strip().splitlines() or ["?"])[-1]
+            ),
+        ) from None
 
 
 def _behind_head(path: Path, sheet: Sheet, encoding: str | None = None) -> IO[str]:
@@ -191,8 +232,9 @@ class Clock:
 
 def joined(names: Sequence[str], group: Group, row: Sequence[str]) -> str:
     """The cells of a group's time in a row of text; milliseconds behind a point."""
-    parts = ["." + row[i].strip().zfill(3) if MILLISECONDS.match(names[i]) else " " + row[i].strip()
-             for i in group.time[1:]]
+    parts = [
+        "." + row[i].strip().zfill(3) if MILLISECONDS.match(names[i]) else " " + row[i].strip() for i in group.time[1:]
+    ]
     return row[group.time[0]].strip() + "".join(parts)
 
 
@@ -238,10 +280,10 @@ def blocks(path: Path, sheet: Sheet, source: Source, tally: Tally) -> Iterator[B
         whole = ~chunk.iloc[:, width:].notna().any(axis=1).to_numpy()
         made = []
         for group, t_ns in zip(layout.groups, t_of, strict=True):
-            t = t_ns[at:at + n]
+            t = t_ns[at : at + n]
             good = new & (t != NAT) & whole
             bad = new & ~good
-            if len(layout.groups) > 1:                   # a group that has ended is empty beside longer ones
+            if len(layout.groups) > 1:  # a group that has ended is empty beside longer ones
                 bad &= chunk[[*group.time, *group.columns]].notna().any(axis=1).to_numpy() | ~whole
             tally.bad_rows += int(bad.sum())
             if good.any():
@@ -288,7 +330,7 @@ def _short(path: Path, sheet: Sheet) -> int:
     ends = _Ends(sheet)
     if sheet.quoted or sheet.encoding.startswith("utf-16"):
         return _short_records(path, sheet, ends)
-    with _behind_head(path, sheet, "latin-1") as file:       # the same lines and delimiters, faster
+    with _behind_head(path, sheet, "latin-1") as file:  # the same lines and delimiters, faster
         last = ""
         for line in file:
             cells = line.count(sheet.delimiter) + 1
@@ -320,8 +362,8 @@ def floats(cells: Array, decimal: str) -> tuple[Array, list[str]]:
     # pandas reads a part of such a column as numbers where that part holds no word; NaN is an empty cell
     texts = [c.strip() if isinstance(c, str) else "" if c != c else repr(float(c)) for c in cells.tolist()]
     plain = [c.replace(",", ".") for c in texts] if decimal == "," and not any("." in c for c in texts) else texts
-    with suppress(ValueError):                              # then cell by cell
-        if not any("_" in c for c in texts):                # numpy takes 1_000 for a number
+    with suppress(ValueError):  # then cell by cell
+        if not any("_" in c for c in texts):  # numpy takes 1_000 for a number
             return np.array([c or "nan" for c in plain]).astype(np.float64), []
     out, odd = np.full(len(texts), np.nan), []
     for i, text in enumerate(texts):
@@ -340,7 +382,7 @@ def to_number(text: str, decimal: str) -> float | None:
     word. `1_000` is none, though Python reads it."""
     low = text.lower()
     if text[:1] in "+-" and text[1:2] == " ":
-        text = text[0] + text[1:].lstrip(" ")              # "+   23.5"
+        text = text[0] + text[1:].lstrip(" ")  # "+   23.5"
     if low in ("true", "false"):
         return float(low == "true")
     if "_" in text:

@@ -25,12 +25,23 @@ def column(wanted: int | str, names: Sequence[str], where: str) -> int:
         if len(hits) == 1:
             return hits[0]
     close = nearest(wanted, names)
-    raise UsageError(f"no time column '{wanted}'", where=where, expected=", ".join(names[:30]), got=wanted,
-                     hint=f"did you mean '{close}'?" if close else None)
+    raise UsageError(
+        f"no time column '{wanted}'",
+        where=where,
+        expected=", ".join(names[:30]),
+        got=wanted,
+        hint=f"did you mean '{close}'?" if close else None,
+    )
 
 
-def time_of(said: Mapping[str, Any], names: list[str], units: list[str | None], data: list[list[Cell]],
-            where: str, likely: tuple[int, ...] = ()) -> tuple[tuple[int, ...], str | None, str | None, list[str]]:
+def time_of(
+    said: Mapping[str, Any],
+    names: list[str],
+    units: list[str | None],
+    data: list[list[Cell]],
+    where: str,
+    likely: tuple[int, ...] = (),
+) -> tuple[tuple[int, ...], str | None, str | None, list[str]]:
     """(time columns, unit or None for dates, format, notes). likely: columns that are called times in other words."""
     wanted, unit, form = said.get("column"), said.get("unit"), said.get("format")
     if wanted is not None:
@@ -45,9 +56,11 @@ def time_of(said: Mapping[str, Any], names: list[str], units: list[str | None], 
     text = unit or units[columns[0]]
     if text is None:
         text = _size_of_clock(names[columns[0]], cells, where)
-        notes.append(f"time column '{names[columns[0]]}' has no unit: " + (
-            "taken as seconds" if text == "s" else f"by its size it is {text}") +
-            "; declare table: {time: {unit: ...}} if that is wrong")
+        notes.append(
+            f"time column '{names[columns[0]]}' has no unit: "
+            + ("taken as seconds" if text == "s" else f"by its size it is {text}")
+            + "; declare table: {time: {unit: ...}} if that is wrong"
+        )
     return columns, check_unit(str(text), where), None, notes
 
 
@@ -62,13 +75,19 @@ def _size_of_clock(name: str, cells: Sequence[Cell], where: str) -> str:
     if days and bool((np.abs(np.diff(values)) < 0.2).all()) and bool((values != np.floor(values)).any()):
         if re.search(r"(?i)dat", name):
             return "excel"
-        raise FormatError("times that may be Excel's days or seconds", where=where, got=f"{name}: {values[0]!r} ...",
-                          expected="a unit", hint="declare table: {time: {unit: excel}} or {time: {unit: s}}")
+        raise FormatError(
+            "times that may be Excel's days or seconds",
+            where=where,
+            got=f"{name}: {values[0]!r} ...",
+            expected="a unit",
+            hint="declare table: {time: {unit: excel}} or {time: {unit: s}}",
+        )
     return "s"
 
 
-def find_time(names: list[str], units: list[str | None], data: list[list[Cell]], where: str,
-              likely: tuple[int, ...] = ()) -> tuple[int, ...]:
+def find_time(
+    names: list[str], units: list[str | None], data: list[list[Cell]], where: str, likely: tuple[int, ...] = ()
+) -> tuple[int, ...]:
     """A date, a date and a time of day, a time of day, numbers under a word for time, or a first column in a unit of
     time, in this order. FormatError where there is none."""
     width = len(names)
@@ -83,8 +102,12 @@ def find_time(names: list[str], units: list[str | None], data: list[list[Cell]],
     if dates:
         first = next((i for i in dates if i in words), dates[0])
         sample = next(r[first] for r in data if r[first] not in ("", None))
-        has_clock = ":" in sample if isinstance(sample, str) else hasattr(sample, "hour") and (
-            not clocks or any(r[first] and r[first].hour + r[first].minute + r[first].second for r in data))
+        has_clock = (
+            ":" in sample
+            if isinstance(sample, str)
+            else hasattr(sample, "hour")
+            and (not clocks or any(r[first] and r[first].hour + r[first].minute + r[first].second for r in data))
+        )
         found = (first,) if has_clock or not clocks else (first, clocks[0])
         return (*found, *_milliseconds(found[-1] + 1, names, [r[found[-1]] for r in data], data))
     if clocks:
@@ -94,9 +117,13 @@ def find_time(names: list[str], units: list[str | None], data: list[list[Cell]],
         return (numbers[0],)
     if (units[0] or "").strip().lower() in SECONDS and share(0, is_number) > 0.6:
         return (0,)
-    raise FormatError("no time column found", where=where, got=", ".join(names[:12]),
-                      expected="a column of dates, or one called time or with s, min or h as its unit",
-                      hint="declare table: {time: {column: 1, unit: s}}")
+    raise FormatError(
+        "no time column found",
+        where=where,
+        got=", ".join(names[:12]),
+        expected="a column of dates, or one called time or with s, min or h as its unit",
+        hint="declare table: {time: {column: 1, unit: s}}",
+    )
 
 
 MILLISECONDS = re.compile(r"(?i)^(ms|msec|millisec(ond)?s?|millisekunden?|毫秒)$")

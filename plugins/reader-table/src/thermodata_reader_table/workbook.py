@@ -67,15 +67,22 @@ def _load(name: str, mtime_ns: int, size: int, wanted: int | str | None) -> Book
         try:
             rows = book.get_sheet_by_name(sheet).to_python(skip_empty_area=False)
         except Exception as error:
-            raise FormatError(f"sheet '{sheet}' cannot be read", where=path.name, got=str(error),
-                              hint="declare table: {sheet: ...} to read another one alone") from None
+            raise FormatError(
+                f"sheet '{sheet}' cannot be read",
+                where=path.name,
+                got=str(error),
+                hint="declare table: {sheet: ...} to read another one alone",
+            ) from None
         while rows and not any(c not in ("", None) for c in rows[-1]):
             rows.pop()
         if rows:
             sheets[sheet] = rows
     if not sheets:
-        raise FormatError(f"sheet '{names[0]}' is empty" if names else "a workbook without sheets", where=path.name,
-                          expected="a table")
+        raise FormatError(
+            f"sheet '{names[0]}' is empty" if names else "a workbook without sheets",
+            where=path.name,
+            expected="a table",
+        )
     return Book(sheets, odd)
 
 
@@ -99,7 +106,7 @@ class Table:
         self.layout, self.where, self.source = layout, where, source
         self.notes = list(layout.notes)
         self.losses: list[Loss] = []
-        self.columns = list(zip(*rows[layout.first:], strict=False))
+        self.columns = list(zip(*rows[layout.first :], strict=False))
         said = (source.table or {}).get("decimal")
         columns = [c for i, c in enumerate(self.columns) if i not in layout.time]
         self.decimal = said or decimal_mark(c for col in columns for c in col[:200] if c and isinstance(c, str)) or "."
@@ -113,9 +120,14 @@ class Table:
             times = self._times(group)
             self.notes += times.notes
             keep = np.ones(times.t_ns.size, bool)
-            if len(self.layout.groups) > 1:                # a group that has ended is empty beside longer ones
-                keep = ~np.array([all(is_empty(c) for c in row) for row in zip(
-                    *(self.columns[i] for i in (*group.time, *group.columns)), strict=True)], bool)
+            if len(self.layout.groups) > 1:  # a group that has ended is empty beside longer ones
+                keep = ~np.array(
+                    [
+                        all(is_empty(c) for c in row)
+                        for row in zip(*(self.columns[i] for i in (*group.time, *group.columns)), strict=True)
+                    ],
+                    bool,
+                )
             values, units = {}, {}
             for i in group.columns:
                 found, unit = self._values(self.layout.names[i], self.columns[i])
@@ -168,8 +180,15 @@ class Table:
         if odd and len(odd) * 2 > len(filled):
             return np.array(["" if c is None else str(c) for c in cells], object), None
         if odd:
-            self.losses.append(Loss(f"{self.where} column '{name}'", None, None, len(odd) / len(cells),
-                                    f"{len(odd)} cells are no numbers, such as '{odd[0]}'"))
+            self.losses.append(
+                Loss(
+                    f"{self.where} column '{name}'",
+                    None,
+                    None,
+                    len(odd) / len(cells),
+                    f"{len(odd)} cells are no numbers, such as '{odd[0]}'",
+                )
+            )
         return numbers, unit
 
 
@@ -223,8 +242,10 @@ def read(path: Path, source: Source) -> Read:
     several = len(tables) > 1
     notes = [f"sheet '{s}' is not read as a table: {e.what}" for s, e in refused.items()]
     if several:
-        notes.append(f"{len(tables)} sheets are tables, each a stream; signals are called SHEET/NAME; for one alone "
-                     "declare table: {sheet: ...}: " + ", ".join(tables))
+        notes.append(
+            f"{len(tables)} sheets are tables, each a stream; signals are called SHEET/NAME; for one alone "
+            "declare table: {sheet: ...}: " + ", ".join(tables)
+        )
     losses: list[Loss] = []
     streams: list[Stream] = []
     groups: list[Group] = []
@@ -238,32 +259,40 @@ def read(path: Path, source: Source) -> Read:
         if count and kind == "hidden":
             notes.append(f"{count} hidden rows: they are read like the others")
         elif count:
-            losses.append(Loss(f"{path.name}", None, None, None, f"{count} cells of the workbook {kind}: "
-                               "they are empty"))
+            losses.append(
+                Loss(f"{path.name}", None, None, None, f"{count} cells of the workbook {kind}: they are empty")
+            )
     clock, start_ns = one_clock([s.times for s in streams], groups, path.name)
     return Read(streams, list(dict.fromkeys(notes)), losses, clock, start_ns)
 
 
 def describe(path: Path, source: Source) -> Recording:
     found = read(path, source)
-    signals = tuple(Signal(name, s.name, s.units[name], "str" if v.dtype == object else "float64")
-                    for s in found.streams for name, v in s.values.items())
+    signals = tuple(
+        Signal(name, s.name, s.units[name], "str" if v.dtype == object else "float64")
+        for s in found.streams
+        for name, v in s.values.items()
+    )
     return Recording(signals, found.clock, found.start_ns, None, tuple(found.notes))
 
 
 def blocks(path: Path, source: Source) -> Iterator[Block | Loss]:
     found = read(path, source)
     if not any((s.times.t_ns != NAT).any() for s in found.streams):
-        raise FormatError("no row holds a time", where=path.name,
-                          hint="declare table: {time: {column: ..., unit: ...}}")
+        raise FormatError(
+            "no row holds a time", where=path.name, hint="declare table: {time: {column: ..., unit: ...}}"
+        )
     for stream in found.streams:
         t_ns = stream.times.t_ns
         good = t_ns != NAT
         size = max(1, int(source.options.get("block_rows", _BLOCK_VALUES // max(1, len(stream.values)))))
         for first in range(0, t_ns.size, size):
-            part = good[first:first + size]
-            yield Block(stream.name, t_ns[first:first + size][part],
-                        {name: v[first:first + size][part] for name, v in stream.values.items()})
+            part = good[first : first + size]
+            yield Block(
+                stream.name,
+                t_ns[first : first + size][part],
+                {name: v[first : first + size][part] for name, v in stream.values.items()},
+            )
         if not good.all():
             bad = int((~good).sum())
             where = path.name if len(found.streams) == 1 else f"{path.name} {stream.name}"

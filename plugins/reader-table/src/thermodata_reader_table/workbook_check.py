@@ -15,8 +15,8 @@ from thermodata.errors import FormatError
 
 MAX_UNPACKED = 1 << 30
 MAX_CELLS = 60_000_000
-_SPARSE = 3_000_000                          # cells of a sheet that may be almost empty
-_RIGHT, _BOTTOM = 16_384, 1_048_576          # columns and rows that a sheet can have
+_SPARSE = 3_000_000  # cells of a sheet that may be almost empty
+_RIGHT, _BOTTOM = 16_384, 1_048_576  # columns and rows that a sheet can have
 # as loosely as any reader of XML takes it: what a cell says of its place is what is allocated
 _CELL = re.compile(rb"""<(?:\w+:)?c\s[^>]*?\br\s*=\s*["']\s*([A-Za-z]*)(\d*)""")
 _ANY_CELL = re.compile(rb"<(?:\w+:)?c[\s>/]")
@@ -26,8 +26,9 @@ _ROW = re.compile(rb"""<(?:\w+:)?row\s[^>]*?\br\s*=\s*["']\s*(\d+)""")
 # what calamine gives as an empty cell, or does not tell
 _ODD = {
     "hold an error such as #N/A": re.compile(rb'<(?:\w+:)?c [^>]*?t="e"'),
-    "hold a formula without its value (open the workbook once in a spreadsheet and save it)":
-        re.compile(rb"(?:</(?:\w+:)?f>|<(?:\w+:)?f [^>]*/>)</(?:\w+:)?c>"),
+    "hold a formula without its value (open the workbook once in a spreadsheet and save it)": re.compile(
+        rb"(?:</(?:\w+:)?f>|<(?:\w+:)?f [^>]*/>)</(?:\w+:)?c>"
+    ),
     "hidden": re.compile(rb'<(?:\w+:)?row [^>]*?hidden="(?:1|true)"'),
 }
 
@@ -41,8 +42,9 @@ def check_size(path: Path) -> dict[str, int]:
         with zipfile.ZipFile(path) as archive:
             members = archive.infolist()
     except (zipfile.BadZipFile, OSError, ValueError, NotImplementedError) as error:
-        raise FormatError("not a readable workbook", where=path.name, expected="an XLSX (ZIP) file",
-                          got=str(error)) from None
+        raise FormatError(
+            "not a readable workbook", where=path.name, expected="an XLSX (ZIP) file", got=str(error)
+        ) from None
     unpacked, odd = 0, dict.fromkeys(_ODD, 0)
     with path.open("rb") as file:
         for member in members:
@@ -51,9 +53,13 @@ def check_size(path: Path) -> dict[str, int]:
             for part in _inflate(file, member, path):
                 unpacked += len(part)
                 if unpacked > MAX_UNPACKED:
-                    raise FormatError("workbook unpacks to more than 1 GiB", where=f"{path.name} {member.filename}",
-                                      expected="a log of reasonable size", got=f"{path.stat().st_size} bytes packed",
-                                      hint="export it as CSV or Parquet")
+                    raise FormatError(
+                        "workbook unpacks to more than 1 GiB",
+                        where=f"{path.name} {member.filename}",
+                        expected="a log of reasonable size",
+                        got=f"{path.stat().st_size} bytes packed",
+                        hint="export it as CSV or Parquet",
+                    )
                 if sheet is not None:
                     for kind, pattern in _ODD.items():
                         odd[kind] += len(pattern.findall(rest + part)) - len(pattern.findall(rest))
@@ -83,23 +89,34 @@ class _Extent:
         bottom = max(self.bottom, self.rows) if self.unplaced else self.bottom
         right = max(self.right, 1)
         if right > _RIGHT or bottom > _BOTTOM:
-            raise FormatError("a cell outside of any sheet", where=where, got=f"row {bottom}, column {right}",
-                              expected=f"at most {_BOTTOM} rows and {_RIGHT} columns")
+            raise FormatError(
+                "a cell outside of any sheet",
+                where=where,
+                got=f"row {bottom}, column {right}",
+                expected=f"at most {_BOTTOM} rows and {_RIGHT} columns",
+            )
         if right * bottom > MAX_CELLS or right * bottom > max(_SPARSE, 20 * (self.count + self.unplaced)):
-            raise FormatError("sheet spans an absurd area", where=where,
-                              expected=f"at most {MAX_CELLS} cells, most of them filled",
-                              got=f"{bottom} rows x {right} columns with {self.count + self.unplaced} cells",
-                              hint="delete the stray cells far off, or export it as CSV or Parquet")
+            raise FormatError(
+                "sheet spans an absurd area",
+                where=where,
+                expected=f"at most {MAX_CELLS} cells, most of them filled",
+                got=f"{bottom} rows x {right} columns with {self.count + self.unplaced} cells",
+                hint="delete the stray cells far off, or export it as CSV or Parquet",
+            )
 
 
 def _inflate(file: Any, member: zipfile.ZipInfo, path: Path) -> Iterator[bytes]:
-    if member.header_offset < 0:                         # what stands before the archive moves all of its places
+    if member.header_offset < 0:  # what stands before the archive moves all of its places
         raise FormatError("damaged workbook", where=f"{path.name} {member.filename}", expected="a ZIP entry")
     file.seek(member.header_offset)
     header = file.read(30)
     if len(header) < 30 or header[:4] != b"PK\x03\x04":
-        raise FormatError("damaged workbook", where=f"{path.name} byte {member.header_offset}",
-                          expected="a ZIP entry", got=header[:4].hex(" "))
+        raise FormatError(
+            "damaged workbook",
+            where=f"{path.name} byte {member.header_offset}",
+            expected="a ZIP entry",
+            got=header[:4].hex(" "),
+        )
     name, extra = struct.unpack("<HH", header[26:30])
     file.seek(name + extra, 1)
     left = member.compress_size
