@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import codecs
-from collections.abc import Callable, Iterator
+import re
+from collections.abc import Iterator
 from contextlib import suppress
-from contextvars import ContextVar
 from dataclasses import dataclass
 from pathlib import Path
 
 from thermodata.errors import FormatError
-from thermodata.reader.text import find_encoding
+from thermodata.reader.text.encoding import bare, find_encoding, is_wide
 
 CHUNK = 8 * 1024 * 1024
 _PIECE = 16 * 1024
@@ -30,9 +30,6 @@ class Chunk:
     last: bool
     odd: tuple[int, ...] = ()
 
-
-# what stands between a file's chunks and the reading of its rows: nothing, but where place.py follows a row
-CUT: ContextVar[Callable[[Iterator[Chunk]], Iterator[Chunk]] | None] = ContextVar("CUT", default=None)
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,9 +51,9 @@ def sample(path: Path, declared: str | None, whole_up_to: int = WHOLE) -> Sample
     with path.open("rb") as file:
         head = file.read(whole_up_to if size <= whole_up_to else whole_up_to // 4)
         wide = head.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)) or b"\0" in head[:200]
-        other = declared is not None and _wide(declared)
+        other = declared is not None and is_wide(declared)
         pieces = []
-        if size > len(head) and not (other and not _bare(str(declared)).startswith("utf-16")):
+        if size > len(head) and not (other and not bare(str(declared)).startswith("utf-16")):
             for k in range(1, _PIECES + 1):
                 at = max(len(head), (size - _PIECE) * k // _PIECES) // 2 * 2
                 file.seek(at)
@@ -76,15 +73,11 @@ def sample(path: Path, declared: str | None, whole_up_to: int = WHOLE) -> Sample
     rest: list[str] = []
     for piece in pieces:
         plain = "utf-16-be" if head.startswith(codecs.BOM_UTF16_BE) or encoding == "utf-16-be" else "utf-16-le"
-        lines = piece.decode(plain if wide else _bare(encoding), "replace").split("\n")
+        lines = piece.decode(plain if wide else bare(encoding), "replace").split("\n")
         rest += [line.rstrip("\r") for line in lines[1:-1]]
     tail = pieces[-1] if pieces else head
     ends = tail.rstrip(b"\0").endswith((b"\n", b"\r"))
     return Sample(_lines(text, whole), tuple(rest), encoding, note, whole, ends)
-
-
-def _bare(encoding: str) -> str:
-    return "utf-8" if encoding.replace("_", "-") == "utf-8-sig" else encoding
 
 
 def _mostly_utf8(data: bytes) -> tuple[str, str | None]:
@@ -99,15 +92,6 @@ def _mostly_utf8(data: bytes) -> tuple[str, str | None]:
     return "", None
 
 
-def _wide(encoding: str) -> bool:
-    """Whether a line end is no single byte of its own in this encoding, or text may look like ASCII and be none."""
-    try:
-        plain = codecs.lookup(encoding).name
-        return "\n".encode(encoding) != b"\n" or plain.startswith(("iso2022", "hz", "utf-7"))
-    except (LookupError, ValueError):
-        return False
-
-
 def _lines(text: str, whole: bool) -> tuple[str, ...]:
     if "\n" not in text and "\r" in text:
         text = text.replace("\r", "\n")
@@ -116,16 +100,9 @@ def _lines(text: str, whole: bool) -> tuple[str, ...]:
 
 
 def chunks(path: Path, encoding: str, size: int = CHUNK) -> Iterator[Chunk]:
-    """The file's chunks; where somebody asks for the place of a row, cut further by CUT."""
-    cut = CUT.get()
-    found = _chunks(path, encoding, size)
-    return found if cut is None else cut(found)
-
-
-def _chunks(path: Path, encoding: str, size: int) -> Iterator[Chunk]:
     """The file's lines in chunks, without a byte order mark; lines end as in the file (a lone CR becomes LF). The
     last chunk is marked, and ends without a line end where the file does."""
-    wide = _wide(encoding)
+    wide = is_wide(encoding)
     decoder = codecs.getincrementaldecoder(encoding)("replace") if wide else None
     total, line, rest, first = path.stat().st_size, 0, b"", True
     odd: tuple[int, ...] = ()
@@ -162,7 +139,7 @@ def _utf8(data: bytes, encoding: str, first: int) -> tuple[bytes, tuple[int, ...
     or with replacement characters: it is reported, never dropped."""
     if data.isascii():
         return data, ()
-    name = _bare(encoding)
+    name = bare(encoding)
     with suppress(UnicodeDecodeError):  # then line by line
         text = data.decode(name)
         return (data if name == "utf-8" else text.encode()), ()
@@ -177,3 +154,16 @@ def _utf8(data: bytes, encoding: str, first: int) -> tuple[bytes, tuple[int, ...
             except (UnicodeDecodeError, FormatError):
                 lines[k] = line.decode("cp1252", "replace").encode()
     return b"\n".join(lines), tuple(odd[:1000])
+
+
+def last_line_is_whole(line: str, before: str, delimiter: str) -> bool:
+    """Whether a last line without a line end may be taken: as many fields as the line before, and a last field
+    that is the same, or a fraction with as many digits after its mark. A cut "12.5" of "12.53", or
+    "100" of "1000", would pass for a value; rather one good row is reported as lost than that."""
+    if line.count(delimiter) != before.count(delimiter):
+        return False
+    fields = [text.rstrip().rsplit(delimiter, 1)[-1].strip() for text in (line, before)]
+    if fields[0] and fields[0] == fields[1]:
+        return True
+    digits = [len(re.split(r"[.,]", text)[-1]) if re.match(r"^[+-]?\d*[.,]\d+$", text) else 0 for text in fields]
+    return digits[0] >= digits[1] > 0

@@ -1,4 +1,4 @@
-"""Text of instrument files: encodings, units in headers, decimal marks. Shared by every reader of text.
+"""Which encoding a text is in: declared, marked, UTF-8, or cp1250/cp1252 by the letters that differ.
 
 Nothing is ever dropped: `errors="ignore"` turns "µm" into "m", a factor of a million.
 """
@@ -7,26 +7,9 @@ from __future__ import annotations
 
 import codecs
 import re
-from collections.abc import Iterable
 from pathlib import Path
 
 from thermodata.errors import FormatError
-from thermodata.reader.zone import local_to_utc_ns
-from thermodata.schema.quantity import _ALIAS
-
-__all__ = [
-    "clean",
-    "decimal_mark",
-    "decode",
-    "decode_head",
-    "file_encoding",
-    "find_encoding",
-    "last_line_is_whole",
-    "local_to_utc_ns",
-    "looks_like_unit",
-    "split_unit",
-    "to_float",
-]
 
 _PART = 4 * 1024 * 1024
 _BOMS = ((codecs.BOM_UTF8, "utf-8-sig"), (codecs.BOM_UTF16_LE, "utf-16"), (codecs.BOM_UTF16_BE, "utf-16"))
@@ -137,19 +120,6 @@ def file_encoding(path: Path, declared: str | None = None) -> tuple[str, str | N
     return "utf-8", None
 
 
-def last_line_is_whole(line: str, before: str, delimiter: str) -> bool:
-    """Whether a last line without a line end may be taken: as many fields as the line before, and a last field
-    that is the same, or a fraction with as many digits after its mark. A cut "12.5" of "12.53", or
-    "100" of "1000", would pass for a value; rather one good row is reported as lost than that."""
-    if line.count(delimiter) != before.count(delimiter):
-        return False
-    fields = [text.rstrip().rsplit(delimiter, 1)[-1].strip() for text in (line, before)]
-    if fields[0] and fields[0] == fields[1]:
-        return True
-    digits = [len(re.split(r"[.,]", text)[-1]) if re.match(r"^[+-]?\d*[.,]\d+$", text) else 0 for text in fields]
-    return digits[0] >= digits[1] > 0
-
-
 def _try(data: bytes, encoding: str) -> str:
     try:
         return data.decode(encoding)
@@ -188,75 +158,15 @@ def decode_head(start: bytes) -> str | None:
         return start.decode(_single_byte(start), "replace")
 
 
-# ---- units ---------------------------------------------------------------------------------------
-
-_BASE = (
-    r"(?:[kMGmunµμcdh]?(?:m|g|s|A|V|W|K|N|Pa|Hz|J|C|F|bar|l|L|rad|Ohm|ohm|Ω|VA|Wh|mol|lm|lx|T)|min|h|d|rpm|RPM|"
-    r"inch|deg|U|rev|mas|arcsec|ppm|RH|dB|psi|inc|imp|1|bit|counts?|digits?)"
-)
-_UNIT = re.compile(rf"^{_BASE}(?:\s?\^?-?[1-4]|[²³⁻¹]+)?(?:\s?[/*·.]\s?{_BASE}(?:\^?-?[1-4]|[²³⁻¹]+)?){{0,3}}$")
-_TRAILING = re.compile(
-    r"^(?P<name>.*?)(?P<gap>\s*)"
-    r"(?:\[(?P<square>[^\[\]]*)\]|\((?P<round>[^()]*)\)|(?P<fullwidth>（[^（）]*）))$",
-    re.DOTALL,
-)
-
-
-def looks_like_unit(text: str) -> bool:
-    """Whether a text reads as a unit: an alias (U/min, Grd C, °C) or SI symbols with / * and powers."""
-    bare = re.sub(r"\s+", "", text).strip("[]()")
-    if not bare or bare.isdigit():
+def is_wide(encoding: str) -> bool:
+    """Whether a line end is no single byte of its own in this encoding, or text may look like ASCII and be none."""
+    try:
+        plain = codecs.lookup(encoding).name
+        return "\n".encode(encoding) != b"\n" or plain.startswith(("iso2022", "hz", "utf-7"))
+    except (LookupError, ValueError):
         return False
-    return bare.casefold() in _ALIAS or _UNIT.match(text.strip()) is not None
 
 
-def split_unit(header: str) -> tuple[str, str | None]:
-    """(name, unit or None): 'ch3(um)' -> ('ch3', 'um'), 'Temp [degC]' -> ('Temp', 'degC').
-
-    Brackets that hold no unit stay in the name: 'Excitation (Trigger)', 'nckServoData [u1; 1]', 'T[2]'.
-    """
-    header = header.strip()
-    match = _TRAILING.match(header)
-    if not match or not match["name"].strip():
-        return header, None
-    unit = (match["square"] or match["round"] or (match["fullwidth"] or "").strip("（）")).strip()
-    if looks_like_unit(unit):
-        return match["name"].strip(), unit
-    # a word of its own in square brackets is a unit that we don't know; an index or an address is none
-    if match["square"] and match["gap"] and re.match(r"^[^\W\d][^;,]{0,15}$", unit) and not re.match(r"^u\d", unit):
-        return match["name"].strip(), unit
-    return header, None
-
-
-def clean(cell: str) -> str:
-    """A cell without blanks, quotes and a stray byte order mark around it."""
-    return cell.strip().strip("\ufeff").strip().strip('"').strip()
-
-
-# ---- numbers -------------------------------------------------------------------------------------
-
-_POINT = re.compile(r"^[+-]?\d*\.\d+(?:[eE][+-]?\d+)?$|^[+-]?\d+\.\d*(?:[eE][+-]?\d+)?$")
-_COMMA = re.compile(r"^[+-]?\d*,\d+(?:[eE][+-]?\d+)?$|^[+-]?\d+,\d*(?:[eE][+-]?\d+)?$")
-
-
-def decimal_mark(cells: Iterable[str]) -> str | None:
-    """'.' or ',' by the number cells of a file's first data rows; None where none has a fraction.
-    FormatError where both occur, for then no choice is right."""
-    points = commas = 0
-    for cell in cells:
-        text = clean(cell)
-        points += _POINT.match(text) is not None
-        commas += _COMMA.match(text) is not None
-    if points and commas:
-        raise FormatError(
-            "numbers with a decimal point and with a decimal comma",
-            expected="one of them",
-            got=f"{points} with a point, {commas} with a comma",
-            hint="declare table: {decimal: ...}",
-        )
-    return "." if points else "," if commas else None
-
-
-def to_float(text: str, decimal: str = ".") -> float:
-    """A number as instruments write it; ValueError where it is none."""
-    return float(text.strip().replace(",", ".") if decimal == "," else text)
+def bare(encoding: str) -> str:
+    """The encoding without the byte order mark that 'utf-8-sig' asks for: of any but a file's first bytes."""
+    return "utf-8" if encoding.lower().replace("_", "-") == "utf-8-sig" else encoding

@@ -1,0 +1,239 @@
+"""What a cell of a text is, the same whoever claims the file: a number, a truth value, a word for nothing, or none.
+
+The policy, a cell at a time (`docs/formats.md` states it for users; `to_float` is it, and the fast ways give the same):
+
+- **Nothing**: `EMPTY`, whatever the case. **Overload**: `OVERLOAD`: no value, and flagged as saturated.
+- **Decimal mark**: one a file, declared or found; a number with the other mark is none.
+- **Thousands**: blanks and apostrophes part them; so does the other mark, where a fraction, a second group or a
+  declared decimal mark proves it. `1.500` beside decimal commas could be either, so it is refused.
+- **Integers** that a float64 would change (beyond 2**53) are kept exactly in a column of int64, else refused.
+- **Too large** for a float64 (`1e999`): refused. `inf` is a value. `1_000`, `0x1F` and `12 %` are no numbers.
+- **Truth values** (`TRUE`, `wahr`) make a column of bool; between numbers they are 1 and 0.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import Any
+
+import numpy as np
+
+from thermodata.errors import FormatError
+from thermodata.plugin import Array, Bool1D
+
+EMPTY = frozenset(
+    "|-|--|---|----|*|***|****|?|???|na|n/a|#n/a|n.a.|#nv|null|none|nan|+nan|-nan|nan(ind)|-nan(ind)|1.#qnan|-1.#qnan|"
+    "1.#ind|-1.#ind|1,#qnan|-1,#qnan|1,#ind|-1,#ind|unavailable".split("|")
+)
+OVERLOAD = frozenset(
+    sign + word
+    for sign in ("", "+", "-")
+    for word in ("ol", "ovl", "ovld", "ovr", "over", "overload", "overflow", "overrange", "over range", "burnout")
+)
+TRUE = frozenset({"true", "wahr"})
+FALSE = frozenset({"false", "falsch"})
+EXACT = 2**53  # up to here a float64 holds every integer
+
+_PLAIN = {
+    ".": re.compile(r"[+-]?(?:\d+(?:\.\d*)?|\.\d+)(?:[eE][+-]?\d+)?", re.ASCII),
+    ",": re.compile(r"[+-]?(?:\d+(?:,\d*)?|,\d+)(?:[eE][+-]?\d+)?", re.ASCII),
+}
+_INFINITE = re.compile(r"[+-]?inf(?:inity)?", re.IGNORECASE | re.ASCII)
+_BLANK = " \u00a0\u202f'’"
+_PARTED = {m: re.compile(rf"[+-]?\d{{1,3}}(?:[{_BLANK}]\d{{3}})+(?:{re.escape(m)}\d*)?", re.ASCII) for m in ".,"}
+_GROUPED = {
+    ".": re.compile(r"[+-]?\d{1,3}(?:(?:,\d{3})+\.\d+|(?:,\d{3}){2,})", re.ASCII),
+    ",": re.compile(r"[+-]?\d{1,3}(?:(?:\.\d{3})+,\d+|(?:\.\d{3}){2,})", re.ASCII),
+}
+_ONE_GROUP = {
+    ".": re.compile(r"[+-]?[1-9]\d{0,2},\d{3}", re.ASCII),
+    ",": re.compile(r"[+-]?[1-9]\d{0,2}\.\d{3}", re.ASCII),
+}
+_PADDED_SIGN = re.compile(r"^([+-]) +")
+_INTEGER = re.compile(r"[+-]?\d{1,40}", re.ASCII)
+_POINT = re.compile(r"^[+-]?\d*\.\d+(?:[eE][+-]?\d+)?$|^[+-]?\d+\.\d*(?:[eE][+-]?\d+)?$")
+_COMMA = re.compile(r"^[+-]?\d*,\d+(?:[eE][+-]?\d+)?$|^[+-]?\d+,\d*(?:[eE][+-]?\d+)?$")
+
+
+def clean(cell: str) -> str:
+    """A cell without blanks, quotes and a stray byte order mark around it."""
+    return cell.strip().strip("\ufeff").strip().strip('"').strip()
+
+
+def is_empty(cell: str) -> bool:
+    """Whether a cell says that there is no value."""
+    return cell.strip().casefold() in EMPTY
+
+
+def is_overload(cell: str) -> bool:
+    """Whether a cell says that the value was beyond the instrument's range."""
+    return cell.strip().casefold() in OVERLOAD
+
+
+def to_bool(cell: str) -> bool | None:
+    """TRUE or FALSE, in English or German; None for any other word."""
+    low = cell.strip().casefold()
+    return True if low in TRUE else False if low in FALSE else None
+
+
+def to_int(cell: str, decimal: str = ".", dtype: str = "int64") -> int | None:
+    """A whole number that its dtype holds, exactly; None for what is none, or has a fraction."""
+    text = _PADDED_SIGN.sub(r"\1", cell.strip())
+    if _INTEGER.fullmatch(text):
+        whole, limits = int(text), np.iinfo(dtype)
+        return whole if limits.min <= whole <= limits.max else None
+    value = to_float(text, decimal)
+    return int(value) if value is not None and value.is_integer() and abs(value) <= EXACT else None
+
+
+def to_float(cell: str, decimal: str = ".", declared: bool = False) -> float | None:
+    """The number in a cell that is not empty; None where it is none. declared: the decimal mark is (see the policy)."""
+    text = _PADDED_SIGN.sub(r"\1", cell.strip())
+    if _PLAIN[decimal].fullmatch(text):
+        value = float(text.replace(",", "."))
+        if math.isinf(value) or (abs(value) >= EXACT and _INTEGER.fullmatch(text) and int(text) != value):
+            return None
+        return value
+    if _PARTED[decimal].fullmatch(text):
+        return float(re.sub(f"[{_BLANK}]", "", text).replace(",", "."))
+    if _GROUPED[decimal].fullmatch(text) or (declared and _ONE_GROUP[decimal].fullmatch(text)):
+        return float(text.replace("," if decimal == "." else ".", "").replace(",", "."))
+    if _INFINITE.fullmatch(text):
+        return float(text)
+    truth = to_bool(text)
+    return None if truth is None else float(truth)
+
+
+def why_none(cell: str, kind: str, decimal: str = ".") -> str:
+    """Why a cell is no value of its column, for a loss: "expected a number, got 'x'"."""
+    text, shown = _PADDED_SIGN.sub(r"\1", cell.strip()), cell[:40]
+    if kind == "bool":
+        return f"expected TRUE or FALSE, got '{shown}'"
+    if kind in ("int64", "uint64"):
+        return f"expected a whole number of 64 bits, got '{shown}'"
+    if _ONE_GROUP[decimal].fullmatch(text):
+        other = "," if decimal == "." else "."
+        return f"'{shown}' may be thousands or a fraction: declare table: {{decimal: '{decimal}'}} or '{other}'"
+    if _INTEGER.fullmatch(text):
+        return f"an integer that float64 would round, got '{shown}'"
+    return f"expected a number, got '{shown}'"
+
+
+def is_number(cell: str) -> bool:
+    """Whether a cell is a number with either decimal mark."""
+    text = clean(cell)
+    return any(to_float(text, mark, declared=True) is not None for mark in ".,") and to_bool(text) is None
+
+
+def decimal_mark(cells: Iterable[str]) -> str | None:
+    """'.' or ',' by the number cells of a file's first data rows; None where none has a fraction.
+    FormatError where both occur, for then no choice is right."""
+    points = commas = 0
+    for cell in cells:
+        text = clean(cell)
+        points += _POINT.match(text) is not None
+        commas += _COMMA.match(text) is not None
+    if points and commas:
+        raise FormatError(
+            "numbers with a decimal point and with a decimal comma",
+            expected="one of them",
+            got=f"{points} with a point, {commas} with a comma",
+            hint="declare table: {decimal: ...}",
+        )
+    return "." if points else "," if commas else None
+
+
+# ---- whole columns -------------------------------------------------------------------------------
+
+
+@lru_cache(maxsize=1)
+def null_words() -> tuple[str, ...]:
+    """`EMPTY` as a parser takes it that minds the case: as it stands, in capitals and as a title."""
+    return tuple(sorted({form(word) for word in EMPTY for form in (str, str.upper, str.title, str.capitalize)} | {"NaN"}))
+
+
+@dataclass(frozen=True, slots=True)
+class Values:
+    """A column's cells as values. values: shape (n,), of the kind's dtype (NaN, 0 or None where there is none);
+    empty, over: shape (n,), True at cells without a value, and those of them that say overload; odd: (row, cell) of
+    cells that are no value of the kind."""
+
+    values: Array
+    empty: Bool1D
+    over: Bool1D
+    odd: tuple[tuple[int, str], ...] = ()
+
+
+def values_of(column: Any, kind: str, decimal: str = ".", declared: bool = False) -> Values:
+    """The cells of a column by the policy. column: an Arrow array of strings, or a sequence of str; kind: float64,
+    int64, uint64, bool or str."""
+    import pyarrow as pa
+
+    cells = column if isinstance(column, pa.Array | pa.ChunkedArray) else pa.array(list(column), pa.string())
+    if isinstance(cells, pa.ChunkedArray):
+        cells = cells.combine_chunks()
+        cells = cells if isinstance(cells, pa.Array) else pa.array([], pa.string())
+    if kind == "str":
+        return _texts(cells)
+    if kind == "float64":
+        return _floats(cells, decimal, declared)
+    scalar: Callable[[str], Any] = to_bool if kind == "bool" else lambda cell: to_int(cell, decimal, kind)
+    return _one_by_one(cells.to_pylist(), np.dtype(kind), scalar)
+
+
+def _texts(cells: Any) -> Values:
+    """Text as objects that share their strings; None for a blank cell. Words such as '---' are text like any other."""
+    coded = cells.dictionary_encode()
+    words = np.array([*((clean(w) or None) for w in coded.dictionary.to_pylist()), None], object)
+    taken = words[coded.indices.fill_null(len(words) - 1).to_numpy(zero_copy_only=False)]
+    none = np.zeros(len(cells), bool)
+    return Values(taken, none, none)
+
+
+def _floats(cells: Any, decimal: str, declared: bool) -> Values:
+    """Plain numbers by Arrow's cast, all else by `to_float`."""
+    import pyarrow as pa
+    import pyarrow.compute as pc
+
+    text = pc.utf8_trim_whitespace(cells.fill_null(""))
+    plain = pc.match_substring_regex(text, rf"^-?\d{{1,15}}(?:{re.escape(decimal)}\d{{1,30}})?$")
+    sure = plain.to_numpy(zero_copy_only=False)
+    numbers = pc.if_else(plain, text, "nan")
+    if decimal == ",":
+        numbers = pc.replace_substring(numbers, ",", ".")
+    values = pc.cast(numbers, pa.float64()).to_numpy(zero_copy_only=False).copy()
+    rest = np.flatnonzero(~sure)
+    if not rest.size:
+        none = np.zeros(len(cells), bool)
+        return Values(values, none, none)
+    slow = _one_by_one(
+        text.take(pa.array(rest)).to_pylist(), np.dtype(np.float64), lambda c: to_float(c, decimal, declared)
+    )
+    values[rest] = slow.values
+    empty, over = np.zeros(values.size, bool), np.zeros(values.size, bool)
+    empty[rest], over[rest] = slow.empty, slow.over
+    return Values(values, empty, over, tuple((int(rest[i]), cell) for i, cell in slow.odd))
+
+
+def _one_by_one(cells: Sequence[str | None], dtype: np.dtype[Any], scalar: Callable[[str], Any]) -> Values:
+    """The policy itself; each different cell is judged once."""
+    known: dict[str, tuple[Any, bool, bool, bool]] = {}
+    nothing = np.nan if dtype.kind == "f" else 0
+    values = np.zeros(len(cells), dtype)
+    empty, over = np.zeros(len(cells), bool), np.zeros(len(cells), bool)
+    odd = []
+    for i, raw in enumerate(cells):
+        cell = clean(raw or "")
+        if cell not in known:
+            low = cell.casefold()
+            gone, beyond = low in EMPTY, low in OVERLOAD
+            value = None if gone or beyond else scalar(cell)
+            known[cell] = (nothing if value is None else value, value is None, beyond, value is None and not gone)
+        values[i], empty[i], over[i], wrong = known[cell]
+        if wrong and not over[i]:
+            odd.append((i, raw or ""))
+    return Values(values, empty, over, tuple(odd))

@@ -1,0 +1,361 @@
+"""Rows of delimited text as typed columns, each with the line that it stands in.
+
+A part of whole lines is parsed by Arrow at once, as the types that the columns should have. Where a cell is none of its
+kind, the part is parsed as text, and each cell judged by the policy of `number`; where bytes, quotes or line ends are
+odd, it is taken line by line. All three ways give the same rows for what they can read.
+"""
+
+from __future__ import annotations
+
+import csv
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from thermodata.plugin import Array, Int1D
+from thermodata.reader.text.delimiter import fields
+from thermodata.reader.text.number import EXACT, Values, null_words, values_of
+
+TIME = "time"  # a column of times as text: left as it stands
+_MOST_LINES = 64  # of one cell in quotes
+_SLACK_CELLS = 10_000  # delimiters of a part beyond what its lines should have
+_SHOWN = 200
+
+
+@dataclass(frozen=True, slots=True)
+class Grid:
+    """How rows lie. kinds: of each column: float64, int64, uint64, bool, str, TIME, or None for one that nobody wants;
+    least: the fewest cells of a row (those that are missing are empty); decimal_declared: see the policy of numbers."""
+
+    delimiter: str
+    decimal: str
+    kinds: tuple[str | None, ...]
+    quoted: bool = False
+    least: int | None = None
+    decimal_declared: bool = False
+
+    @property
+    def width(self) -> int:
+        return len(self.kinds)
+
+
+@dataclass(frozen=True, slots=True)
+class BadLine:
+    """A line that is no row. line: 0-based in the file; cells: how many it has; text: its beginning."""
+
+    line: int
+    cells: int
+    text: str
+    size: int
+
+
+@dataclass(frozen=True, slots=True)
+class Rows:
+    """line: of each row, 0-based in the file, rising, shape (n,). columns: what each wanted column holds; times: the
+    cells of TIME columns as an Arrow array. nul: (line, how many bytes of zero) where such stood in or before a row."""
+
+    line: Int1D
+    columns: dict[int, Values]
+    times: dict[int, Any]
+    bad: tuple[BadLine, ...] = ()
+    nul: tuple[tuple[int, int], ...] = ()
+
+    @property
+    def n(self) -> int:
+        return int(self.line.size)
+
+
+def parse(data: bytes, line: int, grid: Grid) -> Rows:
+    """All rows of whole lines in UTF-8. line: the number of the first, 0-based in the file. Empty lines are none."""
+    if not data.strip():
+        nuls = ((line, data.count(b"\0")),) if b"\0" in data else ()
+        return Rows(np.empty(0, np.int64), *_converted([[] for _ in grid.kinds], grid), nul=nuls)
+    if not data.endswith(b"\n"):
+        data += b"\n"
+    return _typed(data, line, grid) or _as_text(data, line, grid) or _line_by_line(data, line, grid)
+
+
+# ---- by Arrow ------------------------------------------------------------------------------------
+
+
+def _odd_bytes(data: bytes, grid: Grid) -> bool:
+    """Whether a parser would see other lines or cells than an editor shows: bytes of zero, a carriage return alone (an
+    end of a row for Arrow), a quote that stays open, or one line of so many cells that room is made for all."""
+    return (
+        b"\0" in data
+        or (b"\r" in data and data.count(b"\r") != data.count(b"\r\n"))
+        or (grid.quoted and data.count(b'"') % 2 == 1)
+        or data.count(grid.delimiter.encode()) > (grid.width - 1) * (data.count(b"\n") + 1) + _SLACK_CELLS
+    )
+
+
+def _read(data: bytes, grid: Grid, width: int, kinds: dict[str, Any], invalid: list[Any] | None) -> Any:
+    """The table of the wanted columns; ArrowInvalid where it is none. invalid: takes rows of another width."""
+    import pyarrow as pa
+    import pyarrow.csv as pc
+
+    def skip(row: Any) -> str:
+        assert invalid is not None
+        invalid.append(row)
+        return "skip"
+
+    return pc.read_csv(
+        pa.BufferReader(data),
+        # the handler tells a row's number where there is one thread only
+        pc.ReadOptions(column_names=[str(i) for i in range(width)], block_size=1 << 20, use_threads=invalid is None),
+        pc.ParseOptions(
+            delimiter=grid.delimiter,
+            quote_char='"' if grid.quoted else False,
+            ignore_empty_lines=False,
+            invalid_row_handler=None if invalid is None else skip,
+        ),
+        pc.ConvertOptions(
+            column_types=kinds,
+            include_columns=list(kinds),
+            null_values=list(null_words()),
+            strings_can_be_null=False,
+            true_values=["TRUE", "True", "true", "WAHR", "Wahr", "wahr"],
+            false_values=["FALSE", "False", "false", "FALSCH", "Falsch", "falsch"],
+            decimal_point=grid.decimal,
+            check_utf8=False,
+        ),
+    )
+
+
+def _typed(data: bytes, line: int, grid: Grid) -> Rows | None:
+    """The part where each line is a row, and each cell of its column's kind or empty."""
+    import pyarrow as pa
+
+    if _odd_bytes(data, grid):
+        return None
+    width = data[: data.find(b"\n")].count(grid.delimiter.encode()) + 1
+    if not (grid.width if grid.least is None else grid.least) <= width <= grid.width:
+        return None
+    text = pa.dictionary(pa.int32(), pa.string())
+    kinds: dict[str, Any] = {
+        str(i): pa.string() if kind == TIME else text if kind == "str" else pa.type_for_alias(kind)
+        for i, kind in enumerate(grid.kinds[:width])
+        if kind is not None
+    }
+    try:
+        table = _read(data, grid, width, kinds, None)
+    except pa.ArrowInvalid:
+        return None
+    if table.num_rows != data.count(b"\n"):
+        return None
+    columns: dict[int, Values] = {}
+    for i, kind in enumerate(grid.kinds):
+        if kind is None or kind == TIME:
+            continue
+        if i >= width:
+            columns[i] = values_of([""] * table.num_rows, kind)
+            continue
+        values = _arrow_values(table.column(str(i)), kind)
+        if values is None:
+            return None
+        columns[i] = values
+    times = {
+        i: table.column(str(i)) if i < width else pa.array([""] * table.num_rows)
+        for i, kind in enumerate(grid.kinds)
+        if kind == TIME
+    }
+    rows = Rows(np.arange(line, line + table.num_rows, dtype=np.int64), columns, times)
+    return _without_empty_lines(rows, data) if b"\n\n" in data or b"\n\r\n" in data or data[:1] in b"\r\n" else rows
+
+
+def _arrow_values(column: Any, kind: str) -> Values | None:
+    """A parsed column; None where a number needs a second look (too large, or an integer that was rounded)."""
+    if kind == "str":
+        return _shared_texts(column)
+    none = np.zeros(len(column), bool)
+    empty = none if not column.null_count else column.is_null().to_numpy()
+    if kind != "float64" and column.null_count:
+        column = column.fill_null(False if kind == "bool" else 0)
+    values: Array = column.to_numpy().astype(kind, copy=False)
+    if kind == "float64" and values.size:
+        with np.errstate(invalid="ignore"):
+            if np.fmax.reduce(np.abs(values)) >= EXACT:
+                return None
+    return Values(values, empty, none)
+
+
+def _shared_texts(column: Any) -> Values:
+    none = np.zeros(len(column), bool)
+    parts = []
+    for chunk in column.chunks:
+        words = np.array([*((w.strip().strip('"').strip() or None) for w in chunk.dictionary.to_pylist()), None], object)
+        parts.append(words[chunk.indices.fill_null(len(words) - 1).to_numpy(zero_copy_only=False)])
+    return Values(np.concatenate(parts) if parts else np.empty(0, object), none, none)
+
+
+def _without_empty_lines(rows: Rows, data: bytes) -> Rows:
+    ends = np.flatnonzero(np.frombuffer(data, np.uint8) == 10)
+    starts = np.concatenate(([0], ends[:-1] + 1))
+    size = ends - starts
+    blank = (size == 0) | ((size == 1) & (np.frombuffer(data, np.uint8)[starts] == 13))
+    return _taken(rows, np.flatnonzero(~blank))
+
+
+def _as_text(data: bytes, line: int, grid: Grid) -> Rows | None:
+    """The part where some lines are no rows, or some cells none of their kind; None where lines cannot be told."""
+    import pyarrow as pa
+
+    if _odd_bytes(data, grid):
+        return None
+    invalid: list[Any] = []
+    wanted = [i for i, kind in enumerate(grid.kinds) if kind is not None]
+    try:
+        table = _read(data, grid, grid.width, {str(i): pa.string() for i in wanted}, invalid)
+    except pa.ArrowInvalid:
+        return None
+    if table.num_rows + len(invalid) != data.count(b"\n") or any("\n" in row.text for row in invalid):
+        return None  # a cell in quotes goes over lines
+    side, bad = _Cells(grid), list[BadLine]()
+    numbers = np.array([row.number - 1 for row in invalid], np.int64)
+    for row in invalid:
+        cells = side.fitting(fields(row.text.rstrip("\r"), grid.delimiter, grid.quoted))
+        if cells is None:
+            if row.text.strip():
+                size = len(row.text.encode())
+                bad.append(BadLine(line + row.number - 1, row.actual_columns, row.text[:_SHOWN].rstrip("\r"), size))
+        else:
+            side.add(line + row.number - 1, cells)
+    lines = np.delete(np.arange(line, line + table.num_rows + len(invalid), dtype=np.int64), numbers)
+    cells_of: list[Any] = [None] * grid.width
+    for i in wanted:
+        column = table.column(str(i)).combine_chunks()
+        cells_of[i] = pa.concat_arrays([*_arrays(column), pa.array(side.columns[i], pa.string())])
+    rows = Rows(np.concatenate([lines, np.array(side.lines, np.int64)]), *_converted(cells_of, grid), tuple(bad))
+    order = np.argsort(rows.line, kind="stable")
+    return _without_empty_rows(_taken(rows, order) if side.lines else rows, cells_of, order)
+
+
+def _arrays(column: Any) -> list[Any]:
+    """What combine_chunks() gives in any version of Arrow, as plain arrays."""
+    return list(column.chunks) if hasattr(column, "chunks") else [column]
+
+
+def _without_empty_rows(rows: Rows, cells_of: Sequence[Any], order: Int1D) -> Rows:
+    """Without the rows that hold nothing: empty lines, and delimiters alone."""
+    import pyarrow.compute as pc
+
+    blank = np.ones(rows.n, bool)
+    for cells in cells_of:
+        if cells is None or not blank.any():
+            continue
+        blank &= pc.equal(pc.utf8_trim_whitespace(cells.fill_null("")), "").to_numpy(zero_copy_only=False)
+    return _taken(rows, np.flatnonzero(~blank[order])) if blank.any() else rows
+
+
+def _converted(cells_of: Sequence[Any], grid: Grid) -> tuple[dict[int, Values], dict[int, Any]]:
+    import pyarrow as pa
+
+    columns: dict[int, Values] = {}
+    times: dict[int, Any] = {}
+    for i, kind in enumerate(grid.kinds):
+        if kind is None:
+            continue
+        cells = cells_of[i] if isinstance(cells_of[i], pa.Array) else pa.array(list(cells_of[i]), pa.string())
+        if kind == TIME:
+            times[i] = cells
+        else:
+            columns[i] = values_of(cells, kind, grid.decimal, grid.decimal_declared)
+    return columns, times
+
+
+def _taken(rows: Rows, which: Int1D) -> Rows:
+    """Some rows, in this order."""
+    import pyarrow as pa
+
+    if which.size == rows.n and (which[1:] > which[:-1]).all():
+        return rows
+    place = np.full(rows.n, -1, np.int64)
+    place[which] = np.arange(which.size)
+    columns = {
+        i: Values(
+            v.values[which],
+            v.empty[which],
+            v.over[which],
+            tuple(sorted((int(place[r]), cell) for r, cell in v.odd if place[r] >= 0)),
+        )
+        for i, v in rows.columns.items()
+    }
+    index = pa.array(which)
+    return Rows(rows.line[which], columns, {i: t.take(index) for i, t in rows.times.items()}, rows.bad, rows.nul)
+
+
+# ---- line by line --------------------------------------------------------------------------------
+
+
+@dataclass
+class _Cells:
+    """Rows that were cut by hand: their lines, and the cells of each column."""
+
+    grid: Grid
+    lines: list[int] = field(default_factory=list)
+    columns: list[list[str]] = field(init=False)
+
+    def __post_init__(self) -> None:
+        self.columns = [[] for _ in self.grid.kinds]
+
+    def fitting(self, cells: list[str]) -> list[str] | None:
+        """The cells of a row, as many as it should have; None where a line is none: empty cells behind its last column
+        are nothing, and those that a row may lack are empty."""
+        width = self.grid.width
+        if len(cells) > width and not any(c.strip() for c in cells[width:]):
+            cells = cells[:width]
+        if len(cells) < width and self.grid.least is not None and len(cells) >= self.grid.least:
+            cells = cells + [""] * (width - len(cells))
+        return cells if len(cells) == width else None
+
+    def add(self, line: int, cells: Sequence[str]) -> None:
+        self.lines.append(line)
+        for column, cell in zip(self.columns, cells, strict=True):
+            column.append(cell)
+
+
+def _line_by_line(data: bytes, line: int, grid: Grid) -> Rows:
+    rows, bad, nul = _Cells(grid), list[BadLine](), list[tuple[int, int]]()
+    for number, text in _records(data, line, grid):
+        bare = text.replace("\0", "").rstrip("\r")
+        if len(bare) != len(text.rstrip("\r")):
+            nul.append((number, text.count("\0")))
+        if not bare.strip(f"{grid.delimiter} \t\r\n"):
+            continue
+        cells = rows.fitting(_cells(bare, grid))
+        if cells is None:
+            size = len(text.encode("utf-8", "replace"))
+            bad.append(BadLine(number, bare.count(grid.delimiter) + 1, bare[:_SHOWN], size))
+        else:
+            rows.add(number, cells)
+    found = Rows(np.array(rows.lines, np.int64), *_converted(rows.columns, grid))
+    return Rows(found.line, found.columns, found.times, tuple(bad), tuple(nul))
+
+
+def _cells(record: str, grid: Grid) -> list[str]:
+    if "\n" not in record:
+        return fields(record, grid.delimiter, grid.quoted)
+    try:
+        return next(csv.reader(record.split("\n"), delimiter=grid.delimiter), [""])
+    except csv.Error:
+        return record.split(grid.delimiter)
+
+
+def _records(data: bytes, line: int, grid: Grid) -> Iterator[tuple[int, str]]:
+    """(number of its first line, text) of each record: a line, or the lines of a cell in quotes that goes over several.
+    A quote that nothing closes is a character like any other."""
+    lines = data.decode("utf-8", "replace").split("\n")[:-1]
+    at = 0
+    while at < len(lines):
+        text, more = lines[at], 1
+        if grid.quoted and text.count('"') % 2:
+            for k in range(at + 1, min(len(lines), at + _MOST_LINES)):
+                if lines[k].count('"') % 2:
+                    joined = "\n".join(lines[at : k + 1])
+                    if len(_cells(joined, grid)) == grid.width:
+                        text, more = joined, k + 1 - at
+                    break
+        yield line + at, text
+        at += more
