@@ -93,12 +93,26 @@ class Recording:
 @dataclass(frozen=True, slots=True)
 class Block:
     """Consecutive rows of one stream. t_ns: shape (n,), UTC nanoseconds since 1970 (absolute) or since the
-    start (relative). values: signal name -> shape (n,), in the file's own dtype. flags: signal -> uint16."""
+    start (relative). values: signal name -> shape (n,), in the file's own dtype. flags: signal -> uint16.
+    at: shape (n,), where each row stands in the file, as the reader counts it: the line of a text, counted from 1 (of
+    several lines the first), the row of a sheet, the number of a report. None where the reader tells it otherwise."""
 
     stream: str
     t_ns: Int1D
     values: Mapping[str, Array]
     flags: Mapping[str, Array] | None = None
+    at: Int1D | None = None
+
+    def part(self, first: int, last: int) -> Block:
+        """Rows [first, last)."""
+        cut = slice(first, last)
+        return Block(
+            self.stream,
+            self.t_ns[cut],
+            {name: values[cut] for name, values in self.values.items()},
+            None if self.flags is None else {name: flags[cut] for name, flags in self.flags.items()},
+            None if self.at is None else self.at[cut],
+        )
 
 
 @dataclass(frozen=True, slots=True)

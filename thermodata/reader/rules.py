@@ -134,6 +134,15 @@ def flags_are_uint16_of_delivered_signals(recording: Recording, block: Block) ->
     return None
 
 
+def where_rows_stand_is_int64_of_the_time_s_length(recording: Recording, block: Block) -> str | None:
+    if block.at is None:
+        return None
+    if not isinstance(block.at, np.ndarray) or block.at.dtype != np.int64 or block.at.shape != block.t_ns.shape:
+        got = f"{getattr(block.at, 'dtype', type(block.at).__name__)} of shape {getattr(block.at, 'shape', '?')}"
+        return f"at is {got}, not int64 of shape {block.t_ns.shape}"
+    return None
+
+
 # ---- a loss --------------------------------------------------------------------------------------
 
 
@@ -165,6 +174,7 @@ BLOCK_RULES: tuple[BlockRule, ...] = (
     values_have_the_length_of_the_time,
     values_have_the_declared_dtype,
     flags_are_uint16_of_delivered_signals,
+    where_rows_stand_is_int64_of_the_time_s_length,
 )
 LOSS_RULES: tuple[LossRule, ...] = (
     a_loss_says_where_and_why,

@@ -43,5 +43,3 @@ def split_unit(header: str) -> tuple[str, str | None]:
     if match["square"] and match["gap"] and re.match(r"^[^\W\d][^;,]{0,15}$", unit) and not re.match(r"^u\d", unit):
         return match["name"].strip(), unit
     return header, None
-
-

@@ -31,7 +31,6 @@ class Chunk:
     odd: tuple[int, ...] = ()
 
 
-
 @dataclass(frozen=True, slots=True)
 class Sample:
     """The file's first lines, lines from places between, and its last lines. whole: the head is all of it."""

@@ -1,4 +1,5 @@
-"""Local time to UTC over chunks: the hour that repeats in autumn is told apart across the chunks' borders."""
+"""Times of rows over chunks: local time to UTC, with the hour that repeats in autumn told apart across the chunks'
+borders; and times of day without a date, counted from the first."""
 
 from __future__ import annotations
 
@@ -7,9 +8,10 @@ from datetime import UTC, datetime
 import numpy as np
 
 from thermodata.plugin import Int1D
-from thermodata.reader.zone import local_to_utc_ns
+from thermodata.reader.zone import NAT, local_to_utc_ns
 
 _NEAR = 3 * 3600 * 10**9
+_HALF_DAY = 12 * 3600 * 10**9
 
 
 class LocalClock:
@@ -38,3 +40,29 @@ class LocalClock:
         assert self.timezone is not None
         when = datetime.fromtimestamp(local_ns // 10**9, UTC).replace(tzinfo=ZoneInfo(self.timezone))
         return when.replace(fold=0).utcoffset() != when.replace(fold=1).utcoffset()
+
+
+class DayCount:
+    """Times of day without a date, in file order: they count from the first, and each step back by half a day or more
+    is the next midnight."""
+
+    NOTE = "times of day without a date: counted from the first row"
+
+    def __init__(self) -> None:
+        self._first: int | None = None
+        self._last = 0
+        self._nights = 0
+
+    def relative(self, of_day_ns: Int1D) -> Int1D:
+        """Nanoseconds since the first of all, shape (n,); NAT stays."""
+        good = of_day_ns != NAT
+        values = of_day_ns[good]
+        result = of_day_ns.copy()
+        if values.size:
+            if self._first is None:
+                self._first = self._last = int(values[0])
+            steps = np.diff(values, prepend=self._last)
+            nights = self._nights + np.cumsum(steps < -_HALF_DAY)
+            result[good] = values + nights * 2 * _HALF_DAY - self._first
+            self._last, self._nights = int(values[-1]), int(nights[-1])
+        return result

@@ -153,7 +153,9 @@ def decimal_mark(cells: Iterable[str]) -> str | None:
 @lru_cache(maxsize=1)
 def null_words() -> tuple[str, ...]:
     """`EMPTY` as a parser takes it that minds the case: as it stands, in capitals and as a title."""
-    return tuple(sorted({form(word) for word in EMPTY for form in (str, str.upper, str.title, str.capitalize)} | {"NaN"}))
+    return tuple(
+        sorted({form(word) for word in EMPTY for form in (str, str.upper, str.title, str.capitalize)} | {"NaN"})
+    )
 
 
 @dataclass(frozen=True, slots=True)

@@ -185,7 +185,9 @@ def _shared_texts(column: Any) -> Values:
     none = np.zeros(len(column), bool)
     parts = []
     for chunk in column.chunks:
-        words = np.array([*((w.strip().strip('"').strip() or None) for w in chunk.dictionary.to_pylist()), None], object)
+        words = np.array(
+            [*((w.strip().strip('"').strip() or None) for w in chunk.dictionary.to_pylist()), None], object
+        )
         parts.append(words[chunk.indices.fill_null(len(words) - 1).to_numpy(zero_copy_only=False)])
     return Values(np.concatenate(parts) if parts else np.empty(0, object), none, none)
 

@@ -1,4 +1,6 @@
-"""Time as controls write it: a pattern a column, read for whole columns at once.
+"""Dates and times as text: a pattern a column, read for whole columns at once.
+
+Years of two digits are 1969 to 2068, as POSIX has them. Times without an offset are local: `local_clock` resolves them.
 
 Cells of one width share the places of their digits, so a column is read as a byte matrix; only the rows that
 differ go through the regular expression one by one.
@@ -7,8 +9,8 @@ differ go through the regular expression one by one.
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
-from datetime import date
+from dataclasses import dataclass, replace
+from datetime import UTC, date, datetime, timedelta
 from typing import Any
 
 import numpy as np
@@ -18,19 +20,23 @@ from thermodata.errors import FormatError
 from thermodata.plugin import Int1D
 from thermodata.reader.zone import NAT
 
+CENTURY = 69  # years of two digits below it are of this one: 1969 to 2068, as strptime's %y
 _S = 1_000_000_000
 _DAY = 86_400 * _S
 _EPOCH = date(1970, 1, 1)
 _DAYS_IN_MONTH = np.array([0, 31, 29, 31, 30, 31, 30, 31, 31, 30, 31, 30, 31])
 
-_TIME = r"(?P<H>\d{1,2}):(?P<M>\d{2})(?::(?P<S>\d{2})(?:[.,:](?P<f>\d{1,9}))?)?(?:\s?(?P<p>[AaPp]\.?[Mm]\.?))?"
+# hours to seconds; more digits than nanoseconds are cut
+_TIME = r"(?P<H>\d{1,2}):(?P<M>\d{2})(?::(?P<S>\d{2})(?:[.,:](?P<f>\d{1,9})\d*)?)?(?:\s*(?P<p>[AaPp]\.?[Mm]\.?))?"
+_YEAR = r"(?:(?P<Y>\d{4})|(?P<y>\d{2}))"
 _DATES = {
-    "ymd": r"(?P<Y>\d{4})(?P<s>[-/.])(?P<m>\d{1,2})(?P=s)(?P<d>\d{1,2})",
-    "dmy": r"(?P<d>\d{1,2})(?P<s>[-/.]) ?(?P<m>\d{1,2})(?P=s) ?(?:(?P<Y>\d{4})|(?P<y>\d{2}))",
-    "cjk": r"(?P<Y>\d{4})年(?P<m>\d{1,2})月(?P<d>\d{1,2})日",
-    "mdy": r"(?P<m>\d{1,2})(?P<s>[-/.]) ?(?P<d>\d{1,2})(?P=s) ?(?:(?P<Y>\d{4})|(?P<y>\d{2}))",
+    "ymd": r"(?P<Y>\d{4})(?P<s>[-/.]) ?(?P<m>\d{1,2})(?P=s) ?(?P<d>\d{1,2})",
+    "dmy": rf"(?P<d>\d{{1,2}})(?P<s>[-/.]) ?(?P<m>\d{{1,2}})(?P=s) ?{_YEAR}",
+    "cjk": r"(?P<Y>\d{4})[年년] ?(?P<m>\d{1,2})[月월] ?(?P<d>\d{1,2})[日일]",
+    "mdy": rf"(?P<m>\d{{1,2}})(?P<s>[-/.]) ?(?P<d>\d{{1,2}})(?P=s) ?{_YEAR}",
 }
-_ZONE = r"(?P<z>\s?(?:Z|UTC|[+-]\d{2}:?\d{2}))?"
+_BETWEEN = r"(?:,?\s*[T_-]?\s*)"
+_ZONE = r"(?P<z>\s*(?:Z|UTC|GMT|[+-]\d{2}(?::?\d{2})?))"
 _STRPTIME = {
     "Y": r"(?P<Y>\d{4})",
     "y": r"(?P<y>\d{2})",
@@ -42,43 +48,67 @@ _STRPTIME = {
     "S": r"(?P<S>\d{1,2})",
     "f": r"(?P<f>\d{1,9})",
     "p": r"(?P<p>[AaPp]\.?[Mm]\.?)",
-    "z": r"(?P<z>Z|[+-]\d{2}:?\d{2})",
+    "z": r"(?P<z>Z|UTC|[+-]\d{2}(?::?\d{2})?)",
     "%": "%",
 }
+_ISO = re.compile(r"^\d{4}-\d\d-\d\d[T ]\d\d:\d\d(:\d\d(\.\d{1,9})?)?$", re.ASCII)
+_FIRST_NS, _LAST_NS = ((date(year, 1, 1) - _EPOCH).days * _DAY for year in (1900, 2201))
+_CALENDAR = frozenset("YymdbBjGVUWu")  # letters of a declared format that Python reads, cell by cell
+_OTHERS = frozenset("bBaAjGVUWuwZcxX")
 
 
 @dataclass(frozen=True, slots=True)
 class TimeFormat:
     """How the cells of one time column read. role: datetime, date, time, millisecond, offset (milliseconds since a
-    start), or relative (numbers)."""
+    start), or relative (numbers). zoned: whether the cells name their offset from UTC: None where either may come."""
 
     role: str
     pattern: re.Pattern[str] | None
     text: str  # for messages: "DD.MM.YYYY HH:MM:SS"
-    unit_ns: int = 0  # relative: nanoseconds a unit
+    body: str = ""  # the pattern without a zone
+    zoned: bool | None = None
+    strptime: str | None = None  # a declared format with names of months and the like
 
 
 def _compile(body: str) -> re.Pattern[str]:
     return re.compile(r"\s*" + body + r"\s*", re.ASCII)
 
 
-TIME_OF_DAY = TimeFormat("time", _compile(_TIME + _ZONE), "HH:MM:SS")
-OFFSET_MS = TimeFormat("offset", _compile(r"(?P<oms>\d{1,12})(?:\.(?P<of>\d{1,6})\d*|\.)?"), "milliseconds")
-MILLISECOND = TimeFormat("millisecond", _compile(r"(?P<ms>\d{1,3})"), "0...999")
-DATE = {
-    o: TimeFormat(
-        "date", _compile(p), {"ymd": "YYYY-MM-DD", "dmy": "DD.MM.YYYY", "mdy": "MM/DD/YYYY", "cjk": "YYYY年MM月DD日"}[o]
-    )
-    for o, p in _DATES.items()
-}
+def _format(role: str, body: str, text: str, zone: bool = True) -> TimeFormat:
+    return TimeFormat(role, _compile(body + (f"{_ZONE}?" if zone else "")), text, body)
+
+
+TIME_OF_DAY = _format("time", _TIME, "HH:MM:SS")
+OFFSET_MS = _format("offset", r"(?P<oms>\d{1,12})(?:\.(?P<of>\d{1,6})\d*|\.)?", "milliseconds", zone=False)
+MILLISECOND = _format("millisecond", r"(?P<ms>\d{1,3})", "0...999", zone=False)
+_TEXTS = {"ymd": "YYYY-MM-DD", "dmy": "DD.MM.YYYY", "mdy": "MM/DD/YYYY", "cjk": "YYYY年MM月DD日"}
+DATE = {order: _format("date", body, _TEXTS[order], zone=False) for order, body in _DATES.items()}
 DATETIME = {
-    o: TimeFormat("datetime", _compile(p + r"(?:[T,]?\s*|\s+)" + _TIME + _ZONE), f"{DATE[o].text} HH:MM:SS")
-    for o, p in _DATES.items()
+    order: _format("datetime", body + _BETWEEN + _TIME, f"{_TEXTS[order]} HH:MM:SS") for order, body in _DATES.items()
 }
+
+
+def with_zone(form: TimeFormat, zoned: bool) -> TimeFormat:
+    """The same format for cells that all name their offset from UTC, or that none of them does: a column's zone is one
+    thing for all of its rows."""
+    if form.role not in ("datetime", "time") or not form.body:
+        return form
+    text = form.text + (" and an offset from UTC" if zoned else "")
+    return replace(form, pattern=_compile(form.body + (_ZONE if zoned else "")), zoned=zoned, text=text)
+
+
+def is_zoned(cell: str, form: TimeFormat) -> bool:
+    """Whether a cell names its offset from UTC."""
+    match = form.pattern.fullmatch(cell) if form.pattern is not None else None
+    return bool(match is not None and match.groupdict().get("z"))
 
 
 def declared_format(text: str) -> TimeFormat:
     """The format that a campaign file declares in strptime's letters; FormatError for a letter that is none."""
+    letters = set(re.findall(r"%(.)", text))
+    if letters - _STRPTIME.keys() and letters <= _STRPTIME.keys() | _OTHERS:
+        role = "datetime" if letters & set("HIcX") else "date"
+        return TimeFormat(role, None, text, zoned="z" in letters or None, strptime=text)
     body, used = "", set()
     for part in re.findall(r"%.?|[^%]+", text):
         if not part.startswith("%"):
@@ -88,14 +118,27 @@ def declared_format(text: str) -> TimeFormat:
             used.add(part[1:])
         else:
             raise FormatError(
-                f"time format '{text}' cannot be used", expected="%Y %y %m %d %H %I %M %S %f %p %z", got=part
+                f"time format '{text}' cannot be used", expected="%Y %y %m %d %b %H %I %M %S %f %p %z", got=part
             )
-    day, clock = bool(used & {"Y", "y"}), bool(used & {"H", "I"})
+    day, clock = bool(used & _CALENDAR), bool(used & {"H", "I"})
     try:
         pattern = _compile(body)
     except re.error as error:
         raise FormatError(f"time format '{text}' cannot be used", got=str(error)) from None
     return TimeFormat("datetime" if day and clock else "date" if day else "time", pattern, text)
+
+
+def is_dated(cell: str) -> bool:
+    """Whether a text is a date, with or without a time of day."""
+    return any(
+        form.pattern is not None and form.pattern.fullmatch(cell) for form in (*DATE.values(), *DATETIME.values())
+    )
+
+
+def is_time_of_day(cell: str) -> bool:
+    """Whether a text is a time of day without a date."""
+    assert TIME_OF_DAY.pattern is not None
+    return TIME_OF_DAY.pattern.fullmatch(cell) is not None
 
 
 def parse(cells: Any, form: TimeFormat) -> Int1D:
@@ -112,7 +155,10 @@ def parse(cells: Any, form: TimeFormat) -> Int1D:
     result = np.full(n, NAT, np.int64)
     if not n:
         return result
-    assert form.pattern is not None
+    if form.pattern is None:
+        return _by_strptime(column.to_pylist(), form)
+    if (iso := _iso(column, form)) is not None:
+        return iso
     _, offsets_buffer, data_buffer = column.buffers()
     if data_buffer is None:
         return result
@@ -141,8 +187,40 @@ def parse(cells: Any, form: TimeFormat) -> Int1D:
     return result
 
 
+def _iso(column: Any, form: TimeFormat) -> Int1D | None:
+    """2026-03-01 08:00:00.125 and the like by Arrow's own parser; None where a cell is written in another way."""
+    import pyarrow as pa
+
+    if form.role != "datetime" or form.zoned or column.null_count or _ISO.match(column[0].as_py()) is None:
+        return None
+    if form.pattern is None or form.pattern.fullmatch(column[0].as_py()) is None:
+        return None
+    try:
+        cast = column.cast(pa.timestamp("ns"))
+    except pa.ArrowException:
+        return None
+    ns: Int1D = np.frombuffer(cast.buffers()[1], np.int64, len(cast), cast.offset * 8)
+    return ns if _FIRST_NS <= int(ns.min()) and int(ns.max()) < _LAST_NS else None
+
+
+def _by_strptime(cells: list[str | None], form: TimeFormat) -> Int1D:
+    """Cells of a declared format with names of months and the like, each different one once."""
+    known: dict[str, int] = {}
+    for cell in {c or "" for c in cells}:
+        try:
+            moment = datetime.strptime(cell.strip(), form.strptime or "")
+        except ValueError:
+            known[cell] = NAT
+            continue
+        since = moment.replace(tzinfo=moment.tzinfo or UTC) - datetime(1970, 1, 1, tzinfo=UTC)
+        known[cell] = since // timedelta(microseconds=1) * 1000
+    return np.array([known[c or ""] for c in cells], np.int64)
+
+
 def parse_one(cell: str, form: TimeFormat) -> int:
     """One cell; NAT where it is no time."""
+    if form.strptime is not None:
+        return int(_by_strptime([cell], form)[0])
     match = form.pattern.fullmatch(cell) if form.pattern else None
     if match is None:
         return NAT
@@ -153,7 +231,7 @@ def parse_one(cell: str, form: TimeFormat) -> int:
         return int(g["oms"]) * 1_000_000 + int((g["of"] or "0").ljust(6, "0"))
     total = 0
     if g.get("m") is not None:
-        year = int(g["Y"]) if g.get("Y") else int(g["y"]) + (2000 if int(g["y"]) < 80 else 1900)
+        year = int(g["Y"]) if g.get("Y") else int(g["y"]) + (2000 if int(g["y"]) < CENTURY else 1900)
         if not 1900 <= year <= 2200:
             return NAT
         try:
@@ -207,7 +285,7 @@ def _assemble(fields: dict[str, npt.NDArray[np.int64]], match: re.Match[str]) ->
     if "m" in fields:
         year = fields.get("Y")
         if year is None:
-            year = fields["y"] + np.where(fields["y"] < 80, 2000, 1900)
+            year = fields["y"] + np.where(fields["y"] < CENTURY, 2000, 1900)
         month, day = fields["m"], fields.get("d", np.ones(size, np.int64))
         bad |= (month < 1) | (month > 12) | (year < 1900) | (year > 2200) | (day < 1)
         safe = np.clip(month, 1, 12)
@@ -234,7 +312,7 @@ def offset_ns(text: str) -> int:
     if text[0] not in "+-":
         return 0
     digits = text[1:].replace(":", "")
-    return (-1 if text[0] == "-" else 1) * (int(digits[:2]) * 3600 + int(digits[2:]) * 60) * _S
+    return (-1 if text[0] == "-" else 1) * (int(digits[:2]) * 3600 + int(digits[2:] or 0) * 60) * _S
 
 
 def _days(year: Int1D, month: Int1D, day: Int1D) -> Int1D:

@@ -1,0 +1,138 @@
+"""Times written as numbers: seconds, minutes, ... from any start, or counted from a date (datenum, Excel, Unix).
+
+The one list of units of time, for readers of text and of arrays alike.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from thermodata.errors import FormatError
+from thermodata.plugin import Array, Int1D
+from thermodata.reader.zone import NAT
+
+_DAY = 86400.0
+SECONDS = {
+    "s": 1.0,
+    "sec": 1.0,
+    "sek": 1.0,
+    "second": 1.0,
+    "seconds": 1.0,
+    "sekunden": 1.0,
+    "secs": 1.0,
+    "min": 60.0,
+    "minute": 60.0,
+    "minutes": 60.0,
+    "minuten": 60.0,
+    "mins": 60.0,
+    "h": 3600.0,
+    "hr": 3600.0,
+    "hrs": 3600.0,
+    "hod": 3600.0,
+    "std": 3600.0,
+    "hour": 3600.0,
+    "hours": 3600.0,
+    "stunden": 3600.0,
+    "d": _DAY,
+    "day": _DAY,
+    "days": _DAY,
+    "ms": 1e-3,
+    "msec": 1e-3,
+    "us": 1e-6,
+    "µs": 1e-6,
+    "μs": 1e-6,
+    "usec": 1e-6,
+    "ns": 1e-9,
+    "秒": 1.0,
+    "分": 60.0,
+    "小时": 3600.0,
+    "時間": 3600.0,
+}
+
+
+@dataclass(frozen=True, slots=True)
+class Epoch:
+    """seconds: of one unit; zero_s: its zero on the Unix scale [s]; local: in the time of the place, not in UTC."""
+
+    seconds: float
+    zero_s: int
+    local: bool
+
+
+EPOCHS = {
+    "datenum": Epoch(_DAY, -719529 * 86400, True),
+    "excel": Epoch(_DAY, -25569 * 86400, True),
+    "excel1904": Epoch(_DAY, -24107 * 86400, True),
+    "unix": Epoch(1.0, 0, False),
+    "posix": Epoch(1.0, 0, False),
+    "unix_ms": Epoch(1e-3, 0, False),
+    "unix_us": Epoch(1e-6, 0, False),
+    "unix_ns": Epoch(1e-9, 0, False),
+    "labview": Epoch(1.0, -2082844800, False),
+    "filetime": Epoch(1e-7, -11644473600, False),
+}
+_REACH_S = 9e9
+
+
+def check_unit(text: str, where: str) -> str:
+    """A unit of time in lower case; FormatError with the known ones where it is none."""
+    low = text.strip().strip("[]()").lower()
+    if low in SECONDS or low in EPOCHS:
+        return low
+    raise FormatError(
+        f"unknown unit of time '{text}'",
+        where=where,
+        got=text,
+        expected=", ".join(k for k in SECONDS if k.isascii()) + "; or, counted from a date, " + ", ".join(EPOCHS),
+    )
+
+
+def is_absolute(unit: str) -> bool:
+    return unit in EPOCHS
+
+
+def to_ns(values: Array, seconds: float, zero_s: int = 0) -> Int1D:
+    """Nanoseconds of a count of units; NAT where it is no number or beyond 285 years."""
+    out = np.full(values.shape, NAT, np.int64)
+    if values.dtype.kind in "iu":
+        each = round(seconds * 1e9)
+        low, high = (int((sign * _REACH_S - zero_s) / seconds) for sign in (-1, 1))
+        whole = (values >= max(low, np.iinfo(np.int64).min)) & (values <= min(high, np.iinfo(np.int64).max))
+        out[whole] = values[whole].astype(np.int64) * each + zero_s * 1_000_000_000
+        return out
+    with np.errstate(over="ignore", invalid="ignore"):
+        full = values.astype(np.float64)
+        good = np.isfinite(full) & (np.abs(full * seconds + zero_s) < _REACH_S) & (np.abs(full * seconds) < 1e12)
+    base = np.floor(full[good])
+    part = full[good] - base  # exact: the whole and the fraction keep all digits of the double
+    if seconds >= 1:
+        out[good] = (base.astype(np.int64) * round(seconds) + zero_s) * 1_000_000_000 + np.rint(
+            part * (seconds * 1e9)
+        ).astype(np.int64)
+    else:
+        each = round(seconds * 1e9)
+        out[good] = base.astype(np.int64) * each + zero_s * 1_000_000_000 + np.rint(part * each).astype(np.int64)
+    return out
+
+
+def found_epoch(values: Array) -> str | None:
+    """Which count from a date numbers without a unit are, where their size leaves no other sense: MATLAB's datenum
+    (from 1862 to 2135), Unix time or LabVIEW's seconds since 1904 (2000 to 2035 both)."""
+    full = values.astype(np.float64)
+    full = full[np.isfinite(full)]
+    if not full.size:
+        return None
+    low, high = float(full.min()), float(full.max())
+    for unit, first, last in (
+        ("datenum", 680_000, 780_000),
+        ("unix", 9.4e8, 2.1e9),
+        ("labview", 3.0e9, 4.2e9),
+        ("unix_ms", 9.4e11, 2.1e12),
+        ("unix_us", 9.4e14, 2.1e15),
+        ("unix_ns", 9.4e17, 2.1e18),
+    ):
+        if first <= low <= high <= last and (unit != "datenum" or high - low < 4000):
+            return unit
+    return None
