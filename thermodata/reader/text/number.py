@@ -125,8 +125,10 @@ def why_none(cell: str, kind: str, decimal: str = ".") -> str:
 
 def is_number(cell: str) -> bool:
     """Whether a cell is a number with either decimal mark."""
-    text = clean(cell)
-    return any(to_float(text, mark, declared=True) is not None for mark in ".,") and to_bool(text) is None
+    text = _PADDED_SIGN.sub(r"\1", clean(cell))
+    if any(pattern.fullmatch(text) for pattern in (*_PLAIN.values(), _INFINITE)):
+        return True
+    return any(p.fullmatch(text) for patterns in (_PARTED, _GROUPED) for p in patterns.values())
 
 
 def decimal_mark(cells: Iterable[str]) -> str | None:

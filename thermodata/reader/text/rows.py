@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import csv
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -54,17 +54,25 @@ class BadLine:
 @dataclass(frozen=True, slots=True)
 class Rows:
     """line: of each row, 0-based in the file, rising, shape (n,). columns: what each wanted column holds; times: the
-    cells of TIME columns as an Arrow array. nul: (line, how many bytes of zero) where such stood in or before a row."""
+    cells of TIME columns as an Arrow array. nul: (line, how many bytes of zero) where such stood in or before a row.
+    short: lines of the rows that have fewer cells than columns, shape (k,)."""
 
     line: Int1D
     columns: dict[int, Values]
     times: dict[int, Any]
     bad: tuple[BadLine, ...] = ()
     nul: tuple[tuple[int, int], ...] = ()
+    short: Int1D = field(default_factory=lambda: np.empty(0, np.int64))
 
     @property
     def n(self) -> int:
         return int(self.line.size)
+
+    def before(self, line: int) -> Rows:
+        """What stands before a line of the file."""
+        rows = _taken(self, np.flatnonzero(self.line < line))
+        bad, nul = tuple(b for b in self.bad if b.line < line), tuple(n for n in self.nul if n[0] < line)
+        return replace(rows, bad=bad, nul=nul, short=rows.short[rows.short < line])
 
 
 def parse(data: bytes, line: int, grid: Grid) -> Rows:
@@ -161,7 +169,8 @@ def _typed(data: bytes, line: int, grid: Grid) -> Rows | None:
         for i, kind in enumerate(grid.kinds)
         if kind == TIME
     }
-    rows = Rows(np.arange(line, line + table.num_rows, dtype=np.int64), columns, times)
+    lines = np.arange(line, line + table.num_rows, dtype=np.int64)
+    rows = Rows(lines, columns, times, short=lines if width < grid.width else lines[:0])
     return _without_empty_lines(rows, data) if b"\n\n" in data or b"\n\r\n" in data or data[:1] in b"\r\n" else rows
 
 
@@ -217,19 +226,18 @@ def _as_text(data: bytes, line: int, grid: Grid) -> Rows | None:
     side, bad = _Cells(grid), list[BadLine]()
     numbers = np.array([row.number - 1 for row in invalid], np.int64)
     for row in invalid:
-        cells = side.fitting(fields(row.text.rstrip("\r"), grid.delimiter, grid.quoted))
-        if cells is None:
-            if row.text.strip():
-                size = len(row.text.encode())
-                bad.append(BadLine(line + row.number - 1, row.actual_columns, row.text[:_SHOWN].rstrip("\r"), size))
-        else:
-            side.add(line + row.number - 1, cells)
+        cells = fields(row.text.rstrip("\r"), grid.delimiter, grid.quoted)
+        if not side.add(line + row.number - 1, cells) and row.text.strip():
+            size = len(row.text.encode())
+            bad.append(BadLine(line + row.number - 1, row.actual_columns, row.text[:_SHOWN].rstrip("\r"), size))
     lines = np.delete(np.arange(line, line + table.num_rows + len(invalid), dtype=np.int64), numbers)
     cells_of: list[Any] = [None] * grid.width
     for i in wanted:
         column = table.column(str(i)).combine_chunks()
         cells_of[i] = pa.concat_arrays([*_arrays(column), pa.array(side.columns[i], pa.string())])
-    rows = Rows(np.concatenate([lines, np.array(side.lines, np.int64)]), *_converted(cells_of, grid), tuple(bad))
+    columns, times = _converted(cells_of, grid)
+    lines = np.concatenate([lines, np.array(side.lines, np.int64)])
+    rows = Rows(lines, columns, times, tuple(bad), short=np.array(side.short, np.int64))
     order = np.argsort(rows.line, kind="stable")
     return _without_empty_rows(_taken(rows, order) if side.lines else rows, cells_of, order)
 
@@ -285,7 +293,8 @@ def _taken(rows: Rows, which: Int1D) -> Rows:
         for i, v in rows.columns.items()
     }
     index = pa.array(which)
-    return Rows(rows.line[which], columns, {i: t.take(index) for i, t in rows.times.items()}, rows.bad, rows.nul)
+    times = {i: t.take(index) for i, t in rows.times.items()}
+    return replace(rows, line=rows.line[which], columns=columns, times=times)
 
 
 # ---- line by line --------------------------------------------------------------------------------
@@ -297,25 +306,27 @@ class _Cells:
 
     grid: Grid
     lines: list[int] = field(default_factory=list)
+    short: list[int] = field(default_factory=list)
     columns: list[list[str]] = field(init=False)
 
     def __post_init__(self) -> None:
         self.columns = [[] for _ in self.grid.kinds]
 
-    def fitting(self, cells: list[str]) -> list[str] | None:
-        """The cells of a row, as many as it should have; None where a line is none: empty cells behind its last column
-        are nothing, and those that a row may lack are empty."""
+    def add(self, line: int, cells: Sequence[str]) -> bool:
+        """Takes a row; False where a line is none: empty cells behind its last column are nothing, and those that a row
+        may lack are empty."""
         width = self.grid.width
         if len(cells) > width and not any(c.strip() for c in cells[width:]):
             cells = cells[:width]
-        if len(cells) < width and self.grid.least is not None and len(cells) >= self.grid.least:
-            cells = cells + [""] * (width - len(cells))
-        return cells if len(cells) == width else None
-
-    def add(self, line: int, cells: Sequence[str]) -> None:
+        if self.grid.least is not None and self.grid.least <= len(cells) < width:
+            self.short.append(line)
+            cells = [*cells, *[""] * (width - len(cells))]
+        if len(cells) != width:
+            return False
         self.lines.append(line)
         for column, cell in zip(self.columns, cells, strict=True):
             column.append(cell)
+        return True
 
 
 def _line_by_line(data: bytes, line: int, grid: Grid) -> Rows:
@@ -326,21 +337,19 @@ def _line_by_line(data: bytes, line: int, grid: Grid) -> Rows:
             nul.append((number, text.count("\0")))
         if not bare.strip(f"{grid.delimiter} \t\r\n"):
             continue
-        cells = rows.fitting(_cells(bare, grid))
-        if cells is None:
+        if not rows.add(number, _cells(bare, grid)):
             size = len(text.encode("utf-8", "replace"))
             bad.append(BadLine(number, bare.count(grid.delimiter) + 1, bare[:_SHOWN], size))
-        else:
-            rows.add(number, cells)
-    found = Rows(np.array(rows.lines, np.int64), *_converted(rows.columns, grid))
-    return Rows(found.line, found.columns, found.times, tuple(bad), tuple(nul))
+    columns, times = _converted(rows.columns, grid)
+    lines, short = np.array(rows.lines, np.int64), np.array(rows.short, np.int64)
+    return Rows(lines, columns, times, tuple(bad), tuple(nul), short)
 
 
 def _cells(record: str, grid: Grid) -> list[str]:
     if "\n" not in record:
         return fields(record, grid.delimiter, grid.quoted)
     try:
-        return next(csv.reader(record.split("\n"), delimiter=grid.delimiter), [""])
+        return next(csv.reader((f"{line}\n" for line in record.split("\n")), delimiter=grid.delimiter), [""])
     except csv.Error:
         return record.split(grid.delimiter)
 
