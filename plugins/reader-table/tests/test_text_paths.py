@@ -9,10 +9,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from thermodata_reader_table import Reader
-from thermodata.reader.time_units import to_ns
 
 from thermodata.errors import FormatError
 from thermodata.plugin import Source
+from thermodata.reader.time_units import to_ns
 from thermodata.testing.reader import Data, load
 
 PRAGUE = Source(timezone="Europe/Prague")

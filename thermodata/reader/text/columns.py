@@ -1,4 +1,4 @@
-"""What the value columns of a table hold, told from sampled cells: numbers, truth values, integers beyond a float, text."""
+"""What the value columns of a table hold, told from sampled cells: numbers, truth values, big integers, text."""
 
 from __future__ import annotations
 

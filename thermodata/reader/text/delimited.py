@@ -69,7 +69,7 @@ def describe(table: Table, source: Source) -> Recording:
 
 
 def _zone_notes(table: Table, source: Source, start: int) -> list[str]:
-    """What the zone of local times had to decide; whether daylight saving changes between the first row and the last."""
+    """What the zone of local times had to decide, and whether daylight saving changes from the first row to the last."""
     timed = table.groups[0]
     if timed.zoned or (timed.group.epoch is not None):
         return []
@@ -83,7 +83,8 @@ def _zone_notes(table: Table, source: Source, start: int) -> list[str]:
     if len(offsets) < 2:
         return []
     return [
-        f"daylight saving of {source.timezone} changes in this file; rows of a repeated hour are told apart by their order"
+        f"daylight saving of {source.timezone} changes in this file; rows of a repeated hour are told apart by their "
+        "order"
     ]
 
 

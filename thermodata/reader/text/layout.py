@@ -8,7 +8,6 @@ from dataclasses import dataclass, replace
 from typing import Any, Literal
 
 from thermodata.errors import FormatError, UsageError
-from thermodata.plugin import Int1D
 from thermodata.reader.text.cell import WORDS, Cell, is_dated, is_empty, is_number, is_stamp
 from thermodata.reader.text.header import looks_like_unit, split_unit
 from thermodata.reader.text.number import clean

@@ -26,8 +26,11 @@ from thermodata.errors import FormatError
 from thermodata.plugin import Array, Bool1D
 
 EMPTY = frozenset(
-    "|-|--|---|----|*|***|****|?|???|na|n/a|#n/a|n.a.|#nv|null|none|nan|+nan|-nan|nan(ind)|-nan(ind)|1.#qnan|-1.#qnan|"
-    "1.#ind|-1.#ind|1,#qnan|-1,#qnan|1,#ind|-1,#ind|unavailable".split("|")
+    (
+        *("", "-", "--", "---", "----", "*", "***", "****", "?", "???", "null", "none", "unavailable"),
+        *("na", "n/a", "#n/a", "n.a.", "#nv", "nan", "+nan", "-nan", "nan(ind)", "-nan(ind)"),
+        *("1.#qnan", "-1.#qnan", "1.#ind", "-1.#ind", "1,#qnan", "-1,#qnan", "1,#ind", "-1,#ind"),
+    )
 )
 OVERLOAD = frozenset(
     sign + word

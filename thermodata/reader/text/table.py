@@ -29,7 +29,7 @@ _TYPED_ROWS = 2000  # of the head, by which columns are typed
 
 @dataclass(frozen=True, slots=True)
 class TimedGroup:
-    """Columns with one time, and how that is written. stream: its name; formats: one a time column, none for numbers."""
+    """Columns with one time, and how that is written. formats: one a time column, none for numbers."""
 
     stream: str
     group: Group
@@ -180,7 +180,18 @@ def find_table(head: Sequence[str], first: Sample, source: Source, where: str, s
     header = frozenset(line.strip() for line in head[: layout.first] if line.strip())
     notes = tuple(dict.fromkeys([*([first.note] if first.note else []), *layout.notes, *_notes(layout, kinds, groups)]))
     return Table(
-        where, first, delimiter, quoted, layout, groups, tuple(kinds), decimal, declared is not None, header, quality, notes
+        name=where,
+        sample=first,
+        delimiter=delimiter,
+        quoted=quoted,
+        layout=layout,
+        groups=groups,
+        kinds=tuple(kinds),
+        decimal=decimal,
+        decimal_declared=declared is not None,
+        header=header,
+        quality=quality,
+        notes=notes,
     )
 
 

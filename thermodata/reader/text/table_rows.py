@@ -10,7 +10,6 @@ import numpy as np
 
 from thermodata.plugin import Array, Block, Bool1D, Int1D, Loss, Source
 from thermodata.reader.text import timestamp
-from thermodata.reader.text.table import Table, TimedGroup
 from thermodata.reader.text.delimiter import fields
 from thermodata.reader.text.lines import ODD, Chunk, last_line_is_whole
 from thermodata.reader.text.local_clock import DayCount, LocalClock
@@ -18,6 +17,7 @@ from thermodata.reader.text.losses import Losses
 from thermodata.reader.text.number import clean, to_float, why_none
 from thermodata.reader.text.quality_columns import bad_rows
 from thermodata.reader.text.rows import Rows, parse
+from thermodata.reader.text.table import Table, TimedGroup
 from thermodata.reader.time_units import EPOCHS, to_ns
 from thermodata.reader.zone import NAT
 from thermodata.schema.flag import Flag

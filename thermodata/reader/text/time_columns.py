@@ -15,6 +15,9 @@ from thermodata.reader.text.time_formats import MILLISECONDS
 from thermodata.reader.time_units import SECONDS, check_unit, found_epoch
 
 
+_FRACTION = re.compile(r":\d\d:\d\d[.,:]\d+\s*([AaPp]\.?[Mm]\.?)?$")
+
+
 def column(wanted: int | str, names: Sequence[str], where: str) -> int:
     """The place of a declared column (1-based, or by its name), from 0."""
     if isinstance(wanted, int):
@@ -135,6 +138,6 @@ def _milliseconds(column: int, names: list[str], times: Sequence[Cell], data: li
     if column >= len(names) or not MILLISECONDS.match(names[column]):
         return ()
     pairs = [(t, r[column]) for t, r in zip(times, data, strict=True) if is_stamp(t)]  # a repeated header is none
-    whole = all(isinstance(t, str) and not re.search(r":\d\d:\d\d[.,:]\d+\s*([AaPp]\.?[Mm]\.?)?$", t.strip()) for t, _ in pairs)
+    whole = all(isinstance(t, str) and not _FRACTION.search(t.strip()) for t, _ in pairs)
     good = all(isinstance(c, str) and re.match(r"^\d{1,3}$", c.strip()) for _, c in pairs)
     return (column,) if pairs and whole and good else ()

@@ -9,6 +9,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 import numpy.typing as npt
@@ -50,7 +51,7 @@ def find_formats(
     columns: Sequence[Sequence[str]],
     declared: str | None,
     where: str,
-    more: Callable[[int], Sequence[str]] | None = None,
+    more: Callable[[int], Sequence[str]] = lambda k: (),
 ) -> tuple[TimeFormat, ...]:
     """The format of each time column of one time (a date and a time of day add up).
 
@@ -70,7 +71,7 @@ def find_formats(
         for text in wanted[k : k + 1] if len(wanted) == len(columns) else wanted:
             own = timestamp.declared_format(text)
             form = own if len(columns) == 1 or share(_spread(cells, _FEW), own) > 0.5 else form
-        form = form or _found(cells, where, name, (lambda k=k: more(k)) if more is not None else tuple)  # type: ignore[misc]
+        form = form or _found(cells, where, name, partial(more, k))
         forms.append(_zoned(form, cells))
     return tuple(forms)
 

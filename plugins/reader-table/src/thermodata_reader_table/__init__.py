@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from types import ModuleType
 
-from thermodata.errors import FormatError, ThermodataError
+from thermodata.errors import FormatError
 from thermodata.plugin import Block, Head, Loss, Recording, Source
 
 

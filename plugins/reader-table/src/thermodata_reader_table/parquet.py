@@ -13,14 +13,14 @@ import numpy as np
 from thermodata.errors import FormatError
 from thermodata.plugin import Array, Block, Int1D, Loss, Recording, Signal, Source
 from thermodata.reader.text import split_unit
-from thermodata.reader.zone import NAT
-from thermodata_reader_table import stamps
-from thermodata.reader.time_units import check_unit, found_epoch
-from thermodata.reader.text.time_formats import times_of_numbers
-from thermodata.reader.text.time_groups import one_time
 from thermodata.reader.text.layout import unique
 from thermodata.reader.text.time_columns import column as find_column
 from thermodata.reader.text.time_columns import find_time
+from thermodata.reader.text.time_formats import times_of_numbers
+from thermodata.reader.text.time_groups import one_time
+from thermodata.reader.time_units import check_unit, found_epoch
+from thermodata.reader.zone import NAT
+from thermodata_reader_table import stamps
 
 STREAM = "table"
 _ROWS = 250_000
