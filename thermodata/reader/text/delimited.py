@@ -69,7 +69,7 @@ def describe(table: Table, source: Source) -> Recording:
 
 
 def _zone_notes(table: Table, source: Source, start: int) -> list[str]:
-    """What the zone of local times had to decide, and whether daylight saving changes from the first row to the last."""
+    """What the zone of local times had to decide; whether daylight saving changes between first and last row."""
     timed = table.groups[0]
     if timed.zoned or (timed.group.epoch is not None):
         return []

@@ -24,6 +24,7 @@ import numpy as np
 
 from thermodata.errors import FormatError
 from thermodata.plugin import Array, Bool1D
+from thermodata.reader.text import arrow
 
 EMPTY = frozenset(
     (
@@ -39,6 +40,7 @@ OVERLOAD = frozenset(
 )
 TRUE = frozenset({"true", "wahr"})
 FALSE = frozenset({"false", "falsch"})
+_FEW = 100  # cells below which the way through Arrow costs more than it saves
 EXACT = 2**53  # up to here a float64 holds every integer
 
 _PLAIN = {
@@ -178,6 +180,8 @@ class Values:
 def values_of(column: Any, kind: str, decimal: str = ".", declared: bool = False) -> Values:
     """The cells of a column by the policy. column: an Arrow array of strings, or a sequence of str; kind: float64,
     int64, uint64, bool or str."""
+    if kind == "float64" and isinstance(column, list) and len(column) < _FEW:
+        return _one_by_one(column, np.dtype(np.float64), lambda cell: to_float(cell, decimal, declared))
     import pyarrow as pa
 
     cells = column if isinstance(column, pa.Array | pa.ChunkedArray) else pa.array(list(column), pa.string())
@@ -196,7 +200,7 @@ def _texts(cells: Any) -> Values:
     """Text as objects that share their strings; None for a blank cell. Words such as '---' are text like any other."""
     coded = cells.dictionary_encode()
     words = np.array([*((clean(w) or None) for w in coded.dictionary.to_pylist()), None], object)
-    taken = words[coded.indices.fill_null(len(words) - 1).to_numpy(zero_copy_only=False)]
+    taken = words[arrow.codes(coded)]
     none = np.zeros(len(cells), bool)
     return Values(taken, none, none)
 
@@ -208,11 +212,11 @@ def _floats(cells: Any, decimal: str, declared: bool) -> Values:
 
     text = pc.utf8_trim_whitespace(cells.fill_null(""))
     plain = pc.match_substring_regex(text, rf"^-?\d{{1,15}}(?:{re.escape(decimal)}\d{{1,30}})?$")
-    sure = plain.to_numpy(zero_copy_only=False)
+    sure = arrow.values(plain, "bool")
     numbers = pc.if_else(plain, text, "nan")
     if decimal == ",":
         numbers = pc.replace_substring(numbers, ",", ".")
-    values = pc.cast(numbers, pa.float64()).to_numpy(zero_copy_only=False).copy()
+    values = arrow.values(pc.cast(numbers, pa.float64()), "float64")
     rest = np.flatnonzero(~sure)
     if not rest.size:
         none = np.zeros(len(cells), bool)

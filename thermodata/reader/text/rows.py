@@ -14,7 +14,8 @@ from typing import Any
 
 import numpy as np
 
-from thermodata.plugin import Array, Int1D
+from thermodata.plugin import Int1D
+from thermodata.reader.text import arrow
 from thermodata.reader.text.delimiter import fields
 from thermodata.reader.text.number import EXACT, Values, null_words, values_of
 
@@ -179,10 +180,11 @@ def _arrow_values(column: Any, kind: str) -> Values | None:
     if kind == "str":
         return _shared_texts(column)
     none = np.zeros(len(column), bool)
-    empty = none if not column.null_count else column.is_null().to_numpy()
-    if kind != "float64" and column.null_count:
-        column = column.fill_null(False if kind == "bool" else 0)
-    values: Array = column.to_numpy().astype(kind, copy=False)
+    values = arrow.values(column, kind)
+    empty = none
+    if column.null_count:
+        empty = arrow.is_null(column)
+        values[empty] = np.nan if kind == "float64" else 0
     if kind == "float64" and values.size:
         with np.errstate(invalid="ignore"):
             if np.fmax.reduce(np.abs(values)) >= EXACT:
@@ -197,7 +199,7 @@ def _shared_texts(column: Any) -> Values:
         words = np.array(
             [*((w.strip().strip('"').strip() or None) for w in chunk.dictionary.to_pylist()), None], object
         )
-        parts.append(words[chunk.indices.fill_null(len(words) - 1).to_numpy(zero_copy_only=False)])
+        parts.append(words[arrow.codes(chunk)])
     return Values(np.concatenate(parts) if parts else np.empty(0, object), none, none)
 
 
@@ -255,7 +257,7 @@ def _without_empty_rows(rows: Rows, cells_of: Sequence[Any], order: Int1D) -> Ro
     for cells in cells_of:
         if cells is None or not blank.any():
             continue
-        blank &= pc.equal(pc.utf8_trim_whitespace(cells.fill_null("")), "").to_numpy(zero_copy_only=False)
+        blank &= arrow.values(pc.equal(pc.utf8_trim_whitespace(cells.fill_null("")), ""), "bool")
     return _taken(rows, np.flatnonzero(~blank[order])) if blank.any() else rows
 
 

@@ -14,7 +14,6 @@ from thermodata.reader.text.header import split_unit
 from thermodata.reader.text.time_formats import MILLISECONDS
 from thermodata.reader.time_units import SECONDS, check_unit, found_epoch
 
-
 _FRACTION = re.compile(r":\d\d:\d\d[.,:]\d+\s*([AaPp]\.?[Mm]\.?)?$")
 
 

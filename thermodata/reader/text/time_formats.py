@@ -112,7 +112,7 @@ def _order(
     if "." in re.split(r"[ T]", first)[0]:
         return "dmy"
     left = orders
-    for some in (lambda: _spread(cells, _MANY), more):
+    for some in (partial(_spread, cells, _MANY), more):
         shares = {o: share(_dates(some()), forms[o]) for o in left}
         best = max(shares.values())
         left = [o for o in left if shares[o] == best]

@@ -19,7 +19,6 @@ from thermodata.errors import FormatError, ThermodataError, UsageError
 from thermodata.plugin import Array, Block, Bool1D, Int1D, Loss, Recording, Signal, Source
 from thermodata.reader.text.cell import is_empty
 from thermodata.reader.text.layout import STREAM, Group, Layout, find, one_clock
-from thermodata.reader.text.locate import row_at
 from thermodata.reader.text.number import clean, decimal_mark, values_of
 from thermodata.reader.text.time_formats import (
     Stamps,
@@ -178,7 +177,8 @@ class Table:
             if isinstance(cell, int | float):
                 out[i] = cell
             elif isinstance(cell, str):
-                texts.append(i)
+                if cell:
+                    texts.append(i)
             elif cell is not None:
                 odd.append(str(cell))
         if texts:
@@ -314,6 +314,8 @@ def blocks(path: Path, source: Source) -> Iterator[Block | Loss]:
 
 def locate(path: Path, source: Source, stream: str, row: int) -> str | None:
     """`sheet 'data', row 813` of a row (counted from 0) of a stream; None where there is no such row."""
-    sheet = next((s.sheet for s in read(path, source).streams if s.name == stream), None)
-    found = row_at(blocks(path, source), stream, row)
-    return None if sheet is None or found is None else f"sheet '{sheet}', row {found[0]}"
+    for held in read(path, source).streams:
+        if held.name == stream:
+            at = held.at[held.times.t_ns != NAT]
+            return f"sheet '{held.sheet}', row {at[row]}" if row < at.size else None
+    return None
