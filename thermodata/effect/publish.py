@@ -92,4 +92,6 @@ def _section(d: Description) -> str:
 def linked(source: str) -> str:
     """A source with its `[keys]` and `docs/...` headings as links of Markdown, seen from the folder docs."""
     keyed = re.sub(r"\[([a-z0-9-]+)\]", r"[\1](method.md#ref-\1)", source)
-    return re.sub(r"docs/([\w.-]+\.md#[\w-]+)", r"[\1](\1)", keyed)
+    return re.sub(
+        r"docs/([\w-]+)\.md#([\w-]+)", lambda m: f"[{m[1]}: {m[2].replace('-', ' ')}]({m[1]}.md#{m[2]})", keyed
+    )

@@ -19,7 +19,7 @@ class FeedScrew(Lagged):
 
     k [um/K] ([um] at 10 m/min), tau [min], p [1], dT [K], v [m/min].
     Source: [straka2021] inputs dyn (nut) and stat (bearing house); bounds:
-    docs/method.md#where-the-bounds-of-effects-come-from
+    docs/method.md#bounds-of-the-effects
     """
 
     name = "feed_screw"
@@ -30,10 +30,7 @@ class FeedScrew(Lagged):
         "follows the feed of one axis; nothing remains where a linear scale closes the loop; told apart by several "
         "feeds"
     )
-    source = (
-        "[straka2021] inputs dyn (nut) and stat (bearing house); bounds: "
-        "docs/method.md#where-the-bounds-of-effects-come-from"
-    )
+    source = "[straka2021] inputs dyn (nut) and stat (bearing house); bounds: docs/method.md#bounds-of-the-effects"
     needs = (
         Need("temperature", "temperature", ("axis.{a}.nut", "axis.{a}.screw", "axis.{a}.bearing"), True),
         Need("feed", "feed", ("axis.{a}",), True),
@@ -53,7 +50,7 @@ class FeedMotor(Lagged):
         d = k F_tau{dT}
 
     k [um/K], tau [min], dT [K] of the motor.
-    Source: [straka2021] input syst (feed motor); bounds: docs/method.md#where-the-bounds-of-effects-come-from
+    Source: [straka2021] input syst (feed motor); bounds: docs/method.md#bounds-of-the-effects
     """
 
     name = "feed_motor"
@@ -61,7 +58,7 @@ class FeedMotor(Lagged):
     meaning = "heat of the axis motor into screw and slide: k F{dT of the motor}"
     equation = "d = k F_tau{dT}"
     telltale = "twin of feed_screw: the same axis moves; told apart by a sensor at the nut"
-    source = "[straka2021] input syst (feed motor); bounds: docs/method.md#where-the-bounds-of-effects-come-from"
+    source = "[straka2021] input syst (feed motor); bounds: docs/method.md#bounds-of-the-effects"
     needs = (Need("temperature", "temperature", ("axis.{a}.motor",)),)
     params = (tau(60, 30, 180),)
     gains = (gain("um/K", 0.2, 4, "displacement at rest a kelvin of the motor"),)
@@ -73,7 +70,7 @@ class ScrewGrowth:
         d = alpha x F_tau{dT} + k0 F_tau{dT}
 
     alpha [um/m/K], x [m], k0 [um/K], tau [min], dT [K].
-    Source: steel expands by about 12 um/m/K; bounds: docs/method.md#where-the-bounds-of-effects-come-from
+    Source: steel expands by about 12 um/m/K; bounds: docs/method.md#bounds-of-the-effects
     """
 
     name = "screw_growth"
@@ -82,7 +79,7 @@ class ScrewGrowth:
     meaning = "growth of a screw without a scale, with position: alpha x dT and the fixed end's alpha x0 dT"
     equation = "d = alpha x F_tau{dT} + k0 F_tau{dT}"
     telltale = "grows with the position of the axis; told apart by measuring at two positions"
-    source = "steel expands by about 12 um/m/K; bounds: docs/method.md#where-the-bounds-of-effects-come-from"
+    source = "steel expands by about 12 um/m/K; bounds: docs/method.md#bounds-of-the-effects"
     needs = (
         Need("temperature", "temperature", ("axis.{a}.screw", "axis.{a}.nut")),
         Need("position", "position", ("axis.{a}",)),
@@ -101,7 +98,7 @@ class TableBearing(Lagged):
         d = k F_tau{dT}, or k F_tau{(|n| / 1000 rpm)^p} where no sensor is at the bearing
 
     k [um/K] ([um] at 1000 rpm), tau [min], p [1], dT [K], n [rpm].
-    Source: [mares2021] turning; bounds: docs/method.md#where-the-bounds-of-effects-come-from
+    Source: [mares2021] turning; bounds: docs/method.md#bounds-of-the-effects
     """
 
     name = "table_bearing"
@@ -109,7 +106,7 @@ class TableBearing(Lagged):
     meaning = "growth of the table with its bearing: k F{dT}, or k F{(n/1000 rpm)^p} without a sensor"
     equation = "d = k F_tau{dT}, or k F_tau{(|n| / 1000 rpm)^p} where no sensor is at the bearing"
     telltale = "grows with the radius at which it is measured; told apart by measuring at two radii"
-    source = "[mares2021] turning; bounds: docs/method.md#where-the-bounds-of-effects-come-from"
+    source = "[mares2021] turning; bounds: docs/method.md#bounds-of-the-effects"
     needs = (
         Need("temperature", "temperature", ("table.bearing", "table"), True),
         Need("speed", "rotational_speed", ("table",), True),
@@ -129,7 +126,7 @@ class RotaryAxis(Lagged):
         d = k F_tau{dT}
 
     k [um/K], tau [min], dT [K].
-    Source: as feed_motor, for a turning axis; bounds: docs/method.md#where-the-bounds-of-effects-come-from
+    Source: as feed_motor, for a turning axis; bounds: docs/method.md#bounds-of-the-effects
     """
 
     name = "rotary_axis"
@@ -137,7 +134,7 @@ class RotaryAxis(Lagged):
     meaning = "growth with the temperature of a rotary axis: k F{dT}"
     equation = "d = k F_tau{dT}"
     telltale = "follows the axis while all linear axes stand; told apart by moving it alone"
-    source = "as feed_motor, for a turning axis; bounds: docs/method.md#where-the-bounds-of-effects-come-from"
+    source = "as feed_motor, for a turning axis; bounds: docs/method.md#bounds-of-the-effects"
     needs = (Need("temperature", "temperature", ("rotary.{a}",)),)
     params = (tau(60, 5, 360),)
     gains = (gain("um/K", 0.1, 10, "displacement at rest a kelvin"),)

@@ -63,7 +63,7 @@ class Step:
         d = A H(t - at)
 
     A [um], at [min] from the test's start, H the unit step.
-    Source: docs/method.md#artefacts; bounds: docs/method.md#where-the-bounds-of-effects-come-from
+    Source: docs/method.md#artefacts; bounds: docs/method.md#bounds-of-the-effects
     """
 
     name = "step"
@@ -71,7 +71,7 @@ class Step:
     meaning = "a step or slip of a probe at one moment: A H(t - at); belongs to one test (tests: [...])"
     equation = "d = A H(t - at)"
     telltale = "a jump between two samples that no command explains, and it stays; told apart by repeating the test"
-    source = "docs/method.md#artefacts; bounds: docs/method.md#where-the-bounds-of-effects-come-from"
+    source = "docs/method.md#artefacts; bounds: docs/method.md#bounds-of-the-effects"
     needs = ()
     params = (Param("at", "min", 60.0, 0.0, 2880.0, "moment of the step, from the test's start"),)
     gains = (gain("um", 1, 100, "size"),)
@@ -86,7 +86,7 @@ class Drift:
         d = k t
 
     k [um/h], t [h] from the test's start.
-    Source: docs/method.md#artefacts; bounds: docs/method.md#where-the-bounds-of-effects-come-from
+    Source: docs/method.md#artefacts; bounds: docs/method.md#bounds-of-the-effects
     """
 
     name = "drift"
@@ -94,7 +94,7 @@ class Drift:
     meaning = "a straight drift of a probe: k t"
     equation = "d = k t"
     telltale = "a straight line whatever the machine does; told apart by a test at rest"
-    source = "docs/method.md#artefacts; bounds: docs/method.md#where-the-bounds-of-effects-come-from"
+    source = "docs/method.md#artefacts; bounds: docs/method.md#bounds-of-the-effects"
     needs = ()
     params = ()
     gains = (gain("um/h", 0.05, 2, "drift"),)
@@ -109,7 +109,7 @@ class WarmStart:
         d = A exp(-t / tau)
 
     A [um], tau [min], t from the test's start.
-    Source: docs/method.md#the-model; bounds: docs/method.md#where-the-bounds-of-effects-come-from
+    Source: docs/method.md#the-model; bounds: docs/method.md#bounds-of-the-effects
     """
 
     name = "warm_start"
@@ -117,7 +117,7 @@ class WarmStart:
     meaning = "the machine was not at rest when the test began: A exp(-t/tau); size differs a test (gain_by: test)"
     equation = "d = A exp(-t / tau)"
     telltale = "a course at the start of each test that fades whatever follows; told apart by soaking for 12 h before"
-    source = "docs/method.md#the-model; bounds: docs/method.md#where-the-bounds-of-effects-come-from"
+    source = "docs/method.md#the-model; bounds: docs/method.md#bounds-of-the-effects"
     needs = ()
     params = (tau(60, 5, 720),)
     gains = (gain("um", 0.5, 20, "displacement that is still to go at the start"),)

@@ -19,7 +19,7 @@ class SpindleBearing(Lagged):
 
     k [um/K], tau [min], dT [K] of the bearing.
     Source: [straka2021], [horejs2022] transfer functions; bounds:
-    docs/method.md#where-the-bounds-of-effects-come-from
+    docs/method.md#bounds-of-the-effects
     """
 
     name = "spindle_bearing"
@@ -27,9 +27,7 @@ class SpindleBearing(Lagged):
     meaning = "growth of the spindle with its bearing temperature: k F{dT}"
     equation = "d = k F_tau{dT}"
     telltale = "heating and cooling with the spindle, slower than the bearing itself; told apart by a stop while warm"
-    source = (
-        "[straka2021], [horejs2022] transfer functions; bounds: docs/method.md#where-the-bounds-of-effects-come-from"
-    )
+    source = "[straka2021], [horejs2022] transfer functions; bounds: docs/method.md#bounds-of-the-effects"
     needs = (Need("temperature", "temperature", ("spindle.bearing",)),)
     params = (tau(45, 1, 360),)
     gains = (gain("um/K", 0.2, 40, "displacement at rest a kelvin of the bearing"),)
@@ -42,7 +40,7 @@ class SpindleBearing2:
 
     k_fast and k_slow [um/K], tau_fast and tau_slow [min], dT [K].
     Source: [straka2021], [horejs2022] functions of second order; bounds:
-    docs/method.md#where-the-bounds-of-effects-come-from
+    docs/method.md#bounds-of-the-effects
     """
 
     name = "spindle_bearing_2"
@@ -51,10 +49,7 @@ class SpindleBearing2:
     meaning = "growth of the spindle in two modes: k1 F_fast{dT} + k2 F_slow{dT}; two slopes in cooling"
     equation = "d = k_fast F_tau_fast{dT} + k_slow F_tau_slow{dT}"
     telltale = "two slopes in one cooling; told apart by a long cooling"
-    source = (
-        "[straka2021], [horejs2022] functions of second order; bounds: "
-        "docs/method.md#where-the-bounds-of-effects-come-from"
-    )
+    source = "[straka2021], [horejs2022] functions of second order; bounds: docs/method.md#bounds-of-the-effects"
     needs = (Need("temperature", "temperature", ("spindle.bearing",)),)
     params = (
         tau(15, 1, 60, "tau_fast", "time constant of the shaft and bearings"),
@@ -74,7 +69,7 @@ class SpindleMotor(Lagged):
 
     k [um/K], tau [min], dT [K] of the winding.
     Source: [horejs2022] motor temperatures of SP1 to SP3; bounds:
-    docs/method.md#where-the-bounds-of-effects-come-from
+    docs/method.md#bounds-of-the-effects
     """
 
     name = "spindle_motor"
@@ -82,9 +77,7 @@ class SpindleMotor(Lagged):
     meaning = "growth with the temperature of the motor winding: k F{dT}; large at low speed"
     equation = "d = k F_tau{dT}"
     telltale = "large at low speed, where the bearings stay cool; told apart by 500 against 9000 rpm"
-    source = (
-        "[horejs2022] motor temperatures of SP1 to SP3; bounds: docs/method.md#where-the-bounds-of-effects-come-from"
-    )
+    source = "[horejs2022] motor temperatures of SP1 to SP3; bounds: docs/method.md#bounds-of-the-effects"
     needs = (Need("temperature", "temperature", ("spindle.motor",)),)
     params = (tau(40, 10, 120),)
     gains = (gain("um/K", 0.1, 5, "displacement at rest a kelvin of the winding"),)
@@ -96,7 +89,7 @@ class SpindleFriction(Lagged):
         d = k F_tau{(|n| / 10000 rpm)^p}
 
     k [um] at 10000 rpm, tau [min], p [1], n [rpm].
-    Source: [mayr2012] on spindles; bounds: docs/method.md#where-the-bounds-of-effects-come-from
+    Source: [mayr2012] on spindles; bounds: docs/method.md#bounds-of-the-effects
     """
 
     name = "spindle_friction"
@@ -104,7 +97,7 @@ class SpindleFriction(Lagged):
     meaning = "friction heat of the spindle from its speed, where no sensor sees it: k F{(n/10000 rpm)^p}"
     equation = "d = k F_tau{(|n| / 10000 rpm)^p}"
     telltale = "not linear in the speed; told apart by three speeds"
-    source = "[mayr2012] on spindles; bounds: docs/method.md#where-the-bounds-of-effects-come-from"
+    source = "[mayr2012] on spindles; bounds: docs/method.md#bounds-of-the-effects"
     needs = (Need("speed", "rotational_speed", ("spindle",)),)
     params = (tau(45, 2, 360), exponent())
     gains = (gain("um", 0.5, 60, "displacement at rest at 10000 rpm"),)
@@ -119,7 +112,7 @@ class CentrifugalShift:
         d = k (n / 10000 rpm)^2
 
     k [um] at 10000 rpm, n [rpm].
-    Source: [abele2010] on spindles at speed; bounds: docs/method.md#where-the-bounds-of-effects-come-from
+    Source: [abele2010] on spindles at speed; bounds: docs/method.md#bounds-of-the-effects
     """
 
     name = "centrifugal_shift"
@@ -127,7 +120,7 @@ class CentrifugalShift:
     meaning = "shift of the shaft under centrifugal load, at once and reversible: k (n/10000 rpm)^2"
     equation = "d = k (n / 10000 rpm)^2"
     telltale = "a jump within a minute of a change of speed that goes back with it; told apart by short pulses of speed"
-    source = "[abele2010] on spindles at speed; bounds: docs/method.md#where-the-bounds-of-effects-come-from"
+    source = "[abele2010] on spindles at speed; bounds: docs/method.md#bounds-of-the-effects"
     needs = (Need("speed", "rotational_speed", ("spindle",)),)
     params = ()
     gains = (gain("um", 0.5, 30, "displacement at 10000 rpm"),)
@@ -143,7 +136,7 @@ class SpindleHeatingCooling:
 
     d [um], k [um/K], tau_on and tau_off [min], dT [K], n [rpm].
     Source: [horejs2010] separate functions for heating and cooling; bounds:
-    docs/method.md#where-the-bounds-of-effects-come-from
+    docs/method.md#bounds-of-the-effects
     """
 
     name = "spindle_heating_cooling"
@@ -152,10 +145,7 @@ class SpindleHeatingCooling:
     meaning = "heating that differs from cooling: k F{dT} with tau_on while the spindle turns, else tau_off"
     equation = "tau dd/dt + d = k dT, tau = tau_on while |n| > 1 rpm, else tau_off"
     telltale = "a lobe in cooling only; told apart by a stop while warm"
-    source = (
-        "[horejs2010] separate functions for heating and cooling; bounds: "
-        "docs/method.md#where-the-bounds-of-effects-come-from"
-    )
+    source = "[horejs2010] separate functions for heating and cooling; bounds: docs/method.md#bounds-of-the-effects"
     needs = (Need("temperature", "temperature", ("spindle.bearing",)), Need("speed", "rotational_speed", ("spindle",)))
     params = (
         tau(45, 1, 360, "tau_on", "time constant while turning"),
@@ -183,7 +173,7 @@ class SpeedDependentGain:
         d = k F_tau{dT n / 10000 rpm}
 
     k [um/K] at 10000 rpm, tau [min], dT [K], n [rpm].
-    Source: [horejs2022] spindle SP3; bounds: docs/method.md#where-the-bounds-of-effects-come-from
+    Source: [horejs2022] spindle SP3; bounds: docs/method.md#bounds-of-the-effects
     """
 
     name = "speed_dependent_gain"
@@ -192,7 +182,7 @@ class SpeedDependentGain:
     meaning = "the gain of the bearing temperature depends on the speed: k F{dT (n/10000 rpm)}"
     equation = "d = k F_tau{dT n / 10000 rpm}"
     telltale = "the same temperature acts otherwise at another speed; told apart by one temperature at two speeds"
-    source = "[horejs2022] spindle SP3; bounds: docs/method.md#where-the-bounds-of-effects-come-from"
+    source = "[horejs2022] spindle SP3; bounds: docs/method.md#bounds-of-the-effects"
     needs = (Need("temperature", "temperature", ("spindle.bearing",)), Need("speed", "rotational_speed", ("spindle",)))
     params = (tau(45, 1, 360),)
     gains = (gain("um/K", 0, 20, "change of the gain at 10000 rpm"),)

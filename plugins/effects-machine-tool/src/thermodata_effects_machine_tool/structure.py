@@ -15,7 +15,7 @@ class ColumnBending(Lagged):
         d = k F_tau{dT_warm - dT_cold}
 
     k [um/K], tau [min], temperatures [K] of rear and front, or left and right.
-    Source: [mayr2012] on structures; bounds: docs/method.md#where-the-bounds-of-effects-come-from
+    Source: [mayr2012] on structures; bounds: docs/method.md#bounds-of-the-effects
     """
 
     name = "column_bending"
@@ -23,7 +23,7 @@ class ColumnBending(Lagged):
     meaning = "the column bends with the difference of its sides: k F{dT rear - dT front} or left - right"
     equation = "d = k F_tau{dT_warm - dT_cold}"
     telltale = "a tilt: in Y (or X) more than in Z; told apart by sensors on both sides at once"
-    source = "[mayr2012] on structures; bounds: docs/method.md#where-the-bounds-of-effects-come-from"
+    source = "[mayr2012] on structures; bounds: docs/method.md#bounds-of-the-effects"
     needs = (
         Need("warm_side", "temperature", ("column.rear", "column.left")),
         Need("cold_side", "temperature", ("column.front", "column.right")),
@@ -41,7 +41,7 @@ class ProbeTemperature(Lagged):
         d = k F_tau{dT}
 
     k [um/K], tau [min], dT [K] of probe or fixture.
-    Source: thermal expansion of the fixture; bounds: docs/method.md#where-the-bounds-of-effects-come-from
+    Source: thermal expansion of the fixture; bounds: docs/method.md#bounds-of-the-effects
     """
 
     name = "probe_temperature"
@@ -49,7 +49,7 @@ class ProbeTemperature(Lagged):
     meaning = "growth of the probe or its fixture, in all axes: k F{dT}"
     equation = "d = k F_tau{dT}"
     telltale = "in all axes alike; told apart by a fixture of little expansion"
-    source = "thermal expansion of the fixture; bounds: docs/method.md#where-the-bounds-of-effects-come-from"
+    source = "thermal expansion of the fixture; bounds: docs/method.md#bounds-of-the-effects"
     needs = (Need("temperature", "temperature", ("probe", "fixture")),)
     params = (tau(15, 1, 120),)
     gains = (gain("um/K", 0.1, 2, "displacement at rest a kelvin of the fixture"),)
