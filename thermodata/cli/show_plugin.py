@@ -18,7 +18,7 @@ WIDEST = 200
 def show(session: Session, name: str | None, rows: Sequence[Mapping[str, Any]]) -> None:
     """Answer with one plugin. rows: what is installed (`cli.plugins.installed`). UsageError names the nearest name."""
     row = _chosen(name, rows)
-    answer: dict[str, Any] = {**row, "formats": None, "text": None, **dict.fromkeys(_OF_EFFECTS)}
+    answer: dict[str, Any] = {**row, "formats": None, **dict.fromkeys(_OF_EFFECTS), "text": None}
     if row["error"] is None:
         answer |= _effect(row["name"]) if row["kind"] == "effect" else _reader(row["name"])
     session.answer(answer, lambda: _text(answer))

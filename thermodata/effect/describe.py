@@ -49,7 +49,8 @@ class Solved:
 
 @dataclass(frozen=True, slots=True)
 class Description:
-    """An effect's own account of itself. equation, telltale: None where the effect states none."""
+    """An effect's own account of itself. equation, telltale: None where the effect states none. text: its class's
+    docstring."""
 
     name: str
     family: str
@@ -61,6 +62,7 @@ class Description:
     roles: tuple[Role, ...]
     parameters: tuple[Searched, ...]
     gains: tuple[Solved, ...]
+    text: str | None
 
 
 def describe(effect: Effect) -> Description:
@@ -88,6 +90,7 @@ def describe(effect: Effect) -> Description:
             )
             for g in effect.gains
         ),
+        text=inspect.getdoc(type(effect)),
     )
 
 

@@ -51,7 +51,10 @@ def _driver(d: Description) -> Iterable[str]:
 
 
 def _section(d: Description) -> str:
-    parts = [f"\n## {d.name}\n\n{d.meaning[:1].upper()}{d.meaning[1:]}.\n\n```text\n{d.equation or NOT_STATED}\n```\n"]
+    about, symbols = _words(d)
+    parts = [f"\n## {d.name}\n", f"{about}\n", f"```text\n{d.equation or NOT_STATED}\n```\n"]
+    if symbols:
+        parts.append(f"{symbols}\n")
     if d.roles:
         rows = (
             (
@@ -65,7 +68,7 @@ def _section(d: Description) -> str:
         )
         parts.append(table(("driver", "quantity", "unit", "places", "needed"), rows))
         if all(r.optional for r in d.roles):
-            parts.append("\nExactly one of these drives it.\n")
+            parts.append("Exactly one of these drives it.\n")
     numbers = [
         (p.name, "searched", p.unit, f"{p.lower:g} to {p.upper:g}, from {p.start:g}", "", p.meaning)
         for p in d.parameters
@@ -87,6 +90,13 @@ def _section(d: Description) -> str:
         facts.insert(1, ("Refines", ", ".join(f"[{n}](#{n})" for n in d.refines)))
     parts.append("".join(f"- {name}: {value}\n" for name, value in facts))
     return "\n".join(parts)
+
+
+def _words(d: Description) -> tuple[str, str | None]:
+    """(what it is, what its symbols are) from the docstring: its first paragraph, and the one behind the equation."""
+    paragraphs = [" ".join(p.split()) for p in (d.text or "").partition("Source:")[0].split("\n\n")]
+    about = paragraphs[0] or f"{d.meaning[:1].upper()}{d.meaning[1:]}."
+    return about, next((p for p in paragraphs[1:] if p and p != d.equation), None)
 
 
 def linked(source: str) -> str:
