@@ -20,7 +20,7 @@ CODE = [
     path
     for folder in ("thermodata", "plugins", "tests")
     for path in sorted((ROOT / folder).rglob("*"))
-    if path.suffix in (".py", ".txt", ".toml", ".sh", ".md", ".css", ".j2") and path != Path(__file__)
+    if path.suffix in (".py", ".txt", ".toml", ".sh", ".md", ".css", ".j2", ".yaml") and path != Path(__file__)
 ]
 
 
