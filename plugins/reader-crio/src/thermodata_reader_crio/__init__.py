@@ -17,6 +17,11 @@ class Reader:
     be stale."""
 
     name = "crio"
+    formats = (
+        "TDMS, with DAQmx and all NI scalings",
+        "LVM",
+        "plain LabVIEW text",
+    )
 
     def sniff(self, head: Head) -> str | None:
         if head.start[:4] == b"TDSm":

@@ -14,6 +14,7 @@ class Reader:
     """JSON messages through Arrow; ROS 2 (cdr) and protobuf where their packages are installed."""
 
     name = "mcap"
+    formats = ("MCAP with JSON, protobuf, ROS 2 (ros2msg, ros2idl) or ROS 1 messages",)
 
     def sniff(self, head: Head) -> str | None:
         return "MCAP: the file starts with its magic bytes" if head.start.startswith(MAGIC) else None

@@ -14,6 +14,13 @@ class Reader:
     """One row a time, one column a signal; the layout is `sources.*.table` of the campaign file."""
 
     name = "table"
+    formats = (
+        "delimited text (CSV)",
+        "XLSX",
+        "Parquet",
+        "MAT 5 and 7.3",
+        "MDF 2 to 4 (with the extra mdf)",
+    )
 
     def sniff(self, head: Head) -> str | None:
         if head.start[:4] == b"PAR1":
