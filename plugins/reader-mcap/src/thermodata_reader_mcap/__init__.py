@@ -19,17 +19,19 @@ class Reader:
         return "MCAP: the file starts with its magic bytes" if head.start.startswith(MAGIC) else None
 
     def describe(self, path: Path, source: Source) -> Recording:
-        from thermodata_reader_mcap import recording
+        from thermodata_reader_mcap.signals import recording
 
         return recording.describe(path, source)
 
     def blocks(self, path: Path, source: Source) -> Iterator[Block | Loss]:
-        from thermodata_reader_mcap import recording
+        from thermodata_reader_mcap.signals import recording
 
         return recording.blocks(path, source)
 
-    def place(self, path: Path, source: Source, stream: str, row: int) -> str:
+    def locate(self, path: Path, source: Source, stream: str, row: int) -> str:
         """Where a row (counted from 0) of a topic stands: message, chunk, byte and log time."""
-        from thermodata_reader_mcap.place import place
+        from thermodata_reader_mcap.signals.row_location import locate
 
-        return place(path, source, stream, row) or f"row {row + 1}"
+        return locate(path, source, stream, row) or f"row {row + 1}"
+
+    place = locate
