@@ -4,24 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
-from pathlib import Path
-from threading import Lock
 from typing import Any, BinaryIO
 
 import numpy as np
 
-from thermodata.errors import FormatError
 from thermodata.plugin import Array, Bool1D, Int1D, Source
-from thermodata_reader_crio.axis import Axis, axis, is_time
-from thermodata_reader_crio.channels import Channel, channels
-from thermodata_reader_crio.clock import Clock
-from thermodata_reader_crio.columns import columns
-from thermodata_reader_crio.index import Index
-from thermodata_reader_crio.pieces import counted_clock
-from thermodata_reader_crio.walk import walk
+from thermodata_reader_crio.tdms.channel_clock import counted_clock
+from thermodata_reader_crio.tdms.channels import Channel
+from thermodata_reader_crio.tdms.segment_index import Index
+from thermodata_reader_crio.tdms.time_channel import TimeChannel, is_time, time_channel
+from thermodata_reader_crio.tdms.waveform_clock import Clock
 
-_KEPT: dict[tuple[object, ...], File] = {}
-_LOCK = Lock()
 _SAME_SCAN_NS = 1_000_000  # channels of one scan may start up to this apart (a multiplexed converter)
 
 
@@ -32,12 +25,12 @@ class Stream:
     name: str
     channels: tuple[Channel, ...]
     clock: Clock | None
-    axis: Axis | None
+    time_channel: TimeChannel | None
 
     @property
     def rows(self) -> int:
         longest = max(c.length for c in self.channels)
-        return longest if self.axis is None else min(longest, self.axis.channel.length)
+        return longest if self.time_channel is None else min(longest, self.time_channel.channel.length)
 
     @property
     def planned(self) -> int:
@@ -45,68 +38,22 @@ class Stream:
 
     @property
     def absolute(self) -> bool:
-        return self.axis.absolute if self.axis is not None else self.clock is not None and self.clock.absolute
+        return (
+            self.time_channel.absolute
+            if self.time_channel is not None
+            else self.clock is not None and self.clock.absolute
+        )
 
     def times(self, first: int, last: int, read: Array | None = None) -> tuple[Int1D, Bool1D | None]:
         """(times of rows [first, last), which of them have one: None for all). read: the time channel's values."""
-        if self.axis is not None:
+        if self.time_channel is not None:
             assert read is not None
-            return self.axis.times(read)
+            return self.time_channel.times(read)
         assert self.clock is not None
         return self.clock.times(first, last), None
 
 
-@dataclass(frozen=True)
-class File:
-    index: Index
-    streams: tuple[Stream, ...]
-    notes: tuple[str, ...]
-    partly: tuple[str, ...]  # what was left out of channels, as sentences
-
-
-def open_file(path: Path, source: Source, *, keep: bool = False) -> File:
-    """A TDMS file as it was just described, or opened anew. keep: for the reading that follows the description, so
-    that a file of 100,000 channels is walked once."""
-    status = path.stat()
-    with path.open("rb") as file:
-        ends = [file.read(4096)]
-        file.seek(max(0, status.st_size - 4096))
-        ends.append(file.read(4096))
-    key = str(path.absolute()), status.st_size, status.st_mtime_ns, status.st_ino, repr(source), *ends
-    with _LOCK:
-        found = _KEPT.pop(key, None)
-    if found is None:
-        found = _opened(path, source)
-    if keep:
-        with _LOCK:
-            _KEPT.clear()
-            _KEPT[key] = found
-    return found
-
-
-def _opened(path: Path, source: Source) -> File:
-    """Index, streams and notes of a TDMS file; reads no bulk (but the start of channels that hold a time)."""
-    index = walk(path)
-    cols, partly = columns(index)
-    notes = list(index.notes)
-    groups = channels(index, cols, path.name, set(source.options.get("unscaled", ())), notes)
-    taken: dict[str, int] = {}
-    found: list[Stream] = []
-    with path.open("rb") as file:
-        for group, members in groups.items():
-            found += _streams(group, members, index, source, notes, taken, file)
-    if not found:
-        raise FormatError(
-            "a TDMS file without values",
-            where=path.name,
-            expected="channels with raw data",
-            got=f"{index.segments} segments, {len(index.properties)} objects",
-            hint=index.damage,
-        )
-    return File(index, tuple(found), tuple(notes), tuple(partly))
-
-
-def _streams(
+def streams_of(
     group: str,
     members: list[Channel],
     index: Index,
@@ -115,6 +62,8 @@ def _streams(
     taken: dict[str, int],
     file: BinaryIO,
 ) -> Iterable[Stream]:
+    """The streams of one group of channels. taken: names of streams so far; file: for the first values of channels
+    that hold a time."""
     filled = [c for c in members if c.planned or c.length]
     notes.extend(f"{c.signal.name} holds no values" for c in members if not (c.planned or c.length))
     clocks = [c for c in filled if c.clock is None and is_time(c, source)]
@@ -128,7 +77,7 @@ def _streams(
         own = tuple(replace(c, signal=replace(c.signal, stream=name)) for c in part)
         if time is not None:
             used.add(id(time))
-            yield Stream(name, own, None, axis(time, file, notes))
+            yield Stream(name, own, None, time_channel(time, file, notes))
             continue
         clock = part[0].clock
         if clock is None:
@@ -150,7 +99,7 @@ def _streams(
         # a time channel beside waveforms is a signal like any other
         if id(c) not in used:
             name = _name(group, taken)
-            yield Stream(name, (replace(c, signal=replace(c.signal, stream=name)),), None, axis(c, file, notes))
+            yield Stream(name, (replace(c, signal=replace(c.signal, stream=name)),), None, time_channel(c, file, notes))
 
 
 def _name(group: str, taken: dict[str, int]) -> str:

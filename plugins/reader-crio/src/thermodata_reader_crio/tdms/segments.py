@@ -7,37 +7,25 @@ Layout of the format: National Instruments, "TDMS File Format Internal Structure
 from __future__ import annotations
 
 from pathlib import Path
-from typing import NamedTuple
 
 from thermodata.errors import FormatError
-from thermodata_reader_crio.index import Hole, Index, Shape
-from thermodata_reader_crio.layout import DamageError
-from thermodata_reader_crio.leadin import INTERLEAVED, META, RAW, VERSIONS, LeadIn, open_file, read_lead_in
-from thermodata_reader_crio.objects import Lists
-from thermodata_reader_crio.resync import Found, find
+from thermodata_reader_crio.tdms.chunk_layout import DamageError
+from thermodata_reader_crio.tdms.lead_in import INTERLEAVED, META, RAW, VERSIONS, LeadIn, open_file, read_lead_in
+from thermodata_reader_crio.tdms.object_lists import ObjectLists
+from thermodata_reader_crio.tdms.resync import Found, GoodSegment, find
+from thermodata_reader_crio.tdms.segment_index import Hole, Index, Shape
 
 _MOST_HOLES = 1000
 
 
-class Last(NamedTuple):
-    """The last good segment: its lead-in, and the pieces that it added."""
-
-    lead: LeadIn
-    end: int
-    first_piece: int
-    layout: int
-    chunks: int
-    tail: int
-
-
-class Walk:
+class SegmentReader:
     """Reads segment after segment into an index."""
 
     def __init__(self, path: Path) -> None:
         self.file = open_file(path)
         self.index = Index(path.stat().st_size)
-        self.lists = Lists(self.index)
-        self.last: Last | None = None
+        self.lists = ObjectLists(self.index)
+        self.last: GoodSegment | None = None
         self._shapes: dict[Shape, int] = {}
 
     def step(self, start: int) -> None:
@@ -66,7 +54,7 @@ class Walk:
             index.damage = f"byte {index.size}: the file ends inside raw data"
         index.good_end = end
         index.starts.append(lead.start)
-        self.last = Last(lead, end, first, layout, chunks, tail)
+        self.last = GoodSegment(lead, end, first, layout, chunks, tail)
 
     def _pieces(self, lead: LeadIn, layout: int, chunks: int, tail: int, cut: bool) -> None:
         if layout < 0:
@@ -105,7 +93,7 @@ class Walk:
         search = last.lead.data if inside and last is not None else start
         failed = 0
         while len(index.holes) < _MOST_HOLES:
-            found = find(self, search, start)
+            found = find(self.file, index, self.last, search, start)
             if found is None:
                 return False
             kept = index.pieces.copy(last.first_piece) if last is not None else []
@@ -135,7 +123,7 @@ class Walk:
             return True
         return False
 
-    def _shorten(self, last: Last, end: int) -> int:
+    def _shorten(self, last: GoodSegment, end: int) -> int:
         """Cuts the last segment where the next one turned out to start; returns where its whole chunks end."""
         index = self.index
         index.pieces.drop_from(last.first_piece)
@@ -147,10 +135,10 @@ class Walk:
         return last.lead.data + chunks * chunk
 
 
-def walk(path: Path) -> Index:
+def read_index(path: Path) -> Index:
     """The index of a file. FormatError where not even one segment can be read; damage further on is stepped over
     where that is safe, or ends the walk, with the good part kept."""
-    state = Walk(path)
+    state = SegmentReader(path)
     index = state.index
     with state.file:
         goes_on = True

@@ -6,8 +6,9 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from thermodata.plugin import Loss
-from thermodata_reader_crio.index import Hole
-from thermodata_reader_crio.streams import File, Stream
+from thermodata_reader_crio.tdms.file import File
+from thermodata_reader_crio.tdms.segment_index import Hole
+from thermodata_reader_crio.tdms.streams import Stream
 
 
 def losses(file: File, path: Path, last_ns: int | None) -> Iterator[Loss]:

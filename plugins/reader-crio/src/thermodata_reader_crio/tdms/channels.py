@@ -11,11 +11,11 @@ import numpy as np
 
 from thermodata.errors import FormatError
 from thermodata.plugin import Scaling, Signal
-from thermodata_reader_crio.clock import Clock
-from thermodata_reader_crio.columns import TEXT, Column
-from thermodata_reader_crio.index import Index
-from thermodata_reader_crio.layout import BOOL, TIMESTAMP
-from thermodata_reader_crio.pieces import clock_of
+from thermodata_reader_crio.tdms.channel_clock import clock_of
+from thermodata_reader_crio.tdms.chunk_layout import BOOL
+from thermodata_reader_crio.tdms.raw_columns import TEXT, Column
+from thermodata_reader_crio.tdms.segment_index import Index
+from thermodata_reader_crio.tdms.waveform_clock import Clock
 
 KNOWN_SCALES = (
     "Linear",
@@ -177,6 +177,3 @@ def _channel(
     if dtype is None:
         dtype = "str" if found[0].dtype == TEXT else np.dtype(found[0].dtype).name
     return Channel(Signal(full, "", unit, dtype, scale, properties), short, tuple(found), clock, joined_by)
-
-
-__all__ = ["BOOL", "TIMESTAMP", "Channel", "channels", "names", "scaling"]

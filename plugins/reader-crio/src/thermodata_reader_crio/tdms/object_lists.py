@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from typing import BinaryIO, NamedTuple
 
-from thermodata_reader_crio.index import CLOCK, ClockChange, Index
-from thermodata_reader_crio.layout import DamageError, Layout, RawIndex, check
-from thermodata_reader_crio.leadin import BIG_ENDIAN, INTERLEAVED, META, NEW_LIST, LeadIn, read_metadata
-from thermodata_reader_crio.metadata import SAME, Object, parse
+from thermodata_reader_crio.tdms.chunk_layout import DamageError, Layout, RawIndex, check
+from thermodata_reader_crio.tdms.lead_in import BIG_ENDIAN, INTERLEAVED, META, NEW_LIST, LeadIn, read_metadata
+from thermodata_reader_crio.tdms.metadata import SAME, Object, parse
+from thermodata_reader_crio.tdms.segment_index import CLOCK, ClockChange, Index
 
 # what says which values the numbers stand for
 _MEANING = ("NI_Scal", "NI_Number_Of_Scales", "unit_string", "NI_UnitDescription")
@@ -28,7 +28,7 @@ class Plan(NamedTuple):
     start: int = 0
 
 
-class Lists:
+class ObjectLists:
     """The current list of objects, each object's last index, and the layouts that came of them."""
 
     def __init__(self, index: Index) -> None:

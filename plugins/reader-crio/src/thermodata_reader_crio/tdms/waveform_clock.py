@@ -11,21 +11,8 @@ from typing import Any
 import numpy as np
 
 from thermodata.plugin import Bool1D, Int1D
-from thermodata_reader_crio.metadata import Timestamp
-
-_BILLION = 1_000_000_000
-LAST_NS = 8_900_000_000 * _BILLION  # the year 2252; int64 ends in 2262
-
-
-def step_ns(increment_s: float) -> Fraction:
-    """The sample interval in exact nanoseconds: the decimal that was meant, or one over a whole rate.
-
-    0.1 is stored as a binary number slightly above a tenth; 51200 Hz as 1.953125e-05.
-    """
-    rate = round(1.0 / increment_s)
-    if rate > 0 and abs(rate * increment_s - 1.0) < 1e-12:
-        return Fraction(_BILLION, rate)
-    return (Fraction(repr(increment_s)) * _BILLION).limit_denominator(1_000_000_000)
+from thermodata_reader_crio.labview_clock import LAST_NS, step_ns
+from thermodata_reader_crio.tdms.metadata import Timestamp
 
 
 @dataclass(frozen=True, slots=True)
@@ -63,7 +50,7 @@ def waveform(properties: Mapping[str, Any]) -> Waveform | None:
     usable = (
         not isinstance(offset, bool) and isinstance(offset, int | float) and math.isfinite(offset) and abs(offset) < 1e9
     )
-    offset_ns = round(Fraction(repr(float(offset))) * _BILLION) if usable else 0
+    offset_ns = round(Fraction(repr(float(offset))) * 1_000_000_000) if usable else 0
     return Waveform(start_ns, offset_ns, step_ns(float(increment)))
 
 

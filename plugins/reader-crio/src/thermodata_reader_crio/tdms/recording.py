@@ -10,11 +10,12 @@ import numpy as np
 
 from thermodata.plugin import Array, Block, Loss, Recording, Source
 from thermodata.schema.flag import Flag
-from thermodata_reader_crio.channels import Channel
-from thermodata_reader_crio.columns import TEXT
-from thermodata_reader_crio.gather import read
-from thermodata_reader_crio.losses import losses
-from thermodata_reader_crio.streams import File, Stream, open_file
+from thermodata_reader_crio.tdms.channels import Channel
+from thermodata_reader_crio.tdms.file import File, open_file
+from thermodata_reader_crio.tdms.losses import losses
+from thermodata_reader_crio.tdms.raw_columns import TEXT
+from thermodata_reader_crio.tdms.raw_values import read
+from thermodata_reader_crio.tdms.streams import Stream
 
 BLOCK_VALUES = 2_000_000  # values a block, over all its signals: 16 MB, a row group of the store
 _TEXT_BYTES = 16 << 20  # and bytes of text
@@ -102,14 +103,14 @@ def _block_rows(stream: Stream, source: Source) -> int:
 
 
 def _times(handle: BinaryIO, stream: Stream, first: int, last: int):  # type: ignore[no-untyped-def]
-    if stream.axis is None:
+    if stream.time_channel is None:
         return stream.times(first, last)
-    return stream.times(first, last, read(handle, list(stream.axis.channel.columns), first, last)[0])
+    return stream.times(first, last, read(handle, list(stream.time_channel.channel.columns), first, last)[0])
 
 
 def _block(handle: BinaryIO, stream: Stream, first: int, last: int, shift: int) -> Block:
     wanted = [c for channel in stream.channels for c in channel.columns]
-    extra = list(stream.axis.channel.columns) if stream.axis is not None else []
+    extra = list(stream.time_channel.channel.columns) if stream.time_channel is not None else []
     raw = read(handle, wanted + extra, first, last)
     t_ns, good = stream.times(first, last, raw[-1] if extra else None)
     if shift:

@@ -8,15 +8,16 @@ from typing import BinaryIO
 import numpy as np
 
 from thermodata.plugin import Source
-from thermodata_reader_crio.columns import TEXT, Column
-from thermodata_reader_crio.gather import read
-from thermodata_reader_crio.streams import Stream, open_file
+from thermodata_reader_crio.tdms.file import open_file
+from thermodata_reader_crio.tdms.raw_columns import TEXT, Column
+from thermodata_reader_crio.tdms.raw_values import read
+from thermodata_reader_crio.tdms.streams import Stream
 
 _NAMED = 12  # channels whose bytes are told one by one
 _ROWS = 1_000_000  # times read at once
 
 
-def place(path: Path, source: Source, stream: str, row: int) -> str | None:
+def locate(path: Path, source: Source, stream: str, row: int) -> str | None:
     """`segment 812 of 86400, byte 123456 (Eddy/Z), byte 123464 (Eddy/X)` of a row (counted from 0) of a stream; None
     where the file has no such row."""
     file = open_file(path, source)
@@ -59,12 +60,12 @@ def byte_of(column: Column, row: int) -> int:
 
 def _file_row(handle: BinaryIO, stream: Stream, row: int) -> int | None:
     """The row in the file of a delivered one: rows whose time channel holds no time are not delivered."""
-    if stream.axis is None:
+    if stream.time_channel is None:
         return row if row < stream.rows else None
     done = 0
     for first in range(0, stream.rows, _ROWS):
         last = min(stream.rows, first + _ROWS)
-        _, good = stream.times(first, last, read(handle, list(stream.axis.channel.columns), first, last)[0])
+        _, good = stream.times(first, last, read(handle, list(stream.time_channel.channel.columns), first, last)[0])
         places = np.arange(first, last) if good is None else first + np.flatnonzero(good)
         if row < done + places.size:
             return int(places[row - done])

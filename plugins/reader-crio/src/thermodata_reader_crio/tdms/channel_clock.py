@@ -6,12 +6,12 @@ from typing import Any
 
 import numpy as np
 
-from thermodata_reader_crio.clock import Clock, Waveform, counted, waveform
-from thermodata_reader_crio.columns import Column
-from thermodata_reader_crio.index import CLOCK, Hole, Index
+from thermodata_reader_crio.tdms.raw_columns import Column
+from thermodata_reader_crio.tdms.segment_index import CLOCK, Hole, Index
+from thermodata_reader_crio.tdms.waveform_clock import Clock, Waveform, counted, waveform
 
 
-class _Making:
+class _ClockPieces:
     """Pieces of a clock in the making."""
 
     def __init__(self) -> None:
@@ -54,7 +54,7 @@ def clock_of(index: Index, column: Column, own: dict[str, Any], known: dict[Any,
 
 
 def _clock(index: Index, column: Column) -> Clock | None:
-    made, state = _Making(), dict[str, Any]()
+    made, state = _ClockPieces(), dict[str, Any]()
     for piece, change in _events(index, column.path):
         row = column.row_at(piece)
         if isinstance(change, Hole):
@@ -85,7 +85,7 @@ def _clock(index: Index, column: Column) -> Clock | None:
 
 def counted_clock(index: Index, column: Column, step_s: float) -> Clock:
     """The clock of a channel without a time of its own: its rows are counted."""
-    clock, made = counted(step_s), _Making()
+    clock, made = counted(step_s), _ClockPieces()
     made.start(0, Waveform(None, 0, clock.steps[0]), 0, 0, False)
     for hole in index.holes:
         _skip(made, index, column, hole, column.row_at(hole.piece))
@@ -108,7 +108,7 @@ def _events(index: Index, path: str) -> list[tuple[int, dict[str, Any] | Hole]]:
     return [(piece, what) for piece, _, what in sorted(found, key=lambda e: e[:2])]
 
 
-def _skip(made: _Making, index: Index, column: Column, hole: Hole, row: int) -> None:
+def _skip(made: _ClockPieces, index: Index, column: Column, hole: Hole, row: int) -> None:
     """A hole: the samples that are gone are counted where their number is known."""
     if not made.row or (row == 0 and hole.chunks is None):
         if made.row:

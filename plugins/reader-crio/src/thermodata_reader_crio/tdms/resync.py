@@ -4,20 +4,29 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, BinaryIO
+from typing import BinaryIO, NamedTuple
 
-from thermodata_reader_crio.layout import DamageError
-from thermodata_reader_crio.leadin import META, NEW_LIST, VERSIONS, LeadIn, read_lead_in, read_metadata
-from thermodata_reader_crio.metadata import SAME, Object, parse
-
-if TYPE_CHECKING:
-    from thermodata_reader_crio.walk import Walk
+from thermodata_reader_crio.tdms.chunk_layout import DamageError
+from thermodata_reader_crio.tdms.lead_in import META, NEW_LIST, VERSIONS, LeadIn, read_lead_in, read_metadata
+from thermodata_reader_crio.tdms.metadata import SAME, Object, parse
+from thermodata_reader_crio.tdms.segment_index import Index
 
 _TAG = b"TDSm"
 _WINDOW = 1 << 20
 _KNOWN_FLAGS = 0xEE
 _MOST_TRIES = 10_000
 _MOST_PARSED = 512 * 1024 * 1024  # bytes of metadata: a hostile file may nest lead-ins in each other
+
+
+class GoodSegment(NamedTuple):
+    """The last good segment: its lead-in, and the pieces that it added."""
+
+    lead: LeadIn
+    end: int
+    first_piece: int
+    layout: int
+    chunks: int
+    tail: int
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,15 +41,16 @@ class Found:
     missing: tuple[int, int | None]
 
 
-def find(walk: Walk, searched: int, start: int) -> Found | None:
-    """The next usable segment from byte `searched` on, where a segment was expected at `start`."""
-    for passed, (lead, objects) in enumerate(_candidates(walk.file, searched, walk.index.size)):
+def find(file: BinaryIO, index: Index, last: GoodSegment | None, searched: int, start: int) -> Found | None:
+    """The next usable segment from byte `searched` on, where a segment was expected at `start`. last: the good one
+    before it."""
+    for passed, (lead, objects) in enumerate(_candidates(file, searched, index.size)):
         alone = bool(lead.toc & META and lead.toc & NEW_LIST) and all(
             o.held is None or o.held != SAME for o in objects or ()
         )
-        missing = _missing(walk, start, lead)
-        follows = lead.start <= start and _whole(walk, lead.start)
-        if alone or follows or (missing[1] is not None and _twin(walk, lead)):
+        missing = _missing(file, index, last, start, lead)
+        follows = lead.start <= start and _whole(index, last, lead.start)
+        if alone or follows or (missing[1] is not None and _twin(index, last, lead)):
             return Found(lead, objects, alone, passed, missing)
     return None
 
@@ -90,19 +100,19 @@ def _plausible(file: BinaryIO, lead: LeadIn, size: int) -> bool:
     return file.read(len(_TAG)) == _TAG
 
 
-def _whole(walk: Walk, end: int) -> bool:
+def _whole(index: Index, last: GoodSegment | None, end: int) -> bool:
     """Whether the last good segment ends there with whole chunks, so that nothing is lost between."""
-    last = walk.last
     if last is None or last.layout < 0 or end <= last.lead.data:
         return False
-    chunk = walk.index.layouts[last.layout].chunk_bytes
+    chunk = index.layouts[last.layout].chunk_bytes
     return bool(chunk) and (end - last.lead.data) % chunk == 0
 
 
-def _missing(walk: Walk, start: int, lead: LeadIn) -> tuple[int, int | None]:
+def _missing(
+    file: BinaryIO, index: Index, last: GoodSegment | None, start: int, lead: LeadIn
+) -> tuple[int, int | None]:
     """(layout, chunks) of the segments between `start` and a lead-in: known where they are as long as one or more
     of the segments before them, or where a lead-in is left that says how long its data are."""
-    last = walk.last
     if last is None or last.layout < 0 or not last.chunks or lead.start <= start:
         return -1, None
     gone = lead.start - start
@@ -110,18 +120,17 @@ def _missing(walk: Walk, start: int, lead: LeadIn) -> tuple[int, int | None]:
     if gone % length == 0:
         return last.layout, gone // length * last.chunks
     try:
-        damaged = read_lead_in(walk.file, start, walk.index.size)
+        damaged = read_lead_in(file, start, index.size)
     except DamageError:
         return -1, None
-    chunk = walk.index.layouts[last.layout].chunk_bytes
+    chunk = index.layouts[last.layout].chunk_bytes
     data_bytes = 0 if damaged.end != lead.start else damaged.end - damaged.data
     return (last.layout, data_bytes // chunk) if data_bytes and data_bytes % chunk == 0 else (-1, None)
 
 
-def _twin(walk: Walk, lead: LeadIn) -> bool:
+def _twin(index: Index, last: GoodSegment | None, lead: LeadIn) -> bool:
     """Whether a segment looks like the last good one, so that it may be read with the same list of objects."""
-    last = walk.last
     if last is None or last.layout < 0 or lead.toc != last.lead.toc or lead.meta_bytes != last.lead.meta_bytes:
         return False
-    end = walk.index.size if lead.end is None else lead.end
-    return (end - lead.data) % walk.index.layouts[last.layout].chunk_bytes == 0
+    end = index.size if lead.end is None else lead.end
+    return (end - lead.data) % index.layouts[last.layout].chunk_bytes == 0

@@ -6,7 +6,16 @@ import struct
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
-from thermodata_reader_crio.layout import DAQMX_NUMPY, MOST, NUMPY, STRING, TIMESTAMP, DamageError, RawIndex, Scaler
+from thermodata_reader_crio.tdms.chunk_layout import (
+    DAQMX_NUMPY,
+    MOST,
+    NUMPY,
+    STRING,
+    TIMESTAMP,
+    DamageError,
+    RawIndex,
+    Scaler,
+)
 
 NO_DATA, SAME_DATA = 0xFFFFFFFF, 0
 # the documentation names the second one 0x1369; files hold 0x126A

@@ -10,9 +10,9 @@ import numpy as np
 
 from thermodata.plugin import Array, Bool1D, Int1D, Source
 from thermodata.reader.text import split_unit
-from thermodata_reader_crio.channels import Channel
-from thermodata_reader_crio.clock import LAST_NS
-from thermodata_reader_crio.gather import read
+from thermodata_reader_crio.labview_clock import EPOCH_1904_NS, LABVIEW_SECONDS, LAST_NS, UNIX_SECONDS
+from thermodata_reader_crio.tdms.channels import Channel
+from thermodata_reader_crio.tdms.raw_values import read
 
 # "t" is a time, "T" a temperature
 _TIME_NAME = re.compile(r"^(t|(?i:time|zeit|čas|cas|time ?stamp|elapsed( time)?|x_?value|uhrzeit|时间|時間))$")
@@ -28,13 +28,10 @@ _SECONDS = {
     "μs": 1e-6,
     "ns": 1e-9,
 }
-EPOCH_1904_NS = -2_082_844_800 * 1_000_000_000
-# seconds since 1904 of the years 1997 to 2040; since 1970 of 2001 to 2033
-LABVIEW_SECONDS, UNIX_SECONDS = (2_934_748_800, 4_291_747_200), (978_307_200, 1_988_150_400)
 
 
 @dataclass(frozen=True, eq=False)
-class Axis:
+class TimeChannel:
     """seconds: one unit of the channel, None for timestamps; epoch_ns: of its zero, None where it counts from the
     recording's start."""
 
@@ -78,20 +75,20 @@ def is_time(channel: Channel, source: Source) -> bool:
     )
 
 
-def axis(channel: Channel, file: BinaryIO, notes: list[str]) -> Axis:
+def time_channel(channel: Channel, file: BinaryIO, notes: list[str]) -> TimeChannel:
     """What a time channel counts in, by its unit and its first values."""
     if channel.is_timestamp:
-        return Axis(channel, None, 0)
+        return TimeChannel(channel, None, 0)
     seconds = _unit_seconds(channel) or 1.0
     first = read(file, list(channel.columns), 0, min(100, channel.length))[0].astype(np.float64) * seconds
     first = first[np.isfinite(first)]
     if first.size and LABVIEW_SECONDS[0] <= first.min() and first.max() <= LABVIEW_SECONDS[1]:
         notes.append(f"{channel.signal.name}: its values are taken as seconds since 1904 UTC, as LabVIEW counts")
-        return Axis(channel, seconds, EPOCH_1904_NS)
+        return TimeChannel(channel, seconds, EPOCH_1904_NS)
     if first.size and UNIX_SECONDS[0] <= first.min() and first.max() <= UNIX_SECONDS[1]:
         notes.append(f"{channel.signal.name}: its values are taken as seconds since 1970 UTC")
-        return Axis(channel, seconds, 0)
-    return Axis(channel, seconds, None)
+        return TimeChannel(channel, seconds, 0)
+    return TimeChannel(channel, seconds, None)
 
 
 def _unit_seconds(channel: Channel) -> float | None:
