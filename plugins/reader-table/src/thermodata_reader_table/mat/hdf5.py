@@ -11,8 +11,8 @@ import numpy as np
 
 from thermodata.errors import FormatError
 from thermodata.plugin import Array, Loss
-from thermodata_reader_table.mat73_check import Spans, check_found, check_stored
-from thermodata_reader_table.mat_tree import (
+from thermodata_reader_table.mat.hdf5_check import Spans, check_found, check_stored
+from thermodata_reader_table.mat.tree import (
     MAX_DEPTH,
     MAX_NODES,
     MAX_TEXT,

@@ -1,4 +1,4 @@
-"""Parquet: typed columns, read by row group."""
+"""An open Parquet file: its columns, which of them is the time, and the times."""
 
 from __future__ import annotations
 
@@ -11,23 +11,21 @@ from typing import Any
 import numpy as np
 
 from thermodata.errors import FormatError
-from thermodata.plugin import Array, Block, Int1D, Loss, Recording, Signal, Source
+from thermodata.plugin import Source
 from thermodata.reader.text import split_unit
-from thermodata.reader.zone import NAT
 from thermodata_reader_table import stamps
 from thermodata_reader_table.clocks import check_unit, found_epoch
 from thermodata_reader_table.clocks import times as clocks_times
 from thermodata_reader_table.groups import one_time
 from thermodata_reader_table.layout import unique
+from thermodata_reader_table.parquet.columns import nanoseconds, numbers
+from thermodata_reader_table.parquet.schema import check_types, column_at, flat, left_out, value_type
 from thermodata_reader_table.time_columns import column as find_column
 from thermodata_reader_table.time_columns import find_time
 
-STREAM = "table"
-_ROWS = 250_000
-
 
 @contextmanager
-def _ours(path: Path) -> Iterator[None]:
+def damage_as_format_error(path: Path) -> Iterator[None]:
     """pyarrow raises several unrelated classes for a damaged file; all of them mean the same."""
     import pyarrow as pa
 
@@ -39,18 +37,6 @@ def _ours(path: Path) -> Iterator[None]:
         ) from None
 
 
-def _check_types(file: Any) -> None:
-    """ValueError where a column chunk is not of the type that the schema says: Arrow ends the process on it."""
-    for group in range(file.metadata.num_row_groups):
-        row_group = file.metadata.row_group(group)
-        if row_group.num_columns != len(file.schema):
-            raise ValueError(f"row group {group} has {row_group.num_columns} columns, the schema {len(file.schema)}")
-        for column in range(row_group.num_columns):
-            said, kind = file.schema.column(column).physical_type, row_group.column(column).physical_type
-            if said != kind:
-                raise ValueError(f"row group {group} column {column} is of {kind}, the schema says {said}")
-
-
 class Table:
     """An open file: its schema, and which columns hold the time."""
 
@@ -58,11 +44,11 @@ class Table:
         import pyarrow.parquet as pq
 
         self.path, self.source = path, source
-        with _ours(path):
+        with damage_as_format_error(path):
             self.file = pq.ParquetFile(path)
             self.schema = self.file.schema_arrow
-            self.schema, self.places = _flat(self.schema)
-            _check_types(self.file)
+            self.schema, self.places = flat(self.schema)
+            check_types(self.file)
         twice = [n for n, k in Counter(self.places).items() if k > 1]
         if twice:
             raise FormatError(
@@ -72,7 +58,7 @@ class Table:
                 hint="write the file again with names of their own",
             )
         self.names = unique([str(n).strip() for n in self.schema.names])
-        self.notes = _left_out(self.file.schema_arrow)
+        self.notes = left_out(self.file.schema_arrow)
         if not self.names:
             raise FormatError("no column of numbers, text or times", where=path.name)
         self.time, self.unit = self._find()
@@ -82,10 +68,10 @@ class Table:
         import pyarrow as pa
 
         wanted = list(dict.fromkeys(place.split(".")[0] for place in self.places)) if columns is None else columns
-        with _ours(self.path):
+        with damage_as_format_error(self.path):
             for batch in self.file.iter_batches(rows, columns=wanted):
                 yield pa.table(
-                    [_at(batch, place) for place in self.places if place.split(".")[0] in wanted],
+                    [column_at(batch, place) for place in self.places if place.split(".")[0] in wanted],
                     names=[str(i) for i, place in enumerate(self.places) if place.split(".")[0] in wanted],
                 )
 
@@ -108,14 +94,14 @@ class Table:
             elif "t_ns" in self.names:
                 column, unit = self.names.index("t_ns"), "ns"
             else:
-                with _ours(self.path):
+                with damage_as_format_error(self.path):
                     head = next(self.batches(100), None)
                     rows = [list(r) for r in zip(*(c.to_pylist() for c in head.columns), strict=True)] if head else []
                 column = find_time(self.names, units, rows, self.path.name)[0]
         if pt.is_timestamp(self.schema.field(column).type):
             return column, None
         kind = self.schema.field(column).type
-        if pt.is_date(kind) or pt.is_string(_plain(kind)) or pt.is_large_string(_plain(kind)):
+        if pt.is_date(kind) or pt.is_string(value_type(kind)) or pt.is_large_string(value_type(kind)):
             return column, None
         if not (pt.is_integer(kind) or pt.is_floating(kind) or pt.is_decimal(kind) or pt.is_duration(kind)):
             raise FormatError(
@@ -129,7 +115,7 @@ class Table:
         text = unit or units[column]
         if text is None:
             found = next(self.batches(1000), None)
-            values = np.zeros(0) if found is None else _numbers(found.column(column))
+            values = np.zeros(0) if found is None else numbers(found.column(column))
             text = found_epoch(values) or "s"
             self.notes.append(
                 f"time column '{self.names[column]}' has no unit: "
@@ -145,15 +131,15 @@ class Table:
 
         kind = self.schema.field(self.time).type
         if self.unit == "duration":
-            return stamps.Stamps(_ns(column.cast(pa.duration("ns"))), False, ())
+            return stamps.Stamps(nanoseconds(column.cast(pa.duration("ns"))), False, ())
         if self.unit is not None:
-            values = column.to_numpy() if pt.is_integer(kind) and not column.null_count else _numbers(column)
+            values = column.to_numpy() if pt.is_integer(kind) and not column.null_count else numbers(column)
             return clocks_times(values, self.unit, self.source.timezone)
         if not (pt.is_timestamp(kind) or pt.is_date(kind)):
             form = one_time(self.source.table, self.path.name).get("format")
             return stamps.parse([str(v or "") for v in column.to_pylist()], self.source.timezone, form, self.path.name)
         zone = getattr(kind, "tz", None)
-        naive = _ns(column.cast(pa.timestamp("ns", zone)))
+        naive = nanoseconds(column.cast(pa.timestamp("ns", zone)))
         if zone is not None:
             return stamps.Stamps(naive, True, ())
         return stamps.local_stamps(naive.view("datetime64[ns]"), self.source.timezone)
@@ -166,7 +152,7 @@ class Table:
         if pt.is_floating(kind):
             return {"float": "float32", "halffloat": "float16"}.get(str(kind), "float64")
         if pt.is_integer(kind) or pt.is_boolean(kind):
-            with _ours(self.path):
+            with damage_as_format_error(self.path):
                 complete = self._complete(column)
             if not complete:
                 return "float64"
@@ -186,111 +172,3 @@ class Table:
             if statistics is None or not statistics.has_null_count or statistics.null_count:
                 return False
         return True
-
-
-def _plain(kind: Any) -> Any:
-    """The type of a dictionary's values."""
-    import pyarrow.types as pt
-
-    return kind.value_type if pt.is_dictionary(kind) else kind
-
-
-def _flat(schema: Any) -> tuple[Any, list[str]]:
-    """The schema with structs taken apart, and the path of each column; lists and maps are left out."""
-    import pyarrow as pa
-    import pyarrow.types as pt
-
-    fields: list[Any] = []
-    places: list[str] = []
-
-    def add(field: Any, place: str, name: str, depth: int) -> None:
-        if pt.is_struct(field.type) and depth < 8:
-            for inner in field.type:
-                add(inner, f"{place}.{inner.name}", f"{name}/{inner.name}", depth + 1)
-        elif not pt.is_nested(field.type):
-            fields.append(pa.field(name, field.type))
-            places.append(place)
-
-    for field in schema:
-        add(field, field.name, field.name, 0)
-    return pa.schema(fields), places
-
-
-def _left_out(schema: Any) -> list[str]:
-    import pyarrow.types as pt
-
-    names = [f.name for f in schema if pt.is_nested(f.type) and not pt.is_struct(f.type)]
-    return [f"columns of lists are not read: {', '.join(names[:8])}"] if names else []
-
-
-def _at(batch: Any, place: str) -> Any:
-    """A column, or a part of a struct; a name may itself hold dots."""
-    import pyarrow.compute as pc
-
-    if place in batch.schema.names:
-        return batch.column(batch.schema.names.index(place))
-    first, *rest = place.split(".")
-    column = batch.column(batch.schema.names.index(first))
-    for name in rest:
-        column = pc.struct_field(column, name)
-    return column
-
-
-def _numbers(column: Any) -> Array:
-    import pyarrow as pa
-
-    return np.asarray(column.cast(pa.float64()).to_numpy(), np.float64)
-
-
-def _ns(column: Any) -> Int1D:
-    """Nanoseconds of timestamps or durations; NAT where there is none."""
-    import pyarrow as pa
-
-    found: Int1D = column.cast(pa.int64()).fill_null(int(NAT)).to_numpy().astype(np.int64)
-    return found
-
-
-def describe(path: Path, source: Source) -> Recording:
-    table = Table(path, source)
-    head = next(table.batches(1000), None)
-    nothing = stamps.Stamps(np.zeros(0, np.int64), False, ())
-    with _ours(path):
-        found = nothing if head is None else table.times(head.column(table.time))
-    good = found.t_ns[found.t_ns != NAT]
-    signals = tuple(
-        Signal(n, STREAM, split_unit(n)[1], table.dtype(i)) for i, n in enumerate(table.names) if i != table.time
-    )
-    start = (int(good[0]) if good.size else 0) if found.absolute else None
-    return Recording(signals, "absolute" if found.absolute else "relative", start, True, (*table.notes, *found.notes))
-
-
-def blocks(path: Path, source: Source) -> Iterator[Block | Loss]:
-    table = Table(path, source)
-    import pyarrow as pa
-
-    top = table.places[table.time].split(".")[0]
-    kept = [b.column(str(table.time)) for b in table.batches(_ROWS, [top])]
-    with _ours(path):
-        column = pa.chunked_array([c for k in kept for c in k.chunks], table.schema.field(table.time).type)
-        times = table.times(column).t_ns
-    at = missing = 0
-    columns = [(i, n, table.dtype(i)) for i, n in enumerate(table.names) if i != table.time]
-    size = max(1, int(source.options.get("block_rows", min(_ROWS, 1_000_000 // len(table.names)))))
-    for batch in table.batches(size):
-        t_ns = times[at : at + batch.num_rows]
-        good = t_ns != NAT
-        at += batch.num_rows
-        missing += int((~good).sum())
-        with _ours(path):
-            values = {name: _values(batch.column(i), dtype)[good] for i, name, dtype in columns}
-        yield Block(STREAM, t_ns[good], values)
-    if missing:
-        yield Loss(path.name, None, None, missing / at, f"{missing} rows without a time")
-
-
-def _values(column: Any, dtype: str) -> Array:
-    if dtype == "float64":
-        return _numbers(column)
-    if dtype == "str":
-        return np.array(["" if v is None else str(v) for v in column.to_pylist()], object)
-    return np.asarray(column.to_numpy(zero_copy_only=False)).astype(dtype)
