@@ -16,14 +16,17 @@ class Reader:
     name = "mcap"
 
     def sniff(self, head: Head) -> str | None:
+        """Why this reader claims a file by its first bytes; None where it does not."""
         return "MCAP: the file starts with its magic bytes" if head.start.startswith(MAGIC) else None
 
     def describe(self, path: Path, source: Source) -> Recording:
+        """The topics as streams with their signals, by samples. FormatError: no MCAP, or no topic that reads."""
         from thermodata_reader_mcap.signals import recording
 
         return recording.describe(path, source)
 
     def blocks(self, path: Path, source: Source) -> Iterator[Block | Loss]:
+        """The messages, times in ns since 1970 UTC (or since the start), and a loss for all that is damaged."""
         from thermodata_reader_mcap.signals import recording
 
         return recording.blocks(path, source)

@@ -45,14 +45,17 @@ class Channel:
 
     @property
     def length(self) -> int:
+        """Values that are there."""
         return min(c.length for c in self.columns)
 
     @property
     def planned(self) -> int:
+        """Values that the file announced: more than there are where it was cut."""
         return max(c.planned for c in self.columns)
 
     @property
     def is_timestamp(self) -> bool:
+        """Whether its values are points in time."""
         return self.signal.properties.get("kind") == "timestamp"
 
     @property

@@ -88,6 +88,7 @@ class Layout:
 
     @cached_property
     def daqmx(self) -> bool:
+        """Whether the chunk holds raw buffers of DAQmx."""
         return bool(self.objects) and bool(self.objects[0][1].scalers)
 
     @cached_property
@@ -97,6 +98,7 @@ class Layout:
 
     @cached_property
     def chunk_bytes(self) -> int:
+        """Bytes of one whole chunk."""
         if self.daqmx:
             return sum(n * width for n, width in self.buffers)
         return sum(index.nbytes for _, index in self.objects)

@@ -20,6 +20,8 @@ _LOCK = Lock()
 
 @dataclass(frozen=True)
 class File:
+    """What a file holds, without the bulk: its segments, its streams, and what to say of them."""
+
     index: Index
     streams: tuple[Stream, ...]
     notes: tuple[str, ...]

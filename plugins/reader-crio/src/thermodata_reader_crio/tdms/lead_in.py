@@ -30,10 +30,12 @@ class LeadIn:
 
     @property
     def order(self) -> str:
+        """The order of the bytes as struct writes it: '<' or '>'."""
         return ">" if self.toc & BIG_ENDIAN else "<"
 
     @property
     def meta_bytes(self) -> int:
+        """Bytes between the lead-in and the raw data."""
         return self.data - self.start - LEAD_IN
 
 

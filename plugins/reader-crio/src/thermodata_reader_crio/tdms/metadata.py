@@ -87,15 +87,18 @@ class Cursor:
         self._index = struct.Struct(order + "IIQ").unpack_from
 
     def take(self, n: int) -> bytes:
+        """The next n bytes."""
         if n > len(self.data) - self.at:
             raise DamageError(f"a field of {n} bytes in metadata that ends after {len(self.data) - self.at}")
         self.at += n
         return self.data[self.at - n : self.at]
 
     def number(self, code: str) -> Any:
+        """The next number, by struct's code for it."""
         return struct.unpack(self.order + code, self.take(struct.calcsize(code)))[0]
 
     def u32(self) -> int:
+        """The next number of 4 bytes."""
         at = self.at
         if at + 4 > len(self.data):
             self.take(4)
@@ -103,6 +106,7 @@ class Cursor:
         return int(self._u32(self.data, at)[0])
 
     def text(self) -> str:
+        """The next text, behind its length."""
         raw = self.take(self.u32())
         try:
             return raw.decode("utf-8")
@@ -110,6 +114,7 @@ class Cursor:
             return raw.decode("cp1252", "backslashreplace")  # older LabVIEW wrote the system's code page
 
     def timestamp(self) -> Timestamp:
+        """The next 16 bytes as a point in time."""
         if self.order == "<":
             fraction, seconds = struct.unpack("<Qq", self.take(16))
         else:
@@ -117,6 +122,7 @@ class Cursor:
         return Timestamp(seconds, fraction)
 
     def property(self) -> tuple[str, Any]:
+        """The next property: its name and its value."""
         name, kind = self.text(), self.u32()
         if kind == STRING:
             return name, self.text()
@@ -133,6 +139,7 @@ class Cursor:
         raise DamageError(f"property '{name[:80]}' has the unknown type 0x{kind:X}")
 
     def raw_index(self, path: str) -> RawIndex:
+        """How a channel of plain values lies in a chunk."""
         if self.at + 16 > len(self.data):
             self.take(16)
         kind, dimension, n = self._index(self.data, self.at)
@@ -158,6 +165,7 @@ class Cursor:
         raise DamageError(f"{path[:80]} has the unknown data type 0x{kind:X}")
 
     def daqmx(self, header: int) -> RawIndex:
+        """How a channel of DAQmx lies in the raw buffers of a chunk. header: which of its two kinds."""
         kind, dimension, n, count = self.u32(), self.u32(), int(self.number("Q")), self.u32()
         if dimension != 1:
             raise DamageError(f"a DAQmx index of dimension {dimension}")

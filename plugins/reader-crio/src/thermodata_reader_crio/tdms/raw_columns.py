@@ -30,6 +30,7 @@ class Kind(NamedTuple):
 
     @property
     def item(self) -> int:
+        """Bytes of one number; 0 for text."""
         return 0 if self.dtype == TEXT else int(self.dtype[1:])
 
 
@@ -70,10 +71,12 @@ class Column:
 
     @property
     def row(self) -> Int1D:
+        """First row of each piece, and the end: shape (k + 1,)."""
         return self.runs.rows(self.n)
 
     @property
     def length(self) -> int:
+        """Values that are there."""
         return int(self.row[-1])
 
     @property

@@ -22,6 +22,7 @@ _TEXT_BYTES = 16 << 20  # and bytes of text
 
 
 def describe(path: Path, source: Source) -> Recording:
+    """Streams, signals and notes of a file; nothing of the bulk is read. FormatError: not one segment can be read."""
     file = open_file(path, source, keep=True)
     notes = [*file.notes, *file.partly]
     absolute = _any_absolute(file)
@@ -65,6 +66,7 @@ def _first_times(path: Path, file: File) -> list[tuple[Stream, int]]:
 
 
 def blocks(path: Path, source: Source) -> Iterator[Block | Loss]:
+    """The values as stored, times in ns since 1970 UTC (or since the start), and a loss for all that damage took."""
     file = open_file(path, source)
     absolute = _any_absolute(file)
     origin = min((t for s, t in _first_times(path, file) if s.absolute), default=0)

@@ -30,11 +30,13 @@ class Pieces:
     shape: array[int] = field(default_factory=lambda: array("i"))
 
     def add(self, position: int, chunks: int, shape: int) -> None:
+        """One run more: its first byte, its chunks, the number of its shape."""
         self.position.append(position)
         self.chunks.append(chunks)
         self.shape.append(shape)
 
     def drop_from(self, count: int) -> None:
+        """Forgets all entries from one on."""
         del self.position[count:], self.chunks[count:], self.shape[count:]
 
     def copy(self, first: int) -> list[tuple[int, int, int]]:
@@ -91,6 +93,7 @@ class Index:
 
     @property
     def segments(self) -> int:
+        """How many good segments there are."""
         return len(self.starts)
 
     def note(self, text: str) -> None:

@@ -29,15 +29,18 @@ class Stream:
 
     @property
     def rows(self) -> int:
+        """Rows that can be delivered."""
         longest = max(c.length for c in self.channels)
         return longest if self.time_channel is None else min(longest, self.time_channel.channel.length)
 
     @property
     def planned(self) -> int:
+        """Rows that the file announced: more than there are where it was cut."""
         return max(c.planned for c in self.channels)
 
     @property
     def absolute(self) -> bool:
+        """Whether its times are since 1970 UTC, not since the start."""
         return (
             self.time_channel.absolute
             if self.time_channel is not None

@@ -41,6 +41,7 @@ class TimeChannel:
 
     @property
     def absolute(self) -> bool:
+        """Whether its times are since 1970 UTC, not since the start."""
         return self.epoch_ns is not None
 
     def times(self, values: Array) -> tuple[Int1D, Bool1D]:

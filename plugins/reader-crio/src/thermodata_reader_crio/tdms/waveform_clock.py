@@ -25,6 +25,7 @@ class Waveform:
 
     @property
     def base_ns(self) -> int:
+        """Time of the first sample: ns since 1970 UTC, or since the start."""
         return (self.start_ns or 0) + self.offset_ns
 
     def at(self, sample: int) -> int:

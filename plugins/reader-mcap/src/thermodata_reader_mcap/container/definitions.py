@@ -11,6 +11,8 @@ from thermodata_reader_mcap.container.records import CHANNEL, SCHEMA, Bytes, oct
 
 @dataclass(frozen=True, slots=True)
 class Schema:
+    """A schema record: the type's name, the language of its definition, and the definition."""
+
     name: str
     encoding: str
     data: bytes

@@ -60,14 +60,17 @@ def number(view: Bytes, at: int, stop: int, kind: struct.Struct) -> tuple[int, i
 
 
 def u16(view: Bytes, at: int, stop: int) -> tuple[int, int]:
+    """A number of 2 bytes and where it ends. ShortError."""
     return number(view, at, stop, _U16)
 
 
 def u32(view: Bytes, at: int, stop: int) -> tuple[int, int]:
+    """A number of 4 bytes and where it ends. ShortError."""
     return number(view, at, stop, _U32)
 
 
 def u64(view: Bytes, at: int, stop: int) -> tuple[int, int]:
+    """A number of 8 bytes and where it ends. ShortError."""
     return number(view, at, stop, _U64)
 
 

@@ -21,6 +21,8 @@ class UnsureError(Exception):
 
 @dataclass(slots=True)
 class FieldCounts:
+    """How often one path was there, with which kinds of value; low, high: of its integers, and of 0."""
+
     count: int = 0
     nulls: int = 0
     bools: int = 0
@@ -32,6 +34,7 @@ class FieldCounts:
 
     @property
     def scalars(self) -> int:
+        """Values that are numbers, truths or texts."""
         return self.bools + self.integers + self.floats + self.texts
 
     def __iadd__(self, other: FieldCounts) -> FieldCounts:

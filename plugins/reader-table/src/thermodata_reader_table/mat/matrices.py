@@ -23,6 +23,7 @@ from thermodata_reader_table.mat.tree import Numbers
 
 
 def sort_matrices(plan: Plan, scope: Scope) -> None:
+    """The columns of the scope's matrices as signals, and one of them as the time where it is one."""
     for path, node in scope.matrices:
         lengths = {a.length for a in scope.times} or {node.rows if node.rows >= node.columns else node.columns}
         axis = 0 if node.rows in lengths or node.columns not in lengths else 1

@@ -133,26 +133,32 @@ def without_time(name: str) -> str:
 
 
 def squeezed(name: str) -> str:
+    """A name without what separates its words, in small letters."""
     return "".join(tokens(name)).lower()
 
 
 def names_names(name: str) -> bool:
+    """Whether a variable holds the names of others."""
     return squeezed(name) in _NAMES or any(squeezed(name).endswith(w) for w in ("names", "labels", "header"))
 
 
 def names_units(name: str) -> bool:
+    """Whether a variable holds the units of others."""
     return squeezed(name) in _UNITS or squeezed(name).endswith("units")
 
 
 def names_time_unit(name: str) -> bool:
+    """Whether a variable holds the unit of the time."""
     return squeezed(name) in ("timeunit", "timeunits", "unittime", "tunit", "xunit")
 
 
 def names_step(name: str) -> bool:
+    """Whether a variable holds the time between two samples, in s."""
     return squeezed(name) in _STEP and name != "TS"
 
 
 def names_rate(name: str) -> bool:
+    """Whether a variable holds the samples a second."""
     return squeezed(name) in _RATE
 
 

@@ -17,6 +17,7 @@ _BLOCK_VALUES = 1_000_000
 
 
 def describe(path: Path, source: Source) -> Recording:
+    """Streams and signals of a file. FormatError: no time and signals, or which belong together is not clear."""
     with opened(path) as tree:
         found = Clocked(tree, source, path.name)
         signals = tuple(
@@ -34,6 +35,7 @@ def describe(path: Path, source: Source) -> Recording:
 
 
 def blocks(path: Path, source: Source) -> Iterator[Block | Loss]:
+    """The values as stored, times in ns since 1970 UTC (or since the start), and the variables that are lost."""
     with opened(path) as tree:
         found = Clocked(tree, source, path.name)
         yield from found.losses

@@ -38,6 +38,7 @@ def one_text(node: Node | None) -> str | None:
 
 
 def one_number(node: Node | None) -> float | None:
+    """The value of an array of one number, or of a cell with one; None for anything else."""
     if isinstance(node, Cells) and len(node.items) == 1:
         node = node.items[0]
     return float(node.line(0, 0)[0]) if isinstance(node, Numbers) and node.size == 1 else None

@@ -80,6 +80,7 @@ class Plan:
 
 
 def upwards(scope: Scope | None) -> Iterator[Scope]:
+    """A scope and those above it, the innermost first."""
     while scope is not None:
         yield scope
         scope = scope.above
@@ -96,17 +97,20 @@ def described(scope: Scope) -> dict[str, str]:
 
 
 def fitting(scope: Scope, kind: str, count: int) -> list[str] | None:
+    """The nearest list of `kind` (names, units) with as many entries as there are columns; None: there is none."""
     lists: list[Sequence[str]] = [x for s in upwards(scope) for x in getattr(s, kind)]
     return next((list(x) for x in lists if len(x) == count), None)
 
 
 def rises(values: Array) -> bool:
+    """Whether numbers rise with every value."""
     if values.dtype.kind not in "iuf" or values.size < 2:
         return False
     return bool(np.isfinite(values).all() and (values[1:] > values[:-1]).all())
 
 
 def same_time(a: TimeVector, b: TimeVector) -> bool:
+    """Whether two times are equal, value by value."""
     if a is b:
         return True
     if (a.length, a.unit, a.texts, a.step_s, a.zero_s) != (b.length, b.unit, b.texts, b.step_s, b.zero_s):

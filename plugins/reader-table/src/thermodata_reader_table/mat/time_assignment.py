@@ -91,6 +91,7 @@ def _stream_of(plan: Plan, vector: TimeVector, scope: Scope) -> Stream:
 
 
 def assign_record(plan: Plan, scope: Scope, path: str, record: Record) -> None:
+    """A struct that is one signal to the time that it holds itself, or to one beside or above it."""
     node, time = record.data, record.time
     texts = lines_of(time) if isinstance(time, Text | Cells) else None
     vector: TimeVector | None = None

@@ -33,6 +33,7 @@ class TimedStream:
     whole: Int1D | None
 
     def times(self, start: int, stop: int) -> Int1D:
+        """Times of rows [start, stop) in ns, shape (n,); NAT where a row has none."""
         if self.whole is not None:
             return self.whole[start:stop]
         if self.time.load is None:

@@ -28,10 +28,12 @@ class Numbers:
 
     @property
     def size(self) -> int:
+        """Elements in all."""
         return self.rows * self.columns
 
     @property
     def is_vector(self) -> bool:
+        """Whether it is one row or one column of more than one element."""
         return min(self.rows, self.columns) == 1 and self.size > 1
 
     def line(self, index: int, axis: int, start: int = 0, stop: int | None = None) -> Array:

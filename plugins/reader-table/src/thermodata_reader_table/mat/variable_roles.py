@@ -16,11 +16,13 @@ from thermodata_reader_table.mat.tree import Cells, Node, Numbers, Odd, Struct, 
 
 
 def lose_object(plan: Plan, path: str, node: Odd) -> None:
+    """A loss for an object of MATLAB's; functions are no data, and nothing is lost with them."""
     if node.kind != "function_handle":
         plan.losses.append(Loss(f"{plan.where} variable '{path}'", None, None, None, refusal(node.kind)))
 
 
 def sort_variable(plan: Plan, scope: Scope, name: str, node: Node, inner: list[tuple[str, Struct]]) -> None:
+    """Puts a variable into its scope; structs go into `inner`, to be looked into afterwards."""
     path = f"{scope.path}/{name}" if scope.path else name
     if isinstance(node, Struct):
         words = {k: one_text(v) for k, v in node.fields.items()}

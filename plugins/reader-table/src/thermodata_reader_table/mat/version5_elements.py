@@ -19,6 +19,8 @@ class DamagedError(Exception):
 
 @dataclass(frozen=True, slots=True)
 class Element:
+    """One element: its type, its bytes [start, stop), and where the next one begins."""
+
     kind: int
     start: int
     stop: int

@@ -43,6 +43,7 @@ class MatrixParser:
         self.data, self.order, self.nodes = data, order, 0
 
     def elements(self, start: int, stop: int) -> Iterator[Element]:
+        """The elements one after the other, up to `stop`. DamagedError."""
         at = start
         while at < stop:
             element = element_at(self.data, at, stop, self.order)
@@ -50,6 +51,7 @@ class MatrixParser:
             at = element.next
 
     def matrix(self, start: int, stop: int, depth: int) -> tuple[str, Node]:
+        """A variable's name and content; depth: of cells and structs around it. DamagedError."""
         self.nodes += 1
         if depth > MAX_DEPTH or self.nodes > MAX_NODES:
             raise DamagedError("nested too deep" if depth > MAX_DEPTH else f"more than {MAX_NODES} parts")

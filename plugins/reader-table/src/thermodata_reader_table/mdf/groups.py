@@ -157,6 +157,7 @@ class File:
         return [Channel(index, Signal(name, stream, unit, "float64", None, properties), False, None)]
 
     def fragments(self, group: int, rows: int | None = None) -> Iterator[Any]:
+        """The raw records of a group in pieces of bounded size. rows: how many at most. FormatError: damaged."""
         with damage_as_format_error(f"{self.where} group {group + 1}"):
             yield from self.inner._load_data(self.mdf.groups[group], record_count=rows)
 

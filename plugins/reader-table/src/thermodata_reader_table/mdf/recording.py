@@ -25,6 +25,7 @@ def _checked(path: Path) -> tuple[str | None, bool]:
 
 
 def describe(path: Path, source: Source) -> Recording:
+    """Streams and signals of a file. FormatError: damaged, or no channel group with rows and a time."""
     cut, finished = _checked(path)
     with opened(path) as mdf, damage_as_format_error(path.name):
         file = File(mdf, source, path.name)
@@ -45,6 +46,7 @@ def describe(path: Path, source: Source) -> Recording:
 
 
 def blocks(path: Path, source: Source) -> Iterator[Block | Loss]:
+    """The values as stored, times in ns since 1970 UTC (or since the start), and what is lost."""
     cut, _ = _checked(path)
     rows = source.options.get("block_rows")
     with opened(path) as mdf:

@@ -11,6 +11,7 @@ from thermodata.reader.zone import NAT
 
 
 def numbers(column: Any) -> Array:
+    """A column as float64, shape (n,); NaN where a value is missing."""
     import pyarrow as pa
 
     return np.asarray(column.cast(pa.float64()).to_numpy(), np.float64)
@@ -25,6 +26,7 @@ def nanoseconds(column: Any) -> Int1D:
 
 
 def values_of(column: Any, dtype: str) -> Array:
+    """A column in the dtype that its signal has, shape (n,)."""
     if dtype == "float64":
         return numbers(column)
     if dtype == "str":

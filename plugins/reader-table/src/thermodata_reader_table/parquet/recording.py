@@ -19,6 +19,7 @@ _ROWS = 250_000
 
 
 def describe(path: Path, source: Source) -> Recording:
+    """The one stream of a file, by its schema and first rows. FormatError: damaged, or no time."""
     table = Table(path, source)
     head = next(table.batches(1000), None)
     nothing = stamps.Stamps(np.zeros(0, np.int64), False, ())
@@ -33,6 +34,7 @@ def describe(path: Path, source: Source) -> Recording:
 
 
 def blocks(path: Path, source: Source) -> Iterator[Block | Loss]:
+    """The values as stored, times in ns since 1970 UTC (or since the start), and rows that have no time as a loss."""
     table = Table(path, source)
     import pyarrow as pa
 

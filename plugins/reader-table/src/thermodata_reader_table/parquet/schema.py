@@ -46,6 +46,7 @@ def flat(schema: Any) -> tuple[Any, list[str]]:
 
 
 def left_out(schema: Any) -> list[str]:
+    """A note on columns of lists and maps, which are not read; none where there are none."""
     import pyarrow.types as pt
 
     names = [f.name for f in schema if pt.is_nested(f.type) and not pt.is_struct(f.type)]

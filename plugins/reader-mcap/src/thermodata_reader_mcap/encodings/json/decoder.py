@@ -23,6 +23,7 @@ class JsonDecoder:
     json: bool = True
 
     def decode(self, payload: bytes) -> Any:
+        """A payload as Python values. ValueError, RecursionError: it is no JSON, or a key comes twice."""
         return loads(self.text(payload))
 
     def text(self, payload: bytes) -> bytes:
@@ -30,6 +31,7 @@ class JsonDecoder:
         return payload if self.encoding is None else payload.decode(self.encoding).encode()
 
     def hint(self, path: Path) -> Hint | None:
+        """What the JSON Schema says of a path; None where it says nothing."""
         node = self.schema
         for part in path:
             if not isinstance(node, Mapping):
@@ -49,6 +51,7 @@ class JsonDecoder:
 
 
 def json_schema(data: bytes) -> Any:
+    """A JSON Schema as Python values; None where it is none."""
     try:
         return json.loads(data) if data.strip() else None
     except (ValueError, RecursionError):

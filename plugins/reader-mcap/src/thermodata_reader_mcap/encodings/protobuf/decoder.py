@@ -23,6 +23,7 @@ class ProtobufDecoder:
     _plans: dict[str, list[tuple[str, Any]]] = field(default_factory=dict)
 
     def decode(self, payload: bytes) -> Any:
+        """A payload as Python values; the package's own errors where it is no such message."""
         return self._plain(self.message.FromString(payload), 0)
 
     def columns(self, topic: Topic, payloads: Sequence[bytes]) -> Columns:
@@ -63,6 +64,7 @@ class ProtobufDecoder:
         return lambda v, d: v
 
     def hint(self, path: Path) -> Hint | None:
+        """What the descriptor says of a path; None where it has no such field."""
         message, f = self.message.DESCRIPTOR, None
         for part in path:
             if isinstance(part, int):

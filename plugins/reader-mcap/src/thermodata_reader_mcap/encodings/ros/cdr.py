@@ -37,6 +37,7 @@ class Cursor:
     widest: int
 
     def align(self, size: int) -> None:
+        """Goes on to the next multiple of a size in bytes, as far as the encapsulation aligns."""
         size = min(size, self.widest)
         if size > 1:
             self.at += -(self.at - self.base) % size

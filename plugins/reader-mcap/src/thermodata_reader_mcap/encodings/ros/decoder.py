@@ -22,6 +22,7 @@ class RosDecoder:
     _hints: dict[Path, Hint | None] = field(default_factory=dict)
 
     def decode(self, payload: bytes) -> Any:
+        """A payload as Python values. PayloadError: it is none of the schema's messages."""
         cursor = begin(payload, self.ros1)
         message = self._struct(self.types.root, cursor)
         self.check_end(payload, cursor.at)
@@ -67,6 +68,7 @@ class RosDecoder:
         return struct.unpack_from(cursor.order + letter, cursor.data, cursor.take(size))[0]
 
     def hint(self, path: Path) -> Hint | None:
+        """What the definition says of a path; None where it has no such field."""
         if path not in self._hints:
             self._hints[path] = self._hint(path)
         return self._hints[path]

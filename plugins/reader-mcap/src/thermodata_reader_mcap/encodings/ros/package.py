@@ -17,6 +17,7 @@ class PackageDecoder:
     json: bool = False
 
     def decode(self, payload: bytes) -> Any:
+        """A payload as Python values; the package's own errors where it is no such message."""
         return _plain(self.made(payload))
 
 
