@@ -13,7 +13,8 @@ from thermodata.reader.zone import local_to_utc_ns
 
 
 def start_ns(header: Any, v4: bool, source: Source, where: str, notes: list[str]) -> int | None:
-    """UTC of the zero of all masters, or None where the header names no day."""
+    """UTC of the zero of all masters in ns since 1970, or None where the header names no day. notes: what had to be
+    decided is added. FormatError: an impossible time."""
     if not v4:
         return _start_v3(header, source, where, notes)
     abs_ns = int(header.abs_time)
@@ -45,8 +46,8 @@ def _local(local_ns: int, hours: int | None, source: Source, where: str, notes: 
     if source.timezone is None and hours is not None:
         notes.append(f"the start is local time, {hours:+d} h from UTC as the file says")
         return _sane(local_ns - hours * 3_600_000_000_000, where)
-    utc, notes = local_to_utc_ns(np.array([local_ns], np.int64).view("datetime64[ns]"), source.timezone)
-    notes.extend(notes)
+    utc, more = local_to_utc_ns(np.array([local_ns], np.int64).view("datetime64[ns]"), source.timezone)
+    notes.extend(more)
     return _sane(int(utc[0]), where)
 
 
