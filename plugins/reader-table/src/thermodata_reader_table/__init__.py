@@ -44,15 +44,23 @@ class Reader:
         found: Iterator[Block | Loss] = _format(path).blocks(path, source)
         return found
 
-    def place(self, path: Path, source: Source, stream: str, row: int) -> str:
+    def locate(self, path: Path, source: Source, stream: str, row: int) -> str:
         """Where a row (counted from 0) of a stream stands: line, row of a sheet, index of an array, record."""
-        from thermodata_reader_table.place import place
+        module = _format(path)
+        where: str | None
+        if hasattr(module, "locate"):
+            where = module.locate(path, source, stream, row)
+        else:
+            from thermodata_reader_table.place import place
 
-        return place(_format(path), path, source, stream, row) or f"row {row + 1}"
+            where = place(module, path, source, stream, row)
+        return where or f"row {row + 1}"
+
+    place = locate
 
 
 def mat_is_hdf5(start: bytes) -> bool:
-    from thermodata_reader_table.mat import is_hdf5
+    from thermodata_reader_table.mat.files import is_hdf5
 
     return is_hdf5(start)
 

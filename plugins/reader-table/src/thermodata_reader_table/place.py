@@ -14,9 +14,8 @@ from typing import Any
 
 import numpy as np
 
-from thermodata.plugin import Block, Int1D, Loss, Source
+from thermodata.plugin import Block, Loss, Source
 from thermodata.reader.text import clean
-from thermodata.reader.zone import NAT
 
 _CLEAN = re.compile(r"[ \u00a0\u202f'’%]")
 _Record = tuple[int, Sequence[Any]]  # number of the line or row from 1, its cells
@@ -26,12 +25,6 @@ _Found = tuple[list[Any], int]  # a row's values, the rows of its stream
 def place(module: ModuleType, path: Path, source: Source, stream: str, row: int) -> str | None:
     """Where a row (counted from 0) of a stream stands; None where that can't be told."""
     form = module.__name__.rsplit(".", 1)[-1]
-    if form in ("parquet", "mat", "mdf"):
-        from thermodata_reader_table import placearrays
-
-        return {"parquet": placearrays.parquet_row, "mat": placearrays.mat_row, "mdf": placearrays.mdf_row}[form](
-            path, source, stream, row
-        )
     return (_in_workbook if form == "workbook" else _in_text)(module, path, source, stream, row)
 
 
@@ -167,15 +160,4 @@ def _number(cell: Any, decimal: str) -> float | None:
             return float(plain.replace(",", ".") if decimal == "," else plain)
         except ValueError:
             continue
-    return None
-
-
-def nth_good(parts: Iterable[Int1D], row: int) -> int | None:
-    """The number, from 0, of the row-th time that is one."""
-    done = start = 0
-    for t_ns in parts:
-        good = np.flatnonzero(t_ns != NAT)
-        if row < done + good.size:
-            return start + int(good[row - done])
-        done, start = done + good.size, start + t_ns.size
     return None
