@@ -135,6 +135,9 @@ class Reader(Protocol):
     what a person can look up there, counted as the program that shows the file counts it: "line 812", "segment 3 of
     86400, byte 123456 (Eddy/Z)", "sheet 'data', row 813". Where that can't be told it says the row only ("row 812").
     It reads the file in bounded memory, and may take as long as reading it. `thermodata trace --verify` shows it.
+
+    It may also have two attributes, which none needs. `formats: tuple[str, ...]` names what it reads, for
+    `thermodata plugins show`. `version: str` stands in the raw data's key in place of its distribution's version.
     """
 
     name: str
@@ -198,7 +201,17 @@ class Drivers:
 
 @runtime_checkable
 class Effect(Protocol):
-    """One physical effect: drivers and nonlinear parameters in, one column a gain out."""
+    """One physical effect: drivers and nonlinear parameters in, one column a gain out.
+
+    name: an identifier, the one of its entry point. family: effects of one cause share it; `{a}` in it is filled in
+    from the places that its drivers sit at. meaning: a sentence. source: where equation and bounds come from.
+
+    It may have three attributes more, which no effect needs (`thermodata.effect.describe` reads them):
+    `equation: str`, in plain text with F_tau{u} for a first-order lag; by default the first line of its class's
+    docstring that holds " = ". `telltale: str`, how a residual looks where the effect is missing, and what test tells
+    it from its like. `refines: tuple[str, ...]`, names of effects that it refines: diagnosis asks for it only where
+    the model has one of them.
+    """
 
     name: str
     family: str

@@ -57,7 +57,11 @@ FAST: dict[str, FastPath] = {
     "lvm": FastPath(("thermodata_reader_crio.rows", "_fast"), "none", ("lvm",), "lvm", (("_SMALL", 0),)),
     "csv": FastPath(("thermodata_reader_table.text_fast", "blocks"), "UnsuitableError", ("table_csv",), "csv"),
     "mcap json": FastPath(
-        ("thermodata_reader_mcap.arrow_json", "_by_arrow"), "_OddError", ("mcap_json",), "mcap", (("_SMALL", 1),)
+        ("thermodata_reader_mcap.encodings.json.arrow", "_by_arrow"),
+        "_OddError",
+        ("mcap_json",),
+        "mcap",
+        (("_SMALL", 1),),
     ),
 }
 

@@ -37,6 +37,27 @@ def test_drift_is_named(say: Say, tmp_path: Path) -> None:
     assert "schema --write" in said.err
 
 
+def test_the_generated_pages_match_the_code(say: Say) -> None:
+    said = say("schema", "--docs", "--check", PUBLISHED.parent / "docs")
+    assert said.code == 0, said.err
+
+
+def test_drift_of_a_page_is_named_and_pages_by_hand_are_let_be(say: Say, tmp_path: Path) -> None:
+    assert say("schema", "--docs", "--write", tmp_path).code == 0
+    (tmp_path / "by-hand.md").write_text("# Ours")
+    assert say("schema", "--docs", "--check", tmp_path).code == 0
+    (tmp_path / "places.md").write_text("# Old")
+    said = say("schema", "--docs", "--check", tmp_path)
+    assert said.code == 1
+    assert "places.md differ" in said.err
+    assert "schema --docs --write" in said.err
+
+
+def test_a_page_is_printed_by_its_name(say: Say) -> None:
+    assert say("schema", "--docs").out.split() == ["effects.md", "places.md"]
+    assert say("schema", "--docs", "places.md").out.startswith("# Places and quantities")
+
+
 def test_an_editor_accepts_a_campaign_and_refuses_a_typo(say: Say) -> None:
     schema = json.loads(say("schema", "campaign-1.schema.json").out)
     good = yaml.safe_load(CAMPAIGN)

@@ -38,6 +38,18 @@ class NoGain(Good):
         return np.zeros((len(drivers.t_s), 0))
 
 
+class EquationOfNoText(Good):
+    equation = ("d", "=", "k u")
+
+
+class TellsNothing(Good):
+    telltale = " "
+
+
+class RefinesByText(Good):
+    refines = "good"
+
+
 class TwiceTheName(Good):
     gains = (Gain("a", "um/K", (0, 10), "any", "k"),)
 
@@ -96,14 +108,24 @@ class Idle(Good):
         return drivers.values["u"].reshape(-1, 1).copy()
 
 
+class Stated(Good):
+    equation = "d = k u a"
+    telltale = "goes with u"
+    refines = ("good",)
+
+
 def test_a_good_effect_passes() -> None:
     kit.check_effect(Good())
+    kit.check_effect(Stated())
 
 
 @pytest.mark.parametrize(
     ("broken", "rule"),
     [
         (NoGain, kit.it_has_all_that_the_contract_names),
+        (EquationOfNoText, kit.what_it_states_beyond_the_contract_is_text),
+        (TellsNothing, kit.what_it_states_beyond_the_contract_is_text),
+        (RefinesByText, kit.what_it_states_beyond_the_contract_is_text),
         (TwiceTheName, kit.its_names_are_unique),
         (NoSuchQuantity, kit.it_needs_quantities_that_exist),
         (StartsOutside, kit.its_bounds_hold_its_start),

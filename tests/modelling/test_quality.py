@@ -69,7 +69,7 @@ def test_an_effect_that_nothing_moves_is_named(world: Dataset, spec: Spec) -> No
 
 
 def test_a_coarse_sensor_before_a_sharp_function_ripples(world: Dataset, spec: Spec) -> None:
-    """Paper 003: 82 um/K at high frequency times 0.1 K is 8 um."""
+    """[mares2021]: 82 um/K at high frequency times 0.1 K is 8 um."""
     turning = {
         "effect": "transfer_function",
         "drivers": {"u": "T_nut"},

@@ -19,18 +19,15 @@ from thermodata.view.dataset import ChannelInfo, Dataset, TestData
 
 from .conftest import Spec
 
-PUBLISHED = Path(__file__).parents[3] / "shared" / "published" / "transfer_functions.yaml"
+PUBLISHED = Path(__file__).parent / "printed" / "transfer_functions.yaml"
 
 
 def _printed() -> dict[str, dict[str, Any]]:
-    if not PUBLISHED.exists():
-        return {}
     groups = yaml.safe_load(PUBLISHED.read_text())
     return {f"{g}.{n}": f for g, functions in groups.items() for n, f in functions.items()}
 
 
 PRINTED = _printed()
-pytestmark_published = pytest.mark.skipif(not PRINTED, reason="the published functions are not beside this checkout")
 
 
 def _spectrum(seed: int, hours: int) -> Float1D:
@@ -128,7 +125,7 @@ def test_a_third_lag_that_the_data_cannot_identify_is_refused(fine: Dataset, coa
 
 
 def test_arx_is_scored_in_free_run_and_that_shows(fine: Dataset, spec: Spec) -> None:
-    """One step ahead it looks perfect; in free run it is far behind (modelling.md: 63 at 1 s)."""
+    """One step ahead it looks perfect; in free run it is far behind (docs/method.md#fitting: 63 at 1 s)."""
     effect = {"effect": "transfer_function", "drivers": {"u": "T"}, "method": "arx", "orders": [1, 2]}
     fitted = fit_model(spec(effect), fine)
     assert 0 < _unseen(fitted, fine) < 90
@@ -138,7 +135,6 @@ def test_arx_is_scored_in_free_run_and_that_shows(fine: Dataset, spec: Spec) -> 
     assert _unseen(fit_model(spec(exact), data), data) > 98
 
 
-@pytestmark_published
 @pytest.mark.parametrize("name", sorted(n for n, f in PRINTED.items() if f.get("usable")))
 def test_usable_printed_functions_settle_at_their_gain_at_rest(name: str) -> None:
     f = PRINTED[name]
@@ -149,16 +145,14 @@ def test_usable_printed_functions_settle_at_their_gain_at_rest(name: str) -> Non
     assert settled == pytest.approx(f["dc_um_per_K"], rel=1e-3)
 
 
-@pytestmark_published
 def test_a_printed_function_whose_digits_make_it_unstable_is_refused() -> None:
     f = PRINTED["cutting.e2"]
     with pytest.raises(SpecError, match="not stable"):
         GivenFunction(f["a"], f["b"], 1.0)
 
 
-@pytestmark_published
 def test_a_continuous_function_is_read_with_its_constant_first() -> None:
-    """Paper 001: K1/T1 = 0.0162/0.002098 = 7.7 um/K, near the control's own 7.0."""
+    """[horejs2010]: K1/T1 = 0.0162/0.002098 = 7.7 um/K, near the control's own 7.0."""
     f = PRINTED["continuous.E_z_heat"]
     function = GivenFunction(f["num"], f["den"], None)
     assert function.gain_at_rest == pytest.approx(7.72, abs=0.01)
@@ -186,7 +180,7 @@ def test_the_printed_difference_equation_is_what_is_simulated() -> None:
 
 
 def test_g_times_a_given_function(fine: Dataset, spec: Spec) -> None:
-    """Paper 002: one spindle's function times a gain for another."""
+    """[horejs2022]: one spindle's function times a gain for another."""
     printed = {"a0": 0.0003, "b0": 1.0, "b1": -0.9997}
     effect = {"effect": "transfer_function", "drivers": {"u": "T"}}
     free = fit_model(spec(effect | {"fixed": printed}), fine)

@@ -1,4 +1,4 @@
-"""Campaign and model files: what the design shows loads; every mistake names its line and what is right."""
+"""Campaign and model files: what the README shows loads; every mistake names its line and what is right."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""`plugins`: what is installed, and what failed to load; `plugins new`: one more."""
+"""`plugins`: what is installed, and what failed to load; `plugins show`: all about one; `plugins new`: one more."""
 
 from __future__ import annotations
 
@@ -12,12 +12,14 @@ from thermodata.cli.table import table
 
 
 @command("plugins")
-@click.argument("action", required=False, type=click.Choice(["new"]))
+@click.argument("action", required=False, type=click.Choice(["show", "new"]))
 @click.argument("name", required=False)
 def plugins_command(session: Session, action: str | None, name: str | None) -> None:
-    """List the installed readers and effects; with 'new', write one.
+    """List the installed readers and effects; 'show' one, or write a 'new' one.
 
     With the distribution of each; failed ones with their error.
+
+    'plugins show NAME' prints an effect's equation, drivers, places, bounds and source, or a reader's formats.
 
     'plugins new reader-NAME' (or effect-NAME) writes a small plugin that works and passes its kit, with tests and
     comments to go on from: in a checkout of thermodata as plugins/reader-NAME, registered for `uv run`; elsewhere as a
@@ -25,6 +27,11 @@ def plugins_command(session: Session, action: str | None, name: str | None) -> N
     """
     if action == "new":
         _new(session, name)
+        return
+    if action == "show":
+        from thermodata.cli.show_plugin import show
+
+        show(session, name, installed())
         return
     rows = installed()
     session.answer(
@@ -61,15 +68,15 @@ def installed() -> list[dict[str, Any]]:
     """One row a plugin: kind, name, distribution, version, about, error (None where it loads)."""
     from importlib.metadata import entry_points
 
-    from thermodata.effect import effects
+    from thermodata.effect import effects, failed_effects
     from thermodata.reader import failed_readers, readers
 
     loaded: dict[str, dict[str, Any]] = {"reader": dict(readers()), "effect": dict(effects())}
-    failed = {str(k): str(v) for k, v in dict(failed_readers()).items()}
+    failed = {"reader": dict(failed_readers()), "effect": dict(failed_effects())}
     origin = {(kind, point.name): point.dist for kind in loaded for point in entry_points(group=f"thermodata.{kind}")}
     rows = []
     for kind, plugins in loaded.items():
-        names = sorted(set(plugins) | {name for k, name in origin if k == kind and name in failed})
+        names = sorted(set(plugins) | {name for k, name in origin if k == kind and name in failed[kind]})
         for name in names:
             # an entry point may stand for several effects; those carry their module's distribution
             dist = origin.get((kind, name)) or _distribution(plugins.get(name))
@@ -80,7 +87,7 @@ def installed() -> list[dict[str, Any]]:
                     "distribution": dist.name if dist else None,
                     "version": dist.version if dist else None,
                     "about": _about(plugins.get(name)),
-                    "error": failed.get(name) if kind == "reader" else None,
+                    "error": failed[kind].get(name),
                 }
             )
     return rows

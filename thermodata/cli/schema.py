@@ -13,6 +13,11 @@ from thermodata.errors import ThermodataError, unknown_name
 @command("schema")
 @click.argument("document", required=False)
 @click.option(
+    "--docs",
+    is_flag=True,
+    help="The generated pages of docs/ (effects.md, places.md) in place of the schemas.",
+)
+@click.option(
     "--write",
     type=click.Path(path_type=Path, file_okay=False),
     metavar="FOLDER",
@@ -24,22 +29,26 @@ from thermodata.errors import ThermodataError, unknown_name
     metavar="FOLDER",
     help="Compare FOLDER with the code; exit code 1 names what differs.",
 )
-def schema_command(session: Session, document: str | None, write: Path | None, check: Path | None) -> None:
+def schema_command(session: Session, document: str | None, docs: bool, write: Path | None, check: Path | None) -> None:
     """Print, write or check the published documents.
 
     JSON Schema of campaign and model files and of results, SQL of the store. Without DOCUMENT: their names.
+    With --docs: the pages on effects, places and quantities that are generated from the code.
     """
-    texts = documents()
+    texts = pages() if docs else documents()
     if write is not None:
         write.mkdir(parents=True, exist_ok=True)
         for name, text in texts.items():
             (write / name).write_text(text, encoding="utf-8")
             session.say(f"wrote {write / name}")
     if check is not None:
-        differ = differences(check, texts)
+        # the folder docs holds pages written by hand too
+        differ = differences(check, texts, alone=not docs)
         if differ:
             raise ThermodataError(
-                f"{', '.join(differ)} differ from the code", where=str(check), hint=f"thermodata schema --write {check}"
+                f"{', '.join(differ)} differ from the code",
+                where=str(check),
+                hint=f"thermodata schema {'--docs ' if docs else ''}--write {check}",
             )
         session.say(f"{check}: {len(texts)} documents match the code")
     if document is not None:
@@ -59,12 +68,21 @@ def documents() -> dict[str, str]:
     return {**publish.documents(), "store.sql": head + TABLES}
 
 
-def differences(folder: Path, texts: dict[str, str]) -> list[str]:
-    """Names of documents that are missing in the folder, differ from it, or stand there without a source."""
+def pages() -> dict[str, str]:
+    """File name -> text of every page of docs/ that is generated from the code."""
+    from thermodata.effect import publish
+    from thermodata.schema import publish_places
+
+    return {"effects.md": publish.text(), "places.md": publish_places.text()}
+
+
+def differences(folder: Path, texts: dict[str, str], *, alone: bool = True) -> list[str]:
+    """Names of documents that are missing in the folder or differ from it; and, where they are to stand there alone,
+    of files without a source."""
     wrong = [
         name
         for name, text in texts.items()
         if not (folder / name).is_file() or (folder / name).read_text(encoding="utf-8") != text
     ]
-    there = {path.name for path in folder.glob("*") if path.is_file()} if folder.is_dir() else set()
+    there = {path.name for path in folder.glob("*") if path.is_file()} if alone and folder.is_dir() else set()
     return wrong + sorted(there - set(texts))

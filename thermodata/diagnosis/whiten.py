@@ -39,6 +39,7 @@ def surrogates(residual: Float1D, count: int, rng: np.random.Generator) -> Float
     """Shape (m, count): the residual's amplitude spectrum with random phases.
 
     The series is mirrored first: phase surrogates need ends that meet, or the wrap-around makes a line.
+    Source: [theiler1992].
     """
     m = len(residual)
     mirrored = np.concatenate([residual, residual[::-1]])

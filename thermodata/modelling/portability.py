@@ -1,4 +1,4 @@
-"""How far a model carries over to other machines: the gain g, and the class after the rule of the thesis."""
+"""How far a model carries over to other machines: the gain g, and the class by the rule of [straka2021]."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ END_S = 1800.0  # the end of heating is a mean over this long
 @dataclass(frozen=True)
 class Portability:
     """One test. g: least squares; g_end: from the end of heating (one point: noisier). fit_* [%], ptp_* [response's
-    unit] as printed in the thesis (|max| + |min|): measured, residual without (n) and with (c) the gain."""
+    unit] as printed in [straka2021] (|max| + |min|): measured, residual without (n) and with (c) the gain."""
 
     campaign: str
     test: str
@@ -56,7 +56,7 @@ def classify(
     g: float | None, fit_n: float | None, fit_c: float | None, ptp_measured: float, ptp_n: float, ptp_c: float
 ) -> Verdict:
     """Portable: |g - 1| <= 0.1, uncorrected FIT > 80 and the peak to peak falls. Not portable: no g, g outside
-    0.33..3, corrected FIT < 20, or the peak to peak rises. Else with correction. Source: paper 000."""
+    0.33..3, corrected FIT < 20, or the peak to peak rises. Else with correction. Source: [straka2021]."""
     if g is None or not math.isfinite(g) or fit_c is None:
         return "not_portable"
     # a printed gain of 1.1 is 1.1, whatever its binary fraction

@@ -1,7 +1,7 @@
 """How well a model does: free run only, by test and phase.
 
 FIT = (1 - ||y - y_sim|| / ||y - mean(y)||) * 100, not clipped: below 0 the mean would have been the better model.
-(Paper 003 prints y + y_sim in the denominator; it is the mean.)
+([mares2021] prints y + y_sim in the denominator; it is the mean.)
 """
 
 from __future__ import annotations
@@ -79,7 +79,7 @@ def fit_percent(measured: Float1D, residual: Float1D) -> float | None:
 
 
 def peak_sum(values: Float1D) -> float:
-    """|max| + |min|, the peak to peak of the thesis and of paper 002."""
+    """|max| + |min|, the peak to peak of [straka2021] and [horejs2022]."""
     return abs(float(values.max())) + abs(float(values.min())) if len(values) else 0.0
 
 

@@ -1,8 +1,8 @@
 """Variable projection: the search over time constants, with the gains solved for at every point.
 
-First a coarse grid, one parameter after the other (a sweep), then Levenberg-Marquardt with bounds
-(scipy.optimize.least_squares) on the residual that is left after the gains are solved. A grid alone is not enough:
-what a wrong time constant leaves behind looks like a missing effect.
+First a coarse grid, one parameter after the other (a sweep), then least squares within bounds
+(scipy.optimize.least_squares, trust region) on the residual that is left after the gains are solved. A grid alone is
+not enough: what a wrong time constant leaves behind looks like a missing effect. Sources: [golub1973], [branch1999].
 """
 
 from __future__ import annotations

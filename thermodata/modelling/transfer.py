@@ -18,7 +18,7 @@ from thermodata.plugin import Drivers, Float1D, Float2D, Gain, Need, Param
 
 NAME = "transfer_function"
 MOST = 4
-SOURCE = "papers 000-004: y(k) = [a0 u(k) + a1 u(k-1) + ... - b1 y(k-1) - ...] / b0"
+SOURCE = "[horejs2010], [ljung1999]: y(k) = [a0 u(k) + a1 u(k-1) + ... - b1 y(k-1) - ...] / b0"
 _ANY = (Need("u", "*"),)
 _COEFFICIENT = re.compile(r"^(a|b|num|den)(\d+)$")
 _INF = float("inf")
@@ -71,7 +71,7 @@ class FreeFunction:
 
 class GivenFunction:
     """Coefficients as printed: a0.. over b0.. at `sample_s`, or num0.. over den0.. of s, num0 + num1 s + num2 s^2
-    (paper 001 prints K1 + K2 s + K3 s^2; time in `time_s` seconds). One gain: 1 for the function as printed, free
+    ([horejs2010] prints K1 + K2 s + K3 s^2; time in `time_s` seconds). One gain: 1 for the function as printed, free
     for `g` times the function."""
 
     name = NAME

@@ -13,7 +13,7 @@ _LONGEST = 0.25  # of a test; a longer memory cannot be told from a trend
 def deviations(problem: Problem, x: Float1D, gains: Float1D) -> tuple[list[dict[str, float]], frozenset[str]]:
     """Standard deviations a slot by name, and the names that are searched as logarithms (theirs is of log(value)).
 
-    Newey-West with a Bartlett window as long as twice the residual's own memory, a test by itself.
+    [newey1987] with a Bartlett window as long as twice the residual's own memory, a test by itself.
     Parameters at a bound and held gains have none.
     """
     design = problem.design

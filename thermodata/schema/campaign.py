@@ -41,18 +41,28 @@ Moment = Annotated[Value, BeforeValidator(lambda x: x.isoformat(" ") if isinstan
 
 
 class Strict(BaseModel):
-    """Unknown keys are refused; the loader names the nearest right one."""
+    """Base of all that users write. Unknown keys are refused; the loader names the nearest right one."""
 
     model_config = ConfigDict(extra="forbid", frozen=True, populate_by_name=True, coerce_numbers_to_str=True)
 
 
 class Axis(Strict):
+    """`machine.axes.X`: a linear or rotary axis. Free attributes (`preload: 2.1 kN`) are conditions too.
+
+    feedback: what closes the position loop; behind a scale the growth of the screw does not reach the tool
+    """
+
     model_config = ConfigDict(extra="allow", frozen=True)
     feedback: Literal["scale", "screw", "motor"] | None = None
 
 
 class Machine(Strict):
-    """Free attributes are conditions too."""
+    """`machine`: the machine that was tested. Free attributes are conditions too: gains can depend on them.
+
+    id: its number or name in the lab
+    description: free text
+    axes: its axes by letter
+    """
 
     model_config = ConfigDict(extra="allow", frozen=True)
     id: str
@@ -61,37 +71,73 @@ class Machine(Strict):
 
 
 class TimeColumn(Strict):
-    column: int | str | list[int | str] | None = None  # 1-based, or the header's text; a list joins date and time
-    signals: list[int | str] | None = None  # of several times: its columns; None: those behind it
-    unit: str | None = None  # relative times: s, min, h; None: found
-    format: str | None = None  # strptime, where the text is ambiguous
+    """`sources.*.table.time`: the column that holds the time. Found where it is not declared.
+
+    column: counted from 1, or the header's text; a list joins date and time of day
+    signals: where a table has several times: the columns that belong to this one; by default those behind it
+    unit: of relative times: s, min, h; found where it is not said
+    format: as strptime writes it, where day and month cannot be told apart
+    """
+
+    column: int | str | list[int | str] | None = None
+    signals: list[int | str] | None = None
+    unit: str | None = None
+    format: str | None = None
 
 
 class TableLayout(Strict):
-    sheet: int | str | None = None  # 1-based, or its name
+    """`sources.*.table`: how a table lies on its page. What is not said is found in its first rows.
+
+    sheet: of a workbook: counted from 1, or its name
+    header_rows: rows with names, above the data
+    units_row: the row that holds the units, counted from 1
+    skip_rows: rows above the header
+    time: its time column, or a list where columns have times of their own
+    delimiter: between cells
+    decimal: mark of decimals
+    """
+
+    sheet: int | str | None = None
     header_rows: int | None = None
-    units_row: int | None = None  # 1-based row that holds the units
+    units_row: int | None = None
     skip_rows: int = 0
-    time: TimeColumn | list[TimeColumn] | None = None  # a list where columns have times of their own
+    time: TimeColumn | list[TimeColumn] | None = None
     delimiter: str | None = None
     decimal: Literal[".", ","] | None = None
 
 
 class AlignBy(Strict):
+    """`sources.*.clock.by[]`: one quantity that two sources logged, by their channels.
+
+    here: the channel of this source
+    there: the channel of the source it is aligned to
+    """
+
     here: str
     there: str
 
 
 class ClockEvent(Strict):
-    """One event as two sources saw it: local date and time, or time since the source's first sample ("12.5 min")."""
+    """`sources.*.clock.events[]`: one event as two sources saw it.
+
+    here: in this source: local date and time, or time since its first sample (12.5 min)
+    there: the same event in the source it is aligned to
+    """
 
     here: Moment
     there: Moment
 
 
 class Clock(Strict):
-    """offset is added to the source's times; align_to estimates it from quantities that both logged, or from declared
-    events."""
+    """`sources.*.clock`: how this source's clock relates to the others'. Refused where the evidence is thin.
+
+    offset: added to the source's times [s], with a unit: -3.2 s
+    drift_ppm: how much faster the clock runs [1e-6]
+    align_to: the source whose clock is right; offset and drift are estimated
+    by: quantities that both logged
+    events: events that a person saw in both
+    resets: after a long step back, refuse: what follows is lost, and said; allow: the clock was set, and is joined
+    """
 
     offset: Seconds | None = None
     drift_ppm: float | None = None
@@ -102,6 +148,19 @@ class Clock(Strict):
 
 
 class SourceSpec(Strict):
+    """`sources.*`: files of one logger, with one clock. A file that its reader does not claim is a loss, not an
+    end.
+
+    reader: name of an installed reader: crio, cnc, mcap, table or another
+    files: path below this file, a pattern with {test}, or a list
+    timezone: IANA name of the zone of local times: Europe/Prague
+    encoding: of text; by default UTF-8, then cp1250 or cp1252 with a note
+    table: layout of a table
+    topics: of a recording: those to read; by default all
+    clock: offset, or what to align it by
+    options: further keys for one reader, such as time: header.stamp for mcap
+    """
+
     reader: str
     files: str | list[str] | None = None
     timezone: str | None = None
@@ -113,19 +172,42 @@ class SourceSpec(Strict):
 
 
 class Sensor(Strict):
+    """`channels.*.sensor`: the sensor behind a channel. Free attributes are kept.
+
+    serial: its number
+    range: lowest and highest reading, in the unit of the raw signal or with units; outside of it a sample is
+        flagged
+    resolution: its smallest step; shows as ripple in a prediction
+    """
+
     model_config = ConfigDict(extra="allow", frozen=True)
     serial: str | None = None
-    range: tuple[Value, Value] | None = None  # in the unit of the raw signal, or with units
+    range: tuple[Value, Value] | None = None
     resolution: Value | None = None
 
 
 class Channel(Strict):
-    """Exactly one of: source + signal, derive, schedule."""
+    """`channels.*`: one measured quantity: where it comes from, and what it is. Exactly one of signal (with
+    source), derive and schedule.
+
+    source: key of `sources`
+    signal: its name in the file; a unit in brackets behind the name may be left out
+    derive: an expression over other channels: (dY_high - dY_low) / 100 mm
+    schedule: [[time, value], ...] for what nobody logged but everybody knows; held between
+    quantity: what it is; its canonical unit follows
+    unit: of the raw values, where the file does not say it
+    axis: of a displacement: the machine's axis
+    at: dotted place on the machine: spindle.bearing.front
+    relative_to: place that a displacement is measured against
+    calibration: key of `calibrations`, or a list applied in order
+    sensor: what measured it
+    notes: free text
+    """
 
     source: str | None = None
     signal: str | None = None
     derive: str | None = None
-    schedule: list[tuple[Value, Value]] | None = None  # [[time, value], ...], held between
+    schedule: list[tuple[Value, Value]] | None = None
     quantity: Quantity
     unit: str | None = None
     axis: Literal["X", "Y", "Z", "A", "B", "C"] | None = None
@@ -146,30 +228,66 @@ class Channel(Strict):
 
 
 class JumpCalibration(Strict):
+    """`calibrations.*` of kind jump: the axis moves a probe by known steps, which gives a signed sensitivity.
+    Refused where `facing` contradicts its sign.
+
+    kind: jump
+    axis: the axis that moved
+    source: key of `sources`
+    file: path of the log of the jump test, below this file
+    signal: the probe's name in it
+    moves: commanded moves [um], in machine coordinates and with units: [100 um, -100 um]; unknown: nothing is
+        calibrated until they are written
+    dwell: time at each position [s]
+    move_uncertainty: of one commanded move [um]; goes into the sensitivity's uncertainty
+    facing: the way the probe looks, for a check of the sign
+    increases_with: what makes the reading grow: gap (eddy current) or approach (many contact probes)
+    gain: of the data sheet, for a check: 250 um/V
+    """
+
     kind: Literal["jump"]
     axis: Literal["X", "Y", "Z", "A", "B", "C"]
     source: str
     file: str
     signal: str
-    moves: list[Um] | Literal["unknown"]  # unknown: nothing is calibrated until they are written
+    moves: list[Um] | Literal["unknown"]
     dwell: Seconds = 10.0
     move_uncertainty: Um = 1.0
     facing: Direction | None = None
     increases_with: Literal["gap", "approach"] | None = None
-    gain: Value | None = None  # data sheet, cross-checked
+    gain: Value | None = None
 
 
 class ScaleCalibration(Strict):
+    """`calibrations.*` of kind scale: a data sheet's gain and the way the probe looks, where there is no jump
+    test.
+
+    kind: scale
+    axis: the axis that it measures
+    gain: with a unit: 250 um/V
+    offset: added after the gain, in the unit of the result
+    facing: the way the probe looks; gives the sign
+    increases_with: what makes the reading grow: gap or approach
+    uncertainty: of the gain: 2 %
+    """
+
     kind: Literal["scale"]
     axis: Literal["X", "Y", "Z", "A", "B", "C"] | None = None
     gain: Value
     offset: Value = 0
     facing: Direction | None = None
     increases_with: Literal["gap", "approach"] = "gap"
-    uncertainty: Value | None = None  # of the gain, e.g. "2 %"
+    uncertainty: Value | None = None
 
 
 class LinearCalibration(Strict):
+    """`calibrations.*` of kind linear: value = gain * raw + offset, with units.
+
+    kind: linear
+    gain: factor, with a unit where it changes the unit
+    offset: added after the gain: -0.12 K
+    """
+
     kind: Literal["linear"]
     gain: Value = 1
     offset: Value = 0
@@ -179,6 +297,14 @@ Calibration = Annotated[JumpCalibration | ScaleCalibration | LinearCalibration, 
 
 
 class Tool(Strict):
+    """`tests[].tool`: what was in the spindle. Free attributes are conditions too.
+
+    id: its name or number
+    length: with a unit
+    diameter: with a unit
+    material: of the tool
+    """
+
     model_config = ConfigDict(extra="allow", frozen=True)
     id: str | None = None
     length: Value | None = None
@@ -187,7 +313,13 @@ class Tool(Strict):
 
 
 class Measuring(Strict):
-    """The long form of `measuring`: an expression or a range, plus how long it must hold."""
+    """`tests[].measuring`, long form: when the displacement counts. Masked first, then averaged.
+
+    when: comparisons with and, or, not, abs over channels: feed_Z == 0 and abs(pos_Z - 210) < 0.05
+    in_range: a channel within its sensor's range, or {channel: [low, high]}
+    settle: left out at the beginning of each stretch [s]
+    for: shortest stretch that counts [s]
+    """
 
     when: str | None = None
     in_range: str | dict[str, tuple[Value, Value]] | None = None
@@ -196,11 +328,28 @@ class Measuring(Strict):
 
 
 class Zero(Strict):
+    """`tests[].zero`: where displacements are zero: the mean of the first valid samples, never a fit.
+
+    over: how long those samples last [s]
+    """
+
     over: Seconds = 600.0
 
 
 class ChannelOverride(Strict):
-    """A channel as it was in one test only (a sensor moved, another signal)."""
+    """`tests[].channels.*`: a channel as it was in one test only (a sensor moved, another signal).
+
+    source: key of `sources`
+    signal: its name in the file
+    unit: of the raw values
+    axis: of a displacement
+    at: dotted place
+    relative_to: place it is measured against
+    calibration: key of `calibrations`, or a list
+    sensor: what measured it
+    schedule: [[time, value], ...]
+    absent: true: this test has no such channel
+    """
 
     source: str | None = None
     signal: str | None = None
@@ -215,6 +364,28 @@ class ChannelOverride(Strict):
 
 
 class Test(Strict):
+    """`tests[]`: one test. Times count from the start of the recording, with units.
+
+    id: short name, unique in the campaign, without / \\ { } * ? [ ]
+    kind: what was done
+    role: calibration: fitted; verification: scored, and part of the choice; locked: opened to confirm a claim only,
+        every look counted; none: kept
+    conditions: any, with units or as text: speed: 9000 rpm
+    pose: positions of the axes, with units
+    tool: what was in the spindle
+    machine: attributes of `machine` that differ in this test
+    channels: channels that differ in this test
+    files: files of a source, where its pattern does not give them
+    window: [from, to]: the test is this part of a longer recording
+    history: recording: lags run from the recording's start; test: from the window's
+    phases: named stretches: idle: [0 h, 26 h]
+    measuring: an expression, in_range, or the long form
+    zero: where displacements are zero
+    start_state: balance: the machine was at rest; warm: it was not
+    repeat_of: id of the test that this one repeats
+    notes: free text
+    """
+
     __test__ = False
     id: str
     kind: TestKind = "other"
@@ -225,7 +396,7 @@ class Test(Strict):
     machine: dict[str, Any] = {}
     channels: dict[str, ChannelOverride] = {}
     files: dict[str, str | list[str]] = {}
-    window: tuple[Seconds, Seconds] | None = None  # from the start of the recording
+    window: tuple[Seconds, Seconds] | None = None
     history: Literal["test", "recording"] = "test"
     phases: dict[str, tuple[Seconds, Seconds]] = {}
     measuring: str | Measuring | None = None
@@ -243,20 +414,37 @@ class Test(Strict):
 
 
 class TestsTable(Strict):
+    """`tests_from.table`: conditions that stand in a table beside the files.
+
+    file: CSV or XLSX below this file
+    key: the column that holds the field of the same name
+    columns: condition -> column of the table
+    sheet: of a workbook: counted from 1, or its name
+    """
+
     __test__ = False
     file: str
     key: str
-    columns: dict[str, str] = {}  # condition -> column of the table
+    columns: dict[str, str] = {}
     sheet: int | str | None = None
 
 
 class TestsFrom(Strict):
-    """Many tests whose conditions stand in file names, or in a table beside them."""
+    """`tests_from`: many tests whose conditions stand in file names, or in a table beside them.
+
+    files: pattern with fields: raw/S{speed}_F{feed}_{nr}.csv
+    source: key of `sources`; by default the only one
+    id: of each test, from the fields; by default the file's name without its ending
+    table: a table with more conditions
+    units: of fields: speed: rpm
+    disagree: what counts where name and table differ
+    set: keys that all these tests share: {kind: spindle, role: calibration}
+    """
 
     __test__ = False
-    files: str  # "raw/S{speed}_F{feed}_{nr}.csv"
-    source: str | None = None  # default: the campaign's only source
-    id: str | None = None  # default: the file's stem; may use the fields
+    files: str
+    source: str | None = None
+    id: str | None = None
     table: TestsTable | None = None
     units: dict[str, str] = {}
     disagree: Literal["error", "table", "name"] = "error"
@@ -264,7 +452,20 @@ class TestsFrom(Strict):
 
 
 class Campaign(Strict):
-    """One campaign. `tests_from` is expanded by the loader into `tests`."""
+    """A campaign file: what was measured, where, by what, and how it is calibrated. `tests_from` is expanded by
+    the loader into `tests`.
+
+    schema: thermodata/campaign/1
+    id: name of the campaign in the store
+    machine: the machine that was tested
+    sources: loggers, one clock each
+    channels: canonical name -> where it comes from and what it is
+    calibrations: how raw values become calibrated ones
+    tests: the tests
+    tests_from: many tests, from file names or a table
+    versions: file -> SHA-256 (6 digits or more) of an earlier version of it that counts
+    notes: free text
+    """
 
     schema_: Literal["thermodata/campaign/1"] = Field(alias="schema")
     id: str
@@ -274,7 +475,7 @@ class Campaign(Strict):
     calibrations: dict[str, Calibration] = {}
     tests: list[Test] = []
     tests_from: TestsFrom | list[TestsFrom] | None = None
-    versions: dict[str, str] = {}  # file -> the SHA-256 (or its beginning) of an earlier version
+    versions: dict[str, str] = {}
     notes: str = ""
 
     @field_validator("id")

@@ -6,19 +6,21 @@ from enum import IntFlag
 
 
 class Flag(IntFlag):
+    """One bit a defect; a sample's flag is their sum (uint16). `INVALID` tells which of them keep it out of a fit."""
+
     OK = 0
-    GAP = 1
-    HELD = 2
-    SATURATED = 4
-    SPIKE = 8
-    OUT_OF_RANGE = 16
-    INTERPOLATED = 32
-    CLOCK_SUSPECT = 64
-    NOT_MEASURING = 128
-    STUCK = 256
-    OFFSET = 512
-    DUPLICATE_TIME = 1024
-    RATE_CHANGE = 2048
+    GAP = 1  # the first sample after a gap
+    HELD = 2  # the logger repeats a value that it no longer measures
+    SATURATED = 4  # at the end of the sensor's range
+    SPIKE = 8  # one reading far from both neighbours
+    OUT_OF_RANGE = 16  # no sensor of the kind reads that
+    INTERPOLATED = 32  # drawn between neighbours
+    CLOCK_SUSPECT = 64  # its time is estimated, or stood backwards
+    NOT_MEASURING = 128  # outside of the test's `measuring`
+    STUCK = 256  # a sensor that does not move any more
+    OFFSET = 512  # a sensor that reads many kelvin more, or less, from one moment on
+    DUPLICATE_TIME = 1024  # a second sample at one time
+    RATE_CHANGE = 2048  # the first sample at another rate
 
 
 # A sample with any of these does not count in means, fits and scores. A gap marks the first sample after it

@@ -13,7 +13,12 @@ _WITH_UNIT = PlainSerializer(lambda s: f"{s:.12g} s", return_type=str, when_used
 
 
 class Response(Strict):
-    """Either a displacement by axis and place, or any channel by name."""
+    """`response`: what is modelled: a displacement by axis and place, or any channel by name.
+
+    axis: of the displacement
+    at: its place: tcp
+    channel: name of a channel, in place of axis and place
+    """
 
     axis: Literal["X", "Y", "Z", "A", "B", "C"] | None = None
     at: str | None = None
@@ -27,6 +32,11 @@ class Response(Strict):
 
 
 class Place(Strict):
+    """A driver by its place: `{at: axis.z.nut}`. SpecError where no channel, or more than one, fits.
+
+    at: dotted place
+    """
+
     at: str
 
 
@@ -34,14 +44,31 @@ Driver = str | Place  # a channel, a difference "T_a - T_b", or a place
 
 
 class EffectSpec(Strict):
+    """`effects[]`: one effect of the model, with what is fixed of it.
+
+    effect: name of an installed effect, or transfer_function, or prediction
+    id: its name in the answers; by default the effect's, numbered where it repeats
+    drivers: role -> channel, difference of channels (T_a - T_b), or {at: place}; found by place where left out
+    calibrate_on: tests that identify this effect first, before the others
+    tests: the tests that it exists in (a slip); by default all
+    method: of a transfer function: oe, arx, or varpro (a sum of lags)
+    orders: of a transfer function: numbers of numerator and denominator coefficients; chosen where left out
+    gain_by: one gain for each value of a condition: conditions.spindle
+    shared: parameters that all groups of gain_by share
+    fixed: parameter or gain -> value, in the effect's unit
+    start: parameter -> where its search starts
+    bounds: parameter -> [lower, upper], in the effect's unit
+    file: of a prediction: CSV with the columns test, t_s [s], predicted
+    """
+
     effect: str
-    id: str | None = None  # default: the effect's name, numbered when repeated
+    id: str | None = None
     drivers: dict[str, Driver] = {}
     calibrate_on: list[str] | None = None
-    tests: list[str] | None = None  # the effect exists in these tests only (a slip)
+    tests: list[str] | None = None
     method: Literal["oe", "arx", "varpro"] | None = None
     orders: tuple[int, int] | None = None
-    gain_by: str | None = None  # "conditions.spindle": one gain for each value
+    gain_by: str | None = None
     shared: list[str] = []
     fixed: dict[str, float] = {}
     start: dict[str, float] = {}
@@ -50,6 +77,23 @@ class EffectSpec(Strict):
 
 
 class Model(Strict):
+    """A model file: a response and the sum of effects that explains it.
+
+    schema: thermodata/model/1
+    name: of the model; its id is a hash of this file and the data
+    campaigns: several campaigns; their tests are campaign/test
+    campaign: the one campaign
+    response: what is modelled, or a list
+    calibrate_on: tests that are fitted; by default those with the role calibration
+    verify_on: tests that are scored; by default those with the role verification
+    locked: tests that are opened to confirm a claim only; by default those with the role locked
+    phases: the phases that count: [heating]; by default all
+    step: of the grid of fit and simulation [s]
+    effects: the sum
+    in_sample: set by add: verification tests are fitted too, and their scores say so
+    notes: free text
+    """
+
     schema_: Literal["thermodata/model/1"] = Field(alias="schema")
     name: str
     campaigns: list[str] = []
@@ -61,7 +105,7 @@ class Model(Strict):
     phases: list[str] | None = None
     step: Annotated[Seconds, Field(gt=0), _WITH_UNIT] = 30.0
     effects: list[EffectSpec] = []
-    in_sample: bool = False  # verify_on is fitted too, and its scores say so (set by add)
+    in_sample: bool = False
     notes: str = ""
 
     @field_validator("response")
@@ -79,8 +123,10 @@ class Model(Strict):
 
     @property
     def campaign_ids(self) -> tuple[str, ...]:
+        """The campaigns, however many and however named."""
         return tuple(self.campaigns) or ((self.campaign,) if self.campaign else ())
 
     @property
     def responses(self) -> tuple[Response, ...]:
+        """The responses, however many and however named."""
         return tuple(self.response) if isinstance(self.response, list) else (self.response,)

@@ -11,6 +11,7 @@ from functools import lru_cache
 from typing import Any, Literal, get_args
 
 from thermodata.errors import UsageError, nearest
+from thermodata.schema.unit_spelling import UNIT_SPELLING
 
 Quantity = Literal[
     "displacement",
@@ -59,115 +60,31 @@ CANONICAL_UNIT: dict[str, str] = {
     "label": "1",
 }
 
-# What labs write -> what pint reads. Pint misreads several of the left side without a word (1/min as
-# 0.159 rpm, U/min as enzyme units, Grd C as coulombs), so the alias comes first. Keys are casefolded with
-# blanks removed; a unit that case distinguishes (mW / MW) stays out of this table.
-_ALIAS: dict[str, str] = {
-    "1/min": "rpm",
-    "u/min": "rpm",
-    "ot/min": "rpm",
-    "ot./min": "rpm",
-    "min-1": "rpm",
-    "min^-1": "rpm",
-    "min⁻¹": "rpm",
-    "rev/min": "rpm",
-    "r/min": "rpm",
-    "rpm": "rpm",
-    "upm": "rpm",
-    "tr/min": "rpm",
-    "/min": "rpm",
-    "1/s": "turn/second",
-    "u/s": "turn/second",
-    "ot/s": "turn/second",
-    "s-1": "turn/second",
-    "s^-1": "turn/second",
-    "rev/s": "turn/second",
-    "rps": "turn/second",
-    "hz": "turn/second",
-    "degc": "degC",
-    "°c": "degC",
-    "℃": "degC",
-    "grdc": "degC",
-    "celsius": "degC",
-    "deg.c": "degC",
-    "c": "degC",
-    "c°": "degC",
-    "°celsius": "degC",
-    "gradc": "degC",
-    "ºc": "degC",
-    "degcelsius": "degC",
-    "degreec": "degC",
-    "degreescelsius": "degC",
-    "stc": "degC",
-    "degf": "degF",
-    "°f": "degF",
-    "fahrenheit": "degF",
-    "um": "um",
-    "µm": "um",
-    "μm": "um",
-    "micron": "um",
-    "microns": "um",
-    "micrometer": "um",
-    "mikrometer": "um",
-    "urad": "urad",
-    "µrad": "urad",
-    "μrad": "urad",
-    "um/m": "urad",
-    "µm/m": "urad",
-    "deg": "deg",
-    "°": "deg",
-    "grad": "deg",
-    "volts": "V",
-    "volt": "V",
-    "v": "V",
-    "%": "percent",
-    "percent": "percent",
-    "pct": "percent",
-    "proz": "percent",
-    "%rh": "percent",
-    "rh%": "percent",
-    "rh": "percent",
-    "%r.h.": "percent",
-    "%rf": "percent",
-    "kw": "kW",
-    "nm": "N*m",
-    "n·m": "N*m",
-    "n*m": "N*m",
-    "n.m": "N*m",
-    "newtons": "N",
-    "w/m2": "W/m**2",
-    "w/m²": "W/m**2",
-    "w/m^2": "W/m**2",
-    "ohm": "ohm",
-    "ω": "ohm",
-    "ohms": "ohm",
-    "l/min": "l/min",
-    "lpm": "l/min",
-    "m/min": "m/min",
-    "mm/min": "mm/min",
-    "1": "dimensionless",
-    "-": "dimensionless",
-    "bool": "dimensionless",
-    "": "dimensionless",
-    "none": "dimensionless",
-    "0/1": "dimensionless",
-    "on/off": "dimensionless",
-    "k": "K",
-    "kelvin": "K",
-    "amps": "A",
-    "ampere": "A",
-    "amp": "A",
-    "hours": "h",
-    "hour": "h",
-    "std": "h",
-    "hod": "h",
-    "secs": "s",
-    "sec": "s",
-    "sek": "s",
-    "seconds": "s",
-    "minutes": "min",
-    "minuten": "min",
+# What each is, in the words of the people who log it.
+QUANTITY_MEANING: dict[str, str] = {
+    "displacement": "of the tool centre point, or of another place, along an axis; what is modelled",
+    "tilt": "a small rotation, from two displacements and their distance",
+    "angle": "where a rotary axis or a table stands",
+    "temperature": "of a part, a fluid or the air",
+    "temperature_difference": "between two places, where only the difference is logged",
+    "rotational_speed": "of spindle, table or rotary axis",
+    "feed": "speed of a linear axis",
+    "power": "drawn by a drive or a machine",
+    "load": "of a drive, as a share of what it may give",
+    "current": "of a motor or a drive",
+    "torque": "of a motor or a drive",
+    "position": "where a linear axis stands",
+    "flow": "of coolant, oil or air",
+    "pressure": "of a fluid or of compressed air",
+    "humidity": "relative, of the air",
+    "irradiance": "of sunlight on the machine",
+    "voltage": "of a sensor that is not calibrated, or of a drive",
+    "resistance": "of a sensor that is not converted",
+    "state": "on or off, open or closed: 1 or 0, held between samples",
+    "label": "text, such as a program's or a tool's name; held, never averaged",
 }
+
+_ALIAS = UNIT_SPELLING  # the name by which readers know it
 _QUANTITY_TEXT = re.compile(r"^\s*([+-]?(?:\d+(?:[.,]\d*)?|[.,]\d+)(?:[eE][+-]?\d+)?)\s*(.*?)\s*$")
 
 
@@ -177,7 +94,7 @@ def normal_unit(text: str) -> str:
     # "nm" in lower case is nanometres; torque is written with a capital N
     if bare == "nm":
         return "nm"
-    return _ALIAS.get(bare.casefold(), text.strip())
+    return UNIT_SPELLING.get(bare.casefold(), text.strip())
 
 
 @lru_cache(maxsize=1)

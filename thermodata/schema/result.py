@@ -8,10 +8,20 @@ from pydantic import BaseModel, ConfigDict
 
 
 class Result(BaseModel):
+    """Base of what is answered as JSON. Keys that don't apply are null, never absent."""
+
     model_config = ConfigDict(extra="forbid")
 
 
 class Parameter(Result):
+    """A fitted parameter or gain, with its interval of 95 %.
+
+    value: in `unit`
+    unit: as the effect states it
+    low: lower end; null at a bound or where held
+    high: upper end
+    """
+
     value: float
     unit: str
     low: float | None = None
@@ -19,7 +29,22 @@ class Parameter(Result):
 
 
 class Score(Result):
-    """rmse_um etc. are in the response's canonical unit. fit in %, free-run, not clipped."""
+    """Errors of one model in one test, response and phase, by free-run simulation, in the response's canonical
+    unit.
+
+    model: id
+    campaign: id
+    test: id
+    role: of the test in this model
+    response: name
+    phase: all is the whole test
+    fit: FIT [%], not clipped: below 0 the mean would be better
+    rmse_um: root mean square of the residual
+    ptp_um: peak to peak of the response (max - min)
+    ptp_residual_um: peak to peak of the residual
+    max_um: largest absolute residual
+    n: samples that count
+    """
 
     model: str
     campaign: str
@@ -36,6 +61,15 @@ class Score(Result):
 
 
 class Check(Result):
+    """One thing that a fit says of itself.
+
+    name: what was checked
+    value: found
+    threshold: limit
+    passed: whether it holds
+    advice: what to do, or what it means
+    """
+
     name: str
     value: float | None
     threshold: float | None
@@ -44,6 +78,19 @@ class Check(Result):
 
 
 class FitResult(Result):
+    """Answer of fit, add and compare.
+
+    model: id
+    name: of the model file
+    parent: id of the version before
+    campaigns: ids
+    response: name or names
+    parameters: effect.parameter -> value with its interval
+    scores: a row a test, response and phase
+    checks: what the fit says of itself
+    before: of add: the parent's scores
+    """
+
     model: str
     name: str
     parent: str | None
@@ -56,6 +103,16 @@ class FitResult(Result):
 
 
 class WeakSpot(Result):
+    """A window in which the residual stands out of its noise.
+
+    campaign: id
+    test: id
+    from_s: from the test's start [s]
+    to_s: from the test's start [s]
+    rmse_um: error in the window, in the response's unit
+    state: what the machine did, in words
+    """
+
     campaign: str
     test: str
     from_s: float
@@ -65,6 +122,26 @@ class WeakSpot(Result):
 
 
 class Candidate(Result):
+    """An effect, bound to channels, that may be missing; with its evidence on left-out tests.
+
+    rank: 1 is the head
+    id: effect:channels
+    effect: its name
+    family: effects of one cause share it
+    drivers: channels, in the order of the effect's roles
+    claimed: whether the evidence suffices for a missing cause
+    p_value: share of surrogate residuals on which the best of all candidates does as well
+    rmse_um_before: error on left-out tests without it, in the response's unit
+    rmse_um_after: with it
+    fit_before: the same as FIT [%]
+    fit_after: with it
+    locked_rmse_um_before: error on the locked tests without it; for a claimed one only
+    locked_rmse_um_after: with it
+    parameters: of the effect, fitted to all open tests; for a claimed one only
+    equivalent: ids that the data cannot tell from it
+    why: the evidence in a sentence
+    """
+
     rank: int
     id: str
     effect: str
@@ -84,6 +161,16 @@ class Candidate(Result):
 
 
 class Artefact(Result):
+    """A fault of the logs, beside any verdict.
+
+    kind: step, clock_offset, sign, gain or parameters
+    campaign: id
+    test: id; empty where all tests share it
+    at_s: from the test's start [s]
+    size_um: its size, in the response's unit
+    why: the evidence in a sentence
+    """
+
     kind: str
     campaign: str
     test: str
@@ -93,12 +180,35 @@ class Artefact(Result):
 
 
 class Unknown(Result):
+    """What can be said of a residual that nothing logged explains.
+
+    time_constants_h: where its autocorrelation falls to 1/e [h]
+    hours_of_day: hours (UTC) at which it stands out
+    states: what the machine did in the weak spots
+    """
+
     time_constants_h: list[float]
     hours_of_day: list[float]
     states: list[str]
 
 
 class Diagnosis(Result):
+    """Answer of diagnose.
+
+    model: id
+    response: name
+    verdict: effect: one is missing; none: what is left is noise; unknown: something is left that nothing logged
+        explains; not_testable: the tests cannot tell
+    noise_um: short-term noise of the response, in its unit
+    rmse_um: error on left-out tests without any candidate
+    explainable: largest fall of the squared error that a candidate gives, 0 to 1
+    weak_spots: where the model fails, by cost
+    candidates: best first
+    artefacts: faults of the logs
+    unknown: for the verdict unknown
+    next_test: which test to run, or which sensor to add
+    """
+
     model: str
     response: str
     verdict: Literal["effect", "none", "unknown", "not_testable"]

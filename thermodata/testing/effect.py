@@ -61,6 +61,16 @@ def it_has_all_that_the_contract_names(effect: Effect) -> Iterator[str]:
         yield "it has no gain, so it can contribute nothing"
 
 
+def what_it_states_beyond_the_contract_is_text(effect: Effect) -> Iterator[str]:
+    for name in ("equation", "telltale"):
+        value = getattr(effect, name, None)
+        if value is not None and not (isinstance(value, str) and value.strip()):
+            yield f"'{name}' is {value!r}, and no text"
+    refines = getattr(effect, "refines", ())
+    if not isinstance(refines, tuple) or not all(isinstance(one, str) for one in refines):
+        yield f"'refines' is {refines!r}, and no tuple of names"
+
+
 def its_names_are_unique(effect: Effect) -> Iterator[str]:
     names = [p.name for p in effect.params] + [g.name for g in effect.gains]
     if len(set(names)) < len(names):
@@ -154,6 +164,7 @@ def every_parameter_changes_something(effect: Effect) -> Iterator[str]:
 
 RULES: tuple[Rule, ...] = (
     it_has_all_that_the_contract_names,
+    what_it_states_beyond_the_contract_is_text,
     its_names_are_unique,
     it_needs_quantities_that_exist,
     its_bounds_hold_its_start,

@@ -38,7 +38,7 @@ class StoreView:
         return self.store.path
 
     def sql(self, query: str, params: Sequence[Any] | dict[str, Any] | None = None) -> duckdb.DuckDBPyRelation:
-        """The relation of a query over the store's tables, views and macros (design, section 7).
+        """The relation of a query over the store's tables, views and macros (docs/architecture.md#tables-and-views).
 
         params: values of `?` or `$name`. UsageError where DuckDB refuses the query, with its reason;
         StoreError where a file is gone.

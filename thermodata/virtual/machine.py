@@ -1,6 +1,6 @@
 """A gantry milling centre as a thermal network: geometry, masses and couplings, drawn by the seed.
 
-Magnitudes: steel and cast iron; bearing and motor losses that give the rises the papers print (bearing 10-25 K
+Magnitudes: steel and cast iron; bearing and motor losses that give rises such as [horejs2022] shows (bearing 10-25 K
 at 9000 rpm, winding 20-40 K); rods of 8-12 cells, plates of 4-5.
 """
 

@@ -147,3 +147,15 @@ def test_impossible_sizes_are_damage_and_take_no_memory(tmp_path: Path, tdms) ->
         read(tmp_path, tdms.segment([huge], bytes(64)))
     large = tdms.channel("G", "a", "float64", 2**40, tdms.wave())
     assert read(tmp_path, tdms.segment([large], bytes(64), to_next=2**43)).t_ns["G"].size == 8
+
+
+def test_behind_a_segment_whose_data_no_channel_claims_times_are_in_doubt(tmp_path: Path, tdms) -> None:  # type: ignore[no-untyped-def]
+    good = parts(tdms)
+    nothing = [tdms.channel("G", name, None, ROWS) for name in ("a", "b")]
+    raw = b"\1" * (len(good[0]) - len(tdms.segment(nothing, b"")))
+    data = read(tmp_path, good[0] + tdms.segment(nothing, raw) + good[2])  # as long as its neighbours
+    np.testing.assert_array_equal(data.values["G", "G/a"], [*range(ROWS), *range(2 * ROWS, 3 * ROWS)])
+    np.testing.assert_array_equal(data.flags["G", "G/a"], [0] * ROWS + [Flag.CLOCK_SUSPECT] * ROWS)
+    (loss,) = data.losses
+    assert "how many values is not known" in loss.reason
+    assert loss.to_ns is None

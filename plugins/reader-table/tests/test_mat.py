@@ -11,8 +11,9 @@ import numpy as np
 import pytest
 import scipy.io
 from scipy.io import matlab
-from thermodata_reader_table import Reader, mat5
-from thermodata_reader_table.mat_tree import Cells, Node, Numbers, Odd, Struct, Structs, Text
+from thermodata_reader_table import Reader
+from thermodata_reader_table.mat import version5
+from thermodata_reader_table.mat.tree import Cells, Node, Numbers, Odd, Struct, Structs, Text
 
 from thermodata.errors import FormatError, UsageError
 from thermodata.plugin import Source
@@ -264,7 +265,7 @@ def same(ours: Node, theirs: Any) -> None:
     "path", [p for p in SCIPYS if p.read_bytes()[124:128] in (b"\0\1IM", b"\1\0MI")], ids=lambda p: p.stem
 )
 def test_scipys_own_files_read_as_scipy_reads_them(path: Path) -> None:
-    tree = mat5.read(path)
+    tree = version5.read(path)
     try:
         theirs = scipy.io.loadmat(path)
     except (ValueError, TypeError, OSError, zlib.error):

@@ -145,3 +145,11 @@ def test_without_asammdf_the_error_names_the_command(tmp_path: Path, monkeypatch
     monkeypatch.setitem(sys.modules, "asammdf", None)
     with pytest.raises(FormatError, match=r"pip install 'thermodata-reader-table\[mdf\]'"):
         read(path)
+
+
+@pytest.mark.parametrize("version", ["3.30", "4.10"])
+def test_a_local_start_without_any_zone_is_noted(tmp_path: Path, version: str) -> None:
+    path = write(tmp_path / f"a.{'mf4' if version >= '4' else 'mdf'}", version, start=dt.datetime(2026, 3, 1, 8, 0))
+    data = read(path, None)
+    assert data.recording.start_ns == int(np.datetime64("2026-03-01T08:00:00", "ns").astype(np.int64))
+    assert any("UTC" in note for note in data.recording.notes)

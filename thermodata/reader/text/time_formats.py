@@ -85,8 +85,8 @@ def _zoned(form: TimeFormat, cells: Sequence[str]) -> TimeFormat:
 def _found(cells: Sequence[str], where: str, name: str, more: Callable[[], Sequence[str]]) -> TimeFormat:
     few = _spread(cells, _FEW)
     for least in (0.8, 0.3):
-        for forms in ({"": TIME_OF_DAY}, DATETIME, DATE):
-            orders = [o for o, form in forms.items() if share(few, form) > least]
+        for forms, enough in (({"": TIME_OF_DAY}, least), (DATE, max(least, 0.9)), (DATETIME, least)):
+            orders = [o for o, form in forms.items() if share(few, form) > enough]
             if orders:
                 return forms[_order(orders, cells, more, forms, where)]
     full = [c for c in cells if c.strip()]

@@ -84,7 +84,9 @@ MILLISECOND = _format("millisecond", r"(?P<ms>\d{1,3})", "0...999", zone=False)
 _TEXTS = {"ymd": "YYYY-MM-DD", "dmy": "DD.MM.YYYY", "mdy": "MM/DD/YYYY", "cjk": "YYYY年MM月DD日"}
 DATE = {order: _format("date", body, _TEXTS[order], zone=False) for order, body in _DATES.items()}
 DATETIME = {
-    order: _format("datetime", body + _BETWEEN + _TIME, f"{_TEXTS[order]} HH:MM:SS") for order, body in _DATES.items()
+    # a spreadsheet leaves out the time of day at midnight
+    order: _format("datetime", f"{body}(?:{_BETWEEN}{_TIME})?", f"{_TEXTS[order]} HH:MM:SS")
+    for order, body in _DATES.items()
 }
 
 

@@ -13,10 +13,24 @@ from .shared import REFERENCE_FEED_M_MIN, Lagged, exponent, gain, power_of, tau
 
 
 class FeedScrew(Lagged):
+    """Friction in nut and bearings warms the feed screw, and it grows.
+
+        d = k F_tau{dT}, or k F_tau{|v / 10 m/min|^p} where no sensor is at the screw
+
+    k [um/K] ([um] at 10 m/min), tau [min], p [1], dT [K], v [m/min].
+    Source: [straka2021] inputs dyn (nut) and stat (bearing house); bounds:
+    docs/method.md#bounds-of-the-effects
+    """
+
     name = "feed_screw"
     family = "feed_{a}"
     meaning = "growth of the feed screw from friction: k F{dT of the nut}, or k F{|v/10 m/min|^p} without a sensor"
-    source = "modelling.md section 5, row 13; paper 000 (inputs dyn and stat)"
+    equation = "d = k F_tau{dT}, or k F_tau{|v / 10 m/min|^p} where no sensor is at the screw"
+    telltale = (
+        "follows the feed of one axis; nothing remains where a linear scale closes the loop; told apart by several "
+        "feeds"
+    )
+    source = "[straka2021] inputs dyn (nut) and stat (bearing house); bounds: docs/method.md#bounds-of-the-effects"
     needs = (
         Need("temperature", "temperature", ("axis.{a}.nut", "axis.{a}.screw", "axis.{a}.bearing"), True),
         Need("feed", "feed", ("axis.{a}",), True),
@@ -31,21 +45,41 @@ class FeedScrew(Lagged):
 
 
 class FeedMotor(Lagged):
+    """Heat of the axis motor flows into screw and slide.
+
+        d = k F_tau{dT}
+
+    k [um/K], tau [min], dT [K] of the motor.
+    Source: [straka2021] input syst (feed motor); bounds: docs/method.md#bounds-of-the-effects
+    """
+
     name = "feed_motor"
     family = "feed_{a}"
     meaning = "heat of the axis motor into screw and slide: k F{dT of the motor}"
-    source = "modelling.md section 5, row 14; paper 000 (input syst)"
+    equation = "d = k F_tau{dT}"
+    telltale = "twin of feed_screw: the same axis moves; told apart by a sensor at the nut"
+    source = "[straka2021] input syst (feed motor); bounds: docs/method.md#bounds-of-the-effects"
     needs = (Need("temperature", "temperature", ("axis.{a}.motor",)),)
     params = (tau(60, 30, 180),)
     gains = (gain("um/K", 0.2, 4, "displacement at rest a kelvin of the motor"),)
 
 
 class ScrewGrowth:
+    """A screw without a linear scale grows with the position that it holds; its fixed end adds a constant share.
+
+        d = alpha x F_tau{dT} + k0 F_tau{dT}
+
+    alpha [um/m/K], x [m], k0 [um/K], tau [min], dT [K].
+    Source: steel expands by about 12 um/m/K; bounds: docs/method.md#bounds-of-the-effects
+    """
+
     name = "screw_growth"
     refines = ("feed_screw",)
     family = "feed_{a}"
     meaning = "growth of a screw without a scale, with position: alpha x dT and the fixed end's alpha x0 dT"
-    source = "modelling.md section 5, row 15"
+    equation = "d = alpha x F_tau{dT} + k0 F_tau{dT}"
+    telltale = "grows with the position of the axis; told apart by measuring at two positions"
+    source = "steel expands by about 12 um/m/K; bounds: docs/method.md#bounds-of-the-effects"
     needs = (
         Need("temperature", "temperature", ("axis.{a}.screw", "axis.{a}.nut")),
         Need("position", "position", ("axis.{a}",)),
@@ -59,10 +93,20 @@ class ScrewGrowth:
 
 
 class TableBearing(Lagged):
+    """The bearing of the table warms, and the table grows.
+
+        d = k F_tau{dT}, or k F_tau{(|n| / 1000 rpm)^p} where no sensor is at the bearing
+
+    k [um/K] ([um] at 1000 rpm), tau [min], p [1], dT [K], n [rpm].
+    Source: [mares2021] turning; bounds: docs/method.md#bounds-of-the-effects
+    """
+
     name = "table_bearing"
     family = "table"
     meaning = "growth of the table with its bearing: k F{dT}, or k F{(n/1000 rpm)^p} without a sensor"
-    source = "modelling.md section 5, row 18; paper 003 (turning)"
+    equation = "d = k F_tau{dT}, or k F_tau{(|n| / 1000 rpm)^p} where no sensor is at the bearing"
+    telltale = "grows with the radius at which it is measured; told apart by measuring at two radii"
+    source = "[mares2021] turning; bounds: docs/method.md#bounds-of-the-effects"
     needs = (
         Need("temperature", "temperature", ("table.bearing", "table"), True),
         Need("speed", "rotational_speed", ("table",), True),
@@ -77,10 +121,20 @@ class TableBearing(Lagged):
 
 
 class RotaryAxis(Lagged):
+    """A swivelling or turning axis grows with its temperature.
+
+        d = k F_tau{dT}
+
+    k [um/K], tau [min], dT [K].
+    Source: as feed_motor, for a turning axis; bounds: docs/method.md#bounds-of-the-effects
+    """
+
     name = "rotary_axis"
     family = "rotary_{a}"
     meaning = "growth with the temperature of a rotary axis: k F{dT}"
-    source = "as feed_motor; paper 000 treats linear axes only"
+    equation = "d = k F_tau{dT}"
+    telltale = "follows the axis while all linear axes stand; told apart by moving it alone"
+    source = "as feed_motor, for a turning axis; bounds: docs/method.md#bounds-of-the-effects"
     needs = (Need("temperature", "temperature", ("rotary.{a}",)),)
     params = (tau(60, 5, 360),)
     gains = (gain("um/K", 0.1, 10, "displacement at rest a kelvin"),)

@@ -14,21 +14,41 @@ _ANY = (Need("u", "*"),)
 
 
 class Lag(Lagged):
+    """One first-order lag of any channel: it names no physics.
+
+        d = k F_tau{u}
+
+    k [um per unit of u], tau [min], u of any quantity.
+    Source: [ljung1999] first-order transfer function; docs/method.md#the-model
+    """
+
     name = "lag"
     family = "generic"
     meaning = "one first-order lag of any channel: k F{u}"
-    source = "the form that every printed function of first order has"
+    equation = "d = k F_tau{u}"
+    telltale = "whatever goes with the channel; told apart by declaring where the channel sits (at:)"
+    source = "[ljung1999] first-order transfer function; docs/method.md#the-model"
     needs = _ANY
     params = (tau(60, 1, 1440),)
     gains = (gain("um/u", 0, float("inf"), "displacement at rest a unit of the driver"),)
 
 
 class Static:
+    """A plain gain without a lag.
+
+        d = k u
+
+    k [um per unit of u], u of any quantity.
+    Source: [horejs2010] eq. 1, k (T_spindle - T_base)
+    """
+
     name = "static"
     refines = ("lag",)
     family = "generic"
     meaning = "a plain gain without a lag: k u"
-    source = "paper 001, eq. 1: k (T_spindle - T_base)"
+    equation = "d = k u"
+    telltale = "goes with the channel at once; told apart from lag by a step of the driver"
+    source = "[horejs2010] eq. 1, k (T_spindle - T_base)"
     needs = _ANY
     params = ()
     gains = (gain("um/u", 0, float("inf"), "displacement a unit of the driver"),)
@@ -38,10 +58,20 @@ class Static:
 
 
 class Step:
+    """A probe or its fixture slips at one moment.
+
+        d = A H(t - at)
+
+    A [um], at [min] from the test's start, H the unit step.
+    Source: docs/method.md#artefacts; bounds: docs/method.md#bounds-of-the-effects
+    """
+
     name = "step"
     family = "artefact"
     meaning = "a step or slip of a probe at one moment: A H(t - at); belongs to one test (tests: [...])"
-    source = "modelling.md section 5, row 30"
+    equation = "d = A H(t - at)"
+    telltale = "a jump between two samples that no command explains, and it stays; told apart by repeating the test"
+    source = "docs/method.md#artefacts; bounds: docs/method.md#bounds-of-the-effects"
     needs = ()
     params = (Param("at", "min", 60.0, 0.0, 2880.0, "moment of the step, from the test's start"),)
     gains = (gain("um", 1, 100, "size"),)
@@ -51,10 +81,20 @@ class Step:
 
 
 class Drift:
+    """A probe drifts along a straight line.
+
+        d = k t
+
+    k [um/h], t [h] from the test's start.
+    Source: docs/method.md#artefacts; bounds: docs/method.md#bounds-of-the-effects
+    """
+
     name = "drift"
     family = "artefact"
     meaning = "a straight drift of a probe: k t"
-    source = "modelling.md section 5, row 36"
+    equation = "d = k t"
+    telltale = "a straight line whatever the machine does; told apart by a test at rest"
+    source = "docs/method.md#artefacts; bounds: docs/method.md#bounds-of-the-effects"
     needs = ()
     params = ()
     gains = (gain("um/h", 0.05, 2, "drift"),)
@@ -64,10 +104,20 @@ class Drift:
 
 
 class WarmStart:
+    """The machine was not at rest when the test began; what was left fades.
+
+        d = A exp(-t / tau)
+
+    A [um], tau [min], t from the test's start.
+    Source: docs/method.md#the-model; bounds: docs/method.md#bounds-of-the-effects
+    """
+
     name = "warm_start"
     family = "start"
     meaning = "the machine was not at rest when the test began: A exp(-t/tau); size differs a test (gain_by: test)"
-    source = "modelling.md section 5, row 29"
+    equation = "d = A exp(-t / tau)"
+    telltale = "a course at the start of each test that fades whatever follows; told apart by soaking for 12 h before"
+    source = "docs/method.md#the-model; bounds: docs/method.md#bounds-of-the-effects"
     needs = ()
     params = (tau(60, 5, 720),)
     gains = (gain("um", 0.5, 20, "displacement that is still to go at the start"),)

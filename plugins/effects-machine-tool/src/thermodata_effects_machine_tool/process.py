@@ -10,30 +10,60 @@ from .shared import Lagged, gain, tau
 
 
 class ToolElongation(Lagged):
+    """The tool grows with its temperature.
+
+        d = k F_tau{dT}
+
+    k [um/K], tau [min], dT [K] of the tool.
+    Source: [mares2017] eq. 9, e3; bounds: docs/method.md#bounds-of-the-effects
+    """
+
     name = "tool_elongation"
     family = "tool"
     meaning = "elongation of the tool: k F{dT tool}; at the tool centre point, not at the stator"
-    source = "modelling.md section 5, row 19; paper 004, e3"
+    equation = "d = k F_tau{dT}"
+    telltale = "at the tool centre point, not at the spindle's stator; told apart by a second probe at the stator"
+    source = "[mares2017] eq. 9, e3; bounds: docs/method.md#bounds-of-the-effects"
     needs = (Need("temperature", "temperature", ("tool",)),)
     params = (tau(3, 1, 10),)
     gains = (gain("um/K", 0.5, 3, "displacement at rest a kelvin of the tool"),)
 
 
 class CuttingPower(Lagged):
+    """Heat of the cut, by the power of the spindle.
+
+        d = k F_tau{P}
+
+    k [um/kW], tau [min], P [kW].
+    Source: [mares2017] eq. 8, gamma1; bounds: docs/method.md#bounds-of-the-effects
+    """
+
     name = "cutting_power"
     family = "cutting"
     meaning = "heat of cutting from the spindle's power: k F{P}"
-    source = "modelling.md section 5, row 20; paper 004, gamma1"
+    equation = "d = k F_tau{P}"
+    telltale = "follows the load; told apart by the same path as an air cut"
+    source = "[mares2017] eq. 8, gamma1; bounds: docs/method.md#bounds-of-the-effects"
     needs = (Need("power", "power", ("spindle",)),)
     params = (tau(30, 1, 240),)
     gains = (gain("um/kW", 5, 60, "displacement at rest a kilowatt"),)
 
 
 class Coolant(Lagged):
+    """Coolant cools or warms the parts that it washes while it flows.
+
+        d = k F_tau{on}, or k F_tau{q / 10 l/min}
+
+    k [um], tau [min], on [0 or 1], flow q [l/min].
+    Source: [mayr2012] on fluids; bounds: docs/method.md#bounds-of-the-effects
+    """
+
     name = "coolant"
     family = "coolant"
     meaning = "coolant switched on and off: k F{state}, or k F{flow / 10 l/min}"
-    source = "modelling.md section 5, row 22"
+    equation = "d = k F_tau{on}, or k F_tau{q / 10 l/min}"
+    telltale = "follows the switch of the coolant; told apart by coolant without cutting"
+    source = "[mayr2012] on fluids; bounds: docs/method.md#bounds-of-the-effects"
     needs = (Need("state", "state", ("coolant",), True), Need("flow", "flow", ("coolant",), True))
     params = (tau(20, 5, 90),)
     gains = (gain("um", 0.5, 30, "displacement at rest with the coolant on"),)
@@ -43,30 +73,60 @@ class Coolant(Lagged):
 
 
 class CoolantTemperature(Lagged):
+    """Parts that coolant or chiller wash follow its temperature.
+
+        d = k F_tau{dT}
+
+    k [um/K], tau [min], dT [K] of the fluid.
+    Source: [mayr2012] on fluids; bounds: docs/method.md#bounds-of-the-effects
+    """
+
     name = "coolant_temperature"
     family = "coolant"
     meaning = "parts that the coolant or the chiller washes follow its temperature: k F{dT}; a line at 5-40 min"
-    source = "modelling.md section 5, row 23"
+    equation = "d = k F_tau{dT}"
+    telltale = "a ripple with the cycle of the chiller, 5 to 40 min; told apart by a step of its set point"
+    source = "[mayr2012] on fluids; bounds: docs/method.md#bounds-of-the-effects"
     needs = (Need("temperature", "temperature", ("coolant",)),)
     params = (tau(15, 1, 240),)
     gains = (gain("um/K", 0.1, 20, "displacement at rest a kelvin of the coolant"),)
 
 
 class Hydraulics(Lagged):
+    """Tank and pump of the hydraulics warm what stands near.
+
+        d = k F_tau{dT}, or k F_tau{on}
+
+    k [um/K] ([um] with the pump on), tau [min], dT [K], on [0 or 1].
+    Source: [mayr2012] on fluids; bounds: docs/method.md#bounds-of-the-effects
+    """
+
     name = "hydraulics"
     family = "hydraulics"
     meaning = "parts near tank and pump: k F{dT}, or k F{pump on}; pump cycle"
-    source = "modelling.md section 5, row 37"
+    equation = "d = k F_tau{dT}, or k F_tau{on}"
+    telltale = "follows the cycle of the pump; told apart by a test with the pump off"
+    source = "[mayr2012] on fluids; bounds: docs/method.md#bounds-of-the-effects"
     needs = (Need("temperature", "temperature", ("hydraulics",), True), Need("state", "state", ("hydraulics",), True))
     params = (tau(45, 2, 360),)
     gains = (gain("um/K", 0.1, 20, "displacement at rest a kelvin of the tank (um with the pump on)"),)
 
 
 class Workpiece(Lagged):
+    """The part grows with its temperature.
+
+        d = k F_tau{dT}
+
+    k [um/K] = expansion [um/m/K] times length [m], tau [min], dT [K].
+    Source: metals expand by 11 to 24 um/m/K; bounds: docs/method.md#bounds-of-the-effects
+    """
+
     name = "workpiece"
     family = "workpiece"
     meaning = "growth of the part: k F{dT}; only with a part"
-    source = "modelling.md section 5, row 25 (11-24 um/m/K times the part's length)"
+    equation = "d = k F_tau{dT}"
+    telltale = "only with a part on the table; told apart by a part of little expansion"
+    source = "metals expand by 11 to 24 um/m/K; bounds: docs/method.md#bounds-of-the-effects"
     needs = (Need("temperature", "temperature", ("workpiece",)),)
     params = (tau(30, 1, 360),)
     gains = (gain("um/K", 0.5, 50, "displacement at rest a kelvin of the part"),)

@@ -15,14 +15,17 @@ REFERENCE_FEED_M_MIN = 10.0
 
 
 def tau(start: float, lower: float, upper: float, name: str = "tau", meaning: str = "time constant") -> Param:
+    """A time constant [min]: where its search starts, and its bounds."""
     return Param(name, "min", start, lower, upper, meaning)
 
 
 def gain(unit: str, smallest: float, largest: float, meaning: str, name: str = "gain") -> Gain:
+    """A gain of either sign, with its plausible smallest and largest size in `unit`."""
     return Gain(name, unit, (smallest, largest), "any", meaning)
 
 
 def exponent(start: float = 1.5) -> Param:
+    """The exponent of friction heat [1]: 1 for friction that does not change with speed, 2 for a viscous one."""
     return Param("exponent", "1", start, 1.0, 2.5, "friction heat = |speed| ** exponent")
 
 
@@ -43,6 +46,8 @@ class Lagged:
     family: str
     meaning: str
     source: str
+    equation: str
+    telltale: str
     needs: tuple[Need, ...]
     params: tuple[Param, ...]
     gains: tuple[Gain, ...]
@@ -52,4 +57,5 @@ class Lagged:
         return next(drivers.values[n.role] for n in self.needs if n.role in drivers.values)
 
     def basis(self, drivers: Drivers, p: Mapping[str, float]) -> Float2D:
+        """Shape (n, 1): the lagged drive, for a gain of 1."""
         return column(lag(self.drive(drivers, p), p["tau"] * 60.0, step_of(drivers)))

@@ -13,21 +13,43 @@ from .shared import REFERENCE_SPEED_RPM, Lagged, column, exponent, gain, power_o
 
 
 class SpindleBearing(Lagged):
+    """The spindle grows with the temperature of its bearings.
+
+        d = k F_tau{dT}
+
+    k [um/K], tau [min], dT [K] of the bearing.
+    Source: [straka2021], [horejs2022] transfer functions; bounds:
+    docs/method.md#bounds-of-the-effects
+    """
+
     name = "spindle_bearing"
     family = "spindle"
     meaning = "growth of the spindle with its bearing temperature: k F{dT}"
-    source = "papers 000, 002 (first-order part of the printed functions)"
+    equation = "d = k F_tau{dT}"
+    telltale = "heating and cooling with the spindle, slower than the bearing itself; told apart by a stop while warm"
+    source = "[straka2021], [horejs2022] transfer functions; bounds: docs/method.md#bounds-of-the-effects"
     needs = (Need("temperature", "temperature", ("spindle.bearing",)),)
     params = (tau(45, 1, 360),)
     gains = (gain("um/K", 0.2, 40, "displacement at rest a kelvin of the bearing"),)
 
 
 class SpindleBearing2:
+    """The spindle grows in two modes: shaft and bearings, then the housing.
+
+        d = k_fast F_tau_fast{dT} + k_slow F_tau_slow{dT}
+
+    k_fast and k_slow [um/K], tau_fast and tau_slow [min], dT [K].
+    Source: [straka2021], [horejs2022] functions of second order; bounds:
+    docs/method.md#bounds-of-the-effects
+    """
+
     name = "spindle_bearing_2"
     refines = ("spindle_bearing",)
     family = "spindle"
     meaning = "growth of the spindle in two modes: k1 F_fast{dT} + k2 F_slow{dT}; two slopes in cooling"
-    source = "modelling.md section 5, row 1; papers 000, 002 (second-order functions)"
+    equation = "d = k_fast F_tau_fast{dT} + k_slow F_tau_slow{dT}"
+    telltale = "two slopes in one cooling; told apart by a long cooling"
+    source = "[straka2021], [horejs2022] functions of second order; bounds: docs/method.md#bounds-of-the-effects"
     needs = (Need("temperature", "temperature", ("spindle.bearing",)),)
     params = (
         tau(15, 1, 60, "tau_fast", "time constant of the shaft and bearings"),
@@ -41,20 +63,41 @@ class SpindleBearing2:
 
 
 class SpindleMotor(Lagged):
+    """The spindle grows with the temperature of its motor winding.
+
+        d = k F_tau{dT}
+
+    k [um/K], tau [min], dT [K] of the winding.
+    Source: [horejs2022] motor temperatures of SP1 to SP3; bounds:
+    docs/method.md#bounds-of-the-effects
+    """
+
     name = "spindle_motor"
     family = "spindle"
     meaning = "growth with the temperature of the motor winding: k F{dT}; large at low speed"
-    source = "modelling.md section 5, row 2; paper 002, SP3"
+    equation = "d = k F_tau{dT}"
+    telltale = "large at low speed, where the bearings stay cool; told apart by 500 against 9000 rpm"
+    source = "[horejs2022] motor temperatures of SP1 to SP3; bounds: docs/method.md#bounds-of-the-effects"
     needs = (Need("temperature", "temperature", ("spindle.motor",)),)
     params = (tau(40, 10, 120),)
     gains = (gain("um/K", 0.1, 5, "displacement at rest a kelvin of the winding"),)
 
 
 class SpindleFriction(Lagged):
+    """Friction heat of the spindle, by its speed, where no sensor sees it.
+
+        d = k F_tau{(|n| / 10000 rpm)^p}
+
+    k [um] at 10000 rpm, tau [min], p [1], n [rpm].
+    Source: [mayr2012] on spindles; bounds: docs/method.md#bounds-of-the-effects
+    """
+
     name = "spindle_friction"
     family = "spindle"
     meaning = "friction heat of the spindle from its speed, where no sensor sees it: k F{(n/10000 rpm)^p}"
-    source = "modelling.md section 5, row 3"
+    equation = "d = k F_tau{(|n| / 10000 rpm)^p}"
+    telltale = "not linear in the speed; told apart by three speeds"
+    source = "[mayr2012] on spindles; bounds: docs/method.md#bounds-of-the-effects"
     needs = (Need("speed", "rotational_speed", ("spindle",)),)
     params = (tau(45, 2, 360), exponent())
     gains = (gain("um", 0.5, 60, "displacement at rest at 10000 rpm"),)
@@ -64,10 +107,20 @@ class SpindleFriction(Lagged):
 
 
 class CentrifugalShift:
+    """The turning shaft shifts under centrifugal load, at once and reversibly.
+
+        d = k (n / 10000 rpm)^2
+
+    k [um] at 10000 rpm, n [rpm].
+    Source: [abele2010] on spindles at speed; bounds: docs/method.md#bounds-of-the-effects
+    """
+
     name = "centrifugal_shift"
     family = "centrifugal"
     meaning = "shift of the shaft under centrifugal load, at once and reversible: k (n/10000 rpm)^2"
-    source = "modelling.md section 5, row 4"
+    equation = "d = k (n / 10000 rpm)^2"
+    telltale = "a jump within a minute of a change of speed that goes back with it; told apart by short pulses of speed"
+    source = "[abele2010] on spindles at speed; bounds: docs/method.md#bounds-of-the-effects"
     needs = (Need("speed", "rotational_speed", ("spindle",)),)
     params = ()
     gains = (gain("um", 0.5, 30, "displacement at 10000 rpm"),)
@@ -77,13 +130,22 @@ class CentrifugalShift:
 
 
 class SpindleHeatingCooling:
-    """The state follows tau_on while the spindle turns and tau_off while it stands: air moves heat."""
+    """Heating differs from cooling: the air that a turning spindle moves carries heat away.
+
+        tau dd/dt + d = k dT, tau = tau_on while |n| > 1 rpm, else tau_off
+
+    d [um], k [um/K], tau_on and tau_off [min], dT [K], n [rpm].
+    Source: [horejs2010] separate functions for heating and cooling; bounds:
+    docs/method.md#bounds-of-the-effects
+    """
 
     name = "spindle_heating_cooling"
     refines = ("spindle_bearing",)
     family = "spindle"
     meaning = "heating that differs from cooling: k F{dT} with tau_on while the spindle turns, else tau_off"
-    source = "modelling.md section 5, row 5; paper 001 (separate functions for heating and cooling)"
+    equation = "tau dd/dt + d = k dT, tau = tau_on while |n| > 1 rpm, else tau_off"
+    telltale = "a lobe in cooling only; told apart by a stop while warm"
+    source = "[horejs2010] separate functions for heating and cooling; bounds: docs/method.md#bounds-of-the-effects"
     needs = (Need("temperature", "temperature", ("spindle.bearing",)), Need("speed", "rotational_speed", ("spindle",)))
     params = (
         tau(45, 1, 360, "tau_on", "time constant while turning"),
@@ -106,13 +168,21 @@ class SpindleHeatingCooling:
 
 
 class SpeedDependentGain:
-    """Two gains, k and k beta: T acts more or less where the spindle turns."""
+    """The gain of the bearing's temperature changes with the speed.
+
+        d = k F_tau{dT n / 10000 rpm}
+
+    k [um/K] at 10000 rpm, tau [min], dT [K], n [rpm].
+    Source: [horejs2022] spindle SP3; bounds: docs/method.md#bounds-of-the-effects
+    """
 
     name = "speed_dependent_gain"
     refines = ("spindle_bearing",)
     family = "spindle"
     meaning = "the gain of the bearing temperature depends on the speed: k F{dT (n/10000 rpm)}"
-    source = "modelling.md section 5, row 26"
+    equation = "d = k F_tau{dT n / 10000 rpm}"
+    telltale = "the same temperature acts otherwise at another speed; told apart by one temperature at two speeds"
+    source = "[horejs2022] spindle SP3; bounds: docs/method.md#bounds-of-the-effects"
     needs = (Need("temperature", "temperature", ("spindle.bearing",)), Need("speed", "rotational_speed", ("spindle",)))
     params = (tau(45, 1, 360),)
     gains = (gain("um/K", 0, 20, "change of the gain at 10000 rpm"),)

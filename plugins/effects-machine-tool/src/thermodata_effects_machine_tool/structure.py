@@ -10,10 +10,20 @@ from .shared import Lagged, column, gain, tau
 
 
 class ColumnBending(Lagged):
+    """The column bends with the difference between its sides.
+
+        d = k F_tau{dT_warm - dT_cold}
+
+    k [um/K], tau [min], temperatures [K] of rear and front, or left and right.
+    Source: [mayr2012] on structures; bounds: docs/method.md#bounds-of-the-effects
+    """
+
     name = "column_bending"
     family = "column"
     meaning = "the column bends with the difference of its sides: k F{dT rear - dT front} or left - right"
-    source = "modelling.md section 5, row 38"
+    equation = "d = k F_tau{dT_warm - dT_cold}"
+    telltale = "a tilt: in Y (or X) more than in Z; told apart by sensors on both sides at once"
+    source = "[mayr2012] on structures; bounds: docs/method.md#bounds-of-the-effects"
     needs = (
         Need("warm_side", "temperature", ("column.rear", "column.left")),
         Need("cold_side", "temperature", ("column.front", "column.right")),
@@ -26,20 +36,40 @@ class ColumnBending(Lagged):
 
 
 class ProbeTemperature(Lagged):
+    """The probe or its fixture grows with its own temperature.
+
+        d = k F_tau{dT}
+
+    k [um/K], tau [min], dT [K] of probe or fixture.
+    Source: thermal expansion of the fixture; bounds: docs/method.md#bounds-of-the-effects
+    """
+
     name = "probe_temperature"
     family = "probe"
     meaning = "growth of the probe or its fixture, in all axes: k F{dT}"
-    source = "modelling.md section 5, row 31"
+    equation = "d = k F_tau{dT}"
+    telltale = "in all axes alike; told apart by a fixture of little expansion"
+    source = "thermal expansion of the fixture; bounds: docs/method.md#bounds-of-the-effects"
     needs = (Need("temperature", "temperature", ("probe", "fixture")),)
     params = (tau(15, 1, 120),)
     gains = (gain("um/K", 0.1, 2, "displacement at rest a kelvin of the fixture"),)
 
 
 class ControlCompensation:
+    """The static linear model that a control ships with, as a baseline or left on by mistake.
+
+        d = k (dT_spindle - dT_base)
+
+    k [um/K], temperatures [K].
+    Source: [horejs2010] eq. 1, 1.5 um/K in Y and 7.0 um/K in Z
+    """
+
     name = "control_compensation"
     family = "control"
     meaning = "the control's static linear model, as a baseline or left on by mistake: k (dT spindle - dT base)"
-    source = "paper 001, eq. 1 (1.5 um/K in y, 7.0 um/K in z)"
+    equation = "d = k (dT_spindle - dT_base)"
+    telltale = "a static mirror of a temperature; told apart by switching the compensation off"
+    source = "[horejs2010] eq. 1, 1.5 um/K in Y and 7.0 um/K in Z"
     needs = (Need("spindle", "temperature", ("spindle", "headstock")), Need("base", "temperature", ("bed", "hall.*")))
     params = ()
     gains = (gain("um/K", 0.5, 10, "micrometres a kelvin, at once"),)

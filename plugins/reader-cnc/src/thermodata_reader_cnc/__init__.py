@@ -17,6 +17,16 @@ class Reader:
     """Tells the formats apart by their first bytes; what it does not know is read as delimited text."""
 
     name = "cnc"
+    formats = (
+        "CSV exports of a control (German, Czech, English)",
+        "Sinumerik Trace XML",
+        "Sinumerik Trace CSV",
+        "Heidenhain TNCscope (.sco)",
+        "TwinCAT Scope text export",
+        "MTConnect streams (XML)",
+        "MTConnect SHDR",
+        "OPC UA and SIMATIC long tables",
+    )
 
     def sniff(self, head: Head) -> str | None:
         from thermodata_reader_cnc.sniff import claim

@@ -17,6 +17,11 @@ class Reader:
     be stale."""
 
     name = "crio"
+    formats = (
+        "TDMS, with DAQmx and all NI scalings",
+        "LVM",
+        "plain LabVIEW text",
+    )
 
     def sniff(self, head: Head) -> str | None:
         if head.start[:4] == b"TDSm":
@@ -35,19 +40,19 @@ class Reader:
         found: Iterator[Block | Loss] = _format(path).blocks(path, source)
         return found
 
-    def place(self, path: Path, source: Source, stream: str, row: int) -> str:
+    def locate(self, path: Path, source: Source, stream: str, row: int) -> str:
         """Where a row (counted from 0) of a stream stands: segment and bytes of a TDMS file, the line of a text."""
         module = _format(path)
         where: str | None
-        if module.__name__.endswith(".tdms"):
-            from thermodata_reader_crio import places
-
-            where = places.place(path, source, stream, row)
+        if hasattr(module, "locate"):
+            where = module.locate(path, source, stream, row)
         else:
             from thermodata_reader_crio import textparts
 
             where = textparts.place(module.blocks, path, source, stream, row)
         return where or f"row {row + 1}"
+
+    place = locate
 
 
 def _is_lvm(start: bytes) -> bool:

@@ -11,7 +11,7 @@ import numpy as np
 from thermodata.errors import FormatError
 from thermodata.plugin import Float2D, Head
 from thermodata.reader.text import clean, decimal_mark, decode_head, looks_like_unit, split_unit
-from thermodata_reader_crio.axis import LABVIEW_SECONDS
+from thermodata_reader_crio.labview_clock import LABVIEW_SECONDS
 from thermodata_reader_crio.rows import number
 
 _MOST_HEADER = 30

@@ -9,8 +9,7 @@ import numpy as np
 
 from thermodata.plugin import Bool1D, Float1D, Int1D
 from thermodata.reader.zone import local_to_utc_ns
-from thermodata_reader_crio.axis import EPOCH_1904_NS, LABVIEW_SECONDS
-from thermodata_reader_crio.clock import LAST_NS
+from thermodata_reader_crio.labview_clock import EPOCH_1904_NS, LABVIEW_SECONDS, LAST_NS
 
 _BILLION = 1_000_000_000
 _TIME = re.compile(r"^(\d{1,2}):(\d{2})(?::(\d{2})(?:[.,](\d+))?)?\s*([AaPp])?\.?(?:[Mm]\.?)?$")

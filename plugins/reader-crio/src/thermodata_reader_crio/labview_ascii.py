@@ -17,9 +17,9 @@ from thermodata.reader.text import last_line_is_whole
 from thermodata.schema.flag import Flag
 from thermodata.schema.quantity import value_in
 from thermodata_reader_crio.ascii_layout import Layout, find_layout
-from thermodata_reader_crio.clock import step_ns
 from thermodata_reader_crio.comments import flags_of, texts
 from thermodata_reader_crio.labtime import EPOCH_1904_NS, counted_ns, seconds_ns
+from thermodata_reader_crio.labview_clock import step_ns
 from thermodata_reader_crio.rows import Grid, Rows, number, parse
 from thermodata_reader_crio.textparts import LineBlock, count_lines, decode, encoding_of, parts
 

@@ -7,8 +7,8 @@ import numpy as np
 from thermodata.errors import FormatError
 from thermodata.plugin import Bool1D, Float1D, Int1D, Source
 from thermodata.reader.text import decimal_mark
-from thermodata_reader_crio.clock import step_ns
 from thermodata_reader_crio.labtime import EPOCH_1904_NS, counted_ns, is_labview_seconds, local_ns, seconds_ns, utc_ns
+from thermodata_reader_crio.labview_clock import step_ns
 from thermodata_reader_crio.lvm_header import Header, Packet
 from thermodata_reader_crio.rows import Grid, Rows, parse
 

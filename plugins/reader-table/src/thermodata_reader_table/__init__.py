@@ -15,6 +15,13 @@ class Reader:
 
     name = "table"
     gives_way = True  # a table at first sight may have a reader of its own
+    formats = (
+        "delimited text (CSV)",
+        "XLSX",
+        "Parquet",
+        "MAT 5 and 7.3",
+        "MDF 2 to 4 (with the extra mdf)",
+    )
 
     def sniff(self, head: Head) -> str | None:
         if head.start[:4] == b"PAR1":
@@ -40,15 +47,16 @@ class Reader:
         found: Iterator[Block | Loss] = _format(path).blocks(path, source)
         return found
 
-    def place(self, path: Path, source: Source, stream: str, row: int) -> str:
+    def locate(self, path: Path, source: Source, stream: str, row: int) -> str:
         """Where a row (counted from 0) of a stream stands: line, row of a sheet, index of an array, record."""
-        from thermodata_reader_table.place import place
+        where: str | None = _format(path).locate(path, source, stream, row)
+        return where or f"row {row + 1}"
 
-        return place(_format(path), path, source, stream, row) or f"row {row + 1}"
+    place = locate
 
 
 def mat_is_hdf5(start: bytes) -> bool:
-    from thermodata_reader_table.mat import is_hdf5
+    from thermodata_reader_table.mat.files import is_hdf5
 
     return is_hdf5(start)
 

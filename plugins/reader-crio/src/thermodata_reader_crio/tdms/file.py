@@ -1,0 +1,70 @@
+"""An open TDMS file: its index, its streams, and what was noted; kept from the description to the reading."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from threading import Lock
+
+from thermodata.errors import FormatError
+from thermodata.plugin import Source
+from thermodata_reader_crio.tdms.channels import channels
+from thermodata_reader_crio.tdms.raw_columns import columns
+from thermodata_reader_crio.tdms.segment_index import Index
+from thermodata_reader_crio.tdms.segments import read_index
+from thermodata_reader_crio.tdms.streams import Stream, streams_of
+
+_KEPT: dict[tuple[object, ...], File] = {}
+_LOCK = Lock()
+
+
+@dataclass(frozen=True)
+class File:
+    """What a file holds, without the bulk: its segments, its streams, and what to say of them."""
+
+    index: Index
+    streams: tuple[Stream, ...]
+    notes: tuple[str, ...]
+    partly: tuple[str, ...]  # what was left out of channels, as sentences
+
+
+def open_file(path: Path, source: Source, *, keep: bool = False) -> File:
+    """A TDMS file as it was just described, or opened anew. keep: for the reading that follows the description, so
+    that a file of 100,000 channels is walked once."""
+    status = path.stat()
+    with path.open("rb") as file:
+        ends = [file.read(4096)]
+        file.seek(max(0, status.st_size - 4096))
+        ends.append(file.read(4096))
+    key = str(path.absolute()), status.st_size, status.st_mtime_ns, status.st_ino, repr(source), *ends
+    with _LOCK:
+        found = _KEPT.pop(key, None)
+    if found is None:
+        found = _opened(path, source)
+    if keep:
+        with _LOCK:
+            _KEPT.clear()
+            _KEPT[key] = found
+    return found
+
+
+def _opened(path: Path, source: Source) -> File:
+    """Index, streams and notes of a TDMS file; reads no bulk (but the start of channels that hold a time)."""
+    index = read_index(path)
+    cols, partly = columns(index)
+    notes = list(index.notes)
+    groups = channels(index, cols, path.name, set(source.options.get("unscaled", ())), notes)
+    taken: dict[str, int] = {}
+    found: list[Stream] = []
+    with path.open("rb") as file:
+        for group, members in groups.items():
+            found += streams_of(group, members, index, source, notes, taken, file)
+    if not found:
+        raise FormatError(
+            "a TDMS file without values",
+            where=path.name,
+            expected="channels with raw data",
+            got=f"{index.segments} segments, {len(index.properties)} objects",
+            hint=index.damage,
+        )
+    return File(index, tuple(found), tuple(notes), tuple(partly))

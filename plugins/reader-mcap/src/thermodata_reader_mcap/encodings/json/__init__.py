@@ -1,0 +1,1 @@
+"""JSON messages: by the standard library, or many at once by Arrow."""

@@ -1,0 +1,58 @@
+"""JSON messages one by one, with what a JSON Schema says of their fields."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from thermodata_reader_mcap.encodings.field_paths import Path
+from thermodata_reader_mcap.encodings.json.text import loads
+from thermodata_reader_mcap.encodings.topic import Hint
+
+_UNIT_KEYS = ("unit", "units", "x-unit", "x-units")
+
+
+@dataclass(slots=True)
+class JsonDecoder:
+    """JSON, with or without a JSON Schema. encoding: of its text, where that is not UTF-8."""
+
+    schema: Any
+    encoding: str | None = None
+    json: bool = True
+
+    def decode(self, payload: bytes) -> Any:
+        """A payload as Python values. ValueError, RecursionError: it is no JSON, or a key comes twice."""
+        return loads(self.text(payload))
+
+    def text(self, payload: bytes) -> bytes:
+        """The payload in UTF-8."""
+        return payload if self.encoding is None else payload.decode(self.encoding).encode()
+
+    def hint(self, path: Path) -> Hint | None:
+        """What the JSON Schema says of a path; None where it says nothing."""
+        node = self.schema
+        for part in path:
+            if not isinstance(node, Mapping):
+                return None
+            inner = node.get("items") if isinstance(part, int) else node.get("properties")
+            node = inner if isinstance(part, int) else inner.get(part) if isinstance(inner, Mapping) else None
+        if not isinstance(node, Mapping):
+            return None
+        kind = node.get("type")
+        if isinstance(kind, list):
+            kind = next((k for k in kind if k != "null"), None)
+        unit = next((node[k] for k in _UNIT_KEYS if isinstance(node.get(k), str)), None)
+        said = node.get("description")
+        return Hint(
+            kind if isinstance(kind, str) else None, unit, (("description", said),) if isinstance(said, str) else ()
+        )
+
+
+def json_schema(data: bytes) -> Any:
+    """A JSON Schema as Python values; None where it is none."""
+    try:
+        return json.loads(data) if data.strip() else None
+    except (ValueError, RecursionError):
+        return None

@@ -1,0 +1,1 @@
+"""Protobuf messages, by Google's own package."""

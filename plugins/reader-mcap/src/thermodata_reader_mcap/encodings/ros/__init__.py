@@ -1,0 +1,1 @@
+"""ROS messages: definitions, CDR, and many messages of one layout at once."""

@@ -1,0 +1,70 @@
+"""What a campaign file may declare under `options` of an mcap source."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from difflib import get_close_matches
+
+from thermodata.errors import FormatError
+from thermodata.plugin import Source
+from thermodata_reader_mcap.encodings.field_paths import Path
+
+LOG, PUBLISH = "log_time", "publish_time"
+_SCALES = {"s": 10**9, "ms": 10**6, "us": 10**3, "ns": 1}
+_STAMPS = (("sec", "nanosec"), ("secs", "nsecs"), ("seconds", "nanos"), ("sec", "nsec"))
+
+
+@dataclass(frozen=True, slots=True)
+class Options:
+    """time: "log_time", "publish_time", or a field of the messages, such as "header.stamp". scale: nanoseconds of
+    one unit of that field, where it is one number. enums: protobuf's enumerations as "number" or "label".
+    publish: whether publish times are always a signal, not only where a sample of them differs from the log times."""
+
+    time: str = LOG
+    scale: int | None = None
+    enums: str = "number"
+    publish: bool = False
+
+    @property
+    def stamp(self) -> Path | None:
+        """The path of the field that is the time; None where the time is the record's."""
+        return None if self.time in (LOG, PUBLISH) else tuple(self.time.strip(".").split("."))
+
+    def stamps(self) -> list[tuple[Path, ...]]:
+        """Paths that may hold the time: seconds and nanoseconds, or one number in `scale`."""
+        if self.stamp is None:
+            return []
+        pairs = [((*self.stamp, a), (*self.stamp, b)) for a, b in _STAMPS]
+        return [*pairs, (self.stamp,)] if self.scale else list(pairs)
+
+
+def options(source: Source) -> Options:
+    """The declared options. FormatError: an unknown key or value."""
+    known = ("time", "time_unit", "enums", "publish_time")
+    for key in source.options:
+        if key not in known:
+            near = get_close_matches(str(key), known, 1)
+            raise FormatError(
+                f"no option '{key}' of the mcap reader",
+                where=f"source '{source.name}'",
+                expected=", ".join(known),
+                got=str(key),
+                hint=f"did you mean '{near[0]}'?" if near else "remove it",
+            )
+    unit, enums = source.options.get("time_unit"), source.options.get("enums", "number")
+    if unit is not None and unit not in _SCALES:
+        raise FormatError(
+            "time_unit is none", where=f"source '{source.name}'", expected=", ".join(_SCALES), got=str(unit)
+        )
+    if enums not in ("number", "label"):
+        raise FormatError("enums is none", where=f"source '{source.name}'", expected="number, label", got=str(enums))
+    time = source.options.get("time", LOG)
+    if not isinstance(time, str) or not time.strip("."):
+        raise FormatError(
+            "time is none",
+            where=f"source '{source.name}'",
+            expected="log_time, publish_time, or a field such as header.stamp",
+            got=str(time),
+        )
+    publish = bool(source.options.get("publish_time", False))
+    return Options(time, None if unit is None else _SCALES[unit], enums, publish)

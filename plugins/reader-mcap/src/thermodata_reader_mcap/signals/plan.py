@@ -1,0 +1,211 @@
+"""The first look at a recording: its topics and their signals, by samples of its chunks."""
+
+from __future__ import annotations
+
+import struct
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+from fnmatch import fnmatchcase
+
+import numpy as np
+
+from thermodata.errors import FormatError
+from thermodata.plugin import Source
+from thermodata_reader_mcap.container.attachments import extras
+from thermodata_reader_mcap.container.data_section import Damage, data_section, is_complete
+from thermodata_reader_mcap.container.definitions import Channel, Definitions
+from thermodata_reader_mcap.container.message_batches import Batch
+from thermodata_reader_mcap.container.messages import LATEST_NS, Content, collect_messages
+from thermodata_reader_mcap.container.records import ATTACHMENT, CHUNK, MESSAGE_INDEX, METADATA, Record, chunk_head
+from thermodata_reader_mcap.container.summary import Summary, summary
+from thermodata_reader_mcap.encodings.decoder import Decoder
+from thermodata_reader_mcap.encodings.topic import Topic
+from thermodata_reader_mcap.signals.options import PUBLISH, Options, options
+from thermodata_reader_mcap.signals.topic_discovery import discover, readers
+
+WHOLE = 8 << 20  # uncompressed bytes that are looked at completely
+_SEARCHED = 64 << 20  # the same, of a file whose chunks do not say which topics they hold
+EARLIEST_NS = 10**17  # log times before 1973 count from the start of the recording
+
+
+@dataclass(slots=True)
+class Plan:
+    """topics: by name; readers: how each channel's messages decode. stamped: the times that are signals, by topic
+    ("log_time", "publish_time"). complete: whether the file ends well and nothing in it is seen to be damaged."""
+
+    options: Options
+    summary: Summary
+    topics: dict[str, Topic]
+    readers: dict[Channel, Decoder]
+    unsupported: dict[str, str]
+    stamped: dict[str, str]
+    start_ns: int | None
+    relative: bool
+    complete: bool
+    notes: list[str]
+
+
+@dataclass(slots=True)
+class _Chunks:
+    sizes: list[int] = field(default_factory=list)
+    channels: list[set[int]] = field(default_factory=list)
+    extras: list[Record] = field(default_factory=list)
+    damaged: bool = False
+
+
+def _survey(view: memoryview) -> _Chunks:
+    """Sizes of the chunks and the channels that the indexes behind them name, without opening any."""
+    found = _Chunks()
+    for record in data_section(view):
+        if isinstance(record, Damage) or record.cut:
+            found.damaged = True
+        if isinstance(record, Damage):
+            continue
+        if record.opcode == CHUNK:
+            head = chunk_head(view, record)
+            found.sizes.append(head.size if head is not None else 0)
+            found.channels.append(set())
+        elif record.opcode == MESSAGE_INDEX and found.channels and not record.cut and record.stop - record.start >= 6:
+            channel, size = struct.unpack_from("<HI", view, record.start)
+            if size:
+                found.channels[-1].add(channel)
+        elif record.opcode in (ATTACHMENT, METADATA) and not record.cut:
+            found.extras.append(record)
+    return found
+
+
+def _chosen(chunks: _Chunks) -> set[int] | None:
+    """Which chunks to open; None for all."""
+    total, count = sum(chunks.sizes), len(chunks.sizes)
+    if total <= WHOLE:
+        return None
+    if not all(chunks.channels):
+        if total <= _SEARCHED:
+            return None
+        return {0, 1, count - 1, *(count * k // 16 for k in range(16))}
+    chosen = {0, count - 1, *(count * k // 6 for k in range(6))}
+    places: dict[int, tuple[int, int]] = {}
+    for k, inside in enumerate(chunks.channels):
+        for channel in inside:
+            places[channel] = (places.get(channel, (k, k))[0], k)
+    return chosen | {k for pair in places.values() for k in pair}
+
+
+def wanted_topic(topic: str, source: Source) -> bool:
+    """Whether a source's topics ask for this one; `*` stands for anything, no topics for all."""
+    return not source.topics or any(t == topic or fnmatchcase(topic, t) for t in source.topics)
+
+
+def content(view: memoryview, name: str, said: Summary) -> Content:
+    """An empty content for a walk."""
+    return Content(name, len(view), Definitions(spare=said.channels))
+
+
+def plan(view: memoryview, name: str, source: Source) -> Plan:
+    """The topics of a recording. FormatError: a declared topic is missing, or no topic can be read."""
+    chosen_options, said, chunks = options(source), summary(view), _survey(view)
+    chosen = _chosen(chunks)
+    met = content(view, name, said)
+    met.key = lambda channel: channel if wanted_topic(channel.topic, source) else None
+    whole = chosen is None
+    damaged = chunks.damaged
+    for loss in collect_messages(
+        view, met, lambda: met.pending >= WHOLE, None if chosen is None else chosen.__contains__
+    ):
+        damaged |= loss is not None
+        if not chunks.sizes and met.pending >= WHOLE:  # messages outside of chunks: their head must do
+            whole = False
+            break
+    _refuse_missing(source, [*met.definitions.met, *said.channels.values()], name)
+    notes = extras(view, chunks.extras)
+    if said.damaged:
+        notes.append("the summary at the end of the file is damaged; it was not needed")
+    batches = {k: b for k, b in met.batches.items() if isinstance(k, Channel)}
+    found = _topics(batches, chosen_options, source, whole, notes)
+    unknown = [f"topic '{t}' is not read: {why}" for t, why in found.unsupported.items()]
+    if unknown and not found.topics:
+        raise FormatError(
+            "no topic of this recording can be read",
+            where=name,
+            got="; ".join(unknown),
+            expected="messages in json, cdr, ros1 or protobuf with their schemas",
+        )
+    used = [b for c, b in batches.items() if c.topic in found.topics]
+    logs = [b.times()[0] for b in used]
+    times = np.concatenate([np.empty(0, np.uint64), *logs])
+    times = times[times < LATEST_NS]
+    relative = times.size > 0 and int(times.max()) < EARLIEST_NS
+    if relative:
+        notes.append("log times count from the start of the recording")
+    stamped = {}
+    different = {c.topic for c, b in batches.items() if not _same(b)}
+    for topic in found.topics:
+        same = not chosen_options.publish and topic not in different
+        if chosen_options.time != "log_time":
+            stamped[topic] = "log_time"
+        elif not same:
+            stamped[topic] = PUBLISH
+    return Plan(
+        chosen_options,
+        said,
+        found.topics,
+        found.readers,
+        found.unsupported,
+        stamped,
+        int(times.min()) if times.size else None,
+        relative,
+        is_complete(view) and not damaged,
+        [*notes, *unknown],
+    )
+
+
+@dataclass(slots=True)
+class _Found:
+    topics: dict[str, Topic] = field(default_factory=dict)
+    readers: dict[Channel, Decoder] = field(default_factory=dict)
+    unsupported: dict[str, str] = field(default_factory=dict)
+
+
+def _topics(batches: dict[Channel, Batch], chosen: Options, source: Source, whole: bool, notes: list[str]) -> _Found:
+    by_topic: dict[str, list[Channel]] = {}
+    for channel, batch in batches.items():
+        if batch.payloads:
+            by_topic.setdefault(channel.topic, []).append(channel)
+    result = _Found()
+    budget = max((WHOLE if whole else WHOLE // 2) // max(1, len(by_topic)), 1 << 16)
+    for topic, channels in by_topic.items():
+        samples = {c: batches[c].payloads for c in channels}
+        made, problems = readers(channels, samples, chosen, source.encoding, notes)
+        found = discover(topic, made, samples, whole, budget, notes) if made else None
+        if problems:
+            result.unsupported[topic] = "; ".join(dict.fromkeys(problems.values()))
+        if found is not None:
+            result.topics[topic] = found
+            result.readers.update(made)
+        elif not problems:
+            result.unsupported[topic] = "no message decodes" if not _empty(made, samples) else "its messages are empty"
+    return result
+
+
+def _empty(made: dict[Channel, Decoder], samples: dict[Channel, list[bytes]]) -> bool:
+    for channel, one in made.items():
+        for payload in samples[channel][:3]:
+            try:
+                one.decode(payload)
+            except Exception:  # whatever a decoder raises: it does not decode
+                return False
+    return True
+
+
+def _same(batch: Batch) -> bool:
+    log_ns, publish_ns = batch.times()
+    return bool(np.array_equal(log_ns, publish_ns))
+
+
+def _refuse_missing(source: Source, channels: Iterable[Channel], name: str) -> None:
+    present = sorted({c.topic for c in channels})
+    for wanted in source.topics:
+        if not any(t == wanted or fnmatchcase(t, wanted) for t in present):
+            raise FormatError(
+                f"no topic '{wanted}'", where=name, expected=", ".join(present) or "the file has none", got=wanted
+            )

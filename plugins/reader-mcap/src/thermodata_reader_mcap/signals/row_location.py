@@ -1,0 +1,108 @@
+"""Where a row stands in a recording: which message of its topic, in which chunk, at which byte, with which log time."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from thermodata.plugin import Block, Int1D, Loss, Source
+from thermodata_reader_mcap.container.mapped_file import opened
+from thermodata_reader_mcap.container.message_batches import U64
+from thermodata_reader_mcap.container.messages import Content, collect_messages
+from thermodata_reader_mcap.container.records import HEAD, MESSAGE_HEAD, Bytes
+from thermodata_reader_mcap.encodings.columns import Columns
+from thermodata_reader_mcap.encodings.topic import Topic
+from thermodata_reader_mcap.signals.blocks import BATCH, Job, Writer
+from thermodata_reader_mcap.signals.plan import content, plan, wanted_topic
+
+
+def locate(path: Path, source: Source, stream: str, row: int) -> str | None:
+    """`message 812, chunk 3 (at byte 123456), byte 789 of its records, log_time ...` of a row (counted from 0) of a
+    topic; None where that can't be told."""
+    with opened(path) as view:
+        number = _message(view, path, source, stream, row)
+        if number is None:
+            return None
+        met = content(view, path.name, plan(view, path.name, source).summary)
+        met.key = lambda channel: None
+        seen = _MessageCounter(met, stream, number)
+        met.follow = seen.take
+        for _ in collect_messages(view, met, lambda: True):
+            if seen.found is not None:
+                break
+        return seen.found
+
+
+def _message(view: memoryview, path: Path, source: Source, stream: str, row: int) -> int | None:
+    """The number of a row's message in its topic, from 0: messages that do not read are no rows."""
+    found = plan(view, path.name, source)
+    met = content(view, path.name, found.summary)
+    met.key = lambda channel: channel.topic if channel.topic == stream and wanted_topic(stream, source) else None
+    writer = _Counting(met, found, source)
+    done = 0
+    for _ in (*collect_messages(view, met, lambda: met.pending >= BATCH), None):
+        for item in writer.flush():
+            if isinstance(item, Block):
+                if row < done + item.t_ns.size:
+                    return None if writer.numbers is None else int(writer.numbers[row - done])
+                done += item.t_ns.size
+    return None
+
+
+@dataclass(slots=True)
+class _Counting(Writer):
+    """Knows the numbers, in their topic, of the messages that became the last block; None where some were left
+    out for their time."""
+
+    numbers: Int1D | None = None
+    base: int = 0
+    size: int = 0
+
+    def _ahead(self, jobs: list[Job]) -> Iterator[tuple[Job, list[Columns]]]:
+        for job in jobs:
+            self.base, self.size = self.base + self.size, len(job[1].payloads[job[2]])
+            yield job, self._columns(job)
+
+    def _blocks(self, topic: Topic, part: Columns, logs: U64, publishes: U64) -> Iterator[Block | Loss]:
+        for item in Writer._blocks(self, topic, part, logs, publishes):
+            if isinstance(item, Block):
+                self.numbers = part.kept + self.base if item.t_ns.size == part.kept.size else None
+            yield item
+
+
+@dataclass(slots=True)
+class _MessageCounter:
+    """Counts a topic's messages as they are met, up to the wanted one."""
+
+    content: Content
+    topic: str
+    wanted: int
+    found: str | None = None
+    count: int = 0
+
+    def take(self, inner: Bytes, at: Int1D) -> None:
+        """Sees the messages whose records begin at these places."""
+        if self.found is not None:
+            return
+        heads = np.lib.stride_tricks.sliding_window_view(np.frombuffer(inner, np.uint8), HEAD.size + MESSAGE_HEAD)[at]
+        numbers = np.ascontiguousarray(heads[:, 9:11]).view("<u2")[:, 0]
+        wanted = [
+            n
+            for n in np.unique(numbers).tolist()
+            if (channel := self.content.definitions.channel(n)) is not None and channel.topic == self.topic
+        ]
+        mine = np.flatnonzero(np.isin(numbers, wanted))
+        if self.wanted < self.count + mine.size:
+            which = int(mine[self.wanted - self.count])
+            log_ns = int(np.ascontiguousarray(heads[which, 15:23]).view("<u8")[0])
+            byte, chunk = int(at[which]), self.content.chunk
+            where = (
+                f"byte {byte}"
+                if chunk is None
+                else f"chunk {chunk[0] + 1} (at byte {chunk[1]}), byte {byte} of its records"
+            )
+            self.found = f"message {self.wanted + 1}, {where}, log_time {log_ns}"
+        self.count += int(mine.size)

@@ -1,0 +1,122 @@
+"""Times of messages: log, publish and their own stamps; clocks that count from zero."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from mcap.writer import CompressionType
+from thermodata_reader_mcap import Reader
+
+from thermodata.errors import FormatError
+from thermodata.plugin import Source
+from thermodata.reader.guard import described
+
+T0 = 1_772_434_800_000_000_000
+STEP = 10_000_000
+REAL = Path(__file__).resolve().parents[5] / "shared" / "data" / "mcap"
+COMPRESSIONS = [CompressionType.NONE, CompressionType.LZ4, CompressionType.ZSTD]
+
+
+def test_publish_times_are_kept_where_they_differ(tmp_path: Path, write: Any, read: Any, axis: Any) -> None:
+    same = write(tmp_path / "a.mcap", axis(5))
+    other = write(tmp_path / "b.mcap", axis(5), publish=lambda t: t - 250)
+    assert "/axis.publish_time" not in read(same)[2]
+    assert read(other)[2]["/axis.publish_time"] == [T0 + k * STEP - 250 for k in range(5)]
+
+
+def test_order_of_the_recording_is_kept(tmp_path: Path, write: Any, read: Any) -> None:
+    order = [3, 1, 2, 0, 4]
+    path = write(tmp_path / "a.mcap", [("/m", T0 + k, {"k": k}) for k in order])
+    assert read(path)[1]["/m"].tolist() == [T0 + k for k in order]
+    assert read(path)[2]["/m.k"] == order
+
+
+def test_log_times_from_zero_are_a_relative_clock(tmp_path: Path, write: Any, read: Any) -> None:
+    recording, times, _, _, _ = read(write(tmp_path / "a.mcap", [("/m", k * STEP, {"k": k}) for k in range(5)]))
+    assert (recording.clock, recording.start_ns) == ("relative", 0)
+    assert times["/m"][-1] == 4 * STEP
+
+
+def stamped(k: int) -> dict[str, Any]:
+    return {
+        "header": {"stamp": {"sec": (T0 + k * STEP) // 10**9, "nanosec": (T0 + k * STEP) % 10**9}},
+        "v": k,
+        "ms": (T0 + k * STEP) / 1e6,
+    }
+
+
+def test_a_source_says_which_time_counts(tmp_path: Path, write: Any, read: Any) -> None:
+    path = write(
+        tmp_path / "a.mcap", [("/m", T0 + k * STEP + 777, stamped(k)) for k in range(50)], publish=lambda t: t - 250
+    )
+    t = T0 + STEP * np.arange(50)
+    for options, expected in (({}, t + 777), ({"time": "publish_time"}, t + 527), ({"time": "header.stamp"}, t)):
+        _, times, values, _, losses = read(path, Source(options=options))
+        assert not losses
+        np.testing.assert_array_equal(times["/m"], expected)
+        kept = "/m.log_time" if options else "/m.publish_time"
+        assert values[kept] == (t + 777 if options else t + 527).tolist()
+    _, times, _, _, _ = read(path, Source(options={"time": "ms", "time_unit": "ms"}))
+    assert np.abs(times["/m"] - t).max() < 1000
+
+
+def test_a_message_without_its_stamp_keeps_its_log_time_and_is_flagged(tmp_path: Path, write: Any, read: Any) -> None:
+    messages = [("/m", T0 + k * STEP + 5, stamped(k) if k != 7 else {"v": 7}) for k in range(20)]
+    path = write(tmp_path / "a.mcap", messages)
+    _, times, _, flags, losses = read(path, Source(options={"time": "header.stamp"}))
+    assert times["/m"][7] == T0 + 7 * STEP + 5
+    assert [bool(f & 64) for f in flags["/m.v"]] == [k == 7 for k in range(20)]
+    assert ["log time stands for it" in loss.reason for loss in losses] == [True]
+
+
+@pytest.mark.parametrize(
+    ("options", "words"),
+    [
+        ({"tme": "x"}, "did you mean 'time'"),
+        ({"time": ""}, "header.stamp"),
+        ({"time_unit": "h"}, "ms"),
+        ({"enums": "both"}, "label"),
+    ],
+)
+def test_options_that_are_none_are_refused(
+    tmp_path: Path, write: Any, axis: Any, options: dict[str, str], words: str
+) -> None:
+    path = write(tmp_path / "a.mcap", axis(5))
+    with pytest.raises(FormatError, match=words):
+        described(Reader(), path, Source(options=options))
+
+
+def test_publish_times_that_differ_late_are_said(
+    tmp_path: Path, write: Any, read: Any, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    from thermodata_reader_mcap.container import messages
+    from thermodata_reader_mcap.signals import plan
+
+    monkeypatch.setattr(plan, "WHOLE", 2000)
+    monkeypatch.setattr(messages, "_LOOSE", 10)
+    path = write(
+        tmp_path / "a.mcap",
+        [("/m", T0 + k, {"v": k / 2}) for k in range(500)],
+        use_chunking=False,
+        publish=lambda t: t - 9 * (t > T0 + 400),
+    )
+    _, times, values, _, losses = read(path)
+    assert times["/m"].size == 500
+    assert ["publish_time: true" in loss.reason for loss in losses] == [True]
+    assert "/m.publish_time" not in values
+    assert read(path, Source(options={"publish_time": True}))[2]["/m.publish_time"][-1] == T0 + 499 - 9
+
+
+def test_times_beyond_what_is_kept_are_lost_by_name(tmp_path: Path, write: Any, read: Any) -> None:
+    path = write(
+        tmp_path / "a.mcap",
+        [("/m", 2**64 - 1 if k == 3 else T0 + k, {"v": k / 2}) for k in range(10)],
+        publish=lambda t: t if t == T0 + 5 else 2**63 + 5,
+    )
+    _, times, values, flags, losses = read(path)
+    assert times["/m"].size == 9
+    assert sum("2262" in loss.reason for loss in losses) == 2
+    assert [f > 0 for f in flags["/m.publish_time"]] == [v == 0 for v in values["/m.publish_time"]]

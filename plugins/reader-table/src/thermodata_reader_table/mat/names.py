@@ -1,0 +1,181 @@
+"""What names in a MAT file say: which variable is a time, which holds names, units or the rate, what is a signal."""
+
+from __future__ import annotations
+
+import re
+
+from thermodata.reader.time_units import EPOCHS, SECONDS
+
+_TIME = {
+    "time",
+    "zeit",
+    "čas",
+    "cas",
+    "temps",
+    "tiempo",
+    "tempo",
+    "datum",
+    "date",
+    "datetime",
+    "timestamp",
+    "times",
+    "timestamps",
+    "datenum",
+    "时间",
+    "時間",
+    "tid",
+    "uhrzeit",
+    "zeitstempel",
+    "tvec",
+    "timevec",
+    "timevector",
+    "tiempos",
+    "abscissa",
+    "seconds",
+    "elapsed",
+    "posixtime",
+    "clock",
+    "日時",
+    "時刻",
+    "日期",
+}
+_NAMES = {
+    "names",
+    "name",
+    "labels",
+    "label",
+    "header",
+    "headers",
+    "colheaders",
+    "channels",
+    "channelnames",
+    "signals",
+    "signalnames",
+    "columns",
+    "columnnames",
+    "varnames",
+    "variablenames",
+    "colnames",
+    "kanal",
+    "kanäle",
+    "namen",
+    "nazvy",
+    "názvy",
+    "legend",
+    "titles",
+    "channelname",
+    "signalname",
+    "textdata",
+    "variables",
+}
+_UNITS = {
+    "units",
+    "unit",
+    "einheiten",
+    "einheit",
+    "jednotky",
+    "jednotka",
+    "unitnames",
+    "channelunits",
+    "yunits",
+    "variableunits",
+}
+_STEP = {
+    "dt",
+    "ts",
+    "samplingtime",
+    "sampletime",
+    "samplingperiod",
+    "sampleperiod",
+    "interval",
+    "sampleinterval",
+    "samplinginterval",
+    "timestep",
+    "deltat",
+    "increment",
+    "abtastzeit",
+}
+_RATE = {
+    "fs",
+    "samplerate",
+    "samplingrate",
+    "samplefrequency",
+    "samplingfrequency",
+    "rate",
+    "frate",
+    "abtastrate",
+    "abtastfrequenz",
+    "fsample",
+}
+
+
+def tokens(name: str) -> list[str]:
+    """Words of a name, with case: 'time_T1' -> time, T1; 'timeAxis' -> time, Axis."""
+    return re.findall(r"[A-ZÀ-Ž]?[^\W\dA-ZÀ-Ž_]+|[A-ZÀ-Ž]+|\d+", re.sub(r"[_\W]+", " ", name))
+
+
+def names_time(name: str) -> bool:
+    """Whether a name is that of a time: a word for it, or a small t ('T' is a temperature)."""
+    if name == "t":
+        return True
+    return any(w.lower() in _TIME for w in tokens(name))
+
+
+def may_be_time(name: str) -> bool:
+    """Whether a name with a small t for a part could be a time, if its values rise: 't_oil' may be a temperature."""
+    parts = tokens(name)
+    return len(parts) > 1 and parts[0] == "t"
+
+
+def without_time(name: str) -> str:
+    """What is left of a time's name: the signal that it belongs to ('Data1_time_T1' -> 'data1t1')."""
+    return "".join(w for w in tokens(name) if w.lower() not in _TIME and w != "t").lower()
+
+
+def squeezed(name: str) -> str:
+    """A name without what separates its words, in small letters."""
+    return "".join(tokens(name)).lower()
+
+
+def names_names(name: str) -> bool:
+    """Whether a variable holds the names of others."""
+    return squeezed(name) in _NAMES or any(squeezed(name).endswith(w) for w in ("names", "labels", "header"))
+
+
+def names_units(name: str) -> bool:
+    """Whether a variable holds the units of others."""
+    return squeezed(name) in _UNITS or squeezed(name).endswith("units")
+
+
+def names_time_unit(name: str) -> bool:
+    """Whether a variable holds the unit of the time."""
+    return squeezed(name) in ("timeunit", "timeunits", "unittime", "tunit", "xunit")
+
+
+def names_step(name: str) -> bool:
+    """Whether a variable holds the time between two samples, in s."""
+    return squeezed(name) in _STEP and name != "TS"
+
+
+def names_rate(name: str) -> bool:
+    """Whether a variable holds the samples a second."""
+    return squeezed(name) in _RATE
+
+
+def unit_in_name(name: str) -> str | None:
+    """The unit at the end of a time's name: 'time_s', 'tMin', 'time [h]'."""
+    parts = tokens(name)
+    last = parts[-1].lower() if len(parts) > 1 else ""
+    return (
+        last
+        if last in SECONDS and last != "d"
+        else "datenum"
+        if "datenum" in [p.lower() for p in parts]
+        else (
+            "unix"
+            if {"posix", "posixtime", "unix", "epoch"} & {p.lower() for p in parts}
+            else last
+            if last in EPOCHS
+            else None
+        )
+    )

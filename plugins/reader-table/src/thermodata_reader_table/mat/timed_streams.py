@@ -1,0 +1,118 @@
+"""The streams of a MAT file with their clocks understood: units, dates as numbers or text, regular grids."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from thermodata.errors import FormatError
+from thermodata.plugin import Int1D, Source
+from thermodata.reader import time_units
+from thermodata.reader.text import time_formats
+from thermodata.reader.text.layout import unique
+from thermodata.reader.text.time_groups import one_time
+from thermodata_reader_table.mat.planner import plan_streams
+from thermodata_reader_table.mat.stream_plan import Column, Stream, TimeVector
+from thermodata_reader_table.mat.tree import Tree
+
+LOOK = 2000  # rows by which a clock is judged
+
+
+@dataclass(frozen=True)
+class TimedStream:
+    """A stream with its clock understood. unit: of clocks; None for dates as text (then whole holds all)."""
+
+    name: str
+    time: TimeVector
+    columns: tuple[Column, ...]
+    names: tuple[str, ...]
+    unit: str | None
+    absolute: bool
+    properties: Mapping[str, str]
+    whole: Int1D | None
+
+    def times(self, start: int, stop: int) -> Int1D:
+        """Times of rows [start, stop) in ns, shape (n,); NAT where a row has none."""
+        if self.whole is not None:
+            return self.whole[start:stop]
+        if self.time.load is None:
+            rows = np.arange(start, min(stop, self.time.length), dtype=np.float64)
+            return time_units.to_ns(self.time.zero_s + rows * self.time.step_s, 1.0)
+        assert self.unit is not None
+        return time_formats.times_of_numbers(self.time.load(start, stop), self.unit, None).t_ns
+
+
+class Clocked:
+    """All streams of a tree with their times; notes say what was taken for granted."""
+
+    def __init__(self, tree: Tree, source: Source, where: str) -> None:
+        plan = plan_streams(tree, source.table or {}, where)
+        self.losses, self.notes = plan.losses, plan.notes
+        self.source, self.where = source, where
+        used: list[str] = []
+        self.streams: list[TimedStream] = []
+        for stream in plan.streams:
+            # by its time, however many there are: a cut file keeps the names of the whole one
+            name = unique([*used, stream.time.path])[-1]
+            used.append(name)
+            self.streams.append(self._timed(name, stream))
+        kinds = {s.absolute for s in self.streams}
+        if len(kinds) > 1:
+            raise FormatError(
+                "some times are dates, others count from a start",
+                where=where,
+                got=", ".join(f"{s.time.path} ({'date' if s.absolute else s.unit})" for s in self.streams[:8]),
+                expected="one kind of time in a file",
+                hint="name the one to read: table: {time: {column: ...}}, and the others in a source "
+                "of their own, or save them so",
+            )
+        self.absolute = kinds == {True}
+
+    def _timed(self, name: str, stream: Stream) -> TimedStream:
+        time, unit = stream.time, None
+        whole: Int1D | None = None
+        absolute = False
+        if time.texts is not None:
+            form = one_time(self.source.table, self.where).get("format")
+            found = time_formats.times_of_texts(time.texts, self.source.timezone, form, f"{self.where} {time.path}")
+            whole, absolute = found.t_ns, found.absolute
+            self._note(found.notes)
+        elif time.load is not None:
+            unit = self._unit(time)
+            absolute = time_units.is_absolute(unit)
+            if absolute and time_units.EPOCHS[unit].local:
+                found = time_formats.times_of_numbers(time.load(0, time.length), unit, self.source.timezone)
+                whole = found.t_ns
+                self._note(found.notes)
+        names = tuple(unique([c.name for c in stream.columns]))
+        return TimedStream(name, time, tuple(stream.columns), names, unit, absolute, stream.properties, whole)
+
+    def _unit(self, time: TimeVector) -> str:
+        assert time.load is not None
+        declared = one_time(self.source.table, self.where).get("unit")
+        text = declared or time.unit
+        if text is not None:
+            try:
+                return time_units.check_unit(str(text), f"{self.where} {time.path}")
+            except FormatError:
+                if declared is not None:
+                    raise
+                self._note((f"unit '{text}' of '{time.path}' is none of time",))
+        epoch = time_units.found_epoch(time.load(0, LOOK))
+        if epoch is not None:
+            self._note(
+                (
+                    f"'{time.path}' has no unit: by its size it is {epoch}; declare table: {{time: {{unit: ...}}}} "
+                    "if that is wrong",
+                )
+            )
+            return epoch
+        self._note(
+            (f"'{time.path}' has no unit: taken as seconds; declare table: {{time: {{unit: ...}}}} if that is wrong",)
+        )
+        return "s"
+
+    def _note(self, notes: tuple[str, ...]) -> None:
+        self.notes.extend(n for n in notes if n not in self.notes)

@@ -1,0 +1,115 @@
+"""Each variable by its role: a time, a signal, names, units, a property, or a struct to look into."""
+
+from __future__ import annotations
+
+from functools import partial
+
+import numpy as np
+
+from thermodata.plugin import Array, Loss
+from thermodata.reader.text import split_unit
+from thermodata_reader_table.mat import names as say
+from thermodata_reader_table.mat.signal_structs import one_number, one_text
+from thermodata_reader_table.mat.signal_structs import texts as lines_of
+from thermodata_reader_table.mat.stream_plan import LOOK, Column, Plan, Scope, TimeVector, rises
+from thermodata_reader_table.mat.tree import Cells, Node, Numbers, Odd, Struct, Structs, Text, refusal
+
+
+def lose_object(plan: Plan, path: str, node: Odd) -> None:
+    """A loss for an object of MATLAB's; functions are no data, and nothing is lost with them."""
+    if node.kind != "function_handle":
+        plan.losses.append(Loss(f"{plan.where} variable '{path}'", None, None, None, refusal(node.kind)))
+
+
+def sort_variable(plan: Plan, scope: Scope, name: str, node: Node, inner: list[tuple[str, Struct]]) -> None:
+    """Puts a variable into its scope; structs go into `inner`, to be looked into afterwards."""
+    path = f"{scope.path}/{name}" if scope.path else name
+    if isinstance(node, Struct):
+        words = {k: one_text(v) for k, v in node.fields.items()}
+        if say.names_units(name) and all(words.values()):
+            scope.unit_of |= {k: v for k, v in words.items() if v}
+        else:
+            inner.append((path, node))
+    elif isinstance(node, Structs):
+        inner.extend((f"{path}({i})", item) for i, item in enumerate(node.items, 1))
+    elif isinstance(node, Odd):
+        lose_object(plan, path, node)
+    elif isinstance(node, Numbers):
+        _numbers(plan, scope, name, path, node)
+    else:
+        _texts(plan, scope, name, path, node, inner)
+
+
+def _numbers(plan: Plan, scope: Scope, name: str, path: str, node: Numbers) -> None:
+    if node.size == 1:
+        value = one_number(node)
+        if value is not None and say.names_step(name) and value > 0:
+            scope.step_s = value
+        elif value and say.names_rate(name):
+            scope.step_s = 1.0 / value
+        scope.properties[name] = f"{value:.12g}"
+    elif node.is_vector:
+        if _is_time(plan, name, path, node):
+            scope.times.append(
+                TimeVector(path, node.size, node.vector, unit=split_unit(name)[1] or say.unit_in_name(name))
+            )
+        else:
+            scope.columns.append(Column(path, split_unit(name)[1], node.dtype, node.size, node.vector))
+    elif node.size:
+        scope.matrices.append((path, node))
+
+
+def _is_time(plan: Plan, name: str, path: str, node: Numbers) -> bool:
+    if isinstance(plan.wanted, str):
+        return plan.wanted in (path, name)
+    if node.dtype == "bool":
+        return False
+    return say.names_time(name) or (say.may_be_time(name) and rises(node.vector(0, LOOK)))
+
+
+def _texts(plan: Plan, scope: Scope, name: str, path: str, node: Text | Cells, inner: list[tuple[str, Struct]]) -> None:
+    lines = lines_of(node)
+    if lines is None:
+        _cells(plan, scope, path, node, inner)
+    elif len(lines) == 1:
+        if say.names_time_unit(name):
+            scope.time_unit = lines[0]
+        if say.names_names(name) and not say.names_units(name):
+            scope.names.append(lines)
+        if say.names_units(name):
+            scope.units.append(lines)
+        scope.properties[name] = lines[0][:500]
+    elif lines:
+        if say.names_units(name):
+            scope.units.append(lines)
+        elif (say.names_time(name) and plan.wanted is None) or plan.wanted in (path, name):
+            scope.times.append(TimeVector(path, len(lines), texts=tuple(lines)))
+        elif say.names_names(name):
+            scope.names.append(lines)
+        else:
+            words = np.array(lines, object)
+            scope.columns.append(Column(path, None, "str", len(lines), partial(_part, words)))
+
+
+def _cells(plan: Plan, scope: Scope, path: str, node: Text | Cells, inner: list[tuple[str, Struct]]) -> None:
+    items = node.items if isinstance(node, Cells) else ()
+    if all(isinstance(item, Struct) for item in items):
+        inner.extend((f"{path}{{{i}}}", item) for i, item in enumerate(items, 1) if isinstance(item, Struct))
+    elif all(isinstance(item, Numbers) and item.is_vector for item in items):
+        for i, item in enumerate(items, 1):
+            assert isinstance(item, Numbers)
+            scope.columns.append(Column(f"{path}{{{i}}}", None, item.dtype, item.size, item.vector))
+    elif items:
+        plan.losses.append(
+            Loss(
+                f"{plan.where} variable '{path}'",
+                None,
+                None,
+                None,
+                "a cell array of mixed content: save its columns as vectors",
+            )
+        )
+
+
+def _part(words: Array, start: int, stop: int) -> Array:
+    return words[start:stop]

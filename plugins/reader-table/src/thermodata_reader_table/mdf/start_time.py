@@ -1,0 +1,57 @@
+"""The start of an MDF file: UTC of the zero of all masters."""
+
+from __future__ import annotations
+
+import datetime as dt
+from typing import Any
+
+import numpy as np
+
+from thermodata.errors import FormatError
+from thermodata.plugin import Source
+from thermodata.reader.zone import local_to_utc_ns
+
+
+def start_ns(header: Any, v4: bool, source: Source, where: str, notes: list[str]) -> int | None:
+    """UTC of the zero of all masters in ns since 1970, or None where the header names no day. notes: what had to be
+    decided is added. FormatError: an impossible time."""
+    if not v4:
+        return _start_v3(header, source, where, notes)
+    abs_ns = int(header.abs_time)
+    if not abs_ns:
+        return None
+    if int(header.time_flags) & 1:
+        return _local(abs_ns, None, source, where, notes)
+    return _sane(abs_ns, where)
+
+
+def _start_v3(header: Any, source: Source, where: str, notes: list[str]) -> int | None:
+    try:
+        text = f"{header.date.decode('ascii')} {header.time.decode('ascii')}".strip("\0 ")
+        local = dt.datetime.strptime(text, "%d:%m:%Y %H:%M:%S")
+    except (ValueError, UnicodeDecodeError):
+        return None
+    local_ns = (local - dt.datetime(1970, 1, 1)) // dt.timedelta(seconds=1) * 1_000_000_000
+    abs_ns = int(getattr(header, "abs_time", 0) or 0) if int(header.block_len) > 164 else 0
+    hours = int(getattr(header, "tz_offset", 0) or 0) if abs_ns else None
+    # the norm wants local time in the count too; some writers put UTC there: the text beside it tells
+    if abs_ns and abs(abs_ns - local_ns) < 2_000_000_000:
+        local_ns = abs_ns
+    elif abs_ns and hours is not None and abs(abs_ns + hours * 3_600_000_000_000 - local_ns) < 3_700_000_000_000:
+        return _sane(abs_ns, where)
+    return _local(local_ns, hours, source, where, notes)
+
+
+def _local(local_ns: int, hours: int | None, source: Source, where: str, notes: list[str]) -> int | None:
+    if source.timezone is None and hours is not None:
+        notes.append(f"the start is local time, {hours:+d} h from UTC as the file says")
+        return _sane(local_ns - hours * 3_600_000_000_000, where)
+    utc, more = local_to_utc_ns(np.array([local_ns], np.int64).view("datetime64[ns]"), source.timezone)
+    notes.extend(more)
+    return _sane(int(utc[0]), where)
+
+
+def _sane(utc_ns: int, where: str) -> int | None:
+    if not 0 < utc_ns < 7_000_000_000_000_000_000:
+        raise FormatError("the file starts at an impossible time", where=where, got=f"{utc_ns} ns since 1970")
+    return utc_ns

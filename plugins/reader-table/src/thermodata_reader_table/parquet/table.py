@@ -1,0 +1,175 @@
+"""An open Parquet file: its columns, which of them is the time, and the times."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from thermodata.errors import FormatError
+from thermodata.plugin import Source
+from thermodata.reader.text import split_unit, time_formats
+from thermodata.reader.text.layout import unique
+from thermodata.reader.text.time_columns import column as find_column
+from thermodata.reader.text.time_columns import find_time
+from thermodata.reader.text.time_formats import times_of_numbers
+from thermodata.reader.text.time_groups import one_time
+from thermodata.reader.time_units import check_unit, found_epoch
+from thermodata_reader_table.parquet.columns import nanoseconds, numbers
+from thermodata_reader_table.parquet.schema import check_types, column_at, flat, left_out, value_type
+
+
+@contextmanager
+def damage_as_format_error(path: Path) -> Iterator[None]:
+    """pyarrow raises several unrelated classes for a damaged file; all of them mean the same."""
+    import pyarrow as pa
+
+    try:
+        yield
+    except (pa.ArrowException, OSError, ValueError, OverflowError, MemoryError, KeyError, IndexError) as error:
+        raise FormatError(
+            "not a readable Parquet file", where=path.name, got=(str(error).splitlines() or ["?"])[0]
+        ) from None
+
+
+class Table:
+    """An open file: its schema, and which columns hold the time."""
+
+    def __init__(self, path: Path, source: Source) -> None:
+        import pyarrow.parquet as pq
+
+        self.path, self.source = path, source
+        with damage_as_format_error(path):
+            self.file = pq.ParquetFile(path)
+            self.schema = self.file.schema_arrow
+            self.schema, self.places = flat(self.schema)
+            check_types(self.file)
+        twice = [n for n, k in Counter(self.places).items() if k > 1]
+        if twice:
+            raise FormatError(
+                "two columns of one name, which Parquet's own readers mix up",
+                where=path.name,
+                got=twice[0],
+                hint="write the file again with names of their own",
+            )
+        self.names = unique([str(n).strip() for n in self.schema.names])
+        self.notes = left_out(self.file.schema_arrow)
+        if not self.names:
+            raise FormatError("no column of numbers, text or times", where=path.name)
+        self.time, self.unit = self._find()
+
+    def batches(self, rows: int, columns: list[str] | None = None) -> Iterator[Any]:
+        """Tables with one column a signal, structs taken apart; FormatError where a damaged part is met."""
+        import pyarrow as pa
+
+        wanted = list(dict.fromkeys(place.split(".")[0] for place in self.places)) if columns is None else columns
+        with damage_as_format_error(self.path):
+            for batch in self.file.iter_batches(rows, columns=wanted):
+                yield pa.table(
+                    [column_at(batch, place) for place in self.places if place.split(".")[0] in wanted],
+                    names=[str(i) for i, place in enumerate(self.places) if place.split(".")[0] in wanted],
+                )
+
+    def _find(self) -> tuple[int, str | None]:
+        """The time column and its unit: None for timestamps, dates and text."""
+        import pyarrow.types as pt
+
+        said = one_time(self.source.table, self.path.name)
+        wanted, unit = said.get("column"), said.get("unit")
+        if isinstance(wanted, list):
+            wanted = wanted[0]
+        units = [split_unit(n)[1] for n in self.names]
+        if wanted is not None:
+            column = find_column(wanted, self.names, self.path.name)
+        else:
+            stamped = [i for i, f in enumerate(self.schema) if pt.is_timestamp(f.type)]
+            spans = [i for i, f in enumerate(self.schema) if pt.is_duration(f.type)]
+            if stamped or spans:
+                column = [*stamped, *spans][0]
+            elif "t_ns" in self.names:
+                column, unit = self.names.index("t_ns"), "ns"
+            else:
+                with damage_as_format_error(self.path):
+                    head = next(self.batches(100), None)
+                    rows = [list(r) for r in zip(*(c.to_pylist() for c in head.columns), strict=True)] if head else []
+                column = find_time(self.names, units, rows, self.path.name)[0]
+        if pt.is_timestamp(self.schema.field(column).type):
+            return column, None
+        kind = self.schema.field(column).type
+        if pt.is_date(kind) or pt.is_string(value_type(kind)) or pt.is_large_string(value_type(kind)):
+            return column, None
+        if not (pt.is_integer(kind) or pt.is_floating(kind) or pt.is_decimal(kind) or pt.is_duration(kind)):
+            raise FormatError(
+                f"'{self.names[column]}' is no time",
+                where=self.path.name,
+                got=str(kind),
+                expected="timestamps, dates, text or numbers",
+            )
+        if pt.is_duration(kind):
+            return column, "duration"
+        text = unit or units[column]
+        if text is None:
+            found = next(self.batches(1000), None)
+            values = np.zeros(0) if found is None else numbers(found.column(column))
+            text = found_epoch(values) or "s"
+            self.notes.append(
+                f"time column '{self.names[column]}' has no unit: "
+                + ("taken as seconds" if text == "s" else f"by its size it is {text}")
+            )
+        return column, check_unit(str(text), self.path.name)
+
+    def times(self, column: Any) -> time_formats.Stamps:
+        """Times of the time column, or of a part of it. Local times want the whole column: the order of all its
+        rows tells the hour that repeats."""
+        import pyarrow as pa
+        import pyarrow.types as pt
+
+        kind = self.schema.field(self.time).type
+        if self.unit == "duration":
+            return time_formats.Stamps(nanoseconds(column.cast(pa.duration("ns"))), False, ())
+        if self.unit is not None:
+            values = column.to_numpy() if pt.is_integer(kind) and not column.null_count else numbers(column)
+            return times_of_numbers(values, self.unit, self.source.timezone)
+        if not (pt.is_timestamp(kind) or pt.is_date(kind)):
+            form = one_time(self.source.table, self.path.name).get("format")
+            return time_formats.times_of_texts(
+                [str(v or "") for v in column.to_pylist()], self.source.timezone, form, self.path.name
+            )
+        zone = getattr(kind, "tz", None)
+        naive = nanoseconds(column.cast(pa.timestamp("ns", zone)))
+        if zone is not None:
+            return time_formats.Stamps(naive, True, ())
+        return time_formats.times_of_dates(naive.view("datetime64[ns]"), self.source.timezone)
+
+    def dtype(self, column: int) -> str:
+        """numpy's name; integers and bool of a column that has missing values are float64."""
+        import pyarrow.types as pt
+
+        kind = self.schema.field(column).type
+        if pt.is_floating(kind):
+            return {"float": "float32", "halffloat": "float16"}.get(str(kind), "float64")
+        if pt.is_integer(kind) or pt.is_boolean(kind):
+            with damage_as_format_error(self.path):
+                complete = self._complete(column)
+            if not complete:
+                return "float64"
+            return "bool" if pt.is_boolean(kind) else str(kind)
+        if pt.is_decimal(kind):
+            return "float64"
+        return "str"
+
+    def _complete(self, column: int) -> bool:
+        meta, place = self.file.metadata, self.places[column]
+        for number in range(meta.num_row_groups):
+            group = meta.row_group(number)
+            leaf = next(
+                (group.column(i) for i in range(group.num_columns) if group.column(i).path_in_schema == place), None
+            )
+            statistics = None if leaf is None else leaf.statistics
+            if statistics is None or not statistics.has_null_count or statistics.null_count:
+                return False
+        return True

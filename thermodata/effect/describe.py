@@ -1,0 +1,103 @@
+"""What an effect says of itself, in one form for the terminal, JSON and the documents."""
+
+from __future__ import annotations
+
+import inspect
+import math
+from dataclasses import dataclass
+
+from thermodata.plugin import Effect
+from thermodata.schema.quantity import CANONICAL_UNIT
+
+NOT_STATED = "not stated"
+
+
+@dataclass(frozen=True, slots=True)
+class Role:
+    """A driver that the effect needs. unit: canonical, None where any quantity does. places: () is any place."""
+
+    role: str
+    quantity: str
+    unit: str | None
+    places: tuple[str, ...]
+    optional: bool
+
+
+@dataclass(frozen=True, slots=True)
+class Searched:
+    """A nonlinear parameter, with start and bounds in `unit`."""
+
+    name: str
+    unit: str
+    start: float
+    lower: float
+    upper: float
+    meaning: str
+
+
+@dataclass(frozen=True, slots=True)
+class Solved:
+    """A gain. smallest, largest: plausible absolute values in `unit`; largest is None where nothing bounds it."""
+
+    name: str
+    unit: str
+    smallest: float
+    largest: float | None
+    sign: str
+    meaning: str
+
+
+@dataclass(frozen=True, slots=True)
+class Description:
+    """An effect's own account of itself. equation, telltale: None where the effect states none. text: its class's
+    docstring."""
+
+    name: str
+    family: str
+    meaning: str
+    equation: str | None
+    telltale: str | None
+    source: str
+    refines: tuple[str, ...]
+    roles: tuple[Role, ...]
+    parameters: tuple[Searched, ...]
+    gains: tuple[Solved, ...]
+    text: str | None
+
+
+def describe(effect: Effect) -> Description:
+    """The account of any effect that keeps the contract, with or without its optional attributes."""
+    return Description(
+        name=effect.name,
+        family=effect.family,
+        meaning=effect.meaning,
+        equation=_text(effect, "equation") or _equation_in(inspect.getdoc(type(effect))),
+        telltale=_text(effect, "telltale"),
+        source=effect.source,
+        refines=tuple(getattr(effect, "refines", ())),
+        roles=tuple(
+            Role(n.role, n.quantity, CANONICAL_UNIT.get(n.quantity), tuple(n.places), n.optional) for n in effect.needs
+        ),
+        parameters=tuple(Searched(p.name, p.unit, p.start, p.lower, p.upper, p.meaning) for p in effect.params),
+        gains=tuple(
+            Solved(
+                g.name,
+                g.unit,
+                g.magnitude[0],
+                g.magnitude[1] if math.isfinite(g.magnitude[1]) else None,
+                g.sign,
+                g.meaning,
+            )
+            for g in effect.gains
+        ),
+        text=inspect.getdoc(type(effect)),
+    )
+
+
+def _text(effect: Effect, name: str) -> str | None:
+    value = getattr(effect, name, None)
+    return value if isinstance(value, str) and value.strip() else None
+
+
+def _equation_in(text: str | None) -> str | None:
+    return next((line.strip() for line in (text or "").splitlines() if " = " in line), None)

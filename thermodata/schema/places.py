@@ -1,0 +1,90 @@
+"""The vocabulary of `at:`: dotted places on a machine tool and around it.
+
+An effect finds its drivers by these words (`thermodata.effect.places` matches them), so a lab that uses them gets its
+candidates named. Any other place is allowed: it stays generic, and no effect that names a place takes it.
+`*` stands for an axis letter: x, y or z of a linear axis, a, b or c of a rotary one.
+"""
+
+from __future__ import annotations
+
+PLACES: dict[str, str] = {
+    "tcp": "tool centre point: where a displacement counts",
+    "stator": "the spindle's standing part: a displacement without the tool",
+    "tool": "the tool in the spindle",
+    "spindle": "the spindle as a whole: its speed, power, load",
+    "spindle.bearing": "a bearing of the spindle, where front and rear are not told apart",
+    "spindle.bearing.front": "the bearing next to the tool",
+    "spindle.bearing.rear": "the bearing at the far end",
+    "spindle.motor": "the winding of the spindle's motor",
+    "spindle.drive": "the spindle's drive amplifier",
+    "spindle.gearbox": "the gearbox between motor and spindle",
+    "headstock": "the housing that holds the spindle",
+    "ram": "the slide that carries the spindle out",
+    "saddle": "the slide between two axes",
+    "crossbeam": "the beam of a gantry or a portal",
+    "column": "the column, where its sides are not told apart",
+    "column.front": "the side of the column towards the working space",
+    "column.rear": "the side away from it",
+    "column.left": "its left side, seen by the operator",
+    "column.right": "its right side",
+    "column.top": "its upper end",
+    "column.bottom": "its lower end",
+    "bed": "the bed or base of the machine",
+    "table": "the table, turning or not: its speed, its temperature",
+    "table.bearing": "the bearing of a turning table",
+    "table.motor": "the motor of a turning table",
+    "table.d1500": "a measuring place on the table, by its diameter in mm (any number)",
+    "axis.*": "a linear axis as a whole: its feed, position, load, power",
+    "axis.*.motor": "the motor of the axis",
+    "axis.*.drive": "the drive amplifier of the axis",
+    "axis.*.bearing": "the bearing house of the feed screw",
+    "axis.*.screw": "the feed screw",
+    "axis.*.nut": "the nut of the feed screw",
+    "axis.*.guide": "the guideway of the axis",
+    "axis.*.scale": "the linear scale of the axis",
+    "rotary.*": "a rotary axis, of a head or of a table",
+    "rotary.*.motor": "the motor of a rotary axis",
+    "rotary.*.drive": "its drive amplifier",
+    "workpiece": "the part on the machine",
+    "fixture": "what holds the part, or the probes",
+    "probe": "a displacement probe itself",
+    "coolant": "the cutting fluid: switched on, its flow, its temperature",
+    "coolant.supply": "the cutting fluid on its way to the machine",
+    "coolant.return": "the cutting fluid on its way back",
+    "coolant.tank": "the tank of the cutting fluid",
+    "chiller": "the cooling circuit of spindle or drives",
+    "chiller.supply": "that circuit on its way to the machine",
+    "chiller.return": "that circuit on its way back",
+    "chiller.tank": "the tank of that circuit",
+    "hydraulics": "tank and pump of the hydraulics",
+    "lubrication": "the lubrication and its oil",
+    "pneumatics": "the compressed air",
+    "pump": "a pump of which nothing more is known",
+    "fan": "a fan of machine or hall",
+    "cabinet": "the electrical cabinet",
+    "cnc": "the control",
+    "cnc.compensation": "what the control itself adds to an axis",
+    "hall": "the air around the machine",
+    "hall.top": "that air above, at the height of the machine's top",
+    "hall.bottom": "that air below, near the floor",
+    "hall.door": "at the hall's door; also the door's state",
+    "hall.window": "at a window of the hall",
+    "hall.sun": "where the sun reaches the machine",
+    "outside": "the weather outside of the hall",
+    "floor": "floor and foundation",
+}
+
+_DIAMETER = "table.d"
+
+
+def is_known(place: str) -> bool:
+    """Whether a dotted place is of this vocabulary, in any case of its letters. Unknown ones are allowed too."""
+    place = place.lower()
+    if place in PLACES and "*" not in place:
+        return True
+    if place.startswith(_DIAMETER) and place.removeprefix(_DIAMETER).isdecimal():
+        return True
+    part, _, rest = place.partition(".")
+    letter, _, below = rest.partition(".")
+    letters = {"axis": "xyz", "rotary": "abc"}.get(part, "")
+    return len(letter) == 1 and letter in letters and f"{part}.*{'.' + below if below else ''}" in PLACES
