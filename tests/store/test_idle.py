@@ -3,7 +3,7 @@ from __future__ import annotations
 import numpy as np
 
 from thermodata.calibration.quality import QualityEvent
-from thermodata.store.idle import Activity, without_idle
+from thermodata.store.tidy.not_measuring import Activity, without_idle
 
 
 def activity(*phases: tuple[int, int], n: int = 1000, piece: int = 37) -> Activity:

@@ -9,8 +9,8 @@ from contextlib import contextmanager
 from importlib import import_module
 from typing import Any
 
-from thermodata.store.counting import Tell
-from thermodata.store.progress import Progress, Words
+from thermodata.store.base.counting import Tell
+from thermodata.store.ingest.progress import Progress, Words
 
 _FORMAT = "{percentage:3.0f} %|{bar:20}| {postfix}, {remaining} left"
 

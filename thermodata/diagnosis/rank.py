@@ -17,7 +17,7 @@ from thermodata.diagnosis.problem import Problem
 from thermodata.diagnosis.scored import Scored
 from thermodata.diagnosis.whiten import fit_ar, surrogates, whiten
 from thermodata.plugin import Float1D, Float2D
-from thermodata.store.counting import counted
+from thermodata.store.base.counting import counted
 
 SURROGATES = 199
 # autocorrelated residuals are worth far fewer samples than they have; the prior of a gain is scaled so

@@ -8,18 +8,18 @@ from thermodata.diagnosis.answer import answer
 from thermodata.effect import effects
 from thermodata.modelling.run import load
 from thermodata.schema.result import Diagnosis
-from thermodata.store.counting import watched
+from thermodata.store.base.counting import watched
 
 if TYPE_CHECKING:
     from thermodata.store import Store
-    from thermodata.store.counting import Tell
+    from thermodata.store.base.counting import Tell
 
 
 def diagnose(store: Store, ref: str, tell: Tell | None = None) -> Diagnosis:
     """Which effect is missing in a model of the store (an id, a unique prefix or a name).
 
     tell: is told how many candidates are done, of how many; each against all its surrogates."""
-    from thermodata.store.models import count_locked_look, save_diagnosis
+    from thermodata.store.catalogue.models import count_locked_look, save_diagnosis
 
     model = load(store, ref)
     with watched(tell):

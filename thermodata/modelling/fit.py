@@ -21,7 +21,7 @@ from thermodata.modelling.search import Problem, search
 from thermodata.modelling.uncertainty import deviations
 from thermodata.plugin import Param
 from thermodata.schema.model import Model
-from thermodata.store.counting import counted
+from thermodata.store.base.counting import counted
 from thermodata.view.dataset import Dataset, TestData
 
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from thermodata.plugin import Float1D, Int1D
-from thermodata.store.connection import quoted
+from thermodata.store.base.connection import quoted
 from thermodata.store.views.catalogue import Column, Group, read_catalogue
 from thermodata.store.views.grid import bin_index, bin_value
 from thermodata.store.views.wide import file_list

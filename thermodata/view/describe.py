@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from thermodata.errors import ThermodataError
 from thermodata.schema.quantity import linear_conversion, split_value
-from thermodata.store.conditions import plain_value
+from thermodata.store.catalogue.conditions import plain_value
 from thermodata.view.dataset import ChannelInfo
 
 if TYPE_CHECKING:

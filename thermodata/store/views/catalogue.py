@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from thermodata.schema.quantity import CANONICAL_UNIT
-from thermodata.store.connection import literal
+from thermodata.store.base.connection import literal
 
 if TYPE_CHECKING:
     import duckdb
