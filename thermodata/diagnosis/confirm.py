@@ -9,7 +9,7 @@ import numpy as np
 
 from thermodata.diagnosis.candidates import CandidateEffect
 from thermodata.modelling.fit import fit_model
-from thermodata.modelling.fitted import FittedResponse
+from thermodata.modelling.fitted_response import FittedResponse
 from thermodata.schema.model import EffectSpec, Model
 from thermodata.schema.result import Parameter
 from thermodata.view.dataset import Dataset, TestData

@@ -17,7 +17,7 @@ from thermodata.diagnosis.rank import rank
 from thermodata.diagnosis.scored import Scored
 from thermodata.diagnosis.weak import weak_spots
 from thermodata.modelling.drivers import names_of
-from thermodata.modelling.fitted import FittedResponse, FittedTerm
+from thermodata.modelling.fitted_response import FittedResponse, FittedTerm
 from thermodata.plugin import Effect, Float2D
 from thermodata.schema.result import Artefact, WeakSpot
 from thermodata.view.dataset import Dataset, TestData

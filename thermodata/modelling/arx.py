@@ -11,7 +11,7 @@ import numpy as np
 from thermodata.errors import SpecError, UsageError
 from thermodata.modelling.bound import BoundResponse, BoundTerm
 from thermodata.modelling.drivers import step_s
-from thermodata.modelling.fitted import FittedTerm, fit_mask
+from thermodata.modelling.fitted_response import FittedTerm, fit_mask
 from thermodata.modelling.transfer import FreeFunction, GivenFunction
 from thermodata.plugin import Effect
 from thermodata.view.dataset import TestData

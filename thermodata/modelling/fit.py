@@ -12,7 +12,8 @@ from thermodata.errors import UsageError
 from thermodata.modelling.arx import identify_arx, placeholder
 from thermodata.modelling.bound import BoundResponse, BoundTerm
 from thermodata.modelling.design import GRID, MOMENTS, Design, Nonlinear
-from thermodata.modelling.fitted import FittedModel, FittedResponse, FittedTerm, Values, has_response
+from thermodata.modelling.fitted import FittedModel
+from thermodata.modelling.fitted_response import FittedResponse, FittedTerm, Values, has_response
 from thermodata.modelling.orders import choose_orders, open_orders
 from thermodata.modelling.quality import checks
 from thermodata.modelling.resolve import resolve

@@ -11,7 +11,7 @@ import numpy as np
 
 from thermodata.errors import UsageError
 from thermodata.modelling.bound import BoundResponse, BoundTerm
-from thermodata.modelling.fitted import FittedResponse
+from thermodata.modelling.fitted_response import FittedResponse
 from thermodata.modelling.score import fit_percent
 from thermodata.modelling.transfer import MOST, NAME, FreeFunction
 from thermodata.plugin import Effect

@@ -3,21 +3,20 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+from collections.abc import Sequence
 
+from thermodata.calibration.expression import parse
+from thermodata.modelling.fitted_response import FittedResponse, FittedTerm, Values
 from thermodata.schema.result import Parameter
-
-if TYPE_CHECKING:
-    from thermodata.modelling.fitted import FittedModel, FittedResponse, FittedTerm, Values
 
 Z95 = 1.96
 
 
-def parameters(model: FittedModel) -> dict[str, Parameter]:
+def parameters(responses: Sequence[FittedResponse]) -> dict[str, Parameter]:
     """See FittedModel.parameters."""
     found: dict[str, Parameter] = {}
-    for response in model.responses:
-        prefix = f"{response.name}/" if len(model.responses) > 1 else ""
+    for response in responses:
+        prefix = f"{response.name}/" if len(responses) > 1 else ""
         for term in response.terms:
             found |= {prefix + name: p for name, p in term_parameters(response, term).items()}
     return found
@@ -60,8 +59,6 @@ def driver_unit(response: FittedResponse, term: FittedTerm) -> str:
     if text.isidentifier():
         unit: str | None = units.get(text)
     else:
-        from thermodata.calibration.expression import parse
-
         unit = parse(text).unit({name: units.get(name, "1") for name in parse(text).names})
     return "K" if unit == "degC" else unit or "1"
 

@@ -8,7 +8,8 @@ from typing import Literal
 
 import numpy as np
 
-from thermodata.modelling.fitted import FittedModel, FittedResponse
+from thermodata.modelling.fitted import FittedModel
+from thermodata.modelling.fitted_response import FittedResponse
 from thermodata.modelling.phases import phases
 from thermodata.modelling.score import fit_percent, peak_sum
 from thermodata.plugin import Bool1D, Float1D

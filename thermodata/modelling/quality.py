@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from thermodata.modelling.design import Design
-from thermodata.modelling.fitted import FittedResponse, FittedTerm
+from thermodata.modelling.fitted_response import FittedResponse, FittedTerm
 from thermodata.modelling.uncertainty import effective_count
 from thermodata.plugin import Float1D, Float2D
 from thermodata.schema.result import Check

@@ -10,7 +10,8 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from thermodata.modelling.fitted import FittedModel, FittedResponse
+from thermodata.modelling.fitted import FittedModel
+from thermodata.modelling.fitted_response import FittedResponse
 from thermodata.modelling.phases import phases
 from thermodata.plugin import Bool1D, Float1D
 from thermodata.schema.result import Score

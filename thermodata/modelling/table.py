@@ -6,7 +6,8 @@ from typing import Any
 
 import numpy as np
 
-from thermodata.modelling.fitted import FittedModel, FittedResponse
+from thermodata.modelling.fitted import FittedModel
+from thermodata.modelling.fitted_response import FittedResponse
 from thermodata.plugin import Array
 from thermodata.view.dataset import Dataset, TestData
 
