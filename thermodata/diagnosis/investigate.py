@@ -145,7 +145,7 @@ def slack_columns(fitted: FittedResponse, test: TestData) -> Float2D:
     """How a known effect may differ from its one time constant, shape (n, k), each column in the response's unit.
 
     A machine is distributed: the same heat also acts faster and slower than the fitted lag. That is no missing
-    effect, so the base model may have it, at a price (see `loto.Engine`).
+    effect, so the base model may have it, at a price (see `cross_validation.Engine`).
     """
     columns = []
     for term in fitted.terms:

@@ -12,7 +12,7 @@ import numpy as np
 from threadpoolctl import threadpool_limits
 
 from thermodata.diagnosis.candidates import CandidateEffect, Led, grid
-from thermodata.diagnosis.loto import Drop, Engine, Priors
+from thermodata.diagnosis.cross_validation import Drop, Engine, Priors
 from thermodata.diagnosis.problem import Problem
 from thermodata.diagnosis.scored import Scored
 from thermodata.diagnosis.whiten import fit_ar, surrogates, whiten

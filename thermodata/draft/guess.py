@@ -11,11 +11,11 @@ from dataclasses import replace
 from functools import lru_cache
 
 from thermodata.draft import units
+from thermodata.draft.naming import words
 from thermodata.draft.place import Place, axis_of, place_of
 from thermodata.draft.quantity import Guess, quantity_of, seen
 from thermodata.draft.values import Values
 from thermodata.draft.vocabulary import DIFFERENCE, LIMIT, SETPOINT, places_in, quantities_in, says
-from thermodata.draft.words import words
 from thermodata.reader.text import split_unit
 from thermodata.schema.quantity import is_unit, normal_unit
 

@@ -7,8 +7,8 @@ from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
+from thermodata.draft.naming import plain, words
 from thermodata.draft.scan import RawFile
-from thermodata.draft.words import plain, words
 from thermodata.plugin import Signal
 from thermodata.reader.text import split_unit
 

@@ -10,8 +10,8 @@ from pathlib import Path
 from typing import Any
 
 from thermodata.draft.filenames import normal
+from thermodata.draft.naming import plain, words
 from thermodata.draft.vocabulary import says
-from thermodata.draft.words import plain, words
 from thermodata.errors import ThermodataError
 from thermodata.reader.text import decode, split_unit
 

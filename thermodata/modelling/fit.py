@@ -11,11 +11,11 @@ import numpy as np
 from thermodata.errors import UsageError
 from thermodata.modelling.arx import identify_arx, placeholder
 from thermodata.modelling.bound import BoundResponse, BoundTerm
+from thermodata.modelling.checks import checks
 from thermodata.modelling.design import GRID, MOMENTS, Design, Nonlinear
 from thermodata.modelling.fitted import FittedModel
 from thermodata.modelling.fitted_response import FittedResponse, FittedTerm, Values, has_response
 from thermodata.modelling.orders import choose_orders, open_orders
-from thermodata.modelling.quality import checks
 from thermodata.modelling.resolve import resolve
 from thermodata.modelling.roles import Key
 from thermodata.modelling.search import Problem, search
