@@ -3,7 +3,7 @@ from __future__ import annotations
 import numpy as np
 
 from thermodata.calibration.quality import QualityEvent
-from thermodata.store.tidy.not_measuring import Activity, without_idle
+from thermodata.store.tidy.not_measuring import Activity, join_while_not_measuring
 
 
 def activity(*phases: tuple[int, int], n: int = 1000, piece: int = 37) -> Activity:
@@ -29,7 +29,7 @@ def test_events_between_measuring_phases_become_one_that_says_so() -> None:
         event("gap", 210, 220),
         event("saturated", 0, 50, "dX"),
     ]
-    assert without_idle(events, times) == [
+    assert join_while_not_measuring(events, times) == [
         QualityEvent("dX", "saturated", 0, 50, 51),
         QualityEvent("dZ", "saturated", 0, 499, 341, "only while not measuring"),
         event("saturated", 90, 100),

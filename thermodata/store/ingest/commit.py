@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 from thermodata.schema.campaign import Campaign
 from thermodata.store.base.connection import fetch, insert
 from thermodata.store.base.files import key_of
-from thermodata.store.ingest.inventory import BY_TEST, Known, Row, comparable
+from thermodata.store.ingest.inventory import BY_TEST, Inventory, Row, comparable
 
 if TYPE_CHECKING:
     import duckdb
@@ -59,44 +59,50 @@ def version_of(rows: Mapping[str, Mapping[str, list[Row]]], test: str) -> str:
     return key_of(*sorted(parts))
 
 
-def changes(planned: Planned, known: Known) -> set[str]:
+def changes(planned: Planned, inventory: Inventory) -> set[str]:
     """The tests whose rows differ from those in the catalogue."""
-    return {t for table in BY_TEST for t in _changed(planned.rows[table], known.rows[table])}
+    return {t for table in BY_TEST for t in _changed(planned.rows[table], inventory.rows[table])}
 
 
-def _changed(planned: Mapping[str, list[Row]], known: Mapping[str, list[Row]]) -> set[str]:
+def _changed(planned: Mapping[str, list[Row]], stored: Mapping[str, list[Row]]) -> set[str]:
     """The tests whose rows of one table differ."""
-    return {t for t in planned.keys() | known.keys() if comparable(planned.get(t, [])) != comparable(known.get(t, []))}
+    return {
+        t for t in planned.keys() | stored.keys() if comparable(planned.get(t, [])) != comparable(stored.get(t, []))
+    }
 
 
-def nothing_new(planned: Planned, known: Known) -> bool:
+def nothing_new(planned: Planned, inventory: Inventory) -> bool:
     """Whether the catalogue says already what the plan says."""
     return (
-        known.campaign is not None
-        and json.loads(known.campaign["spec"]) == json.loads(planned.spec)
-        and comparable(planned.calibrations) == comparable(known.calibrations)
-        and not changes(planned, known)
+        inventory.campaign is not None
+        and json.loads(inventory.campaign["spec"]) == json.loads(planned.spec)
+        and comparable(planned.calibrations) == comparable(inventory.calibrations)
+        and not changes(planned, inventory)
     )
 
 
-def commit(con: duckdb.DuckDBPyConnection, store: Path, planned: Planned, known: Known, now: datetime) -> list[str]:
+def commit(
+    con: duckdb.DuckDBPyConnection, store: Path, planned: Planned, inventory: Inventory, now: datetime
+) -> list[str]:
     """Brings the campaign's rows to the plan inside the caller's transaction; returns the models gone stale.
 
-    known: the state within this same transaction. Raises VanishedError where a planned file isn't there.
+    inventory: the state within this same transaction. Raises VanishedError where a planned file isn't there.
     """
     missing = [p for p in planned.paths() if not (store / p).exists()]
     if missing:
         raise VanishedError(missing[0])
     campaign = planned.campaign.id
-    changed = changes(planned, known)
+    changed = changes(planned, inventory)
     stale = {
-        t for t in changed if known.rows["test"].get(t) and version_of(planned.rows, t) != version_of(known.rows, t)
+        t
+        for t in changed
+        if inventory.rows["test"].get(t) and version_of(planned.rows, t) != version_of(inventory.rows, t)
     }
     for table in BY_TEST:
-        gone = _changed(planned.rows[table], known.rows[table])
-        if table == "test" and (gone or list(planned.rows[table]) != list(known.rows[table])):
+        gone = _changed(planned.rows[table], inventory.rows[table])
+        if table == "test" and (gone or list(planned.rows[table]) != list(inventory.rows[table])):
             # it keeps the order of the campaign file, so all of its rows are written again
-            gone = planned.rows[table].keys() | known.rows[table].keys()
+            gone = planned.rows[table].keys() | inventory.rows[table].keys()
         if gone:
             con.execute(f"delete from {table} where campaign = ? and list_contains(?, test)", [campaign, sorted(gone)])
         insert(con, table, [row for t, rows in planned.rows[table].items() if t in gone for row in rows])

@@ -13,19 +13,19 @@ from typing import Any, cast
 
 from thermodata.errors import UsageError
 from thermodata.plugin import Reader, Source
-from thermodata.store.ingest.inventory import Known, Row
+from thermodata.store.ingest.inventory import Inventory, Row
 from thermodata.store.raw.streams import RawStream, raw_key
 
 SUPERSEDED = "superseded"
 
 
-def keep_earlier(rows: dict[str, list[Row]], known: Known, now: datetime) -> None:
+def keep_earlier(rows: dict[str, list[Row]], inventory: Inventory, now: datetime) -> None:
     """Adds to the planned rows of `file` (test -> rows) what the catalogue holds of earlier versions.
 
     A current file keeps the moment at which it was first stored.
     """
     for test, planned in rows.items():
-        before = known.rows["file"].get(test, [])
+        before = inventory.rows["file"].get(test, [])
         raw = [r for r in planned if r["layer"] == "raw"]
         current = {_place(r): r for r in before if r["layer"] == "raw"}
         for row in raw:
@@ -53,12 +53,12 @@ def _place(row: Mapping[str, Any]) -> tuple[str, str, str]:
     return row["source"], row["source_path"], row["stream"]
 
 
-def pinned(known: Known, test: str, source: str, path: str, wanted: str) -> list[RawStream]:
+def pinned(inventory: Inventory, test: str, source: str, path: str, wanted: str) -> list[RawStream]:
     """The raw streams of the version of a file whose SHA-256 begins with `wanted`; UsageError where none or
     several do."""
     listed = [
         r
-        for r in known.rows["file"].get(test, [])
+        for r in inventory.rows["file"].get(test, [])
         if r["source_path"] == path and r["source"] == source and r["layer"] in ("raw", SUPERSEDED)
     ]
     hashes = sorted({r["sha256"] for r in listed})
@@ -69,7 +69,7 @@ def pinned(known: Known, test: str, source: str, path: str, wanted: str) -> list
             where=f"versions, {path}",
             expected=", ".join(h[:12] for h in hashes) or "a file in the store",
             got=wanted,
-            hint=f"thermodata trace {known.name} {test} lists them",
+            hint=f"thermodata trace {inventory.name} {test} lists them",
         )
     return [RawStream.from_row(r) for r in listed if r["sha256"] == fitting[0]]
 

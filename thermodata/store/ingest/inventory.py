@@ -24,7 +24,7 @@ Row = dict[str, Any]
 
 
 @dataclass(slots=True)
-class Known:
+class Inventory:
     """name: the campaign. raws: key -> its streams, of any campaign and of earlier versions of files too.
     rows: table -> test -> rows of this campaign."""
 
@@ -52,32 +52,32 @@ class Known:
         ]
 
 
-def read_known(con: duckdb.DuckDBPyConnection, store: Path | None, campaign: str) -> Known:
+def read_inventory(con: duckdb.DuckDBPyConnection, store: Path | None, campaign: str) -> Inventory:
     """The catalogue's rows about a campaign. Raw files that are gone or cut are left out.
 
     store: the folder; None where the raw files don't matter, which each are opened to see whether they are whole."""
-    known = Known(campaign)
+    inventory = Inventory(campaign)
     seen: set[str] = set()
     for row in fetch(con, "select * from file where layer in ('raw', 'superseded')") if store else ():
         if row["path"] not in seen and store and is_whole(store / row["path"]):
             seen.add(row["path"])
-            known.raws.setdefault(row["key"], []).append(RawStream.from_row(row))
+            inventory.raws.setdefault(row["key"], []).append(RawStream.from_row(row))
     for table in BY_TEST:
         grouped: dict[str, list[Row]] = {}
         # `start` would come as a Python datetime, which is optional and says what start_ns says
         columns = "* exclude (start)" if table == "test" else "*"
         for row in fetch(con, f"select {columns} from {table} where campaign = ?", [campaign]):
             grouped.setdefault(row["test"], []).append(row)
-        known.rows[table] = grouped
+        inventory.rows[table] = grouped
     found = fetch(con, "select * from campaign where campaign = ?", [campaign])
-    known.campaign = found[0] if found else None
-    known.calibrations = fetch(con, "select * from calibration where campaign = ?", [campaign])
-    for rows in known.rows["source"].values():
+    inventory.campaign = found[0] if found else None
+    inventory.calibrations = fetch(con, "select * from calibration where campaign = ?", [campaign])
+    for rows in inventory.rows["source"].values():
         for row in rows:
             clock = clock_from_json(row["notes"])
             if clock is not None:
-                known.clocks[clock.key] = clock
-    return known
+                inventory.clocks[clock.key] = clock
+    return inventory
 
 
 def comparable(rows: list[Row]) -> list[str]:

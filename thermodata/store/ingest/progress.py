@@ -25,7 +25,7 @@ class Progress(Protocol):
         """What is being done now."""
 
 
-class Words:
+class TextProgress:
     """A Progress that passes on the words only."""
 
     def __init__(self, say: Callable[[str], None]) -> None:
@@ -62,4 +62,4 @@ def counted(reader: Reader, progress: Progress) -> Reader:
     return cast(Reader, _Counted(reader, progress))
 
 
-__all__ = ["Progress", "Words", "counted"]
+__all__ = ["Progress", "TextProgress", "counted"]

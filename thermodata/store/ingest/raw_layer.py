@@ -12,9 +12,9 @@ from thermodata.plugin import Loss, Reader, Source
 from thermodata.schema.campaign import Campaign, JumpCalibration, SourceSpec, Test
 from thermodata.store.base.files import DISK_FULL, is_whole, write_error
 from thermodata.store.ingest.file_versions import pinned, read_otherwise, twins
-from thermodata.store.ingest.inventory import Known
+from thermodata.store.ingest.inventory import Inventory
 from thermodata.store.ingest.progress import Progress, counted
-from thermodata.store.ingest.resolve import Found, inside, natural, resolve
+from thermodata.store.ingest.resolve import SourceFiles, file_inside, natural, resolve
 from thermodata.store.raw.source_file import ChangedError, SourceFile, frozen, settled
 from thermodata.store.raw.streams import RawStream, declared, find_reader, raw_key, read_raw
 from thermodata.store.tidy.plan import SourcePlan, TestPlan
@@ -44,13 +44,13 @@ def loss_row(
 
 
 @dataclass(slots=True)
-class Gatherer:
+class RawIngest:
     """Reads each file once, however many tests share it."""
 
     store: Path
     folder: Path
     campaign: Campaign
-    known: Known
+    inventory: Inventory
     watch: Progress
     losses: Losses = field(default_factory=list)
     notes: list[str] = field(default_factory=list)
@@ -58,7 +58,7 @@ class Gatherer:
     read: int = 0
     _settled: dict[str, SourceFile] = field(default_factory=dict)
     _odd: dict[str, str] = field(default_factory=dict)
-    _found: dict[tuple[str, str], Found] = field(default_factory=dict)
+    _found: dict[tuple[str, str], SourceFiles] = field(default_factory=dict)
     _sizes: dict[str, int] = field(default_factory=dict)
     _made: dict[str, list[RawStream] | ThermodataError | OSError] = field(default_factory=dict)
     _readers: dict[str, Reader] = field(default_factory=dict)
@@ -99,7 +99,7 @@ class Gatherer:
         for path, why in found.refused:
             self.losses.append(loss_row(f"refused: {why}", test=test.id, source=name, file=path))
         before: dict[str, list[RawStream]] = {}
-        for raw in self.known.raw_rows(test.id, name):
+        for raw in self.inventory.raw_rows(test.id, name):
             before.setdefault(raw.source_path, []).append(raw)
         there = set(found.paths)
         same = twins(found.paths, self._hashes(found.paths))
@@ -141,8 +141,8 @@ class Gatherer:
         for name, spec in self.campaign.calibrations.items():
             if not isinstance(spec, JumpCalibration):
                 continue
-            path = inside(self.folder, spec.file, f"calibrations.{name}.file")
-            before = self.known.raw_rows("", name)
+            path = file_inside(self.folder, spec.file, f"calibrations.{name}.file")
+            before = self.inventory.raw_rows("", name)
             source = self.campaign.sources[spec.source]
             if path.is_file() or before:
                 found[name] = self._file(
@@ -173,7 +173,7 @@ class Gatherer:
         raws: list[RawStream] = []
         reader = self._reader(spec.reader, source)
         if path in self.campaign.versions:
-            raws = pinned(self.known, *kept_as, path, self.campaign.versions[path])
+            raws = pinned(self.inventory, *kept_as, path, self.campaign.versions[path])
             self.notes.append(f"{path}: version {raws[0].sha256[:12]}, as the campaign file wants")
         elif gone:
             raws = self._copy(path, before, reader, declared(source, spec))
@@ -273,8 +273,8 @@ class Gatherer:
         said = declared(source, spec)
         key = raw_key(file.sha256, reader, said)
         if key not in self._made:
-            if key in self.known.raws:
-                self._made[key] = self.known.raws[key]
+            if key in self.inventory.raws:
+                self._made[key] = self.inventory.raws[key]
             else:
                 self.watch.say(f"reading {path}")
                 try:
@@ -306,7 +306,7 @@ class Gatherer:
                 raise
         except ChangedError:
             with frozen(self._full(path), self.store / "raw") as copy:
-                raws = self.known.raws.get(raw_key(copy.sha256, reader, said)) or read_raw(
+                raws = self.inventory.raws.get(raw_key(copy.sha256, reader, said)) or read_raw(
                     self.store, copy.path, path, copy.sha256, counted(reader, self.watch), said
                 )
             self._settled[path] = copy

@@ -15,7 +15,7 @@ from thermodata.store.raw.source_file import kind_of
 
 
 @dataclass(frozen=True, slots=True)
-class Found:
+class SourceFiles:
     """The files of one (test, source). paths: relative to the campaign's folder, in natural order. refused:
     (path, reason). shared: the pattern doesn't name the test, so that other tests have the same files. odd: path ->
     the name on the disk, where that is no valid text."""
@@ -43,7 +43,7 @@ def patterns_of(campaign: Campaign, test: Test, source: str) -> tuple[tuple[str,
     return tuple(_checked(p, test.id) for p in listed), shared, own is not None
 
 
-def resolve(folder: Path, campaign: Campaign, test: Test, source: str) -> Found:
+def resolve(folder: Path, campaign: Campaign, test: Test, source: str) -> SourceFiles:
     """The files of a source in a test, as they stand in the campaign's folder now."""
     patterns, shared, explicit = patterns_of(campaign, test, source)
     root = folder.resolve()
@@ -61,7 +61,7 @@ def resolve(folder: Path, campaign: Campaign, test: Test, source: str) -> Found:
                 why = _refusal(root, name, named)
                 if why != "":
                     paths[relative] = why
-    return Found(
+    return SourceFiles(
         patterns,
         tuple(p for p, why in paths.items() if why is None),
         tuple((p, why) for p, why in paths.items() if why is not None),
@@ -95,7 +95,7 @@ def _refusal(root: Path, name: str, named: bool) -> str | None:
     return "" if kind == "a folder" and not named else f"this is {kind}, not a file"
 
 
-def inside(folder: Path, name: str, where: str) -> Path:
+def file_inside(folder: Path, name: str, where: str) -> Path:
     """One declared file, which must lie inside the campaign's folder (it need not exist)."""
     root = folder.resolve()
     _checked(name, "", where)

@@ -15,10 +15,10 @@ from thermodata.store.catalogue.store import Store
 from thermodata.store.ingest.catalogue_rows import calibration_row, raw_row
 from thermodata.store.ingest.commit import Planned, VanishedError, commit, nothing_new
 from thermodata.store.ingest.file_versions import keep_earlier
-from thermodata.store.ingest.inventory import BY_TEST, Row, read_known
-from thermodata.store.ingest.progress import Progress, Words
-from thermodata.store.ingest.raw_layer import Gatherer, loss_row
-from thermodata.store.ingest.tidy_layer import make_tests
+from thermodata.store.ingest.inventory import BY_TEST, Row, read_inventory
+from thermodata.store.ingest.progress import Progress, TextProgress
+from thermodata.store.ingest.raw_layer import RawIngest, loss_row
+from thermodata.store.ingest.tidy_layer import tidy_tests
 from thermodata.store.tidy.calibrations import evaluate
 from thermodata.store.tidy.plan import bind
 
@@ -62,7 +62,7 @@ def ingest(
     others. Raises SpecError for a wrong campaign file and CalibrationError for a contradictory calibration; then,
     and when it is interrupted, the store stays as it was. progress: is told what is being done, and how far it is.
     """
-    watch = Words(progress or (lambda _: None)) if progress is None or callable(progress) else progress
+    watch = TextProgress(progress or (lambda _: None)) if progress is None or callable(progress) else progress
     for attempt in range(_ATTEMPTS):
         try:
             return _ingest(store, Path(campaign_path), watch)
@@ -81,43 +81,43 @@ def _ingest(store: Store, path: Path, watch: Progress) -> IngestSummary:
     began, now = time.monotonic(), datetime.now(UTC).replace(tzinfo=None)
     campaign = load_campaign(path)
     with store.reader() as con:
-        known = read_known(con, store.path, campaign.id)
-    gather = Gatherer(store.path, path.absolute().parent, campaign, known, watch)
-    gather.survey()
-    jumps = gather.jump_files()
+        inventory = read_inventory(con, store.path, campaign.id)
+    raw_layer = RawIngest(store.path, path.absolute().parent, campaign, inventory, watch)
+    raw_layer.survey()
+    jumps = raw_layer.jump_files()
     results, problems = evaluate(store.path, campaign, jumps)
     plans = []
     for test in campaign.tests:
-        plan = gather.plan(test)
+        plan = raw_layer.plan(test)
         bind(plan)
         plans.append(plan)
-    gather.empty_sources(plans)
-    made = make_tests(store.path, plans, results, known, now, watch.say)
+    raw_layer.empty_sources(plans)
+    made = tidy_tests(store.path, plans, results, inventory, now, watch.say)
     rows: dict[str, dict[str, list[Row]]] = {t: dict(made.rows[t]) for t in BY_TEST}
     rows["file"][""] = [
         raw_row(campaign.id, "", name, raw, "calibration", now) for name, raws in jumps.items() for raw in raws
     ]
-    keep_earlier(rows["file"], known, now)
+    keep_earlier(rows["file"], inventory, now)
     calibration_rows = [calibration_row(campaign.id, r) for r in results.values()]
     planned = Planned(campaign, path.absolute(), rows, calibration_rows)
     summary = IngestSummary(
         campaign.id,
         tests=len(plans),
-        files=len(gather.files),
+        files=len(raw_layer.files),
         samples=made.samples,
         flags=dict(sorted(made.flags.items())),
-        read=gather.read,
-        made=made.made,
+        read=raw_layer.read,
+        made=made.new_streams,
         calibrations=[{**r.row(campaign.id), "name": r.name} for r in results.values()],
-        losses=gather.losses + made.losses + [loss_row(p) for p in problems],
-        notes=list(dict.fromkeys(gather.notes + made.notes)),
+        losses=raw_layer.losses + made.losses + [loss_row(p) for p in problems],
+        notes=list(dict.fromkeys(raw_layer.notes + made.notes)),
     )
     # what was damaged and is made anew has the same rows: the views must see it all the same
-    if nothing_new(planned, known) and not made.made and not gather.read:
+    if nothing_new(planned, inventory) and not made.new_streams and not raw_layer.read:
         summary.notes.append("nothing changed: the store holds these files and this campaign file already")
     else:
         with store.write() as con:
-            current = read_known(con, None, campaign.id)
+            current = read_inventory(con, None, campaign.id)
             summary.stale = commit(con, store.path, planned, current, now)
         summary.changed = True
         if summary.stale:

@@ -18,7 +18,7 @@ from thermodata.errors import SpecError, StoreError, ThermodataError
 from thermodata.plugin import Loss
 from thermodata.store.base.files import is_whole, key_of
 from thermodata.store.ingest import catalogue_rows
-from thermodata.store.ingest.inventory import BY_TEST, Known, Row
+from thermodata.store.ingest.inventory import BY_TEST, Inventory, Row
 from thermodata.store.ingest.raw_layer import loss_row
 from thermodata.store.tidy.clock_offsets import clocks_of
 from thermodata.store.tidy.keys import member_key
@@ -32,15 +32,18 @@ Columns = list[tuple[str, bool]]
 
 
 @dataclass(slots=True)
-class Made:
-    """rows: table -> test -> rows. samples and flags count the whole campaign, kept streams included."""
+class TidyLayer:
+    """What a campaign's tidy layer is and lost. rows: table -> test -> the catalogue's rows.
+
+    samples and flags count the whole campaign, kept streams included; new_streams: those that were made now.
+    """
 
     rows: dict[str, dict[str, list[Row]]] = field(default_factory=lambda: {t: {} for t in BY_TEST})
     samples: int = 0
     flags: Counter[str] = field(default_factory=Counter)
     losses: list[dict[str, Any]] = field(default_factory=list)
     notes: list[str] = field(default_factory=list)
-    made: int = 0
+    new_streams: int = 0
 
 
 @dataclass(slots=True)
@@ -54,24 +57,24 @@ class _Tidied:
     events: dict[Member, list[Row]] = field(default_factory=dict)
 
 
-def make_tests(
+def tidy_tests(
     store: Path,
     plans: Sequence[TestPlan],
     calibrations: Mapping[str, CalibrationResult],
-    known: Known,
+    inventory: Inventory,
     now: datetime,
     say: Callable[[str], None],
-) -> Made:
+) -> TidyLayer:
     """Tidies every stream of every test that isn't there under its content key.
 
     A sensor that failed between two tests shows only once all are tidied; the streams that it spoils are made again.
     """
-    made = Made()
-    maker = _Maker(store, _columns(plans), calibrations, known, now, say, made)
+    made = TidyLayer()
+    tidier = _Tidier(store, _columns(plans), calibrations, inventory, now, say, made)
     tidied: dict[str, _Tidied] = {}
     for plan in plans:
-        with _told(made, plan):
-            tidied[plan.test.id] = maker.tidy(plan)
+        with _loss_where_it_fails(made, plan):
+            tidied[plan.test.id] = tidier.tidy(plan)
     levels = [
         x
         for t in tidied.values()
@@ -88,16 +91,16 @@ def make_tests(
     for plan in plans:
         test = tidied.get(plan.test.id)
         if test is not None:
-            with _told(made, plan):
-                maker.mark(test, failed.get(plan.test.id, {}))
-                _gather(made, test, calibrations, now)
+            with _loss_where_it_fails(made, plan):
+                tidier.mark(test, failed.get(plan.test.id, {}))
+                _add_rows(made, test, calibrations, now)
         made.losses += [loss_row(p, test=plan.test.id) for p in plan.problems]
         made.notes += plan.notes
     return made
 
 
 @contextmanager
-def _told(made: Made, plan: TestPlan) -> Iterator[None]:
+def _loss_where_it_fails(made: TidyLayer, plan: TestPlan) -> Iterator[None]:
     """A test that can't be made is a loss; the others go on."""
     try:
         yield
@@ -118,30 +121,30 @@ def _columns(plans: Sequence[TestPlan]) -> dict[Member, Columns]:
 
 
 @dataclass(frozen=True, slots=True)
-class _Maker:
+class _Tidier:
     store: Path
     columns: Mapping[Member, Columns]
     calibrations: Mapping[str, CalibrationResult]
-    known: Known
+    inventory: Inventory
     now: datetime
     say: Callable[[str], None]
-    made: Made
+    layer: TidyLayer
 
     def tidy(self, plan: TestPlan) -> _Tidied:
         """Every stream of a test, kept where the store has it already."""
-        clocks = clocks_of(self.store, plan, self.calibrations, self.known.clocks)
+        clocks = clocks_of(self.store, plan, self.calibrations, self.inventory.clocks)
         test = _Tidied(plan, clocks, span(plan, clocks))
         series = self._series(test)
         for member in plan.members():
             if member[0] == SCHEDULE and not any(s.raws for s in plan.sources.values()):
                 continue
             base = self._base(test, member)
-            kept = self.known.tidy(plan.test.id, base)
-            if kept and all(_still_there(self.store / row["path"], row["bytes"]) for row in kept):
+            kept = self.inventory.tidy(plan.test.id, base)
+            if kept and all(_kept_alive(self.store / row["path"], row["bytes"]) for row in kept):
                 test.files[member] = kept
                 test.events[member] = [
                     r
-                    for r in self.known.rows["quality_event"].get(plan.test.id, [])
+                    for r in self.inventory.rows["quality_event"].get(plan.test.id, [])
                     if (r["source"], r["stream"]) == member
                 ]
             else:
@@ -169,7 +172,7 @@ class _Maker:
         self.say(f"{name}: {member[0]}/{member[1]}")
         key = key_of(base, json.dumps(failed, sort_keys=True)) if failed else base
         result = write_member(series, member, self.columns[member], key, failed)
-        self.made.made += 1
+        self.layer.new_streams += 1
         test.files[member] = _tidy_rows(campaign, name, member, result, self.store, self.now, base, failed)
         test.events[member] = [
             {"campaign": campaign, "test": name, "source": member[0], "stream": member[1], **dataclasses.asdict(e)}
@@ -177,7 +180,7 @@ class _Maker:
         ]
 
 
-def _gather(made: Made, tidied: _Tidied, calibrations: Mapping[str, CalibrationResult], now: datetime) -> None:
+def _add_rows(made: TidyLayer, tidied: _Tidied, calibrations: Mapping[str, CalibrationResult], now: datetime) -> None:
     """The catalogue's rows of a test."""
     plan, clocks, test = tidied.plan, tidied.clocks, tidied.plan.test.id
     files = [*catalogue_rows.raw_rows(plan, now), *(r for rows in tidied.files.values() for r in rows)]
@@ -199,7 +202,7 @@ def _gather(made: Made, tidied: _Tidied, calibrations: Mapping[str, CalibrationR
     ]
 
 
-def _still_there(path: Path, size_bytes: int) -> bool:
+def _kept_alive(path: Path, size_bytes: int) -> bool:
     if not is_whole(path, size_bytes):
         return False
     try:
@@ -263,7 +266,7 @@ def _tidy_rows(
     return rows
 
 
-def _count(made: Made, files: Sequence[Row], test: str) -> None:
+def _count(made: TidyLayer, files: Sequence[Row], test: str) -> None:
     for row in files:
         meta = json.loads(row["columns"])
         made.samples += meta.get("samples", 0)
@@ -274,8 +277,8 @@ def _count(made: Made, files: Sequence[Row], test: str) -> None:
             made.losses.append(loss_row(item["reason"], test=test, source=row["source"], loss=Loss(**item)))
 
 
-def _add(made: Made, test: str, table: str, rows: list[Row]) -> None:
+def _add(made: TidyLayer, test: str, table: str, rows: list[Row]) -> None:
     made.rows[table][test] = rows
 
 
-__all__ = ["Made", "make_tests"]
+__all__ = ["TidyLayer", "tidy_tests"]

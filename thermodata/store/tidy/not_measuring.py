@@ -37,7 +37,7 @@ class Activity:
         return np.asarray((before % 2 == 1) | (after > before))
 
 
-def without_idle(events: Sequence[QualityEvent], activity: dict[str, Activity]) -> list[QualityEvent]:
+def join_while_not_measuring(events: Sequence[QualityEvent], activity: dict[str, Activity]) -> list[QualityEvent]:
     """Events of values, of channels that are measured at times only: those that fall wholly between the measuring
     phases become one event a channel and flag, which says so. The others are left as they are."""
     kept: list[QualityEvent] = []

@@ -19,7 +19,7 @@ from thermodata.store.tidy import windows
 from thermodata.store.tidy.chunk import Chunk, Column, calibrated
 from thermodata.store.tidy.keys import MEASURED
 from thermodata.store.tidy.measuring import Stretches, find_stretches, lasts, measures
-from thermodata.store.tidy.not_measuring import Activity, without_idle
+from thermodata.store.tidy.not_measuring import Activity, join_while_not_measuring
 from thermodata.store.tidy.plan import SCHEDULE, Bound
 from thermodata.store.tidy.series import Member, TestSeries
 from thermodata.store.tidy.windows import Joined
@@ -67,7 +67,7 @@ class Flagged:
         zero = self.series.span.zero_ns
         self.events += [
             Event(e.channel, e.flag, (e.from_ns - zero) / 1e9, (e.to_ns - zero) / 1e9, e.n, e.detail or None)
-            for e in concise(without_idle(self._found, self._activity))
+            for e in concise(join_while_not_measuring(self._found, self._activity))
         ]
 
     def _of_the_clock(self) -> list[QualityEvent]:

@@ -23,7 +23,7 @@ class Sampler:
 
     def __init__(self, bounds: Sequence[Bound], start: int, stop: int) -> None:
         self._rows = np.linspace(start, max(stop - 1, start), POINTS).astype(np.int64)
-        self._found = {
+        self._points = {
             b.name: np.full(POINTS, np.nan)
             for b in bounds
             if b.channel.quantity == "temperature" and b.channel.derive is None and not b.is_text
@@ -31,7 +31,7 @@ class Sampler:
 
     def take(self, first: int, made: Mapping[str, Column]) -> None:
         """The next chunk: its first row, and its channels with their own flags."""
-        for name, found in self._found.items():
+        for name, found in self._points.items():
             if name not in made:
                 continue
             column = made[name]
@@ -44,7 +44,7 @@ class Sampler:
         """Channel -> POINTS numbers, None where nothing valid is; ready for JSON."""
         return {
             name: [round(float(v), 3) if np.isfinite(v) else None for v in found]
-            for name, found in self._found.items()
+            for name, found in self._points.items()
             if np.isfinite(found).any()
         }
 

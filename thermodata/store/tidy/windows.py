@@ -71,7 +71,7 @@ class Joined:
                 bool(added & _OFFSET),
             )
         self._join(t_ns, found, events, start, stop)
-        return {name: flags[start:stop] for name, flags in found.items()}
+        return {name: whole[start:stop] for name, whole in found.items()}
 
     def _join(self, t_ns: Int1D, found: Mapping[str, Array], events: list[QualityEvent], start: int, stop: int) -> None:
         """Keeps the events of the window's own rows; one that began in the window before is made longer."""

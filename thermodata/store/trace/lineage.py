@@ -18,7 +18,7 @@ from thermodata.store.trace.replan import read_campaign
 from thermodata.store.trace.reread import reread
 from thermodata.store.trace.sample import find_sample
 
-Found = dict[str, Any]
+Answer = dict[str, Any]
 
 
 def trace(
@@ -29,7 +29,7 @@ def trace(
     t_s: float | None = None,
     *,
     verify: bool = False,
-) -> Found:
+) -> Answer:
     """The way back from a model (one name), a test, a channel, or one sample (with t_s, seconds) to the raw files.
 
     verify: also hashes the source files that are still there, and reads a sample's row in its file again.
@@ -70,7 +70,7 @@ class _Tracer:
         self.spec = read_campaign(con, campaign)
         self._stands: dict[str, str] = {}
 
-    def head(self) -> Found:
+    def head(self) -> Answer:
         return {
             "campaign": self.name,
             "test": self.of,
@@ -80,14 +80,14 @@ class _Tracer:
             "ingested_at": str(self.kept["ingested_at"]),
         }
 
-    def test(self) -> Found:
+    def test(self) -> Answer:
         return self.head() | {
             "files": self._files(self.files),
             "tidy": self._tidy(self.files),
             "channels": list(self.channels),
         }
 
-    def channel(self, name: str, t_s: float | None) -> Found:
+    def channel(self, name: str, t_s: float | None) -> Answer:
         row = self.channels[name]
         here = [f for f in self.files if (f["source"], f["stream"]) == (row["source"], row["stream"])]
         source = next((s for s in self.sources if (s["source"], s["stream"]) == (row["source"], row["stream"])), None)
@@ -100,7 +100,7 @@ class _Tracer:
             if c["calibration"] == n
         ]
         said = self.spec.channels.get(name)
-        found: Found = (
+        found: Answer = (
             {"channel": name}
             | {k: row[k] for k in ("quantity", "unit", "sign", "at", "axis", "source", "stream", "signal", "raw_unit")}
             | {
@@ -123,7 +123,7 @@ class _Tracer:
             ]
         return found
 
-    def _files(self, rows: list[Found]) -> list[Found]:
+    def _files(self, rows: list[Answer]) -> list[Answer]:
         earlier = [r for r in rows if r["layer"] == SUPERSEDED]
         found = []
         for row in rows:
@@ -133,7 +133,7 @@ class _Tracer:
                 found.append(_file(row) | now | {"earlier": sorted(older, key=lambda f: str(f["superseded_at"]))})
         return found
 
-    def _stand(self, row: Found) -> str:
+    def _stand(self, row: Answer) -> str:
         """How the source file stands today against what was ingested."""
         path = row["source_path"]
         if path not in self._stands:
@@ -149,7 +149,7 @@ class _Tracer:
     def _folder(self) -> Path:
         return Path(self.kept["path"]).parent
 
-    def _again(self, raw: RawStream, row: int, signal: str, source: str) -> Found:
+    def _again(self, raw: RawStream, row: int, signal: str, source: str) -> Answer:
         """A row read in its source file once more, by the reader of today."""
         stand = self._stand({"source_path": raw.source_path, "sha256": raw.sha256})
         if stand != "unchanged":
@@ -159,11 +159,11 @@ class _Tracer:
         )
 
     @staticmethod
-    def _tidy(rows: list[Found]) -> list[Found]:
+    def _tidy(rows: list[Answer]) -> list[Answer]:
         return [{k: r[k] for k in ("path", "key", "part", "rows")} for r in rows if r["layer"] == "tidy"]
 
 
-def _model(store: Store, ref: str) -> Found:
+def _model(store: Store, ref: str) -> Answer:
     model = find_model(store, ref)
     with store.reader() as con:
         row = fetch(con, "select data_version, created_at from model where model = ?", [model.model])[0]
@@ -191,7 +191,7 @@ def _model(store: Store, ref: str) -> Found:
     }
 
 
-def _file(row: Found) -> Found:
+def _file(row: Answer) -> Answer:
     raw = RawStream.from_row(row)
     found = {
         "source_path": raw.source_path,
@@ -213,7 +213,7 @@ def _file(row: Found) -> Found:
     return found
 
 
-def _scaling(files: list[Found], signal: str | None) -> Found | None:
+def _scaling(files: list[Answer], signal: str | None) -> Answer | None:
     for row in files:
         if row["layer"] == "raw":
             for s in RawStream.from_row(row).signals:

@@ -21,8 +21,8 @@ from thermodata.store.trace.replan import raw_row_of, read_series
 if TYPE_CHECKING:
     import duckdb
 
-Found = dict[str, Any]
-Again = Callable[[RawStream, int, str, str], Found]
+Answer = dict[str, Any]
+Again = Callable[[RawStream, int, str, str], Answer]
 
 
 def find_sample(
@@ -33,7 +33,7 @@ def find_sample(
     channel: Mapping[str, Any],
     t_s: float,
     again: Again | None = None,
-) -> Found:
+) -> Answer:
     """The sample of a channel nearest to t_s [s from the test's start], and where it stands in the source files.
 
     raw: file, hash, row (counted from 0) and raw value; None for derived and scheduled channels, whose `operands`
@@ -64,7 +64,7 @@ def find_sample(
 
 def _tidy_row(
     con: duckdb.DuckDBPyConnection, campaign: str, test: str, channel: Mapping[str, Any], t_s: float
-) -> Found:
+) -> Answer:
     name = channel["channel"]
     files = fetch(
         con,
@@ -72,7 +72,7 @@ def _tidy_row(
         "layer = 'tidy' and list_contains(from_json(columns->'$.channels', '[\"VARCHAR\"]'), ?)",
         [campaign, test, channel["source"], channel["stream"], name],
     )
-    best: Found | None = None
+    best: Answer | None = None
     for file in files:
         listed = fetch(
             con,
@@ -111,7 +111,7 @@ def _leaves(series: TestSeries, name: str) -> list[str]:
     )
 
 
-def _behind(series: TestSeries, name: str, home: Member, t_ns: int, at: int, again: Again | None) -> list[Found]:
+def _behind(series: TestSeries, name: str, home: Member, t_ns: int, at: int, again: Again | None) -> list[Answer]:
     bound = series.plan.bound[name]
     member = (bound.source, bound.stream)
     if bound.signal is None or member[0] == SCHEDULE:
@@ -127,7 +127,7 @@ def _behind(series: TestSeries, name: str, home: Member, t_ns: int, at: int, aga
     return [{"channel": name, **_raw(series, member, r, bound.signal.name, again)} for r in rows]
 
 
-def _raw(series: TestSeries, member: Member, at: int, signal: str, again: Again | None) -> Found:
+def _raw(series: TestSeries, member: Member, at: int, signal: str, again: Again | None) -> Answer:
     """A row of a stream in its raw file."""
     placed = raw_row_of(series, member, at)
     if placed is None:
