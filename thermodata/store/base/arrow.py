@@ -61,9 +61,9 @@ def to_numpy(column: pa.ChunkedArray) -> Array:
     import pyarrow as pa
 
     if pa.types.is_string(column.type) or pa.types.is_large_string(column.type):
-        made = np.empty(len(column), dtype=object)
-        made[:] = column.to_pylist()
-        return made
+        text = np.empty(len(column), dtype=object)
+        text[:] = column.to_pylist()
+        return text
     if pa.types.is_boolean(column.type):
         return np.array(column.to_pylist(), dtype=object if column.null_count else bool)
     parts = [_chunk(c) for c in column.chunks]
@@ -80,8 +80,8 @@ def _chunk(chunk: pa.Array) -> Array:
     if chunk.null_count == 0:
         return values
     bits = np.unpackbits(np.frombuffer(chunk.buffers()[0], dtype=np.uint8), bitorder="little", count=start + n)
-    found: Array = np.where(bits[start:].astype(bool), values.astype(np.float64), np.nan)
-    return found
+    numbers: Array = np.where(bits[start:].astype(bool), values.astype(np.float64), np.nan)
+    return numbers
 
 
 def _dtype(kind: pa.DataType) -> np.dtype[np.generic]:

@@ -111,11 +111,11 @@ def damaged_data(folder: Path, error: Exception) -> StoreError | None:
     text = str(error).strip().splitlines()[0]
     if not any(word in text for word in _DAMAGE) or ".parquet" not in text:
         return None
-    said, _, todo = text.partition("damaged store: ")[2].partition("; try: ")
+    problem, _, todo = text.partition("damaged store: ")[2].partition("; try: ")
     return StoreError(
         "a file of the store is damaged",
         where=str(folder),
-        got=said or text,
+        got=problem or text,
         hint=(todo or "ingest the campaign again: what can be made anew is made anew")
         + "; 'thermodata check' lists what is damaged",
     )
@@ -137,8 +137,8 @@ def insert(con: duckdb.DuckDBPyConnection, table: str, rows: Iterable[Mapping[st
     if not listed:
         return 0
     # a tenth of the time that information_schema takes
-    found = con.execute(f"pragma table_info({literal(table)})").fetchall()
-    types = {name: kind for _, name, kind, *_ in found if name in listed[0]}
+    table_columns = con.execute(f"pragma table_info({literal(table)})").fetchall()
+    types = {name: kind for _, name, kind, *_ in table_columns if name in listed[0]}
     shape = {
         name: "VARCHAR"
         if kind in ("JSON", "TIMESTAMP", "TIMESTAMP_NS")

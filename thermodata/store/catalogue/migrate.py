@@ -23,14 +23,14 @@ def check_format(con: duckdb.DuckDBPyConnection, path: Path, prefix: str = "") -
     import duckdb
 
     try:
-        found = con.execute(f"select format, created_by from {prefix}store").fetchone()
+        row = con.execute(f"select format, created_by from {prefix}store").fetchone()
     except duckdb.CatalogException:
-        found = None
-    if found is None:
+        row = None
+    if row is None:
         raise StoreError(
             "this database is not a store", where=str(path), expected="a table 'store' with one row", got="none"
         )
-    version, made_by = int(found[0]), str(found[1])
+    version, made_by = int(row[0]), str(row[1])
     if version > FORMAT:
         raise StoreError(
             "the store was written by a newer version",

@@ -185,12 +185,12 @@ def save_diagnosis(store: Store, model: str, diagnosis: Diagnosis) -> None:
 def load_diagnosis(store: Store, model: str) -> Diagnosis | None:
     """The model's latest diagnosis, or None."""
     with store.reader() as con:
-        found = fetch(
+        rows = fetch(
             con,
             "select payload from finding where model = ? and kind = 'diagnosis' order by created_at desc limit 1",
             [model],
         )
-    return Diagnosis.model_validate_json(found[0]["payload"]) if found else None
+    return Diagnosis.model_validate_json(rows[0]["payload"]) if rows else None
 
 
 def save_findings(store: Store, model: str, kind: str, rows: Iterable[tuple[str, str, Mapping[str, Any]]]) -> None:
@@ -231,10 +231,10 @@ def count_locked_look(store: Store, model: str, tests: Iterable[tuple[str, str]]
 def locked_looks(store: Store, campaign: str, test: str) -> int:
     """How often the lock of a test was opened."""
     with store.reader() as con:
-        found = con.execute(
+        row = con.execute(
             "select count(*) from locked_look where campaign = ? and test = ?", [campaign, test]
         ).fetchone()
-    return int(found[0]) if found else 0
+    return int(row[0]) if row else 0
 
 
 def _stored(con: duckdb.DuckDBPyConnection, model: str) -> StoredModel:

@@ -81,8 +81,8 @@ class Store:
     def generation(self) -> int:
         """Counts the commits."""
         with self.reader() as con:
-            found = con.execute("select max(generation) from store").fetchone()
-        return int(found[0]) if found else 0
+            row = con.execute("select max(generation) from store").fetchone()
+        return int(row[0]) if row else 0
 
     def _fresh(self) -> duckdb.DuckDBPyConnection:
         with self._guard:

@@ -93,10 +93,10 @@ def read_otherwise(raw: RawStream, reader: Reader, source: Source) -> str | None
 def twins(paths: Iterable[str], hashes: Mapping[str, str]) -> dict[str, str]:
     """Path -> the earlier path with the same bytes."""
     first: dict[str, str] = {}
-    found: dict[str, str] = {}
+    copies: dict[str, str] = {}
     for path in paths:
         if path in hashes:
             other = first.setdefault(hashes[path], path)
             if other != path:
-                found[path] = other
-    return found
+                copies[path] = other
+    return copies

@@ -69,8 +69,8 @@ def read_inventory(con: duckdb.DuckDBPyConnection, store: Path | None, campaign:
         for row in fetch(con, f"select {columns} from {table} where campaign = ?", [campaign]):
             grouped.setdefault(row["test"], []).append(row)
         inventory.rows[table] = grouped
-    found = fetch(con, "select * from campaign where campaign = ?", [campaign])
-    inventory.campaign = found[0] if found else None
+    campaigns = fetch(con, "select * from campaign where campaign = ?", [campaign])
+    inventory.campaign = campaigns[0] if campaigns else None
     inventory.calibrations = fetch(con, "select * from calibration where campaign = ?", [campaign])
     for rows in inventory.rows["source"].values():
         for row in rows:

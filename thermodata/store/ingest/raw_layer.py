@@ -58,18 +58,18 @@ class RawIngest:
     read: int = 0
     _settled: dict[str, SourceFile] = field(default_factory=dict)
     _odd: dict[str, str] = field(default_factory=dict)
-    _found: dict[tuple[str, str], SourceFiles] = field(default_factory=dict)
+    _source_files: dict[tuple[str, str], SourceFiles] = field(default_factory=dict)
     _sizes: dict[str, int] = field(default_factory=dict)
-    _made: dict[str, list[RawStream] | ThermodataError | OSError] = field(default_factory=dict)
+    _streams: dict[str, list[RawStream] | ThermodataError | OSError] = field(default_factory=dict)
     _readers: dict[str, Reader] = field(default_factory=dict)
 
     def survey(self) -> None:
         """Finds all files, and says how many and how much that is."""
         for test in self.campaign.tests:
             for name in self.campaign.sources:
-                self._found[test.id, name] = resolve(self.folder, self.campaign, test, name)
-                self._odd.update(self._found[test.id, name].odd)
-        paths = {p for found in self._found.values() for p in found.paths}
+                self._source_files[test.id, name] = resolve(self.folder, self.campaign, test, name)
+                self._odd.update(self._source_files[test.id, name].odd)
+        paths = {p for files in self._source_files.values() for p in files.paths}
         paths |= {c.file for c in self.campaign.calibrations.values() if isinstance(c, JumpCalibration)}
         self._sizes = {p: size for p in paths if (size := self._size(p)) is not None}
         self.watch.begin(len(self._sizes), sum(self._sizes.values()))
@@ -94,29 +94,29 @@ class RawIngest:
         return plan
 
     def _source(self, test: Test, name: str, spec: SourceSpec) -> SourcePlan:
-        found = self._found.get((test.id, name)) or resolve(self.folder, self.campaign, test, name)
-        plan = SourcePlan(name, spec, shared=found.shared)
-        for path, why in found.refused:
+        files = self._source_files.get((test.id, name)) or resolve(self.folder, self.campaign, test, name)
+        plan = SourcePlan(name, spec, shared=files.shared)
+        for path, why in files.refused:
             self.losses.append(loss_row(f"refused: {why}", test=test.id, source=name, file=path))
         before: dict[str, list[RawStream]] = {}
         for raw in self.inventory.raw_rows(test.id, name):
             before.setdefault(raw.source_path, []).append(raw)
-        there = set(found.paths)
-        same = twins(found.paths, self._hashes(found.paths))
-        for path in sorted({*there, *(p for p in before if found.claims(p))}, key=natural):
+        there = set(files.paths)
+        same = twins(files.paths, self._hashes(files.paths))
+        for path in sorted({*there, *(p for p in before if files.claims(p))}, key=natural):
             if path in same:
                 self.notes.append(f"{path}: left out, its content is that of {same[path]}")
                 self._done(path)
-            elif path not in there and (new := self._renamed_to(before[path], found.paths)):
+            elif path not in there and (new := self._renamed_to(before[path], files.paths)):
                 self.notes.append(f"{path}: is {new} now, with the same content")
             else:
                 plan.raws += self._file(
                     path, name, spec, before.get(path, []), test.id, (test.id, name), gone=path not in there
                 )
-        if not found.paths and not plan.raws and found.patterns:
-            text = f"test '{test.id}': no file of source '{name}' ({', '.join(found.patterns)})"
-            if found.explicit:
-                self.losses.append(loss_row("no such file", test=test.id, source=name, file=found.patterns[0]))
+        if not files.paths and not plan.raws and files.patterns:
+            text = f"test '{test.id}': no file of source '{name}' ({', '.join(files.patterns)})"
+            if files.explicit:
+                self.losses.append(loss_row("no such file", test=test.id, source=name, file=files.patterns[0]))
             else:
                 self.notes.append(text)
         return plan
@@ -137,7 +137,7 @@ class RawIngest:
 
     def jump_files(self) -> dict[str, list[RawStream]]:
         """Calibration -> the raw streams of its jump test."""
-        found: dict[str, list[RawStream]] = {}
+        streams: dict[str, list[RawStream]] = {}
         for name, spec in self.campaign.calibrations.items():
             if not isinstance(spec, JumpCalibration):
                 continue
@@ -145,7 +145,7 @@ class RawIngest:
             before = self.inventory.raw_rows("", name)
             source = self.campaign.sources[spec.source]
             if path.is_file() or before:
-                found[name] = self._file(
+                streams[name] = self._file(
                     spec.file, spec.source, source, before, f"calibration {name}", ("", name), gone=not path.is_file()
                 )
             else:
@@ -157,7 +157,7 @@ class RawIngest:
                         source=spec.source,
                     )
                 )
-        return found
+        return streams
 
     def _file(
         self,
@@ -198,7 +198,7 @@ class RawIngest:
         self.files.add(path)
         return raws
 
-    def _copy(self, path: str, before: list[RawStream], reader: Reader, said: Source) -> list[RawStream]:
+    def _copy(self, path: str, before: list[RawStream], reader: Reader, declaration: Source) -> list[RawStream]:
         """The store's own copy of a file that isn't there any more."""
         if before and not all(is_whole(self.store / r.path) for r in before):
             raise StoreError(
@@ -209,7 +209,7 @@ class RawIngest:
             )
         if before:
             self.notes.append(f"{path}: not there any more; the store's raw copy is used")
-            why = read_otherwise(before[0], reader, said)
+            why = read_otherwise(before[0], reader, declaration)
             if why is not None:
                 self.losses.append(loss_row(f"not there to be read again: the store's raw copy was {why}", file=path))
         return before
@@ -228,13 +228,13 @@ class RawIngest:
 
     def _hashes(self, paths: Iterable[str]) -> dict[str, str]:
         """Path -> SHA-256, of the files that can be read."""
-        found: dict[str, str] = {}
+        hashes: dict[str, str] = {}
         for path in paths:
             try:
-                found[path] = self._settle(path).sha256
+                hashes[path] = self._settle(path).sha256
             except (OSError, ThermodataError):
                 continue  # told where the file is read
-        return found
+        return hashes
 
     def _settle(self, path: str) -> SourceFile:
         if path not in self._settled:
@@ -270,15 +270,15 @@ class RawIngest:
 
     def _read(self, path: str, source: str, spec: SourceSpec, reader: Reader) -> list[RawStream]:
         file = self._settle(path)
-        said = declared(source, spec)
-        key = raw_key(file.sha256, reader, said)
-        if key not in self._made:
+        declaration = declared(source, spec)
+        key = raw_key(file.sha256, reader, declaration)
+        if key not in self._streams:
             if key in self.inventory.raws:
-                self._made[key] = self.inventory.raws[key]
+                self._streams[key] = self.inventory.raws[key]
             else:
                 self.watch.say(f"reading {path}")
                 try:
-                    self._made[key] = self._read_settled(path, file, reader, said)
+                    self._streams[key] = self._read_settled(path, file, reader, declaration)
                     self.read += 1
                 except StoreError as error:
                     if error.what == DISK_FULL:
@@ -289,25 +289,27 @@ class RawIngest:
                         ) from error
                     raise
                 except (ThermodataError, OSError) as error:
-                    self._made[key] = error
-        made = self._made[key]
-        if isinstance(made, Exception):
-            raise made
+                    self._streams[key] = error
+        streams = self._streams[key]
+        if isinstance(streams, Exception):
+            raise streams
         # the same bytes may stand under another name, in another test or campaign
-        return [r if r.source_path == path else _renamed(r, path) for r in made]
+        return [r if r.source_path == path else _renamed(r, path) for r in streams]
 
-    def _read_settled(self, path: str, file: SourceFile, reader: Reader, said: Source) -> list[RawStream]:
+    def _read_settled(self, path: str, file: SourceFile, reader: Reader, declaration: Source) -> list[RawStream]:
         """Reads a file so that hash and rows agree: where it changes meanwhile, from a copy of what is there now."""
         try:
             try:
-                return read_raw(self.store, file.path, path, file.sha256, counted(reader, self.watch), said, file.check)
+                return read_raw(
+                    self.store, file.path, path, file.sha256, counted(reader, self.watch), declaration, file.check
+                )
             except FormatError:
                 file.check()  # half of a file that is being written may look like a damaged one
                 raise
         except ChangedError:
             with frozen(self._full(path), self.store / "raw") as copy:
-                raws = self.inventory.raws.get(raw_key(copy.sha256, reader, said)) or read_raw(
-                    self.store, copy.path, path, copy.sha256, counted(reader, self.watch), said
+                raws = self.inventory.raws.get(raw_key(copy.sha256, reader, declaration)) or read_raw(
+                    self.store, copy.path, path, copy.sha256, counted(reader, self.watch), declaration
                 )
             self._settled[path] = copy
             self.notes.append(f"{path}: {copy.note}")

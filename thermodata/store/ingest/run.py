@@ -92,8 +92,8 @@ def _ingest(store: Store, path: Path, watch: Progress) -> IngestSummary:
         bind(plan)
         plans.append(plan)
     raw_layer.empty_sources(plans)
-    made = tidy_tests(store.path, plans, results, inventory, now, watch.say)
-    rows: dict[str, dict[str, list[Row]]] = {t: dict(made.rows[t]) for t in BY_TEST}
+    tidy_layer = tidy_tests(store.path, plans, results, inventory, now, watch.say)
+    rows: dict[str, dict[str, list[Row]]] = {t: dict(tidy_layer.rows[t]) for t in BY_TEST}
     rows["file"][""] = [
         raw_row(campaign.id, "", name, raw, "calibration", now) for name, raws in jumps.items() for raw in raws
     ]
@@ -104,16 +104,16 @@ def _ingest(store: Store, path: Path, watch: Progress) -> IngestSummary:
         campaign.id,
         tests=len(plans),
         files=len(raw_layer.files),
-        samples=made.samples,
-        flags=dict(sorted(made.flags.items())),
+        samples=tidy_layer.samples,
+        flags=dict(sorted(tidy_layer.flags.items())),
         read=raw_layer.read,
-        made=made.new_streams,
+        made=tidy_layer.new_streams,
         calibrations=[{**r.row(campaign.id), "name": r.name} for r in results.values()],
-        losses=raw_layer.losses + made.losses + [loss_row(p) for p in problems],
-        notes=list(dict.fromkeys(raw_layer.notes + made.notes)),
+        losses=raw_layer.losses + tidy_layer.losses + [loss_row(p) for p in problems],
+        notes=list(dict.fromkeys(raw_layer.notes + tidy_layer.notes)),
     )
     # what was damaged and is made anew has the same rows: the views must see it all the same
-    if nothing_new(planned, inventory) and not made.new_streams and not raw_layer.read:
+    if nothing_new(planned, inventory) and not tidy_layer.new_streams and not raw_layer.read:
         summary.notes.append("nothing changed: the store holds these files and this campaign file already")
     else:
         with store.write() as con:

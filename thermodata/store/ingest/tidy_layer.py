@@ -69,11 +69,11 @@ def tidy_tests(
 
     A sensor that failed between two tests shows only once all are tidied; the streams that it spoils are made again.
     """
-    made = TidyLayer()
-    tidier = _Tidier(store, _columns(plans), calibrations, inventory, now, say, made)
+    layer = TidyLayer()
+    tidier = _Tidier(store, _columns(plans), calibrations, inventory, now, say, layer)
     tidied: dict[str, _Tidied] = {}
     for plan in plans:
-        with _loss_where_it_fails(made, plan):
+        with _loss_where_it_fails(layer, plan):
             tidied[plan.test.id] = tidier.tidy(plan)
     levels = [
         x
@@ -91,33 +91,33 @@ def tidy_tests(
     for plan in plans:
         test = tidied.get(plan.test.id)
         if test is not None:
-            with _loss_where_it_fails(made, plan):
+            with _loss_where_it_fails(layer, plan):
                 tidier.mark(test, failed.get(plan.test.id, {}))
-                _add_rows(made, test, calibrations, now)
-        made.losses += [loss_row(p, test=plan.test.id) for p in plan.problems]
-        made.notes += plan.notes
-    return made
+                _add_rows(layer, test, calibrations, now)
+        layer.losses += [loss_row(p, test=plan.test.id) for p in plan.problems]
+        layer.notes += plan.notes
+    return layer
 
 
 @contextmanager
-def _loss_where_it_fails(made: TidyLayer, plan: TestPlan) -> Iterator[None]:
+def _loss_where_it_fails(layer: TidyLayer, plan: TestPlan) -> Iterator[None]:
     """A test that can't be made is a loss; the others go on."""
     try:
         yield
     except (StoreError, SpecError):
         raise
     except ThermodataError as error:
-        made.losses.append(loss_row("; ".join(str(error).splitlines()), test=plan.test.id))
+        layer.losses.append(loss_row("; ".join(str(error).splitlines()), test=plan.test.id))
 
 
 def _columns(plans: Sequence[TestPlan]) -> dict[Member, Columns]:
     """The channels of each (source, stream) over all tests, in the campaign's order."""
-    found: dict[Member, dict[str, bool]] = {}
+    channels: dict[Member, dict[str, bool]] = {}
     for plan in plans:
         for bound in plan.bound.values():
-            found.setdefault((bound.source, bound.stream), {})[bound.name] = bound.is_text
+            channels.setdefault((bound.source, bound.stream), {})[bound.name] = bound.is_text
     order = {name: i for plan in plans[:1] for i, name in enumerate(plan.campaign.channels)}
-    return {m: sorted(c.items(), key=lambda item: order[item[0]]) for m, c in found.items()}
+    return {m: sorted(c.items(), key=lambda item: order[item[0]]) for m, c in channels.items()}
 
 
 @dataclass(frozen=True, slots=True)
@@ -180,24 +180,24 @@ class _Tidier:
         ]
 
 
-def _add_rows(made: TidyLayer, tidied: _Tidied, calibrations: Mapping[str, CalibrationResult], now: datetime) -> None:
+def _add_rows(layer: TidyLayer, tidied: _Tidied, calibrations: Mapping[str, CalibrationResult], now: datetime) -> None:
     """The catalogue's rows of a test."""
     plan, clocks, test = tidied.plan, tidied.clocks, tidied.plan.test.id
     files = [*catalogue_rows.raw_rows(plan, now), *(r for rows in tidied.files.values() for r in rows)]
     for rows in tidied.files.values():
-        _count(made, rows, test)
+        _count(layer, rows, test)
     for row in files:
         # the same clock for all of one ingest, and for a kept file the moment at which it was made
         row.setdefault("added_at", now)
-    _add(made, test, "file", files)
-    _add(made, test, "quality_event", [e for rows in tidied.events.values() for e in rows])
-    _add(made, test, "test", [catalogue_rows.test_row(plan, tidied.where, _duration(plan, files))])
-    _add(made, test, "machine", [catalogue_rows.machine_row(plan.campaign, plan)])
-    _add(made, test, "source", catalogue_rows.source_rows(plan, clocks))
-    _add(made, test, "channel", catalogue_rows.channel_rows(plan, calibrations))
-    made.notes += [f"{test}, {name}: {n}" for name, clock in clocks.items() for n in clock.notes]
-    made.notes += [f"{r.source_path}: {n}" for s in plan.sources.values() for r in s.raws for n in r.notes]
-    made.losses += [
+    _add(layer, test, "file", files)
+    _add(layer, test, "quality_event", [e for rows in tidied.events.values() for e in rows])
+    _add(layer, test, "test", [catalogue_rows.test_row(plan, tidied.where, _duration(plan, files))])
+    _add(layer, test, "machine", [catalogue_rows.machine_row(plan.campaign, plan)])
+    _add(layer, test, "source", catalogue_rows.source_rows(plan, clocks))
+    _add(layer, test, "channel", catalogue_rows.channel_rows(plan, calibrations))
+    layer.notes += [f"{test}, {name}: {n}" for name, clock in clocks.items() for n in clock.notes]
+    layer.notes += [f"{r.source_path}: {n}" for s in plan.sources.values() for r in s.raws for n in r.notes]
+    layer.losses += [
         loss_row(n, test=test, source=name) for name, clock in clocks.items() for n in clock.notes if clock.suspect
     ]
 
@@ -266,19 +266,19 @@ def _tidy_rows(
     return rows
 
 
-def _count(made: TidyLayer, files: Sequence[Row], test: str) -> None:
+def _count(layer: TidyLayer, files: Sequence[Row], test: str) -> None:
     for row in files:
         meta = json.loads(row["columns"])
-        made.samples += meta.get("samples", 0)
-        made.flags.update(meta.get("flags", {}))
-        made.losses += [loss_row(p, test=test) for p in meta.get("problems", [])]
-        made.notes += [f"{test}, {row['source']}: {n}" for n in meta.get("notes", [])]
+        layer.samples += meta.get("samples", 0)
+        layer.flags.update(meta.get("flags", {}))
+        layer.losses += [loss_row(p, test=test) for p in meta.get("problems", [])]
+        layer.notes += [f"{test}, {row['source']}: {n}" for n in meta.get("notes", [])]
         for item in json.loads(row["losses"] or "[]"):
-            made.losses.append(loss_row(item["reason"], test=test, source=row["source"], loss=Loss(**item)))
+            layer.losses.append(loss_row(item["reason"], test=test, source=row["source"], loss=Loss(**item)))
 
 
-def _add(made: TidyLayer, test: str, table: str, rows: list[Row]) -> None:
-    made.rows[table][test] = rows
+def _add(layer: TidyLayer, test: str, table: str, rows: list[Row]) -> None:
+    layer.rows[table][test] = rows
 
 
 __all__ = ["TidyLayer", "tidy_tests"]

@@ -56,15 +56,15 @@ def check_store(store: Store, *, repair: bool = False) -> Checked:
             "select path, 'model' as layer, campaign, test, rows, null as source_path, "
             "null as bytes from prediction order by path",
         )
-    found = Checked()
+    checked = Checked()
     for row in rows:
         path = store.path / row["path"]
         problem = _problem(path, row["rows"], row["bytes"])
-        found.files += 1
+        checked.files += 1
         with contextlib.suppress(OSError):
-            found.bytes += path.stat().st_size
+            checked.bytes += path.stat().st_size
         if problem is not None:
-            found.damaged.append(
+            checked.damaged.append(
                 Damaged(row["path"], row["layer"], row["campaign"], row["test"], problem, row["source_path"])
             )
             if repair and path.exists():
@@ -72,8 +72,8 @@ def check_store(store: Store, *, repair: bool = False) -> Checked:
                     path.unlink()
                 except OSError as error:
                     raise write_error(path, error) from error
-                found.removed += 1
-    return found
+                checked.removed += 1
+    return checked
 
 
 def _problem(path: Path, rows: int, size_bytes: int | None) -> str | None:

@@ -67,9 +67,9 @@ def forget_earlier(con: duckdb.DuckDBPyConnection, campaign: str, tests: list[st
     """Removes the earlier versions of changed files (of some tests; None: of all); returns how many."""
     fits = "campaign = ? and layer = 'superseded'" + ("" if tests is None else " and list_contains(?, test)")
     params = [campaign] if tests is None else [campaign, tests]
-    found = fetch(con, f"select distinct source_path, sha256 from file where {fits}", params)
+    versions = fetch(con, f"select distinct source_path, sha256 from file where {fits}", params)
     con.execute(f"delete from file where {fits}", params)
-    return len(found)
+    return len(versions)
 
 
 def gc(store: Store, grace_s: float = 3600.0) -> dict[str, Any]:
@@ -113,13 +113,13 @@ def _kept(con: duckdb.DuckDBPyConnection) -> set[str]:
 
 def _files(store: Path) -> list[Path]:
     """Files of the layers, and unfinished ones at the top; never a link, never what isn't ours."""
-    found = [p for p in store.iterdir() if TEMPORARY.match(p.name) and p.is_file() and not p.is_symlink()]
+    files = [p for p in store.iterdir() if TEMPORARY.match(p.name) and p.is_file() and not p.is_symlink()]
     for layer in LAYERS:
         for path in (store / layer).rglob("*"):
             ours = path.suffix == ".parquet" or TEMPORARY.match(path.name) or TEMPORARY.match(path.parent.name)
             if ours and path.is_file() and not path.is_symlink():
-                found.append(path)
-    return found
+                files.append(path)
+    return files
 
 
 __all__ = ["forget", "gc"]

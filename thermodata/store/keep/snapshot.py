@@ -93,9 +93,9 @@ def _refused(target: Path, error: Exception, store: Store) -> StoreError:
     if known is not None:
         return known
     with store.reader() as con:
-        found = con.execute("select sum(bytes) from file where layer = 'tidy'").fetchone()
+        row = con.execute("select sum(bytes) from file where layer = 'tidy'").fetchone()
     # DuckDB's own format takes about twice as much as Parquet
-    return write_error(target, error, f"about {2 * int((found and found[0]) or 0) / 1e6:,.0f} MB")
+    return write_error(target, error, f"about {2 * int((row and row[0]) or 0) / 1e6:,.0f} MB")
 
 
 _READ = re.compile(r"read_parquet\((p__files(?:_(\d+))?), hive_partitioning = false\)")

@@ -80,21 +80,21 @@ class Faults:
 
     def notes(self) -> tuple[str, ...]:
         """What was found, in words."""
-        said = []
+        notes = []
         if self.strays:
-            said.append(f"{self.strays} rows with a stray time: drawn between their neighbours and flagged")
+            notes.append(f"{self.strays} rows with a stray time: drawn between their neighbours and flagged")
         if self.leaps:
-            said.append(
+            notes.append(
                 f"the clock was set ahead by {_long(max(self.leaps))} while it ran: what came before was moved "
                 "up to it; how long it paused is not known"
             )
         if self.resets:
             often = "once, by" if len(self.resets) == 1 else f"{len(self.resets)} times, by up to"
-            said.append(
+            notes.append(
                 f"the clock was set back {often} {_long(max(self.resets))}: what follows was moved behind "
                 "what came before"
             )
-        return tuple(said)
+        return tuple(notes)
 
     def _next_fault(self, t: Int1D, at: int) -> int | None:
         """The first row behind by more than jitter, or ahead by more than a leap."""
@@ -136,9 +136,9 @@ class Faults:
         right = int(t[stop]) if stop < len(t) else left + step * (n + 1)
         going = self.shifts[-1]
         for i in range(start, stop):
-            made = left + (right - left) * (i - start + 1) // (n + 1)
-            self._shift(first + i, going + made - int(t[i]))
-            t[i] = made
+            drawn = left + (right - left) * (i - start + 1) // (n + 1)
+            self._shift(first + i, going + drawn - int(t[i]))
+            t[i] = drawn
         self._shift(first + stop, going)
         self.marked |= set(range(first + start, first + stop))
         self.strays += n
@@ -183,8 +183,8 @@ def shifted(at: Sequence[int] | Int1D, shifts: Sequence[int] | Int1D, start: int
     """What is added to the times of n rows from `start` on, shape (n,); see `Order` for at and shifts."""
     if not len(at):
         return np.full(n, shifts[0], np.int64)
-    found: Int1D = np.asarray(shifts, np.int64)[np.searchsorted(at, np.arange(start, start + n), side="right")]
-    return found
+    added: Int1D = np.asarray(shifts, np.int64)[np.searchsorted(at, np.arange(start, start + n), side="right")]
+    return added
 
 
 def _long(ns: int) -> str:

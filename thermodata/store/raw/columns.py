@@ -38,22 +38,22 @@ class RawFile:
         """Rows start to stop: numbers in the file's dtype (NULL as NaN), text as object."""
         wanted = tuple(dict.fromkeys(self._index[c] for c in columns))
         first = int(np.searchsorted(self._starts, start, side="right")) - 1
-        found: list[Array] = []
+        arrays: list[Array] = []
         at = first
         with _as_store_error(self.path):
             while at < len(self._starts) - 1 and self._starts[at] < stop:
                 low, high = int(self._starts[at]), int(self._starts[at + 1])
                 table = self._group(at, wanted).slice(max(start - low, 0), min(stop, high) - max(start, low))
                 parts = [to_numpy(table.column(i)) for i in range(len(wanted))]
-                if high >= stop and not found:
-                    found = parts
+                if high >= stop and not arrays:
+                    arrays = parts
                 else:
-                    found = _filled(found, parts, max(start, low) - start, stop - start)
+                    arrays = _filled(arrays, parts, max(start, low) - start, stop - start)
                 at += 1
-            if not found:
+            if not arrays:
                 empty = self._file.schema_arrow.empty_table().select(list(wanted))
-                found = [to_numpy(empty.column(i)) for i in range(len(wanted))]
-        place = {c: found[i] for i, c in enumerate(wanted)}
+                arrays = [to_numpy(empty.column(i)) for i in range(len(wanted))]
+        place = {c: arrays[i] for i, c in enumerate(wanted)}
         return [place[self._index[c]] for c in columns]
 
     def _group(self, group: int, wanted: tuple[int, ...]) -> pa.Table:
@@ -69,16 +69,16 @@ class RawFile:
         self._file.close()
 
 
-def _filled(found: list[Array], parts: list[Array], at: int, rows: int) -> list[Array]:
+def _filled(arrays: list[Array], parts: list[Array], at: int, rows: int) -> list[Array]:
     """Puts the parts behind what is there: into their place, so that no row group outlives its reading."""
-    if not found:
-        found = [np.empty(rows, part.dtype) for part in parts]
+    if not arrays:
+        arrays = [np.empty(rows, part.dtype) for part in parts]
     for i, part in enumerate(parts):
-        if part.dtype != found[i].dtype:
+        if part.dtype != arrays[i].dtype:
             # whole numbers become float64 in a row group that has NULLs
-            found[i] = found[i].astype(np.result_type(found[i], part))
-        found[i][at : at + len(part)] = part
-    return found
+            arrays[i] = arrays[i].astype(np.result_type(arrays[i], part))
+        arrays[i][at : at + len(part)] = part
+    return arrays
 
 
 class RawFiles:

@@ -57,7 +57,7 @@ def find_order(times: Times, n: int, *, resets_allowed: bool) -> Order:
         if not faults.look(t, first, min(CHUNK_ROWS, len(t))):
             break
     keep = n if faults.keep is None else faults.keep
-    found = Order(
+    order = Order(
         keep,
         np.array(faults.at, np.int64),
         np.array(faults.shifts, np.int64),
@@ -66,7 +66,7 @@ def find_order(times: Times, n: int, *, resets_allowed: bool) -> Order:
         faults.extent,
         faults.notes(),
     )
-    return replace(found, islands=_islands(times, found, faults.lowest))
+    return replace(order, islands=_islands(times, order, faults.lowest))
 
 
 def _islands(times: Times, order: Order, lowest: list[int]) -> Int1D:

@@ -217,7 +217,7 @@ def read_raw(
                 "the file cannot be read", where=source_path, got=f"{type(error).__name__}: {error}"
             ) from error
         check()
-        made = [
+        streams = [
             _finish(store, writer, stream, key, path, source_path, sha256, reader, recording, losses)
             for stream, writer in writers.items()
             if writer.rows
@@ -225,15 +225,15 @@ def read_raw(
     finally:
         for writer in writers.values():
             writer.discard()
-    if not made:
+    if not streams:
         raise FormatError(
             "the file holds no data",
             where=source_path,
             expected="at least one row",
             got="; ".join(x.reason for x in losses) or "none",
         )
-    made[0] = dataclasses.replace(made[0], losses=tuple(losses))
-    return [_as_kept(m) for m in made]
+    streams[0] = dataclasses.replace(streams[0], losses=tuple(losses))
+    return [_as_kept(m) for m in streams]
 
 
 def _as_kept(raw: RawStream) -> RawStream:

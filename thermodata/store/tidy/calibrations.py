@@ -28,7 +28,7 @@ def evaluate(
     from thermodata.calibration.jump import evaluate_jump
     from thermodata.calibration.static import evaluate_linear, evaluate_scale
 
-    found: dict[str, CalibrationResult] = {}
+    results: dict[str, CalibrationResult] = {}
     problems: list[str] = []
     for name, spec in campaign.calibrations.items():
         if isinstance(spec, JumpCalibration):
@@ -48,12 +48,12 @@ def evaluate(
             except ThermodataError as error:
                 problems.append(f"calibration '{name}': " + "; ".join(str(error).splitlines()))
                 continue
-            found[name] = evaluate_jump(name, spec, t_ns, volts, others, unit=unit)
+            results[name] = evaluate_jump(name, spec, t_ns, volts, others, unit=unit)
         elif isinstance(spec, LinearCalibration):
-            found[name] = evaluate_linear(name, spec, _unit_of(campaign, name))
+            results[name] = evaluate_linear(name, spec, _unit_of(campaign, name))
         else:
-            found[name] = evaluate_scale(name, spec)
-    return found, problems
+            results[name] = evaluate_scale(name, spec)
+    return results, problems
 
 
 def _unit_of(campaign: Campaign, calibration: str) -> str | None:

@@ -62,7 +62,7 @@ class Chunk:
         self._flags = self.line.columns(signals, start, stop, flags=True) if self.line.flagged(signals) else {}
         self._asked = set(signals)
         self._clock = self.line.clock_flags(start, stop) if signals else None
-        self._made: dict[str, tuple[Array, Array]] = {}
+        self._kept: dict[str, tuple[Array, Array]] = {}
         self._t: Int1D | None = None
 
     @property
@@ -74,21 +74,21 @@ class Chunk:
 
     def part(self, start: int, stop: int) -> Chunk:
         """Some of its rows, without their values."""
-        made = Chunk(self.series, self.member, start, stop, ())
-        made._t = self.t_ns[start - self.start : stop - self.start]
-        return made
+        chunk = Chunk(self.series, self.member, start, stop, ())
+        chunk._t = self.t_ns[start - self.start : stop - self.start]
+        return chunk
 
     def values(self, bound: Bound) -> tuple[Array, Array]:
         """(values, flags) of a channel of this stream: float64 in the canonical unit or text as object, and uint16;
         both of shape (stop - start,)."""
-        if bound.name not in self._made:
+        if bound.name not in self._kept:
             if bound.channel.schedule is not None:
-                self._made[bound.name] = self.series.scheduled(bound, self.t_ns)
+                self._kept[bound.name] = self.series.scheduled(bound, self.t_ns)
             elif bound.signal is None:
-                self._made[bound.name] = self._derived(bound)
+                self._kept[bound.name] = self._derived(bound)
             else:
-                self._made[bound.name] = self._measured(bound, bound.signal.name)
-        return self._made[bound.name]
+                self._kept[bound.name] = self._measured(bound, bound.signal.name)
+        return self._kept[bound.name]
 
     def _measured(self, bound: Bound, signal: str) -> tuple[Array, Array]:
         if signal not in self._asked:
@@ -137,12 +137,12 @@ class Chunk:
         flags: Array = np.zeros(self.stop - self.start, np.uint16)
         for name in derive.names(text):
             other = self.series.plan.bound[name]
-            found, marks = (
+            operand, marks = (
                 self.values(other)
                 if (other.source, other.stream) == self.member
                 else self.series.sampled(name, self.t_ns)
             )
-            values[name], flags = found, flags | marks
+            values[name], flags = operand, flags | marks
         units = {n: canonical(self.series.plan.bound[n].channel.quantity) for n in values}
         return derive.evaluate(bound, values, units), flags
 
@@ -159,11 +159,11 @@ def calibrated(chunk: Chunk, bounds: Sequence[Bound], problems: list[str], pool:
     # derived channels look into others, which is not for several threads
     measured = [b for b in bounds if b.signal is not None]
     answers = dict(zip((b.name for b in measured), pool.map(one, measured), strict=True))
-    made: dict[str, Column] = {}
+    columns: dict[str, Column] = {}
     for bound in bounds:
         answer = answers[bound.name] if bound.name in answers else one(bound)
         if isinstance(answer, str):
             problems.append(answer)
         else:
-            made[bound.name] = answer
-    return made
+            columns[bound.name] = answer
+    return columns

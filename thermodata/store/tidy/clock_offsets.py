@@ -31,17 +31,17 @@ def clocks_of(
     """The clocks of a test's sources. known: estimates of earlier runs by their key, for estimating reads data."""
     base, notes = bases(plan)
     plan.notes += notes
-    found: dict[str, Clock] = {}
+    clocks: dict[str, Clock] = {}
     for name in _ordered(plan):
         source = plan.sources[name]
         spec = source.spec.clock
         declared = Clock(round((spec.offset or 0.0) * 1e9), spec.drift_ppm or 0.0, base[name])
-        found[name] = declared
+        clocks[name] = declared
         there = plan.sources.get(spec.align_to) if spec.align_to else None
         if spec.align_to is None or not source.raws:
             continue
         if there is None or not there.raws:
-            found[name] = Clock(
+            clocks[name] = Clock(
                 declared.offset_ns,
                 declared.drift_ppm,
                 declared.base_ns,
@@ -49,9 +49,9 @@ def clocks_of(
                 notes=(f"clock not aligned: source '{spec.align_to}' has no data in this test",),
             )
             continue
-        key = _key(plan, source, there, found[there.name], declared, calibrations)
-        found[name] = known.get(key) or _estimate(store, plan, source, there, found, calibrations, key)
-    return found
+        key = _key(plan, source, there, clocks[there.name], declared, calibrations)
+        clocks[name] = known.get(key) or _estimate(store, plan, source, there, clocks, calibrations, key)
+    return clocks
 
 
 def clock_to_json(clock: Clock) -> str:

@@ -31,8 +31,8 @@ def evaluate(bound: Bound, values: Mapping[str, Array], units: Mapping[str, str]
     target = canonical(bound.channel.quantity)
     own = bound.unit or target
     factor, offset = linear_conversion(own, target)
-    found: Float1D = _parsed(bound.channel.derive or "").evaluate_in(values, units, own)
-    return found * factor + offset if (factor, offset) != (1.0, 0.0) else found
+    derived: Float1D = _parsed(bound.channel.derive or "").evaluate_in(values, units, own)
+    return derived * factor + offset if (factor, offset) != (1.0, 0.0) else derived
 
 
 def numbers(text: Array) -> Float1D:

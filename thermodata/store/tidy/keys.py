@@ -42,20 +42,20 @@ def member_key(
         parts.append(channel_text(used[name], calibrations))
     for source, stream in sorted(members):
         if source in plan.sources:
-            found = plan.sources[source]
+            source_plan = plan.sources[source]
             clock = clocks[source]
             parts += [
                 source,
                 stream,
-                repr([(r.key, r.path) for r in found.streams.get(stream, [])]),
+                repr([(r.key, r.path) for r in source_plan.streams.get(stream, [])]),
                 repr(
                     (
                         clock.offset_ns,
                         clock.drift_ppm,
                         clock.base_ns,
                         clock.suspect,
-                        found.spec.clock.resets,
-                        found.shared,
+                        source_plan.spec.clock.resets,
+                        source_plan.shared,
                     )
                 ),
             ]

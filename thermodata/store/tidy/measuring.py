@@ -24,7 +24,7 @@ def lasts(measuring: str | Measuring | None) -> bool:
     return isinstance(measuring, Measuring) and (measuring.settle > 0 or (measuring.for_ or 0) > 0)
 
 
-def measures(chunk: Chunk, column: Column, made: Mapping[str, Column]) -> Bool1D:
+def measures(chunk: Chunk, column: Column, columns: Mapping[str, Column]) -> Bool1D:
     """Where the test measures with this channel, without `settle` and `for`; shape (n,).
 
     Raises UsageError for a channel that isn't there.
@@ -39,8 +39,8 @@ def measures(chunk: Chunk, column: Column, made: Mapping[str, Column]) -> Bool1D
         bound = plan.bound.get(name)
         if bound is None:
             continue
-        if name in made:
-            values[name], flags[name] = made[name].values, made[name].flags
+        if name in columns:
+            values[name], flags[name] = columns[name].values, columns[name].flags
         elif (bound.source, bound.stream) == chunk.member:
             values[name], flags[name] = chunk.values(bound)
         else:
@@ -63,33 +63,33 @@ class Stretches:
             return np.zeros(len(t_ns), dtype=bool)
         rows = np.arange(start, start + len(t_ns))
         which = np.maximum(np.searchsorted(self.first, rows, side="right") - 1, 0)
-        found: Bool1D = (rows >= self.first[which]) & (rows < self.stop[which]) & (t_ns >= self.since_ns[which])
-        return found
+        counts: Bool1D = (rows >= self.first[which]) & (rows < self.stop[which]) & (t_ns >= self.since_ns[which])
+        return counts
 
 
 def find_stretches(parts: Iterable[tuple[int, Int1D, Bool1D]], period_ns: float, spec: Measuring) -> Stretches:
     """parts: (first row, times, mask) of the chunks of a stream in order; a pause in the log ends a stretch too."""
-    found: list[tuple[int, int, int, int]] = []  # first row, past-the-last, first time, last time
+    stretches: list[tuple[int, int, int, int]] = []  # first row, past-the-last, first time, last time
     longest = _BREAK * max(period_ns, 1.0)
     for start, t, mask in parts:
         goes_on = (
-            bool(found)
-            and found[-1][1] == start
+            bool(stretches)
+            and stretches[-1][1] == start
             and len(t) > 0
             and bool(mask[0])
-            and int(t[0]) - found[-1][3] <= longest
+            and int(t[0]) - stretches[-1][3] <= longest
         )
         joined = mask[1:] & mask[:-1] & (np.diff(t) <= longest)
         first = np.flatnonzero(mask & np.concatenate([[True], ~joined]))
         last = np.flatnonzero(mask & np.concatenate([~joined, [True]]))
         for a, b in zip(first.tolist(), last.tolist(), strict=True):
             if goes_on and a == 0:
-                found[-1] = (found[-1][0], start + b + 1, found[-1][2], int(t[b]))
+                stretches[-1] = (stretches[-1][0], start + b + 1, stretches[-1][2], int(t[b]))
             else:
-                found.append((start + a, start + b + 1, int(t[a]), int(t[b])))
+                stretches.append((start + a, start + b + 1, int(t[a]), int(t[b])))
     least = (spec.for_ or 0.0) * 1e9 * (1 - 1e-9)
     # n samples cover n periods, so ten samples at 1 Hz hold for 10 s
     kept = np.array(
-        [(a, b, t + ceil(spec.settle * 1e9)) for a, b, t, end in found if end - t + period_ns >= least], np.int64
+        [(a, b, t + ceil(spec.settle * 1e9)) for a, b, t, end in stretches if end - t + period_ns >= least], np.int64
     ).reshape(-1, 3)
     return Stretches(kept[:, 0], kept[:, 1], kept[:, 2])

@@ -45,10 +45,10 @@ class SourcePlan:
 
     @property
     def streams(self) -> dict[str, list[RawStream]]:
-        found: dict[str, list[RawStream]] = {}
+        streams: dict[str, list[RawStream]] = {}
         for raw in self.raws:
-            found.setdefault(raw.stream, []).append(raw)
-        return found
+            streams.setdefault(raw.stream, []).append(raw)
+        return streams
 
 
 @dataclass(slots=True)
@@ -65,10 +65,10 @@ class TestPlan:
 
     def members(self) -> dict[tuple[str, str], list[Bound]]:
         """(source, stream) -> its channels, in the campaign's order."""
-        found: dict[tuple[str, str], list[Bound]] = {}
+        members: dict[tuple[str, str], list[Bound]] = {}
         for bound in self.bound.values():
-            found.setdefault((bound.source, bound.stream), []).append(bound)
-        return found
+            members.setdefault((bound.source, bound.stream), []).append(bound)
+        return members
 
     @property
     def reference(self) -> list[SourcePlan]:
@@ -87,7 +87,7 @@ class TestPlan:
 
 def effective(campaign: Campaign, test: Test) -> dict[str, Channel]:
     """The channels as they are in this test: overrides applied, absent ones left out."""
-    found = {}
+    channels = {}
     for name, channel in campaign.channels.items():
         override = test.channels.get(name)
         if override is not None:
@@ -99,8 +99,8 @@ def effective(campaign: Campaign, test: Test) -> dict[str, Channel]:
             elif "signal" in changes:
                 changes |= {"derive": None, "schedule": None}
             channel = channel.model_copy(update=changes)
-        found[name] = channel
-    return found
+        channels[name] = channel
+    return channels
 
 
 def bind(plan: TestPlan) -> None:
@@ -174,5 +174,5 @@ def find_signal(raws: Iterable[RawStream], wanted: str) -> tuple[RawStream, Sign
             if (raw.stream, signal.name) not in first:
                 first[raw.stream, signal.name] = raw
                 signals.append(signal)
-    found = match_signal(wanted, signals)
-    return first[found.stream, found.name], found, found.unit or split_unit(found.name)[1]
+    match = match_signal(wanted, signals)
+    return first[match.stream, match.name], match, match.unit or split_unit(match.name)[1]

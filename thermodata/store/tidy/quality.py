@@ -55,7 +55,7 @@ class Flagged:
     stop: int
     problems: list[str]
     events: list[Event] = field(default_factory=list)
-    _found: list[QualityEvent] = field(default_factory=list)
+    _judged: list[QualityEvent] = field(default_factory=list)
     _activity: dict[str, Activity] = field(default_factory=dict)
     _moves: dict[str, tuple[int, float | None]] = field(default_factory=dict)
 
@@ -63,11 +63,11 @@ class Flagged:
         """(first row, times, channels with all their flags) of chunks of so many rows; none crosses a border."""
         with ThreadPoolExecutor(2) as pool:
             yield from self._measured(self._walk(rows, borders, pool), pool)
-        self._found += self._of_the_clock()
+        self._judged += self._of_the_clock()
         zero = self.series.span.zero_ns
         self.events += [
             Event(e.channel, e.flag, (e.from_ns - zero) / 1e9, (e.to_ns - zero) / 1e9, e.n, e.detail or None)
-            for e in concise(join_while_not_measuring(self._found, self._activity))
+            for e in concise(join_while_not_measuring(self._judged, self._activity))
         ]
 
     def _of_the_clock(self) -> list[QualityEvent]:
@@ -89,9 +89,9 @@ class Flagged:
                 chunk = self._chunk(a, b)
                 yield chunk, calibrated(chunk, self.bounds, self.problems, pool)
         elif len(self.bounds) <= windows.MOST_COLUMNS:
-            for chunk, made, first, stop in self._windows(self.bounds, rows, pool):
+            for chunk, columns, first, stop in self._windows(self.bounds, rows, pool):
                 for a, b in _cuts(first, stop, rows, borders):
-                    yield chunk.part(a, b), {n: c.part(a - first, b - first) for n, c in made.items()}
+                    yield chunk.part(a, b), {n: c.part(a - first, b - first) for n, c in columns.items()}
         else:
             yield from self._wide(rows, borders, pool)
 
@@ -106,23 +106,23 @@ class Flagged:
 
         def load(a: int) -> tuple[Chunk, dict[str, Column], dict[str, Column]]:
             chunk = self._chunk(max(self.start, a - margin), min(self.stop, a + size + margin), bounds)
-            made = calibrated(chunk, bounds, self.problems, pool)
-            return chunk, made, self._with_releases(made, a + size, chunk.stop)
+            columns = calibrated(chunk, bounds, self.problems, pool)
+            return chunk, columns, self._with_releases(columns, a + size, chunk.stop)
 
-        for a, (chunk, made, seen) in _ahead(load, range(self.start, self.stop, size), self._may_read_ahead()):
+        for a, (chunk, columns, seen) in _ahead(load, range(self.start, self.stop, size), self._may_read_ahead()):
             b = min(a + size, self.stop)
             low = chunk.start
-            found = joined.add(chunk.t_ns, seen, a - low, b - low)
-            yield chunk, {n: Column(c.bound, c.values[a - low : b - low], found[n]) for n, c in made.items()}, a, b
-        self._found += joined.events
+            flags = joined.add(chunk.t_ns, seen, a - low, b - low)
+            yield chunk, {n: Column(c.bound, c.values[a - low : b - low], flags[n]) for n, c in columns.items()}, a, b
+        self._judged += joined.events
 
-    def _with_releases(self, made: Mapping[str, Column], own: int, stop: int) -> dict[str, Column]:
+    def _with_releases(self, columns: Mapping[str, Column], own: int, stop: int) -> dict[str, Column]:
         """The channels of a window that ends at row `stop`; one that stands still from row `own` to there ends with
         the value that it takes when it moves again: whether a reading was held shows in that step."""
-        seen = dict(made)
+        seen = dict(columns)
         if own >= stop:
             return seen
-        for name, column in made.items():
+        for name, column in columns.items():
             x = column.values
             still = x[own - stop :]
             if (
@@ -164,28 +164,28 @@ class Flagged:
         changes: dict[str, tuple[list[Array], list[Array]]] = {}
         for i in range(0, len(self.bounds), windows.MOST_COLUMNS):
             some = self.bounds[i : i + windows.MOST_COLUMNS]
-            before = len(self._found)
-            for _, made, first, _ in self._windows(some, rows, pool):
-                for name, column in made.items():
+            before = len(self._judged)
+            for _, columns, first, _ in self._windows(some, rows, pool):
+                for name, column in columns.items():
                     at = np.concatenate([[0], np.flatnonzero(column.flags[1:] != column.flags[:-1]) + 1])
                     kept = changes.setdefault(name, ([], []))
                     kept[0].append(first + at)
                     kept[1].append(column.flags[at])
             if i:  # what concerns the whole stream was said with the first columns
-                self._found[before:] = [e for e in self._found[before:] if e.channel is not None]
+                self._judged[before:] = [e for e in self._judged[before:] if e.channel is not None]
         joined = {n: (np.concatenate(a), np.concatenate(f)) for n, (a, f) in changes.items()}
         changes.clear()
         for a, b in _cuts(self.start, self.stop, rows, borders):
             chunk = self._chunk(a, b)
-            made = calibrated(chunk, self.bounds, self.problems, pool)
-            for name, column in made.items():
+            columns = calibrated(chunk, self.bounds, self.problems, pool)
+            for name, column in columns.items():
                 if name not in joined:
                     continue
                 at, flags = joined[name]
                 low, high = int(np.searchsorted(at, a, side="right")) - 1, int(np.searchsorted(at, b))
                 lengths = np.diff(np.concatenate([[a], at[low + 1 : high], [b]]))
                 column.flags = np.repeat(flags[low:high], lengths)
-            yield chunk, made
+            yield chunk, columns
 
     def _chunk(self, start: int, stop: int, bounds: Sequence[Bound] | None = None) -> Chunk:
         return Chunk(self.series, self.member, start, stop, self.bounds if bounds is None else bounds)
@@ -203,19 +203,19 @@ class Flagged:
         except ThermodataError as error:
             self._cannot_measure(error)
             names = []
-        for chunk, made in walked:
+        for chunk, columns in walked:
             for name in names if self.member[0] != SCHEDULE else ():
-                if name not in made:
+                if name not in columns:
                     continue
                 try:
-                    mask = kept[name].mask(chunk.start, chunk.t_ns) if kept else measures(chunk, made[name], made)
+                    mask = kept[name].mask(chunk.start, chunk.t_ns) if kept else measures(chunk, columns[name], columns)
                 except ThermodataError as error:
                     self._cannot_measure(error)
                     names = []
                     break
                 self._activity.setdefault(name, Activity()).add(chunk.t_ns, mask)
-                made[name].flags = made[name].flags | np.where(mask, np.uint16(0), np.uint16(Flag.NOT_MEASURING))
-            yield chunk.start, chunk.t_ns, made
+                columns[name].flags = columns[name].flags | np.where(mask, np.uint16(0), np.uint16(Flag.NOT_MEASURING))
+            yield chunk.start, chunk.t_ns, columns
 
     def _cannot_measure(self, error: ThermodataError) -> None:
         self.problems.append("measuring: " + "; ".join(str(error).splitlines()))
@@ -226,20 +226,20 @@ class Flagged:
         steps = np.diff(line.times(self.start, min(self.stop, self.start + _PERIOD_ROWS)))
         period = float(np.median(steps)) if len(steps) else 0.0
         rows = max(1, windows.WINDOW_VALUES // 8)
-        found: dict[str, Stretches] = {}
+        stretches: dict[str, Stretches] = {}
         for bound in (b for b in self.bounds if b.name in names):
 
             def parts(bound: Bound = bound) -> Iterator[tuple[int, Int1D, Array]]:
                 for a, b in _cuts(self.start, self.stop, rows, ()):
                     chunk = self._chunk(a, b, [bound])
-                    made = calibrated(chunk, [bound], [], pool)
-                    if made:
-                        yield a, chunk.t_ns, measures(chunk, made[bound.name], made)
+                    columns = calibrated(chunk, [bound], [], pool)
+                    if columns:
+                        yield a, chunk.t_ns, measures(chunk, columns[bound.name], columns)
 
-            found[bound.name] = find_stretches(parts(), period, spec)
+            stretches[bound.name] = find_stretches(parts(), period, spec)
             if spec.in_range != "in_range":
-                return dict.fromkeys(names, found[bound.name])  # says nothing of the channel itself
-        return found
+                return dict.fromkeys(names, stretches[bound.name])  # says nothing of the channel itself
+        return stretches
 
 
 def _cuts(start: int, stop: int, rows: int, borders: Sequence[int]) -> Iterator[tuple[int, int]]:

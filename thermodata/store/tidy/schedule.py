@@ -41,12 +41,12 @@ def held(t_s: Float1D, times: Float1D, values: Array) -> Array:
     """The value that holds at each time, shape (n,); NaN or None before the first."""
     index = np.searchsorted(times, t_s, side="right") - 1
     missing: Any = None if values.dtype == object else np.nan
-    found: Array = (
+    held_values: Array = (
         np.where(index >= 0, values[np.maximum(index, 0)], missing)
         if len(values)
         else np.full(len(t_s), missing, dtype=values.dtype)
     )
-    return found
+    return held_values
 
 
 def grid(from_ns: int, to_ns: int, changes_ns: Int1D) -> Int1D:

@@ -136,8 +136,8 @@ class TestSeries:
         # from the sample before, so that the result doesn't depend on where the chunk begins
         with np.errstate(invalid="ignore"):
             part = (t_ns - t[index]) / np.maximum(t[follows] - t[index], 1)
-            found = np.where(exact, values[index], values[index] + (values[follows] - values[index]) * part)
-        return np.where(before | after, np.nan, found), flags[index] | np.where(exact, 0, flags[follows]).astype(
+            between = np.where(exact, values[index], values[index] + (values[follows] - values[index]) * part)
+        return np.where(before | after, np.nan, between), flags[index] | np.where(exact, 0, flags[follows]).astype(
             np.uint16
         )
 
@@ -145,8 +145,8 @@ class TestSeries:
         """(values, flags) of a channel that nobody logged, shape of t_ns."""
         times, values = schedule.steps(bound.name, bound.channel, self.plan.test)
         recording = self._recording_ns()
-        found = schedule.held(np.asarray((t_ns - recording) / 1e9, dtype=np.float64), times, values)
-        return found, np.zeros(len(t_ns), np.uint16)
+        held = schedule.held(np.asarray((t_ns - recording) / 1e9, dtype=np.float64), times, values)
+        return held, np.zeros(len(t_ns), np.uint16)
 
     def _recording_ns(self) -> int:
         window = self.plan.test.window

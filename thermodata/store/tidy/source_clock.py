@@ -48,17 +48,17 @@ def bases(plan: TestPlan) -> tuple[dict[str, int], list[str]]:
     """What each source's relative clock counts from, so that a test's sources share one time line, and notes on it."""
     absolute = [first_ns(s) for s in plan.sources.values() if s.raws and not is_relative(s)]
     notes = []
-    found = {}
+    base_ns = {}
     for name, source in plan.sources.items():
-        found[name] = 0
+        base_ns[name] = 0
         if source.raws and is_relative(source) and absolute:
             reference = [first_ns(s) for s in plan.reference if not is_relative(s)]
-            found[name] = min(reference or absolute)
+            base_ns[name] = min(reference or absolute)
             notes.append(
                 f"source '{name}' has a relative clock: taken to start with the test; "
                 "set clock: {align_to: ...} or {offset: ...} where it does not"
             )
-    return found, notes
+    return base_ns, notes
 
 
 def is_relative(source: SourcePlan) -> bool:

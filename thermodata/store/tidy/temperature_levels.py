@@ -29,23 +29,23 @@ class Sampler:
             if b.channel.quantity == "temperature" and b.channel.derive is None and not b.is_text
         }
 
-    def take(self, first: int, made: Mapping[str, Column]) -> None:
+    def take(self, first: int, columns: Mapping[str, Column]) -> None:
         """The next chunk: its first row, and its channels with their own flags."""
-        for name, found in self._points.items():
-            if name not in made:
+        for name, points in self._points.items():
+            if name not in columns:
                 continue
-            column = made[name]
+            column = columns[name]
             here = (self._rows >= first) & (self._rows < first + len(column.flags))
             at = self._rows[here] - first
             sound = (column.flags[at] & np.uint16(INVALID)) == 0
-            found[here] = np.where(sound, column.values[at], np.nan)
+            points[here] = np.where(sound, column.values[at], np.nan)
 
     def series(self) -> dict[str, list[float | None]]:
         """Channel -> POINTS numbers, None where nothing valid is; ready for JSON."""
         return {
-            name: [round(float(v), 3) if np.isfinite(v) else None for v in found]
-            for name, found in self._points.items()
-            if np.isfinite(found).any()
+            name: [round(float(v), 3) if np.isfinite(v) else None for v in points]
+            for name, points in self._points.items()
+            if np.isfinite(points).any()
         }
 
 
@@ -67,7 +67,7 @@ def levels_of(test: str, start_s: float | None, rows: Sequence[Mapping[str, Any]
 
 def offsets_by_test(levels: Sequence[Levels]) -> dict[str, dict[str, float]]:
     """Test -> channel -> by how much a sensor is off that failed before this test [K]."""
-    found: dict[str, dict[str, float]] = {}
+    offsets: dict[str, dict[str, float]] = {}
     for (test, channel), size in offsets_between_tests(levels).items():
-        found.setdefault(test, {})[channel] = round(size, 1)
-    return found
+        offsets.setdefault(test, {})[channel] = round(size, 1)
+    return offsets

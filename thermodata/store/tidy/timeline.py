@@ -66,19 +66,19 @@ class Timeline:
 
     def clock_flags(self, start: int, stop: int) -> Array | None:
         """CLOCK_SUSPECT, shape (stop - start,), where rows were moved or the whole clock is doubtful; None: nowhere."""
-        made = np.full(stop - start, Flag.CLOCK_SUSPECT, np.uint16) if self.suspect else None
+        whole_clock = np.full(stop - start, Flag.CLOCK_SUSPECT, np.uint16) if self.suspect else None
         low, high, order = self._window(start, stop)
         if order is None and not self._marked_in(low, high).size:
-            return made
+            return whole_clock
         t = self._file_times(low, high)
         late = np.zeros(high - low, dtype=bool)
         for a, b in self._islands_in(low, high):
             part = t[a - low : b - low]
             late[a - low : b - low] = part < np.maximum.accumulate(part)
         late[self._marked_in(low, high) - low] = True
-        found = (late if order is None else late[order])[start - low : stop - low]
-        moved = np.where(found, np.uint16(Flag.CLOCK_SUSPECT), np.uint16(0))
-        return moved if made is None else made | moved
+        late_rows = (late if order is None else late[order])[start - low : stop - low]
+        moved = np.where(late_rows, np.uint16(Flag.CLOCK_SUSPECT), np.uint16(0))
+        return moved if whole_clock is None else whole_clock | moved
 
     def clock_stretches(self) -> list[tuple[int, int, int, str]]:
         """(first time, last time [ns], rows, why) of the stretches with a doubtful time; at most 50."""
@@ -91,16 +91,16 @@ class Timeline:
                     "the whole clock is doubtful",
                 )
             ]
-        marked, found = self.order.marked, []
+        marked, stretches = self.order.marked, []
         groups = np.split(marked, np.flatnonzero(np.diff(marked) > 1) + 1) if marked.size else []
         for rows in groups[:_MOST_STRETCHES]:
             t = self._file_times(int(rows[0]), int(rows[-1]) + 1)
-            found.append((int(t.min()), int(t.max()), len(rows), "; ".join(self.order.notes)))
-        for a, b in self.order.islands[: _MOST_STRETCHES - len(found)].tolist():
+            stretches.append((int(t.min()), int(t.max()), len(rows), "; ".join(self.order.notes)))
+        for a, b in self.order.islands[: _MOST_STRETCHES - len(stretches)].tolist():
             t = self._file_times(a, b)
             late = int(np.count_nonzero(t < np.maximum.accumulate(t)))
-            found.append((int(t.min()), int(t.max()), late, "rows out of order, sorted"))
-        return sorted(found)
+            stretches.append((int(t.min()), int(t.max()), late, "rows out of order, sorted"))
+        return sorted(stretches)
 
     def column(self, store: Path, signal: str, start: int, stop: int, *, flags: bool = False) -> Array | None:
         """A raw column, rows start to stop in time order; None where no file has it."""
@@ -116,20 +116,20 @@ class Timeline:
             read = dict(zip(there, self._read(raw, there, a, b), strict=True)) if there else {}
             for signal, name in names.items():
                 parts[signal].append(b - a if name is None else read[name])
-        found = {}
+        arrays = {}
         for signal, some in parts.items():
             if all(isinstance(p, int) for p in some):
                 continue
             joined = _joined(some, zero=flags)
-            found[signal] = (joined if order is None else joined[order])[start - low : stop - low]
-        return found
+            arrays[signal] = (joined if order is None else joined[order])[start - low : stop - low]
+        return arrays
 
     def raw_row(self, row: int) -> tuple[RawStream, int]:
         """(raw stream, its row) behind a row."""
         low, _, order = self._window(row, row + 1)
         at = row if order is None else low + int(order[row - low])
-        raw, found, _ = next(iter(self._within(at, at + 1)))
-        return raw, found
+        raw, file_row, _ = next(iter(self._within(at, at + 1)))
+        return raw, file_row
 
     def flagged(self, signals: Iterable[str]) -> bool:
         """Whether a reader flagged any row of these signals."""

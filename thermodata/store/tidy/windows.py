@@ -51,7 +51,7 @@ class Joined:
 
         t_ns: shape (n,), non-decreasing.
         """
-        found, events = flag_stream(
+        flags, events = flag_stream(
             t_ns,
             {
                 n: ColumnInput(values=c.values, quantity=c.bound.channel.quantity, flags=c.flags)
@@ -61,26 +61,26 @@ class Joined:
         for name, column in columns.items():
             carried = self._carried.get(name)
             if start and carried is not None:
-                events = _continued(name, column.values, t_ns, found[name], carried, start, events)
+                events = _continued(name, column.values, t_ns, flags[name], carried, start, events)
         for name, column in columns.items():
-            added = found[name][stop - 1] & ~column.flags[stop - 1]
+            added = flags[name][stop - 1] & ~column.flags[stop - 1]
             value = column.values[stop - 1]
             self._carried[name] = _Carried(
                 float(value) if column.values.dtype.kind in "iuf" else np.nan,
                 int(added & _STANDS),
                 bool(added & _OFFSET),
             )
-        self._join(t_ns, found, events, start, stop)
-        return {name: whole[start:stop] for name, whole in found.items()}
+        self._join(t_ns, flags, events, start, stop)
+        return {name: whole[start:stop] for name, whole in flags.items()}
 
-    def _join(self, t_ns: Int1D, found: Mapping[str, Array], events: list[QualityEvent], start: int, stop: int) -> None:
+    def _join(self, t_ns: Int1D, flags: Mapping[str, Array], events: list[QualityEvent], start: int, stop: int) -> None:
         """Keeps the events of the window's own rows; one that began in the window before is made longer."""
         first, last = int(t_ns[start]), int(t_ns[stop - 1])
         for event in sorted(events, key=lambda e: e.from_ns):
             key = (event.channel, event.flag)
             at = self._open.get(key)
             if at is not None and event.from_ns <= self.events[at].to_ns and event.from_ns <= first:
-                self.events[at] = _longer(self.events[at], event, t_ns, found)
+                self.events[at] = _longer(self.events[at], event, t_ns, flags)
                 continue
             if (
                 event.to_ns < first
@@ -104,13 +104,13 @@ class Joined:
         )
 
 
-def _longer(event: QualityEvent, more: QualityEvent, t_ns: Int1D, found: Mapping[str, Array]) -> QualityEvent:
+def _longer(event: QualityEvent, more: QualityEvent, t_ns: Int1D, flags: Mapping[str, Array]) -> QualityEvent:
     if more.to_ns <= event.to_ns:
         return event
     n = event.n + more.n
     if event.channel is not None:
         a, b = np.searchsorted(t_ns, [more.from_ns, event.to_ns + 1])
-        n -= int(np.count_nonzero(found[event.channel][a:b] & _BY_NAME.get(event.flag, np.uint16(0))))
+        n -= int(np.count_nonzero(flags[event.channel][a:b] & _BY_NAME.get(event.flag, np.uint16(0))))
     return replace(event, to_ns=more.to_ns, n=n, detail=re.sub(r"for \d+ samples", f"for {n} samples", event.detail))
 
 

@@ -78,15 +78,15 @@ def write_member(
         if a < b
     ]
     try:
-        for first, t_ns, made in walk.chunks(group_rows(len(columns) + 1), [rows.start]):
-            sampler.take(first, made)
+        for first, t_ns, channels in walk.chunks(group_rows(len(columns) + 1), [rows.start]):
+            sampler.take(first, channels)
             for name in offsets or ():
-                if name in made:
-                    made[name].flags = made[name].flags | np.uint16(Flag.OFFSET)
+                if name in channels:
+                    channels[name].flags = channels[name].flags | np.uint16(Flag.OFFSET)
             part = parts[0] if first < parts[0].stop else parts[1]
-            part.add(t_ns, made)
+            part.add(t_ns, channels)
             if part.name == "test":
-                _count(result, made)
+                _count(result, channels)
         result.events += walk.events + _failed(series, line, rows.start, rows.stop, here, offsets or {})
         result.files += [part.finish() for part in parts]
         result.files[-1].levels = sampler.series()
@@ -128,7 +128,7 @@ class _Part:
         self._encoder: Encoder | None = None
         self._to_s = 0.0
 
-    def add(self, t_ns: Int1D, made: dict[str, Column]) -> None:
+    def add(self, t_ns: Int1D, channels: dict[str, Column]) -> None:
         """Takes the next rows, as one row group."""
         import pyarrow as pa
 
@@ -140,7 +140,7 @@ class _Part:
         unflagged = to_arrow(np.zeros(n, np.uint16))
         arrays: list[Any] = [to_arrow(t_ns.view("datetime64[ns]")), to_arrow(self.series.t_s(t_ns))]
         for channel, is_text in self.columns:
-            column = made.get(channel)
+            column = channels.get(channel)
             if column is None:
                 arrays += [pa.nulls(n, pa.string() if is_text else pa.float64()), pa.nulls(n, pa.uint16())]
             else:
@@ -184,9 +184,9 @@ def tidy_schema(columns: Columns) -> pa.Schema:
     return pa.schema(fields)
 
 
-def _count(result: TidyResult, made: dict[str, Column]) -> None:
+def _count(result: TidyResult, channels: dict[str, Column]) -> None:
     """Counts samples and flags of the test's own rows."""
-    for column in made.values():
+    for column in channels.values():
         result.samples += len(column.flags)
         if not column.flags.any():
             continue

@@ -44,12 +44,12 @@ def trace(
         tests = [r["test"] for r in fetch(con, "select test from test where campaign = ?", [campaign])]
         if test not in tests:
             raise unknown_name("test", test, tests)
-        found = _Tracer(con, store, campaign, test, verify)
+        tracer = _Tracer(con, store, campaign, test, verify)
         if channel is None:
-            return found.test()
-        if channel not in found.channels:
-            raise unknown_name("channel", channel, list(found.channels))
-        return found.head() | found.channel(channel, t_s)
+            return tracer.test()
+        if channel not in tracer.channels:
+            raise unknown_name("channel", channel, list(tracer.channels))
+        return tracer.head() | tracer.channel(channel, t_s)
 
 
 class _Tracer:
@@ -99,13 +99,13 @@ class _Tracer:
             for c in self.calibrations
             if c["calibration"] == n
         ]
-        said = self.spec.channels.get(name)
-        found: Answer = (
+        declared = self.spec.channels.get(name)
+        answer: Answer = (
             {"channel": name}
             | {k: row[k] for k in ("quantity", "unit", "sign", "at", "axis", "source", "stream", "signal", "raw_unit")}
             | {
-                "derive": said.derive if said is not None and row["signal"] is None else None,
-                "schedule": None if said is None or said.schedule is None else repr(said.schedule),
+                "derive": declared.derive if declared is not None and row["signal"] is None else None,
+                "schedule": None if declared is None or declared.schedule is None else repr(declared.schedule),
                 "scaling": _scaling(here, row["signal"]),
                 "calibrations": steps,
                 "clock": None if source is None else {k: _decoded(source[k]) for k in ("clock", "offset_ns", "notes")},
@@ -114,24 +114,24 @@ class _Tracer:
             }
         )
         if t_s is not None:
-            found["sample"] = find_sample(
+            answer["sample"] = find_sample(
                 self.con, self.store.path, self.name, self.of, row, t_s, self._again if self.verify else None
             )
-        if found["derive"]:
-            found["operands"] = [
-                self.channel(n, None) for n in sorted(derive.names(found["derive"])) if n in self.channels
+        if answer["derive"]:
+            answer["operands"] = [
+                self.channel(n, None) for n in sorted(derive.names(answer["derive"])) if n in self.channels
             ]
-        return found
+        return answer
 
     def _files(self, rows: list[Answer]) -> list[Answer]:
         earlier = [r for r in rows if r["layer"] == SUPERSEDED]
-        found = []
+        files = []
         for row in rows:
             if row["layer"] == "raw":
                 older = [_file(r) for r in earlier if all(r[k] == row[k] for k in ("source", "source_path", "stream"))]
                 now = {"now": self._stand(row)} if self.verify else {}
-                found.append(_file(row) | now | {"earlier": sorted(older, key=lambda f: str(f["superseded_at"]))})
-        return found
+                files.append(_file(row) | now | {"earlier": sorted(older, key=lambda f: str(f["superseded_at"]))})
+        return files
 
     def _stand(self, row: Answer) -> str:
         """How the source file stands today against what was ingested."""
@@ -193,7 +193,7 @@ def _model(store: Store, ref: str) -> Answer:
 
 def _file(row: Answer) -> Answer:
     raw = RawStream.from_row(row)
-    found = {
+    entry = {
         "source_path": raw.source_path,
         "sha256": raw.sha256,
         "bytes": raw.bytes,
@@ -209,8 +209,8 @@ def _file(row: Answer) -> Answer:
         "notes": list(raw.notes),
     }
     if row["layer"] == SUPERSEDED:
-        found["superseded_at"] = json.loads(row["columns"]).get("superseded_at")
-    return found
+        entry["superseded_at"] = json.loads(row["columns"]).get("superseded_at")
+    return entry
 
 
 def _scaling(files: list[Answer], signal: str | None) -> Answer | None:

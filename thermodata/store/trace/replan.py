@@ -19,8 +19,8 @@ if TYPE_CHECKING:
 
 def read_campaign(con: duckdb.DuckDBPyConnection, campaign: str) -> Campaign:
     """The campaign file as it was ingested."""
-    found = fetch(con, "select spec from campaign where campaign = ?", [campaign])
-    return Campaign.model_validate_json(found[0]["spec"], context=STORED)
+    rows = fetch(con, "select spec from campaign where campaign = ?", [campaign])
+    return Campaign.model_validate_json(rows[0]["spec"], context=STORED)
 
 
 def read_series(con: duckdb.DuckDBPyConnection, store: Path, campaign: str, test: str) -> TestSeries:

@@ -45,21 +45,21 @@ def find_sample(
     rows = series.rows(member)
     at = (rows.start if row.pop("part") == "test" else rows.history) + row["tidy"]["row"]
     flags = row.pop("flags_set")
-    found = row | {
+    sample = row | {
         "t": str(np.datetime64(row["t_ns"], "ns")) + "Z" if not series.span.relative else None,
         "flags": [str(f.name).lower() for f in Flag if f and flags & f],
         "raw": None,
     }
     bound = series.plan.bound.get(channel["channel"])
     if bound is not None and bound.signal is not None:
-        found["raw"] = _raw(series, member, at, bound.signal.name, again)
+        sample["raw"] = _raw(series, member, at, bound.signal.name, again)
     elif bound is not None and bound.channel.derive is not None:
-        found["operands"] = [
+        sample["operands"] = [
             item
             for name in _leaves(series, channel["channel"])
             for item in _behind(series, name, member, row["t_ns"], at, again)
         ]
-    return found
+    return sample
 
 
 def _tidy_row(
@@ -138,7 +138,7 @@ def _raw(series: TestSeries, member: Member, at: int, signal: str, again: Again 
         return {"source_path": raw.source_path, "sha256": raw.sha256, "row": row, "raw_value": None}
     read = read_column(series.store / raw.path, column, row, row + 1)[0]
     flag = int(read_column(series.store / raw.path, f"{column}__flag", row, row + 1)[0]) if signal in raw.flagged else 0
-    found = {
+    entry = {
         "source_path": raw.source_path,
         "sha256": raw.sha256,
         "stream": raw.stream,
@@ -150,4 +150,4 @@ def _raw(series: TestSeries, member: Member, at: int, signal: str, again: Again 
         "raw_value": read.item() if hasattr(read, "item") else read,
         "raw_flag": flag,
     }
-    return found | ({"again": again(raw, row, signal, member[0])} if again else {})
+    return entry | ({"again": again(raw, row, signal, member[0])} if again else {})

@@ -70,15 +70,15 @@ def regenerate(con: duckdb.DuckDBPyConnection, folder: Path | None = None) -> No
         wanted = _by_object(statements(con, read_catalogue(con, folder), folder))
         known = _known(con)
         todo = _dropped(con) if known is None else [_drop(name) for name in known if name not in wanted]
-        made = {name: _digest(texts) for name, texts in wanted.items()}
+        digests = {name: _digest(texts) for name, texts in wanted.items()}
         for name, texts in wanted.items():
-            if known is None or known.get(name) != made[name]:
+            if known is None or known.get(name) != digests[name]:
                 todo += [
                     text.replace("create ", "create or replace ", 1) if text.startswith("create ") else text
                     for text in texts
                 ]
-        if known != made:
-            rows = ", ".join(f"({literal(name)}, {literal(digest)})" for name, digest in made.items())
+        if known != digests:
+            rows = ", ".join(f"({literal(name)}, {literal(digest)})" for name, digest in digests.items())
             todo.append(f"create or replace view {_MADE} as select * from (values {rows}) v(object, digest)")
             con.execute(";\n".join(todo))
     except duckdb.IOException as error:
@@ -116,7 +116,7 @@ _OBJECT = re.compile(r'(create (?:view|macro)|comment on (?:view|column)) ("[^"]
 def _by_object(texts: Iterable[str]) -> dict[str, list[str]]:
     """The statements of each object ("view x", "macro x", "macro table x"; "comment on x" for a table's): what
     makes it, and its comments. Objects in the order in which they are made."""
-    found: dict[str, list[str]] = {}
+    by_object: dict[str, list[str]] = {}
     views: set[str] = set()
     for text in texts:
         match = _OBJECT.match(text)
@@ -131,8 +131,8 @@ def _by_object(texts: Iterable[str]) -> dict[str, list[str]]:
             if name in views
             else "comment on"
         )
-        found.setdefault(f"{kind} {name}", []).append(text)
-    return found
+        by_object.setdefault(f"{kind} {name}", []).append(text)
+    return by_object
 
 
 def _digest(texts: list[str]) -> str:
