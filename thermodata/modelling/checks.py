@@ -35,12 +35,12 @@ def checks(response: FittedResponse, tests: Sequence[TestData]) -> dict[str, Any
         gains += [values.gains[g.name] for g in term.effect.gains]
     matrix = np.concatenate(blocks, axis=1) if blocks else np.zeros((design.n, 0))
     residual = design.y - matrix @ np.array(gains) if gains else design.y
-    found = [
+    rows = [
         *_samples(residual, design, len(gains) + sum(len(t.effect.params) for t in response.terms)),
         *_conditioning(matrix, names),
     ]
     for term in response.terms:
-        found += [
+        rows += [
             *_bounds(term),
             *_long(term, tests),
             *_plausible(term),
@@ -48,7 +48,7 @@ def checks(response: FittedResponse, tests: Sequence[TestData]) -> dict[str, Any
             *_ripple(response, term, tests),
         ]
     noise = float(np.sqrt(np.mean(residual**2))) if len(residual) else None
-    return {"checks": tuple(found), "noise": noise}
+    return {"checks": tuple(rows), "noise": noise}
 
 
 def _samples(residual: Float1D, design: Design, parameters: int) -> list[Check]:
@@ -69,7 +69,7 @@ def _samples(residual: Float1D, design: Design, parameters: int) -> list[Check]:
 def _conditioning(matrix: Float2D, names: list[str]) -> list[Check]:
     size = np.sqrt(np.sum(matrix**2, axis=0)) if matrix.shape[1] else np.zeros(0)
     kept = np.flatnonzero(size > 0)
-    found = [
+    rows = [
         Check(
             name=f"not_excited:{names[i]}",
             value=0.0,
@@ -80,10 +80,10 @@ def _conditioning(matrix: Float2D, names: list[str]) -> list[Check]:
         for i in np.flatnonzero(size == 0)
     ]
     if len(kept) < 2:
-        return found
+        return rows
     unit = matrix[:, kept] / size[kept]
     condition = float(np.linalg.cond(unit))
-    found.append(
+    rows.append(
         Check(
             name="condition_number",
             value=condition,
@@ -99,7 +99,7 @@ def _conditioning(matrix: Float2D, names: list[str]) -> list[Check]:
         for b in range(a + 1, len(kept)):
             if abs(correlation[a, b]) > COLLINEAR:
                 pair = f"{names[kept[a]]} and {names[kept[b]]}"
-                found.append(
+                rows.append(
                     Check(
                         name=f"collinear:{names[kept[a]]}:{names[kept[b]]}",
                         value=float(correlation[a, b]),
@@ -108,11 +108,11 @@ def _conditioning(matrix: Float2D, names: list[str]) -> list[Check]:
                         advice=f"{pair} move together in these tests",
                     )
                 )
-    return found
+    return rows
 
 
 def _bounds(term: FittedTerm) -> list[Check]:
-    found = []
+    rows = []
     for group, values in term.groups.items():
         tag = f"[{group}]" if group else ""
         for param in term.effect.params:
@@ -122,7 +122,7 @@ def _bounds(term: FittedTerm) -> list[Check]:
             value = values.params[param.name]
             for end in (low, high):
                 if abs(value - end) <= 1e-3 * (abs(end) if low > 0 else high - low):
-                    found.append(
+                    rows.append(
                         Check(
                             name=f"at_bound:{term.id}.{param.name}{tag}",
                             value=value,
@@ -132,7 +132,7 @@ def _bounds(term: FittedTerm) -> list[Check]:
                             "behind it, or the bound is wrong",
                         )
                     )
-    return found
+    return rows
 
 
 def _long(term: FittedTerm, tests: Sequence[TestData]) -> list[Check]:
@@ -140,12 +140,12 @@ def _long(term: FittedTerm, tests: Sequence[TestData]) -> list[Check]:
     if term.held and term.bound.calibrate is not None:
         return []
     record = max((float(t.t_s[-1] - t.t_s[0]) for t in covered), default=0.0) / 60.0
-    found = []
+    rows = []
     for param in term.effect.params:
         if param.unit == "min" and param.name.startswith("tau") and record > 0:
             value = term.params[param.name]
             if value > record:
-                found.append(
+                rows.append(
                     Check(
                         name=f"tau_longer_than_record:{term.id}.{param.name}",
                         value=value,
@@ -154,17 +154,17 @@ def _long(term: FittedTerm, tests: Sequence[TestData]) -> list[Check]:
                         advice="the time constant is longer than the longest test: only gain/tau is known",
                     )
                 )
-    return found
+    return rows
 
 
 def _plausible(term: FittedTerm) -> list[Check]:
-    found = []
+    rows = []
     for gain in term.effect.gains:
         for group, values in term.groups.items():
             value, top = values.gains[gain.name], gain.magnitude[1]
             if np.isfinite(top) and top > 0 and abs(value) > top and gain.name not in term.bound.spec.fixed:
                 tag = f"[{group}]" if group else ""
-                found.append(
+                rows.append(
                     Check(
                         name=f"implausible:{term.id}.{gain.name}{tag}",
                         value=value,
@@ -174,7 +174,7 @@ def _plausible(term: FittedTerm) -> list[Check]:
                         f"({top:g} {gain.unit}): it may stand in for another effect",
                     )
                 )
-    return found
+    return rows
 
 
 def _second_lag(term: FittedTerm) -> list[Check]:
@@ -198,7 +198,7 @@ def _second_lag(term: FittedTerm) -> list[Check]:
 
 def _ripple(response: FittedResponse, term: FittedTerm, tests: Sequence[TestData]) -> list[Check]:
     """What one step of a coarse sensor does to the prediction within a sample."""
-    found = []
+    rows = []
     infos = {n: i for t in tests for n, i in t.channels.items()}
     from thermodata.modelling.drivers import names_of
 
@@ -220,7 +220,7 @@ def _ripple(response: FittedResponse, term: FittedTerm, tests: Sequence[TestData
         jump = term.effect.basis(pulse, term.params) @ np.array([term.gains[g.name] for g in term.effect.gains])
         ripple = float(np.max(np.abs(np.diff(jump)), initial=0.0))
         limit = 1.0
-        found.append(
+        rows.append(
             Check(
                 name=f"quantisation_ripple:{term.id}",
                 value=ripple,
@@ -230,4 +230,4 @@ def _ripple(response: FittedResponse, term: FittedTerm, tests: Sequence[TestData
                 f"by {ripple:.2g} {response.unit} within a sample",
             )
         )
-    return found
+    return rows

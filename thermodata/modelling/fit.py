@@ -104,11 +104,11 @@ def _usable(bound: BoundResponse, tests: Sequence[TestData]) -> tuple[list[TestD
 
 def _stages(terms: Sequence[BoundTerm]) -> list[tuple[frozenset[Key], list[int]]]:
     """Effects that share their own tests are identified together, in the order of the file."""
-    found: dict[frozenset[Key], list[int]] = {}
+    stages: dict[frozenset[Key], list[int]] = {}
     for i, term in enumerate(terms):
         if term.calibrate is not None:
-            found.setdefault(term.calibrate, []).append(i)
-    return list(found.items())
+            stages.setdefault(term.calibrate, []).append(i)
+    return list(stages.items())
 
 
 def _fit(
@@ -133,15 +133,15 @@ def _fit(
     x = search(problem)
     gains = problem.gains(problem.matrix(x))
     sds, logs = deviations(problem, x, gains) if uncertainty else ([{} for _ in design.slots], frozenset[str]())
-    found: dict[int, dict[str, Values]] = {i: {} for i in members}
+    by_member: dict[int, dict[str, Values]] = {i: {} for i in members}
     for s, (slot, params) in enumerate(zip(design.slots, problem.params(x), strict=True)):
-        if order[slot.term] in found:
+        if order[slot.term] in by_member:
             names = [g.name for g in bound.terms[order[slot.term]].effect.gains]
             values = gains[problem.starts[s] : problem.starts[s + 1]]
-            found[order[slot.term]][slot.group] = Values(
+            by_member[order[slot.term]][slot.group] = Values(
                 params, dict(zip(names, map(float, values), strict=True)), sds[s], logs, problem.silent[s]
             )
-    return {i: FittedTerm(bound.terms[i], groups or {"": _at_start(bound.terms[i])}) for i, groups in found.items()}
+    return {i: FittedTerm(bound.terms[i], groups or {"": _at_start(bound.terms[i])}) for i, groups in by_member.items()}
 
 
 def _at_start(term: BoundTerm) -> Values:

@@ -70,15 +70,15 @@ class FittedTerm:
 
     def columns(self, test: TestData) -> Float2D:
         """The effect's basis at the fitted parameters, shape (n, gains), not centred, not masked."""
-        found = self.values(test)
-        return self.bound.columns(test, self.params if found is None else found.params)
+        values = self.values(test)
+        return self.bound.columns(test, self.params if values is None else values.params)
 
     def contribution(self, test: TestData) -> Float1D:
         """shape (n,), in the response's unit."""
-        found = self.values(test)
-        if found is None or not self.bound.covers(test):
+        values = self.values(test)
+        if values is None or not self.bound.covers(test):
             return np.zeros(len(test.t_s))
-        gains = np.array([found.gains[g.name] for g in self.effect.gains])
+        gains = np.array([values.gains[g.name] for g in self.effect.gains])
         return np.asarray(self.columns(test) @ gains, dtype=np.float64)
 
     def can_predict(self, test: TestData) -> bool:
@@ -157,8 +157,8 @@ def fit_mask(bound: BoundResponse, terms: list[BoundTerm], wanted: tuple[str, ..
     if name in test.valid:
         mask &= test.valid[name]
     if wanted is not None:
-        found = phases(test, name)
-        mask &= np.logical_or.reduce([found[p] for p in wanted if p in found] or [np.zeros(len(mask), bool)])
+        by_phase = phases(test, name)
+        mask &= np.logical_or.reduce([by_phase[p] for p in wanted if p in by_phase] or [np.zeros(len(mask), bool)])
     for term in terms:
         known = term.known(test) if term.has(test) else None
         if known is not None:

@@ -78,8 +78,8 @@ def free_run_fit(response: FittedResponse, tests: Sequence[TestData]) -> float:
             residual.append(r - r.mean())
     if not measured:
         return -np.inf
-    found = fit_percent(np.concatenate(measured), np.concatenate(residual))
-    return -np.inf if found is None else found
+    fit = fit_percent(np.concatenate(measured), np.concatenate(residual))
+    return -np.inf if fit is None else fit
 
 
 def _pairs() -> Iterator[tuple[int, int]]:

@@ -14,17 +14,17 @@ Z95 = 1.96
 
 def parameters(responses: Sequence[FittedResponse]) -> dict[str, Parameter]:
     """See FittedModel.parameters."""
-    found: dict[str, Parameter] = {}
+    by_name: dict[str, Parameter] = {}
     for response in responses:
         prefix = f"{response.name}/" if len(responses) > 1 else ""
         for term in response.terms:
-            found |= {prefix + name: p for name, p in term_parameters(response, term).items()}
-    return found
+            by_name |= {prefix + name: p for name, p in term_parameters(response, term).items()}
+    return by_name
 
 
 def term_parameters(response: FittedResponse, term: FittedTerm) -> dict[str, Parameter]:
     """'effect.parameter' of one term; parameters that groups share appear once."""
-    found: dict[str, Parameter] = {}
+    by_name: dict[str, Parameter] = {}
     for group, values in term.groups.items():
         tag = f"[{group}]" if term.bound.spec.gain_by else ""
         own = {
@@ -36,11 +36,11 @@ def term_parameters(response: FittedResponse, term: FittedTerm) -> dict[str, Par
             if param.name in values.silent:
                 continue
             name = f"{term.id}.{param.name}{tag if param.name in own else ''}"
-            found.setdefault(name, _parameter(values.params[param.name], param.unit, param.name, values))
+            by_name.setdefault(name, _parameter(values.params[param.name], param.unit, param.name, values))
         for gain in term.effect.gains:
             unit = gain_unit(response, term, gain.unit)
-            found[f"{term.id}.{gain.name}{tag}"] = _parameter(values.gains[gain.name], unit, gain.name, values)
-    return found
+            by_name[f"{term.id}.{gain.name}{tag}"] = _parameter(values.gains[gain.name], unit, gain.name, values)
+    return by_name
 
 
 def gain_unit(response: FittedResponse, term: FittedTerm, unit: str) -> str:

@@ -23,7 +23,7 @@ def prediction_columns(response: FittedResponse, test: TestData) -> dict[str, Ar
     predicted = np.sum(list(parts.values()), axis=0) if parts else np.zeros(len(test.t_s))
     measured = response.measured(test)
     predicted = predicted + response.offset(test)
-    found: dict[str, Array] = {
+    columns: dict[str, Array] = {
         "t_s": test.t_s,
         "measured": measured,
         "predicted": predicted,
@@ -31,7 +31,7 @@ def prediction_columns(response: FittedResponse, test: TestData) -> dict[str, Ar
         "valid": response.mask(test),
         **parts,
     }
-    return {name: values[test.in_window] for name, values in found.items()}
+    return {name: values[test.in_window] for name, values in columns.items()}
 
 
 def prediction_tables(fitted: FittedModel, data: Dataset) -> dict[tuple[str, str, str], Any]:
