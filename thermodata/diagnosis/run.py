@@ -23,9 +23,9 @@ def diagnose(store: Store, ref: str, tell: Tell | None = None) -> Diagnosis:
 
     model = load(store, ref)
     with watched(tell):
-        found = answer(model.fitted, model.data, effects(), model.identity)
-    if found.locked:
-        claimed = next((c.id for c in found.diagnosis.candidates if c.claimed), "a claim that did not hold")
-        count_locked_look(store, model.identity, [t.key for t in found.locked], f"confirming {claimed}")
-    save_diagnosis(store, model.identity, found.diagnosis)
-    return found.diagnosis
+        outcome = answer(model.fitted, model.data, effects(), model.identity)
+    if outcome.locked:
+        claimed = next((c.id for c in outcome.diagnosis.candidates if c.claimed), "a claim that did not hold")
+        count_locked_look(store, model.identity, [t.key for t in outcome.locked], f"confirming {claimed}")
+    save_diagnosis(store, model.identity, outcome.diagnosis)
+    return outcome.diagnosis
