@@ -152,7 +152,8 @@ class _Tidier:
         return test
 
     def mark(self, test: _Tidied, failed: Mapping[str, float]) -> None:
-        """Makes those streams again whose files were made with other failed sensors in mind. failed: see `levels`."""
+        """Makes those streams again whose files were made with other failed sensors in mind. failed: channel -> by how
+        much its sensor is off [K]."""
         series = None
         for member, rows in test.files.items():
             meta = [json.loads(r["columns"]) for r in rows]
