@@ -62,7 +62,7 @@ class Flagged:
     def chunks(self, rows: int, borders: Sequence[int] = ()) -> Iterator[tuple[int, Int1D, dict[str, Column]]]:
         """(first row, times, channels with all their flags) of chunks of so many rows; none crosses a border."""
         with ThreadPoolExecutor(2) as pool:
-            yield from self._measured(self._walk(rows, borders, pool), pool)
+            yield from self._measured(self._judged_chunks(rows, borders, pool), pool)
         self._judged += self._of_the_clock()
         zero = self.series.span.zero_ns
         self.events += [
@@ -81,7 +81,7 @@ class Flagged:
             if a <= last and b >= first
         ]
 
-    def _walk(
+    def _judged_chunks(
         self, rows: int, borders: Sequence[int], pool: ThreadPoolExecutor
     ) -> Iterator[tuple[Chunk, dict[str, Column]]]:
         if self.member[0] == SCHEDULE:
@@ -191,7 +191,7 @@ class Flagged:
         return Chunk(self.series, self.member, start, stop, self.bounds if bounds is None else bounds)
 
     def _measured(
-        self, walked: Iterator[tuple[Chunk, dict[str, Column]]], pool: ThreadPoolExecutor
+        self, chunks: Iterator[tuple[Chunk, dict[str, Column]]], pool: ThreadPoolExecutor
     ) -> Iterator[tuple[int, Int1D, dict[str, Column]]]:
         """Adds NOT_MEASURING to the channels that are measured."""
         spec = self.series.plan.test.measuring
@@ -203,7 +203,7 @@ class Flagged:
         except ThermodataError as error:
             self._cannot_measure(error)
             names = []
-        for chunk, columns in walked:
+        for chunk, columns in chunks:
             for name in names if self.member[0] != SCHEDULE else ():
                 if name not in columns:
                     continue

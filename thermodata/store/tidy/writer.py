@@ -70,7 +70,7 @@ def write_member(
         result.problems.append(f"no rows of '{member[0]}' lie in the test's window")
         return result
     here = [b for b in series.plan.bound.values() if (b.source, b.stream) == member]
-    walk = Flagged(series, member, here, rows.history, rows.stop, result.problems)
+    flagged = Flagged(series, member, here, rows.history, rows.stop, result.problems)
     sampler = Sampler(here, rows.start, rows.stop)
     parts = [
         _Part(series, name, columns, key, a, b)
@@ -78,7 +78,7 @@ def write_member(
         if a < b
     ]
     try:
-        for first, t_ns, channels in walk.chunks(group_rows(len(columns) + 1), [rows.start]):
+        for first, t_ns, channels in flagged.chunks(group_rows(len(columns) + 1), [rows.start]):
             sampler.take(first, channels)
             for name in offsets or ():
                 if name in channels:
@@ -87,7 +87,7 @@ def write_member(
             part.add(t_ns, channels)
             if part.name == "test":
                 _count(result, channels)
-        result.events += walk.events + _failed(series, line, rows.start, rows.stop, here, offsets or {})
+        result.events += flagged.events + _failed(series, line, rows.start, rows.stop, here, offsets or {})
         result.files += [part.finish() for part in parts]
         result.files[-1].levels = sampler.series()
     finally:

@@ -56,7 +56,7 @@ def find_sample(
     elif bound is not None and bound.channel.derive is not None:
         sample["operands"] = [
             item
-            for name in _leaves(series, channel["channel"])
+            for name in _logged_channels(series, channel["channel"])
             for item in _behind(series, name, member, row["t_ns"], at, again)
         ]
     return sample
@@ -96,17 +96,17 @@ def _tidy_row(
     return best
 
 
-def _leaves(series: TestSeries, name: str) -> list[str]:
+def _logged_channels(series: TestSeries, name: str) -> list[str]:
     """The logged and scheduled channels that a derived one comes from."""
     bound = series.plan.bound[name]
     if bound.channel.derive is None:
         return [name]
     return list(
         dict.fromkeys(
-            leaf
+            origin
             for n in sorted(derive.names(bound.channel.derive))
             if n in series.plan.bound
-            for leaf in _leaves(series, n)
+            for origin in _logged_channels(series, n)
         )
     )
 
