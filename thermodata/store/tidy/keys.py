@@ -28,6 +28,7 @@ def member_key(
     calibrations: Mapping[str, CalibrationResult],
 ) -> str:
     """The key of the tidy files of one stream of a test. Everything that its bytes depend on, and nothing else."""
+    # `repr` writes the names of Span, Clock and their fields into the keys: to rename one makes every tidy file anew
     here = [b for b in plan.bound.values() if (b.source, b.stream) == member]
     used: dict[str, Bound] = {}
     for bound in here:
