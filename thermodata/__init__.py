@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from thermodata.version import __version__
+
 if TYPE_CHECKING:
     from pathlib import Path
 
     from thermodata.view import StoreView
 
-__version__ = "0.1.0"
+__all__ = ["__version__", "open"]
 
 
 def open(path: str | Path = "thermodata.store") -> StoreView:

@@ -130,11 +130,12 @@ class Loss:
 class Reader(Protocol):
     """Reads one log format. Never scales, flips, resamples or aligns; yields time as recorded.
 
-    A reader may have one method more, which no reader needs: `place(path, source, stream, row) -> str`. It says where
-    in the file a row stands that `blocks` delivered: row counts from 0 over all blocks of that stream. The text names
-    what a person can look up there, counted as the program that shows the file counts it: "line 812", "segment 3 of
-    86400, byte 123456 (Eddy/Z)", "sheet 'data', row 813". Where that can't be told it says the row only ("row 812").
+    A reader may have one method more, which no reader needs: `locate(path, source, stream, row) -> str`. It says
+    where in the file a row stands that `blocks` delivered: row counts from 0 over all blocks of that stream. The text
+    names what a person can look up there, counted as the program that shows the file counts it: "line 812", "segment 3
+    of 86400, byte 123456 (Eddy/Z)", "sheet 'data', row 813". Where that can't be told it says the row only ("row 812").
     It reads the file in bounded memory, and may take as long as reading it. `thermodata trace --verify` shows it.
+    A reader without `locate` may have the same method under its first name, `place`.
 
     It may also have two attributes, which none needs. `formats: tuple[str, ...]` names what it reads, for
     `thermodata plugins show`. `version: str` stands in the raw data's key in place of its distribution's version.

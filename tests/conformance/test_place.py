@@ -17,8 +17,8 @@ import numpy as np
 import pytest
 
 from thermodata.store import Store
-from thermodata.store.ingest import ingest
-from thermodata.store.lifecycle import trace
+from thermodata.store.ingest.run import ingest
+from thermodata.store.trace.lineage import trace
 
 ROWS, AT = 40, 23
 VALUES = [20.0 + 0.125 * i for i in range(ROWS)]

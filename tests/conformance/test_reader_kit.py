@@ -274,11 +274,25 @@ class TurnsOverOften(Good):
     rng = np.random.default_rng()
 
 
+class LocatesNoLastRow(Good):
+    def locate(self, path: Path, source: Source, stream: str, row: int) -> str:
+        return f"pair {[1, 2, 3][row]}"
+
+
+class PlacesNowhere(Good):
+    """Under the name that the method had first."""
+
+    def place(self, path: Path, source: Source, stream: str, row: int) -> str:
+        return ""
+
+
 BROKEN: dict[type, Callable[..., None]] = {
     ClaimsAll: kit.it_claims_no_file_of_another_format,
     ClaimsNothing: kit.it_claims_its_own_file_and_says_why,
     SniffStumbles: kit.a_sniff_survives_any_head,
     FloatTime: kit.its_data_follow_the_rules,
+    LocatesNoLastRow: kit.a_row_of_it_can_be_located_where_the_reader_has_a_way,
+    PlacesNowhere: kit.a_row_of_it_can_be_located_where_the_reader_has_a_way,
     NeverDelivers: kit.every_declared_signal_arrives,
     StartsElsewhere: kit.an_absolute_recording_starts_when_it_says,
     Remembers: kit.reading_again_gives_the_same,
@@ -315,6 +329,14 @@ def file(tmp_path: Path) -> tuple[Path, Source]:
 
 def test_a_good_reader_passes_everything(file: tuple[Path, Source]) -> None:
     kit.check_reader(Good, [file], block_rows="block_rows")
+
+
+@pytest.mark.parametrize("method", ["locate", "place"])
+def test_a_reader_may_locate_its_rows_by_either_name(method: str, file: tuple[Path, Source]) -> None:
+    def words(self: Good, path: Path, source: Source, stream: str, row: int) -> str:
+        return f"pair {row + 1}"
+
+    kit.check_reader(type("Locates", (Good,), {method: words}), [file], block_rows="block_rows")
 
 
 @pytest.mark.parametrize("broken", BROKEN, ids=lambda c: c.__name__)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from thermodata.diagnosis.candidates import grid
-from thermodata.diagnosis.loto import Engine, Priors
+from thermodata.diagnosis.cross_validation import Engine, Priors
 from thermodata.diagnosis.weak import weak_spots
 from thermodata.diagnosis.whiten import fit_ar, surrogates, whiten
 from thermodata.plugin import Param

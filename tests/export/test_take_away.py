@@ -14,7 +14,7 @@ from thermodata.export import export_test
 from thermodata.export import mat as mat_module
 from thermodata.plugin import Source
 from thermodata.store import Store
-from thermodata.store.ingest import ingest
+from thermodata.store.ingest.run import ingest
 from thermodata.testing.reader import Data, load
 from thermodata.view import StoreView
 

@@ -24,8 +24,8 @@ sys.path.insert(0, str(HERE))
 import whole  # noqa: E402
 
 from thermodata.store import Store  # noqa: E402
-from thermodata.store.ingest import ingest  # noqa: E402
-from thermodata.store.lifecycle import gc  # noqa: E402
+from thermodata.store.ingest.run import ingest  # noqa: E402
+from thermodata.store.keep.lifecycle import gc  # noqa: E402
 
 
 def started(op: str, store: Path, argument: object) -> subprocess.Popen[str]:

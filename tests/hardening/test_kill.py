@@ -18,10 +18,10 @@ sys.path[:0] = [str(HERE), str(HERE.parent / "store")]
 import store_fakes  # noqa: E402
 import whole  # noqa: E402
 
-import thermodata.store.gather as gather  # noqa: E402
 from thermodata.store import Store  # noqa: E402
-from thermodata.store.ingest import ingest  # noqa: E402
-from thermodata.store.lifecycle import gc  # noqa: E402
+from thermodata.store.ingest import raw_layer  # noqa: E402
+from thermodata.store.ingest.run import ingest  # noqa: E402
+from thermodata.store.keep.lifecycle import gc  # noqa: E402
 
 
 def victim(op: str, store: Path, argument: object, die_at: int = 0) -> tuple[int, int]:
@@ -54,14 +54,14 @@ def lab(tmp_path_factory: pytest.TempPathFactory) -> Path:
     campaign = store_fakes.write_campaign(folder / "lab")
     Store(folder / "before/store", create=True)
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(gather, "find_reader", lambda name: store_fakes.NpzReader())
+        patch.setattr(raw_layer, "find_reader", lambda name: store_fakes.NpzReader())
         ingest(Store(folder / "after/store", create=True), campaign)
     return folder
 
 
 @pytest.fixture(autouse=True)
 def fakes(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(gather, "find_reader", lambda name: store_fakes.NpzReader())
+    monkeypatch.setattr(raw_layer, "find_reader", lambda name: store_fakes.NpzReader())
 
 
 def fresh(source: Path, tmp_path: Path, n: object) -> Path:

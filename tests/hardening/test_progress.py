@@ -16,7 +16,7 @@ from pathlib import Path
 
 import pytest
 
-from thermodata.store.counting import counted, watched
+from thermodata.store.base.counting import counted, watched
 from thermodata.virtual import simulate
 
 CAMPAIGN = """
@@ -99,7 +99,7 @@ def test_a_pipe_gets_nothing(campaign: Path) -> None:
 
 COUNTING = """
 from thermodata.cli.progress import counting_line
-from thermodata.store.counting import counted, watched
+from thermodata.store.base.counting import counted, watched
 with counting_line() as tell, watched(tell):
     print(sum(counted([1, 2, 3], "candidates")))
 """

@@ -25,13 +25,13 @@ def write(store_path: Path, campaign: Path, rounds: int) -> dict[str, object]:
     import store_fakes
 
     from thermodata.store import Store
-    from thermodata.store import store as stores
-    from thermodata.store.ingest import ingest
+    from thermodata.store.catalogue import store as store_module
+    from thermodata.store.ingest.run import ingest
 
     store_fakes.install()
     waits: list[float] = []
     turns: list[float] = []
-    right = stores.catalogue_lock
+    right = store_module.catalogue_lock
 
     class Timed:
         def __init__(self, *args: object, **more: object) -> None:
@@ -49,7 +49,7 @@ def write(store_path: Path, campaign: Path, rounds: int) -> dict[str, object]:
                 turns.append(time.monotonic() - self.entered)
             self.kept.__exit__(*error)  # type: ignore[arg-type]
 
-    stores.catalogue_lock = Timed  # type: ignore[assignment]
+    store_module.catalogue_lock = Timed  # type: ignore[assignment]
     text = campaign.read_text()
     for i in range(rounds):
         campaign.write_text(text.replace("10 um/V", f"{10 + i} um/V"))

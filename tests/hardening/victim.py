@@ -64,8 +64,12 @@ def main() -> None:
         sys.path.insert(0, given.fakes)
         importlib.import_module("store_fakes").install()
 
-    from thermodata.store import Store, connection, lifecycle, migrate
-    from thermodata.store.ingest import ingest
+    from thermodata.store import Store
+    from thermodata.store.base import connection
+    from thermodata.store.catalogue import migrate
+    from thermodata.store.ingest.run import ingest
+    from thermodata.store.keep import lifecycle
+    from thermodata.store.keep.snapshot import snapshot
 
     steps = Steps(given.store.absolute().parent, given.die_at)
     right = connection.memory
@@ -73,7 +77,7 @@ def main() -> None:
     sys.addaudithook(steps.audit)
     if given.op == "ingest":
         # what is imported late would be counted as a part of the work
-        importlib.import_module("thermodata.store.views")
+        importlib.import_module("thermodata.store.views.regenerate")
     store = Store(given.store, create=given.op == "ingest")
     print("ready", flush=True)
     steps.on = True
@@ -85,7 +89,7 @@ def main() -> None:
     elif given.op == "gc":
         lifecycle.gc(store, grace_s=0)
     elif given.op == "snapshot":
-        lifecycle.snapshot(store, given.argument)
+        snapshot(store, given.argument)
     elif given.op == "migrate":
         migrate.FORMAT = 2
         migrate.STEPS[1] = "alter table test add column shift varchar; update test set shift = 'early'"

@@ -16,8 +16,9 @@ from pathlib import Path
 import numpy as np
 
 from thermodata.plugin import Block, Head, Recording, Signal, Source
-from thermodata.store import Store, gather
-from thermodata.store.ingest import ingest
+from thermodata.store import Store
+from thermodata.store.ingest import raw_layer
+from thermodata.store.ingest.run import ingest
 
 
 class WideReader:
@@ -46,7 +47,7 @@ def main() -> None:
     parser.add_argument("--rows", type=int, default=100)
     given = parser.parse_args()
     reader = WideReader(given.channels, given.rows)
-    gather.find_reader = lambda name: reader  # type: ignore[assignment]
+    raw_layer.find_reader = lambda name: reader  # type: ignore[assignment]
     place = Path(tempfile.mkdtemp(prefix="wide-"))
     (place / "x.dat").write_bytes(b"x")
     step = given.channels // 10

@@ -11,8 +11,8 @@ from thermodata.modelling import run
 from thermodata.schema.model import EffectSpec
 from thermodata.schema.result import Candidate, Diagnosis
 from thermodata.store import Store
-from thermodata.store.ingest import ingest
-from thermodata.store.models import find_model, model_chain, save_diagnosis
+from thermodata.store.catalogue.models import find_model, model_chain, save_diagnosis
+from thermodata.store.ingest.run import ingest
 from thermodata.view.dataset import Dataset
 
 from .conftest import CHANNELS, EFFECTS, TRUTH, Spec

@@ -16,10 +16,10 @@ def npz_reader(monkeypatch: pytest.MonkeyPatch) -> None:
     """The store finds the reader of these tests, as it would find an installed one."""
     import store_fakes
 
-    import thermodata.store.gather as gather
-    import thermodata.store.reread as reread
+    from thermodata.store.ingest import raw_layer
+    from thermodata.store.trace import reread
 
-    for module in (gather, reread):
+    for module in (raw_layer, reread):
         monkeypatch.setattr(module, "find_reader", lambda name: store_fakes.NpzReader())
     store_fakes.NpzReader.reads = 0
 
@@ -29,14 +29,14 @@ def _made(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """An empty store, and a campaign with the store that holds it; each test gets copies."""
     import store_fakes
 
-    import thermodata.store.gather as gather
-    from thermodata.store.ingest import ingest
+    from thermodata.store.ingest import raw_layer
+    from thermodata.store.ingest.run import ingest
 
     folder = tmp_path_factory.mktemp("made")
     Store(folder / "empty", create=True)
     campaign = store_fakes.write_campaign(folder / "lab")
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(gather, "find_reader", lambda name: store_fakes.NpzReader())
+        patch.setattr(raw_layer, "find_reader", lambda name: store_fakes.NpzReader())
         ingest(Store(folder / "filled", create=True), campaign)
     return folder
 

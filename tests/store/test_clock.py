@@ -11,7 +11,7 @@ from store_fakes import CAMPAIGN, START_NS, daq, times, write_campaign, write_lo
 from thermodata.errors import SpecError
 from thermodata.schema.flag import Flag
 from thermodata.store import Store
-from thermodata.store.ingest import ingest
+from thermodata.store.ingest.run import ingest
 
 ALIGNED = CAMPAIGN.replace(
     'files: "raw/{test}.nc.npz"}',

@@ -14,8 +14,8 @@ from store_fakes import CAMPAIGN, NpzReader, write_campaign
 from thermodata.cli.app import run
 from thermodata.errors import StoreError
 from thermodata.store import Store
-from thermodata.store.check import check_store
-from thermodata.store.ingest import ingest
+from thermodata.store.ingest.run import ingest
+from thermodata.store.keep.check import check_store
 
 
 def samples(store: Store) -> int:

@@ -18,8 +18,8 @@ from store_fakes import daq, write_log
 
 from thermodata.errors import StoreError
 from thermodata.store import Store
-from thermodata.store.ingest import ingest
-from thermodata.store.lifecycle import snapshot
+from thermodata.store.ingest.run import ingest
+from thermodata.store.keep.snapshot import snapshot
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "hardening"))
 import whole

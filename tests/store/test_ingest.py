@@ -13,7 +13,7 @@ from store_fakes import CAMPAIGN, START_NS, NpzReader, daq, times, write_campaig
 from thermodata.errors import CalibrationError, SpecError, UsageError
 from thermodata.schema.flag import Flag
 from thermodata.store import Store
-from thermodata.store.ingest import ingest
+from thermodata.store.ingest.run import ingest
 
 
 def rows(store: Store, query: str, *params: Any) -> list[tuple[Any, ...]]:
@@ -349,13 +349,15 @@ def test_a_long_stream_goes_piece_by_piece_with_the_same_values(
 ) -> None:
     import pyarrow.parquet as pq
 
-    from thermodata.store import encoder, rawfile, windows
+    from thermodata.store.base import encoder
+    from thermodata.store.raw import writer
+    from thermodata.store.tidy import windows
 
     whole = Store(tmp_path / "whole", create=True)
     ingest(whole, campaign)
     monkeypatch.setattr(windows, "WINDOW_VALUES", 1)
     monkeypatch.setattr(windows, "MARGIN_ROWS", 50)
-    monkeypatch.setattr(rawfile, "GROUP_ROWS", 100)
+    monkeypatch.setattr(writer, "GROUP_ROWS", 100)
     assert encoder.COMPRESSION
     write_log(campaign.parent / "raw/one_a.npz", daq(9000))
     ingest(store, campaign)
@@ -389,12 +391,12 @@ def test_a_unit_in_brackets_may_be_left_out_and_is_the_unit(store: Store, campai
 def test_a_reader_that_is_not_there_is_refused_before_the_store_changes(
     filled: Store, campaign: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    import thermodata.store.gather as gather
+    from thermodata.store.ingest import raw_layer
 
     def missing(name: str) -> Any:
         raise UsageError(f"no reader '{name}'", hint="did you mean 'npz'?")
 
-    monkeypatch.setattr(gather, "find_reader", missing)
+    monkeypatch.setattr(raw_layer, "find_reader", missing)
     before = filled.generation
     edit(campaign, "id: one,", "id: one, notes: again,")
     with pytest.raises(UsageError, match=r"sources\.daq\.reader"):

@@ -13,8 +13,10 @@ from store_fakes import daq
 
 from thermodata.errors import UsageError
 from thermodata.store import Store
-from thermodata.store.ingest import ingest
-from thermodata.store.lifecycle import forget, gc, snapshot, trace
+from thermodata.store.ingest.run import ingest
+from thermodata.store.keep.lifecycle import forget, gc
+from thermodata.store.keep.snapshot import snapshot
+from thermodata.store.trace.lineage import trace
 
 
 def test_a_forgotten_test_leaves_no_row_and_no_file(filled: Store) -> None:

@@ -15,9 +15,11 @@ from thermodata.calibration.measuring import measuring_mask
 from thermodata.plugin import Bool1D, Int1D
 from thermodata.schema.campaign import Measuring
 from thermodata.schema.flag import Flag
-from thermodata.store import Store, rawfile, windows
-from thermodata.store.ingest import ingest
-from thermodata.store.measuring import find_stretches
+from thermodata.store import Store
+from thermodata.store.ingest.run import ingest
+from thermodata.store.raw import writer
+from thermodata.store.tidy import windows
+from thermodata.store.tidy.measuring import find_stretches
 
 
 @settings(max_examples=60, deadline=None)
@@ -76,7 +78,7 @@ def test_measuring_does_not_depend_on_the_pieces(
     ingest(whole, campaign)
     monkeypatch.setattr(windows, "WINDOW_VALUES", 1)
     monkeypatch.setattr(windows, "MARGIN_ROWS", 50)
-    monkeypatch.setattr(rawfile, "GROUP_ROWS", 100)
+    monkeypatch.setattr(writer, "GROUP_ROWS", 100)
     ingest(store, campaign)
     expected = flags(whole, "dZ")
     assert 0 < np.count_nonzero(expected & Flag.NOT_MEASURING) < len(expected)

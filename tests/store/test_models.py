@@ -12,9 +12,7 @@ from thermodata.errors import StoreError, UsageError
 from thermodata.schema.model import Model
 from thermodata.schema.result import Artefact, Candidate, Diagnosis, FitResult, Parameter, Score, WeakSpot
 from thermodata.store import Store
-from thermodata.store.ingest import ingest
-from thermodata.store.lifecycle import forget, gc, trace
-from thermodata.store.models import (
+from thermodata.store.catalogue.models import (
     count_locked_look,
     find_model,
     load_diagnosis,
@@ -24,6 +22,9 @@ from thermodata.store.models import (
     save_findings,
     save_fit,
 )
+from thermodata.store.ingest.run import ingest
+from thermodata.store.keep.lifecycle import forget, gc
+from thermodata.store.trace.lineage import trace
 
 SPEC: dict[str, Any] = {
     "schema": "thermodata/model/1",

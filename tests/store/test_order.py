@@ -7,9 +7,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-import thermodata.store.order as order_module
 from thermodata.plugin import Int1D
-from thermodata.store.order import Order, find_order
+from thermodata.store.raw import order as order_module
+from thermodata.store.raw.order import Order, find_order
 
 S = 1_000_000_000
 T0 = 1_770_000_000 * S

@@ -10,7 +10,7 @@ from store_fakes import START_NS, write_campaign, write_log
 
 from thermodata.schema.flag import Flag
 from thermodata.store import Store
-from thermodata.store.ingest import ingest
+from thermodata.store.ingest.run import ingest
 
 DAYS = (
     """

@@ -15,8 +15,8 @@ from store_fakes import daq, write_log
 from thermodata.errors import FormatError, StoreError
 from thermodata.plugin import Block, Head, Recording, Signal, Source
 from thermodata.store import Store
-from thermodata.store.ingest import IngestSummary, ingest
-from thermodata.store.sourcefile import ChangedError, frozen, settled
+from thermodata.store.ingest.run import IngestSummary, ingest
+from thermodata.store.raw.source_file import ChangedError, frozen, settled
 
 
 class LineReader:
@@ -44,9 +44,9 @@ class LineReader:
 @pytest.fixture
 def lines(campaign: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """A campaign of one text file, test 'one'."""
-    import thermodata.store.gather as gather
+    from thermodata.store.ingest import raw_layer
 
-    monkeypatch.setattr(gather, "find_reader", lambda name: LineReader())
+    monkeypatch.setattr(raw_layer, "find_reader", lambda name: LineReader())
     monkeypatch.setattr(LineReader, "meddle", None)
     text = campaign.read_text().replace("raw/{test}_*.npz", "raw/{test}.txt")
     campaign.write_text(

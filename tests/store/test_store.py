@@ -15,8 +15,8 @@ from store_fakes import daq, write_campaign, write_log
 
 from thermodata.errors import StoreError, UsageError
 from thermodata.store import Store
-from thermodata.store.ingest import ingest
-from thermodata.store.lifecycle import gc
+from thermodata.store.ingest.run import ingest
+from thermodata.store.keep.lifecycle import gc
 
 WORKER = Path(__file__).parent / "worker.py"
 

@@ -12,8 +12,8 @@ from store_fakes import daq, times, write_campaign, write_log
 
 from thermodata.cli.app import run
 from thermodata.store import Store
-from thermodata.store.ingest import ingest
-from thermodata.store.lifecycle import trace
+from thermodata.store.ingest.run import ingest
+from thermodata.store.trace.lineage import trace
 
 
 def edit(campaign: Path, old: str, new: str) -> None:

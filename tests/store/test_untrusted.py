@@ -13,7 +13,7 @@ from store_fakes import START_NS, daq, times, write_log
 from thermodata.errors import SpecError, ThermodataError
 from thermodata.plugin import Block, Head, Recording, Signal, Source
 from thermodata.store import Store
-from thermodata.store.ingest import IngestSummary, ingest
+from thermodata.store.ingest.run import IngestSummary, ingest
 
 NAMES = [
     "x'; drop table file; --",
@@ -53,9 +53,9 @@ class GivenReader:
 @pytest.fixture
 def given(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Any:
     """given(signals: name -> values, t_ns, channels: channel -> signal) -> summary and store."""
-    import thermodata.store.gather as gather
+    from thermodata.store.ingest import raw_layer
 
-    monkeypatch.setattr(gather, "find_reader", lambda name: GivenReader())
+    monkeypatch.setattr(raw_layer, "find_reader", lambda name: GivenReader())
 
     def ingested(
         values: dict[str, Any], t_ns: Any, channels: dict[str, str], test: str = "one"

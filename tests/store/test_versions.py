@@ -13,8 +13,9 @@ from store_fakes import NpzReader, daq, write_log
 
 from thermodata.errors import FormatError, UsageError
 from thermodata.store import Store
-from thermodata.store.ingest import ingest
-from thermodata.store.lifecycle import forget, gc, trace
+from thermodata.store.ingest.run import ingest
+from thermodata.store.keep.lifecycle import forget, gc
+from thermodata.store.trace.lineage import trace
 
 
 def sha(path: Path) -> str:
@@ -120,16 +121,16 @@ def test_a_copy_beside_the_file_counts_once(store: Store, campaign: Path) -> Non
 def test_a_file_that_cannot_be_read_any_more_keeps_what_was_read(
     filled: Store, campaign: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    import thermodata.store.gather as gather
+    from thermodata.store.ingest import raw_layer
 
-    right = gather.settled
+    right = raw_layer.settled
 
     def denied(path: Path) -> Any:
         if path.name == "one_a.npz":
             raise PermissionError(13, "Permission denied", str(path))
         return right(path)
 
-    monkeypatch.setattr(gather, "settled", denied)
+    monkeypatch.setattr(raw_layer, "settled", denied)
     summary = ingest(filled, campaign)
     assert [(x["file"], "denied" in x["reason"]) for x in summary.losses] == [("raw/one_a.npz", True)]
     assert (summary.changed, len(values(filled))) == (False, 1200)

@@ -12,11 +12,13 @@ from thermodata.calibration.quality import ColumnInput, QualityEvent, flag_strea
 from thermodata.plugin import Array, Float1D, Int1D
 from thermodata.schema.campaign import Channel
 from thermodata.schema.flag import Flag
-from thermodata.store import Store, rawfile, windows
-from thermodata.store.ingest import ingest
-from thermodata.store.piece import Column
-from thermodata.store.plan import Bound
-from thermodata.store.windows import Joined
+from thermodata.store import Store
+from thermodata.store.ingest.run import ingest
+from thermodata.store.raw import writer
+from thermodata.store.tidy import windows
+from thermodata.store.tidy.chunk import Column
+from thermodata.store.tidy.plan import Bound
+from thermodata.store.tidy.windows import Joined
 
 N, SIZE, MARGIN = 24_000, 4000, 600
 QUANTITIES = {"dZ": "displacement", "T_a": "temperature", "T_b": "temperature", "T_c": "temperature"}
@@ -160,7 +162,7 @@ def test_a_smooth_reading_that_is_held_over_windows_is_told_by_its_release(
     write_log(campaign.parent / "raw/one_a.npz", log)
     beside = Store(tmp_path / "beside", create=True)
     ingest(beside, campaign)
-    monkeypatch.setattr(rawfile, "GROUP_ROWS", 100)
+    monkeypatch.setattr(writer, "GROUP_ROWS", 100)
     monkeypatch.setattr(windows, "WINDOW_VALUES", 3000)
     monkeypatch.setattr(windows, "MARGIN_ROWS", 200)
     assert ingest(store, campaign).flags["held"] == 2700

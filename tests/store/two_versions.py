@@ -16,8 +16,8 @@ sys.path.insert(0, str(Path(__file__).parent))
 import store_fakes
 
 from thermodata.store import Store
-from thermodata.store.ingest import ingest
-from thermodata.store.lifecycle import snapshot
+from thermodata.store.ingest.run import ingest
+from thermodata.store.keep.snapshot import snapshot
 
 QUESTIONS = (
     "select channel, count(*), round(sum(value), 6) from sample where test = 'one' group by all order by all",

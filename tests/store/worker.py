@@ -8,7 +8,7 @@ from pathlib import Path
 import store_fakes
 
 from thermodata.store import Store
-from thermodata.store.ingest import ingest
+from thermodata.store.ingest.run import ingest
 
 
 def main(what: str, store: str, argument: str) -> None:

@@ -14,7 +14,7 @@ import pyarrow.parquet as pq
 import pytest
 
 from thermodata.store import Store
-from thermodata.store.connection import insert
+from thermodata.store.base.connection import insert
 
 START_NS = 1_772_000_000_000_000_000
 NOW = datetime(2026, 3, 1)

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from thermodata.store import Store
-from thermodata.store.views import regenerate
+from thermodata.store.views.regenerate import regenerate
 
 Build = Callable[..., "Builder"]  # noqa: F821
 LONG = ["campaign", "test", "source", "channel", "t", "t_s", "value", "flag"]

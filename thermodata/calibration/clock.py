@@ -71,12 +71,14 @@ def estimate_offset(t_here_ns: Int1D, here: Array, t_there_ns: Int1D, there: Arr
             "none",
             "choose a quantity that changes, e.g. the spindle's speed",
         )
-    found = [f for f in (refine(t_a[s], a[s], t_b, b, lag_s, 3 * cell) for s in parts) if f is not None]
-    if len(found) < 2:
+    estimates = [f for f in (refine(t_a[s], a[s], t_b, b, lag_s, 3 * cell) for s in parts) if f is not None]
+    if len(estimates) < 2:
         raise _thin(
-            "one event is not enough to tell which event it is in the other log", "at least two events", str(len(found))
+            "one event is not enough to tell which event it is in the other log",
+            "at least two events",
+            str(len(estimates)),
         )
-    at, lags, weights, matches = (np.array(x) for x in zip(*found, strict=True))
+    at, lags, weights, matches = (np.array(x) for x in zip(*estimates, strict=True))
     offset, uncertainty, drift_ppm = _line(at, lags, weights, period)
     common = _common_phase(lags, [float(np.median(np.diff(t))) for t in (t_a, t_b)])
     if common and all(_sudden(a[s]) and _sudden(_between(t_b, b, t_a[s] + lag_s)) for s in parts):
@@ -87,7 +89,7 @@ def estimate_offset(t_here_ns: Int1D, here: Array, t_there_ns: Int1D, there: Arr
         drift_ppm=drift_ppm,
         correlation=float(np.average(matches, weights=weights)),
         origin_ns=origin_a,
-        stretches=len(found),
+        stretches=len(estimates),
     )
 
 

@@ -57,17 +57,17 @@ def evaluate_jump(
             got=f"{1 / match.volts_per_um:+.4g} and {1 / match.rivals[0]:+.4g} um/{unit}",
             hint="cut the recording to the commanded moves, or move by unequal steps, e.g. [100 um, 50 um, -150 um]",
         )
-    found = plateaus(t_s, v, match, steps, spec.dwell)
-    if any(p.n < 3 or not np.isfinite(p.mean) for p in found):
+    dwells = plateaus(t_s, v, match, steps, spec.dwell)
+    if any(p.n < 3 or not np.isfinite(p.mean) for p in dwells):
         raise CalibrationError(
             f"jump test '{name}': a plateau with under 3 samples",
             where=where,
             expected="at least 3 samples a plateau",
-            got=f"{min(p.n for p in found)}",
+            got=f"{min(p.n for p in dwells)}",
             hint="dwell longer or sample faster",
         )
     levels = np.concatenate([[0.0], np.cumsum(moves)])
-    fit = fit_plateaus(found, levels, spec.move_uncertainty)
+    fit = fit_plateaus(dwells, levels, spec.move_uncertainty)
     _agrees_with_facing(name, spec, fit.gain, unit)
     crosstalk = {k: _crosstalk(t_s, x, match, steps, levels, spec, fit) for k, x in probes.items()}
     return CalibrationResult(
@@ -83,14 +83,14 @@ def evaluate_jump(
         nonlinearity_pct=fit.nonlinearity_pct,
         drift_um=fit.drift_um,
         crosstalk=crosstalk,
-        checks=jump_checks.rows(spec, moves, fit, crosstalk, found, unit),
+        checks=jump_checks.rows(spec, moves, fit, crosstalk, dwells, unit),
         detail={
             "unit_in": unit,
             "unit_out": "um",
             "moves_um": moves,
             "steps_found": len(steps),
             "drift_um_per_h": None if fit.drift_um_per_s is None else fit.drift_um_per_s * 3600.0,
-            "plateaus": [_row(p, level, rest) for p, level, rest in zip(found, levels, fit.residual_um, strict=True)],
+            "plateaus": [_row(p, level, rest) for p, level, rest in zip(dwells, levels, fit.residual_um, strict=True)],
         },
     )
 
@@ -192,8 +192,8 @@ def _crosstalk(
     fine = np.isfinite(x)
     if fine.sum() < _LEAST_SAMPLES:
         return float("nan")
-    found = plateaus(t_s[fine], x[fine], match, steps, spec.dwell)
-    return 100.0 * answer(found, levels) * fit.gain
+    dwells = plateaus(t_s[fine], x[fine], match, steps, spec.dwell)
+    return 100.0 * answer(dwells, levels) * fit.gain
 
 
 def _row(p: Plateau, level: float, rest: float) -> dict[str, float | int]:

@@ -25,7 +25,7 @@ def rows(
     moves: list[float],
     fit: JumpFit,
     crosstalk: dict[str, float],
-    found: list[Plateau],
+    plateaus: list[Plateau],
     unit: str,
 ) -> list[Check]:
     """All checks of one jump test. unit: of the readings."""
@@ -91,7 +91,7 @@ def rows(
         )
     if spec.gain is not None:
         table.append(_data_sheet(spec, fit, unit))
-    dwell = float(np.median([p.to_s - p.from_s for p in found[1:-1]])) if len(found) > 2 else spec.dwell
+    dwell = float(np.median([p.to_s - p.from_s for p in plateaus[1:-1]])) if len(plateaus) > 2 else spec.dwell
     table.append(
         check(
             "dwell_s",

@@ -92,7 +92,7 @@ def find_steps(t_s: Float1D, volts: Float1D, dwell_s: float) -> tuple[list[Step]
     tolerance = 4.0 * noise / np.sqrt(window)
     order = np.argsort(-np.abs(jump), kind="stable")
     taken = np.zeros(len(jump), dtype=bool)
-    found: list[Step] = []
+    steps: list[Step] = []
     for k in order[np.abs(jump[order]) > threshold].tolist():
         if not taken[k]:
             # on a slow ramp the difference has a flat top, with ripples of the cells
@@ -101,10 +101,10 @@ def find_steps(t_s: Float1D, volts: Float1D, dwell_s: float) -> tuple[list[Step]
             taken[low : high + 1] = True
             # at the flank's foot the window on the far side just touches the ramp
             reach = window + gap // 2 - 1
-            found.append(_step(t, v, int(centre[low]) + reach, int(centre[high]) - reach, int(centre[k]), window))
-        if len(found) >= _MOST_STEPS:
+            steps.append(_step(t, v, int(centre[low]) + reach, int(centre[high]) - reach, int(centre[k]), window))
+        if len(steps) >= _MOST_STEPS:
             break
-    return sorted((s for s in found if s.size != 0), key=lambda s: s.t_s), noise
+    return sorted((s for s in steps if s.size != 0), key=lambda s: s.t_s), noise
 
 
 def _flanks(

@@ -196,19 +196,19 @@ def _event(name: str, flag: str, t_ns: Int1D, start: int, stop: int, detail: str
 def _events(name: str, flag: str, hit: Bool1D, t_ns: Int1D, detail: str) -> list[QualityEvent]:
     """One event a stretch of True; the last of too many stands for the rest."""
     starts, stops = true_runs(hit)
-    found = [
+    events = [
         _event(name, flag, t_ns, int(a), int(b), detail)
         for a, b in zip(starts[: MOST_EVENTS - 1], stops[: MOST_EVENTS - 1], strict=True)
     ]
     if len(starts) >= MOST_EVENTS:
         a, b = int(starts[MOST_EVENTS - 1]), int(stops[-1])
         rest = int((stops - starts)[MOST_EVENTS - 1 :].sum())
-        found.append(
+        events.append(
             QualityEvent(
                 name, flag, int(t_ns[a]), int(t_ns[b - 1]), rest, f"{len(starts) - MOST_EVENTS + 1} further stretches"
             )
         )
-    return found
+    return events
 
 
 def _capped(events: Iterable[QualityEvent]) -> list[QualityEvent]:

@@ -40,15 +40,15 @@ def offsets_between_tests(tests: Sequence[Levels]) -> dict[tuple[str, str], floa
     rested = [
         i > 0 and ordered[i].start_s - max(t.end_s for t in ordered[:i]) >= _RESTED_S for i in range(len(ordered))
     ]
-    found: dict[tuple[str, str], float] = {}
+    offsets: dict[tuple[str, str], float] = {}
     for channel in dict.fromkeys(c for t in ordered for c in t.series):
         spans = [_difference(t, channel) for t in ordered]
         change = _change(spans, rested)
         if change is None:
             continue
         at, size = change
-        found |= {(t.test, channel): size for t, s in zip(ordered[at:], spans[at:], strict=True) if s is not None}
-    return found
+        offsets |= {(t.test, channel): size for t, s in zip(ordered[at:], spans[at:], strict=True) if s is not None}
+    return offsets
 
 
 def _difference(test: Levels, channel: str) -> tuple[float, float, float] | None:

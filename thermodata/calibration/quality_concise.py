@@ -19,7 +19,7 @@ def concise(events: Sequence[QualityEvent]) -> list[QualityEvent]:
     kinds: dict[tuple[str | None, str], list[QualityEvent]] = {}
     for event in sorted(events, key=lambda e: e.from_ns):
         kinds.setdefault((event.channel, event.flag), []).append(event)
-    made = []
+    shortened = []
     for some in kinds.values():
         groups: list[list[QualityEvent]] = []
         for event in some:
@@ -28,8 +28,8 @@ def concise(events: Sequence[QualityEvent]) -> list[QualityEvent]:
                 groups[-1].append(event)
             else:
                 groups.append([event])
-        made += [_one(group) for group in groups]
-    return sorted(made, key=lambda e: (e.from_ns, e.channel or ""))
+        shortened += [_one(group) for group in groups]
+    return sorted(shortened, key=lambda e: (e.from_ns, e.channel or ""))
 
 
 def _base(event: QualityEvent) -> str:

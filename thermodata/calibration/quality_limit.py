@@ -65,13 +65,13 @@ def impossible(x: Float1D, quantity: str, own: RunStats | None = None) -> Bool1D
 
 def _leaps(x: Float1D, hot: Bool1D) -> Bool1D:
     """Those stretches of `hot` that begin or end with a leap: what is heated passes through the values between."""
-    found = np.zeros_like(hot)
+    mask = np.zeros_like(hot)
     for start, stop in zip(*true_runs(hot), strict=True):
         into = abs(x[start] - x[start - 1]) if start else 0.0
         out = abs(x[stop - 1] - x[stop]) if stop < len(x) else 0.0
         if max(into, out) > _LEAP_K:
-            found[start:stop] = True
-    return found
+            mask[start:stop] = True
+    return mask
 
 
 def sentinels(x: Float1D, own: RunStats) -> Bool1D:

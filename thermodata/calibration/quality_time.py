@@ -26,7 +26,7 @@ class TimeFlags:
 
 
 def time_flags(t_ns: Int1D) -> TimeFlags:
-    """Flags of the time axis, shape (n,).
+    """Flags of the times, shape (n,).
 
     DUPLICATE_TIME and CLOCK_SUSPECT: a sample no later than one before it (its time was covered already), or a
     lone sample with a time far ahead. GAP: the first sample after a pause. RATE_CHANGE: the first at a new rate.

@@ -171,7 +171,7 @@ def offset_steps(
     more than it ever changes in such a time, and stays there: thermal mass forbids it, a failing sensor or a
     changed plug does it. Ends at a step back, or at the end.
 
-    x: shape (n,), degC. flags: of the column so far; of_time: of the time axis; uint16, shape (n,).
+    x: shape (n,), degC. flags: of the column so far; of_time: of the times; uint16, shape (n,).
     """
     if own.step <= 0:
         return

@@ -132,8 +132,8 @@ def _count(properties: Mapping[str, Any]) -> int:
             return int(properties["NI_Number_Of_Scales"])
         except (TypeError, ValueError):
             return -1
-    found = [int(m[1]) for m in map(_TYPE_KEY.match, properties) if m]
-    return max(found) + 1 if found else 0
+    numbers = [int(m[1]) for m in map(_TYPE_KEY.match, properties) if m]
+    return max(numbers) + 1 if numbers else 0
 
 
 def _check_graph(properties: Mapping[str, Any], count: int, channel: str | None) -> None:

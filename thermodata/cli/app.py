@@ -11,9 +11,9 @@ from importlib import import_module
 
 import click
 
-from thermodata import __version__
 from thermodata.cli.common import known_failure
 from thermodata.errors import ThermodataError, unknown_name
+from thermodata.version import __version__
 
 # Section of the help -> command -> module. The order is the order of the work.
 SECTIONS: dict[str, dict[str, str]] = {

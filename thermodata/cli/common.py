@@ -68,7 +68,7 @@ def known_failure(error: Exception) -> ThermodataError | None:
     # by name: DuckDB is imported in the store and its views only, and only where it is needed
     if not type(error).__module__.lstrip("_").startswith("duckdb"):
         return None
-    from thermodata.store.connection import damaged_data
+    from thermodata.store.base.connection import damaged_data
 
     damage = damaged_data(Path("the store"), error)
     return damage or UsageError("the query fails", got=str(error).strip().splitlines()[0])

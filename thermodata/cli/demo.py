@@ -96,7 +96,7 @@ def story(step: Step, folder: Path, hide: str, seed: int) -> dict[str, Any]:
 
     step.title(2, "ingest: raw and calibrated layers, by the campaign file")
     from thermodata.store import Store
-    from thermodata.store.ingest import ingest
+    from thermodata.store.ingest.run import ingest
 
     store = Store(folder / "thermodata.store", create=True)
     summary = plain(ingest(store, folder / "campaign.yaml").to_json())

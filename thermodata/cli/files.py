@@ -68,7 +68,7 @@ def init_command(session: Session, folder: Path, force: bool) -> None:
 
 def plain_name(text: str) -> str:
     """A folder's name in plain letters, in any script."""
-    from thermodata.draft.words import plain
+    from thermodata.draft.naming import plain
 
     return text if text.isascii() else plain(text)
 

@@ -24,7 +24,7 @@ def resolve(store: Store, ref: str) -> str:
     from thermodata.modelling.result import model_id
     from thermodata.modelling.run import fit, load_data
     from thermodata.schema.load import load_model
-    from thermodata.store.models import find_model
+    from thermodata.store.catalogue.models import find_model
 
     spec = load_model(Path(ref))
     if not any(e.file for e in spec.effects):  # a file's content is known to the fit only
@@ -45,8 +45,8 @@ def fit_command(session: Session, model: str) -> None:
     from thermodata.cli.progress import counting_line
     from thermodata.modelling.run import fit
     from thermodata.schema.load import load_model
-    from thermodata.store.counting import watched
-    from thermodata.store.models import find_model
+    from thermodata.store.base.counting import watched
+    from thermodata.store.catalogue.models import find_model
 
     store = session.store()
     if model.endswith((".yaml", ".yml")) or Path(model).is_file():
@@ -71,7 +71,7 @@ def compare_command(session: Session, models: tuple[str, ...]) -> None:
     """
     from thermodata.modelling.run import compare, load
     from thermodata.report.spots import weak_spots_of
-    from thermodata.store.models import load_diagnosis
+    from thermodata.store.catalogue.models import load_diagnosis
 
     store = session.store()
     results = compare(store, [resolve(store, ref) for ref in models])
@@ -102,7 +102,7 @@ def add_command(session: Session, model: str, candidate: str) -> None:
     """
     from thermodata.cli.progress import counting_line
     from thermodata.modelling.run import add
-    from thermodata.store.counting import watched
+    from thermodata.store.base.counting import watched
 
     store = session.store()
     with counting_line() as tell, watched(tell):
@@ -120,7 +120,7 @@ def add_command(session: Session, model: str, candidate: str) -> None:
 def history_command(session: Session, model: str) -> None:
     """Show the versions that led to MODEL, and their errors."""
     from thermodata.report.collect import versions
-    from thermodata.store.models import model_chain
+    from thermodata.store.catalogue.models import model_chain
 
     store = session.store()
     stored = model_chain(store, resolve(store, model))

@@ -20,7 +20,7 @@ def ingest_command(session: Session, campaign: Path) -> int:
     what depends on the edit is made anew. Exit code 3 says that a part of a file could not be read.
     """
     from thermodata.cli.progress import progress_line
-    from thermodata.store.ingest import ingest
+    from thermodata.store.ingest.run import ingest
 
     with progress_line() as line:
         summary = plain(ingest(session.store(create=True), campaign, progress=line).to_json())

@@ -138,7 +138,7 @@ def trace_command(
     """
     from thermodata.cli.tracing import trace_text
     from thermodata.schema.quantity import value_in
-    from thermodata.store.lifecycle import trace
+    from thermodata.store.trace.lineage import trace
 
     if at is not None and channel is None:
         raise UsageError("--at needs a channel", hint="thermodata trace CAMPAIGN TEST CHANNEL --at '2.5 h'")

@@ -35,7 +35,7 @@ class Made:
     run: tuple[str, ...]
 
 
-def make(name: str | None, here: Path) -> Made:
+def write_plugin(name: str | None, here: Path) -> Made:
     """Writes the plugin `name` as seen from the folder `here`.
 
     UsageError: a bad name (with the rule), a plugin or folder that exists, a pyproject.toml that can't be edited.

@@ -51,9 +51,9 @@ def plugins_command(session: Session, action: str | None, name: str | None) -> N
 
 
 def _new(session: Session, name: str | None) -> None:
-    from thermodata.cli.new_plugin import make
+    from thermodata.cli.new_plugin import write_plugin
 
-    made = make(name, Path.cwd())
+    made = write_plugin(name, Path.cwd())
 
     def text() -> str:
         files = "\n".join(f"  {made.folder / file}" for file in made.files)

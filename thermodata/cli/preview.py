@@ -56,7 +56,7 @@ def previewed(file: Path, name: str | None, timezone: str | None, rows: int, cam
 def _declared(file: Path, campaign: Path | None) -> tuple[Meant | None, Source, Reader | None]:
     from thermodata.reader.registry import reader
     from thermodata.schema.load import load_campaign
-    from thermodata.store.raw import declared
+    from thermodata.store.raw.streams import declared
 
     at = campaign or campaign_of(file)
     if at is None:

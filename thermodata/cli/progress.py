@@ -9,8 +9,8 @@ from contextlib import contextmanager
 from importlib import import_module
 from typing import Any
 
-from thermodata.store.counting import Tell
-from thermodata.store.progress import Progress, Words
+from thermodata.store.base.counting import Tell
+from thermodata.store.ingest.progress import Progress, TextProgress
 
 _FORMAT = "{percentage:3.0f} %|{bar:20}| {postfix}, {remaining} left"
 
@@ -75,7 +75,7 @@ def _columns() -> int:
 def progress_line(quiet: bool = False) -> Iterator[Progress]:
     """A line on stderr, gone at the end; nothing where stderr is no terminal, or quiet."""
     if quiet or not sys.stderr.isatty():
-        yield Words(lambda _: None)
+        yield TextProgress(lambda _: None)
         return
     bar = _bar(_FORMAT)
     try:

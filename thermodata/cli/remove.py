@@ -17,7 +17,7 @@ def forget_command(session: Session, campaign: str, test: str | None, earlier: b
 
     With all that derives from it. The source files stay untouched.
     """
-    from thermodata.store.lifecycle import forget
+    from thermodata.store.keep.lifecycle import forget
 
     gone = plain(forget(session.store(), campaign, test, earlier=earlier))
     session.answer(gone, lambda: fields(gone.items()))
@@ -28,7 +28,7 @@ def forget_command(session: Session, campaign: str, test: str | None, earlier: b
 def gc_command(session: Session, grace: str) -> None:
     """Delete files of the store that nothing refers to any more."""
     from thermodata.schema.quantity import value_in
-    from thermodata.store.lifecycle import gc
+    from thermodata.store.keep.lifecycle import gc
 
     gone = plain(gc(session.store(), grace_s=value_in(grace, "s")))
     session.answer(gone, lambda: fields(gone.items()))
@@ -42,7 +42,7 @@ def check_command(session: Session, repair: bool) -> int:
     Reads every file with its checksums. Exit code 4 says that one is gone, cut or altered.
     """
     from thermodata.cli.tracing import check_text
-    from thermodata.store.check import check_store
+    from thermodata.store.keep.check import check_store
 
     found = plain(check_store(session.store(), repair=repair).to_json())
     session.answer(found, lambda: check_text(found))

@@ -26,7 +26,7 @@ def report_command(session: Session, model: str, out: Path | None) -> None:
     Fit, residuals, weak spots, diagnosis, history. It needs no network and can be mailed.
     """
     from thermodata.report import build_report
-    from thermodata.store.models import find_model
+    from thermodata.store.catalogue.models import find_model
 
     store = session.store()
     found = find_model(store, resolve(store, model))

@@ -29,7 +29,7 @@ def simulate_command(session: Session, folder: Path, hide: str, seed: int) -> No
     TDMS, CNC and MCAP logs, campaign file, model file, and the truth.
     """
     from thermodata.cli.progress import counting_line
-    from thermodata.store.counting import watched
+    from thermodata.store.base.counting import watched
     from thermodata.virtual import simulate
 
     empty_folder(folder)

@@ -18,7 +18,7 @@ def snapshot_command(session: Session, out: Path) -> None:
 
     Samples and all; it needs nothing beside it.
     """
-    from thermodata.store.lifecycle import snapshot
+    from thermodata.store.keep.snapshot import snapshot
 
     if out.exists():
         raise UsageError("the file exists", where=str(out), hint="name another file or delete it first")

@@ -39,8 +39,8 @@ def answer(fitted: FittedModel, data: Dataset, library: Mapping[str, Effect], mo
     # the choice takes part in all open tests: gains that only a verification test excites must not be guesses
     open_spec = on_all_open(fitted.spec, usable, fitted.tests(data, "locked"))
     refitted = fit_model(open_spec, data, uncertainty=False).responses[index] if usable else response
-    found = investigate(refitted, data, usable, library, seed, as_fitted=response)
-    judgement, confirmation = found.judgement, None
+    investigation = investigate(refitted, data, usable, library, seed, as_fitted=response)
+    judgement, confirmation = investigation.judgement, None
     locked: list[TestData] = []
     if judgement.claimed is not None:
         locked = [t for t in fitted.tests(data, "locked") if response.can_predict(t)]
@@ -61,7 +61,7 @@ def answer(fitted: FittedModel, data: Dataset, library: Mapping[str, Effect], mo
                 f"locked ones the error does not fall ({confirmation.before:.2f} -> "
                 f"{confirmation.after:.2f} {response.unit})",
             )
-    return Answer(_diagnosis(found, judgement, confirmation, data, model_id), tuple(locked))
+    return Answer(_diagnosis(investigation, judgement, confirmation, data, model_id), tuple(locked))
 
 
 def _worst(fitted: FittedModel, tests: Sequence[TestData]) -> int:
@@ -79,9 +79,9 @@ def _worst(fitted: FittedModel, tests: Sequence[TestData]) -> int:
 
 
 def _diagnosis(
-    found: Investigation, judgement: Judgement, confirmation: Confirmation | None, data: Dataset, model_id: str
+    investigation: Investigation, judgement: Judgement, confirmation: Confirmation | None, data: Dataset, model_id: str
 ) -> Diagnosis:
-    problem, ranked = found.problem, found.ranked
+    problem, ranked = investigation.problem, investigation.ranked
     claimed = judgement.claimed
     order = list(ranked)
     if claimed is not None:
@@ -91,7 +91,7 @@ def _diagnosis(
     before = _rmse(best.sse_before, problem) if best else _left(problem)
     advice = next_test.to_separate(claimed, twins, data.channels) if claimed else None
     if claimed is None and judgement.verdict != "none":
-        advice = next_test.to_find(len({b.test.key for b in problem.blocks}), found.spots)
+        advice = next_test.to_find(len({b.test.key for b in problem.blocks}), investigation.spots)
     return Diagnosis(
         model=model_id,
         response=problem.response,
@@ -99,21 +99,21 @@ def _diagnosis(
         noise_um=problem.noise if np.isfinite(problem.noise) else None,
         rmse_um=before,
         explainable=None if best is None else float(np.clip(max(s.drop for s in ranked), 0.0, 1.0)),
-        weak_spots=found.spots,
+        weak_spots=investigation.spots,
         candidates=[
             _candidate(
                 i + 1,
                 s,
                 s is claimed,
-                found,
+                investigation,
                 confirmation if s is claimed else None,
                 equivalents(s, ranked) if i < 5 else [],
                 judgement,
             )
             for i, s in enumerate(order[:SHOWN])
         ],
-        artefacts=found.artefacts,
-        unknown=characterise(problem, found.spots) if judgement.verdict == "unknown" else None,
+        artefacts=investigation.artefacts,
+        unknown=characterise(problem, investigation.spots) if judgement.verdict == "unknown" else None,
         next_test=advice,
     )
 
@@ -122,12 +122,12 @@ def _candidate(
     rank: int,
     s: Scored,
     claimed: bool,
-    found: Investigation,
+    investigation: Investigation,
     confirmation: Confirmation | None,
     twins: Sequence[Scored],
     judgement: Judgement,
 ) -> Candidate:
-    problem = found.problem
+    problem = investigation.problem
     energy = float(sum(np.sum(y**2) for y in problem.response_blocks))
     return Candidate(
         rank=rank,
@@ -145,14 +145,14 @@ def _candidate(
         locked_rmse_um_after=confirmation.after if confirmation else None,
         parameters=confirmation.parameters if confirmation else {},
         equivalent=[t.candidate.id for t in twins],
-        why=_why(s, claimed, found, confirmation, judgement),
+        why=_why(s, claimed, investigation, confirmation, judgement),
     )
 
 
 def _why(
-    s: Scored, claimed: bool, found: Investigation, confirmation: Confirmation | None, judgement: Judgement
+    s: Scored, claimed: bool, investigation: Investigation, confirmation: Confirmation | None, judgement: Judgement
 ) -> str:
-    problem = found.problem
+    problem = investigation.problem
     numbers = (
         f"on left-out tests the error falls from {_rmse(s.sse_before, problem):.2f} to "
         f"{_rmse(s.sse_after, problem):.2f} {problem.unit}; it would act with {s.size:.1f} {problem.unit} RMS"
@@ -169,7 +169,7 @@ def _why(
             else ""
         )
         return f"{numbers}; chance does as well in {s.p_value:.1%} of surrogate residuals{locked}{two}"
-    failed = passes(s, found.measure)
+    failed = passes(s, investigation.measure)
     if not failed and judgement.claimed is None:
         return f"{numbers}; {judgement.reason}"
     return f"{numbers}; not claimed: " + ("; ".join(failed) if failed else "the claimed effect explains it better")

@@ -46,7 +46,7 @@ def _steps_in(block: Block, problem: Problem) -> list[Step]:
     side = max(4, int(SIDE_S / problem.step_s))
     if len(r) < 3 * side:
         return []
-    found: list[Step] = []
+    steps: list[Step] = []
     blocked = np.zeros(len(r), dtype=bool)
     for _ in range(3):
         score, size = _step_score(r, t, side)
@@ -54,10 +54,10 @@ def _steps_in(block: Block, problem: Problem) -> list[Step]:
         i = int(np.argmax(score))
         if score[i] < Z_LIMIT or abs(size[i]) < max(3 * problem.noise, 0.5):
             break
-        found.append(Step(block.test, float((t[i - 1] + t[i]) / 2), float(size[i]), float(score[i])))
+        steps.append(Step(block.test, float((t[i - 1] + t[i]) / 2), float(size[i]), float(score[i])))
         r = r - np.where(np.arange(len(r)) >= i, size[i], 0.0)
         blocked[max(0, i - side // 2) : i + side // 2] = True
-    return found
+    return steps
 
 
 def _step_score(r: Float1D, t: Float1D, side: int) -> tuple[Float1D, Float1D]:

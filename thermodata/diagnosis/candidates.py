@@ -8,7 +8,7 @@ from itertools import product
 
 import numpy as np
 
-from thermodata.diagnosis.loto import Priors
+from thermodata.diagnosis.cross_validation import Priors
 from thermodata.effect.binding import bindings, candidate_id, family_of
 from thermodata.modelling.drivers import has_drivers, make_drivers
 from thermodata.modelling.lead import columns, with_lead

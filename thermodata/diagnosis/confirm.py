@@ -9,7 +9,7 @@ import numpy as np
 
 from thermodata.diagnosis.candidates import CandidateEffect
 from thermodata.modelling.fit import fit_model
-from thermodata.modelling.fitted import FittedResponse
+from thermodata.modelling.fitted_response import FittedResponse
 from thermodata.schema.model import EffectSpec, Model
 from thermodata.schema.result import Parameter
 from thermodata.view.dataset import Dataset, TestData
@@ -72,7 +72,7 @@ def confirm(
     ours, theirs = base.responses[index], more.responses[index]
     usable = [t for t in locked if ours.can_predict(t) and theirs.can_predict(t)]
     known = set(base.parameters())
-    found = {name: p for name, p in more.parameters().items() if name not in known}
+    added = {name: p for name, p in more.parameters().items() if name not in known}
     deciding = theirs
     if second is not None:
         both = fit_model(extended(extended(spec, candidate), second), data, uncertainty=False)
@@ -82,7 +82,7 @@ def confirm(
         rmse(theirs, usable),
         rmse(ours, usable, free=True),
         rmse(deciding, usable, free=True),
-        found,
+        added,
     )
 
 

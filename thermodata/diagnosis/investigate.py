@@ -17,7 +17,7 @@ from thermodata.diagnosis.rank import rank
 from thermodata.diagnosis.scored import Scored
 from thermodata.diagnosis.weak import weak_spots
 from thermodata.modelling.drivers import names_of
-from thermodata.modelling.fitted import FittedResponse, FittedTerm
+from thermodata.modelling.fitted_response import FittedResponse, FittedTerm
 from thermodata.plugin import Effect, Float2D
 from thermodata.schema.result import Artefact, WeakSpot
 from thermodata.view.dataset import Dataset, TestData
@@ -124,17 +124,17 @@ def base_columns(fitted: FittedResponse, test: TestData) -> Float2D:
 
 def _term_columns(term: FittedTerm, test: TestData) -> list[Float2D]:
     """Each in the response's unit: a coefficient of 1 doubles the effect, or moves a time constant by a factor of e."""
-    found = term.values(test)
+    values = term.values(test)
     size = len(test.t_s)
     moving = [p for p in term.effect.params if p.upper > p.lower]
-    if found is None or not term.bound.covers(test):
+    if values is None or not term.bound.covers(test):
         return [np.zeros((size, len(term.effect.gains) + len(moving)))]
-    gains = np.array([found.gains[g.name] for g in term.effect.gains])
+    gains = np.array([values.gains[g.name] for g in term.effect.gains])
     columns = [term.columns(test) * np.where(gains == 0, 1.0, gains)]
     for param in moving:
-        value = found.params[param.name]
-        up = {**found.params, param.name: min(value * np.exp(TANGENT), param.upper)}
-        down = {**found.params, param.name: max(value * np.exp(-TANGENT), param.lower)}
+        value = values.params[param.name]
+        up = {**values.params, param.name: min(value * np.exp(TANGENT), param.upper)}
+        down = {**values.params, param.name: max(value * np.exp(-TANGENT), param.lower)}
         change = term.bound.columns(test, up) - term.bound.columns(test, down)
         width = np.log(up[param.name] / down[param.name]) if down[param.name] > 0 else 2 * TANGENT
         columns.append((change @ gains)[:, None] / max(float(width), 1e-9))
@@ -145,19 +145,19 @@ def slack_columns(fitted: FittedResponse, test: TestData) -> Float2D:
     """How a known effect may differ from its one time constant, shape (n, k), each column in the response's unit.
 
     A machine is distributed: the same heat also acts faster and slower than the fitted lag. That is no missing
-    effect, so the base model may have it, at a price (see `loto.Engine`).
+    effect, so the base model may have it, at a price (see `cross_validation.Engine`).
     """
     columns = []
     for term in fitted.terms:
-        found = term.values(test)
+        values = term.values(test)
         for param in term.effect.params:
             if param.unit not in TIME_UNITS:
                 continue
             for factor in SLACK_FACTORS:
-                if found is None or not term.bound.covers(test):
+                if values is None or not term.bound.covers(test):
                     columns.append(np.zeros(len(test.t_s)))
                     continue
-                gains = np.array([found.gains[g.name] for g in term.effect.gains])
-                other = {**found.params, param.name: found.params[param.name] * factor}
+                gains = np.array([values.gains[g.name] for g in term.effect.gains])
+                other = {**values.params, param.name: values.params[param.name] * factor}
                 columns.append((term.bound.columns(test, other) - term.columns(test)) @ gains)
     return np.column_stack(columns) if columns else np.zeros((len(test.t_s), 0))

@@ -80,12 +80,12 @@ def _of_two(
     rmse = remaining(ranked[0].sse_before, measure)
     first = [simplest(good)] if good else []
     asked = [*first, *(s for s in ranked[:TRIED] if s not in first and is_promising(s, measure))]
-    found = [(s, pair(s)) for s in asked[:PAIRS_TRIED]]
-    for scored, both in sorted(found, key=lambda item: item[1].left):
+    pairs = [(s, pair(s)) for s in asked[:PAIRS_TRIED]]
+    for scored, both in sorted(pairs, key=lambda item: item[1].left):
         if both.second is not None and enough_together(both.left, rmse, measure):
             return Judgement("effect", scored, "", both.second)
-    if found:
-        scored, both = found[0]
+    if pairs:
+        scored, both = pairs[0]
         why = (
             f"{scored.candidate.id} goes with what is missing, but {both.left:.2g} of {rmse:.2g} {problem.unit} remain "
             "even with a second effect: it stands in for something that was not logged"

@@ -28,7 +28,7 @@ def clock_offsets(problem: Problem, base: Callable[[TestData], Float2D], sources
     base(test): the model's columns, shape (n, k). sources: channel -> source, of the model's drivers. The smallest
     error must lie at a shift, not at zero and not at the end of the range, where something slower is at work.
     """
-    found = []
+    artefacts = []
     now = _error(problem, base, {})
     for source in sorted(set(sources.values())):
         names = {c for c, s in sources.items() if s == source}
@@ -36,7 +36,7 @@ def clock_offsets(problem: Problem, base: Callable[[TestData], Float2D], sources
         best = min(errors, key=lambda d: errors[d])
         if errors[best] < (1 - CLOCK_DROP) * now and abs(best) < max(SHIFTS_S):
             rms = [float(np.sqrt(e / max(problem.rows, 1))) for e in (now, errors[best])]
-            found.append(
+            artefacts.append(
                 Artefact(
                     kind="clock_offset",
                     campaign=problem.blocks[0].test.campaign,
@@ -48,7 +48,7 @@ def clock_offsets(problem: Problem, base: Callable[[TestData], Float2D], sources
                     "clocks, or declare clock: {offset: ...}",
                 )
             )
-    return found
+    return artefacts
 
 
 def _error(problem: Problem, base: Callable[[TestData], Float2D], shift_s: Mapping[str, float]) -> float:
@@ -82,7 +82,7 @@ def turned_probes(problem: Problem) -> list[Artefact]:
     gram = np.stack([b.base.T @ b.base for b in blocks])
     cross = np.stack([b.base.T @ b.response for b in blocks])
     energy = float(sum(np.sum(b.response**2) for b in blocks))
-    found = []
+    artefacts = []
     as_it_is = energy - _explained(gram.sum(axis=0), cross.sum(axis=0))
     for i, block in enumerate(blocks):
         turned = energy - _explained(gram.sum(axis=0), cross.sum(axis=0) - 2 * cross[i])
@@ -90,7 +90,7 @@ def turned_probes(problem: Problem) -> list[Artefact]:
         theta = np.linalg.lstsq(gram[others].sum(axis=0), cross[others].sum(axis=0), rcond=1e-9)[0]
         factor, before, after = _factor(block.response, block.base @ theta)
         if turned < (1 - SIGN_DROP) * as_it_is:
-            found.append(
+            artefacts.append(
                 _fault(
                     "sign",
                     block,
@@ -105,7 +105,7 @@ def turned_probes(problem: Problem) -> list[Artefact]:
             and after < (1 - GAIN_DROP) * before
             and (np.sqrt(before / len(block.response)) > 5 * problem.noise)
         ):
-            found.append(
+            artefacts.append(
                 _fault(
                     "gain",
                     block,
@@ -114,7 +114,7 @@ def turned_probes(problem: Problem) -> list[Artefact]:
                     "predict: check the probe's gain in this test, or whether the machine was another",
                 )
             )
-    return found
+    return artefacts
 
 
 def _explained(gram: Float2D, cross: Float1D) -> float:
@@ -162,8 +162,8 @@ def wrong_parameters(problem: Problem, now: float, refitted: float, floor: float
     ]
 
 
-def first_of_each(found: Sequence[Artefact]) -> list[Artefact]:
+def first_of_each(artefacts: Sequence[Artefact]) -> list[Artefact]:
     """A test that was cut into parts says a fault once, and one that is turned has no steps to speak of."""
-    turned = {(a.campaign, a.test) for a in found if a.kind == "sign"}
-    found = [a for a in found if a.kind != "step" or (a.campaign, a.test) not in turned]
-    return list({(a.kind, a.campaign, a.test, a.at_s): a for a in reversed(found)}.values())[::-1]
+    turned = {(a.campaign, a.test) for a in artefacts if a.kind == "sign"}
+    artefacts = [a for a in artefacts if a.kind != "step" or (a.campaign, a.test) not in turned]
+    return list({(a.kind, a.campaign, a.test, a.at_s): a for a in reversed(artefacts)}.values())[::-1]

@@ -12,12 +12,12 @@ import numpy as np
 from threadpoolctl import threadpool_limits
 
 from thermodata.diagnosis.candidates import CandidateEffect, Led, grid
-from thermodata.diagnosis.loto import Drop, Engine, Priors
+from thermodata.diagnosis.cross_validation import Drop, Engine, Priors
 from thermodata.diagnosis.problem import Problem
 from thermodata.diagnosis.scored import Scored
 from thermodata.diagnosis.whiten import fit_ar, surrogates, whiten
 from thermodata.plugin import Float1D, Float2D
-from thermodata.store.counting import counted
+from thermodata.store.base.counting import counted
 
 SURROGATES = 199
 # autocorrelated residuals are worth far fewer samples than they have; the prior of a gain is scaled so

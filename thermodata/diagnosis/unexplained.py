@@ -55,11 +55,11 @@ def _hours(problem: Problem) -> list[float]:
     if len(days) < 3:
         return []
     rms = float(np.sqrt(np.mean(np.concatenate([r for _, r in days]) ** 2)))
-    found = []
+    hours = []
     for h in range(24):
         means = [
             float(r[(hour >= h) & (hour < h + 1)].mean()) for hour, r in days if ((hour >= h) & (hour < h + 1)).any()
         ]
         if len(means) >= 3 and abs(np.mean(means)) > rms and abs(np.sum(np.sign(means))) >= 0.8 * len(means):
-            found.append(float(h))
-    return found
+            hours.append(float(h))
+    return hours

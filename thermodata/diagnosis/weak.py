@@ -65,7 +65,7 @@ def _windows(test: TestData, residual: Float1D, mask: Bool1D, floor: float) -> l
     begin, end = int(counted[0]), int(counted[-1]) + 1
     step = float(test.t_s[1] - test.t_s[0])
     width = max(2, round(min(WINDOW_S, (end - begin) * step / WINDOWS_A_TEST) / step))
-    found: list[_Window] = []
+    windows: list[_Window] = []
     for start in range(begin, end, width):
         stop = min(start + width, end)
         m = mask[start:stop]
@@ -73,12 +73,12 @@ def _windows(test: TestData, residual: Float1D, mask: Bool1D, floor: float) -> l
         sse = float(np.sum(residual[start:stop][m] ** 2))
         if n == 0 or np.sqrt(sse / n) < floor:
             continue
-        if found and found[-1].stop == start:
-            last = found.pop()
-            found.append(_Window(test, last.start, stop, last.sse + sse, last.n + n))
+        if windows and windows[-1].stop == start:
+            last = windows.pop()
+            windows.append(_Window(test, last.start, stop, last.sse + sse, last.n + n))
         else:
-            found.append(_Window(test, start, stop, sse, n))
-    return found
+            windows.append(_Window(test, start, stop, sse, n))
+    return windows
 
 
 def describe_state(test: TestData, start: int, stop: int) -> str:

@@ -12,9 +12,9 @@ import numpy as np
 
 from thermodata.calibration.plateaus import Step, find_steps
 from thermodata.draft.guess import guess
+from thermodata.draft.naming import words
 from thermodata.draft.scan import Course, RawFile
 from thermodata.draft.vocabulary import says
-from thermodata.draft.words import words
 from thermodata.plugin import Float1D
 
 NAMED = (

@@ -9,10 +9,10 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from thermodata.draft.guess import guess
+from thermodata.draft.naming import words
 from thermodata.draft.place import axis_of
 from thermodata.draft.scan import RawFile
 from thermodata.draft.vocabulary import says
-from thermodata.draft.words import words
 from thermodata.plugin import Float1D
 
 _KINDS: tuple[tuple[str, str], ...] = (

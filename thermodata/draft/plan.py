@@ -12,13 +12,13 @@ from thermodata.draft.group import files_of, tests_of
 from thermodata.draft.guess import guess
 from thermodata.draft.jumps import JumpTest, jump_of
 from thermodata.draft.kinds import Kind, kind_of
+from thermodata.draft.naming import channel_name, words
 from thermodata.draft.place import axis_of
 from thermodata.draft.quantity import Guess
 from thermodata.draft.scan import RawFile, Scan
 from thermodata.draft.sources import Group, sources_of
-from thermodata.draft.table import TestTable, find_table, is_called_table
+from thermodata.draft.table import TestTable, closed_workbooks, find_table, is_called_table
 from thermodata.draft.values import joined
-from thermodata.draft.words import channel_name, words
 from thermodata.plugin import Signal
 from thermodata.reader.text import split_unit
 from thermodata.schema.quantity import CANONICAL_UNIT, normal_unit
@@ -126,6 +126,7 @@ def plan(campaign: str, folder: Path, found: Scan) -> Draft:
     )
     ids = list(dict.fromkeys(t for g in groups for t in g.tests))
     table = find_table(folder, found.others, ids)
+    notes += closed_workbooks(found.others)
     tests = tuple(_test(t, groups, table) for t in ids)
     left_out = tuple(x for x in found.ignored if table is None or x[0] != table.file)
     like = [f for f in found.logs if f.like]

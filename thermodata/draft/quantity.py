@@ -155,9 +155,9 @@ def _by_name(named: tuple[str, ...], own: str, values: Values | None, dtype: str
     if len(named) > 1 and "rotational_speed" in named and "feed" in named:
         named = tuple(q for q in named if q != "rotational_speed")
     if len(named) > 1 and "displacement" in named and "position" in named:
-        return Guess(None, why_not=f"quantity: displacement or position? ({seen(values)})")
+        return Guess(None, why_not=f"quantity: displacement or position? ({range_text(values)})")
     if len(named) > 1:
-        return Guess(None, why_not=f"quantity: {' or '.join(named)}? ({seen(values)})")
+        return Guess(None, why_not=f"quantity: {' or '.join(named)}? ({range_text(values)})")
     if named:
         return Guess(named[0], basis=("name",), sure=False)
     if (
@@ -177,10 +177,11 @@ def _by_name(named: tuple[str, ...], own: str, values: Values | None, dtype: str
         )
     if "door" in places_in(own) and (values is None or values.distinct <= 2):
         return Guess("state", basis=("name",))
-    return Guess(None, why_not=f"quantity and unit? ({seen(values)})")
+    return Guess(None, why_not=f"quantity and unit? ({range_text(values)})")
 
 
-def seen(values: Values | None) -> str:
+def range_text(values: Values | None) -> str:
+    """Between which values a signal lies, in words."""
     if values is None:
         return "no values seen"
     return f"always {values.span()}" if values.constant else f"values {values.span()}"

@@ -7,8 +7,8 @@ from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
+from thermodata.draft.naming import plain, words
 from thermodata.draft.scan import RawFile
-from thermodata.draft.words import plain, words
 from thermodata.plugin import Signal
 from thermodata.reader.text import split_unit
 
@@ -91,35 +91,35 @@ def _twin(file: RawFile, cluster: Sequence[RawFile]) -> bool:
 def _loggers(cluster: list[RawFile], jumps: Sequence[RawFile]) -> list[list[RawFile]]:
     """A cluster apart by a word of the names where two loggers of the same make ran at once (daq1_x, daq2_x)."""
     logs = [f for f in cluster if f not in jumps]
-    pieces = {f.path: re.split(r"[_\-. /]+", str(f.path.with_suffix(""))) for f in logs}
-    if len(logs) < 4 or len({len(p) for p in pieces.values()}) != 1 or any(f.start_ns is None for f in logs):
+    name_parts = {f.path: re.split(r"[_\-. /]+", str(f.path.with_suffix(""))) for f in logs}
+    if len(logs) < 4 or len({len(p) for p in name_parts.values()}) != 1 or any(f.start_ns is None for f in logs):
         return [cluster]
-    for place in range(len(pieces[logs[0].path])):
-        values = Counter(pieces[f.path][place] for f in logs)
-        rest = Counter(_but(pieces[f.path], place) for f in logs)
+    for place in range(len(name_parts[logs[0].path])):
+        values = Counter(name_parts[f.path][place] for f in logs)
+        rest = Counter(_but(name_parts[f.path], place) for f in logs)
         if 2 <= len(values) <= 4 and set(rest.values()) == {len(values)} and len(set(values.values())) == 1:
             together = all(
                 max(s) - min(s) < 10_000_000_000
-                for s in ([f.start_ns or 0 for f in logs if _but(pieces[f.path], place) == key] for key in rest)
+                for s in ([f.start_ns or 0 for f in logs if _but(name_parts[f.path], place) == key] for key in rest)
             )
             if together:
-                found = [[f for f in logs if pieces[f.path][place] == value] for value in sorted(values)]
+                found = [[f for f in logs if name_parts[f.path][place] == value] for value in sorted(values)]
                 found[0] += [f for f in cluster if f in jumps]
                 return found
     return [cluster]
 
 
-def _but(pieces: Sequence[str], place: int) -> tuple[str, ...]:
-    return tuple(x for i, x in enumerate(pieces) if i != place)
+def _but(parts: Sequence[str], place: int) -> tuple[str, ...]:
+    return tuple(x for i, x in enumerate(parts) if i != place)
 
 
 def _name(cluster: Sequence[RawFile], clusters: Sequence[Sequence[RawFile]], taken: set[str]) -> str:
-    def pieces(file: RawFile) -> set[str]:
+    def name_words(file: RawFile) -> set[str]:
         said = words(str(file.path.with_suffix("")).replace("/", " ")).split()
         return {p for p in said if p.isalpha() and len(p) > 1}
 
-    everywhere = set.intersection(*(pieces(f) for f in cluster))
-    elsewhere = set().union(*(pieces(f) for c in clusters if c is not cluster for f in c))
+    everywhere = set.intersection(*(name_words(f) for f in cluster))
+    elsewhere = set().union(*(name_words(f) for c in clusters if c is not cluster for f in c))
     own = sorted(everywhere - elsewhere - {"raw", "data", "log", "test"}, key=lambda p: (len(p), p))
     alone = len(cluster) == 1 or len(clusters) == 1
     base = _NAMES.get(cluster[0].reader, cluster[0].reader)

@@ -10,13 +10,15 @@ from pathlib import Path
 from typing import Any
 
 from thermodata.draft.filenames import normal
+from thermodata.draft.naming import plain, words
 from thermodata.draft.vocabulary import says
-from thermodata.draft.words import plain, words
 from thermodata.errors import ThermodataError
 from thermodata.reader.text import decode, split_unit
 
 _LARGEST = 4_000_000
-_SUFFIXES = (".csv", ".txt", ".tsv", ".xlsx", ".xlsm")
+_WORKBOOKS = (".xlsx", ".xlsm")
+_SUFFIXES = (".csv", ".txt", ".tsv", *_WORKBOOKS)
+INSTALL = "pip install 'thermodata[workbook]'"
 _NAMED = (
     "test tests versuch zkousk mereni plan protocol protokoll matrix 试验 测试 实验 runs uebersicht ubersicht overview"
 )
@@ -64,9 +66,29 @@ def is_called_table(path: str) -> bool:
     return Path(path).suffix.lower() in _SUFFIXES and says(_NAMED, words(Path(path).stem))
 
 
+def closed_workbooks(paths: Sequence[str]) -> list[str]:
+    """A note on each workbook that is called a table of tests, where nothing is installed that opens it."""
+    called = [p for p in paths if Path(p).suffix.lower() in _WORKBOOKS and is_called_table(p)]
+    if not called or _opens_workbooks():
+        return []
+    return [
+        f"{p} was not opened, though its name says that it is a table of tests: workbooks need python-calamine, "
+        f"which is not installed; try: {INSTALL}"
+        for p in called
+    ]
+
+
+def _opens_workbooks() -> bool:
+    try:
+        import python_calamine  # noqa: F401
+    except ImportError:
+        return False
+    return True
+
+
 def _grids(path: Path) -> Iterator[list[list[str]]]:
     """The rows of a table as text; of a workbook, of each sheet."""
-    if path.suffix.lower() in (".xlsx", ".xlsm"):
+    if path.suffix.lower() in _WORKBOOKS:
         try:
             from python_calamine import load_workbook
 

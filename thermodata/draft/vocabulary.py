@@ -1,6 +1,6 @@
 """What labs write, by what it means: English, German, Czech and Chinese, with the abbreviations of the trade.
 
-Case, diacritics and humps are gone before matching (draft/words.py). A word is looked for anywhere in the name
+Case, diacritics and humps are gone before matching (draft/naming.py). A word is looked for anywhere in the name
 ('lager' finds 'Spindellager'); 'nut.' is a whole word only, '^hall' the beginning of one. Signs of Chinese are
 looked for anywhere. Words that would catch others by chance are therefore written with the dot.
 """

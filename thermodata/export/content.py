@@ -11,7 +11,7 @@ import numpy as np
 
 from thermodata.errors import UsageError, unknown_name
 from thermodata.plugin import Array, Float1D
-from thermodata.store.connection import literal, quoted
+from thermodata.store.base.connection import literal, quoted
 
 if TYPE_CHECKING:
     from thermodata.view import StoreView

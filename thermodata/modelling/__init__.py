@@ -6,7 +6,8 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from thermodata.modelling.fit import fit_model
-    from thermodata.modelling.fitted import FittedModel, FittedResponse, FittedTerm
+    from thermodata.modelling.fitted import FittedModel
+    from thermodata.modelling.fitted_response import FittedResponse, FittedTerm
 
 __all__ = ["FittedModel", "FittedResponse", "FittedTerm", "fit_model"]
 
@@ -16,8 +17,12 @@ def __getattr__(name: str) -> Any:
         from thermodata.modelling.fit import fit_model
 
         return fit_model
-    if name in __all__:
-        from thermodata.modelling import fitted
+    if name == "FittedModel":
+        from thermodata.modelling.fitted import FittedModel
 
-        return getattr(fitted, name)
+        return FittedModel
+    if name in __all__:
+        from thermodata.modelling import fitted_response
+
+        return getattr(fitted_response, name)
     raise AttributeError(name)

@@ -11,7 +11,7 @@ import numpy as np
 from thermodata.errors import SpecError, UsageError
 from thermodata.modelling.bound import BoundResponse, BoundTerm
 from thermodata.modelling.drivers import step_s
-from thermodata.modelling.fitted import FittedTerm, fit_mask
+from thermodata.modelling.fitted_response import FittedTerm, fit_mask
 from thermodata.modelling.transfer import FreeFunction, GivenFunction
 from thermodata.plugin import Effect
 from thermodata.view.dataset import TestData
@@ -61,9 +61,11 @@ def identify_arx(
             got=str(len(y)),
             hint="method: oe",
         )
-    found = np.linalg.lstsq(x, y, rcond=None)[0]
+    coefficients = np.linalg.lstsq(x, y, rcond=None)[0]
     try:
-        function = GivenFunction(found[nb : nb + na], [1.0, *-found[:nb]], step_s(tests[0]), where=term.id)
+        function = GivenFunction(
+            coefficients[nb : nb + na], [1.0, *-coefficients[:nb]], step_s(tests[0]), where=term.id
+        )
     except SpecError as error:
         raise UsageError(
             "the ARX function is not stable",
@@ -72,5 +74,5 @@ def identify_arx(
             hint="method: oe, other orders, or a longer step",
         ) from None
     spec = term.spec.model_copy(update={"fixed": {"gain": 1.0}})
-    made = replace(term, effect=cast(Effect, function), spec=spec, _drivers={})
-    return replace(bound, terms=tuple(made if k == i else t for k, t in enumerate(bound.terms)))
+    identified = replace(term, effect=cast(Effect, function), spec=spec, _drivers={})
+    return replace(bound, terms=tuple(identified if k == i else t for k, t in enumerate(bound.terms)))

@@ -59,8 +59,8 @@ class BoundTerm:
         if kept is None or kept[0] is not test:
             if len(self._drivers) >= KEPT_TESTS:
                 self._drivers.clear()
-            made = make_drivers(test, self.effect, self._binding_of(test))
-            kept = self._drivers[id(test)] = (test, made, with_lead(made))
+            drivers = make_drivers(test, self.effect, self._binding_of(test))
+            kept = self._drivers[id(test)] = (test, drivers, with_lead(drivers))
         return kept
 
     def columns(self, test: TestData, params: Mapping[str, float]) -> Float2D:

@@ -13,17 +13,17 @@ from thermodata.schema.model import EffectSpec, Model
 def candidate_spec(candidate: str, channels: Mapping[str, Described]) -> EffectSpec:
     """Channels stand in the order of the effect's roles. UsageError where effect or channels are unknown or unfit."""
     name, _, rest = candidate.partition(":")
-    found = find_effect(name)
+    effect = find_effect(name)
     given = [c.strip() for c in rest.split(",") if c.strip()]
     for channel in given:
         if channel not in channels:
             raise unknown_name("channel", channel, list(channels), where=f"candidate '{candidate}'")
-    choices = bindings(found, channels)
+    choices = bindings(effect, channels)
     fitting = [c for c in choices if list(c.values()) == given or not given]
     if len(fitting) == 1:
         return EffectSpec(effect=name, drivers=dict(fitting[0]))
-    if len(given) == len(found.needs):  # a channel without a place, named on purpose
-        return EffectSpec(effect=name, drivers={n.role: c for n, c in zip(found.needs, given, strict=True)})
+    if len(given) == len(effect.needs):  # a channel without a place, named on purpose
+        return EffectSpec(effect=name, drivers={n.role: c for n, c in zip(effect.needs, given, strict=True)})
     raise UsageError(
         f"candidate '{candidate}' fits {len(fitting) or 'no'} sets of channels",
         expected=", ".join(f"{name}:{','.join(c.values())}" for c in choices) or "an effect that fits",

@@ -12,7 +12,7 @@ from itertools import pairwise
 import numpy as np
 
 from thermodata.modelling.bound import BoundResponse, BoundTerm
-from thermodata.modelling.fitted import fit_mask
+from thermodata.modelling.fitted_response import fit_mask
 from thermodata.plugin import Bool1D, Float1D, Float2D, Param
 from thermodata.view.dataset import TestData
 

@@ -82,8 +82,8 @@ def evaluate(test: TestData, text: str) -> tuple[Float1D, Bool1D, bool]:
         from thermodata.calibration.expression import parse
 
         tree = parse(text)
-        found = tree.evaluate({name: test.values[name] for name in names}, {name: _unit(test, name) for name in names})
-        raw = np.asarray(found, dtype=np.float64)
+        values = tree.evaluate({name: test.values[name] for name in names}, {name: _unit(test, name) for name in names})
+        raw = np.asarray(values, dtype=np.float64)
         relative = relative and not tree.logical  # a condition is a state: zero is off
     return np.where(good, raw, np.nan), good & np.isfinite(raw), relative
 

@@ -11,17 +11,18 @@ import numpy as np
 from thermodata.errors import UsageError
 from thermodata.modelling.arx import identify_arx, placeholder
 from thermodata.modelling.bound import BoundResponse, BoundTerm
+from thermodata.modelling.checks import checks
 from thermodata.modelling.design import GRID, MOMENTS, Design, Nonlinear
-from thermodata.modelling.fitted import FittedModel, FittedResponse, FittedTerm, Values, has_response
+from thermodata.modelling.fitted import FittedModel
+from thermodata.modelling.fitted_response import FittedResponse, FittedTerm, Values, has_response
 from thermodata.modelling.orders import choose_orders, open_orders
-from thermodata.modelling.quality import checks
 from thermodata.modelling.resolve import resolve
 from thermodata.modelling.roles import Key
 from thermodata.modelling.search import Problem, search
 from thermodata.modelling.uncertainty import deviations
 from thermodata.plugin import Param
 from thermodata.schema.model import Model
-from thermodata.store.counting import counted
+from thermodata.store.base.counting import counted
 from thermodata.view.dataset import Dataset, TestData
 
 
@@ -103,11 +104,11 @@ def _usable(bound: BoundResponse, tests: Sequence[TestData]) -> tuple[list[TestD
 
 def _stages(terms: Sequence[BoundTerm]) -> list[tuple[frozenset[Key], list[int]]]:
     """Effects that share their own tests are identified together, in the order of the file."""
-    found: dict[frozenset[Key], list[int]] = {}
+    stages: dict[frozenset[Key], list[int]] = {}
     for i, term in enumerate(terms):
         if term.calibrate is not None:
-            found.setdefault(term.calibrate, []).append(i)
-    return list(found.items())
+            stages.setdefault(term.calibrate, []).append(i)
+    return list(stages.items())
 
 
 def _fit(
@@ -132,15 +133,15 @@ def _fit(
     x = search(problem)
     gains = problem.gains(problem.matrix(x))
     sds, logs = deviations(problem, x, gains) if uncertainty else ([{} for _ in design.slots], frozenset[str]())
-    found: dict[int, dict[str, Values]] = {i: {} for i in members}
+    by_member: dict[int, dict[str, Values]] = {i: {} for i in members}
     for s, (slot, params) in enumerate(zip(design.slots, problem.params(x), strict=True)):
-        if order[slot.term] in found:
+        if order[slot.term] in by_member:
             names = [g.name for g in bound.terms[order[slot.term]].effect.gains]
             values = gains[problem.starts[s] : problem.starts[s + 1]]
-            found[order[slot.term]][slot.group] = Values(
+            by_member[order[slot.term]][slot.group] = Values(
                 params, dict(zip(names, map(float, values), strict=True)), sds[s], logs, problem.silent[s]
             )
-    return {i: FittedTerm(bound.terms[i], groups or {"": _at_start(bound.terms[i])}) for i, groups in found.items()}
+    return {i: FittedTerm(bound.terms[i], groups or {"": _at_start(bound.terms[i])}) for i, groups in by_member.items()}
 
 
 def _at_start(term: BoundTerm) -> Values:

@@ -11,7 +11,7 @@ import numpy as np
 
 from thermodata.errors import UsageError
 from thermodata.modelling.bound import BoundResponse, BoundTerm
-from thermodata.modelling.fitted import FittedResponse
+from thermodata.modelling.fitted_response import FittedResponse
 from thermodata.modelling.score import fit_percent
 from thermodata.modelling.transfer import MOST, NAME, FreeFunction
 from thermodata.plugin import Effect
@@ -78,8 +78,8 @@ def free_run_fit(response: FittedResponse, tests: Sequence[TestData]) -> float:
             residual.append(r - r.mean())
     if not measured:
         return -np.inf
-    found = fit_percent(np.concatenate(measured), np.concatenate(residual))
-    return -np.inf if found is None else found
+    fit = fit_percent(np.concatenate(measured), np.concatenate(residual))
+    return -np.inf if fit is None else fit
 
 
 def _pairs() -> Iterator[tuple[int, int]]:

@@ -3,29 +3,28 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+from collections.abc import Sequence
 
+from thermodata.calibration.expression import parse
+from thermodata.modelling.fitted_response import FittedResponse, FittedTerm, Values
 from thermodata.schema.result import Parameter
-
-if TYPE_CHECKING:
-    from thermodata.modelling.fitted import FittedModel, FittedResponse, FittedTerm, Values
 
 Z95 = 1.96
 
 
-def parameters(model: FittedModel) -> dict[str, Parameter]:
+def parameters(responses: Sequence[FittedResponse]) -> dict[str, Parameter]:
     """See FittedModel.parameters."""
-    found: dict[str, Parameter] = {}
-    for response in model.responses:
-        prefix = f"{response.name}/" if len(model.responses) > 1 else ""
+    by_name: dict[str, Parameter] = {}
+    for response in responses:
+        prefix = f"{response.name}/" if len(responses) > 1 else ""
         for term in response.terms:
-            found |= {prefix + name: p for name, p in term_parameters(response, term).items()}
-    return found
+            by_name |= {prefix + name: p for name, p in term_parameters(response, term).items()}
+    return by_name
 
 
 def term_parameters(response: FittedResponse, term: FittedTerm) -> dict[str, Parameter]:
     """'effect.parameter' of one term; parameters that groups share appear once."""
-    found: dict[str, Parameter] = {}
+    by_name: dict[str, Parameter] = {}
     for group, values in term.groups.items():
         tag = f"[{group}]" if term.bound.spec.gain_by else ""
         own = {
@@ -37,11 +36,11 @@ def term_parameters(response: FittedResponse, term: FittedTerm) -> dict[str, Par
             if param.name in values.silent:
                 continue
             name = f"{term.id}.{param.name}{tag if param.name in own else ''}"
-            found.setdefault(name, _parameter(values.params[param.name], param.unit, param.name, values))
+            by_name.setdefault(name, _parameter(values.params[param.name], param.unit, param.name, values))
         for gain in term.effect.gains:
             unit = gain_unit(response, term, gain.unit)
-            found[f"{term.id}.{gain.name}{tag}"] = _parameter(values.gains[gain.name], unit, gain.name, values)
-    return found
+            by_name[f"{term.id}.{gain.name}{tag}"] = _parameter(values.gains[gain.name], unit, gain.name, values)
+    return by_name
 
 
 def gain_unit(response: FittedResponse, term: FittedTerm, unit: str) -> str:
@@ -60,8 +59,6 @@ def driver_unit(response: FittedResponse, term: FittedTerm) -> str:
     if text.isidentifier():
         unit: str | None = units.get(text)
     else:
-        from thermodata.calibration.expression import parse
-
         unit = parse(text).unit({name: units.get(name, "1") for name in parse(text).names})
     return "K" if unit == "degC" else unit or "1"
 

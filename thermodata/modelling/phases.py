@@ -35,8 +35,8 @@ def phases(test: TestData, response: str) -> dict[str, Bool1D]:
     begun = np.zeros(n, bool)
     first = int(np.argmax(active))
     begun[first:] = True
-    found = {"heating": heating, "steady": steady, "cooling": begun & ~active}
-    return {name: mask & test.in_window for name, mask in found.items() if (mask & test.in_window).any()}
+    masks = {"heating": heating, "steady": steady, "cooling": begun & ~active}
+    return {name: mask & test.in_window for name, mask in masks.items() if (mask & test.in_window).any()}
 
 
 def activity(test: TestData) -> Bool1D | None:

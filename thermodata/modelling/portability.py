@@ -8,7 +8,8 @@ from typing import Literal
 
 import numpy as np
 
-from thermodata.modelling.fitted import FittedModel, FittedResponse
+from thermodata.modelling.fitted import FittedModel
+from thermodata.modelling.fitted_response import FittedResponse
 from thermodata.modelling.phases import phases
 from thermodata.modelling.score import fit_percent, peak_sum
 from thermodata.plugin import Bool1D, Float1D
@@ -43,13 +44,13 @@ class Portability:
 
 def portability(fitted: FittedModel, data: Dataset, *, locked: bool = False) -> list[Portability]:
     """A row a test and response, over all tests that the model can predict, of whatever role (locked only if asked)."""
-    found = []
+    rows = []
     for test in data.tests:
         role = fitted.roles.role(test.key)
         if role == "locked" and not locked:
             continue
-        found += [_carry(r, test, role) for r in fitted.responses if r.can_predict(test) and r.mask(test).any()]
-    return found
+        rows += [_carry(r, test, role) for r in fitted.responses if r.can_predict(test) and r.mask(test).any()]
+    return rows
 
 
 def classify(
@@ -100,8 +101,8 @@ def _carry(response: FittedResponse, test: TestData, role: str) -> Portability:
 
 
 def _end_of_heating(response: FittedResponse, test: TestData, mask: Bool1D, y: Float1D, p: Float1D) -> float | None:
-    found = phases(test, response.bound.channel_of(test))
-    warm = [found[name] for name in ("heating", "steady") if name in found]
+    masks = phases(test, response.bound.channel_of(test))
+    warm = [masks[name] for name in ("heating", "steady") if name in masks]
     if not warm:
         return None
     last = np.flatnonzero(np.logical_or.reduce(warm) & mask)

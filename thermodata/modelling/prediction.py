@@ -81,8 +81,8 @@ def read_prediction(path: Path) -> Prediction:
                 table[1].append(y)
     except (OSError, UnicodeDecodeError) as error:
         raise SpecError("the prediction file cannot be read", where=str(path), got=str(error)) from None
-    made: dict[str, tuple[Float1D, Float1D]] = {}
+    series: dict[str, tuple[Float1D, Float1D]] = {}
     for test, (times, values) in tables.items():
         order = np.argsort(np.asarray(times), kind="stable")
-        made[test] = (np.asarray(times)[order], np.asarray(values)[order])
-    return Prediction(made)
+        series[test] = (np.asarray(times)[order], np.asarray(values)[order])
+    return Prediction(series)

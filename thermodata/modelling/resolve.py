@@ -82,9 +82,9 @@ def bind_terms(
     terms = []
     for name, given in zip(ids, effects, strict=True):
         spec = as_it_was_made(given)
-        made = make_effect(spec, name, base)
-        found = {
-            c: bind(made, spec.drivers, channels, f"effect '{name}', campaign {c}")
+        effect = make_effect(spec, name, base)
+        bound_by = {
+            c: bind(effect, spec.drivers, channels, f"effect '{name}', campaign {c}")
             for c, channels in by_campaign.items()
         }
         first = next(iter(by_campaign))
@@ -94,12 +94,12 @@ def bind_terms(
             if spec.calibrate_on is None
             else frozenset(find_tests(spec.calibrate_on, data, f"effect '{name}': calibrate_on"))
         )
-        known = [p.name for p in made.params] + [g.name for g in made.gains]
+        known = [p.name for p in effect.params] + [g.name for g in effect.gains]
         for key in [*spec.fixed, *spec.start, *spec.bounds, *spec.shared]:
             if key not in known and not (spec.effect == transfer.NAME and transfer.is_coefficient(key)):
                 raise unknown_name("parameter", key, known, where=f"effect '{name}'")
-        family = family_of(made, found[first], by_campaign[first])
-        terms.append(BoundTerm(name, made, spec, found, family, only, calibrate))
+        family = family_of(effect, bound_by[first], by_campaign[first])
+        terms.append(BoundTerm(name, effect, spec, bound_by, family, only, calibrate))
     return tuple(terms)
 
 
@@ -148,16 +148,16 @@ def bind(
 ) -> dict[str, str]:
     """role -> channel or expression. What is not given is found by place; several fits are an error."""
     needs = {n.role: n for n in effect.needs}
-    found: dict[str, str] = {}
+    binding: dict[str, str] = {}
     for role, driver in given.items():
         if role not in needs:
             raise unknown_name("driver role", role, list(needs), where=where)
-        found[role] = _driver(driver, needs[role].quantity, channels, where)
-    rest = tuple(n for n in effect.needs if n.role not in found)
-    if not rest or (found and all(n.optional for n in effect.needs)):
-        return found
-    if found and all(n.optional for n in rest):
-        return found
+        binding[role] = _driver(driver, needs[role].quantity, channels, where)
+    rest = tuple(n for n in effect.needs if n.role not in binding)
+    if not rest or (binding and all(n.optional for n in effect.needs)):
+        return binding
+    if binding and all(n.optional for n in rest):
+        return binding
     choices = bindings(cast(Effect, SimpleNamespace(needs=rest)), channels)
     if not choices:
         raise SpecError(
@@ -174,7 +174,7 @@ def bind(
             got="; ".join(", ".join(f"{r}: {c}" for r, c in choice.items()) for choice in choices[:20]),
             hint=f"name one: drivers: {{{', '.join(f'{r}: {c}' for r, c in choices[0].items())}}}",
         )
-    return {**found, **choices[0]}
+    return {**binding, **choices[0]}
 
 
 def _driver(driver: Driver, quantity: str, channels: Mapping[str, ChannelInfo], where: str) -> str:
@@ -202,13 +202,13 @@ def _driver(driver: Driver, quantity: str, channels: Mapping[str, ChannelInfo], 
 
 
 def _channels(data: Dataset, campaign: str) -> dict[str, ChannelInfo]:
-    found: dict[str, ChannelInfo] = {}
+    shared: dict[str, ChannelInfo] = {}
     for test in data.tests:
         if test.campaign == campaign:
             infos: Mapping[str, Any] = test.channels or data.channels
             for name, info in infos.items():
                 if name in test.values:
-                    found.setdefault(name, info)
-    if not found:
+                    shared.setdefault(name, info)
+    if not shared:
         raise UsageError(f"campaign '{campaign}' has no channels with data")
-    return found
+    return shared

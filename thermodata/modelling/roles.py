@@ -47,23 +47,23 @@ def resolve_roles(spec: Model, data: Dataset) -> Roles:
     def default(role: str) -> tuple[Key, ...]:
         return tuple(t.key for t in data.tests if t.role == role and t.key not in taken)
 
-    found = [
+    named = [
         default(role) if explicit[name] is None else explicit[name] or ()
         for name, role in (("calibrate_on", "calibration"), ("verify_on", "verification"), ("locked", "locked"))
     ]
-    if not found[0]:
+    if not named[0]:
         raise SpecError(
             "no test to calibrate on",
             where=f"model '{spec.name}'",
             expected="calibrate_on: [...], or tests with role: calibration",
             got=", ".join(f"{t.test} ({t.role})" for t in data.tests) or "no tests at all",
         )
-    return Roles(*found)
+    return Roles(*named)
 
 
 def find_tests(names: Sequence[str], data: Dataset, where: str) -> tuple[Key, ...]:
     """Each as 'test', or 'campaign/test' where several campaigns have it."""
-    found: list[Key] = []
+    keys: list[Key] = []
     for name in names:
         hits = [t.key for t in data.tests if name in (t.test, f"{t.campaign}/{t.test}")]
         if not hits:
@@ -72,5 +72,5 @@ def find_tests(names: Sequence[str], data: Dataset, where: str) -> tuple[Key, ..
             raise SpecError(
                 f"test '{name}' is in several campaigns", where=where, expected=" or ".join("/".join(h) for h in hits)
             )
-        found.append(hits[0])
-    return tuple(dict.fromkeys(found))
+        keys.append(hits[0])
+    return tuple(dict.fromkeys(keys))

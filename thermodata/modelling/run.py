@@ -34,7 +34,7 @@ class Loaded:
 
 def load(store: Store, ref: str, *, uncertainty: bool = False) -> Loaded:
     """ref: an id, a unique prefix, or a name (its newest version)."""
-    from thermodata.store.models import find_model
+    from thermodata.store.catalogue.models import find_model
 
     stored = find_model(store, ref)
     data = load_data(store, stored.spec)
@@ -51,7 +51,7 @@ def fit(
     store: Store, spec: Model, *, base: Path | None = None, parent: str | None = None, before: list[Score] | None = None
 ) -> FitResult:
     """Fit and save. base: the folder of the model file, which `file` of an effect is relative to."""
-    from thermodata.store.models import save_fit
+    from thermodata.store.catalogue.models import save_fit
 
     spec = _absolute(spec, base)
     data = load_data(store, spec)
@@ -80,7 +80,7 @@ def compare(store: Store, refs: Sequence[str]) -> list[FitResult]:
 def add(store: Store, ref: str, candidate: str | int | EffectSpec) -> FitResult:
     """A new version with one effect more: a rank or id of the stored diagnosis, or any 'effect:channels'.
     `before` has the parent's scores."""
-    from thermodata.store.models import find_model
+    from thermodata.store.catalogue.models import find_model
 
     parent = find_model(store, ref)
     effect = candidate if isinstance(candidate, EffectSpec) else _candidate(store, parent.model, parent.spec, candidate)
@@ -91,7 +91,7 @@ def add(store: Store, ref: str, candidate: str | int | EffectSpec) -> FitResult:
 
 def transfer(store: Store, ref: str) -> list[Portability]:
     """How far the model carries over to each test and machine of its campaigns; kept as findings of the model."""
-    from thermodata.store.models import save_findings
+    from thermodata.store.catalogue.models import save_findings
 
     model = load(store, ref)
     rows = portability(model.fitted, model.data)
@@ -100,7 +100,7 @@ def transfer(store: Store, ref: str) -> list[Portability]:
 
 
 def _candidate(store: Store, model: str, spec: Model, candidate: str | int) -> EffectSpec:
-    from thermodata.store.models import load_diagnosis
+    from thermodata.store.catalogue.models import load_diagnosis
 
     name = str(candidate)
     if name.isdigit():

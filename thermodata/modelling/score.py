@@ -10,7 +10,8 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from thermodata.modelling.fitted import FittedModel, FittedResponse
+from thermodata.modelling.fitted import FittedModel
+from thermodata.modelling.fitted_response import FittedResponse
 from thermodata.modelling.phases import phases
 from thermodata.plugin import Bool1D, Float1D
 from thermodata.schema.result import Score
@@ -24,13 +25,13 @@ def scores(fitted: FittedModel, data: Dataset, model_id: str, *, locked: bool = 
     """A row a test, response and phase, 'all' first. Tests that can't be predicted are left out; locked tests too,
     unless asked for (then the caller counts the look)."""
     roles = ("calibration", "verification", *(["locked"] if locked else []))
-    found: list[Score] = []
+    rows: list[Score] = []
     for test in fitted.tests(data, *roles):
         role = role_of(fitted, test)
         for response in fitted.responses:
             if response.can_predict(test):
-                found += score_test(response, test, model_id, role)
-    return found
+                rows += score_test(response, test, model_id, role)
+    return rows
 
 
 def role_of(fitted: FittedModel, test: TestData) -> str:

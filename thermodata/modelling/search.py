@@ -38,11 +38,11 @@ class Problem:
 
     def params(self, x: Float1D) -> list[dict[str, float]]:
         """Parameters of every slot at a point of the search."""
-        found = [dict(h) for h in self.held]
+        values = [dict(h) for h in self.held]
         for value, nonlinear in zip(x, self.free, strict=True):
             for slot in nonlinear.slots:
-                found[slot][nonlinear.param.name] = nonlinear.inside(float(value))
-        return found
+                values[slot][nonlinear.param.name] = nonlinear.inside(float(value))
+        return values
 
     def matrix(self, x: Float1D) -> Float2D:
         """shape (n, columns)."""
@@ -124,7 +124,7 @@ def _refine(problem: Problem, x: Float1D) -> Float1D:
     high = np.array([f.outside(f.upper) for f in problem.free])
     margin = 1e-6 * (high - low)
     inside = np.clip(x, low + margin, high - margin)
-    found = least_squares(
+    optimum = least_squares(
         problem.residual,
         inside,
         bounds=(low, high),
@@ -137,4 +137,4 @@ def _refine(problem: Problem, x: Float1D) -> Float1D:
         max_nfev=60,
     )
     at_x = problem.residual(x)
-    return np.asarray(found.x) if 2 * found.cost <= float(at_x @ at_x) else x
+    return np.asarray(optimum.x) if 2 * optimum.cost <= float(at_x @ at_x) else x

@@ -26,8 +26,8 @@ def solve_gains(gram: Float2D, cross: Float1D, lower: Float1D, upper: Float1D) -
 
         root = np.linalg.cholesky(inner + RIDGE * np.eye(len(inner))).T
         target = np.linalg.solve(root.T, right)
-        found = lsq_linear(root, target, bounds=(low / scale, high / scale), method="bvls")
-        solved = np.clip(found.x * scale, low, high)
+        solution = lsq_linear(root, target, bounds=(low / scale, high / scale), method="bvls")
+        solved = np.clip(solution.x * scale, low, high)
     gains[free] = solved
     return gains
 

@@ -6,7 +6,8 @@ from typing import Any
 
 import numpy as np
 
-from thermodata.modelling.fitted import FittedModel, FittedResponse
+from thermodata.modelling.fitted import FittedModel
+from thermodata.modelling.fitted_response import FittedResponse
 from thermodata.plugin import Array
 from thermodata.view.dataset import Dataset, TestData
 
@@ -22,7 +23,7 @@ def prediction_columns(response: FittedResponse, test: TestData) -> dict[str, Ar
     predicted = np.sum(list(parts.values()), axis=0) if parts else np.zeros(len(test.t_s))
     measured = response.measured(test)
     predicted = predicted + response.offset(test)
-    found: dict[str, Array] = {
+    columns: dict[str, Array] = {
         "t_s": test.t_s,
         "measured": measured,
         "predicted": predicted,
@@ -30,7 +31,7 @@ def prediction_columns(response: FittedResponse, test: TestData) -> dict[str, Ar
         "valid": response.mask(test),
         **parts,
     }
-    return {name: values[test.in_window] for name, values in found.items()}
+    return {name: values[test.in_window] for name, values in columns.items()}
 
 
 def prediction_tables(fitted: FittedModel, data: Dataset) -> dict[tuple[str, str, str], Any]:

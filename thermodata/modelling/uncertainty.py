@@ -36,15 +36,15 @@ def deviations(problem: Problem, x: Float1D, gains: Float1D) -> tuple[list[dict[
             if problem.low[k] < gains[k] < problem.high[k]:
                 columns.append(matrix[:, k])
                 owners.append(((s,), gain.name))
-    found: list[dict[str, float]] = [{} for _ in design.slots]
+    by_slot: list[dict[str, float]] = [{} for _ in design.slots]
     logs = frozenset(f.param.name for f in problem.free if f.log)
     if not columns or design.n <= len(columns):
-        return found, logs
+        return by_slot, logs
     for (slots, name), sd in zip(owners, _robust(np.column_stack(columns), residual, design.parts), strict=True):
         if np.isfinite(sd):
             for s in slots:
-                found[s][name] = float(sd)
-    return found, logs
+                by_slot[s][name] = float(sd)
+    return by_slot, logs
 
 
 def memory(residual: Float1D, parts: list[slice]) -> float:

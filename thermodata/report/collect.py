@@ -20,7 +20,7 @@ from thermodata.schema.result import Score
 if TYPE_CHECKING:
     from thermodata.modelling.run import Loaded
     from thermodata.store import Store
-    from thermodata.store.models import StoredModel
+    from thermodata.store.catalogue.models import StoredModel
     from thermodata.view.dataset import TestData
 
 _LANES = ("rotational_speed", "feed", "power", "load", "state", "flow")
@@ -32,7 +32,7 @@ _MOST_LANES, _MOST_DRIVERS = 6, 8
 def collect(store: Store, ref: str) -> ReportData:
     """All of a report about a model (id, prefix or name). Opens no locked test."""
     from thermodata.modelling.run import load
-    from thermodata.store.models import find_model, load_diagnosis, model_chain
+    from thermodata.store.catalogue.models import find_model, load_diagnosis, model_chain
 
     stored = find_model(store, ref)
     chain = model_chain(store, stored.model)
@@ -231,7 +231,7 @@ def _looks(store: Store, models: Sequence[str]) -> dict[str, int]:
 
 
 def _rows(store: Store, query: str, params: list[Any] | None = None) -> list[dict[str, Any]]:
-    from thermodata.store.connection import fetch
+    from thermodata.store.base.connection import fetch
 
     with store.reader() as con:
         found: list[dict[str, Any]] = fetch(con, query, params)

@@ -6,12 +6,12 @@ from importlib.resources import files
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from thermodata import __version__
 from thermodata.report.colour import effect_colours
 from thermodata.report.data import ReportData, TestPart
 from thermodata.report.figures import Figure, overview_figure, test_figure, waterfall_figure
 from thermodata.report.words import base_role, change, duration, number, pooled, typeset, verdict_sentence
 from thermodata.report.write import script_json, write_page
+from thermodata.version import __version__
 
 if TYPE_CHECKING:
     from thermodata.store import Store

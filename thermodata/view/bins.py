@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from thermodata.plugin import Float1D, Int1D
-from thermodata.store.connection import quoted
+from thermodata.store.base.connection import quoted
 from thermodata.store.views.catalogue import Column, Group, read_catalogue
 from thermodata.store.views.grid import bin_index, bin_value
 from thermodata.store.views.wide import file_list
@@ -47,7 +47,7 @@ def bin_tests(
     con: duckdb.DuckDBPyConnection, campaigns: Sequence[str], step_s: float, wanted: Callable[[str], bool]
 ) -> dict[Key, Binned]:
     """(campaign, test) -> Binned, of every test that has tidy files; histories before windows included."""
-    found: dict[Key, Binned] = {}
+    by_test: dict[Key, Binned] = {}
     history = _histories(con)
     periods = {
         tuple(row[:4]): row[4]
@@ -55,18 +55,18 @@ def bin_tests(
     }
     for group in read_catalogue(con).groups:
         if group.campaign in campaigns:
-            _bin_group(con, group, step_s, wanted, history, periods, found)
-    return found
+            _bin_group(con, group, step_s, wanted, history, periods, by_test)
+    return by_test
 
 
 def _histories(con: duckdb.DuckDBPyConnection) -> dict[tuple[str, ...], list[str]]:
     rows = con.execute(
         "select campaign, test, source, stream, path from file where layer = 'tidy' and part = 'history' order by path"
     ).fetchall()
-    found: dict[tuple[str, ...], list[str]] = {}
+    paths: dict[tuple[str, ...], list[str]] = {}
     for *key, path in rows:
-        found.setdefault(tuple(key), []).append(path)
-    return found
+        paths.setdefault(tuple(key), []).append(path)
+    return paths
 
 
 def _bin_group(
@@ -76,7 +76,7 @@ def _bin_group(
     wanted: Callable[[str], bool],
     history: dict[tuple[str, ...], list[str]],
     periods: dict[tuple[str, ...], float | None],
-    found: dict[Key, Binned],
+    binned: dict[Key, Binned],
 ) -> None:
     owners, files = [], []
     for test, paths in group.paths.items():
@@ -105,7 +105,7 @@ def _bin_group(
             by_test.setdefault(test, []).append(slice(int(start), int(stop)))
     for test, slices in by_test.items():
         _collect(
-            found,
+            binned,
             group,
             test,
             slices,
@@ -117,7 +117,7 @@ def _bin_group(
 
 
 def _collect(
-    found: dict[Key, Binned],
+    by_test: dict[Key, Binned],
     group: Group,
     test: str,
     slices: Sequence[slice],
@@ -128,7 +128,7 @@ def _collect(
 ) -> None:
     k, rows = (np.concatenate([numbers[name][s] for s in slices]) for name in ("bin__k", "rows__n"))
     zero_ns = min(int(numbers["zero__ns"][s].min()) for s in slices)
-    binned = found.setdefault((group.campaign, test), Binned(int(k.min()), int(k.max()), zero_ns))
+    binned = by_test.setdefault((group.campaign, test), Binned(int(k.min()), int(k.max()), zero_ns))
     binned.first, binned.last = min(binned.first, int(k.min())), max(binned.last, int(k.max()))
     binned.zero_ns = min(binned.zero_ns, zero_ns)
     if not period:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from thermodata.errors import ThermodataError
 from thermodata.schema.quantity import linear_conversion, split_value
-from thermodata.store.conditions import plain_value
+from thermodata.store.catalogue.conditions import plain_value
 from thermodata.view.dataset import ChannelInfo
 
 if TYPE_CHECKING:
@@ -29,9 +29,9 @@ def describe_tests(con: duckdb.DuckDBPyConnection, campaigns: Sequence[str]) -> 
         "where list_contains(?, t.campaign) order by list_position(?, t.campaign), t.rowid",
         [list(campaigns), list(campaigns)],
     ).fetchall()
-    found = []
+    tests = []
     for campaign, test, kind, role, clock, conditions, pose, tool, phases, zero_s, state, machine, attributes in rows:
-        found.append(
+        tests.append(
             {
                 "campaign": campaign,
                 "test": test,
@@ -50,7 +50,7 @@ def describe_tests(con: duckdb.DuckDBPyConnection, campaigns: Sequence[str]) -> 
                 "machine": machine or "",
             }
         )
-    return found
+    return tests
 
 
 def flat(values: Mapping[str, Any], prefix: str = "") -> dict[str, float | str]:
@@ -75,13 +75,13 @@ def channel_infos(
         "from channel where list_contains(?, campaign) and quantity <> 'label' order by rowid",
         [list(campaigns)],
     ).fetchall()
-    found: dict[tuple[str, str], dict[str, ChannelInfo]] = {}
+    infos: dict[tuple[str, str], dict[str, ChannelInfo]] = {}
     for campaign, test, name, quantity, unit, at, axis, relative_to, source, sign, sensor, raw_unit in rows:
         resolution = _json(sensor).get("resolution")
-        found.setdefault((campaign, test), {})[name] = ChannelInfo(
+        infos.setdefault((campaign, test), {})[name] = ChannelInfo(
             name, quantity, unit, at, axis, relative_to, source, sign, _resolution(resolution, unit, raw_unit)
         )
-    return found
+    return infos
 
 
 def _resolution(text: Any, unit: str, raw_unit: str | None) -> float | None:

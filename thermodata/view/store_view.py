@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from thermodata.errors import StoreError, UsageError, unknown_name
 from thermodata.store import Store
-from thermodata.store.connection import damaged_data, literal
+from thermodata.store.base.connection import damaged_data, literal
 
 if TYPE_CHECKING:
     import duckdb

@@ -9,8 +9,9 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from thermodata.virtual.binned import dataset
     from thermodata.virtual.catalogue import HIDEABLE
-    from thermodata.virtual.world import World, dataset, make_world
+    from thermodata.virtual.world import World, make_world
     from thermodata.virtual.writing import Truth, simulate
 
 _WHERE = {
@@ -18,7 +19,7 @@ _WHERE = {
     "Truth": "writing",
     "simulate": "writing",
     "World": "world",
-    "dataset": "world",
+    "dataset": "binned",
     "make_world": "world",
 }
 

@@ -5,10 +5,28 @@ from __future__ import annotations
 import numpy as np
 
 from thermodata.plugin import Bool1D, Float1D
+from thermodata.schema.model import Model
 from thermodata.schema.quantity import CANONICAL_UNIT, value_in
 from thermodata.view.dataset import ChannelInfo, Dataset, TestData
 from thermodata.virtual.plan import AXES, STEP_S
-from thermodata.virtual.world import Run, World
+from thermodata.virtual.world import Run, World, make_world
+
+
+def dataset(
+    hide: str = "none",
+    seed: int = 0,
+    step_s: float = 60.0,
+    *,
+    tests: int | None = None,
+    hours: float = 12.0,
+    measured: bool = True,
+) -> tuple[Dataset, Model]:
+    """The data that the logs of this world give after ingest, and the lab's baseline model; no files are written.
+
+    Sensor noise and resolution are in it; displacements are in um along the machine's axes.
+    """
+    world = make_world(hide, seed, tests=tests, hours=hours, measured=measured)
+    return to_dataset(world, step_s), world.baseline()
 
 
 def to_dataset(world: World, step_s: float) -> Dataset:

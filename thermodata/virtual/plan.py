@@ -80,7 +80,7 @@ class Operation:
         self.cutting[part] = power * busy * (1 + 0.05 * rng.standard_normal(len(busy)))
 
 
-Maker = Callable[[Operation, np.random.Generator], None]
+Fill = Callable[[Operation, np.random.Generator], None]
 
 
 def _etve(op: Operation, rng: np.random.Generator) -> None:
@@ -88,10 +88,10 @@ def _etve(op: Operation, rng: np.random.Generator) -> None:
     op.phases = {"idle": (0.0, op.n * STEP_S)}
 
 
-def _constant(speed: float, until: float, then: float = 0.0) -> Maker:
+def _constant(speed: float, until: float, then: float = 0.0) -> Fill:
     """Heating at one speed, perhaps a while at a second one, and cooling."""
 
-    def make(op: Operation, rng: np.random.Generator) -> None:
+    def fill(op: Operation, rng: np.random.Generator) -> None:
         op.speed[op.span(0.02, until)] = speed
         op.conditions = {"speed": f"{speed:.0f} rpm"}
         end = op.span(0.02, until).stop * STEP_S
@@ -103,7 +103,7 @@ def _constant(speed: float, until: float, then: float = 0.0) -> Maker:
             end = second.stop * STEP_S
         op.phases["cooling"] = (end, op.n * STEP_S)
 
-    return make
+    return fill
 
 
 def _spectrum(op: Operation, rng: np.random.Generator) -> None:
@@ -116,8 +116,8 @@ def _spectrum(op: Operation, rng: np.random.Generator) -> None:
     op.speed[int(0.92 * op.n) :] = 0.0
 
 
-def _feed(axis: int, feeds: tuple[float, float]) -> Maker:
-    def make(op: Operation, rng: np.random.Generator) -> None:
+def _feed(axis: int, feeds: tuple[float, float]) -> Fill:
+    def fill(op: Operation, rng: np.random.Generator) -> None:
         cycle = float(rng.integers(24, 42)) * STEP_S
         half = float(rng.uniform(140, 190))
         op.move(op.span(0.02, 0.36), axis, feeds[0], half, cycle, 50.0)
@@ -125,7 +125,7 @@ def _feed(axis: int, feeds: tuple[float, float]) -> Maker:
         op.pump[op.span(0.0, 0.1)] = 1.0
         op.conditions = {"axis": AXES[axis], "feed": f"{feeds[0]:g} m/min"}
 
-    return make
+    return fill
 
 
 def _table(op: Operation, rng: np.random.Generator) -> None:
@@ -156,10 +156,10 @@ def _fluids(op: Operation, rng: np.random.Generator) -> None:
         op.pump[op.span(begin, begin + length)] = 1.0
 
 
-def _mixed(axis: int) -> Maker:
+def _mixed(axis: int) -> Fill:
     """A working day: warm up, feeds, cuts, table, rests, in an order of its own."""
 
-    def make(op: Operation, rng: np.random.Generator) -> None:
+    def fill(op: Operation, rng: np.random.Generator) -> None:
         blocks = [str(b) for b in rng.permutation(["spin", "feed", "cut", "table", "fluid", "spin", "cut"])]
         at = 0.02
         for name in blocks:
@@ -181,7 +181,7 @@ def _mixed(axis: int) -> Maker:
                 op.pump[op.span(at, min(stop + 0.05, 1.0))] = 1.0
             at = stop + float(rng.uniform(0.0, 0.02))
 
-    return make
+    return fill
 
 
 def make_plan(rng: np.random.Generator, axis: int, hours: float, tests: int | None) -> list[Operation]:
@@ -194,7 +194,7 @@ def make_plan(rng: np.random.Generator, axis: int, hours: float, tests: int | No
     low, high = float(rng.choice([1000, 1500, 2000])), float(rng.choice([8000, 9000, 10_000]))
     feed = float(rng.uniform(9, 16))
     letter = AXES[axis].lower()
-    every: list[tuple[int, str, str, str, Maker]] = [
+    every: list[tuple[int, str, str, str, Fill]] = [
         (3, "etve", "etve", "calibration", _etve),
         (6, f"sp{low:.0f}", "spindle", "calibration", _constant(low, 0.6)),
         (1, f"sp{high:.0f}", "spindle", "calibration", _constant(high, 0.42, float(rng.choice([4000, 5000, 6000])))),
@@ -209,11 +209,11 @@ def make_plan(rng: np.random.Generator, axis: int, hours: float, tests: int | No
     wanted = 10 if tests is None else tests
     chosen = [row for row in every if row[0] < wanted]
     for extra in range(10, wanted):
-        maker: tuple[str, Maker] = ("mixed", _mixed(axis)) if extra % 2 else ("spectrum", _spectrum)
-        chosen.insert(-1, (extra, f"{maker[0]}{extra}", maker[0], "verification", maker[1]))
+        filled: tuple[str, Fill] = ("mixed", _mixed(axis)) if extra % 2 else ("spectrum", _spectrum)
+        chosen.insert(-1, (extra, f"{filled[0]}{extra}", filled[0], "verification", filled[1]))
     plan = []
-    for _, name, kind, role, make in chosen:
+    for _, name, kind, role, fill in chosen:
         op = Operation(name, kind, role, n, home)
-        make(op, rng)
+        fill(op, rng)
         plan.append(op)
     return plan

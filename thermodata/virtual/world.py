@@ -1,4 +1,4 @@
-"""A world: one machine, one hall, one campaign, and the truth about each effect. `dataset` is its fast path.
+"""A world: one machine, one hall, one campaign, and the truth about each effect. `binned.dataset` is its fast path.
 
 The displacement at the tool centre point is a sum of contributions, each an integral over the cells of one part
 (elongation, bending) or a function of speed (the centrifugal shift); a contribution belongs to one effect of the
@@ -15,7 +15,6 @@ import numpy as np
 from thermodata.errors import UsageError, nearest
 from thermodata.plugin import Float1D, Float2D
 from thermodata.schema.model import Model
-from thermodata.view.dataset import Dataset
 from thermodata.virtual.catalogue import EFFECTS, drivers_of
 from thermodata.virtual.hall import BOUNDARIES, Hall, air, smooth
 from thermodata.virtual.levers import draw_levers
@@ -155,25 +154,6 @@ def make_world(
         readings = {s.name: s.read(_true(s, true, boundary, op), rng) for s in sensors}
         runs.append(Run(op, EPOCH_S + 86_400.0 * day + 3600.0 * hour, readings, contributions, total))
     return World(seed, hide, AXES[axis], machine, hall, sensors, present, levers, noise, white, tuple(runs))
-
-
-def dataset(
-    hide: str = "none",
-    seed: int = 0,
-    step_s: float = 60.0,
-    *,
-    tests: int | None = None,
-    hours: float = 12.0,
-    measured: bool = True,
-) -> tuple[Dataset, Model]:
-    """The data that the logs of this world give after ingest, and the lab's baseline model; no files are written.
-
-    Sensor noise and resolution are in it; displacements are in um along the machine's axes.
-    """
-    from thermodata.virtual.binned import to_dataset
-
-    world = make_world(hide, seed, tests=tests, hours=hours, measured=measured)
-    return to_dataset(world, step_s), world.baseline()
 
 
 EPOCH_S = 1_771_801_200.0  # 2026-02-23 00:00 in Prague

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from thermodata.errors import UsageError
-from thermodata.store.counting import counted
+from thermodata.store.base.counting import counted
 from thermodata.virtual.describe import campaign_file, model_file, truth_file
 from thermodata.virtual.logbook import Logbook
 from thermodata.virtual.plan import AXES

@@ -8,12 +8,12 @@ from importlib.resources import files
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from thermodata import __version__
 from thermodata.report.quality.data import TestQuality, Trace, collect
 from thermodata.report.quality.figure import SEVERITY, TINTS, draw_test, when
 from thermodata.report.words import duration, typeset
 from thermodata.report.write import script_json, write_page
 from thermodata.schema.flag import INVALID, Flag
+from thermodata.version import __version__
 
 if TYPE_CHECKING:
     from thermodata.view import StoreView

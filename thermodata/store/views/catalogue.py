@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from thermodata.schema.quantity import CANONICAL_UNIT
-from thermodata.store.connection import literal
+from thermodata.store.base.connection import literal
 
 if TYPE_CHECKING:
     import duckdb
@@ -135,15 +135,15 @@ def _described(con: duckdb.DuckDBPyConnection) -> dict[str, dict[str, tuple[str,
         'first(axis order by rowid), first("at" order by rowid), first(relative_to order by rowid), '
         "first(sign order by rowid) from channel group by campaign, channel order by min(rowid)"
     ).fetchall()
-    found: dict[str, dict[str, tuple[str, str, str]]] = {}
+    descriptions: dict[str, dict[str, tuple[str, str, str]]] = {}
     for campaign, channel, quantity, unit, axis, at, relative_to, sign in rows:
         words = [f"[{unit}] {quantity}"]
         words += [f"axis {axis}"] if axis else []
         words += [f"at {at}"] if at else []
         words += [f"relative to {relative_to}"] if relative_to else []
         words += ["sign unknown"] if sign == "unknown" else []
-        found.setdefault(campaign, {})[channel] = (quantity, unit, ", ".join(words))
-    return found
+        descriptions.setdefault(campaign, {})[channel] = (quantity, unit, ", ".join(words))
+    return descriptions
 
 
 def _as_long(path: Path, size_bytes: int | None) -> bool:

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
 
-from thermodata.store.connection import literal, quoted
+from thermodata.store.base.connection import literal, quoted
 from thermodata.store.views.catalogue import Catalogue, Group
 from thermodata.store.views.wide import file_list
 

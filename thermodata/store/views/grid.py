@@ -16,7 +16,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 
 from thermodata.schema.flag import INVALID
-from thermodata.store.connection import literal, quoted
+from thermodata.store.base.connection import literal, quoted
 from thermodata.store.views.catalogue import Catalogue, Column, Group
 from thermodata.store.views.dispatch import dispatcher, files_call, from_files, known_call
 
@@ -188,7 +188,7 @@ def _by_channel(
     """One expression a channel; a channel that moved between sources comes from whichever has it."""
     out = []
     for channel in channels:
-        found = [expression(i, c) for i, g in enumerate(groups) for c in g.columns if c.name == channel]
-        text = found[0] if len(found) == 1 else f"coalesce({', '.join(found)})"
+        expressions = [expression(i, c) for i, g in enumerate(groups) for c in g.columns if c.name == channel]
+        text = expressions[0] if len(expressions) == 1 else f"coalesce({', '.join(expressions)})"
         out.append(f"{text} as {quoted(channel + suffix)}")
     return out

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 
-from thermodata.store.connection import literal, quoted
+from thermodata.store.base.connection import literal, quoted
 from thermodata.store.views.catalogue import RESPONSES, Catalogue, Column, Group
 from thermodata.store.views.dispatch import dispatcher, files_call, from_files, known_call, refuse
 from thermodata.store.views.wide import wide_name

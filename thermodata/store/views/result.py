@@ -6,8 +6,8 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from thermodata.store.connection import literal
-from thermodata.store.files import is_whole
+from thermodata.store.base.connection import literal
+from thermodata.store.base.files import is_whole
 from thermodata.store.views.wide import file_list, prefix
 
 if TYPE_CHECKING:

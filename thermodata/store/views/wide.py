@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 
-from thermodata.store.connection import literal, quoted
+from thermodata.store.base.connection import literal, quoted
 from thermodata.store.views.catalogue import Catalogue, Group
 
 

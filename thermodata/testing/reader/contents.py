@@ -9,9 +9,11 @@ import numpy as np
 from thermodata.errors import PluginError
 from thermodata.plugin import Block, Source
 from thermodata.reader.guard import described, guarded
+from thermodata.reader.locate import locate
 from thermodata.testing.reader.case import Case, equal, fault, gathered, load
 
 _DAY_NS = 86_400_000_000_000
+_LOCATE = "say what a person can look up in the file, as 'line 812'; where that can't be told, 'row 812'"
 
 
 def its_data_follow_the_rules(case: Case, path: Path, source: Source) -> None:
@@ -24,6 +26,19 @@ def its_data_follow_the_rules(case: Case, path: Path, source: Source) -> None:
         ) from error
     if not data.t_ns:
         fault(f"{path.name}: no data", "yield a Block for a good file; is the file given to the kit a whole one?")
+
+
+def a_row_of_it_can_be_located_where_the_reader_has_a_way(case: Case, path: Path, source: Source) -> None:
+    """Only of readers that have `locate` (or `place`, its first name)."""
+    reader = case.make()
+    for stream, t_ns in load(reader, path, source).t_ns.items():
+        for row in {0, t_ns.size - 1}:
+            try:
+                text = locate(reader, path, source, stream, row)
+            except Exception as error:
+                fault(f"{path.name}: row {row} of stream '{stream}': {type(error).__name__}: {error}", _LOCATE)
+            if text is not None and not text.strip():
+                fault(f"{path.name}: row {row} of stream '{stream}' stands nowhere: the answer is empty", _LOCATE)
 
 
 def every_declared_signal_arrives(case: Case, path: Path, source: Source) -> None:

@@ -1,0 +1,233 @@
+"""What every fit says about itself: one row a check, with a threshold and what to do."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+
+from thermodata.modelling.design import Design
+from thermodata.modelling.fitted_response import FittedResponse, FittedTerm
+from thermodata.modelling.uncertainty import effective_count
+from thermodata.plugin import Float1D, Float2D
+from thermodata.schema.result import Check
+from thermodata.view.dataset import TestData
+
+CONDITION = 1000.0
+COLLINEAR = 0.98
+FEWEST = 5.0  # independent samples a parameter
+
+
+def checks(response: FittedResponse, tests: Sequence[TestData]) -> dict[str, Any]:
+    """{'checks': ..., 'noise': rms of the calibration residual} of a fitted response."""
+    design = Design(response.bound, [t.bound for t in response.terms], tests, response.phases)
+    blocks, names, gains = [], [], list[float]()
+    for s, slot in enumerate(design.slots):
+        term = response.terms[slot.term]
+        values = term.groups.get(slot.group)
+        if values is None:
+            continue
+        blocks.append(design.columns(s, values.params))
+        tag = f"[{slot.group}]" if slot.group else ""
+        names += [f"{term.id}.{g.name}{tag}" for g in term.effect.gains]
+        gains += [values.gains[g.name] for g in term.effect.gains]
+    matrix = np.concatenate(blocks, axis=1) if blocks else np.zeros((design.n, 0))
+    residual = design.y - matrix @ np.array(gains) if gains else design.y
+    rows = [
+        *_samples(residual, design, len(gains) + sum(len(t.effect.params) for t in response.terms)),
+        *_conditioning(matrix, names),
+    ]
+    for term in response.terms:
+        rows += [
+            *_bounds(term),
+            *_long(term, tests),
+            *_plausible(term),
+            *_second_lag(term),
+            *_ripple(response, term, tests),
+        ]
+    noise = float(np.sqrt(np.mean(residual**2))) if len(residual) else None
+    return {"checks": tuple(rows), "noise": noise}
+
+
+def _samples(residual: Float1D, design: Design, parameters: int) -> list[Check]:
+    count = effective_count(residual, design.parts)
+    need = FEWEST * max(1, parameters)
+    return [
+        Check(
+            name="effective_samples",
+            value=round(count, 1),
+            threshold=need,
+            passed=count >= need,
+            advice=f"the residual hangs together: {design.n} samples are worth {count:.0f}"
+            + ("" if count >= need else f"; {parameters} parameters want {need:.0f}: add tests"),
+        )
+    ]
+
+
+def _conditioning(matrix: Float2D, names: list[str]) -> list[Check]:
+    size = np.sqrt(np.sum(matrix**2, axis=0)) if matrix.shape[1] else np.zeros(0)
+    kept = np.flatnonzero(size > 0)
+    rows = [
+        Check(
+            name=f"not_excited:{names[i]}",
+            value=0.0,
+            threshold=0.0,
+            passed=False,
+            advice=f"nothing moves {names[i]} in the calibration tests: add a test that does",
+        )
+        for i in np.flatnonzero(size == 0)
+    ]
+    if len(kept) < 2:
+        return rows
+    unit = matrix[:, kept] / size[kept]
+    condition = float(np.linalg.cond(unit))
+    rows.append(
+        Check(
+            name="condition_number",
+            value=condition,
+            threshold=CONDITION,
+            passed=condition <= CONDITION,
+            advice="the effects can be told apart"
+            if condition <= CONDITION
+            else "the data cannot tell the effects apart: remove one, or add a test that moves them separately",
+        )
+    )
+    correlation = unit.T @ unit
+    for a in range(len(kept)):
+        for b in range(a + 1, len(kept)):
+            if abs(correlation[a, b]) > COLLINEAR:
+                pair = f"{names[kept[a]]} and {names[kept[b]]}"
+                rows.append(
+                    Check(
+                        name=f"collinear:{names[kept[a]]}:{names[kept[b]]}",
+                        value=float(correlation[a, b]),
+                        threshold=COLLINEAR,
+                        passed=False,
+                        advice=f"{pair} move together in these tests",
+                    )
+                )
+    return rows
+
+
+def _bounds(term: FittedTerm) -> list[Check]:
+    rows = []
+    for group, values in term.groups.items():
+        tag = f"[{group}]" if group else ""
+        for param in term.effect.params:
+            if param.name in term.bound.spec.fixed or param.name in values.silent:
+                continue
+            low, high = term.bound.spec.bounds.get(param.name, (param.lower, param.upper))
+            value = values.params[param.name]
+            for end in (low, high):
+                if abs(value - end) <= 1e-3 * (abs(end) if low > 0 else high - low):
+                    rows.append(
+                        Check(
+                            name=f"at_bound:{term.id}.{param.name}{tag}",
+                            value=value,
+                            threshold=end,
+                            passed=False,
+                            advice=f"{param.meaning} stands at its bound {end:g} {param.unit}: another effect may be "
+                            "behind it, or the bound is wrong",
+                        )
+                    )
+    return rows
+
+
+def _long(term: FittedTerm, tests: Sequence[TestData]) -> list[Check]:
+    covered = [t for t in tests if term.bound.covers(t) and len(t.t_s)]
+    if term.held and term.bound.calibrate is not None:
+        return []
+    record = max((float(t.t_s[-1] - t.t_s[0]) for t in covered), default=0.0) / 60.0
+    rows = []
+    for param in term.effect.params:
+        if param.unit == "min" and param.name.startswith("tau") and record > 0:
+            value = term.params[param.name]
+            if value > record:
+                rows.append(
+                    Check(
+                        name=f"tau_longer_than_record:{term.id}.{param.name}",
+                        value=value,
+                        threshold=record,
+                        passed=False,
+                        advice="the time constant is longer than the longest test: only gain/tau is known",
+                    )
+                )
+    return rows
+
+
+def _plausible(term: FittedTerm) -> list[Check]:
+    rows = []
+    for gain in term.effect.gains:
+        for group, values in term.groups.items():
+            value, top = values.gains[gain.name], gain.magnitude[1]
+            if np.isfinite(top) and top > 0 and abs(value) > top and gain.name not in term.bound.spec.fixed:
+                tag = f"[{group}]" if group else ""
+                rows.append(
+                    Check(
+                        name=f"implausible:{term.id}.{gain.name}{tag}",
+                        value=value,
+                        threshold=top,
+                        passed=False,
+                        advice=f"larger than anything known for '{term.effect.name}' "
+                        f"({top:g} {gain.unit}): it may stand in for another effect",
+                    )
+                )
+    return rows
+
+
+def _second_lag(term: FittedTerm) -> list[Check]:
+    taus = [p.name for p in term.effect.params if p.name.startswith("tau")]
+    if len(taus) < 2 or term.effect.family == "ambient":
+        return []
+    values = sorted(term.params[n] for n in taus)
+    ratio = min(b / a for a, b in pairwise(values))
+    unsure = max((term.sd.get(n, 0.0) for n in taus), default=0.0)
+    passed = ratio > 1.5 and unsure < 1.0
+    return [
+        Check(
+            name=f"lags_apart:{term.id}",
+            value=ratio,
+            threshold=1.5,
+            passed=passed,
+            advice="the lags are apart" if passed else "the data does not identify that many lags: take one fewer",
+        )
+    ]
+
+
+def _ripple(response: FittedResponse, term: FittedTerm, tests: Sequence[TestData]) -> list[Check]:
+    """What one step of a coarse sensor does to the prediction within a sample."""
+    rows = []
+    infos = {n: i for t in tests for n, i in t.channels.items()}
+    from thermodata.modelling.drivers import names_of
+
+    for role, text in term.binding.items():
+        sizes = [infos[n].resolution for n in names_of(text) if n in infos]
+        resolution = max((r for r in sizes if r), default=0.0)
+        test = next((t for t in tests if term.bound.covers(t) and term.bound.has(t)), None)
+        if resolution <= 0 or test is None:
+            continue
+        drivers = term.bound.drivers(test)
+        step = np.zeros(len(test.t_s))
+        step[len(step) // 2 :] = resolution
+        pulse = type(drivers)(
+            drivers.t_s,
+            {r: step if r == role else np.zeros_like(step) for r in drivers.values},
+            drivers.valid,
+            drivers.conditions,
+        )
+        jump = term.effect.basis(pulse, term.params) @ np.array([term.gains[g.name] for g in term.effect.gains])
+        ripple = float(np.max(np.abs(np.diff(jump)), initial=0.0))
+        limit = 1.0
+        rows.append(
+            Check(
+                name=f"quantisation_ripple:{term.id}",
+                value=ripple,
+                threshold=limit,
+                passed=ripple <= limit,
+                advice=f"one step of {text} ({resolution:g}) moves the prediction "
+                f"by {ripple:.2g} {response.unit} within a sample",
+            )
+        )
+    return rows

@@ -1,0 +1,119 @@
+"""The turnstile in front of the catalogue: many readers or one writer, and no writer starves.
+
+Two lock files. Whoever wants in holds the turnstile while waiting for the catalogue, so that no reader slips
+past a writer that waits. The locks are advisory, belong to the open file, and vanish with the process.
+"""
+
+from __future__ import annotations
+
+import errno
+import os
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+from thermodata.errors import StoreError
+from thermodata.store.base.files import write_error
+
+TURNSTILE, CATALOGUE = "turnstile.lock", "catalog.lock"
+
+try:
+    import fcntl
+
+    def _try_lock(fd: int, exclusive: bool) -> bool:
+        try:
+            fcntl.flock(fd, (fcntl.LOCK_EX if exclusive else fcntl.LOCK_SH) | fcntl.LOCK_NB)
+        except BlockingIOError:
+            return False
+        return True
+
+    def _unlock(fd: int) -> None:
+        fcntl.flock(fd, fcntl.LOCK_UN)
+
+except ImportError:  # not POSIX: a byte of the file is locked, always exclusively
+    import msvcrt
+
+    def _try_lock(fd: int, exclusive: bool) -> bool:
+        try:
+            os.lseek(fd, 0, os.SEEK_SET)
+            msvcrt.locking(fd, msvcrt.LK_NBLCK, 1)  # type: ignore[attr-defined,unused-ignore]
+        except OSError:
+            return False
+        return True
+
+    def _unlock(fd: int) -> None:
+        os.lseek(fd, 0, os.SEEK_SET)
+        msvcrt.locking(fd, msvcrt.LK_UNLCK, 1)  # type: ignore[attr-defined,unused-ignore]
+
+
+@contextmanager
+def catalogue_lock(folder: Path, *, exclusive: bool, timeout_s: float = 60.0) -> Iterator[None]:
+    """Holds the catalogue, shared for reading or exclusive for writing; StoreError when it stays busy."""
+    deadline = time.monotonic() + timeout_s
+    turnstile = _open(folder / TURNSTILE, exclusive)
+    if turnstile is None:
+        # a store that may only be read: whoever may write it can lock the one file that is there
+        with _reading(folder, deadline, timeout_s):
+            yield
+        return
+    try:
+        _wait(turnstile, True, deadline, folder, timeout_s)
+        catalogue = _open(folder / CATALOGUE, exclusive)
+        try:
+            if catalogue is not None:
+                _wait(catalogue, exclusive, deadline, folder, timeout_s)
+            _unlock(turnstile)
+            try:
+                yield
+            finally:
+                if catalogue is not None:
+                    _unlock(catalogue)
+        finally:
+            if catalogue is not None:
+                os.close(catalogue)
+    finally:
+        os.close(turnstile)
+
+
+@contextmanager
+def _reading(folder: Path, deadline: float, timeout_s: float) -> Iterator[None]:
+    try:
+        fd = os.open(folder / CATALOGUE, os.O_RDONLY | _FLAGS)
+    except OSError:
+        yield  # nobody ever wrote here since the store was copied
+        return
+    try:
+        _wait(fd, False, deadline, folder, timeout_s)
+        yield
+    finally:
+        os.close(fd)
+
+
+_FLAGS = getattr(os, "O_CLOEXEC", 0) | getattr(os, "O_BINARY", 0)
+
+
+def _open(path: Path, exclusive: bool) -> int | None:
+    """A lock file, made where there is none; None where the folder may only be read, and no more is wanted."""
+    try:
+        return os.open(path, os.O_RDWR | os.O_CREAT | _FLAGS, 0o666)
+    except OSError as error:
+        if not exclusive and error.errno in (errno.EACCES, errno.EPERM, errno.EROFS):
+            return None
+        raise write_error(path, error) from error
+
+
+def _wait(fd: int, exclusive: bool, deadline: float, folder: Path, timeout_s: float) -> None:
+    pause = 0.0005
+    attempt: Callable[[], bool] = lambda: _try_lock(fd, exclusive)  # noqa: E731
+    while not attempt():
+        if time.monotonic() > deadline:
+            raise StoreError(
+                "the store is busy",
+                where=str(folder),
+                expected=f"a free catalogue within {timeout_s:g} s",
+                got="another process held it all the time",
+                hint="wait for the other program, or end one that hangs in this store",
+            )
+        time.sleep(pause)
+        pause = min(pause * 1.5, 0.005)

@@ -1,0 +1,273 @@
+"""Fitted models, their predictions and what was found out about them."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from datetime import UTC, datetime
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from thermodata.errors import StoreError, UsageError, nearest
+from thermodata.schema.model import Model
+from thermodata.schema.result import Diagnosis, FitResult
+from thermodata.store.base.connection import fetch, insert
+from thermodata.store.base.encoder import COMPRESSION
+from thermodata.store.base.files import publish, safe_name, temporary
+from thermodata.store.catalogue.store import Store
+
+if TYPE_CHECKING:
+    import duckdb
+    import pyarrow as pa
+
+
+@dataclass(frozen=True, slots=True)
+class StoredModel:
+    """A version of a model. stale: its data changed since it was fitted."""
+
+    model: str
+    name: str
+    parent: str | None
+    spec: Model
+    result: FitResult
+    stale: bool
+
+
+def save_fit(
+    store: Store,
+    *,
+    spec: Model,
+    result: FitResult,
+    parent: str | None,
+    predictions: Mapping[tuple[str, str, str], pa.Table],
+    data_version: str,
+) -> str:
+    """Keeps a fit and its predictions ((campaign, test, response) -> table); returns the model's id.
+
+    The same model again replaces its figures and keeps its place in the history. Prediction columns: t_s,
+    measured, predicted, residual, valid, and `c__<term>` for each effect's contribution.
+    """
+    now = _now()
+    written = [
+        (key, _write_prediction(store.path, result.model, key, table), table.num_rows)
+        for key, table in sorted(predictions.items())
+    ]
+    response = result.response if isinstance(result.response, str) else ", ".join(result.response)
+    with store.write() as con:
+        old = fetch(con, "select parent, created_at from model where model = ?", [result.model])
+        for table in ("fit", "score_row", "prediction"):
+            con.execute(f"delete from {table} where model = ?", [result.model])
+        con.execute("delete from model where model = ?", [result.model])
+        insert(
+            con,
+            "model",
+            [
+                {
+                    "model": result.model,
+                    "name": result.name,
+                    "parent": parent if parent is not None or not old else old[0]["parent"],
+                    "campaigns": list(result.campaigns),
+                    "response": response,
+                    "spec": spec.model_dump_json(by_alias=True, exclude_none=True),
+                    "data_version": data_version,
+                    "stale": False,
+                    "created_at": old[0]["created_at"] if old else now,
+                    "result": result.model_dump_json(),
+                }
+            ],
+        )
+        insert(
+            con,
+            "fit",
+            [
+                {
+                    "model": result.model,
+                    "response": response if isinstance(result.response, str) else None,
+                    "parameter": name,
+                    "value": p.value,
+                    "unit": p.unit,
+                    "low": p.low,
+                    "high": p.high,
+                }
+                for name, p in result.parameters.items()
+            ],
+        )
+        insert(con, "score_row", [{**s.model_dump(), "model": result.model} for s in result.scores])
+        insert(
+            con,
+            "prediction",
+            [
+                {"campaign": c, "test": t, "model": result.model, "response": r, "path": path, "rows": rows}
+                for (c, t, r), path, rows in written
+            ],
+        )
+    return result.model
+
+
+def find_model(store: Store, ref: str) -> StoredModel:
+    """A model by id, unique prefix of an id, or name (its newest version); UsageError where none or several fit."""
+    with store.reader() as con:
+        listed = fetch(con, "select model, name from model order by created_at desc, model")
+        ids = [r["model"] for r in listed]
+        named = [r["model"] for r in listed if r["name"] == ref]
+        begun = [m for m in ids if m.startswith(ref)] if ref else []
+        if ref in ids:
+            chosen = ref
+        elif named:
+            chosen = named[0]
+        elif len(begun) == 1:
+            chosen = begun[0]
+        elif begun:
+            raise UsageError(
+                f"'{ref}' begins the ids of several models",
+                expected=", ".join(begun),
+                got=ref,
+                hint="write more of the id",
+            )
+        else:
+            names = list(dict.fromkeys(r["name"] for r in listed))
+            close = nearest(ref, names)
+            raise UsageError(
+                f"no model '{ref}'",
+                expected=", ".join(names) or "nothing: no model was fitted yet",
+                got=ref,
+                hint=f"did you mean '{close}'?" if close else "thermodata fit MODEL.yaml",
+            )
+        return _stored(con, chosen)
+
+
+def model_chain(store: Store, model: str) -> list[StoredModel]:
+    """A model and the versions that it came from, oldest first."""
+    chain = [find_model(store, model)]
+    with store.reader() as con:
+        while (parent := chain[-1].parent) is not None and parent not in {m.model for m in chain}:
+            if not con.execute("select 1 from model where model = ?", [parent]).fetchone():
+                break  # forgotten since
+            chain.append(_stored(con, parent))
+    return chain[::-1]
+
+
+def save_diagnosis(store: Store, model: str, diagnosis: Diagnosis) -> None:
+    """Keeps a diagnosis in place of the model's earlier one: as a whole, and each finding as a row."""
+    now = _now()
+    rows: list[dict[str, Any]] = []
+
+    def add(kind: str, payload: Any, campaign: str = "", test: str = "", rank: int | None = None) -> None:
+        rows.append(
+            {
+                "campaign": campaign,
+                "test": test,
+                "model": model,
+                "kind": kind,
+                "rank": rank,
+                "payload": payload.model_dump_json(),
+                "created_at": now,
+            }
+        )
+
+    add("diagnosis", diagnosis)
+    for i, spot in enumerate(diagnosis.weak_spots, 1):
+        add("weak_spot", spot, spot.campaign, spot.test, i)
+    for candidate in diagnosis.candidates:
+        add("candidate", candidate, rank=candidate.rank)
+    for i, artefact in enumerate(diagnosis.artefacts, 1):
+        add("artefact", artefact, artefact.campaign, artefact.test, i)
+    with store.write(views=False) as con:
+        _must_exist(con, model)
+        con.execute(
+            "delete from finding where model = ? and kind in ('diagnosis', 'weak_spot', 'candidate', 'artefact')",
+            [model],
+        )
+        insert(con, "finding", rows)
+
+
+def load_diagnosis(store: Store, model: str) -> Diagnosis | None:
+    """The model's latest diagnosis, or None."""
+    with store.reader() as con:
+        rows = fetch(
+            con,
+            "select payload from finding where model = ? and kind = 'diagnosis' order by created_at desc limit 1",
+            [model],
+        )
+    return Diagnosis.model_validate_json(rows[0]["payload"]) if rows else None
+
+
+def save_findings(store: Store, model: str, kind: str, rows: Iterable[tuple[str, str, Mapping[str, Any]]]) -> None:
+    """Keeps findings of another kind ("portability"): (campaign, test, payload), in place of the earlier ones."""
+    now = _now()
+    with store.write(views=False) as con:
+        _must_exist(con, model)
+        con.execute("delete from finding where model = ? and kind = ?", [model, kind])
+        insert(
+            con,
+            "finding",
+            [
+                {
+                    "campaign": c,
+                    "test": t,
+                    "model": model,
+                    "kind": kind,
+                    "rank": i,
+                    "payload": json.dumps(dict(p)),
+                    "created_at": now,
+                }
+                for i, (c, t, p) in enumerate(rows, 1)
+            ],
+        )
+
+
+def count_locked_look(store: Store, model: str, tests: Iterable[tuple[str, str]], reason: str) -> None:
+    """Writes down that the locked tests ((campaign, test)) were looked at, and why."""
+    now = _now()
+    with store.write(views=False) as con:
+        insert(
+            con,
+            "locked_look",
+            [{"campaign": c, "test": t, "model": model, "reason": reason, "at": now} for c, t in tests],
+        )
+
+
+def locked_looks(store: Store, campaign: str, test: str) -> int:
+    """How often the lock of a test was opened."""
+    with store.reader() as con:
+        row = con.execute(
+            "select count(*) from locked_look where campaign = ? and test = ?", [campaign, test]
+        ).fetchone()
+    return int(row[0]) if row else 0
+
+
+def _stored(con: duckdb.DuckDBPyConnection, model: str) -> StoredModel:
+    row = fetch(con, "select * from model where model = ?", [model])[0]
+    return StoredModel(
+        row["model"],
+        row["name"],
+        row["parent"],
+        Model.model_validate_json(row["spec"]),
+        FitResult.model_validate_json(row["result"]),
+        bool(row["stale"]),
+    )
+
+
+def _must_exist(con: duckdb.DuckDBPyConnection, model: str) -> None:
+    if not con.execute("select 1 from model where model = ?", [model]).fetchone():
+        raise StoreError(f"model '{model}' is not in the store any more", hint="fit it again")
+
+
+def _write_prediction(store: Path, model: str, key: tuple[str, str, str], table: pa.Table) -> str:
+    import pyarrow.parquet as pq
+
+    name = "__".join(safe_name(part, 50) for part in key) + ".parquet"
+    target = store / "model" / safe_name(model) / name
+    target.parent.mkdir(parents=True, exist_ok=True)
+    part = temporary(target)
+    try:
+        pq.write_table(table, part, compression=COMPRESSION, row_group_size=100_000)
+        publish(part, target)
+    finally:
+        part.unlink(missing_ok=True)
+    return target.relative_to(store).as_posix()
+
+
+def _now() -> datetime:
+    return datetime.now(UTC).replace(tzinfo=None)

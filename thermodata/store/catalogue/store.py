@@ -1,0 +1,235 @@
+"""`Store`: one folder, its catalogue, and the two ways in: a private copy for reading, a short turn for writing."""
+
+from __future__ import annotations
+
+import contextlib
+import secrets
+import threading
+from collections.abc import Iterator
+from contextlib import AbstractContextManager, contextmanager
+from datetime import UTC, datetime
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from thermodata.errors import StoreError, UsageError
+from thermodata.store.base import connection
+from thermodata.store.base.files import fsync_folder, write_text
+from thermodata.store.catalogue.ddl import FORMAT, TABLES
+from thermodata.store.catalogue.lock import catalogue_lock
+from thermodata.store.catalogue.migrate import check_format, migrate
+from thermodata.version import __version__
+
+if TYPE_CHECKING:
+    import duckdb
+
+CATALOGUE = "catalog.duckdb"
+_MARK = "generation"
+
+
+class Store:
+    """A store's folder. Cheap to make; safe to share between threads; opens nothing until it is asked.
+
+    path: the folder. create: makes an empty store where there is none (else a UsageError).
+    timeout_s: how long a turn at the catalogue may be waited for before StoreError.
+    """
+
+    def __init__(self, path: Path | str, create: bool = False, *, timeout_s: float = 60.0) -> None:
+        self.path = Path(path).absolute()
+        self.timeout_s = timeout_s
+        self._guard = threading.RLock()
+        self._copy: tuple[str, duckdb.DuckDBPyConnection] | None = None
+        if "," in str(self.path):
+            raise StoreError(
+                "a store's path holds no comma",
+                where=str(self.path),
+                hint="DuckDB separates search paths by commas: move or rename the folder",
+            )
+        if not (self.path / CATALOGUE).exists():
+            if not create:
+                raise UsageError(
+                    "there is no store here",
+                    where=str(self.path),
+                    expected=CATALOGUE,
+                    got="no such file",
+                    hint="thermodata ingest CAMPAIGN.yaml makes one; --store names another folder",
+                )
+            self._create()
+
+    def __repr__(self) -> str:
+        return f"Store({str(self.path)!r})"
+
+    # ---- reading ---------------------------------------------------------------------------------
+
+    @contextmanager
+    def reader(self) -> Iterator[duckdb.DuckDBPyConnection]:
+        """A connection to a copy of the catalogue in memory, as of the last commit. No lock is held meanwhile."""
+        cursor = connection.cursor_of(self._fresh())
+        try:
+            yield cursor
+        finally:
+            cursor.close()
+
+    def connect(self) -> duckdb.DuckDBPyConnection:
+        """As `reader`, for callers that close it themselves."""
+        return connection.cursor_of(self._fresh())
+
+    def private_copy(self) -> duckdb.DuckDBPyConnection:
+        """A copy of the catalogue that nobody else sees, for work that attaches databases. The caller closes it."""
+        return self._copied()[1]
+
+    @property
+    def generation(self) -> int:
+        """Counts the commits."""
+        with self.reader() as con:
+            row = con.execute("select max(generation) from store").fetchone()
+        return int(row[0]) if row else 0
+
+    def _fresh(self) -> duckdb.DuckDBPyConnection:
+        with self._guard:
+            if self._copy is not None and self._copy[0] == self._mark():
+                return self._copy[1]
+            mark, con = self._copied()
+            # without a mark it can't be told when to refresh: then every reader copies
+            self._copy = (mark, con) if mark else None
+            return con
+
+    def _copied(self) -> tuple[str, duckdb.DuckDBPyConnection]:
+        """The mark of a commit, and a copy in memory of the catalogue as of then."""
+        con = connection.memory(self.path)  # before the turn: it takes longer than the turn
+        try:
+            with self._turn(exclusive=False):
+                mark = self._mark()
+                self._copy_into(con)
+        except BaseException:
+            con.close()
+            raise
+        return mark, con
+
+    def _copy_into(self, con: duckdb.DuckDBPyConnection) -> None:
+        import duckdb
+
+        path = self.path / CATALOGUE
+        if not path.exists():
+            raise StoreError(
+                "the store has no catalogue any more", where=str(path), expected="a DuckDB database", got="no such file"
+            )
+        try:
+            con.execute(f"attach {connection.literal(str(path))} as kept (read_only)")
+            check_format(con, path, "kept.")
+            con.execute("copy from database kept to memory; detach kept")
+        except duckdb.Error as error:
+            con.close()
+            raise connection.damaged(path, error) from error
+
+    def _mark(self) -> str:
+        try:
+            return (self.path / _MARK).read_text()
+        except OSError:
+            return ""
+
+    # ---- writing ---------------------------------------------------------------------------------
+
+    @contextmanager
+    def write(self, *, views: bool = True) -> Iterator[duckdb.DuckDBPyConnection]:
+        """One transaction on the catalogue, alone. On success the views are made anew and all becomes visible
+        at once; on an exception nothing does. Bulk goes to Parquet before this is entered.
+
+        views: False where neither files nor tests nor channels change. Not to be entered twice in one thread."""
+        with self._guard:
+            con = connection.memory(self.path)  # before the turn: it takes 20 ms
+            try:
+                with self._turn(exclusive=True), self._opened(con):
+                    con.execute("begin transaction")
+                    try:
+                        yield con
+                        con.execute("update store set generation = generation + 1")
+                        if views:
+                            regenerate_views(con, self.path)
+                        # before the commit: who sees the new mark waits for this turn to end, whoever dies in
+                        # between causes one needless refresh; the other order could leave a stale copy in use
+                        write_text(self.path / _MARK, secrets.token_hex(8))
+                        _commit(con, self.path / CATALOGUE)
+                    except BaseException:
+                        _rollback(con)
+                        raise
+            finally:
+                con.close()
+
+    @contextmanager
+    def _opened(self, con: duckdb.DuckDBPyConnection) -> Iterator[None]:
+        """The catalogue attached for writing, in this program's format."""
+        connection.attach(con, self.path)
+        try:
+            check_format(con, self.path / CATALOGUE)
+            migrate(con, self.path)
+            yield
+        finally:
+            connection.detach(con)
+
+    def _turn(self, *, exclusive: bool) -> AbstractContextManager[None]:
+        return catalogue_lock(self.path, exclusive=exclusive, timeout_s=self.timeout_s)
+
+    @contextmanager
+    def standstill(self) -> Iterator[duckdb.DuckDBPyConnection]:
+        """A copy of the catalogue, with no commit from its making until the end: for deleting what nothing needs."""
+        with self._guard:
+            con = connection.memory(self.path)
+            try:
+                with self._turn(exclusive=True):
+                    self._copy_into(con)
+                    yield con
+            finally:
+                con.close()
+
+    def _create(self) -> None:
+        try:
+            self.path.mkdir(parents=True, exist_ok=True)
+        except OSError as error:
+            raise StoreError("the store's folder cannot be made", where=str(self.path), got=str(error)) from error
+        with self._turn(exclusive=True):
+            target = self.path / CATALOGUE
+            if target.exists():  # another process was first
+                return
+            # made under another name: a half-made catalogue is never taken for a store
+            part = self.path / f".{CATALOGUE}.{secrets.token_hex(4)}.tmp"
+            connection.create_catalogue(part)
+            import duckdb
+
+            con = duckdb.connect(str(part))
+            try:
+                con.execute(TABLES)
+                con.execute(
+                    "insert into store values (?, ?, ?, 0)",
+                    [FORMAT, f"thermodata {__version__}", datetime.now(UTC).replace(tzinfo=None)],
+                )
+                regenerate_views(con, self.path)
+            finally:
+                con.close()
+            for folder in ("raw", "tidy", "model"):
+                (self.path / folder).mkdir(exist_ok=True)
+            write_text(self.path / _MARK, secrets.token_hex(8))
+            part.replace(target)
+            fsync_folder(self.path)
+
+
+def regenerate_views(con: duckdb.DuckDBPyConnection, folder: Path) -> None:
+    """Makes all views and macros anew from the tables."""
+    from thermodata.store.views.regenerate import regenerate  # only who writes needs them
+
+    regenerate(con, folder)
+
+
+def _commit(con: duckdb.DuckDBPyConnection, path: Path) -> None:
+    import duckdb
+
+    try:
+        con.execute("commit")
+    except duckdb.Error as error:  # a full disk, or one that fails
+        raise connection.damaged(path, error) from error
+
+
+def _rollback(con: duckdb.DuckDBPyConnection) -> None:
+    import duckdb
+
+    with contextlib.suppress(duckdb.Error):  # the failure may have ended the transaction already
+        con.execute("rollback")

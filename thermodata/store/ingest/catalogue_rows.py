@@ -1,0 +1,209 @@
+"""The catalogue's rows of a test, from its plan and what was made of it."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping, Sequence
+from datetime import datetime
+from typing import Any
+
+import numpy as np
+
+from thermodata.calibration.result import CalibrationResult
+from thermodata.schema.campaign import Campaign, Measuring
+from thermodata.schema.quantity import canonical
+from thermodata.store.catalogue.conditions import plain_value, plain_values
+from thermodata.store.ingest.inventory import Row
+from thermodata.store.raw.streams import RawStream
+from thermodata.store.tidy.clock_offsets import clock_to_json
+from thermodata.store.tidy.plan import Bound, SourcePlan, TestPlan
+from thermodata.store.tidy.source_clock import Clock, Span, is_relative
+
+
+def test_row(plan: TestPlan, span: Span, duration_s: float | None) -> Row:
+    """Row of `test`. phases are moved to t_s, which counts from the window where there is one."""
+    test = plan.test
+    shift = test.window[0] if test.window is not None else 0.0
+    measuring: Any = (
+        test.measuring.model_dump(mode="json", by_alias=True)
+        if isinstance(test.measuring, Measuring)
+        else test.measuring
+    )
+    return {
+        "campaign": plan.campaign.id,
+        "test": test.id,
+        "kind": test.kind,
+        "role": test.role,
+        "start_ns": None if span.relative else span.zero_ns,
+        "duration_s": duration_s,
+        "clock": "relative" if span.relative else "absolute",
+        "conditions": _json(plain_values(dict(test.conditions))),
+        "pose": _json(plain_values(dict(test.pose))),
+        "tool": None if test.tool is None else _json(plain_values(test.tool.model_dump(exclude_none=True))),
+        "phases": _json({k: [a - shift, b - shift] for k, (a, b) in test.phases.items()}),
+        "window_s": None if test.window is None else list(test.window),
+        "history": test.history,
+        "measuring": None if measuring is None else _json(measuring),
+        "zero_s": test.zero.over,
+        "start_state": test.start_state,
+        "repeat_of": test.repeat_of,
+        "notes": test.notes or None,
+    }
+
+
+def machine_row(campaign: Campaign, plan: TestPlan) -> Row:
+    """Row of `machine`: the campaign's, with the test's overrides."""
+    merged = campaign.machine.model_dump(mode="json", exclude_none=True)
+    for key, value in plan.test.machine.items():
+        old = merged.get(key)
+        merged[key] = {**old, **value} if isinstance(old, dict) and isinstance(value, dict) else value
+    attributes = {k: v for k, v in merged.items() if k not in ("id", "description")}
+    return {
+        "campaign": campaign.id,
+        "test": plan.test.id,
+        "machine": str(merged["id"]),
+        "description": merged.get("description") or None,
+        "attributes": _json(plain_values(attributes)),
+    }
+
+
+def source_rows(plan: TestPlan, clocks: Mapping[str, Clock]) -> list[Row]:
+    """Rows of `source`, one a stream."""
+    return [
+        _source_row(plan, source, stream, raws, clocks[source.name])
+        for source in plan.sources.values()
+        for stream, raws in source.streams.items()
+    ]
+
+
+def _source_row(plan: TestPlan, source: SourcePlan, stream: str, raws: Sequence[RawStream], clock: Clock) -> Row:
+    complete = [r.complete for r in raws]
+    notes = json.loads(clock_to_json(clock)) + list(dict.fromkeys(n for r in raws for n in r.notes))
+    first = min(r.first_ns + (r.start_ns or 0 if r.clock == "relative" else 0) for r in raws)
+    steps = [r.step_ns for r in raws if r.step_ns > 0]
+    return {
+        "campaign": plan.campaign.id,
+        "test": plan.test.id,
+        "source": source.name,
+        "stream": stream,
+        "reader": raws[0].reader,
+        "reader_version": raws[0].reader_version,
+        "clock": "relative" if is_relative(source) else "absolute",
+        "start_ns": first + clock.offset_ns + clock.base_ns,
+        "rows": sum(r.rows for r in raws),
+        "step_s": float(np.median(steps)) / 1e9 if steps else None,
+        "offset_ns": clock.offset_ns,
+        "complete": False if False in complete else (None if None in complete else True),
+        "notes": _json(notes),
+    }
+
+
+def channel_rows(plan: TestPlan, calibrations: Mapping[str, CalibrationResult]) -> list[Row]:
+    """Rows of `channel`, in the campaign's order."""
+    return [_channel_row(plan, bound, calibrations) for bound in plan.bound.values()]
+
+
+def _channel_row(plan: TestPlan, bound: Bound, calibrations: Mapping[str, CalibrationResult]) -> Row:
+    channel = bound.channel
+    named = [channel.calibration] if isinstance(channel.calibration, str) else list(channel.calibration or [])
+    sensor = None if channel.sensor is None else channel.sensor.model_dump(mode="json", exclude_none=True)
+    return {
+        "campaign": plan.campaign.id,
+        "test": plan.test.id,
+        "channel": bound.name,
+        "source": bound.source,
+        "stream": bound.stream,
+        "signal": bound.signal.name if bound.signal else None,
+        "quantity": channel.quantity,
+        "unit": canonical(channel.quantity),
+        "raw_unit": bound.unit,
+        "axis": channel.axis,
+        "at": channel.at,
+        "relative_to": channel.relative_to,
+        "sign": sign_of(plan, bound, calibrations),
+        "calibration": ", ".join(named) or None,
+        "dtype": bound.signal.dtype if bound.signal else ("str" if bound.is_text else "float64"),
+        "sensor": None if sensor is None else _json(sensor),
+        "notes": channel.notes or None,
+    }
+
+
+def sign_of(plan: TestPlan, bound: Bound, calibrations: Mapping[str, CalibrationResult]) -> str:
+    """'+' once values follow the sign convention; 'unknown' for a displacement that nothing orients."""
+    from thermodata.calibration.channel import channel_sign
+    from thermodata.store.tidy.derive import names
+
+    named = (
+        [bound.channel.calibration]
+        if isinstance(bound.channel.calibration, str)
+        else list(bound.channel.calibration or [])
+    )
+    operands = (
+        []
+        if bound.channel.derive is None
+        else [
+            sign_of(plan, plan.bound[n], calibrations) for n in sorted(names(bound.channel.derive)) if n in plan.bound
+        ]
+    )
+    return channel_sign(bound.channel, [calibrations[n] for n in named if n in calibrations], operands)
+
+
+def raw_rows(plan: TestPlan, now: datetime) -> list[Row]:
+    """Rows of `file` for the raw layer."""
+    return [
+        raw_row(plan.campaign.id, plan.test.id, source.name, raw, "test", now)
+        for source in plan.sources.values()
+        for raw in source.raws
+    ]
+
+
+def raw_row(campaign: str, test: str, source: str, raw: RawStream, part: str, now: datetime) -> Row:
+    return {
+        "campaign": campaign,
+        "test": test,
+        "source": source,
+        "stream": raw.stream,
+        "layer": "raw",
+        "part": part,
+        "key": raw.key,
+        "path": raw.path,
+        "source_path": raw.source_path,
+        "sha256": raw.sha256,
+        "bytes": raw.bytes,
+        "rows": raw.rows,
+        "columns": raw.to_json(),
+        "losses": raw.losses_json(),
+        "added_at": now,
+    }
+
+
+def calibration_row(campaign: str, result: CalibrationResult) -> Row:
+    row = result.row(campaign)
+    return {
+        k: _json(v)
+        if k in ("crosstalk", "checks", "detail")
+        else (None if isinstance(v, float) and not np.isfinite(v) else v)
+        for k, v in row.items()
+    }
+
+
+def _json(value: Any) -> str:
+    return json.dumps(value, sort_keys=True, default=_plain)
+
+
+def _plain(value: Any) -> Any:
+    if hasattr(value, "tolist"):
+        return value.tolist()
+    return str(plain_value(value))
+
+
+__all__ = [
+    "calibration_row",
+    "channel_rows",
+    "machine_row",
+    "raw_row",
+    "raw_rows",
+    "sign_of",
+    "source_rows",
+    "test_row",
+]

@@ -1,0 +1,158 @@
+"""Makes an ingest visible: one transaction that compares, replaces what changed, and marks dependent fits stale."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from datetime import datetime
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from thermodata.schema.campaign import Campaign
+from thermodata.store.base.connection import fetch, insert
+from thermodata.store.base.files import key_of
+from thermodata.store.ingest.inventory import BY_TEST, Inventory, Row, comparable
+
+if TYPE_CHECKING:
+    import duckdb
+
+# what a fit reads: words about a test or a channel don't make it stale
+_WORDS = ("notes", "repeat_of", "added_at", "start", "sensor", "raw_unit")
+
+
+@dataclass(slots=True)
+class Planned:
+    """The whole state of a campaign, as it is to be. rows: table -> test -> rows ('' for jump tests)."""
+
+    campaign: Campaign
+    path: Path
+    rows: dict[str, dict[str, list[Row]]]
+    calibrations: list[Row]
+    extra: dict[str, Any] = field(default_factory=dict)
+
+    @property
+    def spec(self) -> str:
+        return self.campaign.model_dump_json(by_alias=True)
+
+    def tests(self) -> set[str]:
+        return {test for table in self.rows.values() for test, rows in table.items() if rows}
+
+    def paths(self) -> set[str]:
+        return {row["path"] for rows in self.rows["file"].values() for row in rows}
+
+    def data_version(self) -> str:
+        return key_of(*(f"{t}:{version_of(self.rows, t)}" for t in sorted(self.rows["test"])))
+
+
+class VanishedError(Exception):
+    """A file that the plan relies on was removed meanwhile."""
+
+
+def version_of(rows: Mapping[str, Mapping[str, list[Row]]], test: str) -> str:
+    """A digest of everything about a test that a fit depends on."""
+    parts = []
+    for table in ("test", "machine", "channel"):
+        for row in rows[table].get(test, []):
+            parts.append(repr([(k, v) for k, v in sorted(row.items()) if k not in _WORDS]))
+    parts += sorted({r["key"] for r in rows["file"].get(test, []) if r["layer"] == "tidy"})
+    return key_of(*sorted(parts))
+
+
+def changes(planned: Planned, inventory: Inventory) -> set[str]:
+    """The tests whose rows differ from those in the catalogue."""
+    return {t for table in BY_TEST for t in _changed(planned.rows[table], inventory.rows[table])}
+
+
+def _changed(planned: Mapping[str, list[Row]], stored: Mapping[str, list[Row]]) -> set[str]:
+    """The tests whose rows of one table differ."""
+    return {
+        t for t in planned.keys() | stored.keys() if comparable(planned.get(t, [])) != comparable(stored.get(t, []))
+    }
+
+
+def nothing_new(planned: Planned, inventory: Inventory) -> bool:
+    """Whether the catalogue says already what the plan says."""
+    return (
+        inventory.campaign is not None
+        and json.loads(inventory.campaign["spec"]) == json.loads(planned.spec)
+        and comparable(planned.calibrations) == comparable(inventory.calibrations)
+        and not changes(planned, inventory)
+    )
+
+
+def commit(
+    con: duckdb.DuckDBPyConnection, store: Path, planned: Planned, inventory: Inventory, now: datetime
+) -> list[str]:
+    """Brings the campaign's rows to the plan inside the caller's transaction; returns the models gone stale.
+
+    inventory: the state within this same transaction. Raises VanishedError where a planned file isn't there.
+    """
+    missing = [p for p in planned.paths() if not (store / p).exists()]
+    if missing:
+        raise VanishedError(missing[0])
+    campaign = planned.campaign.id
+    changed = changes(planned, inventory)
+    stale = {
+        t
+        for t in changed
+        if inventory.rows["test"].get(t) and version_of(planned.rows, t) != version_of(inventory.rows, t)
+    }
+    for table in BY_TEST:
+        gone = _changed(planned.rows[table], inventory.rows[table])
+        if table == "test" and (gone or list(planned.rows[table]) != list(inventory.rows[table])):
+            # it keeps the order of the campaign file, so all of its rows are written again
+            gone = planned.rows[table].keys() | inventory.rows[table].keys()
+        if gone:
+            con.execute(f"delete from {table} where campaign = ? and list_contains(?, test)", [campaign, sorted(gone)])
+        insert(con, table, [row for t, rows in planned.rows[table].items() if t in gone for row in rows])
+    con.execute(
+        "update test set start = make_timestamp_ns(start_ns) where campaign = ? and start_ns is not null "
+        "and start is null",
+        [campaign],
+    )
+    con.execute("delete from calibration where campaign = ?", [campaign])
+    insert(con, "calibration", planned.calibrations)
+    con.execute("delete from campaign where campaign = ?", [campaign])
+    insert(
+        con,
+        "campaign",
+        [
+            {
+                "campaign": campaign,
+                "spec": planned.spec,
+                "spec_hash": key_of(planned.spec),
+                "path": str(planned.path),
+                "ingested_at": now,
+                "data_version": planned.data_version(),
+            }
+        ],
+    )
+    drop_results(con, campaign, stale - set(planned.rows["test"]))
+    return mark_stale(con, campaign, stale)
+
+
+def drop_results(con: duckdb.DuckDBPyConnection, campaign: str, tests: set[str]) -> None:
+    """Removes what models said about tests that are no more."""
+    for table in ("prediction", "score_row", "finding", "locked_look") if tests else ():
+        con.execute(f"delete from {table} where campaign = ? and list_contains(?, test)", [campaign, sorted(tests)])
+
+
+def mark_stale(con: duckdb.DuckDBPyConnection, campaign: str, tests: set[str]) -> list[str]:
+    """Marks the models that used any of the tests; one that names no tests used the whole campaign."""
+    if not tests:
+        return []
+    rows = fetch(
+        con,
+        """
+        with used as (select distinct model, campaign, test from score_row
+                      union select distinct model, campaign, test from prediction)
+        select m.model from model m where list_contains(m.campaigns, $1) and not m.stale and (
+            exists (from used u where u.model = m.model and u.campaign = $1 and list_contains($2, u.test))
+            or not exists (from used u where u.model = m.model and u.campaign = $1))""",
+        [campaign, sorted(tests)],
+    )
+    models = [r["model"] for r in rows]
+    for model in models:
+        con.execute("update model set stale = true where model = ?", [model])
+    return models

@@ -1,0 +1,85 @@
+"""What the store already holds of a campaign, so that nothing is made twice."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from thermodata.store.base.connection import fetch
+from thermodata.store.base.files import is_whole
+from thermodata.store.raw.streams import RawStream
+from thermodata.store.tidy.clock_offsets import clock_from_json
+from thermodata.store.tidy.source_clock import Clock
+
+if TYPE_CHECKING:
+    import duckdb
+
+BY_TEST = ("test", "machine", "source", "channel", "file", "quality_event")
+# when a row was written says nothing about what it says
+_MOMENTS = ("added_at", "start")
+
+Row = dict[str, Any]
+
+
+@dataclass(slots=True)
+class Inventory:
+    """name: the campaign. raws: key -> its streams, of any campaign and of earlier versions of files too.
+    rows: table -> test -> rows of this campaign."""
+
+    name: str = ""
+    raws: dict[str, list[RawStream]] = field(default_factory=dict)
+    rows: dict[str, dict[str, list[Row]]] = field(default_factory=dict)
+    campaign: Row | None = None
+    calibrations: list[Row] = field(default_factory=list)
+    clocks: dict[str, Clock] = field(default_factory=dict)
+
+    def raw_rows(self, test: str, source: str) -> list[RawStream]:
+        """The raw streams that the catalogue lists for a test's source ('' and its name for a calibration)."""
+        return [
+            RawStream.from_row(r)
+            for r in self.rows["file"].get(test, [])
+            if r["layer"] == "raw" and r["source"] == source
+        ]
+
+    def tidy(self, test: str, base: str) -> list[Row]:
+        """The rows of the tidy files with that key, whatever sensors of theirs failed before the test."""
+        return [
+            r
+            for r in self.rows["file"].get(test, [])
+            if r["layer"] == "tidy" and (r["key"] == base or json.loads(r["columns"]).get("base") == base)
+        ]
+
+
+def read_inventory(con: duckdb.DuckDBPyConnection, store: Path | None, campaign: str) -> Inventory:
+    """The catalogue's rows about a campaign. Raw files that are gone or cut are left out.
+
+    store: the folder; None where the raw files don't matter, which each are opened to see whether they are whole."""
+    inventory = Inventory(campaign)
+    seen: set[str] = set()
+    for row in fetch(con, "select * from file where layer in ('raw', 'superseded')") if store else ():
+        if row["path"] not in seen and store and is_whole(store / row["path"]):
+            seen.add(row["path"])
+            inventory.raws.setdefault(row["key"], []).append(RawStream.from_row(row))
+    for table in BY_TEST:
+        grouped: dict[str, list[Row]] = {}
+        # `start` would come as a Python datetime, which is optional and says what start_ns says
+        columns = "* exclude (start)" if table == "test" else "*"
+        for row in fetch(con, f"select {columns} from {table} where campaign = ?", [campaign]):
+            grouped.setdefault(row["test"], []).append(row)
+        inventory.rows[table] = grouped
+    campaigns = fetch(con, "select * from campaign where campaign = ?", [campaign])
+    inventory.campaign = campaigns[0] if campaigns else None
+    inventory.calibrations = fetch(con, "select * from calibration where campaign = ?", [campaign])
+    for rows in inventory.rows["source"].values():
+        for row in rows:
+            clock = clock_from_json(row["notes"])
+            if clock is not None:
+                inventory.clocks[clock.key] = clock
+    return inventory
+
+
+def comparable(rows: list[Row]) -> list[str]:
+    """Rows as sorted text, without the moments at which they were written."""
+    return sorted(repr([(k, v) for k, v in sorted(row.items()) if k not in _MOMENTS]) for row in rows)

@@ -1,0 +1,320 @@
+"""Finds the files of a campaign and brings them into the raw layer; one bad file doesn't stop the others."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+from typing import Any
+
+from thermodata.errors import FormatError, StoreError, ThermodataError, UsageError
+from thermodata.plugin import Loss, Reader, Source
+from thermodata.schema.campaign import Campaign, JumpCalibration, SourceSpec, Test
+from thermodata.store.base.files import DISK_FULL, is_whole, write_error
+from thermodata.store.ingest.file_versions import pinned, read_otherwise, twins
+from thermodata.store.ingest.inventory import Inventory
+from thermodata.store.ingest.progress import Progress, counted
+from thermodata.store.ingest.resolve import SourceFiles, file_inside, natural, resolve
+from thermodata.store.raw.source_file import ChangedError, SourceFile, frozen, settled
+from thermodata.store.raw.streams import RawStream, declared, find_reader, raw_key, read_raw
+from thermodata.store.tidy.plan import SourcePlan, TestPlan
+
+Losses = list[dict[str, Any]]
+
+
+def loss_row(
+    reason: str,
+    *,
+    test: str | None = None,
+    source: str | None = None,
+    file: str | None = None,
+    loss: Loss | None = None,
+) -> dict[str, Any]:
+    """A loss as the summary tells it; times in seconds of the file's own clock."""
+    return {
+        "test": test,
+        "source": source,
+        "file": file,
+        "where": loss.where if loss else None,
+        "from_ns": loss.from_ns if loss else None,
+        "to_ns": loss.to_ns if loss else None,
+        "fraction": loss.fraction if loss else None,
+        "reason": reason,
+    }
+
+
+@dataclass(slots=True)
+class RawIngest:
+    """Reads each file once, however many tests share it."""
+
+    store: Path
+    folder: Path
+    campaign: Campaign
+    inventory: Inventory
+    watch: Progress
+    losses: Losses = field(default_factory=list)
+    notes: list[str] = field(default_factory=list)
+    files: set[str] = field(default_factory=set)
+    read: int = 0
+    _settled: dict[str, SourceFile] = field(default_factory=dict)
+    _odd: dict[str, str] = field(default_factory=dict)
+    _source_files: dict[tuple[str, str], SourceFiles] = field(default_factory=dict)
+    _sizes: dict[str, int] = field(default_factory=dict)
+    _streams: dict[str, list[RawStream] | ThermodataError | OSError] = field(default_factory=dict)
+    _readers: dict[str, Reader] = field(default_factory=dict)
+
+    def survey(self) -> None:
+        """Finds all files, and says how many and how much that is."""
+        for test in self.campaign.tests:
+            for name in self.campaign.sources:
+                self._source_files[test.id, name] = resolve(self.folder, self.campaign, test, name)
+                self._odd.update(self._source_files[test.id, name].odd)
+        paths = {p for files in self._source_files.values() for p in files.paths}
+        paths |= {c.file for c in self.campaign.calibrations.values() if isinstance(c, JumpCalibration)}
+        self._sizes = {p: size for p in paths if (size := self._size(p)) is not None}
+        self.watch.begin(len(self._sizes), sum(self._sizes.values()))
+
+    def _size(self, path: str) -> int | None:
+        try:
+            return self._full(path).stat().st_size
+        except (OSError, ValueError):
+            return None
+
+    def plan(self, test: Test) -> TestPlan:
+        """A test with the raw streams of all its sources."""
+        plan = TestPlan(self.campaign, test)
+        for name, spec in self.campaign.sources.items():
+            plan.sources[name] = self._source(test, name, spec)
+        missing = [n for n, s in plan.sources.items() if not s.raws]
+        if len(missing) == len(plan.sources):
+            self.losses.append(loss_row("no data: no file of any source was found or could be read", test=test.id))
+        for name in test.files:
+            if name not in self.campaign.sources:
+                plan.problems.append(f"test '{test.id}': files names an unknown source '{name}'")
+        return plan
+
+    def _source(self, test: Test, name: str, spec: SourceSpec) -> SourcePlan:
+        files = self._source_files.get((test.id, name)) or resolve(self.folder, self.campaign, test, name)
+        plan = SourcePlan(name, spec, shared=files.shared)
+        for path, why in files.refused:
+            self.losses.append(loss_row(f"refused: {why}", test=test.id, source=name, file=path))
+        before: dict[str, list[RawStream]] = {}
+        for raw in self.inventory.raw_rows(test.id, name):
+            before.setdefault(raw.source_path, []).append(raw)
+        there = set(files.paths)
+        same = twins(files.paths, self._hashes(files.paths))
+        for path in sorted({*there, *(p for p in before if files.claims(p))}, key=natural):
+            if path in same:
+                self.notes.append(f"{path}: left out, its content is that of {same[path]}")
+                self._done(path)
+            elif path not in there and (new := self._renamed_to(before[path], files.paths)):
+                self.notes.append(f"{path}: is {new} now, with the same content")
+            else:
+                plan.raws += self._file(
+                    path, name, spec, before.get(path, []), test.id, (test.id, name), gone=path not in there
+                )
+        if not files.paths and not plan.raws and files.patterns:
+            text = f"test '{test.id}': no file of source '{name}' ({', '.join(files.patterns)})"
+            if files.explicit:
+                self.losses.append(loss_row("no such file", test=test.id, source=name, file=files.patterns[0]))
+            else:
+                self.notes.append(text)
+        return plan
+
+    def empty_sources(self, plans: list[TestPlan]) -> None:
+        """A loss for each source that channels need and that has no file in any test: a pattern is wrong then."""
+        needed = {c.source for c in self.campaign.channels.values()}
+        for name, spec in self.campaign.sources.items():
+            if name in needed and plans and not any(p.sources[name].raws for p in plans):
+                if any(row["source"] == name for row in self.losses):
+                    continue
+                patterns = [spec.files] if isinstance(spec.files, str) else spec.files or ["no 'files'"]
+                self.losses.append(
+                    loss_row(
+                        f"no file in any test ({', '.join(patterns)}); try: correct 'files' of the source", source=name
+                    )
+                )
+
+    def jump_files(self) -> dict[str, list[RawStream]]:
+        """Calibration -> the raw streams of its jump test."""
+        streams: dict[str, list[RawStream]] = {}
+        for name, spec in self.campaign.calibrations.items():
+            if not isinstance(spec, JumpCalibration):
+                continue
+            path = file_inside(self.folder, spec.file, f"calibrations.{name}.file")
+            before = self.inventory.raw_rows("", name)
+            source = self.campaign.sources[spec.source]
+            if path.is_file() or before:
+                streams[name] = self._file(
+                    spec.file, spec.source, source, before, f"calibration {name}", ("", name), gone=not path.is_file()
+                )
+            else:
+                self.losses.append(
+                    loss_row(
+                        "no such file: the calibration can't be evaluated",
+                        file=spec.file,
+                        test=f"calibration {name}",
+                        source=spec.source,
+                    )
+                )
+        return streams
+
+    def _file(
+        self,
+        path: str,
+        source: str,
+        spec: SourceSpec,
+        before: list[RawStream],
+        test: str,
+        kept_as: tuple[str, str],
+        gone: bool,
+    ) -> list[RawStream]:
+        """The raw streams of one file; [] and a loss where it can't be read. kept_as: test and source of its rows."""
+        raws: list[RawStream] = []
+        reader = self._reader(spec.reader, source)
+        if path in self.campaign.versions:
+            raws = pinned(self.inventory, *kept_as, path, self.campaign.versions[path])
+            self.notes.append(f"{path}: version {raws[0].sha256[:12]}, as the campaign file wants")
+        elif gone:
+            raws = self._copy(path, before, reader, declared(source, spec))
+        else:
+            try:
+                raws = self._read(path, source, spec, reader)
+            except StoreError:
+                raise
+            except (ThermodataError, OSError) as error:
+                if isinstance(error, OSError) and str(error.filename).startswith(str(self.store)):
+                    raise write_error(Path(error.filename), error) from error
+                reason = "; ".join(str(error).splitlines())
+                self.losses.append(loss_row(reason, test=test, source=source, file=path))
+                raws = self._former(path, before)
+                if not raws:
+                    self._done(path)
+                    return []
+        self._done(path)
+        if path not in self.files:
+            for loss in (x for r in raws for x in r.losses):
+                self.losses.append(loss_row(loss.reason, test=test, source=source, file=path, loss=loss))
+        self.files.add(path)
+        return raws
+
+    def _copy(self, path: str, before: list[RawStream], reader: Reader, declaration: Source) -> list[RawStream]:
+        """The store's own copy of a file that isn't there any more."""
+        if before and not all(is_whole(self.store / r.path) for r in before):
+            raise StoreError(
+                "a raw file of the store is gone or cut, and its source is gone",
+                where=before[0].path,
+                got=f"no {path}",
+                hint="put the source file back, or forget the test",
+            )
+        if before:
+            self.notes.append(f"{path}: not there any more; the store's raw copy is used")
+            why = read_otherwise(before[0], reader, declaration)
+            if why is not None:
+                self.losses.append(loss_row(f"not there to be read again: the store's raw copy was {why}", file=path))
+        return before
+
+    def _former(self, path: str, before: list[RawStream]) -> list[RawStream]:
+        """What the store holds of a file that can't be read now: what was read once isn't lost by that."""
+        hashed = self._settled.get(path)
+        if (
+            not before
+            or not all(is_whole(self.store / r.path) for r in before)
+            or (hashed is not None and hashed.sha256 == before[0].sha256)
+        ):
+            return []  # a reader that refuses the bytes that an older one took has its reason
+        self.notes.append(f"{path}: the version that was read before is used ({before[0].sha256[:12]})")
+        return before
+
+    def _hashes(self, paths: Iterable[str]) -> dict[str, str]:
+        """Path -> SHA-256, of the files that can be read."""
+        hashes: dict[str, str] = {}
+        for path in paths:
+            try:
+                hashes[path] = self._settle(path).sha256
+            except (OSError, ThermodataError):
+                continue  # told where the file is read
+        return hashes
+
+    def _settle(self, path: str) -> SourceFile:
+        if path not in self._settled:
+            self._settled[path] = settled(self._full(path))
+        return self._settled[path]
+
+    def _done(self, path: str) -> None:
+        size = self._sizes.pop(path, None)
+        if size is not None:
+            self.watch.done(path, size)
+
+    def _full(self, path: str) -> Path:
+        return self.folder / self._odd.get(path, path)
+
+    def _renamed_to(self, before: list[RawStream], paths: Iterable[str]) -> str | None:
+        """The present file with the bytes of one that is gone."""
+        return next((p for p in paths if p in self._settled and self._settled[p].sha256 == before[0].sha256), None)
+
+    def _reader(self, name: str, source: str) -> Reader:
+        """The reader of a source. One that isn't there is no defect of a file: ingest would drop all its data."""
+        if name not in self._readers:
+            try:
+                self._readers[name] = find_reader(name)
+            except UsageError as error:
+                raise UsageError(
+                    error.what,
+                    where=f"sources.{source}.reader",
+                    expected=error.expected,
+                    got=error.got,
+                    hint=error.hint,
+                ) from error
+        return self._readers[name]
+
+    def _read(self, path: str, source: str, spec: SourceSpec, reader: Reader) -> list[RawStream]:
+        file = self._settle(path)
+        declaration = declared(source, spec)
+        key = raw_key(file.sha256, reader, declaration)
+        if key not in self._streams:
+            if key in self.inventory.raws:
+                self._streams[key] = self.inventory.raws[key]
+            else:
+                self.watch.say(f"reading {path}")
+                try:
+                    self._streams[key] = self._read_settled(path, file, reader, declaration)
+                    self.read += 1
+                except StoreError as error:
+                    if error.what == DISK_FULL:
+                        # raw Parquet takes about as much as the log, and the tidy layer as much again
+                        needed = f"about {max(1, 2 * file.bytes // 1_000_000)} MB for {path}"
+                        raise StoreError(
+                            error.what, where=error.where, expected=needed, got=error.got, hint=error.hint
+                        ) from error
+                    raise
+                except (ThermodataError, OSError) as error:
+                    self._streams[key] = error
+        streams = self._streams[key]
+        if isinstance(streams, Exception):
+            raise streams
+        # the same bytes may stand under another name, in another test or campaign
+        return [r if r.source_path == path else _renamed(r, path) for r in streams]
+
+    def _read_settled(self, path: str, file: SourceFile, reader: Reader, declaration: Source) -> list[RawStream]:
+        """Reads a file so that hash and rows agree: where it changes meanwhile, from a copy of what is there now."""
+        try:
+            try:
+                return read_raw(
+                    self.store, file.path, path, file.sha256, counted(reader, self.watch), declaration, file.check
+                )
+            except FormatError:
+                file.check()  # half of a file that is being written may look like a damaged one
+                raise
+        except ChangedError:
+            with frozen(self._full(path), self.store / "raw") as copy:
+                raws = self.inventory.raws.get(raw_key(copy.sha256, reader, declaration)) or read_raw(
+                    self.store, copy.path, path, copy.sha256, counted(reader, self.watch), declaration
+                )
+            self._settled[path] = copy
+            self.notes.append(f"{path}: {copy.note}")
+            return [replace(r, notes=tuple(dict.fromkeys((*r.notes, copy.note or "")))) for r in raws]
+
+
+def _renamed(raw: RawStream, path: str) -> RawStream:
+    return replace(raw, source_path=path)

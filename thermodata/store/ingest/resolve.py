@@ -1,0 +1,152 @@
+"""Which files belong to a test and a source. Paths stay inside the campaign's folder, through symlinks too."""
+
+from __future__ import annotations
+
+import glob
+import os
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from pathlib import Path, PurePosixPath
+
+from thermodata.errors import SpecError
+from thermodata.schema.campaign import Campaign, Test
+from thermodata.store.raw.source_file import kind_of
+
+
+@dataclass(frozen=True, slots=True)
+class SourceFiles:
+    """The files of one (test, source). paths: relative to the campaign's folder, in natural order. refused:
+    (path, reason). shared: the pattern doesn't name the test, so that other tests have the same files. odd: path ->
+    the name on the disk, where that is no valid text."""
+
+    patterns: tuple[str, ...]
+    paths: tuple[str, ...]
+    refused: tuple[tuple[str, str], ...]
+    shared: bool
+    explicit: bool
+    odd: Mapping[str, str] = field(default_factory=dict)
+
+    def claims(self, path: str) -> bool:
+        """Whether a path that is no longer there would still belong."""
+        return any(re.fullmatch(_regex(p), path) for p in self.patterns)
+
+
+def patterns_of(campaign: Campaign, test: Test, source: str) -> tuple[tuple[str, ...], bool, bool]:
+    """(glob patterns, shared, explicit) of a source in a test; no patterns where it has no files."""
+    own = test.files.get(source)
+    declared = own if own is not None else campaign.sources[source].files
+    if declared is None:
+        return (), False, False
+    listed = [declared] if isinstance(declared, str) else list(declared)
+    shared = own is None and not any("{test}" in p for p in listed)
+    return tuple(_checked(p, test.id) for p in listed), shared, own is not None
+
+
+def resolve(folder: Path, campaign: Campaign, test: Test, source: str) -> SourceFiles:
+    """The files of a source in a test, as they stand in the campaign's folder now."""
+    patterns, shared, explicit = patterns_of(campaign, test, source)
+    root = folder.resolve()
+    paths: dict[str, str | None] = {}
+    odd: dict[str, str] = {}
+    for pattern in patterns:
+        # a folder or a pipe that a pattern happens to fit is nobody's log; one that is named is a mistake
+        named = not glob.has_magic(pattern)
+        for name in sorted(glob.glob(pattern, root_dir=root, recursive=True), key=natural):
+            relative = PurePosixPath(Path(name)).as_posix()
+            if not _is_text(relative):
+                odd[text := os.fsencode(relative).decode("utf-8", "backslashreplace")] = relative
+                relative = text
+            if relative not in paths and not relative.endswith(".tdms_index"):
+                why = _refusal(root, name, named)
+                if why != "":
+                    paths[relative] = why
+    return SourceFiles(
+        patterns,
+        tuple(p for p, why in paths.items() if why is None),
+        tuple((p, why) for p, why in paths.items() if why is not None),
+        shared,
+        explicit,
+        odd,
+    )
+
+
+def _is_text(name: str) -> bool:
+    try:
+        name.encode()
+    except UnicodeEncodeError:
+        return False
+    return True
+
+
+def _refusal(root: Path, name: str, named: bool) -> str | None:
+    """Why a path isn't read: None where it is a file inside the folder, '' where it need not be mentioned."""
+    try:
+        real = (root / name).resolve()
+        if not real.is_relative_to(root):
+            return "leads outside the campaign's folder"
+        kind = kind_of(real.stat())
+    except FileNotFoundError:
+        return "a link to nothing"
+    except (OSError, RuntimeError, ValueError) as error:
+        return str(getattr(error, "strerror", None) or error)  # a loop of links, a folder that may not be entered
+    if kind is None:
+        return None
+    return "" if kind == "a folder" and not named else f"this is {kind}, not a file"
+
+
+def file_inside(folder: Path, name: str, where: str) -> Path:
+    """One declared file, which must lie inside the campaign's folder (it need not exist)."""
+    root = folder.resolve()
+    _checked(name, "", where)
+    try:
+        real = (root / name).resolve()
+    except (OSError, RuntimeError, ValueError) as error:
+        raise SpecError("a path that leads nowhere", where=where, got=f"{name}: {error}") from error
+    if not real.is_relative_to(root):
+        raise SpecError(
+            "a path leads outside the campaign's folder",
+            where=where,
+            got=name,
+            expected="a file inside the campaign's folder",
+        )
+    return root / name
+
+
+def natural(text: str) -> list[tuple[int, int, str]]:
+    """Sort key that puts run_2 before run_10."""
+    return [(0, int(part), "") if part.isdigit() else (1, 0, part) for part in re.split(r"(\d+)", text) if part]
+
+
+def _checked(pattern: str, test: str, where: str = "files") -> str:
+    if (
+        PurePosixPath(pattern).is_absolute()
+        or Path(pattern).is_absolute()
+        or re.match(r"^[A-Za-z]:", pattern)
+        or ".." in re.split(r"[/\\]", pattern)
+    ):
+        raise SpecError(
+            "a path leads outside the campaign's folder",
+            where=where,
+            got=pattern,
+            expected="a path relative to the campaign file, without '..'",
+            hint="put the files into the campaign's folder, or the campaign file above them",
+        )
+    return pattern.replace("{test}", glob.escape(test))
+
+
+def _regex(pattern: str) -> str:
+    out, i = "", 0
+    while i < len(pattern):
+        if pattern.startswith("**/", i):
+            out, i = out + "(?:.*/)?", i + 3
+        elif pattern[i] == "*":
+            out, i = out + "[^/]*", i + 1
+        elif pattern[i] == "?":
+            out, i = out + "[^/]", i + 1
+        elif pattern[i] == "[" and "]" in pattern[i + 1 :]:
+            end = pattern.index("]", i + 2) if pattern.find("]", i + 2) > 0 else pattern.index("]", i + 1)
+            out, i = out + "[" + pattern[i + 1 : end].replace("!", "^", 1).replace("\\", "\\\\") + "]", end + 1
+        else:
+            out, i = out + re.escape(pattern[i]), i + 1
+    return out

@@ -1,0 +1,285 @@
+"""Makes the tidy files of a campaign's tests, those that are not there yet, and the catalogue's rows of all."""
+
+from __future__ import annotations
+
+import dataclasses
+import json
+import os
+from collections import Counter
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+from datetime import datetime
+from pathlib import Path
+from typing import Any
+
+from thermodata.calibration.result import CalibrationResult
+from thermodata.errors import SpecError, StoreError, ThermodataError
+from thermodata.plugin import Loss
+from thermodata.store.base.files import is_whole, key_of
+from thermodata.store.ingest import catalogue_rows
+from thermodata.store.ingest.inventory import BY_TEST, Inventory, Row
+from thermodata.store.ingest.raw_layer import loss_row
+from thermodata.store.tidy.clock_offsets import clocks_of
+from thermodata.store.tidy.keys import member_key
+from thermodata.store.tidy.plan import SCHEDULE, TestPlan
+from thermodata.store.tidy.series import Member, TestSeries
+from thermodata.store.tidy.source_clock import Clock, Span, span
+from thermodata.store.tidy.temperature_levels import levels_of, offsets_by_test
+from thermodata.store.tidy.writer import TidyResult, write_member
+
+Columns = list[tuple[str, bool]]
+
+
+@dataclass(slots=True)
+class TidyLayer:
+    """What a campaign's tidy layer is and lost. rows: table -> test -> the catalogue's rows.
+
+    samples and flags count the whole campaign, kept streams included; new_streams: those that were made now.
+    """
+
+    rows: dict[str, dict[str, list[Row]]] = field(default_factory=lambda: {t: {} for t in BY_TEST})
+    samples: int = 0
+    flags: Counter[str] = field(default_factory=Counter)
+    losses: list[dict[str, Any]] = field(default_factory=list)
+    notes: list[str] = field(default_factory=list)
+    new_streams: int = 0
+
+
+@dataclass(slots=True)
+class _Tidied:
+    """A test whose streams are tidied: member -> the rows of its tidy files, and of its quality events."""
+
+    plan: TestPlan
+    clocks: dict[str, Clock]
+    where: Span
+    files: dict[Member, list[Row]] = field(default_factory=dict)
+    events: dict[Member, list[Row]] = field(default_factory=dict)
+
+
+def tidy_tests(
+    store: Path,
+    plans: Sequence[TestPlan],
+    calibrations: Mapping[str, CalibrationResult],
+    inventory: Inventory,
+    now: datetime,
+    say: Callable[[str], None],
+) -> TidyLayer:
+    """Tidies every stream of every test that isn't there under its content key.
+
+    A sensor that failed between two tests shows only once all are tidied; the streams that it spoils are made again.
+    """
+    layer = TidyLayer()
+    tidier = _Tidier(store, _columns(plans), calibrations, inventory, now, say, layer)
+    tidied: dict[str, _Tidied] = {}
+    for plan in plans:
+        with _loss_where_it_fails(layer, plan):
+            tidied[plan.test.id] = tidier.tidy(plan)
+    levels = [
+        x
+        for t in tidied.values()
+        if (
+            x := levels_of(
+                t.plan.test.id,
+                None if t.where.relative else t.where.zero_ns / 1e9,
+                [r for rows in t.files.values() for r in rows],
+            )
+        )
+        is not None
+    ]
+    failed = offsets_by_test(levels)
+    for plan in plans:
+        test = tidied.get(plan.test.id)
+        if test is not None:
+            with _loss_where_it_fails(layer, plan):
+                tidier.mark(test, failed.get(plan.test.id, {}))
+                _add_rows(layer, test, calibrations, now)
+        layer.losses += [loss_row(p, test=plan.test.id) for p in plan.problems]
+        layer.notes += plan.notes
+    return layer
+
+
+@contextmanager
+def _loss_where_it_fails(layer: TidyLayer, plan: TestPlan) -> Iterator[None]:
+    """A test that can't be made is a loss; the others go on."""
+    try:
+        yield
+    except (StoreError, SpecError):
+        raise
+    except ThermodataError as error:
+        layer.losses.append(loss_row("; ".join(str(error).splitlines()), test=plan.test.id))
+
+
+def _columns(plans: Sequence[TestPlan]) -> dict[Member, Columns]:
+    """The channels of each (source, stream) over all tests, in the campaign's order."""
+    channels: dict[Member, dict[str, bool]] = {}
+    for plan in plans:
+        for bound in plan.bound.values():
+            channels.setdefault((bound.source, bound.stream), {})[bound.name] = bound.is_text
+    order = {name: i for plan in plans[:1] for i, name in enumerate(plan.campaign.channels)}
+    return {m: sorted(c.items(), key=lambda item: order[item[0]]) for m, c in channels.items()}
+
+
+@dataclass(frozen=True, slots=True)
+class _Tidier:
+    store: Path
+    columns: Mapping[Member, Columns]
+    calibrations: Mapping[str, CalibrationResult]
+    inventory: Inventory
+    now: datetime
+    say: Callable[[str], None]
+    layer: TidyLayer
+
+    def tidy(self, plan: TestPlan) -> _Tidied:
+        """Every stream of a test, kept where the store has it already."""
+        clocks = clocks_of(self.store, plan, self.calibrations, self.inventory.clocks)
+        test = _Tidied(plan, clocks, span(plan, clocks))
+        series = self._series(test)
+        for member in plan.members():
+            if member[0] == SCHEDULE and not any(s.raws for s in plan.sources.values()):
+                continue
+            base = self._base(test, member)
+            kept = self.inventory.tidy(plan.test.id, base)
+            if kept and all(_kept_alive(self.store / row["path"], row["bytes"]) for row in kept):
+                test.files[member] = kept
+                test.events[member] = [
+                    r
+                    for r in self.inventory.rows["quality_event"].get(plan.test.id, [])
+                    if (r["source"], r["stream"]) == member
+                ]
+            else:
+                self._write(test, series, member, base, {})
+        return test
+
+    def mark(self, test: _Tidied, failed: Mapping[str, float]) -> None:
+        """Makes those streams again whose files were made with other failed sensors in mind. failed: channel -> by how
+        much its sensor is off [K]."""
+        series = None
+        for member, rows in test.files.items():
+            meta = [json.loads(r["columns"]) for r in rows]
+            wanted = {c: size for c, size in failed.items() if any(c in m["channels"] for m in meta)}
+            if wanted != next((m["offsets"] for m in meta if "offsets" in m), {}):
+                series = series or self._series(test)
+                self._write(test, series, member, self._base(test, member), wanted)
+
+    def _series(self, test: _Tidied) -> TestSeries:
+        return TestSeries(self.store, test.plan, test.clocks, test.where, self.calibrations)
+
+    def _base(self, test: _Tidied, member: Member) -> str:
+        return member_key(test.plan, member, self.columns[member], test.clocks, test.where, self.calibrations)
+
+    def _write(self, test: _Tidied, series: TestSeries, member: Member, base: str, failed: Mapping[str, float]) -> None:
+        name, campaign = test.plan.test.id, test.plan.campaign.id
+        self.say(f"{name}: {member[0]}/{member[1]}")
+        key = key_of(base, json.dumps(failed, sort_keys=True)) if failed else base
+        result = write_member(series, member, self.columns[member], key, failed)
+        self.layer.new_streams += 1
+        test.files[member] = _tidy_rows(campaign, name, member, result, self.store, self.now, base, failed)
+        test.events[member] = [
+            {"campaign": campaign, "test": name, "source": member[0], "stream": member[1], **dataclasses.asdict(e)}
+            for e in result.events
+        ]
+
+
+def _add_rows(layer: TidyLayer, tidied: _Tidied, calibrations: Mapping[str, CalibrationResult], now: datetime) -> None:
+    """The catalogue's rows of a test."""
+    plan, clocks, test = tidied.plan, tidied.clocks, tidied.plan.test.id
+    files = [*catalogue_rows.raw_rows(plan, now), *(r for rows in tidied.files.values() for r in rows)]
+    for rows in tidied.files.values():
+        _count(layer, rows, test)
+    for row in files:
+        # the same clock for all of one ingest, and for a kept file the moment at which it was made
+        row.setdefault("added_at", now)
+    _add(layer, test, "file", files)
+    _add(layer, test, "quality_event", [e for rows in tidied.events.values() for e in rows])
+    _add(layer, test, "test", [catalogue_rows.test_row(plan, tidied.where, _duration(plan, files))])
+    _add(layer, test, "machine", [catalogue_rows.machine_row(plan.campaign, plan)])
+    _add(layer, test, "source", catalogue_rows.source_rows(plan, clocks))
+    _add(layer, test, "channel", catalogue_rows.channel_rows(plan, calibrations))
+    layer.notes += [f"{test}, {name}: {n}" for name, clock in clocks.items() for n in clock.notes]
+    layer.notes += [f"{r.source_path}: {n}" for s in plan.sources.values() for r in s.raws for n in r.notes]
+    layer.losses += [
+        loss_row(n, test=test, source=name) for name, clock in clocks.items() for n in clock.notes if clock.suspect
+    ]
+
+
+def _kept_alive(path: Path, size_bytes: int) -> bool:
+    if not is_whole(path, size_bytes):
+        return False
+    try:
+        os.utime(path)  # so that a gc which runs meanwhile sees a young file
+    except OSError:
+        return False
+    return True
+
+
+def _duration(plan: TestPlan, files: Sequence[Row]) -> float | None:
+    """How long the recording is [s]: that of its reference sources, as far as they were tidied."""
+    ends = {
+        r["source"]: json.loads(r["columns"])["to_s"] for r in files if r["layer"] == "tidy" and r["part"] == "test"
+    }
+    if plan.test.window is not None and ends:
+        a, b = plan.test.window
+        return float(min(b - a, max(ends.values())))
+    wanted = [ends[s.name] for s in plan.reference if s.name in ends] or list(ends.values())
+    return max(wanted, default=None)
+
+
+def _tidy_rows(
+    campaign: str,
+    test: str,
+    member: Member,
+    result: TidyResult,
+    store: Path,
+    now: datetime,
+    base: str,
+    failed: Mapping[str, float],
+) -> list[Row]:
+    rows: list[Row] = []
+    for file in result.files:
+        meta: dict[str, Any] = {"channels": file.columns, "to_s": file.to_s, "base": base}
+        meta |= {"levels": file.levels} if file.levels else {}
+        meta |= {"notes": list(result.notes)} if result.notes and file is result.files[-1] else {}
+        meta |= {"offsets": dict(failed)} if failed else {}
+        if file is result.files[-1]:
+            meta |= {"samples": result.samples, "flags": dict(result.flags), "problems": result.problems}
+        rows.append(
+            {
+                "campaign": campaign,
+                "test": test,
+                "source": member[0],
+                "stream": member[1],
+                "layer": "tidy",
+                "part": file.part,
+                "key": file.key,
+                "path": file.path,
+                "source_path": None,
+                "sha256": None,
+                "bytes": (store / file.path).stat().st_size,
+                "rows": file.rows,
+                "columns": json.dumps(meta, sort_keys=True),
+                "losses": json.dumps(
+                    [dataclasses.asdict(x) for x in result.losses] if file is result.files[-1] else []
+                ),
+                "added_at": now,
+            }
+        )
+    return rows
+
+
+def _count(layer: TidyLayer, files: Sequence[Row], test: str) -> None:
+    for row in files:
+        meta = json.loads(row["columns"])
+        layer.samples += meta.get("samples", 0)
+        layer.flags.update(meta.get("flags", {}))
+        layer.losses += [loss_row(p, test=test) for p in meta.get("problems", [])]
+        layer.notes += [f"{test}, {row['source']}: {n}" for n in meta.get("notes", [])]
+        for item in json.loads(row["losses"] or "[]"):
+            layer.losses.append(loss_row(item["reason"], test=test, source=row["source"], loss=Loss(**item)))
+
+
+def _add(layer: TidyLayer, test: str, table: str, rows: list[Row]) -> None:
+    layer.rows[table][test] = rows
+
+
+__all__ = ["TidyLayer", "tidy_tests"]

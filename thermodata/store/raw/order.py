@@ -1,0 +1,94 @@
+"""The order of a stream's rows in time: where a clock was set, and which short stretches are to be sorted.
+
+Nothing here is as long as the stream: rows are looked at in chunks, and what is kept is a few numbers a chunk.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from thermodata.plugin import Int1D
+from thermodata.store.raw.clock_faults import MOST_STRAYS, Faults, shifted
+
+CHUNK_ROWS = 500_000
+_NEAR, _LONGEST = 256, 65_536  # rows: stretches that lie so near are sorted as one, up to this length
+Times = Callable[[int, int], Int1D]
+
+
+@dataclass(frozen=True, slots=True)
+class Order:
+    """keep: rows up to here are the stream's; beyond, a clock went back that may not.
+
+    at, shifts: rows from which on another shift holds, and the shifts that are added to the times, shapes (k,) and
+    (k + 1,): the first one holds from row 0. marked: rows whose time was made or at which the clock was set.
+    islands: (first, past-the-last) rows of the stretches that are out of order, shape (m, 2): sorting each of them
+    sorts the stream. extent: the earliest and latest time. notes: what was found, in words.
+    """
+
+    keep: int
+    at: Int1D
+    shifts: Int1D
+    marked: Int1D
+    islands: Int1D
+    extent: tuple[int, int] = (0, 0)
+    notes: tuple[str, ...] = ()
+
+    def moved(self, t_ns: Int1D, start: int) -> Int1D:
+        """Times of the rows from start on, with the shifts."""
+        if not len(self.at) and not self.shifts[0]:
+            return t_ns
+        return t_ns + shifted(self.at, self.shifts, start, len(t_ns))
+
+
+def in_order(n: int) -> Order:
+    """Of rows that are in order."""
+    empty = np.empty(0, np.int64)
+    return Order(n, empty, np.zeros(1, np.int64), empty, np.empty((0, 2), np.int64))
+
+
+def find_order(times: Times, n: int, *, resets_allowed: bool) -> Order:
+    """Looks at the times of n rows, twice. A step back by a second at most is disorder; for more see `clock_faults`."""
+    faults = Faults(resets_allowed)
+    for first in range(0, n, CHUNK_ROWS):
+        t = times(first, min(n, first + CHUNK_ROWS + MOST_STRAYS + 1))
+        if not faults.look(t, first, min(CHUNK_ROWS, len(t))):
+            break
+    keep = n if faults.keep is None else faults.keep
+    order = Order(
+        keep,
+        np.array(faults.at, np.int64),
+        np.array(faults.shifts, np.int64),
+        np.array(sorted(faults.marked), np.int64),
+        np.empty((0, 2), np.int64),
+        faults.extent,
+        faults.notes(),
+    )
+    return replace(order, islands=_islands(times, order, faults.lowest))
+
+
+def _islands(times: Times, order: Order, lowest: list[int]) -> Int1D:
+    """The stretches between which the stream may be cut: all before is no later than all behind."""
+    top = np.iinfo(np.int64).max
+    later = np.append(np.minimum.accumulate(np.array(lowest, np.int64)[::-1])[::-1], top)
+    highest = np.iinfo(np.int64).min
+    runs: list[tuple[int, int]] = []
+    for chunk, first in enumerate(range(0, order.keep, CHUNK_ROWS)):
+        t = order.moved(times(first, min(order.keep, first + CHUNK_ROWS)), first)
+        before = np.maximum(np.concatenate([[highest], np.maximum.accumulate(t)[:-1]]), highest)
+        behind = np.minimum(np.minimum.accumulate(t[::-1])[::-1], later[chunk + 1])
+        torn = (before > behind).view(np.int8)  # no cut before this row
+        edges = np.flatnonzero(np.diff(np.concatenate([[0], torn, [0]])))
+        for a, b in zip(edges[::2].tolist(), edges[1::2].tolist(), strict=True):
+            _append(runs, first + a - 1, first + b)
+        highest = max(highest, int(t.max(initial=highest)))
+    return np.array(runs, np.int64).reshape(-1, 2)
+
+
+def _append(runs: list[tuple[int, int]], start: int, stop: int) -> None:
+    if runs and (start < runs[-1][1] or (start - runs[-1][1] <= _NEAR and stop - runs[-1][0] <= _LONGEST)):
+        runs[-1] = (runs[-1][0], stop)
+    else:
+        runs.append((start, stop))

@@ -1,0 +1,121 @@
+"""Evaluates the calibrations of a campaign; jump tests are read through the same readers and the same raw layer."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+
+from thermodata.calibration.result import CalibrationResult
+from thermodata.errors import CalibrationError, ThermodataError, UsageError
+from thermodata.plugin import Array, Int1D
+from thermodata.schema.campaign import Campaign, JumpCalibration, LinearCalibration
+from thermodata.schema.quantity import linear_conversion
+from thermodata.store.raw.streams import RawStream
+from thermodata.store.tidy import derive
+from thermodata.store.tidy.plan import find_signal
+from thermodata.store.tidy.source_clock import Clock, build
+from thermodata.store.tidy.timeline import Timeline
+
+
+def evaluate(
+    store: Path, campaign: Campaign, jump_files: Mapping[str, list[RawStream]]
+) -> tuple[dict[str, CalibrationResult], list[str]]:
+    """(results by name, problems). jump_files: calibration -> the raw streams of its file, where there are any.
+
+    CalibrationError where a calibration contradicts itself: nothing is ingested with it. A jump test that
+    can't be read or found is a problem, and the channels that use it are left without values.
+    """
+    from thermodata.calibration.jump import evaluate_jump
+    from thermodata.calibration.static import evaluate_linear, evaluate_scale
+
+    results: dict[str, CalibrationResult] = {}
+    problems: list[str] = []
+    for name, spec in campaign.calibrations.items():
+        if isinstance(spec, JumpCalibration):
+            raws = jump_files.get(name)
+            if spec.moves == "unknown":
+                problems.append(
+                    f"calibration '{name}': its moves are unknown, so nothing is calibrated with it; try: "
+                    "write the commanded moves, for example moves: [100 um, -100 um]"
+                )
+                continue
+            if not raws:
+                continue
+            try:
+                t_ns, volts, others, unit = _jump_data(store, campaign, spec, raws)
+            except CalibrationError:
+                raise
+            except ThermodataError as error:
+                problems.append(f"calibration '{name}': " + "; ".join(str(error).splitlines()))
+                continue
+            results[name] = evaluate_jump(name, spec, t_ns, volts, others, unit=unit)
+        elif isinstance(spec, LinearCalibration):
+            results[name] = evaluate_linear(name, spec, _unit_of(campaign, name))
+        else:
+            results[name] = evaluate_scale(name, spec)
+    return results, problems
+
+
+def _unit_of(campaign: Campaign, calibration: str) -> str | None:
+    """The declared unit of the channels that use a calibration, where they agree on one."""
+    units = {
+        c.unit
+        for c in campaign.channels.values()
+        if c.calibration == calibration or (isinstance(c.calibration, list) and calibration in c.calibration)
+    }
+    return next(iter(units)) if len(units) == 1 else None
+
+
+def _jump_data(
+    store: Path, campaign: Campaign, spec: JumpCalibration, raws: list[RawStream]
+) -> tuple[Int1D, Array, dict[str, Array], str]:
+    """(times, the probe's signal, the other probes' signals, their unit): volts where the unit is a voltage."""
+    raw, signal, written = find_signal(raws, spec.signal)
+    line = build(store, [r for r in raws if r.stream == raw.stream], Clock(), resets_allowed=False)
+    written = (
+        next(
+            (
+                c.unit
+                for c in campaign.channels.values()
+                if c.source == spec.source and c.signal == spec.signal and c.unit
+            ),
+            None,
+        )
+        or written
+        or "V"
+    )
+    unit = "V" if _converts(written, "V") else written
+    probe = _scaled(store, line, raw, signal.name, written, unit)
+    wanted = [
+        c for c in campaign.channels.values() if c.source == spec.source and c.quantity == "displacement" and c.signal
+    ]
+    others: dict[str, Array] = {}
+    for channel in wanted:
+        try:
+            _, other, other_unit = find_signal([raw], channel.signal or "")
+        except ThermodataError:  # the jump test's file need not hold every probe
+            continue
+        other_unit = channel.unit or other_unit or unit
+        if other.name != signal.name and other.name not in others and _converts(other_unit, unit):
+            others[other.name] = _scaled(store, line, raw, other.name, other_unit, unit)
+    return line.t_ns, probe, others, unit
+
+
+def _converts(unit: str, target: str) -> bool:
+    try:
+        linear_conversion(unit, target)
+    except UsageError:
+        return False
+    return True
+
+
+def _scaled(store: Path, line: Timeline, raw: RawStream, name: str, unit: str, target: str) -> Array:
+    from thermodata.calibration.scaling import apply_scaling
+
+    signal = next(s for s in raw.signals if s.name == name)
+    column = line.column(store, name, 0, len(line.t_ns))
+    if column is None:
+        raise UsageError(f"signal '{name}' has no values", where=raw.source_path)
+    values = apply_scaling(signal.scaling, derive.numbers(column) if column.dtype == object else column)
+    factor, offset = linear_conversion(unit, target)
+    return values * factor + offset

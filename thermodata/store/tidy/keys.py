@@ -1,0 +1,100 @@
+"""Content keys of the tidy layer: what a file of it is made from, so that an edit re-tidies only what changed."""
+
+from __future__ import annotations
+
+import dataclasses
+import json
+from collections.abc import Mapping, Sequence
+
+from thermodata.calibration.measuring import measuring_names
+from thermodata.calibration.result import CalibrationResult
+from thermodata.store.base.files import key_of
+from thermodata.store.tidy import derive
+from thermodata.store.tidy.plan import SCHEDULE, Bound, TestPlan
+from thermodata.store.tidy.series import Member
+from thermodata.store.tidy.source_clock import Clock, Span
+
+# counts the changes of calibration, flagging and layout that make older tidy files out of date
+TIDY_VERSION = "2"
+MEASURED = ("displacement", "tilt", "angle")
+
+
+def member_key(
+    plan: TestPlan,
+    member: Member,
+    columns: Sequence[tuple[str, bool]],
+    clocks: Mapping[str, Clock],
+    span: Span,
+    calibrations: Mapping[str, CalibrationResult],
+) -> str:
+    """The key of the tidy files of one stream of a test. Everything that its bytes depend on, and nothing else."""
+    # `repr` writes the names of Span, Clock and their fields into the keys: to rename one makes every tidy file anew
+    here = [b for b in plan.bound.values() if (b.source, b.stream) == member]
+    used: dict[str, Bound] = {}
+    for bound in here:
+        _collect(plan, bound, used)
+    measuring = plan.test.measuring if any(b.channel.quantity in MEASURED for b in here) else None
+    for name in measuring_names(measuring):
+        if name in plan.bound:
+            _collect(plan, plan.bound[name], used)
+    members = {(b.source, b.stream) for b in used.values()} | {member}
+    parts = [TIDY_VERSION, repr(member), repr(list(columns)), repr(span), repr(measuring)]
+    for name in sorted(used):
+        parts.append(channel_text(used[name], calibrations))
+    for source, stream in sorted(members):
+        if source in plan.sources:
+            source_plan = plan.sources[source]
+            clock = clocks[source]
+            parts += [
+                source,
+                stream,
+                repr([(r.key, r.path) for r in source_plan.streams.get(stream, [])]),
+                repr(
+                    (
+                        clock.offset_ns,
+                        clock.drift_ppm,
+                        clock.base_ns,
+                        clock.suspect,
+                        source_plan.spec.clock.resets,
+                        source_plan.shared,
+                    )
+                ),
+            ]
+    if any(s == SCHEDULE for s, _ in members):
+        # the schedule's grid ends with the reference sources
+        parts += [
+            repr([(r.key, clocks[s.name]) for s in plan.reference for r in s.raws]),
+            json.dumps(plan.test.conditions, sort_keys=True, default=str),
+        ]
+    if any(s in plan.sources and plan.sources[s].shared for s, _ in members):
+        parts.append(repr([(r.key, clocks[s.name]) for s in plan.reference for r in s.raws]))
+    return key_of(*parts)
+
+
+def _collect(plan: TestPlan, bound: Bound, into: dict[str, Bound]) -> None:
+    if bound.name in into:
+        return
+    into[bound.name] = bound
+    if bound.channel.derive is not None:
+        for name in derive.names(bound.channel.derive):
+            if name in plan.bound:
+                _collect(plan, plan.bound[name], into)
+
+
+def channel_text(bound: Bound, calibrations: Mapping[str, CalibrationResult]) -> str:
+    """A channel's origin, unit and calibrations as text: all that its values depend on beside the raw data."""
+    # a place, a note or a role changes the catalogue's row, never the values
+    data = bound.channel.model_dump(mode="json", exclude={"at", "relative_to", "notes"})
+    named = bound.channel.calibration
+    names = [named] if isinstance(named, str) else list(named or [])
+    return json.dumps(
+        [
+            bound.name,
+            data,
+            bound.unit,
+            None if bound.signal is None else dataclasses.asdict(dataclasses.replace(bound.signal, properties={})),
+            [(n, repr(calibrations.get(n))) for n in names],
+        ],
+        sort_keys=True,
+        default=str,
+    )

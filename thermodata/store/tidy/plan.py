@@ -1,0 +1,178 @@
+"""What a test consists of: which raw streams, and which channel is which signal of which stream."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
+
+from thermodata.errors import UsageError
+from thermodata.plugin import Signal
+from thermodata.reader.match import match_signal
+from thermodata.reader.text import split_unit
+from thermodata.schema.campaign import Campaign, Channel, SourceSpec, Test
+from thermodata.store.raw.streams import RawStream
+from thermodata.store.tidy import schedule
+
+SCHEDULE = "schedule"
+
+
+@dataclass(frozen=True, slots=True)
+class Bound:
+    """A channel of a test and where its values come from. signal is None for derived and scheduled channels;
+    unit: of the raw signal, as declared or as the file says."""
+
+    name: str
+    channel: Channel
+    source: str
+    stream: str
+    signal: Signal | None = None
+    unit: str | None = None
+
+    @property
+    def is_text(self) -> bool:
+        return self.channel.quantity == "label"
+
+
+@dataclass(slots=True)
+class SourcePlan:
+    """The raw streams that a source contributes to a test, and what is known about its files."""
+
+    name: str
+    spec: SourceSpec
+    raws: list[RawStream] = field(default_factory=list)
+    shared: bool = False
+
+    @property
+    def streams(self) -> dict[str, list[RawStream]]:
+        streams: dict[str, list[RawStream]] = {}
+        for raw in self.raws:
+            streams.setdefault(raw.stream, []).append(raw)
+        return streams
+
+
+@dataclass(slots=True)
+class TestPlan:
+    """A test with its sources and its channels. problems: what could not be bound, for the summary."""
+
+    __test__ = False
+    campaign: Campaign
+    test: Test
+    sources: dict[str, SourcePlan] = field(default_factory=dict)
+    bound: dict[str, Bound] = field(default_factory=dict)
+    problems: list[str] = field(default_factory=list)
+    notes: list[str] = field(default_factory=list)
+
+    def members(self) -> dict[tuple[str, str], list[Bound]]:
+        """(source, stream) -> its channels, in the campaign's order."""
+        members: dict[tuple[str, str], list[Bound]] = {}
+        for bound in self.bound.values():
+            members.setdefault((bound.source, bound.stream), []).append(bound)
+        return members
+
+    @property
+    def reference(self) -> list[SourcePlan]:
+        """The sources whose beginning is the beginning of the recording: those that carry displacements.
+
+        A control's or a hall logger's clock may be hours off, and its log may run for days; the probes' record
+        is what the test is about. Where no source carries displacements, all of them count."""
+        names = {
+            b.source
+            for b in self.bound.values()
+            if b.signal is not None and b.channel.quantity in ("displacement", "tilt")
+        }
+        chosen = [s for s in self.sources.values() if s.name in names and s.raws]
+        return chosen or [s for s in self.sources.values() if s.raws]
+
+
+def effective(campaign: Campaign, test: Test) -> dict[str, Channel]:
+    """The channels as they are in this test: overrides applied, absent ones left out."""
+    channels = {}
+    for name, channel in campaign.channels.items():
+        override = test.channels.get(name)
+        if override is not None:
+            if override.absent:
+                continue
+            changes = {k: getattr(override, k) for k in override.model_fields_set if k != "absent"}
+            if "schedule" in changes and channel.schedule is None:
+                changes |= {"source": None, "signal": None, "derive": None}
+            elif "signal" in changes:
+                changes |= {"derive": None, "schedule": None}
+            channel = channel.model_copy(update=changes)
+        channels[name] = channel
+    return channels
+
+
+def bind(plan: TestPlan) -> None:
+    """Finds the signal of every channel; what can't be found becomes a problem with the nearest right name."""
+    channels = effective(plan.campaign, plan.test)
+    for name, channel in channels.items():
+        if channel.schedule is not None:
+            try:
+                schedule.steps(name, channel, plan.test)
+            except UsageError as error:
+                plan.problems.append(f"channel '{name}': " + "; ".join(str(error).splitlines()))
+                continue
+            plan.bound[name] = Bound(name, channel, SCHEDULE, SCHEDULE)
+        elif channel.signal is not None and channel.source is not None:
+            source = plan.sources.get(channel.source)
+            if source is None or not source.raws:
+                continue  # the source's absence is told once, not for each channel
+            try:
+                raw, signal, unit = find_signal(source.raws, channel.signal)
+            except UsageError as error:
+                plan.problems.append(f"channel '{name}': " + "; ".join(str(error).splitlines()))
+                continue
+            plan.bound[name] = Bound(name, channel, source.name, raw.stream, signal, channel.unit or unit)
+    for name, channel in channels.items():
+        if channel.derive is not None:
+            _bind_derived(plan, channels, name, channel, ())
+    order = list(plan.campaign.channels)
+    plan.bound = {n: plan.bound[n] for n in sorted(plan.bound, key=order.index)}
+
+
+def operands(expression: str, names: Iterable[str]) -> list[str]:
+    """The channels of an expression in the order of their first appearance."""
+    wanted = set(names)
+    found = [w for w in re.findall(r"[A-Za-z_][A-Za-z0-9_]*", expression) if w in wanted]
+    return list(dict.fromkeys(found))
+
+
+def _bind_derived(
+    plan: TestPlan, channels: Mapping[str, Channel], name: str, channel: Channel, above: tuple[str, ...]
+) -> Bound | None:
+    if name in plan.bound:
+        return plan.bound[name]
+    if name in above:
+        raise UsageError("derived channels form a circle", where=f"channel {name}", got=" -> ".join((*above, name)))
+    used = operands(channel.derive or "", channels)
+    home: Bound | None = None
+    for operand in used:
+        bound = plan.bound.get(operand)
+        if bound is None and channels[operand].derive is not None:
+            bound = _bind_derived(plan, channels, operand, channels[operand], (*above, name))
+        if bound is None:
+            return None  # an operand is absent in this test: so is what derives from it
+        if home is None or (home.source == SCHEDULE and bound.source != SCHEDULE):
+            home = bound
+    if home is None:
+        plan.problems.append(f"channel '{name}': derive names no channel: {channel.derive}")
+        return None
+    plan.bound[name] = Bound(name, channel, home.source, home.stream, None, channel.unit)
+    return plan.bound[name]
+
+
+def find_signal(raws: Iterable[RawStream], wanted: str) -> tuple[RawStream, Signal, str | None]:
+    """The raw stream, signal and unit behind a name in the campaign file; UsageError where none or several fit.
+
+    A unit in brackets after the name in the file may be left out, and is then the signal's unit.
+    """
+    first: dict[tuple[str, str], RawStream] = {}
+    signals: list[Signal] = []
+    for raw in raws:
+        for signal in raw.signals:
+            if (raw.stream, signal.name) not in first:
+                first[raw.stream, signal.name] = raw
+                signals.append(signal)
+    match = match_signal(wanted, signals)
+    return first[match.stream, match.name], match, match.unit or split_unit(match.name)[1]

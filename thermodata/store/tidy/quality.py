@@ -1,0 +1,265 @@
+"""Quality flags of a test's channels, and when it measures: a stream's chunks with their flags, ready to be written."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass, field
+from typing import TypeVar
+
+import numpy as np
+
+from thermodata.calibration.quality import ANALOG, QualityEvent
+from thermodata.calibration.quality_concise import concise
+from thermodata.errors import ThermodataError
+from thermodata.plugin import Array, Int1D
+from thermodata.schema.campaign import Measuring
+from thermodata.schema.flag import Flag
+from thermodata.store.tidy import windows
+from thermodata.store.tidy.chunk import Chunk, Column, calibrated
+from thermodata.store.tidy.keys import MEASURED
+from thermodata.store.tidy.measuring import Stretches, find_stretches, lasts, measures
+from thermodata.store.tidy.not_measuring import Activity, join_while_not_measuring
+from thermodata.store.tidy.plan import SCHEDULE, Bound
+from thermodata.store.tidy.series import Member, TestSeries
+from thermodata.store.tidy.windows import Joined
+
+_T = TypeVar("_T")
+_PERIOD_ROWS = 1_000_000
+
+
+@dataclass(frozen=True, slots=True)
+class Event:
+    """A stretch of flagged samples; times in seconds from the test's start. channel: None for the whole stream."""
+
+    channel: str | None
+    flag: str
+    from_s: float
+    to_s: float
+    n: int
+    detail: str | None = None
+
+
+@dataclass(slots=True)
+class Flagged:
+    """Walks through a stream once, or twice where it has too many columns to be held side by side.
+
+    bounds: the channels. start, stop: rows. events: complete once `chunks` has ended. problems: gets what can't be
+    calibrated, and why `measuring` can't be evaluated.
+    """
+
+    series: TestSeries
+    member: Member
+    bounds: Sequence[Bound]
+    start: int
+    stop: int
+    problems: list[str]
+    events: list[Event] = field(default_factory=list)
+    _judged: list[QualityEvent] = field(default_factory=list)
+    _activity: dict[str, Activity] = field(default_factory=dict)
+    _moves: dict[str, tuple[int, float | None]] = field(default_factory=dict)
+
+    def chunks(self, rows: int, borders: Sequence[int] = ()) -> Iterator[tuple[int, Int1D, dict[str, Column]]]:
+        """(first row, times, channels with all their flags) of chunks of so many rows; none crosses a border."""
+        with ThreadPoolExecutor(2) as pool:
+            yield from self._measured(self._judged_chunks(rows, borders, pool), pool)
+        self._judged += self._of_the_clock()
+        zero = self.series.span.zero_ns
+        self.events += [
+            Event(e.channel, e.flag, (e.from_ns - zero) / 1e9, (e.to_ns - zero) / 1e9, e.n, e.detail or None)
+            for e in concise(join_while_not_measuring(self._judged, self._activity))
+        ]
+
+    def _of_the_clock(self) -> list[QualityEvent]:
+        if self.member[0] == SCHEDULE or self.start >= self.stop:
+            return []
+        line = self.series.timeline(self.member)
+        first, last = int(line.times(self.start, self.start + 1)[0]), int(line.times(self.stop - 1, self.stop)[0])
+        return [
+            QualityEvent(None, "clock_suspect", max(a, first), min(b, last), n, why)
+            for a, b, n, why in line.clock_stretches()
+            if a <= last and b >= first
+        ]
+
+    def _judged_chunks(
+        self, rows: int, borders: Sequence[int], pool: ThreadPoolExecutor
+    ) -> Iterator[tuple[Chunk, dict[str, Column]]]:
+        if self.member[0] == SCHEDULE:
+            for a, b in _cuts(self.start, self.stop, rows, borders):
+                chunk = self._chunk(a, b)
+                yield chunk, calibrated(chunk, self.bounds, self.problems, pool)
+        elif len(self.bounds) <= windows.MOST_COLUMNS:
+            for chunk, columns, first, stop in self._windows(self.bounds, rows, pool):
+                for a, b in _cuts(first, stop, rows, borders):
+                    yield chunk.part(a, b), {n: c.part(a - first, b - first) for n, c in columns.items()}
+        else:
+            yield from self._wide(rows, borders, pool)
+
+    def _windows(
+        self, bounds: Sequence[Bound], rows: int, pool: ThreadPoolExecutor
+    ) -> Iterator[tuple[Chunk, dict[str, Column], int, int]]:
+        """(chunk, its channels on the window's own rows, the first and past-the-last of these)."""
+        wanted = min(windows.WINDOW_ROWS, windows.WINDOW_VALUES // max(1, len(bounds)))
+        size = max(1, wanted // rows) * rows
+        margin = min(windows.MARGIN_ROWS, size // 2)
+        joined = Joined()
+
+        def load(a: int) -> tuple[Chunk, dict[str, Column], dict[str, Column]]:
+            chunk = self._chunk(max(self.start, a - margin), min(self.stop, a + size + margin), bounds)
+            columns = calibrated(chunk, bounds, self.problems, pool)
+            return chunk, columns, self._with_releases(columns, a + size, chunk.stop)
+
+        for a, (chunk, columns, seen) in _ahead(load, range(self.start, self.stop, size), self._may_read_ahead()):
+            b = min(a + size, self.stop)
+            low = chunk.start
+            flags = joined.add(chunk.t_ns, seen, a - low, b - low)
+            yield chunk, {n: Column(c.bound, c.values[a - low : b - low], flags[n]) for n, c in columns.items()}, a, b
+        self._judged += joined.events
+
+    def _with_releases(self, columns: Mapping[str, Column], own: int, stop: int) -> dict[str, Column]:
+        """The channels of a window that ends at row `stop`; one that stands still from row `own` to there ends with
+        the value that it takes when it moves again: whether a reading was held shows in that step."""
+        seen = dict(columns)
+        if own >= stop:
+            return seen
+        for name, column in columns.items():
+            x = column.values
+            still = x[own - stop :]
+            if (
+                x.dtype.kind == "f"
+                and column.bound.channel.quantity in ANALOG
+                and len(still) > 1
+                and still[0] == still[-1]
+                and bool((still == still[0]).all())
+            ):
+                value = self._release(column.bound, float(still[0]), stop)
+                if value is not None:
+                    x = x.copy()
+                    x[-1] = value
+                    seen[name] = Column(column.bound, x, column.flags)
+        return seen
+
+    def _release(self, bound: Bound, value: float, row: int) -> float | None:
+        """The first value from `row` on that is another one; None where there is none."""
+        known = self._moves.get(bound.name)
+        if known is None or known[0] < row:
+            known = (self.stop, None)
+            for a, b in _cuts(row, self.stop, windows.WINDOW_ROWS // 4, ()):
+                x = self.series.values(bound, a, b)[0]
+                other = np.flatnonzero(x != value)
+                if other.size:
+                    known = (a + int(other[0]), float(x[other[0]]))
+                    break
+            self._moves[bound.name] = known
+        return known[1]
+
+    def _may_read_ahead(self) -> bool:
+        # `measuring` may look into any stream, and timelines aren't for several threads
+        return self.series.plan.test.measuring is None
+
+    def _wide(
+        self, rows: int, borders: Sequence[int], pool: ThreadPoolExecutor
+    ) -> Iterator[tuple[Chunk, dict[str, Column]]]:
+        """Judges some columns after the other, keeps where their flags change, and then reads all side by side."""
+        changes: dict[str, tuple[list[Array], list[Array]]] = {}
+        for i in range(0, len(self.bounds), windows.MOST_COLUMNS):
+            some = self.bounds[i : i + windows.MOST_COLUMNS]
+            before = len(self._judged)
+            for _, columns, first, _ in self._windows(some, rows, pool):
+                for name, column in columns.items():
+                    at = np.concatenate([[0], np.flatnonzero(column.flags[1:] != column.flags[:-1]) + 1])
+                    kept = changes.setdefault(name, ([], []))
+                    kept[0].append(first + at)
+                    kept[1].append(column.flags[at])
+            if i:  # what concerns the whole stream was said with the first columns
+                self._judged[before:] = [e for e in self._judged[before:] if e.channel is not None]
+        joined = {n: (np.concatenate(a), np.concatenate(f)) for n, (a, f) in changes.items()}
+        changes.clear()
+        for a, b in _cuts(self.start, self.stop, rows, borders):
+            chunk = self._chunk(a, b)
+            columns = calibrated(chunk, self.bounds, self.problems, pool)
+            for name, column in columns.items():
+                if name not in joined:
+                    continue
+                at, flags = joined[name]
+                low, high = int(np.searchsorted(at, a, side="right")) - 1, int(np.searchsorted(at, b))
+                lengths = np.diff(np.concatenate([[a], at[low + 1 : high], [b]]))
+                column.flags = np.repeat(flags[low:high], lengths)
+            yield chunk, columns
+
+    def _chunk(self, start: int, stop: int, bounds: Sequence[Bound] | None = None) -> Chunk:
+        return Chunk(self.series, self.member, start, stop, self.bounds if bounds is None else bounds)
+
+    def _measured(
+        self, chunks: Iterator[tuple[Chunk, dict[str, Column]]], pool: ThreadPoolExecutor
+    ) -> Iterator[tuple[int, Int1D, dict[str, Column]]]:
+        """Adds NOT_MEASURING to the channels that are measured."""
+        spec = self.series.plan.test.measuring
+        names = [b.name for b in self.bounds if b.channel.quantity in MEASURED] if spec is not None else []
+        kept: dict[str, Stretches] = {}
+        try:
+            if names and isinstance(spec, Measuring) and lasts(spec):
+                kept = self._stretches(spec, names, pool)
+        except ThermodataError as error:
+            self._cannot_measure(error)
+            names = []
+        for chunk, columns in chunks:
+            for name in names if self.member[0] != SCHEDULE else ():
+                if name not in columns:
+                    continue
+                try:
+                    mask = kept[name].mask(chunk.start, chunk.t_ns) if kept else measures(chunk, columns[name], columns)
+                except ThermodataError as error:
+                    self._cannot_measure(error)
+                    names = []
+                    break
+                self._activity.setdefault(name, Activity()).add(chunk.t_ns, mask)
+                columns[name].flags = columns[name].flags | np.where(mask, np.uint16(0), np.uint16(Flag.NOT_MEASURING))
+            yield chunk.start, chunk.t_ns, columns
+
+    def _cannot_measure(self, error: ThermodataError) -> None:
+        self.problems.append("measuring: " + "; ".join(str(error).splitlines()))
+
+    def _stretches(self, spec: Measuring, names: Sequence[str], pool: ThreadPoolExecutor) -> dict[str, Stretches]:
+        """Where each channel is measured, from a look at the whole stream."""
+        line = self.series.timeline(self.member)
+        steps = np.diff(line.times(self.start, min(self.stop, self.start + _PERIOD_ROWS)))
+        period = float(np.median(steps)) if len(steps) else 0.0
+        rows = max(1, windows.WINDOW_VALUES // 8)
+        stretches: dict[str, Stretches] = {}
+        for bound in (b for b in self.bounds if b.name in names):
+
+            def parts(bound: Bound = bound) -> Iterator[tuple[int, Int1D, Array]]:
+                for a, b in _cuts(self.start, self.stop, rows, ()):
+                    chunk = self._chunk(a, b, [bound])
+                    columns = calibrated(chunk, [bound], [], pool)
+                    if columns:
+                        yield a, chunk.t_ns, measures(chunk, columns[bound.name], columns)
+
+            stretches[bound.name] = find_stretches(parts(), period, spec)
+            if spec.in_range != "in_range":
+                return dict.fromkeys(names, stretches[bound.name])  # says nothing of the channel itself
+        return stretches
+
+
+def _cuts(start: int, stop: int, rows: int, borders: Sequence[int]) -> Iterator[tuple[int, int]]:
+    a = start
+    while a < stop:
+        b = min([a + rows - (a - start) % rows, stop, *(x for x in borders if x > a)])
+        yield a, b
+        a = b
+
+
+def _ahead(load: Callable[[int], _T], places: Sequence[int], ahead: bool) -> Iterator[tuple[int, _T]]:
+    """(place, what is loaded there), each loaded while the one before is worked on."""
+    if not ahead or len(places) < 2:
+        yield from ((place, load(place)) for place in places)
+        return
+    with ThreadPoolExecutor(1) as reader:
+        coming = reader.submit(load, places[0])
+        for i, place in enumerate(places):
+            loaded = coming.result()
+            if i + 1 < len(places):
+                coming = reader.submit(load, places[i + 1])
+            yield place, loaded
+            del loaded

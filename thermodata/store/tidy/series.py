@@ -1,0 +1,174 @@
+"""The values of a test's channels: calibrated, on their own rows, or sampled onto another stream's."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from thermodata.calibration.result import CalibrationResult
+from thermodata.plugin import Array, Float1D, Int1D, Loss
+from thermodata.store.tidy import schedule
+from thermodata.store.tidy.chunk import Chunk
+from thermodata.store.tidy.plan import SCHEDULE, Bound, TestPlan
+from thermodata.store.tidy.source_clock import Clock, Span, build, last_ns
+from thermodata.store.tidy.timeline import Timeline, given_timeline
+
+Member = tuple[str, str]
+_HELD = frozenset({"state", "label"})
+_SHORT = 1_000_000  # rows: a stream that others look into is kept as a whole up to this length
+
+
+@dataclass(frozen=True, slots=True)
+class Rows:
+    """Row numbers of a timeline: history is [history, start), the test is [start, stop)."""
+
+    history: int
+    start: int
+    stop: int
+
+
+class TestSeries:
+    """Reads the channels of one test from the raw layer, chunk by chunk. Not shared between threads.
+
+    calibrations: by name. Raises UsageError for a channel that cannot be calibrated.
+    """
+
+    __test__ = False
+
+    def __init__(
+        self,
+        store: Path,
+        plan: TestPlan,
+        clocks: Mapping[str, Clock],
+        span: Span,
+        calibrations: Mapping[str, CalibrationResult],
+    ) -> None:
+        self.store, self.plan, self.span, self.calibrations = store, plan, span, calibrations
+        self.clocks = dict(clocks)
+        self._lines: dict[Member, Timeline] = {}
+        self._sampled: dict[str, tuple[Int1D, Array, Array]] = {}
+
+    def timeline(self, member: Member) -> Timeline:
+        """The rows of a stream; those of the schedule are a grid of a minute plus its changes."""
+        if member not in self._lines:
+            if member[0] == SCHEDULE and member not in _stored(self.plan):
+                self._lines[member] = given_timeline(self._schedule_grid())
+            else:
+                source = self.plan.sources[member[0]]
+                self._lines[member] = build(
+                    self.store,
+                    source.streams[member[1]],
+                    self.clocks[member[0]],
+                    resets_allowed=source.spec.clock.resets == "allow",
+                )
+        return self._lines[member]
+
+    def rows(self, member: Member) -> Rows:
+        """Which rows of a stream are the test's, and which its history."""
+        line = self.timeline(member)
+        low, high = self._limits(member)
+        start = 0 if low is None else line.find(low)
+        stop = line.rows if high is None else line.find(high)
+        return Rows(0 if self.span.history else start, start, max(start, stop))
+
+    def _limits(self, member: Member) -> tuple[int | None, int | None]:
+        span, source = self.span, self.plan.sources.get(member[0])
+        if span.from_ns is not None or source is None or not source.shared:
+            return span.from_ns, span.to_ns
+        # a logger that all tests share is cut to this one, as far as other sources say where that lies
+        others = [s for s in self.plan.reference if not s.shared]
+        if not others or source in others:
+            return None, None
+        ends = [int(self.clocks[s.name].correct(np.array([last_ns(s)]), last_ns(s))[0]) for s in others]
+        return span.zero_ns, max(ends) + 1
+
+    def t_s(self, t_ns: Int1D) -> Float1D:
+        """Seconds from the test's start."""
+        return np.asarray((t_ns - self.span.zero_ns) / 1e9, dtype=np.float64)
+
+    def values(self, bound: Bound, start: int, stop: int) -> tuple[Array, Array]:
+        """(values, flags) of a channel on rows start to stop of its own stream: float64 in the canonical unit
+        or text as object, and uint16; both of shape (stop - start,)."""
+        return Chunk(self, (bound.source, bound.stream), start, stop, [bound]).values(bound)
+
+    def sampled(self, name: str, t_ns: Int1D) -> tuple[Array, Array]:
+        """(values, flags) of a channel at other times, ascending: states are held, measurements run straight between
+        two samples; NaN before the first and after the last sample."""
+        bound = self.plan.bound[name]
+        if bound.channel.schedule is not None:
+            return self.scheduled(bound, t_ns)
+        line = self.timeline((bound.source, bound.stream))
+        if not line.rows or not len(t_ns):
+            return np.full(len(t_ns), np.nan), np.zeros(len(t_ns), np.uint16)
+        if line.rows <= _SHORT:
+            if name not in self._sampled:
+                self._sampled[name] = (line.t_ns, *self.values(bound, 0, line.rows))
+            return self._at(bound, t_ns, *self._sampled[name], (True, True))
+        start = max(0, line.find(int(t_ns[0])) - 1)
+        stop = min(line.rows, line.find(int(t_ns[-1]) + 1) + 1)
+        if stop - start > _SHORT and len(t_ns) > 1:
+            half = len(t_ns) // 2
+            (a, f), (b, g) = self.sampled(name, t_ns[:half]), self.sampled(name, t_ns[half:])
+            return np.concatenate([a, b]), np.concatenate([f, g])
+        return self._at(
+            bound, t_ns, line.times(start, stop), *self.values(bound, start, stop), (start == 0, stop == line.rows)
+        )
+
+    @staticmethod
+    def _at(
+        bound: Bound, t_ns: Int1D, t: Int1D, values: Array, flags: Array, ends: tuple[bool, bool]
+    ) -> tuple[Array, Array]:
+        """ends: whether t begins and ends with the stream. What lies beside t lies beside the stream then."""
+        assert ends[0] or t[0] <= t_ns[0]
+        index = np.clip(np.searchsorted(t, t_ns, side="right") - 1, 0, len(t) - 1)
+        before, after = t_ns < t[0], t_ns > t[-1]
+        if values.dtype == object:
+            held = values[index]
+            held[before] = None
+            return held, flags[index]
+        if bound.channel.quantity in _HELD:
+            return np.where(before, np.nan, values[index]), flags[index]
+        follows = np.minimum(index + 1, len(t) - 1)
+        exact = t[index] == t_ns
+        # from the sample before, so that the result doesn't depend on where the chunk begins
+        with np.errstate(invalid="ignore"):
+            part = (t_ns - t[index]) / np.maximum(t[follows] - t[index], 1)
+            between = np.where(exact, values[index], values[index] + (values[follows] - values[index]) * part)
+        return np.where(before | after, np.nan, between), flags[index] | np.where(exact, 0, flags[follows]).astype(
+            np.uint16
+        )
+
+    def scheduled(self, bound: Bound, t_ns: Int1D) -> tuple[Array, Array]:
+        """(values, flags) of a channel that nobody logged, shape of t_ns."""
+        times, values = schedule.steps(bound.name, bound.channel, self.plan.test)
+        recording = self._recording_ns()
+        held = schedule.held(np.asarray((t_ns - recording) / 1e9, dtype=np.float64), times, values)
+        return held, np.zeros(len(t_ns), np.uint16)
+
+    def _recording_ns(self) -> int:
+        window = self.plan.test.window
+        return self.span.zero_ns - (round(window[0] * 1e9) if window is not None else 0)
+
+    def _schedule_grid(self) -> Int1D:
+        begin = self._recording_ns()
+        lines = [self.timeline(m) for m in _stored(self.plan) if self.plan.sources[m[0]] in self.plan.reference]
+        ends = [int(line.times(line.rows - 1, line.rows)[0]) for line in lines if line.rows]
+        end = max(ends, default=begin)
+        changes = [
+            schedule.steps(b.name, b.channel, self.plan.test)[0]
+            for b in self.plan.bound.values()
+            if b.channel.schedule is not None
+        ]
+        at = np.concatenate(changes) if changes else np.empty(0)
+        return schedule.grid(begin, end, np.rint(at * 1e9).astype(np.int64) + begin)
+
+    def losses(self) -> list[tuple[Member, Loss]]:
+        """What the joints of the streams seen so far lost."""
+        return [(member, loss) for member, line in self._lines.items() for loss in line.losses]
+
+
+def _stored(plan: TestPlan) -> list[Member]:
+    return [(s.name, stream) for s in plan.sources.values() for stream in s.streams]

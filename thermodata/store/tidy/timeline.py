@@ -1,0 +1,268 @@
+"""The rows of one stream of a test in time order, read as they are needed: as long as a year, and never all at once."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass, field
+from itertools import pairwise
+from pathlib import Path
+
+import numpy as np
+
+from thermodata.plugin import Array, Int1D, Loss
+from thermodata.schema.flag import Flag
+from thermodata.store.raw.columns import RawFiles
+from thermodata.store.raw.order import Order, find_order, in_order
+from thermodata.store.raw.streams import RawStream
+
+_IN_MEMORY = 1_000_000  # rows: so many times are kept [8 MB]; of longer streams they are read again
+_PROBE = 4096
+_MOST_STRETCHES = 50
+
+
+@dataclass(slots=True)
+class Timeline:
+    """rows: how many. raws: (raw, what is added to its times [ns]) in file order.
+
+    Row numbers count in time order. Not shared between threads.
+    """
+
+    rows: int
+    store: Path | None = None
+    raws: Sequence[tuple[RawStream, int]] = ()
+    correct: Callable[[Int1D], Int1D] = field(default=lambda t: t)
+    order: Order = field(default_factory=lambda: in_order(0))
+    suspect: bool = False
+    losses: tuple[Loss, ...] = ()
+    notes: tuple[str, ...] = ()
+    _files: RawFiles = field(default_factory=RawFiles)
+    _times: Int1D | None = None
+
+    @property
+    def t_ns(self) -> Int1D:
+        """All times, shape (rows,), non-decreasing: for streams that are known to be short."""
+        return self.times(0, self.rows)
+
+    def times(self, start: int, stop: int) -> Int1D:
+        """Times of rows start to stop, shape (stop - start,), non-decreasing [ns]."""
+        if self._times is None and self.rows <= _IN_MEMORY:
+            self._times = self._sorted_times(0, self.rows)
+        if self._times is not None:
+            return self._times[start:stop]
+        return self._sorted_times(start, stop)
+
+    def find(self, at_ns: int) -> int:
+        """The first row that is no earlier."""
+        low, high = 0, self.rows
+        if self.rows <= _IN_MEMORY:
+            return int(np.searchsorted(self.t_ns, at_ns))
+        while high - low > _PROBE:
+            middle = (low + high) // 2
+            if int(self.times(middle, middle + 1)[0]) < at_ns:
+                low = middle + 1
+            else:
+                high = middle
+        return low + int(np.searchsorted(self.times(low, high), at_ns))
+
+    def clock_flags(self, start: int, stop: int) -> Array | None:
+        """CLOCK_SUSPECT, shape (stop - start,), where rows were moved or the whole clock is doubtful; None: nowhere."""
+        whole_clock = np.full(stop - start, Flag.CLOCK_SUSPECT, np.uint16) if self.suspect else None
+        low, high, order = self._window(start, stop)
+        if order is None and not self._marked_in(low, high).size:
+            return whole_clock
+        t = self._file_times(low, high)
+        late = np.zeros(high - low, dtype=bool)
+        for a, b in self._islands_in(low, high):
+            part = t[a - low : b - low]
+            late[a - low : b - low] = part < np.maximum.accumulate(part)
+        late[self._marked_in(low, high) - low] = True
+        late_rows = (late if order is None else late[order])[start - low : stop - low]
+        moved = np.where(late_rows, np.uint16(Flag.CLOCK_SUSPECT), np.uint16(0))
+        return moved if whole_clock is None else whole_clock | moved
+
+    def clock_stretches(self) -> list[tuple[int, int, int, str]]:
+        """(first time, last time [ns], rows, why) of the stretches with a doubtful time; at most 50."""
+        if self.suspect and self.rows:
+            return [
+                (
+                    int(self.times(0, 1)[0]),
+                    int(self.times(self.rows - 1, self.rows)[0]),
+                    self.rows,
+                    "the whole clock is doubtful",
+                )
+            ]
+        marked, stretches = self.order.marked, []
+        groups = np.split(marked, np.flatnonzero(np.diff(marked) > 1) + 1) if marked.size else []
+        for rows in groups[:_MOST_STRETCHES]:
+            t = self._file_times(int(rows[0]), int(rows[-1]) + 1)
+            stretches.append((int(t.min()), int(t.max()), len(rows), "; ".join(self.order.notes)))
+        for a, b in self.order.islands[: _MOST_STRETCHES - len(stretches)].tolist():
+            t = self._file_times(a, b)
+            late = int(np.count_nonzero(t < np.maximum.accumulate(t)))
+            stretches.append((int(t.min()), int(t.max()), late, "rows out of order, sorted"))
+        return sorted(stretches)
+
+    def column(self, store: Path, signal: str, start: int, stop: int, *, flags: bool = False) -> Array | None:
+        """A raw column, rows start to stop in time order; None where no file has it."""
+        return self.columns([signal], start, stop, flags=flags).get(signal)
+
+    def columns(self, signals: Sequence[str], start: int, stop: int, *, flags: bool = False) -> dict[str, Array]:
+        """Raw columns (or the flags that the reader gave), rows start to stop; those that no file has are left out."""
+        low, high, order = self._window(start, stop)
+        parts: dict[str, list[Array | int]] = {s: [] for s in signals}
+        for raw, a, b in self._within(low, high):
+            names = {s: self._name(raw, s, flags) for s in signals}
+            there = [n for n in names.values() if n is not None]
+            read = dict(zip(there, self._read(raw, there, a, b), strict=True)) if there else {}
+            for signal, name in names.items():
+                parts[signal].append(b - a if name is None else read[name])
+        arrays = {}
+        for signal, some in parts.items():
+            if all(isinstance(p, int) for p in some):
+                continue
+            joined = _joined(some, zero=flags)
+            arrays[signal] = (joined if order is None else joined[order])[start - low : stop - low]
+        return arrays
+
+    def raw_row(self, row: int) -> tuple[RawStream, int]:
+        """(raw stream, its row) behind a row."""
+        low, _, order = self._window(row, row + 1)
+        at = row if order is None else low + int(order[row - low])
+        raw, file_row, _ = next(iter(self._within(at, at + 1)))
+        return raw, file_row
+
+    def flagged(self, signals: Iterable[str]) -> bool:
+        """Whether a reader flagged any row of these signals."""
+        wanted = set(signals)
+        return any(not wanted.isdisjoint(raw.flagged) for raw, _ in self.raws)
+
+    @staticmethod
+    def _name(raw: RawStream, signal: str, flags: bool) -> str | None:
+        column = raw.columns.get(signal)
+        if flags:
+            return f"{column}__flag" if signal in raw.flagged else None
+        return column
+
+    def _read(self, raw: RawStream, columns: Sequence[str], start: int, stop: int) -> list[Array]:
+        assert self.store is not None
+        return self._files.get(self.store / raw.path).read(columns, start, stop)
+
+    def _within(self, start: int, stop: int) -> Iterable[tuple[RawStream, int, int]]:
+        """(raw, its rows a to b) that make up rows start to stop in file order."""
+        at = 0
+        for raw, _ in self.raws:
+            a, b = max(start - at, 0), min(stop - at, raw.rows)
+            at += raw.rows
+            if a < b:
+                yield raw, a, b
+
+    def _file_times(self, start: int, stop: int) -> Int1D:
+        """Times in file order, corrected and with what resets add."""
+        shifts = {id(raw): shift for raw, shift in self.raws}
+        parts = [
+            self._read(raw, ["t_ns"], a, b)[0].astype(np.int64, copy=False) + np.int64(shifts[id(raw)])
+            for raw, a, b in self._within(start, stop)
+        ]
+        if not parts:
+            return np.empty(0, np.int64)
+        return self.order.moved(self.correct(parts[0] if len(parts) == 1 else np.concatenate(parts)), start)
+
+    def _sorted_times(self, start: int, stop: int) -> Int1D:
+        if self.store is None:
+            raise AssertionError("a timeline without files has its times")
+        low, high, order = self._window(start, stop)
+        t = self._file_times(low, high)
+        return (t if order is None else t[order])[start - low : stop - low]
+
+    def _window(self, start: int, stop: int) -> tuple[int, int, Int1D | None]:
+        """(low, high, order): the rows in file order that hold rows start to stop, and the permutation that sorts
+        them (None: they are sorted)."""
+        some = self._islands_in(start, stop)
+        if not len(some):
+            return start, stop, None
+        low, high = min(start, int(some[0, 0])), max(stop, int(some[-1, 1]))
+        order = np.arange(high - low)
+        t = self._file_times(low, high)
+        for a, b in some.tolist():
+            order[a - low : b - low] = a - low + np.argsort(t[a - low : b - low], kind="stable")
+        return low, high, order
+
+    def _islands_in(self, start: int, stop: int) -> Int1D:
+        islands = self.order.islands
+        a = int(np.searchsorted(islands[:, 1], start, side="right"))
+        b = int(np.searchsorted(islands[:, 0], stop, side="left"))
+        return islands[a:b]
+
+    def _marked_in(self, start: int, stop: int) -> Int1D:
+        marked = self.order.marked
+        return marked[np.searchsorted(marked, start) : np.searchsorted(marked, stop)]
+
+
+def given_timeline(t_ns: Int1D) -> Timeline:
+    """Of times that no file holds."""
+    return Timeline(len(t_ns), order=in_order(len(t_ns)), _times=t_ns)
+
+
+def make_timeline(
+    store: Path,
+    raws: Sequence[tuple[RawStream, int]],
+    correct: Callable[[Int1D], Int1D],
+    *,
+    suspect: bool,
+    resets_allowed: bool,
+    notes: Sequence[str] = (),
+) -> Timeline:
+    """Puts the rows of the files of one stream in order.
+
+    raws: (raw, what is added to its times) in file order. correct: recorded times -> the test's time line.
+    Rows that step back by a second at most are sorted in and flagged; `clock_faults` says what is done about strays
+    and clocks that were set. What follows a long step back is lost with a reason where resets are not allowed.
+    """
+    n = sum(raw.rows for raw, _ in raws)
+    line = Timeline(n, store, tuple(raws), correct, in_order(n), suspect, (), tuple(notes))
+    if _known_ordered(raws):
+        return line
+    order = find_order(line._file_times, n, resets_allowed=resets_allowed)
+    if order.keep < n:
+        line.losses = (_lost(line, order.keep, n),)
+    line.notes += order.notes
+    line.order, line.rows = order, order.keep
+    return line
+
+
+def _known_ordered(raws: Sequence[tuple[RawStream, int]]) -> bool:
+    return all(raw.ordered for raw, _ in raws) and all(
+        a.last_ns + s <= b.first_ns + r for (a, s), (b, r) in pairwise(raws)
+    )
+
+
+def _lost(line: Timeline, keep: int, n: int) -> Loss:
+    at, before = int(line._file_times(keep, keep + 1)[0]), int(line._file_times(keep - 1, keep)[0])
+    return Loss(
+        where=f"{line.raws[0][0].source_path} row {keep}",
+        from_ns=at,
+        to_ns=int(line._file_times(n - 1, n)[0]),
+        fraction=(n - keep) / n,
+        reason=f"clock goes backwards: expected >= 0 ns, got {at - before}; split the test there "
+        "or set clock: {resets: allow}",
+    )
+
+
+def _joined(parts: list[Array | int], *, zero: bool) -> Array:
+    arrays = [p for p in parts if not isinstance(p, int)]
+    if len(parts) == 1:
+        return arrays[0]
+    text = any(a.dtype == object for a in arrays)
+    kind = np.dtype(object) if text else np.result_type(*arrays)
+    if any(isinstance(p, int) for p in parts) and not text and not zero:
+        kind = np.result_type(kind, np.float64)
+
+    def missing(n: int) -> Array:
+        if text:
+            return np.full(n, None, dtype=object)
+        return np.zeros(n, kind) if zero else np.full(n, np.nan)
+
+    return np.concatenate([(missing(p) if isinstance(p, int) else p).astype(kind, copy=False) for p in parts])
+
+
+__all__ = ["Timeline", "given_timeline", "make_timeline"]

@@ -1,0 +1,150 @@
+"""Quality flags of streams of any length: judged in windows that overlap, each as a whole, and joined.
+
+Windows lie at fixed rows of the stream, so flags depend neither on how much memory there is nor on how the rows are
+written. What lasts longer than a window is carried over: a reading that goes on standing still, a sensor that goes on
+being off. Streams that fit into one window are judged as a whole.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+
+from thermodata.calibration.quality import MOST_EVENTS, ColumnInput, QualityEvent, flag_stream
+from thermodata.plugin import Array, Int1D
+from thermodata.schema.flag import Flag
+from thermodata.store.tidy.chunk import Column
+
+WINDOW_VALUES = 8_000_000  # values in a window: 64 MB of float64, and about as much while they are judged
+WINDOW_ROWS = 2_000_000  # but not more rows: what is looked for in a column takes several times its size
+MARGIN_ROWS = 4096  # of the neighbours, on both sides
+MOST_COLUMNS = 200  # columns that are judged together
+_STANDS = np.uint16(Flag.HELD | Flag.STUCK)
+_OFFSET = np.uint16(Flag.OFFSET)
+_BY_NAME = {str(f.name).lower(): np.uint16(f) for f in Flag if f}
+
+
+@dataclass(slots=True)
+class _Carried:
+    """What a column was like at the last row of a window's own."""
+
+    value: float
+    stands: int = 0  # HELD or STUCK
+    off: bool = False
+
+
+@dataclass(slots=True)
+class Joined:
+    """Takes the windows of a stream in order. events: of the windows so far, in order of time."""
+
+    events: list[QualityEvent] = field(default_factory=list)
+    _carried: dict[str, _Carried] = field(default_factory=dict)
+    _open: dict[tuple[str | None, str], int] = field(default_factory=dict)
+    _count: dict[tuple[str | None, str], int] = field(default_factory=dict)
+
+    def add(self, t_ns: Int1D, columns: Mapping[str, Column], start: int, stop: int) -> dict[str, Array]:
+        """Flags of the rows start to stop of a window, each of shape (stop - start,); the flags that the columns have
+        are among them. The rows before and after are the window's margins, which belong to its neighbours.
+
+        t_ns: shape (n,), non-decreasing.
+        """
+        flags, events = flag_stream(
+            t_ns,
+            {
+                n: ColumnInput(values=c.values, quantity=c.bound.channel.quantity, flags=c.flags)
+                for n, c in columns.items()
+            },
+        )
+        for name, column in columns.items():
+            carried = self._carried.get(name)
+            if start and carried is not None:
+                events = _continued(name, column.values, t_ns, flags[name], carried, start, events)
+        for name, column in columns.items():
+            added = flags[name][stop - 1] & ~column.flags[stop - 1]
+            value = column.values[stop - 1]
+            self._carried[name] = _Carried(
+                float(value) if column.values.dtype.kind in "iuf" else np.nan,
+                int(added & _STANDS),
+                bool(added & _OFFSET),
+            )
+        self._join(t_ns, flags, events, start, stop)
+        return {name: whole[start:stop] for name, whole in flags.items()}
+
+    def _join(self, t_ns: Int1D, flags: Mapping[str, Array], events: list[QualityEvent], start: int, stop: int) -> None:
+        """Keeps the events of the window's own rows; one that began in the window before is made longer."""
+        first, last = int(t_ns[start]), int(t_ns[stop - 1])
+        for event in sorted(events, key=lambda e: e.from_ns):
+            key = (event.channel, event.flag)
+            at = self._open.get(key)
+            if at is not None and event.from_ns <= self.events[at].to_ns and event.from_ns <= first:
+                self.events[at] = _longer(self.events[at], event, t_ns, flags)
+                continue
+            if (
+                event.to_ns < first
+                or (start and event.from_ns < first and event.to_ns == first)
+                or (stop < len(t_ns) and event.from_ns > last)
+            ):
+                continue
+            self._keep(key, event)
+
+    def _keep(self, key: tuple[str | None, str], event: QualityEvent) -> None:
+        self._count[key] = self._count.get(key, 0) + 1
+        if self._count[key] <= MOST_EVENTS:
+            self._open[key] = len(self.events)
+            self.events.append(event)
+            return
+        at, more = self._open[key], self._count[key] - MOST_EVENTS
+        kept = self.events[at]
+        detail = re.sub(r"; and \d+ more$", "", kept.detail)
+        self.events[at] = replace(
+            kept, to_ns=max(kept.to_ns, event.to_ns), n=kept.n + event.n, detail=f"{detail}; and {more} more"
+        )
+
+
+def _longer(event: QualityEvent, more: QualityEvent, t_ns: Int1D, flags: Mapping[str, Array]) -> QualityEvent:
+    if more.to_ns <= event.to_ns:
+        return event
+    n = event.n + more.n
+    if event.channel is not None:
+        a, b = np.searchsorted(t_ns, [more.from_ns, event.to_ns + 1])
+        n -= int(np.count_nonzero(flags[event.channel][a:b] & _BY_NAME.get(event.flag, np.uint16(0))))
+    return replace(event, to_ns=more.to_ns, n=n, detail=re.sub(r"for \d+ samples", f"for {n} samples", event.detail))
+
+
+def _continued(
+    name: str, x: Array, t_ns: Int1D, flags: Array, carried: _Carried, start: int, events: list[QualityEvent]
+) -> list[QualityEvent]:
+    """Goes on with what the window before ended in: changes `flags`, and returns the events as they are then."""
+    first = int(t_ns[start])
+    if carried.stands:
+        moved = np.flatnonzero(x[start:] != carried.value)
+        stop = start + int(moved[0]) if moved.size else len(x)
+        if stop > start:
+            flags[start - 1 : stop] = (flags[start - 1 : stop] & ~_STANDS) | np.uint16(carried.stands)
+            flag = Flag.STUCK if carried.stands & Flag.STUCK else Flag.HELD
+            events = [
+                e
+                for e in events
+                if not (e.channel == name and e.flag in ("held", "stuck") and e.from_ns <= first <= e.to_ns)
+            ]
+            events.append(
+                QualityEvent(
+                    name,
+                    str(flag.name).lower(),
+                    int(t_ns[start - 1]),
+                    int(t_ns[stop - 1]),
+                    stop - start + 1,
+                    f"exactly {carried.value:.6g} for {stop - start} samples",
+                )
+            )
+    if carried.off and not flags[start - 1] & _OFFSET:
+        # this window has seen nothing but the sensor that is off: what it takes for a step away is the way back
+        flags[start - 1 :] ^= _OFFSET
+        events = [e for e in events if not (e.channel == name and e.flag == "offset")]
+        edges = np.flatnonzero(np.diff(np.concatenate([[0], ((flags[start - 1 :] & _OFFSET) != 0).view(np.int8), [0]])))
+        for a, b in zip((edges[::2] + start - 1).tolist(), (edges[1::2] + start - 1).tolist(), strict=True):
+            events.append(QualityEvent(name, "offset", int(t_ns[a]), int(t_ns[b - 1]), b - a, "off again"))
+    return events

@@ -1,0 +1,196 @@
+"""The tidy layer: calibrated channels of one (test, source, stream) as one wide Parquet file, flags beside values."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from thermodata.plugin import Int1D, Loss
+from thermodata.schema.flag import Flag
+from thermodata.store.base.arrow import to_arrow
+from thermodata.store.base.encoder import Encoder
+from thermodata.store.base.files import publish, temporary
+from thermodata.store.raw.writer import group_rows
+from thermodata.store.tidy.chunk import Column
+from thermodata.store.tidy.plan import Bound
+from thermodata.store.tidy.quality import Event, Flagged
+from thermodata.store.tidy.series import Member, TestSeries
+from thermodata.store.tidy.temperature_levels import Sampler
+from thermodata.store.tidy.timeline import Timeline
+
+if TYPE_CHECKING:
+    import pyarrow as pa
+
+Columns = Sequence[tuple[str, bool]]
+_FLAGS = [((f.name or "").lower(), int(f)) for f in Flag if f]
+
+
+@dataclass(slots=True)
+class TidyFile:
+    """part: test | history. path: relative to the store."""
+
+    part: str
+    path: str
+    key: str
+    rows: int
+    columns: list[str]
+    to_s: float = 0.0  # of the last row
+    levels: dict[str, list[float | None]] = field(default_factory=dict)  # see `temperature_levels.Sampler`
+
+
+@dataclass(slots=True)
+class TidyResult:
+    files: list[TidyFile] = field(default_factory=list)
+    events: list[Event] = field(default_factory=list)
+    flags: Counter[str] = field(default_factory=Counter)
+    samples: int = 0
+    losses: list[Loss] = field(default_factory=list)
+    problems: list[str] = field(default_factory=list)
+    notes: tuple[str, ...] = ()
+
+
+def write_member(
+    series: TestSeries, member: Member, columns: Columns, key: str, offsets: Mapping[str, float] | None = None
+) -> TidyResult:
+    """Makes the tidy files of one stream of a test, one row group in memory at a time.
+
+    columns: (channel, is text) of the campaign's stream, in the campaign's order; one that this test lacks is NULL.
+    A channel that can't be calibrated is NULL and a problem; the others are written. offsets: channels whose sensor
+    failed before this test, and by how much they are off [K]; they are flagged throughout.
+    """
+    result = TidyResult()
+    line, rows = series.timeline(member), series.rows(member)
+    result.losses += line.losses
+    result.notes = line.notes
+    if rows.history == rows.stop:
+        result.problems.append(f"no rows of '{member[0]}' lie in the test's window")
+        return result
+    here = [b for b in series.plan.bound.values() if (b.source, b.stream) == member]
+    flagged = Flagged(series, member, here, rows.history, rows.stop, result.problems)
+    sampler = Sampler(here, rows.start, rows.stop)
+    parts = [
+        _Part(series, name, columns, key, a, b)
+        for name, a, b in (("history", rows.history, rows.start), ("test", rows.start, rows.stop))
+        if a < b
+    ]
+    try:
+        for first, t_ns, channels in flagged.chunks(group_rows(len(columns) + 1), [rows.start]):
+            sampler.take(first, channels)
+            for name in offsets or ():
+                if name in channels:
+                    channels[name].flags = channels[name].flags | np.uint16(Flag.OFFSET)
+            part = parts[0] if first < parts[0].stop else parts[1]
+            part.add(t_ns, channels)
+            if part.name == "test":
+                _count(result, channels)
+        result.events += flagged.events + _failed(series, line, rows.start, rows.stop, here, offsets or {})
+        result.files += [part.finish() for part in parts]
+        result.files[-1].levels = sampler.series()
+    finally:
+        for part in parts:
+            part.discard()
+    result.problems = list(dict.fromkeys(result.problems))
+    return result
+
+
+def _failed(
+    series: TestSeries, line: Timeline, start: int, stop: int, here: Sequence[Bound], offsets: Mapping[str, float]
+) -> list[Event]:
+    """One event over the whole test for each sensor that failed before it."""
+    failed = [b.name for b in here if b.name in offsets] if start < stop else []
+    if not failed:
+        return []
+    from_s, to_s = series.t_s(np.concatenate([line.times(start, start + 1), line.times(stop - 1, stop)])).tolist()
+    return [
+        Event(
+            name,
+            "offset",
+            from_s,
+            to_s,
+            stop - start,
+            f"{offsets[name]:+.1f} K against its neighbours since an earlier test",
+        )
+        for name in failed
+    ]
+
+
+class _Part:
+    """One tidy file in the making: rows start to stop of the timeline."""
+
+    def __init__(self, series: TestSeries, name: str, columns: Columns, key: str, start: int, stop: int) -> None:
+        self.series, self.name, self.columns, self.key, self.start, self.stop = series, name, columns, key, start, stop
+        self.target = series.store / "tidy" / (f"{key}.parquet" if name == "test" else f"{key}.{name}.parquet")
+        self.schema = tidy_schema(columns)
+        self._encoder: Encoder | None = None
+        self._to_s = 0.0
+
+    def add(self, t_ns: Int1D, channels: dict[str, Column]) -> None:
+        """Takes the next rows, as one row group."""
+        import pyarrow as pa
+
+        if self._encoder is None:
+            self.target.parent.mkdir(exist_ok=True)
+            self._encoder = Encoder(temporary(self.target), self.schema)
+        self._to_s = float(self.series.t_s(t_ns[-1:])[0])
+        n = len(t_ns)
+        unflagged = to_arrow(np.zeros(n, np.uint16))
+        arrays: list[Any] = [to_arrow(t_ns.view("datetime64[ns]")), to_arrow(self.series.t_s(t_ns))]
+        for channel, is_text in self.columns:
+            column = channels.get(channel)
+            if column is None:
+                arrays += [pa.nulls(n, pa.string() if is_text else pa.float64()), pa.nulls(n, pa.uint16())]
+            else:
+                arrays += [
+                    to_arrow(column.values, nan_is_null=True),
+                    to_arrow(column.flags) if column.flags.any() else unflagged,
+                ]
+        self._encoder.put(pa.Table.from_arrays(arrays, schema=self.schema))
+
+    def finish(self) -> TidyFile:
+        assert self._encoder is not None
+        self._encoder.close({})
+        publish(self._encoder.part, self.target)
+        self._encoder = None
+        return TidyFile(
+            self.name,
+            f"tidy/{self.target.name}",
+            self.key,
+            self.stop - self.start,
+            [c for c, _ in self.columns],
+            self._to_s,
+        )
+
+    def discard(self) -> None:
+        """Drops an unfinished file; nothing where it is finished."""
+        if self._encoder is not None:
+            self._encoder.abandon()
+            self._encoder = None
+
+
+def tidy_schema(columns: Columns) -> pa.Schema:
+    """t, t_s, and for each channel `<channel>` and `<channel>__flag`."""
+    import pyarrow as pa
+
+    fields = [pa.field("t", pa.timestamp("ns"), nullable=False), pa.field("t_s", pa.float64(), nullable=False)]
+    for channel, is_text in columns:
+        fields += [
+            pa.field(channel, pa.string() if is_text else pa.float64()),
+            pa.field(f"{channel}__flag", pa.uint16()),
+        ]
+    return pa.schema(fields)
+
+
+def _count(result: TidyResult, channels: dict[str, Column]) -> None:
+    """Counts samples and flags of the test's own rows."""
+    for column in channels.values():
+        result.samples += len(column.flags)
+        if not column.flags.any():
+            continue
+        seen = int(np.bitwise_or.reduce(column.flags))
+        for name, bit in _FLAGS:
+            if seen & bit:
+                result.flags[name] += int(np.count_nonzero(column.flags & np.uint16(bit)))

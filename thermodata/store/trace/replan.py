@@ -1,0 +1,55 @@
+"""A test as it was ingested, put together again from the catalogue alone: which raw row stands behind a tidy row."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from thermodata.schema.campaign import STORED, Campaign
+from thermodata.store.base.connection import fetch
+from thermodata.store.raw.streams import RawStream
+from thermodata.store.tidy.clock_offsets import clock_from_json
+from thermodata.store.tidy.plan import SourcePlan, TestPlan, bind
+from thermodata.store.tidy.series import Member, TestSeries
+from thermodata.store.tidy.source_clock import Clock, bases, span
+
+if TYPE_CHECKING:
+    import duckdb
+
+
+def read_campaign(con: duckdb.DuckDBPyConnection, campaign: str) -> Campaign:
+    """The campaign file as it was ingested."""
+    rows = fetch(con, "select spec from campaign where campaign = ?", [campaign])
+    return Campaign.model_validate_json(rows[0]["spec"], context=STORED)
+
+
+def read_series(con: duckdb.DuckDBPyConnection, store: Path, campaign: str, test: str) -> TestSeries:
+    """The streams of a test on its time line, as the tidy layer was made from them. No calibration is applied."""
+    spec = read_campaign(con, campaign)
+    plan = TestPlan(spec, next(t for t in spec.tests if t.id == test))
+    files = fetch(con, "select * from file where campaign = ? and test = ? and layer = 'raw'", [campaign, test])
+    for name, source in spec.sources.items():
+        raws = [RawStream.from_row(r) for r in files if r["source"] == name]
+        # as resolve tells it: a pattern without the test's name gives other tests the same files
+        patterns = [source.files] if isinstance(source.files, str) else list(source.files or [])
+        shared = name not in plan.test.files and bool(patterns) and not any("{test}" in p for p in patterns)
+        plan.sources[name] = SourcePlan(name, source, raws, shared)
+    bind(plan)
+    base, _ = bases(plan)
+    kept: dict[str, Clock] = {}
+    for row in fetch(con, "select source, notes from source where campaign = ? and test = ?", [campaign, test]):
+        estimated = clock_from_json(row["notes"])
+        if estimated is not None:
+            kept[row["source"]] = estimated
+    clocks = {
+        name: kept.get(name)
+        or Clock(round((s.spec.clock.offset or 0.0) * 1e9), s.spec.clock.drift_ppm or 0.0, base[name])
+        for name, s in plan.sources.items()
+    }
+    return TestSeries(store, plan, clocks, span(plan, clocks), {})
+
+
+def raw_row_of(series: TestSeries, member: Member, row: int) -> tuple[RawStream, int] | None:
+    """(raw stream, its row) behind a row of a stream in time order; None where no file holds the stream."""
+    line = series.timeline(member)
+    return line.raw_row(row) if line.raws else None
