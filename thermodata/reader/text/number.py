@@ -25,10 +25,11 @@ import numpy as np
 from thermodata.errors import FormatError
 from thermodata.plugin import Array, Bool1D
 
-EMPTY = frozenset(
+_NOTHING = (
     "|-|--|---|----|*|***|****|?|???|na|n/a|#n/a|n.a.|#nv|null|none|nan|+nan|-nan|nan(ind)|-nan(ind)|1.#qnan|-1.#qnan|"
-    "1.#ind|-1.#ind|1,#qnan|-1,#qnan|1,#ind|-1,#ind|unavailable".split("|")
+    "1.#ind|-1.#ind|1,#qnan|-1,#qnan|1,#ind|-1,#ind|unavailable"
 )
+EMPTY = frozenset(_NOTHING.split("|"))
 OVERLOAD = frozenset(
     sign + word
     for sign in ("", "+", "-")
@@ -202,7 +203,7 @@ def _floats(cells: Any, decimal: str, declared: bool) -> Values:
     import pyarrow.compute as pc
 
     text = pc.utf8_trim_whitespace(cells.fill_null(""))
-    plain = pc.match_substring_regex(text, rf"^-?\d{{1,15}}(?:{re.escape(decimal)}\d{{1,30}})?$")
+    plain = pc.match_substring_regex(text, rf"^-?\d{{1,15}}(?:{re.escape(decimal)}\d{{1,30}})?(?:[eE][+-]?\d{{1,2}})?$")
     sure = plain.to_numpy(zero_copy_only=False)
     numbers = pc.if_else(plain, text, "nan")
     if decimal == ",":
