@@ -8,6 +8,7 @@ odd, it is taken line by line. All three ways give the same rows for what they c
 from __future__ import annotations
 
 import csv
+import io
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from typing import Any
@@ -340,7 +341,7 @@ def _cells(record: str, grid: Grid) -> list[str]:
     if "\n" not in record:
         return fields(record, grid.delimiter, grid.quoted)
     try:
-        return next(csv.reader(record.split("\n"), delimiter=grid.delimiter), [""])
+        return next(csv.reader(io.StringIO(record), delimiter=grid.delimiter), [""])
     except csv.Error:
         return record.split(grid.delimiter)
 
