@@ -135,6 +135,12 @@ class Reader(Protocol):
     what a person can look up there, counted as the program that shows the file counts it: "line 812", "segment 3 of
     86400, byte 123456 (Eddy/Z)", "sheet 'data', row 813". Where that can't be told it says the row only ("row 812").
     It reads the file in bounded memory, and may take as long as reading it. `thermodata trace --verify` shows it.
+
+    It may have two attributes more:
+
+    - `heads: Mapping[str, bytes]`, format -> the first bytes of a small file of it (in capitals: "SHDR"). The
+      conformance kit shows them to all other readers, none of which may claim them.
+    - `gives_way: bool`: the reader is a general one, and claims a file only where no other reader does.
     """
 
     name: str
