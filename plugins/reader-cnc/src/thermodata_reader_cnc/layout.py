@@ -10,8 +10,8 @@ from typing import Any
 
 from thermodata.errors import FormatError
 from thermodata.reader.text import clean
+from thermodata.reader.text import timestamp as when
 from thermodata.reader.zone import NAT
-from thermodata_reader_cnc import when
 from thermodata_reader_cnc.header import Header, find_header
 from thermodata_reader_cnc.timecolumns import (
     TimeColumns,

@@ -2,21 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 from thermodata.errors import FormatError
 from thermodata.plugin import Block, Loss, Recording, Signal, Source
 from thermodata.reader.text import last_line_is_whole
+from thermodata.reader.text.lines import Chunk, Sample, chunks, sample
+from thermodata.reader.text.locate import line_of
+from thermodata.reader.text.timestamp import parse
 from thermodata.reader.zone import NAT, local_to_utc_ns
 from thermodata_reader_cnc import quality
-from thermodata_reader_cnc.chunks import Chunk, Sample, chunks, sample
 from thermodata_reader_cnc.columns import Column, find_columns
 from thermodata_reader_cnc.layout import Layout, find_layout
-from thermodata_reader_cnc.when import parse
 
 STREAM = "nc"
+_NAMES = {";": "';'", "\t": "tabs"}
+EXAMPLE = b"Datum;Zeit;T1 [degC]\n02.03.2026;08:00:00;20,5\n02.03.2026;08:00:01;20,6\n02.03.2026;08:00:02;20,7\n"
 
 
 @dataclass(frozen=True, slots=True)
@@ -29,6 +32,22 @@ class Plan:
     decimal: str | None
     utc: bool  # the cells carry an offset from UTC
     quality: dict[str, tuple[str, bool]]
+
+
+def claims(lines: Sequence[str]) -> str | None:
+    """The reason for claiming lines of text, or None: absolute dates and times in the rows, and ';' or a tab between
+    the cells. Comma-separated text, and text with relative or no time, is left to readers of general tables."""
+    try:
+        layout = find_layout([line for line in lines if line.strip()], [], None, "")
+    except FormatError as error:
+        # a file of ours whose day and month nothing tells apart is still ours: reading it asks for the order
+        if error.what.startswith("day and month") and any(";" in line or "\t" in line for line in lines[-3:]):
+            return "rows of a date and time between ';' or tabs"
+        return None
+    if layout.delimiter not in _NAMES or not layout.absolute:
+        return None
+    forms = " and ".join(form.text for _, form in layout.time)
+    return f"rows between {_NAMES[layout.delimiter]} with a time {forms} in column {layout.time[0][0] + 1}"
 
 
 def plan(path: Path, source: Source) -> Plan:
@@ -121,6 +140,11 @@ def _ns(layout: Layout, line: str) -> int | None:
 def _whole(first: Sample, delimiter: str) -> bool:
     lines = first.head if first.whole else first.rest
     return len(lines) < 2 or last_line_is_whole(lines[-1], lines[-2], delimiter)
+
+
+def locate(path: Path, source: Source, stream: str, row: int) -> str | None:
+    """The line of a row."""
+    return line_of(blocks(path, source), stream, row)
 
 
 def blocks(path: Path, source: Source) -> Iterator[Block | Loss]:

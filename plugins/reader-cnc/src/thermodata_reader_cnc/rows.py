@@ -9,15 +9,15 @@ import numpy as np
 
 from thermodata.plugin import Array, Block, Int1D, Loss
 from thermodata.reader.text import clean, last_line_is_whole
+from thermodata.reader.text import timestamp as when
+from thermodata.reader.text.lines import ODD, Chunk
+from thermodata.reader.text.local_clock import LocalClock
+from thermodata.reader.text.losses import Losses
 from thermodata.reader.zone import NAT
-from thermodata_reader_cnc import when
 from thermodata_reader_cnc.arrowcolumns import MISSING, relative_ns, to_numpy
 from thermodata_reader_cnc.cells import as_bool, as_float, as_int
-from thermodata_reader_cnc.chunks import ODD, Chunk
 from thermodata_reader_cnc.columns import FALSE, NOTHING, TRUE
-from thermodata_reader_cnc.halves import odd_lines
-from thermodata_reader_cnc.localclock import LocalClock
-from thermodata_reader_cnc.losses import Losses
+from thermodata_reader_cnc.timecolumns import Counted
 
 if TYPE_CHECKING:
     import pyarrow as pa
@@ -30,6 +30,11 @@ _Part = tuple[Int1D, dict[str, Array], dict[str, Array]]
 
 class _OddError(Exception):
     """A part of the file that cannot be read as a whole."""
+
+
+def odd_lines(data: bytes, delimiter: str, width: int) -> bool:
+    """Whether text holds so many cells that a line of it must be far too wide: a parser would make room for all."""
+    return data.count(delimiter.encode()) > (width - 1) * (data.count(b"\n") + 1) + 10_000
 
 
 class RowReader:
@@ -131,6 +136,7 @@ class RowReader:
             seconds = table.column(str(column)).to_numpy()
             if not np.isfinite(seconds).all():
                 raise _OddError
+            assert isinstance(form, Counted)
             return relative_ns(seconds, form.unit_ns)
         total = np.zeros(table.num_rows, np.int64)
         for column, form in self.layout.time:
@@ -218,7 +224,9 @@ class RowReader:
         value = as_float(clean(cells[self.layout.time_columns[0]]), self.decimal)
         if value is None or not np.isfinite(value):
             return None
-        return int(relative_ns(np.array([value]), self.layout.time[0][1].unit_ns)[0])
+        form = self.layout.time[0][1]
+        assert isinstance(form, Counted)
+        return int(relative_ns(np.array([value]), form.unit_ns)[0])
 
     def _cell(self, cell: str, dtype: str) -> Any:
         if dtype == "str":

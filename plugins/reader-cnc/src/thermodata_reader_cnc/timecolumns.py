@@ -4,14 +4,23 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from typing import Any, TypeAlias
 
 from thermodata.errors import FormatError
 from thermodata.reader.text import clean, split_unit
+from thermodata.reader.text import timestamp as when
+from thermodata.reader.text.timestamp import TimeFormat
 from thermodata.reader.zone import NAT
-from thermodata_reader_cnc import when
 from thermodata_reader_cnc.header import Header
-from thermodata_reader_cnc.when import TimeFormat
+
+
+@dataclass(frozen=True, slots=True)
+class Counted(TimeFormat):
+    """A time that is a number of units."""
+
+    unit_ns: int = 0
+
 
 TimeColumns: TypeAlias = tuple[tuple[int, TimeFormat], ...]
 _MILLISECONDS = re.compile(r"^(ms|msec|millise[ck]\w*|millis)\b", re.IGNORECASE)
@@ -95,7 +104,7 @@ def relative(rows: Sequence[Sequence[str]], tail: Sequence[Sequence[str]]) -> Ti
             if unit is None and k + 1 < len(rows) and column < len(rows[k + 1]):
                 unit = clean(rows[k + 1][column]).strip("[]()")
             if unit in _UNIT_NS and tail and all(_is_number(r[column]) for r in _spread(tail)):
-                return ((column, TimeFormat("relative", None, f"a number [{unit}]", _UNIT_NS[unit])),)
+                return ((column, Counted("relative", None, f"a number [{unit}]", unit_ns=_UNIT_NS[unit])),)
     return None
 
 
@@ -138,7 +147,7 @@ def declared_time(
         unit = str(time["unit"])
         if unit not in _UNIT_NS:
             raise FormatError("unknown unit of time", where=where, expected=", ".join(_UNIT_NS), got=unit)
-        return ((columns[0], TimeFormat("relative", None, f"a number [{unit}]", _UNIT_NS[unit])),)
+        return ((columns[0], Counted("relative", None, f"a number [{unit}]", unit_ns=_UNIT_NS[unit])),)
     pairs = []
     for column in columns:
         cells = [r[column] for r in _spread(body, 2000) if column < len(r)]
