@@ -200,7 +200,7 @@ def _iso(column: Any, form: TimeFormat) -> Int1D | None:
     except pa.ArrowException:
         return None
     ns: Int1D = np.frombuffer(cast.buffers()[1], np.int64, len(cast), cast.offset * 8)
-    return ns if _FIRST_NS <= int(ns.min()) and int(ns.max()) < _LAST_NS else None
+    return ns if int(ns.min()) >= _FIRST_NS and int(ns.max()) < _LAST_NS else None
 
 
 def _by_strptime(cells: list[str | None], form: TimeFormat) -> Int1D:
