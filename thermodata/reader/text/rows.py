@@ -28,7 +28,8 @@ _SHOWN = 200
 @dataclass(frozen=True, slots=True)
 class Grid:
     """How rows lie. kinds: of each column: float64, int64, uint64, bool, str, TIME, or None for one that nobody wants;
-    least: the fewest cells of a row (those that are missing are empty); decimal_declared: see the policy of numbers."""
+    least: the fewest cells of a row (those that are missing are empty); exact: a row with empty cells behind its last
+    column is none, for a delimiter too much may have shifted others; decimal_declared: see the policy of numbers."""
 
     delimiter: str
     decimal: str
@@ -36,6 +37,7 @@ class Grid:
     quoted: bool = False
     least: int | None = None
     decimal_declared: bool = False
+    exact: bool = False
 
     @property
     def width(self) -> int:
@@ -220,7 +222,7 @@ def _as_text(data: bytes, line: int, grid: Grid) -> Rows | None:
     for row in invalid:
         cells = side.fitting(fields(row.text.rstrip("\r"), grid.delimiter, grid.quoted))
         if cells is None:
-            if row.text.strip():
+            if row.text.strip(f"{grid.delimiter} \t\r\n"):
                 size = len(row.text.encode())
                 bad.append(BadLine(line + row.number - 1, row.actual_columns, row.text[:_SHOWN].rstrip("\r"), size))
         else:
@@ -307,7 +309,7 @@ class _Cells:
         """The cells of a row, as many as it should have; None where a line is none: empty cells behind its last column
         are nothing, and those that a row may lack are empty."""
         width = self.grid.width
-        if len(cells) > width and not any(c.strip() for c in cells[width:]):
+        if len(cells) > width and not self.grid.exact and not any(c.strip() for c in cells[width:]):
             cells = cells[:width]
         if len(cells) < width and self.grid.least is not None and len(cells) >= self.grid.least:
             cells = cells + [""] * (width - len(cells))
