@@ -51,7 +51,7 @@ def number_rows(data: bytes, line: int, delimiter: str, decimal: str, dtypes: Se
     bits = [k for k, dtype in enumerate(dtypes) if dtype == "bool"]  # written as 0 and 1, or as TRUE and FALSE
     kinds = tuple("float64" if dtype == "bool" else dtype for dtype in dtypes)
     data = data.replace(b'"', b"")
-    rows = parse(data, line, Grid(delimiter, decimal, kinds))
+    rows = parse(data, line, Grid(delimiter, decimal, kinds, exact=True))
     columns = [rows.columns[k] for k in range(len(kinds))]
     whole = np.ones(rows.n, bool)
     for column in columns:
@@ -79,9 +79,9 @@ def everywhere(mask: Bool1D) -> Bool1D | slice:
 def _with(bad: Sequence[BadLine], more: Sequence[int], data: bytes, line: int) -> tuple[BadLine, ...]:
     """The bad lines, in order, and others of the same text."""
     lines, known = data.split(b"\n"), {each.line for each in bad}
-    added = [
-        BadLine(k, 0, lines[k - line][:_SHOWN].decode("utf-8", "replace").rstrip("\r"), len(lines[k - line]))
-        for k in more
-        if k not in known
-    ]
+    added = []
+    for number in more:
+        if number not in known:
+            text = lines[number - line].rstrip(b"\r")
+            added.append(BadLine(number, 0, text[:_SHOWN].decode("utf-8", "replace"), len(text)))
     return tuple(sorted([*bad, *added], key=lambda each: each.line))

@@ -66,7 +66,7 @@ class Layout:
         """All wanted cells as text: what a value is, its tag decides."""
         wanted = {*self.times, self.tag, self.value, self.status}
         kinds = tuple("str" if k in wanted else None for k in range(self.width))
-        return Grid(self.delimiter, ".", kinds, quoted=True)
+        return Grid(self.delimiter, ".", kinds, quoted=True, exact=True)
 
 
 def find_layout(lines: Sequence[str], where: str) -> Layout | None:

@@ -123,22 +123,20 @@ def blocks(path: Path, source: Source) -> Iterator[Block | Loss]:
         data, tail = _without_end(*split_last_line(chunk.data))
         data = groups.padded(data, chunk.line, losses)
         rows = number_rows(data, chunk.line, header.delimiter, header.decimal, dtypes)
+        longest: tuple[Int1D, Int1D] = np.empty(0, np.int64), np.empty(0, np.int64)
+        for block in groups.blocks(rows, losses):
+            if block.at is not None and block.at.size > longest[1].size:
+                longest = block.t_ns, block.at
+            yield block
         for bad in rows.bad:
             if bad.text.strip() != "EOF":
-                losses.add(bad.line, f"expected {header.width} numbers, got '{bad.text[:80]}'", bad.size, 0)
-        last = np.empty(0, np.int64)
-        for block in groups.blocks(rows, losses):
-            last = block.t_ns
-            yield block
+                row = int(np.searchsorted(longest[1], bad.line + 1))
+                losses.add(bad.line, f"expected {header.width} numbers, got '{bad.text[:80]}'", bad.size, row)
         if tail:
-            text = tail.decode("utf-8", "replace")
-            losses.add(
-                chunk.line + data.count(b"\n"),
-                f"the last row has no line end and may be cut: '{text[:60]}'",
-                len(tail),
-                last.size,
-            )
-        yield from losses.dated(last)
+            text, line = tail.decode("utf-8", "replace"), chunk.line + data.count(b"\n")
+            reason = f"the last row has no line end and may be cut: '{text[:60]}'"
+            losses.add(line, reason, len(tail), longest[1].size)
+        yield from losses.dated(longest[0])
     yield from losses.rest()
     yield from groups.missing(path.name, _complete(header, first))
 
