@@ -137,8 +137,13 @@ class Reader(Protocol):
     It reads the file in bounded memory, and may take as long as reading it. `thermodata trace --verify` shows it.
     A reader without `locate` may have the same method under its first name, `place`.
 
-    It may also have two attributes, which none needs. `formats: tuple[str, ...]` names what it reads, for
-    `thermodata plugins show`. `version: str` stands in the raw data's key in place of its distribution's version.
+    It may also have attributes, which none needs:
+
+    - `formats: tuple[str, ...]` names what it reads, for `thermodata plugins show`.
+    - `version: str` stands in the raw data's key in place of its distribution's version.
+    - `heads: Mapping[str, bytes]`, format -> the first bytes of a small file of it (in capitals: "SHDR"). The
+      conformance kit shows them to all other readers, none of which may claim them.
+    - `gives_way: bool`: the reader is a general one, and claims a file only where no other reader does.
     """
 
     name: str

@@ -384,3 +384,60 @@ def test_check_reader_lists_all_that_failed(file: tuple[Path, Source]) -> None:
     with pytest.raises(AssertionError) as caught:
         kit.check_reader(ClaimsAll, [file])
     assert "it claims no file of another format: claims a file of TDMS" in str(caught.value)
+
+
+class Known(Good):
+    """Another installed reader, with a format of its own."""
+
+    name = "known"
+    heads = {"PAIRS": MAGIC + bytes(8)}
+
+
+class General(Good):
+    """Reads any text; with `gives_way` it claims what no other does."""
+
+    name = "general"
+
+    def sniff(self, head: Head) -> str | None:
+        return "text of any kind" if head.start.startswith(MAGIC) else None
+
+
+class GivesWay(General):
+    gives_way = True
+
+
+@pytest.fixture
+def installed(monkeypatch: pytest.MonkeyPatch) -> Callable[..., None]:
+    from thermodata.testing import impostors
+    from thermodata.testing.reader import claiming
+
+    def put(*readers: Good) -> None:
+        for module in (impostors, claiming):
+            monkeypatch.setattr(module, "readers", lambda: {each.name: each for each in readers})
+
+    return put
+
+
+def test_heads_of_other_readers_are_impostors_and_those_of_its_own_formats_are_none(
+    installed: Callable[..., None],
+) -> None:
+    from thermodata.testing.impostors import IMPOSTORS, impostors
+
+    installed(Known(), General())
+    assert impostors(General()) == IMPOSTORS | Known.heads
+    assert impostors(Known()) == IMPOSTORS
+    with pytest.raises(AssertionError, match=r"claims a file of PAIRS.*\n.*claims=\('PAIRS',\).*gives_way = True"):
+        kit.it_claims_no_file_of_another_format(kit.Case(General, ()))
+    kit.it_claims_no_file_of_another_format(kit.Case(General, (), claims=("PAIRS",)))
+
+
+def test_one_that_gives_way_may_claim_what_another_claims_and_nothing_else(installed: Callable[..., None]) -> None:
+    installed(Known(), GivesWay())
+    kit.it_claims_no_file_of_another_format(kit.Case(GivesWay, ()))
+
+    class ClaimsPictures(GivesWay):
+        def sniff(self, head: Head) -> str | None:
+            return "any file at all"
+
+    with pytest.raises(AssertionError, match="claims a file of TDMS"):
+        kit.it_claims_no_file_of_another_format(kit.Case(ClaimsPictures, ()))

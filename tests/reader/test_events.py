@@ -97,3 +97,19 @@ def test_an_undeclared_signal_is_an_error() -> None:
 def test_fill_forward_from_the_first_written_value() -> None:
     got = fill_forward(np.array([7.0, 1.0, 0.0, 0.0, 2.0]), np.array([False, True, False, False, True]))
     np.testing.assert_array_equal(got, [7.0, 1.0, 1.0, 1.0, 2.0])
+
+
+@pytest.mark.parametrize(("ordered", "at"), [(True, [4, 6, 7]), (False, [6, 4])])
+def test_a_row_stands_where_its_first_value_does(ordered: bool, at: list[int]) -> None:
+    held = HeldRows[int]({"T": "float64", "n": "float64"}, "nc", ordered)
+    for line, (t, name) in enumerate([(2, "T"), (2, "n"), (1, "T"), (2, "n"), (9, "T")], 4):
+        held.add(t, name, 1.0, at=line)
+    held.drop_last()
+    block, _ = held.take(lambda stamps: np.array(stamps, np.int64))
+    assert block is not None
+    assert block.at is not None
+    assert block.at.tolist() == at
+    held.add(5, "T", 1.0)
+    block, _ = held.take(lambda stamps: np.array(stamps, np.int64))
+    assert block is not None
+    assert block.at is None

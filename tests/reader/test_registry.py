@@ -11,6 +11,7 @@ import pytest
 from thermodata.errors import FormatError, UsageError
 from thermodata.plugin import Head
 from thermodata.reader import registry
+from thermodata.reader.explain import explain
 
 
 class Fake:
@@ -43,7 +44,14 @@ class Stumbling(Fake):
         raise IndexError("too short")
 
 
-CLASSES = {"one": One, "two": Two, "stumbling": Stumbling}
+class General(Fake):
+    gives_way = True
+
+    def __init__(self) -> None:
+        super().__init__("general", b"")
+
+
+CLASSES = {"one": One, "two": Two, "stumbling": Stumbling, "general": General}
 
 
 @pytest.fixture
@@ -123,3 +131,25 @@ def test_none_installed_says_which_command_installs(install) -> None:  # type: i
 def test_an_unreadable_file_is_a_usage_error(tmp_path: Path) -> None:
     with pytest.raises(UsageError, match=r"cannot read nowhere\.tdms"):
         registry.head(tmp_path / "nowhere.tdms")
+
+
+def test_a_reader_that_gives_way_claims_what_no_other_does(install, tmp_path: Path) -> None:  # type: ignore[no-untyped-def]
+    install("general", "one")
+    known, unknown = write(tmp_path, b"AC"), tmp_path / "y.dat"
+    unknown.write_bytes(b"ZZ")
+    assert registry.claims(known) == {"one": "starts with b'A'"}
+    assert list(registry.all_claims(known)) == ["general", "one"]
+    assert registry.sniff(known).name == "one"
+    assert registry.sniff(unknown).name == "general"
+    assert explain(known).others == {"general": "it would read it as starts with b'', but gives way to 'one'"}
+    assert explain(unknown).reader == "general"
+
+
+def test_two_readers_that_give_way_do_not_do_so_to_each_other(
+    install,  # type: ignore[no-untyped-def]
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    install("general", "one")
+    monkeypatch.setattr(One, "gives_way", True, raising=False)
+    assert list(registry.claims(write(tmp_path, b"AC"))) == ["general", "one"]

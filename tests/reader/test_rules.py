@@ -37,6 +37,7 @@ BROKEN_BLOCKS = {
     rules.values_have_the_length_of_the_time: with_values(a=np.zeros(2)),
     rules.values_have_the_declared_dtype: with_values(n=np.zeros(3)),
     rules.flags_are_uint16_of_delivered_signals: replace(BLOCK, flags={"a": np.zeros(3, int)}),
+    rules.where_rows_stand_is_int64_of_the_time_s_length: replace(BLOCK, at=np.arange(2)),
 }
 BROKEN_LOSSES = {
     rules.a_loss_says_where_and_why: replace(LOSS, reason=""),

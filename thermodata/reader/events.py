@@ -40,6 +40,7 @@ class HeldRows(Generic[Stamp]):
         self._held: dict[str, tuple[Value, int]] = dict.fromkeys(self._dtypes, (None, _NONE))
         self._seen: set[str] = set()
         self._stamps: list[Stamp] = []
+        self._at: list[int | None] = []
         self._changes: dict[str, tuple[list[int], list[Value], list[int]]] = {}
 
     def __len__(self) -> int:
@@ -50,13 +51,14 @@ class HeldRows(Generic[Stamp]):
         """The time stamp of the row that still grows."""
         return self._stamps[-1] if self._stamps else None
 
-    def add(self, stamp: Stamp, name: str, value: Value, flag: int = 0) -> None:
-        """Takes a value (None: the source has none). flag: what the source itself says of it, as a Flag.
-        KeyError: no such signal."""
+    def add(self, stamp: Stamp, name: str, value: Value, flag: int = 0, at: int | None = None) -> None:
+        """Takes a value (None: the source has none). flag: what the source itself says of it, as a Flag; at: where it
+        stands in the log: a row stands where its first value does. KeyError: no such signal."""
         if name not in self._dtypes:
             raise KeyError(name)
         if not self._stamps or self._stamps[-1] != stamp:
             self._stamps.append(stamp)
+            self._at.append(at)
         rows, values, flags = self._changes.setdefault(name, ([], [], []))
         rows.append(len(self._stamps) - 1)
         values.append(value)
@@ -67,6 +69,7 @@ class HeldRows(Generic[Stamp]):
         if not self._stamps:
             return
         self._stamps.pop()
+        self._at.pop()
         for rows, values, flags in self._changes.values():
             while rows and rows[-1] == len(self._stamps):
                 del rows[-1], values[-1], flags[-1]
@@ -86,8 +89,9 @@ class HeldRows(Generic[Stamp]):
             values[name], flag = self._column(name, dtype, place, times.size)
             if flag.any():
                 flags[name] = flag
-        self._stamps, self._changes = [], {}
-        return (Block(self.stream, times, values, flags or None) if times.size else None), bad
+        at = self._first_at(place, times.size)
+        self._stamps, self._at, self._changes = [], [], {}
+        return (Block(self.stream, times, values, flags or None, at) if times.size else None), bad
 
     def _places(self, t_ns: Int1D, good: Bool1D) -> tuple[Int1D, Int1D]:
         """The block's row of each collected row (-1: none), and the rows' times."""
@@ -99,6 +103,15 @@ class HeldRows(Generic[Stamp]):
         times, inverse = np.unique(times, return_inverse=True)
         place[good] = inverse
         return place, times
+
+    def _first_at(self, place: Int1D, n: int) -> Int1D | None:
+        """Where the block's rows stand; None where the values did not say so."""
+        known = [at for at in self._at if at is not None]
+        if len(known) < len(self._at):
+            return None
+        first: Int1D = np.full(n, np.iinfo(np.int64).max)
+        np.minimum.at(first, place[place >= 0], np.array(known, np.int64)[place >= 0])
+        return first
 
     def _column(self, name: str, dtype: str, place: Int1D, n: int) -> tuple[Array, Array]:
         kind = object if dtype == "str" else np.float64

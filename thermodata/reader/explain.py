@@ -9,7 +9,7 @@ from pathlib import Path
 from thermodata.errors import ThermodataError
 from thermodata.plugin import Head, Source
 from thermodata.reader.guard import described
-from thermodata.reader.registry import claims, failed_readers, head, readers
+from thermodata.reader.registry import all_claims, claims, failed_readers, head, readers
 from thermodata.reader.text import decode_head
 
 # First bytes of what lies in folders of logs without being one
@@ -61,6 +61,12 @@ def explain(path: Path) -> Explanation:
     found = claims(path)
     kind = _kind(start)
     others = {name: _why_not(name, path, start, asked=not found) for name in readers() if name not in found}
+    first = next(iter(found), "")
+    others |= {
+        name: f"it would read it as {reason}, but gives way to '{first}'"
+        for name, reason in all_claims(path).items()
+        if name not in found
+    }
     others |= {name: f"does not load: {error}" for name, error in failed_readers().items()}
     return Explanation(str(path), start.size_bytes, kind, found, others, _advice(start, found, others))
 

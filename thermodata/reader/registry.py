@@ -90,8 +90,8 @@ def head(path: Path) -> Head:
         raise UsageError(f"cannot read {path.name}", where=str(path), got=error.strerror or str(error)) from None
 
 
-def claims(path: Path | str) -> dict[str, str]:
-    """Reader -> its reason for claiming the file."""
+def all_claims(path: Path | str) -> dict[str, str]:
+    """Reader -> its reason for claiming the file, those that give way too."""
     start = head(Path(path))
     found: dict[str, str] = {}
     for name, each in readers().items():
@@ -105,6 +105,18 @@ def claims(path: Path | str) -> dict[str, str]:
         if reason is not None:
             found[name] = reason
     return found
+
+
+def gives_way(name: str) -> bool:
+    """Whether a reader claims a file only where no other reader does."""
+    return bool(getattr(readers()[name], "gives_way", False))
+
+
+def claims(path: Path | str) -> dict[str, str]:
+    """Reader -> its reason for claiming the file. A reader that gives way claims nothing beside one that does not."""
+    found = all_claims(path)
+    firm = {name: reason for name, reason in found.items() if not gives_way(name)}
+    return firm or found
 
 
 def sniff(path: Path | str) -> Reader:

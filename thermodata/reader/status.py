@@ -2,20 +2,26 @@
 
 from __future__ import annotations
 
+import math
+import re
 from collections.abc import Iterable
+from functools import lru_cache
 
+from thermodata.reader.text.number import to_bool, to_float
 from thermodata.schema.flag import Flag
 
 BAD = int(Flag.NOT_MEASURING)
+_HEX = re.compile(r"0[xX][0-9a-fA-F]+")
 _GOOD_WORDS = ("good", "uncertain", "ok", "gut", "valid", "true")
 
 
 def _code(text: str) -> int | None:
-    try:
-        code = int(text, 0) if text[:2].lower() == "0x" else int(float(text.replace(",", ".")))
-    except (ValueError, OverflowError):
-        return None
-    return code % 2**32 if code < 0 else code  # a signed 32-bit status code
+    if text[:2].lower() == "0x":
+        code = int(text, 16) if _HEX.fullmatch(text) else None
+    else:
+        number = None if to_bool(text) is not None else to_float(text, "," if "," in text else ".")
+        code = None if number is None or not math.isfinite(number) else int(number)
+    return code % 2**32 if code is not None and code < 0 else code  # a signed 32-bit status code
 
 
 def zero_is_good(statuses: Iterable[str], name: str) -> bool:
@@ -29,6 +35,7 @@ def zero_is_good(statuses: Iterable[str], name: str) -> bool:
     return "qual" not in name.casefold() and "valid" not in name.casefold()
 
 
+@lru_cache(maxsize=4096)
 def is_good(status: str, zero: bool) -> bool:
     """Whether a status keeps its value: Good and Uncertain in words, OPC's 64...255, or UA's codes below bad; no
     status at all too. zero: what the code 0 means."""

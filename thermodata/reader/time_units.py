@@ -96,11 +96,12 @@ def is_absolute(unit: str) -> bool:
 def to_ns(values: Array, seconds: float, zero_s: int = 0) -> Int1D:
     """Nanoseconds of a count of units; NAT where it is no number or beyond 285 years."""
     out = np.full(values.shape, NAT, np.int64)
+    each = round(seconds * 1e9)
+    zero = zero_s * 10**9 // each  # in units: FILETIME's zero is no time in int64 nanoseconds
     if values.dtype.kind in "iu":
-        each = round(seconds * 1e9)
         low, high = (int((sign * _REACH_S - zero_s) / seconds) for sign in (-1, 1))
         whole = (values >= max(low, np.iinfo(np.int64).min)) & (values <= min(high, np.iinfo(np.int64).max))
-        out[whole] = values[whole].astype(np.int64) * each + zero_s * 1_000_000_000
+        out[whole] = (values[whole].astype(np.int64) + zero) * each
         return out
     with np.errstate(over="ignore", invalid="ignore"):
         full = values.astype(np.float64)
@@ -112,8 +113,7 @@ def to_ns(values: Array, seconds: float, zero_s: int = 0) -> Int1D:
             part * (seconds * 1e9)
         ).astype(np.int64)
     else:
-        each = round(seconds * 1e9)
-        out[good] = base.astype(np.int64) * each + zero_s * 1_000_000_000 + np.rint(part * each).astype(np.int64)
+        out[good] = (base.astype(np.int64) + zero) * each + np.rint(part * each).astype(np.int64)
     return out
 
 

@@ -1,8 +1,14 @@
-"""Heads of files of many formats, for readers to leave alone. The first word of a name is the format."""
+"""Heads of files of many formats, for readers to leave alone. The first word of a name is the format.
+
+Those of formats that an installed reader knows are its own `heads`; here are the others, and what no reader reads.
+"""
 
 from __future__ import annotations
 
 import struct
+
+from thermodata.plugin import Reader
+from thermodata.reader.registry import readers
 
 _TDMS = b"TDSm" + struct.pack("<IIQQ", 0x0E, 4713, 64, 32) + b"\x01\0\0\0\x01\0\0\0/" + bytes(64)
 _SPREADSHEET = b"PK\x03\x04\x14\0\x06\0\x08\0\0\0!\0" + bytes(12) + b"\x13\0\0\0[Content_Types].xml" + bytes(80)
@@ -15,16 +21,7 @@ IMPOSTORS: dict[str, bytes] = {
     "PARQUET": b"PAR1\x15\x04\x15\x80" + bytes(60),
     "XLSX": _SPREADSHEET,
     "ZIP of pictures": b"PK\x03\x04\x14\0\0\0\x08\0" + bytes(16) + b"\x09\0\0\0photo.jpg" + bytes(40),
-    "TRACE_XML": b'<?xml version="1.0" encoding="UTF-8"?>\n<traceSession version="1.0">\n<frameHeader '
-    b'startTime="0"/>\n',
-    "TRACE_CSV": b'"Time","/Nck/!SD/nckServoDataActCurr32 [u1; 1]"\n0.000,1.5\n0.002,1.6\n0.004,1.7\n',
-    "SCO": b"%[GLOBAL]\r\n%VERSION=1\r\n%\r\n%[CURVE1]\r\n%CHANNELTYPE=1\r\n%\r\n%[DATA]\r\n0;1;2\r\n",
-    "TWINCAT": b"Name\tProject\r\nFile\tC:\\scope.svdx\r\nStartTime of export\t131000000000000000\r\n\r\nName\tx\r\n"
-    b"SampleTime[ms]\t1\r\n0\t0.5\r\n1\t0.6\r\n",
-    "SHDR": b"2009-06-15T00:00:00.000000|power|ON\n2009-06-15T00:00:00.010000|Xabs|1.5\n",
-    "MTCONNECT": b'<?xml version="1.0"?>\n<MTConnectStreams xmlns="urn:mtconnect.org:MTConnectStreams:1.5">\n',
     "CSV": b"time [s];T1 [degC];speed [rpm]\n0;20.5;0\n1;20.6;100\n2;20.7;200\n3;20.8;300\n",
-    "OPCUA": b"DateTime,TagName,TagVal,TagQuality\n2024-01-01 00:00:00,T1,20.5,192\n2024-01-01 00:00:01,T2,20.5,192\n",
     "PNG": b"\x89PNG\r\n\x1a\n\0\0\0\rIHDR" + bytes(40),
     "PDF": b"%PDF-1.7\n%\xe2\xe3\xcf\xd3\n1 0 obj\n<< /Type /Catalog >>\nendobj\n",
     "PROSE": "Měření teplot vřetena dne 1. 3. 2026, poznámky obsluhy.\nSonda 3 drží špatně.\n".encode(),
@@ -35,3 +32,15 @@ IMPOSTORS: dict[str, bytes] = {
     "NOTHING": b"",
     "NOISE": bytes((i * 167 + 13) % 256 for i in range(4096)),
 }
+
+
+def impostors(reader: Reader) -> dict[str, bytes]:
+    """All heads that a reader has to leave alone, by name: of no format that it has a head of itself."""
+    others = [each for name, each in readers().items() if name != reader.name]
+    known = IMPOSTORS | {name: head for each in others for name, head in _heads(each).items()}
+    own = {name.casefold() for name in _heads(reader)}
+    return {name: head for name, head in known.items() if name.split(" ")[0].casefold() not in own}
+
+
+def _heads(reader: Reader) -> dict[str, bytes]:
+    return dict(getattr(reader, "heads", {}))

@@ -14,7 +14,6 @@ from thermodata.reader.registry import head
 from thermodata.schema.flag import Flag
 from thermodata.testing.reader import load, reader_checks
 
-CLAIMS = ["SHDR", "MTCONNECT", "TWINCAT", "SCO", "TRACE_XML", "TRACE_CSV", "OPCUA"]
 GLOBAL = "%[GLOBAL]\r\n%VERSION=1\r\n%DATE=02.03.2026\r\n%TIME=09:00:00\r\n%\r\n"
 
 
@@ -230,4 +229,4 @@ def kit_files(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Path]:
 @pytest.mark.parametrize("number", range(len(reader_checks(Reader, [(Path("x"), Source())]))))
 @pytest.mark.parametrize("kind", ["sco", "opc"])
 def test_they_keep_the_rules_of_readers(kit_files: dict[str, Path], kind: str, number: int) -> None:
-    reader_checks(Reader, [(kit_files[kind], Source())], claims=CLAIMS)[number]()
+    reader_checks(Reader, [(kit_files[kind], Source())])[number]()

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
+
 from thermodata.plugin import Head, Source
 from thermodata.reader.text.encoding import decode_head
 from thermodata.reader.text.layout import STREAM
@@ -9,24 +11,23 @@ from thermodata.reader.text.lines import Sample
 from thermodata.reader.text.table import Table, find_table
 
 
-def head_lines(head: Head) -> list[str]:
-    """The whole lines of a text's first bytes; none where it is binary or blank."""
+def head_lines(head: Head) -> tuple[str, ...]:
+    """The whole lines of a text's first bytes (of XML, which need not have lines, all that is there); none where these
+    are binary or blank."""
     text = decode_head(head.start)
     if text is None or not text.strip():
-        return []
+        return ()
     text = text.lstrip("\ufeff")
     if "\n" not in text:
         text = text.replace("\r", "\n")
     lines = [line.rstrip("\r") for line in text.split("\n")]
-    if len(lines) > 1 and (head.size_bytes > len(head.start) or not lines[-1]):
-        lines.pop()  # empty, or the head ends inside a line
-    return lines
+    if len(lines) > 1 and head.size_bytes > len(head.start) and not text.lstrip().startswith("<"):
+        lines.pop()  # the head ends inside a line
+    return tuple(lines)
 
 
-def claimed_table(head: Head) -> Table | None:
-    """The table in a file's first bytes; None where these are no text. FormatError where they hold none."""
-    lines = head_lines(head)
-    if not any(line.strip() for line in lines):
-        return None
-    sample = Sample(tuple(lines), (), "utf-8", None, head.size_bytes <= len(head.start), True)
-    return find_table(lines, sample, Source(), head.name, STREAM)
+@lru_cache(maxsize=2)  # several readers are asked for the same file
+def claimed_table(lines: tuple[str, ...]) -> Table:
+    """The table in a file's first lines. FormatError where they hold none."""
+    whole = lines[:-1] if len(lines) > 1 and not lines[-1] else lines
+    return find_table(whole, Sample(whole, (), "utf-8", None, False, True), Source(), "the first lines", STREAM)

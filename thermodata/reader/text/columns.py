@@ -14,12 +14,12 @@ from thermodata.reader.text.number import (
     decimal_mark,
     is_number,
     to_bool,
+    to_float,
 )
 
 _TEXT_NAME = re.compile(r"(?i)comment|note|alarm|message|text|label|remark|bemerk|kommentar|meldung|pozn|hinweis")
 _INTEGER = re.compile(r"[+-]?\d{1,19}", re.ASCII)
 _FRACTIONS = 200  # cells of a column that are asked for their decimal mark
-_COMMA = re.compile(r"[+-]?\d+,\d+", re.ASCII)
 _GROUPED = re.compile(r"[+-]?[1-9]\d{0,2}(,\d{3})+", re.ASCII)
 
 
@@ -53,7 +53,7 @@ def find_decimal(columns: Iterable[Sequence[str]], delimiter: str, where: str) -
     cells = [c for column in columns for c in [c for c in column if "," in c or "." in c][:_FRACTIONS]]
     if delimiter != ",":
         return decimal_mark(cells)
-    commas = [c for c in map(clean, cells) if _COMMA.fullmatch(c)]
+    commas = [c for c in map(clean, cells) if "," in c and to_float(c, ",") is not None]
     if not commas:
         return "."
     if any(re.fullmatch(r"[+-]?\d*\.\d+", clean(c)) for c in cells):

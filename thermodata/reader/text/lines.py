@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import codecs
 import re
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
@@ -131,6 +131,26 @@ def chunks(path: Path, encoding: str, size: int = CHUNK) -> Iterator[Chunk]:
                 line += part.count(b"\n")
             if last:
                 return
+
+
+def from_line(parts: Iterable[Chunk], first: int) -> Iterator[Chunk]:
+    """The chunks from a line on (0-based): a table without its header."""
+    for part in parts:
+        if part.line >= first:
+            yield part
+            continue
+        at, line = 0, part.line
+        while line < first and (end := part.data.find(b"\n", at) + 1):
+            at, line = end, line + 1
+        data = part.data[at:] if line == first else b""
+        if data or part.last:
+            yield Chunk(data, first, part.size, part.last, tuple(n for n in part.odd if n >= first))
+
+
+def split_last_line(data: bytes) -> tuple[bytes, bytes]:
+    """(whole lines, what stands behind the last line end)."""
+    cut = data.rfind(b"\n") + 1
+    return data[:cut], data[cut:]
 
 
 def _utf8(data: bytes, encoding: str, first: int) -> tuple[bytes, tuple[int, ...]]:

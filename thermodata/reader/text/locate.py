@@ -8,20 +8,20 @@ from thermodata.plugin import Block, Loss
 
 
 def row_at(items: Iterable[Block | Loss], stream: str, row: int) -> tuple[int, int | None] | None:
-    """(`at` of a row, counted from 0, of a stream; `at` of the row behind it, None for the last). None where there is
-    no such row, or its reader does not say."""
+    """(`at` of a row, counted from 0, of a stream; the next larger `at` of the stream, None behind the last). None
+    where there is no such row, or its reader does not say."""
     done, here = 0, None
     for item in items:
         if not isinstance(item, Block) or item.stream != stream or not item.t_ns.size:
             continue
         if item.at is None:
             return None
-        if here is not None:
-            return here, int(item.at[0])
-        if row < done + item.t_ns.size:
+        if here is None and row < done + item.t_ns.size:
             here = int(item.at[row - done])
-            if row + 1 < done + item.t_ns.size:
-                return here, int(item.at[row + 1 - done])
+        if here is not None:  # the rows of a block may have been put in order
+            behind = item.at[item.at > here]
+            if behind.size:
+                return here, int(behind.min())
         done += item.t_ns.size
     return None if here is None else (here, None)
 
@@ -33,7 +33,7 @@ def line_of(items: Iterable[Block | Loss], stream: str, row: int) -> str | None:
 
 
 def lines_of(items: Iterable[Block | Loss], stream: str, row: int) -> str | None:
-    """The same of a log in which the lines of one time make a row: 'lines 812 to 815'."""
+    """The same of a log in which the lines of one time, one behind another, make a row: 'lines 812 to 815'."""
     found = row_at(items, stream, row)
     if found is None:
         return None

@@ -211,7 +211,7 @@ def _floats(cells: Any, decimal: str, declared: bool) -> Values:
     import pyarrow.compute as pc
 
     text = pc.utf8_trim_whitespace(cells.fill_null(""))
-    plain = pc.match_substring_regex(text, rf"^-?\d{{1,15}}(?:{re.escape(decimal)}\d{{1,30}})?$")
+    plain = pc.match_substring_regex(text, rf"^-?\d{{1,15}}(?:{re.escape(decimal)}\d{{1,30}})?(?:[eE][+-]?\d{{1,2}})?$")
     sure = arrow.values(plain, "bool")
     numbers = pc.if_else(plain, text, "nan")
     if decimal == ",":

@@ -8,6 +8,7 @@ odd, it is taken line by line. All three ways give the same rows for what they c
 from __future__ import annotations
 
 import csv
+import io
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
@@ -28,7 +29,8 @@ _SHOWN = 200
 @dataclass(frozen=True, slots=True)
 class Grid:
     """How rows lie. kinds: of each column: float64, int64, uint64, bool, str, TIME, or None for one that nobody wants;
-    least: the fewest cells of a row (those that are missing are empty); decimal_declared: see the policy of numbers."""
+    least: the fewest cells of a row (those that are missing are empty); exact: a row with empty cells behind its last
+    column is none, for a delimiter too much may have shifted others; decimal_declared: see the policy of numbers."""
 
     delimiter: str
     decimal: str
@@ -36,6 +38,7 @@ class Grid:
     quoted: bool = False
     least: int | None = None
     decimal_declared: bool = False
+    exact: bool = False
 
     @property
     def width(self) -> int:
@@ -229,7 +232,8 @@ def _as_text(data: bytes, line: int, grid: Grid) -> Rows | None:
     numbers = np.array([row.number - 1 for row in invalid], np.int64)
     for row in invalid:
         cells = fields(row.text.rstrip("\r"), grid.delimiter, grid.quoted)
-        if not side.add(line + row.number - 1, cells) and row.text.strip():
+        taken = side.add(line + row.number - 1, cells)
+        if not taken and row.text.strip(f"{grid.delimiter} \t\r\n"):
             size = len(row.text.encode())
             bad.append(BadLine(line + row.number - 1, row.actual_columns, row.text[:_SHOWN].rstrip("\r"), size))
     lines = np.delete(np.arange(line, line + table.num_rows + len(invalid), dtype=np.int64), numbers)
@@ -318,7 +322,7 @@ class _Cells:
         """Takes a row; False where a line is none: empty cells behind its last column are nothing, and those that a row
         may lack are empty."""
         width = self.grid.width
-        if len(cells) > width and not any(c.strip() for c in cells[width:]):
+        if len(cells) > width and not self.grid.exact and not any(c.strip() for c in cells[width:]):
             cells = cells[:width]
         if self.grid.least is not None and self.grid.least <= len(cells) < width:
             self.short.append(line)
@@ -351,7 +355,7 @@ def _cells(record: str, grid: Grid) -> list[str]:
     if "\n" not in record:
         return fields(record, grid.delimiter, grid.quoted)
     try:
-        return next(csv.reader((f"{line}\n" for line in record.split("\n")), delimiter=grid.delimiter), [""])
+        return next(csv.reader(io.StringIO(record), delimiter=grid.delimiter), [""])
     except csv.Error:
         return record.split(grid.delimiter)
 

@@ -132,6 +132,8 @@ def _kept(asked: _Asked) -> Table:
 
 def find_table(head: Sequence[str], first: Sample, source: Source, where: str, stream: str) -> Table:
     """The table in a file's first lines. first: all that was sampled of the file."""
+    if not any(line.strip() for line in head):
+        raise FormatError("no whole line", where=where, expected="a table", got="nothing")
     said = source.table or {}
     delimiter = delimiters.declared(said["delimiter"]) if said.get("delimiter") else None
     top = _top(head)

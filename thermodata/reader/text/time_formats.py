@@ -39,7 +39,7 @@ class Stamps:
 def share(cells: Sequence[str], form: TimeFormat) -> float:
     """How many of the cells that hold anything are times of this format; 0 where most hold nothing."""
     full = [c for c in cells if c and c.strip()]
-    return sum(timestamp.parse_one(c, form) != NAT for c in full) / len(full) if len(full) >= 0.5 * len(cells) else 0.0
+    return sum(timestamp.parse_one(c, form) != NAT for c in full) / len(full) if len(full) >= 0.5 * len(cells) > 0 else 0.0
 
 
 def _spread(cells: Sequence[str], most: int) -> Sequence[str]:
@@ -71,7 +71,7 @@ def find_formats(
         for text in wanted[k : k + 1] if len(wanted) == len(columns) else wanted:
             own = timestamp.declared_format(text)
             form = own if len(columns) == 1 or share(_spread(cells, _FEW), own) > 0.5 else form
-        form = form or _found(cells, where, name, partial(more, k))
+        form = form or find_format(cells, where, name, partial(more, k))
         forms.append(_zoned(form, cells))
     return tuple(forms)
 
@@ -82,7 +82,10 @@ def _zoned(form: TimeFormat, cells: Sequence[str]) -> TimeFormat:
     return timestamp.with_zone(form, zoned * 2 > len(some))
 
 
-def _found(cells: Sequence[str], where: str, name: str, more: Callable[[], Sequence[str]]) -> TimeFormat:
+def find_format(
+    cells: Sequence[str], where: str, name: str = "", more: Callable[[], Sequence[str]] = tuple
+) -> TimeFormat:
+    """The format of cells of one column, whether they name an offset from UTC or not; FormatErrors as above."""
     few = _spread(cells, _FEW)
     for least in (0.8, 0.3):
         for forms, enough in (({"": TIME_OF_DAY}, least), (DATE, max(least, 0.9)), (DATETIME, least)):

@@ -118,7 +118,8 @@ def reader_checks(
     """All checks of a reader, for pytest.mark.parametrize(..., ids=str).
 
     make: the reader's class. good_files: complete files of its format, a few kB each (one up to 2 kB is cut at every
-    byte), with what a campaign file would declare. claims: names in `impostors.IMPOSTORS` that are its own.
+    byte), with what a campaign file would declare. claims: names of the kit's impostors that are
+    its own: in `impostors.IMPOSTORS`, and in the `heads` of other readers.
     block_rows: the key of `source.options` by which its blocks can be made smaller, where it has one.
     mutate(data, rng): makes a hostile file of a good one (a huge count, a length past the end); called 60 times.
     """

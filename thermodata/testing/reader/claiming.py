@@ -7,7 +7,8 @@ from pathlib import Path
 import numpy as np
 
 from thermodata.plugin import Head, Reader, Source
-from thermodata.testing.impostors import IMPOSTORS
+from thermodata.reader.registry import readers
+from thermodata.testing.impostors import impostors
 from thermodata.testing.reader.case import Case, fault, head
 
 
@@ -43,18 +44,25 @@ def it_claims_its_own_file_and_says_why(case: Case, path: Path, source: Source) 
 
 def it_claims_no_file_of_another_format(case: Case) -> None:
     reader = case.make()
-    for name, start in IMPOSTORS.items():
+    gives_way = bool(getattr(reader, "gives_way", False))
+    for name, start in impostors(reader).items():
         if name.split(" ")[0] in case.claims:
             continue
         suffix = case.files[0][0].suffix if case.files else ".dat"
         for size in (len(start), 10_000_000):
-            reason = reader.sniff(Head(f"file{suffix}", size, start))
-            if reason is not None:
+            head = Head(f"file{suffix}", size, start)
+            reason = reader.sniff(head)
+            if reason is not None and not (gives_way and _another_claims(reader, head)):
                 fault(
                     f"claims a file of {name}: {reason}",
                     f"sniff by content (a magic word, a header line), never by the suffix '{suffix}' alone; where "
-                    f"{name.split(' ')[0]} is this reader's own format, pass claims=({name.split(' ')[0]!r},)",
+                    f"{name.split(' ')[0]} is this reader's own format, pass claims=({name.split(' ')[0]!r},); where "
+                    "it is a general one, which reads what no other reader claims, set `gives_way = True` on its class",
                 )
+
+
+def _another_claims(reader: Reader, head: Head) -> bool:
+    return any(name != reader.name and each.sniff(head) is not None for name, each in readers().items())
 
 
 def a_sniff_survives_any_head(case: Case, path: Path, source: Source) -> None:

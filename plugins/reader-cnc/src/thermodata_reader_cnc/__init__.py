@@ -1,14 +1,12 @@
 """Reader of what controls write: delimited text with dates and times.
 
-One module a format; `sniff` tells them apart by content.
+One module a format, in a folder a maker; `formats` tells them apart by content.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from importlib import import_module
+from collections.abc import Iterator, Mapping
 from pathlib import Path
-from typing import Any
 
 from thermodata.plugin import Block, Head, Loss, Recording, Source
 
@@ -28,31 +26,36 @@ class Reader:
         "OPC UA and SIMATIC long tables",
     )
 
-    def sniff(self, head: Head) -> str | None:
-        from thermodata_reader_cnc.sniff import claim
+    @property
+    def heads(self) -> Mapping[str, bytes]:
+        """The head of a small file of each format."""
+        from thermodata_reader_cnc.formats import heads
 
-        found = claim(head)
+        return heads()
+
+    def sniff(self, head: Head) -> str | None:
+        from thermodata_reader_cnc.formats import claimed
+
+        found = claimed(head)
         return None if found is None else found[1]
 
     def describe(self, path: Path, source: Source) -> Recording:
-        recording: Recording = _module(path).describe(path, source)
-        return recording
+        from thermodata.reader.registry import head
+        from thermodata_reader_cnc.formats import module_of
+
+        return module_of(head(path)).describe(path, source)
 
     def blocks(self, path: Path, source: Source) -> Iterator[Block | Loss]:
-        items: Iterator[Block | Loss] = _module(path).blocks(path, source)
-        return items
+        from thermodata.reader.registry import head
+        from thermodata_reader_cnc.formats import module_of
 
-    def place(self, path: Path, source: Source, stream: str, row: int) -> str:
-        """Where a row (counted from 0) of a stream stands: its line, or its record and byte."""
-        from thermodata_reader_cnc.place import place
+        return module_of(head(path)).blocks(path, source)
 
-        module = _module(path)
-        return place(module.__name__.rsplit(".", 1)[-1], module, path, source, stream, row) or f"row {row + 1}"
+    def locate(self, path: Path, source: Source, stream: str, row: int) -> str:
+        """Where a row (counted from 0) of a stream stands: its line, its report, or its record and byte."""
+        from thermodata.reader.registry import head
+        from thermodata_reader_cnc.formats import module_of
 
+        return module_of(head(path)).locate(path, source, stream, row) or f"row {row + 1}"
 
-def _module(path: Path) -> Any:
-    from thermodata.reader.registry import head
-    from thermodata_reader_cnc.sniff import claim
-
-    found = claim(head(path))
-    return import_module(f"thermodata_reader_cnc.{'plain' if found is None else found[0]}")
+    place = locate

@@ -5,55 +5,65 @@ That an item keeps its value until the next report is what these formats say; UN
 
 from __future__ import annotations
 
-import re
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field
-
-import numpy as np
+from functools import lru_cache
+from typing import NamedTuple
 
 from thermodata.plugin import Block, Int1D, Loss, Recording, Signal, Source
 from thermodata.reader.events import HeldRows, Value
+from thermodata.reader.text import timestamp
+from thermodata.reader.text.local_clock import LocalClock
+from thermodata.reader.text.number import is_empty, is_overload, to_bool, to_float
+from thermodata.reader.text.timestamp import TimeFormat
 from thermodata.reader.zone import NAT
-from thermodata_reader_cnc import when
-from thermodata_reader_cnc.localclock import LocalClock
-from thermodata_reader_cnc.when import TimeFormat
+from thermodata.schema.flag import Flag
 
 STREAM = "nc"
 GONE = "UNAVAILABLE"
-_NUMBER = re.compile(r"^\s*[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?\s*$")
 _MOST_VALUES = 1_000_000  # of a block: rows times signals
 _MOST_TOGETHER = 1_000  # signals that share their rows; with more, each item is a stream
 _MOST_WORDS = 16  # numbers in one text that are signals of their own
-_ZONE = re.compile(r":\d{2}(?:[.,]\d+)?\s?[+-]\d{2}:?\d{2}\s*$")
-ISO = when.DATETIME["ymd"]
+ISO = timestamp.DATETIME["ymd"]
 
 
-@dataclass(frozen=True, slots=True)
-class Event:
-    """One report: an item's value at a time, as they stand in the file. at: where it stands, for messages.
-    flag: what the log itself says of the value."""
+class Event(NamedTuple):
+    """One report: an item's value at a time, as they stand in the file. at: its line (from 1) or its sequence number;
+    part: what of the file that counts in, for messages ("log.txt line"); flag: what the log itself says of the value.
+    """
 
     time: str
     key: str
     value: str
-    at: str
+    at: int
+    part: str
     flag: int = 0
+
+    @property
+    def where(self) -> str:
+        return f"{self.part} {self.at}"
+
+
+@lru_cache(maxsize=1 << 16)
+def _number(word: str) -> float | None:
+    """The number in a word; None where it is none: a truth value is a state here."""
+    return to_float(word) if to_bool(word) is None else None
 
 
 @dataclass(slots=True)
 class Item:
-    """What is known of an item: how often it was seen, as a number, and as how many numbers in one text."""
+    """What is known of an item: how often it had a value, a number, and of how many numbers in one text."""
 
-    seen: int = 0
+    values: int = 0
     numbers: int = 0
     parts: set[int] = field(default_factory=set)
 
     def add(self, value: str) -> None:
-        if value == GONE or not value.strip():
+        if is_empty(value):
             return
-        self.seen += 1
+        self.values += 1
         words = value.split(None, _MOST_WORDS + 1)
-        if all(_NUMBER.match(w) for w in words):
+        if all(_number(word) is not None or is_overload(word) for word in words):
             self.parts.add(len(words))
             self.numbers += 1
 
@@ -69,13 +79,13 @@ class Target:
 
 def targets(key: str, item: Item, measured: bool = False) -> list[Target]:
     """A number is one signal, several numbers in one text (a position) one each, all else is text."""
-    if item.seen and item.numbers >= 0.9 * item.seen:
+    if item.values and item.numbers >= 0.9 * item.values:
         count = max(item.parts)
         if count == 1:
             return [Target(key, "float64")]
         if item.parts == {count} and count <= _MOST_WORDS:
             return [Target(f"{key}[{k}]", "float64", k) for k in range(count)]
-    return [Target(key, "float64" if measured and not item.seen else "str")]
+    return [Target(key, "float64" if measured and not item.values else "str")]
 
 
 @dataclass(frozen=True, slots=True)
@@ -101,18 +111,18 @@ def plan(
     for event in events:
         if isinstance(event, Loss):
             continue
-        if first is None and when.parse_one(event.time, form) != NAT:
+        if first is None and timestamp.parse_one(event.time, form) != NAT:
             first = event.time
         items.setdefault(event.key, Item()).add(event.value)
     taken: set[str] = set()
-    found: dict[str, list[Target]] = {}
+    fed: dict[str, list[Target]] = {}
     for key, item in items.items():
-        each = targets(key, item, measured(key))
-        if taken.intersection(t.name for t in each):  # 'a' of two numbers beside an item called 'a[0]'
-            each = [Target(_free(key, taken), "str")]
-        taken.update(t.name for t in each)
-        found[key] = each
-    return Plan(found, first, sum(map(len, found.values())) > _MOST_TOGETHER, form)
+        signals = targets(key, item, measured(key))
+        if taken.intersection(t.name for t in signals):  # 'a' of two numbers beside an item called 'a[0]'
+            signals = [Target(_free(key, taken), "str")]
+        taken.update(t.name for t in signals)
+        fed[key] = signals
+    return Plan(fed, first, sum(map(len, fed.values())) > _MOST_TOGETHER, form)
 
 
 def _free(key: str, taken: set[str]) -> str:
@@ -125,21 +135,17 @@ def _free(key: str, taken: set[str]) -> str:
 
 def to_utc(times: list[str], clock: LocalClock, form: TimeFormat = ISO) -> Int1D:
     """UTC nanoseconds of time stamps; NAT where one is none. Without an offset they are in the source's zone."""
-    ns = when.parse(times, form)
+    ns = timestamp.parse(times, form)
     if clock.timezone is None or form.role == "offset":
         return ns
-    local = np.array([not _has_zone(t) for t in times], bool) & (ns != NAT)
+    local = timestamp.parse(times, timestamp.with_zone(form, zoned=False)) != NAT
     if local.any():
         ns[local] = clock.utc(ns[local])
     return ns
 
 
-def _has_zone(text: str) -> bool:
-    return text.rstrip().endswith(("Z", "UTC")) or _ZONE.search(text) is not None
-
-
 def recording(
-    found: Plan,
+    plan: Plan,
     source: Source,
     properties: dict[str, dict[str, str]] | None = None,
     complete: bool | None = None,
@@ -147,30 +153,30 @@ def recording(
 ) -> Recording:
     """The description of a log of changes."""
     signals = tuple(
-        Signal(t.name, found.stream(key), None, t.dtype, None, (properties or {}).get(key, {}))
-        for key, each in found.items.items()
-        for t in each
+        Signal(t.name, plan.stream(key), None, t.dtype, None, (properties or {}).get(key, {}))
+        for key, fed in plan.items.items()
+        for t in fed
     )
-    start, said = 0, list(notes)
-    if found.first is not None:
-        start = int(to_utc([found.first], LocalClock(source.timezone), found.form)[0])
-        if source.timezone is None and found.form.role != "offset" and not _has_zone(found.first):
-            said.append("no time zone declared: times are taken as UTC")
-    return Recording(signals, "absolute", start, complete, tuple(said))
+    start, all_notes = 0, list(notes)
+    if plan.first is not None:
+        start = int(to_utc([plan.first], LocalClock(source.timezone), plan.form)[0])
+        if source.timezone is None and plan.form.role != "offset" and not timestamp.is_zoned(plan.first, plan.form):
+            all_notes.append("no time zone declared: times are taken as UTC")
+    return Recording(signals, "absolute", start, complete, tuple(all_notes))
 
 
 class HeldTable:
     """Collects events into blocks of rows. Events that share a time stamp and stand together share a row."""
 
     def __init__(
-        self, found: Plan, source: Source, complain: Callable[[Event, str], Iterator[Loss]], ordered: bool = True
+        self, plan: Plan, source: Source, complain: Callable[[Event, str], Iterator[Loss]], ordered: bool = True
     ) -> None:
-        self.plan, self.complain = found, complain
+        self.plan, self.complain = plan, complain
         self.clock = LocalClock(source.timezone)
         self._rows: dict[str, HeldRows[str]] = {}
         groups: dict[str, dict[str, str]] = {}
-        for key, each in found.items.items():
-            groups.setdefault(found.stream(key), {}).update({t.name: t.dtype for t in each})
+        for key, fed in plan.items.items():
+            groups.setdefault(plan.stream(key), {}).update({t.name: t.dtype for t in fed})
         for stream, dtypes in groups.items():
             self._rows[stream] = HeldRows(dtypes, stream, ordered)
         widest = max(map(len, groups.values()), default=1)
@@ -179,8 +185,8 @@ class HeldTable:
 
     def add(self, event: Event) -> Iterator[Block | Loss]:
         """Takes an event; yields blocks when enough rows have come together."""
-        found = self.plan.items.get(event.key)
-        if found is None:
+        fed = self.plan.items.get(event.key)
+        if fed is None:
             yield from self.complain(event, "an item that the first look at the file did not meet; it is not read")
             return
         rows = self._rows[self.plan.stream(event.key)]
@@ -189,11 +195,11 @@ class HeldTable:
                 yield from self.flush()
             self._waiting += 1
         words = event.value.split(None, _MOST_WORDS + 1)
-        for target in found:
-            value, good = _value(target, event.value, words)
+        for target in fed:
+            value, flag, good = _value(target, event.value, words)
             if not good:
                 yield from self.complain(event, f"expected a number, got '{event.value[:40]}'")
-            rows.add(event.time, target.name, value, event.flag)
+            rows.add(event.time, target.name, value, event.flag | flag, event.at)
 
     @property
     def last_time(self) -> str | None:
@@ -218,12 +224,16 @@ class HeldTable:
                 yield block
 
 
-def _value(target: Target, text: str, words: list[str]) -> tuple[Value, bool]:
-    """(value, whether it is one of the target's kind)."""
-    gone = text == GONE or not text.strip()
-    if gone or target.dtype == "str":
-        return (None if gone else text), True
+def _value(target: Target, text: str, words: list[str]) -> tuple[Value, int, bool]:
+    """(value, a flag of its own, whether it is one of the target's kind)."""
+    if target.dtype == "str":
+        return (None if text == GONE or not text.strip() else text), 0, True
     place = 0 if target.part is None else target.part
-    if place < len(words) and _NUMBER.match(words[place]) and (target.part is not None or len(words) == 1):
-        return float(words[place]), True
-    return None, False
+    if is_empty(text):
+        return None, 0, True
+    if place >= len(words) or (target.part is None and len(words) > 1):
+        return None, 0, False
+    if is_overload(words[place]):
+        return None, int(Flag.SATURATED), True
+    value = _number(words[place])
+    return value, 0, value is not None

@@ -2,27 +2,31 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 from thermodata.errors import FormatError
-from thermodata.plugin import Block, Head, Loss, Recording, Source
+from thermodata.plugin import Block, Loss, Recording, Source
 from thermodata.reader.text import delimited
 from thermodata.reader.text.claim import claimed_table
 from thermodata.reader.text.locate import line_of
 
 STREAM = "nc"
+EXAMPLE = (
+    "Datum;Uhrzeit;Drehzahl;T_Lager\n;;U/min;°C\n"
+    "02.03.2026;08:00:00;1000;20,5\n02.03.2026;08:00:01;1001;20,5\n02.03.2026;08:00:02;1002;20,75\n"
+).encode()
 
 
-def claims(head: Head) -> str | None:
-    """The reason for claiming a file by its first bytes, or None."""
+def claims(lines: Sequence[str]) -> str | None:
+    """The reason for claiming a file that begins with these lines, or None."""
     try:
-        table = claimed_table(head)
+        table = claimed_table(tuple(lines))
     except FormatError as error:
         # a file of ours whose day and month nothing tells apart is still ours: reading it asks for the order
-        asked = error.what.startswith("day and month") and (b";" in head.start or b"\t" in head.start)
+        asked = error.what.startswith("day and month") and any(";" in line or "\t" in line for line in lines[-3:])
         return "rows of a date and time between ';' or tabs" if asked else None
-    if table is None or table.delimiter not in (";", "\t") or not table.absolute or not table.groups[0].formats:
+    if table.delimiter not in (";", "\t") or not table.absolute or not table.groups[0].formats:
         return None
     between = "';'" if table.delimiter == ";" else "tabs"
     column = table.groups[0].group.time[0] + 1
@@ -30,12 +34,15 @@ def claims(head: Head) -> str | None:
 
 
 def describe(path: Path, source: Source) -> Recording:
+    """Signals, clock and start of an export, by samples of it."""
     return delimited.describe(delimited.open_table(path, source, STREAM), source)
 
 
 def blocks(path: Path, source: Source) -> Iterator[Block | Loss]:
+    """Its rows, and a loss for each part that does not read."""
     return delimited.blocks(path, delimited.open_table(path, source, STREAM), source)
 
 
 def locate(path: Path, source: Source, stream: str, row: int) -> str | None:
+    """The line of a row (counted from 0) of a stream; None where there is no such row."""
     return line_of(blocks(path, source), stream, row)

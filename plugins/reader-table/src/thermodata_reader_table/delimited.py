@@ -8,7 +8,7 @@ from pathlib import Path
 from thermodata.errors import ThermodataError
 from thermodata.plugin import Block, Head, Loss, Recording, Source
 from thermodata.reader.text import delimited
-from thermodata.reader.text.claim import claimed_table
+from thermodata.reader.text.claim import claimed_table, head_lines
 from thermodata.reader.text.locate import line_of
 
 _TAGS = {"_name", "node id", "nodeid", "tag", "tagname", "tag name", "item", "itemid", "display name", "displayname"}
@@ -19,10 +19,11 @@ def claims(head: Head) -> str | None:
     """The reason for claiming a file by its first bytes, or None: a header says what its columns are, and no row names
     the one signal that it holds a value of."""
     try:
-        table = claimed_table(head)
-    except ThermodataError:
-        return None
-    if table is None or table.delimiter == "|" or table.layout.first == 0 or _is_long(table.layout.names):
+        table = claimed_table(head_lines(head))
+    except ThermodataError as error:
+        asked = getattr(error, "what", "").startswith(("day and month", "commas that may"))
+        return f"a table that leaves a question: {getattr(error, 'what', error)}" if asked else None
+    if table.delimiter == "|" or table.layout.first == 0 or _is_long(table.layout.names):
         return None
     shown = "tab" if table.delimiter == "\t" else f"'{table.delimiter}'"
     return f"table: cells separated by {shown}, time in column '{table.layout.names[table.layout.time[0]]}'"

@@ -7,27 +7,30 @@ Where the table is sorted by tag, each tag is a stream of its own, for there is 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
 from pathlib import Path
 
 from thermodata.errors import FormatError
 from thermodata.plugin import Block, Loss, Recording, Source
-from thermodata.reader.text import clean
+from thermodata.reader.status import BAD, is_good, zero_is_good
+from thermodata.reader.text import timestamp
+from thermodata.reader.text.delimiter import fields
+from thermodata.reader.text.lines import ODD, chunks, from_line, sample, split_last_line
+from thermodata.reader.text.locate import line_of, lines_of
+from thermodata.reader.text.losses import NAMED
+from thermodata.reader.text.number import clean, to_float
+from thermodata.reader.text.rows import BadLine, Grid, parse
+from thermodata.reader.text.time_formats import find_format
+from thermodata.reader.text.timestamp import TimeFormat
 from thermodata.reader.zone import NAT
 from thermodata.schema.flag import Flag
-from thermodata_reader_cnc import events, when
-from thermodata_reader_cnc.chunks import ODD, chunks, sample
+from thermodata_reader_cnc import events
 from thermodata_reader_cnc.events import GONE, Event, HeldTable
-from thermodata_reader_cnc.layout import fields
-from thermodata_reader_cnc.losses import NAMED
-from thermodata_reader_cnc.status import BAD, is_good, zero_is_good
-from thermodata_reader_cnc.timecolumns import absolute
-from thermodata_reader_cnc.when import TimeFormat
 
+EXAMPLE = b"DateTime,TagName,TagVal,TagQuality\n2024-01-01 00:00:00,T1,20.5,192\n2024-01-01 00:00:01,T2,20.5,192\n"
 _LOOK = 4 << 20
-_MOST_LINES = 64  # of one quoted value
 _TIMES = (
     "sourcetimestamp",
     "sourcetime",
@@ -42,7 +45,6 @@ _TIMES = (
 _TAGS = ("tagname", "varname", "nodeid", "node", "displayname", "browsename", "tag", "itemid", "name")
 _VALUES = ("tagval", "tagvalue", "varvalue", "value")
 _STATUS = ("statusname", "statustext", "tagquality", "quality", "statuscode", "status", "validity")
-_COMMA = re.compile(r"^[+-]?\d+,\d+(?:[eE][+-]?\d+)?$")
 
 
 @dataclass(frozen=True, slots=True)
@@ -59,8 +61,15 @@ class Layout:
     form: TimeFormat
     zero_good: bool
 
+    @property
+    def grid(self) -> Grid:
+        """All wanted cells as text: what a value is, its tag decides."""
+        wanted = {*self.times, self.tag, self.value, self.status}
+        kinds = tuple("str" if k in wanted else None for k in range(self.width))
+        return Grid(self.delimiter, ".", kinds, quoted=True, exact=True)
 
-def find(lines: Sequence[str], where: str) -> Layout | None:
+
+def find_layout(lines: Sequence[str], where: str) -> Layout | None:
     """The layout by a header row among the first ten lines, or None. FormatError: no order of day and month."""
     for row, line in enumerate(lines[:10]):
         for delimiter in (",", ";", "\t"):
@@ -71,14 +80,19 @@ def find(lines: Sequence[str], where: str) -> Layout | None:
             status = next((names.index(n) for n in _STATUS if n in names), None)
             if value is None or not times or (tag is None and ("sourcetimestamp" not in names or status is None)):
                 continue
-            body = [fields(text, delimiter, True) for text in lines[row + 1 : row + 2000]]
+            body = [fields(text, delimiter) for text in lines[row + 1 : row + 2000]]
             body = [cells for cells in body if len(cells) == len(names)]
-            stamps = [[_time(cells, times)] for cells in body if _time(cells, times)]
-            found = absolute(stamps, [], where) if stamps else None
-            if found is None or found[0][1].role != "datetime":
+            stamps = [text for cells in body if (text := _time(cells, times))]
+            try:
+                form = find_format(stamps, where)
+            except FormatError as error:
+                if error.what.startswith("day and month"):
+                    raise
+                continue
+            if form.role != "datetime":
                 continue
             zero = status is None or zero_is_good((cells[status] for cells in body), names[status])
-            return Layout(delimiter, row, len(names), times, tag, value, status, found[0][1], zero)
+            return Layout(delimiter, row, len(names), times, tag, value, status, form, zero)
     return None
 
 
@@ -89,7 +103,7 @@ def _time(cells: Sequence[str], times: Sequence[int]) -> str:
 def claims(lines: Sequence[str]) -> str | None:
     """The reason for claiming lines of text, or None."""
     try:
-        layout = find(lines, "")
+        layout = find_layout(lines, "")
     except FormatError:
         return None
     if layout is None:
@@ -97,50 +111,51 @@ def claims(lines: Sequence[str]) -> str | None:
     return "OPC UA: a long table of time, tag and value"
 
 
-def _records(lines: Iterable[str]) -> Iterator[tuple[str, int]]:
-    """(record, lines): a quoted value may hold line ends; a quote that is never closed ends with its line."""
-    waiting: list[str] = []
-    for line in lines:
-        waiting.append(line)
-        if sum(text.count('"') for text in waiting) % 2 == 0:
-            yield "\n".join(waiting), len(waiting)
-            waiting = []
-        elif len(waiting) > _MOST_LINES:
-            yield waiting[0], 1
-            waiting = list(waiting[1:])
-            while waiting and waiting[0].count('"') % 2 == 0:
-                yield waiting.pop(0), 1
-    for text in waiting:
-        yield text, 1
-
-
-def _events(layout: Layout, lines: Iterable[str], first: int, name: str) -> Iterator[Event | Loss]:
-    number = first
-    for text, count in _records(lines):
-        at, number = f"{name} line {number + 1}", number + count
-        if number - count <= layout.row or not text.strip():
+def _events(layout: Layout, data: bytes, line: int, name: str) -> Iterator[Event | Loss]:
+    """What whole lines in UTF-8 report, in order. line: the number of the first, 0-based in the file."""
+    rows, part = parse(data, line, layout.grid), f"{name} line"
+    empty: list[str | None] = [None] * rows.n
+    stamps = [rows.columns[k].values.tolist() for k in layout.times]
+    times = [next((text for text in each if text), "") for each in zip(*stamps, strict=True)]
+    ns = timestamp.parse(times, layout.form)
+    losses = _not_rows(layout, rows.bad, rows.nul, rows.line[ns == NAT].tolist(), data, line, name)
+    values = rows.columns[layout.value].values.tolist()
+    tags = ["Value"] * rows.n if layout.tag is None else rows.columns[layout.tag].values.tolist()
+    statuses = empty if layout.status is None else rows.columns[layout.status].values.tolist()
+    each_row = zip(rows.line.tolist(), times, (ns != NAT).tolist(), stamps[0], tags, values, statuses, strict=True)
+    for number, time, good, stamp, tag, value, status in each_row:
+        while losses and losses[0][0] <= number:
+            yield losses.pop(0)[1]
+        if not good:
             continue
-        if "\0" in text:
-            yield Loss(at, reason=f"{text.count(chr(0))} NUL bytes")
-            text = text.replace("\0", "")
-        cells = fields(text, layout.delimiter, True)
-        time = _time(cells, layout.times) if len(cells) == layout.width else ""
-        if not time or when.parse_one(time, layout.form) == NAT:
-            yield Loss(at, reason=f"expected {layout.width} cells with a time, got '{text[:80]}'")
-            continue
-        flag = 0 if clean(cells[layout.times[0]]) else int(Flag.CLOCK_SUSPECT)
-        if layout.status is not None and not is_good(clean(cells[layout.status]), layout.zero_good):
-            flag |= BAD
-        value = clean(cells[layout.value])
-        if (layout.delimiter != "," and _COMMA.match(value)) or (
-            layout.delimiter == "," and '"' in text and _COMMA.match(value)
-        ):
-            value = value.replace(",", ".")
-        tag = "Value" if layout.tag is None else clean(cells[layout.tag])
         if not tag:
-            yield Loss(at, reason=f"a value without a tag: '{text[:80]}'")
+            yield Loss(f"{part} {number + 1}", reason=f"a value without a tag: '{value or ''}'")
             continue
-        yield Event(time, tag, value or GONE, at, flag)
+        flag = 0 if stamp else int(Flag.CLOCK_SUSPECT)
+        if status is not None and not is_good(status, layout.zero_good):
+            flag |= BAD
+        if value and "," in value and to_float(value) is None and to_float(value, ",") is not None:
+            value = value.replace(",", ".")  # a value with a decimal comma is quoted, or stands between other marks
+        yield Event(time, tag, value or GONE, number + 1, part, flag)
+    yield from (loss for _, loss in losses)
+
+
+def _not_rows(
+    layout: Layout,
+    bad: Sequence[BadLine],
+    nul: Sequence[tuple[int, int]],
+    undated: Sequence[int],
+    data: bytes,
+    line: int,
+    name: str,
+) -> list[tuple[int, Loss]]:
+    """(line, loss) of what is no row, in order."""
+    lines = data.split(b"\n") if undated else []
+    texts = {each.line: each.text for each in bad}
+    texts.update({k: lines[k - line].decode("utf-8", "replace").rstrip("\r") for k in undated})
+    found = [(k, 0, f"{count} NUL bytes") for k, count in nul]
+    found += [(k, 1, f"expected {layout.width} cells with a time, got '{text[:80]}'") for k, text in texts.items()]
+    return [(k, Loss(f"{name} line {k + 1}", reason=reason)) for k, _, reason in sorted(found)]
 
 
 @dataclass(frozen=True, slots=True)
@@ -155,7 +170,7 @@ class _Look:
 
 def _look(path: Path, source: Source) -> _Look:
     first = sample(path, source.encoding, _LOOK)
-    layout = find(first.head, path.name)
+    layout = find_layout(first.head, path.name)
     if layout is None:
         raise FormatError(
             "no long table",
@@ -164,8 +179,10 @@ def _look(path: Path, source: Source) -> _Look:
             got=first.head[0][:80] if first.head else "nothing",
         )
     lines = first.head[:-1] if first.whole and not first.ends_with_newline else first.head
-    head = [e for e in _events(layout, lines, 0, path.name) if isinstance(e, Event)]
-    rest = [e for e in _events(layout, first.rest, layout.row + 1, path.name) if isinstance(e, Event)]
+    head, rest = (
+        [e for e in _events(layout, "\n".join(part).encode(), 0, path.name) if isinstance(e, Event)]
+        for part in (lines[layout.row + 1 :], first.rest)
+    )
     plan = events.plan([*head, *rest], form=layout.form)
     if not plan.items:
         raise FormatError("no rows", where=path.name, expected="rows of time, tag and value", got="none")
@@ -196,7 +213,7 @@ def blocks(path: Path, source: Source) -> Iterator[Block | Loss]:
             yield loss
 
     def complain(event: Event, reason: str) -> Iterator[Loss]:
-        return limited(event.key, Loss(event.at, reason=f"'{event.key}': {reason}"))
+        return limited(event.key, Loss(event.where, reason=f"'{event.key}': {reason}"))
 
     table = HeldTable(look.plan, source, complain, ordered=look.by_tag)
     for event in _all(path, look):
@@ -214,12 +231,19 @@ def blocks(path: Path, source: Source) -> Iterator[Block | Loss]:
             )
 
 
+def locate(path: Path, source: Source, stream: str, row: int) -> str | None:
+    """The lines of a row."""
+    # where each tag is a stream, lines of others stand between
+    told = line_of if _look(path, source).plan.apart else lines_of
+    return told(blocks(path, source), stream, row)
+
+
 def _all(path: Path, look: _Look) -> Iterator[Event | Loss]:
-    for chunk in chunks(path, look.encoding):
+    for chunk in from_line(chunks(path, look.encoding), look.layout.row + 1):
         for number in chunk.odd:
             yield Loss(f"{path.name} line {number + 1}", reason=ODD)
-        lines = chunk.data.decode("utf-8", "replace").replace("\r\n", "\n").split("\n")
-        tail = lines.pop()
-        yield from _events(look.layout, lines, chunk.line, path.name)
-        if tail.strip("\0 \r"):
-            yield Loss(f"{path.name} last line", reason=f"it has no line end and may be cut: '{tail[:60]}'")
+        data, tail = split_last_line(chunk.data)
+        yield from _events(look.layout, data, chunk.line, path.name)
+        text = tail.decode("utf-8", "replace")
+        if text.strip("\0 \r"):
+            yield Loss(f"{path.name} last line", reason=f"it has no line end and may be cut: '{text[:60]}'")

@@ -2,22 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 
 from thermodata.errors import FormatError
 from thermodata.plugin import Block, Loss, Recording, Source
-from thermodata_reader_cnc import events, series
-from thermodata_reader_cnc.chunks import ODD, chunks, sample
+from thermodata.reader.text.lines import ODD, chunks, sample
+from thermodata.reader.text.locate import line_of, lines_of
+from thermodata.reader.text.timestamp import OFFSET_MS, TimeFormat
+from thermodata_reader_cnc import events
 from thermodata_reader_cnc.events import Event, HeldTable
-from thermodata_reader_cnc.shdrlines import Lines, Series, is_offset, is_time, looks_like_items
-from thermodata_reader_cnc.when import OFFSET_MS, TimeFormat
+from thermodata_reader_cnc.mtconnect import time_series
+from thermodata_reader_cnc.mtconnect.shdr_lines import Lines, Series, is_offset, is_time, looks_like_items
 
+EXAMPLE = b"2009-06-15T00:00:00.000000|power|ON\n2009-06-15T00:00:00.010000|Xabs|1.5\n"
 _NAMED = 20
 _LOOK = 8 << 20  # an item may be reported for the first time late in a log
 
 
-def claims(lines: list[str]) -> str | None:
+def claims(lines: Sequence[str]) -> str | None:
     """The reason for claiming lines of text as SHDR, or None."""
     full = [line for line in lines if line.strip() and not line.startswith("*")][:200]
     if not full or full[0].count("|") < 2:
@@ -70,17 +73,17 @@ def describe(path: Path, source: Source) -> Recording:
             expected="lines of time|item|value",
             got=repr(look.head[0][:60]) if look.head else "nothing",
         )
-    notes = [note for note in (look.note, series.NOTE if look.series else None) if note]
+    notes = [note for note in (look.note, time_series.NOTE if look.series else None) if note]
     if look.relative:
         notes.append("times are relative to the adapter's start")
-    said = events.recording(look.plan, source, complete=None if look.whole else False, notes=notes)
-    signals = (*said.signals, *(series.signal(key) for key in sorted(look.series)))
+    held = events.recording(look.plan, source, complete=None if look.whole else False, notes=notes)
+    signals = (*held.signals, *(time_series.signal(key) for key in sorted(look.series)))
     return Recording(
         signals,
         "relative" if look.relative else "absolute",
-        0 if look.relative else said.start_ns,
-        said.complete,
-        said.notes,
+        0 if look.relative else held.start_ns,
+        held.complete,
+        held.notes,
     )
 
 
@@ -91,7 +94,7 @@ def blocks(path: Path, source: Source) -> Iterator[Block | Loss]:
     table = HeldTable(
         look.plan,
         source,
-        lambda event, reason: losses.some(event.key, Loss(event.at, reason=(f"'{event.key}': {reason}"))),
+        lambda event, reason: losses.some(event.key, Loss(event.where, reason=f"'{event.key}': {reason}")),
     )
     reader, size = Lines(path.name), max(1, path.stat().st_size)
     for number, line in _lines(path, look.encoding):
@@ -115,22 +118,26 @@ def blocks(path: Path, source: Source) -> Iterator[Block | Loss]:
             elif isinstance(event, Event):
                 yield from table.add(event)
             elif event.key in look.series and not look.relative:
-                found = series.rows(event.key, event.time, event.rate_hz, event.values, None, table.clock, event.at)
-                yield from losses.some(event.key, found) if isinstance(found, Loss) else (found,)
-            else:
-                yield from losses.some(
-                    event.key,
-                    Loss(
-                        event.at,
-                        reason=(
-                            f"'{event.key}': a time series that the first look did not meet, or without a date; "
-                            "not read"
-                        ),
-                    ),
+                report = time_series.rows(
+                    event.key, event.time, event.rate_hz, event.values, None, table.clock, event.part, event.at
                 )
+                yield from losses.some(event.key, report) if isinstance(report, Loss) else (report,)
+            else:
+                reason = "a time series that the first look did not meet, or without a date; not read"
+                yield from losses.some(event.key, Loss(f"{event.part} {event.at}", reason=f"'{event.key}': {reason}"))
     yield from table.flush()
     yield from reader.end()
     yield from losses.rest(path.name)
+
+
+def locate(path: Path, source: Source, stream: str, row: int) -> str | None:
+    """The lines of a row; of a time series, the report and the number of the sample."""
+    plan = _Look(path, source).plan
+    if stream.startswith(time_series.STREAM) and stream not in map(plan.stream, plan.items):
+        report = time_series.sample_of(blocks(path, source), stream, row)
+        return None if report is None else f"line {report[0]}, {report[1]}"
+    # where each item is a stream, lines of others stand between
+    return (line_of if plan.apart else lines_of)(blocks(path, source), stream, row)
 
 
 def _lines(path: Path, encoding: str) -> Iterator[tuple[int | str, str]]:

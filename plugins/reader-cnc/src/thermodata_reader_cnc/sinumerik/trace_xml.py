@@ -8,21 +8,24 @@ drop-outs the rows of the frame are flagged, for it does not say where they are.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 
 from thermodata.errors import FormatError
 from thermodata.plugin import Block, Loss, Recording, Signal, Source
+from thermodata.reader.text import timestamp
+from thermodata.reader.text.local_clock import LocalClock
+from thermodata.reader.text.locate import row_at
 from thermodata.reader.zone import NAT
 from thermodata.schema.flag import Flag
-from thermodata_reader_cnc import when
-from thermodata_reader_cnc.localclock import LocalClock
-from thermodata_reader_cnc.tracegrid import LOOK, Group, columns_of, counted, groups_of, rows
-from thermodata_reader_cnc.traceparse import Frame, TraceParser
+from thermodata_reader_cnc.sinumerik import trace_records
+from thermodata_reader_cnc.sinumerik.trace_grid import LOOK, Group, columns_of, counted, groups_of, rows
+from thermodata_reader_cnc.sinumerik.trace_records import Frame, TraceParser, record_number
 
-_FEED = 1 << 20
+EXAMPLE = b'<?xml version="1.0" encoding="UTF-8"?>\n<traceSession version="1.0">\n<frameHeader startTime="0"/>\n'
 _ROOT = re.compile(r"<(traceSession|traceDataRoot|traceData)[\s>]")
 _CLOSED = re.compile(rb"</(traceSession|traceDataRoot|traceData)\s*>\s*(<!--[^>]*-->\s*)?$")
 _PROPERTIES = 300  # characters of a property
@@ -30,42 +33,42 @@ _SUSPECT = np.uint16(Flag.CLOCK_SUSPECT)
 _CLOCK = "times are by the control's own clock (startTime), which may be far off"
 
 
-def claims(text: str) -> str | None:
-    """The reason for claiming a text, or None."""
-    found = _ROOT.search(text[:8192])
-    return None if found is None else f"Sinumerik Trace: an element <{found[1]}>"
+def claims(lines: Sequence[str]) -> str | None:
+    """The reason for claiming lines of XML, or None."""
+    root = _ROOT.search("\n".join(lines)[:8192])
+    return None if root is None else f"Sinumerik Trace: an element <{root[1]}>"
 
 
 def _look(path: Path) -> list[Frame]:
     """The first frame with signals and its first records; where several are announced, one of each set of signals."""
     parser = TraceParser(path.name)
-    found: dict[tuple[tuple[str, ...], ...], Frame] = {}
+    by_kind: dict[tuple[tuple[str, ...], ...], Frame] = {}
     several = False
     with path.open("rb") as file:
-        while data := file.read(_FEED if several else 64 * 1024):
+        while data := file.read(trace_records.FEED if several else 64 * 1024):
             wrong = parser.feed(data, False)
             several = several or (parser.announced or 0) > 1
             for frame in parser.frames:
                 kind = _kind(frame)
                 known = frame.started or frame.done  # else more signals may follow
-                if known and frame.signals and (kind not in found or found[kind] is frame):
-                    found[kind] = frame
+                if known and frame.signals and (kind not in by_kind or by_kind[kind] is frame):
+                    by_kind[kind] = frame
                     if len(frame.times) < LOOK and not frame.done and not wrong:
                         continue
-                if (several and frame is not found.get(kind)) or len(frame.times) >= 4 * LOOK:
-                    frame.times, frame.cells = frame.times[:LOOK], frame.cells[:LOOK]
+                if (several and frame is not by_kind.get(kind)) or len(frame.times) >= 4 * LOOK:
+                    frame.times, frame.cells, frame.at = frame.times[:LOOK], frame.cells[:LOOK], []
             if several:
                 parser.frames = parser.frames[-1:]
-            first = next(iter(found.values()), None)
+            first = next(iter(by_kind.values()), None)
             if first is not None and not several and (len(first.times) >= LOOK or first.done):
                 return [first]
             if wrong:
                 if first is None:
                     raise FormatError("no XML", where=path.name, expected="a Sinumerik trace", got=wrong)
                 break
-    if not found:
+    if not by_kind:
         raise FormatError("no signals", where=path.name, expected="<dataSignal> elements", got="none")
-    return list(found.values())
+    return list(by_kind.values())
 
 
 def _kind(frame: Frame) -> tuple[tuple[str, ...], ...]:
@@ -88,11 +91,11 @@ def _layouts(frames: list[Frame]) -> dict[tuple[tuple[str, ...], ...], list[Grou
 def _start_ns(header: dict[str, str], source: Source) -> int | None:
     """UTC of a frame's startTime; None where it is no date."""
     text = header.get("startTime", "")
-    ns = next((n for form in when.DATETIME.values() if (n := when.parse_one(text, form)) != NAT), None)
-    if ns is None:
-        return None
-    zoned = text.rstrip().endswith("Z") or re.search(r"T.*[+-]\d\d:?\d\d\s*$", text) is not None
-    return ns if zoned else int(LocalClock(source.timezone).utc(np.array([ns]))[0])
+    for form in timestamp.DATETIME.values():
+        ns = timestamp.parse_one(text, form)
+        if ns != NAT:
+            return ns if timestamp.is_zoned(text, form) else int(LocalClock(source.timezone).utc(np.array([ns]))[0])
+    return None
 
 
 def describe(path: Path, source: Source) -> Recording:
@@ -161,15 +164,17 @@ class _Frames:
         yield from counted(where, self.frame, self.groups)
         if self.frame.bad:
             yield Loss(where, reason=f"{self.frame.bad} records without a time")
+        if self.frame.odd:
+            yield Loss(where, reason=f"{self.frame.odd} values are no numbers, first {self.frame.first_odd}")
 
     def records(self, frame: Frame) -> Iterator[Block]:
         """The rows of the records since they were taken."""
         if not frame.times:
             return
-        times, columns = np.array(frame.times), columns_of(frame)
-        frame.times, frame.cells = [], []
+        times, at, columns = np.array(frame.times), np.array(frame.at, np.int64), columns_of(frame)
+        frame.times, frame.cells, frame.at = [], [], []
         for group in self.groups:
-            for block in rows(group, times, columns, self.start):
+            for block in rows(group, times, at, columns, self.start):
                 yield _suspect(block) if self.drops else block
 
 
@@ -177,7 +182,7 @@ def _suspect(block: Block) -> Block:
     flags = {
         name: (block.flags or {}).get(name, np.uint16(0)) | np.full(block.t_ns.size, _SUSPECT) for name in block.values
     }
-    return Block(block.stream, block.t_ns, block.values, flags)
+    return replace(block, flags=flags)
 
 
 def blocks(path: Path, source: Source) -> Iterator[Block | Loss]:
@@ -186,7 +191,7 @@ def blocks(path: Path, source: Source) -> Iterator[Block | Loss]:
     frames = _Frames(path, source)
     with path.open("rb") as file:
         while True:
-            data = file.read(_FEED)
+            data = file.read(trace_records.FEED)
             wrong = parser.feed(data, not data)
             found, parser.frames = parser.frames, parser.frames[-1:]
             for frame in found:
@@ -207,3 +212,14 @@ def blocks(path: Path, source: Source) -> Iterator[Block | Loss]:
         )
     elif parser.announced is not None and parser.announced != parser.count:
         yield Loss(path.name, reason=f"{parser.announced} frames are announced, {parser.count} are there")
+
+
+def locate(path: Path, source: Source, stream: str, row: int) -> str | None:
+    """`record 812, byte 123456`, as the XML counts its <rec> elements; of a row that is held, the record that it is
+    held since."""
+    here = row_at(blocks(path, source), stream, row)
+    if here is None:
+        return None
+    before = row_at(blocks(path, source), stream, row - 1) if row else None
+    held = before is not None and before[0] == here[0]
+    return f"record {record_number(path, here[0])}, byte {here[0]}" + (" (held since then)" if held else "")

@@ -9,8 +9,9 @@ import numpy as np
 
 from thermodata.plugin import Array, Block, Bool1D, Float1D, Int1D, Loss
 from thermodata.reader.events import fill_forward
+from thermodata.reader.text.number import to_float, values_of
 from thermodata.schema.flag import Flag
-from thermodata_reader_cnc.traceparse import Frame
+from thermodata_reader_cnc.sinumerik.trace_records import Frame
 
 LOOK = 2000  # records by which an interval's unit is found
 _NO_VALUE = 9.218868437227405e18  # the bits of a double's infinity and what is no number, as an integer
@@ -23,7 +24,8 @@ _MISSING = np.uint16(Flag.NOT_MEASURING)
 @dataclass(slots=True)
 class Group:
     """Signals of one kind and interval. names: attribute -> signal; step_s: the grid's step, None where none fits;
-    next: rows of the grid so far; counts: values so far by attribute; held: the last value by attribute."""
+    next: rows of the grid so far; counts: values so far by attribute; held: the last value by attribute; last_at: the
+    byte of the last record."""
 
     stream: str
     servo: bool
@@ -33,6 +35,7 @@ class Group:
     next: int = 0
     counts: dict[str, int] = field(default_factory=dict)
     held: dict[str, float] = field(default_factory=dict)
+    last_at: int = 0
     stepped_back: int = 0
     too_far: int = 0
 
@@ -74,7 +77,7 @@ def _free(stream: str, used: set[str]) -> str:
 
 def _step(interval: str, times: Float1D, frame: Frame, group: Group) -> float | None:
     """The interval in seconds: the unit (s, ms, us) by which the group's records lie on a grid of it."""
-    value = _float(interval)
+    value = _finite(interval)
     gaps = np.diff(times)
     gaps, since = gaps[gaps > 0], times - times[:1]
     if value is None or not value > 0 or not gaps.size:
@@ -98,45 +101,44 @@ def _steps(step: float, frame: Frame, group: Group) -> Iterator[float]:
         (int(c) for k in group.names if (c := frame.signals[k].get("datapointCount", "")).isdecimal() and len(c) < 12),
         0,
     )
-    length = _float(frame.header.get("stopInc", ""))
+    length = _finite(frame.header.get("stopInc", ""))
     if count > 1 and length and abs(length / (count - 1) / step - 1) < 0.02:
         yield length / (count - 1)
 
 
-def _float(text: str) -> float | None:
-    try:
-        value = float(text)
-    except ValueError:
-        return None
-    return value if np.isfinite(value) else None
+def _finite(text: str) -> float | None:
+    value = to_float(text)
+    return value if value is not None and np.isfinite(value) else None
 
 
-def rows(group: Group, times: Float1D, columns: dict[str, tuple[Int1D, Float1D]], start_ns: int) -> Iterator[Block]:
-    """The records of a frame as rows of one group. times: of the records, shape (n,) [s]; columns: attribute ->
-    (which records have it, their values)."""
+def rows(
+    group: Group, times: Float1D, at: Int1D, columns: dict[str, tuple[Int1D, Float1D]], start_ns: int
+) -> Iterator[Block]:
+    """The records of a frame as rows of one group. times: of the records, shape (n,) [s]; at: their bytes, shape (n,);
+    columns: attribute -> (which records have it, their values)."""
     present = {key: columns.get(key, (np.empty(0, np.int64), np.empty(0))) for key in group.names}
-    for key, (at, _) in present.items():
-        group.counts[key] = group.counts.get(key, 0) + at.size
-    which = np.unique(np.concatenate([at for at, _ in present.values()]))
+    for key, (record, _) in present.items():
+        group.counts[key] = group.counts.get(key, 0) + record.size
+    which = np.unique(np.concatenate([record for record, _ in present.values()]))
     if not which.size:
         return
     if group.servo and group.step_s is not None:
-        yield from _on_grid(group, times, which, present, start_ns)
+        yield from _on_grid(group, times, at, which, present, start_ns)
         return
     t_ns = start_ns + np.round(times[which] * 1e9).astype(np.int64)
     values: dict[str, Array] = {}
     for key, name in group.names.items():
-        at, found = present[key]
+        record, known = present[key]
         column = np.full(which.size, np.nan)
-        column[np.searchsorted(which, at)] = found
+        column[np.searchsorted(which, record)] = known
         if group.servo:
-            column = _held(group, key, column, np.isin(which, at))
+            column = _held(group, key, column, np.isin(which, record))
         values[name] = column
-    yield _block(group.stream, t_ns, values)
+    yield _block(group.stream, t_ns, values, at[which])
 
 
 def _on_grid(
-    group: Group, times: Float1D, which: Int1D, present: dict[str, tuple[Int1D, Float1D]], start_ns: int
+    group: Group, times: Float1D, at: Int1D, which: Int1D, present: dict[str, tuple[Int1D, Float1D]], start_ns: int
 ) -> Iterator[Block]:
     """Servo signals on the grid of their interval, in bounded blocks."""
     assert group.step_s is not None
@@ -155,14 +157,26 @@ def _on_grid(
         t_ns = start_ns + np.round((group.origin + np.arange(first, stop)) * group.step_s * 1e9).astype(np.int64)
         values: dict[str, Array] = {}
         for key, name in group.names.items():
-            at, found = present[key]
-            inside = (grid[at] >= first) & (grid[at] < stop) & ~far[at]
+            record, known = present[key]
+            inside = (grid[record] >= first) & (grid[record] < stop) & ~far[record]
             column, written = np.full(stop - first, np.nan), np.zeros(stop - first, bool)
-            column[grid[at[inside]] - first] = found[inside]
-            written[grid[at[inside]] - first] = True
+            column[grid[record[inside]] - first] = known[inside]
+            written[grid[record[inside]] - first] = True
             values[name] = _held(group, key, column, written)
-        yield _block(group.stream, t_ns, values)
+        near = which[(grid[which] >= first) & (grid[which] < stop) & ~far[which]]
+        yield _block(group.stream, t_ns, values, _records_of(group, at[near], grid[near] - first, stop - first))
     group.next = max(group.next, last)
+
+
+def _records_of(group: Group, at: Int1D, place: Int1D, n: int) -> Int1D:
+    """The byte of each row's record: the last one that stands at it, or before it."""
+    result: Int1D = np.full(n, -1)
+    result[place] = at
+    if n and result[0] < 0:
+        result[0] = group.last_at
+    result = fill_forward(result, result >= 0)
+    group.last_at = int(result[-1])
+    return result
 
 
 def _far(grid: Int1D, which: Int1D, start: int) -> Bool1D:
@@ -186,28 +200,31 @@ def _held(group: Group, key: str, column: Float1D, written: Array) -> Float1D:
     return result
 
 
-def _block(stream: str, t_ns: Int1D, values: dict[str, Array]) -> Block:
+def _block(stream: str, t_ns: Int1D, values: dict[str, Array], at: Int1D) -> Block:
     flags = {name: np.isnan(column) * _MISSING for name, column in values.items() if np.isnan(column).any()}
-    return Block(stream, t_ns, values, flags or None)
+    return Block(stream, t_ns, values, flags or None, at)
 
 
 def columns_of(frame: Frame) -> dict[str, tuple[Int1D, Float1D]]:
-    """The records' values by attribute; what is no number is NaN."""
-    found: dict[str, tuple[list[int], list[float]]] = {key: ([], []) for key in frame.signals}
+    """The records' values by attribute: (which records have it, their values); what is no number is NaN."""
+    written: dict[str, tuple[list[int], list[str]]] = {key: ([], []) for key in frame.signals}
     for row, cells in enumerate(frame.cells):
         for key, text in cells.items():
-            if key in found:
-                found[key][0].append(row)
-                found[key][1].append(_value(text))
-    return {key: (np.array(at, np.int64), np.array(values)) for key, (at, values) in found.items()}
-
-
-def _value(text: str) -> float:
-    try:
-        value = float(text)
-    except ValueError:
-        return np.nan
-    return np.nan if abs(value) >= _NO_VALUE else value
+            if key in written:
+                written[key][0].append(row)
+                written[key][1].append(text)
+    columns: dict[str, tuple[Int1D, Float1D]] = {}
+    for key, (records, texts) in written.items():
+        cells_read = values_of(texts, "float64")
+        values = cells_read.values
+        values[np.abs(values) >= _NO_VALUE] = np.nan
+        if cells_read.odd:
+            frame.first_odd = (
+                frame.first_odd or f"'{cells_read.odd[0][1][:40]}' of '{frame.signals[key].get('name', key)}'"
+            )
+            frame.odd += len(cells_read.odd)
+        columns[key] = np.array(records, np.int64), values
+    return columns
 
 
 def counted(where: str, frame: Frame, groups: list[Group]) -> Iterator[Loss]:

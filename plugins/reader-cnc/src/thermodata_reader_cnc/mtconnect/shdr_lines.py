@@ -12,15 +12,15 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from thermodata.plugin import Loss
+from thermodata.reader.text import timestamp
+from thermodata.reader.text.number import to_float
 from thermodata.reader.zone import NAT
 from thermodata.schema.flag import Flag
-from thermodata_reader_cnc import when
-from thermodata_reader_cnc.events import GONE, Event
+from thermodata_reader_cnc.events import GONE, ISO, Event
 
 LEVELS = frozenset({"NORMAL", "WARNING", "FAULT", GONE})
 _FIELD = re.compile(r'"((?:\\.|[^"\\])*)"(?=\||$)|([^|]*)')
 _NAME = re.compile(r"^[^\W\d][\w.:\- ]*$")
-_OFFSET = re.compile(r"^\d+(?:\.\d*)?$")
 _UNDATED = int(Flag.CLOCK_SUSPECT)
 
 
@@ -32,30 +32,31 @@ class Series:
     key: str
     rate_hz: float | None
     values: str
-    at: str
+    at: int
+    part: str
 
 
 def is_time(text: str) -> bool:
     """Whether a first field is a date and time, with or without a duration."""
-    return when.parse_one(text.partition("@")[0], when.DATETIME["ymd"]) != NAT
+    return timestamp.parse_one(text.partition("@")[0], ISO) != NAT
 
 
 def is_offset(text: str) -> bool:
     """Whether a first field is a time relative to the adapter's start (a number of milliseconds)."""
-    return _OFFSET.match(text.partition("@")[0]) is not None
+    return timestamp.parse_one(text.partition("@")[0], timestamp.OFFSET_MS) != NAT
 
 
 def fields(text: str) -> list[str]:
     """The fields of a line; one in quotes may hold pipes (escaped)."""
     if '"' not in text and "\\" not in text:
         return text.split("|")
-    found, at = [], 0
+    cells, at = [], 0
     while at <= len(text):
         match = _FIELD.match(text, at)
         assert match is not None  # the second form matches anything, nothing too
-        found.append(match[1].replace("\\|", "|").replace('\\"', '"') if match[1] is not None else match[2])
+        cells.append(match[1].replace("\\|", "|").replace('\\"', '"') if match[1] is not None else match[2])
         at = match.end() + 1
-    return found
+    return cells
 
 
 def looks_like_items(parts: list[str]) -> bool:
@@ -68,7 +69,7 @@ class Lines:
     line before it, flagged."""
 
     def __init__(self, name: str) -> None:
-        self.name = name
+        self.part = f"{name} line"
         self.until: str | None = None
         self.opened = 0
         self.time = ""
@@ -80,20 +81,20 @@ class Lines:
                 self.until = None
             return
         text = line.rstrip("\r")
-        at = f"{self.name} line {number + 1}"
+        at = number + 1
         if not text.strip() or text.startswith("*"):
             if "\0" in text:
-                yield Loss(at, reason=f"{text.count(chr(0))} NUL bytes")
+                yield self._loss(at, f"{text.count(chr(0))} NUL bytes")
             return
         parts = fields(text)
         flag = 0
         if len(parts) < 2 or (parts[0].strip() and not is_time(parts[0]) and not is_offset(parts[0])):
-            yield Loss(at, reason=f"expected time|item|value, got '{text[:80]}'")
+            yield self._loss(at, f"expected time|item|value, got '{text[:80]}'")
             return
         time = parts[0].partition("@")[0].strip()
         if not time:
             if not self.time:
-                yield Loss(at, reason=f"no time, and none before it: '{text[:80]}'")
+                yield self._loss(at, f"no time, and none before it: '{text[:80]}'")
                 return
             time, flag = self.time, _UNDATED
         self.time = time
@@ -103,38 +104,38 @@ class Lines:
             return
         yield from self._values(time, parts, flag, at, text)
 
-    def _values(self, time: str, parts: list[str], flag: int, at: str, text: str) -> Iterator[Event | Series | Loss]:
+    def _values(self, time: str, parts: list[str], flag: int, at: int, text: str) -> Iterator[Event | Series | Loss]:
         key, count = parts[1].strip(), len(parts)
         if not key and count in (4, 5, 6, 7) and count % 2 == 0:
-            yield Loss(at, reason=f"a report without an item: '{text[:80]}'")
+            yield self._loss(at, f"a report without an item: '{text[:80]}'")
             return
         if key and count in (6, 7) and parts[2].upper() in LEVELS:
-            yield Event(time, key, parts[2].upper(), at, flag)
-            if (said := "; ".join(p.strip() for p in parts[3:] if p.strip())) or parts[2].upper() == "NORMAL":
-                yield Event(time, f"{key}[message]", said or GONE, at, flag)
+            yield Event(time, key, parts[2].upper(), at, self.part, flag)
+            if (message := "; ".join(p.strip() for p in parts[3:] if p.strip())) or parts[2].upper() == "NORMAL":
+                yield Event(time, f"{key}[message]", message or GONE, at, self.part, flag)
             return
         if key and count == 5 and parts[2].isdigit() and len(words := parts[4].split()) == int(parts[2][:9]) and words:
-            rate = float(parts[3]) if _OFFSET.match(parts[3]) else None
-            if rate is not None or not parts[3].strip():
-                yield Series(time, key, rate or None, parts[4], at)
+            rate = to_float(parts[3])
+            if (rate is not None and rate >= 0) or not parts[3].strip():
+                yield Series(time, key, rate or None, parts[4], at, self.part)
                 return
         if count == 4:  # a message: item, native code, text
-            yield Event(time, key, parts[3], at, flag)
+            yield Event(time, key, parts[3], at, self.part, flag)
             if parts[2].strip():
-                yield Event(time, f"{key}[code]", parts[2], at, flag)
+                yield Event(time, f"{key}[code]", parts[2], at, self.part, flag)
             return
         if count % 2 == 0:
-            yield Loss(at, reason=f"expected pairs of item and value, got '{text[:80]}'")
+            yield self._loss(at, f"expected pairs of item and value, got '{text[:80]}'")
         for name, value in zip(parts[1::2], parts[2::2], strict=False):
             if name.strip():
-                yield Event(time, name, value, at, flag)
+                yield Event(time, name, value, at, self.part, flag)
             elif value:
-                yield Loss(at, reason=f"a value without an item: '{value[:40]}'")
+                yield self._loss(at, f"a value without an item: '{value[:40]}'")
 
     def end(self) -> Iterator[Loss]:
         """What is missing at the end of the log."""
         if self.until is not None:
-            yield Loss(
-                f"{self.name} line {self.opened + 1}",
-                reason=f"an asset without its end ({self.until}): what follows it is not read",
-            )
+            yield self._loss(self.opened + 1, f"an asset without its end ({self.until}): what follows it is not read")
+
+    def _loss(self, at: int, reason: str) -> Loss:
+        return Loss(f"{self.part} {at}", reason=reason)

@@ -10,14 +10,18 @@ import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+import numpy as np
+
 from thermodata.errors import FormatError
+from thermodata.reader.text.number import clean, is_empty, is_number, to_bool, to_float, to_int
+from thermodata.reader.time_units import EPOCHS, to_ns
 
 START = re.compile(r"^Start\s?(?:time of (?:export|record)|Record)\s*([\t;,|])\s*\"?(\d{15,19})\b", re.IGNORECASE)
 _END = re.compile(r"^End\s?(?:time of (?:export|record)|Record)\s*[\t;,|]\s*\"?(\d{15,19})\b", re.IGNORECASE)
 _NAME = re.compile(r"^\"?Name\"?([\t;,|])")
 _MOST_LINES = 5000
-_EPOCH_100NS = 116_444_736_000_000_000  # from 1601-01-01 to 1970-01-01
-_LATEST_100NS = 206_000_000_000_000_000  # 2253
+_LATEST_NS = 8_955_526_400 * 10**9  # 2253
+_TICKS = EPOCHS["filetime"]
 _KEYS = frozenset(
     {
         "symbolcomment",
@@ -41,8 +45,6 @@ _KEYS = frozenset(
         "endtime",
     }
 )
-_NUMBER = re.compile(r"^\s*\"?[+-]?\d[\d.,eE+-]*\"?\s*$")
-_WORDS = frozenset({"true", "false", "nan", "-nan(ind)", "inf", "-inf"})
 _SIGNED = re.compile(r"^(?:SINT|INT|DINT|LINT|INT(?:8|16|32|64))$")
 _UNSIGNED = re.compile(r"^(?:USINT|UINT|UDINT|UINT(?:8|16|32)|BYTE|WORD|DWORD)$")
 _UNSIGNED_64 = re.compile(r"^(?:ULINT|UINT64|LWORD)$")
@@ -79,11 +81,12 @@ class Header:
 
 def filetime_ns(ticks: int, where: str) -> int:
     """A FILETIME (100 ns since 1601) in UTC nanoseconds since 1970; FormatError where it is no time of our days."""
-    if not _EPOCH_100NS <= ticks <= _LATEST_100NS:
+    ns = int(to_ns(np.array([ticks]), _TICKS.seconds, _TICKS.zero_s)[0])
+    if not 0 <= ns <= _LATEST_NS:
         raise FormatError(
             "no time in the header", where=where, expected="a FILETIME between 1970 and 2253", got=str(ticks)
         )
-    return (ticks - _EPOCH_100NS) * 100
+    return ns
 
 
 def read_header(lines: Sequence[str], where: str) -> Header:
@@ -166,21 +169,20 @@ def _rows(lines: Sequence[str], names_at: int, delimiter: str) -> tuple[dict[str
 
 
 def _is_data(line: str, delimiter: str) -> bool:
-    cells = line.split(delimiter)
-    full = [cell for cell in cells if cell.strip()]
-    return (
-        bool(full)
-        and _NUMBER.match(full[0]) is not None
-        and all(_NUMBER.match(cell) or cell.strip().casefold() in _WORDS for cell in full)
-    )
+    cells = [clean(cell) for cell in line.split(delimiter)]
+    full = [cell for cell in cells if cell]
+    return bool(full) and _is_number(full[0]) and all(_is_number(c) or is_empty(c) for c in full)
+
+
+def _is_number(cell: str) -> bool:
+    """Whether a cell is a number, a truth value, or a count of 100 ns, which a float64 would round."""
+    return is_number(cell) or to_int(cell) is not None or to_bool(cell) is not None
 
 
 def _fastest(rows: dict[str, list[str]], names: list[str]) -> float:
-    found = []
-    for cell in rows.get("sampletime[ms]", [])[: len(names)]:
-        if re.fullmatch(r"\d{1,9}(?:[.,]\d{1,9})?", cell):
-            found.append(float(cell.replace(",", ".")))
-    return min(found, default=0.0)
+    cells = [cell for cell in rows.get("sampletime[ms]", [])[: len(names)] if is_number(cell)]
+    times = [to_float(cell, "," if "," in cell else ".") for cell in cells]
+    return min((t for t in times if t is not None and 0 <= t < 1e9), default=0.0)
 
 
 def _groups(names: list[str], rows: dict[str, list[str]]) -> dict[int, list[Channel]]:

@@ -7,16 +7,19 @@ sequences that it no longer held when it was asked, or that are missing from the
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 from thermodata.errors import FormatError
 from thermodata.plugin import Block, Loss, Recording, Source
-from thermodata_reader_cnc import events, series
+from thermodata.reader.text.locate import row_at
+from thermodata_reader_cnc import events
 from thermodata_reader_cnc.events import Event, HeldTable
-from thermodata_reader_cnc.mtdocuments import documents
-from thermodata_reader_cnc.mtparse import Document, Names, Observation
+from thermodata_reader_cnc.mtconnect import time_series
+from thermodata_reader_cnc.mtconnect.document import Document, Names, Observation
+from thermodata_reader_cnc.mtconnect.documents import documents
 
+EXAMPLE = b'<?xml version="1.0"?>\n<MTConnectStreams xmlns="urn:mtconnect.org:MTConnectStreams:1.5">\n'
 _END = re.compile(rb"</(?:[\w.-]+:)?MTConnectStreams\s*>")
 _LOOK = 8 << 20
 _PIECES = 24  # places of a long log that the first look sees beside its beginning
@@ -24,9 +27,9 @@ _PIECE = 1 << 18
 _DENSE = 0.9  # sequences of a document that are there, from where on the others are missing
 
 
-def claims(text: str) -> str | None:
-    """The reason for claiming a text, or None."""
-    if re.search(r"<(?:[\w.-]+:)?MTConnectStreams[\s>/]", text[:4096]):
+def claims(lines: Sequence[str]) -> str | None:
+    """The reason for claiming lines of XML, or None."""
+    if re.search(r"<(?:[\w.-]+:)?MTConnectStreams[\s>/]", "\n".join(lines)[:4096]):
         return "MTConnect: the root is MTConnectStreams"
     return None
 
@@ -37,36 +40,37 @@ class Order:
     def __init__(self) -> None:
         self.instance: int | None = None
         self.next: int | None = None
-        self.seen: dict[str, int] = {}
+        self.latest: dict[str, int] = {}  # sequence by item
         self.times: dict[str, str] = {}
         self.dense = False
 
     def of(self, document: Document) -> Iterator[Event | Observation | Loss]:
         """The new observations of a document as events; of time series as they are."""
         if document.instance is not None and document.instance != self.instance:
-            self.instance, self.next, self.seen, self.dense = document.instance, None, {}, False
-        found = sorted(document.observations, key=lambda o: o.sequence)
-        yield from self._missing(document, found)
+            self.instance, self.next, self.latest, self.dense = document.instance, None, {}, False
+        observed = sorted(document.observations, key=lambda o: o.sequence)
+        yield from self._missing(document, observed)
         if document.undated:
             yield Loss(document.place, reason=f"{document.undated} observations without sequence or time")
-        for each in found:
-            if each.sequence <= self.seen.get(each.key, -1):
+        part = f"{document.place} sequence"
+        for each in observed:
+            if each.sequence <= self.latest.get(each.key, -1):
                 continue
-            again = each.key not in self.seen and self.times.get(each.key, "") >= each.time
-            self.seen[each.key] = each.sequence
+            again = each.key not in self.latest and self.times.get(each.key, "") >= each.time
+            self.latest[each.key] = each.sequence
             if again:
                 continue  # a restarted agent sends what it had
             self.times[each.key] = max(each.time, self.times.get(each.key, ""))
             if each.series:
                 yield each
             else:
-                yield Event(each.time, each.key, each.value, f"{document.place} sequence {each.sequence}")
+                yield Event(each.time, each.key, each.value, each.sequence, part)
         if document.next is not None:
             self.next = max(self.next or 0, document.next)
 
-    def _missing(self, document: Document, found: list[Observation]) -> Iterator[Loss]:
+    def _missing(self, document: Document, observed: list[Observation]) -> Iterator[Loss]:
         """Sequences that the agent no longer held, and holes in documents that hold all of a range."""
-        held = sorted({o.sequence for o in found})
+        held = sorted({o.sequence for o in observed})
         if self.next is not None and document.first is not None and document.first > self.next:
             yield Loss(
                 document.place,
@@ -128,7 +132,7 @@ class _Look:
             for document in documents(path, self.names, at, at + _PIECE):
                 if isinstance(document, Document):
                     for each in document.observations[:20_000]:
-                        yield from self._one(each if each.series else Event(each.time, each.key, each.value, ""))
+                        yield from self._one(each if each.series else Event(each.time, each.key, each.value, 0, ""))
 
     def _one(self, event: Event | Observation | Loss) -> Iterator[Event]:
         if isinstance(event, Observation):
@@ -147,11 +151,15 @@ def describe(path: Path, source: Source) -> Recording:
         behind = _END.split(file.read())
         # a log may end behind any document, so a whole last one proves nothing
         complete = len(behind) > 1 and b"<" not in behind[-1]
-    said = events.recording(
-        look.plan, source, look.names.properties, None if complete else False, (series.NOTE,) if look.series else ()
+    held = events.recording(
+        look.plan,
+        source,
+        look.names.properties,
+        None if complete else False,
+        (time_series.NOTE,) if look.series else (),
     )
-    signals = tuple(series.signal(key, look.names.properties.get(key)) for key in sorted(look.series))
-    return Recording((*said.signals, *signals), said.clock, said.start_ns, said.complete, said.notes)
+    signals = tuple(time_series.signal(key, look.names.properties.get(key)) for key in sorted(look.series))
+    return Recording((*held.signals, *signals), held.clock, held.start_ns, held.complete, held.notes)
 
 
 def blocks(path: Path, source: Source) -> Iterator[Block | Loss]:
@@ -162,7 +170,7 @@ def blocks(path: Path, source: Source) -> Iterator[Block | Loss]:
     def complain(event: Event, reason: str) -> Iterator[Loss]:
         if event.key not in told and len(told) < 1000:
             told.add(event.key)
-            yield Loss(event.at, reason=f"'{event.key}': {reason}")
+            yield Loss(event.where, reason=f"'{event.key}': {reason}")
 
     table = HeldTable(look.plan, source, complain)
     for event in _events(path, Names()):
@@ -171,14 +179,15 @@ def blocks(path: Path, source: Source) -> Iterator[Block | Loss]:
         elif isinstance(event, Event):
             yield from table.add(event)
         elif event.key in look.series:
-            yield series.rows(
+            yield time_series.rows(
                 event.key,
                 event.time,
                 event.rate_hz,
                 event.value,
-                event.count,
+                event.samples,
                 table.clock,
-                f"{path.name} sequence {event.sequence}",
+                f"{path.name} sequence",
+                event.sequence,
             )
         elif event.key not in told:
             told.add(event.key)
@@ -187,3 +196,13 @@ def blocks(path: Path, source: Source) -> Iterator[Block | Loss]:
                 reason=f"'{event.key}': a time series that the first look did not meet; it is not read",
             )
     yield from table.flush()
+
+
+def locate(path: Path, source: Source, stream: str, row: int) -> str | None:
+    """The sequence number of a row's first observation; of a time series, and the number of the sample."""
+    plan = _Look(path).plan
+    if stream.startswith(time_series.STREAM) and stream not in map(plan.stream, plan.items):
+        report = time_series.sample_of(blocks(path, source), stream, row)
+        return None if report is None else f"sequence {report[0]}, {report[1]}"
+    here = row_at(blocks(path, source), stream, row)
+    return None if here is None else f"sequence {here[0]}"

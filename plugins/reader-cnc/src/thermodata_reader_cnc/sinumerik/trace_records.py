@@ -3,27 +3,34 @@
 from __future__ import annotations
 
 import re
+from contextlib import suppress
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import Any
 from xml.parsers import expat
 
 from thermodata.errors import FormatError
 
+FEED = 1 << 20  # bytes that are read at once
 _MOST_SIGNALS = 20_000
 _ID = re.compile(r"^\d+$")
 
 
 @dataclass(slots=True)
 class Frame:
-    """A frame's header, its signals by their records' attribute, and the records since they were taken: time [s] and
-    attribute -> value. bad: records without a time since then."""
+    """A frame's header, its signals by their records' attribute, and the records since they were taken: time [s],
+    attribute -> value, and the byte where each begins. bad: records without a time; odd: values that are no numbers,
+    and the first of them."""
 
     number: int
     header: dict[str, str] = field(default_factory=dict)
     signals: dict[str, dict[str, str]] = field(default_factory=dict)
     times: list[float] = field(default_factory=list)
     cells: list[dict[str, str]] = field(default_factory=list)
+    at: list[int] = field(default_factory=list)
     bad: int = 0
+    odd: int = 0
+    first_odd: str = ""
     started: bool = False  # it has records
     done: bool = False
 
@@ -80,6 +87,7 @@ class TraceParser:
                 return
             frame.times.append(time)
             frame.cells.append(attributes)
+            frame.at.append(self.parser.CurrentByteIndex)
             frame.started = True
         elif tag == "frameHeader":
             self._frame(dict(attributes))
@@ -101,3 +109,18 @@ class TraceParser:
     def _end(self, tag: str) -> None:
         if tag == "dataFrame" and self.frames:
             self.frames[-1].done = True
+
+
+def record_number(path: Path, byte: int) -> int:
+    """Which <rec> of a file, counted from 1, begins at a byte."""
+    parser, count = expat.ParserCreate(), 0
+
+    def start(tag: str, _: dict[str, str]) -> None:
+        nonlocal count
+        count += tag == "rec" and parser.CurrentByteIndex <= byte
+
+    parser.StartElementHandler = start
+    with path.open("rb") as file, suppress(expat.ExpatError, LookupError, ValueError):
+        while file.tell() <= byte:
+            parser.Parse(file.read(FEED), False)
+    return count

@@ -11,9 +11,10 @@ import numpy as np
 
 from thermodata.errors import FormatError
 from thermodata.plugin import Scaling, Source
+from thermodata.reader.text import timestamp
+from thermodata.reader.text.local_clock import LocalClock
+from thermodata.reader.text.number import is_empty, to_float
 from thermodata.reader.zone import NAT
-from thermodata_reader_cnc import when
-from thermodata_reader_cnc.localclock import LocalClock
 
 _BLOCK = re.compile(r"^%\[([A-Za-z]+)[\s_]*(\d*)\]")
 _KEY = re.compile(r"^%\s*([A-Za-z_ ]+?)\s*=\s*(.*)$")
@@ -117,16 +118,13 @@ def read_header(lines: Sequence[str], where: str, source: Source) -> Header:
         )
     shared = next((keys for name, keys in blocks if name == "GLOBAL"), {})
     decimal = "," if any("," in line for line in data) else "."
-    step = _step([line.split(";")[0].replace(",", ".") for line in data]) if index else None
+    step = _step([line.split(";")[0] for line in data], decimal) if index else None
     return Header(tuple(curves), _start(shared, source), first, width, decimal, step)
 
 
-def _step(cells: Sequence[str]) -> float | None:
+def _step(cells: Sequence[str], decimal: str) -> float | None:
     """By how much the first column grows from row to row; None where it does not do so evenly."""
-    try:
-        values = np.array(cells, np.float64)
-    except ValueError:
-        return None
+    values = np.array([np.nan if (value := to_float(cell, decimal)) is None else value for cell in cells])
     if values.size < 3 or not np.isfinite(values).all():
         return None
     step = float(np.median(np.diff(values)))
@@ -136,11 +134,10 @@ def _step(cells: Sequence[str]) -> float | None:
 def _number(text: str | None, where: str) -> float | None:
     if not text:
         return None
-    try:
-        value = float(text.replace(",", "."))
-    except ValueError:
-        raise FormatError("a header value is no number", where=where, expected="a number", got=text[:40]) from None
-    return value if np.isfinite(value) else None
+    value = to_float(text, "," if "," in text else ".")
+    if value is None and not is_empty(text):
+        raise FormatError("a header value is no number", where=where, expected="a number", got=text[:40])
+    return value if value is not None and np.isfinite(value) else None
 
 
 def _scaling(keys: dict[str, str], where: str) -> Scaling | None:
@@ -153,8 +150,8 @@ def _scaling(keys: dict[str, str], where: str) -> Scaling | None:
 def _start(shared: dict[str, str], source: Source) -> int | None:
     """UTC start by the global block's date and time; None where it has none that reads."""
     for order in ("dmy", "ymd"):
-        day = when.parse_one(shared.get("DATE", ""), when.DATE[order])
-        clock = when.parse_one(shared.get("TIME", ""), when.TIME_OF_DAY)
+        day = timestamp.parse_one(shared.get("DATE", ""), timestamp.DATE[order])
+        clock = timestamp.parse_one(shared.get("TIME", ""), timestamp.TIME_OF_DAY)
         if NAT not in (day, clock):
             return int(LocalClock(source.timezone).utc(np.array([day + clock]))[0])
     return None

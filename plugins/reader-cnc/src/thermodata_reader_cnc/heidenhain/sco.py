@@ -14,12 +14,16 @@ from pathlib import Path
 import numpy as np
 
 from thermodata.plugin import Array, Block, Int1D, Loss, Recording, Signal, Source
-from thermodata_reader_cnc.chunks import Sample, chunks, sample
-from thermodata_reader_cnc.halves import BadLine, Grid
-from thermodata_reader_cnc.losses import Losses
-from thermodata_reader_cnc.scoheader import Curve, Header, read_header
+from thermodata.reader.text.lines import Sample, chunks, from_line, sample, split_last_line
+from thermodata.reader.text.locate import line_of
+from thermodata.reader.text.losses import Losses
+from thermodata.schema.flag import Flag
+from thermodata_reader_cnc.heidenhain.sco_header import Curve, Header, read_header
+from thermodata_reader_cnc.number_rows import NumberRows, number_rows
 
 _FAR = 1 << 20  # rows that the first column may skip
+_END = (b"", b"%")  # a lone % may end the rows
+EXAMPLE = b"%[GLOBAL]\r\n%VERSION=1\r\n%\r\n%[CURVE1]\r\n%CHANNELTYPE=1\r\n%\r\n%[DATA]\r\n0;1;2\r\n"
 
 
 def claims(lines: Sequence[str]) -> str | None:
@@ -55,28 +59,32 @@ def describe(path: Path, source: Source) -> Recording:
 def blocks(path: Path, source: Source) -> Iterator[Block | Loss]:
     """The rows, a block a stream; a curve that ends before the others of its stream is NaN from there."""
     header, first = _header(path, source)
-    grid = Grid(";", header.decimal, ["float64"] * header.width)
-    losses, rows = Losses(path.name, max(1, path.stat().st_size)), _Rows(header)
-    for chunk in chunks(path, first.encoding):
-        data, line = chunk.data, chunk.line
-        while line < header.first_row and data:
-            cut = data.find(b"\n") + 1 or len(data)
-            data, line = data[cut:], line + 1
-        if not data.endswith(b"\n") and data:
-            cut = data.rfind(b"\n") + 1
-            if data[cut:].strip() not in (b"", b"%"):
-                losses.add(line + data.count(b"\n"), "the last row has no line end and may be cut", len(data) - cut, 0)
-            data = data[:cut]
-        for part in grid.parts(data, line):
-            if isinstance(part, BadLine):
-                if part.text.strip() not in ("", "%"):
-                    losses.add(part.line, f"expected {header.width} numbers, got '{part.text[:80]}'", len(part.text), 0)
-                    rows.next += 1  # its time has passed all the same
-                continue
-            yield from rows.blocks(part.columns, line, losses)
+    losses, recording = Losses(path.name, max(1, path.stat().st_size)), _Rows(header)
+    for chunk in from_line(chunks(path, first.encoding), header.first_row):
+        data, tail = _without_end(*split_last_line(chunk.data))
+        rows = number_rows(data, chunk.line, ";", header.decimal, ["float64"] * header.width)
+        bad = tuple(each for each in rows.bad if each.text.strip() != "%")
+        for each in bad:
+            losses.add(each.line, f"expected {header.width} numbers, got '{each.text[:80]}'", each.size, 0)
+        if tail:
+            line = chunk.line + data.count(b"\n")
+            losses.add(line, "the last row has no line end and may be cut", len(tail), 0)
+        if rows.n:
+            yield from recording.blocks(rows, [each.line for each in bad], losses)
         yield from losses.dated(np.empty(0, np.int64))
     yield from losses.rest()
-    yield from rows.missing(path.name)
+    yield from recording.missing(path.name)
+
+
+def locate(path: Path, source: Source, stream: str, row: int) -> str | None:
+    """The line of a row."""
+    return line_of(blocks(path, source), stream, row)
+
+
+def _without_end(data: bytes, tail: bytes) -> tuple[bytes, bytes]:
+    """Whole lines and what stands behind them, without the % that ends the rows."""
+    rows, last = split_last_line(data.rstrip(b"\r\n"))
+    return (rows if last.strip() == b"%" else data), (b"" if tail.strip() in _END else tail)
 
 
 class _Rows:
@@ -92,39 +100,46 @@ class _Rows:
         for curve in header.curves:
             self.streams.setdefault(curve.stream, []).append(curve)
 
-    def blocks(self, columns: Sequence[Array], line: int, losses: Losses) -> Iterator[Block]:
-        """The blocks of consecutive rows."""
-        place = self._places(columns, line, losses)
+    def blocks(self, rows: NumberRows, bad: Sequence[int], losses: Losses) -> Iterator[Block]:
+        """The blocks of consecutive rows. bad: lines of rows that do not read: their time has passed all the same."""
+        place = self._places(rows, np.array(bad, np.int64), losses)
         for members in self.streams.values():
-            block = self._block(members, columns, place)
+            block = self._block(members, rows, place)
             if block is not None:
                 yield block
-        self.next = int(place.max()) + 1
+        self.next = int(place.max()) + 1 + sum(line > int(rows.line[-1]) for line in bad)
 
-    def _places(self, columns: Sequence[Array], line: int, losses: Losses) -> Int1D:
+    def _places(self, rows: NumberRows, bad: Int1D, losses: Losses) -> Int1D:
         """The number of each row from 0: by the first column where it counts, else by their order."""
-        n = columns[0].size
-        step = self.header.step
-        if step is None or not np.isfinite(columns[0]).all():
-            return self.next + np.arange(n, dtype=np.int64)
+        first, step = rows.columns[0], self.header.step
+        in_order: Int1D = self.next + np.arange(rows.n, dtype=np.int64) + np.searchsorted(bad, rows.line)
+        if step is None or not np.isfinite(first).all():
+            return in_order
         if self.origin is None:
-            self.origin = float(columns[0][0])
-        counted = (columns[0] - self.origin) / step
-        even = np.abs(counted - np.round(counted)) < 0.25
-        if not even.all() or counted.min() < self.next - 1 or counted.max() > self.next + n + _FAR:
+            self.origin = float(first[0]) - int(in_order[0]) * step
+        counted = (first - self.origin) / step
+        odd = np.abs(counted - np.round(counted)) >= 0.25
+        odd |= (counted < self.next - 1) | (counted > in_order[-1] + 1 + _FAR)
+        if odd.any():
+            line = int(rows.line[np.argmax(odd)])
             losses.add(line, "the first column does not count the rows on evenly; they are taken in their order", 0, 0)
             self.header = replace(self.header, step=None)
-            return self.next + np.arange(n, dtype=np.int64)
+            return in_order
         place: Int1D = np.round(counted).astype(np.int64)
-        if (np.diff(place, prepend=self.next - 1) != 1).any():
+        steps = np.diff(place, prepend=self.next - 1) != np.diff(in_order, prepend=self.next - 1)
+        if steps.any():
+            line = int(rows.line[np.argmax(steps)])
             losses.add(line, "the first column shows that rows are missing or repeated", 0, 0)
         return place
 
-    def _block(self, members: list[Curve], columns: Sequence[Array], place: Int1D) -> Block | None:
+    def _block(self, members: list[Curve], rows: NumberRows, place: Int1D) -> Block | None:
         there = np.zeros(place.size, bool)
         values: dict[str, Array] = {}
+        flags: dict[str, Array] = {}
         for curve in members:
-            column = columns[curve.column]
+            column = rows.columns[curve.column]
+            if rows.over[curve.column].any():
+                flags[curve.name] = rows.over[curve.column] * np.uint16(Flag.SATURATED)
             if curve.count is not None and (place >= curve.count).any():
                 tail = column[place >= curve.count]
                 odd = (
@@ -141,8 +156,8 @@ class _Rows:
         if not there.any():
             return None
         stop = int(np.flatnonzero(there)[-1]) + 1
-        t_ns = (self.header.start_ns or 0) + place[:stop] * members[0].cycle_ns
-        return Block(members[0].stream, t_ns, {name: column[:stop] for name, column in values.items()})
+        t_ns = (self.header.start_ns or 0) + place * members[0].cycle_ns
+        return Block(members[0].stream, t_ns, values, flags or None, rows.line + 1).part(0, stop)
 
     def missing(self, name: str) -> Iterator[Loss]:
         """Where a curve's values are not as many as its header announces."""

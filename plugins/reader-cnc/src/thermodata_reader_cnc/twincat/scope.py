@@ -7,21 +7,30 @@ cells), or are filled with copies of their last row, which are dropped.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 
 import numpy as np
 
-from thermodata.plugin import Array, Block, Bool1D, Loss, Recording, Signal, Source
-from thermodata_reader_cnc.chunks import Sample, chunks, sample
-from thermodata_reader_cnc.halves import BadLine, Grid, Numbers
-from thermodata_reader_cnc.losses import Losses
-from thermodata_reader_cnc.twincatheader import Header, read_header
+from thermodata.plugin import Array, Block, Bool1D, Int1D, Loss, Recording, Signal, Source
+from thermodata.reader.text.lines import Sample, chunks, from_line, sample, split_last_line
+from thermodata.reader.text.locate import line_of
+from thermodata.reader.text.losses import Losses
+from thermodata.reader.text.number import clean, to_float, to_int
+from thermodata.reader.time_units import EPOCHS, to_ns
+from thermodata.reader.zone import NAT
+from thermodata_reader_cnc.number_rows import NumberRows, everywhere, number_rows
+from thermodata_reader_cnc.twincat.scope_header import Header, read_header
 
 _STARTS = re.compile(r"^Start\s?(?:time of (?:export|record)|Record)\b", re.IGNORECASE)
-_EPOCH_TICKS = 116_444_736_000_000_000
-_FAR_MS = 3e12  # 95 years of a recording
+_TICKS = EPOCHS["filetime"]
+_FAR_NS = 3_000_000_000 * 10**9  # 95 years of a recording
 _SOME = 5
+_END = (b"", b"EOF")
+EXAMPLE = (
+    b"Name\tProject\r\nFile\tC:\\scope.svdx\r\nStartTime of export\t131000000000000000\r\n\r\nName\tx\r\n"
+    b"SampleTime[ms]\t1\r\n0\t0.5\r\n1\t0.6\r\n"
+)
 
 
 def claims(lines: Sequence[str]) -> str | None:
@@ -58,12 +67,21 @@ def _complete(header: Header, first: Sample) -> bool | None:
 
 def _time(header: Header, line: str, column: int) -> int | None:
     cells = line.split(header.delimiter)
-    text = cells[column].strip().strip('"').replace(",", ".") if column < len(cells) else ""
-    if not re.fullmatch(r"[+-]?\d{1,20}(?:\.\d{0,20})?", text):
+    text = clean(cells[column]) if column < len(cells) else ""
+    number = to_int(text) if header.ticks else to_float(text, header.decimal)
+    if number is None:
         return None
+    ns = int(_to_ns(np.array([number]), header)[0])
+    return None if ns == NAT else ns
+
+
+def _to_ns(times: Array, header: Header) -> Int1D:
+    """UTC nanoseconds of a time column, shape (n,); NAT where it holds no time of our days."""
     if header.ticks:
-        return (int(text.split(".")[0]) - _EPOCH_TICKS) * 100
-    return header.start_ns + round(float(text) * 1e6)
+        ns = to_ns(times, _TICKS.seconds, _TICKS.zero_s)
+        return np.where(ns > 0, ns, NAT)
+    ns = to_ns(times, 1e-3)
+    return np.where((ns == NAT) | (np.abs(ns) >= _FAR_NS), NAT, ns + header.start_ns)
 
 
 def _slack(header: Header) -> int:
@@ -100,41 +118,42 @@ def blocks(path: Path, source: Source) -> Iterator[Block | Loss]:
         dtypes[time] = "int64" if header.ticks else "float64"
         for channel in channels:
             dtypes[channel.column] = channel.dtype
-    grid = Grid(header.delimiter, header.decimal, dtypes)
-    losses, rows = Losses(path.name, max(1, path.stat().st_size)), _Rows(header)
-    for chunk in chunks(path, first.encoding):
-        data, line = chunk.data, chunk.line
-        while line < header.first_row and data:
-            cut = data.find(b"\n") + 1 or len(data)
-            data, line = data[cut:], line + 1
-        tail = b""
-        if not data.endswith(b"\n"):
-            cut = data.rfind(b"\n") + 1
-            data, tail = data[:cut], data[cut:]
-        last = np.empty(0, np.int64)
-        for part in grid.parts(rows.padded(data, line, losses).replace(b'"', b""), line):
-            if isinstance(part, BadLine):
-                if part.text.strip() not in ("", "EOF"):
-                    losses.add(part.line, f"expected {header.width} numbers, got '{part.text[:80]}'", len(part.text), 0)
-                continue
-            for block in rows.blocks(part, line, losses):
-                last = block.t_ns
-                yield block
-        if tail.strip() not in (b"", b"EOF"):
-            text = tail.decode("utf-8", "replace")
-            losses.add(
-                line + data.count(b"\n"),
-                f"the last row has no line end and may be cut: '{text[:60]}'",
-                len(tail),
-                last.size,
-            )
-        yield from losses.dated(last)
+    losses, groups = Losses(path.name, max(1, path.stat().st_size)), _Groups(header)
+    for chunk in from_line(chunks(path, first.encoding), header.first_row):
+        data, tail = _without_end(*split_last_line(chunk.data))
+        data = groups.padded(data, chunk.line, losses)
+        rows = number_rows(data, chunk.line, header.delimiter, header.decimal, dtypes)
+        longest: tuple[Int1D, Int1D] = np.empty(0, np.int64), np.empty(0, np.int64)
+        for block in groups.blocks(rows, losses):
+            if block.at is not None and block.at.size > longest[1].size:
+                longest = block.t_ns, block.at
+            yield block
+        for bad in rows.bad:
+            if bad.text.strip() != "EOF":
+                row = int(np.searchsorted(longest[1], bad.line + 1))
+                losses.add(bad.line, f"expected {header.width} numbers, got '{bad.text[:80]}'", bad.size, row)
+        if tail:
+            text, line = tail.decode("utf-8", "replace"), chunk.line + data.count(b"\n")
+            reason = f"the last row has no line end and may be cut: '{text[:60]}'"
+            losses.add(line, reason, len(tail), longest[1].size)
+        yield from losses.dated(longest[0])
     yield from losses.rest()
-    yield from rows.missing(path.name, _complete(header, first))
+    yield from groups.missing(path.name, _complete(header, first))
 
 
-class _Rows:
-    """Rows of one export, with what is carried from part to part."""
+def locate(path: Path, source: Source, stream: str, row: int) -> str | None:
+    """The line of a row."""
+    return line_of(blocks(path, source), stream, row)
+
+
+def _without_end(data: bytes, tail: bytes) -> tuple[bytes, bytes]:
+    """Whole lines and what stands behind them, without the row EOF."""
+    rows, last = split_last_line(data.rstrip(b"\r\n"))
+    return (rows if last.strip() == b"EOF" else data), (b"" if tail.strip() in _END else tail)
+
+
+class _Groups:
+    """The groups of one export, with what is carried from part to part."""
 
     def __init__(self, header: Header) -> None:
         self.header = header
@@ -171,42 +190,36 @@ class _Rows:
             done.append(row)
         return b"\n".join(done)
 
-    def blocks(self, part: Numbers, line: int, losses: Losses) -> Iterator[Block]:
-        """A block a group of the rows of one part."""
+    def blocks(self, rows: NumberRows, losses: Losses) -> Iterator[Block]:
+        """A block a group, of the rows of one part."""
         for time, channels in self.header.groups.items():
-            there = part.there[time]
+            there = rows.there[time]
             for channel in channels:
                 if channel.dtype != "float64":
-                    there = there & part.there[channel.column]
-            lost = part.there[time] ^ there
+                    there = there & rows.there[channel.column]
+            lost = rows.there[time] ^ there
             for channel in channels:
-                if not lost.any() and not part.there[time].all():
-                    holds = part.there[channel.column] & _holds(part.columns[channel.column])
-                    lost = lost | (~part.there[time] & holds)
+                if not lost.any() and not rows.there[time].all():
+                    lost = lost | (~rows.there[time] & rows.there[channel.column])
             if lost.any():
+                line = int(rows.line[np.argmax(lost)])
                 losses.add(line, f"{int(lost.sum())} rows of '{channels[0].name}' with a blank cell", 0, 0)
-            times = part.columns[time]
-            good = there & (
-                np.abs(times) < _FAR_MS
-                if not self.header.ticks
-                else (times > _EPOCH_TICKS) & (times < 2 * _EPOCH_TICKS)
-            )
-            if int((there & ~good).sum()) and (self.header.ticks or np.isfinite(times[there & ~good]).any()):
+            t_ns = _to_ns(rows.columns[time], self.header)
+            good = there & (t_ns != NAT)
+            if (there & ~good).any():
+                line = int(rows.line[np.argmax(there & ~good)])
                 losses.add(line, f"{int((there & ~good).sum())} rows whose time is none", 0, 0)
             if not good.any():
                 continue
-            t_ns = (
-                (times[good] - _EPOCH_TICKS) * 100
-                if self.header.ticks
-                else self.header.start_ns + np.round(times[good] * 1e6).astype(np.int64)
-            )
-            values = {c.name: part.columns[c.column][good] for c in channels}
-            fresh = self._fresh(time, t_ns, values)
+            names = {c.name: c.column for c in channels}
+            block = rows.block(channels[0].stream, t_ns[good], names, everywhere(good))
+            fresh = self._fresh(time, block.t_ns, block.values)
             if fresh.any():
-                self.reached = max(int(t_ns.max()), t_ns.min() if self.reached is None else self.reached)
-                yield Block(channels[0].stream, t_ns[fresh], {name: v[fresh] for name, v in values.items()})
+                latest = int(block.t_ns.max())
+                self.reached = latest if self.reached is None else max(latest, self.reached)
+                yield block if fresh.all() else _of(block, fresh)
 
-    def _fresh(self, time: int, t_ns: Array, values: dict[str, Array]) -> Bool1D:
+    def _fresh(self, time: int, t_ns: Int1D, values: Mapping[str, Array]) -> Bool1D:
         """The rows that are no exact copies of the row before them."""
         same = np.zeros(t_ns.size, bool)
         same[1:] = np.diff(t_ns) == 0
@@ -237,6 +250,10 @@ class _Rows:
         )
 
 
-def _holds(column: Array) -> Bool1D:
-    result: Bool1D = np.isfinite(column) if column.dtype.kind == "f" else np.ones(column.size, bool)
-    return result
+def _of(block: Block, rows: Bool1D) -> Block:
+    """Some rows of a block."""
+    assert block.at is not None
+    flags = None if block.flags is None else {name: f[rows] for name, f in block.flags.items()}
+    return Block(
+        block.stream, block.t_ns[rows], {name: v[rows] for name, v in block.values.items()}, flags, block.at[rows]
+    )

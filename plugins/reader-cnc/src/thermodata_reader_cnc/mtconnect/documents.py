@@ -11,7 +11,7 @@ from pathlib import Path
 from xml.parsers import expat
 
 from thermodata.plugin import Loss
-from thermodata_reader_cnc.mtparse import Document, EndError, Names, NextError, Parser, UntrustedError
+from thermodata_reader_cnc.mtconnect.document import Document, EndError, Names, NextError, Parser, UntrustedError
 
 ROOT = re.compile(rb"<(?:[\w.-]+:)?MTConnectStreams[\s>/]")
 _ENCODING = re.compile(rb"<\?xml[^>]{0,200}encoding=[\"']([\w.-]+)")

@@ -4,15 +4,17 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass, field
+from typing import NamedTuple
 from xml.parsers import expat
+
+from thermodata.reader.text.number import to_float
 
 _MOST_TEXT = 1 << 24  # characters of one value
 _DEEP = 256
 
 
-@dataclass(frozen=True, slots=True)
-class Observation:
-    """rate_hz, count: of a time series. element: the tag (Temperature, Fault)."""
+class Observation(NamedTuple):
+    """rate_hz, samples: of a time series."""
 
     sequence: int
     time: str
@@ -20,7 +22,7 @@ class Observation:
     value: str
     series: bool = False
     rate_hz: float | None = None
-    count: int | None = None
+    samples: int | None = None
 
 
 @dataclass(slots=True)
@@ -178,7 +180,7 @@ class Parser:
                 add(Observation(sequence, time, f"{key}[message]", text or "UNAVAILABLE"))
         elif self.tag.endswith("TimeSeries") or ("sampleRate" in said and len(value.split(None, 1)) > 1):
             rate = said.get("sampleRate", "")
-            add(Observation(sequence, time, key, value, True, _float(rate), number(said.get("sampleCount"))))
+            add(Observation(sequence, time, key, value, True, to_float(rate), number(said.get("sampleCount"))))
         elif self.cells or key in self.names.entries:
             known = self.names.entries.setdefault(key, set())
             known.update(place for place, _ in self.cells)
@@ -194,10 +196,3 @@ def number(text: str | None) -> int | None:
     """A whole number of up to 18 digits at the start of a text."""
     digits = re.match(r"\s*(\d{1,18})(?!\d)", text or "", re.ASCII)
     return int(digits[1]) if digits else None
-
-
-def _float(text: str) -> float | None:
-    try:
-        return float(text)
-    except ValueError:
-        return None

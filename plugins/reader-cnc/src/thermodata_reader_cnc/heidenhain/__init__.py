@@ -1,0 +1,1 @@
+"""Heidenhain: recordings of TNCscope."""

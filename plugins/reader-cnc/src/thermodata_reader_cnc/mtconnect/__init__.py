@@ -1,0 +1,1 @@
+"""MTConnect: what an agent answers, and what an adapter sends (SHDR)."""

@@ -1,0 +1,1 @@
+"""OPC UA: tables that loggers write."""

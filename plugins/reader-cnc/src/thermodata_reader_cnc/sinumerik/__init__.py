@@ -1,0 +1,1 @@
+"""Sinumerik: traces as XML and as CSV."""

@@ -1,0 +1,1 @@
+"""Beckhoff TwinCAT: exports of Scope."""

@@ -1,0 +1,34 @@
+"""Times written as numbers."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from thermodata.reader.time_units import EPOCHS, SECONDS, to_ns
+from thermodata.reader.zone import NAT
+
+T0 = int(np.datetime64("2026-03-02T08:00:00", "ns").astype(np.int64))
+
+
+@pytest.mark.parametrize("dtype", [np.int64, np.uint64, np.float64])
+@pytest.mark.parametrize(
+    ("unit", "count"),
+    [
+        ("filetime", 134169120000000000),
+        ("unix", 1772438400),
+        ("unix_ms", 1772438400000),
+        ("labview", 3855283200),
+    ],
+)
+def test_a_count_from_a_date_is_a_time(unit: str, count: int, dtype: type) -> None:
+    epoch = EPOCHS[unit]
+    ns = to_ns(np.array([count, 0], dtype), epoch.seconds, epoch.zero_s)
+    assert ns[0] == T0
+    assert ns[1] in (epoch.zero_s * 10**9, NAT)  # 1601 is none
+
+
+def test_a_fraction_keeps_its_digits_and_what_is_no_number_is_no_time() -> None:
+    values = np.array([0.002, 1234567.891, np.nan, np.inf, 1e300])
+    assert to_ns(values, SECONDS["s"]).tolist() == [2_000_000, 1_234_567_891_000_000, NAT, NAT, NAT]
+    assert to_ns(values, SECONDS["ms"])[:2].tolist() == [2_000, 1_234_567_891_000]
