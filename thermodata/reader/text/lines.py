@@ -16,6 +16,7 @@ CHUNK = 8 * 1024 * 1024
 _PIECE = 16 * 1024
 _PIECES = 6
 WHOLE = 512 * 1024
+_LONGEST_LINE = 1024 * 1024  # that chunks of any size keep whole
 ODD = "its bytes are not of the file's encoding; read as they look"
 
 
@@ -122,7 +123,7 @@ def chunks(path: Path, encoding: str, size: int = CHUNK) -> Iterator[Chunk]:
                 data = data.replace(b"\r", b"\n")
             data = rest + data
             cut = len(data) if last else data.rfind(b"\n") + 1
-            if not cut and len(data) > 4 * size:
+            if not cut and len(data) > max(4 * size, _LONGEST_LINE):
                 cut = len(data)  # no lines: zeros where a file was allocated in advance
             part, rest = data[:cut], data[cut:]
             if part or last:
@@ -166,3 +167,13 @@ def last_line_is_whole(line: str, before: str, delimiter: str) -> bool:
         return True
     digits = [len(re.split(r"[.,]", text)[-1]) if re.match(r"^[+-]?\d*[.,]\d+$", text) else 0 for text in fields]
     return digits[0] >= digits[1] > 0
+
+
+def without_cut_line(data: bytes, delimiter: str) -> tuple[bytes, bool]:
+    """(the lines, whether a last one without a line end was left out of them, for it may be cut). data: UTF-8."""
+    if not data or data.endswith(b"\n"):
+        return data, False
+    *_, before, last = b"\n".join((b"", b"", data)).rsplit(b"\n", 2)
+    if before.strip() and last_line_is_whole(last.decode("utf-8", "replace"), before.decode(), delimiter):
+        return data, False
+    return data[: len(data) - len(last)], True
