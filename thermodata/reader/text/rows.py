@@ -27,7 +27,8 @@ _SHOWN = 200
 @dataclass(frozen=True, slots=True)
 class Grid:
     """How rows lie. kinds: of each column: float64, int64, uint64, bool, str, TIME, or None for one that nobody wants;
-    least: the fewest cells of a row (those that are missing are empty); decimal_declared: see the policy of numbers."""
+    least: the fewest cells of a row (those that are missing are empty); decimal_declared: see the policy of numbers;
+    blank_rows: whether delimiters alone are a row (where rows are counted, one without values takes its time)."""
 
     delimiter: str
     decimal: str
@@ -35,6 +36,7 @@ class Grid:
     quoted: bool = False
     least: int | None = None
     decimal_declared: bool = False
+    blank_rows: bool = False
 
     @property
     def width(self) -> int:
@@ -162,7 +164,7 @@ def _typed(data: bytes, line: int, grid: Grid) -> Rows | None:
         if kind == TIME
     }
     rows = Rows(np.arange(line, line + table.num_rows, dtype=np.int64), columns, times)
-    return _without_empty_lines(rows, data) if b"\n\n" in data or b"\n\r\n" in data or data[:1] in b"\r\n" else rows
+    return _without_empty_lines(rows, data, line) if _has_empty_lines(data) else rows
 
 
 def _arrow_values(column: Any, kind: str) -> Values | None:
@@ -192,12 +194,17 @@ def _shared_texts(column: Any) -> Values:
     return Values(np.concatenate(parts) if parts else np.empty(0, object), none, none)
 
 
-def _without_empty_lines(rows: Rows, data: bytes) -> Rows:
+def _without_empty_lines(rows: Rows, data: bytes, line: int) -> Rows:
+    """Without the rows that Arrow makes of lines that hold nothing at all. line: the number of the first."""
     ends = np.flatnonzero(np.frombuffer(data, np.uint8) == 10)
     starts = np.concatenate(([0], ends[:-1] + 1))
     size = ends - starts
     blank = (size == 0) | ((size == 1) & (np.frombuffer(data, np.uint8)[starts] == 13))
-    return _taken(rows, np.flatnonzero(~blank))
+    return _taken(rows, np.flatnonzero(~blank[rows.line - line]))
+
+
+def _has_empty_lines(data: bytes) -> bool:
+    return b"\n\n" in data or b"\n\r\n" in data or data[:1] in b"\r\n"
 
 
 def _as_text(data: bytes, line: int, grid: Grid) -> Rows | None:
@@ -208,8 +215,9 @@ def _as_text(data: bytes, line: int, grid: Grid) -> Rows | None:
         return None
     invalid: list[Any] = []
     wanted = [i for i, kind in enumerate(grid.kinds) if kind is not None]
+    width = _common_width(data, grid)
     try:
-        table = _read(data, grid, grid.width, {str(i): pa.string() for i in wanted}, invalid)
+        table = _read(data, grid, width, {str(i): pa.string() for i in wanted if i < width}, invalid)
     except pa.ArrowInvalid:
         return None
     if table.num_rows + len(invalid) != data.count(b"\n") or any("\n" in row.text for row in invalid):
@@ -227,11 +235,22 @@ def _as_text(data: bytes, line: int, grid: Grid) -> Rows | None:
     lines = np.delete(np.arange(line, line + table.num_rows + len(invalid), dtype=np.int64), numbers)
     cells_of: list[Any] = [None] * grid.width
     for i in wanted:
-        column = table.column(str(i)).combine_chunks()
+        column = table.column(str(i)).combine_chunks() if i < width else pa.nulls(table.num_rows, pa.string())
         cells_of[i] = pa.concat_arrays([*_arrays(column), pa.array(side.columns[i], pa.string())])
     rows = Rows(np.concatenate([lines, np.array(side.lines, np.int64)]), *_converted(cells_of, grid), tuple(bad))
     order = np.argsort(rows.line, kind="stable")
-    return _without_empty_rows(_taken(rows, order) if side.lines else rows, cells_of, order)
+    taken = _taken(rows, order) if side.lines else rows
+    if grid.blank_rows:
+        return _without_empty_lines(taken, data, line) if _has_empty_lines(data) else taken
+    return _without_empty_rows(taken, cells_of, order)
+
+
+def _common_width(data: bytes, grid: Grid) -> int:
+    """How many cells most rows have, by the mean: where rows may be shorter, most may lack the same cells."""
+    if grid.least is None:
+        return grid.width
+    mean = round(data.count(grid.delimiter.encode()) / data.count(b"\n")) + 1
+    return min(max(mean, grid.least), grid.width)
 
 
 def _arrays(column: Any) -> list[Any]:
@@ -324,9 +343,11 @@ def _line_by_line(data: bytes, line: int, grid: Grid) -> Rows:
         bare = text.replace("\0", "").rstrip("\r")
         if len(bare) != len(text.rstrip("\r")):
             nul.append((number, text.count("\0")))
-        if not bare.strip(f"{grid.delimiter} \t\r\n"):
+        record = _cells(bare, grid)
+        blank = not any(cell.strip() for cell in record)
+        cells = None if blank and not (grid.blank_rows and len(record) > 1) else rows.fitting(record)
+        if cells is None and blank:
             continue
-        cells = rows.fitting(_cells(bare, grid))
         if cells is None:
             size = len(text.encode("utf-8", "replace"))
             bad.append(BadLine(number, bare.count(grid.delimiter) + 1, bare[:_SHOWN], size))
