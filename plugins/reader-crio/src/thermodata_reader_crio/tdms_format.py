@@ -1,0 +1,20 @@
+"""TDMS, National Instruments' binary log, as one of this reader's formats."""
+
+from __future__ import annotations
+
+import struct
+
+from thermodata.plugin import Head
+from thermodata_reader_crio.places import place as locate
+from thermodata_reader_crio.tdms import blocks, describe
+
+LEAD_IN = b"TDSm"
+EXAMPLE = LEAD_IN + struct.pack("<IIQQ", 0x0E, 4713, 64, 32) + b"\x01\0\0\0\x01\0\0\0/" + bytes(64)
+
+
+def claims(head: Head) -> str | None:
+    """The reason for claiming a file: the lead-in of its first segment."""
+    return "TDMS: the file starts with the lead-in 'TDSm'" if head.start.startswith(LEAD_IN) else None
+
+
+__all__ = ["EXAMPLE", "blocks", "claims", "describe", "locate"]
