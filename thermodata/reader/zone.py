@@ -31,6 +31,11 @@ def _offset_ns(tz: ZoneInfo, utc_s: int) -> int:
     return round(shift.total_seconds()) * _S
 
 
+def utc_offset_ns(timezone: str, utc_s: int) -> int:
+    """How far a zone's local time is ahead of UTC at an instant [ns]."""
+    return _offset_ns(zone(timezone), utc_s)
+
+
 def _transitions(tz: ZoneInfo, first_s: int, last_s: int) -> list[tuple[int, int, int]]:
     """[(UTC instant in ns, offset before, offset after)] between two instants, to the second."""
     found, day = [], 86_400

@@ -5,14 +5,16 @@ from __future__ import annotations
 from pathlib import Path
 
 import numpy as np
+import pytest
 from thermodata_reader_table import Reader
 
+from thermodata.errors import FormatError
 from thermodata.plugin import Block, Head, Source
 
 
-def read(path: Path) -> tuple[dict[str, str | None], dict[str, np.ndarray]]:
+def read(path: Path, source: Source = Source()) -> tuple[dict[str, str | None], dict[str, np.ndarray]]:  # noqa: B008
     """({signal: unit}, {signal: values})"""
-    reader, source = Reader(), Source()
+    reader = Reader()
     units = {s.name: s.unit for s in reader.describe(path, source).signals}
     blocks = [b for b in reader.blocks(path, source) if isinstance(b, Block)]
     return units, {n: np.concatenate([b.values[n] for b in blocks]) for n in units}
@@ -91,7 +93,11 @@ def test_quoted_numbers_with_a_decimal_comma_between_commas(tmp_path: Path) -> N
     path.write_text("Time [s],T [°C]\n" + "".join(f'{i},"{20 + i},5"\n' for i in range(20)), encoding="utf-8")
     assert read(path)[1]["T [°C]"].tolist() == [20.5 + i for i in range(20)]
     path.write_text("Time [s],n [rpm]\n" + "".join(f'{i},"8,{i:03d}"\n' for i in range(20)), encoding="utf-8")
-    assert read(path)[1]["n [rpm]"].tolist() == [8000.0 + i for i in range(20)]
+    with pytest.raises(FormatError, match="thousands or begin a fraction"):
+        read(path)
+    for decimal, factor in ((".", 1000.0), (",", 1.0)):
+        n = read(path, Source(table={"decimal": decimal}))[1]["n [rpm]"]
+        np.testing.assert_allclose(n, (8 + np.arange(20) / 1000) * factor)
 
 
 def test_dates_in_chinese_and_korean(tmp_path: Path) -> None:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 
-from thermodata.reader.text.number import clean
 from thermodata.schema.quantity import _ALIAS
 
 _BASE = (

@@ -121,11 +121,13 @@ def chunks(path: Path, encoding: str, size: int = CHUNK) -> Iterator[Chunk]:
                 mac = b"\n" not in data and b"\r" in data
             if mac:
                 data = data.replace(b"\r", b"\n")
-            data = rest + data
             cut = len(data) if last else data.rfind(b"\n") + 1
-            if not cut and len(data) > max(4 * size, _LONGEST_LINE):
+            if not cut and len(rest) + len(data) > max(4 * size, _LONGEST_LINE):
                 cut = len(data)  # no lines: zeros where a file was allocated in advance
-            part, rest = data[:cut], data[cut:]
+            # one copy of what was read, and none held while it is used
+            part = b"".join((rest, memoryview(data)[:cut])) if cut or last else b""
+            rest = data[cut:] if cut or last else rest + data
+            del data
             if part or last:
                 part, odd = (part, ()) if wide else _utf8(part, encoding, line)
                 yield Chunk(part, line, done, last, odd)

@@ -26,8 +26,11 @@ from thermodata.errors import FormatError
 from thermodata.plugin import Array, Bool1D
 
 EMPTY = frozenset(
-    "|-|--|---|----|*|***|****|?|???|na|n/a|#n/a|n.a.|#nv|null|none|nan|+nan|-nan|nan(ind)|-nan(ind)|1.#qnan|-1.#qnan|"
-    "1.#ind|-1.#ind|1,#qnan|-1,#qnan|1,#ind|-1,#ind|unavailable".split("|")
+    (
+        *("", "-", "--", "---", "----", "*", "***", "****", "?", "???", "null", "none", "unavailable"),
+        *("na", "n/a", "#n/a", "n.a.", "#nv", "nan", "+nan", "-nan", "nan(ind)", "-nan(ind)"),
+        *("1.#qnan", "-1.#qnan", "1.#ind", "-1.#ind", "1,#qnan", "-1,#qnan", "1,#ind", "-1,#ind"),
+    )
 )
 OVERLOAD = frozenset(
     sign + word
@@ -125,8 +128,10 @@ def why_none(cell: str, kind: str, decimal: str = ".") -> str:
 
 def is_number(cell: str) -> bool:
     """Whether a cell is a number with either decimal mark."""
-    text = clean(cell)
-    return any(to_float(text, mark, declared=True) is not None for mark in ".,") and to_bool(text) is None
+    text = _PADDED_SIGN.sub(r"\1", clean(cell))
+    if any(pattern.fullmatch(text) for pattern in (*_PLAIN.values(), _INFINITE)):
+        return True
+    return any(p.fullmatch(text) for patterns in (_PARTED, _GROUPED) for p in patterns.values())
 
 
 def decimal_mark(cells: Iterable[str]) -> str | None:

@@ -9,14 +9,14 @@ from __future__ import annotations
 
 import csv
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
 
-from thermodata.plugin import Array, Int1D
+from thermodata.plugin import Bool1D, Int1D
 from thermodata.reader.text.delimiter import fields
-from thermodata.reader.text.number import EXACT, Values, null_words, values_of
+from thermodata.reader.text.number import EXACT, Values, clean, null_words, values_of
 
 TIME = "time"  # a column of times as text: left as it stands
 _MOST_LINES = 64  # of one cell in quotes
@@ -56,22 +56,30 @@ class BadLine:
 @dataclass(frozen=True, slots=True)
 class Rows:
     """line: of each row, 0-based in the file, rising, shape (n,). columns: what each wanted column holds; times: the
-    cells of TIME columns as an Arrow array. nul: (line, how many bytes of zero) where such stood in or before a row."""
+    cells of TIME columns as an Arrow array. nul: (line, how many bytes of zero) where such stood in or before a row.
+    short: lines of the rows that have fewer cells than columns, shape (k,)."""
 
     line: Int1D
     columns: dict[int, Values]
     times: dict[int, Any]
     bad: tuple[BadLine, ...] = ()
     nul: tuple[tuple[int, int], ...] = ()
+    short: Int1D = field(default_factory=lambda: np.empty(0, np.int64))
 
     @property
     def n(self) -> int:
         return int(self.line.size)
 
+    def before(self, line: int) -> Rows:
+        """What stands before a line of the file."""
+        rows = _taken(self, np.flatnonzero(self.line < line))
+        bad, nul = tuple(b for b in self.bad if b.line < line), tuple(n for n in self.nul if n[0] < line)
+        return replace(rows, bad=bad, nul=nul, short=rows.short[rows.short < line])
+
 
 def parse(data: bytes, line: int, grid: Grid) -> Rows:
     """All rows of whole lines in UTF-8. line: the number of the first, 0-based in the file. Empty lines are none."""
-    if not data.strip():
+    if not data or data.isspace():
         nuls = ((line, data.count(b"\0")),) if b"\0" in data else ()
         return Rows(np.empty(0, np.int64), *_converted([[] for _ in grid.kinds], grid), nul=nuls)
     if not data.endswith(b"\n"):
@@ -152,7 +160,7 @@ def _typed(data: bytes, line: int, grid: Grid) -> Rows | None:
         if kind is None or kind == TIME:
             continue
         if i >= width:
-            columns[i] = values_of([""] * table.num_rows, kind)
+            columns[i] = _nothing(table.num_rows, kind)
             continue
         values = _arrow_values(table.column(str(i)), kind)
         if values is None:
@@ -163,48 +171,72 @@ def _typed(data: bytes, line: int, grid: Grid) -> Rows | None:
         for i, kind in enumerate(grid.kinds)
         if kind == TIME
     }
-    rows = Rows(np.arange(line, line + table.num_rows, dtype=np.int64), columns, times)
-    return _without_empty_lines(rows, data, line) if _has_empty_lines(data) else rows
+    lines = np.arange(line, line + table.num_rows, dtype=np.int64)
+    rows = Rows(lines, columns, times, short=lines if width < grid.width else lines[:0])
+    # an empty line is a cell without a value in every column
+    if any(i < width and grid.kinds[i] != "str" and not values.empty.any() for i, values in columns.items()):
+        return rows
+    return _without_empty_lines(rows, data, line)
 
 
 def _arrow_values(column: Any, kind: str) -> Values | None:
-    """A parsed column; None where a number needs a second look (too large, or an integer that was rounded)."""
+    """A parsed column; None where a number needs a second look (too large, or an integer that was rounded). Taken from
+    Arrow's buffers, for its own ways import pandas first."""
     if kind == "str":
         return _shared_texts(column)
-    none = np.zeros(len(column), bool)
-    empty = none if not column.null_count else column.is_null().to_numpy()
-    if kind != "float64" and column.null_count:
-        column = column.fill_null(False if kind == "bool" else 0)
-    values: Array = column.to_numpy().astype(kind, copy=False)
-    if kind == "float64" and values.size:
+    dtype = np.dtype(kind)
+    values, empty, at = np.empty(len(column), dtype), np.zeros(len(column), bool), 0
+    for chunk in column.chunks:
+        n, (valid, cells) = len(chunk), chunk.buffers()
+        values[at : at + n] = (
+            _bits(cells, chunk.offset, n)
+            if kind == "bool"
+            else np.frombuffer(cells, dtype, n, chunk.offset * dtype.itemsize)
+        )
+        if chunk.null_count:
+            empty[at : at + n] = ~_bits(valid, chunk.offset, n)
+            values[at : at + n][empty[at : at + n]] = np.nan if dtype.kind == "f" else 0
+        at += n
+    if dtype.kind == "f" and values.size:
         with np.errstate(invalid="ignore"):
             if np.fmax.reduce(np.abs(values)) >= EXACT:
                 return None
-    return Values(values, empty, none)
+    return Values(values, empty, np.zeros(values.size, bool))
+
+
+def _bits(buffer: Any, skip: int, n: int) -> Bool1D:
+    """Bits [skip, skip + n) of a buffer."""
+    bits = np.unpackbits(np.frombuffer(buffer, np.uint8), bitorder="little", count=skip + n)
+    return bits[skip:].astype(bool)
 
 
 def _shared_texts(column: Any) -> Values:
     none = np.zeros(len(column), bool)
     parts = []
     for chunk in column.chunks:
-        words = np.array(
-            [*((w.strip().strip('"').strip() or None) for w in chunk.dictionary.to_pylist()), None], object
-        )
-        parts.append(words[chunk.indices.fill_null(len(words) - 1).to_numpy(zero_copy_only=False)])
+        words = np.array([*((clean(w) or None) for w in chunk.dictionary.to_pylist()), None], object)
+        places = np.frombuffer(chunk.indices.buffers()[1], np.int32, len(chunk), chunk.indices.offset * 4)
+        if chunk.null_count:
+            places = np.where(_bits(chunk.indices.buffers()[0], chunk.indices.offset, len(chunk)), places, -1)
+        parts.append(words[places])
     return Values(np.concatenate(parts) if parts else np.empty(0, object), none, none)
+
+
+def _nothing(n: int, kind: str) -> Values:
+    """A column that no row has."""
+    dtype, none = np.dtype(object if kind == "str" else kind), np.zeros(n, bool)
+    nothing = None if kind == "str" else np.nan if dtype.kind == "f" else 0
+    return Values(np.full(n, nothing, dtype), none if kind == "str" else np.ones(n, bool), none)
 
 
 def _without_empty_lines(rows: Rows, data: bytes, line: int) -> Rows:
     """Without the rows that Arrow makes of lines that hold nothing at all. line: the number of the first."""
-    ends = np.flatnonzero(np.frombuffer(data, np.uint8) == 10)
+    letters = np.frombuffer(data, np.uint8)
+    ends = np.flatnonzero(letters == 10)
     starts = np.concatenate(([0], ends[:-1] + 1))
     size = ends - starts
-    blank = (size == 0) | ((size == 1) & (np.frombuffer(data, np.uint8)[starts] == 13))
-    return _taken(rows, np.flatnonzero(~blank[rows.line - line]))
-
-
-def _has_empty_lines(data: bytes) -> bool:
-    return b"\n\n" in data or b"\n\r\n" in data or data[:1] in b"\r\n"
+    blank = (size == 0) | ((size == 1) & (letters[starts] == 13))
+    return _taken(rows, np.flatnonzero(~blank[rows.line - line])) if blank.any() else rows
 
 
 def _as_text(data: bytes, line: int, grid: Grid) -> Rows | None:
@@ -225,23 +257,25 @@ def _as_text(data: bytes, line: int, grid: Grid) -> Rows | None:
     side, bad = _Cells(grid), list[BadLine]()
     numbers = np.array([row.number - 1 for row in invalid], np.int64)
     for row in invalid:
-        cells = side.fitting(fields(row.text.rstrip("\r"), grid.delimiter, grid.quoted))
-        if cells is None:
-            if row.text.strip():
-                size = len(row.text.encode())
-                bad.append(BadLine(line + row.number - 1, row.actual_columns, row.text[:_SHOWN].rstrip("\r"), size))
-        else:
-            side.add(line + row.number - 1, cells)
+        cells = fields(row.text.rstrip("\r"), grid.delimiter, grid.quoted)
+        if not side.add(line + row.number - 1, cells) and row.text.strip():
+            size = len(row.text.encode())
+            bad.append(BadLine(line + row.number - 1, row.actual_columns, row.text[:_SHOWN].rstrip("\r"), size))
     lines = np.delete(np.arange(line, line + table.num_rows + len(invalid), dtype=np.int64), numbers)
     cells_of: list[Any] = [None] * grid.width
     for i in wanted:
         column = table.column(str(i)).combine_chunks() if i < width else pa.nulls(table.num_rows, pa.string())
         cells_of[i] = pa.concat_arrays([*_arrays(column), pa.array(side.columns[i], pa.string())])
-    rows = Rows(np.concatenate([lines, np.array(side.lines, np.int64)]), *_converted(cells_of, grid), tuple(bad))
+    columns, times = _converted(cells_of, grid)
+    lines = np.concatenate([lines, np.array(side.lines, np.int64)])
+    short = np.array(side.short, np.int64)
+    if width < grid.width:
+        short = np.union1d(short, lines[: table.num_rows])
+    rows = Rows(lines, columns, times, tuple(bad), short=short)
     order = np.argsort(rows.line, kind="stable")
     taken = _taken(rows, order) if side.lines else rows
     if grid.blank_rows:
-        return _without_empty_lines(taken, data, line) if _has_empty_lines(data) else taken
+        return _without_empty_lines(taken, data, line)
     return _without_empty_rows(taken, cells_of, order)
 
 
@@ -304,7 +338,8 @@ def _taken(rows: Rows, which: Int1D) -> Rows:
         for i, v in rows.columns.items()
     }
     index = pa.array(which)
-    return Rows(rows.line[which], columns, {i: t.take(index) for i, t in rows.times.items()}, rows.bad, rows.nul)
+    times = {i: t.take(index) for i, t in rows.times.items()}
+    return replace(rows, line=rows.line[which], columns=columns, times=times)
 
 
 # ---- line by line --------------------------------------------------------------------------------
@@ -316,25 +351,27 @@ class _Cells:
 
     grid: Grid
     lines: list[int] = field(default_factory=list)
+    short: list[int] = field(default_factory=list)
     columns: list[list[str]] = field(init=False)
 
     def __post_init__(self) -> None:
         self.columns = [[] for _ in self.grid.kinds]
 
-    def fitting(self, cells: list[str]) -> list[str] | None:
-        """The cells of a row, as many as it should have; None where a line is none: empty cells behind its last column
-        are nothing, and those that a row may lack are empty."""
+    def add(self, line: int, cells: Sequence[str]) -> bool:
+        """Takes a row; False where a line is none: empty cells behind its last column are nothing, and those that a row
+        may lack are empty."""
         width = self.grid.width
         if len(cells) > width and not any(c.strip() for c in cells[width:]):
             cells = cells[:width]
-        if len(cells) < width and self.grid.least is not None and len(cells) >= self.grid.least:
-            cells = cells + [""] * (width - len(cells))
-        return cells if len(cells) == width else None
-
-    def add(self, line: int, cells: Sequence[str]) -> None:
+        if self.grid.least is not None and self.grid.least <= len(cells) < width:
+            self.short.append(line)
+            cells = [*cells, *[""] * (width - len(cells))]
+        if len(cells) != width:
+            return False
         self.lines.append(line)
         for column, cell in zip(self.columns, cells, strict=True):
             column.append(cell)
+        return True
 
 
 def _line_by_line(data: bytes, line: int, grid: Grid) -> Rows:
@@ -345,23 +382,21 @@ def _line_by_line(data: bytes, line: int, grid: Grid) -> Rows:
             nul.append((number, text.count("\0")))
         record = _cells(bare, grid)
         blank = not any(cell.strip() for cell in record)
-        cells = None if blank and not (grid.blank_rows and len(record) > 1) else rows.fitting(record)
-        if cells is None and blank:
+        if blank and not (grid.blank_rows and len(record) > 1):
             continue
-        if cells is None:
+        if not rows.add(number, record) and not blank:
             size = len(text.encode("utf-8", "replace"))
             bad.append(BadLine(number, bare.count(grid.delimiter) + 1, bare[:_SHOWN], size))
-        else:
-            rows.add(number, cells)
-    found = Rows(np.array(rows.lines, np.int64), *_converted(rows.columns, grid))
-    return Rows(found.line, found.columns, found.times, tuple(bad), tuple(nul))
+    columns, times = _converted(rows.columns, grid)
+    lines, short = np.array(rows.lines, np.int64), np.array(rows.short, np.int64)
+    return Rows(lines, columns, times, tuple(bad), tuple(nul), short)
 
 
 def _cells(record: str, grid: Grid) -> list[str]:
     if "\n" not in record:
         return fields(record, grid.delimiter, grid.quoted)
     try:
-        return next(csv.reader(record.split("\n"), delimiter=grid.delimiter), [""])
+        return next(csv.reader((f"{line}\n" for line in record.split("\n")), delimiter=grid.delimiter), [""])
     except csv.Error:
         return record.split(grid.delimiter)
 

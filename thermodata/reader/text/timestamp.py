@@ -128,11 +128,17 @@ def declared_format(text: str) -> TimeFormat:
     return TimeFormat("datetime" if day and clock else "date" if day else "time", pattern, text)
 
 
-def is_dated(cell: str) -> bool:
-    """Whether a text is a date, with or without a time of day."""
-    return any(
-        form.pattern is not None and form.pattern.fullmatch(cell) for form in (*DATE.values(), *DATETIME.values())
-    )
+_CLOCK_TEXT = re.sub(r"\?P<\w+>", "?:", _TIME + _ZONE + "?")
+_DATE_TEXT = (
+    r"(?:\d{4}([-/.]) ?\d{1,2}\1 ?\d{1,2}|\d{1,2}([-/.]) ?\d{1,2}\2 ?(?:\d{4}|\d{2})|"
+    r"\d{4}[年년] ?\d{1,2}[月월] ?\d{1,2}[日일])"
+)
+_ANY_DATE = _compile(rf"{_DATE_TEXT}(?:{_BETWEEN}{_CLOCK_TEXT})?")
+
+
+def is_date_text(cell: str) -> bool:
+    """Whether a text is a date, with or without a time of day, in any order of day and month."""
+    return _ANY_DATE.fullmatch(cell) is not None
 
 
 def is_time_of_day(cell: str) -> bool:
@@ -200,7 +206,7 @@ def _iso(column: Any, form: TimeFormat) -> Int1D | None:
     except pa.ArrowException:
         return None
     ns: Int1D = np.frombuffer(cast.buffers()[1], np.int64, len(cast), cast.offset * 8)
-    return ns if _FIRST_NS <= int(ns.min()) and int(ns.max()) < _LAST_NS else None
+    return ns if int(ns.min()) >= _FIRST_NS and int(ns.max()) < _LAST_NS else None
 
 
 def _by_strptime(cells: list[str | None], form: TimeFormat) -> Int1D:

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from pathlib import Path
 from types import ModuleType
 
-from thermodata.errors import FormatError, ThermodataError
+from thermodata.errors import FormatError
 from thermodata.plugin import Block, Head, Loss, Recording, Source
 
 
@@ -14,6 +14,7 @@ class Reader:
     """One row a time, one column a signal; the layout is `sources.*.table` of the campaign file."""
 
     name = "table"
+    gives_way = True  # a table at first sight may have a reader of its own
 
     def sniff(self, head: Head) -> str | None:
         if head.start[:4] == b"PAR1":
@@ -27,7 +28,9 @@ class Reader:
             return "MAT 7.3: HDF5 behind a header of MATLAB's"
         if head.start[126:128] in (b"IM", b"MI") and head.start[124:126] in (b"\x00\x01", b"\x01\x00"):
             return "MAT 5: version and byte order of MATLAB's header"
-        return _sniff_text(head)
+        from thermodata_reader_table import delimited
+
+        return delimited.claims(head)
 
     def describe(self, path: Path, source: Source) -> Recording:
         recording: Recording = _format(path).describe(path, source)
@@ -48,48 +51,6 @@ def mat_is_hdf5(start: bytes) -> bool:
     from thermodata_reader_table.mat import is_hdf5
 
     return is_hdf5(start)
-
-
-# Text files that are tables at first sight, and have readers of their own
-_OTHERS = ("LabVIEW Measurement", "/Nck/", "%[GLOBAL]", "ScopeName", "SampleTime", "<?xml", "* ", "TagName")
-
-
-def _sniff_text(head: Head) -> str | None:
-    from thermodata.reader.text import decode_head
-    from thermodata_reader_table.delimited import head_rows
-    from thermodata_reader_table.layout import find
-
-    text = decode_head(head.start)
-    if not text or any(word in text[:2000] for word in _OTHERS):
-        return None
-    found = head_rows(text.lstrip("\ufeff"), None)
-    if found is None or found[0] == "|":
-        return None
-    delimiter, rows = found
-    try:
-        layout = find(rows, None, head.name)
-    except ThermodataError:
-        return None
-    if _is_long(layout.names):
-        return None  # a row a value: OPC UA logs, which have a reader of their own
-    if layout.first == 0:
-        return None  # without a header, nothing says what the columns are
-    if layout.groups[0].seconds is None and delimiter in (";", "\t"):
-        # local dates between ';' or tabs are how controls export; the cnc reader claims them. Named in the campaign
-        # file, this reader takes such a table just as well.
-        return None
-    shown = {"\t": "tab"}.get(delimiter, f"'{delimiter}'")
-    return f"table: cells separated by {shown}, time in column '{layout.names[layout.time[0]]}'"
-
-
-_TAGS = {"_name", "node id", "nodeid", "tag", "tagname", "tag name", "item", "itemid", "display name", "displayname"}
-_VALUES = {"_value", "value", "tagval", "tag value", "val"}
-
-
-def _is_long(names: Sequence[str]) -> bool:
-    """Whether each row names the one signal that it holds a value of."""
-    low = {n.strip().lower() for n in names}
-    return bool(low & _TAGS) and bool(low & _VALUES)
 
 
 def _format(path: Path) -> ModuleType:

@@ -13,10 +13,10 @@ import numpy as np
 from thermodata.errors import FormatError
 from thermodata.plugin import Array, Block, Int1D, Loss, Recording, Signal, Source
 from thermodata.reader.text import split_unit
+from thermodata.reader.text.layout import unique
+from thermodata.reader.text.time_groups import one_time
 from thermodata.reader.zone import NAT
 from thermodata_reader_table import clocks, stamps
-from thermodata_reader_table.groups import one_time
-from thermodata_reader_table.layout import unique
 from thermodata_reader_table.mat_layout import Axis, Column, Planner, Stream
 from thermodata_reader_table.mat_tree import Tree
 

@@ -12,8 +12,8 @@ import numpy as np
 from thermodata.errors import FormatError, UsageError, nearest
 from thermodata.plugin import Array, Loss
 from thermodata.reader.text import split_unit
+from thermodata.reader.text.time_groups import one_time
 from thermodata_reader_table import mat_names as say
-from thermodata_reader_table.groups import one_time
 from thermodata_reader_table.mat_tree import Cells, Node, Numbers, Odd, Struct, Structs, Text, Tree, refusal
 
 _LOOK = 2000  # values by which a time is judged

@@ -6,7 +6,7 @@ import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from thermodata_reader_table.clocks import EPOCHS, SECONDS
+from thermodata.reader.time_units import EPOCHS, SECONDS
 from thermodata_reader_table.mat_tree import Cells, Node, Numbers, Struct, Text
 
 _TIME = {

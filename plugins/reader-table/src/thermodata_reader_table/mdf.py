@@ -14,10 +14,10 @@ import numpy as np
 
 from thermodata.errors import FormatError, ThermodataError, UsageError
 from thermodata.plugin import Array, Block, Loss, Recording, Scaling, Signal, Source
+from thermodata.reader.text.layout import unique
 from thermodata.reader.zone import NAT, local_to_utc_ns
 from thermodata.schema.flag import Flag
 from thermodata_reader_table import clocks
-from thermodata_reader_table.layout import unique
 from thermodata_reader_table.mdf3_check import check3
 from thermodata_reader_table.mdf_check import check
 

@@ -13,14 +13,14 @@ import numpy as np
 from thermodata.errors import FormatError
 from thermodata.plugin import Array, Block, Int1D, Loss, Recording, Signal, Source
 from thermodata.reader.text import split_unit
+from thermodata.reader.text.layout import unique
+from thermodata.reader.text.time_columns import column as find_column
+from thermodata.reader.text.time_columns import find_time
+from thermodata.reader.text.time_formats import times_of_numbers
+from thermodata.reader.text.time_groups import one_time
+from thermodata.reader.time_units import check_unit, found_epoch
 from thermodata.reader.zone import NAT
 from thermodata_reader_table import stamps
-from thermodata_reader_table.clocks import check_unit, found_epoch
-from thermodata_reader_table.clocks import times as clocks_times
-from thermodata_reader_table.groups import one_time
-from thermodata_reader_table.layout import unique
-from thermodata_reader_table.time_columns import column as find_column
-from thermodata_reader_table.time_columns import find_time
 
 STREAM = "table"
 _ROWS = 250_000
@@ -148,7 +148,7 @@ class Table:
             return stamps.Stamps(_ns(column.cast(pa.duration("ns"))), False, ())
         if self.unit is not None:
             values = column.to_numpy() if pt.is_integer(kind) and not column.null_count else _numbers(column)
-            return clocks_times(values, self.unit, self.source.timezone)
+            return times_of_numbers(values, self.unit, self.source.timezone)
         if not (pt.is_timestamp(kind) or pt.is_date(kind)):
             form = one_time(self.source.table, self.path.name).get("format")
             return stamps.parse([str(v or "") for v in column.to_pylist()], self.source.timezone, form, self.path.name)

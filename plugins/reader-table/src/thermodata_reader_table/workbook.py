@@ -16,12 +16,21 @@ from typing import Any, Literal
 import numpy as np
 
 from thermodata.errors import FormatError, ThermodataError, UsageError
-from thermodata.plugin import Array, Block, Loss, Recording, Signal, Source
-from thermodata.reader.text import decimal_mark
+from thermodata.plugin import Array, Block, Bool1D, Int1D, Loss, Recording, Signal, Source
+from thermodata.reader.text.cell import is_empty
+from thermodata.reader.text.layout import STREAM, Group, Layout, find, one_clock
+from thermodata.reader.text.locate import row_at
+from thermodata.reader.text.number import clean, decimal_mark, values_of
+from thermodata.reader.text.time_formats import (
+    Stamps,
+    times_of_dates,
+    times_of_day,
+    times_of_numbers,
+    times_of_texts,
+)
+from thermodata.reader.time_units import SECONDS
 from thermodata.reader.zone import NAT
-from thermodata_reader_table import clocks, stamps
-from thermodata_reader_table.cells import is_empty
-from thermodata_reader_table.layout import STREAM, Group, Layout, find, one_clock
+from thermodata.schema.flag import Flag
 from thermodata_reader_table.workbook_check import check_size
 
 _BLOCK_VALUES = 1_000_000
@@ -91,23 +100,28 @@ _kept = lru_cache(maxsize=1)(_load)
 
 @dataclass
 class Stream:
-    """Columns with one time, in memory. names: as the recording has them."""
+    """Columns with one time, in memory. names: as the recording has them; at: the sheet's row of each, shape (n,);
+    over: rows of a column whose cells say overload; sheet: where it stands."""
 
     name: str
-    times: stamps.Stamps
+    times: Stamps
     values: dict[str, Array]
     units: dict[str, str | None]
+    at: Int1D
+    over: dict[str, Bool1D]
+    sheet: str
 
 
 class Table:
-    """A sheet, column by column. decimal: of numbers that stand as text. prefix: before names, of several sheets."""
+    """A sheet, column by column. decimal: of numbers that stand as text."""
 
-    def __init__(self, rows: list[list[Any]], layout: Layout, where: str, source: Source) -> None:
-        self.layout, self.where, self.source = layout, where, source
+    def __init__(self, sheet: str, rows: list[list[Any]], layout: Layout, where: str, source: Source) -> None:
+        self.sheet, self.layout, self.where, self.source = sheet, layout, where, source
         self.notes = list(layout.notes)
         self.losses: list[Loss] = []
         self.columns = list(zip(*rows[layout.first :], strict=False))
         said = (source.table or {}).get("decimal")
+        self.decimal_declared = said is not None
         columns = [c for i, c in enumerate(self.columns) if i not in layout.time]
         self.decimal = said or decimal_mark(c for col in columns for c in col[:200] if c and isinstance(c, str)) or "."
 
@@ -128,68 +142,66 @@ class Table:
                     ],
                     bool,
                 )
-            values, units = {}, {}
+            values, units, over = dict[str, Array](), dict[str, str | None](), dict[str, Bool1D]()
             for i in group.columns:
-                found, unit = self._values(self.layout.names[i], self.columns[i])
-                values[before + self.layout.names[i]] = found[keep]
+                column, unit, beyond = self._values(self.layout.names[i], self.columns[i])
+                values[before + self.layout.names[i]] = column[keep]
                 units[before + self.layout.names[i]] = self.layout.units[i] or unit
-            yield Stream(name, stamps.Stamps(times.t_ns[keep], times.absolute, ()), values, units)
+                if beyond.any():
+                    over[before + self.layout.names[i]] = beyond[keep]
+            at = np.flatnonzero(keep).astype(np.int64) + self.layout.first + 1
+            yield Stream(name, Stamps(times.t_ns[keep], times.absolute, ()), values, units, at, over, self.sheet)
 
-    def _times(self, group: Group) -> stamps.Stamps:
+    def _times(self, group: Group) -> Stamps:
         columns = [self.columns[i] for i in group.time]
         if not group.dated:
-            unit = group.epoch or next(u for u, seconds in clocks.SECONDS.items() if seconds == group.seconds)
-            return clocks.times(self._numbers(columns[0])[0], unit, self.source.timezone)
+            unit = group.epoch or next(u for u, seconds in SECONDS.items() if seconds == group.seconds)
+            return times_of_numbers(self._numbers(columns[0])[0], unit, self.source.timezone)
         joined = [_joined(cells) for cells in zip(*columns, strict=True)]
         if any(isinstance(j, str) and j for j in joined):
             texts = [j if isinstance(j, str) else str(j).replace(" 00:00:00", " 0:00:00") for j in joined]
-            return stamps.parse(texts, self.source.timezone, group.form, self.where)
+            return times_of_texts(texts, self.source.timezone, group.form, self.where)
         if any(isinstance(j, dt.timedelta) for j in joined):
             micro = dt.timedelta(microseconds=1)
             t = np.array([(j // micro) * 1000 if isinstance(j, dt.timedelta) else NAT for j in joined], np.int64)
             if any(isinstance(c, dt.time) for c in columns[0]):
-                return stamps.times_of_day(t)
-            return stamps.Stamps(t, False, ("durations: counted as the cells say",))
+                return times_of_day(t)
+            return Stamps(t, False, ("durations: counted as the cells say",))
         naive = np.array([j.isoformat() if isinstance(j, dt.datetime) else "NaT" for j in joined], "datetime64[ns]")
-        return stamps.local_stamps(naive, self.source.timezone)
+        return times_of_dates(naive, self.source.timezone)
 
-    def _numbers(self, cells: tuple[Any, ...]) -> tuple[Array, list[str]]:
-        out, odd = np.full(len(cells), np.nan), []
+    def _numbers(self, cells: tuple[Any, ...]) -> tuple[Array, list[str], Bool1D]:
+        """(values, cells that are no numbers, which say overload): texts by the policy of all texts."""
+        out, odd, over = np.full(len(cells), np.nan), list[str](), np.zeros(len(cells), bool)
+        texts: list[int] = []
         for i, cell in enumerate(cells):
             if isinstance(cell, int | float):
                 out[i] = cell
-            elif isinstance(cell, str) and cell.strip():
-                try:
-                    out[i] = float(cell.strip().replace(",", ".") if self.decimal == "," else cell)
-                except ValueError:
-                    odd.append(cell)
-            elif cell not in ("", None):
+            elif isinstance(cell, str):
+                texts.append(i)
+            elif cell is not None:
                 odd.append(str(cell))
-        return out, odd
+        if texts:
+            found = values_of([cells[i] for i in texts], "float64", self.decimal, self.decimal_declared)
+            out[texts], over[texts] = found.values, found.over
+            odd += [cell for _, cell in found.odd]
+        return out, odd, over
 
-    def _values(self, name: str, cells: tuple[Any, ...]) -> tuple[Array, str | None]:
-        """(values, unit that the cells themselves tell: seconds of durations)."""
+    def _values(self, name: str, cells: tuple[Any, ...]) -> tuple[Array, str | None, Bool1D]:
+        """(values, unit that the cells themselves tell: seconds of durations, which say overload)."""
         filled = [c for c in cells if c not in ("", None)]
+        unit = None
         if filled and sum(isinstance(c, dt.timedelta | dt.time) for c in filled) * 2 > len(filled):
             self.notes.append(f"column '{name}' holds durations or times of day: they are read as seconds")
-            cells = tuple(_seconds(c) for c in cells)
-            unit: str | None = "s"
-        else:
-            unit = None
-        numbers, odd = self._numbers(cells)
+            cells, unit = tuple(_seconds(c) for c in cells), "s"
+        numbers, odd, over = self._numbers(cells)
         if odd and len(odd) * 2 > len(filled):
-            return np.array(["" if c is None else str(c) for c in cells], object), None
+            texts = np.array([None if c is None else clean(str(c)) or None for c in cells], object)
+            return texts, None, np.zeros(len(cells), bool)
         if odd:
-            self.losses.append(
-                Loss(
-                    f"{self.where} column '{name}'",
-                    None,
-                    None,
-                    len(odd) / len(cells),
-                    f"{len(odd)} cells are no numbers, such as '{odd[0]}'",
-                )
-            )
-        return numbers, unit
+            reason = f"{len(odd)} cells are no numbers, such as '{odd[0]}'"
+            self.losses.append(Loss(f"{self.where} column '{name}'", None, None, len(odd) / len(cells), reason))
+        return numbers, unit, over
 
 
 def _seconds(cell: Any) -> Any:
@@ -250,7 +262,9 @@ def read(path: Path, source: Source) -> Read:
     streams: list[Stream] = []
     groups: list[Group] = []
     for sheet, layout in tables.items():
-        table = Table(book.sheets[sheet], layout, f"{path.name} sheet '{sheet}'" if several else path.name, source)
+        table = Table(
+            sheet, book.sheets[sheet], layout, f"{path.name} sheet '{sheet}'" if several else path.name, source
+        )
         streams += list(table.streams(sheet if several else None))
         notes += [f"sheet '{sheet}': {note}" for note in table.notes] if several else table.notes
         losses += table.losses
@@ -287,14 +301,19 @@ def blocks(path: Path, source: Source) -> Iterator[Block | Loss]:
         good = t_ns != NAT
         size = max(1, int(source.options.get("block_rows", _BLOCK_VALUES // max(1, len(stream.values)))))
         for first in range(0, t_ns.size, size):
-            part = good[first : first + size]
-            yield Block(
-                stream.name,
-                t_ns[first : first + size][part],
-                {name: v[first : first + size][part] for name, v in stream.values.items()},
-            )
+            rows = np.arange(first, min(first + size, t_ns.size))[good[first : first + size]]
+            flags = {name: over[rows] * np.uint16(Flag.SATURATED) for name, over in stream.over.items()}
+            values = {name: v[rows] for name, v in stream.values.items()}
+            yield Block(stream.name, t_ns[rows], values, flags or None, stream.at[rows])
         if not good.all():
             bad = int((~good).sum())
             where = path.name if len(found.streams) == 1 else f"{path.name} {stream.name}"
             yield Loss(where, None, None, bad / t_ns.size, f"{bad} rows without a time")
     yield from found.losses
+
+
+def locate(path: Path, source: Source, stream: str, row: int) -> str | None:
+    """`sheet 'data', row 813` of a row (counted from 0) of a stream; None where there is no such row."""
+    sheet = next((s.sheet for s in read(path, source).streams if s.name == stream), None)
+    found = row_at(blocks(path, source), stream, row)
+    return None if sheet is None or found is None else f"sheet '{sheet}', row {found[0]}"

@@ -9,9 +9,13 @@ from typing import Any
 import numpy as np
 
 from thermodata.errors import FormatError, UsageError, nearest
-from thermodata.reader.text import split_unit
-from thermodata_reader_table.cells import TIME_WORD, Cell, is_clocked, is_dated, is_number, number_of
-from thermodata_reader_table.clocks import SECONDS, check_unit, found_epoch
+from thermodata.reader.text.cell import TIME_WORD, Cell, is_clocked, is_dated, is_number, is_stamp, number_of
+from thermodata.reader.text.header import split_unit
+from thermodata.reader.text.time_formats import MILLISECONDS
+from thermodata.reader.time_units import SECONDS, check_unit, found_epoch
+
+
+_FRACTION = re.compile(r":\d\d:\d\d[.,:]\d+\s*([AaPp]\.?[Mm]\.?)?$")
 
 
 def column(wanted: int | str, names: Sequence[str], where: str) -> int:
@@ -117,6 +121,9 @@ def find_time(
         return (numbers[0],)
     if (units[0] or "").strip().lower() in SECONDS and share(0, is_number) > 0.6:
         return (0,)
+    damaged = [i for i in range(width) if share(i, is_dated) > 0.3]
+    if damaged:
+        return (damaged[0],)
     raise FormatError(
         "no time column found",
         where=where,
@@ -126,13 +133,11 @@ def find_time(
     )
 
 
-MILLISECONDS = re.compile(r"(?i)^(ms|msec|millisec(ond)?s?|millisekunden?|毫秒)$")
-
-
 def _milliseconds(column: int, names: list[str], times: Sequence[Cell], data: list[list[Cell]]) -> tuple[int, ...]:
     """The column of text behind a date and time of whole seconds that holds their milliseconds, where there is one."""
     if column >= len(names) or not MILLISECONDS.match(names[column]):
         return ()
-    cells = [r[column] for r in data]
-    whole = all(isinstance(t, str) and re.search(r":\d\d$", t.strip()) for t in times)
-    return (column,) if whole and all(isinstance(c, str) and re.match(r"^\d{1,3}$", c.strip()) for c in cells) else ()
+    pairs = [(t, r[column]) for t, r in zip(times, data, strict=True) if is_stamp(t)]  # a repeated header is none
+    whole = all(isinstance(t, str) and not _FRACTION.search(t.strip()) for t, _ in pairs)
+    good = all(isinstance(c, str) and re.match(r"^\d{1,3}$", c.strip()) for _, c in pairs)
+    return (column,) if pairs and whole and good else ()

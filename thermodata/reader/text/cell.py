@@ -1,21 +1,22 @@
-"""What a cell of a table is: a number, a date, a time of day, nothing. Texts and a workbook's values alike."""
+"""What a cell of a table looks like: a number, a date, a time of day, nothing. Texts and a workbook's values alike."""
 
 from __future__ import annotations
 
 import re
 from typing import Any
 
-from thermodata_reader_table.stamps import is_date, is_time_of_day
+from thermodata.reader.text.number import EMPTY, OVERLOAD
+from thermodata.reader.text.timestamp import is_date_text, is_time_of_day
 
 Cell = Any  # text, or what a workbook holds: numbers, bool, datetime, date, time, timedelta
 # "t" is a time, "T" a temperature
 TIME_WORD = re.compile(
-    r"^(t|(?i:time|zeit|čas|cas|temps|tiempo|tempo|datum|date|dátum|uhrzeit|timestamp|date[ _/]?time|datetime|"
-    r"zeitstempel|elapsed([ _]?time)?|時間|时间|日時|日期|時刻|rel(ative)?[ _.]?time|t_s|time_s))\.?:?$"
+    r"^(t|(?i:time|zeit|čas|cas|temps|tiempo|tempo|datum|date|dátum|uhrzeit|timestamp|date[ _/]?time|datetime|laufzeit|"
+    r"zeitstempel|elapsed([ _]?time)?|時間|时间|日時|日期|時刻|시간|rel(ative)?[ _.]?time|t_s|time_s))\.?:?$"
 )
-WORDS = {"nan", "inf", "-inf", "true", "false", "---", "-", "n/a", "#n/a", "null", ""}
+WORDS = EMPTY | OVERLOAD | {"true", "false", "wahr", "falsch", "inf", "-inf"}  # which make no row of words
 # loggers that pad their numbers write the sign first: "+   23.5"
-_NUMBER = re.compile(r"^[+-]? *(\d+([.,]\d*)?|[.,]\d+)([eE][+-]?\d+)?$")
+_NUMBER = re.compile(r"^[+-]? *(\d+([.,]\d*)?|[.,]\d+)([eE][+-]?\d+)?$", re.ASCII)
 
 
 def is_number(cell: Cell) -> bool:
@@ -32,7 +33,7 @@ def number_of(cell: Cell) -> float | None:
 
 
 def is_dated(cell: Cell) -> bool:
-    return is_date(cell) if isinstance(cell, str) else hasattr(cell, "year")
+    return is_date_text(cell) if isinstance(cell, str) else hasattr(cell, "year")
 
 
 def is_clocked(cell: Cell) -> bool:
@@ -47,4 +48,4 @@ def is_stamp(cell: Cell) -> bool:
 
 
 def is_empty(cell: Cell) -> bool:
-    return cell is None or (isinstance(cell, str) and cell.strip().lower() in WORDS)
+    return cell is None or (isinstance(cell, str) and cell.strip().casefold() in WORDS)

@@ -15,9 +15,9 @@ from typing import Any
 import numpy as np
 
 from thermodata.errors import FormatError, UsageError
-from thermodata.reader.text import split_unit
-from thermodata_reader_table.cells import TIME_WORD, Cell, is_empty, is_number, is_stamp, number_of
-from thermodata_reader_table.clocks import EPOCHS, SECONDS
+from thermodata.reader.text.cell import TIME_WORD, Cell, is_empty, is_number, is_stamp, number_of
+from thermodata.reader.text.header import split_unit
+from thermodata.reader.time_units import EPOCHS, SECONDS
 
 _NUMBERED = re.compile(r"^(?P<word>.*?)[ _.#-]*(?P<number>\d{1,3})$")
 _HINT = (

@@ -8,13 +8,14 @@ from dataclasses import dataclass, replace
 from typing import Any, Literal
 
 from thermodata.errors import FormatError, UsageError
-from thermodata.reader.text import clean, looks_like_unit, split_unit
+from thermodata.reader.text.cell import WORDS, Cell, is_dated, is_empty, is_number, is_stamp
+from thermodata.reader.text.header import looks_like_unit, split_unit
+from thermodata.reader.text.number import clean
+from thermodata.reader.text.time_columns import column, time_of
+from thermodata.reader.text.time_formats import Stamps
+from thermodata.reader.text.time_groups import Span, spans
+from thermodata.reader.time_units import EPOCHS, SECONDS
 from thermodata.reader.zone import NAT
-from thermodata_reader_table.cells import WORDS, Cell, is_empty, is_number, is_stamp
-from thermodata_reader_table.clocks import EPOCHS, SECONDS
-from thermodata_reader_table.groups import Span, spans
-from thermodata_reader_table.stamps import Stamps
-from thermodata_reader_table.time_columns import column, time_of
 
 STREAM = "table"
 
@@ -80,7 +81,13 @@ def find(rows: Sequence[Sequence[Cell]], declared: Mapping[str, Any] | None, whe
     width = _width(body)
     body = [r[:width] for r in body]
     header = said.get("header_rows")
-    first = skip + int(header) if header is not None else _first_data(body, width, where) + skip
+    if header is None:
+        first = _first_data(body, width, where)
+        while first and _is_torn(body[first - 1], width):
+            first -= 1
+        first += skip
+    else:
+        first = skip + int(header)
     units_row = said.get("units_row")
     if units_row is not None and header is not None and int(units_row) > first:
         first = int(units_row)
@@ -97,6 +104,17 @@ def find(rows: Sequence[Sequence[Cell]], declared: Mapping[str, Any] | None, whe
     lost = _between(rows[skip:first], width, skip) if header is None else []
     groups, notes = _groups(said.get("time") or {}, names, units, data, where)
     return Layout(first, tuple(names), tuple(units), tuple(groups), (*notes, *lost))
+
+
+def _is_torn(row: Sequence[Cell], width: int) -> bool:
+    """Whether a row above the first good one is data all the same: with a date and something beside it, or of numbers
+    only but for its destroyed time. Its loss is told; taken for a header, it would be gone without a word."""
+    filled = [c for c in row if c not in ("", None)]
+    if len(filled) < 2:
+        return False
+    if any(is_dated(c) for c in filled[:2]):
+        return True
+    return len(row) == width and len(filled) > 2 and _are_numbers(filled) and any("." in str(c) for c in filled)
 
 
 def _groups(
@@ -257,9 +275,14 @@ def _between(rows: Sequence[Sequence[Cell]], width: int, skip: int) -> list[str]
     return [f"line {odd[0]} between header and data is not read ({len(odd)} such)"] if odd else []
 
 
+def _second_half(body: Sequence[Sequence[Cell]]) -> list[Sequence[Cell]]:
+    full = [r for r in body if any(c not in ("", None) for c in r)]
+    return full[len(full) // 2 :]
+
+
 def _width(body: Sequence[Sequence[Cell]]) -> int:
     """Cells of most rows of the second half, where preamble is rare; the larger of two that are as frequent."""
-    lengths = [len(r) for r in body[len(body) // 2 :] if any(c not in ("", None) for c in r)]
+    lengths = [len(r) for r in _second_half(body)]
     return max(set(lengths), key=lambda n: (lengths.count(n), n), default=0)
 
 
@@ -285,7 +308,7 @@ def _first_data(body: Sequence[Sequence[Cell]], width: int, where: str) -> int:
 
 def _stamped(body: Sequence[Sequence[Cell]], width: int) -> set[int]:
     """Columns that hold dates or times in nearly all rows of the second half, where preamble is rare."""
-    late = [r for r in body[len(body) // 2 :] if len(r) >= width - 1]
+    late = [r for r in _second_half(body) if len(r) >= width - 1]
     return {
         k for k in range(width) if len(late) >= 5 and sum(k < len(r) and is_stamp(r[k]) for r in late) > 0.9 * len(late)
     }

@@ -1,0 +1,69 @@
+"""What the value columns of a table hold, told from sampled cells: numbers, truth values, big integers, text."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Sequence
+
+from thermodata.errors import FormatError
+from thermodata.reader.text.number import (
+    EMPTY,
+    EXACT,
+    OVERLOAD,
+    clean,
+    decimal_mark,
+    is_number,
+    to_bool,
+)
+
+_TEXT_NAME = re.compile(r"(?i)comment|note|alarm|message|text|label|remark|bemerk|kommentar|meldung|pozn|hinweis")
+_INTEGER = re.compile(r"[+-]?\d{1,19}", re.ASCII)
+_FRACTIONS = 200  # cells of a column that are asked for their decimal mark
+_COMMA = re.compile(r"[+-]?\d+,\d+", re.ASCII)
+_GROUPED = re.compile(r"[+-]?[1-9]\d{0,2}(,\d{3})+", re.ASCII)
+
+
+def dtype_of(cells: Sequence[str], name: str = "", unit: str | None = None) -> str:
+    """The dtype of a column by sampled cells: float64 where at least half of those that hold anything are numbers, but
+    int64 where a float64 would change one, bool where all are TRUE or FALSE, else str. A few words in a column that is
+    called a comment, an alarm or the like make it text; such a column without any cell is text too.
+
+    It does not depend on how long the file is: integers are float64 like other numbers.
+    """
+    full = [c for c in map(clean, cells) if c.casefold() not in EMPTY and c.casefold() not in OVERLOAD]
+    if not full:
+        return "str" if unit is None and _TEXT_NAME.search(name) else "float64"
+    if all(to_bool(c) is not None for c in full):
+        return "bool"
+    numbers = sum(is_number(c) or to_bool(c) is not None for c in full)
+    words = len(full) - numbers
+    if 2 * words >= len(full) or (words > max(1, 0.02 * len(full)) and _TEXT_NAME.search(name)):
+        return "str"
+    if not words and all(_INTEGER.fullmatch(c) for c in full):
+        most = max(abs(int(c)) for c in full)
+        return "int64" if EXACT < most < 2**63 else "float64"
+    return "float64"
+
+
+def find_decimal(columns: Iterable[Sequence[str]], delimiter: str, where: str) -> str | None:
+    """The decimal mark of the number cells of some columns; None where none has a fraction.
+
+    FormatError: both marks occur; or commas stand in quotes between commas, and may be thousands or a fraction.
+    """
+    cells = [c for column in columns for c in [c for c in column if "," in c or "." in c][:_FRACTIONS]]
+    if delimiter != ",":
+        return decimal_mark(cells)
+    commas = [c for c in map(clean, cells) if _COMMA.fullmatch(c)]
+    if not commas:
+        return "."
+    if any(re.fullmatch(r"[+-]?\d*\.\d+", clean(c)) for c in cells):
+        return "."
+    if all(_GROUPED.fullmatch(c) for c in commas):
+        raise FormatError(
+            "commas that may part thousands or begin a fraction",
+            where=where,
+            expected="a decimal mark that is declared",
+            got=f'"{commas[0]}" between commas',
+            hint="declare table: {decimal: '.'} where they are thousands, or ','",
+        )
+    return ","

@@ -1,0 +1,110 @@
+"""A table in delimited text, described and read: the one way for every reader of such text.
+
+A control's export, a logger's CSV, a spreadsheet saved as text: `table` looks at it, `table_rows` reads its rows.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+
+from thermodata.errors import FormatError
+from thermodata.plugin import Block, Loss, Recording, Signal, Source
+from thermodata.reader.text.lines import Chunk, chunks
+from thermodata.reader.text.local_clock import DayCount
+from thermodata.reader.text.table import Table, open_table
+from thermodata.reader.text.table_rows import RowReader
+from thermodata.reader.zone import local_to_utc_ns, utc_offset_ns
+
+__all__ = ["Table", "blocks", "describe", "open_table", "signals"]
+
+_FIRST_ROWS = 500
+_CUT = "the last line has no end and may be cut"
+
+
+def signals(table: Table) -> tuple[Signal, ...]:
+    """The signals of a table, in the order of its columns."""
+    names, units = table.layout.names, table.layout.units
+    return tuple(
+        Signal(names[i], timed.stream, units[i], kind)
+        for timed in table.groups
+        for i in timed.group.columns
+        if (kind := table.kinds[i]) is not None
+    )
+
+
+def describe(table: Table, source: Source) -> Recording:
+    """Signals, clock and start; FormatError where some of its times are dates and others count from their start."""
+    absolute = {timed.absolute for timed in table.groups}
+    if len(absolute) > 1:
+        raise FormatError(
+            "some times are dates and others count from their start",
+            where=table.name,
+            got=", ".join(f"{g.stream}: {'dates' if g.absolute else 'relative'}" for g in table.groups),
+            expected="one kind in a source",
+            hint="declare one time: table: {time: {column: ...}}, and a second source for the others",
+        )
+    notes = list(table.notes)
+    start = None
+    if table.absolute:
+        reader = RowReader(table, source, 1)
+        first = table.layout.first
+        data = "\n".join((*table.sample.head[first : first + _FIRST_ROWS], "")).encode()
+        starts = [int(b.t_ns[0]) for b in reader.read(Chunk(data, first, 0, False)) if isinstance(b, Block)]
+        start = min(starts, default=0)
+        notes += _zone_notes(table, source, start)
+    if any(timed.of_day for timed in table.groups):
+        notes.append(DayCount.NOTE)
+    if table.cut:
+        notes.append(_CUT)
+    return Recording(
+        signals(table),
+        "absolute" if table.absolute else "relative",
+        start,
+        False if table.cut else None,
+        tuple(dict.fromkeys(notes)),
+    )
+
+
+def _zone_notes(table: Table, source: Source, start: int) -> list[str]:
+    """What the zone of local times had to decide, and whether daylight saving changes from the first row to the last."""
+    timed = table.groups[0]
+    if timed.zoned or (timed.group.epoch is not None):
+        return []
+    if source.timezone is None:
+        return local_to_utc_ns(np.array([start], np.int64).view("datetime64[ns]"), None)[1]
+    last = (table.sample.rest or table.sample.head)[-50:]
+    reader = RowReader(table, Source(table=source.table), 1)
+    data = "\n".join((*last, "")).encode()
+    ends = [int(b.t_ns[-1]) for b in reader.read(Chunk(data, 0, 0, False)) if isinstance(b, Block)]
+    offsets = {utc_offset_ns(source.timezone, ns // 10**9) for ns in (start, max([start, *ends]))}
+    if len(offsets) < 2:
+        return []
+    return [
+        f"daylight saving of {source.timezone} changes in this file; rows of a repeated hour are told apart by their "
+        "order"
+    ]
+
+
+def blocks(path: Path, table: Table, source: Source) -> Iterator[Block | Loss]:
+    """The rows in chunks of the file, and a loss for each part that does not read."""
+    reader = RowReader(table, source, path.stat().st_size)
+    for chunk in chunks(path, table.sample.encoding):
+        yield from reader.read(_without_header(chunk, table.layout.first))
+        if reader.stopped:
+            break
+    yield from reader.losses.rest()
+
+
+def _without_header(chunk: Chunk, first: int) -> Chunk:
+    if chunk.line >= first:
+        return chunk
+    at = 0
+    for _ in range(first - chunk.line):
+        at = chunk.data.find(b"\n", at) + 1
+        if at == 0:
+            return Chunk(b"", first, chunk.size, chunk.last)
+    odd = tuple(line for line in chunk.odd if line >= first)
+    return Chunk(chunk.data[at:], first, chunk.size, chunk.last, odd)

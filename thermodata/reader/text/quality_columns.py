@@ -1,0 +1,53 @@
+"""Quality columns of wide tables (`T1`, `T1.Quality`): rows that the source calls bad are flagged, values kept."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+
+from thermodata.plugin import Array
+from thermodata.reader.status import BAD, is_good, zero_is_good
+from thermodata.reader.text.number import clean
+
+_QUALITY = re.compile(
+    r"^(?P<base>.+?)[ ._:/-]*(?:quality|qualit[äa]t|tagquality|status ?code|validity)$", re.IGNORECASE
+)
+_CODE = re.compile(r"^[+-]?\d*$")
+_ROUND = re.compile(r"^quality ?\((?P<base>.+)\)$", re.IGNORECASE)
+_VALUE = re.compile(r"[ ._:/-]*(?:value|wert)$", re.IGNORECASE)
+Pairs = Mapping[str, tuple[str, bool]]
+
+
+def quality_pairs(columns: Mapping[str, Sequence[str]]) -> dict[str, tuple[str, bool]]:
+    """Value column -> (its quality column, whether its code 0 is good). columns: name -> sampled cells."""
+    pairs: dict[str, tuple[str, bool]] = {}
+    for name, cells in columns.items():
+        match = _QUALITY.match(name) or _ROUND.match(name)
+        if match is None:
+            continue
+        base = match["base"].casefold()
+        for other in columns:
+            bare = _VALUE.sub("", other).casefold()
+            if other != name and bare == base:
+                pairs[other] = name, zero_is_good(cells, name)
+                break
+    return pairs
+
+
+def worded(columns: Mapping[str, Sequence[str]], pairs: Pairs) -> set[str]:
+    """The quality columns that hold words or hexadecimal codes: text, however few these are."""
+    told = {column for column, _ in pairs.values()}
+    return {name for name in told if any(not _CODE.match(clean(cell)) for cell in columns[name])}
+
+
+def bad_rows(values: Array, zero: bool) -> Array:
+    """The flag of each row of a quality column, shape (n,), uint16: 0 where its value is kept as good."""
+    if values.dtype.kind == "f":
+        texts = np.where(np.isnan(values), "", np.char.mod("%d", np.nan_to_num(values)))
+    else:
+        texts = np.array(["" if v is None else str(v) for v in values.tolist()], str)
+    words, which = np.unique(texts, return_inverse=True)
+    flags: Array = np.array([0 if is_good(str(word), zero) else BAD for word in words], np.uint16)[which]
+    return flags

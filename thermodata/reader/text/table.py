@@ -1,0 +1,241 @@
+"""A table in delimited text, as the first look at the file finds it: where things stand and what its columns hold."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, field
+from functools import lru_cache
+from pathlib import Path
+from typing import Any
+
+from thermodata.errors import FormatError
+from thermodata.plugin import Source
+from thermodata.reader.text import delimiter as delimiters
+from thermodata.reader.text import timestamp
+from thermodata.reader.text.columns import dtype_of, find_decimal
+from thermodata.reader.text.layout import STREAM, Group, Layout, find
+from thermodata.reader.text.lines import Sample, last_line_is_whole, sample
+from thermodata.reader.text.number import clean
+from thermodata.reader.text.quality_columns import Pairs, quality_pairs, worded
+from thermodata.reader.text.rows import TIME, Grid
+from thermodata.reader.text.time_formats import find_formats
+from thermodata.reader.text.timestamp import TimeFormat
+from thermodata.reader.time_units import SECONDS
+from thermodata.reader.zone import NAT
+
+_HEAD_LINES = 500  # in which the layout shows
+_TYPED_ROWS = 2000  # of the head, by which columns are typed
+
+
+@dataclass(frozen=True, slots=True)
+class TimedGroup:
+    """Columns with one time, and how that is written. formats: one a time column, none for numbers."""
+
+    stream: str
+    group: Group
+    formats: tuple[TimeFormat, ...]
+
+    @property
+    def of_day(self) -> bool:
+        """Whether its times are times of day without a date."""
+        return bool(self.formats) and self.formats[0].role == "time"
+
+    @property
+    def absolute(self) -> bool:
+        return self.group.epoch is not None or (bool(self.formats) and not self.of_day)
+
+    @property
+    def zoned(self) -> bool:
+        """Whether its times say where they stand from UTC."""
+        return any(form.zoned for form in self.formats)
+
+    def said(self) -> str:
+        """How its times are written, for messages."""
+        if self.formats:
+            return " and ".join(form.text for form in self.formats)
+        unit = next((u for u, seconds in SECONDS.items() if seconds == self.group.seconds), "")
+        return f"as a number [{self.group.epoch or unit}]"
+
+
+@dataclass(frozen=True)
+class Table:
+    """What the first look at a file found. header: the lines above the data, as they stand; kinds: of each column;
+    quality: value column -> (the column of its quality, whether the code 0 is good)."""
+
+    name: str
+    sample: Sample
+    delimiter: str
+    quoted: bool
+    layout: Layout
+    groups: tuple[TimedGroup, ...]
+    kinds: tuple[str | None, ...]
+    decimal: str | None
+    decimal_declared: bool
+    header: frozenset[str]
+    quality: Pairs
+    notes: tuple[str, ...]
+
+    @property
+    def absolute(self) -> bool:
+        return self.groups[0].absolute
+
+    @property
+    def cut(self) -> bool:
+        """Whether the last line has no end, and does not prove itself whole."""
+        first = self.sample
+        lines = first.head if first.whole else first.rest
+        if first.ends_with_newline or len(lines) < 2:
+            return False
+        return not last_line_is_whole(lines[-1], lines[-2], self.delimiter)
+
+    def grid(self, decimal: str) -> Grid:
+        """How its rows lie. A row may end with the columns of a group, for groups have lengths of their own."""
+        edges = [min(g.group.time) for g in self.groups[1:]]
+        least = min(edges) if edges else None
+        return Grid(self.delimiter, decimal, self.kinds, self.quoted, least, self.decimal_declared)
+
+
+def open_table(path: Path, source: Source, stream: str = STREAM) -> Table:
+    """The table of a file by its head and pieces of the rest. stream: what its one stream is called; the option `text`
+    of the source names columns that are text whatever their cells. FormatError where there is none.
+
+    Describing and reading follow each other, so the last ones are kept.
+    """
+    status = path.stat()
+    key = (str(path.resolve()), status.st_mtime_ns, status.st_size, repr(source), stream)
+    return _kept(_Asked(path, source, stream, key))
+
+
+@dataclass(frozen=True)
+class _Asked:
+    path: Path = field(compare=False)
+    source: Source = field(compare=False)
+    stream: str = field(compare=False)
+    key: tuple[Any, ...]
+
+
+@lru_cache(maxsize=4)
+def _kept(asked: _Asked) -> Table:
+    path, source = asked.path, asked.source
+    first = sample(path, source.encoding)
+    # a last line without its end may be half a row: it decides nothing
+    head = first.head[:-1] if first.whole and not first.ends_with_newline and len(first.head) > 2 else first.head
+    if not any(line.strip() for line in head):
+        raise FormatError(
+            "no whole line" if first.head else "an empty file",
+            where=path.name,
+            expected="a table",
+            got=repr(first.head[0][:60]) if first.head else "nothing",
+        )
+    return find_table(head, first, source, path.name, asked.stream)
+
+
+def find_table(head: Sequence[str], first: Sample, source: Source, where: str, stream: str) -> Table:
+    """The table in a file's first lines. first: all that was sampled of the file."""
+    said = source.table or {}
+    delimiter = delimiters.declared(said["delimiter"]) if said.get("delimiter") else None
+    top = _top(head)
+    delimiter = delimiter or delimiters.find_delimiter(top)
+    if delimiter is None:
+        raise FormatError(
+            "no columns found",
+            where=where,
+            expected="lines with as many cells between ';', tabs, commas or '|'",
+            got=repr(head[0][:60]),
+            hint="declare table: {delimiter: ...}",
+        )
+    quoted = any('"' in line for line in (*head, *first.rest))
+
+    def cells(line: str) -> list[str]:
+        return [clean(c) for c in delimiters.fields(line, delimiter, quoted)]
+
+    rows = [cells(line) for line in top]
+    if head[0].lower().startswith("sep=") and len(rows[0]) <= 2:
+        rows[0] = [""]
+    layout = find(rows, said, where)
+    width = len(layout.names)
+    body = [r for r in map(cells, (*head[layout.first : layout.first + _TYPED_ROWS], *first.rest)) if len(r) == width]
+    groups = tuple(_timed(g, layout, body, head, cells, first, stream, where) for g in layout.groups)
+    dated = [r for r in body if all(_reads(r, g) for g in groups[:1])]
+    cells_of = {name: [r[i] for r in dated] for i, name in enumerate(layout.names)}
+    quality = quality_pairs({layout.names[i]: cells_of[layout.names[i]] for g in groups for i in g.group.columns})
+    forced = {*(source.options.get("text") or ()), *worded(cells_of, quality)}
+    times = {i: TIME if g.formats else "float64" for g in groups for i in g.group.time}
+    kinds: list[str | None] = []
+    for i, (name, unit) in enumerate(zip(layout.names, layout.units, strict=True)):
+        column = cells_of[name]
+        if i in times:
+            kinds.append(times[i])
+        elif name in forced:
+            kinds.append("str")
+        elif name.startswith("column ") and unit is None and not any(map(clean, column)):
+            kinds.append(None)  # rows that end with a delimiter
+        else:
+            kinds.append(dtype_of(column, name, unit))
+    if not any(kind is not None for i, kind in enumerate(kinds) if i not in times):
+        raise FormatError("no column beside the time", where=where, expected="values", got=", ".join(layout.names))
+    numbers = [cells_of[name] for name, kind in zip(layout.names, kinds, strict=True) if kind == "float64"]
+    declared = said.get("decimal")
+    decimal = declared or find_decimal(numbers, delimiter, where)
+    header = frozenset(line.strip() for line in head[: layout.first] if line.strip())
+    notes = tuple(dict.fromkeys([*([first.note] if first.note else []), *layout.notes, *_notes(layout, kinds, groups)]))
+    return Table(
+        name=where,
+        sample=first,
+        delimiter=delimiter,
+        quoted=quoted,
+        layout=layout,
+        groups=groups,
+        kinds=tuple(kinds),
+        decimal=decimal,
+        decimal_declared=declared is not None,
+        header=header,
+        quality=quality,
+        notes=notes,
+    )
+
+
+def _top(head: Sequence[str]) -> Sequence[str]:
+    """The lines up to the 500th that is not empty."""
+    full = [k for k, line in enumerate(head) if line and not line.isspace()][:_HEAD_LINES]
+    return head[: full[-1] + 1] if full else head
+
+
+def _timed(
+    group: Group,
+    layout: Layout,
+    body: Sequence[Sequence[str]],
+    head: Sequence[str],
+    cells: Callable[[str], list[str]],
+    first: Sample,
+    stream: str,
+    where: str,
+) -> TimedGroup:
+    name = stream if group.stream == STREAM else group.stream
+    if not group.dated:
+        return TimedGroup(name, group, ())
+
+    def more(k: int) -> list[str]:
+        rows = map(cells, (*head[layout.first :], *first.rest))
+        return [r[group.time[k]] for r in rows if len(r) > group.time[k]]
+
+    columns = [[r[i] for r in body[:_TYPED_ROWS]] for i in group.time]
+    names = [layout.names[i] for i in group.time]
+    return TimedGroup(name, group, find_formats(names, columns, group.form, where, more))
+
+
+def _reads(row: Sequence[str], timed: TimedGroup) -> bool:
+    return all(
+        timestamp.parse_one(row[i], form) != NAT for i, form in zip(timed.group.time, timed.formats, strict=False)
+    )
+
+
+def _notes(layout: Layout, kinds: Sequence[str | None], groups: Sequence[TimedGroup]) -> Iterator[str]:
+    names = [n for n, kind in zip(layout.names, kinds, strict=True) if kind is not None]
+    if any(n.startswith("column ") for n in names):
+        yield "columns without a name are called by their place"
+    if any("#" in n and n.rsplit("#", 1)[-1].isdigit() for n in names):
+        yield "names that repeat are numbered: #2, #3, ..."
+    for text in dict.fromkeys(form.text for g in groups for form in g.formats):
+        if "DD/MM" in text or "MM/DD" in text:
+            yield f"dates read as {text}"

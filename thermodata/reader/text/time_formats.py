@@ -1,0 +1,172 @@
+"""How the time columns of a table are written, told from their cells; and the times of a whole column in memory.
+
+The order of day and month is read from the column, never guessed: dots mean day first, a number above 12 decides, and
+AM or PM means month first. A column's cells all name their offset from UTC, or none of them does.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from functools import partial
+
+import numpy as np
+import numpy.typing as npt
+
+from thermodata.errors import FormatError
+from thermodata.plugin import Array, Int1D
+from thermodata.reader.text import timestamp
+from thermodata.reader.text.local_clock import DayCount
+from thermodata.reader.text.timestamp import DATE, DATETIME, MILLISECOND, TIME_OF_DAY, TimeFormat
+from thermodata.reader.time_units import EPOCHS, SECONDS, to_ns
+from thermodata.reader.zone import NAT, local_to_utc_ns
+
+MILLISECONDS = re.compile(r"(?i)^(ms|msec|millise[ck]\w*|millis|毫秒)\b")
+_FEW, _MANY = 40, 4000
+_HINT = "declare table: {time: {column: ..., format: '%d/%m/%Y %H:%M:%S'}} or '%m/%d/%Y ...'"
+
+
+@dataclass(frozen=True, slots=True)
+class Stamps:
+    """t_ns: shape (n,), `NAT` where a cell holds no time; absolute: False for times of day without a date."""
+
+    t_ns: Int1D
+    absolute: bool
+    notes: tuple[str, ...]
+
+
+def share(cells: Sequence[str], form: TimeFormat) -> float:
+    """How many of the cells that hold anything are times of this format; 0 where most hold nothing."""
+    full = [c for c in cells if c and c.strip()]
+    return sum(timestamp.parse_one(c, form) != NAT for c in full) / len(full) if len(full) >= 0.5 * len(cells) else 0.0
+
+
+def _spread(cells: Sequence[str], most: int) -> Sequence[str]:
+    return cells[:: max(1, len(cells) // most)]
+
+
+def find_formats(
+    names: Sequence[str],
+    columns: Sequence[Sequence[str]],
+    declared: str | None,
+    where: str,
+    more: Callable[[int], Sequence[str]] = lambda k: (),
+) -> tuple[TimeFormat, ...]:
+    """The format of each time column of one time (a date and a time of day add up).
+
+    names, columns: their names, and sampled cells of each; declared: strptime's letters; more: further cells of the
+    k-th column, asked for where those do not tell day from month.
+    FormatError: no order of day and month in all of them, or no cell is a time.
+    """
+    wanted: Sequence[str] = () if declared is None else [declared]
+    if declared is not None and len(columns) > 1 and len(declared.split()) == len(columns):
+        wanted = declared.split()
+    forms: list[TimeFormat] = []
+    for k, (name, cells) in enumerate(zip(names, columns, strict=True)):
+        if k and MILLISECONDS.match(name):
+            forms.append(MILLISECOND)
+            continue
+        form = None
+        for text in wanted[k : k + 1] if len(wanted) == len(columns) else wanted:
+            own = timestamp.declared_format(text)
+            form = own if len(columns) == 1 or share(_spread(cells, _FEW), own) > 0.5 else form
+        form = form or _found(cells, where, name, partial(more, k))
+        forms.append(_zoned(form, cells))
+    return tuple(forms)
+
+
+def _zoned(form: TimeFormat, cells: Sequence[str]) -> TimeFormat:
+    some = [c for c in _spread(cells, _FEW) if timestamp.parse_one(c, form) != NAT]
+    zoned = sum(timestamp.is_zoned(c, form) for c in some)
+    return timestamp.with_zone(form, zoned * 2 > len(some))
+
+
+def _found(cells: Sequence[str], where: str, name: str, more: Callable[[], Sequence[str]]) -> TimeFormat:
+    few = _spread(cells, _FEW)
+    for least in (0.8, 0.3):
+        for forms in ({"": TIME_OF_DAY}, DATETIME, DATE):
+            orders = [o for o, form in forms.items() if share(few, form) > least]
+            if orders:
+                return forms[_order(orders, cells, more, forms, where)]
+    full = [c for c in cells if c.strip()]
+    raise FormatError(
+        "the time column holds no times",
+        where=f"{where} column '{name}'",
+        expected="a date, a time of day, or both: 2026-03-01 08:00:00, 1.3.2026 8:00, ...",
+        got=full[0] if full else "nothing",
+        hint="declare table: {time: {column: ..., unit: s}} for numbers, or a format: '%d.%m.%Y %H:%M:%S'",
+    )
+
+
+def _order(
+    orders: list[str],
+    cells: Sequence[str],
+    more: Callable[[], Sequence[str]],
+    forms: Mapping[str, TimeFormat],
+    where: str,
+) -> str:
+    if len(orders) == 1:
+        return orders[0]
+    first = next(c.strip() for c in cells if c.strip())
+    if "." in re.split(r"[ T]", first)[0]:
+        return "dmy"
+    left = orders
+    for some in (lambda: _spread(cells, _MANY), more):
+        shares = {o: share(_dates(some()), forms[o]) for o in left}
+        best = max(shares.values())
+        left = [o for o in left if shares[o] == best]
+        if len(left) == 1:
+            return left[0]
+    if re.search(r"[ap]\.?m", first, re.IGNORECASE) and "mdy" in left:
+        return "mdy"
+    raise FormatError(
+        "day and month of the dates could be either way round",
+        where=where,
+        expected="one date with a day above 12",
+        got=first,
+        hint=_HINT,
+    )
+
+
+def _dates(cells: Sequence[str]) -> list[str]:
+    """One cell a day: the first ten letters hold day and month."""
+    return list({c.strip()[:10]: c for c in cells if c.strip()}.values())
+
+
+# ---- a column in memory --------------------------------------------------------------------------
+
+
+def times_of_texts(cells: Sequence[str], timezone: str | None, declared: str | None, where: str) -> Stamps:
+    """Times of a column of texts, in UTC; times of day without a date count from the first.
+
+    FormatError where day and month could be either way round in the whole column.
+    """
+    (form,) = find_formats([""], [list(cells)], declared, where)
+    ns = timestamp.parse(list(cells), form)
+    if form.role == "time":
+        return times_of_day(ns)
+    if form.zoned:
+        return Stamps(ns, True, ())
+    utc, notes = local_to_utc_ns(ns.view("datetime64[ns]"), timezone)
+    return Stamps(utc, True, tuple(notes))
+
+
+def times_of_dates(naive: npt.NDArray[np.datetime64], timezone: str | None) -> Stamps:
+    """The same from cells that are dates already (a workbook's)."""
+    utc, notes = local_to_utc_ns(naive, timezone)
+    return Stamps(utc, True, tuple(notes))
+
+
+def times_of_numbers(values: Array, unit: str, timezone: str | None) -> Stamps:
+    """Times of a column of numbers. unit: of time_units.check_unit()."""
+    if unit in SECONDS:
+        return Stamps(to_ns(values, SECONDS[unit]), False, ())
+    epoch = EPOCHS[unit]
+    t_ns = to_ns(values, epoch.seconds, epoch.zero_s)
+    return times_of_dates(t_ns.view("datetime64[ns]"), timezone) if epoch.local else Stamps(t_ns, True, ())
+
+
+def times_of_day(of_day_ns: Int1D) -> Stamps:
+    """Times of day without a date count from the first; each step back by half a day is the next midnight."""
+    return Stamps(DayCount().relative(of_day_ns), False, (DayCount.NOTE,))
