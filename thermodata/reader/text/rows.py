@@ -16,6 +16,7 @@ import numpy as np
 
 from thermodata.plugin import Bool1D, Int1D
 from thermodata.reader.text.delimiter import fields
+from thermodata.reader.text.lines import count
 from thermodata.reader.text.number import EXACT, Values, clean, null_words, values_of
 
 TIME = "time"  # a column of times as text: left as it stands
@@ -90,14 +91,15 @@ def parse(data: bytes, line: int, grid: Grid) -> Rows:
 # ---- by Arrow ------------------------------------------------------------------------------------
 
 
-def _odd_bytes(data: bytes, grid: Grid) -> bool:
+def _odd_bytes(data: bytes, grid: Grid, lines: int) -> bool:
     """Whether a parser would see other lines or cells than an editor shows: bytes of zero, a carriage return alone (an
-    end of a row for Arrow), a quote that stays open, or one line of so many cells that room is made for all."""
+    end of a row for Arrow), a quote that stays open, or one line of so many cells that room is made for all. lines: how
+    many they are."""
     return (
         b"\0" in data
-        or (b"\r" in data and data.count(b"\r") != data.count(b"\r\n"))
-        or (grid.quoted and data.count(b'"') % 2 == 1)
-        or data.count(grid.delimiter.encode()) > (grid.width - 1) * (data.count(b"\n") + 1) + _SLACK_CELLS
+        or (b"\r" in data and count(data, b"\r") != data.count(b"\r\n"))
+        or (grid.quoted and count(data, b'"') % 2 == 1)
+        or count(data, grid.delimiter.encode()) > (grid.width - 1) * (lines + 1) + _SLACK_CELLS
     )
 
 
@@ -138,7 +140,8 @@ def _typed(data: bytes, line: int, grid: Grid) -> Rows | None:
     """The part where each line is a row, and each cell of its column's kind or empty."""
     import pyarrow as pa
 
-    if _odd_bytes(data, grid):
+    many = count(data, b"\n")
+    if _odd_bytes(data, grid, many):
         return None
     width = data[: data.find(b"\n")].count(grid.delimiter.encode()) + 1
     if not (grid.width if grid.least is None else grid.least) <= width <= grid.width:
@@ -153,7 +156,7 @@ def _typed(data: bytes, line: int, grid: Grid) -> Rows | None:
         table = _read(data, grid, width, kinds, None)
     except pa.ArrowInvalid:
         return None
-    if table.num_rows != data.count(b"\n"):
+    if table.num_rows != many:
         return None
     columns: dict[int, Values] = {}
     for i, kind in enumerate(grid.kinds):
@@ -199,7 +202,7 @@ def _arrow_values(column: Any, kind: str) -> Values | None:
         at += n
     if dtype.kind == "f" and values.size:
         with np.errstate(invalid="ignore"):
-            if np.fmax.reduce(np.abs(values)) >= EXACT:
+            if np.fmax.reduce(values) >= EXACT or np.fmin.reduce(values) <= -EXACT:
                 return None
     return Values(values, empty, np.zeros(values.size, bool))
 
@@ -243,7 +246,8 @@ def _as_text(data: bytes, line: int, grid: Grid) -> Rows | None:
     """The part where some lines are no rows, or some cells none of their kind; None where lines cannot be told."""
     import pyarrow as pa
 
-    if _odd_bytes(data, grid):
+    many = count(data, b"\n")
+    if _odd_bytes(data, grid, many):
         return None
     invalid: list[Any] = []
     wanted = [i for i, kind in enumerate(grid.kinds) if kind is not None]
@@ -252,7 +256,7 @@ def _as_text(data: bytes, line: int, grid: Grid) -> Rows | None:
         table = _read(data, grid, width, {str(i): pa.string() for i in wanted if i < width}, invalid)
     except pa.ArrowInvalid:
         return None
-    if table.num_rows + len(invalid) != data.count(b"\n") or any("\n" in row.text for row in invalid):
+    if table.num_rows + len(invalid) != many or any("\n" in row.text for row in invalid):
         return None  # a cell in quotes goes over lines
     side, bad = _Cells(grid), list[BadLine]()
     numbers = np.array([row.number - 1 for row in invalid], np.int64)
@@ -283,7 +287,7 @@ def _common_width(data: bytes, grid: Grid) -> int:
     """How many cells most rows have, by the mean: where rows may be shorter, most may lack the same cells."""
     if grid.least is None:
         return grid.width
-    mean = round(data.count(grid.delimiter.encode()) / data.count(b"\n")) + 1
+    mean = round(count(data, grid.delimiter.encode()) / count(data, b"\n")) + 1
     return min(max(mean, grid.least), grid.width)
 
 
