@@ -54,7 +54,7 @@ FAST: dict[str, FastPath] = {
     "control csv": FastPath(
         ("thermodata_reader_cnc.rows", "RowReader._fast"), "_OddError", ("cnc_csv", "trace_csv"), "control_csv"
     ),
-    "lvm": FastPath(("thermodata_reader_crio.rows", "_fast"), "none", ("lvm",), "lvm", (("_SMALL", 0),)),
+    "lvm": FastPath(("thermodata.reader.text.rows", "_typed"), "none", ("lvm",), "lvm"),
     "csv": FastPath(("thermodata_reader_table.text_fast", "blocks"), "UnsuitableError", ("table_csv",), "csv"),
     "mcap json": FastPath(
         ("thermodata_reader_mcap.encodings.json.arrow", "_by_arrow"),

@@ -6,10 +6,12 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from thermodata_reader_crio import Reader, rows, textparts
+from thermodata_reader_crio import Reader
+from thermodata_reader_crio.lvm import scan
 
 from thermodata.errors import FormatError
-from thermodata.plugin import Source
+from thermodata.plugin import Block, Source
+from thermodata.reader.text import rows
 from thermodata.schema.flag import Flag
 from thermodata.testing.reader import Data, load
 
@@ -249,7 +251,7 @@ def test_parts_of_any_size_give_the_same(tmp_path: Path, monkeypatch: pytest.Mon
     )
     whole = read(tmp_path, text)
     for size in (1, 7, 64, 300):
-        monkeypatch.setattr(textparts, "PART_BYTES", size)
+        monkeypatch.setattr(scan, "PART_BYTES", size)
         small = read(tmp_path, text)
         for key, values in whole.values.items():
             np.testing.assert_array_equal(small.values[key], values)
@@ -262,18 +264,67 @@ def test_the_fast_and_the_slow_parser_agree() -> None:
         f"{i / 10:.6f}\t{v!r}\t{'' if i % 7 == 0 else f'{w:.3E}'}" + ("\r\n" if i % 2 else "\n")
         for i, (v, w) in enumerate(rng.normal(size=(400, 2)).tolist())
     ]
-    grid = rows.Grid(b"\t", b".", 3, False, 3)
+    grid = rows.Grid("\t", ".", ("float64",) * 3, blank_rows=True)
     data = "".join(lines).encode()
-    fast, slow = rows._fast(data, grid), rows._slow(data, grid)
+    fast, slow = rows._typed(data, 0, grid), rows._line_by_line(data, 0, grid)
     assert fast is not None
-    for a, b in zip(fast.numbers, slow.numbers, strict=True):
-        np.testing.assert_array_equal(a, b)
+    for c in range(3):
+        np.testing.assert_array_equal(fast.columns[c].values, slow.columns[c].values)
     # one odd line in many: all others come as they are
-    mixed = rows.parse(b"".join([*map(str.encode, lines[:200]), b"x\ty\n", *map(str.encode, lines[200:])]), grid)
-    np.testing.assert_array_equal(mixed.numbers[1], slow.numbers[1])
-    assert mixed.bad == [200]
+    mixed = rows.parse(b"".join([*map(str.encode, lines[:200]), b"x\ty\n", *map(str.encode, lines[200:])]), 0, grid)
+    np.testing.assert_array_equal(mixed.columns[1].values, slow.columns[1].values)
+    assert [bad.line for bad in mixed.bad] == [200]
 
 
 def test_a_header_without_end_is_refused(tmp_path: Path) -> None:
     with pytest.raises(FormatError, match="ends inside its header"):
         read(tmp_path, "LabVIEW Measurement\t\nWriter_Version\t2\n")
+
+
+def test_words_for_nothing_and_for_overload_are_flagged_and_no_damage(tmp_path: Path) -> None:
+    text = head("No") + packet(["a", "b"], x="X_Value\ta\tb") + "\t1\t2\n\t---\tOVERLOAD\n\t1e999\t6\n"
+    data = read(tmp_path, text)
+    np.testing.assert_array_equal(data.values["data", "a"], [1, np.nan, np.nan])
+    np.testing.assert_array_equal(data.flags["data", "a"], [0, Flag.NOT_MEASURING, Flag.NOT_MEASURING])
+    np.testing.assert_array_equal(data.flags["data", "b"], [0, Flag.SATURATED, 0])
+    assert [x.reason.split(":")[0] for x in data.losses] == ["1 cells that are no numbers"]
+    assert data.losses[0].where == "x.lvm line 23"
+
+
+@pytest.mark.parametrize("odd", ["", "\tx"])  # a comment that is no number's neighbour, and a part that is all numbers
+def test_a_counted_row_without_values_takes_its_time(tmp_path: Path, odd: str) -> None:
+    text = head("No") + packet(["a", "b"], x="X_Value\ta\tb") + f"\t1\t2\n\n\t\t\n\t5\t6{odd}\n"
+    data = read(tmp_path, text)
+    np.testing.assert_array_equal(data.t_ns["data"] - START, [0, S // 2, S])
+    np.testing.assert_array_equal(data.values["data", "b"], [2, np.nan, 6])
+    assert data.losses == ()
+
+
+def test_a_row_with_bytes_of_zero_is_lost_and_reported(tmp_path: Path) -> None:
+    data = read(tmp_path, head("No") + packet(["a"], x="X_Value\ta") + "\t1,5\n\t2\0\0,5\n\t3,5\n")
+    np.testing.assert_array_equal(data.values["data", "a"], [1.5, 3.5])
+    np.testing.assert_array_equal(data.t_ns["data"] - START, [0, S])
+    assert data.losses[0].where == "x.lvm line 22"
+
+
+def test_a_line_in_another_encoding_is_read_as_it_looks_and_reported(tmp_path: Path) -> None:
+    text = head("No") + packet(["T (°C)", "größe µ"], x="X_Value\tT (°C)\tgröße µ") + "\t1\t2\tprüfen\n\t3\t4\t"
+    path = tmp_path / "x.lvm"
+    path.write_bytes(text.encode() + "prüfen\n".encode("cp1252") + b"\t5\t6\n")
+    data = load(Reader(), path, PRAGUE)
+    assert list(data.values["data", "Comment"]) == ["prüfen", "prüfen", ""]
+    np.testing.assert_array_equal(data.values["data", "T (°C)"], [1, 3, 5])
+    assert [(x.where, x.reason.split(";")[0]) for x in data.losses] == [
+        ("x.lvm line 22", "its bytes are not of the file's encoding")
+    ]
+
+
+def test_every_row_carries_its_line(tmp_path: Path) -> None:
+    text = head("No") + packet(["a"], x="X_Value\ta") + "\t1\n\txx\n\n\t3\tLOST\n"
+    path = tmp_path / "x.lvm"
+    path.write_text(text)
+    (block,) = (b for b in Reader().blocks(path, PRAGUE) if isinstance(b, Block))
+    assert block.at is not None
+    assert block.at.tolist() == [21, 24]
+    assert Reader().locate(path, PRAGUE, "data", 1) == "line 24"
+    assert Reader().locate(path, PRAGUE, "data", 2) == "row 3"

@@ -18,7 +18,8 @@ import numpy as np
 from thermodata.plugin import Int1D
 from thermodata.reader.text import arrow
 from thermodata.reader.text.delimiter import fields
-from thermodata.reader.text.number import EXACT, Values, null_words, values_of
+from thermodata.reader.text.lines import count
+from thermodata.reader.text.number import EXACT, Values, clean, null_words, values_of
 
 TIME = "time"  # a column of times as text: left as it stands
 _MOST_LINES = 64  # of one cell in quotes
@@ -30,7 +31,8 @@ _SHOWN = 200
 class Grid:
     """How rows lie. kinds: of each column: float64, int64, uint64, bool, str, TIME, or None for one that nobody wants;
     least: the fewest cells of a row (those that are missing are empty); exact: a row with empty cells behind its last
-    column is none, for a delimiter too much may have shifted others; decimal_declared: see the policy of numbers."""
+    column is none, for a delimiter too much may have shifted others; decimal_declared: see the policy of numbers;
+    blank_rows: whether delimiters alone are a row (where rows are counted, one without values takes its time)."""
 
     delimiter: str
     decimal: str
@@ -39,6 +41,7 @@ class Grid:
     least: int | None = None
     decimal_declared: bool = False
     exact: bool = False
+    blank_rows: bool = False
 
     @property
     def width(self) -> int:
@@ -81,7 +84,7 @@ class Rows:
 
 def parse(data: bytes, line: int, grid: Grid) -> Rows:
     """All rows of whole lines in UTF-8. line: the number of the first, 0-based in the file. Empty lines are none."""
-    if not data.strip():
+    if not data or data.isspace():
         nuls = ((line, data.count(b"\0")),) if b"\0" in data else ()
         return Rows(np.empty(0, np.int64), *_converted([[] for _ in grid.kinds], grid), nul=nuls)
     if not data.endswith(b"\n"):
@@ -92,14 +95,15 @@ def parse(data: bytes, line: int, grid: Grid) -> Rows:
 # ---- by Arrow ------------------------------------------------------------------------------------
 
 
-def _odd_bytes(data: bytes, grid: Grid) -> bool:
+def _odd_bytes(data: bytes, grid: Grid, lines: int) -> bool:
     """Whether a parser would see other lines or cells than an editor shows: bytes of zero, a carriage return alone (an
-    end of a row for Arrow), a quote that stays open, or one line of so many cells that room is made for all."""
+    end of a row for Arrow), a quote that stays open, or one line of so many cells that room is made for all. lines: how
+    many they are."""
     return (
         b"\0" in data
-        or (b"\r" in data and data.count(b"\r") != data.count(b"\r\n"))
-        or (grid.quoted and data.count(b'"') % 2 == 1)
-        or data.count(grid.delimiter.encode()) > (grid.width - 1) * (data.count(b"\n") + 1) + _SLACK_CELLS
+        or (b"\r" in data and count(data, b"\r") != data.count(b"\r\n"))
+        or (grid.quoted and count(data, b'"') % 2 == 1)
+        or count(data, grid.delimiter.encode()) > (grid.width - 1) * (lines + 1) + _SLACK_CELLS
     )
 
 
@@ -140,7 +144,8 @@ def _typed(data: bytes, line: int, grid: Grid) -> Rows | None:
     """The part where each line is a row, and each cell of its column's kind or empty."""
     import pyarrow as pa
 
-    if _odd_bytes(data, grid):
+    many = count(data, b"\n")
+    if _odd_bytes(data, grid, many):
         return None
     width = data[: data.find(b"\n")].count(grid.delimiter.encode()) + 1
     if not (grid.width if grid.least is None else grid.least) <= width <= grid.width:
@@ -155,14 +160,14 @@ def _typed(data: bytes, line: int, grid: Grid) -> Rows | None:
         table = _read(data, grid, width, kinds, None)
     except pa.ArrowInvalid:
         return None
-    if table.num_rows != data.count(b"\n"):
+    if table.num_rows != many:
         return None
     columns: dict[int, Values] = {}
     for i, kind in enumerate(grid.kinds):
         if kind is None or kind == TIME:
             continue
         if i >= width:
-            columns[i] = values_of([""] * table.num_rows, kind)
+            columns[i] = _nothing(table.num_rows, kind)
             continue
         values = _arrow_values(table.column(str(i)), kind)
         if values is None:
@@ -175,11 +180,15 @@ def _typed(data: bytes, line: int, grid: Grid) -> Rows | None:
     }
     lines = np.arange(line, line + table.num_rows, dtype=np.int64)
     rows = Rows(lines, columns, times, short=lines if width < grid.width else lines[:0])
-    return _without_empty_lines(rows, data) if b"\n\n" in data or b"\n\r\n" in data or data[:1] in b"\r\n" else rows
+    # an empty line is a cell without a value in every column
+    if any(i < width and grid.kinds[i] != "str" and not values.empty.any() for i, values in columns.items()):
+        return rows
+    return _without_empty_lines(rows, data, line)
 
 
 def _arrow_values(column: Any, kind: str) -> Values | None:
-    """A parsed column; None where a number needs a second look (too large, or an integer that was rounded)."""
+    """A parsed column; None where a number needs a second look (too large, or an integer that was rounded). Taken from
+    Arrow's buffers, for its own ways import pandas first."""
     if kind == "str":
         return _shared_texts(column)
     none = np.zeros(len(column), bool)
@@ -190,7 +199,7 @@ def _arrow_values(column: Any, kind: str) -> Values | None:
         values[empty] = np.nan if kind == "float64" else 0
     if kind == "float64" and values.size:
         with np.errstate(invalid="ignore"):
-            if np.fmax.reduce(np.abs(values)) >= EXACT:
+            if np.fmax.reduce(values) >= EXACT or np.fmin.reduce(values) <= -EXACT:
                 return None
     return Values(values, empty, none)
 
@@ -199,53 +208,76 @@ def _shared_texts(column: Any) -> Values:
     none = np.zeros(len(column), bool)
     parts = []
     for chunk in column.chunks:
-        words = np.array(
-            [*((w.strip().strip('"').strip() or None) for w in chunk.dictionary.to_pylist()), None], object
-        )
+        words = np.array([*((clean(w) or None) for w in chunk.dictionary.to_pylist()), None], object)
         parts.append(words[arrow.codes(chunk)])
     return Values(np.concatenate(parts) if parts else np.empty(0, object), none, none)
 
 
-def _without_empty_lines(rows: Rows, data: bytes) -> Rows:
-    ends = np.flatnonzero(np.frombuffer(data, np.uint8) == 10)
+def _nothing(n: int, kind: str) -> Values:
+    """A column that no row has."""
+    dtype, none = np.dtype(object if kind == "str" else kind), np.zeros(n, bool)
+    nothing = None if kind == "str" else np.nan if dtype.kind == "f" else 0
+    return Values(np.full(n, nothing, dtype), none if kind == "str" else np.ones(n, bool), none)
+
+
+def _without_empty_lines(rows: Rows, data: bytes, line: int) -> Rows:
+    """Without the rows that Arrow makes of lines that hold nothing at all. line: the number of the first."""
+    letters = np.frombuffer(data, np.uint8)
+    ends = np.flatnonzero(letters == 10)
     starts = np.concatenate(([0], ends[:-1] + 1))
     size = ends - starts
-    blank = (size == 0) | ((size == 1) & (np.frombuffer(data, np.uint8)[starts] == 13))
-    return _taken(rows, np.flatnonzero(~blank))
+    blank = (size == 0) | ((size == 1) & (letters[starts] == 13))
+    return _taken(rows, np.flatnonzero(~blank[rows.line - line])) if blank.any() else rows
 
 
 def _as_text(data: bytes, line: int, grid: Grid) -> Rows | None:
     """The part where some lines are no rows, or some cells none of their kind; None where lines cannot be told."""
     import pyarrow as pa
 
-    if _odd_bytes(data, grid):
+    many = count(data, b"\n")
+    if _odd_bytes(data, grid, many):
         return None
     invalid: list[Any] = []
     wanted = [i for i, kind in enumerate(grid.kinds) if kind is not None]
+    width = _common_width(data, grid)
     try:
-        table = _read(data, grid, grid.width, {str(i): pa.string() for i in wanted}, invalid)
+        table = _read(data, grid, width, {str(i): pa.string() for i in wanted if i < width}, invalid)
     except pa.ArrowInvalid:
         return None
-    if table.num_rows + len(invalid) != data.count(b"\n") or any("\n" in row.text for row in invalid):
+    if table.num_rows + len(invalid) != many or any("\n" in row.text for row in invalid):
         return None  # a cell in quotes goes over lines
     side, bad = _Cells(grid), list[BadLine]()
     numbers = np.array([row.number - 1 for row in invalid], np.int64)
     for row in invalid:
         cells = fields(row.text.rstrip("\r"), grid.delimiter, grid.quoted)
-        taken = side.add(line + row.number - 1, cells)
-        if not taken and row.text.strip(f"{grid.delimiter} \t\r\n"):
+        fits = side.add(line + row.number - 1, cells)
+        if not fits and row.text.strip(f"{grid.delimiter} \t\r\n"):
             size = len(row.text.encode())
             bad.append(BadLine(line + row.number - 1, row.actual_columns, row.text[:_SHOWN].rstrip("\r"), size))
     lines = np.delete(np.arange(line, line + table.num_rows + len(invalid), dtype=np.int64), numbers)
     cells_of: list[Any] = [None] * grid.width
     for i in wanted:
-        column = table.column(str(i)).combine_chunks()
+        column = table.column(str(i)).combine_chunks() if i < width else pa.nulls(table.num_rows, pa.string())
         cells_of[i] = pa.concat_arrays([*_arrays(column), pa.array(side.columns[i], pa.string())])
     columns, times = _converted(cells_of, grid)
     lines = np.concatenate([lines, np.array(side.lines, np.int64)])
-    rows = Rows(lines, columns, times, tuple(bad), short=np.array(side.short, np.int64))
+    short = np.array(side.short, np.int64)
+    if width < grid.width:
+        short = np.union1d(short, lines[: table.num_rows])
+    rows = Rows(lines, columns, times, tuple(bad), short=short)
     order = np.argsort(rows.line, kind="stable")
-    return _without_empty_rows(_taken(rows, order) if side.lines else rows, cells_of, order)
+    taken = _taken(rows, order) if side.lines else rows
+    if grid.blank_rows:
+        return _without_empty_lines(taken, data, line)
+    return _without_empty_rows(taken, cells_of, order)
+
+
+def _common_width(data: bytes, grid: Grid) -> int:
+    """How many cells most rows have, by the mean: where rows may be shorter, most may lack the same cells."""
+    if grid.least is None:
+        return grid.width
+    mean = round(count(data, grid.delimiter.encode()) / count(data, b"\n")) + 1
+    return min(max(mean, grid.least), grid.width)
 
 
 def _arrays(column: Any) -> list[Any]:
@@ -341,9 +373,11 @@ def _line_by_line(data: bytes, line: int, grid: Grid) -> Rows:
         bare = text.replace("\0", "").rstrip("\r")
         if len(bare) != len(text.rstrip("\r")):
             nul.append((number, text.count("\0")))
-        if not bare.strip(f"{grid.delimiter} \t\r\n"):
+        record = _cells(bare, grid)
+        blank = not any(cell.strip() for cell in record)
+        if blank and not (grid.blank_rows and len(record) > 1):
             continue
-        if not rows.add(number, _cells(bare, grid)):
+        if not rows.add(number, record) and not blank:
             size = len(text.encode("utf-8", "replace"))
             bad.append(BadLine(number, bare.count(grid.delimiter) + 1, bare[:_SHOWN], size))
     columns, times = _converted(rows.columns, grid)

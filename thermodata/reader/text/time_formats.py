@@ -39,7 +39,9 @@ class Stamps:
 def share(cells: Sequence[str], form: TimeFormat) -> float:
     """How many of the cells that hold anything are times of this format; 0 where most hold nothing."""
     full = [c for c in cells if c and c.strip()]
-    return sum(timestamp.parse_one(c, form) != NAT for c in full) / len(full) if len(full) >= 0.5 * len(cells) > 0 else 0.0
+    return (
+        sum(timestamp.parse_one(c, form) != NAT for c in full) / len(full) if len(full) >= 0.5 * len(cells) > 0 else 0.0
+    )
 
 
 def _spread(cells: Sequence[str], most: int) -> Sequence[str]:

@@ -7,8 +7,8 @@ import re
 import numpy as np
 
 from thermodata.plugin import Array
+from thermodata.reader.text.number import to_bool, to_float
 from thermodata.schema.flag import Flag
-from thermodata_reader_crio.textparts import decode
 
 _LOST = re.compile(
     r"(?i)\b(lost|communication|comm\.? ?(error|fail)|time-?out|error|fault|fail(ed|ure)?|disconnect|"
@@ -19,14 +19,15 @@ _GOOD = re.compile(r"(?i)\b(no|without|0|kein(e)?|ohne|bez) (error|fault|fehler|
 _OVER = re.compile(r"(?i)overload|over ?range|overflow|saturat|clipp(ed|ing)|übersteuer")
 
 
-def texts(words: Array, encoding: str) -> Array:
-    """Cells as text, shape (n,), object; '' where there is none."""
-    known: dict[bytes | None, str] = {None: ""}
-    for word in set(words.tolist()) - {None}:
-        known[word] = decode(word, encoding).strip()
-    out = np.empty(words.size, object)
-    out[:] = [known[w] for w in words.tolist()]
-    return out
+def texts(words: Array) -> Array | None:
+    """Cells of free text with '' where there is none, shape (n,), object; None where no row has any."""
+    filled = words.astype(bool)
+    return np.where(filled, words, "") if filled.any() else None
+
+
+def is_odd(comment: str, decimal: str) -> bool:
+    """Whether a comment is a number, for then the cells of its row have moved, or bytes that are no text."""
+    return "\ufffd" in comment or (to_float(comment, decimal) is not None and to_bool(comment) is None)
 
 
 def flag_of(comment: str) -> int:

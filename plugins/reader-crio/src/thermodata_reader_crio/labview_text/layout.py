@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, Literal
 
@@ -10,9 +11,10 @@ import numpy as np
 
 from thermodata.errors import FormatError
 from thermodata.plugin import Float2D, Head
-from thermodata.reader.text import clean, decimal_mark, decode_head, looks_like_unit, split_unit
+from thermodata.reader.text.encoding import decode_head
+from thermodata.reader.text.header import looks_like_unit, split_unit
+from thermodata.reader.text.number import clean, decimal_mark, is_empty, is_overload, to_bool, to_float
 from thermodata_reader_crio.labview_clock import LABVIEW_SECONDS
-from thermodata_reader_crio.rows import number
 
 _MOST_HEADER = 30
 _MOST_ROWS = 500
@@ -41,7 +43,7 @@ class Layout:
         return [i for i in range(len(self.names)) if self.clock == "none" or i != self.time]
 
 
-def claim(head: Head) -> str | None:
+def claims(head: Head) -> str | None:
     """The reason for claiming a file: seconds since 1904 between tabs, or rows of bare numbers in a file that is
     named .lvm. What has a unit of time in its header is a table for everyone, and is left to others."""
     start = head.start
@@ -71,10 +73,10 @@ def _lines(text: str) -> list[str]:
     return [line.rstrip("\r") for line in text.split("\n")] if "\n" in text else text.split("\r")
 
 
-def find_layout(text: str | list[str], name: str, wanted: Any) -> Layout:
-    """The layout by a file's first text or lines. wanted: the time column as declared (name, or number from 1).
-    FormatError where they are no rows of numbers."""
-    lines = (_lines(text) if isinstance(text, str) else text)[: _MOST_HEADER + _MOST_ROWS]
+def find_layout(lines: Sequence[str], name: str, wanted: Any) -> Layout:
+    """The layout by a file's first lines. wanted: the time column as declared (name, or number from 1). FormatError
+    where they are no rows of numbers."""
+    lines = lines[: _MOST_HEADER + _MOST_ROWS]
     for delimiter in ("\t", ";", ",", " "):
         found = _rows(lines, delimiter)
         if found is not None:
@@ -92,7 +94,12 @@ def _split(line: str, delimiter: str) -> list[str]:
     return line.split() if delimiter == " " else [clean(c) for c in line.split(delimiter)]
 
 
-def _rows(lines: list[str], delimiter: str) -> tuple[int, int, str, bool] | None:
+def _reads(cell: str, decimal: str) -> bool:
+    """Whether a cell may stand in a column of numbers; one of truth values is none of LabVIEW's."""
+    return is_empty(cell) or is_overload(cell) or (to_float(cell, decimal) is not None and to_bool(cell) is None)
+
+
+def _rows(lines: Sequence[str], delimiter: str) -> tuple[int, int, str, bool] | None:
     """(line of the first row, columns of numbers, decimal mark, whether free text follows them)."""
     cells = [_split(line, delimiter) for line in lines]
     counts = Counter(len(row) for row in cells[len(cells) // 2 :] if any(row))
@@ -107,10 +114,9 @@ def _rows(lines: list[str], delimiter: str) -> tuple[int, int, str, bool] | None
         decimal = "." if delimiter == "," else decimal_mark(c for row in body for c in row) or "."
     except FormatError:
         return None
-    mark = decimal.encode()
     last = [row[-1] for row in body]
     # one damaged cell makes no column of text
-    odd = sum(number(c.encode(), mark) is None for c in last)
+    odd = sum(not _reads(c, decimal) for c in last)
     text = odd * 2 > sum(map(bool, last)) or not any(last)
     columns = width - 1 if text else width
     first = next(
@@ -118,7 +124,7 @@ def _rows(lines: list[str], delimiter: str) -> tuple[int, int, str, bool] | None
             i
             for i, row in enumerate(cells)
             if len(row) in (columns, columns + text)
-            and all(number(c.encode(), mark) is not None for c in row[:columns])
+            and all(_reads(c, decimal) for c in row[:columns])
             and any(row[:columns])
         ),
         None,
@@ -126,16 +132,14 @@ def _rows(lines: list[str], delimiter: str) -> tuple[int, int, str, bool] | None
     if columns < 2 or first is None or first > _MOST_HEADER:
         return None
     good = sum(
-        all(number(c.encode(), mark) is not None for c in row[:columns])
-        for row in cells[first:]
-        if len(row) in (columns, columns + text)
+        all(_reads(c, decimal) for c in row[:columns]) for row in cells[first:] if len(row) in (columns, columns + text)
     )
     many = sum(any(row) for row in cells[first:])
     return (first, columns, decimal, text) if good >= max(_FEWEST_ROWS, 0.6 * many) else None
 
 
 def _made(
-    lines: list[str], delimiter: str, first: int, columns: int, decimal: str, text: bool, name: str, wanted: Any
+    lines: Sequence[str], delimiter: str, first: int, columns: int, decimal: str, text: bool, name: str, wanted: Any
 ) -> Layout:
     heads = [row for line in lines[:first] if len(row := _split(line, delimiter)) >= columns and any(row)]
     units_row = len(heads) > 1 and _is_units(heads[-1])
@@ -149,7 +153,7 @@ def _made(
     rows = [_split(line, delimiter) for line in lines[first:]]
     values = np.array(
         [
-            [v if (v := number(c.encode(), decimal.encode())) is not None else np.nan for c in r[:columns]]
+            [v if (v := to_float(c, decimal)) is not None else np.nan for c in r[:columns]]
             for r in rows
             if len(r) in (columns, columns + text)
         ],
@@ -164,8 +168,7 @@ def _made(
     doubtful = tuple(
         i + 1
         for i, line in enumerate(lines[:first])
-        if "\0" in line
-        or any(number(c.encode(), decimal.encode()) is not None for c in _split(line, delimiter)[1:] if c)
+        if "\0" in line or any(to_float(c, decimal) is not None for c in _split(line, delimiter)[1:])
     )
     return Layout(delimiter, decimal, first, header, _unique(names), tuple(units), clock, time, free, doubtful)
 

@@ -1,4 +1,4 @@
-"""An LVM file from its first to its last byte: headers, headings, and the rows between, in parts of whole lines."""
+"""An LVM file from its first to its last line: headers, headings, and the rows between, in parts of whole lines."""
 
 from __future__ import annotations
 
@@ -9,7 +9,9 @@ from pathlib import Path
 
 from thermodata.errors import FormatError
 from thermodata.plugin import Loss
-from thermodata_reader_crio.lvm_header import (
+from thermodata.reader.text.encoding import is_wide
+from thermodata.reader.text.lines import CHUNK, ODD, Chunk, chunks
+from thermodata_reader_crio.lvm.header import (
     END_SPECIAL,
     MARK,
     START_SPECIAL,
@@ -20,8 +22,8 @@ from thermodata_reader_crio.lvm_header import (
     read_packet,
     split_heading,
 )
-from thermodata_reader_crio.textparts import Part, decode, parts
 
+PART_BYTES = CHUNK
 _MOST_HEADER_LINES = 500
 # what a heading's line starts with; NaN and Inf start a row
 _KEY = re.compile(rb"(?!(?i:nan|inf|infinity)[\t,; ])(?:[A-Za-z_]|\*\*\*)")
@@ -29,12 +31,14 @@ _KEY = re.compile(rb"(?!(?i:nan|inf|infinity)[\t,; ])(?:[A-Za-z_]|\*\*\*)")
 
 @dataclass(frozen=True, slots=True)
 class RowPart:
-    """Lines of rows. line: number of the first; ended: False where the last has no line end; byte: where in a file
-    of one byte a letter they begin, or a few bytes before."""
+    """Lines of rows, in UTF-8. line: number of the first, from 0; ended: False where the last has no line end; more:
+    whether a heading follows in what was read; byte: of the file, where these rows are the last that was read: behind
+    it stand only some of them and what was not read yet."""
 
     line: int
     data: bytes
     ended: bool
+    more: bool = False
     byte: int = 0
 
 
@@ -42,26 +46,20 @@ Item = Header | Packet | RowPart | Loss
 
 
 def scan(path: Path, encoding: str, notes: list[str]) -> Iterator[Item]:
-    """Header, then each packet and its rows; a Loss for a heading that can't be read. FormatError where there is
-    no header, or no packet at all."""
-    state = _Scan(path, encoding, notes)
-    rest, line = b"", 1
-    done = 0
-    for part in parts(path, encoding):
-        state.byte, done = done - len(rest), done + len(part.data)
-        line = line if rest else part.line
-        data = rest + part.data if rest else part.data
-        yield from state.part(Part(line, data, part.ended) if rest else part)
-        rest, line = state.rest, state.line
-    if rest:
-        state.byte = done - len(rest)
-        yield from state.part(Part(line, rest, True), last=True)
+    """Header, then each packet and its rows; a Loss for a heading that can't be read, and for lines in another
+    encoding. FormatError where there is no header, or no packet at all."""
+    state = _Scan(path, notes)
+    for chunk in chunks(path, encoding, PART_BYTES):
+        if chunk.odd:
+            more = f" ({len(chunk.odd)} such lines)" if len(chunk.odd) > 1 else ""
+            yield Loss(f"{path.name} line {chunk.odd[0] + 1}", reason=ODD + more)
+        yield from state.part(chunk)
     yield from state.end()
 
 
 def has_heading_behind(path: Path, encoding: str, rows: RowPart) -> bool:
     """Whether a heading may follow the first rows of a packet: there is none without a star."""
-    if encoding.lower().replace("_", "-").startswith("utf-16"):
+    if rows.more or is_wide(encoding):
         return True
     with path.open("rb") as file:
         file.seek(rows.byte)
@@ -69,37 +67,38 @@ def has_heading_behind(path: Path, encoding: str, rows: RowPart) -> bool:
 
 
 class _Scan:
-    def __init__(self, path: Path, encoding: str, notes: list[str]) -> None:
-        self.path, self.encoding, self.notes = path, encoding, notes
+    def __init__(self, path: Path, notes: list[str]) -> None:
+        self.path, self.notes = path, notes
         self.header: Header | None = None
         self.packets = 0
         self.lost = False
         self.lines: list[str] = []
         self.state = "heading"  # or: names, rows, special
         self.before_special = ""
-        self.rest, self.line, self.byte = b"", 1, 0
+        self.rest = b""  # whole lines that may begin a heading
         self.strays: list[int] = []  # lines in a heading that are none of its
 
-    def part(self, part: Part, last: bool = False) -> Iterator[Item]:
-        data, at, line = part.data, 0, part.line
-        self.rest = b""
+    def part(self, chunk: Chunk) -> Iterator[Item]:
+        data, line = self.rest + chunk.data if self.rest else chunk.data, chunk.line - self.rest.count(b"\n")
+        self.rest, at = b"", 0
         while at < len(data):
             if self.state == "rows":
-                end = self._rows_end(data, at, last or not part.ended)
+                end = self._rows_end(data, at, chunk.last)
+                more = end < len(data)
                 if end > at:
                     if not self.lost:
-                        yield RowPart(line, data[at:end], part.ended or end < len(data), self.byte + at)
-                    # at the end of the part the next one brings its own number
-                    line += data.count(b"\n", at, end) if end < len(data) else 0
+                        # a header is less than half of what was read, but where it was read in small parts
+                        yield RowPart(line, data[at:end], more or data.endswith(b"\n"), more, chunk.size // 2)
+                    line += data.count(b"\n", at, end) if more else 0  # the next chunk brings its own number
                     at = end
-                if at < len(data) and self.state == "rows":
-                    self.rest, self.line = data[at:], line
+                if more and self.state == "rows":
+                    self.rest = data[at:]
                     return
                 continue
             end = data.find(b"\n", at) + 1 or len(data)
-            text = decode(data[at:end], self.encoding).rstrip("\r\n")
-            yield from self._heading_line(text, line)
-            at, line = end, line + 1
+            line += 1
+            yield from self._heading_line(data[at:end].decode("utf-8", "replace").rstrip("\r\n"), line)
+            at = end
 
     def _rows_end(self, data: bytes, at: int, last: bool) -> int:
         """Where the rows end that start at `at`: before a heading; before lines that may begin one, where more

@@ -4,37 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 
-from thermodata.errors import FormatError
 from thermodata.plugin import Bool1D, Float1D, Int1D, Source
-from thermodata.reader.text import decimal_mark
-from thermodata_reader_crio.labtime import EPOCH_1904_NS, counted_ns, is_labview_seconds, local_ns, seconds_ns, utc_ns
-from thermodata_reader_crio.labview_clock import step_ns
-from thermodata_reader_crio.lvm_header import Header, Packet
-from thermodata_reader_crio.rows import Grid, Rows, parse
-
-_FIRST_BYTES = 16 * 1024
-
-
-def decimal_of(data: bytes, header: Header, packet: Packet, notes: list[str]) -> str:
-    """The decimal mark that the data show; where they show none, what the header says."""
-    lines = data[:_FIRST_BYTES].decode("latin-1").splitlines()[:200]
-    cells = (c for line in lines for c in line.split(header.separator)[: packet.width])
-    try:
-        found = decimal_mark(cells)
-    except FormatError:
-        found = None
-    if found is not None and header.decimal is not None and found != header.decimal:
-        notes.append(f"the header says that '{header.decimal}' is the decimal mark, the data have '{found}'")
-    return found or header.decimal or "."
-
-
-def first_rows(data: bytes, header: Header, packet: Packet) -> Rows:
-    """The first rows of a packet, for what only the data tell."""
-    end = data.rfind(b"\n", 0, _FIRST_BYTES) + 1 or len(data)
-    grid = Grid(
-        header.separator.encode(), decimal_of(data, header, packet, []).encode(), packet.width, packet.comment, 2
-    )
-    return parse(data[:end], grid)
+from thermodata.reader.text.number import to_float
+from thermodata.reader.text.rows import Rows
+from thermodata_reader_crio.labview_clock import EPOCH_1904_NS, step_ns
+from thermodata_reader_crio.lvm.header import Header, Packet
+from thermodata_reader_crio.row_times import counted_ns, is_labview_seconds, local_ns, seconds_ns, utc_ns
 
 
 class Times:
@@ -45,12 +20,12 @@ class Times:
         self.labview: dict[int, bool] = {}
         self.empty: set[int] = set()
         for x in {x for x in packet.x if x is not None}:
-            values = first.numbers[x] if x < len(first.numbers) else np.zeros(0)
+            values = first.columns[x].values
             self.labview[x] = is_labview_seconds(values)
             if values.size and not np.isfinite(values).any():
                 self.empty.add(x)
                 notes.append(f"line {packet.line}: its X column is empty; rows are counted by Delta_X")
-        if packet.x and packet.x[0] is None and first.n and bool(np.isfinite(first.numbers[0]).all()):
+        if packet.x and packet.x[0] is None and first.n and bool(np.isfinite(first.columns[0].values).all()):
             notes.append(f"line {packet.line}: X_Columns is 'No', but rows begin with a number; it is not used as time")
 
     def base(self, channel: int) -> int:
@@ -102,11 +77,10 @@ class Times:
 
     def _number(self, key: str, channel: int, default: float) -> float:
         text = self.packet.key(key, channel)
-        try:
-            value = float(text.replace(",", ".")) if text else default
-        except ValueError:
-            value = np.nan
-        if not np.isfinite(value) or abs(value) > 9e9:
+        if not text:
+            return default
+        value = to_float(text, "," if "," in text else ".")
+        if value is None or not abs(value) <= 9e9:
             self._say(f"line {self.packet.line}: {key} '{text[:30]}' is no number; taken as {default:g}")
             return default
         return value

@@ -7,8 +7,8 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from thermodata.plugin import Float1D
-from thermodata_reader_crio.labtime import local_ns
-from thermodata_reader_crio.lvm_header import Packet
+from thermodata_reader_crio.lvm.header import Packet
+from thermodata_reader_crio.row_times import local_ns
 
 STREAM = "data"
 _SAME_SCAN_NS = 1_000_000  # channels of one scan may start up to this apart (a multiplexed converter)

@@ -56,7 +56,12 @@ class Packet:
 
     def samples(self, channel: int) -> int | None:
         text = self.key("Samples", channel)
-        return int(text) if text.isdigit() and len(text) < 16 else None
+        return int(text) if text.isdecimal() and len(text) < 16 else None
+
+    @property
+    def most_samples(self) -> int:
+        """Of all channels; 0 where none says how many it has."""
+        return max((s for i in range(len(self.names)) if (s := self.samples(i)) is not None), default=0)
 
 
 def cells(line: str, separator: str) -> list[str]:

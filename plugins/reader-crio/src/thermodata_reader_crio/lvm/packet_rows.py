@@ -1,0 +1,144 @@
+"""The parsed rows of an LVM packet as blocks of its streams, and as losses."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from thermodata.plugin import Array, Block, Bool1D, Loss, Source
+from thermodata.reader.text.rows import Grid, Rows
+from thermodata.schema.flag import Flag
+from thermodata_reader_crio.comments import flags_of, is_odd, texts
+from thermodata_reader_crio.lvm.header import Packet
+from thermodata_reader_crio.lvm.recording import comment_name
+from thermodata_reader_crio.lvm.streams import Streams
+from thermodata_reader_crio.lvm.times import Times
+
+
+@dataclass(frozen=True)
+class _Cells:
+    """What the cells of some rows say beside their numbers. empty, over: column -> rows without a value, and rows with
+    a word for overload; hopeless: rows that are none (None: there are none); words: the free text, or None."""
+
+    empty: dict[int, Bool1D]
+    over: dict[int, Bool1D]
+    hopeless: Bool1D | None
+    words: Array | None
+
+
+class PacketRows:
+    """Turns the rows of one packet into blocks, part by part. done: rows so far."""
+
+    def __init__(self, name: str, packet: Packet, streams: Streams, times: Times, grid: Grid, source: Source) -> None:
+        self.name, self.packet, self.streams, self.times, self.grid = name, packet, streams, times, grid
+        self.block_rows = int(source.options.get("block_rows", 0))
+        self.done = 0
+
+    def items(self, rows: Rows) -> Iterator[Block | Loss]:
+        """The blocks of all streams, then the losses."""
+        cells = self._cells(rows)
+        lost = {bad.line for bad in rows.bad} | {line for line, _ in rows.nul}
+        for count, group in enumerate(self.streams.groups(self.packet)):
+            block, good = self._block(rows, group, cells)
+            if good is not None:
+                lost |= set(rows.line[~good & (self._has_value(group, cells, rows.n) | (count == 0))].tolist())
+            size = self.block_rows or max(1, block.t_ns.size)
+            for a in range(0, block.t_ns.size, size):
+                yield block.part(a, a + size)
+        self.done += rows.n
+        yield from self._losses(rows, cells, lost)
+
+    def _cells(self, rows: Rows) -> _Cells:
+        packet, over = self.packet, {}
+        empty: dict[int, Bool1D] = {}
+        for c in packet.columns:
+            none = np.isnan(rows.columns[c].values)
+            if none.any():
+                empty[c] = none & ~rows.columns[c].over
+                if rows.columns[c].over.any():
+                    over[c] = rows.columns[c].over
+        hopeless = np.isin(rows.line, [line for line, _ in rows.nul])
+        # a word at the start of a line is none of a row: a heading that the end of the file cut
+        hopeless[[r for r, _ in rows.columns[0].odd]] = True
+        wrong = np.zeros(rows.n, bool)
+        wrong[[r for c in range(packet.width) for r, _ in rows.columns[c].odd]] = True
+        if wrong.any() and len(empty) == len(packet.columns):
+            hopeless |= np.logical_and.reduce([*empty.values(), wrong])
+        words = texts(rows.columns[packet.width].values) if packet.comment else None
+        return _Cells(empty, over, hopeless if hopeless.any() else None, words)
+
+    def _block(self, rows: Rows, group: list[int], cells: _Cells) -> tuple[Block, Bool1D | None]:
+        """One group's block; and which rows have a time and a value: None for all."""
+        packet, n = self.packet, rows.n
+        x = packet.x[group[0]]
+        t_ns, good = self.times.of(group[0], rows.columns[x].values if x is not None else None, self.done, n)
+        if cells.hopeless is not None:
+            good = good & ~cells.hopeless
+        keep = good & self._sampled(group, cells, n) if cells.empty else good
+        values: dict[str, Array] = {packet.names[i]: rows.columns[packet.columns[i]].values for i in group}
+        flags = self._flags(group, cells)
+        values[comment_name(values)] = cells.words if cells.words is not None else np.full(n, "", object)
+        at = rows.line + 1
+        if not keep.all():
+            t_ns, at = t_ns[keep], at[keep]
+            values = {k: v[keep] for k, v in values.items()}
+            flags = {k: v[keep] for k, v in flags.items()}
+        return Block(self.streams.of(packet, group), t_ns, values, flags or None, at), None if good.all() else good
+
+    def _flags(self, group: list[int], cells: _Cells) -> dict[str, Array]:
+        """Flags of the channels that have any: of their cells, and of what the free text says of all of them."""
+        said = None if cells.words is None else flags_of(cells.words)
+        flags: dict[str, Array] = {}
+        for i in group:
+            column = self.packet.columns[i]
+            parts = [] if said is None else [said]
+            if column in cells.empty:
+                parts.append(cells.empty[column] * np.uint16(Flag.NOT_MEASURING))
+            if column in cells.over:
+                parts.append(cells.over[column] * np.uint16(Flag.SATURATED))
+            if parts:
+                flags[self.packet.names[i]] = np.bitwise_or.reduce(parts)
+        return flags
+
+    def _has_value(self, group: list[int], cells: _Cells, n: int) -> Bool1D:
+        """Rows with a number in any of a group's columns."""
+        columns = [self.packet.columns[i] for i in group]
+        if any(c not in cells.empty for c in columns):
+            return np.ones(n, bool)
+        measured: Bool1D = ~np.logical_and.reduce([cells.empty[c] for c in columns])
+        return measured
+
+    def _sampled(self, group: list[int], cells: _Cells, n: int) -> Bool1D:
+        """False where a channel has no sample: its heading announces fewer than others have, and its cells are
+        empty."""
+        own = self.packet.samples(group[0])
+        if own is None or own >= self.packet.most_samples:
+            return np.ones(n, bool)
+        sampled: Bool1D = self._has_value(group, cells, n) | (np.arange(self.done, self.done + n) < own)
+        return sampled
+
+    def _losses(self, rows: Rows, cells: _Cells, lost: set[int]) -> Iterator[Loss]:
+        if lost:
+            yield Loss(
+                f"{self.name} line {min(lost) + 1}",
+                reason=f"{len(lost)} lines that are no rows of {self.packet.width} numbers",
+            )
+        lines = [int(rows.line[r]) for c in range(self.packet.width) for r, _ in rows.columns[c].odd]
+        wrong = [line for line in lines if line not in lost]
+        if wrong:
+            yield Loss(
+                f"{self.name} line {min(wrong) + 1}",
+                reason=f"{len(wrong)} cells that are no numbers: their rows are kept, these values are flagged",
+            )
+        if cells.words is None:
+            return
+        comments = cells.words.tolist()
+        odd = {word for word in set(comments) if word and is_odd(word, self.grid.decimal)}
+        if odd:
+            moved = [r for r, word in enumerate(comments) if word in odd]
+            yield Loss(
+                f"{self.name} line {int(rows.line[moved[0]]) + 1}",
+                reason=f"{len(moved)} rows with a number, or bytes of no text, where the comment stands",
+            )

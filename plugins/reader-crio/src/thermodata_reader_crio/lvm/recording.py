@@ -1,0 +1,106 @@
+"""What an LVM file holds: its streams and signals, and when it starts."""
+
+from __future__ import annotations
+
+from collections.abc import Collection
+from pathlib import Path
+
+from thermodata.errors import FormatError
+from thermodata.plugin import Recording, Signal, Source
+from thermodata.reader.text.header import split_unit
+from thermodata.reader.text.lines import sample
+from thermodata.reader.text.rows import parse
+from thermodata_reader_crio.lvm.grid import decimal_of, first_rows, grid_of
+from thermodata_reader_crio.lvm.header import Header, Packet
+from thermodata_reader_crio.lvm.scan import RowPart, has_heading_behind, scan
+from thermodata_reader_crio.lvm.streams import Streams, is_time
+from thermodata_reader_crio.lvm.times import Times
+
+COMMENT = "Comment"
+_NOTES = 20
+
+
+def describe(path: Path, source: Source) -> Recording:
+    """Signals, clock and start of a file, by its headings and the first rows of each; FormatError where there is no
+    channel over time."""
+    first = sample(path, source.encoding)
+    encoding, notes = first.encoding, [first.note] if first.note else []
+    streams = streams_of(path, encoding)
+    signals: dict[tuple[str, str], Signal] = {}
+    start: int | None = None
+    header, packet, fresh = Header(), None, False
+    dated = False
+    for item in scan(path, encoding, notes):
+        if isinstance(item, Header):
+            header = item
+        elif isinstance(item, Packet):
+            packet, fresh = item, True
+            _declare(streams, packet, signals, notes)
+        elif isinstance(item, RowPart) and packet is not None and fresh:
+            fresh = False
+            last = not has_heading_behind(path, encoding, item)
+            decimal_of(item.data, header, packet, notes)
+            times = Times(header, packet, first_rows(item.data, header, packet), source, notes)
+            for group in streams.groups(packet):
+                base = times.base(group[0])
+                dated = dated or times.dated(group[0])
+                start = base if start is None else min(start, base)
+            if last:
+                break
+    if not signals:
+        raise FormatError(
+            "an LVM file without a channel over time",
+            where=path.name,
+            expected="X_Dimension Time",
+            got="spectra, or no channel",
+        )
+    if not dated:
+        notes.append("no date in the file: times count from its start")
+    shown = notes[:_NOTES] + ([f"and {len(notes) - _NOTES} notes more"] if len(notes) > _NOTES else [])
+    return Recording(
+        tuple(signals.values()),
+        "absolute" if dated else "relative",
+        (start or 0) if dated else None,
+        None,
+        tuple(dict.fromkeys(shown)),
+    )
+
+
+def streams_of(path: Path, encoding: str) -> Streams:
+    """The streams; where each channel has an X column of its own, by reading these."""
+    streams = Streams()
+    header, packet, decimal = Header(), None, None
+    for item in scan(path, encoding, []):
+        if isinstance(item, Header):
+            header = item
+        elif isinstance(item, Packet):
+            packet, decimal = item, None
+            if not packet.multi and header.x_columns != "Multi":
+                break
+        elif isinstance(item, RowPart) and packet is not None and packet.multi:
+            decimal = decimal or decimal_of(item.data, header, packet, [])
+            rows = parse(item.data, item.line, grid_of(header, packet, decimal))
+            streams.compare(packet, [rows.columns[x].values for x in packet.x if x is not None])
+    return streams
+
+
+def comment_name(names: Collection[str]) -> str:
+    """The name of the free text beside a row: of each stream, for it says something of all channels."""
+    return COMMENT if COMMENT not in names else f"{COMMENT} (text)"
+
+
+def _declare(streams: Streams, packet: Packet, signals: dict[tuple[str, str], Signal], notes: list[str]) -> None:
+    notes.extend(packet.notes)
+    for i, name in enumerate(packet.names):
+        if not is_time(packet, i):
+            notes.append(f"{name}: stands over {packet.key('X_Dimension', i)}, not over time; left out")
+    for group in streams.groups(packet):
+        stream = streams.of(packet, group)
+        for i in group:
+            name = packet.names[i]
+            unit = packet.key("Y_Unit_Label", i) or split_unit(name)[1] or None
+            known = signals.setdefault((stream, name), Signal(name, stream, unit))
+            if known.unit != unit:
+                notes.append(f"{name}: its unit changes from '{known.unit}' to '{unit}' in line {packet.line}")
+        text = comment_name([packet.names[i] for i in group])
+        signals.setdefault((stream, text), Signal(text, stream, None, "str"))
