@@ -11,7 +11,7 @@ import pytest
 SCRIPT = Path(__file__).parents[1] / "benchmarks" / "fast_paths.py"
 
 
-@pytest.mark.parametrize("name", ["control csv", "lvm", "csv", "mcap json", "tdms"])
+@pytest.mark.parametrize("name", ["control csv", "lvm", "csv", "csv as text", "mcap json", "tdms"])
 def test_it_reads_the_same_as_the_plain_way(name: str) -> None:
     done = subprocess.run(
         [sys.executable, str(SCRIPT), "--check", "--only", name], capture_output=True, text=True, check=False
@@ -24,4 +24,4 @@ def test_it_reads_the_same_as_the_plain_way(name: str) -> None:
 
 def test_every_fast_path_is_tried() -> None:
     listed = subprocess.run([sys.executable, str(SCRIPT), "--help"], capture_output=True, text=True, check=True).stdout
-    assert "{control csv,lvm,csv,mcap json,tdms}" in listed
+    assert "{control csv,lvm,csv,csv as text,mcap json,tdms}" in listed

@@ -8,8 +8,8 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from thermodata.plugin import Array
-from thermodata.reader.status import BAD, is_good, zero_is_good
 from thermodata.reader.text.number import clean
+from thermodata.reader.text.status import BAD, is_good, zero_is_good
 
 _QUALITY = re.compile(
     r"^(?P<base>.+?)[ ._:/-]*(?:quality|qualit[äa]t|tagquality|status ?code|validity)$", re.IGNORECASE

@@ -183,7 +183,7 @@ def _typed(data: bytes, line: int, grid: Grid) -> Rows | None:
     # an empty line is a cell without a value in every column
     if any(i < width and grid.kinds[i] != "str" and not values.empty.any() for i, values in columns.items()):
         return rows
-    return _without_empty_lines(rows, data, line)
+    return _without_empty_lines(rows, data, line) if grid.blank_rows else _without_empty_cells(rows)
 
 
 def _arrow_values(column: Any, kind: str) -> Values | None:
@@ -218,6 +218,19 @@ def _nothing(n: int, kind: str) -> Values:
     dtype, none = np.dtype(object if kind == "str" else kind), np.zeros(n, bool)
     nothing = None if kind == "str" else np.nan if dtype.kind == "f" else 0
     return Values(np.full(n, nothing, dtype), none if kind == "str" else np.ones(n, bool), none)
+
+
+def _without_empty_cells(rows: Rows) -> Rows:
+    """Without the rows in which no cell holds anything."""
+    import pyarrow.compute as pc
+
+    blank = np.ones(rows.n, bool)
+    for values in rows.columns.values():
+        blank &= values.empty if values.values.dtype != object else np.equal(values.values, None)
+    for cells in rows.times.values():
+        if blank.any():
+            blank &= arrow.values(pc.equal(pc.utf8_trim_whitespace(cells.fill_null("")), ""), "bool")
+    return _taken(rows, np.flatnonzero(~blank)) if blank.any() else rows
 
 
 def _without_empty_lines(rows: Rows, data: bytes, line: int) -> Rows:
