@@ -106,15 +106,15 @@ def to_ns(values: Array, seconds: float, zero_s: int = 0) -> Int1D:
     with np.errstate(over="ignore", invalid="ignore"):
         full = values.astype(np.float64)
         good = np.isfinite(full) & (np.abs(full * seconds + zero_s) < _REACH_S) & (np.abs(full * seconds) < 1e12)
-    base = np.floor(full[good])
-    part = full[good] - base  # exact: the whole and the fraction keep all digits of the double
+    safe = full if good.all() else np.where(good, full, 0.0)
+    base = np.floor(safe)
+    part = safe - base  # exact: the whole and the fraction keep all digits of the double
     if seconds >= 1:
-        out[good] = (base.astype(np.int64) * round(seconds) + zero_s) * 1_000_000_000 + np.rint(
-            part * (seconds * 1e9)
-        ).astype(np.int64)
+        whole_ns = (base.astype(np.int64) * round(seconds) + zero_s) * 1_000_000_000
+        out = whole_ns + np.rint(part * (seconds * 1e9)).astype(np.int64)
     else:
-        out[good] = (base.astype(np.int64) + zero) * each + np.rint(part * each).astype(np.int64)
-    return out
+        out = (base.astype(np.int64) + zero) * each + np.rint(part * each).astype(np.int64)
+    return out if safe is full else np.where(good, out, NAT)
 
 
 def found_epoch(values: Array) -> str | None:

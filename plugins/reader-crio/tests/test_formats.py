@@ -11,6 +11,6 @@ from thermodata.plugin import Head
 
 @pytest.mark.parametrize("name", FORMATS)
 def test_a_format_claims_its_own_example_and_no_other(name: str) -> None:
-    example = Reader.heads[name]
+    example = Reader().heads[name]
     claimed = [n for n, form in FORMATS.items() if form.claims(Head("x.dat", len(example), example))]
     assert claimed == [name]

@@ -392,7 +392,7 @@ def _line_by_line(data: bytes, line: int, grid: Grid) -> Rows:
             continue
         if not rows.add(number, record) and not blank:
             size = len(text.encode("utf-8", "replace"))
-            bad.append(BadLine(number, bare.count(grid.delimiter) + 1, bare[:_SHOWN], size))
+            bad.append(BadLine(number, len(record), bare[:_SHOWN], size))
     columns, times = _converted(rows.columns, grid)
     lines, short = np.array(rows.lines, np.int64), np.array(rows.short, np.int64)
     return Rows(lines, columns, times, tuple(bad), tuple(nul), short)

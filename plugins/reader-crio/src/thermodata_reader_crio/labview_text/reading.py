@@ -95,7 +95,8 @@ class _RowReader:
         rows = parse(data, line, self.grid)
         words = texts(rows.columns[len(self.layout.names)].values) if self.layout.text else None
         t_ns, good = self._times(rows)
-        good &= ~np.isin(rows.line, [n for n, _ in rows.nul])
+        if rows.nul:
+            good &= ~np.isin(rows.line, [n for n, _ in rows.nul])
         block = self._block(rows, words, t_ns, good)
         size = self.block_rows or max(1, block.t_ns.size)
         for a in range(0, block.t_ns.size, size):

@@ -54,20 +54,22 @@ class PacketRows:
         packet, over = self.packet, {}
         empty: dict[int, Bool1D] = {}
         for c in packet.columns:
-            none = np.isnan(rows.columns[c].values)
-            if none.any():
-                empty[c] = none & ~rows.columns[c].over
-                if rows.columns[c].over.any():
-                    over[c] = rows.columns[c].over
-        hopeless = np.isin(rows.line, [line for line, _ in rows.nul])
-        # a word at the start of a line is none of a row: a heading that the end of the file cut
-        hopeless[[r for r, _ in rows.columns[0].odd]] = True
-        wrong = np.zeros(rows.n, bool)
-        wrong[[r for c in range(packet.width) for r, _ in rows.columns[c].odd]] = True
-        if wrong.any() and len(empty) == len(packet.columns):
-            hopeless |= np.logical_and.reduce([*empty.values(), wrong])
+            column = rows.columns[c]
+            if column.empty.any():
+                empty[c] = column.empty & ~column.over
+                if column.over.any():
+                    over[c] = column.over
+        hopeless: Bool1D | None = None
+        wrong = [r for c in range(packet.width) for r, _ in rows.columns[c].odd]
+        if wrong or rows.nul:
+            hopeless = np.isin(rows.line, [line for line, _ in rows.nul])
+            # a word at the start of a line is none of a row: a heading that the end of the file cut
+            hopeless[[r for r, _ in rows.columns[0].odd]] = True
+            if wrong and len(empty) == len(packet.columns):
+                nothing = np.logical_and.reduce(list(empty.values()))
+                hopeless[wrong] |= nothing[wrong]
         words = texts(rows.columns[packet.width].values) if packet.comment else None
-        return _Cells(empty, over, hopeless if hopeless.any() else None, words)
+        return _Cells(empty, over, hopeless, words)
 
     def _block(self, rows: Rows, group: list[int], cells: _Cells) -> tuple[Block, Bool1D | None]:
         """One group's block; and which rows have a time and a value: None for all."""
