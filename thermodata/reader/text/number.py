@@ -93,9 +93,13 @@ def to_int(cell: str, decimal: str = ".", dtype: str = "int64") -> int | None:
 
 def to_float(cell: str, decimal: str = ".", declared: bool = False) -> float | None:
     """The number in a cell that is not empty; None where it is none. declared: the decimal mark is (see the policy)."""
-    text = _PADDED_SIGN.sub(r"\1", cell.strip())
-    if _PLAIN[decimal].fullmatch(text):
-        value = float(text.replace(",", "."))
+    text = cell.strip()
+    plain = _PLAIN[decimal].fullmatch(text)
+    if plain is None and text.startswith(("+ ", "- ")):
+        text = _PADDED_SIGN.sub(r"\1", text)
+        plain = _PLAIN[decimal].fullmatch(text)
+    if plain is not None:
+        value = float(text if decimal == "." else text.replace(",", "."))
         if math.isinf(value) or (abs(value) >= EXACT and _INTEGER.fullmatch(text) and int(text) != value):
             return None
         return value
@@ -198,11 +202,13 @@ def _texts(cells: Any) -> Values:
 
 
 def _floats(cells: Any, decimal: str, declared: bool) -> Values:
-    """Plain numbers by Arrow's cast, all else by `to_float`."""
+    """Numbers that are all plain by Arrow's cast, or those that are; all else by `to_float`."""
     import pyarrow as pa
     import pyarrow.compute as pc
 
     text = pc.utf8_trim_whitespace(cells.fill_null(""))
+    if decimal == "." and (sure_all := _all_plain(text)) is not None:
+        return sure_all
     plain = pc.match_substring_regex(text, rf"^-?\d{{1,15}}(?:{re.escape(decimal)}\d{{1,30}})?(?:[eE][+-]?\d{{1,2}})?$")
     sure = plain.to_numpy(zero_copy_only=False)
     numbers = pc.if_else(plain, text, "nan")
@@ -220,6 +226,21 @@ def _floats(cells: Any, decimal: str, declared: bool) -> Values:
     empty, over = np.zeros(values.size, bool), np.zeros(values.size, bool)
     empty[rest], over[rest] = slow.empty, slow.over
     return Values(values, empty, over, tuple((int(rest[i]), cell) for i, cell in slow.odd))
+
+
+def _all_plain(text: Any) -> Values | None:
+    """The cells where all are numbers that a float64 holds; None where one needs a second look."""
+    import pyarrow as pa
+    import pyarrow.compute as pc
+
+    try:
+        values = pc.cast(text, pa.float64()).to_numpy(zero_copy_only=False)
+    except pa.ArrowInvalid:
+        return None
+    if not (np.abs(values) < EXACT).all():  # NaN is not either
+        return None
+    none = np.zeros(values.size, bool)
+    return Values(values.copy(), none, none)
 
 
 def _one_by_one(cells: Sequence[str | None], dtype: np.dtype[Any], scalar: Callable[[str], Any]) -> Values:
