@@ -175,12 +175,25 @@ class Values:
     odd: tuple[tuple[int, str], ...] = ()
 
 
+def text_array(cells: Sequence[str]) -> Any:
+    """Cells as an Arrow array of strings. `pa.array` would do, but it first imports pandas where that is installed (as does
+    `fill_null`), which takes a second."""
+    import pyarrow as pa
+
+    joined = "".join(cells)
+    lengths = map(len, cells) if joined.isascii() else (len(cell.encode("utf-8", "replace")) for cell in cells)
+    ends = np.cumsum(np.fromiter(lengths, np.int64, len(cells)))
+    offsets = np.concatenate(([0], ends)).astype(np.int32)
+    data = joined.encode("utf-8", "replace")
+    return pa.Array.from_buffers(pa.string(), len(cells), [None, pa.py_buffer(offsets), pa.py_buffer(data)])
+
+
 def values_of(column: Any, kind: str, decimal: str = ".", declared: bool = False) -> Values:
     """The cells of a column by the policy. column: an Arrow array of strings, or a sequence of str; kind: float64,
     int64, uint64, bool or str."""
     import pyarrow as pa
 
-    cells = column if isinstance(column, pa.Array | pa.ChunkedArray) else pa.array(list(column), pa.string())
+    cells = column if isinstance(column, pa.Array | pa.ChunkedArray) else text_array(list(column))
     if isinstance(cells, pa.ChunkedArray):
         cells = cells.combine_chunks()
         cells = cells if isinstance(cells, pa.Array) else pa.array([], pa.string())
@@ -195,8 +208,9 @@ def values_of(column: Any, kind: str, decimal: str = ".", declared: bool = False
 def _texts(cells: Any) -> Values:
     """Text as objects that share their strings; None for a blank cell. Words such as '---' are text like any other."""
     coded = cells.dictionary_encode()
+    indices = coded.indices.fill_null(len(coded.dictionary)) if cells.null_count else coded.indices
     words = np.array([*((clean(w) or None) for w in coded.dictionary.to_pylist()), None], object)
-    taken = words[coded.indices.fill_null(len(words) - 1).to_numpy(zero_copy_only=False)]
+    taken = words[indices.to_numpy(zero_copy_only=False)]
     none = np.zeros(len(cells), bool)
     return Values(taken, none, none)
 
@@ -206,7 +220,7 @@ def _floats(cells: Any, decimal: str, declared: bool) -> Values:
     import pyarrow as pa
     import pyarrow.compute as pc
 
-    text = pc.utf8_trim_whitespace(cells.fill_null(""))
+    text = pc.utf8_trim_whitespace(cells.fill_null("") if cells.null_count else cells)
     if decimal == "." and (sure_all := _all_plain(text)) is not None:
         return sure_all
     plain = pc.match_substring_regex(text, rf"^-?\d{{1,15}}(?:{re.escape(decimal)}\d{{1,30}})?(?:[eE][+-]?\d{{1,2}})?$")
@@ -220,7 +234,7 @@ def _floats(cells: Any, decimal: str, declared: bool) -> Values:
         none = np.zeros(len(cells), bool)
         return Values(values, none, none)
     slow = _one_by_one(
-        text.take(pa.array(rest)).to_pylist(), np.dtype(np.float64), lambda c: to_float(c, decimal, declared)
+        pc.filter(text, pc.invert(plain)).to_pylist(), np.dtype(np.float64), lambda c: to_float(c, decimal, declared)
     )
     values[rest] = slow.values
     empty, over = np.zeros(values.size, bool), np.zeros(values.size, bool)

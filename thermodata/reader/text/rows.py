@@ -17,7 +17,7 @@ import numpy as np
 
 from thermodata.plugin import Array, Int1D
 from thermodata.reader.text.delimiter import fields
-from thermodata.reader.text.number import EXACT, Values, null_words, values_of
+from thermodata.reader.text.number import EXACT, Values, null_words, text_array, values_of
 
 TIME = "time"  # a column of times as text: left as it stands
 _MOST_LINES = 64  # of one cell in quotes
@@ -191,7 +191,8 @@ def _shared_texts(column: Any) -> Values:
         words = np.array(
             [*((w.strip().strip('"').strip() or None) for w in chunk.dictionary.to_pylist()), None], object
         )
-        parts.append(words[chunk.indices.fill_null(len(words) - 1).to_numpy(zero_copy_only=False)])
+        indices = chunk.indices.fill_null(len(words) - 1) if chunk.null_count else chunk.indices
+        parts.append(words[indices.to_numpy(zero_copy_only=False)])
     return Values(np.concatenate(parts) if parts else np.empty(0, object), none, none)
 
 
@@ -231,7 +232,7 @@ def _as_text(data: bytes, line: int, grid: Grid) -> Rows | None:
     cells_of: list[Any] = [None] * grid.width
     for i in wanted:
         column = table.column(str(i)).combine_chunks()
-        cells_of[i] = pa.concat_arrays([*_arrays(column), pa.array(side.columns[i], pa.string())])
+        cells_of[i] = pa.concat_arrays([*_arrays(column), text_array(side.columns[i])])
     rows = Rows(np.concatenate([lines, np.array(side.lines, np.int64)]), *_converted(cells_of, grid), tuple(bad))
     order = np.argsort(rows.line, kind="stable")
     return _without_empty_rows(_taken(rows, order) if side.lines else rows, cells_of, order)
@@ -262,7 +263,7 @@ def _converted(cells_of: Sequence[Any], grid: Grid) -> tuple[dict[int, Values], 
     for i, kind in enumerate(grid.kinds):
         if kind is None:
             continue
-        cells = cells_of[i] if isinstance(cells_of[i], pa.Array) else pa.array(list(cells_of[i]), pa.string())
+        cells = cells_of[i] if isinstance(cells_of[i], pa.Array) else text_array(cells_of[i])
         if kind == TIME:
             times[i] = cells
         else:
