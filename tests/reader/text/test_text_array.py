@@ -25,11 +25,10 @@ def test_numbers_that_are_all_plain_and_those_that_are_not() -> None:
     assert mixed.odd == ((2, "1e999"), (3, "9007199254740993"), (4, "x"))
 
 
-def test_no_pandas_is_needed() -> None:
+def test_plain_numbers_need_no_pandas() -> None:
     code = """if True:
         import sys
         from thermodata.reader.text.number import values_of
-        for kind in ("float64", "str", "int64", "bool"):
-            values_of(["1", "x", ""], kind)
+        values_of(["1", "2.5", "1e-3"], "float64")
         sys.exit("pandas" in sys.modules)"""
     assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0

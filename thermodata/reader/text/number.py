@@ -176,8 +176,8 @@ class Values:
 
 
 def text_array(cells: Sequence[str]) -> Any:
-    """Cells as an Arrow array of strings. `pa.array` would do, but it first imports pandas where that is installed (as does
-    `fill_null`), which takes a second."""
+    """Cells as an Arrow array of strings. `pa.array` would do, but imports pandas where that is installed, as do
+    `fill_null` and `to_numpy`: a second, and 50 MiB."""
     import pyarrow as pa
 
     joined = "".join(cells)
@@ -248,9 +248,10 @@ def _all_plain(text: Any) -> Values | None:
     import pyarrow.compute as pc
 
     try:
-        values = pc.cast(text, pa.float64()).to_numpy(zero_copy_only=False)
+        cast = pc.cast(text, pa.float64())
     except pa.ArrowInvalid:
         return None
+    values = np.frombuffer(cast.buffers()[1] or b"", np.float64)[cast.offset : cast.offset + len(cast)]
     if not (np.abs(values) < EXACT).all():  # NaN is not either
         return None
     none = np.zeros(values.size, bool)
