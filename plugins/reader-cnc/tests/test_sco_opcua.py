@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from thermodata_reader_cnc import Reader
+from thermodata_reader_cnc.opcua import long_table
 
 from thermodata.errors import FormatError
 from thermodata.plugin import Scaling, Source
@@ -199,6 +200,19 @@ def test_a_quoted_value_may_hold_line_ends_and_one_node_needs_no_tag(tmp_path: P
     data = load(Reader(), written(tmp_path, text, "opc.csv"), Source())
     assert data.values["nc", "Value"].tolist() == ['12,""a""\nb'.replace('""', '"'), "c"]
     assert not data.losses
+
+
+def test_a_quoted_value_may_go_over_two_parts_of_the_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(long_table, "_PART", 64)
+    rows = "".join(
+        f'2026-03-02 08:00:{k:02d},T,{k},192\n2026-03-02 08:00:{k:02d},note,"first of {k}\nsecond",192\n'
+        for k in range(40)
+    )
+    path = written(tmp_path, OPC + rows, "opc.csv")
+    data = load(Reader(), path, Source())
+    assert not data.losses
+    assert data.values["nc", "note"].tolist() == [f"first of {k}\nsecond" for k in range(40)]
+    assert Reader().locate(path, Source(), "nc", 30) == "lines 92 to 94"
 
 
 def test_tags_of_a_table_that_step_back_a_little_are_put_in_order(tmp_path: Path) -> None:

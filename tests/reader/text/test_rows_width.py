@@ -11,7 +11,7 @@ from thermodata.reader.text.rows import Grid, parse
 @pytest.mark.parametrize("ending", [b"", b'1;"2\n3"\n'], ids=["by Arrow", "line by line"])
 @pytest.mark.parametrize(("exact", "lines"), [(False, [4, 6]), (True, [4])])
 def test_empty_cells_behind_the_last_column(ending: bytes, exact: bool, lines: list[int]) -> None:
-    """A doubled delimiter at the end and one that shifts cells look alike; a line of delimiters alone is nothing."""
+    """A doubled delimiter at the end and one that shifts the cells look alike; a line of them alone is nothing."""
     grid = Grid(";", ".", ("float64", "str"), quoted=True, exact=exact)
     rows = parse(b"1;a\n;;;;\n2;b;\n" + ending, 4, grid)
     np.testing.assert_array_equal(rows.line, lines + ([7] if ending else []))

@@ -97,9 +97,13 @@ def to_int(cell: str, decimal: str = ".", dtype: str = "int64") -> int | None:
 
 def to_float(cell: str, decimal: str = ".", declared: bool = False) -> float | None:
     """The number in a cell that is not empty; None where it is none. declared: the decimal mark is (see the policy)."""
-    text = _PADDED_SIGN.sub(r"\1", cell.strip())
-    if _PLAIN[decimal].fullmatch(text):
-        value = float(text.replace(",", "."))
+    text = cell.strip()
+    plain = _PLAIN[decimal].fullmatch(text)
+    if plain is None and text.startswith(("+ ", "- ")):
+        text = _PADDED_SIGN.sub(r"\1", text)
+        plain = _PLAIN[decimal].fullmatch(text)
+    if plain is not None:
+        value = float(text if decimal == "." else text.replace(",", "."))
         if math.isinf(value) or (abs(value) >= EXACT and _INTEGER.fullmatch(text) and int(text) != value):
             return None
         return value
@@ -177,6 +181,19 @@ class Values:
     odd: tuple[tuple[int, str], ...] = ()
 
 
+def text_array(cells: Sequence[str]) -> Any:
+    """Cells as an Arrow array of strings. `pa.array` would do, but imports pandas where that is installed, as do
+    `fill_null` and `to_numpy`: a second, and 50 MiB."""
+    import pyarrow as pa
+
+    joined = "".join(cells)
+    lengths = map(len, cells) if joined.isascii() else (len(cell.encode("utf-8", "replace")) for cell in cells)
+    ends = np.cumsum(np.fromiter(lengths, np.int64, len(cells)))
+    offsets = np.concatenate(([0], ends)).astype(np.int32)
+    data = joined.encode("utf-8", "replace")
+    return pa.Array.from_buffers(pa.string(), len(cells), [None, pa.py_buffer(offsets), pa.py_buffer(data)])
+
+
 def values_of(column: Any, kind: str, decimal: str = ".", declared: bool = False) -> Values:
     """The cells of a column by the policy. column: an Arrow array of strings, or a sequence of str; kind: float64,
     int64, uint64, bool or str."""
@@ -184,7 +201,7 @@ def values_of(column: Any, kind: str, decimal: str = ".", declared: bool = False
         return _one_by_one(column, np.dtype(np.float64), lambda cell: to_float(cell, decimal, declared))
     import pyarrow as pa
 
-    cells = column if isinstance(column, pa.Array | pa.ChunkedArray) else pa.array(list(column), pa.string())
+    cells = column if isinstance(column, pa.Array | pa.ChunkedArray) else text_array(list(column))
     if isinstance(cells, pa.ChunkedArray):
         cells = cells.combine_chunks()
         cells = cells if isinstance(cells, pa.Array) else pa.array([], pa.string())
@@ -206,11 +223,13 @@ def _texts(cells: Any) -> Values:
 
 
 def _floats(cells: Any, decimal: str, declared: bool) -> Values:
-    """Plain numbers by Arrow's cast, all else by `to_float`."""
+    """Numbers that are all plain by Arrow's cast, or those that are; all else by `to_float`."""
     import pyarrow as pa
     import pyarrow.compute as pc
 
-    text = pc.utf8_trim_whitespace(cells.fill_null(""))
+    text = pc.utf8_trim_whitespace(cells.fill_null("") if cells.null_count else cells)
+    if decimal == "." and (sure_all := _all_plain(text)) is not None:
+        return sure_all
     plain = pc.match_substring_regex(text, rf"^-?\d{{1,15}}(?:{re.escape(decimal)}\d{{1,30}})?(?:[eE][+-]?\d{{1,2}})?$")
     sure = arrow.values(plain, "bool")
     numbers = pc.if_else(plain, text, "nan")
@@ -222,12 +241,28 @@ def _floats(cells: Any, decimal: str, declared: bool) -> Values:
         none = np.zeros(len(cells), bool)
         return Values(values, none, none)
     slow = _one_by_one(
-        text.take(pa.array(rest)).to_pylist(), np.dtype(np.float64), lambda c: to_float(c, decimal, declared)
+        pc.filter(text, pc.invert(plain)).to_pylist(), np.dtype(np.float64), lambda c: to_float(c, decimal, declared)
     )
     values[rest] = slow.values
     empty, over = np.zeros(values.size, bool), np.zeros(values.size, bool)
     empty[rest], over[rest] = slow.empty, slow.over
     return Values(values, empty, over, tuple((int(rest[i]), cell) for i, cell in slow.odd))
+
+
+def _all_plain(text: Any) -> Values | None:
+    """The cells where all are numbers that a float64 holds; None where one needs a second look."""
+    import pyarrow as pa
+    import pyarrow.compute as pc
+
+    try:
+        cast = pc.cast(text, pa.float64())
+    except pa.ArrowInvalid:
+        return None
+    values = np.frombuffer(cast.buffers()[1] or b"", np.float64)[cast.offset : cast.offset + len(cast)]
+    if not (np.abs(values) < EXACT).all():  # NaN is not either
+        return None
+    none = np.zeros(values.size, bool)
+    return Values(values.copy(), none, none)
 
 
 def _one_by_one(cells: Sequence[str | None], dtype: np.dtype[Any], scalar: Callable[[str], Any]) -> Values:

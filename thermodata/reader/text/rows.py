@@ -19,7 +19,7 @@ from thermodata.plugin import Int1D
 from thermodata.reader.text import arrow
 from thermodata.reader.text.delimiter import fields
 from thermodata.reader.text.lines import count
-from thermodata.reader.text.number import EXACT, Values, clean, null_words, values_of
+from thermodata.reader.text.number import EXACT, Values, clean, null_words, text_array, values_of
 
 TIME = "time"  # a column of times as text: left as it stands
 _MOST_LINES = 64  # of one cell in quotes
@@ -226,7 +226,8 @@ def _without_empty_cells(rows: Rows) -> Rows:
 
     blank = np.ones(rows.n, bool)
     for values in rows.columns.values():
-        blank &= values.empty if values.values.dtype != object else np.equal(values.values, None)
+        words = values.values
+        blank &= values.empty if words.dtype != object else np.fromiter((w is None for w in words), bool, words.size)
     for cells in rows.times.values():
         if blank.any():
             blank &= arrow.values(pc.equal(pc.utf8_trim_whitespace(cells.fill_null("")), ""), "bool")
@@ -271,7 +272,7 @@ def _as_text(data: bytes, line: int, grid: Grid) -> Rows | None:
     cells_of: list[Any] = [None] * grid.width
     for i in wanted:
         column = table.column(str(i)).combine_chunks() if i < width else pa.nulls(table.num_rows, pa.string())
-        cells_of[i] = pa.concat_arrays([*_arrays(column), pa.array(side.columns[i], pa.string())])
+        cells_of[i] = pa.concat_arrays([*_arrays(column), text_array(side.columns[i])])
     columns, times = _converted(cells_of, grid)
     lines = np.concatenate([lines, np.array(side.lines, np.int64)])
     short = np.array(side.short, np.int64)
@@ -318,7 +319,7 @@ def _converted(cells_of: Sequence[Any], grid: Grid) -> tuple[dict[int, Values], 
     for i, kind in enumerate(grid.kinds):
         if kind is None:
             continue
-        cells = cells_of[i] if isinstance(cells_of[i], pa.Array) else pa.array(list(cells_of[i]), pa.string())
+        cells = cells_of[i] if isinstance(cells_of[i], pa.Array) else text_array(cells_of[i])
         if kind == TIME:
             times[i] = cells
         else:

@@ -18,6 +18,7 @@ import numpy.typing as npt
 
 from thermodata.errors import FormatError
 from thermodata.plugin import Int1D
+from thermodata.reader.text.number import text_array
 from thermodata.reader.zone import NAT
 
 CENTURY = 69  # years of two digits below it are of this one: 1969 to 2068, as strptime's %y
@@ -154,7 +155,7 @@ def parse(cells: Any, form: TimeFormat) -> Int1D:
     local), in the day for a time. cells: an Arrow string array without nulls, or a list. NAT where none."""
     import pyarrow as pa
 
-    column = pa.array(cells, pa.string()) if isinstance(cells, list) else cells
+    column = text_array(cells) if isinstance(cells, list) else cells
     if isinstance(column, pa.ChunkedArray):
         column = column.combine_chunks()
     if isinstance(column, pa.ChunkedArray):  # pyarrow may return one of no chunks

@@ -7,7 +7,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field
-from functools import lru_cache
 from typing import NamedTuple
 
 from thermodata.plugin import Block, Int1D, Loss, Recording, Signal, Source
@@ -44,10 +43,10 @@ class Event(NamedTuple):
         return f"{self.part} {self.at}"
 
 
-@lru_cache(maxsize=1 << 16)
 def _number(word: str) -> float | None:
     """The number in a word; None where it is none: a truth value is a state here."""
-    return to_float(word) if to_bool(word) is None else None
+    value = to_float(word)
+    return None if value in (0.0, 1.0) and to_bool(word) is not None else value
 
 
 @dataclass(slots=True)
@@ -229,11 +228,10 @@ def _value(target: Target, text: str, words: list[str]) -> tuple[Value, int, boo
     if target.dtype == "str":
         return (None if text == GONE or not text.strip() else text), 0, True
     place = 0 if target.part is None else target.part
-    if is_empty(text):
-        return None, 0, True
-    if place >= len(words) or (target.part is None and len(words) > 1):
-        return None, 0, False
-    if is_overload(words[place]):
-        return None, int(Flag.SATURATED), True
-    value = _number(words[place])
-    return value, 0, value is not None
+    if place < len(words) and (target.part is not None or len(words) == 1):
+        value = _number(words[place])
+        if value is not None:
+            return value, 0, True
+        if is_overload(words[place]):
+            return None, int(Flag.SATURATED), True
+    return None, 0, is_empty(text)

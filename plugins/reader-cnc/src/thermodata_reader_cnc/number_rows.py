@@ -20,12 +20,12 @@ _SHOWN = 200  # characters of a line that is no row
 
 @dataclass(frozen=True, slots=True)
 class NumberRows:
-    """line: of each row, 0-based in the file, shape (n,). columns: their values; there: where a cell holds one; over:
+    """line: of each row, 0-based in the file, shape (n,). columns: their values; empty: where a cell holds none; over:
     where it says overload; all of shape (n,). bad: the lines that are no rows."""
 
     line: Int1D
     columns: tuple[Array, ...]
-    there: tuple[Bool1D, ...]
+    empty: tuple[Bool1D, ...]
     over: tuple[Bool1D, ...]
     bad: tuple[BadLine, ...]
 
@@ -67,8 +67,8 @@ def number_rows(data: bytes, line: int, delimiter: str, decimal: str, dtypes: Se
     values = [c.values[which] for c in columns]
     for k in bits:
         values[k] = np.nan_to_num(values[k]) == 1
-    there, over = tuple(~c.empty[which] for c in columns), tuple(c.over[which] for c in columns)
-    return NumberRows(rows.line[which], tuple(values), there, over, bad)
+    empty, over = tuple(c.empty[which] for c in columns), tuple(c.over[which] for c in columns)
+    return NumberRows(rows.line[which], tuple(values), empty, over, bad)
 
 
 def everywhere(mask: Bool1D) -> Bool1D | slice:

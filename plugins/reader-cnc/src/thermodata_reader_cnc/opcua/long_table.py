@@ -31,6 +31,9 @@ from thermodata_reader_cnc.events import GONE, Event, HeldTable
 
 EXAMPLE = b"DateTime,TagName,TagVal,TagQuality\n2024-01-01 00:00:00,T1,20.5,192\n2024-01-01 00:00:01,T2,20.5,192\n"
 _LOOK = 4 << 20
+_PART = 1 << 20  # bytes, and lines, whose cells are held as text at once
+_LINES = 20_000
+_MOST_HELD = 1 << 16  # bytes of a value in quotes that goes over two parts
 _TIMES = (
     "sourcetimestamp",
     "sourcetime",
@@ -134,7 +137,7 @@ def _events(layout: Layout, data: bytes, line: int, name: str) -> Iterator[Event
         flag = 0 if stamp else int(Flag.CLOCK_SUSPECT)
         if status is not None and not is_good(status, layout.zero_good):
             flag |= BAD
-        if value and "," in value and to_float(value) is None and to_float(value, ",") is not None:
+        if value and value.count(",") == 1 and "." not in value and to_float(value, ",") is not None:
             value = value.replace(",", ".")  # a value with a decimal comma is quoted, or stands between other marks
         yield Event(time, tag, value or GONE, number + 1, part, flag)
     yield from (loss for _, loss in losses)
@@ -180,7 +183,12 @@ def _look(path: Path, source: Source) -> _Look:
         )
     lines = first.head[:-1] if first.whole and not first.ends_with_newline else first.head
     head, rest = (
-        [e for e in _events(layout, "\n".join(part).encode(), 0, path.name) if isinstance(e, Event)]
+        [
+            event
+            for k in range(0, len(part), _LINES)
+            for event in _events(layout, "\n".join(part[k : k + _LINES]).encode(), 0, path.name)
+            if isinstance(event, Event)
+        ]
         for part in (lines[layout.row + 1 :], first.rest)
     )
     plan = events.plan([*head, *rest], form=layout.form)
@@ -239,11 +247,17 @@ def locate(path: Path, source: Source, stream: str, row: int) -> str | None:
 
 
 def _all(path: Path, look: _Look) -> Iterator[Event | Loss]:
-    for chunk in from_line(chunks(path, look.encoding), look.layout.row + 1):
+    held = b""  # a value in quotes whose end is in the next part
+    for chunk in from_line(chunks(path, look.encoding, _PART), look.layout.row + 1):
         for number in chunk.odd:
             yield Loss(f"{path.name} line {number + 1}", reason=ODD)
-        data, tail = split_last_line(chunk.data)
-        yield from _events(look.layout, data, chunk.line, path.name)
+        data, tail = split_last_line(held + chunk.data)
+        line = chunk.line - held.count(b"\n")
+        held = b""
+        if not chunk.last and data.count(b'"') % 2:
+            cut = data.rfind(b"\n", 0, data.rfind(b'"')) + 1
+            data, held = (data[:cut], data[cut:]) if len(data) - cut < _MOST_HELD else (data, b"")
+        yield from _events(look.layout, data, line, path.name)
         text = tail.decode("utf-8", "replace")
         if text.strip("\0 \r"):
             yield Loss(f"{path.name} last line", reason=f"it has no line end and may be cut: '{text[:60]}'")

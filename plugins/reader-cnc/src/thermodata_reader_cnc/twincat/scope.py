@@ -193,14 +193,15 @@ class _Groups:
     def blocks(self, rows: NumberRows, losses: Losses) -> Iterator[Block]:
         """A block a group, of the rows of one part."""
         for time, channels in self.header.groups.items():
-            there = rows.there[time]
+            blank = rows.empty[time]
+            there = ~blank
             for channel in channels:
                 if channel.dtype != "float64":
-                    there = there & rows.there[channel.column]
-            lost = rows.there[time] ^ there
+                    there &= ~rows.empty[channel.column]
+            lost = ~blank & ~there
             for channel in channels:
-                if not lost.any() and not rows.there[time].all():
-                    lost = lost | (~rows.there[time] & rows.there[channel.column])
+                if not lost.any() and blank.any():
+                    lost = lost | (blank & ~rows.empty[channel.column])
             if lost.any():
                 line = int(rows.line[np.argmax(lost)])
                 losses.add(line, f"{int(lost.sum())} rows of '{channels[0].name}' with a blank cell", 0, 0)
