@@ -11,7 +11,7 @@ from xml.parsers import expat
 
 from thermodata.errors import FormatError
 
-FEED = 1 << 20  # bytes that are read at once
+FEED = 1 << 19  # bytes that are read at once
 _MOST_SIGNALS = 20_000
 _ID = re.compile(r"^\d+$")
 
