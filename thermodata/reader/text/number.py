@@ -281,5 +281,5 @@ def _one_by_one(cells: Sequence[str | None], dtype: np.dtype[Any], scalar: Calla
             known[cell] = (nothing if value is None else value, value is None, beyond, value is None and not gone)
         values[i], empty[i], over[i], wrong = known[cell]
         if wrong and not over[i]:
-            odd.append((i, raw or ""))
+            odd.append((i, (raw or "").strip()))
     return Values(values, empty, over, tuple(odd))

@@ -89,10 +89,19 @@ class Table:
         return not last_line_is_whole(lines[-1], lines[-2], self.delimiter)
 
     def grid(self, decimal: str) -> Grid:
-        """How its rows lie. A row may end with the columns of a group, for groups have lengths of their own."""
+        """How its rows lie. A row may end with the columns of a group, for groups have lengths of their own; one with a
+        delimiter too much is none, for that may have shifted its cells."""
         edges = [min(g.group.time) for g in self.groups[1:]]
         least = min(edges) if edges else None
-        return Grid(self.delimiter, decimal, self.kinds, self.quoted, least, self.decimal_declared)
+        return Grid(
+            self.delimiter,
+            decimal,
+            self.kinds,
+            quoted=self.quoted,
+            least=least,
+            exact=True,
+            decimal_declared=self.decimal_declared,
+        )
 
 
 def open_table(path: Path, source: Source, stream: str = STREAM) -> Table:
