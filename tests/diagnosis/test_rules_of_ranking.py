@@ -1,0 +1,289 @@
+"""How evidence is weighed: surrogates, priors, left-out tests and compression (rank, loto, problem, whiten)."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+import pytest
+
+from thermodata.diagnosis import rank as ranking
+from thermodata.diagnosis.candidates import CandidateEffect
+from thermodata.diagnosis.loto import Drop, Engine, Priors
+from thermodata.diagnosis.problem import Problem, build_problem
+from thermodata.diagnosis.rank import _no_larger_than, _order, rank
+from thermodata.diagnosis.whiten import fit_ar, surrogates, whiten
+from thermodata.plugin import Float1D, Float2D, Param
+from thermodata.view.dataset import ChannelInfo, Dataset, TestData
+
+from .hand_made import STEP_S, Parts, PlainEffect, a_test, problem, scored
+
+FREE = Priors(np.full(1, np.inf), np.full(1, -np.inf), np.full(1, np.inf))
+
+# ---- chance
+
+
+def chances(drop: float, white_drop: float, top_raw: Sequence[float], top_white: Sequence[float]) -> float:
+    one = scored(drop=drop, white_drop=white_drop)
+    return _order([one], np.asarray(top_raw, dtype=float), np.asarray(top_white, dtype=float))[0].p_value
+
+
+def tops(better: int, of: int = 199, drop: float = 0.5) -> list[float]:
+    """The best of all candidates on each surrogate: as many are better."""
+    return [drop + 0.1] * better + [drop - 0.1] * (of - better)
+
+
+@pytest.mark.parametrize(("raw", "white", "p_value"), [(0, 199, 0.01), (1, 199, 0.02), (2, 199, 0.03), (199, 1, 0.02)])
+def test_the_better_of_two_looks_counts_doubled(raw: int, white: int, p_value: float) -> None:
+    assert chances(0.5, 0.5, tops(raw), tops(white)) == pytest.approx(p_value)
+
+
+def test_chance_is_at_most_certain_and_never_nothing() -> None:
+    assert chances(0.5, 0.5, tops(199), tops(199)) == 1.0
+    assert chances(0.5, 0.5, tops(0), tops(0)) == pytest.approx(2 / 200)
+
+
+def test_a_surrogate_that_does_as_well_counts_against_it() -> None:
+    assert chances(0.5, 0.5, [0.5, *tops(0, 198)], tops(199)) == pytest.approx(2 * 2 / 200)
+
+
+def test_the_order_is_the_sum_of_both_ranks_and_the_measured_one_breaks_ties() -> None:
+    evidence = {"a": (0.9, 0.1), "b": (0.8, 0.9), "c": (0.7, 0.8), "d": (0.6, 0.7)}
+    made = [scored(n, drop=d, white_drop=w) for n, (d, w) in evidence.items()]
+    found = _order(made, np.zeros(9), np.zeros(9))
+    assert [s.candidate.effect.name for s in found] == ["b", "a", "c", "d"]
+    assert [s.candidate.effect.name for s in _order(made[::-1], np.zeros(9), np.zeros(9))] == ["b", "a", "c", "d"]
+    assert _order([], np.zeros(9), np.zeros(9)) == []
+
+
+def test_surrogates_are_as_large_as_the_residual_and_start_from_its_mean() -> None:
+    x = np.random.default_rng(0).normal(3.0, 2.0, 101)
+    made = surrogates(x, 20, np.random.default_rng(1))
+    assert made.shape == (101, 20)
+    np.testing.assert_allclose(np.sqrt(np.mean(made**2, axis=0)), x.std(), rtol=1e-9)
+    np.testing.assert_allclose(made.mean(axis=0), 0.0, atol=1e-9)
+
+
+def test_whitening_by_three_samples_of_the_past() -> None:
+    rng = np.random.default_rng(0)
+    x = np.zeros(20_000)
+    e = rng.normal(size=20_000)
+    for i in range(3, 20_000):
+        x[i] = 0.5 * x[i - 1] + 0.2 * x[i - 2] + 0.2 * x[i - 3] + e[i]
+    assert fit_ar([x]) == pytest.approx([0.5, 0.2, 0.2], abs=0.03)
+    assert fit_ar([x[:6]]).tolist() == [0.0, 0.0, 0.0], "what is as short as twice the past says nothing"
+    assert fit_ar([x[:7]]).any()
+    white = whiten(np.arange(1.0, 7.0)[:, None], np.array([0.5, 0.2, 0.2]))
+    assert white[:3, 0].tolist() == [0.0, 0.0, 0.0]
+    assert white[3, 0] == pytest.approx(4.0 - 0.5 * 3.0 - 0.2 * 2.0 - 0.2 * 1.0)
+
+
+# ---- priors
+
+
+def test_a_contribution_is_at_most_three_times_as_large_as_the_response() -> None:
+    columns = [[np.array([[0.1, 2.0], [-0.4, 0.0]])], [np.array([[0.2, -0.5], [0.0, 0.0]])]]
+    wide = Priors(np.full(2, 1e9), np.full(2, -np.inf), np.full(2, np.inf))
+    found = _no_larger_than(wide, columns, 2.0)
+    assert found.upper.tolist() == pytest.approx([15.0, 3.0])
+    assert found.lower.tolist() == pytest.approx([-15.0, -3.0])
+    assert found.spread.tolist() == pytest.approx([15.0, 3.0])
+    narrow = Priors(np.full(2, 1.0), np.full(2, 0.0), np.full(2, 2.0))
+    kept = _no_larger_than(narrow, columns, 2.0)
+    assert (kept.spread.tolist(), kept.lower.tolist(), kept.upper.tolist()) == ([1, 1], [0, 0], [2, 2])
+
+
+def test_a_gain_is_drawn_to_zero_as_if_measured_once_with_its_largest_magnitude() -> None:
+    """One column of power 100 in the training test; a prior of standard deviation 2 under a variance of 400."""
+    column = np.ones((100, 1))
+    base, residual = np.zeros((100, 0)), np.full((100, 1), 1.0)
+    found = Engine([base] * 2, [residual] * 2, 400.0, np.zeros(0)).score(
+        [[column] * 2], Priors(np.full(1, 2.0), np.full(1, -np.inf), np.full(1, np.inf))
+    )
+    gain = 100 / (100 + 400 / 2**2)
+    assert found.after[:, 0] == pytest.approx([100 * (1 - gain) ** 2] * 2)
+    assert found.gain == pytest.approx([200 / (200 + 100)])
+    assert found.relative == pytest.approx([1 - (1 - gain) ** 2])
+
+
+@pytest.mark.parametrize(
+    ("lower", "upper", "gain"), [(-np.inf, np.inf, 3.0), (0.0, 2.0, 2.0), (-5.0, 0.0, 0.0), (4.0, 9.0, 4.0)]
+)
+def test_a_gain_stays_within_its_bounds(lower: float, upper: float, gain: float) -> None:
+    column, base = np.ones((50, 1)), np.zeros((50, 0))
+    found = Engine([base] * 2, [3.0 * column] * 2, 1.0, np.zeros(0)).score(
+        [[column] * 2], Priors(np.full(1, np.inf), np.full(1, lower), np.full(1, upper))
+    )
+    assert found.gain == pytest.approx([gain])
+    assert found.after[:, 0] == pytest.approx([50 * (3.0 - gain) ** 2] * 2)
+
+
+def test_a_parameter_is_chosen_without_the_test_that_is_left_out() -> None:
+    """Three tests follow the first point of the grid, the fourth the second: the fourth is predicted by the first."""
+    rng = np.random.default_rng(0)
+    one, two = rng.normal(size=(4, 200, 1)), rng.normal(size=(4, 200, 1))
+    residual = [*one[:3], two[3]]
+    base = [np.zeros((200, 0))] * 4
+    found = Engine(base, residual, 1e-9, np.zeros(0)).score([list(one), list(two)], FREE)
+    assert found.best == 0
+    assert found.after[3, 0] == pytest.approx(float(np.sum((two[3] - one[3] * 1.0) ** 2)), rel=0.05)
+    assert found.after[:3, 0] == pytest.approx([0, 0, 0], abs=60)
+
+
+def test_what_the_base_can_do_is_no_merit_of_a_candidate() -> None:
+    rng = np.random.default_rng(0)
+    base = [rng.normal(size=(200, 1)) for _ in range(4)]
+    found = Engine(base, [2.0 * b for b in base], 1e-9, np.zeros(1)).score([base], FREE)
+    assert found.before[:, 0] == pytest.approx([0.0] * 4, abs=1e-6)
+
+
+def test_a_base_column_with_a_price_moves_less() -> None:
+    column = np.ones((100, 1))
+    free, dear = (Engine([column] * 2, [column] * 2, 100.0, np.array([p])).before[:, 0] for p in (0.0, 1.0))
+    assert free == pytest.approx([0.0] * 2, abs=1e-6)
+    assert dear == pytest.approx([25.0] * 2, rel=1e-4)
+
+
+# ---- what rank hands to it
+
+T_A = ChannelInfo("T_a", "temperature", "degC", at="axis.x.nut")
+
+
+def driven(rng: np.random.Generator, n: int = 150) -> Parts:
+    u = np.cumsum(rng.normal(size=n))
+    u -= u[0]
+    y = 2.0 * (u - u.mean()) + 0.01 * rng.normal(size=n)
+    base, slack = rng.normal(size=(n, 2)), rng.normal(size=(n, 1))
+    return Parts(y, base=base, slack=slack, values={"T_a": u, "T_still": np.ones(n)}, channels={"T_a": T_A})
+
+
+def asked(name: str = "screw", channel: str = "T_a", params: tuple[Param, ...] = ()) -> CandidateEffect:
+    return CandidateEffect(PlainEffect(name, params=params), {"u": channel}, "feed_x")
+
+
+def four(count: int = 4) -> Problem:
+    rng = np.random.default_rng(0)
+    return problem(*(driven(rng) for _ in range(count)))
+
+
+def test_a_cause_is_found_with_its_gain_and_the_least_chance_there_is() -> None:
+    (found,) = rank(four(), [asked()])
+    assert found.gain == pytest.approx([2.0], rel=0.1)
+    assert found.drop > 0.99
+    assert found.p_value == pytest.approx(0.01), "199 surrogates, two looks"
+    assert np.linalg.norm(found.shape) == pytest.approx(1.0)
+    assert found.size == pytest.approx(np.sqrt(np.mean(np.concatenate(four().response_blocks) ** 2)), rel=0.1)
+
+
+def test_a_driver_that_never_moves_is_not_ranked() -> None:
+    assert [s.candidate.id for s in rank(four(), [asked("still", "T_still"), asked()])] == ["screw:T_a"]
+
+
+@pytest.mark.parametrize(("tests", "ranked"), [(1, 0), (2, 1)])
+def test_leaving_one_test_out_needs_two(tests: int, ranked: int) -> None:
+    assert len(rank(four(tests), [asked()])) == ranked
+    assert rank(four(), []) == []
+
+
+class Recorded(Engine):
+    """Keeps what an engine is made of and asked for."""
+
+    made: list[Recorded] = []
+    priors: list[Priors] = []
+
+    def __init__(self, base: Sequence[Float2D], residuals: Sequence[Float2D], noise_var: float, price: Float1D) -> None:
+        super().__init__(base, residuals, noise_var, price)
+        self.asked_price = price
+        Recorded.made.append(self)
+
+    def score(self, grid: Sequence[Sequence[Float2D]], priors: Priors) -> Drop:
+        Recorded.priors.append(priors)
+        return super().score(grid, priors)
+
+
+def test_prices_and_priors_are_those_that_were_measured(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A known effect may move by its own size, half of it with another time constant; 30 independent samples."""
+    monkeypatch.setattr(ranking, "Engine", Recorded)
+    Recorded.made, Recorded.priors = [], []
+    task = four()
+    rank(task, [asked(params=(Param("tau", "min", 30, 1, 360, ""),))])
+    raw, white = Recorded.made
+    assert raw.asked_price.tolist() == white.asked_price.tolist() == [1.0, 1.0, 4.0]
+    whole = np.concatenate([b.residual for b in task.blocks])
+    assert raw.noise_var == pytest.approx(30.0 * np.mean(whole**2))
+    assert white.noise_var == pytest.approx(30.0 * np.mean(np.concatenate([r[:, 0] for r in white.residuals]) ** 2))
+    assert white.noise_var < 0.1 * raw.noise_var
+    assert {r.shape[1] for r in raw.residuals} == {200}
+    for number, one in enumerate(task.blocks):
+        np.testing.assert_array_equal(raw.residuals[number][:, 0], one.residual)
+    rough, *full = Recorded.priors
+    assert len(rough.spread) == 1
+    assert [p.spread[1:].tolist() for p in full] == [[0.5, 0.5]] * 2
+    assert [np.isinf(p.lower[1:]).all() and np.isinf(p.upper[1:]).all() for p in full] == [True, True]
+
+
+# ---- how a test is compressed
+
+
+def built(counts: Sequence[int], n: int = 600, step_s: float = STEP_S, **of: Any) -> Problem:
+    """Tests of n samples of which the first `counts` count."""
+    tests = [a_test(f"t{i}", n, step_s=step_s) for i in range(len(counts))]
+    masks = {t.test: np.arange(n) < c for t, c in zip(tests, counts, strict=True)}
+    values = of.get("values", np.random.default_rng(0).normal(size=n))
+
+    def none(test: TestData) -> Float2D:
+        return np.zeros((n, 0))
+
+    return build_problem(
+        Dataset(step_s, tuple(tests), {}),
+        tests,
+        "dZ",
+        "um",
+        measured=lambda t: values,
+        residual=lambda t: values,
+        mask=lambda t: masks[t.test],
+        base=none,
+        slack=none,
+    )
+
+
+@pytest.mark.parametrize(("counted", "tests"), [(10, 4), (9, 3)])
+def test_a_test_with_under_ten_samples_takes_no_part(counted: int, tests: int) -> None:
+    assert len(built([600, 600, 600, counted]).blocks) == tests
+
+
+@pytest.mark.parametrize(("tests", "parts"), [(1, 4), (2, 4), (3, 3), (5, 5)])
+def test_parts_in_time_stand_for_tests_where_there_are_under_three(tests: int, parts: int) -> None:
+    assert len(built([600] * tests).blocks) == parts
+
+
+@pytest.mark.parametrize(("counted", "parts"), [(400, 4), (399, 3), (200, 2), (199, 1)])
+def test_a_part_has_a_hundred_samples(counted: int, parts: int) -> None:
+    found = built([counted])
+    assert len(found.blocks) == parts
+    assert sum(len(b.t_s) for b in found.blocks) == counted
+    assert all(abs(b.residual.mean()) < 1e-9 for b in found.blocks), "each has an offset of its own"
+
+
+@pytest.mark.parametrize(("n", "every"), [(3000, 1), (3001, 2)])
+def test_nine_thousand_samples_are_enough(n: int, every: int) -> None:
+    found = built([n] * 3, n)
+    assert found.step_s == 60.0 * every
+    assert found.rows == 3 * -(-n // every)
+
+
+def test_the_noise_is_that_between_neighbours_whatever_is_slow() -> None:
+    rng = np.random.default_rng(0)
+    slow = 50.0 * np.sin(np.arange(3000) / 300)
+    assert built([3000] * 3, 3000, values=slow + 0.3 * rng.normal(size=3000)).noise == pytest.approx(0.3, rel=0.1)
+    assert np.isnan(built([], 10).noise)
+
+
+def test_a_step_that_was_found_gives_the_rest_of_the_test_an_offset_of_its_own() -> None:
+    y = np.where(np.arange(100) < 40, 0.0, 5.0)
+    whole = problem(Parts(y, base=y[:, None], slack=y[:, None]), Parts(y))
+    cut = whole.split({("c", "t0"): [39.5 * STEP_S]})
+    for columns in (cut.blocks[0].residual, cut.blocks[0].base[:, 0], cut.blocks[0].slack[:, 0]):
+        np.testing.assert_allclose(columns, 0.0, atol=1e-12)
+    assert np.ptp(cut.blocks[1].residual) == 5.0, "another test has no step"
