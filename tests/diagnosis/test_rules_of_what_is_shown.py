@@ -151,6 +151,14 @@ def test_an_hour_stands_out_in_the_same_direction(signs: tuple[int, ...], found:
     assert hours(*(day(5, 3.0 * s) for s in signs)) == found
 
 
+@pytest.mark.parametrize(("start", "found"), [(5.0, [5.0]), (6.0, [])])
+def test_an_hour_stands_out_where_three_days_cover_it(start: float, found: list[float]) -> None:
+    """The third log begins at that hour or after it, and ends before it comes again."""
+    t = np.arange(440) * 180.0
+    third = Parts(0.1 * wave(7, 440) + 3.0 * (t < 3600), start_unix_s=3600 * start)
+    assert [h for h in hours(day(5, 3.0), day(5, 3.0), third) if h == 5.0] == found
+
+
 def test_an_hour_stands_out_by_more_than_the_error_of_all() -> None:
     rough = [Parts(d.residual + 2.0 * wave(5), start_unix_s=0.0) for d in [day(5, 1.0)] * 3]
     assert hours(*rough) == []
