@@ -169,5 +169,14 @@ class TestJudged:
         assert asked_about.spots[0].rmse_um > 5 * as_it_is.spots[0].rmse_um, "weak spots are those of the same model"
 
 
+def test_an_unlucky_zero_is_no_error(data: Dataset, fitted: FittedModel) -> None:
+    """The first samples, which give a test that was not fitted its offset, are 50 um off: 5 of 360."""
+    first = np.where(np.arange(360) < 5, 50.0, 0.0)
+    tests = [replace(t, values={**t.values, "dZ": t.values["dZ"] + first}) for t in fitted_tests(data)]
+    response = replace(fitted.responses[0], calibrate=frozenset())
+    assert np.abs(np.mean(response.residual(tests[0]))) > 40.0
+    assert investigating._error_of(response, tests) == pytest.approx(50.0 * np.sqrt(5 / 360), rel=0.05)
+
+
 def fitted_tests(data: Dataset) -> list[Any]:
     return [t for t in data.tests if t.role != "locked"]

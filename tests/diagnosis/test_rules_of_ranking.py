@@ -180,6 +180,20 @@ def test_a_driver_that_never_moves_is_not_ranked() -> None:
     assert [s.candidate.id for s in rank(four(), [asked("still", "T_still"), asked()])] == ["screw:T_a"]
 
 
+def test_beside_a_first_effect_a_second_one_is_asked_for() -> None:
+    """The first is then one of the known effects: it may grow, and act faster and slower at a price."""
+    task = four()
+    (found,) = rank(task, [asked(params=(Param("tau", "min", 30, 1, 360, ""),))])
+    more = task.with_effect(found)
+    for old, new in zip(task.blocks, more.blocks, strict=True):
+        assert (new.base.shape[1], new.slack.shape[1]) == (old.base.shape[1] + 1, old.slack.shape[1] + 2)
+        u = new.test.values["T_a"]
+        np.testing.assert_allclose(new.base[:, -1], found.gain * (u - u.mean()))
+        np.testing.assert_array_equal(new.residual, old.residual)
+    left = rank(more, [asked("again"), asked("other")])
+    assert all(s.sse_before.sum() < 0.01 * found.sse_before.sum() for s in left)
+
+
 @pytest.mark.parametrize(("tests", "ranked"), [(1, 0), (2, 1)])
 def test_leaving_one_test_out_needs_two(tests: int, ranked: int) -> None:
     assert len(rank(four(tests), [asked()])) == ranked

@@ -164,6 +164,18 @@ MUTANTS = [
         "a missing effect passes as a wrong gain",
     ),
     diagnosis("investigate.py", "and s != home", "", "the response's own clock is suspected"),
+    diagnosis(
+        "investigate.py",
+        "[p - p.mean() for p in parts if len(p)]",
+        "parts",
+        "an unlucky zero passes as wrong parameters",
+    ),
+    diagnosis(
+        "problem.py",
+        "base, slack = (\n                [block.base, own * scale]",
+        "base, slack = (\n                [block.base]",
+        "the second effect is the first one",
+    ),
     # ---- faults of the logs
     diagnosis("logging_faults.py", "CLOCK_DROP = 0.4", "CLOCK_DROP = 0.05", "sound clocks are suspected"),
     diagnosis("logging_faults.py", " and abs(best) < max(SHIFTS_S)", "", "slow effects pass as clocks"),
