@@ -1,9 +1,8 @@
-"""How evidence is weighed: surrogates, priors, left-out tests and compression (rank, loto, problem, whiten)."""
+"""How evidence is weighed against chance, and which priors it has (diagnosis/rank.py and whiten.py)."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
 
 import numpy as np
 import pytest
@@ -11,15 +10,13 @@ import pytest
 from thermodata.diagnosis import rank as ranking
 from thermodata.diagnosis.candidates import CandidateEffect
 from thermodata.diagnosis.loto import Drop, Engine, Priors
-from thermodata.diagnosis.problem import Problem, build_problem
+from thermodata.diagnosis.problem import Problem
 from thermodata.diagnosis.rank import _no_larger_than, _order, rank
 from thermodata.diagnosis.whiten import fit_ar, surrogates, whiten
 from thermodata.plugin import Float1D, Float2D, Param
-from thermodata.view.dataset import ChannelInfo, Dataset, TestData
+from thermodata.view.dataset import ChannelInfo
 
-from .hand_made import STEP_S, Parts, PlainEffect, a_test, problem, scored
-
-FREE = Priors(np.full(1, np.inf), np.full(1, -np.inf), np.full(1, np.inf))
+from .hand_made import Parts, PlainEffect, problem, scored
 
 # ---- chance
 
@@ -79,9 +76,6 @@ def test_whitening_by_three_samples_of_the_past() -> None:
     assert white[3, 0] == pytest.approx(4.0 - 0.5 * 3.0 - 0.2 * 2.0 - 0.2 * 1.0)
 
 
-# ---- priors
-
-
 def test_a_contribution_is_at_most_three_times_as_large_as_the_response() -> None:
     columns = [[np.array([[0.1, 2.0], [-0.4, 0.0]])], [np.array([[0.2, -0.5], [0.0, 0.0]])]]
     wide = Priors(np.full(2, 1e9), np.full(2, -np.inf), np.full(2, np.inf))
@@ -92,57 +86,6 @@ def test_a_contribution_is_at_most_three_times_as_large_as_the_response() -> Non
     narrow = Priors(np.full(2, 1.0), np.full(2, 0.0), np.full(2, 2.0))
     kept = _no_larger_than(narrow, columns, 2.0)
     assert (kept.spread.tolist(), kept.lower.tolist(), kept.upper.tolist()) == ([1, 1], [0, 0], [2, 2])
-
-
-def test_a_gain_is_drawn_to_zero_as_if_measured_once_with_its_largest_magnitude() -> None:
-    """One column of power 100 in the training test; a prior of standard deviation 2 under a variance of 400."""
-    column = np.ones((100, 1))
-    base, residual = np.zeros((100, 0)), np.full((100, 1), 1.0)
-    found = Engine([base] * 2, [residual] * 2, 400.0, np.zeros(0)).score(
-        [[column] * 2], Priors(np.full(1, 2.0), np.full(1, -np.inf), np.full(1, np.inf))
-    )
-    gain = 100 / (100 + 400 / 2**2)
-    assert found.after[:, 0] == pytest.approx([100 * (1 - gain) ** 2] * 2)
-    assert found.gain == pytest.approx([200 / (200 + 100)])
-    assert found.relative == pytest.approx([1 - (1 - gain) ** 2])
-
-
-@pytest.mark.parametrize(
-    ("lower", "upper", "gain"), [(-np.inf, np.inf, 3.0), (0.0, 2.0, 2.0), (-5.0, 0.0, 0.0), (4.0, 9.0, 4.0)]
-)
-def test_a_gain_stays_within_its_bounds(lower: float, upper: float, gain: float) -> None:
-    column, base = np.ones((50, 1)), np.zeros((50, 0))
-    found = Engine([base] * 2, [3.0 * column] * 2, 1.0, np.zeros(0)).score(
-        [[column] * 2], Priors(np.full(1, np.inf), np.full(1, lower), np.full(1, upper))
-    )
-    assert found.gain == pytest.approx([gain])
-    assert found.after[:, 0] == pytest.approx([50 * (3.0 - gain) ** 2] * 2)
-
-
-def test_a_parameter_is_chosen_without_the_test_that_is_left_out() -> None:
-    """Three tests follow the first point of the grid, the fourth the second: the fourth is predicted by the first."""
-    rng = np.random.default_rng(0)
-    one, two = rng.normal(size=(4, 200, 1)), rng.normal(size=(4, 200, 1))
-    residual = [*one[:3], two[3]]
-    base = [np.zeros((200, 0))] * 4
-    found = Engine(base, residual, 1e-9, np.zeros(0)).score([list(one), list(two)], FREE)
-    assert found.best == 0
-    assert found.after[3, 0] == pytest.approx(float(np.sum((two[3] - one[3] * 1.0) ** 2)), rel=0.05)
-    assert found.after[:3, 0] == pytest.approx([0, 0, 0], abs=60)
-
-
-def test_what_the_base_can_do_is_no_merit_of_a_candidate() -> None:
-    rng = np.random.default_rng(0)
-    base = [rng.normal(size=(200, 1)) for _ in range(4)]
-    found = Engine(base, [2.0 * b for b in base], 1e-9, np.zeros(1)).score([base], FREE)
-    assert found.before[:, 0] == pytest.approx([0.0] * 4, abs=1e-6)
-
-
-def test_a_base_column_with_a_price_moves_less() -> None:
-    column = np.ones((100, 1))
-    free, dear = (Engine([column] * 2, [column] * 2, 100.0, np.array([p])).before[:, 0] for p in (0.0, 1.0))
-    assert free == pytest.approx([0.0] * 2, abs=1e-6)
-    assert dear == pytest.approx([25.0] * 2, rel=1e-4)
 
 
 # ---- what rank hands to it
@@ -235,69 +178,3 @@ def test_prices_and_priors_are_those_that_were_measured(monkeypatch: pytest.Monk
     assert len(rough.spread) == 1
     assert [p.spread[1:].tolist() for p in full] == [[0.5, 0.5]] * 2
     assert [np.isinf(p.lower[1:]).all() and np.isinf(p.upper[1:]).all() for p in full] == [True, True]
-
-
-# ---- how a test is compressed
-
-
-def built(counts: Sequence[int], n: int = 600, step_s: float = STEP_S, **of: Any) -> Problem:
-    """Tests of n samples of which the first `counts` count."""
-    tests = [a_test(f"t{i}", n, step_s=step_s) for i in range(len(counts))]
-    masks = {t.test: np.arange(n) < c for t, c in zip(tests, counts, strict=True)}
-    values = of.get("values", np.random.default_rng(0).normal(size=n))
-
-    def none(test: TestData) -> Float2D:
-        return np.zeros((n, 0))
-
-    return build_problem(
-        Dataset(step_s, tuple(tests), {}),
-        tests,
-        "dZ",
-        "um",
-        measured=lambda t: values,
-        residual=lambda t: values,
-        mask=lambda t: masks[t.test],
-        base=none,
-        slack=none,
-    )
-
-
-@pytest.mark.parametrize(("counted", "tests"), [(10, 4), (9, 3)])
-def test_a_test_with_under_ten_samples_takes_no_part(counted: int, tests: int) -> None:
-    assert len(built([600, 600, 600, counted]).blocks) == tests
-
-
-@pytest.mark.parametrize(("tests", "parts"), [(1, 4), (2, 4), (3, 3), (5, 5)])
-def test_parts_in_time_stand_for_tests_where_there_are_under_three(tests: int, parts: int) -> None:
-    assert len(built([600] * tests).blocks) == parts
-
-
-@pytest.mark.parametrize(("counted", "parts"), [(400, 4), (399, 3), (200, 2), (199, 1)])
-def test_a_part_has_a_hundred_samples(counted: int, parts: int) -> None:
-    found = built([counted])
-    assert len(found.blocks) == parts
-    assert sum(len(b.t_s) for b in found.blocks) == counted
-    assert all(abs(b.residual.mean()) < 1e-9 for b in found.blocks), "each has an offset of its own"
-
-
-@pytest.mark.parametrize(("n", "every"), [(3000, 1), (3001, 2)])
-def test_nine_thousand_samples_are_enough(n: int, every: int) -> None:
-    found = built([n] * 3, n)
-    assert found.step_s == 60.0 * every
-    assert found.rows == 3 * -(-n // every)
-
-
-def test_the_noise_is_that_between_neighbours_whatever_is_slow() -> None:
-    rng = np.random.default_rng(0)
-    slow = 50.0 * np.sin(np.arange(3000) / 300)
-    assert built([3000] * 3, 3000, values=slow + 0.3 * rng.normal(size=3000)).noise == pytest.approx(0.3, rel=0.1)
-    assert np.isnan(built([], 10).noise)
-
-
-def test_a_step_that_was_found_gives_the_rest_of_the_test_an_offset_of_its_own() -> None:
-    y = np.where(np.arange(100) < 40, 0.0, 5.0)
-    whole = problem(Parts(y, base=y[:, None], slack=y[:, None]), Parts(y))
-    cut = whole.split({("c", "t0"): [39.5 * STEP_S]})
-    for columns in (cut.blocks[0].residual, cut.blocks[0].base[:, 0], cut.blocks[0].slack[:, 0]):
-        np.testing.assert_allclose(columns, 0.0, atol=1e-12)
-    assert np.ptp(cut.blocks[1].residual) == 5.0, "another test has no step"

@@ -6,7 +6,7 @@ from mutant import Mutant
 
 # the tests that stand beside the rules of a module
 BESIDE = {
-    "answer.py": ("the_locked_tests",),
+    "answer.py": ("the_answer", "the_locked_tests"),
     "artefact.py": ("steps",),
     "candidates.py": ("candidates",),
     "confirm.py": ("the_locked_tests",),
@@ -14,9 +14,9 @@ BESIDE = {
     "investigate.py": ("investigation", "logging_faults"),
     "judge.py": ("the_verdict",),
     "logging_faults.py": ("logging_faults",),
-    "loto.py": ("ranking",),
+    "loto.py": ("left_out_tests",),
     "next_test.py": ("what_is_shown",),
-    "problem.py": ("ranking",),
+    "problem.py": ("compression", "ranking"),
     "rank.py": ("ranking",),
     "unexplained.py": ("what_is_shown",),
     "weak.py": ("what_is_shown",),
