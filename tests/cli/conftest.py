@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+import shutil
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
@@ -88,10 +89,14 @@ def write_campaign(folder: Path) -> Path:
 
 
 @pytest.fixture(scope="session")
-def campaign(tmp_path_factory: pytest.TempPathFactory) -> Path:
+def campaign(once: Callable[[str, Callable[[Path], object]], Path], tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A campaign that is ingested into `thermodata.store` beside it, with its baseline fitted."""
-    folder = tmp_path_factory.mktemp("small")
-    path = write_campaign(folder)
-    assert main(["--store", str(folder / "thermodata.store"), "ingest", str(path), "--json"]) == 0
-    assert main(["--store", str(folder / "thermodata.store"), "fit", str(folder / "baseline.yaml"), "--json"]) == 0
+
+    def make(folder: Path) -> None:
+        path = write_campaign(folder)
+        assert main(["--store", str(folder / "thermodata.store"), "ingest", str(path), "--json"]) == 0
+        assert main(["--store", str(folder / "thermodata.store"), "fit", str(folder / "baseline.yaml"), "--json"]) == 0
+
+    folder = tmp_path_factory.mktemp("small") / "lab"
+    shutil.copytree(once("small", make), folder)
     return folder

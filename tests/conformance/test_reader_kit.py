@@ -200,12 +200,29 @@ class OnePlaceForAll(Good):
 
 
 class OneScratchFileForAll(Good):
-    """Unpacks into a fixed place, which another process empties."""
+    """Unpacks into a fixed place, which another process empties.
+
+    Where it is read by another process than this one, the first to come waits once for the second: that they meet
+    must not depend on how the machine shares its time.
+    """
+
+    home = os.getpid()
+    met = False
+
+    def describe(self, path: Path, source: Source) -> Recording:
+        return Good().describe(path, source)
 
     def read(self, path: Path) -> tuple[list[tuple[int, float]], int]:
-        scratch = path.with_name("pairs.scratch")
-        scratch.write_bytes(path.read_bytes())
-        time.sleep(0.01)
+        scratch, kind = path.with_name("pairs.scratch"), type(self)
+        try:
+            with scratch.open("xb") as file:
+                file.write(path.read_bytes())
+        except FileExistsError:
+            kind.met = True
+        end = time.monotonic() + 60.0
+        while os.getpid() != self.home and not kind.met and time.monotonic() < end:
+            kind.met = not scratch.exists()
+            time.sleep(0.001)
         try:
             return super().read(scratch)
         except OSError:

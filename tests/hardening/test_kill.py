@@ -7,6 +7,7 @@ import shutil
 import signal
 import subprocess
 import sys
+from collections.abc import Callable
 from pathlib import Path
 
 import duckdb
@@ -48,15 +49,17 @@ def victim(op: str, store: Path, argument: object, die_at: int = 0) -> tuple[int
 
 
 @pytest.fixture(scope="module")
-def lab(tmp_path_factory: pytest.TempPathFactory) -> Path:
+def lab(once: Callable[[str, Callable[[Path], object]], Path]) -> Path:
     """A folder with a campaign, an empty store `before`, one that holds it `after`, and one with a changed file."""
-    folder = tmp_path_factory.mktemp("lab")
-    campaign = store_fakes.write_campaign(folder / "lab")
-    Store(folder / "before/store", create=True)
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(raw_layer, "find_reader", lambda name: store_fakes.NpzReader())
-        ingest(Store(folder / "after/store", create=True), campaign)
-    return folder
+
+    def make(folder: Path) -> None:
+        campaign = store_fakes.write_campaign(folder / "lab")
+        Store(folder / "before/store", create=True)
+        with pytest.MonkeyPatch.context() as patch:
+            patch.setattr(raw_layer, "find_reader", lambda name: store_fakes.NpzReader())
+            ingest(Store(folder / "after/store", create=True), campaign)
+
+    return once("lab", make)
 
 
 @pytest.fixture(autouse=True)

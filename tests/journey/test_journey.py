@@ -5,11 +5,12 @@ from __future__ import annotations
 import io
 import json
 import os
+import shutil
 import subprocess
 import sys
 from collections.abc import Callable
 from contextlib import redirect_stderr, redirect_stdout
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from html.parser import HTMLParser
 from pathlib import Path
 from typing import Any
@@ -121,9 +122,17 @@ def make_lab(folder: Path, hide: str, seed: int) -> Lab:
 
 
 @pytest.fixture(scope="module")
-def lab(tmp_path_factory: pytest.TempPathFactory) -> Lab:
-    """A machine with a screw that the baseline model doesn't know."""
-    return make_lab(tmp_path_factory.mktemp("screw"), "feed_screw", 1)
+def lab(once: Callable[[str, Callable[[Path], object]], Path], tmp_path_factory: pytest.TempPathFactory) -> Lab:
+    """A machine with a screw that the baseline model doesn't know. Made once a run; each process has its own copy."""
+
+    def make(folder: Path) -> None:
+        made = make_lab(folder, "feed_screw", 1)
+        (folder / "lab.json").write_text(json.dumps([asdict(made.truth), made.ingested, made.fitted]))
+
+    folder = tmp_path_factory.mktemp("screw") / "lab"
+    shutil.copytree(once("screw", make), folder)
+    truth, ingested, fitted = json.loads((folder / "lab.json").read_text())
+    return Lab(folder, Truth(**truth), ingested, fitted, asker(folder / "thermodata.store"))
 
 
 @pytest.fixture(scope="module")

@@ -2,6 +2,7 @@ from __future__ import annotations
 
 import shutil
 import sys
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -25,20 +26,21 @@ def npz_reader(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 @pytest.fixture(scope="session")
-def _made(tmp_path_factory: pytest.TempPathFactory) -> Path:
+def _made(once: Callable[[str, Callable[[Path], object]], Path]) -> Path:
     """An empty store, and a campaign with the store that holds it; each test gets copies."""
     import store_fakes
 
     from thermodata.store.ingest import raw_layer
     from thermodata.store.ingest.run import ingest
 
-    folder = tmp_path_factory.mktemp("made")
-    Store(folder / "empty", create=True)
-    campaign = store_fakes.write_campaign(folder / "lab")
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(raw_layer, "find_reader", lambda name: store_fakes.NpzReader())
-        ingest(Store(folder / "filled", create=True), campaign)
-    return folder
+    def make(folder: Path) -> None:
+        Store(folder / "empty", create=True)
+        campaign = store_fakes.write_campaign(folder / "lab")
+        with pytest.MonkeyPatch.context() as patch:
+            patch.setattr(raw_layer, "find_reader", lambda name: store_fakes.NpzReader())
+            ingest(Store(folder / "filled", create=True), campaign)
+
+    return once("store", make)
 
 
 @pytest.fixture

@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+import pickle
+from collections.abc import Callable
+from pathlib import Path
+
 import numpy as np
 import pytest
 
@@ -14,8 +18,13 @@ from thermodata.virtual.levers import own_um
 
 
 @pytest.fixture(scope="module")
-def worlds() -> dict[str, World]:
-    return {hide: make_world(hide, 7) for hide in HIDEABLE}
+def worlds(once: Callable[[str, Callable[[Path], object]], Path]) -> dict[str, World]:
+    def make(folder: Path) -> None:
+        made = {hide: make_world(hide, 7) for hide in HIDEABLE}
+        (folder / "worlds").write_bytes(pickle.dumps(made))
+
+    read: dict[str, World] = pickle.loads((once("worlds", make) / "worlds").read_bytes())
+    return read
 
 
 def test_there_are_at_least_ten_effects_to_hide() -> None:

@@ -20,6 +20,8 @@ _MOST_CELLS = 2**16
 _LEAST_CORRELATION = 0.8
 _RIVAL = 0.97  # another peak as high as this is a rival
 _LEAST_OVERLAP = 0.25
+_LEAST_SAMPLES = 10
+_LEAST_EVENTS = 2
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,28 +58,11 @@ def estimate_offset(t_here_ns: Int1D, here: Array, t_there_ns: Int1D, there: Arr
     period = max(float(np.median(np.diff(t_a))), float(np.median(np.diff(t_b))))
     cell = max(period, (t_a[-1] + t_b[-1]) / _MOST_CELLS)
     lag_s, correlation = _coarse(_grid(t_a, a, cell), _grid(t_b, b, cell), cell)
-    if correlation < _LEAST_CORRELATION:
-        raise _thin(
-            "the logs don't look alike at any offset",
-            f"a correlation of {_LEAST_CORRELATION} or more",
-            f"{correlation:.2f}",
-            "are 'here' and 'there' the same quantity?",
-        )
+    refuse_logs_that_do_not_look_alike(correlation)
     parts = stretches_with_events(t_a, a, lag_s, t_b)
-    if not parts:
-        raise _thin(
-            "no event that both logs saw",
-            "at least two changes within both",
-            "none",
-            "choose a quantity that changes, e.g. the spindle's speed",
-        )
+    refuse_logs_without_a_common_event(len(parts))
     estimates = [f for f in (refine(t_a[s], a[s], t_b, b, lag_s, 3 * cell) for s in parts) if f is not None]
-    if len(estimates) < 2:
-        raise _thin(
-            "one event is not enough to tell which event it is in the other log",
-            "at least two events",
-            str(len(estimates)),
-        )
+    refuse_a_single_event(len(estimates))
     at, lags, weights, matches = (np.array(x) for x in zip(*estimates, strict=True))
     offset, uncertainty, drift_ppm = _line(at, lags, weights, period)
     common = _common_phase(lags, [float(np.median(np.diff(t))) for t in (t_a, t_b)])
@@ -91,6 +76,36 @@ def estimate_offset(t_here_ns: Int1D, here: Array, t_there_ns: Int1D, there: Arr
         origin_ns=origin_a,
         stretches=len(estimates),
     )
+
+
+def refuse_logs_that_do_not_look_alike(correlation: float) -> None:
+    """correlation: of the logs at their best offset."""
+    if correlation < _LEAST_CORRELATION:
+        raise _thin(
+            "the logs don't look alike at any offset",
+            f"a correlation of {_LEAST_CORRELATION} or more",
+            f"{correlation:.2f}",
+            "are 'here' and 'there' the same quantity?",
+        )
+
+
+def refuse_logs_without_a_common_event(stretches: int) -> None:
+    """stretches: those with events within both logs."""
+    if stretches == 0:
+        raise _thin(
+            "no event that both logs saw",
+            "at least two changes within both",
+            "none",
+            "choose a quantity that changes, e.g. the spindle's speed",
+        )
+
+
+def refuse_a_single_event(events: int) -> None:
+    """events: stretches whose own offset could be told."""
+    if events < _LEAST_EVENTS:
+        raise _thin(
+            "one event is not enough to tell which event it is in the other log", "at least two events", str(events)
+        )
 
 
 def _thin(what: str, expected: str, got: str, hint: str | None = None) -> CalibrationError:
@@ -113,8 +128,8 @@ def _prepared(t_ns: Int1D, values: Array, label: str) -> tuple[Float1D, Float1D,
     t_ns, values = t_ns[order], values[order]
     fresh = np.concatenate([[True], np.diff(t_ns) > 0]) if len(t_ns) else np.zeros(0, bool)
     t_ns, values = t_ns[fresh], values[fresh]
-    if len(t_ns) < 10:
-        raise _thin(f"'{label}' has hardly any samples", "at least 10", str(len(t_ns)))
+    if len(t_ns) < _LEAST_SAMPLES:
+        raise _thin(f"'{label}' has hardly any samples", f"at least {_LEAST_SAMPLES}", str(len(t_ns)))
     spread = float(values.std())
     if spread <= 1e-9 * max(float(np.abs(values).max()), 1e-300):
         raise _thin(

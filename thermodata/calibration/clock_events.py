@@ -11,6 +11,7 @@ from thermodata.plugin import Int1D
 _LEAST_SPAN_S = 3600.0  # closer events give an offset, but no rate
 _MOST_PPM = 500.0  # a bad quartz drifts by 100 ppm; beyond is a mistake
 _TYPED_S = 1.0  # how well an event's time is known: typed to the second
+_MOST_OFF_S = 30.0  # from one line, before an event is another event
 
 
 def offset_from_events(here_ns: Int1D, there_ns: Int1D) -> ClockEstimate:
@@ -54,7 +55,7 @@ def offset_from_events(here_ns: Int1D, there_ns: Int1D) -> ClockEstimate:
 
 def _refuse(left: np.ndarray, at: np.ndarray) -> None:
     worst = int(np.argmax(np.abs(left)))
-    if abs(float(left[worst])) > 30 * _TYPED_S:
+    if abs(float(left[worst])) > _MOST_OFF_S:
         raise CalibrationError(
             "clock: the declared events contradict each other",
             expected="all within half a minute of one line",

@@ -11,6 +11,9 @@ from thermodata.plugin import Float1D, Int1D
 _MOST_STRETCHES = 24
 _MOST_SAMPLES = 4000
 _QUIET = 8  # samples without a change that part two events
+_LEAST_SAMPLES = 6  # of a stretch
+_LEAST_CORRELATION = 0.7  # of a stretch with the other log
+_NEAR_THE_END = 0.98  # of the reach: the best lag may lie beyond
 
 
 def stretches_with_events(t_a: Float1D, a: Float1D, lag: float, t_b: Float1D) -> list[slice]:
@@ -46,7 +49,7 @@ def refine(
     """
     where = _near_events(a)
     t, x = t_a[where], a[where]
-    if len(t) < 6 or x.std() == 0:
+    if len(t) < _LEAST_SAMPLES or x.std() == 0:
         return None
 
     def misfit(shift: float) -> float:
@@ -60,14 +63,17 @@ def refine(
         shifts = best + np.linspace(-width, width, 13)
         costs = np.array([misfit(s) for s in shifts])
         best, width = _middle(shifts, costs), width / 3
-    if abs(best - lag) > 0.98 * reach:
-        return None
     correlation = 1.0 - misfit(best)
-    if correlation < 0.7:
+    if not is_told(best - lag, reach, correlation):
         return None
     changes = np.abs(np.diff(x))
     events = float(np.sum((t[1:] + t[:-1]) / 2 * changes) / changes.sum())
     return events, best, float(changes.sum()), correlation
+
+
+def is_told(moved: float, reach: float, correlation: float) -> bool:
+    """Whether a stretch tells its own lag. moved: from where the search began, within +- reach."""
+    return abs(moved) <= _NEAR_THE_END * reach and correlation >= _LEAST_CORRELATION
 
 
 def _middle(shifts: Float1D, costs: Float1D) -> float:

@@ -53,15 +53,21 @@ def answer(fitted: FittedModel, data: Dataset, library: Mapping[str, Effect], mo
             locked,
             judgement.second.candidate if judgement.second else None,
         )
-        if not confirmation.holds:
-            judgement = Judgement(
-                "unknown",
-                None,
-                f"{judgement.claimed.candidate.id} explains the open tests, but on the "
-                f"locked ones the error does not fall ({confirmation.before:.2f} -> "
-                f"{confirmation.after:.2f} {response.unit})",
-            )
+        judgement = kept_where_it_holds(judgement, confirmation, response.unit)
     return Answer(_diagnosis(investigation, judgement, confirmation, data, model_id), tuple(locked))
+
+
+def kept_where_it_holds(judgement: Judgement, confirmation: Confirmation, unit: str) -> Judgement:
+    """The claim, or "unknown" where the locked tests contradict it. unit: of the response."""
+    if confirmation.holds or judgement.claimed is None:
+        return judgement
+    return Judgement(
+        "unknown",
+        None,
+        f"{judgement.claimed.candidate.id} explains the open tests, but on the "
+        f"locked ones the error does not fall ({confirmation.before:.2f} -> "
+        f"{confirmation.after:.2f} {unit})",
+    )
 
 
 def _worst(fitted: FittedModel, tests: Sequence[TestData]) -> int:

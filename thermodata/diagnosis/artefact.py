@@ -19,6 +19,11 @@ SIDE_S = 1200.0
 COMMAND_S = 600.0
 Z_LIMIT = 9.0
 HOLE_STEPS = 1.6
+MOST_STEPS = 3
+NOISES = 3.0  # a step is larger than this many times the noise,
+LEAST_UM = 0.5  # and than this
+SHARP = 0.4  # least share of a step that happens between two samples
+MOVED = 0.2  # share of a command's range that makes it a change
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,16 +53,21 @@ def _steps_in(block: Block, problem: Problem) -> list[Step]:
         return []
     steps: list[Step] = []
     blocked = np.zeros(len(r), dtype=bool)
-    for _ in range(3):
+    for _ in range(MOST_STEPS):
         score, size = _step_score(r, t, side)
         score[blocked] = 0.0
         i = int(np.argmax(score))
-        if score[i] < Z_LIMIT or abs(size[i]) < max(3 * problem.noise, 0.5):
+        if not is_a_step(float(score[i]), float(size[i]), problem.noise):
             break
         steps.append(Step(block.test, float((t[i - 1] + t[i]) / 2), float(size[i]), float(score[i])))
         r = r - np.where(np.arange(len(r)) >= i, size[i], 0.0)
         blocked[max(0, i - side // 2) : i + side // 2] = True
     return steps
+
+
+def is_a_step(z: float, size: float, noise: float) -> bool:
+    """z: of the usual change. size: of the step, noise: of the response, both in its unit."""
+    return z >= Z_LIMIT and abs(size) >= max(NOISES * noise, LEAST_UM)
 
 
 def _step_score(r: Float1D, t: Float1D, side: int) -> tuple[Float1D, Float1D]:
@@ -79,7 +89,7 @@ def _step_score(r: Float1D, t: Float1D, side: int) -> tuple[Float1D, Float1D]:
     size[inner[used]] = inner_size[used]
     # a step happens between two samples; a steep rise takes several
     jump = np.abs(np.diff(r, prepend=r[0]))
-    sharp = jump > 0.4 * np.abs(size)
+    sharp = jump > SHARP * np.abs(size)
     # over a hole the machine had time to move: what nobody saw is not called a slip
     step = np.median(np.diff(t))
     sharp &= np.diff(t, prepend=t[0] - step) < HOLE_STEPS * step
@@ -110,7 +120,7 @@ def _commanded(test: TestData, at_s: float, step_s: float) -> bool:
             continue
         values = test.values[name]
         whole, part = values[np.isfinite(values)], values[near & np.isfinite(values)]
-        if len(part) and len(whole) and np.ptp(whole) > 0 and np.ptp(part) > 0.2 * np.ptp(whole):
+        if len(part) and len(whole) and np.ptp(whole) > 0 and np.ptp(part) > MOVED * np.ptp(whole):
             return True
     return False
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -20,7 +20,7 @@ from thermodata.modelling.drivers import names_of
 from thermodata.modelling.fitted_response import FittedResponse, FittedTerm
 from thermodata.plugin import Effect, Float2D
 from thermodata.schema.result import Artefact, WeakSpot
-from thermodata.view.dataset import Dataset, TestData
+from thermodata.view.dataset import ChannelInfo, Dataset, TestData
 
 # half-width, in the logarithm, of the difference quotient that lets a known time constant move
 TANGENT = 0.1
@@ -83,9 +83,7 @@ def investigate(
         return Pair(second, remaining(first.sse_after if second is None else second.sse_after, measure))
 
     judgement = judge(problem, ranked, measure, with_second)
-    if judgement.verdict != "none":
-        # a missing effect also makes one test larger or smaller than the others say
-        faults = [f for f in faults if f.kind != "gain"]
+    faults = gains_are_wrong_only_where_nothing_is_missing(faults, judgement)
     if ranked:
         faults += wrong_parameters(
             problem, _error_of(asked_about, tests), remaining(ranked[0].sse_before, measure), measure.floor
@@ -101,13 +99,23 @@ def _error_of(fitted: FittedResponse, tests: Sequence[TestData]) -> float:
     return float(np.sqrt(np.mean(whole**2)))
 
 
+def gains_are_wrong_only_where_nothing_is_missing(faults: list[Artefact], judgement: Judgement) -> list[Artefact]:
+    """A missing effect also makes one test larger or smaller than the others say."""
+    return faults if judgement.verdict == "none" else [f for f in faults if f.kind != "gain"]
+
+
+def clocks_beside(channels: Mapping[str, ChannelInfo], drivers: Iterable[str], response: str) -> dict[str, str]:
+    """Driver -> source, of the drivers that were logged by another source than the response."""
+    home = channels[response].source
+    return {n: s for n in drivers if n in channels and (s := channels[n].source) and s != home}
+
+
 def _faults(fitted: FittedResponse, data: Dataset, problem: Problem) -> list[Artefact]:
     """Clocks and probes, where there is a model to hold them against."""
     if not problem.blocks or not problem.blocks[0].base.shape[1]:
         return []
     drivers = {n for t in fitted.terms for text in t.binding.values() for n in names_of(text)}
-    home = data.channels[fitted.name].source
-    sources = {n: s for n in drivers if n in data.channels and (s := data.channels[n].source) and s != home}
+    sources = clocks_beside(data.channels, drivers, fitted.name)
     moved = clock_offsets(problem, lambda test: base_columns(fitted, test), sources)
     return [*moved, *turned_probes(problem)]
 

@@ -20,6 +20,7 @@ SIGN_DROP = 0.5  # turning a test must take away this share of the squared error
 GAIN_DROP = (
     0.9  # a factor must take away nearly all of a test's error: a missing effect also makes a test larger or smaller
 )
+NOISES = 5.0  # a test with a smaller error than this many times the noise has no wrong gain
 
 
 def clock_offsets(problem: Problem, base: Callable[[TestData], Float2D], sources: Mapping[str, str]) -> list[Artefact]:
@@ -33,8 +34,8 @@ def clock_offsets(problem: Problem, base: Callable[[TestData], Float2D], sources
     for source in sorted(set(sources.values())):
         names = {c for c, s in sources.items() if s == source}
         errors = {d: _error(problem, base, dict.fromkeys(names, d)) for d in SHIFTS_S}
-        best = min(errors, key=lambda d: errors[d])
-        if errors[best] < (1 - CLOCK_DROP) * now and abs(best) < max(SHIFTS_S):
+        best = shift_that_explains(now, errors)
+        if best is not None:
             rms = [float(np.sqrt(e / max(problem.rows, 1))) for e in (now, errors[best])]
             artefacts.append(
                 Artefact(
@@ -49,6 +50,12 @@ def clock_offsets(problem: Problem, base: Callable[[TestData], Float2D], sources
                 )
             )
     return artefacts
+
+
+def shift_that_explains(now: float, errors: Mapping[float, float]) -> float | None:
+    """The shift [s] with the smallest squared error, where that says that the clock is off. now: the error unmoved."""
+    best = min(errors, key=lambda d: errors[d])
+    return best if errors[best] < (1 - CLOCK_DROP) * now and abs(best) < max(SHIFTS_S) else None
 
 
 def _error(problem: Problem, base: Callable[[TestData], Float2D], shift_s: Mapping[str, float]) -> float:
@@ -89,7 +96,7 @@ def turned_probes(problem: Problem) -> list[Artefact]:
         others = [k for k in range(len(blocks)) if k != i]
         theta = np.linalg.lstsq(gram[others].sum(axis=0), cross[others].sum(axis=0), rcond=1e-9)[0]
         factor, before, after = _factor(block.response, block.base @ theta)
-        if turned < (1 - SIGN_DROP) * as_it_is:
+        if sign_is_wrong(as_it_is, turned):
             artefacts.append(
                 _fault(
                     "sign",
@@ -99,12 +106,7 @@ def turned_probes(problem: Problem) -> list[Artefact]:
                     "sign is wrong; check the probe's side and its calibration",
                 )
             )
-        elif (
-            factor > 0
-            and abs(factor - 1) > GAIN_OFF
-            and after < (1 - GAIN_DROP) * before
-            and (np.sqrt(before / len(block.response)) > 5 * problem.noise)
-        ):
+        elif gain_is_wrong(factor, before, after, float(np.sqrt(before / len(block.response))), problem.noise):
             artefacts.append(
                 _fault(
                     "gain",
@@ -115,6 +117,16 @@ def turned_probes(problem: Problem) -> list[Artefact]:
                 )
             )
     return artefacts
+
+
+def sign_is_wrong(as_it_is: float, turned: float) -> bool:
+    """Squared errors of all tests: as they are, and with one of them turned round."""
+    return turned < (1 - SIGN_DROP) * as_it_is
+
+
+def gain_is_wrong(factor: float, before: float, after: float, rms: float, noise: float) -> bool:
+    """before, after: squared error of a test without and with the factor. rms: of the test without it."""
+    return factor > 0 and abs(factor - 1) > GAIN_OFF and after < (1 - GAIN_DROP) * before and rms > NOISES * noise
 
 
 def _explained(gram: Float2D, cross: Float1D) -> float:

@@ -18,6 +18,10 @@ from thermodata.view.dataset import TestData
 CONDITION = 1000.0
 COLLINEAR = 0.98
 FEWEST = 5.0  # independent samples a parameter
+AT_BOUND = 1e-3  # of the bound, or of the range where that may be zero
+LAGS_APART = 1.5  # ratio of two time constants of one effect
+UNSURE = 1.0  # standard deviation of log(tau) that says nothing
+RIPPLE = 1.0  # of the prediction within a sample, in the response's unit
 
 
 def checks(response: FittedResponse, tests: Sequence[TestData]) -> dict[str, Any]:
@@ -121,7 +125,7 @@ def _bounds(term: FittedTerm) -> list[Check]:
             low, high = term.bound.spec.bounds.get(param.name, (param.lower, param.upper))
             value = values.params[param.name]
             for end in (low, high):
-                if abs(value - end) <= 1e-3 * (abs(end) if low > 0 else high - low):
+                if abs(value - end) <= AT_BOUND * (abs(end) if low > 0 else high - low):
                     rows.append(
                         Check(
                             name=f"at_bound:{term.id}.{param.name}{tag}",
@@ -184,12 +188,12 @@ def _second_lag(term: FittedTerm) -> list[Check]:
     values = sorted(term.params[n] for n in taus)
     ratio = min(b / a for a, b in pairwise(values))
     unsure = max((term.sd.get(n, 0.0) for n in taus), default=0.0)
-    passed = ratio > 1.5 and unsure < 1.0
+    passed = ratio > LAGS_APART and unsure < UNSURE
     return [
         Check(
             name=f"lags_apart:{term.id}",
             value=ratio,
-            threshold=1.5,
+            threshold=LAGS_APART,
             passed=passed,
             advice="the lags are apart" if passed else "the data does not identify that many lags: take one fewer",
         )
@@ -219,13 +223,12 @@ def _ripple(response: FittedResponse, term: FittedTerm, tests: Sequence[TestData
         )
         jump = term.effect.basis(pulse, term.params) @ np.array([term.gains[g.name] for g in term.effect.gains])
         ripple = float(np.max(np.abs(np.diff(jump)), initial=0.0))
-        limit = 1.0
         rows.append(
             Check(
                 name=f"quantisation_ripple:{term.id}",
                 value=ripple,
-                threshold=limit,
-                passed=ripple <= limit,
+                threshold=RIPPLE,
+                passed=ripple <= RIPPLE,
                 advice=f"one step of {text} ({resolution:g}) moves the prediction "
                 f"by {ripple:.2g} {response.unit} within a sample",
             )

@@ -1,0 +1,78 @@
+"""Which tests take part and how much of each (diagnosis/problem.py)."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+import pytest
+
+from thermodata.diagnosis.problem import Problem, build_problem
+from thermodata.plugin import Float2D
+from thermodata.view.dataset import Dataset, TestData
+
+from .hand_made import STEP_S, Parts, a_test, problem
+
+
+def built(counts: Sequence[int], n: int = 600, step_s: float = STEP_S, **of: Any) -> Problem:
+    """Tests of n samples of which the first `counts` count."""
+    tests = [a_test(f"t{i}", n, step_s=step_s) for i in range(len(counts))]
+    masks = {t.test: np.arange(n) < c for t, c in zip(tests, counts, strict=True)}
+    values = of.get("values", np.random.default_rng(0).normal(size=n))
+
+    def none(test: TestData) -> Float2D:
+        return np.zeros((n, 0))
+
+    return build_problem(
+        Dataset(step_s, tuple(tests), {}),
+        tests,
+        "dZ",
+        "um",
+        measured=lambda t: values,
+        residual=lambda t: values,
+        mask=lambda t: masks[t.test],
+        base=none,
+        slack=none,
+    )
+
+
+@pytest.mark.parametrize(("counted", "tests"), [(10, 4), (9, 3)])
+def test_a_test_with_under_ten_samples_takes_no_part(counted: int, tests: int) -> None:
+    assert len(built([600, 600, 600, counted]).blocks) == tests
+
+
+@pytest.mark.parametrize(("tests", "parts"), [(1, 4), (2, 4), (3, 3), (5, 5)])
+def test_parts_in_time_stand_for_tests_where_there_are_under_three(tests: int, parts: int) -> None:
+    assert len(built([600] * tests).blocks) == parts
+
+
+@pytest.mark.parametrize(("counted", "parts"), [(400, 4), (399, 3), (200, 2), (199, 1)])
+def test_a_part_has_a_hundred_samples(counted: int, parts: int) -> None:
+    found = built([counted])
+    assert len(found.blocks) == parts
+    assert sum(len(b.t_s) for b in found.blocks) == counted
+    assert all(abs(b.residual.mean()) < 1e-9 for b in found.blocks), "each has an offset of its own"
+
+
+@pytest.mark.parametrize(("n", "every"), [(3000, 1), (3001, 2)])
+def test_nine_thousand_samples_are_enough(n: int, every: int) -> None:
+    found = built([n] * 3, n)
+    assert found.step_s == 60.0 * every
+    assert found.rows == 3 * -(-n // every)
+
+
+def test_the_noise_is_that_between_neighbours_whatever_is_slow() -> None:
+    rng = np.random.default_rng(0)
+    slow = 50.0 * np.sin(np.arange(3000) / 300)
+    assert built([3000] * 3, 3000, values=slow + 0.3 * rng.normal(size=3000)).noise == pytest.approx(0.3, rel=0.1)
+    assert np.isnan(built([], 10).noise)
+
+
+def test_a_step_that_was_found_gives_the_rest_of_the_test_an_offset_of_its_own() -> None:
+    y = np.where(np.arange(100) < 40, 0.0, 5.0)
+    whole = problem(Parts(y, base=y[:, None], slack=y[:, None]), Parts(y))
+    cut = whole.split({("c", "t0"): [39.5 * STEP_S]})
+    for columns in (cut.blocks[0].residual, cut.blocks[0].base[:, 0], cut.blocks[0].slack[:, 0]):
+        np.testing.assert_allclose(columns, 0.0, atol=1e-12)
+    assert np.ptp(cut.blocks[1].residual) == 5.0, "another test has no step"

@@ -1,0 +1,167 @@
+"""Every rule that names a fault of the logs (diagnosis/logging_faults.py), just inside and outside its limit."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from thermodata.diagnosis.investigate import clocks_beside, gains_are_wrong_only_where_nothing_is_missing
+from thermodata.diagnosis.judge import Judgement
+from thermodata.diagnosis.logging_faults import (
+    clock_offsets,
+    first_of_each,
+    gain_is_wrong,
+    shift_that_explains,
+    sign_is_wrong,
+    turned_probes,
+    wrong_parameters,
+)
+from thermodata.diagnosis.problem import Problem
+from thermodata.plugin import Float1D, Float2D
+from thermodata.schema.result import Artefact
+from thermodata.view.dataset import ChannelInfo, TestData
+
+from .hand_made import Parts, of_tests, problem
+
+
+def artefact(kind: str, test: str = "t0", at_s: float | None = None) -> Artefact:
+    return Artefact(kind=kind, campaign="c", test=test, at_s=at_s, size_um=1.0, why="")
+
+
+@pytest.mark.parametrize(("error", "expected"), [(0.599, 300.0), (0.601, None)])
+def test_a_moved_clock_must_take_away_two_fifths_of_the_squared_error(error: float, expected: float | None) -> None:
+    assert shift_that_explains(1.0, {-300.0: 0.9, 300.0: error, 900.0: 0.95}) == expected
+
+
+@pytest.mark.parametrize(("shift", "expected"), [(600.0, 600.0), (900.0, None), (-900.0, None)])
+def test_a_smallest_error_at_the_end_of_the_range_is_no_clock(shift: float, expected: float | None) -> None:
+    assert shift_that_explains(1.0, {300.0: 0.5, shift: 0.1}) == expected
+
+
+def late_by(shift_s: float, lateness: float = 0.0) -> tuple[Problem, dict[str, str]]:
+    """Four tests whose response follows a driver of the source 'nc' that is late by shift_s."""
+    rng = np.random.default_rng(2)
+
+    def one() -> Parts:
+        levels = np.repeat(rng.uniform(0, 10, 30), 10)
+        u = np.interp(np.arange(300) * 60.0, np.arange(300) * 60.0 + shift_s, levels)
+        y = levels + lateness * rng.normal(size=300)
+        return Parts(y - y.mean(), values={"T": u})
+
+    return problem(*(one() for _ in range(4))), {"T": "nc"}
+
+
+def driver(test: TestData) -> Float2D:
+    return test.values["T"][:, None]
+
+
+@pytest.mark.parametrize(
+    ("shift_s", "minutes"), [(0.0, None), (300.0, "-5 min"), (-600.0, "+10 min"), (900.0, None), (1800.0, None)]
+)
+def test_a_clock_that_is_off_is_named_with_its_shift(shift_s: float, minutes: str | None) -> None:
+    asked, sources = late_by(shift_s)
+    found = clock_offsets(asked, driver, sources)
+    assert [a.kind for a in found] == ([] if minutes is None else ["clock_offset"])
+    assert all("source 'nc'" in a.why and minutes is not None and minutes in a.why for a in found)
+
+
+def test_only_drivers_of_another_source_have_a_clock_beside_the_response() -> None:
+    channels = {
+        "dZ": ChannelInfo("dZ", "displacement", "um", source="daq"),
+        "T": ChannelInfo("T", "temperature", "degC", source="daq"),
+        "n": ChannelInfo("n", "rotational_speed", "rpm", source="nc"),
+        "free": ChannelInfo("free", "temperature", "degC"),
+    }
+    assert clocks_beside(channels, ["T", "n", "free", "absent"], "dZ") == {"n": "nc"}
+
+
+@pytest.mark.parametrize(("turned", "wrong"), [(0.499, True), (0.501, False)])
+def test_turning_a_test_must_take_away_half_of_the_error(turned: float, wrong: bool) -> None:
+    assert sign_is_wrong(1.0, turned) is wrong
+
+
+@pytest.mark.parametrize(
+    ("changed", "wrong"),
+    [
+        ({"factor": 1.151}, True),
+        ({"factor": 1.149}, False),
+        ({"factor": 0.849}, True),
+        ({"factor": 0.851}, False),
+        ({"factor": 0.01}, True),
+        ({"factor": -0.5}, False),
+        ({"after": 0.099}, True),
+        ({"after": 0.101}, False),
+        ({"noise": 0.199}, True),
+        ({"noise": 0.201}, False),
+    ],
+)
+def test_a_gain_is_wrong_where_one_factor_explains_a_whole_test(changed: dict[str, float], wrong: bool) -> None:
+    """A factor 15 % off that takes away nine tenths of an error of more than five times the noise."""
+    plain = {"factor": 1.5, "before": 1.0, "after": 0.01, "rms": 1.0, "noise": 0.01}
+    assert gain_is_wrong(**{**plain, **changed}) is wrong
+
+
+def of_one_model(factors: list[float]) -> Problem:
+    """Tests that follow one column, each by its own factor."""
+    rng = np.random.default_rng(1)
+
+    def one(factor: float) -> Parts:
+        base = rng.normal(size=(200, 1))
+        y: Float1D = factor * base[:, 0] + 0.01 * rng.normal(size=200)
+        return Parts(y, response=y, base=base)
+
+    return problem(*map(one, factors), noise=0.01)
+
+
+@pytest.mark.parametrize(
+    ("factors", "expected"),
+    [
+        ([1, 1, 1, 1], []),
+        ([1, 1, 1, 1, 1.5], [("gain", "t4")]),
+        ([1, 1, 1, 1, 1.1], []),
+    ],
+)
+def test_one_factor_for_a_whole_test(factors: list[float], expected: list[tuple[str, str]]) -> None:
+    assert [(a.kind, a.test) for a in turned_probes(of_one_model(factors))] == expected
+
+
+@pytest.mark.parametrize(("factors", "expected"), [([1, 1, -1, 1], ["t2"]), ([1, 1, -1], [])])
+def test_a_turned_probe_is_named_where_there_are_four_tests(factors: list[float], expected: list[str]) -> None:
+    """Of three nobody can say which one is turned."""
+    assert [a.test for a in turned_probes(of_one_model(factors)) if a.kind == "sign"] == expected
+
+
+@pytest.mark.parametrize(
+    ("now", "refitted", "floor", "wrong"),
+    [(3.01, 1.0, 0.1, True), (2.99, 1.0, 0.1, False), (3.01, 0.1, 3.0, True), (2.99, 0.1, 3.0, False)],
+)
+def test_parameters_are_wrong_where_a_refit_leaves_a_third(
+    now: float, refitted: float, floor: float, wrong: bool
+) -> None:
+    """And where the error is above the floor."""
+    found = wrong_parameters(of_tests(2), now, refitted, floor)
+    assert [a.kind for a in found] == (["parameters"] if wrong else [])
+
+
+@pytest.mark.parametrize(
+    ("verdict", "kinds"), [("none", ["gain", "sign"]), ("effect", ["sign"]), ("unknown", ["sign"])]
+)
+def test_a_wrong_gain_is_said_only_with_the_verdict_none(verdict: str, kinds: list[str]) -> None:
+    faults = [artefact("gain"), artefact("sign")]
+    judgement = Judgement(verdict, None, "")  # type: ignore[arg-type]
+    assert [a.kind for a in gains_are_wrong_only_where_nothing_is_missing(faults, judgement)] == kinds
+
+
+def test_a_fault_is_said_once_a_test_and_a_turned_test_has_no_steps() -> None:
+    found = [
+        artefact("step", "t0", 60.0),
+        artefact("step", "t1", 60.0),
+        artefact("step", "t1", 90.0),
+        artefact("sign", "t0"),
+        artefact("sign", "t0"),
+    ]
+    assert [(a.kind, a.test, a.at_s) for a in first_of_each(found)] == [
+        ("step", "t1", 60.0),
+        ("step", "t1", 90.0),
+        ("sign", "t0", None),
+    ]

@@ -1,0 +1,204 @@
+"""Weak spots, what is said of the unknown, and which test comes next: weak.py, unexplained.py, next_test.py."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+from thermodata.diagnosis.next_test import to_find, to_separate
+from thermodata.diagnosis.unexplained import characterise
+from thermodata.diagnosis.weak import describe_state, weak_spots
+from thermodata.plugin import Float1D
+from thermodata.schema.result import WeakSpot
+from thermodata.view.dataset import ChannelInfo, TestData
+
+from .hand_made import Parts, a_test, problem, scored
+
+# ---- weak spots: windows of half an hour, 30 samples of 60 s
+
+
+def spots(residual: Float1D, noise: float = 0.0, mask: Any = None) -> list[WeakSpot]:
+    n = len(residual)
+    return weak_spots([(a_test(n=n), residual, np.ones(n, bool) if mask is None else mask)], noise)
+
+
+def raised(level: float, windows: tuple[int, ...] = (5,), n: int = 600) -> Float1D:
+    r = np.ones(n)
+    for w in windows:
+        r[30 * w : 30 * (w + 1)] = level
+    return r
+
+
+@pytest.mark.parametrize(("level", "shown"), [(1.33, True), (1.29, False)])
+def test_a_window_stands_out_by_1_3_times_the_error_of_all(level: float, shown: bool) -> None:
+    """The raised window is part of all, so that all is 1.02 where it is 1.33."""
+    found = spots(raised(level))
+    assert bool(found) is shown
+    assert all((s.from_s, s.to_s) == (150 * 60.0, 179 * 60.0) for s in found)
+
+
+@pytest.mark.parametrize(("noise", "shown"), [(0.99, True), (1.01, False), (float("nan"), True)])
+def test_a_window_stands_out_by_three_times_the_noise(noise: float, shown: bool) -> None:
+    assert bool(spots(raised(3.0), noise)) is shown
+
+
+def test_windows_that_touch_are_one_spot_and_the_dearest_comes_first() -> None:
+    found = spots(raised(3.0, (2,)) + raised(2.0, (8, 9, 10)) - 1.0)
+    assert [(s.from_s / 1800, (s.to_s + 60) / 1800) for s in found] == [(8, 11), (2, 3)]
+    assert found[1].rmse_um == pytest.approx(3.0)
+
+
+@pytest.mark.parametrize(("n", "width"), [(720, 30), (240, 20)])
+def test_a_window_is_half_an_hour_or_a_twelfth_of_a_short_test(n: int, width: int) -> None:
+    r = np.ones(n)
+    r[width : 2 * width] = 5.0
+    assert [(s.from_s, s.to_s) for s in spots(r)] == [(60.0 * width, 60.0 * (2 * width - 1))]
+
+
+def test_what_does_not_count_is_no_spot_and_windows_begin_with_what_counts() -> None:
+    r = raised(5.0, (0,))
+    mask = np.arange(600) >= 40
+    assert spots(r, mask=mask) == []
+    r = np.ones(600)
+    r[40:70] = 5.0
+    assert [s.from_s for s in spots(r, mask=np.arange(600) >= 40)] == [2400.0]
+    assert spots(r, mask=np.zeros(600, bool)) == []
+
+
+def test_twelve_spots_are_shown() -> None:
+    assert len(spots(raised(9.0, tuple(range(0, 28, 2)), n=2400))) == 12
+
+
+def state(quantity: str, values: Float1D, at: str | None = None, unit: str = "x") -> str:
+    test: TestData = a_test(
+        n=len(values), values={"u": values}, channels={"u": ChannelInfo("u", quantity, unit, at=at)}
+    )
+    return describe_state(test, 50, 100)
+
+
+def after(level: float) -> Float1D:
+    """1 first, then the level."""
+    return np.where(np.arange(100) < 50, 1.0, level)
+
+
+@pytest.mark.parametrize(
+    ("quantity", "level", "said"),
+    [
+        ("feed", 0.011, "u 0.011 x"),
+        ("feed", 0.009, "idle"),
+        ("state", 0.51, "u on"),
+        ("state", 0.49, "idle"),
+        ("rotational_speed", 0.5, "spindle at rest, u 0.5 x"),
+        ("rotational_speed", 0.0, "spindle at rest"),
+        ("temperature", 5.0, "idle"),
+    ],
+)
+def test_a_state_is_said_in_words(quantity: str, level: float, said: str) -> None:
+    assert state(quantity, after(level)) == said
+
+
+@pytest.mark.parametrize(("rise", "said"), [(0.31, "u rising"), (-0.31, "u falling"), (0.29, "idle"), (-0.29, "idle")])
+def test_the_air_rises_by_a_third_of_a_kelvin(rise: float, said: str) -> None:
+    values = np.where(np.arange(100) < 75, 20.0, 20.0 + rise)
+    assert state("temperature", values, at="hall.top") == said
+    assert state("temperature", values, at="table") == "idle"
+
+
+# ---- what is not explained
+
+
+def wave(period: int, n: int = 480) -> Float1D:
+    return np.sin(2 * np.pi * np.arange(n) / period)
+
+
+def test_a_time_constant_is_where_the_correlation_falls_to_a_third() -> None:
+    """cos(x) = 1/e at x = 1.19 of a wave: sample 46 of a period of 240, for a wave that is long."""
+    found = characterise(problem(Parts(wave(240, 4800))), [])
+    assert found.time_constants_h == [pytest.approx(46 / 60, abs=1.1 / 60)]
+
+
+def test_white_flat_and_short_residuals_have_no_time_constant() -> None:
+    white = np.random.default_rng(0).normal(size=480)
+    for residual in (white, np.ones(480), wave(4, 6)):
+        assert characterise(problem(Parts(residual)), []).time_constants_h == []
+    assert characterise(problem(), []).time_constants_h == []
+
+
+def day(at_h: float, size: float, start: float | None = 0.0) -> Parts:
+    """A day of a sample each 3 min that is raised during one hour."""
+    t = np.arange(480) * 180.0
+    r = 0.1 * wave(7)
+    r[(t / 3600 >= at_h) & (t / 3600 < at_h + 1)] += size
+    return Parts(r, start_unix_s=start)
+
+
+def hours(*days: Parts) -> list[float]:
+    return characterise(problem(*days, step_s=180.0), []).hours_of_day
+
+
+def test_an_hour_of_the_day_stands_out_over_three_days() -> None:
+    assert hours(*[day(5, 3.0)] * 3) == [5.0]
+    assert hours(*[day(5, 3.0)] * 2) == []
+    assert hours(*[day(5, 3.0)] * 2, day(5, 3.0, None)) == [], "a relative clock has no hour of the day"
+    assert hours(*[day(5, 3.0, 7200.0)] * 3) == [7.0], "hours are those of the clock, not of the test"
+
+
+@pytest.mark.parametrize(("signs", "found"), [((1,) * 9 + (-1,), [5.0]), ((1,) * 8 + (-1,) * 2, [])])
+def test_an_hour_stands_out_in_the_same_direction(signs: tuple[int, ...], found: list[float]) -> None:
+    """Nine to one is a sum of signs of 8 in 10; eight to two is 6."""
+    assert hours(*(day(5, 3.0 * s) for s in signs)) == found
+
+
+@pytest.mark.parametrize(("start", "found"), [(5.0, [5.0]), (6.0, [])])
+def test_an_hour_stands_out_where_three_days_cover_it(start: float, found: list[float]) -> None:
+    """The third log begins at that hour or after it, and ends before it comes again."""
+    t = np.arange(440) * 180.0
+    third = Parts(0.1 * wave(7, 440) + 3.0 * (t < 3600), start_unix_s=3600 * start)
+    assert [h for h in hours(day(5, 3.0), day(5, 3.0), third) if h == 5.0] == found
+
+
+def test_an_hour_stands_out_by_more_than_the_error_of_all() -> None:
+    rough = [Parts(d.residual + 2.0 * wave(5), start_unix_s=0.0) for d in [day(5, 1.0)] * 3]
+    assert hours(*rough) == []
+
+
+def test_the_states_of_the_five_worst_spots_are_said_once() -> None:
+    worst = [
+        WeakSpot(campaign="c", test="t", from_s=0, to_s=1, rmse_um=1.0, state=s) for s in ["a", "b", "a", "c", "d", "e"]
+    ]
+    assert characterise(problem(Parts(wave(240))), worst).states == ["a", "b", "c", "d"]
+
+
+# ---- the next test
+
+
+@pytest.mark.parametrize(("tests", "said"), [(7, "add tests"), (8, "log what is not logged")])
+def test_eight_tests_are_enough_to_look_for_a_sensor(tests: int, said: str) -> None:
+    spot = WeakSpot(campaign="c", test="t", from_s=0, to_s=1, rmse_um=1.0, state="coolant on")
+    advice = to_find(tests, [spot])
+    assert said in advice
+    assert advice.startswith(f"{tests} tests")
+    assert ("coolant on" in advice) == (tests == 8)
+
+
+CHANNELS = {
+    "T_a": ChannelInfo("T_a", "temperature", "degC", at="axis.x.nut"),
+    "T_b": ChannelInfo("T_b", "temperature", "degC", at="axis.x.nut"),
+    "n": ChannelInfo("n", "rotational_speed", "rpm", at="spindle"),
+    "T_free": ChannelInfo("T_free", "temperature", "degC"),
+}
+
+
+def test_twins_are_told_apart_by_what_drives_the_claimed_one() -> None:
+    def advice(mine: str, other: str, same_effect: bool = False) -> str | None:
+        twin = scored("a" if same_effect else "b", channels=(other,))
+        return to_separate(scored("a", channels=(mine,)), [twin], CHANNELS)
+
+    assert "same place: not separable by another test" in (advice("T_a", "T_b") or "")
+    assert "to tell a:n from b:T_a: short pulses of speed" in (advice("n", "T_a") or "")
+    assert "one is heated and the other is not" in (advice("T_a", "n") or "")
+    assert "one is heated and the other is not" in (advice("T_free", "T_free") or ""), "nowhere is not the same place"
+    assert advice("T_a", "T_b", same_effect=True) is None
+    assert to_separate(scored("a"), [], CHANNELS) is None

@@ -1,0 +1,195 @@
+"""Every check of a fit, just inside and just outside its limit. Limits stand here as numbers, not as constants."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+import pytest
+
+from thermodata.modelling import checks
+from thermodata.plugin import Drivers, Float2D, Gain, Need, Param
+from thermodata.schema.result import Check
+from thermodata.view.dataset import ChannelInfo, TestData
+
+TAU = Param("tau", "min", 30.0, 10.0, 100.0, "the time constant")
+SECOND = Param("tau2", "min", 60.0, 10.0, 100.0, "the second time constant")
+EXPONENT = Param("p", "1", 1.0, 0.0, 2.0, "the exponent")
+GAIN = Gain("gain", "um/K", (0.5, 10.0), "any", "")
+
+
+@dataclass(frozen=True)
+class Straight:
+    """The driver times a gain of its own."""
+
+    name: str = "straight"
+    family: str = "feed"
+    meaning: str = ""
+    source: str = ""
+    needs: tuple[Need, ...] = (Need("u", "temperature"),)
+    params: tuple[Param, ...] = (TAU,)
+    gains: tuple[Gain, ...] = (GAIN,)
+
+    def basis(self, drivers: Drivers, p: Mapping[str, float]) -> Float2D:
+        return drivers.values["u"][:, None]
+
+
+def a_test(hours: float = 10.0, resolution: float | None = None) -> TestData:
+    t = np.linspace(0.0, hours * 3600.0, 101)
+    info = {"T": ChannelInfo("T", "temperature", "degC", resolution=resolution)}
+    return TestData("c", "t", "mixed", "calibration", t, {"T": t * 0}, {"T": t == t}, np.ones(101, bool), channels=info)
+
+
+def term(
+    effect: Straight | None = None,
+    params: Mapping[str, float] | None = None,
+    gain: float = 1.0,
+    *,
+    sd: Mapping[str, float] | None = None,
+    fixed: Sequence[str] = (),
+    silent: Sequence[str] = (),
+    bounds: Mapping[str, tuple[float, float]] | None = None,
+    held: bool = False,
+) -> Any:
+    """A fitted term as the checks see it."""
+    effect = effect or Straight()
+    values = SimpleNamespace(
+        params=dict(params or {"tau": 30.0}), gains={"gain": gain}, sd=dict(sd or {}), silent=frozenset(silent)
+    )
+    bound = SimpleNamespace(
+        spec=SimpleNamespace(fixed=dict.fromkeys(fixed, 1.0), bounds=dict(bounds or {})),
+        covers=lambda test: True,
+        has=lambda test: True,
+        calibrate=frozenset({("c", "t")}) if held else None,
+        drivers=lambda test: Drivers(test.t_s, {"u": test.values["T"]}, {"u": test.valid["T"]}, {}),
+    )
+    return SimpleNamespace(
+        id="straight",
+        effect=effect,
+        bound=bound,
+        groups={"": values},
+        params=values.params,
+        gains=values.gains,
+        sd=values.sd,
+        binding={"u": "T"},
+        held=held,
+    )
+
+
+def names(found: list[Check]) -> list[str]:
+    assert not any(c.passed for c in found)
+    return [c.name for c in found]
+
+
+@pytest.mark.parametrize(("samples", "passed"), [(15, True), (14, False)])
+def test_five_independent_samples_a_parameter(samples: int, passed: bool) -> None:
+    """A residual that turns with every sample is worth as many as it has."""
+    design: Any = SimpleNamespace(n=samples, parts=[slice(0, samples)])
+    (found,) = checks._samples((-1.0) ** np.arange(samples), design, 3)
+    assert (found.value, found.threshold, found.passed) == (samples, 15.0, passed)
+    assert ("add tests" in found.advice) is not passed
+
+
+@pytest.mark.parametrize(("samples", "passed"), [(5, True), (4, False)])
+def test_a_model_without_parameters_counts_as_one(samples: int, passed: bool) -> None:
+    design: Any = SimpleNamespace(n=samples, parts=[slice(0, samples)])
+    assert checks._samples((-1.0) ** np.arange(samples), design, 0)[0].passed is passed
+
+
+def at_angle(cosine: float) -> Float2D:
+    """Two columns of different size with this correlation."""
+    return np.array([[3.0, cosine], [0.0, np.sqrt(1.0 - cosine**2)]])
+
+
+def conditioning(matrix: Float2D) -> dict[str, Check]:
+    return {c.name: c for c in checks._conditioning(matrix, ["a", "b", "c"][: matrix.shape[1]])}
+
+
+@pytest.mark.parametrize(("cosine", "named"), [(0.981, True), (-0.981, True), (0.979, False), (-0.979, False)])
+def test_effects_that_move_together_are_named(cosine: float, named: bool) -> None:
+    found = conditioning(at_angle(cosine))
+    assert ("collinear:a:b" in found) is named
+    assert found["condition_number"].passed
+
+
+@pytest.mark.parametrize(("condition", "passed"), [(999.0, True), (1001.0, False)])
+def test_a_condition_number_of_a_thousand(condition: float, passed: bool) -> None:
+    """Two unit columns at cosine c have the condition sqrt((1 + c) / (1 - c))."""
+    cosine = (condition**2 - 1) / (condition**2 + 1)
+    found = conditioning(at_angle(cosine))["condition_number"]
+    assert found.value == pytest.approx(condition, rel=1e-4)
+    assert found.passed is passed
+
+
+def test_a_column_that_never_moves_is_named_and_left_out() -> None:
+    found = conditioning(np.array([[1.0, 0.0], [2.0, 0.0]]))
+    assert list(found) == ["not_excited:b"]
+    assert "condition_number" in conditioning(np.array([[1.0, 0.0, 0.0], [0.0, 0.0, 1.0]]))
+
+
+@pytest.mark.parametrize(
+    ("value", "at"),
+    [(99.91, True), (99.89, False), (10.009, True), (10.011, False), (100.0, True), (10.0, True), (30.0, False)],
+)
+def test_a_parameter_at_its_bound(value: float, at: bool) -> None:
+    """Within a thousandth of the bound."""
+    assert names(checks._bounds(term(params={"tau": value}))) == (["at_bound:straight.tau"] if at else [])
+
+
+@pytest.mark.parametrize(("value", "at"), [(0.0019, True), (0.0021, False), (1.9981, True), (1.9979, False)])
+def test_a_parameter_that_may_be_zero_is_at_its_bound_by_its_range(value: float, at: bool) -> None:
+    effect = Straight(params=(EXPONENT,))
+    assert names(checks._bounds(term(effect, {"p": value}))) == (["at_bound:straight.p"] if at else [])
+
+
+def test_a_bound_is_the_users_where_there_is_one_and_fixed_and_silent_ones_have_none() -> None:
+    assert checks._bounds(term(params={"tau": 100.0}, bounds={"tau": (10.0, 200.0)})) == []
+    assert names(checks._bounds(term(params={"tau": 200.0}, bounds={"tau": (10.0, 200.0)})))
+    assert checks._bounds(term(params={"tau": 100.0}, fixed=["tau"])) == []
+    assert checks._bounds(term(params={"tau": 100.0}, silent=["tau"])) == []
+
+
+@pytest.mark.parametrize(("tau", "long"), [(600.5, True), (599.5, False)])
+def test_a_time_constant_longer_than_the_longest_test(tau: float, long: bool) -> None:
+    """Ten hours are 600 min; a shorter test beside takes nothing away."""
+    found = checks._long(term(params={"tau": tau}), [a_test(10.0), a_test(1.0)])
+    assert names(found) == (["tau_longer_than_record:straight.tau"] if long else [])
+    assert checks._long(term(params={"tau": tau}, held=True), [a_test(1.0)]) == [], "identified on other tests"
+
+
+@pytest.mark.parametrize(("gain", "named"), [(10.01, True), (-10.01, True), (9.99, False), (-9.99, False)])
+def test_a_gain_larger_than_anything_known(gain: float, named: bool) -> None:
+    assert names(checks._plausible(term(gain=gain))) == (["implausible:straight.gain"] if named else [])
+    assert checks._plausible(term(gain=gain, fixed=["gain"])) == []
+
+
+@pytest.mark.parametrize("largest", [float("inf"), 0.0])
+def test_a_gain_without_a_known_magnitude_is_plausible(largest: float) -> None:
+    effect = Straight(gains=(Gain("gain", "um/K", (0.0, largest), "any", ""),))
+    assert checks._plausible(term(effect, gain=1e6)) == []
+
+
+@pytest.mark.parametrize(
+    ("second", "sd", "passed"), [(45.1, 0.1, True), (44.9, 0.1, False), (60.0, 0.99, True), (60.0, 1.01, False)]
+)
+def test_two_lags_are_apart_by_half_and_sure(second: float, sd: float, passed: bool) -> None:
+    effect = Straight(params=(TAU, SECOND))
+    for params in ({"tau": 30.0, "tau2": second}, {"tau": second, "tau2": 30.0}):
+        (found,) = checks._second_lag(term(effect, params, sd={"tau2": sd}))
+        assert (found.name, found.passed) == ("lags_apart:straight", passed)
+    assert checks._second_lag(term()) == []
+    air = Straight(family="ambient", params=(TAU, SECOND))
+    assert checks._second_lag(term(air, {"tau": 30.0, "tau2": second})) == []
+
+
+@pytest.mark.parametrize(("resolution", "passed"), [(0.0999, True), (0.1001, False)])
+def test_one_step_of_a_coarse_sensor_moves_the_prediction_by_a_um(resolution: float, passed: bool) -> None:
+    """A gain of 10 um/K times 0.1 K."""
+    response: Any = SimpleNamespace(unit="um")
+    (found,) = checks._ripple(response, term(gain=-10.0), [a_test(resolution=resolution)])
+    assert found.passed is passed
+    assert found.value == pytest.approx(10 * resolution)
+    assert checks._ripple(response, term(gain=-10.0), [a_test()]) == []
