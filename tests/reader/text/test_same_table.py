@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 
 from thermodata.plugin import Source
+from thermodata.reader import reader as named
 from thermodata.reader import sniff
 from thermodata.schema.flag import Flag
 from thermodata.testing.reader import Data, load
@@ -149,10 +150,8 @@ def check(data: Data) -> None:
 @pytest.mark.parametrize("style", STYLES)
 def test_dates_between_any_delimiter(tmp_path: Path, delimiter: str, style: str) -> None:
     if delimiter == "|":  # claimed by nobody: too many files that are no tables hold bars
-        from thermodata.reader import reader
-
         path = write(tmp_path / "x.csv", delimiter=delimiter, style=style)
-        check(load(reader("table"), path, PRAGUE))
+        check(load(named("table"), path, PRAGUE))
         return
     check(read(write(tmp_path / "x.csv", delimiter=delimiter, style=style)))
 
@@ -215,3 +214,71 @@ def test_years_of_two_digits_have_one_window(tmp_path: Path, delimiter: str, wri
     path.write_text(f"Time{delimiter}a\n" + "".join(f"{written} 08:00:{i:02d}{delimiter}{i}.5\n" for i in range(9)))
     (t_ns,) = read(path, Source(timezone="UTC")).t_ns.values()
     assert np.datetime64(int(t_ns[0]), "ns").astype("datetime64[D]") == np.datetime64(f"{year}-12-25")
+
+
+@pytest.mark.parametrize("delimiter", [";", "\t", ","])
+def test_a_damaged_row_near_the_top_is_lost_and_does_not_make_names_of_the_first(
+    tmp_path: Path, delimiter: str
+) -> None:
+    path = write(tmp_path / "x.csv", delimiter=delimiter)
+    lines = path.read_text().splitlines()
+    lines[3] = lines[3].replace(delimiter, "", 1)
+    path.write_text("\n".join(lines) + "\n")
+    data = read(path)
+    assert [s.name for s in data.recording.signals] == [c.name for c in COLUMNS]
+    (t_ns,) = data.t_ns.values()
+    assert t_ns.size == ROWS - 1
+    assert data.losses[0].where == "x.csv line 4"
+    lines[3] = "Summe" + 4 * delimiter
+    path.write_text("\n".join(lines) + "\n")
+    data = read(path)
+    assert [s.name for s in data.recording.signals] == [c.name for c in COLUMNS]
+    assert any(loss.where == "x.csv line 4" for loss in data.losses)
+
+
+@pytest.mark.parametrize("delimiter", [";", "\t", ","])
+def test_bytes_of_zero_before_a_row_cost_nothing_of_it_and_inside_a_number_the_number(
+    tmp_path: Path, delimiter: str
+) -> None:
+    path = write(tmp_path / "x.csv", delimiter=delimiter)
+    lines = path.read_text().splitlines()
+    lines[10] = "\0" * 512 + lines[10]
+    cells = lines[20].split(delimiter)
+    cells[1] = cells[1][:2] + "\0" * 16 + cells[1][2:]
+    lines[20] = delimiter.join(cells)
+    path.write_text("\n".join(lines) + "\n")
+    data = load(named("table"), path, PRAGUE)  # in its first 4 KiB they would be taken for binary data
+    (t_ns,) = data.t_ns.values()
+    assert t_ns.size == ROWS
+    values = next(v for (_, name), v in data.values.items() if name == "T1")
+    assert values[8] == COLUMNS[0].values[8]
+    assert np.isnan(values[18])
+    told = {loss.where.split(" column")[0]: loss.reason for loss in data.losses}
+    assert told["x.csv line 11"] == "512 NUL bytes: what was written here is lost"
+    assert "x.csv line 21" in told
+
+
+@pytest.mark.parametrize("delimiter", [";", "\t", ","])
+def test_a_delimiter_too_much_loses_its_row_and_shifts_nothing(tmp_path: Path, delimiter: str) -> None:
+    """In a file whose rows end with a delimiter, a doubled one leaves an empty cell behind the last column."""
+    path = tmp_path / "x.csv"
+    rows = [f"2026-03-27 06:00:{i:02d}{delimiter}{i}.5{delimiter}{100 + i}{delimiter}" for i in range(30)]
+    rows[12] = rows[12].replace(delimiter, 2 * delimiter, 1)
+    path.write_text(delimiter.join(["Time", "a", "b", ""]) + "\n" + "\n".join(rows) + "\n")
+    data = read(path)
+    assert [loss.where for loss in data.losses] == ["x.csv line 14"]
+    for (_, name), values in data.values.items():
+        expected = [i + 0.5 if name == "a" else 100.0 + i for i in range(30) if i != 12]
+        np.testing.assert_array_equal(values, expected)
+
+
+@pytest.mark.parametrize("delimiter", [";", "\t", ","])
+def test_one_torn_row_does_not_take_the_milliseconds_from_the_time(tmp_path: Path, delimiter: str) -> None:
+    path = tmp_path / "x.csv"
+    rows = [delimiter.join((f"2026-03-27 06:00:{i:02d}", str(i * 7), f"{i}.5")) for i in range(40)]
+    rows[8] = rows[8].replace(f"{delimiter}8.5", "8.5")
+    path.write_text(delimiter.join(("Time", "ms", "a")) + "\n" + "\n".join(rows) + "\n")
+    data = read(path)
+    assert [s.name for s in data.recording.signals] == ["a"]
+    (t_ns,) = data.t_ns.values()
+    np.testing.assert_array_equal(t_ns % 10**9, [i * 7_000_000 for i in range(40) if i != 8])

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any, Literal
@@ -94,16 +95,21 @@ def find(rows: Sequence[Sequence[Cell]], declared: Mapping[str, Any] | None, whe
     row_of_units = None if units_row is None else int(units_row) - 1 - skip
     heads, units = _heads([r[:width] for r in rows[skip:first]], width, row_of_units)
     names = unique(heads)
-    data = [
-        list(r[:width]) + [""] * (width - len(r))
-        for r in rows[first : first + 200]
-        if any(c not in ("", None) for c in r)
-    ]
+    data = _whole_rows(rows[first : first + 200], width)
     if not data:
         raise FormatError("a table without data rows", where=where, expected=f"data after row {first}")
     lost = _between(rows[skip:first], width, skip) if header is None else []
     groups, notes = _groups(said.get("time") or {}, names, units, data, where)
     return Layout(first, tuple(names), tuple(units), tuple(groups), (*notes, *lost))
+
+
+def _whole_rows(rows: Sequence[Sequence[Cell]], width: int) -> list[list[Cell]]:
+    """The rows that say what columns hold: as wide as the table, or as many others (where a group has ended); a row of
+    a width of its own is damaged, and says nothing. Short ones are filled with empty cells."""
+    full = [r for r in rows if any(c not in ("", None) for c in r)]
+    widths = Counter(min(len(r), width) for r in full)
+    usual = {n for n, many in widths.items() if n == width or many > max(1, 0.05 * len(full))}
+    return [[*r[:width], *[""] * (width - len(r))] for r in full if min(len(r), width) in usual or len(full) < 3]
 
 
 def _is_torn(row: Sequence[Cell], width: int) -> bool:
@@ -295,7 +301,8 @@ def _first_data(body: Sequence[Sequence[Cell]], width: int, where: str) -> int:
         if not _is_data(row, width) or sum(_is_data(r, width) for r in following) * 2 < len(following):
             continue
         words = [c for c in row if isinstance(c, str) and c and not is_number(c) and not is_stamp(c)]
-        if words and following and not _is_data(following[0], width):
+        dated = any(map(is_dated, row)) and 2 * sum(c not in ("", None) for c in row) > width
+        if words and following and not _is_data(following[0], width) and not dated:
             continue  # "Serial;4711" above the header
         return i
     raise FormatError(

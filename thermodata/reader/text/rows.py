@@ -384,10 +384,14 @@ class _Cells:
 def _line_by_line(data: bytes, line: int, grid: Grid) -> Rows:
     rows, bad, nul = _Cells(grid), list[BadLine](), list[tuple[int, int]]()
     for number, text in _records(data, line, grid):
-        bare = text.replace("\0", "").rstrip("\r")
-        if len(bare) != len(text.rstrip("\r")):
+        # what a power cut left before a row says nothing of it; inside, a cell that lost a part must not pass for whole
+        bare = text.lstrip("\0").rstrip("\r")
+        if "\0" in text:
             nul.append((number, text.count("\0")))
         record = _cells(bare, grid)
+        if "\0" in bare:
+            kinds = [*grid.kinds, *[None] * len(record)]
+            record = [c.replace("\0", "") if kind == "str" else c for c, kind in zip(record, kinds, strict=False)]
         blank = not any(cell.strip() for cell in record)
         if blank and not (grid.blank_rows and len(record) > 1):
             continue

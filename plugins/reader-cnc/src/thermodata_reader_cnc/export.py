@@ -35,12 +35,26 @@ def claims(lines: Sequence[str]) -> str | None:
 
 def describe(path: Path, source: Source) -> Recording:
     """Signals, clock and start of an export, by samples of it."""
-    return delimited.describe(delimited.open_table(path, source, STREAM), source)
+    return delimited.describe(_table(path, source), source)
 
 
 def blocks(path: Path, source: Source) -> Iterator[Block | Loss]:
     """Its rows, and a loss for each part that does not read."""
-    return delimited.blocks(path, delimited.open_table(path, source, STREAM), source)
+    return delimited.blocks(path, _table(path, source), source)
+
+
+def _table(path: Path, source: Source) -> delimited.Table:
+    """FormatError for bars that nobody declared: they part the fields of logs that are no tables."""
+    table = delimited.open_table(path, source, STREAM)
+    if table.delimiter == "|" and not (source.table or {}).get("delimiter"):
+        raise FormatError(
+            "no columns found",
+            where=path.name,
+            expected="rows of cells between ';', tabs or commas",
+            got="'|'",
+            hint="declare table: {delimiter: '|'} if it is a table all the same",
+        )
+    return table
 
 
 def locate(path: Path, source: Source, stream: str, row: int) -> str | None:
