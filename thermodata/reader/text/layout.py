@@ -295,8 +295,8 @@ def _first_data(body: Sequence[Sequence[Cell]], width: int, where: str) -> int:
         if not _is_data(row, width) or sum(_is_data(r, width) for r in following) * 2 < len(following):
             continue
         words = [c for c in row if isinstance(c, str) and c and not is_number(c) and not is_stamp(c)]
-        if words and following and not _is_data(following[0], width):
-            continue  # "Serial;4711" above the header
+        if words and following and not _is_data(following[0], width) and following[0] not in body[:i]:
+            continue  # "Serial;4711" above the header; a row above one that is repeated is data
         return i
     raise FormatError(
         "no data rows found",
