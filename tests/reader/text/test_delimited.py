@@ -261,6 +261,15 @@ def test_a_row_that_lacks_a_group_before_longer_ones_is_told(tmp_path: Path) -> 
     assert other.at == [2, 3, 4, 5, 6, 8]
 
 
+def test_an_empty_line_lacks_no_group(tmp_path: Path) -> None:
+    """Where most rows lack one, which is why it looks like one that does."""
+    data = "t1;T1;t2;T2\n" + "".join(f"{k};{k}.5;{k}.25;{k}.75\n" for k in range(600))
+    end = "600;1.5;600.25;2.5\n" + "".join(f"{k};1.5\n" for k in range(601, 3000))
+    found = read(tmp_path, data + "\n" + end, stream="t1")
+    assert len(found.t_ns) == 3000
+    assert found.said == []
+
+
 # ---- what is asked for ---------------------------------------------------------------------------
 
 

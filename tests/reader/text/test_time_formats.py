@@ -1,4 +1,4 @@
-"""How a column of times is written: day and month by dots, by numbers above 12, by AM and PM, or asked; and its zone."""
+"""How a column of times is written: day and month by dots, numbers above 12, AM and PM, or asked; and its zone."""
 
 from __future__ import annotations
 
