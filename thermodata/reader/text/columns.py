@@ -24,7 +24,7 @@ _GROUPED = re.compile(r"[+-]?[1-9]\d{0,2}(,\d{3})+", re.ASCII)
 
 
 def dtype_of(cells: Sequence[str], name: str = "", unit: str | None = None) -> str:
-    """The dtype of a column by sampled cells: float64 where at least half of those that hold anything are numbers, but
+    """The dtype of a column by sampled cells: float64 where more than half of those that hold anything are numbers, but
     int64 where a float64 would change one, bool where all are TRUE or FALSE, else str. A few words in a column that is
     called a comment, an alarm or the like make it text; such a column without any cell is text too.
 

@@ -302,8 +302,9 @@ def _first_data(body: Sequence[Sequence[Cell]], width: int, where: str) -> int:
             continue
         words = [c for c in row if isinstance(c, str) and c and not is_number(c) and not is_stamp(c)]
         dated = any(map(is_dated, row)) and 2 * sum(c not in ("", None) for c in row) > width
-        if words and following and not _is_data(following[0], width) and not dated:
-            continue  # "Serial;4711" above the header
+        alone = following and not _is_data(following[0], width) and following[0] not in body[:i]
+        if words and alone and not dated:
+            continue  # "Serial;4711" above the header; a row above one that is repeated is data
         return i
     raise FormatError(
         "no data rows found",

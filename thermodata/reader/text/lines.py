@@ -119,8 +119,9 @@ def chunks(path: Path, encoding: str, size: int = CHUNK) -> Iterator[Chunk]:
                 data = decoder.decode(data, final=last).encode()
             if first:
                 data, first = data.removeprefix(codecs.BOM_UTF8), False
-            if mac is None and data:
-                mac = b"\n" not in data and b"\r" in data
+            if mac is None and data:  # a CR at the end may be half of a CR LF
+                mac = False if b"\n" in data else b"\r" in rest[-1:] + (data if last else data[:-1]) or None
+                rest = rest.replace(b"\r", b"\n") if mac else rest
             if mac:
                 data = data.replace(b"\r", b"\n")
             cut = len(data) if last else data.rfind(b"\n") + 1

@@ -79,7 +79,7 @@ class Rows:
         """What stands before a line of the file."""
         rows = _taken(self, np.flatnonzero(self.line < line))
         bad, nul = tuple(b for b in self.bad if b.line < line), tuple(n for n in self.nul if n[0] < line)
-        return replace(rows, bad=bad, nul=nul, short=rows.short[rows.short < line])
+        return replace(rows, bad=bad, nul=nul)
 
 
 def parse(data: bytes, line: int, grid: Grid) -> Rows:
@@ -346,7 +346,8 @@ def _taken(rows: Rows, which: Int1D) -> Rows:
     }
     index = pa.array(which)
     times = {i: t.take(index) for i, t in rows.times.items()}
-    return replace(rows, line=rows.line[which], columns=columns, times=times)
+    line = rows.line[which]
+    return replace(rows, line=line, columns=columns, times=times, short=rows.short[np.isin(rows.short, line)])
 
 
 # ---- line by line --------------------------------------------------------------------------------

@@ -57,9 +57,14 @@ class TimedGroup:
         return f"as a number [{self.group.epoch or unit}]"
 
 
+def bare_line(line: str) -> str:
+    """A line without blanks around it, and without the byte order mark that it has where files were joined."""
+    return line.strip().strip("\ufeff").strip()
+
+
 @dataclass(frozen=True)
 class Table:
-    """What the first look at a file found. header: the lines above the data, as they stand; kinds: of each column;
+    """What the first look at a file found. header: the lines above the data, by `bare_line`; kinds: of each column;
     quality: value column -> (the column of its quality, whether the code 0 is good)."""
 
     name: str
@@ -87,6 +92,10 @@ class Table:
         if first.ends_with_newline or len(lines) < 2:
             return False
         return not last_line_is_whole(lines[-1], lines[-2], self.delimiter)
+
+    def repeats_header(self, line: str) -> bool:
+        """Whether a line stands above the data too: files that were joined repeat their headers."""
+        return bare_line(line) in self.header
 
     def grid(self, decimal: str) -> Grid:
         """How its rows lie. A row may end with the columns of a group, for groups have lengths of their own; one with a
@@ -188,7 +197,7 @@ def find_table(head: Sequence[str], first: Sample, source: Source, where: str, s
     numbers = [cells_of[name] for name, kind in zip(layout.names, kinds, strict=True) if kind == "float64"]
     declared = said.get("decimal")
     decimal = declared or find_decimal(numbers, delimiter, where)
-    header = frozenset(line.strip() for line in head[: layout.first] if line.strip())
+    header = frozenset(bare_line(line) for line in head[: layout.first] if bare_line(line))
     notes = tuple(dict.fromkeys([*([first.note] if first.note else []), *layout.notes, *_notes(layout, kinds, groups)]))
     return Table(
         name=where,

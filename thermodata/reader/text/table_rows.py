@@ -68,7 +68,7 @@ class RowReader:
         rows, told = self._until_another_header(rows, told, data, line)
         told += [_Complaint(n, f"{count} NUL bytes: what was written here is lost", count) for n, count in rows.nul]
         for bad in rows.bad:
-            if bad.text.strip() not in self.table.header:
+            if not self.table.repeats_header(bad.text):
                 reason = f"expected {self.grid.width} cells, got {bad.cells}: '{bad.text[:80]}'"
                 told.append(_Complaint(bad.line, reason, bad.size))
         told += self._torn(rows)
@@ -114,7 +114,7 @@ class RowReader:
             text = lines[number - line].decode("utf-8", "replace").strip("\r")
             cells = [clean(c) for c in fields(text, self.table.delimiter, self.table.quoted)]
             names = self.table.layout.names
-            if text.strip() in self.table.header or not all(
+            if self.table.repeats_header(text) or not all(
                 i < len(cells) and cells[i] == names[i] for i in clock.timed.group.time
             ):
                 continue
@@ -181,7 +181,7 @@ class RowReader:
         for row in lost.tolist():
             number = int(rows.line[row])
             text = lines[number - line].decode("utf-8", "replace").rstrip("\r")
-            if text.strip() in self.table.header:
+            if self.table.repeats_header(text):
                 continue
             cells = fields(text.replace("\0", ""), self.table.delimiter, self.table.quoted)
             own = [clean(cells[i]) if i < len(cells) else "" for i in (*clock.timed.group.time, *columns)]

@@ -208,8 +208,22 @@ def _iso(column: Any, form: TimeFormat) -> Int1D | None:
         cast = column.cast(pa.timestamp("ns"))
     except pa.ArrowException:
         return None
+    if not _has_colons(column):
+        return None
     ns: Int1D = np.frombuffer(cast.buffers()[1], np.int64, len(cast), cast.offset * 8)
     return ns if int(ns.min()) >= _FIRST_NS and int(ns.max()) < _LAST_NS else None
+
+
+def _has_colons(column: Any) -> bool:
+    """Whether each ISO time of day has minutes behind a colon: Arrow takes "2026-03-01 08" (what is left of a torn
+    cell) and "2026-03-01 083000" too, which are no times alone."""
+    start, n = column.offset, len(column)
+    _, ends, letters = column.buffers()
+    offsets = np.frombuffer(ends, np.int32)[start : start + n + 1]
+    widths = np.diff(offsets)
+    clocked = widths > 10  # dates alone are midnight
+    data = np.frombuffer(letters, np.uint8)
+    return bool((widths[clocked] > 13).all() and (data[offsets[:-1][clocked] + 13] == ord(":")).all())
 
 
 def _by_strptime(cells: list[str | None], form: TimeFormat) -> Int1D:

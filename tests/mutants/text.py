@@ -1,0 +1,222 @@
+"""Mutants of the parts that read text: numbers, times, rows, tables, and what is told of what does not read."""
+
+from __future__ import annotations
+
+from mutant import Mutant
+
+# the tests that stand beside a module
+BESIDE = {
+    "columns.py": ("columns",),
+    "delimited.py": ("delimited",),
+    "delimiter.py": ("delimiter",),
+    "layout.py": ("delimited",),
+    "lines.py": ("lines", "locate"),
+    "local_clock.py": ("delimited",),
+    "locate.py": ("locate",),
+    "losses.py": ("delimited",),
+    "number.py": ("number",),
+    "quality_columns.py": ("quality_columns",),
+    "rows.py": ("three_ways", "rows_width"),
+    "table.py": ("delimited",),
+    "table_rows.py": ("delimited",),
+    "time_formats.py": ("time_formats",),
+    "timestamp.py": ("timestamp",),
+}
+
+
+def text(file: str, old: str, new: str, why: str, *more: str) -> Mutant:
+    """more: further topics whose tests are run."""
+    tests = tuple(f"tests/reader/text/test_{topic}.py" for topic in (*BESIDE[file], *more))
+    return Mutant(f"thermodata/reader/text/{file}", old, new, why, tests)
+
+
+MUTANTS = [
+    # ---- numbers
+    text("number.py", "EXACT = 2**53", "EXACT = 2**54", "integers are rounded"),
+    text("number.py", "abs(value) >= EXACT and", "abs(value) > EXACT and", "2**53 + 1 is read as 2**53"),
+    text("number.py", "math.isinf(value) or (", "(", "1e999 is infinite"),
+    text("number.py", "(declared and _ONE_GROUP", "(_ONE_GROUP", "1.500 is 1500 though nothing proves it"),
+    text("number.py", "or (declared and _ONE_GROUP[decimal].fullmatch(text))", "", "a declared mark tells nothing"),
+    text(
+        "number.py",
+        r"""(?:\.\d{3})+,\d+|(?:\.\d{3}){2,})", re.ASCII)""",
+        r"""(?:\.\d{3})+,\d+)", re.ASCII)""",
+        "1.234.567 is lost",
+    ),
+    text("number.py", '[1-9]\\d{0,2},\\d{3}"', '\\d{1,3},\\d{3}"', "0,500 is five hundred"),
+    text("number.py", "low in EMPTY, low in OVERLOAD", "low in EMPTY or low in OVERLOAD, False", "overload is nothing"),
+    text("number.py", "if wrong and not over[i]:", "if wrong:", "overload is a loss"),
+    text(
+        "number.py", "limits.min <= whole <= limits.max", "-(2**63) <= whole <= limits.max", "unsigned counters below 0"
+    ),
+    text("number.py", "and abs(value) <= EXACT else", "else", "1e300 is an integer"),
+    text(
+        "number.py",
+        "if not (np.abs(values) < EXACT).all():",
+        "if not (np.abs(values) <= 2 * EXACT).all():",
+        "Arrow rounds",
+    ),
+    text("number.py", r"-?\d{{1,15}}(?:", r"-?\d{{1,16}}(?:", "Arrow rounds integers of 16 digits"),
+    text("number.py", "return text if text == '\"' else text.", "return text.", "a quote alone is an empty cell"),
+    text("number.py", "if points and commas:", "if False:", "files of two decimal marks are read by one"),
+    text(
+        "number.py",
+        "known[cell] = (nothing if value is None else value, value is None, beyond,",
+        "known[cell] = (nothing if value is None else value, gone, beyond,",
+        "a lost integer is 0",
+    ),
+    # ---- times
+    text("timestamp.py", "CENTURY = 69", "CENTURY = 80", "1970s are 2070s"),
+    text(
+        "timestamp.py", 'fields["y"] < CENTURY', 'fields["y"] <= CENTURY', "a column has another century than its cells"
+    ),
+    text(
+        "timestamp.py",
+        "            hour = hour % 12 + (12 if g[",
+        "            hour = hour + (12 if g[",
+        "12 AM is noon",
+    ),
+    text(
+        "timestamp.py", "hour = hour % 12 + (12 if groups[", "hour = hour + (12 if groups[", "12 AM is noon, in columns"
+    ),
+    text("timestamp.py", "if not 1 <= hour <= 12:", "if not 0 <= hour <= 23:", "13 PM is a time"),
+    text("timestamp.py", '(-1 if text[0] == "-" else 1)', '(1 if text[0] == "-" else -1)', "zones are turned"),
+    text("timestamp.py", "total -= offset_ns(groups", "total += offset_ns(groups", "zones are turned, in columns"),
+    text("timestamp.py", "int(digits[2:] or 0) * 60)", "0)", "zones of half hours"),
+    text("timestamp.py", '{"f": 9, "of": 6}[name]', '{"f": 6, "of": 6}[name]', "fractions are a thousandth"),
+    text("timestamp.py", 'int(g["f"].ljust(9, "0"))', 'int(g["f"].rjust(9, "0"))', "fractions without their zeros"),
+    text("timestamp.py", "| (year % 400 == 0)", "", "no 29 February 2000"),
+    text("timestamp.py", "& ((year % 100 != 0) | (year % 400 == 0))", "", "a 29 February 2100"),
+    text("timestamp.py", "    if not _has_colons(column):\n        return None\n", "", "torn times are whole hours"),
+    text("timestamp.py", "int(ns.min()) >= _FIRST_NS and ", "", "years before 1900"),
+    text(
+        "timestamp.py",
+        'if form.role != "datetime" or form.zoned or',
+        'if form.role != "datetime" or',
+        "times without their zone",
+    ),
+    text(
+        "timestamp.py",
+        "        good &= matrix[:, place] == matrix[0, place]\n",
+        "        pass\n",
+        "what parts a time may be anything",
+    ),
+    text("timestamp.py", "moment.tzinfo or UTC", "UTC", "a declared offset is left out"),
+    text("timestamp.py", "(_ZONE if zoned else", '(f"{_ZONE}?" if zoned else', "local times among those of UTC"),
+    # ---- how times are written
+    text("time_formats.py", 'return "dmy"\n', 'return "mdy"\n', "month first though dots stand between"),
+    text(
+        "time_formats.py",
+        'and "mdy" in left:\n        return "mdy"',
+        'and "mdy" in left:\n        return "dmy"',
+        "AM and PM with the day first",
+    ),
+    text("time_formats.py", "if shares[o] == best]", "]", "a day above 12 decides nothing"),
+    text(
+        "time_formats.py",
+        "(partial(_spread, cells, _MANY), more)",
+        "(partial(_spread, cells, _MANY),)",
+        "a day far down decides nothing",
+    ),
+    text("time_formats.py", "zoned * 2 > len(some)", "zoned > 0", "one zone makes all local times bad"),
+    text("time_formats.py", "_FEW, _MANY = 40, 4000", "_FEW, _MANY = 40, 40", "one day above 12 is not seen"),
+    # ---- clocks
+    text("local_clock.py", "steps < -_HALF_DAY", "steps < 0", "each step back is a midnight"),
+    text("local_clock.py", "_HALF_DAY = 12 *", "_HALF_DAY = 6 *", "days have twelve hours"),
+    text("local_clock.py", "nights = self._nights + ", "nights = ", "midnight is forgotten with the next part"),
+    text(
+        "local_clock.py", "        self._before = joined[-1:]\n", "", "the hour that repeats is not told across parts"
+    ),
+    # ---- rows
+    text("rows.py", "np.fmax.reduce(values) >= EXACT or ", "", "large integers are rounded"),
+    text("rows.py", "np.fmin.reduce(values) <= -EXACT", "False", "large negative integers are rounded"),
+    text(
+        "rows.py",
+        "lines = np.arange(line, line + table.num_rows, dtype",
+        "lines = np.arange(line + 1, line + 1 + table.num_rows, dtype",
+        "rows stand a line too low",
+    ),
+    text("rows.py", "np.array([row.number - 1 for", "np.array([row.number for", "lines move behind a bad one"),
+    text("rows.py", "not self.grid.exact and ", "", "a delimiter too much shifts cells"),
+    text("rows.py", ", short=rows.short[np.isin(rows.short, line)]", "", "empty lines lack a group"),
+    text("rows.py", "            self.short.append(line)\n", "", "rows that lack a group go unnoticed"),
+    text("rows.py", "        at += more\n", "        at += 1\n", "the lines of a cell in quotes are rows again"),
+    text("rows.py", 'b"\\0" in data\n        or', "False\n        or", "bytes of zero are parts of cells"),
+    text("rows.py", "if len(_cells(joined, grid)) == grid.width:", "if True:", "a quote left open takes rows with it"),
+    text("rows.py", "if table.num_rows != many:", "if False:", "cells over lines move the lines"),
+    # ---- tables
+    text("columns.py", "2 * words >= len(full)", "2 * words > len(full)", "half words are numbers"),
+    text("columns.py", "max(1, 0.02 *", "max(3, 0.02 *", "comments are numbers"),
+    text("columns.py", "0.02 * len(full)", "0.2 * len(full)", "comments are numbers"),
+    text("columns.py", "EXACT < most < 2**63", "EXACT < most", "integers that no int64 holds"),
+    text("columns.py", "if all(_GROUPED.fullmatch(c) for c in commas):", "if False:", "thousands are fractions"),
+    text("delimiter.py", "share >= 0.5", "share >= 0.1", "prose is a table"),
+    text("delimiter.py", "share > best[0] + 0.2", "share > best[0]", "a decimal comma delimits"),
+    text("delimiter.py", "body = body[len(body) // 3 :]", "body = body[:]", "a preamble tells the delimiter"),
+    text("delimiter.py", "or line.count('\"') % 2", "", "a quote left open swallows delimiters"),
+    text("layout.py", " and following[0] not in body[:i]", "", "a row above a repeated header is lost"),
+    text("table_rows.py", "lines + 1)\n", "lines)\n", "a trace shows the line above"),
+    text("table_rows.py", "cells.over * _OVER if cells.over.any() else None", "None", "overload is not flagged"),
+    text("table_rows.py", "(cells.empty & ~cells.over) * _NONE", "cells.empty * _NONE", "overload is not measured"),
+    text(
+        "table_rows.py",
+        "            if self.table.repeats_header(text):\n                continue\n",
+        "",
+        "repeated headers are losses",
+    ),
+    text("table_rows.py", "            self.stopped = True\n", "", "two tables are one"),
+    text("table_rows.py", "            rows = rows.before(number)\n", "", "rows of another table are read"),
+    text("table_rows.py", "waiting[waiting < last_whole]", "waiting[:0]", "torn rows of groups are no loss"),
+    text(
+        "table_rows.py",
+        "self.grid, self.sure = replace(self.grid, decimal=other), True",
+        "self.sure = True",
+        "fractions far down are lost",
+    ),
+    text(
+        "table_rows.py",
+        "                if good[row]:\n",
+        "                if True:\n",
+        "a lost row is lost again by its cells",
+    ),
+    text("table_rows.py", "elif tail.strip(", "elif False and tail.strip(", "a torn end is no loss"),
+    text("table.py", '.strip("\\ufeff")', "", "joined files end at the second header"),
+    text("table.py", "            exact=True,\n", "", "a delimiter too much shifts cells"),
+    text("table.py", "            decimal_declared=self.decimal_declared,\n", "", "the declared mark is left out"),
+    text("losses.py", "NAMED = 20", "NAMED = 10", "half of the losses have no line"),
+    text("losses.py", "line {line + 1}", "line {line}", "losses name the line above"),
+    text("losses.py", "if not self._more:", "if True:", "losses beyond the twentieth are not told"),
+    text("losses.py", "0 < each.row <= t_ns.size", "0 <= each.row < t_ns.size", "losses are dated a row off"),
+    text("locate.py", "int(item.at[row - done])", "int(item.at[row])", "rows of a later block are somewhere else"),
+    text(
+        "locate.py",
+        "behind = item.at[item.at > here]",
+        "behind = item.at[item.at >= here]",
+        "lines end where they begin",
+    ),
+    text(
+        "quality_columns.py",
+        "pairs[other] = name, zero_is_good(cells, name)",
+        "pairs[other] = name, True",
+        "classic OPC's bad is good",
+    ),
+    text(
+        "quality_columns.py",
+        "[0 if is_good(str(word), zero) else BAD",
+        "[BAD if is_good(str(word), zero) else 0",
+        "good values are bad",
+    ),
+    # ---- lines
+    text("lines.py", 'line += count(part, b"\\n")', "line += 1", "lines move with each chunk"),
+    text("lines.py", "odd.append(first + k)", "odd.append(k)", "odd bytes are told of other lines"),
+    text("lines.py", "data.removeprefix(codecs.BOM_UTF8)", "data", "the first name begins with a mark"),
+    text("lines.py", "if mac:\n", "if False:\n", "lines that end with CR are one"),
+    text("lines.py", "if fields[0] and fields[0] == fields[1]:", "if fields[0]:", "a cut number is a value"),
+    text("lines.py", "digits[0] >= digits[1] > 0", "digits[0] >= 0", "a cut fraction is a value"),
+    text(
+        "lines.py",
+        "decoder.decode(data, final=last)",
+        "decoder.decode(data, final=True)",
+        "letters are torn where chunks meet",
+    ),
+]

@@ -1,0 +1,93 @@
+"""How a column of times is written: day and month by dots, numbers above 12, AM and PM, or asked; and its zone."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from thermodata.errors import FormatError
+from thermodata.reader.text.time_formats import find_format, find_formats, share, times_of_numbers, times_of_texts
+from thermodata.reader.text.timestamp import DATE, DATETIME, TIME_OF_DAY
+
+S = 1_000_000_000
+
+
+@pytest.mark.parametrize(
+    ("cells", "form"),
+    [
+        (["03.04.2026 08:00", "04.04.2026 08:00"], DATETIME["dmy"]),
+        (["3. 4. 2026", "4. 4. 2026"], DATE["dmy"]),
+        (["03/04/2026 08:00", "13/04/2026 08:00"], DATETIME["dmy"]),
+        (["03/04/2026 08:00", "03/13/2026 08:00"], DATETIME["mdy"]),
+        (["03-04-26", "03-13-26"], DATE["mdy"]),
+        (["03/04/2026 08:00 AM", "04/04/2026 08:00 PM"], DATETIME["mdy"]),
+        (["13/04/2026 08:00 AM", "14/04/2026 08:00 PM"], DATETIME["dmy"]),
+        (["03.04.2026 08:00 AM", "04.04.2026 08:00 PM"], DATETIME["dmy"]),
+        (["2026/04/03 08:00", "2026/04/13 08:00"], DATETIME["ymd"]),
+        (["2026年4月3日"], DATE["cjk"]),
+        (["08:00:00", "09:00"], TIME_OF_DAY),
+        (["2026-03-01", "2026-03-01 00:15", "2026-03-01 00:30"], DATETIME["ymd"]),
+        (["", "x", "03/14/2026", "", "03/15/2026", "03/16/2026"], DATETIME["mdy"]),
+    ],
+)
+def test_the_order_of_day_and_month(cells: list[str], form: object) -> None:
+    assert find_format(cells, "a.csv") == form
+
+
+def test_one_day_above_12_among_thousands_decides() -> None:
+    cells = [f"{1 + k % 12:02d}/{1 + k // 400:02d}/2026 08:00" for k in range(3000)]
+    assert find_format([*cells, "13/08/2026 08:00"], "a.csv") == DATETIME["dmy"]
+    assert find_format([*cells, "08/13/2026 08:00"], "a.csv") == DATETIME["mdy"]
+
+
+def test_further_cells_are_asked_for_where_the_sample_does_not_tell() -> None:
+    cells = ["03/04/2026 08:00"] * 5
+    assert find_format(cells, "a.csv", "t", lambda: [*cells, "25/04/2026 08:00"]) == DATETIME["dmy"]
+
+
+def test_an_order_that_nothing_tells_is_asked() -> None:
+    with pytest.raises(FormatError, match="either way round") as error:
+        find_format(["03/04/2026 08:00", "04/05/2026 08:00"], "a.csv")
+    assert error.value.where == "a.csv"
+
+
+def test_a_column_without_times_is_refused() -> None:
+    with pytest.raises(FormatError, match="holds no times") as error:
+        find_format(["x", "y"], "a.csv", "when")
+    assert error.value.where == "a.csv column 'when'"
+
+
+@pytest.mark.parametrize(
+    ("zoned", "local", "all_zoned"), [(3, 2, True), (2, 2, False), (2, 3, False), (1, 0, True), (0, 1, False)]
+)
+def test_most_cells_tell_whether_all_name_their_zone(zoned: int, local: int, all_zoned: bool) -> None:
+    cells = ["2026-03-01 08:00:00Z"] * zoned + ["2026-03-01 08:00:00"] * local
+    (form,) = find_formats(["t"], [cells], None, "a.csv")
+    assert form.zoned is all_zoned
+    assert share(cells, form) == (zoned if all_zoned else local) / len(cells)
+
+
+def test_a_date_a_time_and_milliseconds_in_columns_of_their_own() -> None:
+    forms = find_formats(["Date", "Time", "ms"], [["1.3.2026"] * 3, ["8:00:00"] * 3, ["1", "2", "125"]], None, "a.csv")
+    assert [form.role for form in forms] == ["date", "time", "millisecond"]
+
+
+def test_declared_formats_of_two_columns() -> None:
+    forms = find_formats(["d", "t"], [["03/04/2026"] * 3, ["08:00:00"] * 3], "%m/%d/%Y %H:%M:%S", "a.csv")
+    assert [form.text for form in forms] == ["%m/%d/%Y", "%H:%M:%S"]
+    (form,) = find_formats(["t"], [["03/04/2026"]], "%m/%d/%Y", "a.csv")
+    assert form.text == "%m/%d/%Y"
+
+
+def test_columns_in_memory() -> None:
+    found = times_of_texts(["2026-07-01 08:00:00", "2026-07-01 08:00:01"], "Europe/Prague", None, "a")
+    assert found.absolute
+    assert found.t_ns.tolist() == [1_782_885_600 * S, 1_782_885_601 * S]
+    found = times_of_texts(["2026-07-01 08:00:00+02:00", "2026-07-01 08:00:01+02:00"], "Asia/Tokyo", None, "a")
+    assert found.t_ns.tolist() == [1_782_885_600 * S, 1_782_885_601 * S]
+    found = times_of_texts(["23:59:59", "00:00:01"], "Europe/Prague", None, "a")
+    assert not found.absolute
+    assert found.t_ns.tolist() == [0, 2 * S]
+    found = times_of_numbers(np.array([0.5, 1.5]), "min", None)
+    assert not found.absolute
+    assert found.t_ns.tolist() == [30 * S, 90 * S]
