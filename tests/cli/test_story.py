@@ -248,3 +248,42 @@ def test_diagnose_add_by_rank_and_report(say: Say, tmp_path: Path) -> None:
     assert "Locked tests were opened for this model and its ancestors: small/day2" in page
     assert say("--store", store, "report", base, "-o", tmp_path / "b.html").code == 0
     assert "dZ misses feed_screw (T_nut_Z)" in (tmp_path / "b.html").read_text(encoding="utf-8")
+
+
+def test_the_same_question_opens_no_lock_again_and_a_choice_of_ones_own_is_counted(say: Say, tmp_path: Path) -> None:
+    path, store = write_campaign(tmp_path / "c"), tmp_path / "s"
+    assert say("--store", store, "ingest", path).code == 0
+    base = json.loads(say("--store", store, "fit", tmp_path / "c" / "baseline.yaml", "--json").out)["model"]
+
+    def looks() -> int:
+        query = "select count(*) as n from locked_look where test = 'day2'"
+        return int(json.loads(say("--store", store, "sql", query, "--json").out)[0]["n"])
+
+    first = say("--store", store, "diagnose", base, "--json")
+    assert looks() == 1
+    again = say("--store", store, "diagnose", base, "--json")
+    assert (again.out, looks()) == (first.out, 1)
+    assert "from the store" in again.err
+    assert "from the store" not in first.err
+
+    chosen = json.loads(say("--store", store, "confirm", base, "feed_screw:T_nut_Z", "--json").out)
+    assert (chosen["candidate"], chosen["holds"], chosen["looks"]) == ("feed_screw:T_nut_Z", True, 2)
+    assert chosen["locked_rmse_um_after"] < 0.5 * chosen["locked_rmse_um_before"]
+    assert [t["test"] for t in chosen["tests"]] == ["day2"]
+    assert chosen["tests"][0]["rmse_um_after"] == pytest.approx(chosen["locked_rmse_um_after"])
+    text = say("--store", store, "confirm", base, "1")
+    assert "feed_screw:T_nut_Z holds on the locked tests" in text.out
+    assert "opened 2 times so far" in text.out
+    assert "from the store" in text.err
+    assert looks() == 2
+    assert say("--store", store, "confirm", base, "99").code == 2
+
+
+def test_a_campaign_without_locked_tests_has_nothing_to_confirm_on(say: Say, tmp_path: Path) -> None:
+    path, store = write_campaign(tmp_path / "c"), tmp_path / "s"
+    path.write_text(path.read_text(encoding="utf-8").replace("role: locked", "role: verification"), encoding="utf-8")
+    assert say("--store", store, "ingest", path).code == 0
+    base = json.loads(say("--store", store, "fit", tmp_path / "c" / "baseline.yaml", "--json").out)["model"]
+    told = say("--store", store, "confirm", base, "feed_screw:T_nut_Z")
+    assert told.code == 2
+    assert "no locked test to confirm on" in told.err

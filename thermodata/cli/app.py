@@ -35,6 +35,7 @@ SECTIONS: dict[str, dict[str, str]] = {
         "history": "fitting",
         "portability": "fitting",
         "diagnose": "diagnosing",
+        "confirm": "diagnosing",
         "report": "reporting",
         "workbench": "reporting",
     },

@@ -12,7 +12,7 @@ from thermodata.cli.table import table
 from thermodata.report.words import duration, number, verdict_sentence
 
 if TYPE_CHECKING:
-    from thermodata.schema.result import Diagnosis
+    from thermodata.schema.result import Confirmed, Diagnosis
 
 
 @command("diagnose")
@@ -26,12 +26,56 @@ def diagnose_command(session: Session, model: str, top: int) -> None:
     A candidate is claimed only if all evidence holds; locked tests are opened for claims only, and counted.
     """
     from thermodata.cli.progress import counting_line
-    from thermodata.diagnosis.run import diagnose
+    from thermodata.diagnosis.run import diagnose, kept_diagnosis
 
     store = session.store()
-    with counting_line() as tell:
-        found = diagnose(store, resolve(store, model), tell)
+    ref = resolve(store, model)
+    found = kept_diagnosis(store, ref)
+    if found is not None:
+        click.echo("from the store: model, data, effects and rules are as they were", err=True)
+    else:
+        with counting_line() as tell:
+            found = diagnose(store, ref, tell)
     session.answer(found, lambda: in_units_of(session, found.response, diagnosis_text(found, top)))
+
+
+@command("confirm")
+@click.argument("model")
+@click.argument("candidate")
+def confirm_command(session: Session, model: str, candidate: str) -> None:
+    """Open the locked tests for an effect of your own choice.
+
+    CANDIDATE is its rank or id, as diagnose printed them, or any effect:channels. MODEL is fitted to all open tests
+    without and with it, and both are scored on the locked ones. Every look is counted; asking the same again is none.
+    """
+    from thermodata.diagnosis.run import confirm_choice
+
+    store = session.store()
+    result, known = confirm_choice(store, resolve(store, model), candidate)
+    if known:
+        click.echo("from the store: this was looked at before, and nothing has changed since", err=True)
+    session.answer(result, lambda: in_units_of(session, result.response, confirmed_text(result)))
+
+
+def confirmed_text(result: Confirmed) -> str:
+    """A confirmation for a person."""
+    said = "holds" if result.holds else "does not hold"
+    head = f"{result.candidate} {said} on the locked tests"
+    if result.locked_rmse_um_before is not None and result.locked_rmse_um_after is not None:
+        head += f": {number(result.locked_rmse_um_before)} -> {number(result.locked_rmse_um_after)} um"
+    rows = [t.model_dump() for t in result.tests]
+    columns = [
+        ("campaign", "campaign"),
+        ("test", "test"),
+        ("rmse_um_before", "before [um]"),
+        ("rmse_um_after", "after [um]"),
+    ]
+    return f"{head}\n\n{table(rows, columns)}\n\nthe locked tests have been opened {times(result.looks)} so far"
+
+
+def times(n: int) -> str:
+    """'once', '3 times'."""
+    return "once" if n == 1 else f"{n} times"
 
 
 def diagnosis_text(found: Diagnosis, top: int = 8) -> str:

@@ -33,7 +33,7 @@ class Answer:
 def answer(fitted: FittedModel, data: Dataset, library: Mapping[str, Effect], model_id: str, seed: int = 0) -> Answer:
     """Diagnose the response that the model predicts worst; locked tests are opened for a claim only, once."""
     tests = fitted.tests(data)
-    index = _worst(fitted, tests)
+    index = worst_response(fitted, tests)
     response = fitted.responses[index]
     usable = [t for t in tests if response.can_predict(t)]
     # the choice takes part in all open tests: gains that only a verification test excites must not be guesses
@@ -70,8 +70,8 @@ def kept_where_it_holds(judgement: Judgement, confirmation: Confirmation, unit: 
     )
 
 
-def _worst(fitted: FittedModel, tests: Sequence[TestData]) -> int:
-    """The response with the largest share of its variance left."""
+def worst_response(fitted: FittedModel, tests: Sequence[TestData]) -> int:
+    """The number of the response with the largest share of its variance left."""
     left = []
     for response in fitted.responses:
         over, under = 0.0, 1e-300

@@ -86,6 +86,29 @@ def confirm(
     )
 
 
+def rmse_of_each(
+    spec: Model,
+    index: int,
+    data: Dataset,
+    candidate: CandidateEffect,
+    tests: Sequence[TestData],
+    locked: Sequence[TestData],
+) -> list[tuple[tuple[str, str], float, float]]:
+    """((campaign, test), error without, error with the candidate) of each locked test that both can predict; models
+    fitted to all open tests, errors as scored."""
+    spec = on_all_open(spec, tests, locked)
+    ours, theirs = (
+        fit_model(some, data, uncertainty=False).responses[index] for some in (spec, extended(spec, candidate))
+    )
+    rows = []
+    for test in locked:
+        if ours.can_predict(test) and theirs.can_predict(test):
+            before, after = rmse(ours, [test]), rmse(theirs, [test])
+            if before is not None and after is not None:
+                rows.append((test.key, before, after))
+    return rows
+
+
 def rmse(fitted: FittedResponse, tests: Sequence[TestData], *, free: bool = False) -> float | None:
     """Free-run error over all samples that count, in the response's unit; None where there are none.
 

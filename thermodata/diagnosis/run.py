@@ -1,31 +1,111 @@
-"""Diagnosis with a store: load the model and its tests, answer, keep the answer, count the looks at locked tests."""
+"""Diagnosis with a store: load the model and its tests, answer, keep the answer, count the looks at locked tests.
+
+The same question to the same data comes from the store: nothing is computed, and no lock is opened again.
+"""
 
 from __future__ import annotations
 
+import hashlib
+import json
 from typing import TYPE_CHECKING
 
-from thermodata.diagnosis.answer import answer
+from thermodata.diagnosis.answer import answer, worst_response
+from thermodata.diagnosis.candidates import CandidateEffect
+from thermodata.diagnosis.confirm import confirm, rmse_of_each
+from thermodata.effect import effect as find_effect
 from thermodata.effect import effects
-from thermodata.modelling.run import load
-from thermodata.schema.result import Diagnosis
+from thermodata.effect.binding import candidate_id
+from thermodata.errors import UsageError
+from thermodata.modelling.run import Loaded, chosen_effect, load
+from thermodata.schema.result import Confirmed, Diagnosis, TestConfirmed
 from thermodata.store.base.counting import watched
+from thermodata.version import __version__
 
 if TYPE_CHECKING:
     from thermodata.store import Store
     from thermodata.store.base.counting import Tell
+
+# raise it where a rule of the diagnosis changes: answers of older rules are then given anew
+RULES_VERSION = 1
+
+
+def _key(model: Loaded) -> str:
+    """What an answer is made from: the model, its data as they are now, the library of effects, and the rules."""
+    library = {name: repr((e.needs, e.params, e.gains)) for name, e in effects().items()}
+    made_from = [model.identity, model.data.data_version, sorted(library.items()), RULES_VERSION, __version__]
+    return hashlib.sha256(json.dumps(made_from).encode()).hexdigest()
+
+
+def kept_diagnosis(store: Store, ref: str) -> Diagnosis | None:
+    """The answer that the store holds to this question; None where model, data, effects or rules have changed since."""
+    from thermodata.store.catalogue.models import kept_answer
+
+    model = load(store, ref)
+    text = kept_answer(store, model.identity, "diagnose", _key(model))
+    return None if text is None else Diagnosis.model_validate_json(text)
 
 
 def diagnose(store: Store, ref: str, tell: Tell | None = None) -> Diagnosis:
     """Which effect is missing in a model of the store (an id, a unique prefix or a name).
 
     tell: is told how many candidates are done, of how many; each against all its surrogates."""
-    from thermodata.store.catalogue.models import count_locked_look, save_diagnosis
+    from thermodata.store.catalogue.models import count_locked_look, keep_answer, kept_answer, save_diagnosis
 
     model = load(store, ref)
+    key = _key(model)
+    kept = kept_answer(store, model.identity, "diagnose", key)
+    if kept is not None:
+        return Diagnosis.model_validate_json(kept)
     with watched(tell):
         outcome = answer(model.fitted, model.data, effects(), model.identity)
     if outcome.locked:
         claimed = next((c.id for c in outcome.diagnosis.candidates if c.claimed), "a claim that did not hold")
         count_locked_look(store, model.identity, [t.key for t in outcome.locked], f"confirming {claimed}")
     save_diagnosis(store, model.identity, outcome.diagnosis)
+    keep_answer(store, model.identity, "diagnose", key, outcome.diagnosis.model_dump_json())
     return outcome.diagnosis
+
+
+def confirm_choice(store: Store, ref: str, candidate: str | int) -> tuple[Confirmed, bool]:
+    """(what the locked tests say of an effect that the user chose, whether that was known already).
+
+    candidate: a rank of the stored diagnosis, an id, or any 'effect:channels'. Opening the lock is counted, but for an
+    answer that the store holds. UsageError: no such candidate, or no locked test that both models can predict.
+    """
+    from thermodata.store.catalogue.models import count_locked_look, keep_answer, kept_answer, locked_looks
+
+    model = load(store, ref)
+    spec = chosen_effect(store, model.identity, model.fitted.spec, candidate)
+    drivers = {role: str(channel) for role, channel in spec.drivers.items()}
+    chosen = CandidateEffect(find_effect(spec.effect), drivers, family="")
+    name, key = candidate_id(spec.effect, drivers), _key(model)
+    kept = kept_answer(store, model.identity, f"confirm {name}", key)
+    if kept is not None:
+        return Confirmed.model_validate_json(kept), True
+    tests = model.fitted.tests(model.data)
+    index = worst_response(model.fitted, tests)
+    response = model.fitted.responses[index]
+    usable = [t for t in tests if response.can_predict(t)]
+    locked = [t for t in model.fitted.tests(model.data, "locked") if response.can_predict(t)]
+    if not locked:
+        raise UsageError(
+            "no locked test to confirm on",
+            expected="a test with role: locked, in which the model's channels were logged",
+            hint="give a test of the campaign the role locked, before anybody has looked at it",
+        )
+    confirmation = confirm(model.fitted.spec, index, model.data, chosen, usable, locked)
+    each = rmse_of_each(model.fitted.spec, index, model.data, chosen, usable, locked)
+    count_locked_look(store, model.identity, [t.key for t in locked], f"confirming {name}, by choice")
+    result = Confirmed(
+        model=model.identity,
+        response=response.name,
+        candidate=name,
+        holds=confirmation.holds,
+        locked_rmse_um_before=confirmation.before,
+        locked_rmse_um_after=confirmation.after,
+        parameters=confirmation.parameters,
+        tests=[TestConfirmed(campaign=c, test=t, rmse_um_before=b, rmse_um_after=a) for (c, t), b, a in each],
+        looks=max(locked_looks(store, t.campaign, t.test) for t in locked),
+    )
+    keep_answer(store, model.identity, f"confirm {name}", key, result.model_dump_json())
+    return result, False

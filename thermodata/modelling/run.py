@@ -83,7 +83,9 @@ def add(store: Store, ref: str, candidate: str | int | EffectSpec) -> FitResult:
     from thermodata.store.catalogue.models import find_model
 
     parent = find_model(store, ref)
-    effect = candidate if isinstance(candidate, EffectSpec) else _candidate(store, parent.model, parent.spec, candidate)
+    effect = (
+        candidate if isinstance(candidate, EffectSpec) else chosen_effect(store, parent.model, parent.spec, candidate)
+    )
     old = load(store, parent.model)
     before = make_result(old.fitted, old.data, parent.model).scores
     return fit(store, with_effect(parent.spec, effect), parent=parent.model, before=before)
@@ -99,7 +101,8 @@ def transfer(store: Store, ref: str) -> list[Portability]:
     return rows
 
 
-def _candidate(store: Store, model: str, spec: Model, candidate: str | int) -> EffectSpec:
+def chosen_effect(store: Store, model: str, spec: Model, candidate: str | int) -> EffectSpec:
+    """What a user names: the rank of the stored diagnosis, an id, or any 'effect:channels'; UsageError for none."""
     from thermodata.store.catalogue.models import load_diagnosis
 
     name = str(candidate)

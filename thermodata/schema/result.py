@@ -220,3 +220,43 @@ class Diagnosis(Result):
     artefacts: list[Artefact]
     unknown: Unknown | None = None
     next_test: str | None = None
+
+
+class TestConfirmed(Result):
+    """One locked test of a confirmation.
+
+    campaign: id
+    test: id
+    rmse_um_before: free-run error without the effect, in the response's unit
+    rmse_um_after: with it
+    """
+
+    campaign: str
+    test: str
+    rmse_um_before: float
+    rmse_um_after: float
+
+
+class Confirmed(Result):
+    """Answer of confirm: the locked tests, opened for a choice of the user's own.
+
+    model: id of the model that the effect was tried on
+    response: name
+    candidate: effect:channels
+    holds: whether the locked error falls by the share that a claim of the diagnosis must show
+    locked_rmse_um_before: error over all locked tests without the effect, in the response's unit
+    locked_rmse_um_after: with it
+    parameters: of the effect, fitted to all open tests
+    tests: each locked test
+    looks: how often the locked tests have been opened so far, this look included; the most of any test
+    """
+
+    model: str
+    response: str
+    candidate: str
+    holds: bool
+    locked_rmse_um_before: float | None
+    locked_rmse_um_after: float | None
+    parameters: dict[str, Parameter]
+    tests: list[TestConfirmed]
+    looks: int

@@ -217,6 +217,32 @@ def save_findings(store: Store, model: str, kind: str, rows: Iterable[tuple[str,
         )
 
 
+def keep_answer(store: Store, model: str, question: str, key: str, payload: str) -> None:
+    """Keeps what was answered, for as long as the key of what it was made from stays the same. question: such as
+    "diagnose"; payload: JSON."""
+    row = {
+        "campaign": "",
+        "test": "",
+        "model": model,
+        "kind": f"answer:{question}",
+        "rank": None,
+        "payload": json.dumps({"key": key, "answer": json.loads(payload)}),
+        "created_at": _now(),
+    }
+    with store.write(views=False) as con:
+        _must_exist(con, model)
+        con.execute("delete from finding where model = ? and kind = ?", [model, row["kind"]])
+        insert(con, "finding", [row])
+
+
+def kept_answer(store: Store, model: str, question: str, key: str) -> str | None:
+    """The JSON of an answer that was made from the same; None where there is none, or it is of another key."""
+    with store.reader() as con:
+        rows = fetch(con, "select payload from finding where model = ? and kind = ?", [model, f"answer:{question}"])
+    kept = json.loads(rows[0]["payload"]) if rows else None
+    return json.dumps(kept["answer"]) if kept is not None and kept["key"] == key else None
+
+
 def count_locked_look(store: Store, model: str, tests: Iterable[tuple[str, str]], reason: str) -> None:
     """Writes down that the locked tests ((campaign, test)) were looked at, and why."""
     now = _now()
