@@ -13,7 +13,7 @@ BESIDE = {
     "lines.py": ("lines", "locate"),
     "local_clock.py": ("local_clock",),
     "locate.py": ("locate",),
-    "losses.py": ("delimited",),
+    "losses.py": ("losses", "delimited"),
     "number.py": ("number",),
     "quality_columns.py": ("quality_columns",),
     "rows.py": ("three_ways", "rows_width"),
