@@ -11,6 +11,7 @@ import pytest
 from thermodata.errors import FormatError
 from thermodata.plugin import Array, Block, Loss, Source
 from thermodata.reader.text.delimited import blocks, describe, open_table
+from thermodata.reader.text.lines import chunks
 from thermodata.schema.flag import Flag
 
 S = 1_000_000_000
@@ -85,6 +86,13 @@ def test_nothing_of_the_rest_is_read_behind_another_header(tmp_path: Path) -> No
     """Nor are losses told of rows that are not read."""
     found = read(tmp_path, HEAD + rows(0, 9) + "torn\n" + "time;b;state\n" + rows(9, 20) + "torn;;;;;\n")
     assert [said.split(":")[0] for said in found.said] == ["a.csv line 11", "a.csv line 12"]
+
+
+def test_nothing_is_read_in_any_later_part(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("thermodata.reader.text.delimited.chunks", lambda path, encoding: chunks(path, encoding, 64))
+    found = read(tmp_path, HEAD + rows(0, 9) + "time;state;a\n" + rows(9, 20))
+    assert found.at == [*range(2, 11)]
+    assert [said.split(":")[0] for said in found.said] == ["a.csv line 11"]
 
 
 # ---- cells ---------------------------------------------------------------------------------------

@@ -51,6 +51,17 @@ def test_lines_of_another_encoding_are_read_as_they_look_and_named(tmp_path: Pat
     assert [line for part in parts for line in part.odd] == [2, 4]
 
 
+def test_a_byte_order_mark_is_no_part_of_the_first_line(tmp_path: Path) -> None:
+    """Also where a few lines are not UTF-8, so that the file is read as UTF-8 without a word on its mark."""
+    path = tmp_path / "a.txt"
+    path.write_bytes("\ufeffTeplota vřetene, žluťoučký kůň\n".encode() + b"T\xfcr\n")
+    found = sample(path, None)
+    assert found.encoding == "utf-8"
+    (part,) = chunks(path, found.encoding)
+    assert part.data.decode() == "Teplota vřetene, žluťoučký kůň\nTür\n"
+    assert part.odd == (1,)
+
+
 def test_a_file_without_any_line_end_comes_in_pieces(tmp_path: Path) -> None:
     """Zeros, where a file was allocated in advance, must not fill the memory."""
     path = tmp_path / "a.txt"

@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 from thermodata.errors import FormatError
 from thermodata.reader.text.number import (
     EXACT,
+    clean,
     is_empty,
     is_number,
     is_overload,
@@ -70,6 +71,7 @@ def test_a_declared_mark_tells_thousands_from_fractions() -> None:
     assert to_float("1.500", ",", declared=True) == 1500.0
     assert to_float("1,500", ".", declared=True) == 1500.0
     assert to_float("0.500", ",", declared=True) is None  # no thousands begin with 0
+    assert to_float("0,500", ".", declared=True) is None
 
 
 @pytest.mark.parametrize(
@@ -166,6 +168,20 @@ def test_a_column_is_judged_as_its_cells_are(cells: list[str], decimal: str, dec
             assert found.over[at] == is_overload(cell)
             np.testing.assert_array_equal(found.values[at], np.nan if value is None else value)
             assert ((at, cell.strip()) in found.odd) == (value is None and not is_empty(cell) and not is_overload(cell))
+
+
+@pytest.mark.parametrize("decimal", [".", ","])
+@pytest.mark.parametrize("others", [["7"], ["7", "x"]], ids=["plain", "one is none"])
+def test_no_column_rounds_an_integer(decimal: str, others: list[str]) -> None:
+    """Whichever way it is parsed; 2**53 is the last that stands for itself alone."""
+    cells = [*others * 100, str(EXACT + 1), str(-EXACT - 1), str(EXACT)]
+    found = values_of(cells, "float64", decimal)
+    assert [cell for _, cell in found.odd if cell != "x"] == [str(EXACT + 1), str(-EXACT - 1)]
+    np.testing.assert_array_equal(found.values[-3:], [np.nan, np.nan, EXACT])
+
+
+def test_what_stands_around_a_cell_is_no_part_of_it() -> None:
+    assert [clean(c) for c in (' "a b" ', "\ufeff x", '""', '" "', "'", '"')] == ["a b", "x", "", "", "'", '"']
 
 
 def test_integers_and_truth_values_of_a_column() -> None:

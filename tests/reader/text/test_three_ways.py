@@ -132,6 +132,20 @@ def test_cells_in_quotes_over_lines_and_quotes_that_stay_open() -> None:
     assert rows.bad == ()
 
 
+def test_a_cell_over_lines_moves_no_other_row() -> None:
+    rows = parse(b'1;"a\nb"\n2;c\n', 10, Grid(";", ".", ("float64", "str"), quoted=True))
+    assert rows.line.tolist() == [10, 12]
+    assert rows.columns[1].values.tolist() == ["a\nb", "c"]
+
+
+def test_two_quotes_that_stay_open_take_no_row_with_them() -> None:
+    """Where what stands between them would be no row."""
+    rows = parse(b'1;2;"a\n3;"b;4\n5;6;c\n', 10, Grid(";", ".", ("float64", "str", "str"), quoted=True))
+    assert rows.line.tolist() == [10, 11, 12]
+    assert rows.columns[1].values.tolist() == ["2", "b", "6"]
+    assert rows.columns[2].values.tolist() == ["a", "4", "c"]
+
+
 def test_bytes_of_zero_are_told_with_their_line() -> None:
     rows = parse(b"1;a\n\0\0\0\n\0\x002;b\n", 5, Grid(";", ".", ("float64", "str")))
     assert rows.nul == ((6, 3), (7, 2))

@@ -234,6 +234,16 @@ def test_declared_formats(text: str, cell: str, role: str, wanted: int) -> None:
     assert both(cell, form) == wanted
 
 
+def test_a_declared_order_stands_though_the_cells_look_like_iso() -> None:
+    assert both("2026-03-04 08:00:00", declared_format("%Y-%d-%m %H:%M:%S")) == ns(2026, 4, 3, 8)
+    form = declared_format("%Y-%m-%d %H:%M:%S")
+    assert parse(["2026-03-04 08:00:00", "2026-03-04", "2026-03-04 08:00"], form).tolist() == [
+        ns(2026, 3, 4, 8),
+        NAT,
+        NAT,
+    ]
+
+
 @pytest.mark.parametrize("text", ["%Y-%q", "%Y-%Y", "%d.%m.%Y %Q"])
 def test_a_declared_format_that_cannot_be_used_is_refused(text: str) -> None:
     with pytest.raises(FormatError, match="cannot be used"):

@@ -200,9 +200,9 @@ def _iso(column: Any, form: TimeFormat) -> Int1D | None:
     """2026-03-01 08:00:00.125 and the like by Arrow's own parser; None where a cell is written in another way."""
     import pyarrow as pa
 
-    if form.role != "datetime" or form.zoned or column.null_count or _ISO.match(column[0].as_py()) is None:
+    if form.body != DATETIME["ymd"].body or form.zoned:  # a declared format may have its day before its month
         return None
-    if form.pattern is None or form.pattern.fullmatch(column[0].as_py()) is None:
+    if column.null_count or _ISO.match(column[0].as_py()) is None:
         return None
     try:
         cast = column.cast(pa.timestamp("ns"))
