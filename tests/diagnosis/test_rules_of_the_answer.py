@@ -137,5 +137,5 @@ def test_the_response_with_the_largest_share_left_is_asked_about(spec: Model) ->
     def left(share: float) -> Response:
         return Response({"a": 10.0 * np.sqrt(share) * wave + 7.0})
 
-    assert answering._worst(Fitted([left(0.3), left(0.31)], spec), tests) == 1  # type: ignore[arg-type]
-    assert answering._worst(Fitted([left(0.31), left(0.3)], spec), tests) == 0  # type: ignore[arg-type]
+    assert answering.worst_response(Fitted([left(0.3), left(0.31)], spec), tests) == 1  # type: ignore[arg-type]
+    assert answering.worst_response(Fitted([left(0.31), left(0.3)], spec), tests) == 0  # type: ignore[arg-type]
