@@ -125,7 +125,10 @@ MUTANTS = [
     text("local_clock.py", "_HALF_DAY = 12 *", "_HALF_DAY = 6 *", "days have twelve hours"),
     text("local_clock.py", "nights = self._nights + ", "nights = ", "midnight is forgotten with the next part"),
     text(
-        "local_clock.py", "        self._before = joined[-1:]\n", "", "the hour that repeats is not told across parts"
+        "local_clock.py",
+        "            self._before = joined[far[-1] if far.size else 0 :]\n",
+        "",
+        "the hour that repeats is not told across parts",
     ),
     # ---- rows
     text("rows.py", "np.fmax.reduce(values) >= EXACT or ", "", "large integers are rounded"),
