@@ -9,8 +9,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from thermodata.reader.text.grid import Grid
 from thermodata.reader.text.lines import chunks, without_cut_line
-from thermodata.reader.text.rows import Grid, parse
+from thermodata.reader.text.rows import parse
 
 KINDS = ("float64", "float64", "str")
 
@@ -60,7 +61,7 @@ def test_chunks_of_any_size_hold_whole_lines(tmp_path: Path, size: int) -> None:
 
 def test_a_part_that_reads_at_once_imports_no_pandas() -> None:
     code = (
-        "import sys; from thermodata.reader.text.rows import Grid, parse; "
+        "import sys; from thermodata.reader.text.grid import Grid; from thermodata.reader.text.rows import parse; "
         "r = parse(b'1;2;a\\n3;;b\\n', 0, Grid(';', '.', ('float64', 'int64', 'str'))); "
         "assert r.columns[1].empty.tolist() == [False, True]; assert 'pandas' not in sys.modules"
     )

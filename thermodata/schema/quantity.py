@@ -84,7 +84,6 @@ QUANTITY_MEANING: dict[str, str] = {
     "label": "text, such as a program's or a tool's name; held, never averaged",
 }
 
-_ALIAS = UNIT_SPELLING  # the name by which readers know it
 _QUANTITY_TEXT = re.compile(r"^\s*([+-]?(?:\d+(?:[.,]\d*)?|[.,]\d+)(?:[eE][+-]?\d+)?)\s*(.*?)\s*$")
 
 

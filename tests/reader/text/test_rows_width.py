@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from thermodata.reader.text.rows import Grid, parse
+from thermodata.reader.text.grid import Grid
+from thermodata.reader.text.rows import parse
 
 
 @pytest.mark.parametrize("ending", [b"", b'1;"2\n3"\n'], ids=["by Arrow", "line by line"])

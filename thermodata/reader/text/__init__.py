@@ -1,8 +1,11 @@
 """Delimited text and its like, read in one place: every reader of text puts these parts together.
 
-`encoding` > `lines` (whole lines in UTF-8, in bounded memory) > `delimiter`, `header`, `time_columns`, `layout` (where
-things stand) > `rows` (typed columns, each row with its line), `number` (the one policy a cell), `timestamp`,
-`local_clock` (times) > `delimited` (a table, described and read), `losses` (what did not read).
+- what a file is made of: `encoding`, `lines` (whole lines in UTF-8, in bounded memory), `delimiter`;
+- what a cell is: `number` (the one policy a cell), `timestamp`, `cell` (what a cell looks like), `status`;
+- where things stand: `header` (names and units), `time_columns`, `time_groups`, `time_formats`, `layout`, `columns`;
+- rows: `grid` (how they lie, what they give), `rows` (typed columns, each row with its line), `arrow`;
+- a whole table: `table` (the first look), `table_rows`, `quality_columns`, `local_clock`, `losses`, `delimited`
+  (described and read), `claim` (is it one?), `locate` (where a row stands).
 """
 
 from __future__ import annotations

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -10,8 +9,7 @@ from typing import Any, Literal
 
 from thermodata.errors import FormatError, UsageError
 from thermodata.reader.text.cell import WORDS, Cell, is_dated, is_empty, is_number, is_stamp
-from thermodata.reader.text.header import looks_like_unit, split_unit
-from thermodata.reader.text.number import clean
+from thermodata.reader.text.header import are_numbers, lines_between, names_and_units, unique
 from thermodata.reader.text.time_columns import column, time_of
 from thermodata.reader.text.time_formats import Stamps
 from thermodata.reader.text.time_groups import Span, spans
@@ -93,12 +91,12 @@ def find(rows: Sequence[Sequence[Cell]], declared: Mapping[str, Any] | None, whe
     if units_row is not None and header is not None and int(units_row) > first:
         first = int(units_row)
     row_of_units = None if units_row is None else int(units_row) - 1 - skip
-    heads, units = _heads([r[:width] for r in rows[skip:first]], width, row_of_units)
+    heads, units = names_and_units([r[:width] for r in rows[skip:first]], width, row_of_units)
     names = unique(heads)
     data = _whole_rows(rows[first : first + 200], width)
     if not data:
         raise FormatError("a table without data rows", where=where, expected=f"data after row {first}")
-    lost = _between(rows[skip:first], width, skip) if header is None else []
+    lost = lines_between(rows[skip:first], width, skip) if header is None else []
     groups, notes = _groups(said.get("time") or {}, names, units, data, where)
     return Layout(first, tuple(names), tuple(units), tuple(groups), (*notes, *lost))
 
@@ -120,7 +118,7 @@ def _is_torn(row: Sequence[Cell], width: int) -> bool:
         return False
     if any(is_dated(c) for c in filled[:2]):
         return True
-    return len(row) == width and len(filled) > 2 and _are_numbers(filled) and any("." in str(c) for c in filled)
+    return len(row) == width and len(filled) > 2 and are_numbers(filled) and any("." in str(c) for c in filled)
 
 
 def _groups(
@@ -238,49 +236,6 @@ def one_clock(
     return ("absolute", min(starts, default=0)) if absolute else ("relative", None)
 
 
-def _spanning(rows: Sequence[Sequence[Cell]], width: int) -> list[int]:
-    """Which rows before the data span the table, and are no preamble; the last may leave out what is merged with
-    the row above it. A row of numbers below names is none."""
-    filled = [[c for c in r[:width] if c not in ("", None)] for r in rows]
-    found = [i for i, cells in enumerate(filled) if len(cells) * 2 > width or len(rows) == 1]
-    while len(found) > 1 and _are_numbers(filled[found[-1]]):
-        found.pop()
-    last = len(rows) - 1
-    if (
-        found
-        and found[-1] == last - 1
-        and len(filled[last]) > 1
-        and not any(is_number(c) or is_stamp(c) for c in filled[last])
-        and not _are_units(filled[found[-1]])
-    ):
-        found.append(last)
-    return found
-
-
-def _are_numbers(cells: Sequence[Cell]) -> bool:
-    """Whether a row is one of data: numbers, or all but one and some with decimals, which channels' numbers have not
-    (a row whose time was destroyed)."""
-    numbers = [str(c) for c in cells if is_number(c)]
-    decimals = any(re.search(r"[.,]\d+$", n) and not n.endswith(".0") for n in numbers)
-    return len(numbers) == len(cells) or (decimals and len(cells) > 2 and len(numbers) == len(cells) - 1)
-
-
-def _are_units(cells: Sequence[Cell]) -> bool:
-    """Whether most filled cells of a row are units."""
-    return sum(looks_like_unit(str(c)) or str(c).startswith("[") for c in cells) * 2 > len(cells)
-
-
-def _between(rows: Sequence[Sequence[Cell]], width: int, skip: int) -> list[str]:
-    """A note for lines between the header and the data that are part of neither."""
-    spanning = _spanning(rows, width)
-    odd = (
-        [i + skip + 1 for i in range(spanning[-1] + 1, len(rows)) if any(c not in ("", None) for c in rows[i][:width])]
-        if spanning
-        else []
-    )
-    return [f"line {odd[0]} between header and data is not read ({len(odd)} such)"] if odd else []
-
-
 def _second_half(body: Sequence[Sequence[Cell]]) -> list[Sequence[Cell]]:
     full = [r for r in body if any(c not in ("", None) for c in r)]
     return full[len(full) // 2 :]
@@ -320,67 +275,3 @@ def _stamped(body: Sequence[Sequence[Cell]], width: int) -> set[int]:
     return {
         k for k in range(width) if len(late) >= 5 and sum(k < len(r) and is_stamp(r[k]) for r in late) > 0.9 * len(late)
     }
-
-
-def _heads(rows: Sequence[Sequence[Cell]], width: int, units_row: int | None) -> tuple[list[str], list[str | None]]:
-    """Names and units from the rows before the data; rows that do not span the table are preamble."""
-    texts = [[clean(str(c)) if c is not None else "" for c in r] + [""] * (width - len(r)) for r in rows]
-    units: list[str | None] = [None] * width
-    if units_row is not None and 0 <= units_row < len(texts):
-        units = [u.strip("[]() ") or None for u in texts.pop(units_row)]
-    spanning = [texts[i] for i in _spanning(texts, width)]
-    if units_row is None and len(spanning) >= 2:
-        filled = [c for c in spanning[-1] if c]
-        if sum(looks_like_unit(c) or c.startswith("[") for c in filled) * 2 > len(filled):
-            units = [u.strip("[]() ") or None for u in spanning.pop()]
-        elif _units_among(spanning[-2], spanning[-1]):
-            units = [u if looks_like_unit(u) else None for u in spanning.pop()]
-    names = spanning[-1] if spanning else [""] * width
-    at = next((i for i in range(len(texts) - 1, 0, -1) if texts[i] is names), 0)
-    if at and any(texts[at - 1]):
-        names = _under(texts[at - 1], names)
-    found = [split_unit(n)[1] for n in names]
-    return names, [u or f for u, f in zip(units, found, strict=True)]
-
-
-def _units_among(above: Sequence[str], row: Sequence[str]) -> bool:
-    """Whether a row below names that are all different repeats itself in units, beside words that are none
-    ("NO.", "Time" and the letters of alarms, below "Number" and "Date&Time")."""
-    said = [c for c in row if c]
-    named = [c for c in above if c]
-    units = [c for c in said if looks_like_unit(c)]
-    again = len(set(said)) < len(said) or any(a == c for a, c in zip(above, row, strict=True) if looks_like_unit(c))
-    return (
-        len(set(named)) == len(named) >= len(said)
-        and again
-        and len(units) * 3 >= len(said)
-        and len(units) > sum(map(looks_like_unit, named))
-    )
-
-
-def _under(above: list[str], names: list[str]) -> list[str]:
-    """Names below a row of groups, which are written once, over the first of their columns (merged cells): the group
-    tells names apart that repeat, and is the name where there is none below it."""
-    filled = [n or a for a, n in zip(above, names, strict=True)]
-    below = [n for n in names if n]
-    if len(set(below)) == len(below):
-        return filled
-    carried, group = [], ""
-    for cell in above:
-        group = cell or group
-        carried.append(group)
-    apart = [f"{g}/{n}" if g and n and g != n else n or a for g, n, a in zip(carried, names, above, strict=True)]
-    return apart if sum(map(bool, above)) > 1 and len(set(apart)) >= len(set(filled)) else filled
-
-
-def unique(names: Sequence[str]) -> list[str]:
-    out: list[str] = []
-    taken: set[str] = set()
-    for i, name in enumerate(names):
-        base = name or f"column {i + 1}"
-        new, k = base, 2
-        while new in taken:
-            new, k = f"{base}#{k}", k + 1
-        taken.add(new)
-        out.append(new)
-    return out

@@ -10,7 +10,7 @@ from __future__ import annotations
 import csv
 import io
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -18,68 +18,13 @@ import numpy as np
 from thermodata.plugin import Int1D
 from thermodata.reader.text import arrow
 from thermodata.reader.text.delimiter import fields
+from thermodata.reader.text.grid import TIME, BadLine, Grid, Rows
 from thermodata.reader.text.lines import count
 from thermodata.reader.text.number import EXACT, Values, clean, null_words, text_array, values_of
 
-TIME = "time"  # a column of times as text: left as it stands
 _MOST_LINES = 64  # of one cell in quotes
 _SLACK_CELLS = 10_000  # delimiters of a part beyond what its lines should have
 _SHOWN = 200
-
-
-@dataclass(frozen=True, slots=True)
-class Grid:
-    """How rows lie. kinds: of each column: float64, int64, uint64, bool, str, TIME, or None for one that nobody wants;
-    least: the fewest cells of a row (those that are missing are empty); exact: a row with empty cells behind its last
-    column is none, for a delimiter too much may have shifted others; decimal_declared: see the policy of numbers;
-    blank_rows: whether delimiters alone are a row (where rows are counted, one without values takes its time)."""
-
-    delimiter: str
-    decimal: str
-    kinds: tuple[str | None, ...]
-    quoted: bool = False
-    least: int | None = None
-    decimal_declared: bool = False
-    exact: bool = False
-    blank_rows: bool = False
-
-    @property
-    def width(self) -> int:
-        return len(self.kinds)
-
-
-@dataclass(frozen=True, slots=True)
-class BadLine:
-    """A line that is no row. line: 0-based in the file; cells: how many it has; text: its beginning."""
-
-    line: int
-    cells: int
-    text: str
-    size: int
-
-
-@dataclass(frozen=True, slots=True)
-class Rows:
-    """line: of each row, 0-based in the file, rising, shape (n,). columns: what each wanted column holds; times: the
-    cells of TIME columns as an Arrow array. nul: (line, how many bytes of zero) where such stood in or before a row.
-    short: lines of the rows that have fewer cells than columns, shape (k,)."""
-
-    line: Int1D
-    columns: dict[int, Values]
-    times: dict[int, Any]
-    bad: tuple[BadLine, ...] = ()
-    nul: tuple[tuple[int, int], ...] = ()
-    short: Int1D = field(default_factory=lambda: np.empty(0, np.int64))
-
-    @property
-    def n(self) -> int:
-        return int(self.line.size)
-
-    def before(self, line: int) -> Rows:
-        """What stands before a line of the file."""
-        rows = _taken(self, np.flatnonzero(self.line < line))
-        bad, nul = tuple(b for b in self.bad if b.line < line), tuple(n for n in self.nul if n[0] < line)
-        return replace(rows, bad=bad, nul=nul)
 
 
 def parse(data: bytes, line: int, grid: Grid) -> Rows:
@@ -231,7 +176,7 @@ def _without_empty_cells(rows: Rows) -> Rows:
     for cells in rows.times.values():
         if blank.any():
             blank &= arrow.values(pc.equal(pc.utf8_trim_whitespace(cells.fill_null("")), ""), "bool")
-    return _taken(rows, np.flatnonzero(~blank)) if blank.any() else rows
+    return rows.take(np.flatnonzero(~blank)) if blank.any() else rows
 
 
 def _without_empty_lines(rows: Rows, data: bytes, line: int) -> Rows:
@@ -241,7 +186,7 @@ def _without_empty_lines(rows: Rows, data: bytes, line: int) -> Rows:
     starts = np.concatenate(([0], ends[:-1] + 1))
     size = ends - starts
     blank = (size == 0) | ((size == 1) & (letters[starts] == 13))
-    return _taken(rows, np.flatnonzero(~blank[rows.line - line])) if blank.any() else rows
+    return rows.take(np.flatnonzero(~blank[rows.line - line])) if blank.any() else rows
 
 
 def _as_text(data: bytes, line: int, grid: Grid) -> Rows | None:
@@ -280,7 +225,7 @@ def _as_text(data: bytes, line: int, grid: Grid) -> Rows | None:
         short = np.union1d(short, lines[: table.num_rows])
     rows = Rows(lines, columns, times, tuple(bad), short=short)
     order = np.argsort(rows.line, kind="stable")
-    taken = _taken(rows, order) if side.lines else rows
+    taken = rows.take(order) if side.lines else rows
     if grid.blank_rows:
         return _without_empty_lines(taken, data, line)
     return _without_empty_rows(taken, cells_of, order)
@@ -308,7 +253,7 @@ def _without_empty_rows(rows: Rows, cells_of: Sequence[Any], order: Int1D) -> Ro
         if cells is None or not blank.any():
             continue
         blank &= arrow.values(pc.equal(pc.utf8_trim_whitespace(cells.fill_null("")), ""), "bool")
-    return _taken(rows, np.flatnonzero(~blank[order])) if blank.any() else rows
+    return rows.take(np.flatnonzero(~blank[order])) if blank.any() else rows
 
 
 def _converted(cells_of: Sequence[Any], grid: Grid) -> tuple[dict[int, Values], dict[int, Any]]:
@@ -325,29 +270,6 @@ def _converted(cells_of: Sequence[Any], grid: Grid) -> tuple[dict[int, Values], 
         else:
             columns[i] = values_of(cells, kind, grid.decimal, grid.decimal_declared)
     return columns, times
-
-
-def _taken(rows: Rows, which: Int1D) -> Rows:
-    """Some rows, in this order."""
-    import pyarrow as pa
-
-    if which.size == rows.n and (which[1:] > which[:-1]).all():
-        return rows
-    place = np.full(rows.n, -1, np.int64)
-    place[which] = np.arange(which.size)
-    columns = {
-        i: Values(
-            v.values[which],
-            v.empty[which],
-            v.over[which],
-            tuple(sorted((int(place[r]), cell) for r, cell in v.odd if place[r] >= 0)),
-        )
-        for i, v in rows.columns.items()
-    }
-    index = pa.array(which)
-    times = {i: t.take(index) for i, t in rows.times.items()}
-    line = rows.line[which]
-    return replace(rows, line=line, columns=columns, times=times, short=rows.short[np.isin(rows.short, line)])
 
 
 # ---- line by line --------------------------------------------------------------------------------

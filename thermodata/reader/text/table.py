@@ -13,11 +13,11 @@ from thermodata.plugin import Source
 from thermodata.reader.text import delimiter as delimiters
 from thermodata.reader.text import timestamp
 from thermodata.reader.text.columns import dtype_of, find_decimal
+from thermodata.reader.text.grid import TIME, Grid
 from thermodata.reader.text.layout import STREAM, Group, Layout, find
 from thermodata.reader.text.lines import Sample, last_line_is_whole, sample
 from thermodata.reader.text.number import clean
 from thermodata.reader.text.quality_columns import Pairs, quality_pairs, worded
-from thermodata.reader.text.rows import TIME, Grid
 from thermodata.reader.text.time_formats import find_formats
 from thermodata.reader.text.timestamp import TimeFormat
 from thermodata.reader.time_units import SECONDS

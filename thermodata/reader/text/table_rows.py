@@ -11,12 +11,13 @@ import numpy as np
 from thermodata.plugin import Array, Block, Bool1D, Int1D, Loss, Source
 from thermodata.reader.text import timestamp
 from thermodata.reader.text.delimiter import fields
+from thermodata.reader.text.grid import Rows
 from thermodata.reader.text.lines import ODD, Chunk, last_line_is_whole
 from thermodata.reader.text.local_clock import DayCount, LocalClock
 from thermodata.reader.text.losses import Losses
 from thermodata.reader.text.number import clean, to_float, why_none
 from thermodata.reader.text.quality_columns import bad_rows
-from thermodata.reader.text.rows import Rows, parse
+from thermodata.reader.text.rows import parse
 from thermodata.reader.text.table import Table, TimedGroup
 from thermodata.reader.time_units import EPOCHS, to_ns
 from thermodata.reader.zone import NAT

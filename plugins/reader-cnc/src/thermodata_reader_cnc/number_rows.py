@@ -12,7 +12,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from thermodata.plugin import Array, Block, Bool1D, Int1D
-from thermodata.reader.text.rows import BadLine, Grid, parse
+from thermodata.reader.text.grid import BadLine, Grid
+from thermodata.reader.text.rows import parse
 from thermodata.schema.flag import Flag
 
 _SHOWN = 200  # characters of a line that is no row

@@ -16,11 +16,12 @@ from thermodata.errors import FormatError
 from thermodata.plugin import Block, Loss, Recording, Source
 from thermodata.reader.text import timestamp
 from thermodata.reader.text.delimiter import fields
+from thermodata.reader.text.grid import BadLine, Grid
 from thermodata.reader.text.lines import ODD, chunks, from_line, sample, split_last_line
 from thermodata.reader.text.locate import line_of, lines_of
 from thermodata.reader.text.losses import NAMED
 from thermodata.reader.text.number import clean, to_float
-from thermodata.reader.text.rows import BadLine, Grid, parse
+from thermodata.reader.text.rows import parse
 from thermodata.reader.text.status import BAD, is_good, zero_is_good
 from thermodata.reader.text.time_formats import find_format
 from thermodata.reader.text.timestamp import TimeFormat

@@ -11,7 +11,7 @@ from thermodata.errors import FormatError
 from thermodata.plugin import Int1D, Source
 from thermodata.reader import time_units
 from thermodata.reader.text import time_formats
-from thermodata.reader.text.layout import unique
+from thermodata.reader.text.header import unique
 from thermodata.reader.text.time_groups import one_time
 from thermodata_reader_table.mat.planner import plan_streams
 from thermodata_reader_table.mat.stream_plan import Column, Stream, TimeVector

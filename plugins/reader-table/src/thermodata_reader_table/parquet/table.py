@@ -13,7 +13,7 @@ import numpy as np
 from thermodata.errors import FormatError
 from thermodata.plugin import Source
 from thermodata.reader.text import split_unit, time_formats
-from thermodata.reader.text.layout import unique
+from thermodata.reader.text.header import unique
 from thermodata.reader.text.time_columns import column as find_column
 from thermodata.reader.text.time_columns import find_time
 from thermodata.reader.text.time_formats import times_of_numbers
