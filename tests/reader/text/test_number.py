@@ -181,7 +181,15 @@ def test_no_column_rounds_an_integer(decimal: str, others: list[str]) -> None:
 
 
 def test_what_stands_around_a_cell_is_no_part_of_it() -> None:
-    assert [clean(c) for c in (' "a b" ', "\ufeff x", '""', '" "', "'", '"')] == ["a b", "x", "", "", "'", '"']
+    assert [clean(c) for c in (' "a b" ', "\ufeff x", '""', '" "', "'", '"', '"""')] == [
+        "a b",
+        "x",
+        "",
+        "",
+        "'",
+        '"',
+        '"',
+    ]
 
 
 def test_integers_and_truth_values_of_a_column() -> None:

@@ -67,7 +67,7 @@ _COMMA = re.compile(r"^[+-]?\d*,\d+(?:[eE][+-]?\d+)?$|^[+-]?\d+,\d*(?:[eE][+-]?\
 def clean(cell: str) -> str:
     """A cell without blanks, quotes and a stray byte order mark around it. A quote alone stays: it is no empty cell."""
     text = cell.strip().strip("\ufeff").strip()
-    return text if text == '"' else text.strip('"').strip()
+    return text.strip('"').strip() or '"' * (text.count('"') % 2)
 
 
 def is_empty(cell: str) -> bool:
