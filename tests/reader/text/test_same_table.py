@@ -282,3 +282,14 @@ def test_one_torn_row_does_not_take_the_milliseconds_from_the_time(tmp_path: Pat
     assert [s.name for s in data.recording.signals] == ["a"]
     (t_ns,) = data.t_ns.values()
     np.testing.assert_array_equal(t_ns % 10**9, [i * 7_000_000 for i in range(40) if i != 8])
+
+
+@pytest.mark.parametrize("delimiter", [";", "\t", ","])
+def test_a_torn_first_row_is_a_loss_and_no_header(tmp_path: Path, delimiter: str) -> None:
+    path = tmp_path / "x.csv"
+    rows = [delimiter.join((f"2026-03-27T06:00:{i:02d}Z", str(i * 7), f"{i}e-3", "TRUE")) for i in range(30)]
+    rows[0] = rows[0].replace(delimiter, "", 1)
+    path.write_text(delimiter.join(("time", "ms", "a", "ok")) + "\n" + "\n".join(rows) + "\n")
+    data = read(path)
+    assert [(s.name, s.dtype) for s in data.recording.signals] == [("a", "float64"), ("ok", "bool")]
+    assert [loss.where for loss in data.losses] == ["x.csv line 2"]

@@ -17,6 +17,7 @@ from thermodata.reader.time_units import EPOCHS, SECONDS
 from thermodata.reader.zone import NAT
 
 STREAM = "table"
+_DATE = 8  # letters of a date by which it is known: "2026-03-", "02.03.20"
 
 
 @dataclass(frozen=True)
@@ -82,7 +83,8 @@ def find(rows: Sequence[Sequence[Cell]], declared: Mapping[str, Any] | None, whe
     header = said.get("header_rows")
     if header is None:
         first = _first_data(body, width, where)
-        while first and _is_torn(body[first - 1], width):
+        date = next((str(c)[:_DATE] for c in body[first] if is_dated(c)), None)
+        while first and _is_torn(body[first - 1], width, date):
             first -= 1
         first += skip
     else:
@@ -110,13 +112,14 @@ def _whole_rows(rows: Sequence[Sequence[Cell]], width: int) -> list[list[Cell]]:
     return [[*r[:width], *[""] * (width - len(r))] for r in full if min(len(r), width) in usual or len(full) < 3]
 
 
-def _is_torn(row: Sequence[Cell], width: int) -> bool:
-    """Whether a row above the first good one is data all the same: with a date and something beside it, or of numbers
-    only but for its destroyed time. Its loss is told; taken for a header, it would be gone without a word."""
+def _is_torn(row: Sequence[Cell], width: int, date: str | None) -> bool:
+    """Whether a row above the first good one is data all the same: with a date and something beside it, with a cell that
+    begins with the date of the first good row, or of numbers only but for its destroyed time. Its loss is told; taken
+    for a header, it would be gone without a word."""
     filled = [c for c in row if c not in ("", None)]
     if len(filled) < 2:
         return False
-    if any(is_dated(c) for c in filled[:2]):
+    if any(is_dated(c) for c in filled[:2]) or (date is not None and any(str(c)[:_DATE] == date for c in filled)):
         return True
     return len(row) == width and len(filled) > 2 and are_numbers(filled) and any("." in str(c) for c in filled)
 
