@@ -1,0 +1,79 @@
+"""What candidates would do, as columns: compressed, a test each, at every point of a grid, and kept between rankings.
+
+The same candidates are ranked again beside a first effect; their columns do not change with what the model can do.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from thermodata.diagnosis.candidates import CandidateEffect, grid
+from thermodata.diagnosis.problem import Problem
+from thermodata.plugin import Float1D, Float2D
+
+KEPT_BYTES = 256 * 2**20  # of columns; what is beyond is made anew
+
+
+@dataclass(frozen=True, slots=True)
+class Basis:
+    """A candidate's columns. points: of the grid.
+
+    own: a block each, shape (m, points, gains). others: shape (m, points, ways, gains), how each column differs where
+    the effect acts faster or slower (`CandidateEffect.slack_params`).
+    """
+
+    points: list[dict[str, float]]
+    own: list[NDArray[np.float64]]
+    others: list[NDArray[np.float64]]
+
+    @property
+    def plain(self) -> list[list[Float2D]]:
+        """For each point, a block's columns (m, gains)."""
+        return [[own[:, i] for own in self.own] for i in range(len(self.points))]
+
+    def extended(self, gains: Float2D) -> list[list[Float2D]]:
+        """The same with what acts faster and slower at the gains of each point, shape (points, gains):
+        (m, gains + ways)."""
+        both = [
+            np.concatenate([own, np.einsum("mpwg,pg->mpw", others, gains)], axis=2)
+            for own, others in zip(self.own, self.others, strict=True)
+        ]
+        return [[columns[:, i] for columns in both] for i in range(len(self.points))]
+
+    @property
+    def nbytes(self) -> int:
+        return sum(a.nbytes for a in (*self.own, *self.others))
+
+
+def basis(problem: Problem, candidate: CandidateEffect) -> Basis:
+    """From what the problem keeps, or made."""
+    kept = problem.kept.get(id(candidate))
+    if kept is not None and kept[0] is candidate:
+        found: Basis = kept[1]
+        return found
+    made = _made(problem, candidate)
+    if sum(b.nbytes for _, b in problem.kept.values()) + made.nbytes <= KEPT_BYTES:
+        problem.kept[id(candidate)] = candidate, made
+    return made
+
+
+def _made(problem: Problem, candidate: CandidateEffect) -> Basis:
+    points = grid(candidate.effect.params, problem.step_s)
+    asked = [q for p in points for q in (p, *candidate.slack_params(p))]
+    full: dict[int, Float2D] = {}
+    own, others = [], []
+    for block in problem.blocks:
+        # parts of one test share its columns
+        whole = full.get(id(block.test))
+        if whole is None:
+            drivers, size = candidate.drivers(block.test), len(block.test.t_s)
+            whole = full[id(block.test)] = np.concatenate([candidate.columns(drivers, size, q) for q in asked], axis=1)
+        columns = block.compress(whole)
+        each = columns.reshape(len(columns), len(points), -1, len(candidate.effect.gains))
+        own.append(np.ascontiguousarray(each[:, :, 0]))
+        others.append(each[:, :, 1:] - each[:, :, :1])
+    return Basis(points, own, others)
