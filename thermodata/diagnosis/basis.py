@@ -5,7 +5,7 @@ The same candidates are ranked again beside a first effect; their columns do not
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -13,20 +13,21 @@ from numpy.typing import NDArray
 
 from thermodata.diagnosis.candidates import CandidateEffect, grid
 from thermodata.diagnosis.problem import Problem
-from thermodata.plugin import Float1D, Float2D
+from thermodata.plugin import Float2D
 
 KEPT_BYTES = 256 * 2**20  # of columns; what is beyond is made anew
 
 
 @dataclass(frozen=True, slots=True)
 class Basis:
-    """A candidate's columns. points: of the grid.
+    """A candidate's columns. points: of the grid, without those that change nothing; middle: the one in its middle.
 
     own: a block each, shape (m, points, gains). others: shape (m, points, ways, gains), how each column differs where
     the effect acts faster or slower (`CandidateEffect.slack_params`).
     """
 
     points: list[dict[str, float]]
+    middle: int
     own: list[NDArray[np.float64]]
     others: list[NDArray[np.float64]]
 
@@ -65,7 +66,7 @@ def _made(problem: Problem, candidate: CandidateEffect) -> Basis:
     points = grid(candidate.effect.params, problem.step_s)
     asked = [q for p in points for q in (p, *candidate.slack_params(p))]
     full: dict[int, Float2D] = {}
-    own, others = [], []
+    compressed = []
     for block in problem.blocks:
         # parts of one test share its columns
         whole = full.get(id(block.test))
@@ -73,7 +74,19 @@ def _made(problem: Problem, candidate: CandidateEffect) -> Basis:
             drivers, size = candidate.drivers(block.test), len(block.test.t_s)
             whole = full[id(block.test)] = np.concatenate([candidate.columns(drivers, size, q) for q in asked], axis=1)
         columns = block.compress(whole)
-        each = columns.reshape(len(columns), len(points), -1, len(candidate.effect.gains))
-        own.append(np.ascontiguousarray(each[:, :, 0]))
-        others.append(each[:, :, 1:] - each[:, :, :1])
-    return Basis(points, own, others)
+        compressed.append(columns.reshape(len(columns), len(points), -1, len(candidate.effect.gains)))
+    place = _first_alike(compressed)
+    kept = sorted(set(place))
+    own = [np.ascontiguousarray(each[:, kept, 0]) for each in compressed]
+    others = [each[:, kept, 1:] - each[:, kept, :1] for each in compressed]
+    return Basis([points[i] for i in kept], kept.index(place[len(points) // 2]), own, others)
+
+
+def _first_alike(compressed: Sequence[NDArray[np.float64]]) -> list[int]:
+    """For each grid point the first one with the same columns in all tests: an exponent of a speed means nothing
+    where a temperature drives the effect."""
+    place: list[int] = []
+    for i in range(compressed[0].shape[1]):
+        alike = (j for j in sorted(set(place)) if all(np.array_equal(c[:, i], c[:, j]) for c in compressed))
+        place.append(next(alike, i))
+    return place

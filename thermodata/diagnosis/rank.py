@@ -62,7 +62,7 @@ def _rank(problem: Problem, candidates: Sequence[CandidateEffect], seed: int) ->
     for candidate in counted(candidates, "candidates"):
         made = basis(problem, candidate)
         columns = made.plain
-        if not any(np.ptp(c) > 0 for c in columns[len(columns) // 2]):
+        if not any(np.ptp(c) > 0 for c in columns[made.middle]):
             continue
         priors = _no_larger_than(candidate.priors, columns, largest)
         if ways := len(candidate.slack_params(made.points[0])):
