@@ -52,13 +52,14 @@ class Basis:
 
 def basis(problem: Problem, candidate: CandidateEffect) -> Basis:
     """From what the problem keeps, or made."""
-    kept = problem.kept.get(id(candidate))
+    bases = problem.kept.setdefault("basis", {})
+    kept = bases.get(id(candidate))
     if kept is not None and kept[0] is candidate:
         found: Basis = kept[1]
         return found
     made = _made(problem, candidate)
-    if sum(b.nbytes for _, b in problem.kept.values()) + made.nbytes <= KEPT_BYTES:
-        problem.kept[id(candidate)] = candidate, made
+    if sum(b.nbytes for _, b in bases.values()) + made.nbytes <= KEPT_BYTES:
+        bases[id(candidate)] = candidate, made
     return made
 
 

@@ -1,8 +1,8 @@
 """Leave one test out: how much better an unseen test is predicted with a candidate than without.
 
 All by Gram matrices a test, so that a candidate costs a few small solves; the same solves serve the real
-residual (column 0) and its surrogates (columns 1...), all folds and all grid points. A candidate's nonlinear parameters are chosen on the
-training tests of each fold, never on the test that is left out.
+residual (column 0) and its surrogates (columns 1...), all folds and all grid points. A candidate's nonlinear
+parameters are chosen on the training tests of each fold, never on the test that is left out.
 """
 
 from __future__ import annotations

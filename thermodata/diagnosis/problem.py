@@ -52,14 +52,15 @@ class Block:
 @dataclass(frozen=True, slots=True)
 class Problem:
     """All tests of one response. step_s: of the compressed samples. noise: short-term noise of the response.
-    kept: columns of candidates (see `basis`), which stay the same as long as samples and offsets do."""
+    kept: what stays the same as long as samples and offsets do, by who made it: columns of candidates (`basis`),
+    surrogates (`chance`)."""
 
     response: str
     unit: str
     step_s: float
     blocks: tuple[Block, ...]
     noise: float
-    kept: dict[int, Any] = field(default_factory=dict, repr=False, compare=False)
+    kept: dict[str, dict[Any, Any]] = field(default_factory=dict, repr=False, compare=False)
 
     @property
     def response_blocks(self) -> list[Float1D]:

@@ -13,10 +13,11 @@ from threadpoolctl import threadpool_limits
 
 from thermodata.diagnosis.basis import basis
 from thermodata.diagnosis.candidates import CandidateEffect
+from thermodata.diagnosis.chance import chance
 from thermodata.diagnosis.cross_validation import Engine, Priors
 from thermodata.diagnosis.problem import Problem
 from thermodata.diagnosis.scored import Scored
-from thermodata.diagnosis.whiten import fit_ar, surrogates, whiten
+from thermodata.diagnosis.whiten import whiten
 from thermodata.plugin import Float1D, Float2D
 from thermodata.store.base.counting import counted
 
@@ -42,16 +43,14 @@ def rank(problem: Problem, candidates: Sequence[CandidateEffect], seed: int = 0)
 
 
 def _rank(problem: Problem, candidates: Sequence[CandidateEffect], seed: int) -> list[Scored]:
-    rng = np.random.default_rng(seed)
-    ar = fit_ar([b.residual for b in problem.blocks])
-    series = [np.column_stack([b.residual, surrogates(b.residual, SURROGATES, rng)]) for b in problem.blocks]
+    by_chance = chance(problem, SURROGATES, seed)
+    ar, series, white_series = by_chance.ar, by_chance.series, by_chance.white
     noise_var = float(np.mean(np.concatenate([b.residual for b in problem.blocks]) ** 2)) * PRIOR_SAMPLES
     base = [np.hstack([b.base, b.slack]) for b in problem.blocks]
     first = problem.blocks[0]
     price = np.repeat([BASE_SHARE**-2, SLACK_SHARE**-2], [first.base.shape[1], first.slack.shape[1]])
     raw = Engine(base, series, noise_var, price)
     alone = raw.without_surrogates()
-    white_series = [whiten(s, ar) for s in series]
     white_var = float(np.mean(np.concatenate([w[:, 0] for w in white_series]) ** 2)) * PRIOR_SAMPLES
     white = Engine([whiten(b, ar) for b in base], white_series, white_var, price)
 
@@ -60,14 +59,14 @@ def _rank(problem: Problem, candidates: Sequence[CandidateEffect], seed: int) ->
     top_raw = np.full(SURROGATES, -np.inf)
     top_white = np.full(SURROGATES, -np.inf)
     for candidate in counted(candidates, "candidates"):
-        made = basis(problem, candidate)
-        columns = made.plain
-        if not any(np.ptp(c) > 0 for c in columns[made.middle]):
+        own = basis(problem, candidate)
+        columns = own.plain
+        if not any(np.ptp(c) > 0 for c in columns[own.middle]):
             continue
         priors = _no_larger_than(candidate.priors, columns, largest)
-        if ways := len(candidate.slack_params(made.points[0])):
+        if ways := len(candidate.slack_params(own.points[0])):
             rough = alone.score(columns, priors)
-            columns, priors = made.extended(rough.gains), _with_slack(priors, ways)
+            columns, priors = own.extended(rough.gains), _with_slack(priors, ways)
         plain = raw.score(columns, priors)
         whitened = white.score([[whiten(c, ar) for c in point] for point in columns], priors)
         top_raw = np.maximum(top_raw, plain.relative[1:])
@@ -76,7 +75,7 @@ def _rank(problem: Problem, candidates: Sequence[CandidateEffect], seed: int) ->
         scored.append(
             Scored(
                 candidate,
-                made.points[plain.best],
+                own.points[plain.best],
                 plain.gain[: len(candidate.effect.gains)],
                 float(plain.relative[0]),
                 float(whitened.relative[0]),
