@@ -129,7 +129,7 @@ def diagnosed(case: Case) -> dict[str, Any]:
 
     def watched(*words: Any) -> Any:
         found = original(*words)
-        rankings.append([plain(s) for s in found])
+        rankings.append(found)
         return found
 
     investigate.rank = watched  # type: ignore[assignment]
@@ -144,7 +144,7 @@ def diagnosed(case: Case) -> dict[str, Any]:
         "channels": len(data.channels),
         "tests": len(data.tests),
         "diagnosis": found.model_dump(mode="json"),
-        "rankings": rankings,
+        "rankings": [[plain(s) for s in ranked] for ranked in rankings],
         "seconds": seconds,
     }
 

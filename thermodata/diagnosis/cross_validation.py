@@ -97,7 +97,7 @@ class Engine:
         self.gram = np.stack([b.T @ b for b in self.base])
         self.cross = np.stack([b.T @ r for b, r in zip(self.base, self.residuals, strict=True)])
         self.energy = np.stack([np.einsum("ij,ij->j", r, r) for r in self.residuals])
-        self.columns = self.gram.shape[1]
+        self.width = self.gram.shape[1]
         self.both = [np.hstack([b, r]) for b, r in zip(self.base, self.residuals, strict=True)]
         self.total = self._fold(None)
         self.folds = [self._fold(i) for i in range(self.n)]
@@ -109,7 +109,7 @@ class Engine:
         alone = copy(self)
         alone.residuals, alone.cross = [r[:, :1] for r in self.residuals], self.cross[..., :1]
         alone.energy, alone.unseen = self.energy[:, :1], self.unseen[..., :1]
-        alone.both = [both[:, : self.columns + 1] for both in self.both]
+        alone.both = [both[:, : self.width + 1] for both in self.both]
         alone.total, *alone.folds = (Fold(f.inverse, f.theta[:, :1], f.sse[:1]) for f in (self.total, *self.folds))
         alone.whole, alone.each = Folds.of([alone.total]), Folds.of(alone.folds)
         return alone
@@ -154,8 +154,8 @@ class Engine:
             by_point = columns.transpose(1, 0, 2)
             cc.append(by_point.transpose(0, 2, 1) @ by_point)
             cross = (columns.reshape(m, points * c).T @ both).reshape(points, c, -1)
-            cb.append(cross[..., : self.columns])
-            cr.append(cross[..., self.columns :])
+            cb.append(cross[..., : self.width])
+            cr.append(cross[..., self.width :])
         return Moments(np.stack(cc), np.stack(cb), np.stack(cr))
 
     def _gain(self, folds: Folds, seen: Moments, priors: Priors) -> tuple[Array, Array, Array]:
