@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -11,9 +11,13 @@ from thermodata.diagnosis.basis import basis
 from thermodata.diagnosis.candidates import CandidateEffect
 from thermodata.diagnosis.chance import chance
 from thermodata.diagnosis.cross_validation import Engine, Priors, _of_the_others
+from thermodata.diagnosis.investigate import base_columns, remembered_base
 from thermodata.diagnosis.problem import Problem
+from thermodata.modelling.fit import fit_model
 from thermodata.plugin import Drivers, Float2D, Param
+from thermodata.schema.model import EffectSpec, Model
 
+from .conftest import make_data
 from .hand_made import Parts, PlainEffect, problem
 
 FREE = Priors(np.full(1, np.inf), np.full(1, -np.inf), np.full(1, np.inf))
@@ -75,3 +79,18 @@ def test_columns_and_chance_are_kept_beside_a_second_effect_and_not_with_other_o
     cut = one.split({("c", "t0"): [3000.0]})
     assert basis(cut, candidate) is not made
     assert chance(cut, 9, 0) is not series
+
+
+def test_a_changed_copy_of_a_test_has_its_own_columns_and_leaves_those_of_the_test_alone(spec: Model) -> None:
+    two = spec.model_copy(
+        update={"effects": [*spec.effects, EffectSpec(effect="ambient_frame", drivers={"temperature": "T_hall"})]}
+    )
+    data = make_data(lambda c, t: 2.0 * (c["T_hall"] - c["T_hall"][0]), tests=4)
+    (response,) = fit_model(two, data, uncertainty=False).responses
+    test = data.tests[0]
+    moved = replace(test, values={**test.values, "T_hall": np.roll(test.values["T_hall"], 5)})
+    base = remembered_base(response)
+    for asked in (test, moved, test, data.tests[1], moved):
+        np.testing.assert_array_equal(base(asked), base_columns(response, asked))
+    assert not np.array_equal(base(test), base(moved))
+    np.testing.assert_array_equal(base(test)[:, :2], base(moved)[:, :2])
