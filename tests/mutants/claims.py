@@ -127,8 +127,8 @@ MUTANTS = [
     diagnosis("cross_validation.py", "+ np.diag(self.noise_var / priors.spread**2)", "", "gains are not drawn to zero"),
     diagnosis(
         "cross_validation.py",
-        "gain, reduction = self._gain(fold, moments, i, priors)",
-        "gain, reduction = self._gain(self.total, moments, None, priors)",
+        "Moments(*(_of_the_others(m) for m in moments))",
+        "Moments(*(np.broadcast_to(m.sum(axis=0), m.shape) for m in moments))",
         "the left-out test is seen",
     ),
     diagnosis("cross_validation.py", "gram + self.price + 1e-6", "gram + 1e-6", "slack is free"),

@@ -38,8 +38,8 @@ def answer(fitted: FittedModel, data: Dataset, library: Mapping[str, Effect], mo
     usable = [t for t in tests if response.can_predict(t)]
     # the choice takes part in all open tests: gains that only a verification test excites must not be guesses
     open_spec = on_all_open(fitted.spec, usable, fitted.tests(data, "locked"))
-    refitted = fit_model(open_spec, data, uncertainty=False).responses[index] if usable else response
-    investigation = investigate(refitted, data, usable, library, seed, as_fitted=response)
+    refitted = fit_model(open_spec, data, uncertainty=False) if usable else fitted
+    investigation = investigate(refitted.responses[index], data, usable, library, seed, as_fitted=response)
     judgement, confirmation = investigation.judgement, None
     locked: list[TestData] = []
     if judgement.claimed is not None:
@@ -52,6 +52,7 @@ def answer(fitted: FittedModel, data: Dataset, library: Mapping[str, Effect], mo
             usable,
             locked,
             judgement.second.candidate if judgement.second else None,
+            refitted,
         )
         judgement = kept_where_it_holds(judgement, confirmation, response.unit)
     return Answer(_diagnosis(investigation, judgement, confirmation, data, model_id), tuple(locked))

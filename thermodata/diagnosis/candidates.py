@@ -13,13 +13,13 @@ from thermodata.effect.binding import bindings, candidate_id, family_of
 from thermodata.modelling.drivers import has_drivers, make_drivers
 from thermodata.modelling.lead import columns, with_lead
 from thermodata.plugin import Drivers, Effect, Float2D, Param
-from thermodata.schema.quantity import linear_conversion
 from thermodata.view.dataset import ChannelInfo, TestData
 
 Led = tuple[Drivers, int]
 GENERIC = "generic"
 NOT_DRIVERS = frozenset({"displacement", "tilt", "label"})
-TIME_UNITS = ("s", "min", "h")
+SECONDS = {"s": 1.0, "min": 60.0, "h": 3600.0}
+TIME_UNITS = tuple(SECONDS)
 # a distributed machine also acts with these multiples of an effect's time constant
 SLACK_FACTORS = (0.2, 5.0)
 # A gain this many times beyond the plausible range is not that effect.
@@ -116,14 +116,10 @@ def grid(params: Iterable[Param], step_s: float) -> list[dict[str, float]]:
     count = {1: 10, 2: 5}.get(len(params), 3)
     axes = []
     for p in params:
-        seconds = _seconds(p.unit)
+        seconds = SECONDS.get(p.unit)
         lower = max(p.lower, step_s / 4 / seconds) if seconds else p.lower
         if seconds or (p.lower > 0 and p.upper / p.lower > 10):
             axes.append(np.geomspace(max(lower, 1e-9), max(p.upper, lower), count))
         else:
             axes.append(np.linspace(p.lower, p.upper, min(count, 4)))
     return [{p.name: float(v) for p, v in zip(params, values, strict=True)} for values in product(*axes)]
-
-
-def _seconds(unit: str) -> float | None:
-    return linear_conversion(unit, "s")[0] if unit in TIME_UNITS else None

@@ -9,6 +9,7 @@ import numpy as np
 
 from thermodata.diagnosis.candidates import CandidateEffect
 from thermodata.modelling.fit import fit_model
+from thermodata.modelling.fitted import FittedModel
 from thermodata.modelling.fitted_response import FittedResponse
 from thermodata.schema.model import EffectSpec, Model
 from thermodata.schema.result import Parameter
@@ -61,14 +62,16 @@ def confirm(
     tests: Sequence[TestData],
     locked: Sequence[TestData],
     second: CandidateEffect | None = None,
+    base: FittedModel | None = None,
 ) -> Confirmation:
     """Fit without and with the candidate on all open tests, and score both on the locked ones.
 
     index: of the response among the model's responses. second: an effect that is missing beside the candidate; then
-    both together decide, for one alone may be fitted to what the other does.
+    both together decide, for one alone may be fitted to what the other does. base: the fit without, where it is made.
     """
     spec = on_all_open(spec, tests, locked)
-    base, more = fit_model(spec, data, uncertainty=False), fit_model(extended(spec, candidate), data)
+    base = fit_model(spec, data, uncertainty=False) if base is None else base
+    more = fit_model(extended(spec, candidate), data)
     ours, theirs = base.responses[index], more.responses[index]
     usable = [t for t in locked if ours.can_predict(t) and theirs.can_predict(t)]
     known = set(base.parameters())

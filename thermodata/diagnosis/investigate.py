@@ -12,13 +12,13 @@ from thermodata.diagnosis.candidates import GENERIC, SLACK_FACTORS, TIME_UNITS, 
 from thermodata.diagnosis.evidence import Measure, passes, remaining
 from thermodata.diagnosis.judge import TRIED, Judgement, Pair, judge, simplest
 from thermodata.diagnosis.logging_faults import clock_offsets, first_of_each, turned_probes, wrong_parameters
-from thermodata.diagnosis.problem import Problem, build_problem
+from thermodata.diagnosis.problem import Base, Problem, build_problem
 from thermodata.diagnosis.rank import rank
 from thermodata.diagnosis.scored import Scored
 from thermodata.diagnosis.weak import weak_spots
 from thermodata.modelling.drivers import names_of
 from thermodata.modelling.fitted_response import FittedResponse, FittedTerm
-from thermodata.plugin import Effect, Float2D
+from thermodata.plugin import Effect, Float1D, Float2D
 from thermodata.schema.result import Artefact, WeakSpot
 from thermodata.view.dataset import ChannelInfo, Dataset, TestData
 
@@ -48,6 +48,7 @@ def investigate(
     """fitted: to all tests that take part in the choice (never the locked ones). as_fitted: the model that is asked
     about, whose weak spots are shown; by default the same."""
     info = data.channels[fitted.name]
+    base = remembered_base(fitted)
     problem = build_problem(
         data,
         tests,
@@ -56,14 +57,14 @@ def investigate(
         measured=fitted.measured,
         residual=fitted.residual,
         mask=fitted.mask,
-        base=lambda test: base_columns(fitted, test),
+        base=base,
         slack=lambda test: slack_columns(fitted, test),
     )
     steps = find_steps(problem)
     at: dict[tuple[str, str], list[float]] = {}
     for step in steps:
         at.setdefault(step.test.key, []).append(step.at_s)
-    faults = _faults(fitted, data, problem)
+    faults = _faults(fitted, data, problem, base)
     problem = problem.split(at)
     present = [
         (t.effect.name, frozenset(n for text in t.binding.values() for n in names_of(text))) for t in fitted.terms
@@ -110,13 +111,13 @@ def clocks_beside(channels: Mapping[str, ChannelInfo], drivers: Iterable[str], r
     return {n: s for n in drivers if n in channels and (s := channels[n].source) and s != home}
 
 
-def _faults(fitted: FittedResponse, data: Dataset, problem: Problem) -> list[Artefact]:
+def _faults(fitted: FittedResponse, data: Dataset, problem: Problem, base: Base) -> list[Artefact]:
     """Clocks and probes, where there is a model to hold them against."""
     if not problem.blocks or not problem.blocks[0].base.shape[1]:
         return []
     drivers = {n for t in fitted.terms for text in t.binding.values() for n in names_of(text)}
     sources = clocks_beside(data.channels, drivers, fitted.name)
-    moved = clock_offsets(problem, lambda test: base_columns(fitted, test), sources)
+    moved = clock_offsets(problem, base, sources)
     return [*moved, *turned_probes(problem)]
 
 
@@ -126,8 +127,27 @@ def base_columns(fitted: FittedResponse, test: TestData) -> Float2D:
     The known effects are refitted together with each candidate: a base model held fixed leaves residuals that any
     slow channel explains, which raises false claims to a third.
     """
-    columns = [c for term in fitted.terms for c in _term_columns(term, test)]
-    return np.column_stack(columns) if columns else np.zeros((len(test.t_s), 0))
+    return remembered_base(fitted)(test)
+
+
+def remembered_base(fitted: FittedResponse) -> Base:
+    """`base_columns`; of a copy of a test in which some channels are changed, only the terms that read these are made
+    anew."""
+    kept: dict[tuple[int, tuple[str, str]], tuple[list[Float1D], list[Float2D]]] = {}
+
+    def base(test: TestData) -> Float2D:
+        columns: list[Float2D] = []
+        for i, term in enumerate(fitted.terms):
+            binding = term.bound.bindings.get(test.campaign, term.binding)
+            read = [test.values[n] for text in binding.values() for n in names_of(text) if n in test.values]
+            before, made = kept.get((i, test.key), (None, []))
+            if before is None or not all(a is b for a, b in zip(before, read, strict=True)):
+                made = _term_columns(term, test)
+                kept.setdefault((i, test.key), (read, made))
+            columns += made
+        return np.column_stack(columns) if columns else np.zeros((len(test.t_s), 0))
+
+    return base
 
 
 def _term_columns(term: FittedTerm, test: TestData) -> list[Float2D]:

@@ -7,7 +7,8 @@ computed on the full grid first, so that lags see the time that was not measured
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
+from typing import Any
 
 import numpy as np
 
@@ -50,13 +51,16 @@ class Block:
 
 @dataclass(frozen=True, slots=True)
 class Problem:
-    """All tests of one response. step_s: of the compressed samples. noise: short-term noise of the response."""
+    """All tests of one response. step_s: of the compressed samples. noise: short-term noise of the response.
+    kept: what stays the same as long as samples and offsets do, by who made it: columns of candidates (`basis`),
+    surrogates (`chance`)."""
 
     response: str
     unit: str
     step_s: float
     blocks: tuple[Block, ...]
     noise: float
+    kept: dict[str, dict[Any, Any]] = field(default_factory=dict, repr=False, compare=False)
 
     @property
     def response_blocks(self) -> list[Float1D]:
@@ -97,27 +101,26 @@ class Problem:
                     slack=center(block.slack, segment),
                 )
             )
-        return replace(self, blocks=tuple(blocks))
+        return replace(self, blocks=tuple(blocks), kept={})
 
 
 def center(columns: Float2D, segment: Int1D) -> Float2D:
     """Columns, shape (m, k), minus their mean in each segment."""
-    if not len(segment):
-        return columns
-    count = np.bincount(segment).astype(float)
     result = np.array(columns, dtype=np.float64, copy=True)
-    for j in range(result.shape[1]):
-        mean = np.bincount(segment, weights=result[:, j]) / np.maximum(count, 1)
-        result[:, j] -= mean[segment]
+    for one in np.unique(segment):
+        rows = segment == one
+        result[rows] -= result[rows].mean(axis=0)
     return result
 
 
 def _group_mean(columns: Float2D, group: Int1D, weight: Float1D, size: int) -> Float2D:
+    """Groups follow each other in time, and none is empty."""
     used = group >= 0
-    result = np.empty((size, columns.shape[1]))
-    count = np.bincount(group[used], weights=weight[used], minlength=size)
-    for j in range(columns.shape[1]):
-        result[:, j] = np.bincount(group[used], weights=columns[used, j] * weight[used], minlength=size) / count
+    groups, weights = group[used], weight[used][:, None]
+    starts = np.searchsorted(groups, np.arange(size))
+    if not size:
+        return np.empty((0, columns.shape[1]))
+    result: Float2D = np.add.reduceat(columns[used] * weights, starts) / np.add.reduceat(weights, starts)
     return result
 
 

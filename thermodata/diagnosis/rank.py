@@ -6,16 +6,18 @@ first in 86 % (correlation with the residual: 44 %). The p value is that of the 
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 
 import numpy as np
 from threadpoolctl import threadpool_limits
 
-from thermodata.diagnosis.candidates import CandidateEffect, Led, grid
-from thermodata.diagnosis.cross_validation import Drop, Engine, Priors
+from thermodata.diagnosis.basis import basis
+from thermodata.diagnosis.candidates import CandidateEffect
+from thermodata.diagnosis.chance import chance
+from thermodata.diagnosis.cross_validation import Engine, Priors
 from thermodata.diagnosis.problem import Problem
 from thermodata.diagnosis.scored import Scored
-from thermodata.diagnosis.whiten import fit_ar, surrogates, whiten
+from thermodata.diagnosis.whiten import whiten
 from thermodata.plugin import Float1D, Float2D
 from thermodata.store.base.counting import counted
 
@@ -41,15 +43,14 @@ def rank(problem: Problem, candidates: Sequence[CandidateEffect], seed: int = 0)
 
 
 def _rank(problem: Problem, candidates: Sequence[CandidateEffect], seed: int) -> list[Scored]:
-    rng = np.random.default_rng(seed)
-    ar = fit_ar([b.residual for b in problem.blocks])
-    series = [np.column_stack([b.residual, surrogates(b.residual, SURROGATES, rng)]) for b in problem.blocks]
+    by_chance = chance(problem, SURROGATES, seed)
+    ar, series, white_series = by_chance.ar, by_chance.series, by_chance.white
     noise_var = float(np.mean(np.concatenate([b.residual for b in problem.blocks]) ** 2)) * PRIOR_SAMPLES
     base = [np.hstack([b.base, b.slack]) for b in problem.blocks]
     first = problem.blocks[0]
     price = np.repeat([BASE_SHARE**-2, SLACK_SHARE**-2], [first.base.shape[1], first.slack.shape[1]])
     raw = Engine(base, series, noise_var, price)
-    white_series = [whiten(s, ar) for s in series]
+    alone = raw.without_surrogates()
     white_var = float(np.mean(np.concatenate([w[:, 0] for w in white_series]) ** 2)) * PRIOR_SAMPLES
     white = Engine([whiten(b, ar) for b in base], white_series, white_var, price)
 
@@ -58,14 +59,14 @@ def _rank(problem: Problem, candidates: Sequence[CandidateEffect], seed: int) ->
     top_raw = np.full(SURROGATES, -np.inf)
     top_white = np.full(SURROGATES, -np.inf)
     for candidate in counted(candidates, "candidates"):
-        points = grid(candidate.effect.params, problem.step_s)
-        drivers = [candidate.drivers(b.test) for b in problem.blocks]
-        plain_columns = [_columns(problem, candidate, drivers, p) for p in points]
-        if not any(np.ptp(c) > 0 for c in plain_columns[len(plain_columns) // 2]):
+        own = basis(problem, candidate)
+        columns = own.plain
+        if not any(np.ptp(c) > 0 for c in columns[own.middle]):
             continue
-        priors = _no_larger_than(candidate.priors, plain_columns, largest)
-        rough = raw.score(plain_columns, priors)
-        columns, priors = _with_slack(problem, candidate, priors, drivers, points, plain_columns, rough)
+        priors = _no_larger_than(candidate.priors, columns, largest)
+        if ways := len(candidate.slack_params(own.points[0])):
+            rough = alone.score(columns, priors)
+            columns, priors = own.extended(rough.gains), _with_slack(priors, ways)
         plain = raw.score(columns, priors)
         whitened = white.score([[whiten(c, ar) for c in point] for point in columns], priors)
         top_raw = np.maximum(top_raw, plain.relative[1:])
@@ -74,7 +75,7 @@ def _rank(problem: Problem, candidates: Sequence[CandidateEffect], seed: int) ->
         scored.append(
             Scored(
                 candidate,
-                points[plain.best],
+                own.points[plain.best],
                 plain.gain[: len(candidate.effect.gains)],
                 float(plain.relative[0]),
                 float(whitened.relative[0]),
@@ -88,12 +89,6 @@ def _rank(problem: Problem, candidates: Sequence[CandidateEffect], seed: int) ->
     return _order(scored, top_raw, top_white)
 
 
-def _columns(
-    problem: Problem, candidate: CandidateEffect, drivers: Sequence[Led | None], p: Mapping[str, float]
-) -> list[Float2D]:
-    return [b.compress(candidate.columns(d, len(b.test.t_s), p)) for b, d in zip(problem.blocks, drivers, strict=True)]
-
-
 def _no_larger_than(priors: Priors, columns: list[list[Float2D]], largest: float) -> Priors:
     """Bounds that also keep a contribution from being larger than the whole response: huge terms that cancel are not
     physics, and a gain without a plausible magnitude of its own needs some bound."""
@@ -102,25 +97,10 @@ def _no_larger_than(priors: Priors, columns: list[list[Float2D]], largest: float
     return Priors(np.minimum(priors.spread, cap), np.maximum(priors.lower, -cap), np.minimum(priors.upper, cap))
 
 
-def _with_slack(
-    problem: Problem,
-    candidate: CandidateEffect,
-    priors: Priors,
-    drivers: Sequence[Led | None],
-    points: Sequence[Mapping[str, float]],
-    columns: list[list[Float2D]],
-    first: Drop,
-) -> tuple[list[list[Float2D]], Priors]:
+def _with_slack(priors: Priors, ways: int) -> Priors:
     """A candidate may act as distributed as the known effects may: by a share of what its gains alone explain."""
-    count = len(candidate.slack_params(points[0]))
-    if not count:
-        return columns, priors
-    extended = []
-    for p, own, gain in zip(points, columns, first.gains, strict=True):
-        others = [_columns(problem, candidate, drivers, q) for q in candidate.slack_params(p)]
-        extended.append([np.column_stack([c, *((o[i] - c) @ gain for o in others)]) for i, c in enumerate(own)])
-    share, free = np.full(count, SLACK_SHARE), np.full(count, np.inf)
-    return extended, Priors(
+    share, free = np.full(ways, SLACK_SHARE), np.full(ways, np.inf)
+    return Priors(
         np.concatenate([priors.spread, share]),
         np.concatenate([priors.lower, -free]),
         np.concatenate([priors.upper, free]),

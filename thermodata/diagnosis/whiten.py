@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-from scipy.signal import lfilter
 
 from thermodata.plugin import Float1D, Float2D
 
@@ -29,9 +28,12 @@ def fit_ar(residuals: Sequence[Float1D], order: int = ORDER) -> Float1D:
 
 
 def whiten(columns: Float2D, ar: Float1D) -> Float2D:
-    """Columns, shape (m, k), filtered by 1 - sum a z^-j; the first len(ar) rows, whose past is unknown, are 0."""
-    result: Float2D = lfilter(np.concatenate([[1.0], -ar]), [1.0], columns, axis=0)
-    result[: len(ar)] = 0.0
+    """Columns, shape (m, ...), filtered by 1 - sum a z^-j; the first len(ar) rows, whose past is unknown, are 0."""
+    past = len(ar)
+    result = np.array(columns, dtype=np.float64)
+    for j, a in enumerate(ar, start=1):
+        result[past:] -= a * columns[past - j : len(columns) - j]
+    result[:past] = 0.0
     return result
 
 

@@ -1,0 +1,93 @@
+"""What candidates would do, as columns: compressed, a test each, at every point of a grid, and kept between rankings.
+
+The same candidates are ranked again beside a first effect; their columns do not change with what the model can do.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from thermodata.diagnosis.candidates import CandidateEffect, grid
+from thermodata.diagnosis.problem import Problem
+from thermodata.plugin import Float2D
+
+KEPT_BYTES = 256 * 2**20  # of columns; what is beyond is made anew
+
+
+@dataclass(frozen=True, slots=True)
+class Basis:
+    """A candidate's columns. points: of the grid, without those that change nothing; middle: the one in its middle.
+
+    own: a block each, shape (m, points, gains). others: shape (m, points, ways, gains), how each column differs where
+    the effect acts faster or slower (`CandidateEffect.slack_params`).
+    """
+
+    points: list[dict[str, float]]
+    middle: int
+    own: list[NDArray[np.float64]]
+    others: list[NDArray[np.float64]]
+
+    @property
+    def plain(self) -> list[list[Float2D]]:
+        """For each point, a block's columns (m, gains)."""
+        return [[own[:, i] for own in self.own] for i in range(len(self.points))]
+
+    def extended(self, gains: Float2D) -> list[list[Float2D]]:
+        """The same with what acts faster and slower at the gains of each point, shape (points, gains):
+        (m, gains + ways)."""
+        both = [
+            np.concatenate([own, np.einsum("mpwg,pg->mpw", others, gains)], axis=2)
+            for own, others in zip(self.own, self.others, strict=True)
+        ]
+        return [[columns[:, i] for columns in both] for i in range(len(self.points))]
+
+    @property
+    def nbytes(self) -> int:
+        return sum(a.nbytes for a in (*self.own, *self.others))
+
+
+def basis(problem: Problem, candidate: CandidateEffect) -> Basis:
+    """From what the problem keeps, or made."""
+    bases = problem.kept.setdefault("basis", {})
+    kept = bases.get(id(candidate))
+    if kept is not None and kept[0] is candidate:
+        found: Basis = kept[1]
+        return found
+    made = _made(problem, candidate)
+    if sum(b.nbytes for _, b in bases.values()) + made.nbytes <= KEPT_BYTES:
+        bases[id(candidate)] = candidate, made
+    return made
+
+
+def _made(problem: Problem, candidate: CandidateEffect) -> Basis:
+    points = grid(candidate.effect.params, problem.step_s)
+    asked = [q for p in points for q in (p, *candidate.slack_params(p))]
+    full: dict[int, Float2D] = {}
+    compressed = []
+    for block in problem.blocks:
+        # parts of one test share its columns
+        whole = full.get(id(block.test))
+        if whole is None:
+            drivers, size = candidate.drivers(block.test), len(block.test.t_s)
+            whole = full[id(block.test)] = np.concatenate([candidate.columns(drivers, size, q) for q in asked], axis=1)
+        columns = block.compress(whole)
+        compressed.append(columns.reshape(len(columns), len(points), -1, len(candidate.effect.gains)))
+    place = _first_alike(compressed)
+    kept = sorted(set(place))
+    own = [np.ascontiguousarray(each[:, kept, 0]) for each in compressed]
+    others = [each[:, kept, 1:] - each[:, kept, :1] for each in compressed]
+    return Basis([points[i] for i in kept], kept.index(place[len(points) // 2]), own, others)
+
+
+def _first_alike(compressed: Sequence[NDArray[np.float64]]) -> list[int]:
+    """For each grid point the first one with the same columns in all tests: an exponent of a speed means nothing
+    where a temperature drives the effect."""
+    place: list[int] = []
+    for i in range(compressed[0].shape[1]):
+        alike = (j for j in sorted(set(place)) if all(np.array_equal(c[:, i], c[:, j]) for c in compressed))
+        place.append(next(alike, i))
+    return place
