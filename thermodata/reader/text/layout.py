@@ -113,9 +113,9 @@ def _whole_rows(rows: Sequence[Sequence[Cell]], width: int) -> list[list[Cell]]:
 
 
 def _is_torn(row: Sequence[Cell], width: int, date: str | None) -> bool:
-    """Whether a row above the first good one is data all the same: with a date and something beside it, with a cell that
-    begins with the date of the first good row, or of numbers only but for its destroyed time. Its loss is told; taken
-    for a header, it would be gone without a word."""
+    """Whether a row above the first good one is data all the same: with a date and something beside it, with a cell
+    that begins with the date of the first good row, or of numbers only but for its destroyed time. Its loss is told;
+    taken for a header, it would be gone without a word."""
     filled = [c for c in row if c not in ("", None)]
     if len(filled) < 2:
         return False
