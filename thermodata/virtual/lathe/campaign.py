@@ -40,6 +40,7 @@ def stretches(seed: int, open_tests: int, idle: bool, hours: float) -> tuple[Str
         # one course of the hall, on the fine grid over both, so that the test goes on where the soak ends
         whole = np.arange(job.hour[0] - SOAK_H, job.hour[-1] + 1e-9, DT_S / 3600)
         every = hall.air(whole, rng)
+
         def at(t: np.ndarray, whole: np.ndarray = whole, every: Air = every) -> Air:
             return Air(*(np.interp(t, whole, getattr(every, name)) for name in Air.__slots__))
 

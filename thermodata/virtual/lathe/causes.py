@@ -79,7 +79,7 @@ def _bearing(h: Heat) -> tuple[Float1D, Float1D]:
 
 def _motor(h: Heat) -> tuple[Float1D, Float1D]:
     x = h.excess("motor_plate")
-    return bend("motor_plate", x) + growth("motor_plate", x), 0.6 * growth("motor_plate", x) + 0.2 * bend("motor_plate", x)
+    return growth("motor_plate", x) + 0.05 * bend("motor_plate", x), 0.6 * growth("motor_plate", x)
 
 
 def _screw_z(h: Heat) -> tuple[Float1D, Float1D]:
@@ -99,18 +99,19 @@ def _air(h: Heat) -> tuple[Float1D, Float1D]:
 
 def _layers(h: Heat) -> tuple[Float1D, Float1D]:
     tall = h.quiet.of("headstock")
-    lean = (tall @ np.linspace(-1, 1, tall.shape[1])) * 1.0
-    return lean + 0.3 * bend("bed", h.quiet.of("bed")), 0.6 * lean + 0.4 * bend("bed", h.quiet.of("bed"))
+    lean = tall @ np.linspace(-1, 1, tall.shape[1])
+    bow = 0.05 * bend("bed", h.quiet.of("bed"))
+    return lean + bow, 0.6 * lean + bow
 
 
 def _film(h: Heat) -> tuple[Float1D, Float1D]:
     b = h.excess("bed")
-    return bend("bed", b), 0.7 * bend("bed", b) + 0.5 * growth("bed", b)
+    return 0.1 * bend("bed", b) + growth("bed", b), 0.05 * bend("bed", b) + growth("bed", b)
 
 
 def _oil(h: Heat) -> tuple[Float1D, Float1D]:
     r = h.excess("rib")
-    return bend("rib", r) + 0.5 * growth("rib", r), 0.4 * bend("rib", r) + growth("rib", r)
+    return 0.05 * bend("rib", r) + growth("rib", r), 0.02 * bend("rib", r) + growth("rib", r)
 
 
 def _turret(h: Heat) -> tuple[Float1D, Float1D]:
@@ -130,7 +131,7 @@ def _bracket(h: Heat) -> tuple[Float1D, Float1D]:
 
 def _guides(h: Heat) -> tuple[Float1D, Float1D]:
     s = h.excess("saddle")
-    return bend("saddle", s) + growth("saddle", s), 0.3 * bend("saddle", s) + 0.3 * growth("saddle", s)
+    return 0.05 * bend("saddle", s) + growth("saddle", s), 0.4 * growth("saddle", s)
 
 
 def _ring(h: Heat) -> tuple[Float1D, Float1D]:
@@ -164,10 +165,10 @@ def _stretch(h: Heat) -> tuple[Float1D, Float1D]:
 
 
 CAUSES: Mapping[str, Cause] = {
-    "bearing_friction": Cause(
-        "spindle bearings heat quill and headstock", _bearing, ("TS_brg_f", "TS_brg_r", "n_S")
+    "bearing_friction": Cause("spindle bearings heat quill and headstock", _bearing, ("TS_brg_f", "TS_brg_r", "n_S")),
+    "belt_motor": Cause(
+        "the spindle's motor heats and bends the plate that holds it", _motor, ("T_mot_S", "n_S", "P_S")
     ),
-    "belt_motor": Cause("the spindle's motor heats and bends the plate that holds it", _motor, ("T_mot_S", "n_S", "P_S")),
     "nut_z": Cause("the nut heats the Z screw, which no scale corrects", _screw_z, ("C01_nutZ", "v_Z", "T_mot_Z")),
     "nut_x": Cause("the nut heats the X screw, which no scale corrects", _screw_x, ("C02_nutX", "v_X", "T_mot_X")),
     "hall_air": Cause("headstock and bed follow the air", _air, ("A2_low", "A1_high", "C04_foot")),
@@ -175,7 +176,7 @@ CAUSES: Mapping[str, Cause] = {
     "coolant_film": Cause("coolant wets the bed's covers", _film, ("M_cool", "C10_cool", "C05_bedtop")),
     "hydraulic_oil": Cause("the oil tank heats the rear wall", _oil, ("C11_oil", "C07_rib", "p_hyd")),
     "turret_gear": Cause("driven tools heat the turret", _turret, ("C08_turret", "n_tool")),
-    "hot_part": Cause("cutting heats the part", _part, ("P_S", "C12_part")),
+    "hot_part": Cause("cutting heats the part", _part, ("C12_part", "P_S")),
     "probe_bracket": Cause("the bracket of the probes follows the working space", _bracket, ("C09_bracket",)),
     "guide_friction": Cause("box ways heat the saddle from below", _guides, ("C03_guide", "v_Z")),
     "ring_expansion": Cause("bearing rings widen with the speed, at once", _ring, ("n_S",)),

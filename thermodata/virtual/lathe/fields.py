@@ -16,9 +16,9 @@ from thermodata.virtual.lathe.rods import ALUMINIUM, CAST_IRON, STEEL, Body, Sta
 STACK = Stack(
     (
         Body("quill", 0.45, 12, 0.022, 0.10, STEEL),  # from the pulley to the nose
-        Body("headstock", 0.50, 10, 0.080, 1.10, CAST_IRON),  # from its foot to the spindle's centre
+        Body("headstock", 0.50, 10, 0.050, 1.80, CAST_IRON),  # from its foot to the spindle's centre
         Body("motor_plate", 0.06, 5, 0.120, 0.30, CAST_IRON),  # through its thickness, motor on cell 0
-        Body("bed", 0.30, 10, 0.700, 2.60, CAST_IRON),  # through its thickness, from the floor up
+        Body("bed", 0.30, 10, 0.280, 5.50, CAST_IRON),  # through its thickness, from the floor up
         Body("screw_z", 0.90, 14, 0.0009, 0.10, STEEL),  # from the fixed bearing
         Body("screw_x", 0.40, 8, 0.0006, 0.05, STEEL),
         Body("saddle", 0.12, 6, 0.150, 0.50, CAST_IRON),  # through its thickness, guides below
@@ -29,8 +29,15 @@ STACK = Stack(
     )
 )
 # lumps beside the rods: [J/K], and [W/K] to the air
-TANKS = {"winding": (9e3, 6.0), "coolant": (4.2e5, 38.0), "oil": (6e4, 9.0), "motor_x": (4e3, 2.5), "motor_z": (5e3, 3.0)}
+TANKS = {
+    "winding": (9e3, 6.0),
+    "coolant": (6.2e5, 38.0),
+    "oil": (6e4, 9.0),
+    "motor_x": (4e3, 2.5),
+    "motor_z": (5e3, 3.0),
+}
 WET_FILM = 130.0  # [W/m2/K] of coolant on what it wets
+COOLER = 110.0  # [W/K] between the coolant and its cooler
 SOAK_H = 30.0
 
 
@@ -154,8 +161,8 @@ def _advance(
     for a, b, g in (
         (STACK.cell("quill", 0.7), STACK.cell("headstock", 0.95), 7.0),
         (STACK.cell("quill", 0.3), STACK.cell("headstock", 0.8), 5.0),
-        (STACK.cell("headstock", 0), top, 4.0),
-        (STACK.cell("saddle", 0), top, 3.0),
+        (STACK.cell("headstock", 0), top, 1.0),
+        (STACK.cell("saddle", 0), top, 0.5),
     ):
         leak[[a, b]] += g
         bath[[a, b]] += g * T[[b, a]]
@@ -169,6 +176,8 @@ def _advance(
     for name, (capacity, loss) in TANKS.items():
         loss *= 1 + 0.8 * draught
         given = loss * low + heat[name]
+        if name == "coolant":  # its cooler keeps it below the floor
+            given, loss = given + COOLER * (float(air.floor[i]) - 4.0), loss + COOLER
         if name in _TOUCH:
             cell, g = _TOUCH[name]
             given, loss = given + g * float(T[cell]), loss + g

@@ -31,7 +31,7 @@ class Hall:
 
     @classmethod
     def draw(cls, rng: np.random.Generator) -> Hall:
-        return cls(rng.uniform(18, 25), rng.uniform(0.4, 2.6), rng.uniform(0.3, 2.2), rng.uniform(0.5, 1.6))
+        return cls(rng.uniform(18, 25), rng.uniform(0.4, 2.6), rng.uniform(1.0, 4.0), rng.uniform(0.5, 1.6))
 
     def air(self, hour: Float1D, rng: np.random.Generator) -> Air:
         """hour: local clock, shape (n,), evenly spaced, running on beyond 24."""
@@ -47,12 +47,12 @@ class Hall:
                 since = hour - (start + rng.random())
                 open_h = rng.uniform(0.05, 0.35)
                 gate -= rng.uniform(1.0, 5.0) * np.where(
-                    since < 0, 0, np.where(since < open_h, 1 - np.exp(-since / 0.06), 0)
+                    since < 0, 0, np.where(since < open_h, 1 - np.exp(-np.maximum(since, 0) / 0.06), 0)
                 )
                 after = since >= open_h
                 gate -= np.where(after, 2.0 * np.exp(-np.clip(since - open_h, 0, 9) / 0.25), 0) * min(open_h / 0.2, 1)
         low = self.mean_c + day + weather + heater + gate
-        stir = 1 - 0.6 * work
+        stir = 1 - 0.75 * work
         high = low + self.layer_k * stir * (1 + 0.5 * wander(rng, n, dt_h, 2.0)) - 0.5 * gate
         floor = self.mean_c - 1.5 + 0.25 * self.day_k * np.sin(2 * np.pi * (hour - 15) / 24)
         draught = 0.08 + 0.3 * work * rng.uniform(0.5, 1.5) + 0.25 * (gate < -0.5)

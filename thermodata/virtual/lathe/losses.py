@@ -1,4 +1,4 @@
-"""Where heat comes from and where it goes: friction of bearings, nuts and guides, motor losses, air and coolant film."""
+"""Where heat comes from and where it goes: friction of bearings, nuts and guides, motors, air, coolant."""
 
 from __future__ import annotations
 

@@ -54,7 +54,7 @@ def campaign(rng: np.random.Generator, open_tests: int, idle: bool) -> list[tupl
         kinds: list[Kind] = ["idle"] * max(1, round(0.7 * open_tests))
         kinds += first[: open_tests - len(kinds)]
     else:
-        kinds = (first + ["day", "step", "spectrum", "day", "stroke_z", "idle", "wet"])[:open_tests]
+        kinds = [*first, "day", "step", "spectrum", "day", "stroke_z", "idle", "wet"][:open_tests]
     order = rng.permutation(len(kinds))
     roles = ["verification" if len(kinds) > 4 and i % 4 == 3 else "calibration" for i in range(len(kinds))]
     locked = max(1, open_tests // 4)

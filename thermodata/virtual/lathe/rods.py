@@ -64,10 +64,7 @@ class Stack:
     def between(self) -> Float1D:
         """Conductance from each cell to the next [W/K], shape (cells - 1,), 0 where a body ends."""
         whole = np.concatenate(
-            [
-                np.append(np.full(b.cells - 1, b.material.k * b.area_m2 * b.cells / b.length_m), 0.0)
-                for b in self.bodies
-            ]
+            [np.append(np.full(b.cells - 1, b.material.k * b.area_m2 * b.cells / b.length_m), 0.0) for b in self.bodies]
         )
         return whole[:-1]
 
