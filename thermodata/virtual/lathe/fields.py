@@ -155,7 +155,7 @@ def _advance(
         P[_AT["gear"]] += 0.055 * float(work.tool_speed[i])
         P[_AT["part"]] += 18 * kw
         P[_AT["tool"]] += 4 * kw
-        heat["coolant"] = 350 * wet + 120 * kw * wet
+        heat["coolant"] = 150 * wet + 60 * kw * wet
         heat["oil"] = 520 * float(work.pump[i])
     # heat that crosses between bodies; the partner stays where it was a step ago, which is stable for any step
     for a, b, g in (
@@ -177,7 +177,7 @@ def _advance(
         loss *= 1 + 0.8 * draught
         given = loss * low + heat[name]
         if name == "coolant":  # its cooler keeps it below the floor
-            given, loss = given + COOLER * (float(air.floor[i]) - 4.0), loss + COOLER
+            given, loss = given + COOLER * (float(air.floor[i]) - 9.0), loss + COOLER
         if name in _TOUCH:
             cell, g = _TOUCH[name]
             given, loss = given + g * float(T[cell]), loss + g
