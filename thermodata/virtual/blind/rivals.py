@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 from scipy.signal import lfilter
@@ -45,14 +46,16 @@ class Question:
 
     def lagged(self) -> tuple[Float2D, Int1D]:
         """(columns of unit length, shape (n, channels * taus); channel of each)."""
-        blocks = [self.each(lambda u, tau=tau: _lag(u, tau)) for tau in TAUS_S]
+        blocks = [self.each(partial(_lag, tau_s=tau)) for tau in TAUS_S]
         return _unit(np.hstack(blocks)), np.tile(np.arange(len(self.names)), len(TAUS_S))
 
 
 def ask(fitted: FittedResponse, data: Dataset, tests: list[TestData]) -> Question:
     names = tuple(n for n, c in data.channels.items() if c.quantity not in NOT_DRIVERS)
     per = max(1, round(STEP_S / data.step_s))
-    left, raw, number = [], [], []
+    left: list[Float1D] = []
+    raw: list[Float2D] = []
+    number: list[Int1D] = []
     for test in tests:
         ok = fitted.mask(test)
         bins = np.arange(len(test.t_s)) // per
@@ -79,6 +82,10 @@ def _lag(u: Float2D, tau_s: float) -> Float2D:
     return np.asarray(lfilter([1 - a], [1, -a], u, axis=0))
 
 
+def _late(u: Float2D, rows: int) -> Float2D:
+    return u[np.maximum(np.arange(len(u)) - rows, 0)]
+
+
 def _unit(columns: Float2D) -> Float2D:
     size = np.linalg.norm(columns, axis=0)
     return columns / np.where(size > 1e-9, size, np.inf)
@@ -93,7 +100,7 @@ def best_delay_correlation(q: Question) -> str:
     best = np.zeros(len(q.names))
     for delay in DELAYS_S:
         k = round(delay / STEP_S)
-        shifted = q.each(lambda u, k=k: u[np.maximum(np.arange(len(u)) - k, 0)])
+        shifted = q.each(partial(_late, rows=k))
         best = np.maximum(best, np.abs(_unit(shifted).T @ q.residual))
     return q.names[int(np.argmax(best))]
 

@@ -32,7 +32,8 @@ def run(
     wanted = [(stratum, seed) for seed in seeds for stratum in strata]
     found = [t for t in kept if (t["stratum"], t["seed"]) in set(wanted)]
     done = {(t["stratum"], t["seed"]) for t in found}
-    by_seed = {seed: [s for s in strata if (s, seed) not in done] for seed in seeds}
+    # strata of one seed follow each other: they share the heat of its machine
+    left = [pair for pair in wanted if pair not in done]
 
     def take(trial: Record) -> None:
         found.append(trial)
@@ -42,17 +43,13 @@ def run(
         if tell is not None:
             tell(len(found), len(wanted))
 
-    # strata of one seed stay together: they share the heat of its machine
     if jobs == 1:
-        for seed, some in by_seed.items():
-            for stratum in some:
-                take(one(stratum, seed, rivals))
+        for stratum, seed in left:
+            take(one(stratum, seed, rivals))
     else:
         with ProcessPoolExecutor(jobs) as pool:
-            waiting = [pool.submit(several, some, seed, rivals) for seed, some in by_seed.items() if some]
-            for future in as_completed(waiting):
-                for trial in future.result():
-                    take(trial)
+            for future in as_completed([pool.submit(one, stratum, seed, rivals) for stratum, seed in left]):
+                take(future.result())
     return sorted(found, key=lambda t: (strata.index(t["stratum"]), t["seed"]))
 
 
@@ -63,10 +60,6 @@ def one(stratum: str, seed: int, rivals: bool) -> Record:
     with threadpool_limits(1):
         record: Record = json.loads(json.dumps(judge(stratum, seed, rivals=rivals).to_json()))
     return record
-
-
-def several(strata: Sequence[str], seed: int, rivals: bool) -> list[Record]:
-    return [one(stratum, seed, rivals) for stratum in strata]
 
 
 def read(path: Path) -> list[Record]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from time import process_time
 from typing import Any
 
@@ -16,7 +16,7 @@ from thermodata.schema.model import EffectSpec, Model
 from thermodata.schema.result import Candidate, Diagnosis
 from thermodata.view.dataset import Dataset
 from thermodata.virtual.blind.rivals import RIVALS, ask
-from thermodata.virtual.lathe.data import channels_of, model_of, right_effect, to_dataset
+from thermodata.virtual.lathe.data import channels_of, contribution, model_of, right_effect, to_dataset
 from thermodata.virtual.lathe.right_names import Mark, mark, right_channel
 from thermodata.virtual.lathe.strata import STRATA
 from thermodata.virtual.lathe.world import World, make_world
@@ -164,10 +164,6 @@ def _locked(spec: Model, data: Dataset) -> float | None:
 
 def _without_truth(world: World, data: Dataset, spec: Model) -> float | None:
     """The same, where what is hidden never acted: what no knowledge of it could better."""
-    from dataclasses import replace
-
-    from thermodata.virtual.lathe.data import contribution
-
     name = f"d{world.axis}"
     tests = tuple(
         replace(t, values={**t.values, name: t.values[name] - contribution(world, r)})

@@ -8,26 +8,29 @@ import numpy as np
 
 from thermodata.modelling.candidate import candidate_spec
 from thermodata.plugin import Bool1D, Float1D
-from thermodata.schema.model import EffectSpec, Model, Response
+from thermodata.schema.model import EffectSpec, Model
 from thermodata.schema.quantity import CANONICAL_UNIT
 from thermodata.view.dataset import ChannelInfo, Dataset, TestData
 from thermodata.virtual.lathe.programme import DT_S, TEST_KIND
+from thermodata.virtual.lathe.recording import Run
 from thermodata.virtual.lathe.right_names import RIGHT
 from thermodata.virtual.lathe.strata import STRATA
-from thermodata.virtual.lathe.world import AXES, TREAD_UM, Run, World
+from thermodata.virtual.lathe.world import AXES, TREAD_UM, World
 
 STEP_S = 60.0
 
 
 def model_of(world: World) -> Model:
     """The model that lacks what is hidden."""
-    return Model(
-        schema="thermodata/model/1",
-        name="baseline",
-        campaigns=[world.campaign],
-        response=Response(axis=world.axis, at="tcp"),
-        step=f"{STEP_S:g} s",
-        effects=[right_effect(world, c, channels_of(world)) for c in world.base],
+    return Model.model_validate(
+        {
+            "schema": "thermodata/model/1",
+            "name": "baseline",
+            "campaign": world.campaign,
+            "response": {"axis": world.axis, "at": "tcp"},
+            "step": f"{STEP_S:g} s",
+            "effects": [right_effect(world, c, channels_of(world)) for c in world.base],
+        }
     )
 
 

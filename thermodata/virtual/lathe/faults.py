@@ -4,14 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from thermodata.virtual.lathe.programme import DT_S
-
-if TYPE_CHECKING:
-    from thermodata.virtual.lathe.world import Run
+from thermodata.virtual.lathe.recording import Run
 
 
 @dataclass(frozen=True, slots=True)

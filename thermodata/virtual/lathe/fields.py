@@ -79,7 +79,8 @@ def solve(work: Work, air: Air, before: Air, working: bool = True, dt_s: float =
 def _soak(before: Air) -> tuple[Float1D, dict[str, float]]:
     """A machine that was off for the hours of `before`."""
     n = len(before.low)
-    off = Work("idle", np.arange(n) * 1.0, *(np.zeros(n) for _ in range(8)))
+    still = np.zeros(n)
+    off = Work("idle", still, still, still, still, still, still, still, still, still)
     T = np.full(len(STACK.capacity), float(before.low[0]))
     tank = dict.fromkeys(TANKS, float(before.low[0]))
     warm = float(before.low[0])

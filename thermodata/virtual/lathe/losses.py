@@ -24,7 +24,7 @@ def bearing_w(speed_rpm: float, T: float) -> float:
     nu_n = max(viscosity_mm2_s(T) * speed_rpm, 2000.0)
     free_nmm = 1e-7 * GREASE_FACTOR * nu_n ** (2 / 3) * MEAN_DIAMETER_MM**3
     loaded_nmm = 3e-4 * PRELOAD_N * MEAN_DIAMETER_MM
-    return 1e-3 * (free_nmm + loaded_nmm) * 2 * np.pi * speed_rpm / 60
+    return float(1e-3 * (free_nmm + loaded_nmm) * 2 * np.pi * speed_rpm / 60)
 
 
 def sliding_w(feed_m_min: float, coulomb_n: float, break_away_n: float, viscous_ns_m: float) -> float:
@@ -39,7 +39,7 @@ def motor_w(speed_rpm: float, cutting_kw: float) -> float:
     if speed_rpm <= 0:
         return 0.0
     torque = 9550 * (cutting_kw + 0.3) / max(speed_rpm, 100.0)
-    return 190.0 * (speed_rpm / 4000) ** 1.4 + 0.11 * min(torque, 90.0) ** 2
+    return float(190.0 * (speed_rpm / 4000) ** 1.4 + 0.11 * min(torque, 90.0) ** 2)
 
 
 def film_coefficient(T: Float1D, air: Float1D | float, air_speed: float, size_m: float = 0.5) -> Float1D:

@@ -76,7 +76,7 @@ def work(kind: Kind, rng: np.random.Generator, hours: float) -> Work:
         from_h, to_h = rng.uniform(0, 0.4) * hours * (rng.random() < 0.6), hours * rng.uniform(0.6, 1.0)
         phase = (t_h * 60 / rng.uniform(6, 25)) % 1
         courses["pump"] = ((phase < duty) & (t_h >= from_h) & (t_h < to_h)).astype(float)
-    told = {"programme": kind}
+    told: dict[str, str] = {"programme": kind}
     return Work(kind, start + t_h, conditions=told, **courses)
 
 

@@ -72,7 +72,7 @@ class Stack:
         """The cell of a body at a share of its length, 0 to 1."""
         part = self.where[body]
         size = part.stop - part.start
-        return part.start + min(int(share * size), size - 1)
+        return int(part.start + min(int(share * size), size - 1))
 
     def step(self, T: Float1D, dt_s: float, leak: Float1D, outside: Float1D, power: Float1D) -> Float1D:
         """The temperatures after dt_s. leak: conductance to `outside` [W/K] of each cell; power: heat put in [W].

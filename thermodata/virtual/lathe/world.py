@@ -5,19 +5,22 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import Literal
 
 import numpy as np
 
 from thermodata.errors import unknown_name
-from thermodata.plugin import Bool1D, Float1D, Float2D
+from thermodata.plugin import Bool1D
 from thermodata.virtual.lathe.campaign import Stretch, stretches
 from thermodata.virtual.lathe.causes import ALONE, CAUSES, KNOWN, OUTSIDE
 from thermodata.virtual.lathe.faults import Fault, blemish, slip
 from thermodata.virtual.lathe.programme import DT_S
+from thermodata.virtual.lathe.recording import Run
 from thermodata.virtual.lathe.sensors import ALL, BY_NAME, Sensor, coarse
 from thermodata.virtual.lathe.strata import STRATA, Stratum
 
-AXES = ("X", "Z")
+Axis = Literal["X", "Z"]
+AXES: tuple[Axis, Axis] = ("X", "Z")
 TREAD_UM = 2.0
 WHITE_UM = 0.12
 DRIFT_UM_12H = 0.8  # a slow walk of the probes that nothing logs
@@ -27,19 +30,6 @@ DECOY = "C14"
 BY_ONE_TEMPERATURE = tuple(c for c in KNOWN if c not in ("ring_expansion", "coolant_film", "hall_layers"))
 
 
-@dataclass(frozen=True, slots=True)
-class Run:
-    """One test. contributions: cause -> X and Z, shape (2, n) [um]. displacement: shape (2, n), as probed [um].
-    readings, valid: sensor -> shape (n,). probed: where the probes logged, shape (n,)."""
-
-    stretch: Stretch
-    contributions: Mapping[str, Float2D]
-    displacement: Float2D
-    readings: Mapping[str, Float1D]
-    valid: Mapping[str, Bool1D]
-    probed: Bool1D
-
-
 @dataclass(frozen=True)
 class World:
     """hidden: causes that act and that the model lacks. base: causes that act and that it has. scale: cause -> times
@@ -47,7 +37,7 @@ class World:
 
     seed: int
     stratum: str
-    axis: str
+    axis: Axis
     hidden: tuple[str, ...]
     base: tuple[str, ...]
     by_speed: bool
