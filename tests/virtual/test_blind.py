@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from scipy.signal import lfilter
 
+from thermodata.cli import main
 from thermodata.errors import UsageError
 from thermodata.virtual.blind import run as running
 from thermodata.virtual.blind.rivals import RIVALS, STEP_S, Question, stepwise_bic
@@ -101,9 +102,28 @@ def test_a_run_goes_on_where_its_file_ends(tmp_path: Path, monkeypatch: pytest.M
     assert asked == [("strong", 0), ("strong", 1), ("two", 0), ("two", 1)]
     assert [(t["stratum"], t["seed"]) for t in found] == [("strong", 0), ("strong", 1), ("two", 0), ("two", 1)]
     assert len(out.read_text(encoding="utf-8").splitlines()) == 4
+    with pytest.raises(UsageError, match="one file"):
+        running.run(("strong",), range(SEALED.start, SEALED.start + 1), out=out)
     out.write_text("something else\n", encoding="utf-8")
     with pytest.raises(UsageError, match="not a trial"):
         running.run(("strong",), range(2), out=out)
+
+
+def test_the_command_says_which_seeds_it_used_and_refuses_to_mix(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr(running, "one", lambda stratum, seed, rivals: {**BLANK, "stratum": stratum, "seed": seed})
+    command = ["benchmark-diagnosis", "--json", "--machine", "lathe", "--stratum", "strong", "--seeds", "2"]
+    assert main(command) == 0
+    said = capsys.readouterr()
+    answer = json.loads(said.out)
+    assert answer["seeds"] == "development seeds 0 to 1"
+    assert "development seeds" in said.err
+    assert answer["summary"][0]["named"] == 2
+    assert main([*command, "--first-seed", str(SEALED.start)]) == 2
+    assert "sealed" in capsys.readouterr().err
+    assert main([*command, "--hide", "coolant"]) == 2
+    assert main(["benchmark-diagnosis", "--sealed"]) == 2
 
 
 def test_a_strong_cause_is_named_from_end_to_end() -> None:

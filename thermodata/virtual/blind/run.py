@@ -10,6 +10,7 @@ from typing import Any
 
 from thermodata.errors import UsageError
 from thermodata.virtual.blind.trial import judge
+from thermodata.virtual.lathe.strata import SEALED
 
 Record = dict[str, Any]
 Told = Callable[[int, int], None]
@@ -26,9 +27,18 @@ def run(
 ) -> list[Record]:
     """A trial of each stratum and seed. out: JSON lines; those of it that the run asks for are not made again.
 
-    tell: is told how many are done, of how many. UsageError where `out` holds something else.
+    tell: is told how many are done, of how many. UsageError where `out` holds something else, or
+    trials of the other set of seeds.
     """
     kept = read(out) if out is not None and out.exists() else []
+    mixed = [t["seed"] for t in kept if (t["seed"] in SEALED) != (seeds[0] in SEALED)]
+    if mixed:
+        raise UsageError(
+            "development and sealed seeds would stand in one file",
+            where=str(out),
+            got=f"seed {mixed[0]} beside {seeds[0]}",
+            hint="name another file",
+        )
     wanted = [(stratum, seed) for seed in seeds for stratum in strata]
     found = [t for t in kept if (t["stratum"], t["seed"]) in set(wanted)]
     done = {(t["stratum"], t["seed"]) for t in found}

@@ -27,12 +27,15 @@ NEAR_S = 1200.0  # a fault is found where it is named within 20 min
 
 @dataclass(frozen=True, slots=True)
 class Trial:
-    """One machine. claims: ids; marks: of each. known_again: claims that name a cause which the model has.
-    first: mark of the candidate ranked first. outcome: right, equivalent, family, wrong, abstained, some (of several
-    hidden), silent (rightly), false claim. rmse: on locked tests [um]: of the model, with the claims, with what is
-    hidden by its right names, and with the true contribution taken away. share: of the drop that the truth gives; None
-    where it gives less than a tenth. faults_found, faults: of the logs. rivals: method -> whether its first channel is
-    the cause's."""
+    """One machine.
+
+    claims: ids; marks: of each. known_again: claims that name a cause which the model has. first: mark of the candidate
+    ranked first. outcome: right, equivalent, told (a twin is claimed, the cause named beside it), family, wrong,
+    abstained, some (of several hidden), silent (rightly), false claim. rmse: on locked tests [um]: of the model, with
+    the claims, with what is hidden by its right names, and with the true contribution taken away. share: of the drop
+    that the right names give; None where they give less than a tenth. faults, faults_found: slips and a wrong clock.
+    rivals: method -> whether its first channel is the cause's. seconds: processor time of the first verdict.
+    """
 
     stratum: str
     seed: int
@@ -96,7 +99,7 @@ def judge(stratum: str, seed: int, *, rivals: bool = True, hours: float = 9.0) -
         named,
         _without_truth(world, data, spec),
         None if fell is None or before is None or after is None else (before - after) / fell,
-        len(world.faults),
+        sum(f.kind in ("step", "clock_offset") for f in world.faults),
         _faults_found(world, found),
         len(found.artefacts),
         _rivals(world, data, spec) if rivals and world.hidden and not blind else {},
@@ -120,13 +123,14 @@ def _best(causes: Sequence[str], c: Candidate) -> Mark:
 
 def _marks(hidden: Sequence[str], claims: Sequence[Candidate]) -> tuple[tuple[str, ...], int]:
     """(mark of each claim against what was still hidden, how many causes no claim found)."""
-    left, marks = list(hidden), []
+    left: list[str] = list(hidden)
+    marks: list[str] = []
     for claim in claims:
-        best = _best(left, claim)
+        best: str = _best(left, claim)
         if best == "wrong" and any(_told(cause, claim) for cause in left):
-            best = "equivalent"
+            best = "told"
         marks.append(best)
-        if best in ("exact", "equivalent"):
+        if best in ("exact", "equivalent", "told"):
             hit = min(left, key=lambda cause: (ORDER.index(_best([cause], claim)), not _told(cause, claim)))
             left.remove(hit)
     return tuple(marks), len(left)
@@ -143,7 +147,7 @@ def _told(cause: str, claim: Candidate) -> bool:
 
 def _outcome(marks: Sequence[str], missed: int, nothing: bool) -> str:
     if nothing:
-        good = all(m in ("equivalent", "family") for m in marks)
+        good = all(m in ("equivalent", "told", "family") for m in marks)
         return "silent" if not marks else "family" if good else "false claim"
     if not marks:
         return "abstained"
@@ -151,6 +155,8 @@ def _outcome(marks: Sequence[str], missed: int, nothing: bool) -> str:
         return "wrong"
     if missed:
         return "family" if "family" in marks else "some"
+    if "told" in marks:
+        return "told"
     return "right" if all(m == "exact" for m in marks) else "equivalent"
 
 

@@ -46,7 +46,7 @@ def film_coefficient(T: Float1D, air: Float1D | float, air_speed: float, size_m:
     """Heat transfer of a wall to the hall [W/m2/K]: free and forced convection, and radiation.
 
     The free part grows with the fourth root of the difference (laminar plate), the forced one with the speed of the
-    air to 0.8, and they add as cubes [incropera2007, ch. 9.9].
+    air to 0.8, and they add as cubes, as textbooks of heat transfer have it.
     """
     free = 1.4 * np.sqrt(np.sqrt(np.abs(T - air) / size_m + 1e-6))
     forced = 6.2 * air_speed**0.8
