@@ -209,13 +209,16 @@ def test_slips_stand_in_the_displacement_and_nowhere_else() -> None:
     row = "XZ".index(world.axis)
     assert world.faults
     assert clean.faults == ()
+    clean_left = [r.displacement - sum(r.contributions.values()) for r in clean.runs]
+    assert max(float(np.abs(np.diff(x)).max()) for x in clean_left) < 1.5
     for fault in world.faults:
         run = next(r for r in world.runs if r.stretch.id == fault.test)
         at = int((fault.at_s or 0) / DT_S)
-        jump = run.displacement[row, at] - run.displacement[row, at - 1]
+        left = run.displacement[row] - sum(c[row] for c in run.contributions.values())
+        jump = left[at] - left[at - 1]
         assert run.stretch.role != "locked"
         assert 3.0 <= abs(fault.size) <= 16.0
-        assert jump == pytest.approx(fault.size, abs=2.0)
+        assert jump == pytest.approx(fault.size, abs=1.0)
 
 
 def test_a_broken_sensor_is_named_and_is_not_the_causes_own() -> None:
@@ -226,14 +229,16 @@ def test_a_broken_sensor_is_named_and_is_not_the_causes_own() -> None:
 
 
 def test_the_controls_clock_is_off_and_the_others_are_not() -> None:
-    late, right = small("clock"), small("strong")
+    late = small("clock")
     (fault,) = late.faults
     rows = round(fault.size / DT_S)
     assert 120 <= abs(fault.size) <= 480
-    name = "n_S" if "n_S" in {s.name for s in late.sensors} else "TS_brg_f"
-    run, same = late.runs[0], right.runs[0]
+    name = next(s.name for s in late.sensors if s.source == "plc" and s.quantity == "temperature")
+    run = late.runs[0]
+    true = BY_NAME[name].true(run.stretch.heat.work, run.stretch.air, run.stretch.heat.full)
+    on_time = BY_NAME[name].read(true, np.random.default_rng(0))
     moved = np.roll(run.readings[name], -rows)[20:-20]
-    assert np.corrcoef(moved, same.readings[name][20:-20])[0, 1] > 0.99
+    assert np.corrcoef(moved, on_time[20:-20])[0, 1] > 0.98
 
 
 def test_treads_kelvins_and_gaps_are_in_the_logs() -> None:

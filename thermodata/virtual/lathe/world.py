@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Literal
+from zlib import crc32
 
 import numpy as np
 
@@ -64,7 +65,7 @@ class World:
 def make_world(
     stratum: str, seed: int, *, hours: float = 9.0, tests: int | None = None, hide: str | None = None
 ) -> World:
-    """The machine of a seed in a stratum; strata of one seed share hall, programme and heat. hours: of a usual test.
+    """The machine of a seed in a stratum; strata of one seed share its hall and programme. hours: of a usual test.
 
     tests: open ones, in place of the stratum's. hide: this cause, in place of a drawn one. Raises UsageError for a
     stratum or a cause that there is not.
@@ -74,8 +75,10 @@ def make_world(
     if hide is not None and hide not in CAUSES:
         raise unknown_name("cause to hide", hide, list(CAUSES))
     kind = STRATA[stratum]
-    # the same draws in the same order for every stratum, so that a seed is one machine under many difficulties
-    rng = np.random.default_rng([seed, 32_416_190])
+    # strata share hall and programme, which is what costs time, but not causes: else few seeds would be few machines.
+    # The weak ones are the strong one's machines, so that what strength does can be read in pairs.
+    pair = "strong" if stratum.startswith("weak") else stratum
+    rng = np.random.default_rng([seed, crc32(pair.encode()), 32_416_190])
     course = stretches(seed, tests or kind.tests, kind.idle, hours)
     row = int(rng.random() < 0.5)
     order = [str(c) for c in rng.permutation(list(KNOWN))]
