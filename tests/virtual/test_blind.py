@@ -127,7 +127,7 @@ def test_the_command_says_which_seeds_it_used_and_refuses_to_mix(
 
 
 def test_a_strong_cause_is_named_from_end_to_end() -> None:
-    """Seed 93 is easy, a thin model without the hydraulics: whatever the rules become, who can't name it has lost something."""
+    """Seed 93 is easy: a thin model lacks the hydraulics. Rules that can not name it have lost something."""
     trial = judge("strong", 93)
     assert trial.outcome in ("right", "equivalent"), trial.claims
     assert trial.first in ("exact", "equivalent")
