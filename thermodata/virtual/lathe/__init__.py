@@ -2,5 +2,5 @@
 
 It shares no equation with the machine beside it nor with the library of effects: its causes are heat paths of its own
 bodies, its sensors have other names, and its laboratory has habits (thin models, idle tests, coarse sensors).
-`right_names` alone knows what the library calls a cause; it was written last and marks answers only.
+`right_names` alone knows what the library calls a cause: it marks answers, and names what the model has.
 """
