@@ -1,9 +1,10 @@
 """What the library calls each cause: the table that answers are marked by. Nothing else here knows the library.
 
-It was made from docs/effects.md alone, when the causes stood. The machine was then softened once: castings, oil, motor
-plate and coolant were changed where the right name held less than half of its cause. exact: an effect on a sensor of the cause's own
-body or power. equivalent: another effect whose channels are all among the cause's drivers, for the data of such a
-driver can't say how it acts. family: what the library files under the same heading. All else is wrong, and so is the
+It was made from docs/effects.md alone, when the causes stood. The machine was then softened once: castings, oil,
+motor plate and coolant were changed where the right name held less than half of its cause.
+
+exact: an effect on a sensor of the cause's own body or power. equivalent: another effect whose channels are all among
+the cause's drivers, for the data of such a driver can't say how it acts. family: what the library files under the same heading. All else is wrong, and so is the
 right effect on a channel of another body.
 """
 
