@@ -4,8 +4,8 @@ It was made from docs/effects.md alone, when the causes stood. The machine was t
 motor plate and coolant were changed where the right name held less than half of its cause.
 
 exact: an effect on a sensor of the cause's own body or power. equivalent: another effect whose channels are all among
-the cause's drivers, for the data of such a driver can't say how it acts. family: what the library files under the same heading. All else is wrong, and so is the
-right effect on a channel of another body.
+the cause's drivers, for the data of such a driver can't say how it acts. family: what the library files under the same
+heading. All else is wrong, and so is the right effect on a channel of another body.
 """
 
 from __future__ import annotations
