@@ -12,44 +12,145 @@ from thermodata.cli.common import Session, command, plain
 from thermodata.cli.table import fields, table
 from thermodata.errors import UsageError, unknown_name
 
+MACHINES = ("gantry", "lathe")
+
 
 @command("simulate")
 @click.argument("folder", type=click.Path(path_type=Path, file_okay=False), metavar="DIR")
 @click.option(
-    "--hide",
-    default="none",
+    "--machine",
+    type=click.Choice(MACHINES),
+    default="gantry",
     show_default=True,
-    metavar="EFFECT",
-    help="The effect that the machine has and the baseline model lacks; or none.",
+    help="A gantry milling centre (TDMS, CNC, MCAP), or a turning centre that shares nothing with it (CSV).",
 )
+@click.option(
+    "--hide",
+    default=None,
+    metavar="EFFECT",
+    help="The effect of the gantry, or the cause of the lathe, that the baseline model lacks; or none.",
+)
+@click.option("--stratum", default=None, metavar="NAME", help="Of the lathe: the difficulty.  [default: strong]")
 @click.option("--seed", default=0, show_default=True, type=click.IntRange(0), help="Another seed, another machine.")
-def simulate_command(session: Session, folder: Path, hide: str, seed: int) -> None:
+def simulate_command(
+    session: Session, folder: Path, machine: str, hide: str | None, stratum: str | None, seed: int
+) -> None:
     """Write a simulated campaign with a known truth into DIR.
 
-    TDMS, CNC and MCAP logs, campaign file, model file, and the truth.
+    Raw logs, campaign file, model file, and the truth.
     """
     from thermodata.cli.progress import counting_line
     from thermodata.store.base.counting import watched
-    from thermodata.virtual import simulate
 
+    if machine == "gantry" and stratum:
+        raise UsageError("--stratum does not go with --machine gantry", hint="add --machine lathe")
     empty_folder(folder)
     with counting_line() as tell, watched(tell):
-        truth = plain(simulate(folder, hide=hide, seed=seed))
+        truth = _simulate_lathe(folder, hide, stratum, seed) if machine == "lathe" else _simulate(folder, hide, seed)
     session.answer(truth, lambda: fields((k, v) for k, v in truth.items() if not isinstance(v, dict | list)))
 
 
+def _simulate(folder: Path, hide: str | None, seed: int) -> Any:
+    from thermodata.virtual import simulate
+
+    return plain(simulate(folder, hide=hide or "none", seed=seed))
+
+
+def _simulate_lathe(folder: Path, hide: str | None, stratum: str | None, seed: int) -> Any:
+    from thermodata.virtual.lathe.logs import simulate_lathe
+
+    if hide == "none" and stratum is None:
+        return plain(simulate_lathe(folder, "none_full", seed))
+    return plain(simulate_lathe(folder, stratum or "strong", seed, hide=hide))
+
+
 @command("benchmark-diagnosis")
+@click.option(
+    "--machine",
+    type=click.Choice(MACHINES),
+    default="gantry",
+    show_default=True,
+    help="The gantry hides effects of the library; the lathe knows nothing of them, and has strata.",
+)
 @click.option("--hide", multiple=True, metavar="EFFECT", help="Hide this effect, or none (default: each in turn).")
 @click.option("--seeds", default=1, show_default=True, type=click.IntRange(1), help="Machines for each.")
-@click.option("--first-seed", default=0, show_default=True, type=click.IntRange(0), help="The first seed.")
+@click.option("--first-seed", default=None, type=click.IntRange(0), help="The first seed (default: the set's first).")
 @click.option("--not-logged", is_flag=True, help="Leave the channels of the hidden effect out of the log.")
+@click.option("--stratum", multiple=True, metavar="NAME", help="Of the lathe: this stratum (default: each in turn).")
+@click.option(
+    "--sealed", is_flag=True, help="Of the lathe: the seeds that judge a frozen rule, never mixed with others."
+)
+@click.option("--jobs", default=1, show_default=True, type=click.IntRange(1), help="Of the lathe: processes at once.")
+@click.option("--no-rivals", is_flag=True, help="Of the lathe: leave out correlation, BIC, LASSO and SINDy.")
+@click.option(
+    "--out",
+    type=click.Path(path_type=Path, dir_okay=False),
+    metavar="FILE",
+    help="Of the lathe: keep each trial as a JSON line, and go on where FILE ends.",
+)
 def benchmark_diagnosis_command(
-    session: Session, hide: tuple[str, ...], seeds: int, first_seed: int, not_logged: bool
+    session: Session,
+    machine: str,
+    hide: tuple[str, ...],
+    seeds: int,
+    first_seed: int | None,
+    not_logged: bool,
+    stratum: tuple[str, ...],
+    sealed: bool,
+    jobs: int,
+    no_rivals: bool,
+    out: Path | None,
 ) -> None:
     """Run the blind benchmark of the diagnosis.
 
-    Simulated machines with one effect hidden, or none; the truth is used for marking only.
+    Simulated machines with one effect hidden, or none; the truth is used for marking only. The lathe is judged by
+    strata: weak causes, decoys, several at once, none, coarse or broken logs.
     """
+    of_lathe = {"--stratum": stratum, "--sealed": sealed, "--jobs": jobs > 1, "--no-rivals": no_rivals, "--out": out}
+    of_gantry = {"--hide": hide, "--not-logged": not_logged}
+    for option, given in (of_lathe if machine == "gantry" else of_gantry).items():
+        if given:
+            raise UsageError(f"{option} does not go with --machine {machine}", hint="see benchmark-diagnosis --help")
+    if machine == "lathe":
+        _lathe(session, stratum, first_seed, seeds, sealed, jobs, not no_rivals, out)
+    else:
+        _gantry(session, hide, seeds, first_seed or 0, not not_logged)
+
+
+def _lathe(
+    session: Session,
+    stratum: tuple[str, ...],
+    first_seed: int | None,
+    seeds: int,
+    sealed: bool,
+    jobs: int,
+    rivals: bool,
+    out: Path | None,
+) -> None:
+    from thermodata.cli.progress import counting_line
+    from thermodata.virtual.blind.run import run
+    from thermodata.virtual.blind.seeds import seeds_of, set_name
+    from thermodata.virtual.blind.tally import rows, table_rows
+    from thermodata.virtual.lathe.strata import STRATA
+
+    for name in stratum:
+        if name not in STRATA:
+            raise unknown_name("stratum", name, list(STRATA))
+    used = seeds_of(first_seed, seeds, sealed)
+    which = f"{set_name(sealed)} seeds {used.start} to {used.stop - 1}"
+    click.echo(which, err=True)
+    with counting_line() as tell:
+        told = None if tell is None else lambda done, total: tell("machines", done, total)
+        trials = run(stratum or tuple(STRATA), used, jobs=jobs, rivals=rivals, out=out, tell=told)
+    summary = rows(trials)
+    shown = table_rows(summary)
+    session.answer(
+        {"machine": "lathe", "seeds": which, "summary": summary, "trials": trials},
+        lambda: table(shown, [(key, key) for key in shown[0]]) + "\n\n" + fields([("seeds", which)]),
+    )
+
+
+def _gantry(session: Session, hide: tuple[str, ...], seeds: int, first_seed: int, logged: bool) -> None:
     from thermodata.cli.progress import counting_line
     from thermodata.virtual import HIDEABLE
     from thermodata.virtual.benchmark import benchmark
@@ -61,7 +162,7 @@ def benchmark_diagnosis_command(
     trials: list[dict[str, Any]] = []
     total = len(hide or choices) * seeds
     with counting_line() as tell:
-        for trial in benchmark(hide or choices, range(first_seed, first_seed + seeds), logged=not not_logged):
+        for trial in benchmark(hide or choices, range(first_seed, first_seed + seeds), logged=logged):
             trials.append(plain(trial.to_json()))
             if tell is not None:
                 tell("machines", len(trials), total)
