@@ -10,7 +10,7 @@ import pytest
 
 from thermodata.errors import FormatError
 from thermodata.plugin import Array, Block, Loss, Source
-from thermodata.reader.text.delimited import blocks, describe, open_table
+from thermodata.reader.text.delimited import blocks, describe, open_table, signals
 from thermodata.reader.text.lines import chunks
 from thermodata.schema.flag import Flag
 
@@ -299,3 +299,16 @@ def test_what_is_no_table_is_refused(tmp_path: Path, text: str, message: str) ->
     path.write_text(text, "utf-8")
     with pytest.raises(FormatError, match=message):
         open_table(path, Source())
+
+
+def test_a_row_of_words_and_relative_times_above_a_repeated_header_is_data(tmp_path: Path) -> None:
+    """Nothing but the repetition tells it from a preamble such as 'Serial;4711;A'."""
+    header = "time [s];T;mode"
+    rows = [f"{i};{20 + i / 8};RUN" for i in range(20)]
+    path = tmp_path / "x.csv"
+    path.write_text("\n".join([header, rows[0], header, *rows[1:]]) + "\n")
+    source = Source()
+    table = open_table(path, source)
+    assert [s.name for s in signals(table)] == ["T", "mode"]
+    read = [item for item in blocks(path, table, source) if isinstance(item, Block)]
+    assert np.concatenate([b.values["T"] for b in read]).tolist() == [20 + i / 8 for i in range(20)]
