@@ -273,10 +273,11 @@ def test_a_delimiter_too_much_loses_its_row_and_shifts_nothing(tmp_path: Path, d
 
 
 @pytest.mark.parametrize("delimiter", [";", "\t", ","])
-def test_one_torn_row_does_not_take_the_milliseconds_from_the_time(tmp_path: Path, delimiter: str) -> None:
+@pytest.mark.parametrize("cells", [-1, 90])
+def test_one_torn_row_does_not_take_the_milliseconds_from_the_time(tmp_path: Path, delimiter: str, cells: int) -> None:
     path = tmp_path / "x.csv"
     rows = [delimiter.join((f"2026-03-27 06:00:{i:02d}", str(i * 7), f"{i}.5")) for i in range(40)]
-    rows[8] = rows[8].replace(f"{delimiter}8.5", "8.5")
+    rows[8] = rows[8].replace(f"{delimiter}8.5", "8.5") if cells < 0 else rows[8][:19] + cells * delimiter
     path.write_text(delimiter.join(("Time", "ms", "a")) + "\n" + "\n".join(rows) + "\n")
     data = read(path)
     assert [s.name for s in data.recording.signals] == ["a"]

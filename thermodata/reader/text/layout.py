@@ -107,9 +107,9 @@ def _whole_rows(rows: Sequence[Sequence[Cell]], width: int) -> list[list[Cell]]:
     """The rows that say what columns hold: as wide as the table, or as many others (where a group has ended); a row of
     a width of its own is damaged, and says nothing. Short ones are filled with empty cells."""
     full = [r for r in rows if any(c not in ("", None) for c in r)]
-    widths = Counter(min(len(r), width) for r in full)
+    widths = Counter(len(r) for r in full)
     usual = {n for n, many in widths.items() if n == width or many > max(1, 0.05 * len(full))}
-    return [[*r[:width], *[""] * (width - len(r))] for r in full if min(len(r), width) in usual or len(full) < 3]
+    return [[*r[:width], *[""] * (width - len(r))] for r in full if len(r) in usual or len(full) < 3]
 
 
 def _is_torn(row: Sequence[Cell], width: int, date: str | None) -> bool:
