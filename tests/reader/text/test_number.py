@@ -157,17 +157,39 @@ CELLS = st.one_of(
 @given(st.lists(CELLS, min_size=1, max_size=8), st.sampled_from(".,"), st.booleans())
 def test_a_column_is_judged_as_its_cells_are(cells: list[str], decimal: str, declared: bool) -> None:
     """By Arrow, a hundred cells at once and more, and one by one."""
-    few = values_of(cells, "float64", decimal, declared)
-    for at, cell in enumerate(cells):
-        value = None if is_empty(cell) or is_overload(cell) else to_float(clean(cell), decimal, declared)
-        assert few.empty[at] == (value is None)
-        assert few.over[at] == is_overload(cell)
-        np.testing.assert_array_equal(few.values[at], np.nan if value is None else value)
-        assert ((at, cell.strip()) in few.odd) == (value is None and not is_empty(cell) and not is_overload(cell))
     many = values_of(cells * 100, "float64", decimal, declared)
-    for got, expected in ((many.values, few.values), (many.empty, few.empty), (many.over, few.over)):
-        np.testing.assert_array_equal(got, np.tile(expected, 100))
-    assert many.odd == tuple((at + len(cells) * k, cell) for k in range(100) for at, cell in few.odd)
+    few = values_of(cells, "float64", decimal, declared)
+    for found, times in ((many, 100), (few, 1)):
+        for at, cell in enumerate(cells * times):
+            value = (
+                None if is_empty(cell) or is_overload(cell) else to_float(cell.strip().strip('"'), decimal, declared)
+            )
+            assert found.empty[at] == (value is None)
+            assert found.over[at] == is_overload(cell)
+            np.testing.assert_array_equal(found.values[at], np.nan if value is None else value)
+            assert ((at, cell.strip()) in found.odd) == (value is None and not is_empty(cell) and not is_overload(cell))
+
+
+@pytest.mark.parametrize("decimal", [".", ","])
+@pytest.mark.parametrize("others", [["7"], ["7", "x"]], ids=["plain", "one is none"])
+def test_no_column_rounds_an_integer(decimal: str, others: list[str]) -> None:
+    """Whichever way it is parsed; 2**53 is the last that stands for itself alone."""
+    cells = [*others * 100, str(EXACT + 1), str(-EXACT - 1), str(EXACT)]
+    found = values_of(cells, "float64", decimal)
+    assert [cell for _, cell in found.odd if cell != "x"] == [str(EXACT + 1), str(-EXACT - 1)]
+    np.testing.assert_array_equal(found.values[-3:], [np.nan, np.nan, EXACT])
+
+
+def test_what_stands_around_a_cell_is_no_part_of_it() -> None:
+    assert [clean(c) for c in (' "a b" ', "\ufeff x", '""', '" "', "'", '"', '"""')] == [
+        "a b",
+        "x",
+        "",
+        "",
+        "'",
+        '"',
+        '"',
+    ]
 
 
 def test_integers_and_truth_values_of_a_column() -> None:
