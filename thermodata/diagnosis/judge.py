@@ -1,4 +1,4 @@
-"""From evidence to a verdict: what may be claimed, what can't be told apart, and what to do when nothing can."""
+"""From evidence to a verdict: what may be claimed, what only refines what is known, and why the others may not."""
 
 from __future__ import annotations
 
@@ -6,119 +6,177 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Literal
 
-from thermodata.diagnosis.candidates import GENERIC
-from thermodata.diagnosis.evidence import (
-    SHARP_DROP_LIMIT,
-    SMALL_SHARE,
-    Measure,
-    enough_together,
-    is_promising,
-    is_proxy,
-    passes,
-    remaining,
-)
+import numpy as np
+
+from thermodata.diagnosis.null import p_value
 from thermodata.diagnosis.problem import Problem
 from thermodata.diagnosis.scored import Scored
+from thermodata.diagnosis.selection import Selection
+from thermodata.plugin import Float1D
 
-Verdict = Literal["effect", "none", "unknown", "not_testable"]
+Verdict = Literal["effect", "refine", "none", "unknown", "not_testable"]
 
-TRIED = 3  # only the best few may be claimed
-TWIN_COSINE = 0.9  # contributions this alike can't be told apart
-TWIN_SSE = 1.15  # nor candidates whose left-out errors differ by less, if they act alike at all
-SIMPLER_SSE = 1.05  # a simpler twin is preferred where it costs no more than this
-TWIN_SSE_COSINE = 0.6
-PAIRS_TRIED = 2  # each costs a ranking of its own
+P_LIMIT = 0.01
+DROP_LIMIT = 0.15  # fall of the error on left-out tests in which it acts
+BETTER_LIMIT = 0.7  # share of these tests that it makes more probable
+SPREAD_LIMIT = 0.5  # of its gain between tests, as a share
+WORTH_SHARE = 0.15  # of the response: less is not worth a name
+BESIDE_SHARE = 0.5  # of the largest claim's: a further claim must explain as much
+MOST_CLAIMS = 3
+STEADIES = 2.8  # a promised fall beyond this many times its own size only steadies an extrapolation
+FLOOR_SHARE = 0.1  # a residual under this share of the response (FIT 90) is left alone
+NOISE_TIMES = 5.0
+ALIKE = 0.9  # cosine of contributions that can't be told apart
+NEARLY = 0.97  # nor can those of nearly the same evidence, if they act alike at all
+NEARLY_COSINE = 0.6
 
 
 @dataclass(frozen=True, slots=True)
-class Pair:
-    """The best second effect beside a first one, and the error that both leave on left-out tests."""
+class Measure:
+    """What claims are measured against. spread: RMS of the response about its offsets. noise: its short-term noise.
+    chance: the best evidence of chance, shape (draws,)."""
 
-    second: Scored | None
-    left: float
+    spread: float
+    noise: float
+    chance: Float1D
+
+    @property
+    def floor(self) -> float:
+        """An error that is left alone: noise, and what a sum of lags leaves of a distributed machine."""
+        return max(NOISE_TIMES * self.noise if np.isfinite(self.noise) else 0.0, FLOOR_SHARE * self.spread)
+
+
+@dataclass(frozen=True, slots=True)
+class Judged:
+    """A member of the selection. refines: what it refines of the model, in words; None for a cause of its own.
+    failed: the rules that it fails, as sentences. beside: all that was ranked without it."""
+
+    scored: Scored
+    refines: str | None
+    failed: tuple[str, ...]
+    beside: tuple[Scored, ...]
+
+    @property
+    def sound(self) -> bool:
+        return not self.failed
 
 
 @dataclass(frozen=True, slots=True)
 class Judgement:
-    """second: where one claim alone leaves much, the effect that is missing beside it."""
+    """claims: missing causes, the largest first. refinements: sound ones of effects that the model has. judged: all
+    members."""
 
     verdict: Verdict
-    claimed: Scored | None
+    claims: tuple[Judged, ...]
+    refinements: tuple[Judged, ...]
+    judged: tuple[Judged, ...]
     reason: str
-    second: Scored | None = None
 
 
-def judge(problem: Problem, ranked: Sequence[Scored], measure: Measure, pair: Callable[[Scored], Pair]) -> Judgement:
-    """pair: asked only where one effect alone leaves much, for two may be missing."""
+def judge(
+    problem: Problem, selection: Selection | None, measure: Measure, refines: Callable[[Scored], str | None]
+) -> Judgement:
+    """refines: says what of the model a candidate refines, None where it is a cause of its own."""
     if len(problem.blocks) < 2:
-        return Judgement(
+        return _nothing(
             "not_testable",
-            None,
             f"{len(problem.blocks)} test with measured samples; an effect is claimed only where it also "
             "predicts a test that it was not fitted to, so at least two are needed",
         )
-    if not ranked:
-        return Judgement("not_testable", None, "no effect of the library fits the channels that were logged")
-    rmse = remaining(ranked[0].sse_before, measure)
-    good = [s for s in ranked[:TRIED] if not passes(s, measure)]
-    if good and not is_proxy(simplest(good), measure):
-        return Judgement("effect", simplest(good), "")
-    if rmse <= measure.floor:
-        return Judgement(
-            "none",
-            None,
-            f"the error on left-out tests, {rmse:.2g} {problem.unit}, is at the floor of "
-            f"{measure.floor:.2g} {problem.unit} (noise, and {SMALL_SHARE:.0%} of the response)",
-        )
-    return _of_two(problem, ranked, good, measure, pair)
-
-
-def _of_two(
-    problem: Problem, ranked: Sequence[Scored], good: list[Scored], measure: Measure, pair: Callable[[Scored], Pair]
-) -> Judgement:
-    """A claim that needs a second effect beside it, or what is unknown."""
-    rmse = remaining(ranked[0].sse_before, measure)
-    first = [simplest(good)] if good else []
-    asked = [*first, *(s for s in ranked[:TRIED] if s not in first and is_promising(s, measure))]
-    pairs = [(s, pair(s)) for s in asked[:PAIRS_TRIED]]
-    for scored, both in sorted(pairs, key=lambda item: item[1].left):
-        if both.second is not None and enough_together(both.left, rmse, measure):
-            return Judgement("effect", scored, "", both.second)
-    if pairs:
-        scored, both = pairs[0]
-        why = (
-            f"{scored.candidate.id} goes with what is missing, but {both.left:.2g} of {rmse:.2g} {problem.unit} remain "
-            "even with a second effect: it stands in for something that was not logged"
-        )
-    else:
-        why = (
-            f"{rmse:.2g} {problem.unit} remain on left-out tests, above the floor of {measure.floor:.2g}, and nothing "
-            f"logged explains them: the best, {ranked[0].candidate.id}, fails because "
-            + " and ".join(passes(ranked[0], measure))
-        )
-    return Judgement("unknown", None, why)
-
-
-def simplest(good: Sequence[Scored]) -> Scored:
-    """The first, unless one that acts alike explains as much from fewer channels or with a name."""
-    first = good[0]
-    alike = [
-        first,
-        *(s for s in good[1:] if _alike(first, s) and s.sse_after.sum() < SIMPLER_SSE * first.sse_after.sum()),
-    ]
-    return min(
-        alike,
-        key=lambda s: (s.candidate.family == GENERIC, len(s.candidate.channels), bool(s.candidate.refines), s.order),
+    if selection is None:
+        return _nothing("not_testable", "no effect of the library fits the channels that were logged")
+    judged = tuple(
+        Judged(m, refines(m), tuple(failed_rules(m, measure, problem.unit)), beside.ranked)
+        for m, beside in zip(selection.members, selection.beside, strict=True)
     )
+    claims = _claims([j for j in judged if j.sound and j.refines is None])
+    kept = tuple(j for j in judged if j.sound and j.refines is not None)
+    if claims:
+        return Judgement("effect", claims, kept, judged, "")
+    left = remaining(selection.first.ranked[0])
+    if kept:
+        return Judgement("refine", (), kept, judged, "no cause is missing; what the model has can be refined")
+    if left <= measure.floor:
+        why = (
+            f"the error on left-out tests, {left:.2g} {problem.unit}, is at the floor of "
+            f"{measure.floor:.2g} {problem.unit} (noise, and {FLOOR_SHARE:.0%} of the response)"
+        )
+        return Judgement("none", (), (), judged, why)
+    best = judged[0] if judged else None
+    because = f": the best, {best.scored.candidate.id}, fails because {best.failed[0]}" if best and best.failed else ""
+    why = (
+        f"{left:.2g} {problem.unit} remain on left-out tests, above the floor of {measure.floor:.2g}, and nothing "
+        f"logged explains them{because}"
+    )
+    return Judgement("unknown", (), (), judged, why)
+
+
+def _nothing(verdict: Verdict, reason: str) -> Judgement:
+    return Judgement(verdict, (), (), (), reason)
+
+
+def _claims(sound: Sequence[Judged]) -> tuple[Judged, ...]:
+    """The largest, and those that explain nearly as much: what is far smaller may be what the largest leaves."""
+    order = sorted(sound, key=lambda j: -explained(j.scored))
+    return tuple(j for j in order if explained(j.scored) >= BESIDE_SHARE * explained(order[0].scored))[:MOST_CLAIMS]
+
+
+def failed_rules(scored: Scored, measure: Measure, unit: str) -> list[str]:
+    """The rules that a candidate fails, as sentences; none where it may be claimed."""
+    failed = []
+    p = p_value(scored.evidence, measure.chance)
+    if p > P_LIMIT:
+        failed.append(f"chance does as well in {p:.1%} of responses in which nothing is missing (limit {P_LIMIT:.0%})")
+    count = int(scored.acts.sum())
+    if scored.drop < DROP_LIMIT:
+        failed.append(
+            f"in the {count} left-out tests in which it acts the error falls by {max(scored.drop, 0):.0%} only "
+            f"(limit {DROP_LIMIT:.0%})"
+        )
+    if scored.better < BETTER_LIMIT:
+        failed.append(
+            f"it makes {round(scored.better * count)} of the {count} tests in which it acts more probable (limit "
+            f"{BETTER_LIMIT:.0%})"
+        )
+    if scored.spread > SPREAD_LIMIT:
+        failed.append(
+            f"its gain differs between tests by {scored.spread:.0%} (limit {SPREAD_LIMIT:.0%}): a cause acts alike "
+            "everywhere"
+        )
+    if explained(scored) < WORTH_SHARE * measure.spread:
+        failed.append(
+            f"it explains {explained(scored):.2g} {unit} where it acts, of {measure.spread:.2g} {unit} (limit "
+            f"{WORTH_SHARE:.0%})"
+        )
+    if explained(scored) > STEADIES * acting_size(scored):
+        failed.append(
+            f"the error falls by more than {STEADIES:g} times its own size: it only steadies what the model "
+            "extrapolates"
+        )
+    return failed
+
+
+def remaining(scored: Scored) -> float:
+    """RMS error of all left-out tests without the candidate, each test alike."""
+    return float(np.sqrt(np.mean(scored.sse_before / scored.rows)))
+
+
+def explained(scored: Scored) -> float:
+    """RMS of what it takes away on left-out tests in which it acts."""
+    return float(np.sqrt(max(0.0, scored.error_before**2 - scored.error_after**2)))
+
+
+def acting_size(scored: Scored) -> float:
+    """RMS of its contribution in the tests in which it acts."""
+    acts = scored.acts
+    return float(np.sqrt(np.mean(scored.size[acts] ** 2))) if acts.any() else 0.0
 
 
 def equivalents(chosen: Scored, ranked: Sequence[Scored]) -> list[Scored]:
     """The candidates that the data can't tell from the chosen one."""
-    return [s for s in ranked if s is not chosen and _alike(chosen, s)]
+    return [s for s in ranked if s.columns is not chosen.columns and len(s.shape) and _alike(chosen, s)]
 
 
 def _alike(a: Scored, b: Scored) -> bool:
     cosine = abs(float(a.shape @ b.shape))
-    if b.drop < SHARP_DROP_LIMIT:
-        return False
-    return cosine > TWIN_COSINE or (cosine > TWIN_SSE_COSINE and b.sse_after.sum() < TWIN_SSE * a.sse_after.sum())
+    return cosine > ALIKE or (cosine > NEARLY_COSINE and b.evidence > NEARLY * a.evidence)

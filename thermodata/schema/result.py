@@ -130,6 +130,8 @@ class Candidate(Result):
     family: effects of one cause share it
     drivers: channels, in the order of the effect's roles
     claimed: whether the evidence suffices for a missing cause
+    refinement: whether it is offered as a refinement of an effect that the model has
+    probability: that this cause is missing, given the data
     p_value: share of surrogate residuals on which the best of all candidates does as well
     rmse_um_before: error on left-out tests without it, in the response's unit
     rmse_um_after: with it
@@ -148,6 +150,8 @@ class Candidate(Result):
     family: str
     drivers: list[str]
     claimed: bool
+    refinement: bool = False
+    probability: float | None = None
     p_value: float | None
     rmse_um_before: float | None
     rmse_um_after: float | None
@@ -197,7 +201,8 @@ class Diagnosis(Result):
 
     model: id
     response: name
-    verdict: effect: one is missing; none: what is left is noise; unknown: something is left that nothing logged
+    verdict: effect: one is missing, or several; refine: none is, but an effect that the model has can be refined;
+        none: what is left is noise; unknown: something is left that nothing logged
         explains; not_testable: the tests cannot tell
     noise_um: short-term noise of the response, in its unit
     rmse_um: error on left-out tests without any candidate
@@ -211,7 +216,7 @@ class Diagnosis(Result):
 
     model: str
     response: str
-    verdict: Literal["effect", "none", "unknown", "not_testable"]
+    verdict: Literal["effect", "refine", "none", "unknown", "not_testable"]
     noise_um: float | None
     rmse_um: float | None
     explainable: float | None
