@@ -22,6 +22,7 @@ from thermodata.schema.result import Candidate, Diagnosis
 from thermodata.view.dataset import Dataset, TestData
 
 SHOWN = 15
+TWINS_TRIED = 4
 Asked = Callable[[Sequence[Judged]], Confirmation]
 
 
@@ -55,31 +56,32 @@ def answer(fitted: FittedModel, data: Dataset, library: Mapping[str, Effect], mo
 
 
 def kept_where_they_hold(judgement: Judgement, ask: Asked, unit: str) -> tuple[Judgement, Confirmation]:
-    """The claims that hold on the locked tests together, the smallest left out where they don't; "unknown" where none
-    does. unit: of the response."""
+    """The claims that hold on the locked tests together, else with a twin in the place of the largest, else without
+    the smallest; "unknown" where none does. unit: of the response."""
     claims = judgement.claims
     first: Confirmation | None = None
     while claims:
-        confirmation = ask(claims)
-        first = first or confirmation
-        if confirmation.holds(_promised(claims)):
-            return replace(judgement, claims=claims), confirmation
+        for tried in (claims, *_with_twins(claims)):
+            confirmation = ask(tried)
+            first = first or confirmation
+            if confirmation.holds:
+                return replace(judgement, claims=tried), confirmation
         claims = claims[:-1]
     assert first is not None
     name = judgement.claims[0].scored.candidate.id
     verdict: Verdict = "refine" if judgement.refinements else "unknown"
     reason = (
-        f"{name} explains the open tests, but on the locked ones the error does not fall by half of what it falls there "
+        f"{name} explains the open tests, but on the locked ones the error does not fall by half of what it adds "
         f"({first.before or 0:.2f} -> {first.after or 0:.2f} {unit})"
     )
     return replace(judgement, verdict=verdict, claims=(), reason=reason), first
 
 
-def _promised(claims: Sequence[Judged]) -> float:
-    """Fall of the error on all left-out tests, as a share, that the largest claim stands for."""
-    scored = claims[0].scored
-    before, after = (np.sqrt(np.mean(sse / scored.rows)) for sse in (scored.sse_before, scored.sse_after))
-    return float(1 - after / before) if before > 0 else 0.0
+def _with_twins(claims: Sequence[Judged]) -> list[tuple[Judged, ...]]:
+    """What can't be told apart is one claim, and one member of it that does not hold is no reason against the others."""
+    largest = claims[0]
+    twins = equivalents(largest.scored, largest.beside)[:TWINS_TRIED]
+    return [(replace(largest, scored=twin), *claims[1:]) for twin in twins]
 
 
 def worst_response(fitted: FittedModel, tests: Sequence[TestData]) -> int:
@@ -126,15 +128,16 @@ def _diagnosis(
 
 
 def _shown(investigation: Investigation, judgement: Judgement) -> list[tuple[Scored, Judged | None]]:
-    """Claims, refinements, then all others by what they would give; a member in the place of its first ranking."""
+    """Claims, refinements, then all others by what they would give; what was dropped as it was judged last."""
     first = [*judgement.claims, *judgement.refinements]
     order: list[tuple[Scored, Judged | None]] = [(j.scored, j) for j in first]
-    rest = [j for j in judgement.judged if not any(j is f for f in first)]
-    known = [j.scored.columns for j in judgement.judged]
+    rest = [j for j in judgement.judged if not any(j.scored.columns is f.scored.columns for f in first)]
     others: list[tuple[Scored, Judged | None]] = [(j.scored, j) for j in rest]
     if investigation.selection is not None:
-        ranked = investigation.selection.first.ranked
-        others += [(s, None) for s in ranked if len(s.rows) and not any(s.columns is k for k in known)]
+        found = [*investigation.selection.dropped, *investigation.selection.first.ranked]
+        for s in found:
+            if len(s.rows) and not any(s.columns is k.columns for k, _ in (*order, *others)):
+                others.append((s, None))
     others.sort(key=lambda item: -explained(item[0]))
     return [*order, *others][:SHOWN]
 
@@ -198,7 +201,7 @@ def _why(
             together = " with all that is claimed" if len(judgement.claims) > 1 else ""
             locked = f"; on the locked tests{together} from {held.before:.2f} to {held.after:.2f} {unit}"
         return f"{numbers}; chance does as well in {chance:.1%} of responses in which nothing is missing{locked}"
-    if member is not None and member.sound and member.refines:
+    if member is not None and member.refines:
         return f"{numbers}; a refinement, not a missing cause: {member.refines}"
     failed = failed_rules(s, investigation.measure, unit)
     if failed:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 from itertools import product
+from typing import Literal
 
 import numpy as np
 
@@ -16,6 +17,9 @@ from thermodata.plugin import Drivers, Effect, Float2D, Param
 from thermodata.view.dataset import ChannelInfo, TestData
 
 Led = tuple[Drivers, int]
+# "same": another mode of an effect that the model has, another bearing, another reading of its channels. "related": an
+# effect of a family that the model has, elsewhere
+Kin = Literal["same", "related"] | None
 GENERIC = "generic"
 STATIC = "static"
 NOT_DRIVERS = frozenset({"displacement", "tilt", "label"})
@@ -31,15 +35,14 @@ UNNAMED = -3.0
 class CandidateEffect:
     """An effect and the channels it would be driven by. family: with the axis that its channels sit on.
     placeless: nobody declared where its channels sit, so it can only be a plain lag. log_prior: how much less probable
-    than others before any data. kin: whether the model has an effect of its family,
-    or reads its channels, or one at their place."""
+    than others before any data. kin: how near it is to what the model has already (`Kin`)."""
 
     effect: Effect
     binding: Mapping[str, str]
     family: str
     placeless: bool = False
     log_prior: float = 0.0
-    kin: bool = False
+    kin: Kin = None
 
     @property
     def channels(self) -> tuple[str, ...]:
@@ -77,7 +80,7 @@ def candidates(
     """What could be missing. present: (effect name, its channels) of the model's terms; families: of these. Every
     channel is asked as a plain lag too, whatever named effects it drives: a name must earn its place. Artefacts are
     looked for within tests, not here."""
-    have, known = set(present), set(families) - {GENERIC}
+    have, known = frozenset(present), frozenset(families) - {GENERIC}
     lagged = {names for effect, names in have if library.get(effect) is None or library[effect].family == GENERIC}
     read = frozenset[str]().union(*(names for _, names in have))
     usable = {n: c for n, c in channels.items() if n != response and c.quantity not in NOT_DRIVERS}
@@ -91,13 +94,30 @@ def candidates(
             names, family = frozenset(binding.values()), family_of(effect, binding, channels)
             if (effect.name, names) in have or names in lagged:
                 continue
-            kin = family in known or names <= read or _near(names, read, channels)
-            candidate = CandidateEffect(effect, binding, family, nowhere, kin=kin or refines(effect) != ())
+            near = names <= read or _near(names, read, channels)
+            kin = _kin(effect, family, names, near, known, have)
+            candidate = CandidateEffect(effect, binding, family, nowhere, kin=kin)
             if refines(effect) and not any(e in refines(effect) and n & names for e, n in have):
                 continue
             found.append(candidate)
     named = {c.channels for c in found if c.family != GENERIC}
     return [replace(c, log_prior=UNNAMED) if c.family == GENERIC and c.channels in named else c for c in found]
+
+
+def _kin(
+    effect: Effect,
+    family: str,
+    names: frozenset[str],
+    near: bool,
+    families: frozenset[str],
+    have: frozenset[tuple[str, frozenset[str]]],
+) -> Kin:
+    if refines(effect) or (family == GENERIC and near):
+        return "same"
+    if family not in families:
+        return None
+    read = frozenset[str]().union(*(n for _, n in have))
+    return "same" if names <= read or any(name == effect.name for name, _ in have) else "related"
 
 
 def _near(names: frozenset[str], read: frozenset[str], channels: Mapping[str, ChannelInfo]) -> bool:

@@ -15,9 +15,9 @@ from thermodata.schema.model import EffectSpec, Model
 from thermodata.schema.result import Parameter
 from thermodata.view.dataset import Dataset, TestData
 
-KEPT = 0.5  # share of the fall on left-out tests that the locked tests must show,
-RESTS = 0.5  # unless what is added is smaller there than this share of what it is in the open tests;
-RISES = 0.0  # then it may not rise
+KEPT = 0.5  # share of what is added that must take away as much of the squared error as it is itself,
+LEAST = 0.02  # and the least fall of the error: it never rises;
+MUCH = 0.25  # a fall of the error that is enough by itself
 
 
 @dataclass(frozen=True, slots=True)
@@ -25,25 +25,27 @@ class Confirmation:
     """Errors on the locked tests, None where there are none; parameters of the added effects, by candidate.
 
     before, after: as scored, from the mean of the first samples on. shape_before, shape_after: with a free offset a
-    test, which is what decides: one unlucky zero must not hide that the shape fits. acts: RMS of what is added in the
-    locked tests, as a share of that in the open ones. each: (key, error before, error after) of every locked test.
+    test, which is what decides: one unlucky zero must not hide that the shape fits. changed: RMS of what the addition
+    changes there. each: (key, error before, error after) of every locked test.
     """
 
     before: float | None
     after: float | None
     shape_before: float | None
     shape_after: float | None
-    acts: float
+    changed: float
     parameters: dict[str, dict[str, Parameter]]
     each: tuple[tuple[tuple[str, str], float, float], ...] = ()
 
-    def holds(self, promised: float) -> bool:
-        """promised: fall of the error on left-out tests, as a share."""
+    @property
+    def holds(self) -> bool:
+        """Whether the error falls by what a cause would take away. What a cause adds is not to be found in what is left
+        afterwards, so the squared error falls by the square of what is added; a proxy's falls by less."""
         before, after = self.shape_before, self.shape_after
         if before is None or after is None:
             return True
-        least = KEPT * max(promised, 0.0) if self.acts >= RESTS else RISES
-        return after < (1 - least) * before
+        keeps = before**2 - after**2 >= KEPT * self.changed**2
+        return after < (1 - LEAST) * before and (keeps or after < (1 - MUCH) * before)
 
 
 def extended(spec: Model, candidates: Sequence[CandidateEffect]) -> Model:
@@ -84,7 +86,7 @@ def confirm(
         rmse(theirs, usable),
         rmse(ours, usable, free=True),
         rmse(theirs, usable, free=True),
-        _acts(ours, theirs, tests, usable),
+        _changed(ours, theirs, usable),
         _parameters(more, len(spec.effects), candidates),
         tuple(
             (t.key, a, b) for t in usable if (a := rmse(ours, [t])) is not None and (b := rmse(theirs, [t])) is not None
@@ -92,13 +94,10 @@ def confirm(
     )
 
 
-def _acts(ours: FittedResponse, theirs: FittedResponse, tests: Sequence[TestData], locked: Sequence[TestData]) -> float:
-    def moved(some: Sequence[TestData]) -> float:
-        size = [np.std((theirs.residual(t) - ours.residual(t))[theirs.mask(t)]) for t in some if theirs.mask(t).any()]
-        return float(np.sqrt(np.mean(np.square(size)))) if size else 0.0
-
-    opened = moved([t for t in tests if ours.can_predict(t) and theirs.can_predict(t)])
-    return moved(locked) / opened if opened > 0 else 0.0
+def _changed(ours: FittedResponse, theirs: FittedResponse, tests: Sequence[TestData]) -> float:
+    parts = [(theirs.residual(t) - ours.residual(t))[theirs.mask(t)] for t in tests]
+    whole = np.concatenate([p - p.mean() for p in parts if len(p)] or [np.zeros(1)])
+    return float(np.sqrt(np.mean(whole**2)))
 
 
 def _parameters(

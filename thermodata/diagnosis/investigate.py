@@ -9,19 +9,19 @@ import numpy as np
 from threadpoolctl import threadpool_limits
 
 from thermodata.diagnosis.artefact import as_artefacts, find_steps
-from thermodata.diagnosis.candidates import candidates
-from thermodata.diagnosis.judge import Judgement, Measure, judge, remaining
+from thermodata.diagnosis.candidates import CandidateEffect, candidates
+from thermodata.diagnosis.judge import Judgement, Measure, failed_rules, judge, remaining
 from thermodata.diagnosis.known import rms
 from thermodata.diagnosis.known_effects import otherwise, remembered
 from thermodata.diagnosis.logging_faults import clock_offsets, first_of_each, turned_probes, wrong_parameters
 from thermodata.diagnosis.null import best_of_chance
 from thermodata.diagnosis.problem import TARGET_ROWS, Base, Problem, build_problem
 from thermodata.diagnosis.refinement import Refinement
-from thermodata.diagnosis.selection import Selection, select
+from thermodata.diagnosis.selection import Selection, first_ranking, select
 from thermodata.diagnosis.weak import weak_spots
 from thermodata.modelling.drivers import names_of
 from thermodata.modelling.fitted_response import FittedResponse
-from thermodata.plugin import Effect, Float2D
+from thermodata.plugin import Effect
 from thermodata.schema.result import Artefact, WeakSpot
 from thermodata.view.dataset import ChannelInfo, Dataset, TestData
 
@@ -82,8 +82,7 @@ def investigate(
     asked = candidates(library, data.channels, present, fitted.name, [t.family for t in fitted.terms])
     # thousands of small products: threads of the linear algebra library would wait for each other
     with threadpool_limits(1):
-        selection = select(problem, asked)
-        judgement, measure = _judged(fitted, problem, selection, seed)
+        selection, judgement, measure = _judged(fitted, problem, asked, seed)
     asked_about = fitted if as_fitted is None else as_fitted
     spots = weak_spots([(t, asked_about.residual(t), asked_about.mask(t)) for t in tests], problem.noise)
     faults = gains_are_wrong_only_where_nothing_is_missing(faults, judgement)
@@ -95,17 +94,18 @@ def investigate(
 
 
 def _judged(
-    fitted: FittedResponse, problem: Problem, selection: Selection | None, seed: int
-) -> tuple[Judgement, Measure]:
+    fitted: FittedResponse, problem: Problem, asked: Sequence[CandidateEffect], seed: int
+) -> tuple[Selection | None, Judgement, Measure]:
     spread = rms(problem.response_blocks) if problem.blocks else 0.0
-    if selection is None:
+    first = first_ranking(problem, asked)
+    if first is None:
         measure = Measure(spread, problem.noise, np.zeros(0))
-        return judge(problem, None, measure, lambda scored: None), measure
-    pool = [s.columns for s in selection.first.ranked]
-    chance = best_of_chance(selection.first.known, pool, seed)
+        return None, judge(problem, None, measure, lambda scored: None), measure
+    chance = best_of_chance(first.known, [s.columns for s in first.ranked], seed)
     measure = Measure(spread, problem.noise, chance)
-    refines = Refinement(fitted, problem, selection.last.known.space.noise)
-    return judge(problem, selection, measure, refines), measure
+    selection = select(problem, first, lambda scored: not failed_rules(scored, measure, problem.unit))
+    refines = Refinement(fitted, problem, selection.noise)
+    return selection, judge(problem, selection, measure, refines), measure
 
 
 def _error_of(fitted: FittedResponse, tests: Sequence[TestData]) -> float:

@@ -6,14 +6,14 @@ or it acts as a known effect would if its temperature counted from another one.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
 
+from thermodata.diagnosis.candidates import GENERIC
 from thermodata.diagnosis.discrepancy import Noise
 from thermodata.diagnosis.judge import acting_size
-from thermodata.diagnosis.known import known
+from thermodata.diagnosis.known import known, rms
 from thermodata.diagnosis.known_effects import from_other_zero, is_warm, owners
 from thermodata.diagnosis.problem import Block, Problem
 from thermodata.diagnosis.scored import Scored
@@ -21,7 +21,10 @@ from thermodata.diagnosis.selection import extended
 from thermodata.modelling.fitted_response import FittedResponse
 from thermodata.plugin import Float1D, Int1D
 
+MODE = "it is another mode of what the model has"
 AIR = "ambient"  # a temperature of the air counts from nothing else
+# what a model leaves that is good already: more, and something is missing (share of the response)
+GOOD = 0.4
 # a known effect is replaced where, beside the candidate, it is worth this share of what it was worth alone
 REPLACED = 0.1
 WORTH = 20.0  # log evidence: an effect that was worth less was never there to be replaced
@@ -43,15 +46,17 @@ class Refinement:
         """What it refines of the model, in words."""
         if not self.fitted.terms:
             return None
+        kin = scored.candidate.kin
+        if kin == "same":
+            return MODE
+        if scored.error_before > GOOD * rms(self.problem.response_blocks):
+            return None
+        if kin == "related" and acting_size(scored) < SMALL * max(map(self._size, range(len(self.fitted.terms)))):
+            return MODE
         for number, term in enumerate(self.fitted.terms):
             if self._replaces(scored, number):
                 return f"it takes the place of {term.id}"
-        if scored.candidate.kin:
-            nearest = max(self._size(i) for i in range(len(self.fitted.terms)))
-            if acting_size(scored) < SMALL * nearest:
-                return "it is another mode of what the model has"
-        for number, term in enumerate(self.fitted.terms):
-            channel = None if term.family == AIR else self._other_zero(scored, number)
+            channel = self._other_zero(scored, number)
             if channel is not None:
                 return f"it acts as {term.id} would if its temperature counted from {channel}"
         return None
@@ -102,6 +107,8 @@ class Refinement:
 
     def _other_zero(self, scored: Scored, term: int) -> str | None:
         channels = scored.candidate.channels
+        if self.fitted.terms[term].family == AIR or scored.candidate.family not in (AIR, GENERIC):
+            return None
         if len(channels) != 1 or not is_warm(self.problem.blocks[0].test, channels[0]):
             return None
         if acting_size(scored) >= SMALL * self._size(term):

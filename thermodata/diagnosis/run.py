@@ -99,7 +99,7 @@ def confirm_choice(store: Store, ref: str, candidate: str | int) -> tuple[Confir
         model=model.identity,
         response=response.name,
         candidate=name,
-        holds=confirmation.holds(0.0),
+        holds=confirmation.holds,
         locked_rmse_um_before=confirmation.before,
         locked_rmse_um_after=confirmation.after,
         parameters=confirmation.parameters[chosen.id],

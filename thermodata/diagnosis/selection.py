@@ -6,7 +6,7 @@ beside all others, by what dropping it costs.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -38,54 +38,83 @@ class Ranked:
 
 
 @dataclass(frozen=True, slots=True)
+class Member:
+    """One effect of the set. alone: as it was chosen, beside what was chosen before. scored: beside all others. beside:
+    all candidates, ranked beside these others."""
+
+    alone: Scored
+    scored: Scored
+    beside: tuple[Scored, ...]
+
+
+@dataclass(frozen=True, slots=True)
 class Selection:
-    """first: the ranking beside the model alone. members: in the order of their choice, each scored beside all others.
-    beside: for each member, the ranking without it. last: the ranking beside all members."""
+    """first: the ranking beside the model alone. members: in the order of their choice. dropped: what the evidence
+    chose and a rule forbade. noise: beside all members."""
 
     first: Ranked
-    members: tuple[Scored, ...]
-    beside: tuple[Ranked, ...]
-    last: Ranked
+    members: tuple[Member, ...]
+    dropped: tuple[Scored, ...]
+    noise: Noise
 
 
-def select(problem: Problem, candidates: Sequence[CandidateEffect], seed: int = 0) -> Selection | None:
-    """None where nothing can be left out, or no candidate's drivers move."""
+def first_ranking(problem: Problem, candidates: Sequence[CandidateEffect]) -> Ranked | None:
+    """Beside the model alone. None where nothing can be left out, or no candidate's drivers move."""
     if len(problem.blocks) < 2:
         return None
     pool = [c for c in (columns(problem, k) for k in counted(candidates, "candidates")) if c is not None]
-    if not pool:
-        return None
-    first = last = rank(problem, pool, None)
+    return rank(problem, pool, None) if pool else None
+
+
+def select(problem: Problem, first: Ranked, sound: Callable[[Scored], bool]) -> Selection:
+    """Forward by evidence, then what is not sound beside the others goes, the least likely first. sound: whether a
+    candidate keeps the rules of a claim."""
+    pool, last = [s.columns for s in first.ranked], first
     chosen: list[Scored] = []
-    here = problem
     while len(chosen) < MOST:
         best = preferred(last.ranked)
         if best is None or best.evidence < WORTH:
             break
         chosen.append(best)
-        here = extended(here, best)
-        last = rank(here, without(pool, chosen), last.known.space.noise)
-    members, beside = _again(problem, pool, chosen, last)
-    return Selection(first, members, beside, last)
+        last = rank(beside(problem, chosen), without(pool, chosen), last.known.space.noise)
+    noise, dropped = last.known.space.noise, list[Scored]()
+    current = _each_beside_others(problem, chosen, noise)
+    while unsound := [i for i, s in enumerate(current) if not sound(s)]:
+        worst = min(unsound, key=lambda i: current[i].evidence)
+        dropped.append(current[worst])
+        chosen.pop(worst)
+        noise = likeliest(beside(problem, chosen), noise)
+        current = _each_beside_others(problem, chosen, noise)
+    members = tuple(_member(problem, pool, chosen, i, current[i], noise) for i in range(len(chosen)))
+    return Selection(first, members, tuple(dropped), noise)
 
 
-def _again(
-    problem: Problem, pool: Sequence[Columns], chosen: Sequence[Scored], last: Ranked
-) -> tuple[tuple[Scored, ...], tuple[Ranked, ...]]:
-    """Each member beside all others; one that another candidate does better is swapped for it."""
-    current, beside = list(chosen), []
-    for i in range(len(current)):
-        others = [m for j, m in enumerate(current) if j != i]
-        here = problem
-        for other in others:
-            here = extended(here, other)
-        # in the noise beside all members: what is left once nothing is missing, which tells rivals apart
-        ranking = rank_in(here, without(pool, others), last.known.space.noise)
-        best = preferred(ranking.ranked)
-        own = next((s for s in ranking.ranked if s.columns is current[i].columns), None)
-        current[i] = own if own is not None and (best is None or not _clearly(best, own)) else best or current[i]
-        beside.append(ranking)
-    return tuple(current), tuple(beside)
+def beside(problem: Problem, chosen: Sequence[Scored]) -> Problem:
+    """The same with chosen effects among what is known."""
+    for one in chosen:
+        problem = extended(problem, one)
+    return problem
+
+
+def _each_beside_others(problem: Problem, chosen: Sequence[Scored], noise: Noise) -> list[Scored]:
+    """In the noise beside all: what is left once nothing is missing, which is what tells rivals apart."""
+    found = []
+    for one in chosen:
+        others = [c for c in chosen if c is not one]
+        found.append(rank_in(beside(problem, others), [one.columns], noise).ranked[0])
+    return found
+
+
+def _member(
+    problem: Problem, pool: Sequence[Columns], chosen: Sequence[Scored], number: int, own: Scored, noise: Noise
+) -> Member:
+    """One that another candidate does clearly better, beside the others, is swapped for it."""
+    others = [c for i, c in enumerate(chosen) if i != number]
+    ranking = rank_in(beside(problem, others), without(pool, others), noise)
+    best = preferred(ranking.ranked)
+    if best is not None and _clearly(best, own) and best.drop > own.drop:
+        return Member(chosen[number], best, ranking.ranked)
+    return Member(chosen[number], own, ranking.ranked)
 
 
 def _clearly(best: Scored, own: Scored) -> bool:
