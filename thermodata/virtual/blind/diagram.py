@@ -32,7 +32,7 @@ def diagram(found: Sequence[Reliability], title: str) -> str:
             f"{SORTS[one.of]}: {one.statements}, Brier {one.brier:.3f} (base rate {one.base_brier:.3f}), "
             f"calibration error {one.calibration_error:.3f}"
         )
-        parts.append(_text(LEFT, TOP + SIDE + BELOW - 22 + 14 * number, told, colour=colour))
+        parts.append(_text(16, TOP + SIDE + BELOW - 22 + 14 * number, told, colour=colour))
     return "\n".join([*parts, "</svg>", ""])
 
 
@@ -75,7 +75,9 @@ def _series(one: Reliability, colour: str, shift: float, most: int) -> list[str]
             f'<circle cx="{x:.1f}" cy="{_y(b.true):.1f}" r="4" fill="{colour}">'
             f"<title>{b.true:.0%} of {b.of} ({b.low:.0%}-{b.high:.0%}), stated {b.stated:.0%}</title></circle>",
             f'<rect x="{x - 3.5:.1f}" y="{floor - bar:.1f}" width="7" height="{bar:.1f}" fill="{colour}"/>',
-            _text(x, floor - bar - 3, str(b.of), anchor="middle", colour=MUTED, size=9),
+            _text(
+                x - shift / 2, floor - bar - 3, str(b.of), anchor="end" if shift < 0 else "start", colour=colour, size=9
+            ),
         ]
     return parts
 
