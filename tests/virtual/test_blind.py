@@ -13,7 +13,7 @@ from thermodata.cli import main
 from thermodata.errors import UsageError
 from thermodata.virtual.blind import run as running
 from thermodata.virtual.blind.goals import overall
-from thermodata.virtual.blind.rivals import RIVALS, STEP_S, Question, stepwise_bic
+from thermodata.virtual.blind.rivals import RIVALS, STEP_S, Question, _lasso, stepwise_bic
 from thermodata.virtual.blind.rules import fingerprint
 from thermodata.virtual.blind.seeds import seeds_of
 from thermodata.virtual.blind.tally import WITHOUT, rows, wilson
@@ -165,6 +165,22 @@ def question(noise: float) -> Question:
 @pytest.mark.parametrize("name", RIVALS)
 def test_each_simple_method_finds_the_channel_of_an_easy_question(name: str) -> None:
     assert RIVALS[name](question(0.01)) == "b"
+
+
+def test_the_path_of_lasso_meets_its_conditions() -> None:
+    """Pull on each column: the penalty where it has a weight, at most the penalty where it has none."""
+    q = question(0.3)
+    X, _ = q.lagged()
+    top = float(np.max(np.abs(X.T @ q.residual)))
+    path = top * np.array([1.01, 0.5, 0.1])
+    betas = _lasso(X, q.residual, path)
+    assert not betas[0].any()
+    for beta, penalty in zip(betas[1:], path[1:], strict=True):
+        pull = X.T @ (q.residual - X @ beta)
+        held = beta != 0
+        assert 0 < held.sum() < len(beta)
+        assert np.allclose(pull[held], penalty * np.sign(beta[held]), atol=0.01 * top)
+        assert np.all(np.abs(pull[~held]) <= penalty + 0.01 * top)
 
 
 def test_stepwise_bic_names_nothing_where_nothing_moves() -> None:

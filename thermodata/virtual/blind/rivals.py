@@ -154,15 +154,20 @@ def lasso_cv(q: Question) -> str | None:
 def _lasso(X: Float2D, y: Float1D, path: Float1D) -> Float2D:
     """Coordinate descent down a path of penalties, shape (penalties, columns)."""
     gram, toward = X.T @ X, X.T @ y
-    size = np.maximum(np.diag(gram), 1e-12)
+    size = np.maximum(np.diag(gram), 1e-12).tolist()
     beta = np.zeros(X.shape[1])
     out = []
-    for penalty in path:
+    for penalty in path.tolist():
+        # gram @ beta, kept up to date: most columns rest at zero, and cost a comparison
+        slope = toward - gram @ beta
         for _ in range(60):
             before = beta.copy()
-            for j in range(len(beta)):
-                pull = toward[j] - gram[j] @ beta + size[j] * beta[j]
-                beta[j] = np.sign(pull) * max(abs(pull) - penalty, 0.0) / size[j]
+            for j, (own, old) in enumerate(zip(size, before.tolist(), strict=True)):
+                pull = float(slope[j]) + own * old
+                new = max(pull - penalty, 0.0) + min(pull + penalty, 0.0)
+                if new or old:
+                    beta[j] = new / own
+                    slope -= gram[j] * (beta[j] - old)
             if np.max(np.abs(beta - before)) <= 1e-3 * max(float(np.max(np.abs(beta))), 1e-12):
                 break
         out.append(beta.copy())
