@@ -163,11 +163,17 @@ def _lasso(X: Float2D, y: Float1D, path: Float1D) -> Float2D:
         for _ in range(60):
             before = beta.copy()
             for j, (own, old) in enumerate(zip(size, before.tolist(), strict=True)):
-                pull = float(slope[j]) + own * old
-                new = max(pull - penalty, 0.0) + min(pull + penalty, 0.0)
-                if new or old:
-                    beta[j] = new / own
-                    slope -= gram[j] * (beta[j] - old)
+                pull = slope.item(j) + own * old
+                if pull > penalty:
+                    new = (pull - penalty) / own
+                elif pull < -penalty:
+                    new = (pull + penalty) / own
+                elif old:
+                    new = 0.0
+                else:
+                    continue
+                beta[j] = new
+                slope -= gram[j] * (new - old)
             if np.max(np.abs(beta - before)) <= 1e-3 * max(float(np.max(np.abs(beta))), 1e-12):
                 break
         out.append(beta.copy())

@@ -86,7 +86,11 @@ def one(stratum: str, seed: int, rivals: bool) -> Record:
     from threadpoolctl import threadpool_limits
 
     with threadpool_limits(1):
-        record: Record = json.loads(json.dumps(judge(stratum, seed, rivals=rivals).to_json()))
+        try:
+            trial = judge(stratum, seed, rivals=rivals)
+        except Exception as error:  # no machine may be left out of the count, so the run ends, and says where
+            raise RuntimeError(f"the trial of stratum {stratum}, seed {seed} failed: {error}") from error
+    record: Record = json.loads(json.dumps(trial.to_json()))
     return record
 
 
