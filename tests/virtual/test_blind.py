@@ -136,10 +136,11 @@ def test_the_few_figures_that_a_rule_is_judged_by() -> None:
         {**SILENT, "stratum": "none_full", "verdict": "refine"},
         {**BLANK, "stratum": "sensor_fault", "broken": "C13", "broken_claimed": True},
     ]
-    found = {r["question"].strip(): r["value"] for r in overall(trials)}
+    found = {r["question"]: r["value"] for r in overall(trials)}
+    first = "one strong, logged: ranked first"
     assert (found["one strong, logged: named right"]["hits"], found["one strong, logged: named right"]["of"]) == (1, 2)
     assert found["one strong, logged: named wrong"]["hits"] == 1
-    assert (found["one strong, logged: ranked first"]["hits"], found["LASSO-CV"]["hits"]) == (1, 2)
+    assert (found[first]["hits"], found[f"{first} by LASSO-CV"]["hits"]) == (1, 2)
     assert (found["two hidden: all found"]["hits"], found["two hidden: all found"]["of"]) == (0, 1)
     assert found["nothing hidden: none or refine"]["hits"] == 1
     assert found["a broken channel is claimed"]["hits"] == 1
@@ -217,6 +218,15 @@ def test_a_run_goes_on_where_its_file_ends(tmp_path: Path, monkeypatch: pytest.M
     out.write_text("something else\n", encoding="utf-8")
     with pytest.raises(UsageError, match="not a trial"):
         running.run(("strong",), range(2), out=out)
+
+
+def test_a_trial_that_fails_ends_the_run_and_says_where(monkeypatch: pytest.MonkeyPatch) -> None:
+    def judge(stratum: str, seed: int, *, rivals: bool) -> object:
+        raise ValueError("no such thing")
+
+    monkeypatch.setattr(running, "judge", judge)
+    with pytest.raises(RuntimeError, match="stratum two, seed 71 failed: no such thing"):
+        running.run(("two",), [71])
 
 
 def test_the_command_says_which_seeds_it_used_and_refuses_to_mix(

@@ -21,7 +21,7 @@ def overall(trials: Trials) -> list[Row]:
     able, one = [t for t in trials if asked(t)], [t for t in trials if asked(t) and len(t["hidden"]) == 1]
     tried = [t for t in strong if t["rivals"]]
     first = [_count("one strong, logged: ranked first", strong, _leads, ">= 97 %")]
-    first += [_count(f"  {m}", tried, partial(_rival_leads, m), "") for m in RIVALS]
+    first += [_count(f"one strong, logged: ranked first by {m}", tried, partial(_rival_leads, m), "") for m in RIVALS]
     found = [
         _count("one strong, logged: named right", strong, _named, ">= 90 %"),
         _count("one strong, logged: named wrong", strong, lambda t: t["outcome"] == "wrong", "<= 2 %"),
