@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from thermodata.calibration.tread import tread_of
-from thermodata.diagnosis.commanded import HOLE_STEPS, Commands, over_three
+from thermodata.diagnosis.commanded import Commands, over_three
 from thermodata.diagnosis.problem import Block, Problem
 from thermodata.plugin import Float1D
 from thermodata.schema.result import Artefact
@@ -102,11 +102,8 @@ def _step_score(r: Float1D, t: Float1D, side: int) -> tuple[Float1D, Float1D]:
     # a step happens between two samples; a steep rise takes several
     jump = np.abs(np.diff(r, prepend=r[0]))
     sharp = jump > SHARP * np.abs(size)
-    near_by = over_three(r, t) * np.sign(size)
-    sharp &= ~(near_by < WITHIN * np.abs(size))  # at a hole nobody can say
     # over a hole the machine had time to move: what nobody saw is not called a slip
-    step = np.median(np.diff(t))
-    sharp &= np.diff(t, prepend=t[0] - step) < HOLE_STEPS * step
+    sharp &= over_three(r, t) * np.sign(size) >= WITHIN * np.abs(size)
     scale = 1.4826 * float(np.median(np.abs(smaller - np.median(smaller)))) + 1e-9
     return np.where(sharp, np.abs(size) / scale, 0.0), size
 

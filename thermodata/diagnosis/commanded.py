@@ -42,6 +42,7 @@ class Commands:
     def __init__(self, problem: Problem) -> None:
         self._step_s = problem.step_s
         self._jumps = [over_three(b.residual, b.t_s) for b in problem.blocks]
+        self._moves = [over_three(b.response, b.t_s) for b in problem.blocks]
         names = sorted({n for b in problem.blocks for n, c in b.test.channels.items() if c.quantity in COMMANDS})
         self._commands = [_courses(problem.blocks, n) for n in names]
 
@@ -56,14 +57,14 @@ class Commands:
         near = own.rows[np.abs(own.rows - i) <= int(COMMAND_S / self._step_s) + 1]
         for row in near.tolist():
             for power in POWERS:
-                x, y = self._elsewhere(command, block, i, i - row, power)
+                x, y = self._elsewhere(command, self._jumps, block, i, i - row, power)
                 if tells(jump, float(own.change[power][row]), x, y, at_once=abs(i - row) <= 1):
                     return True
-        # what a command did while nobody logged it, nobody knows: at most its largest change
+        # what a command did while nobody logged it, neither the model knows nor we: at most its largest change
         return bool(own.hole[i]) and any(self._might(command, block, i, power) for power in POWERS)
 
     def _might(self, command: Sequence[_Course | None], block: int, i: int, power: int) -> bool:
-        x, y = self._elsewhere(command, block, i, 0, power)
+        x, y = self._elsewhere(command, self._moves, block, i, 0, power)
         if not len(x):
             return False
         slope, alike = through_zero(x, y)
@@ -71,17 +72,17 @@ class Commands:
         return alike >= ALIKE and most >= FORETOLD * abs(float(self._jumps[block][i]))
 
     def _elsewhere(
-        self, command: Sequence[_Course | None], block: int, i: int, lag: int, power: int
+        self, command: Sequence[_Course | None], jumps: Sequence[Float1D], block: int, i: int, lag: int, power: int
     ) -> tuple[Float1D, Float1D]:
-        """Changes of the command elsewhere, and of the residual as many samples after each: shape (k,) both."""
+        """Changes of the command elsewhere, and the jumps so many samples after each: shape (k,) both."""
         x, y = [np.empty(0)], [np.empty(0)]
         for k, course in enumerate(command):
             if course is None:
                 continue
-            rows = course.rows[(course.rows + lag >= 0) & (course.rows + lag < len(self._jumps[k]))]
+            rows = course.rows[(course.rows + lag >= 0) & (course.rows + lag < len(jumps[k]))]
             if k == block:
                 rows = rows[np.abs(rows + lag - i) > int(ELSEWHERE_S / self._step_s)]
-            there = self._jumps[k][rows + lag]
+            there = jumps[k][rows + lag]
             x.append(course.change[power][rows][np.isfinite(there)])
             y.append(there[np.isfinite(there)])
         return np.concatenate(x), np.concatenate(y)
