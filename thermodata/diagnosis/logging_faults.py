@@ -20,6 +20,8 @@ SIGN_DROP = 0.5  # turning a test must take away this share of the squared error
 GAIN_DROP = (
     0.9  # a factor must take away nearly all of a test's error: a missing effect also makes a test larger or smaller
 )
+LEAST_FIT = -1e9  # [%] of the model with the fault mended
+LEAST_TESTS = 4  # of fewer nobody can say which one is wrong
 NOISES = 5.0  # a test with a smaller error than this many times the noise has no wrong gain
 
 
@@ -81,42 +83,94 @@ def _shifted(test: TestData, shift_s: Mapping[str, float]) -> TestData:
 def turned_probes(problem: Problem) -> list[Artefact]:
     """Tests whose response goes against, or by another factor than, what the model and the other tests say.
 
-    Asked by turning one test at a time and refitting all: a joint fit to a turned test is wrong for every test.
+    Asked by mending one test at a time and refitting all: a joint fit to a turned test is wrong for every test. For
+    the same reason what explains most is mended before anything else is asked, and a sound test is not blamed for it.
     """
     blocks = problem.blocks
-    if len({b.test.key for b in blocks}) < 4:
+    if len({b.test.key for b in blocks}) < LEAST_TESTS:
         return []
-    gram = np.stack([b.base.T @ b.base for b in blocks])
-    cross = np.stack([b.base.T @ b.response for b in blocks])
-    energy = float(sum(np.sum(b.response**2) for b in blocks))
-    artefacts = []
-    as_it_is = energy - _explained(gram.sum(axis=0), cross.sum(axis=0))
-    for i, block in enumerate(blocks):
-        turned = energy - _explained(gram.sum(axis=0), cross.sum(axis=0) - 2 * cross[i])
-        others = [k for k in range(len(blocks)) if k != i]
-        theta = np.linalg.lstsq(gram[others].sum(axis=0), cross[others].sum(axis=0), rcond=1e-9)[0]
-        factor, before, after = _factor(block.response, block.base @ theta)
-        if sign_is_wrong(as_it_is, turned):
-            artefacts.append(
-                _fault(
-                    "sign",
-                    block,
-                    before,
-                    "turned round, this test fits the same model as the others: its "
-                    "sign is wrong; check the probe's side and its calibration",
-                )
-            )
-        elif gain_is_wrong(factor, before, after, float(np.sqrt(before / len(block.response))), problem.noise):
-            artefacts.append(
-                _fault(
-                    "gain",
-                    block,
-                    before,
-                    f"the displacement is {factor:.2f} times what the other tests "
-                    "predict: check the probe's gain in this test, or whether the machine was another",
-                )
-            )
-    return artefacts
+    tests = _Tests(blocks)
+    found: dict[int, Artefact] = {}
+    while (worst := _worst(tests, problem, set(found))) is not None:
+        i, factor, squared = worst
+        found[i] = _wrong_factor(blocks[i], factor, squared)
+        tests.mend(i, factor)
+    return [found[i] for i in sorted(found)]
+
+
+class _Tests:
+    """The model's columns and the response of each test, from which factors are taken away."""
+
+    def __init__(self, blocks: Sequence[Block]) -> None:
+        self.gram = np.stack([b.base.T @ b.base for b in blocks])
+        self.cross = np.stack([b.base.T @ b.response for b in blocks])
+        self.energy = np.array([float(b.response @ b.response) for b in blocks])
+        self.rows = np.array([len(b.response) for b in blocks])
+
+    def mend(self, i: int, factor: float) -> None:
+        self.cross[i] /= factor
+        self.energy[i] /= factor**2
+
+    def error(self, i: int = 0, factor: float = 1.0) -> tuple[float, float]:
+        """(squared error of all tests refitted, their FIT in per cent), test i divided by a factor."""
+        scale = np.where(np.arange(len(self.energy)) == i, 1 / factor, 1.0)
+        cross, energy = (scale[:, None] * self.cross).sum(axis=0), float(scale**2 @ self.energy)
+        left = energy - float(cross @ np.linalg.lstsq(self.gram.sum(axis=0), cross, rcond=1e-9)[0])
+        return left, fit_percent(left, energy)
+
+    def by_the_others(self, i: int) -> tuple[float, float, float]:
+        """(g, squared error at 1, at g) of test i = g times what a model of the others says."""
+        others = np.arange(len(self.energy)) != i
+        theta = np.linalg.lstsq(self.gram[others].sum(axis=0), self.cross[others].sum(axis=0), rcond=1e-9)[0]
+        along, power = float(theta @ self.cross[i]), float(theta @ self.gram[i] @ theta)
+        factor = along / power if power > 0 else 1.0
+        before = float(self.energy[i]) - 2 * along + power
+        return factor, before, float(self.energy[i]) - 2 * factor * along + factor**2 * power
+
+
+def fit_percent(left: float, energy: float) -> float:
+    """FIT by squared errors: (1 - error / spread) x 100."""
+    return (1 - float(np.sqrt(max(left, 0.0) / energy))) * 100 if energy > 0 else 0.0
+
+
+def _worst(tests: _Tests, problem: Problem, mended: set[int]) -> tuple[int, float, float] | None:
+    """(test, its factor, its squared error) of the wrong factor that explains most, where one is wrong."""
+    as_it_is, _ = tests.error()
+    best, least = None, as_it_is
+    for i in range(len(problem.blocks)):
+        if i in mended:
+            continue
+        factor, before, after = tests.by_the_others(i)
+        turned, fit_turned = tests.error(i, -1.0)
+        if sign_is_wrong(as_it_is, turned) and fit_turned >= LEAST_FIT:
+            factor, left = -1.0, turned
+        elif gain_is_wrong(factor, before, after, float(np.sqrt(max(before, 0.0) / tests.rows[i])), problem.noise):
+            left, fit = tests.error(i, factor)
+            if fit < LEAST_FIT:
+                continue
+        else:
+            continue
+        if left < least:
+            best, least = (i, factor, before), left
+    return best
+
+
+def _wrong_factor(block: Block, factor: float, squared: float) -> Artefact:
+    if factor < 0:
+        return _fault(
+            "sign",
+            block,
+            squared,
+            "turned round, this test fits the same model as the others: its sign is wrong; check the probe's side and "
+            "its calibration",
+        )
+    return _fault(
+        "gain",
+        block,
+        squared,
+        f"the displacement is {factor:.2f} times what the other tests predict: check the probe's gain in this test, "
+        "or whether the machine was another",
+    )
 
 
 def sign_is_wrong(as_it_is: float, turned: float) -> bool:
@@ -127,17 +181,6 @@ def sign_is_wrong(as_it_is: float, turned: float) -> bool:
 def gain_is_wrong(factor: float, before: float, after: float, rms: float, noise: float) -> bool:
     """before, after: squared error of a test without and with the factor. rms: of the test without it."""
     return factor > 0 and abs(factor - 1) > GAIN_OFF and after < (1 - GAIN_DROP) * before and rms > NOISES * noise
-
-
-def _explained(gram: Float2D, cross: Float1D) -> float:
-    return float(cross @ np.linalg.lstsq(gram, cross, rcond=1e-9)[0])
-
-
-def _factor(response: Float1D, predicted: Float1D) -> tuple[float, float, float]:
-    """(g, squared error at g = 1, squared error at g) of response = g * predicted."""
-    power = float(predicted @ predicted)
-    factor = float(response @ predicted) / power if power > 0 else 1.0
-    return factor, float(np.sum((response - predicted) ** 2)), float(np.sum((response - factor * predicted) ** 2))
 
 
 def _fault(kind: str, block: Block, squared: float, why: str) -> Artefact:
