@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
@@ -45,7 +46,7 @@ def find_steps(problem: Problem) -> list[Step]:
     tread = tread_of_response(problem)
     steps = []
     for k, block in enumerate(problem.blocks):
-        steps += _steps_in(block, problem, tread, lambda i, k=k: commands.explain(k, i))
+        steps += _steps_in(block, problem, tread, partial(commands.explain, k))
     return sorted(steps, key=lambda s: -s.z)
 
 

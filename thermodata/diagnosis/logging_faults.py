@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from thermodata.diagnosis.problem import Block, Problem
-from thermodata.plugin import Float1D, Float2D
+from thermodata.plugin import Float2D
 from thermodata.schema.result import Artefact
 from thermodata.view.dataset import TestData
 
@@ -16,7 +16,7 @@ SHIFTS_S = (-900.0, -600.0, -450.0, -300.0, -180.0, -120.0, 120.0, 180.0, 300.0,
 MISFIT_TIMES = 3.0  # a fit that leaves this many times what a refit leaves has wrong parameters
 CLOCK_DROP = 0.4  # fall of the squared error that makes a shift worth a name
 GAIN_OFF = 0.15  # a factor further from 1 than this: the gain is wrong
-SIGN_DROP = 0.5  # turning a test must take away this share of the squared error of all
+ALL_DROP = 0.5  # mending a test must take away this share of the squared error of all
 GAIN_DROP = (
     0.9  # a factor must take away nearly all of a test's error: a missing effect also makes a test larger or smaller
 )
@@ -33,10 +33,11 @@ def clock_offsets(problem: Problem, base: Callable[[TestData], Float2D], sources
     """
     artefacts = []
     now = _error(problem, base, {})
+    energy = float(sum(b.response @ b.response for b in problem.blocks))
     for source in sorted(set(sources.values())):
         names = {c for c, s in sources.items() if s == source}
         errors = {d: _error(problem, base, dict.fromkeys(names, d)) for d in SHIFTS_S}
-        best = shift_that_explains(now, errors)
+        best = shift_that_explains(now, errors, energy)
         if best is not None:
             rms = [float(np.sqrt(e / max(problem.rows, 1))) for e in (now, errors[best])]
             artefacts.append(
@@ -54,10 +55,18 @@ def clock_offsets(problem: Problem, base: Callable[[TestData], Float2D], sources
     return artefacts
 
 
-def shift_that_explains(now: float, errors: Mapping[float, float]) -> float | None:
-    """The shift [s] with the smallest squared error, where that says that the clock is off. now: the error unmoved."""
+def shift_that_explains(now: float, errors: Mapping[float, float], energy: float) -> float | None:
+    """The shift [s] with the smallest squared error, where that says that the clock is off.
+
+    now: the squared error unmoved. energy: the squared response, by which a model is judged that explains nothing.
+    """
     best = min(errors, key=lambda d: errors[d])
-    return best if errors[best] < (1 - CLOCK_DROP) * now and abs(best) < max(SHIFTS_S) else None
+    inside = abs(best) < max(SHIFTS_S)
+    return (
+        best
+        if inside and errors[best] < (1 - CLOCK_DROP) * now and fit_percent(errors[best], energy) >= LEAST_FIT
+        else None
+    )
 
 
 def _error(problem: Problem, base: Callable[[TestData], Float2D], shift_s: Mapping[str, float]) -> float:
@@ -136,22 +145,15 @@ def fit_percent(left: float, energy: float) -> float:
 def _worst(tests: _Tests, problem: Problem, mended: set[int]) -> tuple[int, float, float] | None:
     """(test, its factor, its squared error) of the wrong factor that explains most, where one is wrong."""
     as_it_is, _ = tests.error()
-    best, least = None, as_it_is
-    for i in range(len(problem.blocks)):
-        if i in mended:
-            continue
+    best, least = None, np.inf
+    for i in sorted(set(range(len(problem.blocks))) - mended):
         factor, before, after = tests.by_the_others(i)
-        turned, fit_turned = tests.error(i, -1.0)
-        if sign_is_wrong(as_it_is, turned) and fit_turned >= LEAST_FIT:
-            factor, left = -1.0, turned
-        elif gain_is_wrong(factor, before, after, float(np.sqrt(max(before, 0.0) / tests.rows[i])), problem.noise):
-            left, fit = tests.error(i, factor)
-            if fit < LEAST_FIT:
-                continue
-        else:
-            continue
-        if left < least:
-            best, least = (i, factor, before), left
+        rms = float(np.sqrt(max(before, 0.0) / tests.rows[i]))
+        tried = [-1.0, factor] if gain_is_wrong(factor, before, after, rms, problem.noise) else [-1.0]
+        for one in tried:
+            left, fit = tests.error(i, one)
+            if a_fault_explains(as_it_is, left, fit) and left < least:
+                best, least = (i, one, before), left
     return best
 
 
@@ -173,9 +175,9 @@ def _wrong_factor(block: Block, factor: float, squared: float) -> Artefact:
     )
 
 
-def sign_is_wrong(as_it_is: float, turned: float) -> bool:
-    """Squared errors of all tests: as they are, and with one of them turned round."""
-    return turned < (1 - SIGN_DROP) * as_it_is
+def a_fault_explains(as_it_is: float, mended: float, fit: float) -> bool:
+    """Squared errors of all tests: as they are, and with one test mended; fit [%]: of the model then."""
+    return mended < (1 - ALL_DROP) * as_it_is and fit >= LEAST_FIT
 
 
 def gain_is_wrong(factor: float, before: float, after: float, rms: float, noise: float) -> bool:
