@@ -8,6 +8,7 @@ from quality_data import N, clock, kinds, noisy, run
 
 from thermodata.calibration.quality import ColumnInput, flag_stream
 from thermodata.calibration.quality_concise import concise
+from thermodata.plugin import Float1D
 from thermodata.schema.flag import Flag
 
 
@@ -188,8 +189,10 @@ def test_a_sensor_that_fails_after_a_real_step_is_flagged_from_its_failure_on() 
 
 @pytest.mark.parametrize(
     ("at", "flagged"),
-    [("tool", False), ("tcp", False), ("Probe", False), ("stator", False), ("tool.tip", False)]
-    + [("toolchanger", True), ("spindle.bearing.front", True), ("workpiece", True), (None, True)],
+    [
+        *(("tool", False), ("tcp", False), ("Probe", False), ("stator", False), ("tool.tip", False)),
+        *(("toolchanger", True), ("spindle.bearing.front", True), ("workpiece", True), (None, True)),
+    ],
 )
 def test_at_the_tool_a_jump_is_no_fault(at: str | None, flagged: bool) -> None:
     """A tool change does it."""

@@ -10,7 +10,7 @@ from thermodata.diagnosis.commanded import over_three, tells, through_zero
 from thermodata.plugin import Float1D
 from thermodata.view.dataset import ChannelInfo
 
-from .hand_made import Parts, a_test, problem
+from .hand_made import Parts, problem
 
 SIDE = 20  # samples of 60 s in 1200 s
 
@@ -85,7 +85,9 @@ def test_what_happens_in_a_hole_is_no_step(gap: float, found: bool) -> None:
     assert bool(score[100] > 9) is found
 
 
-def jumps_of(*levels: float, at: int = 100, of: float = 0.0, lag: int = 0, noise: float = 0.05) -> tuple[Float1D, Float1D]:
+def jumps_of(
+    *levels: float, at: int = 100, of: float = 0.0, lag: int = 0, noise: float = 0.05
+) -> tuple[Float1D, Float1D]:
     """A test of 400 samples: (residual, command). The command takes the levels every 40 samples from `at` on, and the
     residual follows with `of` times as much, `lag` samples later."""
     t = np.arange(400)

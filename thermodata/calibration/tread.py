@@ -9,12 +9,13 @@ import numpy as np
 from thermodata.plugin import Float1D
 
 MOST_ROWS = 20_000  # of a stretch: its middle tells as much
+PART = 500  # samples with a zero of their own, so that a slip of the probe costs one part only
 SAME = 1e-9  # of the range: means of equal readings differ in their last bits
 LEAST_STANDING = 20  # samples, or there is nothing to say
 LEAST_LEVELS = 3  # of a staircase: two levels are a switch
 MOST_RISES = 12  # that a spacing is sought among, the commonest ones
 OFF = 0.05  # of a tread: a value so near to a multiple is on it, by chance one of ten
-ON_TREAD = 0.5  # least share of the standing samples that are on it: slips move the others
+ON_TREAD = 0.5  # least share of the standing samples that are on it
 FINER = 0.1  # more than chance: a finer spacing that holds so many more is the tread
 NEAR, FAR = 10, 1000  # treads from the commonest level that the spacing is fitted over, first and then
 
@@ -23,11 +24,10 @@ def tread_of(stretches: Sequence[Float1D]) -> float:
     """The largest common spacing of the values at which a reading stands still, in its unit; 0 where there is none.
 
     stretches: of one channel, each of shape (n,) and with a zero of its own (a test); raw readings, or means over bins:
-    a bin that a riser falls into lies between two treads, but the next one seldom reads the same. A slip of the probe
-    within a stretch costs that stretch's smaller part. A reading whose noise is finer or far coarser than its last
+    a bin that a riser falls into lies between two treads, but the next one seldom reads the same. A reading whose noise is finer or far coarser than its last
     digit stands still by chance only; where it never does its tread is 0, else the last digit.
     """
-    standing = [s for x in stretches if len(s := _standing(x))]
+    standing = [s for x in stretches for part in _parts(x) if len(s := _standing(part))]
     if sum(map(len, standing)) < LEAST_STANDING:
         return 0.0
     zeroed = np.concatenate([s - _commonest(s) for s in standing])
@@ -43,11 +43,15 @@ def tread_of(stretches: Sequence[Float1D]) -> float:
     return best if held >= ON_TREAD and len(np.unique(k)) >= LEAST_LEVELS else 0.0
 
 
-def _standing(x: Float1D) -> Float1D:
-    """The samples that equal the one before."""
+def _parts(x: Float1D) -> list[Float1D]:
     x = x[np.isfinite(x)]
     start = max(0, (len(x) - MOST_ROWS) // 2)
     x = x[start : start + MOST_ROWS]
+    return np.array_split(x, max(1, len(x) // PART))
+
+
+def _standing(x: Float1D) -> Float1D:
+    """The samples that equal the one before."""
     return x[1:][np.abs(np.diff(x)) <= SAME * np.ptp(x)] if len(x) > 1 else x[:0]
 
 

@@ -20,7 +20,7 @@ ALL_DROP = 0.5  # mending a test must take away this share of the squared error 
 GAIN_DROP = (
     0.9  # a factor must take away nearly all of a test's error: a missing effect also makes a test larger or smaller
 )
-LEAST_FIT = -1e9  # [%] of the model with the fault mended
+LEAST_FIT = 60.0  # [%] of the model with the fault mended: what a poor model says of a log is worse than silence
 LEAST_TESTS = 4  # of fewer nobody can say which one is wrong
 NOISES = 5.0  # a test with a smaller error than this many times the noise has no wrong gain
 
