@@ -166,8 +166,10 @@ TENS = np.array([1.0, -1.0] * 10)
 
 @pytest.mark.parametrize(
     ("foretold", "alike", "explained"),
-    [(1.0, 1.0, True), (0.21, 1.0, True), (0.19, 1.0, False), (4.9, 1.0, True), (5.1, 1.0, False)]
-    + [(1.0, 0.16, True), (1.0, 0.14, False), (-1.0, 1.0, False)],
+    [
+        *((1.0, 1.0, True), (0.21, 1.0, True), (0.19, 1.0, False), (4.9, 1.0, True), (5.1, 1.0, False)),
+        *((1.0, 0.16, True), (1.0, 0.14, False), (-1.0, 1.0, False)),
+    ],
 )
 def test_the_others_must_foretell_a_fifth_of_the_step_and_agree(foretold: float, alike: float, explained: bool) -> None:
     """A fifth to five times; a line through zero takes away 0.15 of their squares at least."""
