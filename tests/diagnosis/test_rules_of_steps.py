@@ -18,8 +18,8 @@ SIDE = 20  # samples of 60 s in 1200 s
 @pytest.mark.parametrize(
     ("z", "size", "noise", "step"),
     [
-        (9.01, 5.0, 0.1, True),
-        (8.99, 5.0, 0.1, False),
+        (12.01, 5.0, 0.1, True),
+        (11.99, 5.0, 0.1, False),
         (20.0, 0.301, 0.1, False),
         (20.0, 0.501, 0.1, True),
         (20.0, -0.501, 0.1, True),
@@ -28,7 +28,7 @@ SIDE = 20  # samples of 60 s in 1200 s
         (20.0, 2.99, 1.0, False),
     ],
 )
-def test_a_step_is_nine_times_the_usual_change_three_noises_and_half_a_um(
+def test_a_step_is_twelve_times_the_usual_change_three_noises_and_half_a_um(
     z: float, size: float, noise: float, step: bool
 ) -> None:
     assert is_a_step(z, size, noise) is step
@@ -67,7 +67,7 @@ def test_a_rise_over_several_samples_is_no_step(shares: tuple[float, ...], sharp
     """At least 0.4 of its size, as the means of both sides see it, happens between two samples."""
     r = sum(5.0 * share * (np.arange(300) >= 100 + k) for k, share in enumerate(shares)) + rough(300)
     score, _ = _step_score(np.asarray(r), np.arange(300) * 60.0, SIDE)
-    assert bool(score.max() > 9) is sharp
+    assert bool(score.max() > 12) is sharp
 
 
 def test_a_slope_and_a_bend_are_no_step() -> None:
@@ -82,7 +82,7 @@ def test_what_happens_in_a_hole_is_no_step(gap: float, found: bool) -> None:
     t = np.arange(300) * 60.0
     t[100:] += (gap - 1.0) * 60.0
     score, _ = _step_score(stepped(100), t, SIDE)
-    assert bool(score[100] > 9) is found
+    assert bool(score[100] > 12) is found
 
 
 def jumps_of(
@@ -214,7 +214,7 @@ def test_four_fifths_of_a_step_happen_within_three_intervals(last: float, step: 
     r = rough(300) * 0.02 + 5.0 * ((1 - last) * (np.arange(300) >= 100) + last * (np.arange(300) >= 103))
     score, size = _step_score(np.asarray(r), np.arange(300) * 60.0, SIDE)
     assert size[100] == pytest.approx(5.0 * (1 - last / 2), abs=0.1)
-    assert bool(score[98:103].max() > 9) is step
+    assert bool(score[98:103].max() > 12) is step
 
 
 @pytest.mark.parametrize(("size", "step"), [(2.51, True), (2.49, False), (-2.51, True)])

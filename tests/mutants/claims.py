@@ -192,7 +192,7 @@ MUTANTS = [
     diagnosis("logging_faults.py", "NOISES = 5.0", "NOISES = 0.0", "noise passes as a wrong gain"),
     diagnosis("logging_faults.py", "MISFIT_TIMES = 3.0", "MISFIT_TIMES = 1.0", "sound parameters are suspected"),
     diagnosis("logging_faults.py", "LEAST_TESTS = 4", "LEAST_TESTS = 2", "the wrong one of three is turned"),
-    diagnosis("artefact.py", "Z_LIMIT = 9.0", "Z_LIMIT = 3.0", "noise is a slip"),
+    diagnosis("artefact.py", "Z_LIMIT = 12.0", "Z_LIMIT = 3.0", "noise is a slip"),
     diagnosis("artefact.py", "tread + max(", "0 * tread + max(", "treads are slips"),
     diagnosis("artefact.py", "WITHIN = 0.8", "WITHIN = 0.5", "what takes minutes is a slip"),
     diagnosis("artefact.py", "SHARP = 0.4", "SHARP = 0.0", "steep rises are slips"),

@@ -24,7 +24,7 @@ def tread_of(stretches: Sequence[Float1D]) -> float:
     """The largest common spacing of the values at which a reading stands still, in its unit; 0 where there is none.
 
     stretches: of one channel, each of shape (n,) and with a zero of its own (a test); raw readings, or means over bins:
-    a bin that a riser falls into lies between two treads, but the next one seldom reads the same. A reading that is finer
+    a bin that a riser falls into lies between two treads, but the next one seldom reads the same. A reading finer
     than its noise stands by chance only: its tread is its last digit, or 0 where it never stands.
     """
     standing = [s for x in stretches for part in _parts(x) if len(s := _standing(part))]

@@ -20,7 +20,7 @@ from thermodata.schema.result import Artefact
 from thermodata.view.dataset import TestData
 
 SIDE_S = 1200.0
-Z_LIMIT = 9.0
+Z_LIMIT = 12.0
 MOST_STEPS = 3
 NOISES = 3.0  # a step is larger than this many times the noise,
 LEAST_UM = 0.5  # and than this
