@@ -129,9 +129,8 @@ def test_a_command_that_makes_no_step_elsewhere_explains_none() -> None:
 
 
 def test_a_shift_that_goes_with_the_square_of_the_speed_is_explained() -> None:
-    """Centrifugal force: from half to whole speed, three times as much as from rest to half."""
-    levels = [(0.0, 0.5, 0.0), (0.5, 1.0, 0.5), (0.0, 1.0, 0.0)]
-    speeds = [jumps_of(*some) for some in levels]
+    """Centrifugal force: the same in both directions, and four times as much at twice the speed."""
+    speeds = [jumps_of(*some) for some in [(1.0, 0.0, -1.0), (-1.0, 0.0, 0.5), (0.5, 1.0, 0.0), (-0.5, 0.0, -1.0)]]
     assert in_tests(*((r + 8.0 * u**2, u) for r, u in speeds)) == []
 
 

@@ -179,7 +179,9 @@ MUTANTS = [
     ),
     # ---- faults of the logs
     diagnosis("logging_faults.py", "CLOCK_DROP = 0.4", "CLOCK_DROP = 0.05", "sound clocks are suspected"),
-    diagnosis("logging_faults.py", " and abs(best) < max(SHIFTS_S)", "", "slow effects pass as clocks"),
+    diagnosis(
+        "logging_faults.py", "inside = abs(best) < max(SHIFTS_S)", "inside = True", "slow effects pass as clocks"
+    ),
     diagnosis("logging_faults.py", "ALL_DROP = 0.5", "ALL_DROP = 0.05", "sound probes are turned"),
     diagnosis("logging_faults.py", "LEAST_FIT = 60.0", "LEAST_FIT = 0.0", "a poor model speaks of the logs"),
     diagnosis(
