@@ -181,7 +181,7 @@ def test_parameters_are_wrong_where_a_refit_leaves_a_third(
 )
 def test_a_wrong_gain_is_said_only_with_the_verdict_none(verdict: str, kinds: list[str]) -> None:
     faults = [artefact("gain"), artefact("sign")]
-    judgement = Judgement(verdict, None, "")  # type: ignore[arg-type]
+    judgement = Judgement(verdict, (), (), (), "")  # type: ignore[arg-type]
     assert [a.kind for a in gains_are_wrong_only_where_nothing_is_missing(faults, judgement)] == kinds
 
 
