@@ -2,24 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 from thermodata.diagnosis import next_test
 from thermodata.diagnosis.confirm import Confirmation, confirm, on_all_open
-from thermodata.diagnosis.investigate import Investigation, investigate
+from thermodata.diagnosis.investigate import BorneOut, Investigation, investigate
 from thermodata.diagnosis.judge import (
     Judged,
     Judgement,
-    Verdict,
     blunt,
     equivalents,
     explained,
     failed_rules,
     remaining,
 )
+from thermodata.diagnosis.locked import Foretold
 from thermodata.diagnosis.null import p_value
 from thermodata.diagnosis.problem import Problem
 from thermodata.diagnosis.scored import Scored
@@ -32,7 +32,6 @@ from thermodata.view.dataset import Dataset, TestData
 
 SHOWN = 15
 TWINS_TRIED = 4
-Asked = Callable[[Sequence[Judged]], Confirmation]
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,40 +49,40 @@ def answer(fitted: FittedModel, data: Dataset, library: Mapping[str, Effect], mo
     # the choice takes part in all open tests: gains that only a verification test excites must not be guesses
     open_spec = on_all_open(fitted.spec, usable, fitted.tests(data, "locked"))
     refitted = fit_model(open_spec, data, uncertainty=False) if usable else fitted
-    investigation = investigate(refitted.responses[index], data, usable, library, seed, as_fitted=response)
+    locked = [t for t in fitted.tests(data, "locked") if response.can_predict(t)]
+    investigation = investigate(
+        refitted.responses[index], data, usable, library, seed, as_fitted=response, locked=locked
+    )
     judgement, confirmation = investigation.judgement, None
-    locked: list[TestData] = []
-    if judgement.claims:
-        locked = [t for t in fitted.tests(data, "locked") if response.can_predict(t)]
-
-        def ask(claims: Sequence[Judged]) -> Confirmation:
-            chosen = [c.scored.candidate for c in claims]
-            return confirm(fitted.spec, index, data, chosen, usable, locked, refitted)
-
-        judgement, confirmation = kept_where_they_hold(judgement, ask, response.unit)
+    if not judgement.claims:
+        locked = []
+    else:
+        judgement = kept_where_they_hold(judgement, investigation.borne_out, response.unit)
+        asked = judgement.claims or investigation.judgement.claims
+        chosen = [c.scored.candidate for c in asked]
+        confirmation = confirm(fitted.spec, index, data, chosen, usable, locked, refitted)
     return Answer(_diagnosis(investigation, judgement, confirmation, data, model_id), tuple(locked))
 
 
-def kept_where_they_hold(judgement: Judgement, ask: Asked, unit: str) -> tuple[Judgement, Confirmation]:
+def kept_where_they_hold(judgement: Judgement, ask: BorneOut, unit: str) -> Judgement:
     """The claims that hold on the locked tests together, else with a twin in the place of the largest, else without
     the smallest; "unknown" where none does. unit: of the response."""
     claims = judgement.claims
-    first: Confirmation | None = None
+    first: Foretold | None = None
     while claims:
         for tried in (claims, *_with_twins(claims)):
-            confirmation = ask(tried)
-            first = first or confirmation
-            if confirmation.holds:
-                return replace(judgement, claims=tried), confirmation
+            found = ask(tried)
+            if found is None or found.holds:
+                return replace(judgement, claims=tried)
+            first = first or found
         claims = claims[:-1]
     assert first is not None
     name = judgement.claims[0].scored.candidate.id
-    verdict: Verdict = "refine" if judgement.refinements else "unknown"
     reason = (
         f"{name} explains the open tests, but on the locked ones the error does not fall by half of what it adds "
-        f"({first.before or 0:.2f} -> {first.after or 0:.2f} {unit})"
+        f"({first.before:.2f} -> {first.after:.2f} {unit})"
     )
-    return replace(judgement, verdict=verdict, claims=(), reason=reason), first
+    return replace(judgement, verdict="unknown", claims=(), reason=reason)
 
 
 def _with_twins(claims: Sequence[Judged]) -> list[tuple[Judged, ...]]:

@@ -17,9 +17,9 @@ from thermodata.plugin import Drivers, Effect, Float2D, Param
 from thermodata.view.dataset import ChannelInfo, TestData
 
 Led = tuple[Drivers, int]
-# "same": another mode of an effect that the model has, another bearing, another reading of its channels. "related": an
-# effect of a family that the model has, elsewhere
-Kin = Literal["same", "related"] | None
+# "same": another mode of an effect that the model has, another bearing, another reading of its channels. "near": an
+# effect of a family that the model has, at its place. "related": one elsewhere
+Kin = Literal["same", "near", "related"] | None
 GENERIC = "generic"
 STATIC = "static"
 NOT_DRIVERS = frozenset({"displacement", "tilt", "label"})
@@ -117,7 +117,9 @@ def _kin(
     if family not in families:
         return None
     read = frozenset[str]().union(*(n for _, n in have))
-    return "same" if names <= read or any(name == effect.name for name, _ in have) else "related"
+    if names <= read or any(name == effect.name for name, _ in have):
+        return "same"
+    return "near" if near else "related"
 
 
 def _near(names: frozenset[str], read: frozenset[str], channels: Mapping[str, ChannelInfo]) -> bool:

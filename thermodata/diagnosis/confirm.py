@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from thermodata.diagnosis.candidates import CandidateEffect
+from thermodata.diagnosis.locked import Foretold
 from thermodata.modelling.fit import fit_model
 from thermodata.modelling.fitted import FittedModel
 from thermodata.modelling.fitted_response import FittedResponse
@@ -15,18 +16,13 @@ from thermodata.schema.model import EffectSpec, Model
 from thermodata.schema.result import Parameter
 from thermodata.view.dataset import Dataset, TestData
 
-KEPT = 0.5  # share of what is added that must take away as much of the squared error as it is itself,
-LEAST = 0.02  # and the least fall of the error: it never rises;
-MUCH = 0.25  # a fall of the error that is enough by itself
-
 
 @dataclass(frozen=True, slots=True)
 class Confirmation:
     """Errors on the locked tests, None where there are none; parameters of the added effects, by candidate.
 
     before, after: as scored, from the mean of the first samples on. shape_before, shape_after: with a free offset a
-    test, which is what decides: one unlucky zero must not hide that the shape fits. changed: RMS of what the addition
-    changes there. each: (key, error before, error after) of every locked test.
+    test: one unlucky zero must not hide that the shape fits. changed: RMS of what the addition changes there. each: (key, error before, error after) of every locked test.
     """
 
     before: float | None
@@ -39,13 +35,9 @@ class Confirmation:
 
     @property
     def holds(self) -> bool:
-        """Whether the error falls by what a cause would take away. What a cause adds is not to be found in what is left
-        afterwards, so the squared error falls by the square of what is added; a proxy's falls by less."""
+        """Whether the locked tests bear it out (`locked.Foretold.holds`)."""
         before, after = self.shape_before, self.shape_after
-        if before is None or after is None:
-            return True
-        keeps = before**2 - after**2 >= KEPT * self.changed**2
-        return after < (1 - LEAST) * before and (keeps or after < (1 - MUCH) * before)
+        return before is None or after is None or Foretold(before, after, self.changed).holds
 
 
 def extended(spec: Model, candidates: Sequence[CandidateEffect]) -> Model:

@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 from threadpoolctl import threadpool_limits
 
 from thermodata.diagnosis.artefact import as_artefacts, find_steps
 from thermodata.diagnosis.candidates import CandidateEffect, candidates
-from thermodata.diagnosis.judge import Judgement, Measure, failed_rules, judge, remaining
+from thermodata.diagnosis.judge import Judged, Judgement, Measure, failed_rules, judge, remaining
 from thermodata.diagnosis.known import rms
 from thermodata.diagnosis.known_effects import otherwise, remembered
+from thermodata.diagnosis.locked import Foretold, foretell
 from thermodata.diagnosis.logging_faults import clock_offsets, first_of_each, turned_probes, wrong_parameters
 from thermodata.diagnosis.null import best_of_chance
 from thermodata.diagnosis.problem import TARGET_ROWS, Base, Problem, build_problem
@@ -29,6 +30,10 @@ from thermodata.view.dataset import ChannelInfo, Dataset, TestData
 WEIGHED_ROWS = 2400
 
 
+# what the locked tests say of some claims; None where there are none
+BorneOut = Callable[[Sequence[Judged]], Foretold | None]
+
+
 @dataclass(frozen=True, slots=True)
 class Investigation:
     """problem: in fine samples, for steps and faults. selection: None where nothing can be left out."""
@@ -39,6 +44,7 @@ class Investigation:
     spots: list[WeakSpot]
     judgement: Judgement
     measure: Measure
+    borne_out: BorneOut
 
 
 def investigate(
@@ -49,13 +55,14 @@ def investigate(
     seed: int = 0,
     *,
     as_fitted: FittedResponse | None = None,
+    locked: Sequence[TestData] = (),
 ) -> Investigation:
     """fitted: to all tests that take part in the choice (never the locked ones). as_fitted: the model that is asked
     about, whose weak spots are shown; by default the same."""
     info = data.channels[fitted.name]
     base = remembered(fitted)
 
-    def compressed(rows: int) -> Problem:
+    def compressed(rows: int, tests: Sequence[TestData] = tests) -> Problem:
         return build_problem(
             data,
             tests,
@@ -90,7 +97,19 @@ def investigate(
         left = remaining(selection.first.ranked[0])
         faults += wrong_parameters(problem, _error_of(asked_about, tests), left, measure.floor)
     artefacts = first_of_each([*as_artefacts(steps, info.unit), *faults])
-    return Investigation(problem, selection, artefacts, spots, judgement, measure)
+
+    def borne_out(claims: Sequence[Judged]) -> Foretold | None:
+        blocks = compressed(WEIGHED_ROWS, [*tests, *locked]).blocks if locked else ()
+        unseen = tuple(b for b in blocks if b.test.key in {t.key for t in locked})
+        if selection is None or not unseen:
+            return None
+        chosen = {id(c.alone.columns) for c in claims}
+        kept = [m.scored for m in selection.members if id(m.alone.columns) not in chosen]
+        both = replace(problem, blocks=(*problem.blocks, *unseen), kept={})
+        with threadpool_limits(1):
+            return foretell(both, len(problem.blocks), selection.noise, kept, [c.scored for c in claims])
+
+    return Investigation(problem, selection, artefacts, spots, judgement, measure, borne_out)
 
 
 def _judged(

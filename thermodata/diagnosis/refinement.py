@@ -17,7 +17,7 @@ from thermodata.diagnosis.known import known, rms
 from thermodata.diagnosis.known_effects import from_other_zero, is_warm, owners
 from thermodata.diagnosis.problem import Block, Problem
 from thermodata.diagnosis.scored import Scored
-from thermodata.diagnosis.selection import extended
+from thermodata.diagnosis.selection import beside
 from thermodata.modelling.fitted_response import FittedResponse
 from thermodata.plugin import Float1D, Int1D
 
@@ -54,10 +54,10 @@ class Refinement:
         if scored.error_before > GOOD * rms(self.problem.response_blocks):
             return None
         largest = max(self._size(i) for i in range(len(self.fitted.terms)))
-        if kin == "related" and not most and acting_size(scored) < SMALL * largest:
+        if kin is not None and not most and acting_size(scored) < SMALL * largest:
             return MODE
         for number, term in enumerate(self.fitted.terms):
-            if self._replaces(scored, number):
+            if (kin == "near" or not most) and self._replaces(scored, number):
                 return f"it takes the place of {term.id}"
             channel = self._other_zero(scored, number)
             if channel is not None:
@@ -70,7 +70,7 @@ class Refinement:
         alone = self._worth[term]
         if alone < WORTH or self._likeness(scored, term) < LIKE:
             return False
-        return self._cost(extended(self.problem, scored), term) < REPLACED * alone
+        return self._cost(beside(self.problem, [scored]), term) < REPLACED * alone
 
     def _cost(self, problem: Problem, term: int) -> float:
         """Log evidence that dropping a known effect costs."""

@@ -109,7 +109,7 @@ def _forward(
 def beside(problem: Problem, chosen: Sequence[Scored]) -> Problem:
     """The same with chosen effects among what is known."""
     for one in chosen:
-        problem = extended(problem, one)
+        problem = extended(problem, one.columns, one.weighed)
     return problem
 
 
@@ -188,10 +188,9 @@ def preferred(ranked: Sequence[Scored]) -> Scored | None:
 CONTROL = "control"  # its static compensation is a difference of any two temperatures
 
 
-def extended(problem: Problem, chosen: Scored) -> Problem:
-    """The same with a chosen effect among what is known: at its likeliest time constant, its neighbours at a price."""
-    point = chosen.weighed.best[0]
-    coefficients, made = chosen.weighed.coefficients, chosen.columns
+def extended(problem: Problem, made: Columns, weighed: Weighed) -> Problem:
+    """The same with an effect among what is known: at its likeliest time constant, its neighbours at a price."""
+    point, coefficients = weighed.best[0], weighed.coefficients
     gains, neighbours = made.gains, [p for p in (point - 1, point + 1) if 0 <= p < len(made.points)]
     blocks = []
     for block, full in zip(problem.blocks, made.blocks, strict=True):
