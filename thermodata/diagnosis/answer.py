@@ -98,7 +98,7 @@ def _diagnosis(
     before = _rmse(best.sse_before, problem) if best else _left(problem)
     advice = next_test.to_separate(claimed, twins, data.channels) if claimed else None
     if claimed is None and judgement.verdict != "none":
-        advice = next_test.to_find(len({b.test.key for b in problem.blocks}), investigation.spots)
+        advice = next_test.to_find(len({b.test.key for b in problem.blocks}), investigation.spots, best)
     return Diagnosis(
         model=model_id,
         response=problem.response,

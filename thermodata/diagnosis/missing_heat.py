@@ -156,9 +156,7 @@ def _averaged(blocks: Sequence[Block], step_s: float) -> _Test:
     steps = int(np.floor((float(t_s.max()) - start) / step_s)) + 1
     segment = names[:, 0].astype(np.int64)
     free = center(mean[:, 1:], segment)
-    return _Test(
-        blocks[0].test, mean[:, 0], free[:, 0], free[:, 1:], segment, start + step_s * np.arange(steps + 1.0)
-    )
+    return _Test(blocks[0].test, mean[:, 0], free[:, 0], free[:, 1:], segment, start + step_s * np.arange(steps + 1.0))
 
 
 @dataclass(frozen=True, slots=True)
@@ -313,9 +311,5 @@ def _course(test: _Test, best: _Fit, place: int) -> Course:
     contribution = sign * (box_columns(middles, test.edges, best.tau_s) @ source - mean)
     row = np.clip(np.floor((test.t_s - test.edges[0]) / (test.edges[1] - test.edges[0])).astype(np.int64), 0, n - 1)
     count = np.bincount(row, minlength=n)
-    residual = np.where(
-        count > 0, np.bincount(row, test.residual, minlength=n) / np.maximum(count, 1), np.nan
-    )
-    return Course(
-        test.test, float(test.edges[0]), float(test.edges[1] - test.edges[0]), source, contribution, residual
-    )
+    residual = np.where(count > 0, np.bincount(row, test.residual, minlength=n) / np.maximum(count, 1), np.nan)
+    return Course(test.test, float(test.edges[0]), float(test.edges[1] - test.edges[0]), source, contribution, residual)
