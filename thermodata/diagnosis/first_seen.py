@@ -45,7 +45,7 @@ def _body(heat: MissingHeat) -> str:
     text = f"a body with a time constant of {minutes(heat.tau_s)} ({span}), {size}"
     if not heat.sign:
         return f"{text}; it warms and cools from where it starts, as something does that follows a temperature"
-    return f"{text}, that moves the response to {'+' if heat.sign > 0 else '-'} when it is heated"
+    return f"{text}, that moves the response to {'plus' if heat.sign > 0 else 'minus'} when it is heated"
 
 
 def _when(found: Sequence[Companion], strong: Sequence[TestData], weak: Sequence[TestData]) -> str:
@@ -90,7 +90,7 @@ def _place(heat: MissingHeat, found: Sequence[Companion], strong: Sequence[TestD
 
 
 def _test(test: TestData) -> str:
-    return f"{test.test} ({test.kind.replace('_', ' ')})" if test.kind else test.test
+    return f"{test.test} ({test.kind.replace('_', ' ')})" if test.kind not in ("", "other") else test.test
 
 
 def _places(found: Sequence[Companion]) -> list[str]:

@@ -16,7 +16,7 @@ _SPLIT, _GAP = 0.36, 0.07  # share of the height that the source has, and the sp
 
 
 def heat_figures(courses: Sequence[HeatCourse], unit: str, one_way: bool) -> list[Figure]:
-    """One figure a test, all on the same scales so that tests can be compared. one_way: the source is never negative."""
+    """One figure a test, all on the same scales for comparison. one_way: the source is never negative."""
     return [_figure(c, _reach(courses), _source_range(courses, one_way), unit) for c in courses]
 
 
@@ -28,11 +28,11 @@ def _reach(courses: Sequence[HeatCourse]) -> tuple[float, float]:
 
 
 def _source_range(courses: Sequence[HeatCourse], one_way: bool) -> tuple[float, float]:
-    # a single spike must not flatten all other tests
     everything = [x for c in courses for x in c.source_um] or [1.0]
-    high = float(np.quantile(everything, 0.99)) or max(everything) or 1.0
-    low = 0.0 if one_way else min(float(np.quantile(everything, 0.01)), 0.0)
-    return low, 1.08 * high
+    # a single spike must not flatten all other tests
+    high = min(max(everything), 2 * float(np.quantile(everything, 0.99))) or max(everything) or 1.0
+    low = 0.0 if one_way else max(min(everything), 2 * min(float(np.quantile(everything, 0.01)), 0.0))
+    return 1.08 * min(low, 0.0), 1.08 * high
 
 
 def _figure(course: HeatCourse, reach: tuple[float, float], source: tuple[float, float], unit: str) -> Figure:

@@ -9,6 +9,8 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from thermodata.schema.result import Diagnosis, HeatCompanion, MissingHeat, Score
 
+COMPANIONS = 8  # most channels that are named beside a missing heat
+
 
 def number(value: Any, digits: int = 3) -> str:
     """`digits` significant figures, no exponent between 1e-4 and 1e7; '-' for none."""
@@ -94,25 +96,30 @@ def heat_lines(heat: MissingHeat) -> list[tuple[str, str]]:
         span = f"{low} to {high}"
     else:
         span = f"at least {low}" if low else f"at most {high}" if high else "not bounded by these tests"
-    direction = f"to {heat.direction} when heated" if heat.direction else "both ways"
+    direction = {"+": "to plus when heated", "-": "to minus when heated", None: "both ways"}[heat.direction]
     lines = [
         ("time constant", f"{duration(3600 * heat.time_constant_h)} ({span} over tests drawn anew)"),
         ("direction", f"{direction} ({100 * heat.agreed:.0f} % of the draws agree)"),
         (
             "explains",
-            f"{_percent(heat.explained)} of the squared residual, {_percent(heat.left_out)} of it in parts left out",
+            f"{_percent(heat.explained)} of the squared residual, {_percent(heat.left_out)} in parts left out",
         ),
-        ("strongest in", ", ".join(heat.strong_tests)),
-        ("absent in", ", ".join(heat.weak_tests)),
         ("on at (UTC)", ", ".join(f"{h:.0f} h" for h in heat.hours_of_day)),
-        ("goes with", ", ".join(_companion(c) for c in heat.goes_with)),
-        ("not with", ", ".join(_companion(c) for c in heat.goes_not_with)),
+        ("goes with", _companions(heat.goes_with)),
+        ("not with", _companions(heat.goes_not_with)),
     ]
     return [(what, text) for what, text in lines if text]
 
 
+def _companions(found: list[HeatCompanion]) -> str:
+    """What runs and rests first, for it tells more than a temperature does."""
+    ordered = sorted(found, key=lambda c: c.follows is not None)
+    more = f", and {len(ordered) - COMPANIONS} more" if len(ordered) > COMPANIONS else ""
+    return ", ".join(_companion(c) for c in ordered[:COMPANIONS]) + more
+
+
 def _percent(share: float) -> str:
-    return f"{100 * share:.0f} %"
+    return "over 99 %" if 0.99 < share < 1 else f"{100 * share:.0f} %"
 
 
 def _companion(one: HeatCompanion) -> str:
