@@ -44,7 +44,10 @@ def _body(heat: MissingHeat) -> str:
         span = f"{minutes(low)} to {minutes(high)}" if high > low else "in every draw of the tests"
     text = f"a body with a time constant of {minutes(heat.tau_s)} ({span}), {size}"
     if not heat.sign:
-        return f"{text}; it warms and cools from where it starts, as something does that follows a temperature"
+        return (
+            f"{text}; it warms and cools from where it starts, as a body does that follows a temperature, or as the "
+            "probes do where they drift"
+        )
     return f"{text}, that moves the response to {'plus' if heat.sign > 0 else 'minus'} when it is heated"
 
 
