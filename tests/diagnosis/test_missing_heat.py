@@ -60,7 +60,7 @@ def test_a_square_wave_through_a_lag_is_found_again(tau_s: float, sign: int) -> 
     assert heat.sign == sign
     assert heat.agreed == 1.0
     assert heat.tau_s == pytest.approx(tau_s, rel=0.1), "within half a point of the grid"
-    assert heat.tau_range_s[0] <= heat.tau_s <= heat.tau_range_s[1] < 1.5 * tau_s
+    assert heat.tau_range_s[0] <= heat.tau_s <= heat.tau_range_s[1] < 1.8 * tau_s
     estimated, true = beside(heat, source)
     assert np.corrcoef(estimated, true)[0, 1] > 0.97
     assert np.mean(np.abs(estimated - true)) < 0.6
@@ -161,6 +161,18 @@ def test_what_the_known_effects_took_of_the_missing_heat_is_given_back() -> None
     left = alike([p.residual for p in parts])
     assert left < 0.95
     assert alike(estimated) > left + 0.5 * (1 - left)
+
+
+def test_a_small_known_effect_does_not_become_the_missing_one() -> None:
+    """A known effect at its bound, a fiftieth of what is missing, has by chance the same course."""
+    missing = [lag(q, 2400.0, STEP_S) for q in sources(1)]
+    rng = np.random.default_rng(3)
+    parts = [
+        Parts(m - m.mean() + 0.1 * rng.standard_normal(ROWS), base=0.02 * (m - m.mean())[:, None]) for m in missing
+    ]
+    heat = found_in(problem(*parts, noise=0.1))
+    for course, m in zip(heat.courses, missing, strict=True):
+        assert course.contribution.std() == pytest.approx(m.std(), rel=0.1)
 
 
 def test_parts_of_one_test_have_one_source_and_their_own_offsets() -> None:

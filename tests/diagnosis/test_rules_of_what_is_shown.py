@@ -183,6 +183,14 @@ def test_eight_tests_are_enough_to_look_for_a_sensor(tests: int, said: str) -> N
     assert ("coolant on" in advice) == (tests == 8)
 
 
+@pytest.mark.parametrize(("drop", "named"), [(0.31, True), (0.29, False)])
+def test_a_channel_that_is_logged_and_ranks_first_comes_before_a_new_sensor(drop: float, named: bool) -> None:
+    advice = to_find(8, [], scored("screw", channels=("T_nut",), drop=drop))
+    assert ("T_nut is logged and ranks first" in advice) is named
+    assert ("thermodata confirm" in advice) is named
+    assert "log what is not logged yet" in advice
+
+
 CHANNELS = {
     "T_a": ChannelInfo("T_a", "temperature", "degC", at="axis.x.nut"),
     "T_b": ChannelInfo("T_b", "temperature", "degC", at="axis.x.nut"),
