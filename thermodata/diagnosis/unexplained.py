@@ -38,7 +38,7 @@ def _heat(problem: Problem) -> MissingHeat | None:
         time_constant_low_h=None if low <= TAUS_S[0] else _short(low / 3600),
         time_constant_high_h=None if high >= TAUS_S[-1] else _short(high / 3600),
         direction=None if not heat.sign else "+" if heat.sign > 0 else "-",
-        agreed=heat.agreed,
+        agreed=heat.agreed if heat.sign else None,
         explained=_short(heat.explained),
         left_out=_short(heat.predicted),
         hours_of_day=goes_with.hours_of_day(heat),

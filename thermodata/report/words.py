@@ -99,7 +99,7 @@ def heat_lines(heat: MissingHeat) -> list[tuple[str, str]]:
     direction = {"+": "to plus when heated", "-": "to minus when heated", None: "both ways"}[heat.direction]
     lines = [
         ("time constant", f"{duration(3600 * heat.time_constant_h)} ({span} over tests drawn anew)"),
-        ("direction", f"{direction} ({100 * heat.agreed:.0f} % of the draws agree)"),
+        ("direction", direction + ("" if heat.agreed is None else f" ({100 * heat.agreed:.0f} % of the draws agree)")),
         (
             "explains",
             f"{_percent(heat.explained)} of the squared residual, {_percent(heat.left_out)} in parts left out",

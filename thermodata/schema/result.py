@@ -224,7 +224,7 @@ class MissingHeat(Result):
     time_constant_low_h: lower end over tests drawn anew (5 %) [h]; null where nothing bounds it
     time_constant_high_h: upper end (95 %) [h]; null where nothing bounds it
     direction: where the response goes when it is heated, + or -; null where it goes both ways, as with a temperature
-    agreed: share of the draws of tests in which the direction is the same
+    agreed: share of the draws of tests in which the direction is the same; null where it goes both ways
     explained: share of the squared residual that it explains
     left_out: the same in parts of the tests that were left out in turn
     hours_of_day: hours (UTC) at which it is on in most of the days
@@ -240,7 +240,7 @@ class MissingHeat(Result):
     time_constant_low_h: float | None
     time_constant_high_h: float | None
     direction: Literal["+", "-"] | None
-    agreed: float
+    agreed: float | None
     explained: float
     left_out: float
     hours_of_day: list[float]
