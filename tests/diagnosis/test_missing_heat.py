@@ -116,7 +116,7 @@ def test_a_drift_has_no_direction() -> None:
     assert heat.sign == 0
 
 
-@pytest.mark.parametrize(("side", "told"), [(0.35, True), (50.0, False)])
+@pytest.mark.parametrize(("side", "told"), [(0.55, True), (50.0, False)])
 def test_a_direction_is_told_where_the_other_explains_much_less(
     side: float, told: bool, monkeypatch: pytest.MonkeyPatch
 ) -> None:

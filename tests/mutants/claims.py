@@ -220,7 +220,7 @@ MUTANTS = [
     ),
     heat("missing_heat.py", "KNOWN_SPREAD = 0.3", "KNOWN_SPREAD = 300.0", "the known effects take what is missing"),
     heat("missing_heat.py", "LEAVES = 0.1", "LEAVES = 0.001", "a distributed body has a time constant far too short"),
-    heat("missing_heat.py", "ONE_SIDED = 0.35", "ONE_SIDED = 0.0", "a drift heats in one direction"),
+    heat("missing_heat.py", "ONE_SIDED = 0.55", "ONE_SIDED = 0.0", "a drift heats in one direction"),
     heat("missing_heat.py", "CHANGE = 0.05", "CHANGE = 50.0", "noise has a source, for changes cost nothing"),
     heat(
         "missing_heat.py", "one_way=sign != 0)\n        changes", "one_way=False)\n        changes", "heat is negative"

@@ -29,7 +29,7 @@ REWEIGHTINGS = 4
 CHANGE = 0.05  # of the typical change: what is smaller is none
 # share of the residual that is no evidence: what one lag leaves of a machine that is distributed
 LEAVES = 0.1
-ONE_SIDED = 0.35  # by how much a row one sign must explain better than the other (in the logarithm of squared error)
+ONE_SIDED = 0.55  # by how much a row one sign must explain better than the other (in the logarithm of squared error)
 RESAMPLED = 200
 PART_STEPS = 4  # parts that are left out, in steps of the source
 
