@@ -10,7 +10,16 @@ import numpy as np
 from thermodata.diagnosis import next_test
 from thermodata.diagnosis.confirm import Confirmation, confirm, on_all_open
 from thermodata.diagnosis.investigate import Investigation, investigate
-from thermodata.diagnosis.judge import Judged, Judgement, Verdict, equivalents, explained, failed_rules, remaining
+from thermodata.diagnosis.judge import (
+    Judged,
+    Judgement,
+    Verdict,
+    blunt,
+    equivalents,
+    explained,
+    failed_rules,
+    remaining,
+)
 from thermodata.diagnosis.null import p_value
 from thermodata.diagnosis.problem import Problem
 from thermodata.diagnosis.scored import Scored
@@ -206,6 +215,7 @@ def _why(
     if member is not None and member.refines:
         return f"{numbers}; a refinement, not a missing cause: {member.refines}"
     failed = failed_rules(s, investigation.measure, unit)
+    failed += [why for why in [blunt(s)] if why]
     if failed:
         return f"{numbers}; not claimed: {failed[0]}"
     if judgement.claims:

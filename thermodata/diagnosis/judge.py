@@ -18,6 +18,9 @@ from thermodata.plugin import Float1D
 Verdict = Literal["effect", "refine", "none", "unknown", "not_testable"]
 
 P_LIMIT = 0.01
+# log evidence a sample, in the noise that is left once all members are in: the noise must fall by a seventh. A cause has
+# the timing of what is missing and leaves little noise; what stands in for it has the slow shape alone, and leaves more
+SHARP_LIMIT = 0.15
 DROP_LIMIT = 0.15  # fall of the error on left-out tests in which it acts,
 UNNAMED_DROP_LIMIT = 0.3  # and of what names no physics: any slow temperature steadies a misfit a little
 BETTER_LIMIT = 0.6  # share of these tests that it makes more probable
@@ -88,12 +91,13 @@ def judge(
     if selection is None:
         return _nothing("not_testable", "no effect of the library fits the channels that were logged")
     judged = tuple(Judged(m.scored, m.alone, refines(m.scored), m.beside) for m in selection.members)
-    claims = _claims([j for j in judged if j.refines is None])
+    claims = _claims([j for j in judged if j.refines is None and blunt(j.scored) is None])
     kept = tuple(j for j in judged if j.refines is not None)
     if claims:
         return Judgement("effect", claims, kept, judged, "")
     left = remaining(selection.first.ranked[0])
-    if kept:
+    standing = [j.scored for j in judged if j.refines is None]
+    if kept and not standing:
         return Judgement("refine", (), kept, judged, "no cause is missing; what the model has can be refined")
     if left <= measure.floor:
         why = (
@@ -102,7 +106,9 @@ def judge(
         )
         return Judgement("none", (), (), judged, why)
     best = selection.first.ranked[0]
-    failed = failed_rules(best, measure, problem.unit)
+    if standing:
+        best = standing[0]
+    failed = failed_rules(best, measure, problem.unit) or [why for why in [blunt(best)] if why]
     because = f": the best, {best.candidate.id}, fails because {failed[0]}" if failed else ""
     why = (
         f"{left:.2g} {problem.unit} remain on left-out tests, above the floor of {measure.floor:.2g}, and nothing "
@@ -157,6 +163,21 @@ def failed_rules(scored: Scored, measure: Measure, unit: str) -> list[str]:
             "extrapolates"
         )
     return failed
+
+
+def blunt(scored: Scored) -> str | None:
+    """Why a sound candidate is still no cause; None where its timing is that of what is missing."""
+    if sharpness(scored) >= SHARP_LIMIT:
+        return None
+    return (
+        f"its evidence is {sharpness(scored):.2f} a sample (limit {SHARP_LIMIT:g}): it has the slow shape of what is "
+        "missing, but not its timing"
+    )
+
+
+def sharpness(scored: Scored) -> float:
+    """Log evidence a sample."""
+    return scored.evidence / max(float(scored.rows.sum()), 1.0)
 
 
 def remaining(scored: Scored) -> float:

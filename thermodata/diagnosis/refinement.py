@@ -10,7 +10,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from thermodata.diagnosis.candidates import GENERIC
+from thermodata.diagnosis.candidates import GENERIC, refines
 from thermodata.diagnosis.discrepancy import Noise
 from thermodata.diagnosis.judge import acting_size
 from thermodata.diagnosis.known import known, rms
@@ -25,10 +25,12 @@ MODE = "it is another mode of what the model has"
 AIR = "ambient"  # a temperature of the air counts from nothing else
 # what a model leaves that is good already: more, and something is missing (share of the response)
 GOOD = 0.4
+# what takes away so much of what is left (as a share of the error) is missing, not another mode of what is there
+MOST = 0.6
 # a known effect is replaced where, beside the candidate, it is worth this share of what it was worth alone
 REPLACED = 0.1
 WORTH = 20.0  # log evidence: an effect that was worth less was never there to be replaced
-LIKE = 0.6  # and both act alike (cosine)
+LIKE = 0.9  # and both act alike (cosine)
 SMALL = 0.6  # of the known effect's size: kin that does less is another mode of it
 OPPOSITE = -0.8  # cosine with the known effect driven by the candidate's temperature,
 SHARE = (0.2, 1.5)  # and how much of it that takes away
@@ -46,12 +48,13 @@ class Refinement:
         """What it refines of the model, in words."""
         if not self.fitted.terms:
             return None
-        kin = scored.candidate.kin
-        if kin == "same":
+        kin, most = scored.candidate.kin, scored.drop >= MOST
+        if refines(scored.candidate.effect) or (kin == "same" and not most):
             return MODE
         if scored.error_before > GOOD * rms(self.problem.response_blocks):
             return None
-        if kin == "related" and acting_size(scored) < SMALL * max(map(self._size, range(len(self.fitted.terms)))):
+        largest = max(self._size(i) for i in range(len(self.fitted.terms)))
+        if kin == "related" and not most and acting_size(scored) < SMALL * largest:
             return MODE
         for number, term in enumerate(self.fitted.terms):
             if self._replaces(scored, number):

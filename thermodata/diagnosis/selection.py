@@ -21,10 +21,13 @@ from thermodata.diagnosis.scored import Scored
 from thermodata.store.base.counting import counted
 
 MOST = 5  # effects that one diagnosis adds
+PASSES = 3
 SCORED = 15  # candidates whose left-out tests are computed
 WORTH = 10.0  # log evidence that a further effect must bring
 # a name, or fewer channels, is worth this share of the evidence: what a lag explains as well is not the lag's own
 NAMED_SHARE = 0.95
+ALIKE_SHARE = 0.8  # the same for a name on another channel that acts alike (cosine)
+ALIKE = 0.8
 FEWER_SHARE = 0.8
 
 
@@ -67,26 +70,40 @@ def first_ranking(problem: Problem, candidates: Sequence[CandidateEffect]) -> Ra
 
 
 def select(problem: Problem, first: Ranked, sound: Callable[[Scored], bool]) -> Selection:
-    """Forward by evidence, then what is not sound beside the others goes, the least likely first. sound: whether a
-    candidate keeps the rules of a claim."""
-    pool, last = [s.columns for s in first.ranked], first
+    """Forward by evidence, then what is not sound beside the others goes, the least likely first; and again, for what it
+    stood in the way of. sound: whether a candidate keeps the rules of a claim."""
+    pool, noise = [s.columns for s in first.ranked], first.known.space.noise
     chosen: list[Scored] = []
+    current: list[Scored] = []
+    dropped: list[Scored] = []
+    for number in range(PASSES):
+        last = first if number == 0 else rank(beside(problem, chosen), without(pool, [*chosen, *dropped]), noise)
+        before = len(dropped)
+        _forward(problem, pool, chosen, dropped, last)
+        noise = likeliest(beside(problem, chosen), noise)
+        current = _each_beside_others(problem, chosen, noise)
+        while unsound := [i for i, s in enumerate(current) if not sound(s)]:
+            worst = min(unsound, key=lambda i: current[i].evidence)
+            dropped.append(current[worst])
+            chosen.pop(worst)
+            noise = likeliest(beside(problem, chosen), noise)
+            current = _each_beside_others(problem, chosen, noise)
+        if len(dropped) == before:
+            break
+    members = tuple(_member(problem, pool, chosen, i, current[i], noise) for i in range(len(chosen)))
+    return Selection(first, members, tuple(dropped), noise)
+
+
+def _forward(
+    problem: Problem, pool: Sequence[Columns], chosen: list[Scored], dropped: Sequence[Scored], last: Ranked
+) -> None:
+    """Adds to the chosen while the evidence is worth it. last: the ranking beside them."""
     while len(chosen) < MOST:
         best = preferred(last.ranked)
         if best is None or best.evidence < WORTH:
-            break
+            return
         chosen.append(best)
-        last = rank(beside(problem, chosen), without(pool, chosen), last.known.space.noise)
-    noise, dropped = last.known.space.noise, list[Scored]()
-    current = _each_beside_others(problem, chosen, noise)
-    while unsound := [i for i, s in enumerate(current) if not sound(s)]:
-        worst = min(unsound, key=lambda i: current[i].evidence)
-        dropped.append(current[worst])
-        chosen.pop(worst)
-        noise = likeliest(beside(problem, chosen), noise)
-        current = _each_beside_others(problem, chosen, noise)
-    members = tuple(_member(problem, pool, chosen, i, current[i], noise) for i in range(len(chosen)))
-    return Selection(first, members, tuple(dropped), noise)
+        last = rank(beside(problem, chosen), without(pool, [*chosen, *dropped]), last.known.space.noise)
 
 
 def beside(problem: Problem, chosen: Sequence[Scored]) -> Problem:
@@ -154,8 +171,15 @@ def preferred(ranked: Sequence[Scored]) -> Scored | None:
         theirs = set(other.candidate.channels)
         fewer = theirs < own and best.candidate.family in (GENERIC, CONTROL)
         named = best.candidate.family == GENERIC != other.candidate.family and own & theirs
-        if (fewer and other.evidence >= FEWER_SHARE * best.evidence) or (
-            named and other.evidence >= NAMED_SHARE * best.evidence
+        elsewhere = (
+            best.candidate.family == GENERIC != other.candidate.family
+            and len(other.candidate.channels) == 1
+            and abs(float(best.shape @ other.shape)) > ALIKE
+        )
+        if (
+            (fewer and other.evidence >= FEWER_SHARE * best.evidence)
+            or (named and other.evidence >= NAMED_SHARE * best.evidence)
+            or (elsewhere and other.evidence >= ALIKE_SHARE * best.evidence)
         ):
             return other if not fewer else preferred([other, *(s for s in ranked if s is not other and s is not best)])
     return best
