@@ -122,7 +122,9 @@ def _diagnosis(
         claim = judgement.claims[0]
         advice = next_test.to_separate(claim.scored, equivalents(claim.scored, claim.beside), data.channels)
     elif judgement.verdict in ("unknown", "not_testable"):
-        advice = next_test.to_find(len({b.test.key for b in problem.blocks}), investigation.spots)
+        advice = next_test.to_find(
+            len({b.test.key for b in problem.blocks}), investigation.spots, shown[0][0] if shown else None
+        )
     scored = [s for s, _ in shown if len(s.rows)]
     return Diagnosis(
         model=model_id,
