@@ -55,9 +55,7 @@ def test_a_name_on_the_same_channel_is_worth_a_twentieth(evidence: float, taken:
     ("evidence", "cosine", "taken"),
     [(80.1, 0.81, "named"), (79.9, 0.81, "lag"), (80.1, 0.79, "lag"), (80.1, -0.81, "named")],
 )
-def test_a_name_on_another_channel_that_acts_alike_is_worth_a_fifth(
-    evidence: float, cosine: float, taken: str
-) -> None:
+def test_a_name_on_another_channel_that_acts_alike_is_worth_a_fifth(evidence: float, cosine: float, taken: str) -> None:
     lag = scored("lag", family="generic", evidence=100.0)
     shape = (cosine, (1 - cosine**2) ** 0.5)
     assert name(preferred([lag, scored("named", channels=("T_b",), evidence=evidence, shape=shape)])) == taken

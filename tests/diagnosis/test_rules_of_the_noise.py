@@ -122,7 +122,9 @@ def test_whitened_noise_is_white_and_offsets_are_gone() -> None:
     assert abs(np.corrcoef(white[1:], white[:-1])[0, 1]) < 0.1
     assert space.rows == 6 * 149
     np.testing.assert_allclose(space.of(0, np.full((150, 1), 50.0)), 0.0, atol=1e-9)
-    np.testing.assert_allclose(space.projected(0, space.of(0, one.blocks[0].residual[:, None])), space.of(0, one.blocks[0].residual[:, None]))
+    np.testing.assert_allclose(
+        space.projected(0, space.of(0, one.blocks[0].residual[:, None])), space.of(0, one.blocks[0].residual[:, None])
+    )
 
 
 # ---- priors
