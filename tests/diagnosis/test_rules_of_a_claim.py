@@ -113,11 +113,11 @@ def test_a_fall_far_beyond_its_own_size_only_steadies_an_extrapolation(size: flo
         ("feed_x", False, 149.9, True),
         ("generic", False, 250.1, False),
         ("generic", False, 249.9, True),
-        ("generic", True, 150.1, False),
-        ("generic", True, 149.9, True),
+        ("generic", True, 50.1, False),
+        ("generic", True, 49.9, True),
     ],
 )
-def test_a_cause_brings_0_15_a_sample_and_what_has_no_name_0_25(
+def test_a_cause_brings_0_15_a_sample_what_has_no_name_0_25_and_where_nothing_has_a_place_0_05(
     family: str, placeless: bool, evidence: float, fails: bool
 ) -> None:
     """Of a thousand samples."""
