@@ -27,7 +27,7 @@ from thermodata.diagnosis.scored import Scored
 from thermodata.diagnosis.selection import rank_in
 from thermodata.plugin import Float1D, Float2D, Gain, Param
 
-from .hand_made import Parts, PlainEffect, problem
+from .hand_made import Parts, problem
 from .lagged import Lagged
 
 ROWS = 40

@@ -1,4 +1,4 @@
-"""What noise is searched for, and what priors known effects and candidates have: discrepancy.py, known.py, evidence.py."""
+"""Which noise is searched for, and which priors there are: discrepancy.py, known.py, evidence.py."""
 
 from __future__ import annotations
 
