@@ -170,6 +170,14 @@ def test_the_least_likely_unsound_one_goes_first_and_may_clear_the_others(monkey
     assert [name(s) for s in found.dropped] == ["c"]
 
 
+def test_what_was_chosen_first_may_go_and_the_later_one_stay(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The first one was chosen for what the second one did."""
+    world = Worlds(monkeypatch, lambda n, known: 60.0 if n == "b" else 20.0 if known else 100.0)
+    found = world.select("ab", lambda s: s.candidate.effect.name == "b")
+    assert (members(found), [name(s) for s in found.dropped]) == (["b"], ["a"])
+    assert found.dropped[0].evidence == 20.0, "as it was judged beside the other"
+
+
 def test_what_an_unsound_one_stood_in_the_way_of_is_asked_for_again(monkeypatch: pytest.MonkeyPatch) -> None:
     def evidence(n: str, known: frozenset[str]) -> float:
         return {"proxy": 0.0, "p": 100.0, "q": 1.0 if "p" in known else 50.0}[n]
