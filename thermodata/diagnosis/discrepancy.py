@@ -53,10 +53,10 @@ class Whitened:
             covariance[np.diag_indices_from(covariance)] += noise.white**2
             factor: Float2D = np.asarray(np.linalg.cholesky(covariance), dtype=np.float64)
             members = (block.segment[:, None] == np.unique(block.segment)[None]).astype(np.float64)
-            q, r = np.linalg.qr(halved(factor, members))
+            q, sizes = _orthogonal(halved(factor, members))
             self._factors.append(factor)
             self._offsets.append(q)
-            self.logdet += 2 * float(np.log(np.diag(factor)).sum() + np.log(np.abs(np.diag(r))).sum())
+            self.logdet += 2 * float(np.log(np.diag(factor)).sum() + np.log(sizes).sum())
             self.rows += len(block.t_s) - members.shape[1]
 
     def of(self, test: int, columns: Float2D) -> Float2D:
@@ -68,6 +68,15 @@ class Whitened:
         free = self._offsets[test]
         result: Float2D = white - free @ (free.T @ white)
         return result
+
+
+def _orthogonal(columns: Float2D) -> tuple[Float2D, Float1D]:
+    """(orthonormal columns of the same span, the product of whose sizes is the root of their Gram determinant)."""
+    if columns.shape[1] == 1:
+        size = np.linalg.norm(columns, axis=0)
+        return columns / size, size
+    q, r = np.linalg.qr(columns)
+    return q, np.abs(np.diag(r))
 
 
 def halved(factor: Float2D, right: Float2D, *, transposed: bool = False) -> Float2D:
