@@ -5,7 +5,8 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Sequence
 
-from thermodata.errors import FormatError
+from thermodata.errors import QuestionError
+from thermodata.reader.open_questions import UNKNOWN
 from thermodata.reader.text.number import (
     EMPTY,
     EXACT,
@@ -48,7 +49,7 @@ def dtype_of(cells: Sequence[str], name: str = "", unit: str | None = None) -> s
 def find_decimal(columns: Iterable[Sequence[str]], delimiter: str, where: str) -> str | None:
     """The decimal mark of the number cells of some columns; None where none has a fraction.
 
-    FormatError: both marks occur; or commas stand in quotes between commas, and may be thousands or a fraction.
+    FormatError: both marks occur. QuestionError: commas stand in quotes between commas: thousands, or a fraction.
     """
     cells = [c for column in columns for c in [c for c in column if "," in c or "." in c][:_FRACTIONS]]
     if delimiter != ",":
@@ -59,11 +60,14 @@ def find_decimal(columns: Iterable[Sequence[str]], delimiter: str, where: str) -
     if any(re.fullmatch(r"[+-]?\d*\.\d+", clean(c)) for c in cells):
         return "."
     if all(_GROUPED.fullmatch(c) for c in commas):
-        raise FormatError(
+        raise QuestionError(
             "commas that may part thousands or begin a fraction",
             where=where,
             expected="a decimal mark that is declared",
             got=f'"{commas[0]}" between commas',
             hint="declare table: {decimal: '.'} where they are thousands, or ','",
+            ask=f"decimal: '.' or ','? \"{commas[0]}\" may be thousands or a fraction",
+            declare={"decimal": UNKNOWN},
+            meanwhile={"decimal": ","},
         )
     return ","

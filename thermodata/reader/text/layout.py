@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 from typing import Any, Literal
 
 from thermodata.errors import FormatError, UsageError
+from thermodata.reader.open_questions import UNKNOWN, unanswered
 from thermodata.reader.text.cell import WORDS, Cell, is_dated, is_empty, is_number, is_stamp
 from thermodata.reader.text.header import are_numbers, lines_between, names_and_units, unique
 from thermodata.reader.text.time_columns import column, time_of
@@ -23,7 +24,8 @@ _DATE = 8  # letters of a date by which it is known: "2026-03-", "02.03.20"
 @dataclass(frozen=True)
 class Group:
     """Columns with one time. stream: its name; time: columns of the time, from 0; seconds: of one unit of a relative
-    time, None for dates; epoch: of times counted from a date (clocks.EPOCHS); columns: its signals."""
+    time, None for dates; epoch: of times counted from a date (clocks.EPOCHS); columns: its signals; counted: no column
+    holds the time, `seconds` pass from row to row."""
 
     stream: str
     time: tuple[int, ...]
@@ -31,6 +33,7 @@ class Group:
     form: str | None
     epoch: str | None
     columns: tuple[int, ...]
+    counted: bool = False
 
     @property
     def dated(self) -> bool:
@@ -137,6 +140,8 @@ def _groups(
         if len(said) > 1:
             return declared_groups(said, names, units, data, where)
         said = said[0] if said else {}
+    if said.get("period") is not None:
+        return [_counted(said["period"], width, where)], []
     notes: list[str] = []
     found: list[Span] = []
     if said.get("column") is None:
@@ -217,6 +222,17 @@ def _group(stream: str, time: tuple[int, ...], unit: str | None, form: str | Non
     return Group(
         stream, time, None if unit is None else SECONDS.get(unit), form, unit if unit in EPOCHS else None, columns
     )
+
+
+def _counted(period: Any, width: int, where: str) -> Group:
+    """All columns, in rows that follow each other at a declared period [s]."""
+    if period == UNKNOWN:
+        raise unanswered("time.period", "the time from row to row: 10 s, 1 min", where)
+    if isinstance(period, str):
+        from thermodata.schema.quantity import value_in
+
+        period = value_in(period, "s")
+    return Group(STREAM, (), float(period), None, None, tuple(range(width)), True)
 
 
 def one_clock(

@@ -8,12 +8,15 @@ from typing import Any
 
 import numpy as np
 
-from thermodata.errors import FormatError, UsageError, nearest
+from thermodata.errors import FormatError, QuestionError, UsageError, nearest
+from thermodata.plugin import Array
+from thermodata.reader.open_questions import UNKNOWN, unit_question
 from thermodata.reader.text.cell import TIME_WORD, Cell, is_clocked, is_dated, is_number, is_stamp, number_of
 from thermodata.reader.text.header import split_unit
 from thermodata.reader.text.time_formats import MILLISECONDS
 from thermodata.reader.time_units import SECONDS, check_unit, found_epoch
 
+_FEWEST_ROWS = 10  # of a table whose period is asked for: less is a list of anything
 _FRACTION = re.compile(r":\d\d:\d\d[.,:]\d+\s*([AaPp]\.?[Mm]\.?)?$")
 
 
@@ -50,26 +53,38 @@ def time_of(
     if wanted is not None:
         columns = tuple(column(w, names, where) for w in (wanted if isinstance(wanted, list | tuple) else [wanted]))
     else:
-        columns = find_time(names, units, data, where, likely)
+        try:
+            columns = find_time(names, units, data, where, likely)
+        except FormatError:
+            question = _time_question(names, data, where)
+            if question is None:
+                raise
+            raise question from None
     cells = [row[columns[0]] for row in data]
     numeric = sum(map(is_number, cells)) * 2 > len(cells)
     notes: list[str] = []
     if form is not None or (not numeric and unit is None):
         return columns, None, form, notes
-    text = unit or units[columns[0]]
+    name = names[columns[0]]
+    text = unit or units[columns[0]] or unit_of_name(name)
     if text is None:
-        text = _size_of_clock(names[columns[0]], cells, where)
+        text = _size_of_clock(name, cells, where)
         notes.append(
-            f"time column '{names[columns[0]]}' has no unit: "
-            + ("taken as seconds" if text == "s" else f"by its size it is {text}")
-            + "; declare table: {time: {unit: ...}} if that is wrong"
+            f"time column '{name}' has no unit: by its size it is {text}; declare table: {{time: {{unit: ...}}}} "
+            "if that is wrong"
         )
     return columns, check_unit(str(text), where), None, notes
 
 
+def unit_of_name(name: str) -> str | None:
+    """The unit at the end of a name: 'time_s', 't_min'."""
+    end = re.search(r"(?i)[_ ](s|sec|min|h|ms)$", split_unit(name)[0].strip())
+    return end[1] if end else None
+
+
 def _size_of_clock(name: str, cells: Sequence[Cell], where: str) -> str:
-    """The unit of a time that names none: seconds, or a count from a date where its size leaves no other sense.
-    FormatError where it may be days or seconds."""
+    """The unit of a time that names none, where its size leaves one sense only: a count from a date.
+    FormatError where it may be days or seconds; else QuestionError."""
     values = np.array([v for c in cells if (v := number_of(c)) is not None], np.float64)
     epoch = found_epoch(values) if values.size else None
     if epoch is not None:
@@ -85,7 +100,7 @@ def _size_of_clock(name: str, cells: Sequence[Cell], where: str) -> str:
             expected="a unit",
             hint="declare table: {time: {unit: excel}} or {time: {unit: s}}",
         )
-    return "s"
+    raise unit_question(name, values, where)
 
 
 def find_time(
@@ -128,8 +143,38 @@ def find_time(
         where=where,
         got=", ".join(names[:12]),
         expected="a column of dates, or one called time or with s, min or h as its unit",
-        hint="declare table: {time: {column: 1, unit: s}}",
+        hint="declare table: {time: {column: 1, unit: s}}, or time: {period: 60 s} for rows that nothing dates",
     )
+
+
+def _time_question(names: list[str], data: list[list[Cell]], where: str) -> QuestionError | None:
+    """What to ask of a table of numbers without a time; None where it is no such table."""
+    width = len(names)
+    numbers = [i for i in range(width) if sum(is_number(r[i]) for r in data) > 0.6 * len(data)]
+    if len(data) < _FEWEST_ROWS or len(numbers) * 2 < width:
+        return None
+    rising = _rising(data)
+    if rising is not None and all(name == f"column {i + 1}" for i, name in enumerate(names)):
+        return unit_question(names[0], rising, where, 1)
+    other = f"; or is '{names[0]}' the time? then time: {{column: 1, unit: s}}" if rising is not None else ""
+    return QuestionError(
+        "no time column found",
+        where=where,
+        expected="a column of dates, or one called time or with s, min or h as its unit",
+        got=", ".join(names[:12]),
+        hint="declare the time from row to row: table: {time: {period: 60 s}}; or a column: {column: 1, unit: s}",
+        ask=f"period: the time from row to row, e.g. 10 s or 1 min? no column holds a time{other}",
+        declare={"time": {"period": UNKNOWN}},
+        meanwhile={"time": {"period": 1.0}},
+    )
+
+
+def _rising(data: Sequence[Sequence[Cell]]) -> Array | None:
+    """The numbers of the first column where they rise from row to row in even steps, as a time does or a count."""
+    values = np.array([v for r in data if (v := number_of(r[0])) is not None], np.float64)
+    steps = np.diff(values)
+    even = values.size >= max(2, 0.9 * len(data)) and bool((steps > 0).all())
+    return values if even and float(np.mean(np.abs(steps - np.median(steps)) <= 0.1 * np.median(steps))) > 0.9 else None
 
 
 def _milliseconds(column: int, names: list[str], times: Sequence[Cell], data: list[list[Cell]]) -> tuple[int, ...]:
