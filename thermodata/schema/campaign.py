@@ -200,6 +200,18 @@ class SourceSpec(Strict):
     clock: Clock = Clock()
     options: dict[str, Any] = {}
 
+    @property
+    def sheet_a_test(self) -> bool:
+        """Whether each test is a sheet of one workbook."""
+        return self.table is not None and "{test}" in str(self.table.sheet)
+
+    def of_test(self, test: str) -> SourceSpec:
+        """The source as one test has it: the sheet with the test's name."""
+        if self.table is None or not self.sheet_a_test:
+            return self
+        sheet = str(self.table.sheet).replace("{test}", test)
+        return self.model_copy(update={"table": self.table.model_copy(update={"sheet": sheet})})
+
 
 class Sensor(Strict):
     """`channels.*.sensor`: the sensor behind a channel. Free attributes are kept.
