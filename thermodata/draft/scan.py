@@ -9,7 +9,7 @@ from __future__ import annotations
 import re
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path, PurePosixPath
 
 import numpy as np
@@ -50,6 +50,7 @@ class Sample:
     first_ns: int | None = None
     last_ns: int | None = None
     losses: int = 0
+    rows: int = 0
 
 
 @dataclass(frozen=True, slots=True)
@@ -96,7 +97,7 @@ def scan(folder: Path, progress: Progress | None = None) -> Scan:
     """All files below the folder; hidden ones, stores and links are left out. progress: (done, of, path)."""
     paths = list(_files(folder))
     tell = progress or (lambda done, of, path: None)
-    began = time.monotonic()
+    began, spent = time.monotonic(), 0.0
     logs: dict[str, RawFile] = {}
     ignored: list[tuple[str, str]] = []
     shapes: dict[str, RawFile] = {}
@@ -118,7 +119,12 @@ def scan(folder: Path, progress: Progress | None = None) -> Scan:
             if not recording.signals:
                 ignored.append((str(path), f"{who.name}: it holds no signal"))
                 continue
-            logs[str(path)] = shapes[_shape(path)] = RawFile(path, who.name, recording, full.stat().st_size)
+            made = RawFile(path, who.name, recording, full.stat().st_size)
+            if made.size < _SMALL and spent < _SAMPLES_S:  # now, for its reader has just looked at it
+                before = time.monotonic()
+                made = replace(made, sample=_sample(full, made))
+                spent += time.monotonic() - before
+            logs[str(path)] = shapes[_shape(path)] = made
         except (ThermodataError, OSError) as error:
             ignored.append((str(path), _short(error)))
     sampled = _sampled(folder, logs, began, tell)
@@ -199,7 +205,7 @@ def _sampled(folder: Path, logs: Mapping[str, RawFile], began: float, tell: Prog
     until = max(time.monotonic(), began) + _SAMPLES_S
     for done, path in enumerate(order):
         file = found[str(path)]
-        if time.monotonic() > until or file.like:
+        if time.monotonic() > until or file.like or file.sample.rows:
             continue
         tell(done, len(order), str(path))
         made = _sample(folder / path, file)
@@ -236,7 +242,7 @@ def _sample(path: Path, file: RawFile) -> Sample:
         losses, whole = losses + 1, False
     finally:
         items.close()  # type: ignore[attr-defined]
-    return Sample(values, {k: _thinned(v) for k, v in parts.items()}, whole, first, last, losses)
+    return Sample(values, {k: _thinned(v) for k, v in parts.items()}, whole, first, last, losses, rows)
 
 
 def _courses(signals: Sequence[Signal]) -> set[tuple[str, str]]:

@@ -9,7 +9,7 @@ from typing import Any, Literal
 
 from thermodata.errors import FormatError, UsageError
 from thermodata.reader.open_questions import UNKNOWN, unanswered
-from thermodata.reader.text.cell import WORDS, Cell, is_dated, is_empty, is_number, is_stamp
+from thermodata.reader.text.cell import WORDS, Cell, is_dated, is_empty, is_number, is_stamp, mostly
 from thermodata.reader.text.header import are_numbers, lines_between, names_and_units, unique
 from thermodata.reader.text.time_columns import column, time_of
 from thermodata.reader.text.time_formats import Stamps
@@ -291,6 +291,6 @@ def _first_data(body: Sequence[Sequence[Cell]], width: int, where: str) -> int:
 def _stamped(body: Sequence[Sequence[Cell]], width: int) -> set[int]:
     """Columns that hold dates or times in nearly all rows of the second half, where preamble is rare."""
     late = [r for r in _second_half(body) if len(r) >= width - 1]
-    return {
-        k for k in range(width) if len(late) >= 5 and sum(k < len(r) and is_stamp(r[k]) for r in late) > 0.9 * len(late)
-    }
+    if len(late) < 5:
+        return set()
+    return {k for k in range(width) if mostly((r[k] if k < len(r) else "" for r in late), is_stamp, 0.9, len(late))}

@@ -178,7 +178,8 @@ def find_table(head: Sequence[str], first: Sample, source: Source, where: str, s
         rows[0] = [""]
     layout = find(rows, said, where)
     width = len(layout.names)
-    body = [r for r in map(cells, (*head[layout.first : layout.first + _TYPED_ROWS], *first.rest)) if len(r) == width]
+    later = map(cells, (*head[max(len(top), layout.first) : layout.first + _TYPED_ROWS], *first.rest))
+    body = [r for r in (*rows[layout.first :], *later) if len(r) == width]
     groups = tuple(_timed(g, layout, body, head, cells, first, stream, where) for g in layout.groups)
     dated = [r for r in body if all(_reads(r, g) for g in groups[:1])]
     cells_of = {name: [r[i] for r in dated] for i, name in enumerate(layout.names)}

@@ -11,7 +11,7 @@ import numpy as np
 from thermodata.errors import FormatError, QuestionError, UsageError, nearest
 from thermodata.plugin import Array
 from thermodata.reader.open_questions import UNKNOWN, unit_question
-from thermodata.reader.text.cell import TIME_WORD, Cell, is_clocked, is_dated, is_number, is_stamp, number_of
+from thermodata.reader.text.cell import TIME_WORD, Cell, is_clocked, is_dated, is_number, is_stamp, mostly, number_of
 from thermodata.reader.text.header import split_unit
 from thermodata.reader.text.time_formats import MILLISECONDS
 from thermodata.reader.time_units import SECONDS, check_unit, found_epoch
@@ -110,13 +110,14 @@ def find_time(
     time, in this order. FormatError where there is none."""
     width = len(names)
 
-    def share(column: int, test: Any) -> float:
-        cells = [r[column] for r in data if r[column] not in ("", None)]
-        return sum(bool(test(c)) for c in cells) / len(cells) if cells else 0.0
+    filled = [[r[i] for r in data if r[i] not in ("", None)] for i in range(width)]
+
+    def share(column: int, test: Any, least: float) -> bool:
+        return bool(filled[column]) and mostly(filled[column], test, least, len(filled[column]))
 
     words = [i for i in range(width) if i in likely or TIME_WORD.match(split_unit(names[i])[0].strip())]
-    dates = [i for i in range(width) if share(i, is_dated) > 0.8]
-    clocks = [i for i in range(width) if share(i, is_clocked) > 0.8]
+    dates = [i for i in range(width) if share(i, is_dated, 0.8)]
+    clocks = [i for i in range(width) if share(i, is_clocked, 0.8)]
     if dates:
         first = next((i for i in dates if i in words), dates[0])
         sample = next(r[first] for r in data if r[first] not in ("", None))
@@ -130,12 +131,12 @@ def find_time(
         return (*found, *_milliseconds(found[-1] + 1, names, [r[found[-1]] for r in data], data))
     if clocks:
         return (clocks[0],)
-    numbers = [i for i in words if share(i, is_number) > 0.6]
+    numbers = [i for i in words if share(i, is_number, 0.6)]
     if numbers:
         return (numbers[0],)
-    if (units[0] or "").strip().lower() in SECONDS and share(0, is_number) > 0.6:
+    if (units[0] or "").strip().lower() in SECONDS and share(0, is_number, 0.6):
         return (0,)
-    damaged = [i for i in range(width) if share(i, is_dated) > 0.3]
+    damaged = [i for i in range(width) if share(i, is_dated, 0.3)]
     if damaged:
         return (damaged[0],)
     raise FormatError(
