@@ -145,11 +145,12 @@ def _claimed_table(folder: Path, found: Scan) -> str | None:
     small = [str(f.path) for f in found.logs if f.size < 200_000]
     called = [p for p in small if is_called_table(p)]
     jumps = [j.file for f in found.logs if (j := jump_of(f)) is not None and j.named]
+    logs = [f for f in found.logs if str(f.path) not in called]
+    holding = [(t, fs) for g in tests_of(sources_of(logs, jumps)) for t, fs in g.tests.items()]
     for candidates, by_number in ((called, True), ([p for p in small if p not in called], False)):
         for candidate in candidates[:20]:
-            others = [f for f in found.logs if str(f.path) not in (candidate, *called)]
-            ids = list(dict.fromkeys(t for g in tests_of(sources_of(others, jumps)) for t in g.tests))
-            stems = [f.path.stem for f in others]
+            ids = list(dict.fromkeys(t for t, fs in holding if any(str(f.path) != candidate for f in fs)))
+            stems = [f.path.stem for f in logs if str(f.path) != candidate]
             if any(find_table(folder, [candidate], names, by_number) for names in (ids, stems)):
                 return candidate
     return None
@@ -200,7 +201,8 @@ def _channels(
             calibration, said = _calibration(name, signal, said, jump, group, jumps, calibrations)
         elif said.quantity == "displacement" and said.at == "tcp":
             note = "; ".join(filter(None, (note, "its sign is unknown until a calibration says which way it counts")))
-        having = {t for t, fs in group.tests.items() if any(f in files for f in fs)}
+        own = {id(f) for f in files}
+        having = {t for t, fs in group.tests.items() if any(id(f) in own for f in fs)}
         only = tuple(t for t in group.tests if t in having) if len(having) < len(group.tests) and having else ()
         made.append(
             DraftChannel(
