@@ -51,15 +51,15 @@ def _write(
 def without_time(folder: Path) -> Folder:
     """A spindle builder's bench, in English: comma, names and units in two rows, no time at all; speeds in the names as
     the operators say them, and the period only in a note that no program reads."""
-    names = ["Brg NDE", "Brg DE", "Stator", "Housing left", "Ambient", "Growth Z", "Speed"]
-    units = ["degC", "degC", "degC", "degC", "degC", "µm", "RPM"]
+    names = ["Brg NDE", "Brg DE", "Stator", "Housing left", "Ambient", "Growth Z"]
+    units = ["degC", "degC", "degC", "degC", "degC", "µm"]
     programmes = {"1-8k": [1800.0], "2-12k": [12000.0], "3-1k+2krpm": [1000.0, 2000.0, 1000.0], "4-idle": []}
     n = 301
     for k, (test, levels) in enumerate(programmes.items()):
         heat = 14.0 if levels else 0.0
         columns = [heating(n, 21 + i, heat / (1 + i), 50 + 20 * i, 10 * k + i) for i in range(4)]
         columns += [heating(n, 20.5, 0.8, 200, 10 * k + 5), heating(n, 0, 3 * heat, 70, 10 * k + 6, 0.1)]
-        texts = [numbers(c, 2) for c in columns] + [numbers(steps(n, levels), 0)]
+        texts = [numbers(c, 2) for c in columns]
         lines = [",".join(names), ",".join(units), *map(",".join, zip(*texts, strict=True))]
         _write(folder / "bench 3" / f"{test}.csv", lines)
     _write(folder / "bench 3" / "README.txt", ["Sampled every 60 s. Ask Dave about 1-8k."])
@@ -68,17 +68,18 @@ def without_time(folder: Path) -> Folder:
         {
             **dict.fromkeys(("Brg_NDE", "Brg_DE", "Stator", "Housing_left", "Ambient"), "temperature"),
             "Growth_Z": "displacement",
-            "Speed": "rotational_speed",
         },
         ("Growth_Z", "1-8k", 42.0),
         (
             ("period: unknown", "period: 60 s"),
-            (
-                "id: 1-8k, kind: spindle, role: none",
-                "id: 1-8k, kind: spindle, role: calibration, conditions: {speed: 1800 rpm}",
-            ),
+            ('id: "1-8k", kind: spindle,', 'id: "1-8k", kind: spindle, conditions: {speed: 1800 rpm},'),
+            ('id: "2-12k", kind: spindle,', 'id: "2-12k", kind: spindle, conditions: {speed: 12000 rpm},'),
         ),
-        {"1-8k": {"speed": "1800 rpm"}, "2-12k": {}},
+        {
+            "1-8k": {"speed": "1800 rpm"},
+            "2-12k": {"speed": "12000 rpm"},
+            "3-1k+2krpm": {"schedule": "1000 rpm, 2000 rpm"},
+        },
     )
 
 
@@ -103,8 +104,14 @@ def headerless(folder: Path) -> Folder:
         ("column_8", "S002", 31.0),
         (
             ("unit: unknown", "unit: s"),
-            ("  # column_7: {", "  column_7: {quantity: rotational_speed, unit: rpm, at: spindle, "),
-            ("  # column_8: {", "  column_8: {quantity: displacement, unit: um, axis: Z, at: tcp, "),
+            (
+                '# column_7: {source: log, signal: "column 7", quantity: ?, unit: ?}',
+                'column_7: {source: log, signal: "column 7", quantity: rotational_speed, unit: rpm, at: spindle}',
+            ),
+            (
+                '# column_8: {source: log, signal: "column 8", quantity: ?, unit: ?}',
+                'column_8: {source: log, signal: "column 8", quantity: displacement, unit: um, axis: Z, at: tcp}',
+            ),
         ),
     )
 
@@ -194,7 +201,7 @@ def sheets(folder: Path) -> Folder:
             "Z_drop": "displacement",
         },
         ("Z_drop", "6000 rpm", 38.1),
-        (("id: Idle, kind: etve", 'id: Idle, start: "2019-05-03 07:30", kind: etve'),),
+        (("id: Idle, kind: etve", "id: Idle, start: 2019-05-03 07:30, kind: etve"),),
         {"6000 rpm": {"speed": "6000 rpm"}},
     )
 

@@ -3,15 +3,18 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
+from typing import Any
 
 from thermodata.draft.clocks import Alignment, alignments, zone_question
+from thermodata.draft.durations import hinted
 from thermodata.draft.group import files_of, tests_of
 from thermodata.draft.guess import guess
 from thermodata.draft.jumps import JumpTest, jump_of
 from thermodata.draft.kinds import Kind, kind_of
+from thermodata.draft.measuring import Named, rule_of
 from thermodata.draft.naming import channel_name, words
 from thermodata.draft.place import axis_of
 from thermodata.draft.quantity import Guess
@@ -29,12 +32,14 @@ _SHORT = {"temperature": "T", "temperature_difference": "dT", "rotational_speed"
 
 @dataclass(frozen=True, slots=True)
 class DraftSource:
-    """sources.<name>. files: a glob with {test}, a shared one, or None where each test names its files."""
+    """sources.<name>. files: a glob with {test}, a shared one, or None where each test names its files; table: what has
+    to be declared of its layout, with 'unknown' where a question asks for it."""
 
     name: str
     reader: str
     files: str | None
     questions: tuple[str, ...] = ()
+    table: Mapping[str, Any] = field(default_factory=dict)
     align: Alignment | None = None
 
 
@@ -77,6 +82,7 @@ class DraftTest:
     conditions: dict[str, str]
     files: dict[str, str | list[str]]
     doubts: tuple[str, ...] = ()
+    measuring: str | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -119,7 +125,8 @@ def plan(campaign: str, folder: Path, found: Scan) -> Draft:
             g.source,
             g.reader,
             g.template,
-            tuple(q for q in (zone_question(g, groups), *g.questions) if q),
+            tuple(q for q in (*(hinted(a, g) for a in g.asks), zone_question(g, groups), *g.questions) if q),
+            g.table,
             aligned.get(g.source),
         )
         for g in groups
@@ -127,8 +134,12 @@ def plan(campaign: str, folder: Path, found: Scan) -> Draft:
     ids = list(dict.fromkeys(t for g in groups for t in g.tests))
     table = find_table(folder, found.others, ids)
     notes += closed_workbooks(found.others)
-    tests = tuple(_test(t, groups, table) for t in ids)
+    named = {id(f): _keyed(g, by_signal[g.source]) for g in groups for f in g.files}
+    tests = tuple(_test(t, groups, table, named) for t in ids)
     left_out = tuple(x for x in found.ignored if table is None or x[0] != table.file)
+    used = {j.file for j in calibrations}
+    idle = [str(j.file.path) for j in jumps if str(j.file.path) not in used]
+    left_out += tuple((p, "taken for a jump test, and no probe in volts needs it") for p in idle)
     like = [f for f in found.logs if f.like]
     if like:
         notes.append(
@@ -142,7 +153,7 @@ def plan(campaign: str, folder: Path, found: Scan) -> Draft:
 
 def _claimed_table(folder: Path, found: Scan) -> str | None:
     """A table of tests that a reader takes for a log, because it has a column of dates."""
-    small = [str(f.path) for f in found.logs if f.size < 200_000]
+    small = [str(f.path) for f in found.logs if f.size < 200_000 and f.sheet is None]
     called = [p for p in small if is_called_table(p)]
     jumps = [j.file for f in found.logs if (j := jump_of(f)) is not None and j.named]
     logs = [f for f in found.logs if str(f.path) not in called]
@@ -195,7 +206,7 @@ def _channels(
         if jump is not None and said.quantity == "voltage":
             said = Guess("displacement", said.unit, "tcp", None, False, ("data",), ("axis?",))
         named = f"{signal.stream}:{signal.name}" if signal.name in twice else signal.name
-        name = channel_name(_wished(signal.name, said), taken) if said.quantity else signal.name
+        name = channel_name(_wished(signal.name, said), taken)
         calibration = None
         if said.quantity == "displacement" and normal_unit(said.unit or "V") in ("V", "mV"):
             calibration, said = _calibration(name, signal, said, jump, group, jumps, calibrations)
@@ -316,7 +327,7 @@ def _calibration(
     return (f"jump_{name}" if axis else None), said
 
 
-def _test(test: str, groups: Sequence[Group], table: TestTable | None) -> DraftTest:
+def _test(test: str, groups: Sequence[Group], table: TestTable | None, named: Mapping[int, Named]) -> DraftTest:
     files = [f for g in groups for f in g.tests.get(test, ())]
     kind = kind_of(test, files)
     conditions, doubts = dict(kind.conditions), list(kind.doubts)
@@ -326,4 +337,4 @@ def _test(test: str, groups: Sequence[Group], table: TestTable | None) -> DraftT
             continue
         conditions[key] = value
     own = {g.source: files_of(g, test) for g in groups if g.template is None and test in g.tests}
-    return DraftTest(test, kind, conditions, own, tuple(doubts))
+    return DraftTest(test, kind, conditions, own, tuple(doubts), rule_of(files, named))
