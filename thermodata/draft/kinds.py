@@ -120,7 +120,7 @@ def _decided(by_name: str | None, by_data: str | None, moved: _Moved) -> tuple[s
         return by_data, f"guess: data only, {_told(moved)}", None
     if by_name:
         return by_name, "guess: name only", None
-    return "other", "", "kind?"
+    return "other", "", "kind? e.g. spindle, linear_axis, etve, cutting"
 
 
 def _told(moved: _Moved) -> str:

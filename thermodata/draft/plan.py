@@ -9,9 +9,9 @@ from pathlib import Path
 from typing import Any
 
 from thermodata.draft.clocks import Alignment, alignments, zone_question
-from thermodata.draft.durations import hinted
 from thermodata.draft.group import files_of, tests_of
 from thermodata.draft.guess import guess
+from thermodata.draft.hints import hinted
 from thermodata.draft.jumps import JumpTest, jump_of
 from thermodata.draft.kinds import Kind, kind_of
 from thermodata.draft.measuring import Named, rule_of

@@ -31,6 +31,7 @@ _KEPT_ROWS = 3000  # of a signal whose course tells what a test is
 _COURSE = ("rotational_speed", "feed", "displacement", "voltage", "position", "state")
 _MOST_COURSES = 40
 _MOST_QUESTIONS = 4
+_ASSUMED = "counted as 1 s each|taken as seconds from a start"
 _UNIT: Mapping[str, Any] = {"time": {"unit": UNKNOWN}}
 _NOT_LOGS = frozenset((".yaml", ".yml", ".md", ".tdms_index"))
 Progress = Callable[[int, int, str], None]
@@ -85,11 +86,6 @@ class RawFile:
     def source(self) -> Source:
         """What the reader is told, so that it reads the file at all."""
         return Source(table=self.table)
-
-    @property
-    def unit_open(self) -> bool:
-        """Whether nobody said yet in what unit its times count."""
-        return any("time" in a.declare for a in self.asked) and self.recording.clock == "relative"
 
     @property
     def signals(self) -> tuple[Signal, ...]:
@@ -202,8 +198,9 @@ def _asking(who: Reader, full: Path, file: RawFile) -> RawFile:
                 raise
             asked.append(Asked(question.ask, question.declare))
             table = merged(table, question.meanwhile)
-    if not any("time" in a.declare for a in asked):  # MATLAB counts in seconds by custom, and it is asked all the same
+    if not any("time" in a.declare for a in asked):  # what a reader takes by custom, MATLAB's seconds, is asked here
         asked += [Asked("unit of the time: s, min or h?", _UNIT) for n in recording.notes if "taken as seconds;" in n]
+        asked += [Asked(f"time: {n}", {}) for n in recording.notes if re.search(_ASSUMED, n)]
     return replace(file, recording=recording, asked=tuple(asked), table=table or None)
 
 

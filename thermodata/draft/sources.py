@@ -44,7 +44,7 @@ class Group:
         """What its files leave open, each once."""
         first: dict[str, str] = {}
         for asked in self._asked():
-            first.setdefault(repr(asked.declare), asked.ask)
+            first.setdefault(repr(asked.declare) if asked.declare else asked.ask, asked.ask)
         return tuple(first.values())
 
     def _asked(self) -> list[Asked]:

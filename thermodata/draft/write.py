@@ -9,6 +9,7 @@ from collections.abc import Mapping, Sequence
 from thermodata.draft.plan import Draft, DraftChannel, DraftJump, DraftSource, DraftTest
 from thermodata.draft.testsfrom import Pattern, pattern_of
 
+_PLACES = "at: where on the machine, e.g. spindle.bearing.front, axis.z.nut, column.rear, hall.top, floor"
 _ROLES = "? role of each: calibration (fitted), verification (checked), locked (for the last word), none (kept only)"
 _WORDS = frozenset(("yes", "no", "on", "off", "true", "false", "null", "y", "n"))
 _OPEN = "?"
@@ -30,7 +31,7 @@ def text_of(draft: Draft) -> str:
     ]
     lines += [_source(s) for s in draft.sources]
     lines.append(
-        "channels:"
+        f"channels:   # {_PLACES}"
         if any(c.said.quantity for c in draft.channels)
         else "channels: {}                       # ? no signal whose quantity can be told"
     )

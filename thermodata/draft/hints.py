@@ -1,4 +1,4 @@
-"""How long a test ran, by its name ('5H', '90min'): a hint for a time that names no unit."""
+"""What else is known of a question: how long a test ran by its name ('5H', '90min'), and what its sibling files say."""
 
 from __future__ import annotations
 
@@ -25,6 +25,8 @@ def said_s(text: str) -> float | None:
 
 def hinted(ask: str, group: Group) -> str:
     """A question, with what the names of the files say to it where it is for the unit of a time or a period."""
+    if ask.startswith("format"):
+        return ask + _settled_by_others(group)
     if not ask.startswith(("unit of the time", "period")):
         return ask
     fits = Counter(u for f in group.files for u in _fitting(f, ask))
@@ -33,6 +35,15 @@ def hinted(ask: str, group: Group) -> str:
         return ask
     unit, many = fits.most_common(1)[0]
     return f"{ask}; '{named.sheet or named.path.stem}' fits {unit} ({many} of {len(group.files)} names state a length)"
+
+
+def _settled_by_others(group: Group) -> str:
+    """What files of the same source say whose days leave no choice."""
+    for file in group.files:
+        for order, shown in (("dmy", "DD/MM"), ("mdy", "MM/DD")):
+            if not file.asked and any("dates read as" in n and shown in n for n in file.recording.notes):
+                return f"; {file.path.name} can only be {order}"
+    return ""
 
 
 def _fitting(file: RawFile, ask: str) -> list[str]:
