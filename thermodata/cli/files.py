@@ -21,7 +21,7 @@ _FILE = click.Path(path_type=Path, exists=True, dir_okay=False)
 @click.argument("folder", type=click.Path(path_type=Path, exists=True, file_okay=False))
 @click.option("--force", is_flag=True, help="Draft anew: an existing campaign.yaml is kept as campaign.1.yaml.")
 def init_command(session: Session, folder: Path, force: bool) -> None:
-    """Draft FOLDER/campaign.yaml, and a first model.yaml, from the raw files found there.
+    """Draft campaign.yaml and a first model.yaml from the raw files of FOLDER.
 
     It groups files into sources and tests, reads signals and units, guesses quantities and places, takes conditions
     from the names, finds jump tests, and says how sure it is; what only you know is marked '# ?'. What is there is
