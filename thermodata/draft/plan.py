@@ -119,7 +119,8 @@ def plan(campaign: str, folder: Path, found: Scan) -> Draft:
         by_signal[g.source] = {
             (c.stream or "", c.signal): (c.said.quantity, c.said.at, c.name) for c in made if c.said.quantity
         }
-    aligned = {a.source: a for a in alignments(groups, {g.source: _keyed(g, by_signal[g.source]) for g in groups})}
+    keyed = {g.source: _keyed(g, by_signal[g.source]) for g in groups}
+    aligned = {a.source: a for a in alignments(groups, keyed)}
     sources = tuple(
         DraftSource(
             g.source,
@@ -134,7 +135,7 @@ def plan(campaign: str, folder: Path, found: Scan) -> Draft:
     ids = list(dict.fromkeys(t for g in groups for t in g.tests))
     table = find_table(folder, found.others, ids)
     notes += closed_workbooks(found.others)
-    named = {id(f): _keyed(g, by_signal[g.source]) for g in groups for f in g.files}
+    named = {id(f): keyed[g.source] for g in groups for f in g.files}
     tests = tuple(_test(t, groups, table, named) for t in ids)
     left_out = tuple(x for x in found.ignored if table is None or x[0] != table.file)
     used = {j.file for j in calibrations}
