@@ -79,6 +79,7 @@ def verdict_sentence(found: Diagnosis) -> str:
         return text
     return {
         "effect": "missing: an effect that the data point to",
+        "refine": "no effect is missing, but one that is there acts otherwise than modelled",
         "none": "no effect is missing: what is left is noise, or too small to matter",
         "unknown": "something is missing that no known effect with these channels explains",
         "not_testable": "these tests can't tell which effect is missing",

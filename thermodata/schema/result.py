@@ -130,6 +130,9 @@ class Candidate(Result):
     family: effects of one cause share it
     drivers: channels, in the order of the effect's roles
     claimed: whether the evidence suffices for a missing cause
+    refinement: whether it refines an effect that the model has (a second mode, a switch, a lead), which is never a
+        missing cause
+    probability: posterior probability that this cause is missing, given the data; null where none is stated
     p_value: share of surrogate residuals on which the best of all candidates does as well
     rmse_um_before: error on left-out tests without it, in the response's unit
     rmse_um_after: with it
@@ -148,6 +151,8 @@ class Candidate(Result):
     family: str
     drivers: list[str]
     claimed: bool
+    refinement: bool = False
+    probability: float | None = None
     p_value: float | None
     rmse_um_before: float | None
     rmse_um_after: float | None
@@ -197,8 +202,9 @@ class Diagnosis(Result):
 
     model: id
     response: name
-    verdict: effect: one is missing; none: what is left is noise; unknown: something is left that nothing logged
-        explains; not_testable: the tests cannot tell
+    verdict: effect: one is missing; refine: none is missing, but an effect that is there acts otherwise than modelled;
+        none: what is left is noise; unknown: something is left that nothing logged explains; not_testable: the tests
+        cannot tell
     noise_um: short-term noise of the response, in its unit
     rmse_um: error on left-out tests without any candidate
     explainable: largest fall of the squared error that a candidate gives, 0 to 1
@@ -211,7 +217,7 @@ class Diagnosis(Result):
 
     model: str
     response: str
-    verdict: Literal["effect", "none", "unknown", "not_testable"]
+    verdict: Literal["effect", "refine", "none", "unknown", "not_testable"]
     noise_um: float | None
     rmse_um: float | None
     explainable: float | None
