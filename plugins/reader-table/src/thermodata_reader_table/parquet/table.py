@@ -16,7 +16,7 @@ from thermodata.reader.open_questions import unit_question
 from thermodata.reader.text import split_unit, time_formats
 from thermodata.reader.text.header import unique
 from thermodata.reader.text.time_columns import column as find_column
-from thermodata.reader.text.time_columns import find_time, unit_of_name
+from thermodata.reader.text.time_columns import find_time, unit_of_time
 from thermodata.reader.text.time_formats import times_of_numbers
 from thermodata.reader.text.time_groups import one_time
 from thermodata.reader.time_units import check_unit, found_epoch
@@ -112,7 +112,7 @@ class Table:
             )
         if pt.is_duration(kind):
             return column, "duration"
-        text = unit or units[column] or unit_of_name(self.names[column])
+        text = unit or units[column] or unit_of_time(self.names[column])
         if text is None:
             found = next(self.batches(1000), None)
             values = np.zeros(0) if found is None else numbers(found.column(column))
