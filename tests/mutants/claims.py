@@ -32,6 +32,11 @@ def diagnosis(file: str, old: str, new: str, why: str) -> Mutant:
     return Mutant(f"thermodata/diagnosis/{file}", old, new, why, tests)
 
 
+def heat(file: str, old: str, new: str, why: str) -> Mutant:
+    tests = ("tests/diagnosis/test_missing_heat.py", "tests/diagnosis/test_goes_with.py")
+    return Mutant(f"thermodata/diagnosis/{file}", old, new, why, tests)
+
+
 def check(old: str, new: str, why: str) -> Mutant:
     return Mutant("thermodata/modelling/checks.py", old, new, why, CHECKS)
 
@@ -235,6 +240,31 @@ MUTANTS = [
         "",
         "the same effect is to be told from itself",
     ),
+    # ---- the heat that is missing
+    heat(
+        "missing_heat.py", "KNOWN_SPREAD = 0.3", "KNOWN_SPREAD = 0.003", "what the known effects took is kept by them"
+    ),
+    heat("missing_heat.py", "KNOWN_SPREAD = 0.3", "KNOWN_SPREAD = 300.0", "the known effects take what is missing"),
+    heat("missing_heat.py", "LEAVES = 0.1", "LEAVES = 0.001", "a distributed body has a time constant far too short"),
+    heat("missing_heat.py", "ONE_SIDED = 0.55", "ONE_SIDED = 0.0", "a drift heats in one direction"),
+    heat("missing_heat.py", "CHANGE = 0.05", "CHANGE = 50.0", "noise has a source, for changes cost nothing"),
+    heat(
+        "missing_heat.py", "one_way=sign != 0)\n        changes", "one_way=False)\n        changes", "heat is negative"
+    ),
+    heat("missing_heat.py", "(part % 2 != turn) | (part == 0)", "part >= 0", "what was seen counts as predicted"),
+    heat("one_way.py", "(q > 0) | (slope < -1e-9 * largest)", "(q > 0)", "a source that rests never starts"),
+    heat("goes_with.py", "ON_WITH, MORE_OFTEN = 0.8, 0.25", "ON_WITH, MORE_OFTEN = 0.7, 0.25", "half a companion"),
+    heat("goes_with.py", "ON_WITH, MORE_OFTEN = 0.8, 0.25", "ON_WITH, MORE_OFTEN = 0.8, -1.0", "chance is a companion"),
+    heat("goes_with.py", "OFF_WITH, NO_OFTENER = 0.6, 0.3", "OFF_WITH, NO_OFTENER = 0.7, 0.5", "causes are ruled out"),
+    heat("goes_with.py", "FOLLOWS, FOLLOWS_NOT = 0.7, 0.3", "FOLLOWS, FOLLOWS_NOT = 0.6, 0.4", "halves are followed"),
+    heat("goes_with.py", "STRONG, WEAK = 0.5, 0.15", "STRONG, WEAK = 0.4, 0.2", "tests are strong and absent too soon"),
+    heat(
+        "goes_with.py",
+        "DAYS, MOST_DAYS, MOSTLY_ON = 3, 0.8, 0.6",
+        "DAYS, MOST_DAYS, MOSTLY_ON = 2, 0.5, 0.9",
+        "any hour",
+    ),
+    heat("first_seen.py", "SURE = 0.8", "SURE = 0.5", "a coin's direction is told as sure"),
     # ---- checks of a fit
     check("CONDITION = 1000.0", "CONDITION = 1e9", "effects that can't be told apart go unnoticed"),
     check("COLLINEAR = 0.98", "COLLINEAR = 1.0", "twins go unnoticed"),

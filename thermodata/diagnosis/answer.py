@@ -17,6 +17,7 @@ from thermodata.diagnosis.judge import (
     equivalents,
     explained,
     failed_rules,
+    probability,
     remaining,
 )
 from thermodata.diagnosis.locked import Foretold
@@ -79,14 +80,14 @@ def kept_where_they_hold(judgement: Judgement, ask: BorneOut, unit: str) -> Judg
     assert first is not None
     name = judgement.claims[0].scored.candidate.id
     reason = (
-        f"{name} explains the open tests, but on the locked ones the error does not fall by half of what it adds "
-        f"({first.before:.2f} -> {first.after:.2f} {unit})"
+        f"{name} explains the open tests, but on the locked ones the error does not fall by half of what it "
+        f"adds ({first.before:.2f} -> {first.after:.2f} {unit})"
     )
     return replace(judgement, verdict="unknown", claims=(), reason=reason)
 
 
 def _with_twins(claims: Sequence[Judged]) -> list[tuple[Judged, ...]]:
-    """What can't be told apart is one claim, and one member of it that does not hold is no reason against the others."""
+    """What can't be told apart is one claim, and one member that does not hold is no reason against the others."""
     largest = claims[0]
     twins = equivalents(largest.scored, largest.beside)[:TWINS_TRIED]
     return [(replace(largest, scored=twin), *claims[1:]) for twin in twins]
@@ -111,23 +112,31 @@ def _diagnosis(
 ) -> Diagnosis:
     problem = investigation.problem
     shown = _shown(investigation, judgement)
+    head = next((s for s, m in shown if not any(m is r for r in judgement.refinements)), None)
+
+    def claimed(member: Judged | None) -> bool:
+        return any(member is c for c in judgement.claims)
+
     advice = None
     if judgement.claims:
         claim = judgement.claims[0]
         advice = next_test.to_separate(claim.scored, equivalents(claim.scored, claim.beside), data.channels)
     elif judgement.verdict in ("unknown", "not_testable"):
-        advice = next_test.to_find(len({b.test.key for b in problem.blocks}), investigation.spots)
-    scored = [s for s, _ in shown if len(s.rows)]
+        advice = next_test.to_find(
+            len({b.test.key for b in problem.blocks}), investigation.spots, shown[0][0] if shown else None
+        )
+    scored, alone = [s for s, _ in shown if len(s.rows)], investigation.selection
     return Diagnosis(
         model=model_id,
         response=problem.response,
         verdict=judgement.verdict,
         noise_um=problem.noise if np.isfinite(problem.noise) else None,
-        rmse_um=remaining(scored[0]) if scored else _left(problem),
+        rmse_um=remaining(alone.first.ranked[0]) if alone is not None else _left(problem),
         explainable=max((float(np.clip(_fall(s), 0.0, 1.0)) for s in scored), default=None),
         weak_spots=investigation.spots,
         candidates=[
-            _candidate(i + 1, s, member, investigation, judgement, confirmation) for i, (s, member) in enumerate(shown)
+            _candidate(i + 1, s, member, s is head or claimed(member), investigation, judgement, confirmation)
+            for i, (s, member) in enumerate(shown)
         ],
         artefacts=investigation.artefacts,
         unknown=characterise(problem, investigation.spots) if judgement.verdict == "unknown" else None,
@@ -154,6 +163,7 @@ def _candidate(
     rank: int,
     s: Scored,
     member: Judged | None,
+    heads: bool,
     investigation: Investigation,
     judgement: Judgement,
     confirmation: Confirmation | None,
@@ -170,6 +180,8 @@ def _candidate(
         drivers=list(s.candidate.channels),
         claimed=claimed,
         refinement=any(member is r for r in judgement.refinements),
+        # measured for what heads the list, and for claims; nothing is known of the share of the others
+        probability=probability(s) if heads else None,
         p_value=p_value(s.evidence, measure.chance),
         rmse_um_before=_rmse(s.sse_before, s),
         rmse_um_after=_rmse(s.sse_after, s),
@@ -199,8 +211,8 @@ def _why(
     way = "falls" if s.error_after < s.error_before else "does not fall"
     numbers = (
         f"where it acts ({count} of {len(s.rows)} tests){beside} the error on left-out tests {way} "
-        f"({s.error_before:.2f} -> {s.error_after:.2f} {unit}) and it makes {improves} of {count} more probable; its gain "
-        f"differs between tests by {s.spread:.0%}"
+        f"({s.error_before:.2f} -> {s.error_after:.2f} {unit}) and it makes {improves} of {count} more probable; its "
+        f"gain differs between tests by {s.spread:.0%}"
     )
     chance = p_value(s.evidence, investigation.measure.chance)
     if claimed:

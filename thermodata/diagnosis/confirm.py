@@ -22,7 +22,8 @@ class Confirmation:
     """Errors on the locked tests, None where there are none; parameters of the added effects, by candidate.
 
     before, after: as scored, from the mean of the first samples on. shape_before, shape_after: with a free offset a
-    test: one unlucky zero must not hide that the shape fits. changed: RMS of what the addition changes there. each: (key, error before, error after) of every locked test.
+    test: one unlucky zero must not hide that the shape fits. changed: RMS of what the addition changes there. each:
+    (key, error before, error after) of every locked test.
     """
 
     before: float | None

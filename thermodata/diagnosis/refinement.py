@@ -25,6 +25,7 @@ MODE = "it is another mode of what the model has"
 AIR = "ambient"  # a temperature of the air counts from nothing else
 # what a model leaves that is good already: more, and something is missing (share of the response)
 GOOD = 0.4
+POOR = 0.5  # and what is poor whatever the model has at the place
 # what takes away so much of what is left (as a share of the error) is missing, not another mode of what is there
 MOST = 0.6
 # a known effect is replaced where, beside the candidate, it is worth this share of what it was worth alone
@@ -49,7 +50,8 @@ class Refinement:
         if not self.fitted.terms:
             return None
         kin, most = scored.candidate.kin, scored.drop >= MOST
-        if refines(scored.candidate.effect) or (kin == "same" and not most):
+        poor = scored.error_before > POOR * rms(self.problem.response_blocks)
+        if refines(scored.candidate.effect) or (kin == "same" and not most) or (kin == "near" and not (most and poor)):
             return MODE
         if scored.error_before > GOOD * rms(self.problem.response_blocks):
             return None

@@ -70,8 +70,8 @@ def first_ranking(problem: Problem, candidates: Sequence[CandidateEffect]) -> Ra
 
 
 def select(problem: Problem, first: Ranked, sound: Callable[[Scored], bool]) -> Selection:
-    """Forward by evidence, then what is not sound beside the others goes, the least likely first; and again, for what it
-    stood in the way of. sound: whether a candidate keeps the rules of a claim."""
+    """Forward by evidence, then what is not sound beside the others goes, the least likely first; and again, for what
+    it stood in the way of. sound: whether a candidate keeps the rules of a claim."""
     pool, noise = [s.columns for s in first.ranked], first.known.space.noise
     chosen: list[Scored] = []
     current: list[Scored] = []
@@ -167,7 +167,7 @@ def preferred(ranked: Sequence[Scored]) -> Scored | None:
         return None
     best = ranked[0]
     own = set(best.candidate.channels)
-    for other in ranked[1:SCORED]:
+    for other in (s for s in ranked[1:] if len(s.shape)):
         theirs = set(other.candidate.channels)
         fewer = theirs < own and best.candidate.family in (GENERIC, CONTROL)
         named = best.candidate.family == GENERIC != other.candidate.family and own & theirs
