@@ -34,8 +34,8 @@ UNNAMED = -3.0
 @dataclass(frozen=True, slots=True)
 class CandidateEffect:
     """An effect and the channels it would be driven by. family: with the axis that its channels sit on.
-    placeless: nobody declared where its channels sit, so it can only be a plain lag. log_prior: how much less probable
-    than others before any data. kin: how near it is to what the model has already (`Kin`)."""
+    placeless: nobody declared where any temperature sits, so it can only be a plain lag. log_prior: how much less
+    probable than others before any data. kin: how near it is to what the model has already (`Kin`)."""
 
     effect: Effect
     binding: Mapping[str, str]
@@ -84,13 +84,14 @@ def candidates(
     lagged = {names for effect, names in have if library.get(effect) is None or library[effect].family == GENERIC}
     read = frozenset[str]().union(*(names for _, names in have))
     usable = {n: c for n, c in channels.items() if n != response and c.quantity not in NOT_DRIVERS}
+    placed = any(c.at is not None for c in usable.values() if c.quantity == "temperature")
     found: list[CandidateEffect] = []
     for effect in library.values():
         # a static gain is a lag whose time constant is zero, and the grid of a lag begins there
         if effect.family == "artefact" or not effect.needs or effect.name == STATIC:
             continue
         for binding in bindings(effect, usable):
-            nowhere = effect.family == GENERIC and all(usable[c].at is None for c in binding.values())
+            nowhere = effect.family == GENERIC and not placed
             names, family = frozenset(binding.values()), family_of(effect, binding, channels)
             if (effect.name, names) in have or names in lagged:
                 continue

@@ -106,8 +106,13 @@ def investigate(
         chosen = {id(c.alone.columns) for c in claims}
         kept = [m.scored for m in selection.members if id(m.alone.columns) not in chosen]
         both = replace(problem, blocks=(*problem.blocks, *unseen), kept={})
+        claimed, refining = [c.scored for c in claims], [j.scored for j in judgement.refinements]
         with threadpool_limits(1):
-            return foretell(both, len(problem.blocks), selection.noise, kept, [c.scored for c in claims])
+            beside_all = foretell(both, len(problem.blocks), selection.noise, kept, claimed)
+            # what stands beside a claim without being one may stand in its way
+            if beside_all.holds or len(kept) == len(refining):
+                return beside_all
+            return foretell(both, len(problem.blocks), selection.noise, refining, claimed)
 
     return Investigation(problem, selection, artefacts, spots, judgement, measure, borne_out)
 

@@ -20,9 +20,12 @@ Verdict = Literal["effect", "refine", "none", "unknown", "not_testable"]
 P_LIMIT = 0.01
 PROBABILITY = (2.77, 3.61)  # of a logistic curve over the logarithm of the evidence a sample
 # log evidence a sample, in the noise that is left once all members are in: the noise must fall by a seventh. A cause
-# has the timing of what is missing and leaves little noise; what stands in for it has the slow shape alone, and leaves more
+# has the timing of what is missing and leaves little noise; what stands in for it has its slow shape alone
 SHARP_LIMIT = 0.15
-UNNAMED_SHARP_LIMIT = 0.25  # and of what names no physics: a body's temperature also sharpens a known effect
+# and of what names no physics: the temperature of a body also sharpens a known effect
+UNNAMED_SHARP_LIMIT = 0.25
+# where nobody declared any place a claim names a channel, not physics, and there is nothing that it could be taken for
+PLACELESS_SHARP_LIMIT = 0.05
 DROP_LIMIT = 0.15  # fall of the error on left-out tests in which it acts,
 UNNAMED_DROP_LIMIT = 0.3  # and of what names no physics: any slow temperature steadies a misfit a little
 BETTER_LIMIT = 0.6  # share of these tests that it makes more probable
@@ -170,6 +173,8 @@ def failed_rules(scored: Scored, measure: Measure, unit: str) -> list[str]:
 def blunt(scored: Scored) -> str | None:
     """Why a sound candidate is still no cause; None where its timing is that of what is missing."""
     limit = UNNAMED_SHARP_LIMIT if _unnamed(scored) else SHARP_LIMIT
+    if scored.candidate.placeless:
+        limit = PLACELESS_SHARP_LIMIT
     if sharpness(scored) >= limit:
         return None
     return (
