@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from difflib import get_close_matches
+from typing import Any
 
 
 class ThermodataError(Exception):
@@ -51,6 +52,18 @@ class SpecError(UsageError):
 
 class FormatError(UsageError):
     """A log file is not what it claims to be; `where` names file and place."""
+
+
+class QuestionError(FormatError):
+    """A log that reads in several ways and does not say which: only who wrote it knows.
+
+    ask: the question, in one line. declare: the part of `sources.*.table` that answers it, with 'unknown' where the
+    answer goes; meanwhile: the same with an answer by which the file can be looked at, and never stored.
+    """
+
+    def __init__(self, what: str, *, ask: str, declare: Mapping[str, Any], meanwhile: Mapping[str, Any], **more: Any):
+        super().__init__(what, **more)
+        self.ask, self.declare, self.meanwhile = ask, declare, meanwhile
 
 
 class CalibrationError(UsageError):

@@ -21,16 +21,18 @@ _FILE = click.Path(path_type=Path, exists=True, dir_okay=False)
 @click.argument("folder", type=click.Path(path_type=Path, exists=True, file_okay=False))
 @click.option("--force", is_flag=True, help="Draft anew: an existing campaign.yaml is kept as campaign.1.yaml.")
 def init_command(session: Session, folder: Path, force: bool) -> None:
-    """Draft FOLDER/campaign.yaml from the raw files found there.
+    """Draft campaign.yaml and a first model.yaml from the raw files of FOLDER.
 
-    It groups files into sources and tests, reads signals and units, guesses quantities and places, finds jump tests,
-    and says how sure it is; what only you know is marked '# ?'. An existing campaign.yaml is never overwritten.
+    It groups files into sources and tests, reads signals and units, guesses quantities and places, takes conditions
+    from the names, finds jump tests, and says how sure it is; what only you know is marked '# ?'. What is there is
+    never overwritten.
     """
     from thermodata.draft.answer import as_json
+    from thermodata.draft.baseline import model_text
     from thermodata.draft.plan import plan
     from thermodata.draft.scan import scan
     from thermodata.draft.write import questions_in, text_of
-    from thermodata.schema.load import load_campaign
+    from thermodata.schema.load import load_campaign, load_model
 
     out = folder / "campaign.yaml"
     if out.exists() and not force:
@@ -50,20 +52,33 @@ def init_command(session: Session, folder: Path, force: bool) -> None:
         )
     name = re.sub(r"[^A-Za-z0-9._-]+", "-", plain_name(folder.resolve().name)).strip("-._")[:100] or "campaign"
     draft = plan(name, folder, found)
-    text = text_of(draft)
-    if out.exists():
-        kept = next(p for n in range(1, 10_000) if not (p := folder / f"campaign.{n}.yaml").exists())
-        out.rename(kept)
-        session.say(f"the campaign file that was there is now {kept}")
+    text, model = text_of(draft), model_text(draft)
+    _keep(session, out)
     _write_new(out, text)
     load_campaign(out)  # a draft that doesn't load is a defect: it raises here
+    first = folder / "model.yaml"
+    if model is not None and (force or not first.exists()):
+        _keep(session, first)
+        _write_new(first, model)
+        load_model(first)
+        session.say(f"a first model of what the sensors explain: {first}")
     asked = questions_in(text)
+    files = len({f.path for f in found.logs})
     session.say(
-        f"{len(found.logs)} files, {len(draft.tests)} tests, {len(draft.sources)} sources, "
+        f"{files} files, {len(draft.tests)} tests, {len(draft.sources)} sources, "
         f"{sum(c.said.quantity is not None for c in draft.channels)} channels; {asked} lines hold a question: "
         f"grep '# ?' {out}"
     )
-    session.answer(as_json(draft, out, len(found.logs), asked), lambda: str(out))
+    session.answer(as_json(draft, out, files, asked, first if model else None), lambda: str(out))
+
+
+def _keep(session: Session, path: Path) -> None:
+    """Moves a file that is there out of the way: campaign.yaml to campaign.1.yaml."""
+    if path.exists():
+        names = (path.with_name(f"{path.stem}.{n}{path.suffix}") for n in range(1, 10_000))
+        kept = next(p for p in names if not p.exists())
+        path.rename(kept)
+        session.say(f"the {path.name} that was there is now {kept}")
 
 
 def plain_name(text: str) -> str:

@@ -77,7 +77,7 @@ def _declared(file: Path, campaign: Path | None) -> tuple[Meant | None, Source, 
                 hint="correct 'files' of a source or a test, or leave out --campaign",
             )
         return None, Source(name="preview"), None
-    spec = loaded.sources[meant.source]
+    spec = loaded.sources[meant.source].of_test(meant.test or "")
     return meant, declared(meant.source, spec), reader(spec.reader)
 
 

@@ -8,10 +8,11 @@ from typing import Any
 from thermodata.draft.plan import Draft, DraftChannel
 
 
-def as_json(draft: Draft, out: Path, files: int, questions: int) -> dict[str, Any]:
-    """Plain data. Keys that do not apply are None, never absent."""
+def as_json(draft: Draft, out: Path, files: int, questions: int, model: Path | None) -> dict[str, Any]:
+    """Plain data. model: the drafted model file, or None. Keys that do not apply are None, never absent."""
     return {
         "campaign": str(out),
+        "model": None if model is None else str(model),
         "id": draft.campaign,
         "files": files,
         "questions": questions,
@@ -20,6 +21,7 @@ def as_json(draft: Draft, out: Path, files: int, questions: int) -> dict[str, An
                 "name": s.name,
                 "reader": s.reader,
                 "files": s.files,
+                "table": s.table or None,
                 "questions": list(s.questions),
                 "clock": None
                 if s.align is None
@@ -57,6 +59,8 @@ def as_json(draft: Draft, out: Path, files: int, questions: int) -> dict[str, An
                 "kind": t.kind.kind,
                 "role": "none",
                 "conditions": t.conditions,
+                "start": t.kind.start,
+                "measuring": t.measuring,
                 "files": t.files,
                 "sure": t.kind.comment.startswith("sure"),
                 "basis": t.kind.comment,

@@ -144,11 +144,12 @@ def matches(template: str, test: str, paths: Sequence[str]) -> list[str]:
     """The paths that a template finds for a test, as `ingest` does."""
     import glob
 
-    pattern = _regex(template.replace("{test}", glob.escape(test)))
-    return [p for p in paths if pattern.fullmatch(p)]
+    near = [p for p in paths if test in p]  # a template holds {test}, so a path that fits holds the test
+    pattern = re.compile(_regex(template.replace("{test}", glob.escape(test)))) if near else None
+    return [p for p in near if pattern is not None and pattern.fullmatch(p)]
 
 
-def _regex(pattern: str) -> re.Pattern[str]:
+def _regex(pattern: str) -> str:
     out, i = "", 0
     while i < len(pattern):
         if pattern[i] == "*":
@@ -161,4 +162,4 @@ def _regex(pattern: str) -> re.Pattern[str]:
             out, i = out + "[" + re.sub(r"^!", "^", inside) + "]", end + 1
         else:
             out, i = out + re.escape(pattern[i]), i + 1
-    return re.compile(out)
+    return out

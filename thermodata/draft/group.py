@@ -60,6 +60,8 @@ def _legal(ids: Iterable[str]) -> dict[str, str]:
 
 def _allowed(group: Group) -> list[Naming]:
     """The ways to read its names that its clock does not contradict."""
+    if sheets := _by_sheet(group):
+        return [sheets]
     found = []
     for way in namings([f.path for f in group.files]):
         if way.parts and (not way.joins or _one_recording(group, way) is False):
@@ -68,6 +70,15 @@ def _allowed(group: Group) -> list[Naming]:
             continue
         found.append(way)
     return found
+
+
+def _by_sheet(group: Group) -> Naming | None:
+    """Of a workbook each sheet is a test, called as the sheet is; of several each names its file."""
+    ids = tuple(f.sheet or "" for f in group.files)
+    if not all(ids):
+        return None
+    files = {str(f.path) for f in group.files}
+    return Naming(ids, re.sub(r"([*?[])", r"[\1]", files.pop()) if len(files) == 1 else None, 0.0)
 
 
 def _one_recording(group: Group, way: Naming) -> bool | None:
@@ -181,6 +192,8 @@ def _with_template(group: Group, template: str | None, ids: Sequence[str], every
         paths = [str(f.path) for f in group.files]
         return replace(group, template=_glob(paths, every))
     many = len(group.tests) > 1 or len(ids) == 1
+    if template is not None and any(f.sheet for f in group.files):
+        return replace(group, template=template)
     if (
         template is not None
         and many

@@ -19,6 +19,7 @@ from thermodata.draft.vocabulary import DIFFERENCE, LIMIT, SETPOINT, places_in, 
 from thermodata.reader.text import split_unit
 from thermodata.schema.quantity import is_unit, normal_unit
 
+_NUMBERED = re.compile(r"column \d+(?:#\d+)?")
 _IMPLIED = {
     "temperature": "degC",
     "rotational_speed": "rpm",
@@ -58,6 +59,8 @@ _NEEDS_PLACE = (
 @lru_cache(maxsize=50_000)
 def guess(name: str, unit: str | None, dtype: str = "float64", values: Values | None = None) -> Guess:
     """Quantity, unit, place and axis of a signal. unit: as the file writes it; values: of a sample, if there is one."""
+    if _NUMBERED.fullmatch(name.rsplit("/", 1)[-1]):
+        name = ""  # the reader's own name for a column that has none says nothing: 'column 7' is no machine's column
     bare = split_unit(name)[0]  # the 'min' of 'n [1/min]' is no limit
     own, text = words(_last(bare)), words(bare)
     written = (units.from_name(_last(bare)) or units.from_name(_field(bare))) if not unit else None

@@ -56,7 +56,7 @@ def jump_of(file: RawFile) -> JumpTest | None:
         height = max(abs(s.size) for s in steps)
         if best is None or height > max(abs(s.size) for s in best.steps):
             best = JumpTest(file, key, steps, dwell, named)
-    if best is None and named and probes:
+    if best is None and named and probes and not stirred:
         return JumpTest(file, None, (), 10.0, True)
     return best
 

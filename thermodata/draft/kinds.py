@@ -5,12 +5,14 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from datetime import UTC, datetime
 
 import numpy as np
 
 from thermodata.draft.guess import guess
 from thermodata.draft.naming import words
 from thermodata.draft.place import axis_of
+from thermodata.draft.said_by_names import Said, said_by
 from thermodata.draft.scan import RawFile
 from thermodata.draft.vocabulary import says
 from thermodata.plugin import Float1D
@@ -50,18 +52,13 @@ _AGREE = {
     "linear_axis": {"linear_axis", "mixed"},
     "rotary_axis": {"rotary_axis", "mixed"},
 }
-_SPEED = re.compile(
-    r"(?<!\S)(?:s|n|sp|rpm|speed|spindle|spindel|drehzahl|otacky|ot|nspi|转速|主轴) ?(\d{3,5})(?!\S)|"
-    r"(?<!\S)(\d{3,5}) ?(?:rpm|ot|otmin|u min|1 min|min 1|umin|转)(?!\S)|(?<!\S)(\d{1,2}) "
-    r"?(?:k|krpm)(?!\S)"
-)
-_FEED = re.compile(r"(?<!\S)(?:f|vf|feed|vorschub|posuv|进给) ?(\d{1,5})(?: ?(m|mm) min)?(?!\S)")
 
 
 @dataclass(frozen=True, slots=True)
 class Kind:
     """kind: as in a campaign file; comment: how sure; question: what to look at, or None; conditions: condition ->
-    value with unit; doubts: of the conditions; role_hint: what the name says of the role, which is never taken."""
+    value with unit; doubts: of the conditions; role_hint: what the name says of the role, which is never taken; start:
+    date and time by the name, where no recording has its own."""
 
     kind: str
     comment: str
@@ -69,6 +66,7 @@ class Kind:
     conditions: dict[str, str] = field(default_factory=dict)
     doubts: tuple[str, ...] = ()
     role_hint: str | None = None
+    start: str | None = None
 
 
 @dataclass(slots=True)
@@ -87,13 +85,16 @@ class _Moved:
 def kind_of(test: str, files: Sequence[RawFile]) -> Kind:
     """The kind of a test, and its conditions. files: all its recordings, of all sources."""
     text, moved = words(test), _moved(files)
+    folders = [part for f in files for part in reversed(f.path.parts[:-1])]
+    said = said_by(list(dict.fromkeys([test, *(f.path.stem for f in files), *folders])))
     by_name = next((kind for kind, listed in _KINDS if says(listed, text)), None)
-    speed, feed = _SPEED.search(text), _FEED.search(text)
-    conditions, doubts = _conditions(text, speed, feed, moved)
-    if by_name is None and speed:
-        by_name = "spindle"
-    elif by_name is None and (feed or re.search(r"(?<!\S)[xyz]\d*(?!\S)", text)):
+    conditions, comments, doubts = _conditions(said, moved, files)
+    if by_name is None and ({"speed", "schedule"} & conditions.keys() or said.speeds):
+        by_name = "spectrum" if conditions.get("schedule", "").count(",") >= 2 else "spindle"
+    elif by_name is None and ("feed" in conditions or re.search(r"(?<!\S)[xyz]\d*(?!\S)", text)):
         by_name = "linear_axis"
+    elif by_name is None and "air" in conditions:
+        by_name = "etve"
     by_data = _by_data(moved)
     hint = next((role for role, listed in _ROLES if says(listed, text)), None)
     kind, comment, question = _decided(by_name, by_data, moved)
@@ -103,7 +104,10 @@ def kind_of(test: str, files: Sequence[RawFile]) -> Kind:
             conditions["axis"] = letter.upper()
     if kind == "spindle" and "speed" not in conditions and len(moved.speeds) == 1 and moved.whole:
         conditions["speed"] = f"{moved.speeds[0]:g} rpm"
-    return Kind(kind, comment, question, conditions, tuple(doubts), hint)
+        comments.append("speed sure: data")
+    start = None if any(f.start_ns is not None for f in files) else said.start
+    comment = "; ".join(filter(None, (comment, *comments)))
+    return Kind(kind, comment, question, conditions, tuple(doubts), hint, start)
 
 
 def _decided(by_name: str | None, by_data: str | None, moved: _Moved) -> tuple[str, str, str | None]:
@@ -116,7 +120,7 @@ def _decided(by_name: str | None, by_data: str | None, moved: _Moved) -> tuple[s
         return by_data, f"guess: data only, {_told(moved)}", None
     if by_name:
         return by_name, "guess: name only", None
-    return "other", "", "kind?"
+    return "other", "", "kind? e.g. spindle, linear_axis, etve, cutting"
 
 
 def _told(moved: _Moved) -> str:
@@ -214,20 +218,31 @@ def _plateaus(speed: Float1D) -> tuple[float, ...]:
     return tuple(float(f"{f:.3g}") if f >= 1000 else round(f) for f in found)
 
 
-def _conditions(
-    text: str, speed: re.Match[str] | None, feed: re.Match[str] | None, moved: _Moved
-) -> tuple[dict[str, str], list[str]]:
-    found: dict[str, str] = {}
-    doubts = []
-    if speed:
-        value = float(speed[1] or speed[2] or 0) or float(speed[3]) * 1000
-        found["speed"] = f"{value:g} rpm"
-        if moved.speeds and moved.whole and not any(abs(s - value) < 0.05 * value for s in moved.speeds):
-            shown = ", ".join(f"{s:g}" for s in moved.speeds[:3])
-            doubts.append(f"speed: the name says {value:g} rpm, the data {shown}")
-    if feed:
-        unit = f"{feed[2]}/min" if feed[2] else "mm/min" if float(feed[1]) >= 100 else "m/min"
-        found["feed"] = f"{float(feed[1]):g} {unit}"
-        if not feed[2]:
-            doubts.append(f"feed in {unit}?")
-    return found, doubts
+def _conditions(said: Said, moved: _Moved, files: Sequence[RawFile]) -> tuple[dict[str, str], list[str], list[str]]:
+    """(conditions, how sure each is, what to ask), the names held against what the recordings show."""
+    found, questions, comments = dict(said.conditions), list(said.questions), []
+    told = {k for k in found if k not in said.guessed}
+    shown = ", ".join(f"{s:g}" for s in moved.speeds[:3])
+    readings = (float(found["speed"].split()[0]),) if "speed" in found else said.speeds
+    fitting = [v for v in readings if any(abs(s - v) < 0.05 * v for s in moved.speeds)]
+    if len(fitting) == 1:
+        found["speed"] = f"{fitting[0]:g} rpm"
+        questions = [q for q in questions if not q.startswith("speed: ")]
+        comments.append("speed sure: name and data")
+    elif "speed" in found and moved.speeds and moved.whole:
+        questions.append(f"speed: the name says {found.pop('speed')}, the data {shown}")
+    elif "speed" in found:
+        comments.append("speed guess: name only")
+    if "date" in found and (day := _day_of(files)) is not None:
+        if day != found["date"] and "date" in told:
+            questions.append(f"date: the name says {found['date']}, the recording {day}")
+        del found["date"]  # the recording dates itself
+    others = [k for k in found if k not in ("speed", "axis")]
+    comments += [f"{', '.join(others)} guess: name only"] if others else []
+    return found, comments, questions
+
+
+def _day_of(files: Sequence[RawFile]) -> str | None:
+    """The day on which dated recordings began, as their clock shows it."""
+    starts = [f.start_ns for f in files if f.start_ns is not None]
+    return datetime.fromtimestamp(min(starts) / 1e9, UTC).strftime("%Y-%m-%d") if starts else None

@@ -53,7 +53,7 @@ _SYLLABLES = """
 _PINYIN = dict(pair.split(":") for pair in _SYLLABLES.split())
 
 
-def _apart(text: str) -> str:
+def without_marks(text: str) -> str:
     """Without diacritics, but with signs of scripts that have no letters as they are."""
     bare = "".join(c for c in unicodedata.normalize("NFKD", text.translate(_LETTERS)) if not unicodedata.combining(c))
     return unicodedata.normalize("NFC", bare)  # or a syllable of Hangul would stay in pieces
@@ -62,7 +62,7 @@ def _apart(text: str) -> str:
 def words(name: str) -> str:
     """'Eddy/nActSpeed_Z1' -> 'eddy n act speed z 1', '主轴T1' -> '主轴 t 1': no case, no diacritics, humps and digits
     apart."""
-    bare = _MTCONNECT.sub(lambda m: f"{'spindle' if m[1] == 'S' else m[1]}{m[2]} {m[3]}", _apart(name))
+    bare = _MTCONNECT.sub(lambda m: f"{'spindle' if m[1] == 'S' else m[1]}{m[2]} {m[3]}", without_marks(name))
     bare = re.sub(r"(?<=[a-z0-9])(?=[A-Z])|(?<=[A-Z])(?=[A-Z][a-z])", " ", bare)
     bare = re.sub(r"(?<=[^\W\d_])(?=\d)|(?<=\d)(?=[^\W\d_])", " ", bare)
     bare = re.sub(r"(?<=[A-Za-z])(?=[\u2e80-\u9fff])|(?<=[\u2e80-\u9fff])(?=[A-Za-z])", " ", bare)
@@ -73,7 +73,7 @@ def plain(name: str) -> str:
     """Any text in the letters, digits and '_' of a channel name (not yet a legal one): transliterated, never dropped
     where it has a letter or a number in it."""
     out: list[str] = []
-    for sign in _apart(name):
+    for sign in without_marks(name):
         if sign.isascii():
             out.append(sign if sign.isalnum() else "_")
         elif sign.lower() in _CYRILLIC:

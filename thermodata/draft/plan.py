@@ -3,15 +3,18 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
+from typing import Any
 
 from thermodata.draft.clocks import Alignment, alignments, zone_question
 from thermodata.draft.group import files_of, tests_of
 from thermodata.draft.guess import guess
+from thermodata.draft.hints import hinted
 from thermodata.draft.jumps import JumpTest, jump_of
 from thermodata.draft.kinds import Kind, kind_of
+from thermodata.draft.measuring import Named, rule_of
 from thermodata.draft.naming import channel_name, words
 from thermodata.draft.place import axis_of
 from thermodata.draft.quantity import Guess
@@ -29,12 +32,14 @@ _SHORT = {"temperature": "T", "temperature_difference": "dT", "rotational_speed"
 
 @dataclass(frozen=True, slots=True)
 class DraftSource:
-    """sources.<name>. files: a glob with {test}, a shared one, or None where each test names its files."""
+    """sources.<name>. files: a glob with {test}, a shared one, or None where each test names its files; table: what has
+    to be declared of its layout, with 'unknown' where a question asks for it."""
 
     name: str
     reader: str
     files: str | None
     questions: tuple[str, ...] = ()
+    table: Mapping[str, Any] = field(default_factory=dict)
     align: Alignment | None = None
 
 
@@ -77,6 +82,7 @@ class DraftTest:
     conditions: dict[str, str]
     files: dict[str, str | list[str]]
     doubts: tuple[str, ...] = ()
+    measuring: str | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -113,13 +119,15 @@ def plan(campaign: str, folder: Path, found: Scan) -> Draft:
         by_signal[g.source] = {
             (c.stream or "", c.signal): (c.said.quantity, c.said.at, c.name) for c in made if c.said.quantity
         }
-    aligned = {a.source: a for a in alignments(groups, {g.source: _keyed(g, by_signal[g.source]) for g in groups})}
+    keyed = {g.source: _keyed(g, by_signal[g.source]) for g in groups}
+    aligned = {a.source: a for a in alignments(groups, keyed)}
     sources = tuple(
         DraftSource(
             g.source,
             g.reader,
             g.template,
-            tuple(q for q in (zone_question(g, groups), *g.questions) if q),
+            tuple(q for q in (*(hinted(a, g) for a in g.asks), zone_question(g, groups), *g.questions) if q),
+            g.table,
             aligned.get(g.source),
         )
         for g in groups
@@ -127,8 +135,12 @@ def plan(campaign: str, folder: Path, found: Scan) -> Draft:
     ids = list(dict.fromkeys(t for g in groups for t in g.tests))
     table = find_table(folder, found.others, ids)
     notes += closed_workbooks(found.others)
-    tests = tuple(_test(t, groups, table) for t in ids)
+    named = {id(f): keyed[g.source] for g in groups for f in g.files}
+    tests = tuple(_test(t, groups, table, named) for t in ids)
     left_out = tuple(x for x in found.ignored if table is None or x[0] != table.file)
+    used = {j.file for j in calibrations}
+    idle = [str(j.file.path) for j in jumps if str(j.file.path) not in used]
+    left_out += tuple((p, "taken for a jump test, and no probe in volts needs it") for p in idle)
     like = [f for f in found.logs if f.like]
     if like:
         notes.append(
@@ -142,14 +154,15 @@ def plan(campaign: str, folder: Path, found: Scan) -> Draft:
 
 def _claimed_table(folder: Path, found: Scan) -> str | None:
     """A table of tests that a reader takes for a log, because it has a column of dates."""
-    small = [str(f.path) for f in found.logs if f.size < 200_000]
+    small = [str(f.path) for f in found.logs if f.size < 200_000 and f.sheet is None]
     called = [p for p in small if is_called_table(p)]
     jumps = [j.file for f in found.logs if (j := jump_of(f)) is not None and j.named]
+    logs = [f for f in found.logs if str(f.path) not in called]
+    holding = [(t, fs) for g in tests_of(sources_of(logs, jumps)) for t, fs in g.tests.items()]
     for candidates, by_number in ((called, True), ([p for p in small if p not in called], False)):
         for candidate in candidates[:20]:
-            others = [f for f in found.logs if str(f.path) not in (candidate, *called)]
-            ids = list(dict.fromkeys(t for g in tests_of(sources_of(others, jumps)) for t in g.tests))
-            stems = [f.path.stem for f in others]
+            ids = list(dict.fromkeys(t for t, fs in holding if any(str(f.path) != candidate for f in fs)))
+            stems = [f.path.stem for f in logs if str(f.path) != candidate]
             if any(find_table(folder, [candidate], names, by_number) for names in (ids, stems)):
                 return candidate
     return None
@@ -194,13 +207,14 @@ def _channels(
         if jump is not None and said.quantity == "voltage":
             said = Guess("displacement", said.unit, "tcp", None, False, ("data",), ("axis?",))
         named = f"{signal.stream}:{signal.name}" if signal.name in twice else signal.name
-        name = channel_name(_wished(signal.name, said), taken) if said.quantity else signal.name
+        name = channel_name(_wished(signal.name, said), taken)
         calibration = None
         if said.quantity == "displacement" and normal_unit(said.unit or "V") in ("V", "mV"):
             calibration, said = _calibration(name, signal, said, jump, group, jumps, calibrations)
         elif said.quantity == "displacement" and said.at == "tcp":
             note = "; ".join(filter(None, (note, "its sign is unknown until a calibration says which way it counts")))
-        having = {t for t, fs in group.tests.items() if any(f in files for f in fs)}
+        own = {id(f) for f in files}
+        having = {t for t, fs in group.tests.items() if any(id(f) in own for f in fs)}
         only = tuple(t for t in group.tests if t in having) if len(having) < len(group.tests) and having else ()
         made.append(
             DraftChannel(
@@ -314,7 +328,7 @@ def _calibration(
     return (f"jump_{name}" if axis else None), said
 
 
-def _test(test: str, groups: Sequence[Group], table: TestTable | None) -> DraftTest:
+def _test(test: str, groups: Sequence[Group], table: TestTable | None, named: Mapping[int, Named]) -> DraftTest:
     files = [f for g in groups for f in g.tests.get(test, ())]
     kind = kind_of(test, files)
     conditions, doubts = dict(kind.conditions), list(kind.doubts)
@@ -324,4 +338,4 @@ def _test(test: str, groups: Sequence[Group], table: TestTable | None) -> DraftT
             continue
         conditions[key] = value
     own = {g.source: files_of(g, test) for g in groups if g.template is None and test in g.tests}
-    return DraftTest(test, kind, conditions, own, tuple(doubts))
+    return DraftTest(test, kind, conditions, own, tuple(doubts), rule_of(files, named))

@@ -9,17 +9,19 @@ from __future__ import annotations
 import re
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path, PurePosixPath
+from typing import Any
 
 import numpy as np
 
 from thermodata.draft.guess import guess
 from thermodata.draft.quantity import Guess
 from thermodata.draft.values import Values, joined, values_of
-from thermodata.errors import ThermodataError
+from thermodata.errors import QuestionError, ThermodataError
 from thermodata.plugin import Array, Block, Float1D, Int1D, Loss, Reader, Recording, Signal, Source
 from thermodata.reader.guard import described, guarded
+from thermodata.reader.open_questions import UNKNOWN
 from thermodata.reader.registry import claims, reader
 
 _SAMPLE_ROWS, _SAMPLE_S = 400_000, 1.0  # of one file
@@ -28,6 +30,9 @@ _SAMPLES_S, _HEADERS_S = 15.0, 40.0  # of the whole folder
 _KEPT_ROWS = 3000  # of a signal whose course tells what a test is
 _COURSE = ("rotational_speed", "feed", "displacement", "voltage", "position", "state")
 _MOST_COURSES = 40
+_MOST_QUESTIONS = 4
+_ASSUMED = "counted as 1 s each|taken as seconds from a start"
+_UNIT: Mapping[str, Any] = {"time": {"unit": UNKNOWN}}
 _NOT_LOGS = frozenset((".yaml", ".yml", ".md", ".tdms_index"))
 Progress = Callable[[int, int, str], None]
 
@@ -50,12 +55,22 @@ class Sample:
     first_ns: int | None = None
     last_ns: int | None = None
     losses: int = 0
+    rows: int = 0
+
+
+@dataclass(frozen=True, slots=True)
+class Asked:
+    """A question that a file leaves. declare: as in `sources.*.table`, 'unknown' where the answer goes."""
+
+    ask: str
+    declare: Mapping[str, Any]
 
 
 @dataclass(frozen=True, slots=True)
 class RawFile:
-    """A file that one reader claims. path: relative to the folder. like: the file of the same kind whose header was
-    taken for this one's, where there was no time to read it."""
+    """A file that one reader claims, or a sheet of it. path: relative to the folder. like: the file of the same kind
+    whose header was taken for this one's, where there was no time to read it; asked: what it does not say; table: the
+    answers by which it was looked at meanwhile; sheet: of a workbook whose sheets are tests."""
 
     path: PurePosixPath
     reader: str
@@ -63,6 +78,14 @@ class RawFile:
     size: int = 0
     sample: Sample = field(default_factory=Sample)
     like: str | None = None
+    asked: tuple[Asked, ...] = ()
+    table: Mapping[str, Any] | None = None
+    sheet: str | None = None
+
+    @property
+    def source(self) -> Source:
+        """What the reader is told, so that it reads the file at all."""
+        return Source(table=self.table)
 
     @property
     def signals(self) -> tuple[Signal, ...]:
@@ -96,7 +119,7 @@ def scan(folder: Path, progress: Progress | None = None) -> Scan:
     """All files below the folder; hidden ones, stores and links are left out. progress: (done, of, path)."""
     paths = list(_files(folder))
     tell = progress or (lambda done, of, path: None)
-    began = time.monotonic()
+    began, spent = time.monotonic(), 0.0
     logs: dict[str, RawFile] = {}
     ignored: list[tuple[str, str]] = []
     shapes: dict[str, RawFile] = {}
@@ -105,25 +128,36 @@ def scan(folder: Path, progress: Progress | None = None) -> Scan:
         full = folder / path
         try:
             like = shapes.get(_shape(path)) if time.monotonic() - began > _HEADERS_S else None
-            if like is not None:
+            if like is not None and like.sheet is None:
                 logs[str(path)] = RawFile(
-                    path, like.reader, _without_start(like.recording), full.stat().st_size, like=str(like.path)
+                    path,
+                    like.reader,
+                    _without_start(like.recording),
+                    full.stat().st_size,
+                    like=str(like.path),
+                    asked=like.asked,
+                    table=like.table,
                 )
                 continue
             who, why = _claimant(full)
             if who is None:
                 ignored.append((str(path), why))
                 continue
-            recording = described(who, full, Source())
-            if not recording.signals:
+            for made in described_files(who, full, path):
+                if made.size < _SMALL and spent < _SAMPLES_S:  # now, for its reader has just looked at it
+                    before = time.monotonic()
+                    made = replace(made, sample=_sample(full, made))
+                    spent += time.monotonic() - before
+                key = str(path) if made.sheet is None else f"{path}/{made.sheet}"
+                logs[key] = shapes[_shape(path)] = made
+            if str(path) in logs and not logs[str(path)].signals:
+                del logs[str(path)]
                 ignored.append((str(path), f"{who.name}: it holds no signal"))
-                continue
-            logs[str(path)] = shapes[_shape(path)] = RawFile(path, who.name, recording, full.stat().st_size)
         except (ThermodataError, OSError) as error:
             ignored.append((str(path), _short(error)))
     sampled = _sampled(folder, logs, began, tell)
     ordered = [str(p) for p in paths]
-    damaged = [(str(f.path), _damage(f)) for f in sampled if _damage(f)]
+    damaged = list(dict.fromkeys((str(f.path), _damage(f)) for f in sampled if _damage(f)))
     position = {p: i for i, p in enumerate(ordered)}
     ignored.sort(key=lambda item: position[item[0]])
     return Scan(
@@ -132,6 +166,61 @@ def scan(folder: Path, progress: Progress | None = None) -> Scan:
         tuple(damaged),
         tuple(p for p, _ in ignored),
     )
+
+
+def described_files(who: Reader, full: Path, path: PurePosixPath) -> list[RawFile]:
+    """A file as its reader describes it, with what it leaves open; a workbook whose sheets are alike sheet by sheet.
+
+    ThermodataError where it cannot be read at all.
+    """
+    size = full.stat().st_size
+    whole = _asking(who, full, RawFile(path, who.name, Recording((), "relative"), size))
+    names = _sheets(whole.recording)
+    if not names:
+        return [whole]
+    found = []
+    for name in names:
+        one = replace(whole, sheet=name, table={**(whole.table or {}), "sheet": name}, asked=())
+        found.append(_asking(who, full, one))
+    return found
+
+
+def _asking(who: Reader, full: Path, file: RawFile) -> RawFile:
+    """The file described, each of its questions answered for the time being."""
+    asked: list[Asked] = []
+    table: dict[str, Any] = dict(file.table or {})
+    while True:
+        try:
+            recording = described(who, full, Source(table=table or None))
+            break
+        except QuestionError as question:
+            if len(asked) == _MOST_QUESTIONS:
+                raise
+            asked.append(Asked(question.ask, question.declare))
+            table = merged(table, question.meanwhile)
+    if not any("time" in a.declare for a in asked):  # what a reader takes by custom, MATLAB's seconds, is asked here
+        asked += [Asked("unit of the time: s, min or h?", _UNIT) for n in recording.notes if "taken as seconds;" in n]
+        asked += [Asked(f"time: {n}", {}) for n in recording.notes if re.search(_ASSUMED, n)]
+    return replace(file, recording=recording, asked=tuple(asked), table=table or None)
+
+
+def merged(one: Mapping[str, Any], other: Mapping[str, Any]) -> dict[str, Any]:
+    """Both declarations; of what is in both, the parts of both."""
+    out = dict(one)
+    for key, value in other.items():
+        out[key] = (
+            merged(out[key], value) if isinstance(out.get(key), Mapping) and isinstance(value, Mapping) else value
+        )
+    return out
+
+
+def _sheets(recording: Recording) -> list[str]:
+    """The sheets of a workbook that are tests of one kind: each a stream, and with mostly the same signals."""
+    streams = list(dict.fromkeys(s.stream for s in recording.signals))
+    if len(streams) < 2 or not all(s.name.startswith(f"{s.stream}/") for s in recording.signals):
+        return []
+    own = [{s.name.removeprefix(f"{name}/") for s in recording.signals if s.stream == name} for name in streams]
+    return streams if all(len(own[0] & other) >= 0.5 * max(len(own[0]), len(other)) for other in own[1:]) else []
 
 
 def _files(folder: Path) -> Iterator[PurePosixPath]:
@@ -195,15 +284,14 @@ def _damage(file: RawFile) -> str:
 def _sampled(folder: Path, logs: Mapping[str, RawFile], began: float, tell: Progress) -> list[RawFile]:
     """The logs with samples of their values, small files first: jump tests are small."""
     found = dict(logs)
-    order = _spread(sorted((f.path for f in logs.values()), key=lambda p: logs[str(p)].size))
+    order = _spread([PurePosixPath(key) for key in sorted(logs, key=lambda key: logs[key].size)])
     until = max(time.monotonic(), began) + _SAMPLES_S
     for done, path in enumerate(order):
         file = found[str(path)]
-        if time.monotonic() > until or file.like:
+        if time.monotonic() > until or file.like or file.sample.rows:
             continue
         tell(done, len(order), str(path))
-        made = _sample(folder / path, file)
-        found[str(path)] = RawFile(path, file.reader, file.recording, file.size, made)
+        found[str(path)] = replace(file, sample=_sample(folder / file.path, file))
     return list(found.values())
 
 
@@ -215,7 +303,7 @@ def _sample(path: Path, file: RawFile) -> Sample:
     first: int | None = None
     last: int | None = None
     unseen = {s.stream for s in file.recording.signals}
-    items = guarded(reader(file.reader), path, Source(), file.recording)
+    items = guarded(reader(file.reader), path, file.source, file.recording)
     try:
         for item in items:
             if isinstance(item, Loss):
@@ -236,7 +324,7 @@ def _sample(path: Path, file: RawFile) -> Sample:
         losses, whole = losses + 1, False
     finally:
         items.close()  # type: ignore[attr-defined]
-    return Sample(values, {k: _thinned(v) for k, v in parts.items()}, whole, first, last, losses)
+    return Sample(values, {k: _thinned(v) for k, v in parts.items()}, whole, first, last, losses, rows)
 
 
 def _courses(signals: Sequence[Signal]) -> set[tuple[str, str]]:

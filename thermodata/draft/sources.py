@@ -6,9 +6,10 @@ import re
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from typing import Any
 
 from thermodata.draft.naming import plain, words
-from thermodata.draft.scan import RawFile
+from thermodata.draft.scan import Asked, RawFile, merged
 from thermodata.plugin import Signal
 from thermodata.reader.text import split_unit
 
@@ -31,6 +32,25 @@ class Group:
     questions: tuple[str, ...] = ()
 
     @property
+    def table(self) -> dict[str, Any]:
+        """What of `sources.*.table` has to be declared for its files."""
+        found: dict[str, Any] = {"sheet": "{test}"} if any(f.sheet for f in self.files) else {}
+        for asked in self._asked():
+            found = merged(found, asked.declare)
+        return found
+
+    @property
+    def asks(self) -> tuple[str, ...]:
+        """What its files leave open, each once."""
+        first: dict[str, str] = {}
+        for asked in self._asked():
+            first.setdefault(repr(asked.declare) if asked.declare else asked.ask, asked.ask)
+        return tuple(first.values())
+
+    def _asked(self) -> list[Asked]:
+        return [a for f in (*self.files, *self.calibrations) for a in f.asked]
+
+    @property
     def signals(self) -> list[tuple[Signal, list[RawFile]]]:
         """Every signal of any file, in the order of its first appearance, with the files that have it."""
         found: dict[tuple[str, str], tuple[Signal, list[RawFile]]] = {}
@@ -51,7 +71,7 @@ def sources_of(files: Sequence[RawFile], jumps: Sequence[RawFile]) -> list[Group
             (
                 i
                 for i, c in enumerate(clusters)
-                if (c[0].reader, c[0].path.suffix.lower()) == (file.reader, file.path.suffix.lower())
+                if _kind(c[0]) == _kind(file)
                 and (len(own & names[i]) >= _ALIKE * min(len(own), len(names[i])) or _twin(file, c))
             ),
             None,
@@ -73,6 +93,13 @@ def sources_of(files: Sequence[RawFile], jumps: Sequence[RawFile]) -> list[Group
             Group(_name(cluster, clusters, taken), cluster[0].reader, logs, tuple(f for f in cluster if f in jumps))
         )
     return groups
+
+
+def _kind(file: RawFile) -> tuple[object, ...]:
+    """What the files of one source have in common: who reads them, and what has to be declared for it."""
+    # a day above 12 settles the order of day and month in some files, and is asked of the others
+    told = [a.declare for a in file.asked if "format" not in a.declare.get("time", {})]
+    return file.reader, file.path.suffix.lower(), file.sheet is not None, repr(told)
 
 
 def _twin(file: RawFile, cluster: Sequence[RawFile]) -> bool:

@@ -6,7 +6,7 @@ import csv
 import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from pathlib import Path
+from pathlib import Path, PurePath
 from typing import Any
 
 from thermodata.draft.filenames import normal
@@ -16,6 +16,7 @@ from thermodata.errors import ThermodataError
 from thermodata.reader.text import decode, split_unit
 
 _LARGEST = 4_000_000
+_ROWS_A_TEST = 4  # a table of tests has about a row a test; what has hundreds of rows for a few tests is a log
 _WORKBOOKS = (".xlsx", ".xlsm")
 _SUFFIXES = (".csv", ".txt", ".tsv", *_WORKBOOKS)
 INSTALL = "pip install 'thermodata[workbook]'"
@@ -50,11 +51,12 @@ def find_table(
         return None
     tables = [c for c in candidates if Path(c).suffix.lower() in _SUFFIXES]
     tables.sort(key=lambda c: (not says(_NAMED, words(Path(c).stem)), c))
+    most = max(200, _ROWS_A_TEST * len(tests))
     for candidate in tables[:20]:
         path = folder / candidate
         if path.stat().st_size > _LARGEST:
             continue
-        for rows in _grids(path):
+        for rows in _grids(path, most):
             found = _read(candidate, rows, tests, by_number)
             if found is not None:
                 return found
@@ -86,26 +88,31 @@ def _opens_workbooks() -> bool:
     return True
 
 
-def _grids(path: Path) -> Iterator[list[list[str]]]:
-    """The rows of a table as text; of a workbook, of each sheet."""
+def _grids(path: Path, most: int) -> Iterator[list[list[str]]]:
+    """The rows of a table as text, where it has at most so many; of a workbook, of each sheet."""
     if path.suffix.lower() in _WORKBOOKS:
         try:
             from python_calamine import load_workbook
 
             book = load_workbook(str(path))
             for name in book.sheet_names[:5]:
-                yield [[_text(c) for c in row] for row in book.get_sheet_by_name(name).to_python()[:3000]]
+                rows = book.get_sheet_by_name(name).to_python()
+                if len(rows) <= most:
+                    yield [[_text(c) for c in row] for row in rows]
         except Exception:  # a workbook may be broken in any way; then it is no table of tests
             return
         return
     try:
-        text, _, _ = decode(path.read_bytes())
+        data = path.read_bytes()
+        if max(data.count(b"\n"), data.count(b"\r")) > most:
+            return
+        text, _, _ = decode(data)
     except (ThermodataError, OSError):
         return
     first = text.split("\n", 1)[0]
     delimiter = max(";\t,", key=first.count)
     if first.count(delimiter):
-        yield [[c.strip() for c in row] for row in csv.reader(text.splitlines()[:3000], delimiter=delimiter)]
+        yield [[c.strip() for c in row] for row in csv.reader(text.splitlines(), delimiter=delimiter)]
 
 
 def _text(cell: Any) -> str:
@@ -121,9 +128,8 @@ def _read(file: str, rows: list[list[str]], tests: Sequence[str], by_number: boo
     numbers = _numbers(tests) if by_number else {}
     best: tuple[int, int, dict[int, str]] | None = None
     for column in range(len(header)):
-        cells = [r[column] if column < len(r) else "" for r in lines]
+        keys = [normal(_stem(r[column])) if column < len(r) else "" for r in lines]
         for lookup in (wanted, numbers):
-            keys = [normal(Path(c).stem if "." in c else c) for c in cells]
             named = {i: lookup[k] for i, k in enumerate(keys) if k in lookup}
             if len(set(named.values())) == len(named) and (best is None or len(named) > best[0]):
                 best = (len(named), column, named)
@@ -141,6 +147,11 @@ def _read(file: str, rows: list[list[str]], tests: Sequence[str], by_number: boo
             and (value := _with_unit(lines[i][c], title, name))
         }
     return TestTable(file, header[key_column], found)
+
+
+def _stem(cell: str) -> str:
+    """The name in a cell that holds a file's; a number stays as it is."""
+    return PurePath(cell).stem if "." in cell and not cell[-1:].isdigit() else cell
 
 
 def _numbers(tests: Sequence[str]) -> dict[str, str]:

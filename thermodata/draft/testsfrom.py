@@ -8,10 +8,10 @@ from dataclasses import dataclass
 from pathlib import PurePosixPath
 
 from thermodata.draft.plan import Draft
+from thermodata.draft.said_by_names import speed_in
 
 _LEAST = 3
 _FIELDS: tuple[tuple[str, str, str], ...] = (  # name before the number, condition, its unit
-    (r"s|n|sp|rpm|speed|drehzahl|otacky", "speed", "rpm"),
     (r"f|vf|feed|vorschub|posuv", "feed", ""),
     (r"ap", "depth", "mm"),
     (r"ae", "width", "mm"),
@@ -54,7 +54,7 @@ def pattern_of(draft: Draft) -> Pattern | None:
     text, fields = found
     units, doubts = {}, []
     for condition, values in fields:
-        unit = next((u for _, name, u in _FIELDS if name == condition), "")
+        unit = "rpm" if condition == "speed" else next((u for _, name, u in _FIELDS if name == condition), "")
         if condition == "feed":
             unit = "mm/min" if min(values) >= 100 else "m/min"
             doubts.append(f"feed in {unit}?")
@@ -68,7 +68,7 @@ def _known(piece: str) -> str | None:
     match = re.fullmatch(r"([^\W\d_]*)\d+(?:\.\d+)?([^\W\d_]*)", piece)
     if match is None:
         return None
-    if not match[1] and match[2].lower() in ("rpm", "ot", "u"):
+    if speed_in(piece):
         return "speed"
     return next((name for words, name, _ in _FIELDS if re.fullmatch(words, match[1].lower())), None)
 
@@ -90,7 +90,8 @@ def _fields(ids: Sequence[str]) -> tuple[str, list[tuple[str, list[float]]]] | N
         if len(heads) != 1 or len(tails) != 1:
             return None
         head, tail = heads.pop(), tails.pop()
-        known = _known(column[0])
+        every = {_known(c) for c in column}
+        known = every.pop() if len(every) == 1 else None
         name = known or (head.lower() if re.fullmatch(r"[a-z]{2,}", head.lower()) else "nr")
         if name in used:
             return None

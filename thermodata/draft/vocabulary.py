@@ -45,7 +45,7 @@ QUANTITY_WORDS: dict[str, str] = {
     "dilatac "
     "ausdehn capacitive~s kapazitiv elongat prodlouz nci. d~x d~y d~z dx. dy. dz. ex. ey. ez. "
     "delta~x delta~y delta~z err~x err~y err~z error~x error~y error~z deltax. deltay. deltaz. "
-    "disp. tcp~x tcp~y tcp~z",
+    "disp. tcp~x tcp~y tcp~z growth. drop. weg. wege. drift.",
     "tilt": "tilt neigung naklon inclin pitch. roll. yaw. 倾斜 倾角 drot. rx. ry. rz. d~rx d~ry d~rz",
     "angle": "angle. winkel uhel. uhlu. 角度 转角",
     "voltage": "voltage spannung napeti 电压 電壓 volt. volts. uzk. u~zk u~dc udc. dc~link zwischenkreis dcvolt",

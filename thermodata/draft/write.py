@@ -9,10 +9,14 @@ from collections.abc import Mapping, Sequence
 from thermodata.draft.plan import Draft, DraftChannel, DraftJump, DraftSource, DraftTest
 from thermodata.draft.testsfrom import Pattern, pattern_of
 
+_PLACES = "at: where on the machine, e.g. spindle.bearing.front, axis.z.nut, column.rear, hall.top, floor"
+_ROLES = "? role of each: calibration (fitted), verification (checked), locked (for the last word), none (kept only)"
 _WORDS = frozenset(("yes", "no", "on", "off", "true", "false", "null", "y", "n"))
+_OPEN = "?"
 _HEAD = """\
 # Drafted by thermodata init. '# ?' marks what nobody but you knows: answer it in the line, then delete the mark.
-# 'guess' is what names, units or values suggest; 'sure' is what they agree on."""
+# 'guess' is what names, units or values suggest; 'sure' is what they agree on. Where 'unknown' stands, nothing is read
+# until you replace it. A line that begins with '#' is left out: fill in its '?' and delete that '#' to have it."""
 
 
 def text_of(draft: Draft) -> str:
@@ -20,25 +24,26 @@ def text_of(draft: Draft) -> str:
     lines = [
         _HEAD,
         "schema: thermodata/campaign/1",
-        f"id: {_scalar(draft.campaign)}",
+        f"id: {scalar(draft.campaign)}",
         "machine:",
         "  id: unknown                      # ? the machine's number",
         "sources:",
     ]
     lines += [_source(s) for s in draft.sources]
     lines.append(
-        "channels:"
+        f"channels:   # {_PLACES}"
         if any(c.said.quantity for c in draft.channels)
         else "channels: {}                       # ? no signal whose quantity can be told"
     )
     lines += [_channel(c) for c in draft.channels]
+    lines += _speed_nobody_logged(draft)
     live = [j for j in draft.jumps if j.axis and j.signal]
     lines += ["calibrations:"] if live else []
     lines += [_jump(j) for j in draft.jumps]
     lines += _tests(draft)
-    lines += [f"# damaged: {_line(p)}: {_line(why)}" for p, why in draft.damaged]
-    lines += [f"# not used: {_line(p)}: {_line(why)}" for p, why in draft.not_used]
-    lines += [f"# note: {_line(n)}" for n in draft.notes]
+    lines += [f"# damaged: {one_line(p)}: {one_line(why)}" for p, why in draft.damaged]
+    lines += [f"# not used: {one_line(p)}: {one_line(why)}" for p, why in draft.not_used]
+    lines += [f"# note: {one_line(n)}" for n in draft.notes]
     return "\n".join(lines) + "\n"
 
 
@@ -51,7 +56,9 @@ def _source(s: DraftSource) -> str:
     parts: dict[str, object] = {"reader": s.reader}
     if s.files:
         parts["files"] = s.files
-    body = _flow(parts)
+    if s.table:
+        parts["table"] = s.table
+    body = flow(parts)
     comments = []
     asked = "; ".join(s.questions)
     if s.align:
@@ -61,9 +68,9 @@ def _source(s: DraftSource) -> str:
             asked = "; ".join(filter(None, (asked, f"{clock}? both logged it, but in {s.align.test}: {s.align.why}")))
         else:
             body += f", {clock}"
-            comments.append(f"clock guess: {s.align.offset_s:+.1f} s in {_line(s.align.test)}, by what both logged")
+            comments.append(f"clock guess: {s.align.offset_s:+.1f} s in {one_line(s.align.test)}, by what both logged")
     said = "; ".join(filter(None, (f"? {asked}" if asked else "", *comments)))
-    return f"  {s.name}: {{{body}}}" + (f"   # {_line(said)}" if said else "")
+    return f"  {s.name}: {{{body}}}" + (f"   # {one_line(said)}" if said else "")
 
 
 def _channel(c: DraftChannel) -> str:
@@ -85,14 +92,29 @@ def _channel(c: DraftChannel) -> str:
         f"only in {', '.join(c.only_in[:5])}{' ...' if len(c.only_in) > 5 else ''}" if c.only_in else "",
         c.note or "",
     ]
+    if said.quantity is None:
+        keys |= {"quantity": _OPEN, "unit": said.unit or _OPEN}
     mark = "  " if said.quantity else "  # "
-    name = c.name if said.quantity else _scalar(c.name)
-    return f"{mark}{name}: {{{_flow(keys)}}}   # {_line('; '.join(filter(None, notes)))}"
+    return f"{mark}{c.name}: {{{flow(keys)}}}   # {one_line('; '.join(filter(None, notes)))}"
+
+
+def _speed_nobody_logged(draft: Draft) -> list[str]:
+    """The spindle's speed as a channel that the names give, where no signal has it: left out, for nobody knows when it
+    turned."""
+    if any(c.said.quantity == "rotational_speed" for c in draft.channels):
+        return []
+    named = [t.id for t in draft.tests if {"speed", "schedule"} & t.conditions.keys()]
+    if not named:
+        return []
+    return [
+        "  # spindle_speed: {schedule: [[0 h, conditions.speed]], quantity: rotational_speed, unit: rpm, at: spindle}"
+        f"   # ? nobody logged the speed that {one_line(named[0])} names: from when to when did it turn?"
+    ]
 
 
 def _jump(j: DraftJump) -> str:
     keys = {"kind": "jump", "axis": j.axis or "?", "source": j.source, "file": j.file, "signal": j.signal}
-    line = f"{j.name}: {{{_flow(keys)}, moves: unknown, dwell: {j.dwell_s:g} s}}   # {_line('? ' + j.question)}"
+    line = f"{j.name}: {{{flow(keys)}, moves: unknown, dwell: {j.dwell_s:g} s}}   # {one_line('? ' + j.question)}"
     return f"  {line}" if j.axis and j.signal else f"  # ? axis? then: {line}"
 
 
@@ -102,59 +124,68 @@ def _tests(draft: Draft) -> list[str]:
     pattern = pattern_of(draft)
     if pattern is not None:
         return _tests_from(pattern, draft)
-    lines = ["tests:"]
+    lines = [f"tests:   # {_ROLES}"]
     if draft.table is not None:
-        lines[0] += f"   # conditions from {_line(draft.table.file)}, column '{_line(draft.table.key)}'"
+        lines[0] += f"; conditions from {one_line(draft.table.file)}, column '{one_line(draft.table.key)}'"
     return lines + [_test(t) for t in draft.tests]
 
 
 def _test(t: DraftTest) -> str:
-    body = _flow({"id": t.id, "kind": t.kind.kind, "role": "none"})
+    body = flow({"id": t.id, "start": t.kind.start, "kind": t.kind.kind, "role": "none"})
+    if t.measuring:
+        body += f", measuring: {scalar(t.measuring)}"
     if t.conditions:
-        body += f", conditions: {{{_flow(t.conditions)}}}"
+        body += f", conditions: {{{flow(t.conditions)}}}"
     if t.files:
-        body += f", files: {{{_flow(t.files)}}}"
-    return f"  - {{{body}}}   # {_line(_test_comment(t))}"
+        body += f", files: {{{flow(t.files)}}}"
+    comment = one_line(_test_comment(t))
+    return f"  - {{{body}}}" + (f"   # {comment}" if comment else "")
 
 
 def _test_comment(t: DraftTest) -> str:
-    hint = f" (the name says {t.kind.role_hint})" if t.kind.role_hint else ""
-    asked = [f"role: calibration, verification or locked?{hint}", *filter(None, (t.kind.question,)), *t.doubts]
-    return f"? {'; '.join(asked)}" + (f"; kind {t.kind.comment}" if t.kind.comment else "")
+    hint = f"role: {t.kind.role_hint}, as the name says?" if t.kind.role_hint else ""
+    asked = [*filter(None, (hint, t.kind.question)), *t.doubts]
+    said = f"kind {t.kind.comment}" if t.kind.comment else ""
+    if t.measuring:
+        said = "; ".join(filter(None, (said, "measuring guess: exactly then the probes are in range")))
+    return "; ".join(filter(None, (f"? {'; '.join(asked)}" if asked else "", said)))
 
 
 def _tests_from(p: Pattern, draft: Draft) -> list[str]:
     kinds = {t.kind.kind for t in draft.tests}
     lines = [
-        f"tests_from:   # {len(draft.tests)} tests: {_line(', '.join(t.id for t in draft.tests[:4]))} ...",
-        f"  files: {_scalar(p.files)}",
+        f"tests_from:   # {len(draft.tests)} tests: {one_line(', '.join(t.id for t in draft.tests[:4]))} ...",
+        f"  files: {scalar(p.files)}",
     ]
     if len(draft.sources) > 1:
         lines.append(f"  source: {p.source}")
     if p.units:
         asked = f"   # ? {', '.join(p.doubts)}" if p.doubts else ""
-        lines.append(f"  units: {{{_flow(p.units)}}}{asked}")
+        lines.append(f"  units: {{{flow(p.units)}}}{asked}")
     said = "; ".join(dict.fromkeys(t.kind.question or f"kind {t.kind.comment}" for t in draft.tests[:3]))
-    lines.append(
-        f"  set: {{kind: {kinds.pop()}, role: none}}   # ? role: calibration, verification or locked?; {_line(said)}"
-    )
+    lines.append(f"  set: {{kind: {kinds.pop()}, role: none}}   # {_ROLES}; {one_line(said)}")
     return lines
 
 
-def _flow(keys: Mapping[str, object]) -> str:
-    return ", ".join(f"{_scalar(k)}: {_value(v)}" for k, v in keys.items() if v is not None)
+def flow(keys: Mapping[str, object]) -> str:
+    """Keys and values as they stand between the braces of a YAML mapping; those without a value are left out."""
+    return ", ".join(f"{scalar(k)}: {_value(v)}" for k, v in keys.items() if v is not None)
 
 
 def _value(value: object) -> str:
     if isinstance(value, str | int | float):
-        return _scalar(value)
+        return scalar(value)
+    if isinstance(value, Mapping):
+        return f"{{{flow(value)}}}"
     assert isinstance(value, Sequence)
-    return "[" + ", ".join(_scalar(v) for v in value) + "]"
+    return "[" + ", ".join(scalar(v) for v in value) + "]"
 
 
-def _scalar(value: object) -> str:
+def scalar(value: object) -> str:
     """A YAML scalar, quoted where it must be (inside a flow mapping)."""
     text = str(value)
+    if isinstance(value, int | float) or text == _OPEN:
+        return text
     safe = (
         re.fullmatch(r"[A-Za-z_][A-Za-z0-9_./%*-]*|\d+(?:\.\d+)? [A-Za-z%][A-Za-z0-9/%^]*", text)
         and text.lower() not in _WORDS
@@ -162,6 +193,6 @@ def _scalar(value: object) -> str:
     return text if safe else json.dumps(text, ensure_ascii=not text.isprintable())
 
 
-def _line(text: str) -> str:
+def one_line(text: str) -> str:
     """Text of files in a comment: on one line, whatever it holds."""
     return "".join(c if c.isprintable() else " " for c in text)

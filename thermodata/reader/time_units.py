@@ -11,6 +11,7 @@ import numpy as np
 
 from thermodata.errors import FormatError
 from thermodata.plugin import Array, Int1D
+from thermodata.reader.open_questions import UNKNOWN, unanswered
 from thermodata.reader.zone import NAT
 
 _DAY = 86400.0
@@ -81,6 +82,8 @@ def check_unit(text: str, where: str) -> str:
     low = text.strip().strip("[]()").lower()
     if low in SECONDS or low in EPOCHS:
         return low
+    if low == UNKNOWN:
+        raise unanswered("time.unit", "s, min, h or ms", where)
     raise FormatError(
         f"unknown unit of time '{text}'",
         where=where,

@@ -40,6 +40,19 @@ Um = Annotated[float, _in("um")]
 Moment = Annotated[Value, BeforeValidator(lambda x: x.isoformat(" ") if isinstance(x, datetime) else x)]
 
 
+def _moment(value: Any) -> Any:
+    """A date with a time of day, as text; YAML makes a datetime of some."""
+    if value is None or isinstance(value, datetime):
+        return None if value is None else value.isoformat(" ")
+    try:
+        datetime.fromisoformat(str(value))
+    except ValueError:
+        raise ValueError(f"'{value}' is no date and time such as 2026-03-02 08:00") from None
+    if not re.search(r"\d[ T]\d", str(value)):
+        raise ValueError(f"'{value}' has no time of day; expected one such as 2026-03-02 08:00")
+    return str(value)
+
+
 class Strict(BaseModel):
     """Base of all that users write. Unknown keys are refused; the loader names the nearest right one."""
 
@@ -75,26 +88,43 @@ class TimeColumn(Strict):
 
     column: counted from 1, or the header's text; a list joins date and time of day
     signals: where a table has several times: the columns that belong to this one; by default those behind it
-    unit: of relative times: s, min, h; found where it is not said
-    format: as strptime writes it, where day and month cannot be told apart
+    unit: of relative times: s, min, h; taken from the header where it stands there; unknown: nothing is read until it
+        is written
+    format: as strptime writes it, where day and month cannot be told apart; or unknown
+    period: of rows without a time column: 60 s from row to row; or unknown
     """
 
     column: int | str | list[int | str] | None = None
     signals: list[int | str] | None = None
     unit: str | None = None
     format: str | None = None
+    # left out where it is not declared: raw data is kept by what its source declares
+    period: Seconds | Literal["unknown"] | None = Field(default=None, exclude_if=lambda period: period is None)
+
+    @field_validator("period")
+    @classmethod
+    def _runs_on(cls, value: float | str | None) -> float | str | None:
+        if isinstance(value, float) and value <= 0:
+            raise ValueError("a period is longer than 0 s")
+        return value
+
+    @model_validator(mode="after")
+    def _one_clock(self) -> TimeColumn:
+        if self.period is not None and (self.column is not None or self.unit is not None or self.format is not None):
+            raise ValueError("rows have a time column, or a period: not both")
+        return self
 
 
 class TableLayout(Strict):
     """`sources.*.table`: how a table lies on its page. What is not said is found in its first rows.
 
-    sheet: of a workbook: counted from 1, or its name
+    sheet: of a workbook: counted from 1, or its name; with {test} in it each test is a sheet
     header_rows: rows with names, above the data
     units_row: the row that holds the units, counted from 1
     skip_rows: rows above the header
     time: its time column, or a list where columns have times of their own
     delimiter: between cells
-    decimal: mark of decimals
+    decimal: mark of decimals: '.' or ','; unknown: nothing is read until it is written
     """
 
     sheet: int | str | None = None
@@ -103,7 +133,7 @@ class TableLayout(Strict):
     skip_rows: int = 0
     time: TimeColumn | list[TimeColumn] | None = None
     delimiter: str | None = None
-    decimal: Literal[".", ","] | None = None
+    decimal: Literal[".", ",", "unknown"] | None = None
 
 
 class AlignBy(Strict):
@@ -169,6 +199,18 @@ class SourceSpec(Strict):
     topics: list[str] = []
     clock: Clock = Clock()
     options: dict[str, Any] = {}
+
+    @property
+    def sheet_a_test(self) -> bool:
+        """Whether each test is a sheet of one workbook."""
+        return self.table is not None and "{test}" in str(self.table.sheet)
+
+    def of_test(self, test: str) -> SourceSpec:
+        """The source as one test has it: the sheet with the test's name."""
+        if self.table is None or not self.sheet_a_test:
+            return self
+        sheet = str(self.table.sheet).replace("{test}", test)
+        return self.model_copy(update={"table": self.table.model_copy(update={"sheet": sheet})})
 
 
 class Sensor(Strict):
@@ -376,6 +418,7 @@ class Test(Strict):
     machine: attributes of `machine` that differ in this test
     channels: channels that differ in this test
     files: files of a source, where its pattern does not give them
+    start: date and time at which a recording without dates began, local to its source's timezone: 2026-03-02 08:00
     window: [from, to]: the test is this part of a longer recording
     history: recording: lags run from the recording's start; test: from the window's
     phases: named stretches: idle: [0 h, 26 h]
@@ -396,6 +439,7 @@ class Test(Strict):
     machine: dict[str, Any] = {}
     channels: dict[str, ChannelOverride] = {}
     files: dict[str, str | list[str]] = {}
+    start: Annotated[str | None, BeforeValidator(_moment)] = Field(default=None, exclude_if=lambda start: start is None)
     window: tuple[Seconds, Seconds] | None = None
     history: Literal["test", "recording"] = "test"
     phases: dict[str, tuple[Seconds, Seconds]] = {}

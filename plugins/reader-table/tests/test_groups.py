@@ -17,9 +17,10 @@ S = 1_000_000_000
 
 
 def read(tmp_path: Path, text: str, **table: Any) -> Data:
+    """By what is declared; without it, times that name no unit are seconds."""
     path = tmp_path / "x.csv"
     path.write_text(text, encoding="utf-8")
-    return load(Reader(), path, Source(timezone="UTC", table=table or None))
+    return load(Reader(), path, Source(timezone="UTC", table=table or {"time": {"unit": "s"}}))
 
 
 def rows(*columns: list[Any], delimiter: str = ";") -> str:
@@ -71,7 +72,7 @@ def test_groups_of_dates_have_lengths_of_their_own(tmp_path: Path) -> None:
 def test_dates_and_times_of_day_a_group(tmp_path: Path) -> None:
     clock = [f"08:00:{i:02}" for i in range(8)]
     text = "Datum;Uhrzeit;T1;Datum;Uhrzeit;T2\n" + rows(["1.3.2026"] * 8, clock, VB, ["2.3.2026"] * 8, clock, VB)
-    data = read(tmp_path, text)
+    data = read(tmp_path, text, delimiter=";")
     starts = [np.datetime64(int(t[0]), "ns").astype("datetime64[D]").item().day for t in data.t_ns.values()]
     assert starts == [1, 2]
 
@@ -122,7 +123,11 @@ def test_times_behind_their_columns_are_asked_and_can_be_declared(tmp_path: Path
     text = "T1;time;T2;time\n" + rows(VB, B, VA, A)
     with pytest.raises(FormatError, match="behind its columns or before"):
         read(tmp_path, text)
-    data = read(tmp_path, text, time=[{"column": 2, "signals": ["T1"], "unit": "min"}, {"column": 4, "signals": [3]}])
+    data = read(
+        tmp_path,
+        text,
+        time=[{"column": 2, "signals": ["T1"], "unit": "min"}, {"column": 4, "signals": [3], "unit": "s"}],
+    )
     held(data, "time", "T1", [b * 60 for b in B], VB)
     held(data, "time#2", "T2", A, VA)
 
@@ -132,7 +137,7 @@ def test_a_column_declared_twice_is_refused(tmp_path: Path) -> None:
         read(
             tmp_path,
             "t1;T1;t2;T2\n" + rows(A, VA, B, VB),
-            time=[{"column": 1, "signals": [2]}, {"column": 3, "signals": [2]}],
+            time=[{"column": 1, "signals": [2], "unit": "s"}, {"column": 3, "signals": [2], "unit": "s"}],
         )
 
 

@@ -102,15 +102,15 @@ def test_a_cover_before_the_only_table(tmp_path: Path) -> None:
 
 def test_columns_with_times_of_their_own_in_sheets(tmp_path: Path) -> None:
     pairs: list[list[object]] = [
-        ["t1", "T1", "t2", "T2"],
+        ["t1 [s]", "T1", "t2 [s]", "T2"],
         *([i, 20 + i, i * 0.5, i] for i in range(4)),
         [4, 24, None, None],
         [5, 25, None, None],
     ]
     data = read(tmp_path, {"a": sheet(pairs)})
-    assert {k: v.size for k, v in data.t_ns.items()} == {"t1": 6, "t2": 4}
+    assert {k: v.size for k, v in data.t_ns.items()} == {"t1 [s]": 6, "t2 [s]": 4}
     both = read(tmp_path, {"a": sheet(pairs), "b": sheet(pairs)})
-    assert list(both.t_ns) == ["a/t1", "a/t2", "b/t1", "b/t2"]
+    assert list(both.t_ns) == ["a/t1 [s]", "a/t2 [s]", "b/t1 [s]", "b/t2 [s]"]
     assert not (*data.losses, *both.losses)
 
 
@@ -122,7 +122,7 @@ def test_sheets_of_dates_and_of_seconds_are_asked(tmp_path: Path) -> None:
 
 def test_merged_headers_name_what_is_below_them(tmp_path: Path) -> None:
     rows: list[list[object]] = [
-        ["time", "spindle", None, "column", None, "air"],
+        ["time [s]", "spindle", None, "column", None, "air"],
         [None, "front", "rear", "front", "rear", None],
         *([i, 1.5, 2.5, 3.5, 4.5, i] for i in range(4)),
     ]

@@ -40,7 +40,8 @@ def _seeds() -> tuple[Seed, ...]:
     for name, time in times.items():
         for packed in ("NONE", "zstd"):
             out = io.BytesIO()
-            pq.write_table(pa.table({"time": time, **columns}), out, row_group_size=25, compression=packed)
+            called = "time [s]" if name == "seconds" else "time"
+            pq.write_table(pa.table({called: time, **columns}), out, row_group_size=25, compression=packed)
             made.append(Seed(f"{name}_{packed}.parquet", out.getvalue(), _PRAGUE))
     out = io.BytesIO()
     nested = pa.table(

@@ -9,6 +9,7 @@ from tests.fuzz.mutations import cut, edit_parts, flip, insert
 
 READER = "table"
 _PRAGUE = Source(timezone="Europe/Prague")
+_COLUMN = Source(table={"header_rows": 0, "time": {"column": 1, "unit": "s"}})
 _N = 40
 
 
@@ -57,6 +58,7 @@ def seeds() -> list[Seed]:
         Seed("zone.csv", text("timestamp;T1;dZ;n\n", _rows(";", ".", "zone")).encode("utf-8-sig"), _PRAGUE),
         Seed("two.csv", text("date;time;T1;dZ;n\n", _rows(";", ".", "two")).encode(), _PRAGUE),
         Seed("clock.csv", text("Uhrzeit;T1;dZ;n\n", _rows(";", ",", "clock")).encode(), _PRAGUE),
+        Seed("bare.csv", text("", _rows(";", ",", "seconds")).encode("utf-8-sig"), _COLUMN),
         Seed("unix.csv", text("timestamp,T1,dZ,n\n", _rows(",", ".", "unix")).encode(), _PRAGUE),
         Seed(
             "quoted.csv",

@@ -260,20 +260,20 @@ def test_the_hour_that_repeats_is_told_apart_by_the_order_of_the_rows(tmp_path: 
 
 
 def test_a_row_that_lacks_a_group_before_longer_ones_is_told(tmp_path: Path) -> None:
-    data = "t1;T1;t2;T2\n" + "".join(f"{k};2{k}.5;{k}.25;3{k}.5\n" for k in range(5))
-    found = read(tmp_path, data + "5;25.5\n6;26.5;6.25;36.5\n7;27.5\n", stream="t1")
+    data = "t1 [s];T1;t2 [s];T2\n" + "".join(f"{k};2{k}.5;{k}.25;3{k}.5\n" for k in range(5))
+    found = read(tmp_path, data + "5;25.5\n6;26.5;6.25;36.5\n7;27.5\n", stream="t1 [s]")
     assert found.values["T1"].tolist() == [20.5, 21.5, 22.5, 23.5, 24.5, 25.5, 26.5, 27.5]
     assert found.said == ["a.csv line 7: fewer cells than the lines behind it: what is missing is lost"]
-    other = read(tmp_path, data + "5;25.5\n6;26.5;6.25;36.5\n7;27.5\n", stream="t2")
+    other = read(tmp_path, data + "5;25.5\n6;26.5;6.25;36.5\n7;27.5\n", stream="t2 [s]")
     assert other.values["T2"].tolist() == [30.5, 31.5, 32.5, 33.5, 34.5, 36.5]
     assert other.at == [2, 3, 4, 5, 6, 8]
 
 
 def test_an_empty_line_lacks_no_group(tmp_path: Path) -> None:
     """Where most rows lack one, which is why it looks like one that does."""
-    data = "t1;T1;t2;T2\n" + "".join(f"{k};{k}.5;{k}.25;{k}.75\n" for k in range(600))
+    data = "t1 [s];T1;t2 [s];T2\n" + "".join(f"{k};{k}.5;{k}.25;{k}.75\n" for k in range(600))
     end = "600;1.5;600.25;2.5\n" + "".join(f"{k};1.5\n" for k in range(601, 3000))
-    found = read(tmp_path, data + "\n" + end, stream="t1")
+    found = read(tmp_path, data + "\n" + end, stream="t1 [s]")
     assert len(found.t_ns) == 3000
     assert found.said == []
 

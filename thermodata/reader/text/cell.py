@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Callable, Iterable
 from typing import Any
 
 from thermodata.reader.text.number import EMPTY, OVERLOAD
@@ -45,6 +46,17 @@ def is_clocked(cell: Cell) -> bool:
 
 def is_stamp(cell: Cell) -> bool:
     return is_dated(cell) or is_clocked(cell)
+
+
+def mostly(cells: Iterable[Cell], test: Callable[[Cell], bool], least: float, of: int) -> bool:
+    """Whether more than a share `least` of `of` cells pass a test; it stops where that can no longer be."""
+    left = of - least * of
+    for cell in cells:
+        if not test(cell):
+            left -= 1
+            if left <= 0:
+                return False
+    return left > 0
 
 
 def is_empty(cell: Cell) -> bool:

@@ -26,8 +26,12 @@ def head_lines(head: Head) -> tuple[str, ...]:
     return tuple(lines)
 
 
+_LINES = 300  # by which a table is known: how a column is typed may want more, whose it is does not
+
+
 @lru_cache(maxsize=2)  # several readers are asked for the same file
 def claimed_table(lines: tuple[str, ...]) -> Table:
     """The table in a file's first lines. FormatError where they hold none."""
+    lines = lines[:_LINES] if len(lines) > 2 * _LINES else lines
     whole = lines[:-1] if len(lines) > 1 and not lines[-1] else lines
     return find_table(whole, Sample(whole, (), "utf-8", None, False, True), Source(), "the first lines", STREAM)

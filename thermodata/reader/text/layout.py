@@ -8,7 +8,8 @@ from dataclasses import dataclass, replace
 from typing import Any, Literal
 
 from thermodata.errors import FormatError, UsageError
-from thermodata.reader.text.cell import WORDS, Cell, is_dated, is_empty, is_number, is_stamp
+from thermodata.reader.open_questions import UNKNOWN, unanswered
+from thermodata.reader.text.cell import WORDS, Cell, is_dated, is_empty, is_number, is_stamp, mostly
 from thermodata.reader.text.header import are_numbers, lines_between, names_and_units, unique
 from thermodata.reader.text.time_columns import column, time_of
 from thermodata.reader.text.time_formats import Stamps
@@ -23,7 +24,8 @@ _DATE = 8  # letters of a date by which it is known: "2026-03-", "02.03.20"
 @dataclass(frozen=True)
 class Group:
     """Columns with one time. stream: its name; time: columns of the time, from 0; seconds: of one unit of a relative
-    time, None for dates; epoch: of times counted from a date (clocks.EPOCHS); columns: its signals."""
+    time, None for dates; epoch: of times counted from a date (clocks.EPOCHS); columns: its signals; counted: no column
+    holds the time, `seconds` pass from row to row."""
 
     stream: str
     time: tuple[int, ...]
@@ -31,6 +33,7 @@ class Group:
     form: str | None
     epoch: str | None
     columns: tuple[int, ...]
+    counted: bool = False
 
     @property
     def dated(self) -> bool:
@@ -137,6 +140,8 @@ def _groups(
         if len(said) > 1:
             return declared_groups(said, names, units, data, where)
         said = said[0] if said else {}
+    if said.get("period") is not None:
+        return [_counted(said["period"], width, where)], []
     notes: list[str] = []
     found: list[Span] = []
     if said.get("column") is None:
@@ -219,6 +224,17 @@ def _group(stream: str, time: tuple[int, ...], unit: str | None, form: str | Non
     )
 
 
+def _counted(period: Any, width: int, where: str) -> Group:
+    """All columns, in rows that follow each other at a declared period [s]."""
+    if period == UNKNOWN:
+        raise unanswered("time.period", "the time from row to row: 10 s, 1 min", where)
+    if isinstance(period, str):
+        from thermodata.schema.quantity import value_in
+
+        period = value_in(period, "s")
+    return Group(STREAM, (), float(period), None, None, tuple(range(width)), True)
+
+
 def one_clock(
     times: Sequence[Stamps], groups: Sequence[Group], where: str
 ) -> tuple[Literal["absolute", "relative"], int | None]:
@@ -275,6 +291,6 @@ def _first_data(body: Sequence[Sequence[Cell]], width: int, where: str) -> int:
 def _stamped(body: Sequence[Sequence[Cell]], width: int) -> set[int]:
     """Columns that hold dates or times in nearly all rows of the second half, where preamble is rare."""
     late = [r for r in _second_half(body) if len(r) >= width - 1]
-    return {
-        k for k in range(width) if len(late) >= 5 and sum(k < len(r) and is_stamp(r[k]) for r in late) > 0.9 * len(late)
-    }
+    if len(late) < 5:
+        return set()
+    return {k for k in range(width) if mostly((r[k] if k < len(r) else "" for r in late), is_stamp, 0.9, len(late))}

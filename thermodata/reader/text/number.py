@@ -66,6 +66,8 @@ _COMMA = re.compile(r"^[+-]?\d*,\d+(?:[eE][+-]?\d+)?$|^[+-]?\d+,\d*(?:[eE][+-]?\
 
 def clean(cell: str) -> str:
     """A cell without blanks, quotes and a stray byte order mark around it. A quote alone stays: it is no empty cell."""
+    if cell and cell[0] > '"' < cell[-1] and cell.isascii():  # nearly every cell; blanks and quotes come before
+        return cell
     text = cell.strip().strip("\ufeff").strip()
     return text.strip('"').strip() or '"' * (text.count('"') % 2)
 

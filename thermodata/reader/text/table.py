@@ -10,6 +10,7 @@ from typing import Any
 
 from thermodata.errors import FormatError
 from thermodata.plugin import Source
+from thermodata.reader.open_questions import UNKNOWN, unanswered
 from thermodata.reader.text import delimiter as delimiters
 from thermodata.reader.text import timestamp
 from thermodata.reader.text.columns import dtype_of, find_decimal
@@ -51,6 +52,8 @@ class TimedGroup:
 
     def said(self) -> str:
         """How its times are written, for messages."""
+        if self.group.counted:
+            return f"counted, {self.group.seconds:g} s from row to row"
         if self.formats:
             return " and ".join(form.text for form in self.formats)
         unit = next((u for u, seconds in SECONDS.items() if seconds == self.group.seconds), "")
@@ -109,6 +112,7 @@ class Table:
             quoted=self.quoted,
             least=least,
             exact=True,
+            blank_rows=any(g.group.counted for g in self.groups),
             decimal_declared=self.decimal_declared,
         )
 
@@ -174,7 +178,8 @@ def find_table(head: Sequence[str], first: Sample, source: Source, where: str, s
         rows[0] = [""]
     layout = find(rows, said, where)
     width = len(layout.names)
-    body = [r for r in map(cells, (*head[layout.first : layout.first + _TYPED_ROWS], *first.rest)) if len(r) == width]
+    later = map(cells, (*head[max(len(top), layout.first) : layout.first + _TYPED_ROWS], *first.rest))
+    body = [r for r in (*rows[layout.first :], *later) if len(r) == width]
     groups = tuple(_timed(g, layout, body, head, cells, first, stream, where) for g in layout.groups)
     dated = [r for r in body if all(_reads(r, g) for g in groups[:1])]
     cells_of = {name: [r[i] for r in dated] for i, name in enumerate(layout.names)}
@@ -196,6 +201,8 @@ def find_table(head: Sequence[str], first: Sample, source: Source, where: str, s
         raise FormatError("no column beside the time", where=where, expected="values", got=", ".join(layout.names))
     numbers = [cells_of[name] for name, kind in zip(layout.names, kinds, strict=True) if kind == "float64"]
     declared = said.get("decimal")
+    if declared == UNKNOWN:
+        raise unanswered("decimal", "'.' or ','", where)
     decimal = declared or find_decimal(numbers, delimiter, where)
     header = frozenset(bare_line(line) for line in head[: layout.first] if bare_line(line))
     notes = tuple(dict.fromkeys([*([first.note] if first.note else []), *layout.notes, *_notes(layout, kinds, groups)]))

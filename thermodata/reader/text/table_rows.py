@@ -202,9 +202,12 @@ class _Clock:
         self.epoch = epoch
         self.clock = LocalClock(timezone if local else None)
         self.days = DayCount()
+        self.counted = 0
 
     def times(self, rows: Rows, peek: bool = False) -> Int1D:
         """Shape (n,), NAT where a row has none. peek: only which rows have one; the clock does not go on."""
+        if self.timed.group.counted:
+            return self._counted(rows, peek)
         ns = self._written(rows)
         if peek:
             return ns
@@ -216,6 +219,22 @@ class _Clock:
         result = np.full(ns.size, NAT, np.int64)
         result[good] = self.clock.utc(ns[good])
         return result
+
+    def _counted(self, rows: Rows, peek: bool) -> Int1D:
+        """Times of rows that are counted. A line that is lost took its time too, a repeated header took none."""
+        numbers = [
+            i for i in self.timed.group.columns if i in rows.columns and rows.columns[i].values.dtype.kind != "O"
+        ]
+        odd = np.zeros(rows.n, np.int64)
+        for i in numbers:
+            odd[[row for row, _ in rows.columns[i].odd]] += 1
+        words = odd == len(numbers) if numbers else np.zeros(rows.n, bool)
+        lost = np.array([b.line for b in rows.bad], np.int64)
+        taken = np.cumsum(~words) - 1 + np.searchsorted(lost, rows.line)
+        ns: Int1D = np.rint((self.counted + taken) * ((self.timed.group.seconds or 1.0) * 1e9)).astype(np.int64)
+        if not peek:
+            self.counted += int((~words).sum()) + lost.size
+        return np.where(words, NAT, ns)
 
     def _written(self, rows: Rows) -> Int1D:
         group = self.timed.group

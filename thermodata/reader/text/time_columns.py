@@ -8,13 +8,42 @@ from typing import Any
 
 import numpy as np
 
-from thermodata.errors import FormatError, UsageError, nearest
-from thermodata.reader.text.cell import TIME_WORD, Cell, is_clocked, is_dated, is_number, is_stamp, number_of
+from thermodata.errors import FormatError, QuestionError, UsageError, nearest
+from thermodata.plugin import Array
+from thermodata.reader.open_questions import UNKNOWN, unit_question
+from thermodata.reader.text.cell import TIME_WORD, Cell, is_clocked, is_dated, is_number, is_stamp, mostly, number_of
 from thermodata.reader.text.header import split_unit
 from thermodata.reader.text.time_formats import MILLISECONDS
-from thermodata.reader.time_units import SECONDS, check_unit, found_epoch
+from thermodata.reader.time_units import EPOCHS, SECONDS, check_unit, found_epoch
 
+_FEWEST_ROWS = 10  # of a table whose period is asked for: less is a list of anything
+_UNIT_BEHIND = re.compile(
+    r"^(?P<word>[^\W\d_]+(?: [^\W\d_]+)??)(?P<between>\s+in\s+|\s*[/,:]\s*|[ _.]+)(?P<unit>[^\W\d_]{1,8})\.?$"
+)
 _FRACTION = re.compile(r":\d\d:\d\d[.,:]\d+\s*([AaPp]\.?[Mm]\.?)?$")
+
+
+def unit_of_time(header: str, unit: str | None = None) -> str | None:
+    """The unit of time that a header names, in brackets or behind the word for time: "Zeit in h", "t / min", "time_ms".
+    unit: what was split from it, or stands in a row of its own. None where it names none."""
+    name, own = split_unit(header)
+    for text in (unit, own):
+        if text is not None:
+            low = text.strip().strip("[]()").lower()
+            return low if low in SECONDS or low in EPOCHS else None
+    match = _UNIT_BEHIND.match(name.strip())
+    if match is None or not TIME_WORD.match(match["word"]):
+        return None
+    low = match["unit"].lower()
+    return low if low in SECONDS else None
+
+
+def is_time_header(header: str, unit: str | None = None) -> bool:
+    """Whether a header says that its column is the time: by its word, or by a unit of time behind that."""
+    name = split_unit(header)[0].strip()
+    if unit is not None and unit_of_time(header, unit) is None:
+        return False
+    return TIME_WORD.match(name) is not None or (split_unit(header)[1] is None and unit_of_time(header) is not None)
 
 
 def column(wanted: int | str, names: Sequence[str], where: str) -> int:
@@ -50,26 +79,32 @@ def time_of(
     if wanted is not None:
         columns = tuple(column(w, names, where) for w in (wanted if isinstance(wanted, list | tuple) else [wanted]))
     else:
-        columns = find_time(names, units, data, where, likely)
+        try:
+            columns = find_time(names, units, data, where, likely)
+        except FormatError:
+            question = _time_question(names, data, where)
+            if question is None:
+                raise
+            raise question from None
     cells = [row[columns[0]] for row in data]
     numeric = sum(map(is_number, cells)) * 2 > len(cells)
     notes: list[str] = []
     if form is not None or (not numeric and unit is None):
         return columns, None, form, notes
-    text = unit or units[columns[0]]
+    name = names[columns[0]]
+    text = unit or units[columns[0]] or unit_of_time(name)
     if text is None:
-        text = _size_of_clock(names[columns[0]], cells, where)
+        text = _size_of_clock(name, cells, where)
         notes.append(
-            f"time column '{names[columns[0]]}' has no unit: "
-            + ("taken as seconds" if text == "s" else f"by its size it is {text}")
-            + "; declare table: {time: {unit: ...}} if that is wrong"
+            f"time column '{name}' has no unit: by its size it is {text}; declare table: {{time: {{unit: ...}}}} "
+            "if that is wrong"
         )
     return columns, check_unit(str(text), where), None, notes
 
 
 def _size_of_clock(name: str, cells: Sequence[Cell], where: str) -> str:
-    """The unit of a time that names none: seconds, or a count from a date where its size leaves no other sense.
-    FormatError where it may be days or seconds."""
+    """The unit of a time that names none, where its size leaves one sense only: a count from a date.
+    FormatError where it may be days or seconds; else QuestionError."""
     values = np.array([v for c in cells if (v := number_of(c)) is not None], np.float64)
     epoch = found_epoch(values) if values.size else None
     if epoch is not None:
@@ -85,7 +120,7 @@ def _size_of_clock(name: str, cells: Sequence[Cell], where: str) -> str:
             expected="a unit",
             hint="declare table: {time: {unit: excel}} or {time: {unit: s}}",
         )
-    return "s"
+    raise unit_question(name, values, where)
 
 
 def find_time(
@@ -95,13 +130,14 @@ def find_time(
     time, in this order. FormatError where there is none."""
     width = len(names)
 
-    def share(column: int, test: Any) -> float:
-        cells = [r[column] for r in data if r[column] not in ("", None)]
-        return sum(bool(test(c)) for c in cells) / len(cells) if cells else 0.0
+    filled = [[r[i] for r in data if r[i] not in ("", None)] for i in range(width)]
 
-    words = [i for i in range(width) if i in likely or TIME_WORD.match(split_unit(names[i])[0].strip())]
-    dates = [i for i in range(width) if share(i, is_dated) > 0.8]
-    clocks = [i for i in range(width) if share(i, is_clocked) > 0.8]
+    def share(column: int, test: Any, least: float) -> bool:
+        return bool(filled[column]) and mostly(filled[column], test, least, len(filled[column]))
+
+    words = [i for i in range(width) if i in likely or is_time_header(names[i])]
+    dates = [i for i in range(width) if share(i, is_dated, 0.8)]
+    clocks = [i for i in range(width) if share(i, is_clocked, 0.8)]
     if dates:
         first = next((i for i in dates if i in words), dates[0])
         sample = next(r[first] for r in data if r[first] not in ("", None))
@@ -115,12 +151,12 @@ def find_time(
         return (*found, *_milliseconds(found[-1] + 1, names, [r[found[-1]] for r in data], data))
     if clocks:
         return (clocks[0],)
-    numbers = [i for i in words if share(i, is_number) > 0.6]
+    numbers = [i for i in words if share(i, is_number, 0.6)]
     if numbers:
         return (numbers[0],)
-    if (units[0] or "").strip().lower() in SECONDS and share(0, is_number) > 0.6:
+    if (units[0] or "").strip().lower() in SECONDS and share(0, is_number, 0.6):
         return (0,)
-    damaged = [i for i in range(width) if share(i, is_dated) > 0.3]
+    damaged = [i for i in range(width) if share(i, is_dated, 0.3)]
     if damaged:
         return (damaged[0],)
     raise FormatError(
@@ -128,8 +164,38 @@ def find_time(
         where=where,
         got=", ".join(names[:12]),
         expected="a column of dates, or one called time or with s, min or h as its unit",
-        hint="declare table: {time: {column: 1, unit: s}}",
+        hint="declare table: {time: {column: 1, unit: s}}, or time: {period: 60 s} for rows that nothing dates",
     )
+
+
+def _time_question(names: list[str], data: list[list[Cell]], where: str) -> QuestionError | None:
+    """What to ask of a table of numbers without a time; None where it is no such table."""
+    width = len(names)
+    numbers = [i for i in range(width) if sum(is_number(r[i]) for r in data) > 0.6 * len(data)]
+    if len(data) < _FEWEST_ROWS or len(numbers) * 2 < width:
+        return None
+    rising = _rising(data)
+    if rising is not None and all(name == f"column {i + 1}" for i, name in enumerate(names)):
+        return unit_question(names[0], rising, where, 1)
+    other = f"; or is '{names[0]}' the time? then time: {{column: 1, unit: s}}" if rising is not None else ""
+    return QuestionError(
+        "no time column found",
+        where=where,
+        expected="a column of dates, or one called time or with s, min or h as its unit",
+        got=", ".join(names[:12]),
+        hint="declare the time from row to row: table: {time: {period: 60 s}}; or a column: {column: 1, unit: s}",
+        ask=f"period: the time from row to row, e.g. 10 s or 1 min? no column holds a time{other}",
+        declare={"time": {"period": UNKNOWN}},
+        meanwhile={"time": {"period": 1.0}},
+    )
+
+
+def _rising(data: Sequence[Sequence[Cell]]) -> Array | None:
+    """The numbers of the first column where they rise from row to row in even steps, as a time does or a count."""
+    values = np.array([v for r in data if (v := number_of(r[0])) is not None], np.float64)
+    steps = np.diff(values)
+    even = values.size >= max(2, 0.9 * len(data)) and bool((steps > 0).all())
+    return values if even and float(np.mean(np.abs(steps - np.median(steps)) <= 0.1 * np.median(steps))) > 0.9 else None
 
 
 def _milliseconds(column: int, names: list[str], times: Sequence[Cell], data: list[list[Cell]]) -> tuple[int, ...]:

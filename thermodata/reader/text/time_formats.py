@@ -14,8 +14,9 @@ from functools import partial
 import numpy as np
 import numpy.typing as npt
 
-from thermodata.errors import FormatError
+from thermodata.errors import FormatError, QuestionError
 from thermodata.plugin import Array, Int1D
+from thermodata.reader.open_questions import UNKNOWN, unanswered
 from thermodata.reader.text import timestamp
 from thermodata.reader.text.local_clock import DayCount
 from thermodata.reader.text.timestamp import DATE, DATETIME, MILLISECOND, TIME_OF_DAY, TimeFormat
@@ -24,7 +25,8 @@ from thermodata.reader.zone import NAT, local_to_utc_ns
 
 MILLISECONDS = re.compile(r"(?i)^(ms|msec|millise[ck]\w*|millis|毫秒)\b")
 _FEW, _MANY = 40, 4000
-_HINT = "declare table: {time: {column: ..., format: '%d/%m/%Y %H:%M:%S'}} or '%m/%d/%Y ...'"
+_HINT = "declare table: {time: {format: dmy}} or mdy, or strptime's letters: '%d/%m/%Y %H:%M:%S'"
+_ORDERS = ("dmy", "mdy", "ymd")  # what may be declared in place of letters
 
 
 @dataclass(frozen=True, slots=True)
@@ -57,11 +59,14 @@ def find_formats(
 ) -> tuple[TimeFormat, ...]:
     """The format of each time column of one time (a date and a time of day add up).
 
-    names, columns: their names, and sampled cells of each; declared: strptime's letters; more: further cells of the
-    k-th column, asked for where those do not tell day from month.
-    FormatError: no order of day and month in all of them, or no cell is a time.
+    names, columns: their names, and sampled cells of each; declared: strptime's letters, or the order of day and month:
+    dmy, mdy, ymd; more: further cells of the k-th column, asked for where those do not tell day from month.
+    QuestionError: no order of day and month in all of them; FormatError: no cell is a time.
     """
-    wanted: Sequence[str] = () if declared is None else [declared]
+    if declared == UNKNOWN:
+        raise unanswered("time.format", f"{', '.join(_ORDERS)}, or strptime's letters", where)
+    order = declared if declared in _ORDERS else None
+    wanted: Sequence[str] = () if declared is None or order else [declared]
     if declared is not None and len(columns) > 1 and len(declared.split()) == len(columns):
         wanted = declared.split()
     forms: list[TimeFormat] = []
@@ -73,7 +78,7 @@ def find_formats(
         for text in wanted[k : k + 1] if len(wanted) == len(columns) else wanted:
             own = timestamp.declared_format(text)
             form = own if len(columns) == 1 or share(_spread(cells, _FEW), own) > 0.5 else form
-        form = form or find_format(cells, where, name, partial(more, k))
+        form = form or find_format(cells, where, name, partial(more, k), order)
         forms.append(_zoned(form, cells))
     return tuple(forms)
 
@@ -85,13 +90,19 @@ def _zoned(form: TimeFormat, cells: Sequence[str]) -> TimeFormat:
 
 
 def find_format(
-    cells: Sequence[str], where: str, name: str = "", more: Callable[[], Sequence[str]] = tuple
+    cells: Sequence[str],
+    where: str,
+    name: str = "",
+    more: Callable[[], Sequence[str]] = tuple,
+    order: str | None = None,
 ) -> TimeFormat:
-    """The format of cells of one column, whether they name an offset from UTC or not; FormatErrors as above."""
+    """The format of cells of one column, whether they name an offset from UTC or not; errors as above. order: the
+    declared one of day and month."""
     few = _spread(cells, _FEW)
     for least in (0.8, 0.3):
         for forms, enough in (({"": TIME_OF_DAY}, least), (DATE, max(least, 0.9)), (DATETIME, least)):
-            orders = [o for o, form in forms.items() if share(few, form) > enough]
+            known = {o: form for o, form in forms.items() if order is None or o in ("", order)}
+            orders = [o for o, form in known.items() if share(few, form) > enough]
             if orders:
                 return forms[_order(orders, cells, more, forms, where)]
     full = [c for c in cells if c.strip()]
@@ -125,12 +136,15 @@ def _order(
             return left[0]
     if re.search(r"[ap]\.?m", first, re.IGNORECASE) and "mdy" in left:
         return "mdy"
-    raise FormatError(
+    raise QuestionError(
         "day and month of the dates could be either way round",
         where=where,
         expected="one date with a day above 12",
         got=first,
         hint=_HINT,
+        ask=f"format of the dates: dmy or mdy? {first} may be either",
+        declare={"time": {"format": UNKNOWN}},
+        meanwhile={"time": {"format": "dmy"}},
     )
 
 

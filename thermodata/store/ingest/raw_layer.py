@@ -56,6 +56,7 @@ class RawIngest:
     notes: list[str] = field(default_factory=list)
     files: set[str] = field(default_factory=set)
     read: int = 0
+    _told: set[str] = field(default_factory=set)
     _settled: dict[str, SourceFile] = field(default_factory=dict)
     _odd: dict[str, str] = field(default_factory=dict)
     _source_files: dict[tuple[str, str], SourceFiles] = field(default_factory=dict)
@@ -84,7 +85,7 @@ class RawIngest:
         """A test with the raw streams of all its sources."""
         plan = TestPlan(self.campaign, test)
         for name, spec in self.campaign.sources.items():
-            plan.sources[name] = self._source(test, name, spec)
+            plan.sources[name] = self._source(test, name, spec.of_test(test.id))
         missing = [n for n, s in plan.sources.items() if not s.raws]
         if len(missing) == len(plan.sources):
             self.losses.append(loss_row("no data: no file of any source was found or could be read", test=test.id))
@@ -192,7 +193,9 @@ class RawIngest:
                     self._done(path)
                     return []
         self._done(path)
-        if path not in self.files:
+        fresh = {r.key for r in raws} - self._told  # of a workbook each sheet is raw data of its own
+        self._told |= fresh
+        if fresh:
             for loss in (x for r in raws for x in r.losses):
                 self.losses.append(loss_row(loss.reason, test=test, source=source, file=path, loss=loss))
         self.files.add(path)

@@ -39,7 +39,7 @@ def patterns_of(campaign: Campaign, test: Test, source: str) -> tuple[tuple[str,
     if declared is None:
         return (), False, False
     listed = [declared] if isinstance(declared, str) else list(declared)
-    shared = own is None and not any("{test}" in p for p in listed)
+    shared = own is None and not any("{test}" in p for p in listed) and not campaign.sources[source].sheet_a_test
     return tuple(_checked(p, test.id) for p in listed), shared, own is not None
 
 

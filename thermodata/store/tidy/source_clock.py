@@ -3,15 +3,19 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from datetime import UTC, datetime
 from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
 
 from thermodata.plugin import Int1D
+from thermodata.reader.zone import local_to_utc_ns
 from thermodata.store.raw.streams import RawStream
 from thermodata.store.tidy.plan import SourcePlan, TestPlan
 from thermodata.store.tidy.timeline import Timeline, make_timeline
+
+_NEAR_S = 60.0  # a start that a person wrote down is that exact
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,8 +53,17 @@ def bases(plan: TestPlan) -> tuple[dict[str, int], list[str]]:
     absolute = [first_ns(s) for s in plan.sources.values() if s.raws and not is_relative(s)]
     notes = []
     base_ns = {}
+    if plan.test.start is not None and absolute:
+        apart_s = (min(absolute) - start_ns(plan.test.start, next(iter(plan.sources.values())))) / 1e9
+        if abs(apart_s) > _NEAR_S:
+            plan.problems.append(
+                f"test '{plan.test.id}': start is {plan.test.start}, but its recordings have dates of their own, "
+                f"{apart_s:+.0f} s from it: these count; try: take 'start' away, or set clock: {{offset: ...}}"
+            )
     for name, source in plan.sources.items():
         base_ns[name] = 0
+        if source.raws and is_relative(source) and not absolute and plan.test.start is not None:
+            base_ns[name] = start_ns(plan.test.start, source)
         if source.raws and is_relative(source) and absolute:
             reference = [first_ns(s) for s in plan.reference if not is_relative(s)]
             base_ns[name] = min(reference or absolute)
@@ -59,6 +72,16 @@ def bases(plan: TestPlan) -> tuple[dict[str, int], list[str]]:
                 "set clock: {align_to: ...} or {offset: ...} where it does not"
             )
     return base_ns, notes
+
+
+def start_ns(start: str, source: SourcePlan) -> int:
+    """The declared start of a test [ns UTC]: local to the source's timezone where it names no offset itself."""
+    moment = datetime.fromisoformat(start)
+    if moment.tzinfo is not None:
+        moment, zone = moment.astimezone(UTC), None
+    else:
+        zone = source.spec.timezone
+    return int(local_to_utc_ns(np.array([np.datetime64(moment.replace(tzinfo=None), "ns")]), zone)[0][0])
 
 
 def is_relative(source: SourcePlan) -> bool:

@@ -155,7 +155,7 @@ class _Tracer:
         if stand != "unchanged":
             return {"file": stand, "value": None}
         return {"file": stand} | reread(
-            self._folder() / raw.source_path, raw, row, signal, source, self.spec.sources[source]
+            self._folder() / raw.source_path, raw, row, signal, source, self.spec.sources[source].of_test(self.of)
         )
 
     @staticmethod

@@ -32,7 +32,8 @@ def read_series(con: duckdb.DuckDBPyConnection, store: Path, campaign: str, test
         raws = [RawStream.from_row(r) for r in files if r["source"] == name]
         # as resolve tells it: a pattern without the test's name gives other tests the same files
         patterns = [source.files] if isinstance(source.files, str) else list(source.files or [])
-        shared = name not in plan.test.files and bool(patterns) and not any("{test}" in p for p in patterns)
+        named = any("{test}" in p for p in patterns) or source.sheet_a_test
+        shared = name not in plan.test.files and bool(patterns) and not named
         plan.sources[name] = SourcePlan(name, source, raws, shared)
     bind(plan)
     base, _ = bases(plan)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
-from thermodata.errors import FormatError
+from thermodata.errors import FormatError, QuestionError
 from thermodata.plugin import Block, Loss, Recording, Source
 from thermodata.reader.text import delimited
 from thermodata.reader.text.claim import claimed_table
@@ -22,10 +22,12 @@ def claims(lines: Sequence[str]) -> str | None:
     """The reason for claiming a file that begins with these lines, or None."""
     try:
         table = claimed_table(tuple(lines))
-    except FormatError as error:
+    except QuestionError as question:
         # a file of ours whose day and month nothing tells apart is still ours: reading it asks for the order
-        asked = error.what.startswith("day and month") and any(";" in line or "\t" in line for line in lines[-3:])
-        return "rows of a date and time between ';' or tabs" if asked else None
+        dated = "format" in question.declare.get("time", {}) and any(";" in line or "\t" in line for line in lines[-3:])
+        return "rows of a date and time between ';' or tabs" if dated else None
+    except FormatError:
+        return None
     if table.delimiter not in (";", "\t") or not table.absolute or not table.groups[0].formats:
         return None
     between = "';'" if table.delimiter == ";" else "tabs"

@@ -5,13 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
-from thermodata.errors import ThermodataError
+from thermodata.errors import QuestionError, ThermodataError
 from thermodata.plugin import Block, Head, Loss, Recording, Source
 from thermodata.reader.text import delimited
 from thermodata.reader.text.claim import claimed_table, head_lines
 from thermodata.reader.text.locate import line_of
 
 _TAGS = {"_name", "node id", "nodeid", "tag", "tagname", "tag name", "item", "itemid", "display name", "displayname"}
+_FEWEST_LINES = 10
 _VALUES = {"_value", "value", "tagval", "tag value", "val"}
 
 
@@ -20,11 +21,14 @@ def claims(head: Head) -> str | None:
     the one signal that it holds a value of."""
     try:
         table = claimed_table(head_lines(head))
-    except ThermodataError as error:
-        asked = getattr(error, "what", "").startswith(("day and month", "commas that may"))
-        return f"a table that leaves a question: {getattr(error, 'what', error)}" if asked else None
-    if table.delimiter == "|" or table.layout.first == 0 or _is_long(table.layout.names):
+    except QuestionError as question:
+        return f"a table that leaves a question: {question.what}"
+    except ThermodataError:
         return None
+    if table.delimiter == "|" or _is_long(table.layout.names):
+        return None
+    if table.layout.first == 0 and len(table.sample.head) < _FEWEST_LINES:
+        return None  # a few numbers without a header may be anything
     shown = "tab" if table.delimiter == "\t" else f"'{table.delimiter}'"
     return f"table: cells separated by {shown}, time in column '{table.layout.names[table.layout.time[0]]}'"
 

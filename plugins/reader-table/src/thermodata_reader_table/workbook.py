@@ -15,7 +15,7 @@ from typing import Any, Literal
 
 import numpy as np
 
-from thermodata.errors import FormatError, ThermodataError, UsageError
+from thermodata.errors import FormatError, QuestionError, ThermodataError, UsageError
 from thermodata.plugin import Array, Block, Bool1D, Int1D, Loss, Recording, Signal, Source
 from thermodata.reader.text.cell import is_empty
 from thermodata.reader.text.layout import STREAM, Group, Layout, find, one_clock
@@ -27,7 +27,7 @@ from thermodata.reader.text.time_formats import (
     times_of_numbers,
     times_of_texts,
 )
-from thermodata.reader.time_units import SECONDS
+from thermodata.reader.time_units import SECONDS, to_ns
 from thermodata.reader.zone import NAT
 from thermodata.schema.flag import Flag
 from thermodata_reader_table.workbook_check import check_size
@@ -152,6 +152,9 @@ class Table:
             yield Stream(name, Stamps(times.t_ns[keep], times.absolute, ()), values, units, at, over, self.sheet)
 
     def _times(self, group: Group) -> Stamps:
+        if group.counted:
+            rows = len(self.columns[0]) if self.columns else 0
+            return Stamps(to_ns(np.arange(rows) * float(group.seconds or 1.0), 1.0), False, ())
         columns = [self.columns[i] for i in group.time]
         if not group.dated:
             unit = group.epoch or next(u for u, seconds in SECONDS.items() if seconds == group.seconds)
@@ -249,8 +252,10 @@ def read(path: Path, source: Source) -> Read:
             tables[sheet] = find(rows[:500], source.table, f"{path.name} sheet '{sheet}'")
         except ThermodataError as error:
             refused[sheet] = error
-    if not tables:
-        raise next(iter(refused.values()))
+    # a list of numbers may be no recording; a time without its unit is one
+    asked = [e for e in refused.values() if isinstance(e, QuestionError) and "period" not in e.declare.get("time", {})]
+    if asked or not tables:
+        raise next(iter(asked or refused.values()))
     several = len(tables) > 1
     notes = [f"sheet '{s}' is not read as a table: {e.what}" for s, e in refused.items()]
     if several:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -17,6 +18,7 @@ from thermodata.reader.text.number import clean, decimal_mark, is_empty, is_over
 from thermodata_reader_crio.labview_clock import LABVIEW_SECONDS
 
 _MOST_HEADER = 30
+_MAY_BE_1904 = re.compile(rb"[234]\x00?(?:\d\x00?){9}|\d\x00?[eE]")  # UTF-16 has zeros between
 _MOST_ROWS = 500
 _FEWEST_ROWS = 3
 
@@ -49,6 +51,8 @@ def claims(head: Head) -> str | None:
     start = head.start
     if start[:4] == b"TDSm" or not any(b in start[:4096] for b in b"0123456789"):
         return None
+    if not head.name.lower().endswith(".lvm") and not _MAY_BE_1904.search(start):
+        return None  # most logs, and taking them apart takes its time
     text = decode_head(start)
     if text is None:
         return None

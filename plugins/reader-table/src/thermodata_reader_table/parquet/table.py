@@ -12,10 +12,11 @@ import numpy as np
 
 from thermodata.errors import FormatError
 from thermodata.plugin import Source
+from thermodata.reader.open_questions import unit_question
 from thermodata.reader.text import split_unit, time_formats
 from thermodata.reader.text.header import unique
 from thermodata.reader.text.time_columns import column as find_column
-from thermodata.reader.text.time_columns import find_time
+from thermodata.reader.text.time_columns import find_time, unit_of_time
 from thermodata.reader.text.time_formats import times_of_numbers
 from thermodata.reader.text.time_groups import one_time
 from thermodata.reader.time_units import check_unit, found_epoch
@@ -111,15 +112,14 @@ class Table:
             )
         if pt.is_duration(kind):
             return column, "duration"
-        text = unit or units[column]
+        text = unit or units[column] or unit_of_time(self.names[column])
         if text is None:
             found = next(self.batches(1000), None)
             values = np.zeros(0) if found is None else numbers(found.column(column))
-            text = found_epoch(values) or "s"
-            self.notes.append(
-                f"time column '{self.names[column]}' has no unit: "
-                + ("taken as seconds" if text == "s" else f"by its size it is {text}")
-            )
+            text = found_epoch(values)
+            if text is None:
+                raise unit_question(self.names[column], values, self.path.name)
+            self.notes.append(f"time column '{self.names[column]}' has no unit: by its size it is {text}")
         return column, check_unit(str(text), self.path.name)
 
     def times(self, column: Any) -> time_formats.Stamps:

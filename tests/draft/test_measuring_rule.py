@@ -1,0 +1,69 @@
+"""A rule for when a test measures: drafted where a position or a state moves exactly with the probes' range."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from thermodata.schema.load import load_campaign
+
+from .conftest import Said
+from .labs import numbers, text
+
+Say = Callable[..., Said]
+
+
+def cycles(folder: Path, *, state: bool, rail: float | None = 1999.0, shift: int = 0) -> None:
+    """A spindle that comes to its probe for 2 of 12 minutes. rail: the probe's reading beyond its range, None: none.
+    shift: rows by which the position is late, so that it tells nothing."""
+    n = 720
+    t = np.arange(n) * 10.0
+    at_probe = (np.arange(n) // 12) % 6 == 0
+    growth = 40 * (1 - np.exp(-t / 2000)) + np.random.default_rng(1).normal(0, 0.2, n)
+    shown = [
+        f"{g:.2f}" if here else "" if rail is None else f"{rail:g}" for g, here in zip(growth, at_probe, strict=True)
+    ]
+    where = np.roll(at_probe, shift)
+    position = np.where(where, 210.0, 400 + 150 * np.sin(np.arange(n) / 3))
+    columns = [numbers(t, 0), shown, numbers(position, 3), numbers(20 + t / 3000, 2)]
+    header = ["t [s]", "Z [um]", "pos Z [mm]", "T nut Z [degC]"]
+    if state:
+        columns[2] = [f"{int(w)}" for w in where]
+        header[2] = "probing active"
+    text(folder / "feed_z.csv", header, columns, mark=",")
+
+
+@pytest.mark.parametrize("rail", [1999.0, None])
+def test_a_position_that_goes_with_the_range_is_a_rule(rail: float | None, tmp_path: Path, say: Say) -> None:
+    cycles(tmp_path / "lab", state=False, rail=rail)
+    say("init", tmp_path / "lab")
+    path = tmp_path / "lab" / "campaign.yaml"
+    rule = load_campaign(path).tests[0].measuring
+    assert isinstance(rule, str)
+    assert rule.startswith("abs(pos_Z - 210) < ")
+    assert float(rule.rsplit(" ", 1)[1]) < 40  # the axis is never nearer elsewhere
+    assert "measuring guess: exactly then the probes are in range" in path.read_text("utf-8")
+    store = ("--store", tmp_path / "s")
+    say(*store, "ingest", path)
+    asked = (
+        "select count(*) as n, max(value) as high from sample where channel = 'Z' and flag & 128 = 0 and value < 1000"
+    )
+    row = json.loads(say(*store, "sql", asked, "--json").out)[0]
+    assert row["n"] == 120
+    assert row["high"] < 60
+
+
+def test_a_state_that_goes_with_the_range_is_a_rule(tmp_path: Path, say: Say) -> None:
+    cycles(tmp_path, state=True)
+    say("init", tmp_path)
+    assert load_campaign(tmp_path / "campaign.yaml").tests[0].measuring == "probing_active == 1"
+
+
+def test_a_position_that_goes_its_own_way_is_no_rule(tmp_path: Path, say: Say) -> None:
+    cycles(tmp_path, state=False, shift=5)
+    say("init", tmp_path)
+    assert load_campaign(tmp_path / "campaign.yaml").tests[0].measuring is None

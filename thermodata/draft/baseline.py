@@ -1,0 +1,85 @@
+"""A first model of a folder: the plain effects whose sensors are there, for `fit`, `compare` and `diagnose`."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from thermodata.draft.plan import Draft, DraftChannel
+from thermodata.draft.write import flow, one_line, scalar
+from thermodata.effect.binding import bindings
+from thermodata.effect.registry import effects
+
+# what a lab's first model has, the strongest first; what else moves the tool is for `diagnose` to find
+_PLAIN = ("spindle_bearing", "feed_screw", "column_bending", "table_bearing", "ambient_frame")
+_WITHOUT_SENSOR = {"spindle_bearing": "spindle_friction"}  # where only the speed is logged
+_AXES = ("Z", "Y", "X")
+_ASKED = ("temperature", "rotational_speed")
+
+
+@dataclass(frozen=True, slots=True)
+class _Driver:
+    quantity: str
+    at: str | None
+
+
+def model_text(draft: Draft) -> str | None:
+    """The text of model.yaml; None where no displacement with an axis is there, or no sensor drives a plain effect."""
+    axis = _axis(draft.channels)
+    drivers = {
+        c.name: _Driver(c.said.quantity, c.said.at)
+        for c in draft.channels
+        if c.said.quantity and c.said.quantity not in ("displacement", "label")
+    }
+    known = effects()
+    lines, missing = [], []
+    for name in _PLAIN if axis else ():
+        for tried in filter(None, (name, _WITHOUT_SENSOR.get(name))):
+            effect = known.get(tried)
+            fits = _on_axis(bindings(effect, drivers), drivers, axis or "") if effect is not None else []
+            if effect is not None and fits:
+                rest = f"; or by {one_line(', '.join(fits[1].values()))}" if len(fits) > 1 else ""
+                spec = flow({"effect": tried, "drivers": fits[0]})
+                lines.append(f"  - {{{spec}}}   # {one_line(effect.meaning.split(':')[0])}{rest}")
+                break
+        else:
+            missing.append(name)
+    if axis is None or not lines:
+        return None
+    nowhere = [c.name for c in draft.channels if c.said.quantity in _ASKED and c.said.at is None]
+    return "\n".join(
+        [
+            "# Drafted by thermodata init: a first model, one plain effect for each sensor that stands where it acts.",
+            "# Next: thermodata fit model.yaml, then thermodata diagnose baseline says which effect is missing.",
+            "schema: thermodata/model/1",
+            "name: baseline",
+            f"campaign: {scalar(draft.campaign)}",
+            f"response: {{axis: {axis}, at: tcp}}",
+            "step: 60 s",
+            "effects:",
+            *lines,
+            *([f"# no sensor for: {', '.join(missing)}"] if missing else []),
+            *(
+                [f"# ? drive nothing until their place ('at') is answered: {', '.join(nowhere[:12])}"]
+                if nowhere
+                else []
+            ),
+            "",
+        ]
+    )
+
+
+def _axis(channels: Sequence[DraftChannel]) -> str | None:
+    """The axis that is modelled first: of the displacements of the tool, Z before Y before X."""
+    there = {c.said.axis for c in channels if c.said.quantity == "displacement" and c.said.at == "tcp"}
+    return next((a for a in _AXES if a in there), None)
+
+
+def _on_axis(found: list[dict[str, str]], drivers: dict[str, _Driver], axis: str) -> list[dict[str, str]]:
+    """The bindings, without those whose sensor sits on another axis than the modelled one."""
+
+    def own(name: str) -> bool:
+        at = drivers[name].at or ""
+        return not at.startswith("axis.") or at.split(".")[1] == axis.lower()
+
+    return [b for b in found if all(own(c) for c in b.values())]
