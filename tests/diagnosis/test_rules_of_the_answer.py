@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from types import SimpleNamespace
 from typing import Any
 
@@ -164,8 +165,6 @@ class TestAnswer:
     def test_others_come_by_what_they_would_give_and_what_was_dropped_as_it_was_judged(
         self, monkeypatch: pytest.MonkeyPatch, spec: Model
     ) -> None:
-        from dataclasses import replace
-
         dropped = replace(OTHER, sse_after=0.01 * OTHER.sse_before)
         found = self.answered(monkeypatch, spec, nothing("unknown"), dropped=[dropped])
         assert [c.effect for c in found.candidates] == ["other", "first", "twin"]
@@ -206,6 +205,15 @@ class TestAnswer:
         assert second.why.endswith("not claimed: first:T_a explains it, or more")
         assert "not claimed: chance does as well in" in last.why
 
+    @pytest.mark.parametrize(("beside_others", "shown"), [(0.5, 0.3), (0.2, 0.2)])
+    def test_figures_are_those_beside_the_users_own_model_unless_it_hides_the_cause(
+        self, monkeypatch: pytest.MonkeyPatch, spec: Model, beside_others: float, shown: float
+    ) -> None:
+        """Of a claim whose error falls from 1 to 0.3 beside the model alone."""
+        claimed = replace(FIRST, sse_after=beside_others**2 * FIRST.rows)
+        found = self.answered(monkeypatch, spec, claim(claimed))
+        assert found.candidates[0].rmse_um_after == pytest.approx(shown)
+
     def test_at_most_fifteen_candidates_are_shown(self, monkeypatch: pytest.MonkeyPatch, spec: Model) -> None:
         ranked = [scored(f"e{i}") for i in range(16)]
         found = self.answered(monkeypatch, spec, nothing("none"), ranked=ranked)
@@ -213,8 +221,6 @@ class TestAnswer:
         assert [bool(c.equivalent) for c in found.candidates] == [True] * 5 + [False] * 10
 
     def test_what_was_not_scored_is_not_shown(self, monkeypatch: pytest.MonkeyPatch, spec: Model) -> None:
-        from dataclasses import replace
-
         found = self.answered(
             monkeypatch, spec, nothing("none"), ranked=[FIRST, replace(TWIN, rows=np.zeros(0), shape=np.zeros(0))]
         )
