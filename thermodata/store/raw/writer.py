@@ -11,6 +11,7 @@ import numpy as np
 
 from thermodata.errors import PluginError
 from thermodata.plugin import Array, Block, Int1D, Signal
+from thermodata.reader.newest_first import Steps
 from thermodata.store.base.arrow import to_arrow
 from thermodata.store.base.encoder import Encoder
 from thermodata.store.base.files import publish, temporary
@@ -40,6 +41,7 @@ class StreamWriter:
         self.flagged: set[str] = set()
         self.rows, self.first_ns, self.last_ns, self.step_ns = 0, 0, 0, 0
         self.ordered = True
+        self._clock = Steps()
         self._group_rows = group_rows(len(signals) + 1)
         self._waiting: list[Block] = []
         self._waiting_rows = 0
@@ -57,6 +59,7 @@ class StreamWriter:
             self.ordered = self._goes_on(block.t_ns)
             self.first_ns = self.first_ns if self.rows else int(block.t_ns[0])
             self.last_ns = int(block.t_ns[-1])
+        self._clock.add(block.t_ns)
         if n > 1 and len(self._steps) < 64:
             self._steps.append(int(np.median(np.diff(block.t_ns[:4096]))))
         self.rows += n
@@ -66,6 +69,11 @@ class StreamWriter:
             self._waiting_rows += len(part.t_ns)
             if self._waiting_rows >= self._group_rows:
                 self._flush()
+
+    @property
+    def newest_first(self) -> bool:
+        """Whether the rows stand in the file from the last to the first."""
+        return not self.ordered and self._clock.newest_first
 
     def _goes_on(self, t_ns: Int1D) -> bool:
         """Whether a block's times rise, from where the last one ended, and not by a year at once."""
@@ -79,11 +87,11 @@ class StreamWriter:
     def finish(self, meta: Mapping[str, Any]) -> None:
         """Writes what waits and makes the file appear."""
         self._flush()
-        self.step_ns = int(np.median(self._steps)) if self._steps else 0
+        self.step_ns = abs(int(np.median(self._steps))) if self._steps else 0
         assert self._encoder is not None
         self._encoder.close({"thermodata": json.dumps(dict(meta))})
         if not self.ordered:
-            self.first_ns, self.last_ns = _extent(self._encoder.part, self.rows)
+            self.first_ns, self.last_ns = _extent(self._encoder.part, self.rows, self.newest_first)
         publish(self._encoder.part, self.target)
         self._encoder = None
 
@@ -134,11 +142,17 @@ class StreamWriter:
         return pa.Table.from_arrays(arrays, schema=schema)
 
 
-def _extent(path: Path, rows: int) -> tuple[int, int]:
+def _extent(path: Path, rows: int, newest_first: bool) -> tuple[int, int]:
     """Where a recording begins and ends whose clock has faults: up to a reset, for what follows may mean anything."""
     file = RawFile(path)
+
+    def times(a: int, b: int) -> Int1D:
+        first, last = (rows - b, rows - a) if newest_first else (a, b)
+        t_ns: Int1D = file.read(["t_ns"], first, last)[0]
+        return t_ns[::-1] if newest_first else t_ns
+
     try:
-        return find_order(lambda a, b: file.read(["t_ns"], a, b)[0], rows, resets_allowed=False).extent
+        return find_order(times, rows, resets_allowed=False).extent
     finally:
         file.close()
 

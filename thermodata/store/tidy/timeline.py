@@ -129,7 +129,7 @@ class Timeline:
         low, _, order = self._window(row, row + 1)
         at = row if order is None else low + int(order[row - low])
         raw, file_row, _ = next(iter(self._within(at, at + 1)))
-        return raw, file_row
+        return raw, raw.rows - 1 - file_row if raw.newest_first else file_row
 
     def flagged(self, signals: Iterable[str]) -> bool:
         """Whether a reader flagged any row of these signals."""
@@ -145,10 +145,14 @@ class Timeline:
 
     def _read(self, raw: RawStream, columns: Sequence[str], start: int, stop: int) -> list[Array]:
         assert self.store is not None
-        return self._files.get(self.store / raw.path).read(columns, start, stop)
+        file = self._files.get(self.store / raw.path)
+        if raw.newest_first:
+            return [a[::-1] for a in file.read(columns, raw.rows - stop, raw.rows - start)]
+        return file.read(columns, start, stop)
 
     def _within(self, start: int, stop: int) -> Iterable[tuple[RawStream, int, int]]:
-        """(raw, its rows a to b) that make up rows start to stop in file order."""
+        """(raw, its rows a to b) that make up rows start to stop in file order; of a file that stands newest first
+        they are counted from its end."""
         at = 0
         for raw, _ in self.raws:
             a, b = max(start - at, 0), min(stop - at, raw.rows)
