@@ -51,3 +51,38 @@ def test_files_that_stand_newest_first_are_joined_in_order(lab: Lab) -> None:
     t_s, values = lab.values("T1")
     np.testing.assert_allclose(t_s, np.arange(200) * 10.0)
     np.testing.assert_array_equal(values, 20 + np.concatenate([np.arange(100)[::-1], np.arange(100)[::-1]]) / 8)
+
+
+ZONE = {"timezone": "Europe/Prague"}
+
+
+@pytest.mark.parametrize(
+    ("start", "winter"), [("2026-10-24 22:00:00", "2026-10-24T21:00"), ("2026-03-29 00:00:00", "2026-03-28T23:00")]
+)
+@pytest.mark.parametrize("step_s", [1, 60, 1800])
+def test_a_clock_without_daylight_saving_is_asked_for(lab: Lab, start: str, winter: str, step_s: int) -> None:
+    n = 36000 // step_s
+    lab.write("raw/a.csv", "time;T\n" + rows(stamps(start, step_s, n)))
+    said = lab.ingest(T1, ZONE)
+    assert said.code == 3
+    assert "keeps one offset" in said.out + said.err
+    assert "timezone: Etc/GMT-1" in said.out + said.err
+    assert lab.ingest(T1, {"timezone": "Etc/GMT-1"}).code == 0
+    t_s, _ = lab.values("T1")
+    np.testing.assert_allclose(t_s, np.arange(n) * step_s)
+    assert winter in lab("sql", "select min(t) as t from sample", "--csv").out.replace(" ", "T")
+
+
+@pytest.mark.parametrize("late_s", [0, 300])
+@pytest.mark.parametrize(("change", "shift"), [("2026-10-25 03:00:00", -3600), ("2026-03-29 02:00:00", 3600)])
+def test_a_clock_that_follows_daylight_saving_at_once_or_late_is_read(
+    lab: Lab, change: str, shift: int, late_s: int
+) -> None:
+    at = datetime.fromisoformat(change) + timedelta(seconds=late_s)
+    before = [at - timedelta(seconds=10 * i) for i in range(1500, 0, -1)]
+    local = [*before, *(at + timedelta(seconds=shift + 10 * i) for i in range(1500))]
+    lab.write("raw/a.csv", "time;T\n" + rows([f"{t:%Y-%m-%d %H:%M:%S}" for t in local]))
+    assert lab.ingest(T1, ZONE).code == 0 or late_s
+    assert "keeps one offset" not in lab("preview", lab.folder / "raw/a.csv").out
+    if not late_s:
+        np.testing.assert_allclose(lab.values("T1")[0], np.arange(3000) * 10.0)

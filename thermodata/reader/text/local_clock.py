@@ -11,7 +11,8 @@ from thermodata.plugin import Int1D
 from thermodata.reader.newest_first import Steps
 from thermodata.reader.zone import NAT, local_to_utc_ns
 
-_NEAR = 3 * 3600 * 10**9
+_HOUR = 3600 * 10**9
+_NEAR = 3 * _HOUR
 _HALF_DAY = 12 * 3600 * 10**9
 
 
@@ -30,7 +31,7 @@ class LocalClock:
         utc, _ = local_to_utc_ns(joined.view("datetime64[ns]"), self.timezone)
         result = utc[self._before.size :]
         self._before = joined[-1:]
-        if self._repeats(int(joined[-1])):
+        if any(self._repeats(int(joined[-1]) - hours * _HOUR) for hours in range(3)):
             far = np.flatnonzero(np.abs(joined - joined[-1]) > _NEAR)
             self._before = joined[far[-1] if far.size else 0 :]
         return result
