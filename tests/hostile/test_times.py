@@ -8,6 +8,8 @@ from typing import Any
 import numpy as np
 import pytest
 
+from thermodata.errors import FormatError
+
 from .conftest import Lab
 
 T1 = {"T1": {"signal": "T", "quantity": "temperature", "unit": "degC"}}
@@ -38,9 +40,11 @@ def test_a_file_that_stands_newest_first_is_turned_round(lab: Lab, times: list[A
     t_s, values = lab.values("T1")
     np.testing.assert_allclose(t_s - t_s[0], np.arange(200) * 10.0)
     np.testing.assert_array_equal(values, 20 + np.arange(200)[::-1] / 8)
-    assert "newest first" in said.out and "newest first" in lab("preview", lab.folder / "raw/a.csv").out
+    assert "newest first" in said.out
+    assert "newest first" in lab("preview", lab.folder / "raw/a.csv").out
     traced = lab("trace", "odd", "one", "T1", "--at", "0 s", "--verify")
-    assert "line 201" in traced.out and traced.code == 0
+    assert "line 201" in traced.out
+    assert traced.code == 0
 
 
 def test_files_that_stand_newest_first_are_joined_in_order(lab: Lab) -> None:
@@ -86,3 +90,48 @@ def test_a_clock_that_follows_daylight_saving_at_once_or_late_is_read(
     assert "keeps one offset" not in lab("preview", lab.folder / "raw/a.csv").out
     if not late_s:
         np.testing.assert_allclose(lab.values("T1")[0], np.arange(3000) * 10.0)
+
+
+HEADS = ["Zeit in h", "Zeit [h]", "Zeit (h)", "t / h", "time_h", "Time, h", "Zeit h", "Time in hours", "t [Std]"]
+
+
+@pytest.mark.parametrize("by", ["crio", "table"])
+@pytest.mark.parametrize(
+    ("head", "seconds"),
+    [
+        *((head, 3600.0) for head in HEADS),
+        ("Zeit [min]", 60.0),
+        ("Zeit in min", 60.0),
+        ("Zeit (ms)", 1e-3),
+        ("time_ms", 1e-3),
+        ("time [days]", 86400.0),
+        ("time [s]", 1.0),
+        ("time_s", 1.0),
+    ],
+)
+def test_the_unit_of_a_time_stands_in_its_header(read: Any, head: str, seconds: float, by: str) -> None:
+    data = read(f"{head}\tT1\n" + rows([i / 2 for i in range(50)], "\t"), "a.txt", by)
+    np.testing.assert_allclose(next(iter(data.t_ns.values())) / 1e9, np.arange(50) / 2 * seconds)
+
+
+def test_a_column_that_rises_is_not_the_time_where_rows_come_at_a_declared_period(read: Any) -> None:
+    text = "T1\tT2\n" + "".join(f"{20 + i / 8}\t{30 + i / 4}\n" for i in range(50))
+    data = read(text, "a.txt", "crio", options={"increment": "60 s"})
+    np.testing.assert_array_equal(data.t_ns["data"], np.arange(50) * 60_000_000_000)
+    np.testing.assert_array_equal(data.values["data", "T1"], 20 + np.arange(50) / 8)
+
+
+@pytest.mark.parametrize("head", ["T1\tT2\n", "Pos [mm]\tdX\n", ""])
+def test_a_first_column_that_rises_without_being_called_a_time_is_asked_for(read: Any, head: str) -> None:
+    text = head + "".join(f"{20 * (1 - 0.9**i):.6f}\t{30 + i / 4}\n" for i in range(50))
+    with pytest.raises(FormatError, match="not called a time") as caught:
+        read(text, "a.txt", "crio")
+    assert "increment" in str(caught.value.hint)
+    assert read(text, "a.txt", "crio", options={"time": 1}).t_ns["data"].size == 50
+
+
+def test_a_time_that_is_not_the_first_column_is_found_by_its_name(read: Any) -> None:
+    text = "T1\ttime [min]\n" + "".join(f"{20 + i / 8}\t{i}\n" for i in range(50))
+    for by in ("crio", "table"):
+        data = read(text, "a.txt", by)
+        np.testing.assert_array_equal(next(iter(data.t_ns.values())), np.arange(50) * 60_000_000_000)

@@ -12,9 +12,35 @@ from thermodata.errors import FormatError, UsageError, nearest
 from thermodata.reader.text.cell import TIME_WORD, Cell, is_clocked, is_dated, is_number, is_stamp, number_of
 from thermodata.reader.text.header import split_unit
 from thermodata.reader.text.time_formats import MILLISECONDS
-from thermodata.reader.time_units import SECONDS, check_unit, found_epoch
+from thermodata.reader.time_units import EPOCHS, SECONDS, check_unit, found_epoch
 
+_UNIT_BEHIND = re.compile(
+    r"^(?P<word>[^\W\d_]+(?: [^\W\d_]+)??)(?P<between>\s+in\s+|\s*[/,:]\s*|[ _.]+)(?P<unit>[^\W\d_]{1,8})\.?$"
+)
 _FRACTION = re.compile(r":\d\d:\d\d[.,:]\d+\s*([AaPp]\.?[Mm]\.?)?$")
+
+
+def unit_of_time(header: str, unit: str | None = None) -> str | None:
+    """The unit of time that a header names, in brackets or behind the word for time: "Zeit in h", "t / min", "time_ms".
+    unit: what was split from it, or stands in a row of its own. None where it names none."""
+    name, own = split_unit(header)
+    for text in (unit, own):
+        if text is not None:
+            low = text.strip().strip("[]()").lower()
+            return low if low in SECONDS or low in EPOCHS else None
+    match = _UNIT_BEHIND.match(name.strip())
+    if match is None or not TIME_WORD.match(match["word"]):
+        return None
+    low = match["unit"].lower()
+    return low if low in SECONDS else None
+
+
+def is_time_header(header: str, unit: str | None = None) -> bool:
+    """Whether a header says that its column is the time: by its word, or by a unit of time behind that."""
+    name = split_unit(header)[0].strip()
+    if unit is not None and unit_of_time(header, unit) is None:
+        return False
+    return TIME_WORD.match(name) is not None or (split_unit(header)[1] is None and unit_of_time(header) is not None)
 
 
 def column(wanted: int | str, names: Sequence[str], where: str) -> int:
@@ -56,7 +82,7 @@ def time_of(
     notes: list[str] = []
     if form is not None or (not numeric and unit is None):
         return columns, None, form, notes
-    text = unit or units[columns[0]]
+    text = unit or units[columns[0]] or unit_of_time(names[columns[0]])
     if text is None:
         text = _size_of_clock(names[columns[0]], cells, where)
         notes.append(
@@ -99,7 +125,7 @@ def find_time(
         cells = [r[column] for r in data if r[column] not in ("", None)]
         return sum(bool(test(c)) for c in cells) / len(cells) if cells else 0.0
 
-    words = [i for i in range(width) if i in likely or TIME_WORD.match(split_unit(names[i])[0].strip())]
+    words = [i for i in range(width) if i in likely or is_time_header(names[i])]
     dates = [i for i in range(width) if share(i, is_dated) > 0.8]
     clocks = [i for i in range(width) if share(i, is_clocked) > 0.8]
     if dates:
