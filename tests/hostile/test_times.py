@@ -135,3 +135,13 @@ def test_a_time_that_is_not_the_first_column_is_found_by_its_name(read: Any) -> 
     for by in ("crio", "table"):
         data = read(text, "a.txt", by)
         np.testing.assert_array_equal(next(iter(data.t_ns.values())), np.arange(50) * 60_000_000_000)
+
+
+def test_rows_without_a_time_are_asked_for_and_sniff_recommends_no_reader_for_them(lab: Lab, read: Any) -> None:
+    text = "T1\tT2\n" + "".join(f"{20 + i % 3}\t{30 + i % 5}\n" for i in range(50))
+    with pytest.raises(FormatError, match="no time column"):
+        read(text, "a.txt", "crio")
+    assert read(text, "a.txt", "crio", options={"increment": "2 s"}).t_ns["data"][-1] == 98_000_000_000
+    said = lab("sniff", lab.write("raw/a.txt", text))
+    assert "can read it where a source declares it" not in said.out + said.err
+    assert "increment" in said.out + said.err

@@ -241,7 +241,7 @@ def _moves(column: Any) -> bool:
     """Whether a column that is called a time may be one."""
     full = column[np.isfinite(column)]
     steps = np.diff(full)
-    return full.size > 0.6 * column.size and steps.size > 0 and max(np.mean(steps >= 0), np.mean(steps <= 0)) > 0.9
+    return bool(full.size > 0.6 * column.size and steps.size and max((steps >= 0).mean(), (steps <= 0).mean()) > 0.9)
 
 
 def _rises(column: Any) -> bool:

@@ -34,7 +34,13 @@ def describe(path: Path, source: Source) -> Recording:
         how = "seconds" if layout.seconds == 1 else f"counts of {layout.seconds:g} s"
         notes.append(f"'{layout.names[layout.time]}' is taken as {how} from a start")
     elif source.options.get("increment") is None:
-        notes.append("no time column: rows are counted as 1 s each; declare options: {increment: 0.1 s}, or {time: 1}")
+        raise FormatError(
+            "no time column",
+            where=path.name,
+            expected="a column called time, seconds since 1904, or rows at a declared period",
+            got=", ".join(layout.names[:12]),
+            hint="declare options: {increment: 1 s} for rows at a period, or {time: 1} for a column of seconds",
+        )
     signals = [Signal(layout.names[i], STREAM, layout.units[i]) for i in layout.values]
     if layout.text:
         signals.append(Signal(layout.text, STREAM, None, "str"))
