@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+import io
 from datetime import datetime, timedelta
 from typing import Any
 
 import numpy as np
+import pyarrow as pa
+import pyarrow.parquet as pq
 import pytest
+import scipy.io
 
 from thermodata.errors import FormatError
 
@@ -145,3 +149,42 @@ def test_rows_without_a_time_are_asked_for_and_sniff_recommends_no_reader_for_th
     said = lab("sniff", lab.write("raw/a.txt", text))
     assert "can read it where a source declares it" not in said.out + said.err
     assert "increment" in said.out + said.err
+
+
+def parquet(**columns: Any) -> bytes:
+    buffer = io.BytesIO()
+    pq.write_table(pa.table(columns), buffer)
+    return buffer.getvalue()
+
+
+N = np.arange(50)
+T0 = np.datetime64("2026-03-02T08:00:00", "ns")
+
+
+def test_of_two_columns_of_times_the_one_that_is_called_time_counts(read: Any) -> None:
+    made, time = (T0 + N * np.timedelta64(s, "s") for s in (1, 10))
+    data = read(parquet(created=made, time=time, T1=N / 8), "a.parquet")
+    np.testing.assert_array_equal(data.t_ns["table"], time.astype("datetime64[ns]").astype(np.int64))
+    numbers = read(parquet(t=20 + N / 8, time=N * 10.0, T1=N / 8), "b.parquet")
+    np.testing.assert_array_equal(numbers.t_ns["table"], N * 10_000_000_000)
+    with pytest.raises(FormatError, match="several columns of times") as caught:
+        read(parquet(start=made, end=time, T1=N / 8), "c.parquet")
+    assert "declare table: {time: {column: start}}" in str(caught.value.hint)
+
+
+def mat(**variables: Any) -> bytes:
+    buffer = io.BytesIO()
+    scipy.io.savemat(buffer, variables)
+    return buffer.getvalue()
+
+
+@pytest.mark.parametrize("said", [{"time_unit": "min"}, {"units": {"time": "min"}}, {"unit_time": "min"}])
+def test_the_unit_of_a_time_may_stand_beside_it_in_a_mat_file(read: Any, said: dict[str, Any]) -> None:
+    data = read(mat(time=N * 1.0, T1=N / 8, **said), "a.mat")
+    np.testing.assert_array_equal(next(iter(data.t_ns.values())), N * 60_000_000_000)
+
+
+@pytest.mark.parametrize("by", ["table", "cnc"])
+def test_times_of_day_go_over_midnight(read: Any, by: str) -> None:
+    data = read("time;T\n" + rows([t[11:] for t in stamps("2026-03-02 23:55:00", 10, 200)]), by=by)
+    np.testing.assert_array_equal(next(iter(data.t_ns.values())), np.arange(200) * 10_000_000_000)

@@ -12,6 +12,7 @@ import numpy as np
 from thermodata.calibration.result import CalibrationResult
 from thermodata.errors import ThermodataError, UsageError
 from thermodata.plugin import Array, Int1D
+from thermodata.schema.flag import Flag
 from thermodata.schema.quantity import canonical
 from thermodata.store.tidy import derive
 from thermodata.store.tidy.plan import Bound, TestPlan
@@ -103,6 +104,10 @@ class Chunk:
         from_reader = self._flags.get(signal)
         if from_reader is not None:
             flags = flags | from_reader.astype(np.uint16)
+            if raw.dtype.kind in "iub" and not bound.is_text:
+                # integers and truth values have no NaN: where the file said nothing, the raw layer holds a 0
+                nothing = (from_reader.astype(np.uint16) & np.uint16(Flag.NOT_MEASURING)) != 0
+                values = np.where(nothing & (raw == 0), np.nan, values)
         if self._clock is not None:
             flags = flags | self._clock
         return values, flags
