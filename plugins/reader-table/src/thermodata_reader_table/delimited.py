@@ -21,7 +21,7 @@ def claims(head: Head) -> str | None:
     try:
         table = claimed_table(head_lines(head))
     except ThermodataError as error:
-        asked = getattr(error, "what", "").startswith(("day and month", "commas that may"))
+        asked = getattr(error, "what", "").startswith("day and month")
         return f"a table that leaves a question: {getattr(error, 'what', error)}" if asked else None
     if table.delimiter == "|" or table.layout.first == 0 or _is_long(table.layout.names):
         return None
