@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import pytest
 
+from thermodata.errors import FormatError
 from thermodata.schema.quantity import linear_conversion
 
 from .conftest import Lab
@@ -41,8 +44,9 @@ def test_the_same_unit_in_other_words_is_no_contradiction(lab: Lab, spelling: st
 
 
 def test_files_of_one_source_in_two_units_are_not_joined(lab: Lab) -> None:
-    lab.write("raw/a.csv", csv("kW").replace(" [kW]", "\n;kW"))
-    lab.write("raw/b.csv", csv("W").replace(" [W]", "\n;W").replace("2026-03-02", "2026-03-03"))
+    for name, unit, day in (("a", "kW", "02"), ("b", "W", "03")):
+        body = "".join(f"{t};2.5;20.25\n" for t in TIMES).replace("2026-03-02", f"2026-03-{day}")
+        lab.write(f"raw/{name}.csv", f"time;P;T1\n;{unit};degC\n{body}")
     said = lab.ingest({"P1": POWER})
     assert said.code == 3
     assert "'kW' in raw/a.csv" in said.out + said.err
@@ -67,3 +71,47 @@ def test_files_of_one_source_in_two_units_are_not_joined(lab: Lab) -> None:
 )
 def test_compound_units_as_labs_write_them(written: str, target: str, factor: float) -> None:
     assert linear_conversion(written, target) == (pytest.approx(factor), 0.0)
+
+
+LONG = "".join(f"{t};{p};{v};{u}\n" for t in TIMES for p, v, u in (("T1", "20.5", "degC"), ("dX", "3.1", "um")))
+SORTED = "".join(f"{t};{p};{v};{u}\n" for p, v, u in (("T1", "20.5", "degC"), ("dX", "3.1", "um")) for t in TIMES)
+
+
+@pytest.mark.parametrize("body", [LONG, SORTED], ids=["by time", "by name"])
+@pytest.mark.parametrize("head", ["time;point;value;unit\n", "Zeit;Messstelle;Wert;Einheit\n"])
+def test_a_long_table_is_taken_apart_with_its_units(lab: Lab, head: str, body: str) -> None:
+    lab.write("raw/a.csv", head + body)
+    said = lab.ingest(
+        {
+            "T1": {"signal": "T1", "quantity": "temperature"},
+            "pos": {"signal": "dX", "quantity": "position"},
+        },
+        {"reader": "cnc"},
+    )
+    assert said.code == 0, said.out + said.err
+    assert set(lab.values("T1")[1]) == {20.5}
+    np.testing.assert_allclose(lab.values("pos")[1], 0.0031)
+    assert "OPC UA: a long table" in lab("sniff", lab.folder / "raw/a.csv").out
+
+
+def test_a_name_with_two_units_is_refused(read: Any) -> None:
+    with pytest.raises(FormatError, match="'T1' has several units"):
+        read("time;point;value;unit\n" + LONG.replace("dX", "T1"))
+
+
+@pytest.mark.parametrize("by", ["table", "cnc"])
+def test_a_long_table_without_dates_is_refused(read: Any, by: str) -> None:
+    body = "".join(f"{i};{p};{v}\n" for i in range(40) for p, v in (("T1", "20.5"), ("dX", "3.1")))
+    with pytest.raises(FormatError, match="long table"):
+        read("time [s];sensor_id;value\n" + body, by=by)
+    one = "".join(f"{i};T1;20.5\n" for i in range(40))
+    assert read("time [s];sensor_id;value\n" + one, by=by).t_ns
+
+
+@pytest.mark.parametrize("by", ["table", "cnc", None])
+def test_a_small_file_with_a_tail_of_zeros_is_read_to_its_end(read: Any, by: str | None) -> None:
+    data = read(csv("kW").encode() + b"\0" * 300, by=by)
+    assert next(iter(data.t_ns.values())).size == 40
+    torn = read(csv("kW")[:-3].encode() + b"\0" * 300, by=by)  # 2.5 may be 2.53
+    assert next(iter(torn.t_ns.values())).size == 39
+    assert "without a line end" in torn.losses[0].reason

@@ -58,10 +58,10 @@ def find_decimal(columns: Iterable[Sequence[str]], delimiter: str, where: str) -
     if delimiter != ",":
         mark = decimal_mark(cells)
         points = [c for c in map(clean, cells) if "." in c and is_number(c)]
-        if delimiter == ";" and mark == "." and all(_ONE_GROUP.fullmatch(c) for c in points):
-            # a thousand that is not parted proves that points don't part thousands here
-            if not any(_BARE_THOUSANDS.fullmatch(clean(c)) for column in columns for c in column):
-                raise _either("points", f"{points[0]} between semicolons", where)
+        doubtful = delimiter == ";" and mark == "." and all(_ONE_GROUP.fullmatch(c) for c in points)
+        # a thousand that is not parted proves that points don't part thousands here
+        if doubtful and not any(_BARE_THOUSANDS.fullmatch(clean(c)) for column in columns for c in column):
+            raise _either("points", f"{points[0]} between semicolons", where)
         return mark
     commas = [c for c in map(clean, cells) if "," in c and to_float(c, ",") is not None]
     if not commas:

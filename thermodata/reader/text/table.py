@@ -16,6 +16,7 @@ from thermodata.reader.text.columns import dtype_of, find_decimal
 from thermodata.reader.text.grid import TIME, Grid
 from thermodata.reader.text.layout import STREAM, Group, Layout, find
 from thermodata.reader.text.lines import Sample, last_line_is_whole, sample
+from thermodata.reader.text.long_rows import refuse_long
 from thermodata.reader.text.number import clean
 from thermodata.reader.text.quality_columns import Pairs, quality_pairs, worded
 from thermodata.reader.text.time_formats import find_formats
@@ -175,6 +176,7 @@ def find_table(head: Sequence[str], first: Sample, source: Source, where: str, s
     layout = find(rows, said, where)
     width = len(layout.names)
     body = [r for r in map(cells, (*head[layout.first : layout.first + _TYPED_ROWS], *first.rest)) if len(r) == width]
+    refuse_long(layout.names, body, where)
     groups = tuple(_timed(g, layout, body, head, cells, first, stream, where) for g in layout.groups)
     dated = [r for r in body if all(_reads(r, g) for g in groups[:1])]
     cells_of = {name: [r[i] for r in dated] for i, name in enumerate(layout.names)}
