@@ -115,3 +115,21 @@ def test_a_small_file_with_a_tail_of_zeros_is_read_to_its_end(read: Any, by: str
     torn = read(csv("kW")[:-3].encode() + b"\0" * 300, by=by)  # 2.5 may be 2.53
     assert next(iter(torn.t_ns.values())).size == 39
     assert "without a line end" in torn.losses[0].reason
+
+
+@pytest.mark.parametrize("by", ["table", "cnc"])
+@pytest.mark.parametrize(
+    ("head", "units"),
+    [
+        ('time;"T front\n[degC]";"dX\n[um]"\n', ["degC", "um"]),
+        ('time;"T front\nbearing";"dX"\n;degC;um\n', ["degC", "um"]),
+        ('"time\nlocal";"T\nfront\nbearing";dX [um]\n', [None, "um"]),
+    ],
+)
+def test_a_line_feed_in_a_quoted_header_shifts_nothing(read: Any, by: str, head: str, units: list[str | None]) -> None:
+    data = read(head + "".join(f"{t};20.5;{i}.25\n" for i, t in enumerate(TIMES)), by=by)
+    assert [s.unit for s in data.recording.signals] == units
+    assert "dX" in data.recording.signals[1].name
+    assert data.recording.signals[0].name.startswith("T ")
+    np.testing.assert_array_equal(list(data.values.values())[1], np.arange(40) + 0.25)
+    assert data.losses == ()

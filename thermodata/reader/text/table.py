@@ -25,6 +25,7 @@ from thermodata.reader.time_units import SECONDS
 from thermodata.reader.zone import NAT
 
 _HEAD_LINES = 500  # in which the layout shows
+_HEADER_LINES, _CELL_LINES = 60, 16  # in which cells over several lines are headers, and of how many lines
 _TYPED_ROWS = 2000  # of the head, by which columns are typed
 
 
@@ -170,7 +171,7 @@ def find_table(head: Sequence[str], first: Sample, source: Source, where: str, s
     def cells(line: str) -> list[str]:
         return [clean(c) for c in delimiters.fields(line, delimiter, quoted)]
 
-    rows = [cells(line) for line in top]
+    rows = [cells(line) for line in (_records(top) if quoted else top)]
     if head[0].lower().startswith("sep=") and len(rows[0]) <= 2:
         rows[0] = [""]
     layout = find(rows, said, where)
@@ -215,6 +216,21 @@ def find_table(head: Sequence[str], first: Sample, source: Source, where: str, s
         quality=quality,
         notes=notes,
     )
+
+
+def _records(lines: Sequence[str]) -> list[str]:
+    """The lines, those of a header whose cells go over several joined: at the last of them, the others blank, so that
+    lines keep their numbers."""
+    joined: list[str] = []
+    at = 0
+    while at < len(lines):
+        end = at
+        if at < _HEADER_LINES and lines[at].count('"') % 2:
+            more = range(at + 1, min(len(lines), at + _CELL_LINES))
+            end = next((k for k in more if lines[k].count('"') % 2), at)
+        joined += [*[""] * (end - at), " ".join(lines[at : end + 1])]
+        at = end + 1
+    return joined
 
 
 def _top(head: Sequence[str]) -> Sequence[str]:
