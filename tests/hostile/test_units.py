@@ -11,7 +11,7 @@ from thermodata.errors import FormatError
 from thermodata.schema.quantity import linear_conversion
 
 from .conftest import Lab
-from .test_times import stamps
+from .test_times import mat, stamps
 
 TIMES = stamps("2026-03-02 08:00:00", 10, 40)
 POWER = {"signal": "P", "quantity": "power", "at": "spindle"}
@@ -133,3 +133,9 @@ def test_a_line_feed_in_a_quoted_header_shifts_nothing(read: Any, by: str, head:
     assert data.recording.signals[0].name.startswith("T ")
     np.testing.assert_array_equal(list(data.values.values())[1], np.arange(40) + 0.25)
     assert data.losses == ()
+
+
+def test_the_unit_of_a_mat_variable_may_stand_beside_it(read: Any) -> None:
+    n = np.arange(50)
+    data = read(mat(time=n * 1.0, T1=n / 8, T1_unit="degC", dX=n / 4, unit_dX="um", T2=n / 2, T2Unit="K"), "a.mat")
+    assert {s.name: s.unit for s in data.recording.signals} == {"T1": "degC", "dX": "um", "T2": "K"}
