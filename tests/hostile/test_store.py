@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import errno
 import os
 import random
 import subprocess
 import sys
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -147,16 +149,39 @@ def test_a_column_name_with_a_flipped_bit_is_damage(filled: Lab) -> None:
         assert "defect" not in said.err
 
 
-def test_a_mount_that_cannot_be_written_is_looked_at_and_not_fitted(filled: Lab) -> None:
+def test_a_mount_that_cannot_be_written_is_looked_at_and_not_fitted(
+    filled: Lab, monkeypatch: pytest.MonkeyPatch
+) -> None:
     store = filled.folder / "store"
-    if os.geteuid() == 0:
-        pytest.skip("root may write everywhere")
+    filled.write(
+        "model.yaml",
+        "schema: thermodata/model/1\nname: m\ncampaign: odd\nresponse: {channel: T1}\nstep: 60 s\n"
+        "calibrate_on: [one]\neffects: [{effect: lag, drivers: {u: T1}}]\n",
+    )
+
+    def refused(path: object, *more: object, **options: object) -> None:
+        raise OSError(errno.EROFS, "Read-only file system", str(path))
+
+    made = Path.mkdir
+
+    def mkdir(self: Path, *more: Any, **options: Any) -> None:
+        if store in self.parents and not self.exists():
+            refused(self)
+        made(self, *more, **options)
+
+    monkeypatch.setattr(os, "utime", refused)
+    monkeypatch.setattr(Path, "mkdir", mkdir)
     for path in [*store.rglob("*"), store]:
         path.chmod(0o555 if path.is_dir() else 0o444)
     try:
         assert filled("tests").code == 0
         assert filled("sql", "from sample limit 1").code == 0
-        assert filled("ingest", filled.folder / "campaign.yaml").code == 0
+        said = filled("ingest", filled.folder / "campaign.yaml")
+        assert said.code == 0
+        assert "nothing changed" in said.out
+        said = filled("fit", filled.folder / "model.yaml")
+        assert said.code == 4, said.err
+        assert "the store can only be read" in said.err
     finally:
         for path in [store, *store.rglob("*")]:
             path.chmod(0o755)
