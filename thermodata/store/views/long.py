@@ -32,8 +32,8 @@ VIEWS: dict[str, Callable[[Column], bool]] = {
 
 
 def long_views(catalogue: Catalogue) -> Iterator[str]:
-    """The statements that make `sample`, of all samples, and its selections by quantity, of the valid ones: a mean or an
-    extreme over them is one of measurements, not of defects."""
+    """The statements that make `sample`, of all samples, and its selections by quantity, of the valid ones: a mean or
+    an extreme over them is one of measurements, not of defects."""
     for name, wanted in VIEWS.items():
         parts = [
             _unpivoted(g, columns)
