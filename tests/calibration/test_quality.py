@@ -8,6 +8,7 @@ from quality_data import N, clock, kinds, noisy, run
 
 from thermodata.calibration.quality import ColumnInput, flag_stream
 from thermodata.calibration.quality_concise import concise
+from thermodata.plugin import Float1D
 from thermodata.schema.flag import Flag
 
 
@@ -163,6 +164,42 @@ def test_a_probe_that_reads_30_kelvin_more_ever_after() -> None:
     assert "+30" in events[0].detail
     x[5000:] -= 30
     assert np.flatnonzero(run(clock(), T=("temperature", x))[0]["T"] & Flag.OFFSET).tolist() == list(range(4000, 5000))
+
+
+def stepped(back_to: float) -> Float1D:
+    """30 K up within a sample, then down along a slope to so many kelvin above the level before, and there it stays."""
+    x = 25 + noisy(noise=0.05) / 20
+    x[4000:] += np.interp(np.arange(N - 4000), [0, 500, 1500], [30.0, 30.0, back_to])
+    return x
+
+
+@pytest.mark.parametrize(("back_to", "flagged"), [(8.0, False), (10.0, True)])
+def test_what_comes_back_by_itself_was_no_offset(back_to: float, flagged: bool) -> None:
+    """To within 0.3 of the step: a machine may cool, a sensor that is off does not mend."""
+    flags, _ = run(clock(), T=("temperature", stepped(back_to)))
+    assert bool((flags["T"] & Flag.OFFSET).any()) is flagged
+
+
+def test_a_sensor_that_fails_after_a_real_step_is_flagged_from_its_failure_on() -> None:
+    x = stepped(0.0)
+    x[5600:] += 30
+    flags, _ = run(clock(), T=("temperature", x))
+    assert np.flatnonzero(flags["T"] & Flag.OFFSET).tolist() == list(range(5600, N))
+
+
+@pytest.mark.parametrize(
+    ("at", "flagged"),
+    [
+        *(("tool", False), ("tcp", False), ("Probe", False), ("stator", False), ("tool.tip", False)),
+        *(("toolchanger", True), ("spindle.bearing.front", True), ("workpiece", True), (None, True)),
+    ],
+)
+def test_at_the_tool_a_jump_is_no_fault(at: str | None, flagged: bool) -> None:
+    """A tool change does it."""
+    x = 25 + noisy(noise=0.05) / 20
+    x[4000:] += 30
+    flags, _ = flag_stream(clock(), {"T": ColumnInput(x, "temperature", at=at)})
+    assert bool((flags["T"] & Flag.OFFSET).any()) is flagged
 
 
 def test_missing_values_are_flagged_and_end_with_a_gap() -> None:

@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from thermodata.diagnosis.candidates import CandidateEffect
-from thermodata.diagnosis.evidence import Measure
+from thermodata.diagnosis.judge import Measure
 from thermodata.diagnosis.problem import Block, Problem
 from thermodata.diagnosis.scored import Scored
 from thermodata.plugin import Drivers, Float1D, Float2D, Gain, Need, Param

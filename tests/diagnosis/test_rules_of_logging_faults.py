@@ -8,11 +8,12 @@ import pytest
 from thermodata.diagnosis.investigate import clocks_beside, gains_are_wrong_only_where_nothing_is_missing
 from thermodata.diagnosis.judge import Judgement
 from thermodata.diagnosis.logging_faults import (
+    a_fault_explains,
     clock_offsets,
     first_of_each,
+    fit_percent,
     gain_is_wrong,
     shift_that_explains,
-    sign_is_wrong,
     turned_probes,
     wrong_parameters,
 )
@@ -30,12 +31,18 @@ def artefact(kind: str, test: str = "t0", at_s: float | None = None) -> Artefact
 
 @pytest.mark.parametrize(("error", "expected"), [(0.599, 300.0), (0.601, None)])
 def test_a_moved_clock_must_take_away_two_fifths_of_the_squared_error(error: float, expected: float | None) -> None:
-    assert shift_that_explains(1.0, {-300.0: 0.9, 300.0: error, 900.0: 0.95}) == expected
+    assert shift_that_explains(1.0, {-300.0: 0.9, 300.0: error, 900.0: 0.95}, 100.0) == expected
 
 
 @pytest.mark.parametrize(("shift", "expected"), [(600.0, 600.0), (900.0, None), (-900.0, None)])
 def test_a_smallest_error_at_the_end_of_the_range_is_no_clock(shift: float, expected: float | None) -> None:
-    assert shift_that_explains(1.0, {300.0: 0.5, shift: 0.1}) == expected
+    assert shift_that_explains(1.0, {300.0: 0.5, shift: 0.1}, 100.0) == expected
+
+
+@pytest.mark.parametrize(("energy", "expected"), [(0.626, 300.0), (0.624, None)])
+def test_of_a_poor_model_no_clock_is_said_to_be_off(energy: float, expected: float | None) -> None:
+    """FIT 60, moved: 1 - sqrt(0.1 / 0.625)."""
+    assert shift_that_explains(1.0, {-300.0: 0.9, 300.0: 0.1, 900.0: 0.95}, energy) == expected
 
 
 def late_by(shift_s: float, lateness: float = 0.0) -> tuple[Problem, dict[str, str]]:
@@ -75,9 +82,18 @@ def test_only_drivers_of_another_source_have_a_clock_beside_the_response() -> No
     assert clocks_beside(channels, ["T", "n", "free", "absent"], "dZ") == {"n": "nc"}
 
 
-@pytest.mark.parametrize(("turned", "wrong"), [(0.499, True), (0.501, False)])
-def test_turning_a_test_must_take_away_half_of_the_error(turned: float, wrong: bool) -> None:
-    assert sign_is_wrong(1.0, turned) is wrong
+@pytest.mark.parametrize(
+    ("mended", "fit", "explains"), [(0.499, 90.0, True), (0.501, 90.0, False), (0.1, 60.1, True), (0.1, 59.9, False)]
+)
+def test_mending_a_test_must_take_away_half_of_the_error_and_leave_a_good_model(
+    mended: float, fit: float, explains: bool
+) -> None:
+    assert a_fault_explains(1.0, mended, fit) is explains
+
+
+def test_fit_is_of_the_error_not_of_its_square() -> None:
+    assert fit_percent(0.04, 1.0) == pytest.approx(80.0)
+    assert fit_percent(1.0, 0.0) == 0.0
 
 
 @pytest.mark.parametrize(
@@ -119,10 +135,27 @@ def of_one_model(factors: list[float]) -> Problem:
         ([1, 1, 1, 1], []),
         ([1, 1, 1, 1, 1.5], [("gain", "t4")]),
         ([1, 1, 1, 1, 1.1], []),
+        ([1, 1, 1, 0.5], [("gain", "t3")]),
+        ([1, 1, 1, -1], [("sign", "t3")]),
+        ([1, -1, 1, 1, 2, 1], [("sign", "t1"), ("gain", "t4")]),
     ],
 )
 def test_one_factor_for_a_whole_test(factors: list[float], expected: list[tuple[str, str]]) -> None:
     assert [(a.kind, a.test) for a in turned_probes(of_one_model(factors))] == expected
+
+
+@pytest.mark.parametrize(("lacking", "named"), [(0.42, True), (0.45, False)])
+def test_of_a_poor_model_no_sign_is_said_to_be_wrong(lacking: float, named: bool) -> None:
+    """FIT 60 with the test turned, where the model lacks something of 0.436 times the size of what it has."""
+    rng = np.random.default_rng(3)
+
+    def one(sign: float) -> Parts:
+        base = rng.normal(size=(2000, 1))
+        y: Float1D = sign * (base[:, 0] + lacking * rng.normal(size=2000))
+        return Parts(y, response=y, base=base)
+
+    found = turned_probes(problem(*map(one, [1.0, 1.0, 1.0, -1.0, 1.0]), noise=0.01))
+    assert [(a.kind, a.test) for a in found] == ([("sign", "t3")] if named else [])
 
 
 @pytest.mark.parametrize(("factors", "expected"), [([1, 1, -1, 1], ["t2"]), ([1, 1, -1], [])])
@@ -148,7 +181,7 @@ def test_parameters_are_wrong_where_a_refit_leaves_a_third(
 )
 def test_a_wrong_gain_is_said_only_with_the_verdict_none(verdict: str, kinds: list[str]) -> None:
     faults = [artefact("gain"), artefact("sign")]
-    judgement = Judgement(verdict, None, "")  # type: ignore[arg-type]
+    judgement = Judgement(verdict, (), (), (), "")  # type: ignore[arg-type]
     assert [a.kind for a in gains_are_wrong_only_where_nothing_is_missing(faults, judgement)] == kinds
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -14,7 +15,7 @@ from thermodata.plugin import Float1D
 from thermodata.schema.result import WeakSpot
 from thermodata.view.dataset import ChannelInfo, TestData
 
-from .hand_made import Parts, a_test, problem, scored
+from .hand_made import Parts, a_test, candidate, problem, scored
 
 # ---- weak spots: windows of half an hour, 30 samples of 60 s
 
@@ -181,6 +182,15 @@ def test_eight_tests_are_enough_to_look_for_a_sensor(tests: int, said: str) -> N
     assert said in advice
     assert advice.startswith(f"{tests} tests")
     assert ("coolant on" in advice) == (tests == 8)
+
+
+@pytest.mark.parametrize(("drop", "named"), [(0.31, True), (0.29, False)])
+def test_a_channel_that_is_logged_and_ranks_first_comes_before_a_new_sensor(drop: float, named: bool) -> None:
+    first = SimpleNamespace(candidate=candidate("screw", channels=("T_nut",)), drop=drop)
+    advice = to_find(8, [], first)  # type: ignore[arg-type]
+    assert ("T_nut is logged and ranks first" in advice) is named
+    assert ("thermodata confirm" in advice) is named
+    assert "log what is not logged yet" in advice
 
 
 CHANNELS = {

@@ -72,7 +72,7 @@ CANDIDATE = {
     "why",
 }
 ARTEFACT = {"kind", "campaign", "test", "at_s", "size_um", "why"}
-UNKNOWN = {"time_constants_h", "hours_of_day", "states"}
+UNKNOWN = {"time_constants_h", "hours_of_day", "states", "heat"}
 
 
 @dataclass(frozen=True)

@@ -9,6 +9,7 @@ BESIDE = {
     "answer.py": ("the_answer", "the_locked_tests"),
     "artefact.py": ("steps",),
     "candidates.py": ("candidates",),
+    "commanded.py": ("steps",),
     "confirm.py": ("the_locked_tests",),
     "evidence.py": ("evidence",),
     "investigate.py": ("investigation", "logging_faults"),
@@ -28,6 +29,11 @@ CALIBRATION = ("tests/calibration/test_rules_of_jump_checks.py", "tests/calibrat
 
 def diagnosis(file: str, old: str, new: str, why: str) -> Mutant:
     tests = tuple(f"tests/diagnosis/test_rules_of_{topic}.py" for topic in BESIDE[file])
+    return Mutant(f"thermodata/diagnosis/{file}", old, new, why, tests)
+
+
+def heat(file: str, old: str, new: str, why: str) -> Mutant:
+    tests = ("tests/diagnosis/test_missing_heat.py", "tests/diagnosis/test_goes_with.py")
     return Mutant(f"thermodata/diagnosis/{file}", old, new, why, tests)
 
 
@@ -178,23 +184,48 @@ MUTANTS = [
     ),
     # ---- faults of the logs
     diagnosis("logging_faults.py", "CLOCK_DROP = 0.4", "CLOCK_DROP = 0.05", "sound clocks are suspected"),
-    diagnosis("logging_faults.py", " and abs(best) < max(SHIFTS_S)", "", "slow effects pass as clocks"),
-    diagnosis("logging_faults.py", "SIGN_DROP = 0.5", "SIGN_DROP = 0.05", "sound probes are turned"),
+    diagnosis(
+        "logging_faults.py", "inside = abs(best) < max(SHIFTS_S)", "inside = True", "slow effects pass as clocks"
+    ),
+    diagnosis("logging_faults.py", "ALL_DROP = 0.5", "ALL_DROP = 0.05", "sound probes are turned"),
+    diagnosis("logging_faults.py", "LEAST_FIT = 60.0", "LEAST_FIT = 0.0", "a poor model speaks of the logs"),
+    diagnosis(
+        "logging_faults.py", "        tests.mend(i, factor)\n", "        pass\n", "sound tests are blamed for one"
+    ),
     diagnosis("logging_faults.py", "GAIN_OFF = 0.15", "GAIN_OFF = 0.01", "sound gains are suspected"),
     diagnosis(
         "logging_faults.py", "    0.9  # a factor must", "    0.2  # a factor must", "missing effects pass as gains"
     ),
     diagnosis("logging_faults.py", "NOISES = 5.0", "NOISES = 0.0", "noise passes as a wrong gain"),
     diagnosis("logging_faults.py", "MISFIT_TIMES = 3.0", "MISFIT_TIMES = 1.0", "sound parameters are suspected"),
-    diagnosis(
-        "logging_faults.py", "for b in blocks}) < 4:", "for b in blocks}) < 2:", "the wrong one of three is turned"
-    ),
-    diagnosis("artefact.py", "Z_LIMIT = 9.0", "Z_LIMIT = 3.0", "noise is a slip"),
-    diagnosis("artefact.py", "COMMAND_S = 600.0", "COMMAND_S = 0.0", "centrifugal shifts are slips"),
-    diagnosis("artefact.py", "HOLE_STEPS = 1.6", "HOLE_STEPS = 99.0", "what nobody saw is a slip"),
+    diagnosis("logging_faults.py", "LEAST_TESTS = 4", "LEAST_TESTS = 2", "the wrong one of three is turned"),
+    diagnosis("artefact.py", "Z_LIMIT = 12.0", "Z_LIMIT = 3.0", "noise is a slip"),
+    diagnosis("artefact.py", "tread + max(", "0 * tread + max(", "treads are slips"),
+    diagnosis("artefact.py", "WITHIN = 0.8", "WITHIN = 0.5", "what takes minutes is a slip"),
     diagnosis("artefact.py", "SHARP = 0.4", "SHARP = 0.0", "steep rises are slips"),
     diagnosis("artefact.py", "LEAST_UM = 0.5", "LEAST_UM = 0.0", "trifles are slips"),
-    diagnosis("artefact.py", "MOVED = 0.2", "MOVED = 0.9", "small commands explain nothing"),
+    diagnosis("commanded.py", "COMMAND_S = 600.0", "COMMAND_S = 0.0", "shifts of a late clock are slips"),
+    diagnosis("commanded.py", "HOLE_STEPS = 1.6", "HOLE_STEPS = 99.0", "what nobody saw is a slip"),
+    diagnosis("commanded.py", "MOVED = 0.2", "MOVED = 0.9", "small commands explain nothing"),
+    diagnosis("commanded.py", "POWERS = (1, 2)", "POWERS = (1,)", "centrifugal shifts are slips"),
+    diagnosis("commanded.py", "FORETOLD = 0.2", "FORETOLD = 0.0", "a pump that cycles excuses every slip"),
+    diagnosis("commanded.py", "ALIKE = 0.15", "ALIKE = 0.9", "a shift among others is a slip"),
+    diagnosis("commanded.py", "ELSEWHERE_S = 1200.0", "ELSEWHERE_S = 0.0", "a slip excuses itself"),
+    diagnosis("commanded.py", "bool(own.hole[i]) and", "False and", "what nobody logged is a slip"),
+    Mutant(
+        "thermodata/calibration/tread.py",
+        "max(FINER, held - FINER)",
+        "held",
+        "half a tread passes for one",
+        ("tests/calibration/test_tread.py",),
+    ),
+    Mutant(
+        "thermodata/calibration/quality_value.py",
+        "_BACK = 0.3",
+        "_BACK = 0.0",
+        "what comes back by itself is an offset",
+        ("tests/calibration/test_quality.py",),
+    ),
     # ---- what is shown
     diagnosis("weak.py", "STANDS_OUT = 1.3", "STANDS_OUT = 1.0", "every second window is weak"),
     diagnosis("weak.py", "3.0 * noise if", "0.0 * noise if", "noise is weak"),
@@ -209,6 +240,31 @@ MUTANTS = [
         "",
         "the same effect is to be told from itself",
     ),
+    # ---- the heat that is missing
+    heat(
+        "missing_heat.py", "KNOWN_SPREAD = 0.3", "KNOWN_SPREAD = 0.003", "what the known effects took is kept by them"
+    ),
+    heat("missing_heat.py", "KNOWN_SPREAD = 0.3", "KNOWN_SPREAD = 300.0", "the known effects take what is missing"),
+    heat("missing_heat.py", "LEAVES = 0.1", "LEAVES = 0.001", "a distributed body has a time constant far too short"),
+    heat("missing_heat.py", "ONE_SIDED = 0.55", "ONE_SIDED = 0.0", "a drift heats in one direction"),
+    heat("missing_heat.py", "CHANGE = 0.05", "CHANGE = 50.0", "noise has a source, for changes cost nothing"),
+    heat(
+        "missing_heat.py", "one_way=sign != 0)\n        changes", "one_way=False)\n        changes", "heat is negative"
+    ),
+    heat("missing_heat.py", "(part % 2 != turn) | (part == 0)", "part >= 0", "what was seen counts as predicted"),
+    heat("one_way.py", "(q > 0) | (slope < -1e-9 * largest)", "(q > 0)", "a source that rests never starts"),
+    heat("goes_with.py", "ON_WITH, MORE_OFTEN = 0.8, 0.25", "ON_WITH, MORE_OFTEN = 0.7, 0.25", "half a companion"),
+    heat("goes_with.py", "ON_WITH, MORE_OFTEN = 0.8, 0.25", "ON_WITH, MORE_OFTEN = 0.8, -1.0", "chance is a companion"),
+    heat("goes_with.py", "OFF_WITH, NO_OFTENER = 0.6, 0.3", "OFF_WITH, NO_OFTENER = 0.7, 0.5", "causes are ruled out"),
+    heat("goes_with.py", "FOLLOWS, FOLLOWS_NOT = 0.7, 0.3", "FOLLOWS, FOLLOWS_NOT = 0.6, 0.4", "halves are followed"),
+    heat("goes_with.py", "STRONG, WEAK = 0.5, 0.15", "STRONG, WEAK = 0.4, 0.2", "tests are strong and absent too soon"),
+    heat(
+        "goes_with.py",
+        "DAYS, MOST_DAYS, MOSTLY_ON = 3, 0.8, 0.6",
+        "DAYS, MOST_DAYS, MOSTLY_ON = 2, 0.5, 0.9",
+        "any hour",
+    ),
+    heat("first_seen.py", "SURE = 0.8", "SURE = 0.5", "a coin's direction is told as sure"),
     # ---- checks of a fit
     check("CONDITION = 1000.0", "CONDITION = 1e9", "effects that can't be told apart go unnoticed"),
     check("COLLINEAR = 0.98", "COLLINEAR = 1.0", "twins go unnoticed"),

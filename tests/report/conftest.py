@@ -14,8 +14,12 @@ from thermodata.schema.result import (
     Candidate,
     Check,
     Diagnosis,
+    HeatCompanion,
+    HeatCourse,
+    MissingHeat,
     Parameter,
     Score,
+    Unknown,
     WeakSpot,
 )
 
@@ -133,6 +137,53 @@ def diagnosis(verdict: Literal["effect", "none"] = "effect") -> Diagnosis:
         unknown=None,
         next_test="Run axis Z alone at 20 m/min for 4 h.",
     )
+
+
+def missing_heat(direction: Literal["+", "-"] | None = "+") -> MissingHeat:
+    """Of the three tests, in ten steps of 10 min; the source is on in the middle of two."""
+    source = [0.0, 0.0, 8.0, 8.0, 8.0, 8.0, 8.0, 0.0, 0.0, 0.0]
+
+    def course(test: str, times: float) -> HeatCourse:
+        done = [times * x for x in (-4.0, -3.0, -1.0, 1.0, 2.0, 3.0, 3.5, 2.0, 0.5, -1.0)]
+        left: list[float | None] = [None, *(x + 0.2 for x in done[1:])]
+        return HeatCourse(
+            campaign="demo",
+            test=test,
+            from_s=0.0,
+            step_s=600.0,
+            source_um=[times * x for x in source],
+            contribution_um=done,
+            residual_um=left,
+        )
+
+    return MissingHeat(
+        time_constant_h=0.67,
+        time_constant_low_h=None,
+        time_constant_high_h=1.5,
+        direction=direction,
+        agreed=0.93 if direction else None,
+        explained=0.997,
+        left_out=0.91,
+        hours_of_day=[9.0],
+        strong_tests=["day1"],
+        weak_tests=["etve"],
+        goes_with=[HeatCompanion(channel="coolant_on", at="coolant", on_with=0.96, on_without=0.04, follows=None)],
+        goes_not_with=[
+            HeatCompanion(channel=f"T_{i}", at=None, on_with=None, on_without=None, follows=0.01 * i) for i in range(10)
+        ],
+        where="A body near <coolant>",
+        courses=[course("etve", 0.0), course("sp9000", 0.5), course("day1", 1.0)],
+    )
+
+
+@pytest.fixture
+def unlogged(blind: ReportData) -> ReportData:
+    """The first version, where nothing that was logged explains what is left."""
+    import dataclasses
+
+    unknown = Unknown(time_constants_h=[0.7], hours_of_day=[], states=["feed on"], heat=missing_heat())
+    found = diagnosis().model_copy(update={"verdict": "unknown", "unknown": unknown})
+    return dataclasses.replace(blind, diagnosis=found)
 
 
 @pytest.fixture

@@ -12,10 +12,11 @@ from thermodata.errors import UsageError
 from thermodata.view.load import load_dataset
 from thermodata.virtual.lathe.causes import CAUSES, bend, growth, play
 from thermodata.virtual.lathe.data import STEP_S, contribution, model_of, to_dataset
-from thermodata.virtual.lathe.fields import STACK, Fields, solve
-from thermodata.virtual.lathe.hall import Air
+from thermodata.virtual.lathe.fields import STACK, Fields
+from thermodata.virtual.lathe.hall import Air, Hall
 from thermodata.virtual.lathe.logs import simulate_lathe
 from thermodata.virtual.lathe.losses import bearing_w, film_coefficient, motor_w, sliding_w
+from thermodata.virtual.lathe.march import Task, solve, solve_all
 from thermodata.virtual.lathe.programme import DT_S, Work, work
 from thermodata.virtual.lathe.right_names import RIGHT, mark
 from thermodata.virtual.lathe.rods import STEEL, Body, Stack
@@ -121,6 +122,24 @@ def test_the_courses_do_not_hang_on_the_step() -> None:
     coarse, fine = solved(3000.0), solved(3000.0, dt_s=DT_S / 3)
     rise = coarse.at("quill", 0.85) - 20.0
     assert np.max(np.abs(coarse.rods - fine.rods)) < 0.02 * np.max(rise)
+
+
+def test_machines_that_are_solved_side_by_side_know_nothing_of_each_other() -> None:
+    rng = np.random.default_rng(4)
+    hall = Hall.draw(rng)
+    tasks = []
+    for kind, hours in (("day", 1.0), ("wet", 2.0), ("stroke_z", 1.5), ("tools", 1.0), ("idle", 2.5)):
+        job = work(kind, rng, hours)  # type: ignore[arg-type]
+        before, air = hall.air(np.linspace(job.hour[0] - 30, job.hour[0], 40), rng), hall.air(job.hour, rng)
+        tasks += [Task(job, air, before, on) for on in (True, False)]
+    for task, together in zip(tasks, solve_all(tasks), strict=True):
+        alone = solve(task.work, task.air, task.before, task.working)
+        assert np.array_equal(alone.rods, together.rods)
+        assert np.array_equal(alone.inside, together.inside)
+        assert all(np.array_equal(x, together.tanks[name]) for name, x in alone.tanks.items())
+        assert len(together.inside) == task.work.n
+    with pytest.raises(ValueError, match="differ in length"):
+        solve_all([tasks[0], Task(tasks[0].work, tasks[0].air, calm(41))])
 
 
 def test_growth_and_bending_are_those_of_textbooks() -> None:

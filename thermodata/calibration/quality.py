@@ -22,6 +22,7 @@ from thermodata.calibration.quality_value import (
 )
 from thermodata.plugin import Array, Bool1D, Float1D, Int1D
 from thermodata.schema.flag import Flag
+from thermodata.schema.places import is_at_tool
 
 # Quantities whose readings carry noise, so that an exactly constant stretch is suspicious ...
 ANALOG = frozenset(
@@ -45,12 +46,14 @@ MOST_EVENTS = 2000  # of a channel and flag; `concise` makes fewer of them
 @dataclass(frozen=True, slots=True)
 class ColumnInput:
     """A column. values: shape (n,), in the canonical unit (text for a label). flags: those that it already has
-    (from the reader and from `calibrate`), kept and reported. range: (low, high) in the canonical unit."""
+    (from the reader and from `calibrate`), kept and reported. range: (low, high) in the canonical unit. at: its place,
+    where it is known."""
 
     values: Array
     quantity: str
     flags: Array | None = None
     range: tuple[float, float] | None = None
+    at: str | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -115,7 +118,7 @@ def _column(
             events.append(_event(name, str(flag.name).lower(), t_ns, start, stop, why))
         if column.quantity in _INERT:
             events += _mark_spikes(name, x, flags, t_ns, stats[name])
-        if column.quantity == "temperature":
+        if column.quantity == "temperature" and not is_at_tool(column.at):
             for start, stop, size, why in offset_steps(x, t_ns, flags, time.flags, stats[name]):
                 flags[start:stop] |= np.uint16(Flag.OFFSET)
                 events.append(_event(name, "offset", t_ns, start, stop, f"a step of {size:+.1f} K {why}"))

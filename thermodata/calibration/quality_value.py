@@ -20,6 +20,8 @@ _SPIKE = 10.0  # of the noise of a difference
 _REACH = 8
 _OFFSET_K = 5.0
 _MANY_SPIKES = 0.005
+_AROUND = 20  # samples that tell a level
+_BACK = 0.3  # of a step: what comes so near to the level before it has come back
 
 
 @dataclass(frozen=True, slots=True)
@@ -169,7 +171,7 @@ def offset_steps(
 ) -> Iterator[tuple[int, int, float, str]]:
     """(start, stop, size [K], how) where a temperature steps by more than 5 K within one sample, or over a pause by
     more than it ever changes in such a time, and stays there: thermal mass forbids it, a failing sensor or a
-    changed plug does it. Ends at a step back, or at the end.
+    changed plug does it. Ends at a step back, or at the end. Where the value comes back by itself the step was real.
 
     x: shape (n,), degC. flags: of the column so far; of_time: of the times; uint16, shape (n,).
     """
@@ -186,8 +188,11 @@ def offset_steps(
     d = np.diff(y)
     gap = ((of_time[rows[1:]] & int(Flag.GAP)) != 0) | (np.diff(rows) > 5)
     jumps = np.flatnonzero(np.abs(d) > least / 2)
-    open_at, size, how = -1, 0.0, ""
+    open_at, looked, size, level, how = -1, 0, 0.0, 0.0, ""
     for j in jumps.tolist():
+        if open_at >= 0 and _comes_back(y[looked : j + 1], level, size):
+            open_at = -1
+        looked = j + 1
         if open_at >= 0:
             if abs(d[j] + size) < 0.5 * abs(size):
                 yield int(rows[open_at]), int(rows[j]) + 1, size, how
@@ -195,9 +200,16 @@ def offset_steps(
         elif abs(d[j]) > least and _stays(y, d, j) and (not gap[j] or _beyond_its_pace(y, t_ns[rows], d, j)):
             pause = (t_ns[rows[j + 1]] - t_ns[rows[j]]) / 1e9
             open_at, size = j + 1, float(d[j])
+            level = float(np.median(y[max(0, j - _AROUND) : j + 1]))
             how = f"over a pause of {pause:.4g} s" if gap[j] else "within one sample"
-    if open_at >= 0:
+    if open_at >= 0 and not _comes_back(y[looked:], level, size):
         yield int(rows[open_at]), len(x), size, how
+
+
+def _comes_back(after: Float1D, level: float, size: float) -> bool:
+    """Whether what follows a step returns, without a step, to the level before it: by medians of _AROUND samples."""
+    whole = after[: len(after) // _AROUND * _AROUND].reshape(-1, _AROUND)
+    return bool((np.abs(np.median(whole, axis=1) - level) < _BACK * abs(size)).any()) if len(whole) else False
 
 
 def _beyond_its_pace(y: Float1D, t_ns: Array, d: Float1D, j: int) -> bool:

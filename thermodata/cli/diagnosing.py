@@ -9,7 +9,7 @@ import click
 from thermodata.cli.common import Session, command, in_units_of
 from thermodata.cli.fitting import resolve, spots_text
 from thermodata.cli.table import table
-from thermodata.report.words import duration, number, verdict_sentence
+from thermodata.report.words import duration, heat_lines, number, verdict_sentence
 
 if TYPE_CHECKING:
     from thermodata.schema.result import Confirmed, Diagnosis
@@ -130,6 +130,12 @@ def diagnosis_text(found: Diagnosis, top: int = 8) -> str:
                 )
                 if hints[key]
             )
+        )
+    if found.unknown and found.unknown.heat:
+        heat = found.unknown.heat
+        parts.append(
+            f"the missing heat, estimated\n  {heat.where}\n"
+            + "\n".join(f"  {what}: {text}" for what, text in heat_lines(heat))
         )
     if found.next_test:
         parts.append(f"next test: {found.next_test}")

@@ -88,6 +88,12 @@ def _simulate_lathe(folder: Path, hide: str | None, stratum: str | None, seed: i
     metavar="FILE",
     help="Of the lathe: keep each trial as a JSON line, and go on where FILE ends.",
 )
+@click.option(
+    "--reliability",
+    type=click.Path(path_type=Path, dir_okay=False),
+    metavar="FILE.svg",
+    help="Of the lathe: draw the share that was right against the stated probability.",
+)
 def benchmark_diagnosis_command(
     session: Session,
     machine: str,
@@ -100,6 +106,7 @@ def benchmark_diagnosis_command(
     jobs: int,
     no_rivals: bool,
     out: Path | None,
+    reliability: Path | None,
 ) -> None:
     """Run the blind benchmark of the diagnosis.
 
@@ -107,12 +114,13 @@ def benchmark_diagnosis_command(
     strata: weak causes, decoys, several at once, none, coarse or broken logs.
     """
     of_lathe = {"--stratum": stratum, "--sealed": sealed, "--jobs": jobs > 1, "--no-rivals": no_rivals, "--out": out}
+    of_lathe["--reliability"] = reliability
     of_gantry = {"--hide": hide, "--not-logged": not_logged}
     for option, given in (of_lathe if machine == "gantry" else of_gantry).items():
         if given:
             raise UsageError(f"{option} does not go with --machine {machine}", hint="see benchmark-diagnosis --help")
     if machine == "lathe":
-        _lathe(session, stratum, first_seed, seeds, sealed, jobs, not no_rivals, out)
+        _lathe(session, stratum, first_seed, seeds, sealed, jobs, not no_rivals, out, reliability)
     else:
         _gantry(session, hide, seeds, first_seed or 0, not not_logged)
 
@@ -126,28 +134,68 @@ def _lathe(
     jobs: int,
     rivals: bool,
     out: Path | None,
+    picture: Path | None,
 ) -> None:
     from thermodata.cli.progress import counting_line
+    from thermodata.report.write import write_page
+    from thermodata.virtual.blind.diagram import diagram
+    from thermodata.virtual.blind.goals import overall
+    from thermodata.virtual.blind.reliability import reliability
     from thermodata.virtual.blind.run import run
     from thermodata.virtual.blind.seeds import seeds_of, set_name
-    from thermodata.virtual.blind.tally import rows, table_rows
+    from thermodata.virtual.blind.tally import rows
     from thermodata.virtual.lathe.strata import STRATA
 
     for name in stratum:
         if name not in STRATA:
             raise unknown_name("stratum", name, list(STRATA))
+    if picture is not None and picture.suffix.lower() != ".svg":
+        raise UsageError(
+            "the diagram is drawn as SVG",
+            where=f"--reliability {picture}",
+            expected="a name that ends in .svg",
+            got=picture.suffix or "no suffix",
+            hint=f"--reliability {picture.with_suffix('.svg')}",
+        )
     used = seeds_of(first_seed, seeds, sealed)
     which = f"{set_name(sealed)} seeds {used.start} to {used.stop - 1}"
     click.echo(which, err=True)
     with counting_line() as tell:
         told = None if tell is None else lambda done, total: tell("machines", done, total)
         trials = run(stratum or tuple(STRATA), used, jobs=jobs, rivals=rivals, out=out, tell=told)
-    summary = rows(trials)
-    shown = table_rows(summary)
+    summary, stated, goals = rows(trials), reliability(trials), overall(trials)
+    if picture is not None and stated:
+        write_page(picture, diagram(stated, f"{len(trials)} machines, {which}"))
+    elif picture is not None:
+        click.echo(f"no answer states a probability: {picture} is not written", err=True)
     session.answer(
-        {"machine": "lathe", "seeds": which, "summary": summary, "trials": trials},
-        lambda: table(shown, [(key, key) for key in shown[0]]) + "\n\n" + fields([("seeds", which)]),
+        {
+            "machine": "lathe",
+            "seeds": which,
+            "rules": trials[0]["rules"],
+            "overall": goals,
+            "reliability": [r.to_json() for r in stated],
+            "summary": summary,
+            "trials": trials,
+        },
+        lambda: _lathe_text(summary, goals, stated, which, trials[0]["rules"]),
     )
+
+
+def _lathe_text(summary: list[Any], goals: list[Any], stated: list[Any], which: str, rules: str) -> str:
+    from thermodata.virtual.blind import wording
+
+    tables = [wording.with_a_cause(summary), wording.without(summary), wording.goals(goals)]
+    shown = [table(rows, [(key, key) for key in rows[0]]) for rows in tables if rows]
+    said = [
+        (
+            f"probabilities, {wording.SORTS[r.of]}",
+            f"{r.statements} stated, Brier {r.brier:.3f} (base rate {r.base_brier:.3f}), "
+            f"calibration error {r.calibration_error:.3f}",
+        )
+        for r in stated
+    ] or [("probabilities", "none stated")]
+    return "\n\n".join([*shown, fields([*said, ("seeds", which), ("rules", rules)])])
 
 
 def _gantry(session: Session, hide: tuple[str, ...], seeds: int, first_seed: int, logged: bool) -> None:

@@ -3,15 +3,25 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from thermodata.diagnosis import next_test
 from thermodata.diagnosis.confirm import Confirmation, confirm, on_all_open
-from thermodata.diagnosis.evidence import passes
-from thermodata.diagnosis.investigate import Investigation, investigate
-from thermodata.diagnosis.judge import Judgement, equivalents
+from thermodata.diagnosis.investigate import BorneOut, Investigation, investigate
+from thermodata.diagnosis.judge import (
+    Judged,
+    Judgement,
+    blunt,
+    equivalents,
+    explained,
+    failed_rules,
+    probability,
+    remaining,
+)
+from thermodata.diagnosis.locked import Foretold
+from thermodata.diagnosis.null import p_value
 from thermodata.diagnosis.problem import Problem
 from thermodata.diagnosis.scored import Scored
 from thermodata.diagnosis.unexplained import characterise
@@ -22,6 +32,7 @@ from thermodata.schema.result import Candidate, Diagnosis
 from thermodata.view.dataset import Dataset, TestData
 
 SHOWN = 15
+TWINS_TRIED = 4
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,36 +50,47 @@ def answer(fitted: FittedModel, data: Dataset, library: Mapping[str, Effect], mo
     # the choice takes part in all open tests: gains that only a verification test excites must not be guesses
     open_spec = on_all_open(fitted.spec, usable, fitted.tests(data, "locked"))
     refitted = fit_model(open_spec, data, uncertainty=False) if usable else fitted
-    investigation = investigate(refitted.responses[index], data, usable, library, seed, as_fitted=response)
+    locked = [t for t in fitted.tests(data, "locked") if response.can_predict(t)]
+    investigation = investigate(
+        refitted.responses[index], data, usable, library, seed, as_fitted=response, locked=locked
+    )
     judgement, confirmation = investigation.judgement, None
-    locked: list[TestData] = []
-    if judgement.claimed is not None:
-        locked = [t for t in fitted.tests(data, "locked") if response.can_predict(t)]
-        confirmation = confirm(
-            fitted.spec,
-            index,
-            data,
-            judgement.claimed.candidate,
-            usable,
-            locked,
-            judgement.second.candidate if judgement.second else None,
-            refitted,
-        )
-        judgement = kept_where_it_holds(judgement, confirmation, response.unit)
+    if not judgement.claims:
+        locked = []
+    else:
+        judgement = kept_where_they_hold(judgement, investigation.borne_out, response.unit)
+        asked = judgement.claims or investigation.judgement.claims
+        chosen = [c.scored.candidate for c in asked]
+        confirmation = confirm(fitted.spec, index, data, chosen, usable, locked, refitted)
     return Answer(_diagnosis(investigation, judgement, confirmation, data, model_id), tuple(locked))
 
 
-def kept_where_it_holds(judgement: Judgement, confirmation: Confirmation, unit: str) -> Judgement:
-    """The claim, or "unknown" where the locked tests contradict it. unit: of the response."""
-    if confirmation.holds or judgement.claimed is None:
-        return judgement
-    return Judgement(
-        "unknown",
-        None,
-        f"{judgement.claimed.candidate.id} explains the open tests, but on the "
-        f"locked ones the error does not fall ({confirmation.before:.2f} -> "
-        f"{confirmation.after:.2f} {unit})",
+def kept_where_they_hold(judgement: Judgement, ask: BorneOut, unit: str) -> Judgement:
+    """The claims that hold on the locked tests together, else with a twin in the place of the largest, else without
+    the smallest; "unknown" where none does. unit: of the response."""
+    claims = judgement.claims
+    first: Foretold | None = None
+    while claims:
+        for tried in (claims, *_with_twins(claims)):
+            found = ask(tried)
+            if found is None or found.holds:
+                return replace(judgement, claims=tried)
+            first = first or found
+        claims = claims[:-1]
+    assert first is not None
+    name = judgement.claims[0].scored.candidate.id
+    reason = (
+        f"{name} explains the open tests, but on the locked ones the error does not fall by half of what it "
+        f"adds ({first.before:.2f} -> {first.after:.2f} {unit})"
     )
+    return replace(judgement, verdict="unknown", claims=(), reason=reason)
+
+
+def _with_twins(claims: Sequence[Judged]) -> list[tuple[Judged, ...]]:
+    """What can't be told apart is one claim, and one member that does not hold is no reason against the others."""
+    largest = claims[0]
+    twins = equivalents(largest.scored, largest.beside)[:TWINS_TRIED]
+    return [(replace(largest, scored=twin), *claims[1:]) for twin in twins]
 
 
 def worst_response(fitted: FittedModel, tests: Sequence[TestData]) -> int:
@@ -88,36 +110,33 @@ def worst_response(fitted: FittedModel, tests: Sequence[TestData]) -> int:
 def _diagnosis(
     investigation: Investigation, judgement: Judgement, confirmation: Confirmation | None, data: Dataset, model_id: str
 ) -> Diagnosis:
-    problem, ranked = investigation.problem, investigation.ranked
-    claimed = judgement.claimed
-    order = list(ranked)
-    if claimed is not None:
-        order = [claimed, *(s for s in ranked if s is not claimed)]
-    twins = [] if claimed is None else equivalents(claimed, ranked)
-    best = order[0] if order else None
-    before = _rmse(best.sse_before, problem) if best else _left(problem)
-    advice = next_test.to_separate(claimed, twins, data.channels) if claimed else None
-    if claimed is None and judgement.verdict != "none":
-        advice = next_test.to_find(len({b.test.key for b in problem.blocks}), investigation.spots)
+    problem = investigation.problem
+    shown = _shown(investigation, judgement)
+    head = next((s for s, m in shown if not any(m is r for r in judgement.refinements)), None)
+
+    def claimed(member: Judged | None) -> bool:
+        return any(member is c for c in judgement.claims)
+
+    advice = None
+    if judgement.claims:
+        claim = judgement.claims[0]
+        advice = next_test.to_separate(claim.scored, equivalents(claim.scored, claim.beside), data.channels)
+    elif judgement.verdict in ("unknown", "not_testable"):
+        advice = next_test.to_find(
+            len({b.test.key for b in problem.blocks}), investigation.spots, shown[0][0] if shown else None
+        )
+    scored = [s for s, _ in shown if len(s.rows)]
     return Diagnosis(
         model=model_id,
         response=problem.response,
         verdict=judgement.verdict,
         noise_um=problem.noise if np.isfinite(problem.noise) else None,
-        rmse_um=before,
-        explainable=None if best is None else float(np.clip(max(s.drop for s in ranked), 0.0, 1.0)),
+        rmse_um=remaining(scored[0]) if scored else _left(problem),
+        explainable=max((float(np.clip(_fall(s), 0.0, 1.0)) for s in scored), default=None),
         weak_spots=investigation.spots,
         candidates=[
-            _candidate(
-                i + 1,
-                s,
-                s is claimed,
-                investigation,
-                confirmation if s is claimed else None,
-                equivalents(s, ranked) if i < 5 else [],
-                judgement,
-            )
-            for i, s in enumerate(order[:SHOWN])
+            _candidate(i + 1, s, member, s is head or claimed(member), investigation, judgement, confirmation)
+            for i, (s, member) in enumerate(shown)
         ],
         artefacts=investigation.artefacts,
         unknown=characterise(problem, investigation.spots) if judgement.verdict == "unknown" else None,
@@ -125,17 +144,34 @@ def _diagnosis(
     )
 
 
+def _shown(investigation: Investigation, judgement: Judgement) -> list[tuple[Scored, Judged | None]]:
+    """Claims, refinements, then all others by what they would give; what was dropped as it was judged last."""
+    first = [*judgement.claims, *judgement.refinements]
+    order: list[tuple[Scored, Judged | None]] = [(j.scored, j) for j in first]
+    rest = [j for j in judgement.judged if not any(j.scored.columns is f.scored.columns for f in first)]
+    others: list[tuple[Scored, Judged | None]] = [(j.scored, j) for j in rest]
+    if investigation.selection is not None:
+        found = [*investigation.selection.dropped, *investigation.selection.first.ranked]
+        for s in found:
+            if len(s.rows) and not any(s.columns is k.columns for k, _ in (*order, *others)):
+                others.append((s, None))
+    others.sort(key=lambda item: -explained(item[0]))
+    return [*order, *others][:SHOWN]
+
+
 def _candidate(
     rank: int,
     s: Scored,
-    claimed: bool,
+    member: Judged | None,
+    heads: bool,
     investigation: Investigation,
-    confirmation: Confirmation | None,
-    twins: Sequence[Scored],
     judgement: Judgement,
+    confirmation: Confirmation | None,
 ) -> Candidate:
-    problem = investigation.problem
-    energy = float(sum(np.sum(y**2) for y in problem.response_blocks))
+    problem, measure = investigation.problem, investigation.measure
+    claimed = any(member is c for c in judgement.claims)
+    beside = member.beside if member else investigation.selection.first.ranked if investigation.selection else ()
+    held = confirmation if claimed else None
     return Candidate(
         rank=rank,
         id=s.candidate.id,
@@ -143,54 +179,75 @@ def _candidate(
         family=s.candidate.family,
         drivers=list(s.candidate.channels),
         claimed=claimed,
-        p_value=s.p_value,
-        rmse_um_before=_rmse(s.sse_before, problem),
-        rmse_um_after=_rmse(s.sse_after, problem),
-        fit_before=_fit(s.sse_before, energy),
-        fit_after=_fit(s.sse_after, energy),
-        locked_rmse_um_before=confirmation.before if confirmation else None,
-        locked_rmse_um_after=confirmation.after if confirmation else None,
-        parameters=confirmation.parameters if confirmation else {},
-        equivalent=[t.candidate.id for t in twins],
-        why=_why(s, claimed, investigation, confirmation, judgement),
+        refinement=any(member is r for r in judgement.refinements),
+        # measured for what heads the list, and for claims; nothing is known of the share of the others
+        probability=probability(s) if heads else None,
+        p_value=p_value(s.evidence, measure.chance),
+        rmse_um_before=_rmse(s.sse_before, s),
+        rmse_um_after=_rmse(s.sse_after, s),
+        fit_before=_fit(s.sse_before, s, measure.spread),
+        fit_after=_fit(s.sse_after, s, measure.spread),
+        locked_rmse_um_before=held.before if held else None,
+        locked_rmse_um_after=held.after if held else None,
+        parameters=held.parameters.get(s.candidate.id, {}) if held else {},
+        equivalent=[t.candidate.id for t in equivalents(s, beside)] if rank <= 5 else [],
+        why=_why(s, member, claimed, problem, investigation, judgement, held),
     )
 
 
 def _why(
-    s: Scored, claimed: bool, investigation: Investigation, confirmation: Confirmation | None, judgement: Judgement
+    s: Scored,
+    member: Judged | None,
+    claimed: bool,
+    problem: Problem,
+    investigation: Investigation,
+    judgement: Judgement,
+    held: Confirmation | None,
 ) -> str:
-    problem = investigation.problem
+    unit, count = problem.unit, int(s.acts.sum())
+    others = [j.scored.candidate.id for j in judgement.judged if member is not None and j is not member]
+    beside = f", beside {' and '.join(others)}," if others else ""
+    improves = round(s.better * count)
+    way = "falls" if s.error_after < s.error_before else "does not fall"
     numbers = (
-        f"on left-out tests the error falls from {_rmse(s.sse_before, problem):.2f} to "
-        f"{_rmse(s.sse_after, problem):.2f} {problem.unit}; it would act with {s.size:.1f} {problem.unit} RMS"
+        f"where it acts ({count} of {len(s.rows)} tests){beside} the error on left-out tests {way} "
+        f"({s.error_before:.2f} -> {s.error_after:.2f} {unit}) and it makes {improves} of {count} more probable; its "
+        f"gain differs between tests by {s.spread:.0%}"
     )
+    chance = p_value(s.evidence, investigation.measure.chance)
     if claimed:
         locked = ""
-        if confirmation and confirmation.before is not None and confirmation.after is not None:
-            locked = f"; on the locked tests from {confirmation.before:.2f} to {confirmation.after:.2f} {problem.unit}"
-        beside = judgement.second
-        two = (
-            f"; a second effect is missing too: with {beside.candidate.id} beside it "
-            f"{_rmse(beside.sse_after, problem):.2f} {problem.unit} are left; add this one and diagnose again"
-            if beside
-            else ""
-        )
-        return f"{numbers}; chance does as well in {s.p_value:.1%} of surrogate residuals{locked}{two}"
-    failed = passes(s, investigation.measure)
-    if not failed and judgement.claimed is None:
-        return f"{numbers}; {judgement.reason}"
-    return f"{numbers}; not claimed: " + ("; ".join(failed) if failed else "the claimed effect explains it better")
+        if held and held.before is not None and held.after is not None:
+            together = " with all that is claimed" if len(judgement.claims) > 1 else ""
+            locked = f"; on the locked tests{together} from {held.before:.2f} to {held.after:.2f} {unit}"
+        return f"{numbers}; chance does as well in {chance:.1%} of responses in which nothing is missing{locked}"
+    if member is not None and member.refines:
+        return f"{numbers}; a refinement, not a missing cause: {member.refines}"
+    failed = failed_rules(s, investigation.measure, unit)
+    failed += [why for why in [blunt(s)] if why]
+    if failed:
+        return f"{numbers}; not claimed: {failed[0]}"
+    if judgement.claims:
+        return f"{numbers}; not claimed: {judgement.claims[0].scored.candidate.id} explains it, or more"
+    return f"{numbers}; not claimed: {judgement.reason}"
 
 
-def _rmse(sse: np.ndarray, problem: Problem) -> float:
-    return float(np.sqrt(sse.sum() / max(problem.rows, 1)))
+def _rmse(sse: np.ndarray, s: Scored) -> float | None:
+    return float(np.sqrt(np.mean(sse / s.rows))) if len(s.rows) else None
+
+
+def _fall(s: Scored) -> float:
+    """Of the squared error on left-out tests, each test alike, as a share."""
+    before = float(np.mean(s.sse_before / s.rows))
+    return 1 - float(np.mean(s.sse_after / s.rows)) / before if before > 0 else 0.0
+
+
+def _fit(sse: np.ndarray, s: Scored, spread: float) -> float | None:
+    error = _rmse(sse, s)
+    return None if error is None or spread <= 0 else (1 - error / spread) * 100
 
 
 def _left(problem: Problem) -> float | None:
     """The error of the model as it is fitted, where no candidate asked for left-out tests."""
     whole = np.concatenate([b.residual for b in problem.blocks]) if problem.blocks else np.empty(0)
     return float(np.sqrt(np.mean(whole**2))) if len(whole) else None
-
-
-def _fit(sse: np.ndarray, energy: float) -> float | None:
-    return float((1 - np.sqrt(sse.sum() / energy)) * 100) if energy > 0 else None

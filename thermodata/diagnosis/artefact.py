@@ -1,29 +1,31 @@
 """Artefacts of the measurement, looked for within a test: steps of a probe, and drift.
 
-They do not transfer between tests, so leave-one-test-out cannot see them. A step that a command explains
-(speed, feed, a switch) is no artefact: centrifugal shifts look like steps.
+They do not transfer between tests, so leave-one-test-out cannot see them. A step that a command makes elsewhere too
+(speed, feed, a switch) is no artefact: centrifugal shifts look like steps. Nor is one tread of a coarse reading.
 """
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
+from thermodata.calibration.tread import tread_of
+from thermodata.diagnosis.commanded import Commands, over_three
 from thermodata.diagnosis.problem import Block, Problem
 from thermodata.plugin import Float1D
 from thermodata.schema.result import Artefact
 from thermodata.view.dataset import TestData
 
 SIDE_S = 1200.0
-COMMAND_S = 600.0
-Z_LIMIT = 9.0
-HOLE_STEPS = 1.6
+Z_LIMIT = 12.0
 MOST_STEPS = 3
 NOISES = 3.0  # a step is larger than this many times the noise,
 LEAST_UM = 0.5  # and than this
-SHARP = 0.4  # least share of a step that happens between two samples
-MOVED = 0.2  # share of a command's range that makes it a change
+SHARP = 0.4  # least share of a step that happens between two samples: halves where a mean parts it
+WITHIN = 0.8  # and within three intervals
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,34 +42,45 @@ def find_steps(problem: Problem) -> list[Step]:
     The jump between neighbouring samples must exceed Z_LIMIT times the robust size of all jumps over the same
     span, and the level before and after must differ by as much for SIDE_S.
     """
+    commands = Commands(problem)
+    tread = tread_of_response(problem)
     steps = []
-    for block in problem.blocks:
-        steps += [s for s in _steps_in(block, problem) if not _commanded(block.test, s.at_s, problem.step_s)]
+    for k, block in enumerate(problem.blocks):
+        steps += _steps_in(block, problem, tread, partial(commands.explain, k))
     return sorted(steps, key=lambda s: -s.z)
 
 
-def _steps_in(block: Block, problem: Problem) -> list[Step]:
+def tread_of_response(problem: Problem) -> float:
+    """Distance of the values that the response can read, 0 where they are too fine to see."""
+    name = problem.response
+    tests = {b.test.key: b.test for b in problem.blocks if name in b.test.values}
+    return tread_of([t.values[name][t.valid[name]] for t in tests.values()])
+
+
+def _steps_in(block: Block, problem: Problem, tread: float, explained: Callable[[int], bool]) -> list[Step]:
     r, t = block.residual, block.t_s
     side = max(4, int(SIDE_S / problem.step_s))
     if len(r) < 3 * side:
         return []
     steps: list[Step] = []
-    blocked = np.zeros(len(r), dtype=bool)
-    for _ in range(MOST_STEPS):
+    looked = np.zeros(len(r), dtype=bool)
+    while len(steps) < MOST_STEPS:
         score, size = _step_score(r, t, side)
-        score[blocked] = 0.0
+        score[looked] = 0.0
         i = int(np.argmax(score))
-        if not is_a_step(float(score[i]), float(size[i]), problem.noise):
+        if not is_a_step(float(score[i]), float(size[i]), problem.noise, tread):
             break
+        looked[max(0, i - side // 2) : i + side // 2] = True
+        if explained(i):
+            continue
         steps.append(Step(block.test, float((t[i - 1] + t[i]) / 2), float(size[i]), float(score[i])))
         r = r - np.where(np.arange(len(r)) >= i, size[i], 0.0)
-        blocked[max(0, i - side // 2) : i + side // 2] = True
     return steps
 
 
-def is_a_step(z: float, size: float, noise: float) -> bool:
-    """z: of the usual change. size: of the step, noise: of the response, both in its unit."""
-    return z >= Z_LIMIT and abs(size) >= max(NOISES * noise, LEAST_UM)
+def is_a_step(z: float, size: float, noise: float, tread: float = 0.0) -> bool:
+    """z: of the usual change. size: of the step, noise: of the response, tread: of its reading, all in its unit."""
+    return z >= Z_LIMIT and abs(size) >= tread + max(NOISES * noise, LEAST_UM)
 
 
 def _step_score(r: Float1D, t: Float1D, side: int) -> tuple[Float1D, Float1D]:
@@ -91,8 +104,7 @@ def _step_score(r: Float1D, t: Float1D, side: int) -> tuple[Float1D, Float1D]:
     jump = np.abs(np.diff(r, prepend=r[0]))
     sharp = jump > SHARP * np.abs(size)
     # over a hole the machine had time to move: what nobody saw is not called a slip
-    step = np.median(np.diff(t))
-    sharp &= np.diff(t, prepend=t[0] - step) < HOLE_STEPS * step
+    sharp &= over_three(r, t) * np.sign(size) >= WITHIN * np.abs(size)
     scale = 1.4826 * float(np.median(np.abs(smaller - np.median(smaller)))) + 1e-9
     return np.where(sharp, np.abs(size) / scale, 0.0), size
 
@@ -109,22 +121,6 @@ def _lines(r: Float1D, t: Float1D, side: int) -> tuple[Float1D, Float1D]:
     return y_mean + slope * (x[:, -1] + step - x_mean), y_mean + slope * (x[:, 0] - x_mean)
 
 
-def _commanded(test: TestData, at_s: float, step_s: float) -> bool:
-    """Whether a speed, feed, power or switch changed within COMMAND_S of the time."""
-    near = np.abs(test.t_s - at_s) <= COMMAND_S + step_s
-    for name, info in test.channels.items():
-        if (
-            info.quantity not in ("rotational_speed", "feed", "power", "state", "load", "flow")
-            or name not in test.values
-        ):
-            continue
-        values = test.values[name]
-        whole, part = values[np.isfinite(values)], values[near & np.isfinite(values)]
-        if len(part) and len(whole) and np.ptp(whole) > 0 and np.ptp(part) > MOVED * np.ptp(whole):
-            return True
-    return False
-
-
 def as_artefacts(steps: list[Step], unit: str) -> list[Artefact]:
     return [
         Artefact(
@@ -134,7 +130,7 @@ def as_artefacts(steps: list[Step], unit: str) -> list[Artefact]:
             at_s=s.at_s,
             size_um=s.size,
             why=f"the displacement jumps by {s.size:+.1f} {unit} between two samples, {s.z:.0f} times the usual "
-            "change, and stays; no speed, feed or switch changed: a probe or fixture slipped",
+            "change, and stays; no speed, feed or switch does that elsewhere: a probe or fixture slipped",
         )
         for s in steps
     ]

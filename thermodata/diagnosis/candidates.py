@@ -3,38 +3,46 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import product
+from typing import Literal
 
 import numpy as np
 
-from thermodata.diagnosis.cross_validation import Priors
 from thermodata.effect.binding import bindings, candidate_id, family_of
+from thermodata.effect.places import holds
 from thermodata.modelling.drivers import has_drivers, make_drivers
 from thermodata.modelling.lead import columns, with_lead
 from thermodata.plugin import Drivers, Effect, Float2D, Param
 from thermodata.view.dataset import ChannelInfo, TestData
 
 Led = tuple[Drivers, int]
+# "same": another mode of an effect that the model has, another bearing, another reading of its channels. "near": an
+# effect of a family that the model has, at its place. "related": one elsewhere
+Kin = Literal["same", "near", "related"] | None
 GENERIC = "generic"
+STATIC = "static"
 NOT_DRIVERS = frozenset({"displacement", "tilt", "label"})
 SECONDS = {"s": 1.0, "min": 60.0, "h": 3600.0}
 TIME_UNITS = tuple(SECONDS)
 # a distributed machine also acts with these multiples of an effect's time constant
 SLACK_FACTORS = (0.2, 5.0)
-# A gain this many times beyond the plausible range is not that effect.
-BEYOND = 1.5
+# a plain lag of a channel that a named effect explains as well says less: a twentieth of its prior probability
+UNNAMED = -3.0
 
 
 @dataclass(frozen=True, slots=True)
 class CandidateEffect:
     """An effect and the channels it would be driven by. family: with the axis that its channels sit on.
-    placeless: nobody declared where its channels sit, so it can only be a plain lag."""
+    placeless: nobody declared where any temperature sits, so it can only be a plain lag. log_prior: how much less
+    probable than others before any data. kin: how near it is to what the model has already (`Kin`)."""
 
     effect: Effect
     binding: Mapping[str, str]
     family: str
     placeless: bool = False
+    log_prior: float = 0.0
+    kin: Kin = None
 
     @property
     def channels(self) -> tuple[str, ...]:
@@ -52,16 +60,6 @@ class CandidateEffect:
         """Shape (size, gains); zero where there are no drivers."""
         return np.zeros((size, len(self.effect.gains))) if drivers is None else columns(self.effect, drivers, p)
 
-    @property
-    def priors(self) -> Priors:
-        """Of the gains: from the plausible magnitudes of the effect, and the sign where geometry fixes it."""
-        limit = np.array([gain.magnitude[1] * BEYOND for gain in self.effect.gains])
-        return Priors(
-            limit,
-            np.array([0.0 if g.sign == "+" else -b for g, b in zip(self.effect.gains, limit, strict=True)]),
-            np.array([0.0 if g.sign == "-" else b for g, b in zip(self.effect.gains, limit, strict=True)]),
-        )
-
     def slack_params(self, p: Mapping[str, float]) -> list[dict[str, float]]:
         """The parameters of the same effect acting faster and slower (see `investigate.slack_columns`)."""
         return [
@@ -71,41 +69,70 @@ class CandidateEffect:
             for factor in SLACK_FACTORS
         ]
 
-    @property
-    def refines(self) -> tuple[str, ...]:
-        """Effects that this one is a refinement of: it is asked for only where the model has one of them."""
-        found: tuple[str, ...] = getattr(self.effect, "refines", ())
-        return found
-
 
 def candidates(
     library: Mapping[str, Effect],
     channels: Mapping[str, ChannelInfo],
     present: Iterable[tuple[str, frozenset[str]]],
     response: str,
+    families: Iterable[str] = (),
 ) -> list[CandidateEffect]:
-    """What could be missing. present: (effect name, its channels) of the model's terms. A plain lag stands for
-    channels that no named effect covers; artefacts are looked for within tests, not here."""
-    have = set(present)
+    """What could be missing. present: (effect name, its channels) of the model's terms; families: of these. Every
+    channel is asked as a plain lag too, whatever named effects it drives: a name must earn its place. Artefacts are
+    looked for within tests, not here."""
+    have, known = frozenset(present), frozenset(families) - {GENERIC}
     lagged = {names for effect, names in have if library.get(effect) is None or library[effect].family == GENERIC}
+    read = frozenset[str]().union(*(names for _, names in have))
     usable = {n: c for n, c in channels.items() if n != response and c.quantity not in NOT_DRIVERS}
-    named: list[CandidateEffect] = []
-    generic: list[CandidateEffect] = []
+    placed = any(c.at is not None for c in usable.values() if c.quantity == "temperature")
+    found: list[CandidateEffect] = []
     for effect in library.values():
-        if effect.family == "artefact" or not effect.needs:
+        # a static gain is a lag whose time constant is zero, and the grid of a lag begins there
+        if effect.family == "artefact" or not effect.needs or effect.name == STATIC:
             continue
         for binding in bindings(effect, usable):
-            nowhere = effect.family == GENERIC and all(usable[c].at is None for c in binding.values())
-            candidate = CandidateEffect(effect, binding, family_of(effect, binding, channels), nowhere)
-            names = frozenset(candidate.channels)
+            nowhere = effect.family == GENERIC and not placed
+            names, family = frozenset(binding.values()), family_of(effect, binding, channels)
             if (effect.name, names) in have or names in lagged:
                 continue
-            if candidate.refines and not any(e in candidate.refines and n & names for e, n in have):
+            near = names <= read or _near(names, read, channels)
+            kin = _kin(effect, family, names, near, known, have)
+            candidate = CandidateEffect(effect, binding, family, nowhere, kin=kin)
+            if refines(effect) and not any(e in refines(effect) and n & names for e, n in have):
                 continue
-            (generic if effect.family == GENERIC else named).append(candidate)
-    covered = {c for candidate in named for c in candidate.channels}
-    covered |= {c for _, names in have for c in names}
-    return named + [g for g in generic if not covered.issuperset(g.channels)]
+            found.append(candidate)
+    named = {c.channels for c in found if c.family != GENERIC}
+    return [replace(c, log_prior=UNNAMED) if c.family == GENERIC and c.channels in named else c for c in found]
+
+
+def _kin(
+    effect: Effect,
+    family: str,
+    names: frozenset[str],
+    near: bool,
+    families: frozenset[str],
+    have: frozenset[tuple[str, frozenset[str]]],
+) -> Kin:
+    if refines(effect) or (family == GENERIC and near):
+        return "same"
+    if family not in families:
+        return None
+    read = frozenset[str]().union(*(n for _, n in have))
+    if names <= read or any(name == effect.name for name, _ in have):
+        return "same"
+    return "near" if near else "related"
+
+
+def _near(names: frozenset[str], read: frozenset[str], channels: Mapping[str, ChannelInfo]) -> bool:
+    """Whether a channel sits where the model reads one already: at its place, around it, or within it."""
+    mine, theirs = ({p for n in some if n in channels and (p := channels[n].at)} for some in (names, read))
+    return any(holds(a, b) or holds(b, a) for a in mine for b in theirs)
+
+
+def refines(effect: Effect) -> tuple[str, ...]:
+    """Effects that this one is a refinement of: it is asked for only where the model has one of them."""
+    found: tuple[str, ...] = getattr(effect, "refines", ())
+    return found
 
 
 def grid(params: Iterable[Param], step_s: float) -> list[dict[str, float]]:

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from thermodata.diagnosis.candidates import CandidateEffect
+from thermodata.diagnosis.locked import Foretold
 from thermodata.modelling.fit import fit_model
 from thermodata.modelling.fitted import FittedModel
 from thermodata.modelling.fitted_response import FittedResponse
@@ -15,34 +16,35 @@ from thermodata.schema.model import EffectSpec, Model
 from thermodata.schema.result import Parameter
 from thermodata.view.dataset import Dataset, TestData
 
-# the locked error must fall at least by this share, or the claim is withdrawn
-MUST_FALL = 0.02
-
 
 @dataclass(frozen=True, slots=True)
 class Confirmation:
-    """Errors on the locked tests, None where there are none; parameters of the added effect.
+    """Errors on the locked tests, None where there are none; parameters of the added effects, by candidate.
 
     before, after: as scored, from the mean of the first samples on. shape_before, shape_after: with a free offset a
-    test, which is what decides: one unlucky zero must not hide that the shape fits.
+    test: one unlucky zero must not hide that the shape fits. changed: RMS of what the addition changes there. each:
+    (key, error before, error after) of every locked test.
     """
 
     before: float | None
     after: float | None
     shape_before: float | None
     shape_after: float | None
-    parameters: dict[str, Parameter]
+    changed: float
+    parameters: dict[str, dict[str, Parameter]]
+    each: tuple[tuple[tuple[str, str], float, float], ...] = ()
 
     @property
     def holds(self) -> bool:
+        """Whether the locked tests bear it out (`locked.Foretold.holds`)."""
         before, after = self.shape_before, self.shape_after
-        return before is None or after is None or after < (1 - MUST_FALL) * before
+        return before is None or after is None or Foretold(before, after, self.changed).holds
 
 
-def extended(spec: Model, candidate: CandidateEffect) -> Model:
-    """The model with the candidate as one more effect."""
-    added = EffectSpec(effect=candidate.effect.name, drivers=dict(candidate.binding))
-    return spec.model_copy(update={"effects": [*spec.effects, added]})
+def extended(spec: Model, candidates: Sequence[CandidateEffect]) -> Model:
+    """The model with candidates as further effects."""
+    added = [EffectSpec(effect=c.effect.name, drivers=dict(c.binding)) for c in candidates]
+    return spec.model_copy(update={"effects": [*spec.effects, *added]})
 
 
 def on_all_open(spec: Model, tests: Sequence[TestData], locked: Sequence[TestData]) -> Model:
@@ -58,58 +60,49 @@ def confirm(
     spec: Model,
     index: int,
     data: Dataset,
-    candidate: CandidateEffect,
+    candidates: Sequence[CandidateEffect],
     tests: Sequence[TestData],
     locked: Sequence[TestData],
-    second: CandidateEffect | None = None,
     base: FittedModel | None = None,
 ) -> Confirmation:
-    """Fit without and with the candidate on all open tests, and score both on the locked ones.
+    """Fit without and with the candidates, all together, on all open tests, and score both on the locked ones.
 
-    index: of the response among the model's responses. second: an effect that is missing beside the candidate; then
-    both together decide, for one alone may be fitted to what the other does. base: the fit without, where it is made.
+    index: of the response among the model's responses. base: the fit without, where it is made.
     """
     spec = on_all_open(spec, tests, locked)
     base = fit_model(spec, data, uncertainty=False) if base is None else base
-    more = fit_model(extended(spec, candidate), data)
+    more = fit_model(extended(spec, candidates), data)
     ours, theirs = base.responses[index], more.responses[index]
     usable = [t for t in locked if ours.can_predict(t) and theirs.can_predict(t)]
-    known = set(base.parameters())
-    added = {name: p for name, p in more.parameters().items() if name not in known}
-    deciding = theirs
-    if second is not None:
-        both = fit_model(extended(extended(spec, candidate), second), data, uncertainty=False)
-        deciding = both.responses[index]
     return Confirmation(
         rmse(ours, usable),
         rmse(theirs, usable),
         rmse(ours, usable, free=True),
-        rmse(deciding, usable, free=True),
-        added,
+        rmse(theirs, usable, free=True),
+        _changed(ours, theirs, usable),
+        _parameters(more, len(spec.effects), candidates),
+        tuple(
+            (t.key, a, b) for t in usable if (a := rmse(ours, [t])) is not None and (b := rmse(theirs, [t])) is not None
+        ),
     )
 
 
-def rmse_of_each(
-    spec: Model,
-    index: int,
-    data: Dataset,
-    candidate: CandidateEffect,
-    tests: Sequence[TestData],
-    locked: Sequence[TestData],
-) -> list[tuple[tuple[str, str], float, float]]:
-    """((campaign, test), error without, error with the candidate) of each locked test that both can predict; models
-    fitted to all open tests, errors as scored."""
-    spec = on_all_open(spec, tests, locked)
-    ours, theirs = (
-        fit_model(some, data, uncertainty=False).responses[index] for some in (spec, extended(spec, candidate))
-    )
-    rows = []
-    for test in locked:
-        if ours.can_predict(test) and theirs.can_predict(test):
-            before, after = rmse(ours, [test]), rmse(theirs, [test])
-            if before is not None and after is not None:
-                rows.append((test.key, before, after))
-    return rows
+def _changed(ours: FittedResponse, theirs: FittedResponse, tests: Sequence[TestData]) -> float:
+    parts = [(theirs.residual(t) - ours.residual(t))[theirs.mask(t)] for t in tests]
+    whole = np.concatenate([p - p.mean() for p in parts if len(p)] or [np.zeros(1)])
+    return float(np.sqrt(np.mean(whole**2)))
+
+
+def _parameters(
+    more: FittedModel, known: int, candidates: Sequence[CandidateEffect]
+) -> dict[str, dict[str, Parameter]]:
+    """Of each candidate, by its id: the effects that were added stand last, in their order."""
+    added = [t.id for t in more.responses[0].terms[known:]]
+    found = more.parameters()
+    return {
+        c.id: {name: p for name, p in found.items() if term in name.split(".")}
+        for c, term in zip(candidates, added, strict=True)
+    }
 
 
 def rmse(fitted: FittedResponse, tests: Sequence[TestData], *, free: bool = False) -> float | None:

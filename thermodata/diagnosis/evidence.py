@@ -1,111 +1,184 @@
-"""The rules of a claim: each a constant with its reason, each a sentence where it is not met.
+"""How much more likely a candidate makes the measured response, its gains and its time constant integrated out.
 
-`benchmark-diagnosis` measures what they give.
+    log BF = log p(y | known effects, candidate, noise) - log p(y | known effects, noise)
+
+At each point of the candidate's grid and each size of its prior this is closed, for all is Gaussian: with the whitened
+columns C, what the known effects explain taken out, M = C'C and b = C'y,
+
+    log BF = b' (D^-1 + M)^-1 b / 2 - log|I + D M| / 2,    D the prior variances
+
+and points and sizes are averaged by their prior. A candidate with more to choose from pays for it by itself
+[mackay1992]. All comes from products a test, so that leaving one out costs a small solve.
 """
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.linalg import solve_triangular
+from scipy.special import logsumexp
 
-from thermodata.diagnosis.scored import Scored
-from thermodata.plugin import Float1D
+from thermodata.diagnosis.basis import basis
+from thermodata.diagnosis.candidates import CandidateEffect
+from thermodata.diagnosis.known import FloatND, Known, rms, solved
+from thermodata.diagnosis.problem import Problem
+from thermodata.plugin import Float1D, Float2D, Int1D
 
-P_LIMIT = 0.02  # against the best of all candidates on surrogate residuals
-DROP_LIMIT = 0.3  # fall of the squared error on left-out tests (16 % of the RMS error)
-FAMILY_DROP_LIMIT = 0.5  # the same for an effect whose family the model has: it may only refine what is known
-# a proxy of what is missing has its slow shape but not its timing: with sharp timing less of a fall is enough
-SHARP_WHITE_DROP = 0.3
-SHARP_DROP_LIMIT = 0.15
-# an effect that leaves most of what was missing is a proxy of it: this share of the error may remain on left-out
-# tests, or this share of the floor, or a little more of both;
-# where a second effect is missing too, both together must leave less
-REMAINDER_LIMIT = 0.5
-NEAR_REMAINDER_LIMIT = 0.6
-NEAR_FLOORS = 1.5
-PAIR_LIMIT = 0.35
-FLOOR_SHARE = 0.7
-TESTS_LIMIT = 0.7  # share of the tests in which the error falls
-STRONG_DROP = 0.65  # what takes away this much is worth a name even where little is left to explain
-SHARE_LIMIT = 0.03  # least share of the response's spread that is worth a name
-SMALL_SHARE = 0.1  # a residual under this share of the response's spread (FIT 90) is left alone
-NOISE_TIMES = 5.0
+# prior standard deviations of a contribution, as multiples of the response: from what can hardly be seen to what is
+# balanced by another effect
+SIZES = np.array([0.03, 0.1, 0.3, 1.0, 3.0])
+# how much of it may act faster or slower than its time constant (prior standard deviation)
+SPREAD = 0.5
+# a gain beyond what the effect can plausibly do is not cut off: ten times costs 1.3 in log evidence
+BEYOND = 0.25
 
 
 @dataclass(frozen=True, slots=True)
-class Measure:
-    """What claims are measured against. rows: of all tests. spread: RMS of the response about its offsets. noise: its
-    short-term noise. families: those of the model's effects."""
+class Columns:
+    """A candidate's columns, scaled so that a coefficient of 1 is as large as the response. blocks: a test each, shape
+    (m, points, c): own columns, then how they differ where the effect acts faster and slower. scale: shape (points,
+    gains), gain of a coefficient of 1. width: shape (c,), prior standard deviation at size 1. prior: shape (points,
+    sizes), log probability."""
 
-    rows: int
-    spread: float
-    noise: float
-    families: frozenset[str]
+    candidate: CandidateEffect
+    points: list[dict[str, float]]
+    blocks: tuple[FloatND, ...]
+    scale: Float2D
+    width: Float1D
+    prior: Float2D
 
     @property
-    def floor(self) -> float:
-        """An error that is left alone: noise, and what a sum of lags leaves of a distributed machine."""
-        return max(NOISE_TIMES * self.noise if np.isfinite(self.noise) else 0.0, SMALL_SHARE * self.spread)
+    def gains(self) -> int:
+        return int(self.scale.shape[1])
 
 
-def passes(scored: Scored, measure: Measure) -> list[str]:
-    """The rules that a candidate fails, as sentences; none where it may be claimed."""
-    failed = []
-    if scored.p_value > P_LIMIT:
-        failed.append(f"chance does as well in {scored.p_value:.0%} of surrogate residuals (limit {P_LIMIT:.0%})")
-    known = scored.candidate.family in measure.families
-    sharp = scored.white_drop >= SHARP_WHITE_DROP
-    limit = SHARP_DROP_LIMIT if sharp else FAMILY_DROP_LIMIT if known else DROP_LIMIT
-    better = float(np.mean(scored.sse_after < scored.sse_before))
-    if scored.drop < limit:
-        why = ", for the model has its family already" if known and not sharp else ""
-        failed.append(
-            f"the squared error on left-out tests falls by {max(scored.drop, 0):.0%} only (limit {limit:.0%}{why})"
-        )
-    elif remaining(scored.sse_before, measure) <= measure.floor and scored.drop < STRONG_DROP and not sharp:
-        failed.append(f"there is too little to explain: FIT {fit_of(scored.sse_before, measure):.0f} without it")
-    elif better < TESTS_LIMIT and not sharp:
-        failed.append(f"the error falls in {better:.0%} of the left-out tests only (limit {TESTS_LIMIT:.0%})")
-    elif explained(scored, measure.rows) < SHARE_LIMIT * measure.spread:
-        share = f"{explained(scored, measure.rows):.2g} of {measure.spread:.2g}"
-        failed.append(f"it explains {share} RMS (limit {SHARE_LIMIT:.0%})")
-    if scored.white_drop <= 0:
-        failed.append("with the residual's own inertia removed it predicts nothing")
-    return failed
+@dataclass(frozen=True, slots=True)
+class Moments:
+    """Products a test: shapes (tests, points, c, c), with the known effects (tests, points, c, k) and with the response
+    (tests, points, c)."""
+
+    own: FloatND
+    known: FloatND
+    response: FloatND
 
 
-def is_promising(scored: Scored, measure: Measure) -> bool:
-    """Whether chance does not explain it, though alone it explains little: another effect may be missing beside it."""
-    return scored.p_value <= P_LIMIT and scored.white_drop > 0 and scored.drop >= SHARP_DROP_LIMIT
+@dataclass(frozen=True, slots=True)
+class Weighed:
+    """Of some tests. log_bf: with the prior, shape (points, sizes). mean: coefficients, shape (points, sizes, c)."""
+
+    log_bf: Float2D
+    mean: FloatND
+
+    @property
+    def total(self) -> float:
+        return float(logsumexp(self.log_bf))
+
+    @property
+    def best(self) -> tuple[int, int]:
+        point, size = np.unravel_index(int(np.argmax(self.log_bf)), self.log_bf.shape)
+        return int(point), int(size)
+
+    @property
+    def coefficients(self) -> Float1D:
+        return np.asarray(self.mean[self.best])
 
 
-def is_proxy(scored: Scored, measure: Measure) -> bool:
-    """Whether it leaves so much that it may only stand in for what is missing. A lag of a
-    channel whose place nobody declared names no physics: it is never more than a proxy, and says so."""
-    if scored.candidate.placeless:
-        return False
-    share = 1.0 if scored.white_drop >= SHARP_WHITE_DROP else FLOOR_SHARE
-    before, after = remaining(scored.sse_before, measure), remaining(scored.sse_after, measure)
-    near = min(NEAR_REMAINDER_LIMIT * before, NEAR_FLOORS * measure.floor)
-    return after > max(REMAINDER_LIMIT * before, share * measure.floor, near)
+def columns(problem: Problem, candidate: CandidateEffect) -> Columns | None:
+    """None where its drivers never move."""
+    made = basis(problem, candidate)
+    own = np.vstack(made.own)
+    moved = np.sqrt(np.mean(own**2, axis=0))
+    if not np.any(moved > 0):
+        return None
+    scale = np.where(moved > 0, rms(problem.response_blocks) / np.where(moved > 0, moved, 1.0), 0.0)
+    gains, ways = scale.shape[1], made.others[0].shape[2]
+    full = np.concatenate([scale] * (1 + ways), axis=1)
+    blocks = tuple(
+        np.concatenate([o, w.reshape(*w.shape[:2], ways * gains)], axis=2) * full
+        for o, w in zip(made.own, made.others, strict=True)
+    )
+    width = np.concatenate([np.ones(gains), np.full(ways * gains, SPREAD)])
+    return Columns(candidate, made.points, blocks, scale, width, _prior(candidate, scale))
 
 
-def remaining(sse: Float1D, measure: Measure) -> float:
-    """RMS error of all left-out tests from their squared errors, shape (tests,)."""
-    return float(np.sqrt(sse.sum() / max(measure.rows, 1)))
+def _prior(candidate: CandidateEffect, scale: Float2D) -> Float2D:
+    largest = np.array([g.magnitude[1] for g in candidate.effect.gains])
+    over = np.maximum(SIZES[None, :, None] * scale[:, None, :] / largest, 1.0)
+    weight = candidate.log_prior - BEYOND * np.log(over).max(axis=2) ** 2
+    result: Float2D = weight - np.log(weight.size)
+    return result
 
 
-def fit_of(sse: Float1D, measure: Measure) -> float:
-    """The same as FIT [%]."""
-    return 100.0 * (1.0 - remaining(sse, measure) / measure.spread) if measure.spread > 0 else 0.0
+def moments(known: Known, columns: Columns) -> Moments:
+    own, with_known, with_response = [], [], []
+    for i, block in enumerate(columns.blocks):
+        m, points, c = block.shape
+        both = np.column_stack([known.white[i], known.response[i]])
+        if not block.any():
+            own.append(np.zeros((points, c, c)))
+            cross = np.zeros((points, c, both.shape[1]))
+        else:
+            white = known.space.of(i, block.reshape(m, points * c))
+            by_point = white.reshape(m, points, c).transpose(1, 0, 2)
+            own.append(by_point.transpose(0, 2, 1) @ by_point)
+            cross = (white.T @ both).reshape(points, c, -1)
+        with_known.append(cross[..., :-1])
+        with_response.append(cross[..., -1])
+    return Moments(np.stack(own), np.stack(with_known), np.stack(with_response))
 
 
-def enough_together(left: float, before: float, measure: Measure) -> bool:
-    """Whether two effects leave so little of an error that both are missing. left, before: on left-out tests."""
-    return left <= max(PAIR_LIMIT * before, FLOOR_SHARE * measure.floor)
+def weigh(known: Known, columns: Columns, moments: Moments, tests: Int1D) -> Weighed:
+    """What some tests say."""
+    left, right = _beyond_known(known, moments, tests)
+    return _weigh(columns, left, right)
 
 
-def explained(scored: Scored, rows: int) -> float:
-    """RMS of what the candidate takes away on left-out tests."""
-    return float(np.sqrt(max(0.0, scored.sse_before.sum() - scored.sse_after.sum()) / max(rows, 1)))
+def _beyond_known(known: Known, moments: Moments, tests: Int1D) -> tuple[FloatND, FloatND]:
+    """M, shape (points, c, c), and b, (points, c), once the known effects have explained what they can."""
+    cross = moments.known[tests].sum(axis=0)
+    points, c, k = cross.shape
+    factor = known.factor(tests)
+    half = solve_triangular(factor, cross.reshape(points * c, k).T, lower=True, check_finite=False)
+    half = half.T.reshape(points, c, k)
+    theta = solved(factor, known.cross[tests].sum(axis=0))
+    left = moments.own[tests].sum(axis=0) - half @ half.transpose(0, 2, 1)
+    return left, moments.response[tests].sum(axis=0) - cross @ theta
+
+
+def _weigh(columns: Columns, left: FloatND, right: FloatND) -> Weighed:
+    deviation = SIZES[:, None] * columns.width
+    scaled = deviation[None, :, :, None] * left[:, None] * deviation[None, :, None, :]
+    scaled[..., np.arange(len(columns.width)), np.arange(len(columns.width))] += 1.0
+    goal = deviation[None] * right[:, None]
+    solution = np.linalg.solve(scaled, goal[..., None])[..., 0]
+    logdet = np.linalg.slogdet(scaled)[1]
+    log_bf = 0.5 * np.einsum("psc,psc->ps", goal, solution) - 0.5 * logdet
+    return Weighed(log_bf + columns.prior, deviation[None] * solution)
+
+
+def of_each_series(known: Known, columns: Columns, series: Sequence[Float2D]) -> Float1D:
+    """log BF of other responses, whitened, shape (m, s) a test: shape (s,)."""
+    tests = known.every
+    factor = known.factor(tests)
+    count = series[0].shape[1]
+    cross = np.zeros((len(known.precision), count))
+    right: FloatND = np.zeros((*columns.blocks[0].shape[1:], count))
+    products = moments(known, columns)
+    for i, (block, values) in enumerate(zip(columns.blocks, series, strict=True)):
+        m, points, c = block.shape
+        cross += known.white[i].T @ values
+        if block.any():
+            white = known.space.of(i, block.reshape(m, points * c))
+            right += (white.T @ values).reshape(points, c, count)
+    left, _ = _beyond_known(known, products, tests)
+    right -= products.known.sum(axis=0) @ solved(factor, cross)
+    deviation = SIZES[:, None] * columns.width
+    scaled = deviation[None, :, :, None] * left[:, None] * deviation[None, :, None, :]
+    scaled[..., np.arange(len(columns.width)), np.arange(len(columns.width))] += 1.0
+    goal = deviation[None, :, :, None] * right[:, None]
+    solution = np.linalg.solve(scaled, goal)
+    log_bf = 0.5 * np.einsum("pscn,pscn->psn", goal, solution) - 0.5 * np.linalg.slogdet(scaled)[1][..., None]
+    total: Float1D = logsumexp(log_bf + columns.prior[..., None], axis=(0, 1))
+    return total

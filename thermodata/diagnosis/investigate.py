@@ -1,39 +1,50 @@
-"""One fitted response, investigated: the problem, the ranked candidates, the steps, the weak spots, the judgement."""
+"""One fitted response, investigated: the problem, what is selected, the steps, the weak spots, the judgement."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
+from threadpoolctl import threadpool_limits
 
 from thermodata.diagnosis.artefact import as_artefacts, find_steps
-from thermodata.diagnosis.candidates import GENERIC, SLACK_FACTORS, TIME_UNITS, candidates
-from thermodata.diagnosis.evidence import Measure, passes, remaining
-from thermodata.diagnosis.judge import TRIED, Judgement, Pair, judge, simplest
+from thermodata.diagnosis.candidates import CandidateEffect, candidates
+from thermodata.diagnosis.judge import Judged, Judgement, Measure, failed_rules, judge, remaining
+from thermodata.diagnosis.known import rms
+from thermodata.diagnosis.known_effects import otherwise, remembered
+from thermodata.diagnosis.locked import Foretold, foretell
 from thermodata.diagnosis.logging_faults import clock_offsets, first_of_each, turned_probes, wrong_parameters
-from thermodata.diagnosis.problem import Base, Problem, build_problem
-from thermodata.diagnosis.rank import rank
-from thermodata.diagnosis.scored import Scored
+from thermodata.diagnosis.null import best_of_chance
+from thermodata.diagnosis.problem import TARGET_ROWS, Base, Problem, build_problem
+from thermodata.diagnosis.refinement import Refinement
+from thermodata.diagnosis.selection import Selection, first_ranking, select
 from thermodata.diagnosis.weak import weak_spots
 from thermodata.modelling.drivers import names_of
-from thermodata.modelling.fitted_response import FittedResponse, FittedTerm
-from thermodata.plugin import Effect, Float1D, Float2D
+from thermodata.modelling.fitted_response import FittedResponse
+from thermodata.plugin import Effect
 from thermodata.schema.result import Artefact, WeakSpot
 from thermodata.view.dataset import ChannelInfo, Dataset, TestData
 
-# half-width, in the logarithm, of the difference quotient that lets a known time constant move
-TANGENT = 0.1
+# rows of all tests in which candidates are weighed: the covariance of a test costs the cube of its rows
+WEIGHED_ROWS = 2400
+
+
+# what the locked tests say of some claims; None where there are none
+BorneOut = Callable[[Sequence[Judged]], Foretold | None]
 
 
 @dataclass(frozen=True, slots=True)
 class Investigation:
+    """problem: in fine samples, for steps and faults. selection: None where nothing can be left out."""
+
     problem: Problem
-    ranked: list[Scored]
+    selection: Selection | None
     artefacts: list[Artefact]
     spots: list[WeakSpot]
     judgement: Judgement
     measure: Measure
+    borne_out: BorneOut
 
 
 def investigate(
@@ -44,53 +55,81 @@ def investigate(
     seed: int = 0,
     *,
     as_fitted: FittedResponse | None = None,
+    locked: Sequence[TestData] = (),
 ) -> Investigation:
     """fitted: to all tests that take part in the choice (never the locked ones). as_fitted: the model that is asked
     about, whose weak spots are shown; by default the same."""
     info = data.channels[fitted.name]
-    base = remembered_base(fitted)
-    problem = build_problem(
-        data,
-        tests,
-        fitted.name,
-        info.unit,
-        measured=fitted.measured,
-        residual=fitted.residual,
-        mask=fitted.mask,
-        base=base,
-        slack=lambda test: slack_columns(fitted, test),
-    )
-    steps = find_steps(problem)
+    base = remembered(fitted)
+
+    def compressed(rows: int, tests: Sequence[TestData] = tests) -> Problem:
+        return build_problem(
+            data,
+            tests,
+            fitted.name,
+            info.unit,
+            measured=fitted.measured,
+            residual=fitted.residual,
+            mask=fitted.mask,
+            base=base,
+            slack=lambda test: otherwise(fitted, test),
+            rows=rows,
+        )
+
+    fine = compressed(TARGET_ROWS)
+    steps = find_steps(fine)
     at: dict[tuple[str, str], list[float]] = {}
     for step in steps:
         at.setdefault(step.test.key, []).append(step.at_s)
-    faults = _faults(fitted, data, problem, base)
-    problem = problem.split(at)
+    faults = _faults(fitted, data, fine, base)
+    problem = compressed(WEIGHED_ROWS).split(at)
     present = [
         (t.effect.name, frozenset(n for text in t.binding.values() for n in names_of(text))) for t in fitted.terms
     ]
-    families = frozenset(t.family for t in fitted.terms) - {GENERIC}
-    asked = candidates(library, data.channels, present, fitted.name)
-    ranked = rank(problem, asked, seed)
-    whole = np.concatenate(problem.response_blocks) if problem.blocks else np.zeros(1)
-    measure = Measure(problem.rows, float(np.sqrt(np.mean(whole**2))), problem.noise, families)
+    asked = candidates(library, data.channels, present, fitted.name, [t.family for t in fitted.terms])
+    # thousands of small products: threads of the linear algebra library would wait for each other
+    with threadpool_limits(1):
+        selection, judgement, measure = _judged(fitted, problem, asked, seed)
     asked_about = fitted if as_fitted is None else as_fitted
     spots = weak_spots([(t, asked_about.residual(t), asked_about.mask(t)) for t in tests], problem.noise)
-
-    def with_second(first: Scored) -> Pair:
-        others = rank(problem.with_effect(first), [c for c in asked if c is not first.candidate], seed)
-        good = [s for s in others[:TRIED] if not passes(s, measure)]
-        second = simplest(good) if good else None
-        return Pair(second, remaining(first.sse_after if second is None else second.sse_after, measure))
-
-    judgement = judge(problem, ranked, measure, with_second)
     faults = gains_are_wrong_only_where_nothing_is_missing(faults, judgement)
-    if ranked:
-        faults += wrong_parameters(
-            problem, _error_of(asked_about, tests), remaining(ranked[0].sse_before, measure), measure.floor
-        )
+    if selection is not None:
+        left = remaining(selection.first.ranked[0])
+        faults += wrong_parameters(problem, _error_of(asked_about, tests), left, measure.floor)
     artefacts = first_of_each([*as_artefacts(steps, info.unit), *faults])
-    return Investigation(problem, ranked, artefacts, spots, judgement, measure)
+
+    def borne_out(claims: Sequence[Judged]) -> Foretold | None:
+        blocks = compressed(WEIGHED_ROWS, [*tests, *locked]).blocks if locked else ()
+        unseen = tuple(b for b in blocks if b.test.key in {t.key for t in locked})
+        if selection is None or not unseen:
+            return None
+        chosen = {id(c.alone.columns) for c in claims}
+        kept = [m.scored for m in selection.members if id(m.alone.columns) not in chosen]
+        both = replace(problem, blocks=(*problem.blocks, *unseen), kept={})
+        claimed, refining = [c.scored for c in claims], [j.scored for j in judgement.refinements]
+        with threadpool_limits(1):
+            beside_all = foretell(both, len(problem.blocks), selection.noise, kept, claimed)
+            # what stands beside a claim without being one may stand in its way
+            if beside_all.holds or len(kept) == len(refining):
+                return beside_all
+            return foretell(both, len(problem.blocks), selection.noise, refining, claimed)
+
+    return Investigation(problem, selection, artefacts, spots, judgement, measure, borne_out)
+
+
+def _judged(
+    fitted: FittedResponse, problem: Problem, asked: Sequence[CandidateEffect], seed: int
+) -> tuple[Selection | None, Judgement, Measure]:
+    spread = rms(problem.response_blocks) if problem.blocks else 0.0
+    first = first_ranking(problem, asked)
+    if first is None:
+        measure = Measure(spread, problem.noise, np.zeros(0))
+        return None, judge(problem, None, measure, lambda scored: None), measure
+    chance = best_of_chance(first.known, [s.columns for s in first.ranked], seed)
+    measure = Measure(spread, problem.noise, chance)
+    selection = select(problem, first, lambda scored: not failed_rules(scored, measure, problem.unit))
+    refines = Refinement(fitted, problem, selection.noise)
+    return selection, judge(problem, selection, measure, refines), measure
 
 
 def _error_of(fitted: FittedResponse, tests: Sequence[TestData]) -> float:
@@ -119,73 +158,3 @@ def _faults(fitted: FittedResponse, data: Dataset, problem: Problem, base: Base)
     sources = clocks_beside(data.channels, drivers, fitted.name)
     moved = clock_offsets(problem, base, sources)
     return [*moved, *turned_probes(problem)]
-
-
-def base_columns(fitted: FittedResponse, test: TestData) -> Float2D:
-    """What the fitted model can still do in this test, shape (n, k): its gains, and its time constants to first order.
-
-    The known effects are refitted together with each candidate: a base model held fixed leaves residuals that any
-    slow channel explains, which raises false claims to a third.
-    """
-    return remembered_base(fitted)(test)
-
-
-def remembered_base(fitted: FittedResponse) -> Base:
-    """`base_columns`; of a copy of a test in which some channels are changed, only the terms that read these are made
-    anew."""
-    kept: dict[tuple[int, tuple[str, str]], tuple[list[Float1D], list[Float2D]]] = {}
-
-    def base(test: TestData) -> Float2D:
-        columns: list[Float2D] = []
-        for i, term in enumerate(fitted.terms):
-            binding = term.bound.bindings.get(test.campaign, term.binding)
-            read = [test.values[n] for text in binding.values() for n in names_of(text) if n in test.values]
-            before, made = kept.get((i, test.key), (None, []))
-            if before is None or not all(a is b for a, b in zip(before, read, strict=True)):
-                made = _term_columns(term, test)
-                kept.setdefault((i, test.key), (read, made))
-            columns += made
-        return np.column_stack(columns) if columns else np.zeros((len(test.t_s), 0))
-
-    return base
-
-
-def _term_columns(term: FittedTerm, test: TestData) -> list[Float2D]:
-    """Each in the response's unit: a coefficient of 1 doubles the effect, or moves a time constant by a factor of e."""
-    values = term.values(test)
-    size = len(test.t_s)
-    moving = [p for p in term.effect.params if p.upper > p.lower]
-    if values is None or not term.bound.covers(test):
-        return [np.zeros((size, len(term.effect.gains) + len(moving)))]
-    gains = np.array([values.gains[g.name] for g in term.effect.gains])
-    columns = [term.columns(test) * np.where(gains == 0, 1.0, gains)]
-    for param in moving:
-        value = values.params[param.name]
-        up = {**values.params, param.name: min(value * np.exp(TANGENT), param.upper)}
-        down = {**values.params, param.name: max(value * np.exp(-TANGENT), param.lower)}
-        change = term.bound.columns(test, up) - term.bound.columns(test, down)
-        width = np.log(up[param.name] / down[param.name]) if down[param.name] > 0 else 2 * TANGENT
-        columns.append((change @ gains)[:, None] / max(float(width), 1e-9))
-    return columns
-
-
-def slack_columns(fitted: FittedResponse, test: TestData) -> Float2D:
-    """How a known effect may differ from its one time constant, shape (n, k), each column in the response's unit.
-
-    A machine is distributed: the same heat also acts faster and slower than the fitted lag. That is no missing
-    effect, so the base model may have it, at a price (see `cross_validation.Engine`).
-    """
-    columns = []
-    for term in fitted.terms:
-        values = term.values(test)
-        for param in term.effect.params:
-            if param.unit not in TIME_UNITS:
-                continue
-            for factor in SLACK_FACTORS:
-                if values is None or not term.bound.covers(test):
-                    columns.append(np.zeros(len(test.t_s)))
-                    continue
-                gains = np.array([values.gains[g.name] for g in term.effect.gains])
-                other = {**values.params, param.name: values.params[param.name] * factor}
-                columns.append((term.bound.columns(test, other) - term.columns(test)) @ gains)
-    return np.column_stack(columns) if columns else np.zeros((len(test.t_s), 0))

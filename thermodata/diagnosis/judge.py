@@ -1,4 +1,4 @@
-"""From evidence to a verdict: what may be claimed, what can't be told apart, and what to do when nothing can."""
+"""From evidence to a verdict: what may be claimed, what only refines what is known, and why the others may not."""
 
 from __future__ import annotations
 
@@ -6,119 +6,230 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Literal
 
+import numpy as np
+
 from thermodata.diagnosis.candidates import GENERIC
-from thermodata.diagnosis.evidence import (
-    SHARP_DROP_LIMIT,
-    SMALL_SHARE,
-    Measure,
-    enough_together,
-    is_promising,
-    is_proxy,
-    passes,
-    remaining,
-)
+from thermodata.diagnosis.null import p_value
 from thermodata.diagnosis.problem import Problem
 from thermodata.diagnosis.scored import Scored
+from thermodata.diagnosis.selection import Selection
+from thermodata.plugin import Float1D
 
-Verdict = Literal["effect", "none", "unknown", "not_testable"]
+Verdict = Literal["effect", "refine", "none", "unknown", "not_testable"]
 
-TRIED = 3  # only the best few may be claimed
-TWIN_COSINE = 0.9  # contributions this alike can't be told apart
-TWIN_SSE = 1.15  # nor candidates whose left-out errors differ by less, if they act alike at all
-SIMPLER_SSE = 1.05  # a simpler twin is preferred where it costs no more than this
-TWIN_SSE_COSINE = 0.6
-PAIRS_TRIED = 2  # each costs a ranking of its own
+P_LIMIT = 0.01
+PROBABILITY = (2.77, 3.61)  # of a logistic curve over the logarithm of the evidence a sample
+# log evidence a sample, in the noise that is left once all members are in: the noise must fall by a seventh. A cause
+# has the timing of what is missing and leaves little noise; what stands in for it has its slow shape alone
+SHARP_LIMIT = 0.15
+# and of what names no physics: the temperature of a body also sharpens a known effect
+UNNAMED_SHARP_LIMIT = 0.25
+# where nobody declared any place a claim names a channel, not physics, and there is nothing that it could be taken for
+PLACELESS_SHARP_LIMIT = 0.05
+DROP_LIMIT = 0.15  # fall of the error on left-out tests in which it acts,
+UNNAMED_DROP_LIMIT = 0.3  # and of what names no physics: any slow temperature steadies a misfit a little
+BETTER_LIMIT = 0.6  # share of these tests that it makes more probable
+SPREAD_LIMIT = 0.5  # of its gain between tests, as a share,
+FORETOLD = 0.5  # unless left-out tests are foretold to this share of their error: few tests can't tell a spread
+WORTH_SHARE = 0.1  # of the response: less is not worth a name
+BESIDE_SHARE = 0.7  # of the largest claim's: a further claim must explain as much
+MOST_CLAIMS = 3
+STEADIES = 2.8  # a promised fall beyond this many times its own size only steadies an extrapolation
+FLOOR_SHARE = 0.1  # a residual under this share of the response (FIT 90) is left alone
+NOISE_TIMES = 5.0
+ALIKE = 0.9  # cosine of contributions that can't be told apart
+# nor can those that act alike at all and leave nearly the same error, where the tests that one wins are not more than
+# chance would give it: the difference of their log probabilities against its standard error [vehtari2017]
+ALIKE_AT_ALL = 0.5
+NEARLY = 1.2
+SURE = 2.0
 
 
 @dataclass(frozen=True, slots=True)
-class Pair:
-    """The best second effect beside a first one, and the error that both leave on left-out tests."""
+class Measure:
+    """What claims are measured against. spread: RMS of the response about its offsets. noise: its short-term noise.
+    chance: the best evidence of chance, shape (draws,)."""
 
-    second: Scored | None
-    left: float
+    spread: float
+    noise: float
+    chance: Float1D
+
+    @property
+    def floor(self) -> float:
+        """An error that is left alone: noise, and what a sum of lags leaves of a distributed machine."""
+        return max(NOISE_TIMES * self.noise if np.isfinite(self.noise) else 0.0, FLOOR_SHARE * self.spread)
+
+
+@dataclass(frozen=True, slots=True)
+class Judged:
+    """A sound member of the selection. scored: beside all others. alone: as it was chosen. refines: what it refines of
+    the model, in words; None for a cause of its own. beside: all candidates, ranked without it."""
+
+    scored: Scored
+    alone: Scored
+    refines: str | None
+    beside: tuple[Scored, ...]
 
 
 @dataclass(frozen=True, slots=True)
 class Judgement:
-    """second: where one claim alone leaves much, the effect that is missing beside it."""
+    """claims: missing causes, in the order of their choice. refinements: of effects that the model has. judged: all
+    members."""
 
     verdict: Verdict
-    claimed: Scored | None
+    claims: tuple[Judged, ...]
+    refinements: tuple[Judged, ...]
+    judged: tuple[Judged, ...]
     reason: str
-    second: Scored | None = None
 
 
-def judge(problem: Problem, ranked: Sequence[Scored], measure: Measure, pair: Callable[[Scored], Pair]) -> Judgement:
-    """pair: asked only where one effect alone leaves much, for two may be missing."""
+def judge(
+    problem: Problem, selection: Selection | None, measure: Measure, refines: Callable[[Scored], str | None]
+) -> Judgement:
+    """refines: says what of the model a candidate refines, None where it is a cause of its own."""
     if len(problem.blocks) < 2:
-        return Judgement(
+        return _nothing(
             "not_testable",
-            None,
             f"{len(problem.blocks)} test with measured samples; an effect is claimed only where it also "
             "predicts a test that it was not fitted to, so at least two are needed",
         )
-    if not ranked:
-        return Judgement("not_testable", None, "no effect of the library fits the channels that were logged")
-    rmse = remaining(ranked[0].sse_before, measure)
-    good = [s for s in ranked[:TRIED] if not passes(s, measure)]
-    if good and not is_proxy(simplest(good), measure):
-        return Judgement("effect", simplest(good), "")
-    if rmse <= measure.floor:
-        return Judgement(
-            "none",
-            None,
-            f"the error on left-out tests, {rmse:.2g} {problem.unit}, is at the floor of "
-            f"{measure.floor:.2g} {problem.unit} (noise, and {SMALL_SHARE:.0%} of the response)",
-        )
-    return _of_two(problem, ranked, good, measure, pair)
-
-
-def _of_two(
-    problem: Problem, ranked: Sequence[Scored], good: list[Scored], measure: Measure, pair: Callable[[Scored], Pair]
-) -> Judgement:
-    """A claim that needs a second effect beside it, or what is unknown."""
-    rmse = remaining(ranked[0].sse_before, measure)
-    first = [simplest(good)] if good else []
-    asked = [*first, *(s for s in ranked[:TRIED] if s not in first and is_promising(s, measure))]
-    pairs = [(s, pair(s)) for s in asked[:PAIRS_TRIED]]
-    for scored, both in sorted(pairs, key=lambda item: item[1].left):
-        if both.second is not None and enough_together(both.left, rmse, measure):
-            return Judgement("effect", scored, "", both.second)
-    if pairs:
-        scored, both = pairs[0]
+    if selection is None:
+        return _nothing("not_testable", "no effect of the library fits the channels that were logged")
+    judged = tuple(Judged(m.scored, m.alone, refines(m.scored), m.beside) for m in selection.members)
+    claims = _claims([j for j in judged if j.refines is None and blunt(j.scored) is None])
+    kept = tuple(j for j in judged if j.refines is not None)
+    if claims:
+        return Judgement("effect", claims, kept, judged, "")
+    left = remaining(selection.first.ranked[0])
+    standing = [j.scored for j in judged if j.refines is None]
+    if kept and not standing:
+        return Judgement("refine", (), kept, judged, "no cause is missing; what the model has can be refined")
+    if left <= measure.floor:
         why = (
-            f"{scored.candidate.id} goes with what is missing, but {both.left:.2g} of {rmse:.2g} {problem.unit} remain "
-            "even with a second effect: it stands in for something that was not logged"
+            f"the error on left-out tests, {left:.2g} {problem.unit}, is at the floor of "
+            f"{measure.floor:.2g} {problem.unit} (noise, and {FLOOR_SHARE:.0%} of the response)"
         )
-    else:
-        why = (
-            f"{rmse:.2g} {problem.unit} remain on left-out tests, above the floor of {measure.floor:.2g}, and nothing "
-            f"logged explains them: the best, {ranked[0].candidate.id}, fails because "
-            + " and ".join(passes(ranked[0], measure))
-        )
-    return Judgement("unknown", None, why)
-
-
-def simplest(good: Sequence[Scored]) -> Scored:
-    """The first, unless one that acts alike explains as much from fewer channels or with a name."""
-    first = good[0]
-    alike = [
-        first,
-        *(s for s in good[1:] if _alike(first, s) and s.sse_after.sum() < SIMPLER_SSE * first.sse_after.sum()),
-    ]
-    return min(
-        alike,
-        key=lambda s: (s.candidate.family == GENERIC, len(s.candidate.channels), bool(s.candidate.refines), s.order),
+        return Judgement("none", (), (), judged, why)
+    best = selection.first.ranked[0]
+    if standing:
+        best = standing[0]
+    failed = failed_rules(best, measure, problem.unit) or [why for why in [blunt(best)] if why]
+    because = f": the best, {best.candidate.id}, fails because {failed[0]}" if failed else ""
+    why = (
+        f"{left:.2g} {problem.unit} remain on left-out tests, above the floor of {measure.floor:.2g}, and nothing "
+        f"logged explains them{because}"
     )
+    return Judgement("unknown", (), (), judged, why)
+
+
+def _nothing(verdict: Verdict, reason: str) -> Judgement:
+    return Judgement(verdict, (), (), (), reason)
+
+
+def _claims(own: Sequence[Judged]) -> tuple[Judged, ...]:
+    """The first that was chosen, and named ones that explain nearly as much: what is far smaller, or has no name, may
+    be what the first leaves; once that is added, it is asked again."""
+    least = BESIDE_SHARE * explained(own[0].alone) if own else 0.0
+    further = (j for j in own[1:] if explained(j.scored) >= least and j.scored.candidate.family != GENERIC)
+    return (*own[:1], *further)[:MOST_CLAIMS]
+
+
+def failed_rules(scored: Scored, measure: Measure, unit: str) -> list[str]:
+    """The rules that a candidate fails, as sentences; none where it may be claimed."""
+    failed = []
+    p = p_value(scored.evidence, measure.chance)
+    if p > P_LIMIT:
+        failed.append(f"chance does as well in {p:.1%} of responses in which nothing is missing (limit {P_LIMIT:.0%})")
+    count = int(scored.acts.sum())
+    limit = UNNAMED_DROP_LIMIT if _unnamed(scored) else DROP_LIMIT
+    if scored.drop < limit:
+        failed.append(
+            f"in the {count} left-out tests in which it acts the error falls by {max(scored.drop, 0):.0%} only "
+            f"(limit {limit:.0%})"
+        )
+    if scored.better < BETTER_LIMIT:
+        failed.append(
+            f"it makes {round(scored.better * count)} of the {count} tests in which it acts more probable (limit "
+            f"{BETTER_LIMIT:.0%})"
+        )
+    if scored.spread > SPREAD_LIMIT and scored.drop < FORETOLD:
+        failed.append(
+            f"its gain differs between tests by {scored.spread:.0%} (limit {SPREAD_LIMIT:.0%}): a cause acts alike "
+            "everywhere"
+        )
+    if explained(scored) < WORTH_SHARE * measure.spread:
+        failed.append(
+            f"it explains {explained(scored):.2g} {unit} where it acts, of {measure.spread:.2g} {unit} (limit "
+            f"{WORTH_SHARE:.0%})"
+        )
+    if explained(scored) > STEADIES * acting_size(scored):
+        failed.append(
+            f"the error falls by more than {STEADIES:g} times its own size: it only steadies what the model "
+            "extrapolates"
+        )
+    return failed
+
+
+def blunt(scored: Scored) -> str | None:
+    """Why a sound candidate is still no cause; None where its timing is that of what is missing."""
+    limit = UNNAMED_SHARP_LIMIT if _unnamed(scored) else SHARP_LIMIT
+    if scored.candidate.placeless:
+        limit = PLACELESS_SHARP_LIMIT
+    if sharpness(scored) >= limit:
+        return None
+    return (
+        f"its evidence is {sharpness(scored):.2f} a sample (limit {limit:g}): it has the slow shape of what is "
+        "missing, but not its timing"
+    )
+
+
+def _unnamed(scored: Scored) -> bool:
+    """Whether its place is known, and still no effect has a name for it; where no place is declared, nothing could."""
+    return scored.candidate.family == GENERIC and not scored.candidate.placeless
+
+
+def probability(scored: Scored) -> float:
+    """That the candidate is what is missing: the share that was right at its sharpness on 97 simulated machines of two
+    makes (development seeds; docs/method.md#probability)."""
+    odds = PROBABILITY[0] + PROBABILITY[1] * np.log10(max(sharpness(scored), 1e-4))
+    return float(1 / (1 + np.exp(-odds)))
+
+
+def sharpness(scored: Scored) -> float:
+    """Log evidence a sample."""
+    return scored.evidence / max(float(scored.rows.sum()), 1.0)
+
+
+def remaining(scored: Scored) -> float:
+    """RMS error of all left-out tests without the candidate, each test alike."""
+    return float(np.sqrt(np.mean(scored.sse_before / scored.rows)))
+
+
+def explained(scored: Scored) -> float:
+    """RMS of what it takes away on left-out tests in which it acts."""
+    return float(np.sqrt(max(0.0, scored.error_before**2 - scored.error_after**2)))
+
+
+def acting_size(scored: Scored) -> float:
+    """RMS of its contribution in the tests in which it acts."""
+    acts = scored.acts
+    return float(np.sqrt(np.mean(scored.size[acts] ** 2))) if acts.any() else 0.0
 
 
 def equivalents(chosen: Scored, ranked: Sequence[Scored]) -> list[Scored]:
     """The candidates that the data can't tell from the chosen one."""
-    return [s for s in ranked if s is not chosen and _alike(chosen, s)]
+    return [s for s in ranked if s.columns is not chosen.columns and len(s.shape) and _alike(chosen, s)]
 
 
 def _alike(a: Scored, b: Scored) -> bool:
+    """Whether they act alike, or tests would have to be drawn again to tell which predicts left-out ones better."""
     cosine = abs(float(a.shape @ b.shape))
-    if b.drop < SHARP_DROP_LIMIT:
-        return False
-    return cosine > TWIN_COSINE or (cosine > TWIN_SSE_COSINE and b.sse_after.sum() < TWIN_SSE * a.sse_after.sum())
+    if cosine > ALIKE:
+        return True
+    difference = a.gained - b.gained
+    sure = abs(difference.sum()) > SURE * np.sqrt(len(difference)) * difference.std(ddof=1)
+    return bool(cosine > ALIKE_AT_ALL and not sure and _error(b) <= NEARLY * _error(a))
+
+
+def _error(scored: Scored) -> float:
+    return float(np.sqrt(np.mean(scored.sse_after / scored.rows)))

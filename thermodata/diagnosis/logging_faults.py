@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from thermodata.diagnosis.problem import Block, Problem
-from thermodata.plugin import Float1D, Float2D
+from thermodata.plugin import Float2D
 from thermodata.schema.result import Artefact
 from thermodata.view.dataset import TestData
 
@@ -16,10 +16,12 @@ SHIFTS_S = (-900.0, -600.0, -450.0, -300.0, -180.0, -120.0, 120.0, 180.0, 300.0,
 MISFIT_TIMES = 3.0  # a fit that leaves this many times what a refit leaves has wrong parameters
 CLOCK_DROP = 0.4  # fall of the squared error that makes a shift worth a name
 GAIN_OFF = 0.15  # a factor further from 1 than this: the gain is wrong
-SIGN_DROP = 0.5  # turning a test must take away this share of the squared error of all
+ALL_DROP = 0.5  # mending a test must take away this share of the squared error of all
 GAIN_DROP = (
     0.9  # a factor must take away nearly all of a test's error: a missing effect also makes a test larger or smaller
 )
+LEAST_FIT = 60.0  # [%] of the model with the fault mended: what a poor model says of a log is worse than silence
+LEAST_TESTS = 4  # of fewer nobody can say which one is wrong
 NOISES = 5.0  # a test with a smaller error than this many times the noise has no wrong gain
 
 
@@ -31,10 +33,11 @@ def clock_offsets(problem: Problem, base: Callable[[TestData], Float2D], sources
     """
     artefacts = []
     now = _error(problem, base, {})
+    energy = float(sum(b.response @ b.response for b in problem.blocks))
     for source in sorted(set(sources.values())):
         names = {c for c, s in sources.items() if s == source}
         errors = {d: _error(problem, base, dict.fromkeys(names, d)) for d in SHIFTS_S}
-        best = shift_that_explains(now, errors)
+        best = shift_that_explains(now, errors, energy)
         if best is not None:
             rms = [float(np.sqrt(e / max(problem.rows, 1))) for e in (now, errors[best])]
             artefacts.append(
@@ -52,10 +55,18 @@ def clock_offsets(problem: Problem, base: Callable[[TestData], Float2D], sources
     return artefacts
 
 
-def shift_that_explains(now: float, errors: Mapping[float, float]) -> float | None:
-    """The shift [s] with the smallest squared error, where that says that the clock is off. now: the error unmoved."""
+def shift_that_explains(now: float, errors: Mapping[float, float], energy: float) -> float | None:
+    """The shift [s] with the smallest squared error, where that says that the clock is off.
+
+    now: the squared error unmoved. energy: the squared response, by which a model is judged that explains nothing.
+    """
     best = min(errors, key=lambda d: errors[d])
-    return best if errors[best] < (1 - CLOCK_DROP) * now and abs(best) < max(SHIFTS_S) else None
+    inside = abs(best) < max(SHIFTS_S)
+    return (
+        best
+        if inside and errors[best] < (1 - CLOCK_DROP) * now and fit_percent(errors[best], energy) >= LEAST_FIT
+        else None
+    )
 
 
 def _error(problem: Problem, base: Callable[[TestData], Float2D], shift_s: Mapping[str, float]) -> float:
@@ -81,63 +92,97 @@ def _shifted(test: TestData, shift_s: Mapping[str, float]) -> TestData:
 def turned_probes(problem: Problem) -> list[Artefact]:
     """Tests whose response goes against, or by another factor than, what the model and the other tests say.
 
-    Asked by turning one test at a time and refitting all: a joint fit to a turned test is wrong for every test.
+    Asked by mending one test at a time and refitting all: a joint fit to a turned test is wrong for every test. For
+    the same reason what explains most is mended before anything else is asked, and a sound test is not blamed for it.
     """
     blocks = problem.blocks
-    if len({b.test.key for b in blocks}) < 4:
+    if len({b.test.key for b in blocks}) < LEAST_TESTS:
         return []
-    gram = np.stack([b.base.T @ b.base for b in blocks])
-    cross = np.stack([b.base.T @ b.response for b in blocks])
-    energy = float(sum(np.sum(b.response**2) for b in blocks))
-    artefacts = []
-    as_it_is = energy - _explained(gram.sum(axis=0), cross.sum(axis=0))
-    for i, block in enumerate(blocks):
-        turned = energy - _explained(gram.sum(axis=0), cross.sum(axis=0) - 2 * cross[i])
-        others = [k for k in range(len(blocks)) if k != i]
-        theta = np.linalg.lstsq(gram[others].sum(axis=0), cross[others].sum(axis=0), rcond=1e-9)[0]
-        factor, before, after = _factor(block.response, block.base @ theta)
-        if sign_is_wrong(as_it_is, turned):
-            artefacts.append(
-                _fault(
-                    "sign",
-                    block,
-                    before,
-                    "turned round, this test fits the same model as the others: its "
-                    "sign is wrong; check the probe's side and its calibration",
-                )
-            )
-        elif gain_is_wrong(factor, before, after, float(np.sqrt(before / len(block.response))), problem.noise):
-            artefacts.append(
-                _fault(
-                    "gain",
-                    block,
-                    before,
-                    f"the displacement is {factor:.2f} times what the other tests "
-                    "predict: check the probe's gain in this test, or whether the machine was another",
-                )
-            )
-    return artefacts
+    tests = _Tests(blocks)
+    found: dict[int, Artefact] = {}
+    while (worst := _worst(tests, problem, set(found))) is not None:
+        i, factor, squared = worst
+        found[i] = _wrong_factor(blocks[i], factor, squared)
+        tests.mend(i, factor)
+    return [found[i] for i in sorted(found)]
 
 
-def sign_is_wrong(as_it_is: float, turned: float) -> bool:
-    """Squared errors of all tests: as they are, and with one of them turned round."""
-    return turned < (1 - SIGN_DROP) * as_it_is
+class _Tests:
+    """The model's columns and the response of each test, from which factors are taken away."""
+
+    def __init__(self, blocks: Sequence[Block]) -> None:
+        self.gram = np.stack([b.base.T @ b.base for b in blocks])
+        self.cross = np.stack([b.base.T @ b.response for b in blocks])
+        self.energy = np.array([float(b.response @ b.response) for b in blocks])
+        self.rows = np.array([len(b.response) for b in blocks])
+
+    def mend(self, i: int, factor: float) -> None:
+        self.cross[i] /= factor
+        self.energy[i] /= factor**2
+
+    def error(self, i: int = 0, factor: float = 1.0) -> tuple[float, float]:
+        """(squared error of all tests refitted, their FIT in per cent), test i divided by a factor."""
+        scale = np.where(np.arange(len(self.energy)) == i, 1 / factor, 1.0)
+        cross, energy = (scale[:, None] * self.cross).sum(axis=0), float(scale**2 @ self.energy)
+        left = energy - float(cross @ np.linalg.lstsq(self.gram.sum(axis=0), cross, rcond=1e-9)[0])
+        return left, fit_percent(left, energy)
+
+    def by_the_others(self, i: int) -> tuple[float, float, float]:
+        """(g, squared error at 1, at g) of test i = g times what a model of the others says."""
+        others = np.arange(len(self.energy)) != i
+        theta = np.linalg.lstsq(self.gram[others].sum(axis=0), self.cross[others].sum(axis=0), rcond=1e-9)[0]
+        along, power = float(theta @ self.cross[i]), float(theta @ self.gram[i] @ theta)
+        factor = along / power if power > 0 else 1.0
+        before = float(self.energy[i]) - 2 * along + power
+        return factor, before, float(self.energy[i]) - 2 * factor * along + factor**2 * power
+
+
+def fit_percent(left: float, energy: float) -> float:
+    """FIT by squared errors: (1 - error / spread) x 100."""
+    return (1 - float(np.sqrt(max(left, 0.0) / energy))) * 100 if energy > 0 else 0.0
+
+
+def _worst(tests: _Tests, problem: Problem, mended: set[int]) -> tuple[int, float, float] | None:
+    """(test, its factor, its squared error) of the wrong factor that explains most, where one is wrong."""
+    as_it_is, _ = tests.error()
+    best, least = None, np.inf
+    for i in sorted(set(range(len(problem.blocks))) - mended):
+        factor, before, after = tests.by_the_others(i)
+        rms = float(np.sqrt(max(before, 0.0) / tests.rows[i]))
+        tried = [-1.0, factor] if gain_is_wrong(factor, before, after, rms, problem.noise) else [-1.0]
+        for one in tried:
+            left, fit = tests.error(i, one)
+            if a_fault_explains(as_it_is, left, fit) and left < least:
+                best, least = (i, one, before), left
+    return best
+
+
+def _wrong_factor(block: Block, factor: float, squared: float) -> Artefact:
+    if factor < 0:
+        return _fault(
+            "sign",
+            block,
+            squared,
+            "turned round, this test fits the same model as the others: its sign is wrong; check the probe's side and "
+            "its calibration",
+        )
+    return _fault(
+        "gain",
+        block,
+        squared,
+        f"the displacement is {factor:.2f} times what the other tests predict: check the probe's gain in this test, "
+        "or whether the machine was another",
+    )
+
+
+def a_fault_explains(as_it_is: float, mended: float, fit: float) -> bool:
+    """Squared errors of all tests: as they are, and with one test mended; fit [%]: of the model then."""
+    return mended < (1 - ALL_DROP) * as_it_is and fit >= LEAST_FIT
 
 
 def gain_is_wrong(factor: float, before: float, after: float, rms: float, noise: float) -> bool:
     """before, after: squared error of a test without and with the factor. rms: of the test without it."""
     return factor > 0 and abs(factor - 1) > GAIN_OFF and after < (1 - GAIN_DROP) * before and rms > NOISES * noise
-
-
-def _explained(gram: Float2D, cross: Float1D) -> float:
-    return float(cross @ np.linalg.lstsq(gram, cross, rcond=1e-9)[0])
-
-
-def _factor(response: Float1D, predicted: Float1D) -> tuple[float, float, float]:
-    """(g, squared error at g = 1, squared error at g) of response = g * predicted."""
-    power = float(predicted @ predicted)
-    factor = float(response @ predicted) / power if power > 0 else 1.0
-    return factor, float(np.sum((response - predicted) ** 2)), float(np.sum((response - factor * predicted) ** 2))
 
 
 def _fault(kind: str, block: Block, squared: float, why: str) -> Artefact:

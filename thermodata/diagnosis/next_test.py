@@ -12,6 +12,8 @@ from thermodata.view.dataset import ChannelInfo
 # share of worlds in which an effect could be claimed, by number of tests (measured on simulated machines)
 CLAIMED_BY_TESTS = ((3, "36 %"), (8, "83 %"), (16, "94 %"))
 ENOUGH_TESTS = 8
+# of the squared error, on left-out tests: what a channel must give to be named before a sensor that is not there
+WORTH_A_TEST = 0.3
 
 _PROTOCOL = {
     "rotational_speed": "short pulses of speed (5 min on, 10 min off) at two speeds",
@@ -42,8 +44,9 @@ def to_separate(chosen: Scored, twins: Sequence[Scored], channels: Mapping[str, 
     return f"to tell {mine.id} from {other.id}: {how}"
 
 
-def to_find(tests: int, spots: Sequence[WeakSpot]) -> str:
-    """The advice where nothing could be claimed. tests: those that took part; spots: where the model fails most."""
+def to_find(tests: int, spots: Sequence[WeakSpot], first: Scored | None = None) -> str:
+    """The advice where nothing could be claimed. tests: those that took part; spots: where the model fails most.
+    first: the candidate that ranks first, whose channels are logged and are no advice to log."""
     if tests < ENOUGH_TESTS:
         shares = ", ".join(f"{share} with {n}" for n, share in CLAIMED_BY_TESTS)
         return (
@@ -51,9 +54,17 @@ def to_find(tests: int, spots: Sequence[WeakSpot]) -> str:
             "alone (spindle, one axis, table, hall air)"
         )
     worst = spots[0].state if spots else "no state in particular"
+    worst = spots[0].state if spots else "no state in particular"
+    logged = ""
+    if first is not None and first.drop >= WORTH_A_TEST:
+        channels = ", ".join(first.candidate.channels)
+        logged = (
+            f"{channels} is logged and ranks first, so run a test that moves it alone, or open the locked tests for "
+            f"{first.candidate.id} (thermodata confirm); if it is not that, "
+        )
     return (
-        f"{tests} tests took part, so more of the same will not tell: log what is not logged yet near the parts "
-        f"that work where the model fails most ({worst})"
+        f"{tests} tests took part, so more of the same will not tell: {logged}log what is not logged yet near the "
+        f"parts that work where the model fails most ({worst})"
     )
 
 

@@ -12,7 +12,6 @@ from typing import Any
 
 import numpy as np
 
-from thermodata.diagnosis.scored import Scored
 from thermodata.plugin import Bool1D, Float1D, Float2D, Int1D
 from thermodata.view.dataset import Dataset, TestData
 
@@ -70,21 +69,14 @@ class Problem:
     def rows(self) -> int:
         return sum(len(b.t_s) for b in self.blocks)
 
-    def with_effect(self, scored: Scored) -> Problem:
-        """The same with a candidate among what the model can do: its gains at the parameters that it was given."""
+    def thinned(self, every: int) -> Problem:
+        """Every n-th sample only: what is slow stays, and costs less. Its blocks compress nothing."""
         blocks = []
-        for block in self.blocks:
-            drivers = scored.candidate.drivers(block.test)
-            size = len(block.test.t_s)
-            points = [scored.params, *scored.candidate.slack_params(scored.params)]
-            own, *others = (block.compress(scored.candidate.columns(drivers, size, p)) for p in points)
-            scale = np.where(scored.gain == 0, 1.0, scored.gain)
-            base, slack = (
-                [block.base, own * scale],
-                [block.slack, *(((o - own) @ scored.gain)[:, None] for o in others)],
-            )
-            blocks.append(replace(block, base=np.hstack(base), slack=np.hstack(slack)))
-        return replace(self, blocks=tuple(blocks))
+        for b in self.blocks:
+            rows = slice(None, None, every) if len(b.t_s) >= MIN_ROWS * every else slice(None)
+            arrays = {n: getattr(b, n)[rows] for n in ("t_s", "response", "residual", "base", "slack", "segment")}
+            blocks.append(replace(b, **arrays))
+        return replace(self, blocks=tuple(blocks), kept={})
 
     def split(self, at: dict[tuple[str, str], list[float]]) -> Problem:
         """The same with further free offsets: after each of the times (s) found in a test."""
@@ -138,11 +130,13 @@ def build_problem(
     mask: Callable[[TestData], Bool1D],
     base: Base,
     slack: Base,
+    rows: int = TARGET_ROWS,
 ) -> Problem:
-    """Compress every test. measured, residual, mask (the samples that count): of a test, shape (n,)."""
+    """Compress every test. measured, residual, mask (the samples that count): of a test, shape (n,). rows: of all tests
+    together, at most, but for what a step cannot divide."""
     masks = {t.key: mask(t) for t in tests}
     total = sum(int(m.sum()) for m in masks.values())
-    every = max(1, -(-total // TARGET_ROWS))
+    every = max(1, -(-total // rows))
     usable = [t for t in tests if masks[t.key].sum() >= MIN_ROWS]
     blocks, noises = [], []
     for test in usable:

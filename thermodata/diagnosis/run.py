@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 from thermodata.diagnosis.answer import answer, worst_response
 from thermodata.diagnosis.candidates import CandidateEffect
-from thermodata.diagnosis.confirm import confirm, rmse_of_each
+from thermodata.diagnosis.confirm import confirm
 from thermodata.effect import effect as find_effect
 from thermodata.effect import effects
 from thermodata.effect.binding import candidate_id
@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from thermodata.store.base.counting import Tell
 
 # raise it where a rule of the diagnosis changes: answers of older rules are then given anew
-RULES_VERSION = 1
+RULES_VERSION = 3
 
 
 def _key(model: Loaded) -> str:
@@ -59,7 +59,7 @@ def diagnose(store: Store, ref: str, tell: Tell | None = None) -> Diagnosis:
     with watched(tell):
         outcome = answer(model.fitted, model.data, effects(), model.identity)
     if outcome.locked:
-        claimed = next((c.id for c in outcome.diagnosis.candidates if c.claimed), "a claim that did not hold")
+        claimed = ", ".join(c.id for c in outcome.diagnosis.candidates if c.claimed) or "a claim that did not hold"
         count_locked_look(store, model.identity, [t.key for t in outcome.locked], f"confirming {claimed}")
     save_diagnosis(store, model.identity, outcome.diagnosis)
     keep_answer(store, model.identity, "diagnose", key, outcome.diagnosis.model_dump_json())
@@ -93,8 +93,7 @@ def confirm_choice(store: Store, ref: str, candidate: str | int) -> tuple[Confir
             expected="a test with role: locked, in which the model's channels were logged",
             hint="give a test of the campaign the role locked, before anybody has looked at it",
         )
-    confirmation = confirm(model.fitted.spec, index, model.data, chosen, usable, locked)
-    each = rmse_of_each(model.fitted.spec, index, model.data, chosen, usable, locked)
+    confirmation = confirm(model.fitted.spec, index, model.data, [chosen], usable, locked)
     count_locked_look(store, model.identity, [t.key for t in locked], f"confirming {name}, by choice")
     result = Confirmed(
         model=model.identity,
@@ -103,8 +102,10 @@ def confirm_choice(store: Store, ref: str, candidate: str | int) -> tuple[Confir
         holds=confirmation.holds,
         locked_rmse_um_before=confirmation.before,
         locked_rmse_um_after=confirmation.after,
-        parameters=confirmation.parameters,
-        tests=[TestConfirmed(campaign=c, test=t, rmse_um_before=b, rmse_um_after=a) for (c, t), b, a in each],
+        parameters=confirmation.parameters[chosen.id],
+        tests=[
+            TestConfirmed(campaign=c, test=t, rmse_um_before=b, rmse_um_after=a) for (c, t), b, a in confirmation.each
+        ],
         looks=max(locked_looks(store, t.campaign, t.test) for t in locked),
     )
     keep_answer(store, model.identity, f"confirm {name}", key, result.model_dump_json())

@@ -2,27 +2,63 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
 
 from thermodata.diagnosis.candidates import CandidateEffect
-from thermodata.plugin import Float1D
+from thermodata.plugin import Bool1D, Float1D
+
+if TYPE_CHECKING:
+    from thermodata.diagnosis.evidence import Columns, Weighed
+
+ACTS = 0.2  # of its largest test: less, and a contribution rests there
 
 
 @dataclass(frozen=True, slots=True)
 class Scored:
-    """One candidate's evidence. drop, white_drop: relative fall of the squared error on left-out tests.
-    sse_before, sse_after: shape (tests,), as measured. shape: the fitted contribution on all compressed rows,
-    what the base model can do removed, unit length. size: its RMS in the response's unit."""
+    """One candidate beside some known effects. evidence: log Bayes factor against these alone. gained: shape (tests,),
+    log probability of each test, given the others, that the candidate adds. rows: of each test. sse_before, sse_after:
+    squared error of each test, left out. size: RMS of the contribution in each test. spread: of its gain between tests.
+    shape: whitened contribution without what the known effects can do, unit length."""
 
     candidate: CandidateEffect
-    params: Mapping[str, float]
-    gain: Float1D
-    drop: float
-    white_drop: float
-    p_value: float
+    columns: Columns
+    weighed: Weighed
+    evidence: float
+    gained: Float1D
+    rows: Float1D
     sse_before: Float1D
     sse_after: Float1D
+    size: Float1D
+    spread: float
     shape: Float1D
-    size: float
-    order: float = 0.0
+
+    @property
+    def acts(self) -> Bool1D:
+        """The tests in which it does something."""
+        return np.asarray(self.size >= ACTS * self.size.max(initial=0.0))
+
+    @property
+    def error_before(self) -> float:
+        """RMS on left-out tests in which it acts, each test alike."""
+        return self._error(self.sse_before)
+
+    @property
+    def error_after(self) -> float:
+        return self._error(self.sse_after)
+
+    @property
+    def drop(self) -> float:
+        """Fall of that error, as a share."""
+        return 1.0 - self.error_after / self.error_before if self.error_before > 0 else 0.0
+
+    @property
+    def better(self) -> float:
+        """Share of the tests in which it acts that it makes more probable."""
+        return float(np.mean(self.gained[self.acts] > 0)) if len(self.gained) else 0.0
+
+    def _error(self, sse: Float1D) -> float:
+        acts = self.acts
+        return float(np.sqrt(np.mean(sse[acts] / self.rows[acts]))) if len(sse) and acts.any() else 0.0

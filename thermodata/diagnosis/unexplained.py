@@ -6,18 +6,71 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from thermodata.diagnosis import first_seen, goes_with
+from thermodata.diagnosis.missing_heat import TAUS_S, Course, missing_heat
 from thermodata.diagnosis.problem import Problem
 from thermodata.plugin import Float1D
-from thermodata.schema.result import Unknown, WeakSpot
+from thermodata.schema.result import HeatCompanion, HeatCourse, MissingHeat, Unknown, WeakSpot
+
+DIGITS = 4  # of a course, which is many numbers
 
 
 def characterise(problem: Problem, spots: Sequence[WeakSpot]) -> Unknown:
-    """How fast the autocorrelation decays, which hours of the day stand out, the states of the weak spots."""
+    """How fast the autocorrelation decays, which hours of the day stand out, the states of the weak spots; and the
+    missing heat itself, estimated."""
     return Unknown(
         time_constants_h=_time_constants(problem),
         hours_of_day=_hours(problem),
         states=list(dict.fromkeys(s.state for s in spots[:5])),
+        heat=_heat(problem),
     )
+
+
+def _heat(problem: Problem) -> MissingHeat | None:
+    heat = missing_heat(problem)
+    if heat is None:
+        return None
+    found = goes_with.companions(heat, problem.response)
+    strong, weak = goes_with.strong_and_weak_tests(heat)
+    low, high = heat.tau_range_s
+    return MissingHeat(
+        time_constant_h=_short(heat.tau_s / 3600),
+        time_constant_low_h=None if low <= TAUS_S[0] else _short(low / 3600),
+        time_constant_high_h=None if high >= TAUS_S[-1] else _short(high / 3600),
+        direction=None if not heat.sign else "+" if heat.sign > 0 else "-",
+        agreed=heat.agreed if heat.sign else None,
+        explained=_short(heat.explained),
+        left_out=_short(heat.predicted),
+        hours_of_day=goes_with.hours_of_day(heat),
+        strong_tests=[t.test for t in strong],
+        weak_tests=[t.test for t in weak],
+        goes_with=[_companion(c) for c in found if c.verdict == "with"],
+        goes_not_with=[_companion(c) for c in reversed(found) if c.verdict == "not"],
+        where=first_seen.where(heat, found, strong, weak),
+        courses=[_course(c) for c in heat.courses],
+    )
+
+
+def _companion(one: goes_with.Companion) -> HeatCompanion:
+    shares = (None if s is None else _short(s) for s in (one.on_with, one.on_without, one.follows))
+    on_with, on_without, follows = shares
+    return HeatCompanion(channel=one.info.name, at=one.info.at, on_with=on_with, on_without=on_without, follows=follows)
+
+
+def _course(course: Course) -> HeatCourse:
+    return HeatCourse(
+        campaign=course.test.campaign,
+        test=course.test.test,
+        from_s=course.from_s,
+        step_s=course.step_s,
+        source_um=[_short(x) for x in course.source],
+        contribution_um=[_short(x) for x in course.contribution],
+        residual_um=[_short(x) if np.isfinite(x) else None for x in course.residual],
+    )
+
+
+def _short(value: float) -> float:
+    return float(f"{value:.{DIGITS}g}")
 
 
 def _time_constants(problem: Problem) -> list[float]:

@@ -9,11 +9,13 @@ from typing import TYPE_CHECKING, Any
 from thermodata.report.colour import effect_colours
 from thermodata.report.data import ReportData, TestPart
 from thermodata.report.figures import Figure, overview_figure, test_figure, waterfall_figure
-from thermodata.report.words import base_role, change, duration, number, pooled, typeset, verdict_sentence
+from thermodata.report.heat_figure import heat_figures
+from thermodata.report.words import base_role, change, duration, heat_lines, number, pooled, typeset, verdict_sentence
 from thermodata.report.write import script_json, write_page
 from thermodata.version import __version__
 
 if TYPE_CHECKING:
+    from thermodata.schema.result import MissingHeat
     from thermodata.store import Store
 
 
@@ -41,6 +43,7 @@ def render(data: ReportData) -> str:
     template = environment.from_string((here / "page.html.j2").read_text(encoding="utf-8"))
     colours = effect_colours([*data.effects, *(c.name for t in data.tests for c in t.contributions)])
     figures = _figures(data, colours)
+    heat = _heat(data)
     return template.render(
         data=data,
         unit=typeset(data.unit),
@@ -53,6 +56,8 @@ def render(data: ReportData) -> str:
         plotly=Markup(get_plotlyjs()),
         overview="overview" in figures,
         waterfall="waterfall" in figures,
+        heat=heat,
+        heat_lines=[(what, typeset(text)) for what, text in heat_lines(heat)] if heat else [],
         weak=sorted((w for found in data.weak.values() for w in found), key=lambda w: -w.rmse_um),
         headline=typeset(headline(data)),
         sentences=[typeset(line) for line in _sentences(data)],
@@ -79,10 +84,18 @@ def _figures(data: ReportData, colours: dict[str, str]) -> dict[str, Figure]:
         made["overview"] = overview_figure(data.tests, typeset(data.unit))
     if len(data.versions) > 1 and sum(v.all_um is not None for v in data.versions) > 1:
         made["waterfall"] = waterfall_figure(data.versions, noise, typeset(data.unit))
+    heat = _heat(data)
+    if heat:
+        drawn = heat_figures(heat.courses, typeset(data.unit), heat.direction is not None)
+        made.update({f"heat{i}": figure for i, figure in enumerate(drawn)})
     for i, part in enumerate(data.tests):
         weak = [w for w in data.weak.get(part.response, ()) if (w.campaign, w.test) == (part.campaign, part.test)]
         made[f"test{i}"] = test_figure(part, weak, colours, noise, typeset(data.unit))
     return made
+
+
+def _heat(data: ReportData) -> MissingHeat | None:
+    return data.diagnosis.unknown.heat if data.diagnosis and data.diagnosis.unknown else None
 
 
 def headline(data: ReportData) -> str:

@@ -7,7 +7,9 @@ import re
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from thermodata.schema.result import Diagnosis, Score
+    from thermodata.schema.result import Diagnosis, HeatCompanion, MissingHeat, Score
+
+COMPANIONS = 8  # most channels that are named beside a missing heat
 
 
 def number(value: Any, digits: int = 3) -> str:
@@ -79,7 +81,49 @@ def verdict_sentence(found: Diagnosis) -> str:
         return text
     return {
         "effect": "missing: an effect that the data point to",
+        "refine": "no effect is missing, but one that is there acts otherwise than modelled",
         "none": "no effect is missing: what is left is noise, or too small to matter",
         "unknown": "something is missing that no known effect with these channels explains",
         "not_testable": "these tests can't tell which effect is missing",
     }[found.verdict]
+
+
+def heat_lines(heat: MissingHeat) -> list[tuple[str, str]]:
+    """What is told of an estimated missing heat beside its course: (what, figures); what does not apply is left out."""
+    low, high = (
+        None if h is None else duration(3600 * h) for h in (heat.time_constant_low_h, heat.time_constant_high_h)
+    )
+    if low and high:
+        span = f"{low} to {high}"
+    else:
+        span = f"at least {low}" if low else f"at most {high}" if high else "not bounded by these tests"
+    direction = {"+": "to plus when heated", "-": "to minus when heated", None: "both ways"}[heat.direction]
+    lines = [
+        ("time constant", f"{duration(3600 * heat.time_constant_h)} ({span} over tests drawn anew)"),
+        ("direction", direction + ("" if heat.agreed is None else f" ({100 * heat.agreed:.0f} % of the draws agree)")),
+        (
+            "explains",
+            f"{_percent(heat.explained)} of the squared residual, {_percent(heat.left_out)} in parts left out",
+        ),
+        ("on at (UTC)", ", ".join(f"{h:.0f} h" for h in heat.hours_of_day)),
+        ("goes with", _companions(heat.goes_with)),
+        ("not with", _companions(heat.goes_not_with)),
+    ]
+    return [(what, text) for what, text in lines if text]
+
+
+def _companions(found: list[HeatCompanion]) -> str:
+    """What runs and rests first, for it tells more than a temperature does."""
+    ordered = sorted(found, key=lambda c: c.follows is not None)
+    more = f", and {len(ordered) - COMPANIONS} more" if len(ordered) > COMPANIONS else ""
+    return ", ".join(_companion(c) for c in ordered[:COMPANIONS]) + more
+
+
+def _percent(share: float) -> str:
+    return "over 99 %" if 0.99 < share < 1 else f"{100 * share:.0f} %"
+
+
+def _companion(one: HeatCompanion) -> str:
+    if one.follows is not None:
+        return f"{one.channel} ({_percent(one.follows)} alike)"
+    return f"{one.channel} (on in {_percent(one.on_with or 0.0)} while it runs, {_percent(one.on_without or 0.0)} else)"

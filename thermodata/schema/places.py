@@ -75,6 +75,13 @@ PLACES: dict[str, str] = {
 }
 
 _DIAMETER = "table.d"
+# a tool change, a cut or the coolant makes any reading there jump, and no mass holds it
+_AT_TOOL = ("tcp", "tool", "stator", "probe")
+
+
+def is_at_tool(place: str | None) -> bool:
+    """Whether a dotted place is at the tool or at a probe, where a reading may jump without a fault."""
+    return place is not None and place.lower().partition(".")[0] in _AT_TOOL
 
 
 def is_known(place: str) -> bool:

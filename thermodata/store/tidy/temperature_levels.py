@@ -10,6 +10,7 @@ import numpy as np
 
 from thermodata.calibration.quality_between import POINTS, Levels, offsets_between_tests
 from thermodata.schema.flag import INVALID
+from thermodata.schema.places import is_at_tool
 
 if TYPE_CHECKING:
     from thermodata.store.tidy.chunk import Column
@@ -26,7 +27,7 @@ class Sampler:
         self._points = {
             b.name: np.full(POINTS, np.nan)
             for b in bounds
-            if b.channel.quantity == "temperature" and b.channel.derive is None and not b.is_text
+            if b.channel.quantity == "temperature" and b.channel.derive is None and not is_at_tool(b.channel.at)
         }
 
     def take(self, first: int, columns: Mapping[str, Column]) -> None:

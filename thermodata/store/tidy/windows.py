@@ -54,7 +54,7 @@ class Joined:
         flags, events = flag_stream(
             t_ns,
             {
-                n: ColumnInput(values=c.values, quantity=c.bound.channel.quantity, flags=c.flags)
+                n: ColumnInput(values=c.values, quantity=c.bound.channel.quantity, flags=c.flags, at=c.bound.channel.at)
                 for n, c in columns.items()
             },
         )

@@ -154,15 +154,26 @@ def lasso_cv(q: Question) -> str | None:
 def _lasso(X: Float2D, y: Float1D, path: Float1D) -> Float2D:
     """Coordinate descent down a path of penalties, shape (penalties, columns)."""
     gram, toward = X.T @ X, X.T @ y
-    size = np.maximum(np.diag(gram), 1e-12)
+    size = np.maximum(np.diag(gram), 1e-12).tolist()
     beta = np.zeros(X.shape[1])
     out = []
-    for penalty in path:
+    for penalty in path.tolist():
+        # gram @ beta, kept up to date: most columns rest at zero, and cost a comparison
+        slope = toward - gram @ beta
         for _ in range(60):
             before = beta.copy()
-            for j in range(len(beta)):
-                pull = toward[j] - gram[j] @ beta + size[j] * beta[j]
-                beta[j] = np.sign(pull) * max(abs(pull) - penalty, 0.0) / size[j]
+            for j, (own, old) in enumerate(zip(size, before.tolist(), strict=True)):
+                pull = slope.item(j) + own * old
+                if pull > penalty:
+                    new = (pull - penalty) / own
+                elif pull < -penalty:
+                    new = (pull + penalty) / own
+                elif old:
+                    new = 0.0
+                else:
+                    continue
+                beta[j] = new
+                slope -= gram[j] * (new - old)
             if np.max(np.abs(beta - before)) <= 1e-3 * max(float(np.max(np.abs(beta))), 1e-12):
                 break
         out.append(beta.copy())

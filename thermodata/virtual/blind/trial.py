@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import asdict, dataclass, replace
+from dataclasses import asdict, dataclass, fields, replace
 from time import process_time
 from typing import Any
 
@@ -12,44 +12,70 @@ from thermodata.diagnosis.confirm import on_all_open, rmse
 from thermodata.effect import effects
 from thermodata.modelling.candidate import candidate_spec
 from thermodata.modelling.fit import fit_model
+from thermodata.modelling.fitted_response import FittedResponse
 from thermodata.schema.model import EffectSpec, Model
 from thermodata.schema.result import Candidate, Diagnosis
 from thermodata.view.dataset import Dataset
+from thermodata.virtual.blind.marking import best, claims_of, head_of, marks_of, outcome_of, refinements_of
 from thermodata.virtual.blind.rivals import RIVALS, ask
 from thermodata.virtual.lathe.data import channels_of, contribution, model_of, right_effect, to_dataset
-from thermodata.virtual.lathe.right_names import Mark, mark, right_channel
+from thermodata.virtual.lathe.right_names import right_channel
 from thermodata.virtual.lathe.strata import STRATA
 from thermodata.virtual.lathe.world import World, make_world
 
-ORDER: tuple[Mark, ...] = ("exact", "equivalent", "family", "wrong")
 NEAR_S = 1200.0  # a fault is found where it is named within 20 min
+LEAST_FALL = 0.1  # a share of the drop is told where the right names take off this share of the locked error at least
+
+
+@dataclass(frozen=True, slots=True)
+class Stated:
+    """What the first answer says of one candidate. of: first (ranked) or claim. right: whether it is a hidden cause."""
+
+    of: str
+    id: str
+    probability: float | None
+    right: bool
 
 
 @dataclass(frozen=True, slots=True)
 class Trial:
     """One machine.
 
-    claims: ids; marks: of each. known_again: claims that name a cause which the model has. first: mark of the candidate
-    ranked first. outcome: right, equivalent, told (a twin is claimed, the cause named beside it), family, wrong,
-    abstained, some (of several hidden), silent (rightly), false claim. rmse: on locked tests [um]: of the model, with
-    the claims, with what is hidden by its right names, and with the true contribution taken away. share: of the drop
-    that the right names give; None where they give less than a tenth. faults, faults_found: slips and a wrong clock.
-    rivals: method -> whether its first channel is the cause's. seconds: processor time of the first verdict.
+    by_speed: a thin model that knows the spindle by its speed alone. verdict: of the first answer. rounds: how often
+    the diagnosis was asked. claims: ids, of all rounds; marks: of each. known_again: claims that name a cause which the
+    model has. first: id of the candidate ranked first; first_mark: its mark. outcome: as `outcome_of` has it.
+    refinements: ids that are offered as such; beside_the_base: of these, those that no cause of the base stands for.
+    stated: probabilities of the first answer. broken: a channel that breaks; broken_claimed, broken_first: whether it
+    is claimed, or ranked first.
+    rmse: on locked tests [um]: of the model, with the claims, with the first refinement, with what is hidden by its
+    right names, and with the true contribution taken away. share: of the drop that the right names give, whether
+    something is claimed or not; None where they give less than `LEAST_FALL`. faults, faults_found: slips and a wrong
+    clock. rivals: method -> whether its first channel is the cause's. seconds: processor time of the first verdict.
     """
 
     stratum: str
     seed: int
     hidden: tuple[str, ...]
     base: tuple[str, ...]
+    by_speed: bool
     response: str
     verdict: str
+    rounds: int
     claims: tuple[str, ...]
     marks: tuple[str, ...]
     known_again: int
     first: str | None
+    first_mark: str | None
     outcome: str
+    refinements: tuple[str, ...]
+    beside_the_base: int
+    stated: tuple[Stated, ...]
+    broken: str | None
+    broken_claimed: bool
+    broken_first: bool
     rmse_um: float | None
     rmse_um_claimed: float | None
+    rmse_um_refined: float | None
     rmse_um_named: float | None
     rmse_um_truth: float | None
     share: float | None
@@ -63,52 +89,90 @@ class Trial:
         return asdict(self)
 
 
+KEYS = frozenset(f.name for f in fields(Trial))
+
+
 def judge(stratum: str, seed: int, *, rivals: bool = True, hours: float = 9.0) -> Trial:
-    """The verdict on the machine of a seed, marked. seconds: processor time of the first verdict alone."""
+    """The verdict on the machine of a seed, marked. hours: of a usual test."""
     world = make_world(stratum, seed, hours=hours)
     data, spec = to_dataset(world), model_of(world)
+    broken = next((f.channel for f in world.faults if f.kind in ("offset", "stuck", "wander")), None)
     start = process_time()
-    found = answer(fit_model(spec, data, uncertainty=False), data, effects(), "benchmark").diagnosis
+    found = _ask(spec, data)
     seconds = process_time() - start
-    claims, said, last = [], found, spec
-    while (claimed := next((c for c in said.candidates if c.claimed), None)) is not None:
-        claims.append(claimed)
-        last = _with(last, [candidate_spec(claimed.id, data.channels)])
-        if len(claims) >= max(1, len(world.hidden)):
-            break
-        said = answer(fit_model(last, data, uncertainty=False), data, effects(), "benchmark").diagnosis
-    blind = STRATA[stratum].blind or STRATA[stratum].outside
-    marks, missed = _marks(world.hidden, claims)
-    before, after = _locked(spec, data), _locked(last, data)
-    named = None if blind or not world.hidden else _locked(_with(spec, _right(world)), data)
-    fell = None if named is None or before is None or named > 0.9 * before else before - named
+    claims, last, rounds = _all_claims(found, spec, data, len(world.hidden))
+    nothing = not world.hidden or STRATA[stratum].blind or STRATA[stratum].outside
+    marks, missed = marks_of(world.hidden, claims, broken)
+    fits = _Fits(data)
+    head, refined = head_of(found), refinements_of(found)
+    before, after = fits.locked(spec), fits.locked(last)
+    named = None if nothing else fits.locked(_with(spec, _right(world)))
+    fell = None if named is None or before is None or named > (1 - LEAST_FALL) * before else before - named
     return Trial(
-        stratum,
-        seed,
-        world.hidden,
-        world.base,
-        f"d{world.axis}",
-        found.verdict,
-        tuple(c.id for c in claims),
-        marks,
-        sum(_best(world.base, c) in ("exact", "equivalent") for c in claims),
-        None if not world.hidden or not found.candidates else _best(world.hidden, found.candidates[0]),
-        _outcome(marks, missed, not world.hidden or blind),
-        before,
-        after,
-        named,
-        _without_truth(world, data, spec),
-        None if fell is None or before is None or after is None else (before - after) / fell,
-        sum(f.kind in ("step", "clock_offset") for f in world.faults),
-        _faults_found(world, found),
-        len(found.artefacts),
-        _rivals(world, data, spec) if rivals and world.hidden and not blind else {},
-        seconds,
+        stratum=stratum,
+        seed=seed,
+        hidden=world.hidden,
+        base=world.base,
+        by_speed=world.by_speed,
+        response=f"d{world.axis}",
+        verdict=found.verdict,
+        rounds=rounds,
+        claims=tuple(c.id for c in claims),
+        marks=tuple(marks),
+        known_again=sum(best(world.base, c) in ("exact", "equivalent") for c in claims),
+        first=None if head is None else head.id,
+        first_mark=None if head is None or not world.hidden else best(world.hidden, head, broken),
+        outcome=outcome_of(found.verdict, marks, missed, nothing),
+        refinements=tuple(c.id for c in refined),
+        beside_the_base=sum(best(world.base, c) == "wrong" for c in refined),
+        stated=_stated(world.hidden, head, claims_of(found), broken),
+        broken=broken,
+        broken_claimed=any(broken in c.drivers for c in claims),
+        broken_first=head is not None and broken in head.drivers,
+        rmse_um=before,
+        rmse_um_claimed=after,
+        rmse_um_refined=fits.locked(_with(spec, _specs(refined[:1], data))) if refined else None,
+        rmse_um_named=named,
+        rmse_um_truth=_without_truth(world, data, spec) if world.hidden else before,
+        share=None if fell is None or before is None or after is None else (before - after) / fell,
+        faults=sum(f.kind in ("step", "clock_offset") for f in world.faults),
+        faults_found=_faults_found(world, found),
+        artefacts=len(found.artefacts),
+        rivals=_rivals(world, data, fits.of(spec)) if rivals and not nothing else {},
+        seconds=seconds,
     )
+
+
+def _ask(spec: Model, data: Dataset) -> Diagnosis:
+    return answer(fit_model(spec, data, uncertainty=False), data, effects(), "benchmark").diagnosis
+
+
+def _all_claims(found: Diagnosis, spec: Model, data: Dataset, hidden: int) -> tuple[list[Candidate], Model, int]:
+    """(claims, the model with them, how often was asked). An answer that claims less than is hidden is followed: its
+    claims are added, and the better model is asked again, as a user would."""
+    new = claims_of(found)
+    claims, last, rounds = list(new), _with(spec, _specs(new, data)), 1
+    while new and len(claims) < hidden:
+        new = claims_of(_ask(last, data))
+        claims, last, rounds = [*claims, *new], _with(last, _specs(new, data)), rounds + 1
+    return claims, last, rounds
+
+
+def _stated(
+    hidden: Sequence[str], head: Candidate | None, claims: Sequence[Candidate], broken: str | None
+) -> tuple[Stated, ...]:
+    def stated(of: str, c: Candidate) -> Stated:
+        return Stated(of, c.id, c.probability, best(hidden, c, broken) in ("exact", "equivalent"))
+
+    return (*([] if head is None else [stated("first", head)]), *(stated("claim", c) for c in claims))
 
 
 def _with(spec: Model, more: Sequence[EffectSpec]) -> Model:
     return spec.model_copy(update={"effects": [*spec.effects, *more]})
+
+
+def _specs(some: Sequence[Candidate], data: Dataset) -> list[EffectSpec]:
+    return [candidate_spec(c.id, data.channels) for c in some]
 
 
 def _right(world: World) -> list[EffectSpec]:
@@ -116,56 +180,26 @@ def _right(world: World) -> list[EffectSpec]:
     return [right_effect(world, c, channels) for c in world.hidden]
 
 
-def _best(causes: Sequence[str], c: Candidate) -> Mark:
-    """The best mark of a candidate against any of the causes."""
-    return min((mark(cause, c.effect, c.drivers, c.family) for cause in causes), key=ORDER.index, default="wrong")
+class _Fits:
+    """Models of one machine fitted to all its open tests, each once."""
 
+    def __init__(self, data: Dataset) -> None:
+        self.data = data
+        self.opened = [t for t in data.tests if t.role != "locked"]
+        self.closed = [t for t in data.tests if t.role == "locked"]
+        self._kept: dict[str, FittedResponse] = {}
 
-def _marks(hidden: Sequence[str], claims: Sequence[Candidate]) -> tuple[tuple[str, ...], int]:
-    """(mark of each claim against what was still hidden, how many causes no claim found)."""
-    left: list[str] = list(hidden)
-    marks: list[str] = []
-    for claim in claims:
-        best: str = _best(left, claim)
-        if best == "wrong" and any(_told(cause, claim) for cause in left):
-            best = "told"
-        marks.append(best)
-        if best in ("exact", "equivalent", "told"):
-            hit = min(left, key=lambda cause: (ORDER.index(_best([cause], claim)), not _told(cause, claim)))
-            left.remove(hit)
-    return tuple(marks), len(left)
+    def of(self, spec: Model) -> FittedResponse:
+        key = spec.model_dump_json()
+        if key not in self._kept:
+            whole = on_all_open(spec, self.opened, self.closed)
+            self._kept[key] = fit_model(whole, self.data, uncertainty=False).responses[0]
+        return self._kept[key]
 
-
-def _told(cause: str, claim: Candidate) -> bool:
-    """Whether the claim names the cause among those that it can't be told from."""
-    for name in claim.equivalent:
-        effect, _, channels = name.partition(":")
-        if mark(cause, effect, channels.split(","), "") == "exact":
-            return True
-    return False
-
-
-def _outcome(marks: Sequence[str], missed: int, nothing: bool) -> str:
-    if nothing:
-        good = all(m in ("equivalent", "told", "family") for m in marks)
-        return "silent" if not marks else "family" if good else "false claim"
-    if not marks:
-        return "abstained"
-    if "wrong" in marks:
-        return "wrong"
-    if missed:
-        return "family" if "family" in marks else "some"
-    if "told" in marks:
-        return "told"
-    return "right" if all(m == "exact" for m in marks) else "equivalent"
-
-
-def _locked(spec: Model, data: Dataset) -> float | None:
-    """Error on the locked tests of a model fitted to all open ones, scored from the first samples on [um]."""
-    opened = [t for t in data.tests if t.role != "locked"]
-    locked = [t for t in data.tests if t.role == "locked"]
-    fitted = fit_model(on_all_open(spec, opened, locked), data, uncertainty=False).responses[0]
-    return rmse(fitted, [t for t in locked if fitted.can_predict(t)])
+    def locked(self, spec: Model) -> float | None:
+        """Error on the locked tests, scored from the first samples on [um]."""
+        fitted = self.of(spec)
+        return rmse(fitted, [t for t in self.closed if fitted.can_predict(t)])
 
 
 def _without_truth(world: World, data: Dataset, spec: Model) -> float | None:
@@ -175,7 +209,7 @@ def _without_truth(world: World, data: Dataset, spec: Model) -> float | None:
         replace(t, values={**t.values, name: t.values[name] - contribution(world, r)})
         for t, r in zip(data.tests, world.runs, strict=True)
     )
-    return _locked(spec, replace(data, tests=tests))
+    return _Fits(replace(data, tests=tests)).locked(spec)
 
 
 def _faults_found(world: World, found: Diagnosis) -> int:
@@ -193,10 +227,8 @@ def _faults_found(world: World, found: Diagnosis) -> int:
     return hits
 
 
-def _rivals(world: World, data: Dataset, spec: Model) -> dict[str, bool]:
-    opened = [t for t in data.tests if t.role != "locked"]
-    fitted = fit_model(on_all_open(spec, opened, []), data, uncertainty=False).responses[0]
-    question = ask(fitted, data, opened)
+def _rivals(world: World, data: Dataset, fitted: FittedResponse) -> dict[str, bool]:
+    question = ask(fitted, data, [t for t in data.tests if t.role != "locked"])
     found = {}
     for name, method in RIVALS.items():
         channel = method(question)

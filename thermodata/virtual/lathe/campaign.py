@@ -8,8 +8,8 @@ from functools import lru_cache
 import numpy as np
 
 from thermodata.virtual.lathe.causes import Heat
-from thermodata.virtual.lathe.fields import SOAK_H, solve
 from thermodata.virtual.lathe.hall import Air, Hall
+from thermodata.virtual.lathe.march import SOAK_H, Task, solve_all
 from thermodata.virtual.lathe.programme import DT_S, campaign, work
 
 SOAK_STEPS = 120
@@ -32,7 +32,7 @@ def stretches(seed: int, open_tests: int, idle: bool, hours: float) -> tuple[Str
     """The tests of a seed. hours: of a usual test; idle ones last up to three times as long."""
     rng = np.random.default_rng([seed, open_tests, int(idle), 15_485_863])
     hall = Hall.draw(rng)
-    found = []
+    planned = []
     for number, (kind, role) in enumerate(campaign(rng, open_tests, idle)):
         length = hours * (rng.uniform(1.2, 3.0) if kind == "idle" else rng.uniform(0.7, 1.2))
         job = work(kind, rng, length)
@@ -45,7 +45,11 @@ def stretches(seed: int, open_tests: int, idle: bool, hours: float) -> tuple[Str
             return Air(*(np.interp(t, whole, getattr(every, name)) for name in Air.__slots__))
 
         soak, air = at(before), at(job.hour)
-        heat = Heat(job, solve(job, air, soak), solve(job, air, soak, working=False))
         start = EPOCH_S + 86_400 * 3 * number + 3600 * float(job.hour[0])
-        found.append(Stretch(f"t{number + 1:02d}_{kind}", role, heat, air, start))
-    return tuple(found)
+        planned.append((f"t{number + 1:02d}_{kind}", role, start, job, air, soak))
+    solved = solve_all([Task(job, air, soak, on) for on in (True, False) for *_, job, air, soak in planned])
+    working, off = solved[: len(planned)], solved[len(planned) :]
+    return tuple(
+        Stretch(name, role, Heat(job, full, quiet), air, start)
+        for (name, role, start, job, air, _), full, quiet in zip(planned, working, off, strict=True)
+    )

@@ -10,6 +10,8 @@ from scipy.linalg.lapack import dgtsv
 
 from thermodata.plugin import Float1D
 
+FloatND = np.ndarray[tuple[int, ...], np.dtype[np.float64]]
+
 
 @dataclass(frozen=True, slots=True)
 class Material:
@@ -74,19 +76,21 @@ class Stack:
         size = part.stop - part.start
         return int(part.start + min(int(share * size), size - 1))
 
-    def step(self, T: Float1D, dt_s: float, leak: Float1D, outside: Float1D, power: Float1D) -> Float1D:
+    def step(self, T: FloatND, dt_s: float, leak: FloatND, outside: FloatND, power: FloatND) -> FloatND:
         """The temperatures after dt_s. leak: conductance to `outside` [W/K] of each cell; power: heat put in [W].
 
-        Crank-Nicolson: second order in time and stable, so that the result does not hang on the step.
+        Each of shape (cells,), or (machines, cells) for several that know nothing of each other. Crank-Nicolson:
+        second order in time and stable, so that the result does not hang on the step.
         """
         g = self.between
         flow = np.zeros_like(T)
         exchange = g * np.diff(T)
-        flow[:-1] += exchange
-        flow[1:] -= exchange
+        flow[..., :-1] += exchange
+        flow[..., 1:] -= exchange
         right = self.capacity / dt_s * T + 0.5 * (flow - leak * T) + leak * outside + power
         main = self.capacity / dt_s + 0.5 * leak
-        main[:-1] += 0.5 * g
-        main[1:] += 0.5 * g
-        side = -0.5 * g
-        return np.asarray(dgtsv(side, main, side, right)[3])
+        main[..., :-1] += 0.5 * g
+        main[..., 1:] += 0.5 * g
+        # machines in one row, as bodies are: nothing is exchanged where one ends
+        side = np.tile(np.append(-0.5 * g, 0.0), T.size // T.shape[-1])[:-1]
+        return np.asarray(dgtsv(side, main.ravel(), side, right.ravel())[3]).reshape(T.shape)

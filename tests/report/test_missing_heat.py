@@ -1,0 +1,94 @@
+"""The estimated missing heat on the page and in the terminal."""
+
+from __future__ import annotations
+
+import base64
+import json
+import re
+from typing import Any
+
+import numpy as np
+import pytest
+
+from thermodata.cli.diagnosing import diagnosis_text
+from thermodata.report.data import ReportData
+from thermodata.report.heat_figure import heat_figures
+from thermodata.report.page import render
+from thermodata.report.words import heat_lines
+
+from .conftest import missing_heat
+from .test_page import _FIGURE, _keep, body
+
+
+def values(packed: dict[str, Any]) -> np.ndarray:
+    return np.frombuffer(base64.b64decode(packed["bdata"]), "<f4")
+
+
+def test_each_test_has_its_course_on_the_page(unlogged: ReportData) -> None:
+    page = render(unlogged)
+    _keep(page, "unlogged")
+    figures = {key: json.loads(text) for key, text in _FIGURE.findall(page)}
+    assert [k for k in figures if k.startswith("heat")] == ["heat0", "heat1", "heat2"]
+    residual, estimated, source = figures["heat2"]["data"]
+    assert values(source["y"])[2:7] == pytest.approx([8.0] * 5)
+    assert source["yaxis"] == "y2"
+    assert np.isnan(values(residual["y"])[0]), "a hole is no zero"
+    assert values(estimated["y"])[6] == pytest.approx(3.5)
+    assert (estimated["x0"], estimated["dx"]) == pytest.approx((1 / 12, 1 / 6)), "a step's value stands in its middle"
+
+
+def test_the_page_says_what_is_known_of_it_and_escapes_it(unlogged: ReportData) -> None:
+    text = body(render(unlogged))
+    assert "A body near &lt;coolant&gt;." in text
+    assert "coolant_on" in text
+    assert re.search(r"day1 <span[^>]*>strong", text)
+    assert re.search(r"etve <span[^>]*>absent", text)
+
+
+def test_all_tests_have_the_same_scales() -> None:
+    figures = heat_figures(missing_heat().courses, "um", one_way=True)
+    for axis in ("yaxis", "yaxis2"):
+        assert len({tuple(f["layout"][axis]["range"]) for f in figures}) == 1
+    low, high = figures[0]["layout"]["yaxis2"]["range"]
+    assert low == 0
+    assert 8.0 < high < 10.0
+    assert figures[0]["layout"]["yaxis"]["range"][0] < -4.0
+
+
+def test_a_source_that_goes_both_ways_is_drawn_below_zero_too() -> None:
+    courses = [c.model_copy(update={"source_um": [-x for x in c.source_um]}) for c in missing_heat().courses]
+    assert heat_figures(courses, "um", one_way=False)[0]["layout"]["yaxis2"]["range"][0] < -8.0
+
+
+def test_a_page_without_a_missing_heat_has_no_figure_of_it(blind: ReportData) -> None:
+    page = render(blind)
+    assert "missing heat" not in body(page)
+    assert not any(key.startswith("heat") for key, _ in _FIGURE.findall(page))
+
+
+def test_the_terminal_says_the_same(unlogged: ReportData) -> None:
+    assert unlogged.diagnosis is not None
+    text = diagnosis_text(unlogged.diagnosis)
+    assert "the missing heat, estimated\n  A body near <coolant>" in text
+    assert "time constant: 40 min (at most 1.5 h over tests drawn anew)" in text
+    assert "direction: to plus when heated (93 % of the draws agree)" in text
+    assert "explains: over 99 % of the squared residual, 91 % in parts left out" in text
+    assert "goes with: coolant_on (on in 96 % while it runs, 4 % else)" in text
+    assert "not with: T_0 (0 % alike)" in text
+    assert "and 2 more" in text
+
+
+@pytest.mark.parametrize(
+    ("low", "high", "words"),
+    [(0.4, 1.0, "24 min to 60 min"), (0.4, None, "at least 24 min"), (None, None, "not bounded by these tests")],
+)
+def test_a_time_constant_is_told_with_its_spread(low: float | None, high: float | None, words: str) -> None:
+    heat = missing_heat().model_copy(update={"time_constant_low_h": low, "time_constant_high_h": high})
+    assert words in dict(heat_lines(heat))["time constant"]
+
+
+def test_what_goes_both_ways_has_no_direction_and_what_does_not_apply_is_left_out() -> None:
+    heat = missing_heat(None).model_copy(update={"goes_with": [], "hours_of_day": []})
+    lines = dict(heat_lines(heat))
+    assert lines["direction"] == "both ways"
+    assert not {"goes with", "on at (UTC)"} & set(lines)

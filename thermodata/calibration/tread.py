@@ -1,0 +1,83 @@
+"""How coarse a reading is: the tread of its staircase, from the values alone."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from thermodata.plugin import Float1D
+
+MOST_ROWS = 20_000  # of a stretch: its middle tells as much
+PART = 500  # samples with a zero of their own, so that a slip of the probe costs one part only
+SAME = 1e-9  # of the range: means of equal readings differ in their last bits
+LEAST_STANDING = 20  # samples, or there is nothing to say
+LEAST_LEVELS = 3  # of a staircase: two levels are a switch
+MOST_RISES = 12  # that a spacing is sought among, the commonest ones
+OFF = 0.05  # of a tread: a value so near to a multiple is on it, by chance one of ten
+ON_TREAD = 0.5  # least share of the standing samples that are on it
+FINER = 0.1  # more than chance: a finer spacing that holds so many more is the tread
+NEAR, FAR = 10, 1000  # treads from the commonest level that the spacing is fitted over, first and then
+
+
+def tread_of(stretches: Sequence[Float1D]) -> float:
+    """The largest common spacing of the values at which a reading stands still, in its unit; 0 where there is none.
+
+    stretches: of one channel, each of shape (n,) and with a zero of its own (a test); raw readings, or means over bins:
+    a bin that a riser falls into lies between two treads, but the next one seldom reads the same. A reading finer
+    than its noise stands by chance only: its tread is its last digit, or 0 where it never stands.
+    """
+    standing = [s for x in stretches for part in _parts(x) if len(s := _standing(part))]
+    if sum(map(len, standing)) < LEAST_STANDING:
+        return 0.0
+    zeroed = np.concatenate([s - _commonest(s) for s in standing])
+    # from the finest up: a multiple of the tread holds some of its levels only
+    best, held = 0.0, 0.0
+    for candidate in _candidates(standing):
+        tread = _fitted(zeroed, candidate)
+        k = zeroed / tread
+        on = np.abs(k - np.round(k)) < OFF
+        if on.mean() > max(FINER, held - FINER):
+            best, held = tread, max(held, float(on.mean()))
+    k = np.round(zeroed / best) if best else np.zeros(1)
+    return best if held >= ON_TREAD and len(np.unique(k)) >= LEAST_LEVELS else 0.0
+
+
+def _parts(x: Float1D) -> list[Float1D]:
+    x = x[np.isfinite(x)]
+    start = max(0, (len(x) - MOST_ROWS) // 2)
+    x = x[start : start + MOST_ROWS]
+    return np.array_split(x, max(1, len(x) // PART))
+
+
+def _standing(x: Float1D) -> Float1D:
+    """The samples that equal the one before."""
+    return x[1:][np.abs(np.diff(x)) <= SAME * np.ptp(x)] if len(x) > 1 else x[:0]
+
+
+def _commonest(x: Float1D) -> float:
+    values, counts = np.unique(x, return_counts=True)
+    return float(values[np.argmax(counts)])
+
+
+def _candidates(standing: Sequence[Float1D]) -> list[float]:
+    """Rises between levels that follow each other, and differences of such rises; the smallest first."""
+    rises = np.concatenate([np.abs(np.diff(s)) for s in standing])
+    span = max(float(np.ptp(s)) for s in standing)
+    rises = np.round(rises[rises > SAME * span], 9)
+    values, counts = np.unique(rises, return_counts=True)
+    common = values[np.argsort(-counts, kind="stable")[:MOST_RISES]]
+    between = np.round(np.abs(common[:, None] - common), 9).ravel()
+    both = np.unique(np.concatenate([common, between]))
+    return [float(c) for c in both[both > 1e-6 * span]]
+
+
+def _fitted(zeroed: Float1D, tread: float) -> float:
+    """The spacing by least squares over the levels: one rise is known to the last digit only."""
+    for reach in (NEAR, FAR):
+        k = np.round(zeroed / tread)
+        used = (np.abs(k) <= reach) & (np.abs(zeroed / tread - k) < OFF)
+        power = float(k[used] @ k[used])
+        if power > 0:
+            tread = float(k[used] @ zeroed[used]) / power
+    return tread

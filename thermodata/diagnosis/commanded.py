@@ -1,0 +1,143 @@
+"""Steps of the residual that a command makes: speed, feed, power, a switch. Decided by what it does elsewhere.
+
+A centrifugal shift looks like a slip of the probe, but it comes with every change of the speed. A pump that cycles is
+never far from a slip, but its other changes make no step. So a change explains a step only where the other changes of
+the same channel, at the same distance in time, foretell it: by a straight line through zero, jump of the residual over
+change of the command, or of its square (centrifugal force).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from thermodata.diagnosis.problem import Block, Problem
+from thermodata.plugin import Bool1D, Float1D, Int1D
+
+COMMANDS = ("rotational_speed", "feed", "power", "state", "load", "flow")
+POWERS = (1, 2)
+COMMAND_S = 600.0  # between a change and its step, for clocks differ
+MOVED = 0.2  # share of a command's range over all tests that makes it a change
+ELSEWHERE_S = 1200.0  # nearer to the step, a change sees the step itself
+FORETOLD = 0.2  # least share of the step that the others foretell, and of what they foretell that it is
+ALIKE = 0.15  # least share of the others' squared jumps that goes with the command
+HOLE_STEPS = 1.6  # a longer interval than this many usual ones is a hole
+
+
+@dataclass(frozen=True, slots=True)
+class _Course:
+    """A command in one block. change: power -> shape (m,), over three intervals; rows: where that is a change of its
+    own. hole: shape (m,), where nobody logged the command, or just after."""
+
+    change: Mapping[int, Float1D]
+    rows: Int1D
+    hole: Bool1D
+
+
+class Commands:
+    """The commands of a problem, and what the residual does where they change."""
+
+    def __init__(self, problem: Problem) -> None:
+        self._step_s = problem.step_s
+        self._jumps = [over_three(b.residual, b.t_s) for b in problem.blocks]
+        self._moves = [over_three(b.response, b.t_s) for b in problem.blocks]
+        names = sorted({n for b in problem.blocks for n, c in b.test.channels.items() if c.quantity in COMMANDS})
+        self._commands = [_courses(problem.blocks, n) for n in names]
+
+    def explain(self, block: int, i: int) -> bool:
+        """Whether a command makes the step before sample i of a block."""
+        return any(self._explains(command, block, i) for command in self._commands)
+
+    def _explains(self, command: Sequence[_Course | None], block: int, i: int) -> bool:
+        own, jump = command[block], float(self._jumps[block][i])
+        if own is None or not np.isfinite(jump):
+            return False
+        near = own.rows[np.abs(own.rows - i) <= int(COMMAND_S / self._step_s) + 1]
+        for row in near.tolist():
+            for power in POWERS:
+                x, y = self._elsewhere(command, self._jumps, block, i, i - row, power)
+                if tells(jump, float(own.change[power][row]), x, y, at_once=abs(i - row) <= 1):
+                    return True
+        # what a command did while nobody logged it, neither the model knows nor we: at most its largest change
+        return bool(own.hole[i]) and any(self._might(command, block, i, power) for power in POWERS)
+
+    def _might(self, command: Sequence[_Course | None], block: int, i: int, power: int) -> bool:
+        x, y = self._elsewhere(command, self._moves, block, i, 0, power)
+        if not len(x):
+            return False
+        slope, alike = through_zero(x, y)
+        most = abs(slope) * float(np.abs(x).max())
+        return alike >= ALIKE and most >= FORETOLD * abs(float(self._jumps[block][i]))
+
+    def _elsewhere(
+        self, command: Sequence[_Course | None], jumps: Sequence[Float1D], block: int, i: int, lag: int, power: int
+    ) -> tuple[Float1D, Float1D]:
+        """Changes of the command elsewhere, and the jumps so many samples after each: shape (k,) both."""
+        x, y = [np.empty(0)], [np.empty(0)]
+        for k, course in enumerate(command):
+            if course is None:
+                continue
+            rows = course.rows[(course.rows + lag >= 0) & (course.rows + lag < len(jumps[k]))]
+            if k == block:
+                rows = rows[np.abs(rows + lag - i) > int(ELSEWHERE_S / self._step_s)]
+            there = jumps[k][rows + lag]
+            x.append(course.change[power][rows][np.isfinite(there)])
+            y.append(there[np.isfinite(there)])
+        return np.concatenate(x), np.concatenate(y)
+
+
+def tells(jump: float, change: float, x: Float1D, y: Float1D, *, at_once: bool) -> bool:
+    """Whether a change of a command makes a jump, by its changes elsewhere, x, and the jumps there, y: shape (k,).
+
+    Where it changes nowhere else nobody can tell a slip from its doing, unless the clock does: at_once.
+    """
+    if not len(x):
+        return at_once
+    slope, alike = through_zero(x, y)
+    return alike >= ALIKE and FORETOLD <= slope * change / jump <= 1 / FORETOLD
+
+
+def through_zero(x: Float1D, y: Float1D) -> tuple[float, float]:
+    """(slope of the line through zero, share of the squares of y that it takes away)."""
+    slope = float(x @ y) / max(float(x @ x), 1e-300)
+    return slope, 1 - float(np.sum((y - slope * x) ** 2)) / max(float(y @ y), 1e-300)
+
+
+def over_three(values: Float1D, t_s: Float1D) -> Float1D:
+    """What changes over the interval before each sample and its two neighbours, shape (m,); NaN at ends and holes.
+
+    What happens between two samples is whole in it, even where a mean over both parts it, or a clock is off by one.
+    """
+    change = np.full(len(values), np.nan)
+    if len(values) >= 4:
+        step = float(np.median(np.diff(t_s)))
+        whole = t_s[3:] - t_s[:-3] < (2 + HOLE_STEPS) * step
+        change[2:-1] = np.where(whole, values[3:] - values[:-3], np.nan)
+    return change
+
+
+def _courses(blocks: Sequence[Block], name: str) -> list[_Course | None]:
+    """Of one command, None for each block that lacks it."""
+    held = [_held(b, name) for b in blocks]
+    values = [v for v, _ in held if len(v)]
+    span = float(np.ptp(np.concatenate(values))) if values else 0.0
+    return [_course(b, v, hole, span) if len(v) else None for b, (v, hole) in zip(blocks, held, strict=True)]
+
+
+def _held(block: Block, name: str) -> tuple[Float1D, Bool1D]:
+    """(last logged value, whether that is old) at each sample, shape (m,); empty where nothing is logged."""
+    test = block.test
+    known = np.flatnonzero(np.isfinite(test.values[name])) if name in test.values else np.empty(0, np.int64)
+    if not len(known):
+        return np.empty(0), np.empty(0, dtype=np.bool_)
+    last = known[np.clip(np.searchsorted(test.t_s[known], block.t_s, side="right") - 1, 0, None)]
+    step = float(np.median(np.diff(test.t_s)))
+    return np.asarray(test.values[name][last]), np.abs(block.t_s - test.t_s[last]) > HOLE_STEPS * step
+
+
+def _course(block: Block, value: Float1D, old: Bool1D, span: float) -> _Course:
+    change = {p: over_three(value**p, block.t_s) for p in POWERS}
+    rows = np.flatnonzero(np.abs(np.nan_to_num(change[1])) > MOVED * span) if span > 0 else np.empty(0, np.int64)
+    return _Course(change, rows, old | np.concatenate([[False], old[:-1]]))

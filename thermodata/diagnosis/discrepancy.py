@@ -1,0 +1,117 @@
+"""What a response does that no column explains: white noise and slow noise a test, and free offsets.
+
+    y = X b + offset + s(t) + e,    cov s = ou^2 exp(-|dt| / tau),    var e = white^2
+
+Slow noise is an Ornstein-Uhlenbeck process: what drifts, and what a sum of lags leaves of a distributed machine. It is
+what makes a long test worth its effective number of samples, not its rows. Sources: [uhlenbeck1930]; a discrepancy
+beside a model: [kennedy2001]. Offsets have a flat prior, so all products are taken after they are projected out
+(restricted likelihood [patterson1971]).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.linalg import solve_triangular
+
+from thermodata.diagnosis.problem import Problem
+from thermodata.plugin import Float1D, Float2D
+
+# a model is never better than this share of what it leaves: without it, a misfit of 0.05 um that repeats outweighs all
+LEAST_WHITE = 0.1
+# bounds of the search, as multiples of what the model leaves; of tau in seconds
+WHITE = (1e-3, 1.0)
+SLOW = (1e-2, 4.0)
+TAU_S = (600.0, 96 * 3600.0)
+SHARE = (0.03, 3.0)
+
+
+@dataclass(frozen=True, slots=True)
+class Noise:
+    """white, slow: standard deviations in the response's unit. tau_s: memory of the slow noise. share: how much of a
+    known effect may act otherwise than by its fitted lag (prior standard deviation)."""
+
+    white: float
+    slow: float
+    tau_s: float
+    share: float
+
+
+class Whitened:
+    """The tests of a problem under one noise. rows: that are left once the offsets are known. logdet: of the
+    covariance, offsets included."""
+
+    def __init__(self, problem: Problem, noise: Noise) -> None:
+        self.noise = noise
+        self._factors: list[Float2D] = []
+        self._offsets: list[Float2D] = []
+        self.rows, self.logdet = 0, 0.0
+        for i, block in enumerate(problem.blocks):
+            covariance = noise.slow**2 * np.exp(-_distances(problem, i) / noise.tau_s)
+            covariance[np.diag_indices_from(covariance)] += noise.white**2
+            factor: Float2D = np.asarray(np.linalg.cholesky(covariance), dtype=np.float64)
+            members = (block.segment[:, None] == np.unique(block.segment)[None]).astype(np.float64)
+            q, r = np.linalg.qr(solve_triangular(factor, members, lower=True, check_finite=False))
+            self._factors.append(factor)
+            self._offsets.append(q)
+            self.logdet += 2 * float(np.log(np.diag(factor)).sum() + np.log(np.abs(np.diag(r))).sum())
+            self.rows += len(block.t_s) - members.shape[1]
+
+    def of(self, test: int, columns: Float2D) -> Float2D:
+        """Columns of a test, shape (m, k), in units of the noise, without what an offset explains."""
+        return self.projected(test, solve_triangular(self._factors[test], columns, lower=True, check_finite=False))
+
+    def projected(self, test: int, white: Float2D) -> Float2D:
+        """Columns in units of the noise, shape (m, k), without what an offset explains."""
+        free = self._offsets[test]
+        result: Float2D = white - free @ (free.T @ white)
+        return result
+
+
+def _distances(problem: Problem, test: int) -> Float2D:
+    kept = problem.kept.setdefault("distances", {})
+    if test not in kept:
+        t = problem.blocks[test].t_s
+        kept[test] = np.abs(t[:, None] - t[None])
+    found: Float2D = kept[test]
+    return found
+
+
+def bounds_of(problem: Problem) -> tuple[Noise, Float2D]:
+    """Where a search begins, and the bounds of the logarithms of its four numbers, shape (4, 2)."""
+    rms = left_over(problem)
+    white = max(problem.noise if np.isfinite(problem.noise) else 0.0, 0.02 * rms)
+    ends = [(WHITE[0] * rms, max(WHITE[1] * rms, 2 * white)), (SLOW[0] * rms, SLOW[1] * rms), TAU_S, SHARE]
+    return Noise(white, rms, 7200.0, 0.5), np.log(ends)
+
+
+def left_over(problem: Problem) -> float:
+    """RMS of what the fitted model leaves, in the response's unit."""
+    return float(np.sqrt(np.mean(np.concatenate([b.residual for b in problem.blocks]) ** 2))) + 1e-9
+
+
+def ascend(goal: Callable[[Float1D], float], x: Float1D, bounds: Float2D, most: int = 90) -> Float1D:
+    x = np.clip(x, bounds[:, 0], bounds[:, 1])
+    best, step, asked = goal(x), 0.8, 1
+    while step > 0.12 and asked < most:
+        moved = False
+        for way in _ways(len(x)):
+            z = np.clip(x + step * way, bounds[:, 0], bounds[:, 1])
+            if np.array_equal(z, x):
+                continue
+            value = goal(z)
+            asked += 1
+            if value > best + 1e-3:
+                best, x, moved = value, z, True
+        step = step if moved else step / 2
+    return x
+
+
+def _ways(count: int) -> Sequence[Float1D]:
+    """Along each axis, and along size and memory of the slow noise together: short records know their ratio only."""
+    axes = [sign * axis for axis in np.eye(count) for sign in (1.0, -1.0)]
+    both = np.zeros(count)
+    both[1], both[2] = 0.5, 1.0
+    return [*axes, both, -both]

@@ -1,0 +1,120 @@
+"""What the model can do already, as a Gaussian prior: its gains freely, other time constants at a price."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import astuple, dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.linalg import solve_triangular
+
+from thermodata.diagnosis.discrepancy import LEAST_WHITE, Noise, Whitened, ascend, bounds_of, left_over
+from thermodata.diagnosis.problem import Problem
+from thermodata.plugin import Float1D, Float2D, Int1D
+
+FloatND = NDArray[np.float64]
+
+GAIN = 2.0  # prior standard deviation of a known effect's gain, as a multiple of its fit,
+SEARCHED = 700  # rows that the noise is estimated from
+FREE = 1.0  # or of what would make it as large as the response: an effect that another one hides has a small fit
+
+
+@dataclass(frozen=True, slots=True)
+class Known:
+    """The known effects under a noise, test by test. white: columns (m, k). gram: shape (tests, k, k). cross: (tests,
+    k), with the response. energy: (tests,). precision: (k,), of the prior."""
+
+    problem: Problem
+    space: Whitened
+    white: tuple[Float2D, ...]
+    response: tuple[Float1D, ...]
+    gram: FloatND
+    cross: Float2D
+    energy: Float1D
+    precision: Float1D
+
+    def factor(self, tests: Int1D) -> Float2D:
+        """Cholesky factor of the posterior precision, from some tests."""
+        return np.asarray(np.linalg.cholesky(self.gram[tests].sum(axis=0) + np.diag(self.precision)))
+
+    def mean(self, tests: Int1D) -> Float1D:
+        """Coefficients that some tests and the prior give, shape (k,)."""
+        return np.asarray(solved(self.factor(tests), self.cross[tests].sum(axis=0)))
+
+    @property
+    def every(self) -> Int1D:
+        return np.arange(len(self.white))
+
+    @property
+    def log_evidence(self) -> float:
+        """Of the response, offsets integrated out."""
+        factor = self.factor(self.every)
+        half = solve_triangular(factor, self.cross.sum(axis=0), lower=True) if len(factor) else np.zeros(0)
+        logdet = 2 * np.log(np.diag(factor)).sum() - np.log(self.precision).sum()
+        quad = self.energy.sum() - half @ half
+        return float(-0.5 * (quad + logdet + self.space.logdet + self.space.rows * np.log(2 * np.pi)))
+
+
+def known(problem: Problem, noise: Noise) -> Known:
+    return _with_prior(problem, noise, *_whitened(problem, noise))
+
+
+def likeliest(problem: Problem, start: Noise | None = None) -> Noise:
+    """The noise of the largest evidence, by a search along each of its numbers in turn; of some `SEARCHED` rows."""
+    every = max(1, round(problem.rows / SEARCHED))
+    thin = problem.thinned(every) if every > 1 else problem
+    first, bounds = bounds_of(problem)
+    last: tuple[Float1D, Any] | None = None
+
+    def evidence(x: Float1D) -> float:
+        nonlocal last
+        noise = Noise(*(float(v) for v in np.exp(x)))
+        # the price of other time constants changes no covariance
+        if last is None or not np.array_equal(last[0], x[:3]):
+            last = x[:3], _whitened(thin, noise)
+        return _with_prior(thin, noise, *last[1]).log_evidence
+
+    found = ascend(evidence, np.log(astuple(first if start is None else start)), bounds)
+    white, slow, tau_s, share = (float(v) for v in np.exp(found))
+    return Noise(max(white, LEAST_WHITE * left_over(problem)), slow, tau_s, share)
+
+
+def _whitened(problem: Problem, noise: Noise) -> tuple[Whitened, tuple[Float2D, ...], tuple[Float1D, ...]]:
+    space = Whitened(problem, noise)
+    both = [space.of(i, np.column_stack([b.base, b.slack, b.response])) for i, b in enumerate(problem.blocks)]
+    return space, tuple(b[:, :-1] for b in both), tuple(b[:, -1] for b in both)
+
+
+def _with_prior(
+    problem: Problem, noise: Noise, space: Whitened, white: tuple[Float2D, ...], response: tuple[Float1D, ...]
+) -> Known:
+    return Known(
+        problem,
+        space,
+        white,
+        response,
+        np.stack([x.T @ x for x in white]),
+        np.stack([x.T @ y for x, y in zip(white, response, strict=True)]),
+        np.array([y @ y for y in response]),
+        _precision(problem, noise.share),
+    )
+
+
+def solved(factor: Float2D, right: Float2D) -> Float2D:
+    """(L L')^-1 times the right side."""
+    half = solve_triangular(factor, right, lower=True, check_finite=False)
+    return np.asarray(solve_triangular(factor, half, lower=True, trans="T", check_finite=False))
+
+
+def _precision(problem: Problem, share: float) -> Float1D:
+    large = rms(problem.response_blocks)
+    own = np.sqrt(np.mean(np.vstack([b.base for b in problem.blocks]) ** 2, axis=0))
+    gains = np.maximum(GAIN, FREE * large / np.maximum(own, 1e-9 * large + 1e-300))
+    return np.concatenate([gains**-2.0, np.full(problem.blocks[0].slack.shape[1], share**-2.0)])
+
+
+def rms(parts: Sequence[Float1D]) -> float:
+    """Of all samples of some series together."""
+    return float(np.sqrt(np.mean(np.concatenate(parts) ** 2)))

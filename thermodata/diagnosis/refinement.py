@@ -1,0 +1,139 @@
+"""Whether a candidate is a cause of its own, or refines an effect that the model has.
+
+Three ways to refine: it takes a known effect's place; it is kin (same family, channels or place) and small beside it;
+or it acts as a known effect would if its temperature counted from another one.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from thermodata.diagnosis.candidates import GENERIC, refines
+from thermodata.diagnosis.discrepancy import Noise
+from thermodata.diagnosis.judge import acting_size
+from thermodata.diagnosis.known import known, rms
+from thermodata.diagnosis.known_effects import from_other_zero, is_warm, owners
+from thermodata.diagnosis.problem import Block, Problem
+from thermodata.diagnosis.scored import Scored
+from thermodata.diagnosis.selection import beside
+from thermodata.modelling.fitted_response import FittedResponse
+from thermodata.plugin import Float1D, Int1D
+
+MODE = "it is another mode of what the model has"
+AIR = "ambient"  # a temperature of the air counts from nothing else
+# what a model leaves that is good already: more, and something is missing (share of the response)
+GOOD = 0.4
+POOR = 0.5  # and what is poor whatever the model has at the place
+# what takes away so much of what is left (as a share of the error) is missing, not another mode of what is there
+MOST = 0.6
+# a known effect is replaced where, beside the candidate, it is worth this share of what it was worth alone
+REPLACED = 0.1
+WORTH = 20.0  # log evidence: an effect that was worth less was never there to be replaced
+LIKE = 0.9  # and both act alike (cosine)
+SMALL = 0.6  # of the known effect's size: kin that does less is another mode of it
+OPPOSITE = -0.8  # cosine with the known effect driven by the candidate's temperature,
+SHARE = (0.2, 1.5)  # and how much of it that takes away
+
+
+class Refinement:
+    """Asked for each member of a selection, in the noise beside all members."""
+
+    def __init__(self, fitted: FittedResponse, problem: Problem, noise: Noise) -> None:
+        self.fitted, self.problem, self.noise = fitted, problem, noise
+        self.owners = tuple(np.array(o, dtype=np.int64) for o in owners(fitted))
+        self._worth: dict[int, float] = {}
+
+    def __call__(self, scored: Scored) -> str | None:
+        """What it refines of the model, in words."""
+        if not self.fitted.terms:
+            return None
+        kin, most = scored.candidate.kin, scored.drop >= MOST
+        poor = scored.error_before > POOR * rms(self.problem.response_blocks)
+        if refines(scored.candidate.effect) or (kin == "same" and not most) or (kin == "near" and not (most and poor)):
+            return MODE
+        if scored.error_before > GOOD * rms(self.problem.response_blocks):
+            return None
+        largest = max(self._size(i) for i in range(len(self.fitted.terms)))
+        if kin is not None and not most and acting_size(scored) < SMALL * largest:
+            return MODE
+        for number, term in enumerate(self.fitted.terms):
+            if (kin == "near" or not most) and self._replaces(scored, number):
+                return f"it takes the place of {term.id}"
+            channel = self._other_zero(scored, number)
+            if channel is not None:
+                return f"it acts as {term.id} would if its temperature counted from {channel}"
+        return None
+
+    def _replaces(self, scored: Scored, term: int) -> bool:
+        if term not in self._worth:
+            self._worth[term] = self._cost(self.problem, term)
+        alone = self._worth[term]
+        if alone < WORTH or self._likeness(scored, term) < LIKE:
+            return False
+        return self._cost(beside(self.problem, [scored]), term) < REPLACED * alone
+
+    def _cost(self, problem: Problem, term: int) -> float:
+        """Log evidence that dropping a known effect costs."""
+        return known(problem, self.noise).log_evidence - known(self._lacking(problem, term), self.noise).log_evidence
+
+    def _lacking(self, problem: Problem, term: int) -> Problem:
+        base, spare = (_others(o, term) for o in self.owners)
+        blocks = []
+        for b in problem.blocks:
+            added = np.arange(len(self.owners[0]), b.base.shape[1]), np.arange(len(self.owners[1]), b.slack.shape[1])
+            blocks.append(
+                replace(
+                    b,
+                    base=b.base[:, np.concatenate([base, added[0]])],
+                    slack=b.slack[:, np.concatenate([spare, added[1]])],
+                )
+            )
+        return replace(problem, blocks=tuple(blocks))
+
+    def _likeness(self, scored: Scored, term: int) -> float:
+        """Cosine, without sign, of what the candidate and a known effect do."""
+        own = np.concatenate(
+            [c[:, scored.weighed.best[0]] @ scored.weighed.coefficients for c in scored.columns.blocks]
+        )
+        theirs = np.concatenate([self._does(b, term) for b in self.problem.blocks])
+        size = float(np.linalg.norm(own) * np.linalg.norm(theirs))
+        return abs(float(own @ theirs)) / size if size > 0 else 0.0
+
+    def _does(self, block: Block, term: int) -> Float1D:
+        gains = len(self.fitted.terms[term].effect.gains)
+        own = np.flatnonzero(self.owners[0] == term)[:gains]
+        return np.asarray(block.base[:, own].sum(axis=1))
+
+    def _size(self, term: int) -> float:
+        """RMS of what a known effect does, as fitted, in its largest test."""
+        return max(float(np.sqrt(np.mean(self._does(b, term) ** 2))) for b in self.problem.blocks)
+
+    def _other_zero(self, scored: Scored, term: int) -> str | None:
+        channels = scored.candidate.channels
+        if self.fitted.terms[term].family == AIR or scored.candidate.family not in (AIR, GENERIC):
+            return None
+        if len(channels) != 1 or not is_warm(self.problem.blocks[0].test, channels[0]):
+            return None
+        if acting_size(scored) >= SMALL * self._size(term):
+            return None
+        alike, point = [], scored.weighed.best[0]
+        for block, columns in zip(self.problem.blocks, scored.columns.blocks, strict=True):
+            other = from_other_zero(self.fitted, term, channels[0], block.test)
+            if other is None:
+                return None
+            alike.append((columns[:, point] @ scored.weighed.coefficients, block.compress(other[:, None])[:, 0]))
+        own, theirs = (np.concatenate(side) for side in zip(*alike, strict=True))
+        return channels[0] if _takes_away(own, theirs) else None
+
+
+def _takes_away(own: Float1D, theirs: Float1D) -> bool:
+    product, size = float(own @ theirs), float(theirs @ theirs)
+    if size == 0 or not own.any():
+        return False
+    return product / np.sqrt(size * float(own @ own)) < OPPOSITE and SHARE[0] <= -product / size <= SHARE[1]
+
+
+def _others(owned: Int1D, term: int) -> Int1D:
+    return np.flatnonzero(owned != term)

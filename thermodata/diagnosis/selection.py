@@ -1,0 +1,253 @@
+"""Which effects together: forward, one at a time by evidence, the noise estimated again each time, and with swaps.
+
+Where two or three effects are missing, one alone is judged in the noise of the others: so every member is weighed again
+beside all others, by what dropping it costs.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from thermodata.diagnosis.candidates import GENERIC, CandidateEffect
+from thermodata.diagnosis.discrepancy import Noise
+from thermodata.diagnosis.evidence import Columns, Moments, Weighed, columns, moments, weigh
+from thermodata.diagnosis.invariance import spread_of_gain
+from thermodata.diagnosis.known import Known, known, likeliest
+from thermodata.diagnosis.problem import Problem
+from thermodata.diagnosis.scored import Scored
+from thermodata.store.base.counting import counted
+
+MOST = 5  # effects that one diagnosis adds
+PASSES = 3
+SCORED = 15  # candidates whose left-out tests are computed
+WORTH = 10.0  # log evidence that a further effect must bring
+# a name, or fewer channels, is worth this share of the evidence: what a lag explains as well is not the lag's own
+NAMED_SHARE = 0.95
+ALIKE_SHARE = 0.8  # the same for a name on another channel that acts alike (cosine)
+ALIKE = 0.8
+FEWER_SHARE = 0.8
+
+
+@dataclass(frozen=True, slots=True)
+class Ranked:
+    """All candidates beside some known effects, the most likely first. ranked: with left-out tests for the first
+    `SCORED`."""
+
+    known: Known
+    ranked: tuple[Scored, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Member:
+    """One effect of the set. alone: as it was chosen, beside what was chosen before. scored: beside all others. beside:
+    all candidates, ranked beside these others."""
+
+    alone: Scored
+    scored: Scored
+    beside: tuple[Scored, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Selection:
+    """first: the ranking beside the model alone. members: in the order of their choice. dropped: what the evidence
+    chose and a rule forbade. noise: beside all members."""
+
+    first: Ranked
+    members: tuple[Member, ...]
+    dropped: tuple[Scored, ...]
+    noise: Noise
+
+
+def first_ranking(problem: Problem, candidates: Sequence[CandidateEffect]) -> Ranked | None:
+    """Beside the model alone. None where nothing can be left out, or no candidate's drivers move."""
+    if len(problem.blocks) < 2:
+        return None
+    pool = [c for c in (columns(problem, k) for k in counted(candidates, "candidates")) if c is not None]
+    return rank(problem, pool, None) if pool else None
+
+
+def select(problem: Problem, first: Ranked, sound: Callable[[Scored], bool]) -> Selection:
+    """Forward by evidence, then what is not sound beside the others goes, the least likely first; and again, for what
+    it stood in the way of. sound: whether a candidate keeps the rules of a claim."""
+    pool, noise = [s.columns for s in first.ranked], first.known.space.noise
+    chosen: list[Scored] = []
+    current: list[Scored] = []
+    dropped: list[Scored] = []
+    for number in range(PASSES):
+        last = first if number == 0 else rank(beside(problem, chosen), without(pool, [*chosen, *dropped]), noise)
+        before = len(dropped)
+        _forward(problem, pool, chosen, dropped, last)
+        noise = likeliest(beside(problem, chosen), noise)
+        current = _each_beside_others(problem, chosen, noise)
+        while unsound := [i for i, s in enumerate(current) if not sound(s)]:
+            worst = min(unsound, key=lambda i: current[i].evidence)
+            dropped.append(current[worst])
+            chosen.pop(worst)
+            noise = likeliest(beside(problem, chosen), noise)
+            current = _each_beside_others(problem, chosen, noise)
+        if len(dropped) == before:
+            break
+    members = tuple(_member(problem, pool, chosen, i, current[i], noise) for i in range(len(chosen)))
+    return Selection(first, members, tuple(dropped), noise)
+
+
+def _forward(
+    problem: Problem, pool: Sequence[Columns], chosen: list[Scored], dropped: Sequence[Scored], last: Ranked
+) -> None:
+    """Adds to the chosen while the evidence is worth it. last: the ranking beside them."""
+    while len(chosen) < MOST:
+        best = preferred(last.ranked)
+        if best is None or best.evidence < WORTH:
+            return
+        chosen.append(best)
+        last = rank(beside(problem, chosen), without(pool, [*chosen, *dropped]), last.known.space.noise)
+
+
+def beside(problem: Problem, chosen: Sequence[Scored]) -> Problem:
+    """The same with chosen effects among what is known."""
+    for one in chosen:
+        problem = extended(problem, one.columns, one.weighed)
+    return problem
+
+
+def _each_beside_others(problem: Problem, chosen: Sequence[Scored], noise: Noise) -> list[Scored]:
+    """In the noise beside all: what is left once nothing is missing, which is what tells rivals apart."""
+    found = []
+    for one in chosen:
+        others = [c for c in chosen if c is not one]
+        found.append(rank_in(beside(problem, others), [one.columns], noise).ranked[0])
+    return found
+
+
+def _member(
+    problem: Problem, pool: Sequence[Columns], chosen: Sequence[Scored], number: int, own: Scored, noise: Noise
+) -> Member:
+    """One that another candidate does clearly better, beside the others, is swapped for it."""
+    others = [c for i, c in enumerate(chosen) if i != number]
+    ranking = rank_in(beside(problem, others), without(pool, others), noise)
+    best = preferred(ranking.ranked)
+    if best is not None and _clearly(best, own) and best.drop > own.drop:
+        return Member(chosen[number], best, ranking.ranked)
+    return Member(chosen[number], own, ranking.ranked)
+
+
+def _clearly(best: Scored, own: Scored) -> bool:
+    return best.columns is not own.columns and own.evidence < NAMED_SHARE * best.evidence
+
+
+def without(pool: Sequence[Columns], chosen: Sequence[Scored]) -> list[Columns]:
+    return [c for c in pool if not any(c is s.columns for s in chosen)]
+
+
+def rank(problem: Problem, pool: Sequence[Columns], start: Noise | None) -> Ranked:
+    """By evidence. start: where the search of the noise begins."""
+    return rank_in(problem, pool, likeliest(problem, start))
+
+
+def rank_in(problem: Problem, pool: Sequence[Columns], noise: Noise) -> Ranked:
+    """The same in a given noise."""
+    base = known(problem, noise)
+    weighed = []
+    for one in pool:
+        products = moments(base, one)
+        weighed.append((weigh(base, one, products, base.every), products, one))
+    weighed.sort(key=lambda item: -item[0].total)
+    ranked = [_scored(problem, base, one, products, w) for w, products, one in weighed[:SCORED]]
+    ranked += [_unscored(one, w) for w, _, one in weighed[SCORED:]]
+    return Ranked(base, tuple(ranked))
+
+
+def preferred(ranked: Sequence[Scored]) -> Scored | None:
+    """The most likely, unless one that shares a channel with it has a name, or needs fewer channels, and is nearly as
+    likely."""
+    if not ranked:
+        return None
+    best = ranked[0]
+    own = set(best.candidate.channels)
+    for other in (s for s in ranked[1:] if len(s.shape)):
+        theirs = set(other.candidate.channels)
+        fewer = theirs < own and best.candidate.family in (GENERIC, CONTROL)
+        named = best.candidate.family == GENERIC != other.candidate.family and own & theirs
+        elsewhere = (
+            best.candidate.family == GENERIC != other.candidate.family
+            and len(other.candidate.channels) == 1
+            and abs(float(best.shape @ other.shape)) > ALIKE
+        )
+        if (
+            (fewer and other.evidence >= FEWER_SHARE * best.evidence)
+            or (named and other.evidence >= NAMED_SHARE * best.evidence)
+            or (elsewhere and other.evidence >= ALIKE_SHARE * best.evidence)
+        ):
+            return other if not fewer else preferred([other, *(s for s in ranked if s is not other and s is not best)])
+    return best
+
+
+CONTROL = "control"  # its static compensation is a difference of any two temperatures
+
+
+def extended(problem: Problem, made: Columns, weighed: Weighed) -> Problem:
+    """The same with an effect among what is known: at its likeliest time constant, its neighbours at a price."""
+    point, coefficients = weighed.best[0], weighed.coefficients
+    gains, neighbours = made.gains, [p for p in (point - 1, point + 1) if 0 <= p < len(made.points)]
+    blocks = []
+    for block, full in zip(problem.blocks, made.blocks, strict=True):
+        here = full[:, point]
+        own = here[:, :gains] * np.where(coefficients[:gains] == 0, 1.0, coefficients[:gains])
+        spare = [here[:, gains:].reshape(len(here), -1, gains) @ coefficients[:gains]]
+        if len(made.candidate.effect.params) == 1:
+            spare += [(full[:, p, :gains] @ coefficients[:gains] - own.sum(axis=1))[:, None] for p in neighbours]
+        blocks.append(replace(block, base=np.hstack([block.base, own]), slack=np.hstack([block.slack, *spare])))
+    return replace(problem, blocks=tuple(blocks))
+
+
+def _scored(problem: Problem, base: Known, one: Columns, products: Moments, w: Weighed) -> Scored:
+    tests = base.every
+    before, after, gained = np.zeros(len(tests)), np.zeros(len(tests)), np.zeros(len(tests))
+    for i, block in enumerate(problem.blocks):
+        others = np.delete(tests, i)
+        seen = weigh(base, one, products, others)
+        gained[i] = w.total - seen.total
+        point, _ = seen.best
+        theta = base.mean(others)
+        left = block.response - np.hstack([block.base, block.slack]) @ theta
+        before[i] = left @ left
+        pulled = np.linalg.solve(
+            base.gram[others].sum(axis=0) + np.diag(base.precision),
+            products.known[others].sum(axis=0)[point].T @ seen.coefficients,
+        )
+        left = left + np.hstack([block.base, block.slack]) @ pulled - one.blocks[i][:, point] @ seen.coefficients
+        after[i] = left @ left
+    contribution = [b[:, w.best[0]] @ w.coefficients for b in one.blocks]
+    rows = np.array([len(c) for c in contribution])
+    size = np.sqrt([np.mean(c**2) for c in contribution])
+    return Scored(
+        candidate=one.candidate,
+        columns=one,
+        weighed=w,
+        evidence=w.total - one.candidate.log_prior,
+        gained=gained,
+        rows=rows,
+        sse_before=before,
+        sse_after=after,
+        size=size,
+        spread=spread_of_gain(base, contribution),
+        shape=_shape(base, contribution),
+    )
+
+
+def _unscored(one: Columns, w: Weighed) -> Scored:
+    none = np.zeros(0)
+    return Scored(one.candidate, one, w, w.total - one.candidate.log_prior, none, none, none, none, none, 1.0, none)
+
+
+def _shape(base: Known, contribution: Sequence[np.ndarray]) -> np.ndarray:
+    """The whitened contribution without what the known effects can do, unit length."""
+    white = [base.space.of(i, c[:, None])[:, 0] for i, c in enumerate(contribution)]
+    cross = np.sum([x.T @ w for x, w in zip(base.white, white, strict=True)], axis=0)
+    theta = np.linalg.solve(base.gram.sum(axis=0) + np.diag(base.precision), cross)
+    whole = np.concatenate([w - x @ theta for x, w in zip(base.white, white, strict=True)])
+    length = float(np.linalg.norm(whole))
+    return np.asarray(whole / length if length > 0 else whole)
