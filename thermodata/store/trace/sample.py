@@ -25,7 +25,7 @@ Answer = dict[str, Any]
 Again = Callable[[RawStream, int, str, str], Answer]
 
 
-_NEAR_S = 1.0  # a time that was rounded up lies no farther behind the last sample
+_NEAR_S, _NEAR = 1.0, 0.05  # a time that was rounded lies no farther beyond the test [s], [of its length]
 
 
 def find_sample(
@@ -98,8 +98,8 @@ def _tidy_row(
         raise UsageError(f"channel '{name}' has no samples in test '{test}'")
     (known,) = fetch(con, "select duration_s from test where campaign = ? and test = ?", [campaign, test])
     end_s = max(float(known["duration_s"] or 0.0), best["t_s"])
-    beyond = t_s > end_s + _NEAR_S or t_s < min(best["t_s"], 0.0) - _NEAR_S
-    if beyond:
+    near_s = max(_NEAR_S, _NEAR * end_s)
+    if t_s > end_s + near_s or t_s < min(best["t_s"], 0.0) - near_s:
         raise UsageError(
             f"test '{test}' has no sample at {t_s:g} s",
             where=f"channel {name}",
