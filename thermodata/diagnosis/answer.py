@@ -125,13 +125,13 @@ def _diagnosis(
         advice = next_test.to_find(
             len({b.test.key for b in problem.blocks}), investigation.spots, shown[0][0] if shown else None
         )
-    scored = [s for s, _ in shown if len(s.rows)]
+    scored, alone = [s for s, _ in shown if len(s.rows)], investigation.selection
     return Diagnosis(
         model=model_id,
         response=problem.response,
         verdict=judgement.verdict,
         noise_um=problem.noise if np.isfinite(problem.noise) else None,
-        rmse_um=remaining(scored[0]) if scored else _left(problem),
+        rmse_um=remaining(alone.first.ranked[0]) if alone is not None else _left(problem),
         explainable=max((float(np.clip(_fall(s), 0.0, 1.0)) for s in scored), default=None),
         weak_spots=investigation.spots,
         candidates=[
