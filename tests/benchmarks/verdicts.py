@@ -30,7 +30,7 @@ from measure import machine, table
 RELATIVE = 1e-9
 EXACT = ("p_value",)
 NOT_COMPARED = ("seconds",)
-OF_ONE = ("drop", "white_drop", "explainable")  # 1 - a ratio of errors: as exact as the ratio
+OF_ONE = ("explainable",)  # 1 - a ratio of errors: as exact as the ratio
 
 
 @dataclass(frozen=True)
@@ -95,7 +95,7 @@ def diagnosed(case: Case) -> dict[str, Any]:
     """The answer and the rankings behind it, as plain values."""
     from dataclasses import replace
 
-    from thermodata.diagnosis import investigate
+    from thermodata.diagnosis import selection
     from thermodata.diagnosis.answer import answer
     from thermodata.effect import effects
     from thermodata.modelling.fit import fit_model
@@ -125,20 +125,20 @@ def diagnosed(case: Case) -> dict[str, Any]:
     library = effects()
     fitted = fit_model(spec, data, uncertainty=False)
     rankings: list[Any] = []
-    original = investigate.rank
+    original = selection.rank_in
 
-    def watched(*words: Any) -> Any:
-        found = original(*words)
-        rankings.append(found)
+    def watched(*words: Any, **named: Any) -> Any:
+        found = original(*words, **named)
+        rankings.append([s for s in found.ranked if len(s.rows)])
         return found
 
-    investigate.rank = watched  # type: ignore[assignment]
+    selection.rank_in = watched  # type: ignore[assignment]
     try:
         start = time.process_time()
         found = answer(fitted, data, library, "verdicts").diagnosis
         seconds = time.process_time() - start
     finally:
-        investigate.rank = original
+        selection.rank_in = original
     return {
         "case": case.name,
         "channels": len(data.channels),
@@ -154,15 +154,12 @@ def plain(scored: Any) -> dict[str, Any]:
     rows = range(1, len(scored.shape) + 1)
     return {
         "id": scored.candidate.id,
-        "params": dict(scored.params),
-        "gain": scored.gain.tolist(),
-        "drop": scored.drop,
-        "white_drop": scored.white_drop,
-        "p_value": scored.p_value,
+        "evidence": scored.evidence,
+        "gained": scored.gained.tolist(),
         "sse_before": scored.sse_before.tolist(),
         "sse_after": scored.sse_after.tolist(),
-        "size": scored.size,
-        "order": scored.order,
+        "size": scored.size.tolist(),
+        "spread": scored.spread,
         "shape": [sum(v * math.sin(k * i) for i, v in zip(rows, scored.shape, strict=True)) for k in (0.01, 1.0)],
     }
 

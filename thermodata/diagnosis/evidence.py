@@ -17,11 +17,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.linalg import solve_triangular
-from scipy.special import logsumexp
 
 from thermodata.diagnosis.basis import basis
 from thermodata.diagnosis.candidates import CandidateEffect
+from thermodata.diagnosis.discrepancy import halved
 from thermodata.diagnosis.known import FloatND, Known, rms, solved
 from thermodata.diagnosis.problem import Problem
 from thermodata.plugin import Float1D, Float2D, Int1D
@@ -73,7 +72,7 @@ class Weighed:
 
     @property
     def total(self) -> float:
-        return float(logsumexp(self.log_bf))
+        return float(_log_sum(self.log_bf.reshape(-1, 1))[0])
 
     @property
     def best(self) -> tuple[int, int]:
@@ -140,9 +139,8 @@ def _beyond_known(known: Known, moments: Moments, tests: Int1D) -> tuple[FloatND
     cross = moments.known[tests].sum(axis=0)
     points, c, k = cross.shape
     factor = known.factor(tests)
-    half = solve_triangular(factor, cross.reshape(points * c, k).T, lower=True, check_finite=False)
-    half = half.T.reshape(points, c, k)
-    theta = solved(factor, known.cross[tests].sum(axis=0))
+    half = halved(factor, cross.reshape(points * c, k).T).T.reshape(points, c, k)
+    theta = known.mean(tests)
     left = moments.own[tests].sum(axis=0) - half @ half.transpose(0, 2, 1)
     return left, moments.response[tests].sum(axis=0) - cross @ theta
 
@@ -180,5 +178,10 @@ def of_each_series(known: Known, columns: Columns, series: Sequence[Float2D]) ->
     goal = deviation[None, :, :, None] * right[:, None]
     solution = np.linalg.solve(scaled, goal)
     log_bf = 0.5 * np.einsum("pscn,pscn->psn", goal, solution) - 0.5 * np.linalg.slogdet(scaled)[1][..., None]
-    total: Float1D = logsumexp(log_bf + columns.prior[..., None], axis=(0, 1))
-    return total
+    return _log_sum((log_bf + columns.prior[..., None]).reshape(-1, count))
+
+
+def _log_sum(logs: Float2D) -> Float1D:
+    """Logarithm of the sum of exponentials down each column."""
+    top = logs.max(axis=0)
+    return np.asarray(top + np.log(np.exp(logs - top).sum(axis=0)))

@@ -29,7 +29,7 @@ def spread_of_gain(known: Known, contribution: Sequence[Float1D]) -> float:
     factor = known.factor(known.every)
     precision = np.diag(size) - cross @ solved(factor, cross.T)
     right = np.array([w @ y for w, y in zip(white, known.response, strict=True)])
-    right = right - cross @ solved(factor, known.cross.sum(axis=0))
+    right = right - cross @ known.mean(known.every)
     precision, right = precision[np.ix_(active, active)], right[active]
     precision[np.diag_indices_from(precision)] += 1e-9 * size.max()
     weight = np.array([_log_likelihood(precision, right, s) for s in SPREADS])

@@ -8,9 +8,8 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.linalg import solve_triangular
 
-from thermodata.diagnosis.discrepancy import LEAST_WHITE, Noise, Whitened, ascend, bounds_of, left_over
+from thermodata.diagnosis.discrepancy import LEAST_WHITE, Noise, Whitened, ascend, bounds_of, halved, left_over
 from thermodata.diagnosis.problem import Problem
 from thermodata.plugin import Float1D, Float2D, Int1D
 
@@ -41,7 +40,7 @@ class Known:
 
     def mean(self, tests: Int1D) -> Float1D:
         """Coefficients that some tests and the prior give, shape (k,)."""
-        return np.asarray(solved(self.factor(tests), self.cross[tests].sum(axis=0)))
+        return np.asarray(solved(self.factor(tests), self.cross[tests].sum(axis=0)[:, None])[:, 0])
 
     @property
     def every(self) -> Int1D:
@@ -51,7 +50,7 @@ class Known:
     def log_evidence(self) -> float:
         """Of the response, offsets integrated out."""
         factor = self.factor(self.every)
-        half = solve_triangular(factor, self.cross.sum(axis=0), lower=True) if len(factor) else np.zeros(0)
+        half = halved(factor, self.cross.sum(axis=0)[:, None])[:, 0]
         logdet = 2 * np.log(np.diag(factor)).sum() - np.log(self.precision).sum()
         quad = self.energy.sum() - half @ half
         return float(-0.5 * (quad + logdet + self.space.logdet + self.space.rows * np.log(2 * np.pi)))
@@ -104,8 +103,7 @@ def _with_prior(
 
 def solved(factor: Float2D, right: Float2D) -> Float2D:
     """(L L')^-1 times the right side."""
-    half = solve_triangular(factor, right, lower=True, check_finite=False)
-    return np.asarray(solve_triangular(factor, half, lower=True, trans="T", check_finite=False))
+    return halved(factor, halved(factor, right), transposed=True)
 
 
 def _precision(problem: Problem, share: float) -> Float1D:

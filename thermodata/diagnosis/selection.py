@@ -15,7 +15,7 @@ from thermodata.diagnosis.candidates import GENERIC, CandidateEffect
 from thermodata.diagnosis.discrepancy import Noise
 from thermodata.diagnosis.evidence import Columns, Moments, Weighed, columns, moments, weigh
 from thermodata.diagnosis.invariance import spread_of_gain
-from thermodata.diagnosis.known import Known, known, likeliest
+from thermodata.diagnosis.known import Known, known, likeliest, solved
 from thermodata.diagnosis.problem import Problem
 from thermodata.diagnosis.scored import Scored
 from thermodata.store.base.counting import counted
@@ -77,7 +77,8 @@ def select(problem: Problem, first: Ranked, sound: Callable[[Scored], bool]) -> 
     current: list[Scored] = []
     dropped: list[Scored] = []
     for number in range(PASSES):
-        last = first if number == 0 else rank(beside(problem, chosen), without(pool, [*chosen, *dropped]), noise)
+        rest = without(pool, [*chosen, *dropped])
+        last = first if number == 0 else rank(beside(problem, chosen), rest, noise, left_out=False)
         before = len(dropped)
         _forward(problem, pool, chosen, dropped, last)
         noise = likeliest(beside(problem, chosen), noise)
@@ -102,8 +103,12 @@ def _forward(
         best = preferred(last.ranked)
         if best is None or best.evidence < WORTH:
             return
+        if not len(best.rows):
+            base = last.known
+            best = _scored(base.problem, base, best.columns, moments(base, best.columns), best.weighed)
         chosen.append(best)
-        last = rank(beside(problem, chosen), without(pool, [*chosen, *dropped]), last.known.space.noise)
+        noise = last.known.space.noise
+        last = rank(beside(problem, chosen), without(pool, [*chosen, *dropped]), noise, left_out=False)
 
 
 def beside(problem: Problem, chosen: Sequence[Scored]) -> Problem:
@@ -142,12 +147,13 @@ def without(pool: Sequence[Columns], chosen: Sequence[Scored]) -> list[Columns]:
     return [c for c in pool if not any(c is s.columns for s in chosen)]
 
 
-def rank(problem: Problem, pool: Sequence[Columns], start: Noise | None) -> Ranked:
-    """By evidence. start: where the search of the noise begins."""
-    return rank_in(problem, pool, likeliest(problem, start))
+def rank(problem: Problem, pool: Sequence[Columns], start: Noise | None, *, left_out: bool = True) -> Ranked:
+    """By evidence. start: where the search of the noise begins. left_out: whether the first `SCORED` are asked for the
+    tests that are left out; who chooses by evidence alone needs only what they look like."""
+    return rank_in(problem, pool, likeliest(problem, start), left_out=left_out)
 
 
-def rank_in(problem: Problem, pool: Sequence[Columns], noise: Noise) -> Ranked:
+def rank_in(problem: Problem, pool: Sequence[Columns], noise: Noise, *, left_out: bool = True) -> Ranked:
     """The same in a given noise."""
     base = known(problem, noise)
     weighed = []
@@ -155,7 +161,10 @@ def rank_in(problem: Problem, pool: Sequence[Columns], noise: Noise) -> Ranked:
         products = moments(base, one)
         weighed.append((weigh(base, one, products, base.every), products, one))
     weighed.sort(key=lambda item: -item[0].total)
-    ranked = [_scored(problem, base, one, products, w) for w, products, one in weighed[:SCORED]]
+    ranked = [
+        _scored(problem, base, one, products, w) if left_out else _seen(base, one, w)
+        for w, products, one in weighed[:SCORED]
+    ]
     ranked += [_unscored(one, w) for w, _, one in weighed[SCORED:]]
     return Ranked(base, tuple(ranked))
 
@@ -214,10 +223,8 @@ def _scored(problem: Problem, base: Known, one: Columns, products: Moments, w: W
         theta = base.mean(others)
         left = block.response - np.hstack([block.base, block.slack]) @ theta
         before[i] = left @ left
-        pulled = np.linalg.solve(
-            base.gram[others].sum(axis=0) + np.diag(base.precision),
-            products.known[others].sum(axis=0)[point].T @ seen.coefficients,
-        )
+        toward = products.known[others].sum(axis=0)[point].T @ seen.coefficients
+        pulled = solved(base.factor(others), toward[:, None])[:, 0]
         left = left + np.hstack([block.base, block.slack]) @ pulled - one.blocks[i][:, point] @ seen.coefficients
         after[i] = left @ left
     contribution = [b[:, w.best[0]] @ w.coefficients for b in one.blocks]
@@ -238,6 +245,11 @@ def _scored(problem: Problem, base: Known, one: Columns, products: Moments, w: W
     )
 
 
+def _seen(base: Known, one: Columns, w: Weighed) -> Scored:
+    """What it looks like, without the left-out tests."""
+    return replace(_unscored(one, w), shape=_shape(base, [b[:, w.best[0]] @ w.coefficients for b in one.blocks]))
+
+
 def _unscored(one: Columns, w: Weighed) -> Scored:
     none = np.zeros(0)
     return Scored(one.candidate, one, w, w.total - one.candidate.log_prior, none, none, none, none, none, 1.0, none)
@@ -247,7 +259,7 @@ def _shape(base: Known, contribution: Sequence[np.ndarray]) -> np.ndarray:
     """The whitened contribution without what the known effects can do, unit length."""
     white = [base.space.of(i, c[:, None])[:, 0] for i, c in enumerate(contribution)]
     cross = np.sum([x.T @ w for x, w in zip(base.white, white, strict=True)], axis=0)
-    theta = np.linalg.solve(base.gram.sum(axis=0) + np.diag(base.precision), cross)
+    theta = solved(base.factor(base.every), cross[:, None])[:, 0]
     whole = np.concatenate([w - x @ theta for x, w in zip(base.white, white, strict=True)])
     length = float(np.linalg.norm(whole))
     return np.asarray(whole / length if length > 0 else whole)
