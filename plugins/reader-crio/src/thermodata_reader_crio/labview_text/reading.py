@@ -17,7 +17,7 @@ from thermodata.schema.flag import Flag
 from thermodata.schema.quantity import value_in
 from thermodata_reader_crio.comments import flags_of, is_odd, texts
 from thermodata_reader_crio.labview_clock import EPOCH_1904_NS, step_ns
-from thermodata_reader_crio.labview_text.layout import Layout, find_layout
+from thermodata_reader_crio.labview_text.layout import Layout, Wanted, find_layout
 from thermodata_reader_crio.row_times import counted_ns, seconds_ns
 
 STREAM = "data"
@@ -31,9 +31,16 @@ def describe(path: Path, source: Source) -> Recording:
     if layout.clock == "1904":
         notes.append(f"'{layout.names[layout.time]}' is taken as seconds since 1904 UTC, as LabVIEW counts")
     elif layout.clock == "seconds":
-        notes.append(f"'{layout.names[layout.time]}' rises from row to row: taken as seconds from a start")
+        how = "seconds" if layout.seconds == 1 else f"counts of {layout.seconds:g} s"
+        notes.append(f"'{layout.names[layout.time]}' is taken as {how} from a start")
     elif source.options.get("increment") is None:
-        notes.append("no time column: rows are counted as 1 s each; declare options: {increment: 0.1 s}, or {time: 1}")
+        raise FormatError(
+            "no time column",
+            where=path.name,
+            expected="a column called time, seconds since 1904, or rows at a declared period",
+            got=", ".join(layout.names[:12]),
+            hint="declare options: {increment: 1 s} for rows at a period, or {time: 1} for a column of seconds",
+        )
     signals = [Signal(layout.names[i], STREAM, layout.units[i]) for i in layout.values]
     if layout.text:
         signals.append(Signal(layout.text, STREAM, None, "str"))
@@ -50,7 +57,9 @@ def _layout(path: Path, source: Source) -> tuple[Layout, str, list[str]]:
     head = first.head[:-1] if first.whole and not first.ends_with_newline else first.head
     if not head:
         raise FormatError("no whole line", where=path.name, expected="rows of numbers", got="no line that ends")
-    return find_layout(head, path.name, source.options.get("time")), first.encoding, [first.note] if first.note else []
+    options = source.options
+    wanted = Wanted(options.get("time"), counted=options.get("increment") is not None)
+    return find_layout(head, path.name, wanted), first.encoding, [first.note] if first.note else []
 
 
 def blocks(path: Path, source: Source) -> Iterator[Block | Loss]:
@@ -113,7 +122,7 @@ class _RowReader:
         if self.layout.clock == "none":
             return counted_ns(self.done, rows.n, step_ns(self.step_s), 0)
         start = EPOCH_1904_NS if self.layout.clock == "1904" else 0
-        return seconds_ns(rows.columns[self.layout.time].values, start)
+        return seconds_ns(rows.columns[self.layout.time].values * self.layout.seconds, start)
 
     def _block(self, rows: Rows, words: Array | None, t_ns: Int1D, good: Bool1D) -> Block:
         layout = self.layout
