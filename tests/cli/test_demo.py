@@ -4,12 +4,15 @@ import json
 from collections.abc import Callable
 from functools import partial
 from pathlib import Path
+from typing import Any
 
 import pytest
 
+import thermodata.diagnosis.run
 import thermodata.virtual
-from thermodata.cli.demo import prepare
+from thermodata.cli.demo import prepare, summary_text
 from thermodata.errors import UsageError
+from thermodata.schema.result import Diagnosis
 
 from .conftest import Said
 
@@ -18,6 +21,9 @@ KEYS = {
     "hidden",
     "found",
     "verdict",
+    "claims",
+    "refinements",
+    "probability",
     "family",
     "equivalents",
     "rmse_um_before",
@@ -57,6 +63,45 @@ def test_the_story_runs_and_runs_again_in_its_folder(say: Say, tmp_path: Path) -
     assert "7/7 report" in said.err
     assert "hidden" in said.out
     assert (folder / "mine.txt").read_text() == "kept", "only what a demo made is cleared"
+
+
+def answers_with(monkeypatch: pytest.MonkeyPatch, verdict: str, **marks: object) -> list[str]:
+    """The diagnosis finds what it finds, and its first two candidates are marked; their ids, once it was asked."""
+    real, ids = thermodata.diagnosis.run.diagnose, []
+
+    def marked(*asked: Any) -> Diagnosis:
+        found = real(*asked)
+        ids.extend(c.id for c in found.candidates[:2])
+        plain = {"claimed": False, "refinement": False}
+        candidates = [c.model_copy(update=plain | (marks if c.id in ids else {})) for c in found.candidates]
+        return found.model_copy(update={"verdict": verdict, "candidates": candidates})
+
+    monkeypatch.setattr(thermodata.diagnosis.run, "diagnose", marked)
+    return ids
+
+
+@pytest.mark.usefixtures("small")
+def test_all_claims_of_one_answer_are_added(say: Say, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    ids = answers_with(monkeypatch, "effect", claimed=True, probability=0.94)
+    said = say("demo", tmp_path / "demo", "--hide", "feed_screw")
+    assert said.code == 0, said.err
+    assert f"add {ids[0]} and {ids[1]}, and compare again" in said.err
+    assert ", probability 94 %, and " in said.err
+    assert f"{ids[0]} and {ids[1]}" in said.out
+    store = tmp_path / "demo" / "thermodata.store"
+    rows = json.loads(say("--store", store, "sql", "select count(*) as n from history", "--json").out)
+    assert rows[0]["n"] >= 3, "the model, and a version for each claim"
+
+
+@pytest.mark.usefixtures("small")
+def test_refinements_are_offered_and_not_added(say: Say, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    ids = answers_with(monkeypatch, "refine", refinement=True)
+    said = say("demo", tmp_path / "demo", "--hide", "none", "--json")
+    assert said.code == 0, said.err
+    result = json.loads(said.out)
+    assert (result["claims"], result["refinements"], result["found"]) == ([], ids, None)
+    assert result["rmse_um_after"] is None
+    assert f"refined by           {ids[0]} and {ids[1]}".split() == summary_text(result).split("\n")[3].split()
 
 
 def test_a_folder_with_other_things_is_refused_untouched(tmp_path: Path) -> None:

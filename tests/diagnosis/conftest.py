@@ -66,6 +66,11 @@ def make_data(
 
 @pytest.fixture
 def spec() -> Model:
+    return base()
+
+
+def base() -> Model:
+    """The model of a spindle alone."""
     return Model(
         schema="thermodata/model/1",
         name="base",

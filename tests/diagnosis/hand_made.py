@@ -10,7 +10,8 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from thermodata.diagnosis.candidates import CandidateEffect
+from thermodata.diagnosis.candidates import CandidateEffect, Kin
+from thermodata.diagnosis.evidence import Columns, Weighed
 from thermodata.diagnosis.judge import Measure
 from thermodata.diagnosis.problem import Block, Problem
 from thermodata.diagnosis.scored import Scored
@@ -18,7 +19,9 @@ from thermodata.plugin import Drivers, Float1D, Float2D, Gain, Need, Param
 from thermodata.view.dataset import ChannelInfo, TestData
 
 ROWS = 1000  # of all tests: a sum of squared errors of 1000 is an error of 1
+TESTS = 10
 STEP_S = 60.0
+NO_CHANCE = tuple(range(-199, 0))  # what chance makes of evidence: all of it against a candidate
 
 
 @dataclass(frozen=True)
@@ -45,9 +48,16 @@ def candidate(
     channels: Sequence[str] = ("T_a",),
     placeless: bool = False,
     refines: tuple[str, ...] = (),
+    kin: Kin = None,
 ) -> CandidateEffect:
     binding = {f"u{i or ''}": channel for i, channel in enumerate(channels)}
-    return CandidateEffect(PlainEffect(name, family, refines=refines), binding, family, placeless)
+    return CandidateEffect(PlainEffect(name, family, refines=refines), binding, family, placeless, kin=kin)
+
+
+def columns_of(candidate: CandidateEffect, contribution: Sequence[Float1D]) -> Columns:
+    """One gain, one point: what the candidate does, a test each."""
+    blocks = tuple(np.asarray(c, dtype=np.float64)[:, None, None] for c in contribution)
+    return Columns(candidate, [{}], blocks, np.ones((1, 1)), np.ones(1), np.zeros((1, 1)))
 
 
 def scored(
@@ -57,42 +67,45 @@ def scored(
     channels: Sequence[str] = ("T_a",),
     placeless: bool = False,
     refines: tuple[str, ...] = (),
-    p_value: float = 0.005,
-    drop: float = 0.8,
-    white_drop: float = 0.2,
+    kin: Kin = None,
+    evidence: float = 500.0,
+    gained: float | Sequence[float] = 50.0,
     before: float | Sequence[float] = 1.0,
     after: float | Sequence[float] = 0.4,
+    size: float | Sequence[float] = 1.0,
+    spread: float = 0.1,
     shape: Sequence[float] = (1.0, 0.0),
-    size: float = 1.0,
-    order: float = 0.0,
+    contribution: Sequence[Float1D] = (),
+    coefficient: float = 1.0,
 ) -> Scored:
-    """before, after: the error (RMS) of ten equal tests with ROWS rows in all, or the squared error of each test."""
+    """Ten equal tests with ROWS rows in all. before, after: the error (RMS) of all tests, or of each. contribution: at
+    a coefficient of 1."""
+    asked = candidate(name, family=family, channels=channels, placeless=placeless, refines=refines, kin=kin)
+    rows = np.full(TESTS, ROWS / TESTS)
     return Scored(
-        candidate(name, family=family, channels=channels, placeless=placeless, refines=refines),
-        {},
-        np.ones(1),
-        drop,
-        white_drop,
-        p_value,
-        _squared(before),
-        _squared(after),
+        asked,
+        columns_of(asked, contribution or [np.ones(4)]),
+        Weighed(np.array([[evidence]]), np.array([[[coefficient]]])),
+        evidence,
+        _of_each(gained),
+        rows,
+        _of_each(before) ** 2 * rows,
+        _of_each(after) ** 2 * rows,
+        _of_each(size),
+        spread,
         np.asarray(shape, dtype=np.float64),
-        size,
-        order,
     )
 
 
-def _squared(error: float | Sequence[float]) -> Float1D:
-    if isinstance(error, float | int):
-        return np.full(10, error**2 * ROWS / 10)
-    return np.asarray(error, dtype=np.float64)
+def _of_each(value: float | Sequence[float]) -> Float1D:
+    return np.broadcast_to(np.asarray(value, dtype=np.float64), TESTS).copy()
 
 
 def measure(
-    *, floor: float = 0.2, spread: float | None = None, noise: float = 0.0, families: Sequence[str] = ()
+    *, floor: float = 0.2, spread: float | None = None, noise: float = 0.0, chance: Sequence[float] = NO_CHANCE
 ) -> Measure:
     """floor: of the error, by a spread ten times as large."""
-    return Measure(ROWS, 10 * floor if spread is None else spread, noise, frozenset(families))
+    return Measure(10 * floor if spread is None else spread, noise, np.asarray(chance, dtype=np.float64))
 
 
 def a_test(

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from thermodata.diagnosis.candidates import CandidateEffect, candidates, grid
-from thermodata.plugin import Effect, Gain, Need, Param
+from thermodata.plugin import Effect, Need, Param
 from thermodata.view.dataset import ChannelInfo
 
 from .hand_made import PlainEffect
@@ -38,10 +38,15 @@ def has(effect: str, *channels: str) -> tuple[str, frozenset[str]]:
     return effect, frozenset(channels)
 
 
-def test_a_plain_lag_stands_for_channels_that_no_named_effect_covers() -> None:
-    assert asked(NUT, LAG) == ["screw:T_nut", "lag:T_oil", "lag:T_free"]
-    assert asked(LAG) == ["lag:T_nut", "lag:T_oil", "lag:T_free"]
-    assert asked(NUT, LAG, present=(has("spindle", "T_oil"),)) == ["screw:T_nut", "lag:T_free"]
+def test_a_plain_lag_of_every_channel_is_asked_for_beside_its_names() -> None:
+    assert asked(NUT, LAG) == ["screw:T_nut", "lag:T_nut", "lag:T_oil", "lag:T_free"]
+    assert asked(NUT, LAG, present=(has("spindle", "T_oil"),)) == ["screw:T_nut", "lag:T_nut", "lag:T_free"]
+    assert asked(replace(LAG, name="static")) == [], "a lag whose time constant is zero"
+
+
+def test_a_plain_lag_is_a_twentieth_as_probable_where_a_name_could_have_it() -> None:
+    found = {c.id: c.log_prior for c in candidates({"screw": NUT, "lag": LAG}, CHANNELS, (), "dZ")}
+    assert found == {"screw:T_nut": 0.0, "lag:T_nut": -3.0, "lag:T_oil": 0.0, "lag:T_free": 0.0}
 
 
 def test_neither_displacements_nor_labels_nor_the_response_drive_anything() -> None:
@@ -71,22 +76,68 @@ def test_artefacts_and_effects_without_drivers_are_no_candidates() -> None:
     assert asked(replace(NUT, family="artefact"), replace(NUT, name="drift", needs=())) == []
 
 
-def test_only_a_lag_of_a_channel_without_a_place_is_placeless() -> None:
+@pytest.mark.parametrize(("at", "placeless"), [(None, True), ("hydraulics", False)])
+def test_a_lag_is_placeless_where_no_temperature_has_a_place(at: str | None, placeless: bool) -> None:
     library = {e.name: e for e in (LAG, replace(NUT, name="anywhere", needs=(Need("u", "temperature"),)))}
-    free = {"T_free": CHANNELS["T_free"], "F": ChannelInfo("F", "flow", "l/min"), "T_oil": CHANNELS["T_oil"]}
-    found = {c.id: c.placeless for c in candidates(library, free, (), "dZ")}
-    assert found == {"anywhere:T_free": False, "anywhere:T_oil": False, "lag:F": True}
+    speed = ChannelInfo("n", "rotational_speed", "rpm", at="spindle")
+    channels = {"T_free": CHANNELS["T_free"], "T_oil": ChannelInfo("T_oil", "temperature", "degC", at=at), "n": speed}
+    found = {c.id: c.placeless for c in candidates(library, channels, (), "dZ")}
+    assert found == {
+        "lag:T_free": placeless,
+        "lag:T_oil": placeless,
+        "lag:n": placeless,
+        "anywhere:T_free": False,
+        "anywhere:T_oil": False,
+    }
 
 
-def bound(sign: str) -> CandidateEffect:
-    gain = Gain("gain", "um/K", (1.0, 10.0), sign, "")  # type: ignore[arg-type]
-    return CandidateEffect(replace(NUT, gains=(gain,)), {"u": "T_nut"}, "feed_x")
+def kin(effect: PlainEffect, channel: str, *present: tuple[str, frozenset[str]], families: tuple[str, ...]) -> object:
+    at = {
+        "T_nut": "axis.x.nut",
+        "T_axis": "axis.x",
+        "T_other": "axis.y.nut",
+        "T_nut_2": "axis.x.nut",
+        "n": "spindle",
+    }
+    channels = {c: ChannelInfo(c, "temperature", "degC", at=place) for c, place in at.items()}
+    library = {e.name: e for e in (effect, NUT)}
+    found = candidates(library, channels, present, "dZ", families)
+    return next(c.kin for c in found if c.effect is effect and c.channels == (channel,))
 
 
-@pytest.mark.parametrize(("sign", "lower", "upper"), [("any", -15.0, 15.0), ("+", 0.0, 15.0), ("-", -15.0, 0.0)])
-def test_a_gain_stays_within_1_5_times_what_is_plausible_and_its_sign(sign: str, lower: float, upper: float) -> None:
-    priors = bound(sign).priors
-    assert (priors.spread.tolist(), priors.lower.tolist(), priors.upper.tolist()) == ([15.0], [lower], [upper])
+@pytest.mark.parametrize(
+    ("effect", "channel", "families", "expected"),
+    [
+        ("mount", "T_nut", ("feed_x",), "same"),  # another reading of its channels
+        ("mount", "T_nut_2", ("feed_x",), "near"),
+        ("mount", "T_axis", ("feed_x",), "near"),  # around it
+        ("mount", "n", ("feed_x",), "related"),
+        ("mount", "T_nut", ("feed_y",), None),
+        ("mount", "T_nut", ("generic",), None),
+        ("lag", "T_nut_2", (), "same"),
+        ("lag", "T_axis", (), "same"),
+        ("lag", "T_other", (), None),
+        ("refining", "T_nut", (), "same"),
+    ],
+)
+def test_a_candidate_is_kin_by_family_channel_and_place(
+    effect: str, channel: str, families: tuple[str, ...], expected: str | None
+) -> None:
+    """To a model that has the screw of X, read at its nut."""
+    needs = (Need("u", "temperature"),)
+    made = {
+        "mount": PlainEffect("mount", "feed_x", needs=needs),
+        "lag": LAG,
+        "refining": PlainEffect("refining", "wear", needs=needs, refines=("screw",)),
+    }[effect]
+    assert kin(made, channel, has("screw", "T_nut"), families=families) == expected
+
+
+def test_the_same_effect_on_other_channels_is_the_same() -> None:
+    twice = PlainEffect("screw", "feed_x", needs=(Need("u", "temperature"),))
+    channels = {c: CHANNELS[c] for c in ("T_nut", "T_oil")}
+    (found,) = candidates({"screw": twice}, channels, (has("screw", "T_nut"),), "dZ", ("feed_x",))
+    assert (found.id, found.kin) == ("screw:T_oil", "same")
 
 
 def test_a_distributed_machine_acts_five_times_faster_and_slower() -> None:

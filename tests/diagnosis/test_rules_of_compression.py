@@ -34,6 +34,7 @@ def built(counts: Sequence[int], n: int = 600, step_s: float = STEP_S, **of: Any
         mask=lambda t: masks[t.test],
         base=none,
         slack=none,
+        **({"rows": of["rows"]} if "rows" in of else {}),
     )
 
 
@@ -55,9 +56,11 @@ def test_a_part_has_a_hundred_samples(counted: int, parts: int) -> None:
     assert all(abs(b.residual.mean()) < 1e-9 for b in found.blocks), "each has an offset of its own"
 
 
-@pytest.mark.parametrize(("n", "every"), [(3000, 1), (3001, 2)])
-def test_nine_thousand_samples_are_enough(n: int, every: int) -> None:
-    found = built([n] * 3, n)
+@pytest.mark.parametrize(
+    ("n", "rows", "every"), [(3000, {}, 1), (3001, {}, 2), (800, {"rows": 2400}, 1), (801, {"rows": 2400}, 2)]
+)
+def test_nine_thousand_samples_or_what_is_asked_for_are_enough(n: int, rows: dict[str, int], every: int) -> None:
+    found = built([n] * 3, n, **rows)
     assert found.step_s == 60.0 * every
     assert found.rows == 3 * -(-n // every)
 

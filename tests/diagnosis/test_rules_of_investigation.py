@@ -1,4 +1,4 @@
-"""What the known effects may still do while a candidate is asked for, and what is judged (diagnosis/investigate.py)."""
+"""What the known effects may still do, and what is asked and judged: known_effects.py and investigate.py."""
 
 from __future__ import annotations
 
@@ -11,9 +11,13 @@ import pytest
 
 from thermodata.diagnosis import investigate as investigating
 from thermodata.diagnosis.candidates import CandidateEffect
-from thermodata.diagnosis.investigate import Investigation, base_columns, investigate, slack_columns
+from thermodata.diagnosis.discrepancy import Noise
+from thermodata.diagnosis.investigate import Investigation, investigate
+from thermodata.diagnosis.known_effects import base_columns, otherwise, owners
+from thermodata.diagnosis.locked import Foretold
 from thermodata.diagnosis.problem import Problem
 from thermodata.diagnosis.scored import Scored
+from thermodata.diagnosis.selection import Member, Ranked, Selection
 from thermodata.effect import effects
 from thermodata.modelling.fit import fit_model
 from thermodata.modelling.fitted import FittedModel, FittedResponse
@@ -57,15 +61,26 @@ def test_a_known_effect_may_grow_and_its_time_constant_move(data: Dataset, fitte
     np.testing.assert_allclose(columns[:, 1], slope, atol=0.01 * np.abs(slope).max())
 
 
-def test_a_known_effect_may_act_five_times_faster_and_slower_at_a_price(data: Dataset, fitted: FittedModel) -> None:
+def test_a_known_effect_may_act_faster_and_slower_over_four_decades_at_a_price(
+    data: Dataset, fitted: FittedModel
+) -> None:
     response, test = fitted.responses[0], data.tests[0]
     (term,) = response.terms
-    columns = slack_columns(response, test)
-    assert columns.shape == (len(test.t_s), 2)
-    for j, factor in enumerate((0.2, 5.0)):
+    columns = otherwise(response, test)
+    assert columns.shape == (len(test.t_s), 4)
+    for j, factor in enumerate((1 / 25, 1 / 5, 5.0, 25.0)):
         other = {**term.params, "tau": term.params["tau"] * factor}
         changed = term.bound.columns(test, other) @ [term.gains["gain"]]
         np.testing.assert_allclose(columns[:, j], changed - term.contribution(test))
+
+
+def test_each_column_has_the_term_that_it_belongs_to(data: Dataset, fitted: FittedModel) -> None:
+    (term,) = fitted.responses[0].terms
+    two = replace(fitted.responses[0], terms=(term, term))
+    base, spare = owners(two)
+    assert (base, spare) == ([0, 0, 1, 1], [0, 0, 0, 0, 1, 1, 1, 1])
+    assert base_columns(two, data.tests[0]).shape[1] == len(base)
+    assert otherwise(two, data.tests[0]).shape[1] == len(spare)
 
 
 def test_a_known_effect_that_is_absent_in_a_test_can_do_nothing_there(data: Dataset) -> None:
@@ -82,77 +97,120 @@ def test_a_known_effect_that_is_absent_in_a_test_can_do_nothing_there(data: Data
     response = fit_model(model, data, uncertainty=False).responses[0]
     assert base_columns(response, data.tests[0]).any()
     assert not base_columns(response, data.tests[2]).any()
-    assert not slack_columns(response, data.tests[2]).any()
+    assert not otherwise(response, data.tests[2]).any()
+
+
+NOISE = Noise(0.1, 0.1, 600.0, 0.5)
+FAR = scored("far", before=1.0, after=0.95)
 
 
 class TestJudged:
-    """Ranking is replaced by evidence made by hand: what matters is what is asked for, and against which measure."""
+    """Selection is replaced by evidence made by hand: what matters is what is asked for, and against which measure."""
 
     def investigated(
         self,
         monkeypatch: pytest.MonkeyPatch,
         data: Dataset,
         fitted: FittedResponse,
-        ranked: Sequence[Scored],
-        beside: Sequence[Scored] = (),
+        members: Sequence[Scored] | None,
+        ranked: Sequence[Scored] = (FAR,),
+        refined: Sequence[str] = (),
         **more: Any,
     ) -> Investigation:
-        self.asked: list[list[str]] = []
+        """members: that were selected; None where nothing can be asked."""
+        self.rows: list[int] = []
+        known: Any = None
+        first = Ranked(known, tuple(ranked))
+        build = investigating.build_problem
 
-        def rank(problem: Problem, candidates: Sequence[CandidateEffect], seed: int = 0) -> list[Scored]:
-            self.asked.append([c.id for c in candidates])
-            return list(ranked if len(self.asked) == 1 else beside)
+        def first_ranking(problem: Problem, candidates: Sequence[CandidateEffect]) -> Ranked | None:
+            self.asked = [c.id for c in candidates]
+            return None if members is None else first
 
-        monkeypatch.setattr(investigating, "rank", rank)
+        def select(problem: Problem, given: Ranked, sound: Any) -> Selection:
+            assert given is first
+            self.sound = sound
+            return Selection(first, tuple(Member(m, m, tuple(ranked)) for m in members or ()), (), NOISE)
+
+        def built(*of: Any, **named: Any) -> Problem:
+            self.rows.append(named["rows"])
+            return build(*of, **named)
+
+        monkeypatch.setattr(investigating, "first_ranking", first_ranking)
+        monkeypatch.setattr(investigating, "select", select)
+        monkeypatch.setattr(investigating, "build_problem", built)
+        monkeypatch.setattr(investigating, "best_of_chance", lambda known, pool, seed: np.full(199, 100.0))
+        monkeypatch.setattr(
+            investigating,
+            "Refinement",
+            lambda fitted, problem, noise: lambda s: "kin" if s.candidate.effect.name in refined else None,
+        )
         return investigate(fitted, data, fitted_tests(data), effects(), **more)
 
-    def test_the_measure_is_that_of_the_response_and_the_models_families(
+    def test_the_measure_is_that_of_the_response(
         self, monkeypatch: pytest.MonkeyPatch, data: Dataset, fitted: FittedModel
     ) -> None:
-        found = self.investigated(monkeypatch, data, fitted.responses[0], [])
+        found = self.investigated(monkeypatch, data, fitted.responses[0], None)
         whole = np.concatenate([t.values["dZ"] - t.values["dZ"].mean() for t in fitted_tests(data)])
         assert found.measure.spread == pytest.approx(np.sqrt(np.mean(whole**2)))
-        assert found.measure.rows == len(whole)
         assert found.measure.noise == pytest.approx(0.1, rel=0.2)
-        assert found.measure.families == {"spindle"}
-        assert "spindle_bearing:T_bearing" not in self.asked[0]
-        assert found.judgement.verdict == "not_testable"
+        assert "spindle_bearing:T_bearing" not in self.asked
+        assert "lag:T_hall" in self.asked
+        assert (found.judgement.verdict, found.selection) == ("not_testable", None)
+        assert found.borne_out([]) is None
 
-    def test_a_plain_lag_in_the_model_gives_no_family_away(
-        self, monkeypatch: pytest.MonkeyPatch, data: Dataset
-    ) -> None:
-        model = Model.model_validate(
-            {
-                "schema": "thermodata/model/1",
-                "name": "base",
-                "campaign": "c",
-                "response": {"axis": "Z", "at": "tcp"},
-                "step": "120 s",
-                "effects": [{"effect": "lag", "drivers": {"u": "T_bearing"}}],
-            }
-        )
-        response = fit_model(model, data, uncertainty=False).responses[0]
-        assert self.investigated(monkeypatch, data, response, []).measure.families == frozenset()
-
-    def test_the_second_effect_is_the_simplest_of_the_best_three_that_pass(
+    def test_steps_are_looked_for_in_fine_samples_and_candidates_weighed_in_2400(
         self, monkeypatch: pytest.MonkeyPatch, data: Dataset, fitted: FittedModel
     ) -> None:
-        rows = sum(len(t.t_s) for t in fitted_tests(data))
-        weight = rows / 1000.0  # hand-made evidence is of 1000 rows
+        self.investigated(monkeypatch, data, fitted.responses[0], [])
+        assert self.rows == [9000, 2400]
 
-        def of(name: str, channel: str, before: float, after: float, **more: Any) -> Scored:
-            one = scored(name, channels=(channel,), before=before * 4, after=after * 4, **more)
-            return replace(one, sse_before=one.sse_before * weight, sse_after=one.sse_after * weight)
+    def test_what_is_sound_is_judged_against_the_chance_of_this_response(
+        self, monkeypatch: pytest.MonkeyPatch, data: Dataset, fitted: FittedModel
+    ) -> None:
+        cause = scored("cause", before=3.0, after=0.3, size=3.0, evidence=500.0)
+        found = self.investigated(monkeypatch, data, fitted.responses[0], [cause])
+        assert found.measure.chance.tolist() == [100.0] * 199
+        assert self.sound(cause)
+        assert not self.sound(replace(cause, evidence=99.0))
+        assert [c.scored for c in found.judgement.claims] == [cause]
 
-        first = of("first", "T_nut_X", 1.0, 0.7, drop=0.6)
-        hopeless = [of(f"bad{i}", "T_hall", 0.7, 0.6, p_value=0.5) for i in range(3)]
-        good = of("good", "T_tank", 0.7, 0.1)
-        for place, expected in ((2, "effect"), (3, "unknown")):
-            ranked = [*hopeless[:place], good]
-            found = self.investigated(monkeypatch, data, fitted.responses[0], [first], ranked)
-            assert len(self.asked) == 2
-            assert found.judgement.verdict == expected
-            assert found.judgement.second is (good if expected == "effect" else None)
+    def test_locked_tests_are_asked_beside_all_that_was_selected_and_then_beside_refinements_alone(
+        self, monkeypatch: pytest.MonkeyPatch, data: Dataset, fitted: FittedModel
+    ) -> None:
+        members = [
+            scored("cause", before=3.0, after=0.3, size=3.0),
+            scored("mode", before=3.0, after=0.3, size=3.0),
+            scored("blunt", before=3.0, after=0.3, size=3.0, evidence=110.0),
+        ]
+        asked: list[tuple[int, int, list[str], list[str]]] = []
+        holds = [False, True]
+
+        def foretell(problem: Problem, opened: int, noise: Noise, kept: Any, claims: Any) -> Foretold:
+            names = [[s.candidate.effect.name for s in some] for some in (kept, claims)]
+            asked.append((len(problem.blocks), opened, *names))  # type: ignore[arg-type]
+            assert noise is NOISE
+            return Foretold(1.0, 0.1 if holds.pop(0) else 1.0, 1.0)
+
+        monkeypatch.setattr(investigating, "foretell", foretell)
+        locked = [t for t in data.tests if t.role == "locked"]
+
+        def investigated(some: Sequence[Scored], **more: Any) -> Investigation:
+            return self.investigated(monkeypatch, data, fitted.responses[0], some, refined=["mode"], **more)
+
+        found = investigated(members, locked=locked)
+        result = found.borne_out(found.judgement.claims)
+        assert result is not None
+        assert result.holds
+        assert asked == [(4, 3, ["mode", "blunt"], ["cause"]), (4, 3, ["mode"], ["cause"])]
+        asked.clear()
+        holds[:] = [False]
+        found = investigated(members[:2], locked=locked)
+        result = found.borne_out(found.judgement.claims)
+        assert result is not None
+        assert not result.holds
+        assert len(asked) == 1, "nothing but refinements stood beside it"
+        assert investigated(members).borne_out(found.judgement.claims) is None, "there are no locked tests"
 
     def test_wrong_parameters_are_those_of_the_model_that_is_asked_about(
         self, monkeypatch: pytest.MonkeyPatch, data: Dataset, fitted: FittedModel
@@ -161,9 +219,9 @@ class TestJudged:
         (term,) = refitted.terms
         doubled = {g: replace(v, gains={"gain": 2 * v.gains["gain"]}) for g, v in term.groups.items()}
         wrong = replace(refitted, terms=(replace(term, groups=doubled),))
-        ranked = [scored(before=0.1, after=0.1, p_value=0.5)]
-        as_it_is = self.investigated(monkeypatch, data, refitted, ranked)
-        asked_about = self.investigated(monkeypatch, data, refitted, ranked, as_fitted=wrong)
+        ranked = [scored(before=0.1, after=0.1, evidence=0.0)]
+        as_it_is = self.investigated(monkeypatch, data, refitted, [], ranked)
+        asked_about = self.investigated(monkeypatch, data, refitted, [], ranked, as_fitted=wrong)
         assert [a.kind for a in as_it_is.artefacts] == []
         assert [a.kind for a in asked_about.artefacts] == ["parameters"]
         assert asked_about.spots[0].rmse_um > 5 * as_it_is.spots[0].rmse_um, "weak spots are those of the same model"

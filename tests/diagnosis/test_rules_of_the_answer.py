@@ -11,8 +11,12 @@ import pytest
 
 from thermodata.diagnosis import answer as answering
 from thermodata.diagnosis.confirm import Confirmation
+from thermodata.diagnosis.discrepancy import Noise
 from thermodata.diagnosis.investigate import Investigation
-from thermodata.diagnosis.judge import Judgement
+from thermodata.diagnosis.judge import Judged, Judgement, Verdict
+from thermodata.diagnosis.locked import Foretold
+from thermodata.diagnosis.scored import Scored
+from thermodata.diagnosis.selection import Ranked, Selection
 from thermodata.schema.model import Model
 from thermodata.schema.result import Diagnosis, Parameter, WeakSpot
 from thermodata.view.dataset import Dataset
@@ -21,16 +25,29 @@ from .hand_made import Parts, a_test, measure, problem, scored
 from .stand_ins import Fitted, Response
 
 SPOT = WeakSpot(campaign="c", test="t0", from_s=0, to_s=60, rmse_um=1.0, state="spindle at rest")
+FIRST = scored("first", after=0.3, size=2.0)
+TWIN = scored("twin", after=0.35)
+OTHER = scored("other", after=0.9, evidence=-50.0, shape=(0.0, 1.0))
+RANKED = (FIRST, TWIN, OTHER)
+
+
+def member(one: Scored, refines: str | None = None, ranked: Sequence[Scored] = RANKED) -> Judged:
+    return Judged(one, one, refines, tuple(ranked))
+
+
+def claim(*claims: Scored, beside: Sequence[Judged] = ()) -> Judgement:
+    made = tuple(member(c) for c in claims)
+    refined = tuple(j for j in beside if j.refines)
+    return Judgement("effect", made, refined, (*made, *beside), "")
+
+
+def nothing(verdict: Verdict, *members: Judged) -> Judgement:
+    refined = tuple(j for j in members if j.refines) if verdict == "refine" else ()
+    return Judgement(verdict, (), refined, members, "because")
 
 
 class TestAnswer:
     """What is found is given by hand: what matters is what is opened, and what is said."""
-
-    RANKED = [
-        scored("first", after=0.3, size=2.0),
-        scored("twin", after=0.3, p_value=0.5),
-        scored("other", after=0.9, p_value=0.5, shape=(0.0, 1.0)),
-    ]
 
     def answered(
         self,
@@ -39,7 +56,8 @@ class TestAnswer:
         judgement: Judgement,
         holds: bool = True,
         tests: int = 5,
-        ranked: Sequence[Any] | None = None,
+        ranked: Sequence[Scored] = RANKED,
+        dropped: Sequence[Scored] = (),
     ) -> Diagnosis:
         rng = np.random.default_rng(0)
         asked = problem(*(Parts(rng.normal(size=200), response=rng.normal(size=200)) for _ in range(tests)), noise=0.1)
@@ -47,87 +65,160 @@ class TestAnswer:
         locked = [a_test("z", 4, role="locked"), a_test("unpredictable", 4, role="locked")]
         response = Response({t.test: rng.normal(size=len(t.t_s)) for t in [*given, locked[0]]})
         fitted: Any = Fitted([response], spec, given, locked)
-        found = Investigation(
-            asked, list(self.RANKED if ranked is None else ranked), [], [SPOT], judgement, measure(floor=0.2)
-        )
-        monkeypatch.setattr(answering, "fit_model", lambda *a, **k: SimpleNamespace(responses=[response]))
-        monkeypatch.setattr(answering, "investigate", lambda *a, **k: found)
-        self.opened: list[list[str]] = []
+        known: Any = None
+        selection = Selection(Ranked(known, tuple(ranked)), (), tuple(dropped), Noise(0.1, 0.1, 600.0, 0.5))
+        self.asked: list[list[str]] = []
+        self.opened: list[tuple[list[str], list[str]]] = []
+
+        def borne_out(claims: Sequence[Judged]) -> Foretold:
+            self.asked.append([c.scored.candidate.effect.name for c in claims])
+            return Foretold(1.0, 0.5 if holds else 1.0, 0.5)
+
+        found = Investigation(asked, selection, [], [SPOT], judgement, measure(floor=0.2), borne_out)
 
         def confirm(*asked: Any) -> Confirmation:
-            self.opened.append([t.test for t in asked[5]])
-            after = 0.5 if holds else 1.0
-            return Confirmation(1.0, after, 1.0, after, {"plain.gain": Parameter(value=2.0, unit="um/K")})
+            names = [c.effect.name for c in asked[3]]
+            self.opened.append((names, [t.test for t in asked[5]]))
+            parameters = {c.id: {f"{c.effect.name}.gain": Parameter(value=2.0, unit="um/K")} for c in asked[3]}
+            return Confirmation(1.0, 0.5, 1.0, 0.5, 0.8, parameters)
 
+        monkeypatch.setattr(answering, "fit_model", lambda *a, **k: SimpleNamespace(responses=[response]))
+        monkeypatch.setattr(answering, "investigate", lambda *a, **k: found)
         monkeypatch.setattr(answering, "confirm", confirm)
         got = answering.answer(fitted, Dataset(60.0, tuple(given), {}), {}, "m")
         self.looked_at = [t.test for t in got.locked]
         return got.diagnosis
 
-    def test_locked_tests_are_opened_for_a_claim_only(self, monkeypatch: pytest.MonkeyPatch, spec: Model) -> None:
-        for verdict in ("none", "unknown", "not_testable"):
-            self.answered(monkeypatch, spec, Judgement(verdict, None, "because"))  # type: ignore[arg-type]
-            assert self.opened == []
-            assert self.looked_at == []
-        self.answered(monkeypatch, spec, Judgement("effect", self.RANKED[0], ""))
-        assert self.opened == [["z"]]
-        assert self.looked_at == ["z"]
+    @pytest.mark.parametrize("verdict", ["none", "unknown", "not_testable", "refine"])
+    def test_locked_tests_are_opened_for_a_claim_only(
+        self, monkeypatch: pytest.MonkeyPatch, spec: Model, verdict: Any
+    ) -> None:
+        found = self.answered(monkeypatch, spec, nothing(verdict))
+        assert found.verdict == verdict
+        assert (self.asked, self.opened, self.looked_at) == ([], [], [])
 
-    def test_one_candidate_is_claimed_and_confirmed_with_its_twin_beside(
+    def test_a_claim_is_confirmed_on_what_the_model_can_predict(
         self, monkeypatch: pytest.MonkeyPatch, spec: Model
     ) -> None:
-        found = self.answered(monkeypatch, spec, Judgement("effect", self.RANKED[2], ""))
-        assert [c.claimed for c in found.candidates] == [True, False, False]
-        assert [c.effect for c in found.candidates] == ["other", "first", "twin"]
-        assert [c.locked_rmse_um_after for c in found.candidates] == [0.5, None, None]
-        assert [list(c.parameters) for c in found.candidates] == [["plain.gain"], [], []]
-        assert [c.equivalent for c in found.candidates] == [[], ["twin:T_a"], ["first:T_a"]]
-        assert "chance does as well in 50.0% of surrogate residuals" in found.candidates[0].why
-        assert "the claimed effect explains it better" in found.candidates[1].why
-        assert "not claimed: chance does as well" in found.candidates[2].why
+        self.answered(monkeypatch, spec, claim(FIRST))
+        assert (self.asked, self.opened, self.looked_at) == ([["first"]], [(["first"], ["z"])], ["z"])
+
+    def test_claims_are_shown_first_with_their_own_parameters_and_figures_of_all(
+        self, monkeypatch: pytest.MonkeyPatch, spec: Model
+    ) -> None:
+        found = self.answered(monkeypatch, spec, claim(OTHER, FIRST))
+        assert [(c.effect, c.rank, c.claimed) for c in found.candidates] == [
+            ("other", 1, True),
+            ("first", 2, True),
+            ("twin", 3, False),
+        ]
+        assert [c.locked_rmse_um_after for c in found.candidates] == [0.5, 0.5, None]
+        assert [list(c.parameters) for c in found.candidates] == [["other.gain"], ["first.gain"], []]
+        assert "on the locked tests with all that is claimed from 1.00 to 0.50 um" in found.candidates[0].why
+        assert "beside first:T_a, the error" in found.candidates[0].why
         assert found.unknown is None
+        alone = self.answered(monkeypatch, spec, claim(FIRST))
+        assert "on the locked tests from 1.00 to 0.50 um" in alone.candidates[0].why
 
     def test_a_claim_that_does_not_hold_is_unknown_and_counted(
         self, monkeypatch: pytest.MonkeyPatch, spec: Model
     ) -> None:
-        found = self.answered(monkeypatch, spec, Judgement("effect", self.RANKED[0], ""), holds=False)
+        found = self.answered(monkeypatch, spec, claim(FIRST), holds=False)
         assert found.verdict == "unknown"
         assert not any(c.claimed or c.locked_rmse_um_after for c in found.candidates)
         assert found.unknown is not None
+        assert self.asked == [["first"], ["twin"]], "its twin is asked too"
         assert "on the locked ones the error does not fall" in found.candidates[0].why
         assert self.looked_at == ["z"]
 
-    @pytest.mark.parametrize(("verdict", "advice", "characterised"), [("none", False, False), ("unknown", True, True)])
+    def test_a_refinement_is_shown_after_claims_and_before_others(
+        self, monkeypatch: pytest.MonkeyPatch, spec: Model
+    ) -> None:
+        mode = member(TWIN, "it is another mode of what the model has")
+        found = self.answered(monkeypatch, spec, claim(OTHER, beside=[mode]))
+        assert [(c.effect, c.claimed, c.refinement) for c in found.candidates] == [
+            ("other", True, False),
+            ("twin", False, True),
+            ("first", False, False),
+        ]
+        assert "a refinement, not a missing cause: it is another mode" in found.candidates[1].why
+        alone = self.answered(monkeypatch, spec, nothing("refine", mode))
+        assert (alone.verdict, alone.candidates[0].refinement) == ("refine", True)
+        assert alone.unknown is None
+
+    def test_a_probability_is_said_of_claims_and_of_what_heads_the_list(
+        self, monkeypatch: pytest.MonkeyPatch, spec: Model
+    ) -> None:
+        """Nothing is known of the share of the others, nor of refinements."""
+
+        def of(judgement: Judgement) -> list[float | None]:
+            found = self.answered(monkeypatch, spec, judgement)
+            return [None if c.probability is None else round(c.probability, 3) for c in found.candidates]
+
+        sharp, none_at_all = 0.843, 0.0
+        assert of(claim(OTHER, FIRST)) == [none_at_all, sharp, None]
+        assert of(claim(FIRST)) == [sharp, None, None]
+        assert of(nothing("unknown")) == [sharp, None, None]
+        assert of(nothing("refine", member(FIRST, "a mode"))) == [None, sharp, None]
+
+    def test_others_come_by_what_they_would_give_and_what_was_dropped_as_it_was_judged(
+        self, monkeypatch: pytest.MonkeyPatch, spec: Model
+    ) -> None:
+        from dataclasses import replace
+
+        dropped = replace(OTHER, sse_after=0.01 * OTHER.sse_before)
+        found = self.answered(monkeypatch, spec, nothing("unknown"), dropped=[dropped])
+        assert [c.effect for c in found.candidates] == ["other", "first", "twin"]
+        assert found.candidates[0].rmse_um_after == pytest.approx(0.1)
+        as_ranked = self.answered(monkeypatch, spec, nothing("unknown"))
+        assert [c.effect for c in as_ranked.candidates] == ["first", "twin", "other"]
+        standing = self.answered(monkeypatch, spec, nothing("unknown", member(replace(TWIN, evidence=149.0))))
+        assert "not claimed: its evidence is 0.15 a sample" in standing.candidates[1].why
+
+    @pytest.mark.parametrize(
+        ("verdict", "advice", "characterised"),
+        [("none", False, False), ("unknown", True, True), ("not_testable", True, False), ("refine", False, False)],
+    )
     def test_advice_is_given_where_something_is_unknown(
         self, monkeypatch: pytest.MonkeyPatch, spec: Model, verdict: Any, advice: bool, characterised: bool
     ) -> None:
-        found = self.answered(monkeypatch, spec, Judgement(verdict, None, "because"))
+        found = self.answered(monkeypatch, spec, nothing(verdict))
         assert (found.next_test is not None, found.unknown is not None) == (advice, characterised)
 
     def test_a_claim_with_a_twin_says_how_to_tell_them_apart(
         self, monkeypatch: pytest.MonkeyPatch, spec: Model
     ) -> None:
-        assert "to tell first:T_a from twin:T_a" in (
-            self.answered(monkeypatch, spec, Judgement("effect", self.RANKED[0], "")).next_test or ""
-        )
-        assert self.answered(monkeypatch, spec, Judgement("effect", self.RANKED[2], "")).next_test is None
-
-    def test_a_second_effect_is_named_beside_the_first(self, monkeypatch: pytest.MonkeyPatch, spec: Model) -> None:
-        found = self.answered(monkeypatch, spec, Judgement("effect", self.RANKED[0], "", self.RANKED[2]))
-        assert "a second effect is missing too: with other:T_a beside it" in found.candidates[0].why
+        found = self.answered(monkeypatch, spec, claim(FIRST))
+        assert "to tell first:T_a from twin:T_a" in (found.next_test or "")
+        assert [c.equivalent for c in found.candidates] == [["twin:T_a"], ["first:T_a"], []]
+        assert self.answered(monkeypatch, spec, claim(OTHER)).next_test is None
 
     def test_the_numbers_are_those_of_the_left_out_tests(self, monkeypatch: pytest.MonkeyPatch, spec: Model) -> None:
-        found = self.answered(monkeypatch, spec, Judgement("effect", self.RANKED[0], ""))
-        first = found.candidates[0]
+        found = self.answered(monkeypatch, spec, claim(FIRST))
+        first, second, last = found.candidates
         assert (first.rmse_um_before, first.rmse_um_after) == pytest.approx((1.0, 0.3))
-        assert (found.rmse_um, found.explainable) == pytest.approx((1.0, 0.8))
-        assert "falls from 1.00 to 0.30 um; it would act with 2.0 um RMS" in first.why
+        assert (first.fit_before, first.fit_after) == pytest.approx((50.0, 85.0)), "of a response of 2 um"
+        assert (found.rmse_um, found.explainable) == pytest.approx((1.0, 0.91))
+        assert first.p_value == pytest.approx(0.005)
+        assert "(10 of 10 tests) the error on left-out tests falls (1.00 -> 0.30 um) and it makes 10 of 10" in first.why
+        assert "its gain differs between tests by 10%" in first.why
+        assert "chance does as well in 0.5% of responses in which nothing is missing" in first.why
+        assert second.why.endswith("not claimed: first:T_a explains it, or more")
+        assert "not claimed: chance does as well in" in last.why
 
     def test_at_most_fifteen_candidates_are_shown(self, monkeypatch: pytest.MonkeyPatch, spec: Model) -> None:
         ranked = [scored(f"e{i}") for i in range(16)]
-        found = self.answered(monkeypatch, spec, Judgement("none", None, ""), ranked=ranked)
+        found = self.answered(monkeypatch, spec, nothing("none"), ranked=ranked)
         assert [c.rank for c in found.candidates] == list(range(1, 16))
         assert [bool(c.equivalent) for c in found.candidates] == [True] * 5 + [False] * 10
+
+    def test_what_was_not_scored_is_not_shown(self, monkeypatch: pytest.MonkeyPatch, spec: Model) -> None:
+        from dataclasses import replace
+
+        found = self.answered(
+            monkeypatch, spec, nothing("none"), ranked=[FIRST, replace(TWIN, rows=np.zeros(0), shape=np.zeros(0))]
+        )
+        assert [c.effect for c in found.candidates] == ["first"]
 
 
 def test_the_response_with_the_largest_share_left_is_asked_about(spec: Model) -> None:

@@ -1,158 +1,125 @@
-"""Every rule from evidence to a verdict (diagnosis/judge.py), just inside and just outside its limit."""
+"""From what was selected to a verdict (diagnosis/judge.py), just inside and just outside its limits."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from typing import Any
+
 import pytest
 
-from thermodata.diagnosis.judge import Judgement, Pair, equivalents, judge, simplest
+from thermodata.diagnosis.discrepancy import Noise
+from thermodata.diagnosis.judge import Judgement, judge
 from thermodata.diagnosis.scored import Scored
+from thermodata.diagnosis.selection import Member, Ranked, Selection
 
 from .hand_made import measure, of_tests, scored
 
-ALONE = Pair(None, 1.0)
+NOISE = Noise(0.1, 1.0, 3600.0, 0.5)
+UNKNOWN: Any = None  # the known effects of a ranking: no rule of a verdict reads them
+HOPELESS = scored("hopeless", before=1.0, after=0.95)
+
+
+def selection(
+    *members: Scored, first: Sequence[Scored] = (HOPELESS,), alone: Sequence[Scored] | None = None
+) -> Selection:
+    """alone: each member as it was chosen, by default the same as beside the others."""
+    chosen = members if alone is None else alone
+    made = tuple(Member(a, m, tuple(first)) for a, m in zip(chosen, members, strict=True))
+    return Selection(Ranked(UNKNOWN, tuple(first)), made, (), NOISE)
 
 
 def verdict(
-    *ranked: Scored, tests: int = 5, floor: float = 0.2, pairs: dict[str, Pair] | None = None
-) -> tuple[Judgement, list[str]]:
-    """(judgement, effects that a second one was asked for). pairs: by the name of the first effect."""
-    asked: list[str] = []
+    *members: Scored, tests: int = 5, floor: float = 0.2, refined: Sequence[str] = (), **given: Any
+) -> Judgement:
+    """refined: names of the members that refine what is known."""
+    return judge(
+        of_tests(tests),
+        selection(*members, **given),
+        measure(floor=floor),
+        lambda s: "it is kin" if s.candidate.effect.name in refined else None,
+    )
 
-    def pair(first: Scored) -> Pair:
-        asked.append(first.candidate.effect.name)
-        return (pairs or {}).get(first.candidate.effect.name, ALONE)
 
-    return judge(of_tests(tests), ranked, measure(floor=floor), pair), asked
-
-
-GOOD = {"drop": 0.8, "before": 1.0, "after": 0.2}
-PROXY = {"drop": 0.6, "before": 1.0, "after": 0.63}  # passes every rule of a claim, but leaves too much
-PROMISING = {"drop": 0.2, "before": 1.0, "after": 0.9}  # fails the rule of the fall alone
-HOPELESS = {"p_value": 0.5, "before": 1.0, "after": 0.9}
+def names(judged: Sequence[Any]) -> list[str]:
+    return [j.scored.candidate.effect.name for j in judged]
 
 
 @pytest.mark.parametrize(("tests", "expected"), [(1, "not_testable"), (2, "effect")])
 def test_two_tests_are_needed(tests: int, expected: str) -> None:
-    found, _ = verdict(scored(**GOOD), tests=tests)
-    assert found.verdict == expected
-    assert (found.claimed is None) == (expected == "not_testable")
+    found = verdict(scored("a"), tests=tests)
+    assert (found.verdict, bool(found.claims)) == (expected, expected == "effect")
 
 
 def test_without_a_candidate_nothing_is_testable() -> None:
-    assert verdict()[0].verdict == "not_testable"
+    found = judge(of_tests(5), None, measure(), lambda s: None)
+    assert (found.verdict, found.claims) == ("not_testable", ())
+    assert "no effect of the library fits" in found.reason
 
 
-@pytest.mark.parametrize(("place", "expected"), [(3, "effect"), (4, "unknown")])
-def test_only_the_best_three_may_be_claimed(place: int, expected: str) -> None:
-    ranked = [scored(f"bad{i}", **HOPELESS) for i in range(1, place)] + [scored("good", **GOOD)]
-    found, _ = verdict(*ranked)
-    assert found.verdict == expected
-    assert (None if found.claimed is None else found.claimed.candidate.effect.name) == (
-        "good" if expected == "effect" else None
-    )
+def test_a_member_is_claimed_as_it_is_beside_the_others_and_as_it_was_chosen() -> None:
+    chosen, beside = scored("a", after=0.7), scored("a", after=0.3)
+    found = verdict(beside, alone=[chosen])
+    (claim,) = found.claims
+    assert claim.scored is beside
+    assert claim.alone is chosen
+    assert claim.beside == (HOPELESS,)
+    assert found.judged == found.claims
 
 
-@pytest.mark.parametrize(("after", "expected"), [(0.499, "effect"), (0.501, "unknown")])
-def test_what_leaves_half_of_the_error_is_no_cause(after: float, expected: str) -> None:
-    found, asked = verdict(scored(drop=0.8, before=1.0, after=after), floor=0.01)
-    assert found.verdict == expected
-    assert asked == ([] if expected == "effect" else ["plain"])
+@pytest.mark.parametrize(("share", "claimed"), [(0.701, ["a", "b"]), (0.699, ["a"])])
+def test_a_further_claim_explains_seven_tenths_of_the_first(share: float, claimed: list[str]) -> None:
+    """Of what the first explains as it was chosen: from 1 to 0."""
+    second = scored("b", before=share, after=0.0)
+    found = verdict(scored("a", before=0.5, after=0.0), second, alone=[scored("a", after=0.0), second])
+    assert names(found.claims) == claimed
+
+
+def test_a_further_claim_has_a_name() -> None:
+    lag = scored("lag", family="generic", placeless=True)
+    assert names(verdict(scored("a"), lag).claims) == ["a"]
+    assert names(verdict(lag, scored("a")).claims) == ["lag", "a"]
+
+
+def test_three_are_claimed_at_once() -> None:
+    assert names(verdict(*(scored(n) for n in "abcd")).claims) == ["a", "b", "c"]
+
+
+def test_what_refines_is_no_claim_and_is_told_beside_one() -> None:
+    found = verdict(scored("mode"), scored("a"), refined=["mode"])
+    assert (found.verdict, names(found.claims), names(found.refinements)) == ("effect", ["a"], ["mode"])
+    assert found.refinements[0].refines == "it is kin"
+    assert names(found.judged) == ["mode", "a"]
+
+
+@pytest.mark.parametrize("floor", [0.2, 2.0])
+def test_where_all_refines_nothing_is_missing(floor: float) -> None:
+    """Whether or not the error is at the floor."""
+    found = verdict(scored("mode"), refined=["mode"], floor=floor)
+    assert (found.verdict, found.claims, names(found.refinements)) == ("refine", (), ["mode"])
+
+
+def test_a_blunt_cause_is_not_claimed_and_is_no_refinement_either() -> None:
+    blunt = scored("blunt", evidence=149.0)
+    found = verdict(blunt)
+    assert (found.verdict, found.claims, names(found.judged)) == ("unknown", (), ["blunt"])
+    assert "the best, blunt:T_a, fails because its evidence is 0.15 a sample" in found.reason
+    beside = verdict(blunt, scored("mode"), refined=["mode"])
+    assert (beside.verdict, beside.refinements) == ("unknown", ()), "something is missing too"
 
 
 @pytest.mark.parametrize(("before", "expected"), [(0.199, "none"), (0.201, "unknown")])
-def test_an_error_at_the_floor_is_none(before: float, expected: str) -> None:
-    found, _ = verdict(scored(p_value=0.5, before=before, after=0.15), floor=0.2)
+def test_an_error_at_the_floor_is_left_alone(before: float, expected: str) -> None:
+    found = verdict(first=[scored("h", before=before, after=0.95 * before)], floor=0.2)
     assert found.verdict == expected
     assert ("is at the floor" in found.reason) == (expected == "none")
 
 
-def test_a_strong_effect_is_claimed_though_the_error_is_at_the_floor() -> None:
-    assert verdict(scored(drop=0.7, before=0.19, after=0.05), floor=0.2)[0].verdict == "effect"
-
-
-@pytest.mark.parametrize(("left", "expected"), [(0.349, "effect"), (0.351, "unknown")])
-def test_two_effects_must_leave_little(left: float, expected: str) -> None:
-    second = scored("second")
-    found, _ = verdict(scored("first", **PROXY), floor=0.01, pairs={"first": Pair(second, left)})
-    assert found.verdict == expected
-    assert found.second is (second if expected == "effect" else None)
-    assert ("stands in for something that was not logged" in found.reason) == (expected == "unknown")
-
-
-def test_a_second_effect_must_be_there() -> None:
-    found, _ = verdict(scored("first", **PROXY), floor=0.01, pairs={"first": Pair(None, 0.01)})
-    assert found.verdict == "unknown"
-
-
-def test_the_pair_that_leaves_least_is_claimed() -> None:
-    pairs = {"first": Pair(scored("x"), 0.3), "other": Pair(scored("y"), 0.1)}
-    found, _ = verdict(scored("first", **PROXY), scored("other", **PROMISING), floor=0.01, pairs=pairs)
-    assert found.claimed is not None
-    assert found.second is not None
-    assert (found.claimed.candidate.effect.name, found.second.candidate.effect.name) == ("other", "y")
-
-
-def test_a_second_effect_is_asked_for_twice_at_most() -> None:
-    _, asked = verdict(*(scored(n, **PROMISING) for n in "abc"), floor=0.01)
-    assert asked == ["a", "b"]
-
-
-def test_a_second_effect_is_asked_for_among_the_best_three_promising_ones() -> None:
-    ranked = [scored(n, **HOPELESS) for n in "ab"] + [scored("c", **PROMISING), scored("d", **PROMISING)]
-    assert verdict(*ranked, floor=0.01)[1] == ["c"]
+def test_a_claim_is_made_though_the_error_is_at_the_floor() -> None:
+    assert verdict(scored("a", before=0.4, after=0.1, size=0.4), first=[scored(before=0.1)]).verdict == "effect"
 
 
 def test_the_unknown_says_why_the_best_was_refused() -> None:
-    found, asked = verdict(scored("a", **HOPELESS), floor=0.01)
-    assert asked == []
-    assert "a:T_a, fails because chance does as well in 50%" in found.reason
-
-
-# ---- twins
-
-
-@pytest.mark.parametrize(("cosine", "alike"), [(0.901, True), (0.899, False), (-0.901, True)])
-def test_contributions_this_alike_are_twins(cosine: float, alike: bool) -> None:
-    chosen = scored("a", after=0.2)
-    other = scored("b", after=0.9, shape=(cosine, (1 - cosine**2) ** 0.5))
-    assert equivalents(chosen, [chosen, other]) == ([other] if alike else [])
-
-
-@pytest.mark.parametrize(
-    ("cosine", "times", "alike"), [(0.601, 1.149, True), (0.601, 1.151, False), (0.599, 1.149, False)]
-)
-def test_equal_errors_make_twins_of_what_acts_a_little_alike(cosine: float, times: float, alike: bool) -> None:
-    """times: of the squared error that the chosen one leaves."""
-    chosen = scored("a", before=[200.0] * 10, after=[100.0] * 10)
-    other = scored("b", before=[200.0] * 10, after=[100.0 * times] * 10, shape=(cosine, (1 - cosine**2) ** 0.5))
-    assert equivalents(chosen, [chosen, other]) == ([other] if alike else [])
-
-
-@pytest.mark.parametrize(("drop", "alike"), [(0.15, True), (0.149, False)])
-def test_what_explains_next_to_nothing_is_no_twin(drop: float, alike: bool) -> None:
-    chosen, other = scored("a"), scored("b", drop=drop)
-    assert equivalents(chosen, [other]) == ([other] if alike else [])
-
-
-@pytest.mark.parametrize(("times", "taken"), [(1.049, "simple"), (1.051, "first")])
-def test_a_simpler_twin_is_preferred_where_it_costs_little(times: float, taken: str) -> None:
-    first = scored("first", channels=("T_a", "T_b"), before=[200.0] * 10, after=[100.0] * 10)
-    simple = scored("simple", before=[200.0] * 10, after=[100.0 * times] * 10, order=1.0)
-    assert simplest([first, simple]).candidate.effect.name == taken
-
-
-def test_only_what_acts_alike_replaces_the_first() -> None:
-    first, simple = scored("first", channels=("T_a", "T_b")), scored("simple", shape=(0.0, 1.0))
-    assert simplest([first, simple]) is first
-
-
-def test_a_name_goes_before_fewer_channels_before_no_refinement_before_rank() -> None:
-    lag = scored("lag", family="generic", order=0.0)
-    two = scored("two", channels=("T_a", "T_b"), order=1.0)
-    refined = scored("refined", refines=("two",), order=2.0)
-    late, early = scored("late", order=4.0), scored("early", order=3.0)
-    twins = [lag, two, refined, late, early]
-    for expected in ["early", "late", "refined", "two", "lag"]:
-        chosen = simplest(twins)
-        assert chosen.candidate.effect.name == expected
-        twins.remove(chosen)
+    found = verdict()
+    assert found.verdict == "unknown"
+    assert "the best, hopeless:T_a, fails because in the 10 left-out tests" in found.reason
+    assert "1 um remain on left-out tests" in found.reason

@@ -60,6 +60,8 @@ CANDIDATE = {
     "family",
     "drivers",
     "claimed",
+    "refinement",
+    "probability",
     "p_value",
     "rmse_um_before",
     "rmse_um_after",

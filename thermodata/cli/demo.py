@@ -12,7 +12,8 @@ import click
 from thermodata.cli.common import Session, command, plain
 from thermodata.cli.table import fields
 from thermodata.errors import UsageError
-from thermodata.report.words import change, duration, number, pooled, verdict_sentence
+from thermodata.report.verdict import claims_of, listed, refinements_of, verdict_sentence
+from thermodata.report.words import change, duration, number, pooled
 
 _MARK = ".thermodata-demo"  # a folder that holds it was made by a demo and may be made anew
 _MADE = ("raw", "campaign.yaml", "model.yaml", "truth", "thermodata.store", "report.html")
@@ -142,23 +143,29 @@ def story(step: Step, folder: Path, hide: str, seed: int) -> dict[str, Any]:
 
     step.title(5, "diagnose: which effect is missing?")
     step.line(verdict_sentence(found))
-    claimed = next((c for c in found.candidates if c.claimed), None)
-    if claimed and claimed.equivalent:
-        step.line(f"these tests can't tell it from: {', '.join(claimed.equivalent)}")
-    if claimed:
-        step.line(claimed.why)
+    claims = claims_of(found)
+    for claim in claims:
+        of = f"{claim.id}: " if len(claims) > 1 else ""
+        step.line(f"{of}{claim.why}")
+        if claim.equivalent:
+            step.line(f"{of}these tests can't tell it from {listed(claim.equivalent)}")
     if found.next_test:
         step.line(f"next test: {found.next_test}")
 
     model, before, after = base.model, pooled(base.scores), None
-    if claimed:
-        step.title(6, f"add {claimed.id}, and compare again")
-        better = add(store, base.model, claimed.id)
-        model, before, after = better.model, pooled(better.before or []), pooled(better.scores)
+    if claims:
+        step.title(6, f"add {listed([c.id for c in claims])}, and compare again")
+        for claim in claims:
+            better = add(store, model, claim.id)
+            model, after = better.model, pooled(better.scores)
         step.line(f"all tests {number(before)} -> {number(after)} um ({change(before, after)})")
-        if claimed.locked_rmse_um_after is not None:
-            a, b = claimed.locked_rmse_um_before, claimed.locked_rmse_um_after
+        a, b = claims[0].locked_rmse_um_before, claims[0].locked_rmse_um_after
+        if b is not None:
             step.line(f"tests that nobody had looked at {number(a)} -> {number(b)} um ({change(a, b)})")
+    elif found.verdict == "refine":
+        step.title(6, "add: no cause is missing, so nothing is added")
+        for offered in refinements_of(found):
+            step.line(f"offered: thermodata --store {folder / 'thermodata.store'} add {base.model[:12]} {offered.id}")
     else:
         step.title(6, "add: nothing is added where the evidence does not suffice")
 
@@ -167,10 +174,14 @@ def story(step: Step, folder: Path, hide: str, seed: int) -> dict[str, Any]:
 
     page = build_report(store, model, folder / "report.html")
     step.line(str(page))
+    claimed = claims[0] if claims else None
     return {
         "hidden": None if hide == "none" else truth.get("hidden", hide),
         "found": claimed.effect if claimed else None,
         "verdict": found.verdict,
+        "claims": [c.id for c in claims],
+        "refinements": [c.id for c in refinements_of(found)],
+        "probability": claimed.probability if claimed else None,
         "family": claimed.family if claimed else None,
         "equivalents": claimed.equivalent if claimed else [],
         "rmse_um_before": before,
@@ -191,8 +202,10 @@ def summary_text(result: dict[str, Any]) -> str:
 
     rows = [
         ("hidden", result["hidden"] or "nothing"),
-        ("found", result["found"] or f"nothing claimed ({result['verdict']})"),
+        ("found", listed(result["claims"]) or f"nothing claimed ({result['verdict']})"),
     ]
+    if result["refinements"]:
+        rows.append(("refined by", listed(result["refinements"])))
     if result["equivalents"]:
         rows.append(("not told from", ", ".join(result["equivalents"])))
     rows.append(("error", pair(result["rmse_um_before"], result["rmse_um_after"])))

@@ -9,10 +9,13 @@ import click
 from thermodata.cli.common import Session, command, in_units_of
 from thermodata.cli.fitting import resolve, spots_text
 from thermodata.cli.table import table
-from thermodata.report.words import duration, heat_lines, number, verdict_sentence
+from thermodata.report.verdict import explainable, probability, told, verdict_sentence
+from thermodata.report.words import duration, heat_lines, number
 
 if TYPE_CHECKING:
-    from thermodata.schema.result import Confirmed, Diagnosis
+    from collections.abc import Sequence
+
+    from thermodata.schema.result import Candidate, Confirmed, Diagnosis
 
 
 @command("diagnose")
@@ -80,33 +83,11 @@ def times(n: int) -> str:
 
 def diagnosis_text(found: Diagnosis, top: int = 8) -> str:
     """A diagnosis for a person."""
-    share = found.explainable
-    head = verdict_sentence(found) + (
-        f"\nresidual {number(found.rmse_um)} um, noise {number(found.noise_um)} um"
-        + (f", {100 * share:.0f} % of it could be explained" if share is not None else "")
-    )
-    parts = [head]
+    figures = [f"residual {number(found.rmse_um)} um", f"noise {number(found.noise_um)} um", explainable(found)]
+    parts = [f"{verdict_sentence(found)}\n{', '.join(filter(None, figures))}"]
     if found.candidates:
-        rows = [{**c.model_dump(), "claimed": "yes" if c.claimed else ""} for c in found.candidates[:top]]
-        parts.append(
-            table(
-                rows,
-                [
-                    ("rank", "#"),
-                    ("id", "candidate"),
-                    ("family", "family"),
-                    ("claimed", "claimed"),
-                    ("p_value", "p"),
-                    ("rmse_um_before", "before [um]"),
-                    ("rmse_um_after", "after [um]"),
-                    ("equivalent", "can't be told from"),
-                ],
-                widest=44,
-            )
-        )
-        first = found.candidates[0]
-        if first.why:
-            parts.append(f"why {first.id}: {first.why}")
+        parts.append(_candidates_text(found.candidates[:top]))
+        parts += [f"why {c.id}: {c.why}" for c in told(found) if c.why]
     if found.weak_spots:
         parts.append(spots_text(found.weak_spots, most=top))
     if found.artefacts:
@@ -140,3 +121,26 @@ def diagnosis_text(found: Diagnosis, top: int = 8) -> str:
     if found.next_test:
         parts.append(f"next test: {found.next_test}")
     return "\n\n".join(parts)
+
+
+def _candidates_text(candidates: Sequence[Candidate]) -> str:
+    rows = [
+        {
+            **c.model_dump(),
+            "claimed": "yes" if c.claimed else "refines" if c.refinement else "",
+            "probability": probability(c.probability),
+        }
+        for c in candidates
+    ]
+    columns = [
+        ("rank", "#"),
+        ("id", "candidate"),
+        ("family", "family"),
+        ("claimed", "claimed"),
+        ("probability", "probability"),
+        ("p_value", "p"),
+        ("rmse_um_before", "before [um]"),
+        ("rmse_um_after", "after [um]"),
+        ("equivalent", "can't be told from"),
+    ]
+    return table(rows, columns, widest=44)

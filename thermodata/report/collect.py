@@ -13,9 +13,10 @@ from thermodata.plugin import Bool1D, Float1D
 from thermodata.report.data import Curve, ReportData, TestPart, Version
 from thermodata.report.records import written_conditions
 from thermodata.report.spots import weak_spots_of
+from thermodata.report.verdict import claims_of
 from thermodata.report.words import base_role, pooled
 from thermodata.schema.model import EffectSpec
-from thermodata.schema.result import Score
+from thermodata.schema.result import Diagnosis, Score
 
 if TYPE_CHECKING:
     from thermodata.modelling.run import Loaded
@@ -38,7 +39,7 @@ def collect(store: Store, ref: str) -> ReportData:
     chain = model_chain(store, stored.model)
     loaded = load(store, stored.model)
     diagnosis = load_diagnosis(store, stored.model)
-    reason = load_diagnosis(store, stored.parent) if stored.parent else None
+    reason = _reason([load_diagnosis(store, m.model) for m in chain[:-1]])
     responses = tuple(r.name for r in loaded.fitted.responses)
     result = stored.result
     before = result.before or (chain[-2].result.scores if len(chain) > 1 else [])
@@ -64,6 +65,15 @@ def collect(store: Store, ref: str) -> ReportData:
         looks=_looks(store, [m.model for m in chain]),
         stale=stored.stale,
     )
+
+
+def _reason(earlier: Sequence[Diagnosis | None]) -> Diagnosis | None:
+    """Why the last effect was added. earlier: of the ancestors, oldest first. Each claim of one answer becomes a
+    version of its own, so the answer may stand as many versions back as it has claims."""
+    for back, found in enumerate(reversed(earlier), 1):
+        if found is not None:
+            return found if back <= max(1, len(claims_of(found))) else None
+    return None
 
 
 def _by_role(rows: Iterable[Part]) -> list[Part]:

@@ -60,9 +60,9 @@ class Version:
 class ReportData:
     """A model, its scores and curves, and what was diagnosed.
 
-    diagnosis: of this model; reason: of its parent, which says why the last effect was added. versions: oldest first.
-    looks: how often each locked test was opened. calibrations: rows of the catalogue's table. weak: weak spots by
-    response.
+    diagnosis: of this model; reason: of its last ancestor that has one, which says why effects were added since.
+    versions: oldest first. looks: how often each locked test was opened. calibrations: rows of the catalogue's table.
+    weak: weak spots by response.
     """
 
     model: str

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from importlib.resources import files
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -10,7 +11,8 @@ from thermodata.report.colour import effect_colours
 from thermodata.report.data import ReportData, TestPart
 from thermodata.report.figures import Figure, overview_figure, test_figure, waterfall_figure
 from thermodata.report.heat_figure import heat_figures
-from thermodata.report.words import base_role, change, duration, heat_lines, number, pooled, typeset, verdict_sentence
+from thermodata.report.verdict import claims_of, explainable, listed, named, probability, told, verdict_sentence
+from thermodata.report.words import base_role, change, duration, heat_lines, number, pooled, typeset
 from thermodata.report.write import script_json, write_page
 from thermodata.version import __version__
 
@@ -38,6 +40,7 @@ def render(data: ReportData) -> str:
         base_role=base_role,
         duration=duration,
         typeset=typeset,
+        probability=probability,
         number=lambda value, digits=3: typeset(number(value, digits)),
     )
     template = environment.from_string((here / "page.html.j2").read_text(encoding="utf-8"))
@@ -70,6 +73,7 @@ def render(data: ReportData) -> str:
             for key, p in data.parameters.items()
         ],
         checks=[c for c in data.checks if not c.passed],
+        told=told,
         several=len(data.responses) > 1,
         phased=[s for s in data.scores if s.phase != "all"],
         locked_note=locked_note(data),
@@ -110,9 +114,9 @@ def headline(data: ReportData) -> str:
             f"{number(after)} {data.unit} ({change(before, after)})"
         )
     if data.diagnosis:
-        claimed = next((c for c in data.diagnosis.candidates if c.claimed), None)
-        if claimed:
-            return f"{', '.join(data.responses)} misses {claimed.effect} ({', '.join(claimed.drivers) or 'no driver'})"
+        claims = claims_of(data.diagnosis)
+        if claims:
+            return f"{', '.join(data.responses)} misses {listed([named(c) for c in claims])}"
         return _capital(verdict_sentence(data.diagnosis))
     return f"{data.name} follows {', '.join(data.responses)} to {number(after)} {data.unit}"
 
@@ -120,11 +124,14 @@ def headline(data: ReportData) -> str:
 def _sentences(data: ReportData) -> list[str]:
     lines = []
     if data.added and data.reason:
-        claimed = next((c for c in data.reason.candidates if c.claimed), None)
-        if claimed and claimed.why:
-            lines.append(_capital(claimed.why) + ("" if claimed.why.endswith(".") else "."))
-        if claimed and claimed.equivalent:
-            lines.append(f"These tests can't tell it from {', '.join(claimed.equivalent)}.")
+        claims = claims_of(data.reason)
+        for claim in claims:
+            # ids stay as they are typed
+            why, it = (f"{claim.id}: {claim.why}", claim.id) if len(claims) > 1 else (_capital(claim.why), "it")
+            if claim.why:
+                lines.append(why + ("" if why.endswith(".") else "."))
+            if claim.equivalent:
+                lines.append(f"These tests can't tell {it} from {listed(claim.equivalent)}.")
     if data.diagnosis:
         lines.append(("Now: " if data.added else "") + _capital(verdict_sentence(data.diagnosis)) + ".")
     return lines
@@ -157,9 +164,7 @@ def tiles(data: ReportData) -> list[dict[str, str]]:
         )
     found = data.diagnosis or data.reason
     if found and found.noise_um:
-        share = found.explainable
-        note = f"{100 * share:.0f} % of the residual could be explained" if share is not None else ""
-        made.append(_tile("Noise of the measurement", None, found.noise_um, data.unit, note))
+        made.append(_tile("Noise of the measurement", None, found.noise_um, data.unit, explainable(found)))
     return made
 
 
@@ -177,10 +182,12 @@ def _tile(what: str, before: float | None, after: float, unit: str, note: str) -
 
 
 def _locked(data: ReportData) -> tuple[float | None, float] | None:
-    """Locked error (before, after): from the claim that was confirmed, else from the model's own scores."""
-    claimed = next((c for c in data.reason.candidates if c.claimed), None) if data.reason else None
-    if data.added and claimed and claimed.locked_rmse_um_after is not None:
-        return claimed.locked_rmse_um_before, claimed.locked_rmse_um_after
+    """Locked error (before, after): of the claims that were confirmed where all were added, else of the model's own
+    scores."""
+    claims = claims_of(data.reason) if data.reason else []
+    added = all(any(re.fullmatch(rf"{re.escape(c.effect)}(_\d+)?", term) for term in data.effects) for c in claims)
+    if data.added and claims and added and claims[0].locked_rmse_um_after is not None:
+        return claims[0].locked_rmse_um_before, claims[0].locked_rmse_um_after
     after = pooled(data.scores, "locked")
     return None if after is None else (pooled(data.before, "locked"), after)
 

@@ -1,4 +1,4 @@
-"""Figures and verdicts in words, the same in the terminal and on the page."""
+"""Figures in words, the same in the terminal and on the page."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ import re
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from thermodata.schema.result import Diagnosis, HeatCompanion, MissingHeat, Score
+    from thermodata.schema.result import HeatCompanion, MissingHeat, Score
 
 COMPANIONS = 8  # most channels that are named beside a missing heat
 
@@ -65,29 +65,6 @@ def pooled(scores: list[Score], *roles: str) -> float | None:
     return math.sqrt(sum(s.n * (s.rmse_um or 0.0) ** 2 for s in rows) / n) if n else None
 
 
-def verdict_sentence(found: Diagnosis) -> str:
-    """The verdict in one sentence with its figures."""
-    claimed = next((c for c in found.candidates if c.claimed), None)
-    if found.verdict == "effect" and claimed:
-        drivers = f" ({', '.join(claimed.drivers)})" if claimed.drivers else ""
-        text = (
-            f"missing: {claimed.effect}{drivers}, error {number(claimed.rmse_um_before)} -> "
-            f"{number(claimed.rmse_um_after)} um"
-        )
-        if claimed.locked_rmse_um_after is not None:
-            text += (
-                f", locked tests {number(claimed.locked_rmse_um_before)} -> {number(claimed.locked_rmse_um_after)} um"
-            )
-        return text
-    return {
-        "effect": "missing: an effect that the data point to",
-        "refine": "no effect is missing, but one that is there acts otherwise than modelled",
-        "none": "no effect is missing: what is left is noise, or too small to matter",
-        "unknown": "something is missing that no known effect with these channels explains",
-        "not_testable": "these tests can't tell which effect is missing",
-    }[found.verdict]
-
-
 def heat_lines(heat: MissingHeat) -> list[tuple[str, str]]:
     """What is told of an estimated missing heat beside its course: (what, figures); what does not apply is left out."""
     low, high = (
@@ -103,7 +80,7 @@ def heat_lines(heat: MissingHeat) -> list[tuple[str, str]]:
         ("direction", direction + ("" if heat.agreed is None else f" ({100 * heat.agreed:.0f} % of the draws agree)")),
         (
             "explains",
-            f"{_percent(heat.explained)} of the squared residual, {_percent(heat.left_out)} in parts left out",
+            f"{percent(heat.explained)} of the squared residual, {percent(heat.left_out)} in parts left out",
         ),
         ("on at (UTC)", ", ".join(f"{h:.0f} h" for h in heat.hours_of_day)),
         ("goes with", _companions(heat.goes_with)),
@@ -119,11 +96,12 @@ def _companions(found: list[HeatCompanion]) -> str:
     return ", ".join(_companion(c) for c in ordered[:COMPANIONS]) + more
 
 
-def _percent(share: float) -> str:
+def percent(share: float) -> str:
+    """'94 %', and never all: 'over 99 %'."""
     return "over 99 %" if 0.99 < share < 1 else f"{100 * share:.0f} %"
 
 
 def _companion(one: HeatCompanion) -> str:
     if one.follows is not None:
-        return f"{one.channel} ({_percent(one.follows)} alike)"
-    return f"{one.channel} (on in {_percent(one.on_with or 0.0)} while it runs, {_percent(one.on_without or 0.0)} else)"
+        return f"{one.channel} ({percent(one.follows)} alike)"
+    return f"{one.channel} (on in {percent(one.on_with or 0.0)} while it runs, {percent(one.on_without or 0.0)} else)"

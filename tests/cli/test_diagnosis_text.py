@@ -1,0 +1,74 @@
+"""What `diagnose` prints: every claim and refinement with its evidence, the probability where one is stated."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from thermodata.cli.diagnosing import diagnosis_text
+from thermodata.schema.result import Candidate, Diagnosis
+
+
+def candidate(rank: int, effect: str, **more: Any) -> Candidate:
+    given: dict[str, Any] = {
+        "rank": rank,
+        "id": f"{effect}:T",
+        "effect": effect,
+        "family": effect,
+        "drivers": ["T"],
+        "claimed": False,
+        "p_value": 0.005,
+        "rmse_um_before": 4.0,
+        "rmse_um_after": 1.0,
+        "fit_before": None,
+        "fit_after": None,
+        "why": f"because of {effect}",
+    }
+    return Candidate(**{**given, **more})
+
+
+def text(verdict: Any, *candidates: Candidate, top: int = 8) -> str:
+    found = Diagnosis(
+        model="m",
+        response="dZ",
+        verdict=verdict,
+        noise_um=0.2,
+        rmse_um=4.0,
+        explainable=0.9,
+        weak_spots=[],
+        candidates=list(candidates),
+        artefacts=[],
+    )
+    return diagnosis_text(found, top)
+
+
+def test_each_claim_and_refinement_has_its_row_and_its_reason() -> None:
+    said = text(
+        "effect",
+        candidate(1, "screw", claimed=True, probability=0.94),
+        candidate(2, "sun", claimed=True, probability=0.7),
+        candidate(3, "mode", refinement=True),
+        candidate(4, "rest"),
+    )
+    head, *_ = said.splitlines()
+    assert head.startswith("missing: screw (T), probability 94 %, and sun (T), probability 70 %; ")
+    assert head.endswith("; what the model has can be refined by mode (T)")
+    rows = {line.split()[1]: line for line in said.splitlines() if line.split()[1:2] and line.split()[1].endswith(":T")}
+    assert "yes      94 %" in rows["screw:T"]
+    assert "yes      70 %" in rows["sun:T"]
+    assert "refines  -" in rows["mode:T"]
+    told = [line for line in said.splitlines() if line.startswith("why ")]
+    assert told == [f"why {e}:T: because of {e}" for e in ("screw", "sun", "mode")]
+
+
+def test_a_claim_beyond_the_table_still_has_its_reason() -> None:
+    said = text("effect", candidate(1, "screw", claimed=True), candidate(2, "sun", claimed=True), top=1)
+    assert "why sun:T: because of sun" in said
+
+
+def test_without_a_claim_the_first_candidate_has_its_reason_and_nothing_is_promised() -> None:
+    said = text("unknown", candidate(1, "screw", probability=0.35), candidate(2, "sun"))
+    assert "why screw:T: because of screw" in said
+    assert "why sun:T" not in said
+    assert "could be explained" not in said
+    assert "nothing logged explains" not in said
+    assert "one candidate alone takes away up to 90 % of the squared residual" in said

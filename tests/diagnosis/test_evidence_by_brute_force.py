@@ -1,0 +1,316 @@
+"""The products that evidence is made of, against plain multivariate normal densities of all samples at once.
+
+Offsets have a flat prior: the density is that of what no offset changes, A'y with A orthogonal to the offsets, and
+half the logarithm of |Z'Z| besides.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from functools import cache
+
+import numpy as np
+import pytest
+from scipy.linalg import block_diag, null_space
+from scipy.special import logsumexp
+from scipy.stats import kstest, multivariate_normal
+
+from thermodata.diagnosis.candidates import CandidateEffect
+from thermodata.diagnosis.discrepancy import Noise
+from thermodata.diagnosis.evidence import Columns, columns, moments, of_each_series, weigh
+from thermodata.diagnosis.invariance import spread_of_gain
+from thermodata.diagnosis.known import Known, known
+from thermodata.diagnosis.null import best_of_chance, p_value
+from thermodata.diagnosis.problem import Problem
+from thermodata.diagnosis.scored import Scored
+from thermodata.diagnosis.selection import rank_in
+from thermodata.plugin import Float1D, Float2D, Gain, Param
+
+from .hand_made import Parts, problem
+from .lagged import Lagged
+
+ROWS = 40
+NOISE = Noise(0.3, 0.5, 900.0, 0.5)
+# to powers of 3: different at all points, and far from each other
+TAU = Param("tau", "min", 5, 1, 30, "")
+TWO_GAINS = (Gain("here", "um/K", (0.1, 10.0), "any", ""), Gain("there", "um/K", (0.1, 0.5), "any", ""))
+
+
+def walk(rng: np.random.Generator, count: int, n: int) -> Float2D:
+    made = np.cumsum(rng.normal(size=(n, count)), axis=0)
+    return np.asarray(made - made.mean(axis=0))
+
+
+@cache
+def small(tests: int = 4, n: int = ROWS, cause: float = 1.0) -> Problem:
+    """A known effect with a time constant that may move, one that may act otherwise; a cause that is missing."""
+    rng = np.random.default_rng(3)
+    made = []
+    for _ in range(tests):
+        u = walk(rng, 2, n)
+        base, slack = walk(rng, 2, n), 0.3 * walk(rng, 1, n)
+        y = base @ [1.0, 0.3] + 0.2 * slack[:, 0] + cause * u[:, 0] + 0.5 * walk(rng, 1, n)[:, 0] / 3
+        y += 0.3 * rng.normal(size=n)
+        values = {"T_a": u[:, 0], "T_b": u[:, 1]}
+        made.append(Parts(y - y.mean(), base=base, slack=slack, values=values))
+    # a step in the second test: two offsets
+    return problem(*made).split({("c", "t1"): [0.4 * n * 60.0]})
+
+
+@cache
+def asked(channel: str = "T_a") -> CandidateEffect:
+    return CandidateEffect(Lagged(params=(TAU,), gains=TWO_GAINS), {"u": channel}, "feed_x", log_prior=-0.7)
+
+
+def made(one: Problem, channel: str = "T_a") -> Columns:
+    found = columns(one, asked(channel))
+    assert found is not None
+    return found
+
+
+def offsets(one: Problem, tests: Sequence[int]) -> Float2D:
+    parts = []
+    for i in tests:
+        segment = one.blocks[i].segment
+        parts.append((segment[:, None] == np.unique(segment)[None]).astype(float))
+    return np.asarray(block_diag(*parts))
+
+
+def noise_of(one: Problem, tests: Sequence[int], noise: Noise = NOISE) -> Float2D:
+    parts = []
+    for i in tests:
+        t = one.blocks[i].t_s
+        slow = noise.slow**2 * np.exp(-np.abs(t[:, None] - t[None]) / noise.tau_s)
+        parts.append(slow + noise.white**2 * np.eye(len(t)))
+    return np.asarray(block_diag(*parts))
+
+
+def stacked(one: Problem, tests: Sequence[int]) -> tuple[Float2D, Float1D]:
+    x = np.vstack([np.hstack([one.blocks[i].base, one.blocks[i].slack]) for i in tests])
+    return x, np.concatenate([one.blocks[i].response for i in tests])
+
+
+def log_density(one: Problem, tests: Sequence[int], base: Known, more: Float2D | None = None) -> float:
+    """Of the response of some tests. more: a further covariance of all its samples."""
+    z = offsets(one, tests)
+    free = null_space(z.T)
+    x, y = stacked(one, tests)
+    covariance = noise_of(one, tests) + (x / base.precision) @ x.T + (0.0 if more is None else more)
+    density = multivariate_normal(np.zeros(free.shape[1]), free.T @ covariance @ free, allow_singular=False)
+    return float(density.logpdf(free.T @ y) - 0.5 * np.linalg.slogdet(z.T @ z)[1])
+
+
+def by_hand(one: Problem, tests: Sequence[int], base: Known, cols: Columns) -> Float2D:
+    """log BF with the prior at each point and size, shape (points, sizes)."""
+    alone = log_density(one, tests, base)
+    found = np.zeros((len(cols.points), 5))
+    for p in range(len(cols.points)):
+        c = np.vstack([cols.blocks[i][:, p] for i in tests])
+        for s, size in enumerate([0.03, 0.1, 0.3, 1.0, 3.0]):
+            deviation = size * np.array([1.0, 1.0, 0.5, 0.5, 0.5, 0.5])  # faster and slower: half of it
+            found[p, s] = log_density(one, tests, base, (c * deviation**2) @ c.T) - alone
+    return found + cols.prior
+
+
+def test_the_log_evidence_is_that_of_a_normal_density_without_offsets() -> None:
+    one = small()
+    base = known(one, NOISE)
+    assert base.log_evidence == pytest.approx(log_density(one, range(4), base), abs=1e-6)
+    without = replace(one, blocks=tuple(replace(b, base=b.base[:, :0], slack=b.slack[:, :0]) for b in one.blocks))
+    bare = known(without, NOISE)
+    assert bare.log_evidence == pytest.approx(log_density(without, range(4), bare), abs=1e-6)
+    assert base.log_evidence > bare.log_evidence
+
+
+@pytest.mark.parametrize("tests", [(0, 1, 2, 3), (0, 2, 3), (1,)])
+def test_a_candidate_is_weighed_by_the_difference_of_two_densities(tests: tuple[int, ...]) -> None:
+    one = small()
+    base, cols = known(one, NOISE), made(small())
+    found = weigh(base, cols, moments(base, cols), np.array(tests))
+    expected = by_hand(one, tests, base, cols)
+    np.testing.assert_allclose(found.log_bf, expected, atol=1e-6)
+    assert found.total == pytest.approx(logsumexp(expected), abs=1e-6)
+    assert found.best == np.unravel_index(expected.argmax(), expected.shape)
+
+
+def test_each_of_many_series_is_weighed_as_one_at_a_time() -> None:
+    one = small()
+    base, cols = known(one, NOISE), made(small())
+    rng = np.random.default_rng(0)
+    series = [np.column_stack([y, base.space.of(i, rng.normal(size=(len(y), 3)))]) for i, y in enumerate(base.response)]
+    found = of_each_series(base, cols, series)
+    for k in range(4):
+        alone = [s[:, k] for s in series]
+        cross = np.stack([x.T @ y for x, y in zip(base.white, alone, strict=True)])
+        other = replace(base, response=tuple(alone), cross=cross)
+        assert found[k] == pytest.approx(weigh(other, cols, moments(other, cols), other.every).total, abs=1e-8)
+    assert found[0] > found[1:].max() + 10.0
+
+
+def posterior(one: Problem, tests: Sequence[int], base: Known, c: Float2D, width: Float1D) -> Float1D:
+    """Coefficients of the known effects and of further columns, by generalised least squares with free offsets."""
+    x, y = stacked(one, tests)
+    z = offsets(one, tests)
+    whole, inverse = np.hstack([x, c, z]), np.linalg.inv(noise_of(one, tests))
+    price = np.diag(np.concatenate([base.precision, width**-2.0, np.zeros(z.shape[1])]))
+    found = np.linalg.solve(whole.T @ inverse @ whole + price, whole.T @ inverse @ y)
+    return np.asarray(found[: x.shape[1] + c.shape[1]])
+
+
+def ranked() -> Scored:
+    return rank_in(small(), [made(small())], NOISE).ranked[0]
+
+
+def test_leaving_a_test_out_by_moments_equals_refitting_without_it() -> None:
+    one, found = small(), ranked()
+    base, cols = known(one, NOISE), made(small())
+    whole = logsumexp(by_hand(one, range(4), base, cols))
+    for i in range(4):
+        others = [j for j in range(4) if j != i]
+        log_bf = by_hand(one, others, base, cols)
+        point, size = np.unravel_index(log_bf.argmax(), log_bf.shape)
+        c = [b[:, point] for b in cols.blocks]
+        width = np.array([0.03, 0.1, 0.3, 1.0, 3.0])[size] * np.array([1.0, 1.0, 0.5, 0.5, 0.5, 0.5])
+        x, y = stacked(one, [i])
+        alone = posterior(one, others, base, np.zeros((len(others) * ROWS, 0)), np.zeros(0))
+        both = posterior(one, others, base, np.vstack([c[j] for j in others]), width)
+        assert found.sse_before[i] == pytest.approx(np.sum((y - x @ alone) ** 2), rel=1e-6)
+        assert found.sse_after[i] == pytest.approx(np.sum((y - np.hstack([x, c[i]]) @ both) ** 2), rel=1e-6)
+        assert found.gained[i] == pytest.approx(whole - logsumexp(log_bf), abs=1e-6)
+    assert found.evidence == pytest.approx(whole + 0.7, abs=1e-6), "the prior of a candidate is no evidence"
+    assert found.drop > 0.3
+    assert found.rows.tolist() == [ROWS] * 4
+
+
+def test_the_shape_is_what_the_known_effects_cannot_do() -> None:
+    one, found = small(), ranked()
+    base = known(one, NOISE)
+    assert np.linalg.norm(found.shape) == pytest.approx(1.0)
+    x = np.vstack(base.white)
+    own = np.concatenate([b[:, found.weighed.best[0]] @ found.weighed.coefficients for b in found.columns.blocks])
+    white = np.concatenate([base.space.of(i, p[:, None])[:, 0] for i, p in enumerate(np.split(own, 4))])
+    theta = np.linalg.solve(x.T @ x + np.diag(base.precision), x.T @ white)
+    left = white - x @ theta
+    np.testing.assert_allclose(found.shape, left / np.linalg.norm(left), atol=1e-9)
+    np.testing.assert_allclose(found.size, [np.sqrt(np.mean(p**2)) for p in np.split(own, 4)])
+
+
+# ---- one gain everywhere, or one a test
+
+
+def contributions(factors: Sequence[float]) -> tuple[Problem, list[Float1D]]:
+    """A problem whose response is what a driver does, times a factor of each test."""
+    one = small(tests=len(factors), cause=0.0)
+    u = [b.test.values["T_a"] - b.test.values["T_a"].mean() for b in one.blocks]
+    blocks = tuple(replace(b, response=b.response + f * c) for b, f, c in zip(one.blocks, factors, u, strict=True))
+    return replace(one, blocks=blocks), u
+
+
+@pytest.mark.parametrize("factors", [(1.0, 1.0, 1.0, 1.0), (0.2, 1.0, 1.8, 1.0), (1.0, 0.0, 0.0, 1.5)])
+def test_the_spread_of_the_gain_is_weighed_by_its_marginal_likelihood(factors: Sequence[float]) -> None:
+    """Each test a factor, N(mean, spread^2), the mean free: as an offset of all tests together."""
+    one, own = contributions(factors)
+    base = known(one, NOISE)
+    tests = range(len(factors))
+    x, y = stacked(one, tests)
+    free = null_space(np.column_stack([offsets(one, tests), np.concatenate(own)]).T)
+    each = block_diag(*[np.outer(c, c) for c in own])
+    spreads = np.array([0.0, 0.05, 0.1, 0.15, 0.2, 0.3, 0.4, 0.5, 0.7, 1.0, 1.5])
+    log = []
+    for s in spreads:
+        covariance = noise_of(one, tests) + (x / base.precision) @ x.T + s**2 * each
+        log.append(multivariate_normal(np.zeros(free.shape[1]), free.T @ covariance @ free).logpdf(free.T @ y))
+    weight = np.exp(np.array(log) - max(log))
+    assert spread_of_gain(base, own) == pytest.approx(weight @ spreads / weight.sum(), abs=1e-4)
+
+
+def test_a_cause_has_one_gain_and_a_proxy_several() -> None:
+    alike, own = contributions((1.0, 1.0, 1.0, 1.0))
+    apart, _ = contributions((0.1, 1.0, 2.5, 0.2))
+    assert spread_of_gain(known(alike, NOISE), own) < 0.3
+    assert spread_of_gain(known(apart, NOISE), own) > 0.6
+
+
+@pytest.mark.parametrize(("second", "expected"), [(0.9e-3, True), (1.1e-3, False)])
+def test_what_acts_in_one_test_only_may_have_any_gain(second: float, expected: bool) -> None:
+    """From a millionth of the largest energy on, a test counts."""
+    one, own = contributions((1.0, 1.0, 1.0, 1.0))
+    base = known(one, NOISE)
+    energy = [float(np.linalg.norm(base.space.of(i, c[:, None]))) for i, c in enumerate(own)]
+    parts = [own[0] / energy[0], second * own[1] / energy[1], 0 * own[2], 0 * own[3]]
+    assert (spread_of_gain(base, parts) == 1.0) is expected
+
+
+# ---- chance
+
+
+def drawn(one: Problem, base: Known, noise: Noise, count: int, seed: int) -> list[Float2D]:
+    """Responses of the model itself, sample by sample: its gains as fitted, other time constants and noise drawn."""
+    rng = np.random.default_rng(seed)
+    mean = base.mean(base.every)
+    loose = np.where(base.precision >= 1.0, base.precision**-0.5, 0.0)
+    theta = mean[:, None] + loose[:, None] * rng.normal(size=(len(mean), count))
+    series = []
+    for i in range(len(one.blocks)):
+        x, _ = stacked(one, [i])
+        y = x @ theta + rng.multivariate_normal(np.zeros(len(x)), noise_of(one, [i], noise), count).T
+        series.append(base.space.of(i, y + rng.normal(0, 30.0, count)))
+    return series
+
+
+def test_p_values_are_uniform_on_responses_in_which_nothing_is_missing() -> None:
+    one = small(cause=0.0)
+    base = known(one, NOISE)
+    pool = [made(one), made(one, "T_b")]
+    chance = best_of_chance(base, pool, seed=0)
+    assert chance.shape == (199,)
+    assert (np.diff(chance) >= 0).all()
+    series = drawn(one, base, NOISE, 300, seed=1)
+    best = np.max([of_each_series(base, c, series) - c.candidate.log_prior for c in pool], axis=0)
+    p = [p_value(float(b), chance) for b in best]
+    assert kstest(p, "uniform").statistic < 0.13
+    louder = [2.0 * s for s in series]
+    wrong = np.max([of_each_series(base, c, louder) - c.candidate.log_prior for c in pool], axis=0)
+    assert kstest([p_value(float(b), chance) for b in wrong], "uniform").statistic > 0.2, "the test can fail"
+
+
+def test_a_cause_is_beyond_all_chance() -> None:
+    one = small()
+    base, cols = known(one, NOISE), made(small())
+    evidence = weigh(base, cols, moments(base, cols), base.every).total - cols.candidate.log_prior
+    assert p_value(evidence, best_of_chance(base, [cols])) == pytest.approx(1 / 200)
+    np.testing.assert_array_equal(best_of_chance(base, [cols], 3), best_of_chance(base, [cols], 3))
+    assert not np.array_equal(best_of_chance(base, [cols], 3), best_of_chance(base, [cols], 4))
+
+
+@pytest.mark.parametrize(("as_well", "p"), [(0, 0.005), (1, 0.01), (199, 1.0)])
+def test_chance_that_does_as_well_counts(as_well: int, p: float) -> None:
+    chance = np.array([2.0] * as_well + [1.9] * (199 - as_well))
+    assert p_value(2.0, chance) == pytest.approx(p)
+
+
+def test_the_best_of_chance_is_against_all_that_was_tried() -> None:
+    one = small(cause=0.0)
+    base = known(one, NOISE)
+    a, b = made(one), made(one, "T_b")
+    both = best_of_chance(base, [a, b])
+    assert (both >= best_of_chance(base, [a])).all()
+    assert (both >= best_of_chance(base, [b])).all()
+    assert both.mean() > best_of_chance(base, [a]).mean()
+
+
+@pytest.mark.parametrize(("share", "moves"), [(0.99, True), (1.01, False)])
+def test_chance_draws_how_the_known_effects_act_otherwise_and_not_their_gains(share: float, moves: bool) -> None:
+    """What is as free as its own size, or freer, would be fitted again: it stays as fitted."""
+    from thermodata.diagnosis.null import _responses
+
+    one = small(cause=0.0)
+    large = replace(one, blocks=tuple(replace(b, slack=1e6 * b.slack, base=1e6 * b.base) for b in one.blocks))
+    base = known(large, replace(NOISE, share=share))
+    fitted = [x @ base.mean(base.every) for x in base.white]
+    away = max(
+        float(np.abs(s - f[:, None]).max())
+        for s, f in zip(_responses(base, np.random.default_rng(0)), fitted, strict=True)
+    )
+    assert (away > 1e4) is moves

@@ -1,0 +1,193 @@
+"""Every rule that a claim must keep (diagnosis/judge.py), just inside and just outside its limit."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+import pytest
+
+from thermodata.diagnosis.judge import (
+    Measure,
+    acting_size,
+    blunt,
+    equivalents,
+    explained,
+    failed_rules,
+    probability,
+    remaining,
+    sharpness,
+)
+
+from .hand_made import measure, scored
+
+CHANCE = "chance does as well"
+FALL = "left-out tests in which it acts the error falls by"
+FEW = "tests in which it acts more probable"
+GAIN = "its gain differs between tests by"
+LITTLE = "it explains"
+STEADIES = "times its own size"
+TIMING = "but not its timing"
+
+
+def refused(sentence: str, found: Sequence[str]) -> bool:
+    """Whether the sentence is the one reason; False where there is none. Another reason is a wrong case."""
+    assert all(sentence in reason for reason in found), found
+    return bool(found)
+
+
+def test_the_plain_case_keeps_every_rule() -> None:
+    assert failed_rules(scored(), measure(), "um") == []
+    assert blunt(scored()) is None
+
+
+@pytest.mark.parametrize(("as_well", "fails"), [(1, False), (2, True)])
+def test_chance_may_do_as_well_once_in_a_hundred(as_well: int, fails: bool) -> None:
+    """Of 199 responses in which nothing is missing, the response itself counted."""
+    chance = [500.0] * as_well + [499.9] * (199 - as_well)
+    assert refused(CHANCE, failed_rules(scored(evidence=500.0), measure(chance=chance), "um")) is fails
+
+
+@pytest.mark.parametrize(
+    ("family", "placeless", "after", "fails"),
+    [
+        ("feed_x", False, 0.849, False),
+        ("feed_x", False, 0.851, True),
+        ("generic", False, 0.699, False),
+        ("generic", False, 0.701, True),
+        ("generic", True, 0.849, False),
+        ("generic", True, 0.851, True),
+    ],
+)
+def test_the_left_out_error_falls_by_15_percent_and_by_30_where_a_place_has_no_name(
+    family: str, placeless: bool, after: float, fails: bool
+) -> None:
+    one = scored(family=family, placeless=placeless, after=after)
+    assert refused(FALL, failed_rules(one, measure(spread=1.0), "um")) is fails
+
+
+def test_the_fall_is_that_of_the_tests_in_which_it_acts() -> None:
+    """A test acts from a fifth of the largest on."""
+    sizes = [1.0] * 5 + [0.201, 0.199, 0.1, 0.0, 0.0]
+    assert scored(size=sizes).acts.sum() == 6
+    one = scored(size=sizes, after=[0.4] * 6 + [5.0] * 4)
+    assert one.drop == pytest.approx(0.6)
+    assert failed_rules(one, measure(), "um") == []
+    other = scored(size=sizes, after=[0.4] * 5 + [5.0] * 5)
+    assert other.drop < 0.0
+    assert acting_size(one) == pytest.approx(np.sqrt((5 + 0.201**2) / 6))
+
+
+@pytest.mark.parametrize(("better", "fails"), [(6, False), (5, True)])
+def test_six_of_ten_tests_become_more_probable(better: int, fails: bool) -> None:
+    gained = [1.0] * better + [-1.0] * (10 - better)
+    assert refused(FEW, failed_rules(scored(gained=gained), measure(), "um")) is fails
+    untouched = [1.0] * better + [0.0] * (10 - better)
+    assert scored(gained=untouched).better == better / 10, "what changes nothing is no better"
+
+
+@pytest.mark.parametrize(
+    ("spread", "after", "fails"), [(0.499, 0.9, False), (0.501, 0.501, True), (0.501, 0.499, False), (1.5, 0.4, False)]
+)
+def test_a_cause_acts_alike_unless_left_out_tests_are_foretold(spread: float, after: float, fails: bool) -> None:
+    """At a half of their error, whatever the spread."""
+    one = scored(spread=spread, after=min(after, 0.84))
+    assert refused(GAIN, failed_rules(one, measure(spread=1.0), "um")) is fails
+
+
+@pytest.mark.parametrize(("spread", "fails"), [(9.99, False), (10.01, True)])
+def test_what_explains_under_a_tenth_of_the_response_is_not_worth_a_name(spread: float, fails: bool) -> None:
+    """A fall from 1 to 0 explains 1."""
+    assert refused(LITTLE, failed_rules(scored(after=0.0), measure(spread=spread), "um")) is fails
+
+
+@pytest.mark.parametrize(("size", "fails"), [(1 / 2.79, False), (1 / 2.81, True)])
+def test_a_fall_far_beyond_its_own_size_only_steadies_an_extrapolation(size: float, fails: bool) -> None:
+    assert refused(STEADIES, failed_rules(scored(after=0.0, size=size), measure(), "um")) is fails
+
+
+@pytest.mark.parametrize(
+    ("family", "placeless", "evidence", "fails"),
+    [
+        ("feed_x", False, 150.1, False),
+        ("feed_x", False, 149.9, True),
+        ("generic", False, 250.1, False),
+        ("generic", False, 249.9, True),
+        ("generic", True, 50.1, False),
+        ("generic", True, 49.9, True),
+    ],
+)
+def test_a_cause_brings_0_15_a_sample_what_has_no_name_0_25_and_where_nothing_has_a_place_0_05(
+    family: str, placeless: bool, evidence: float, fails: bool
+) -> None:
+    """Of a thousand samples."""
+    one = scored(family=family, placeless=placeless, evidence=evidence)
+    assert sharpness(one) == pytest.approx(evidence / 1000)
+    why = blunt(one)
+    assert refused(TIMING, [why] if why else []) is fails
+
+
+@pytest.mark.parametrize(
+    ("evidence", "share"), [(1000.0, 0.94104), (100.0, 0.30157), (10.0, 0.01155), (0.1, 8.546e-6), (-50.0, 8.546e-6)]
+)
+def test_the_probability_is_that_of_its_sharpness(evidence: float, share: float) -> None:
+    """1 / (1 + exp(-2.77 - 3.61 log10(sharpness))), and the least sharpness is 1e-4."""
+    assert probability(scored(evidence=evidence)) == pytest.approx(share, rel=1e-3)
+
+
+@pytest.mark.parametrize(
+    ("noise", "spread", "floor"), [(0.1, 4.9, 0.5), (0.1, 5.1, 0.51), (float("nan"), 3.0, 0.3), (0.0, 2.0, 0.2)]
+)
+def test_the_floor_is_five_times_the_noise_or_a_tenth_of_the_response(
+    noise: float, spread: float, floor: float
+) -> None:
+    assert Measure(spread, noise, np.zeros(0)).floor == pytest.approx(floor)
+
+
+def test_what_remains_and_what_is_explained() -> None:
+    one = scored(before=[2.0] * 5 + [1.0] * 5, after=[1.0] * 10, size=[1.0] * 5 + [0.0] * 5)
+    assert remaining(one) == pytest.approx(np.sqrt(2.5))
+    assert explained(one) == pytest.approx(np.sqrt(3.0)), "where it acts"
+    assert explained(scored(before=1.0, after=2.0)) == 0.0, "what makes it worse explains nothing"
+
+
+# ---- what can't be told apart
+
+
+def cosine(c: float) -> tuple[float, float]:
+    return c, float(np.sqrt(1 - c**2))
+
+
+@pytest.mark.parametrize(("alike", "found"), [(0.901, True), (0.899, False), (-0.901, True)])
+def test_contributions_this_alike_are_twins(alike: float, found: bool) -> None:
+    """Whatever the tests say: the other loses each one by the same."""
+    chosen = scored("a", gained=50.0)
+    other = scored("b", gained=40.0, after=0.9, shape=cosine(alike))
+    assert equivalents(chosen, [chosen, other]) == ([other] if found else [])
+
+
+@pytest.mark.parametrize(
+    ("alike", "times", "lost", "found"),
+    [
+        (0.51, 1.19, 1.9, True),
+        (0.49, 1.19, 1.9, False),
+        (0.51, 1.21, 1.9, False),
+        (0.51, 1.19, 2.1, False),
+        (-0.51, 1.19, -1.9, True),
+        (0.51, 1.19, -2.1, False),
+    ],
+)
+def test_what_acts_alike_at_all_is_a_twin_where_the_tests_do_not_tell(
+    alike: float, times: float, lost: float, found: bool
+) -> None:
+    """times: the error that the other leaves. lost: log probability that it loses, in standard errors."""
+    wave = np.array([1.0, -1.0] * 5)
+    wave /= wave.std(ddof=1)
+    difference = wave + lost / np.sqrt(10)
+    chosen = scored("a", gained=(50.0 + difference).tolist(), after=0.4)
+    other = scored("b", gained=50.0, after=0.4 * times, shape=cosine(alike))
+    assert equivalents(chosen, [other]) == ([other] if found else [])
+
+
+def test_only_what_was_scored_on_left_out_tests_may_be_a_twin() -> None:
+    assert equivalents(scored("a"), [scored("b", shape=())]) == []

@@ -1,0 +1,260 @@
+"""Whether a candidate is a cause of its own or refines the model (diagnosis/refinement.py)."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+import pytest
+
+from thermodata.diagnosis import refinement
+from thermodata.diagnosis.candidates import Kin
+from thermodata.diagnosis.discrepancy import Noise
+from thermodata.diagnosis.known_effects import from_other_zero, is_warm
+from thermodata.diagnosis.problem import Problem
+from thermodata.diagnosis.refinement import Refinement
+from thermodata.diagnosis.scored import Scored
+from thermodata.effect import effects
+from thermodata.effect.lag import lag
+from thermodata.modelling.fit import fit_model
+from thermodata.plugin import Float1D, Param
+from thermodata.schema.model import EffectSpec, Model
+from thermodata.view.dataset import ChannelInfo
+
+from .conftest import STEP_S, make_data
+from .hand_made import Parts, PlainEffect, problem, scored
+
+ROWS = 200
+WAVE = np.sqrt(2) * np.sin(2 * np.pi * np.arange(ROWS) / 50)  # as large as 1
+OTHER = np.sqrt(2) * np.cos(2 * np.pi * np.arange(ROWS) / 50)  # at a right angle
+NOISE = Noise(0.1, 0.1, 600.0, 0.5)
+WARM = ChannelInfo("T_a", "temperature", "degC")
+TAU = Param("tau", "min", 30, 1, 360, "")
+MODE = "it is another mode of what the model has"
+
+
+def model(*families: str) -> Any:
+    """A term of one gain and no parameter each."""
+    return SimpleNamespace(
+        terms=tuple(
+            SimpleNamespace(id=f"term{i}", family=f, effect=PlainEffect(f"known{i}", f)) for i, f in enumerate(families)
+        )
+    )
+
+
+def world(response: float = 1.0, known: Sequence[Float1D] = (WAVE,)) -> Problem:
+    """response: its size. known: what each term does."""
+    parts = Parts(response * WAVE, base=np.column_stack(known), values={"T_a": WAVE}, channels={"T_a": WARM})
+    return problem(*[parts] * 3)
+
+
+def said(one: Scored, response: float = 100.0, known: Sequence[Float1D] = (WAVE,), families: str = "feed_x") -> Any:
+    asked = Refinement(model(*families.split()), world(response, known), NOISE)
+    return asked(one)
+
+
+def cause(kin: Kin = None, **of: Any) -> Scored:
+    """What acts at a right angle to the known effect, and as large."""
+    return scored(**{"kin": kin, "contribution": [OTHER] * 3, "after": 0.5, "size": 1.0, **of})
+
+
+def test_a_model_without_effects_has_nothing_to_refine() -> None:
+    asked = Refinement(SimpleNamespace(terms=()), world(), NOISE)  # type: ignore[arg-type]
+    assert asked(cause("same", refines=("plain",))) is None
+
+
+def test_what_is_not_kin_and_acts_otherwise_is_a_cause() -> None:
+    assert said(cause()) is None
+
+
+def test_what_says_that_it_refines_does_so_however_much_it_takes_away() -> None:
+    assert said(cause(refines=("known0",), after=0.01), response=1.0) == MODE
+
+
+@pytest.mark.parametrize(("after", "expected"), [(0.401, MODE), (0.399, None)])
+@pytest.mark.parametrize("response", [1.0, 100.0])
+def test_another_mode_of_the_same_takes_away_under_three_fifths(
+    after: float, expected: str | None, response: float
+) -> None:
+    """Whether the model is poor or good."""
+    assert said(cause("same", after=after), response) == expected
+
+
+@pytest.mark.parametrize(
+    ("after", "response", "expected"),
+    [(0.399, 1.99, None), (0.399, 2.01, MODE), (0.401, 1.99, MODE), (0.01, 100.0, MODE)],
+)
+def test_what_is_near_is_a_cause_where_much_is_left_and_it_takes_most(
+    after: float, response: float, expected: str | None
+) -> None:
+    """Half of the response: an error of 1."""
+    assert said(cause("near", after=after), response) == expected
+
+
+@pytest.mark.parametrize(("size", "expected"), [(0.599, MODE), (0.601, None)])
+def test_kin_elsewhere_is_a_mode_where_it_is_under_three_fifths_of_the_largest_effect(
+    size: float, expected: str | None
+) -> None:
+    known = (WAVE, 0.1 * OTHER)
+    assert said(cause("related", size=size), known=known, families="feed_x feed_y") == expected
+    assert said(cause(None, size=size), known=known, families="feed_x feed_y") is None
+    assert said(cause("related", size=size, after=0.399), known=known, families="feed_x feed_y") is None, (
+        "it takes most"
+    )
+
+
+@pytest.mark.parametrize(("response", "expected"), [(2.49, None), (2.51, MODE)])
+def test_where_a_model_leaves_more_than_two_fifths_something_is_missing(response: float, expected: str | None) -> None:
+    assert said(cause("related", size=0.1), response) == expected
+
+
+def test_the_size_of_an_effect_is_that_of_its_largest_test() -> None:
+    small, large = (Parts(100 * WAVE, base=(s * WAVE)[:, None]) for s in (0.01, 1.0))
+    asked = Refinement(model("feed_x"), problem(small, small, large), NOISE)
+    assert asked(cause("related", size=0.599)) == MODE
+    assert asked(cause("related", size=0.601)) is None
+
+
+# ---- in the place of a known effect
+
+
+def replacing(
+    monkeypatch: pytest.MonkeyPatch, alone: float, beside: float, cosine: float = 1.0, **of: Any
+) -> str | None:
+    """alone, beside: log evidence that dropping the known effect costs, without and with the candidate."""
+    asked = Refinement(model("feed_x"), world(100.0), NOISE)
+    monkeypatch.setattr(Refinement, "_cost", lambda self, problem, term: alone if problem is asked.problem else beside)
+    contribution = cosine * WAVE + np.sqrt(1 - cosine**2) * OTHER
+    return asked(scored(**{"contribution": [contribution] * 3, "after": 0.5, **of}))
+
+
+PLACE = "it takes the place of term0"
+
+
+@pytest.mark.parametrize(
+    ("alone", "beside", "cosine", "expected"),
+    [
+        (100.0, 9.9, 1.0, PLACE),
+        (100.0, 10.1, 1.0, None),
+        (20.1, 1.0, 1.0, PLACE),
+        (19.9, 1.0, 1.0, None),
+        (100.0, 1.0, 0.901, PLACE),
+        (100.0, 1.0, -0.901, PLACE),
+        (100.0, 1.0, 0.899, None),
+    ],
+)
+def test_a_known_effect_is_replaced_where_it_is_worth_a_tenth_beside_what_acts_alike(
+    monkeypatch: pytest.MonkeyPatch, alone: float, beside: float, cosine: float, expected: str | None
+) -> None:
+    assert replacing(monkeypatch, alone, beside, cosine) == expected
+
+
+def test_what_takes_most_away_replaces_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
+    assert replacing(monkeypatch, 100.0, 1.0, after=0.401) == PLACE
+    assert replacing(monkeypatch, 100.0, 1.0, after=0.399) is None
+
+
+def test_the_cost_of_an_effect_is_asked_in_earnest() -> None:
+    """A column beside the known one that does the same makes it worthless; a second term is left alone."""
+    rng = np.random.default_rng(0)
+    both = Parts(100 * (WAVE + OTHER) + 0.1 * rng.normal(size=ROWS), base=100 * np.column_stack([WAVE, OTHER]))
+    one = problem(*[both] * 3)
+    asked = Refinement(model("feed_x", "feed_y"), one, NOISE)
+    twin = scored(contribution=[100 * WAVE] * 3, after=0.5)
+    assert asked._cost(one, 0) > 1000.0
+    assert asked(twin) == "it takes the place of term0"
+    assert asked(scored(contribution=[100 * OTHER] * 3, after=0.5)) == "it takes the place of term1"
+    assert asked(scored(contribution=[100 * (WAVE + OTHER)] * 3, after=0.5)) is None
+
+
+def test_an_effect_is_dropped_with_its_time_constants_and_what_was_added_stays() -> None:
+    effect = PlainEffect("known0", params=(TAU,))
+    fitted = SimpleNamespace(terms=(SimpleNamespace(id="a", family="x", effect=effect), *model("feed_y").terms))
+    base, slack = np.arange(4.0) + np.zeros((ROWS, 4)), np.arange(5.0) + np.zeros((ROWS, 5))
+    one = problem(*[Parts(WAVE, base=base, slack=slack)] * 2)
+    asked = Refinement(fitted, one, NOISE)  # type: ignore[arg-type]
+    first, second = (asked._lacking(one, term).blocks[0] for term in (0, 1))
+    assert (first.base[0].tolist(), first.slack[0].tolist()) == ([2.0, 3.0], [4.0])
+    assert (second.base[0].tolist(), second.slack[0].tolist()) == ([0.0, 1.0, 3.0], [0.0, 1.0, 2.0, 3.0, 4.0])
+
+
+# ---- a temperature that counts from another
+
+
+def counted(monkeypatch: pytest.MonkeyPatch, other: Float1D | None = None, **of: Any) -> str | None:
+    """other: the known effect driven by the candidate's channel; minus it is what the candidate does."""
+    answer = WAVE if other is None else other
+    monkeypatch.setattr(refinement, "from_other_zero", lambda fitted, term, channel, test: answer)
+    families = of.pop("families", "feed_x")
+    plain = {"family": "ambient", "contribution": [-0.5 * WAVE] * 3, "after": 0.5, "size": 0.5}
+    asked = Refinement(model(families), world(100.0, [OTHER]), NOISE)
+    return asked(scored(**{**plain, **of}))
+
+
+ZERO = "it acts as term0 would if its temperature counted from T_a"
+
+
+def test_what_acts_as_minus_a_known_effect_counts_from_another_zero(monkeypatch: pytest.MonkeyPatch) -> None:
+    assert counted(monkeypatch) == ZERO
+    assert counted(monkeypatch, family="generic") == ZERO
+    assert counted(monkeypatch, family="feed_y") is None, "what names a heat means it"
+    assert counted(monkeypatch, families="ambient") is None, "the air counts from nothing"
+    assert counted(monkeypatch, channels=("T_a", "T_b")) is None
+    assert counted(monkeypatch, channels=("n",)) is None, "no temperature"
+    assert counted(monkeypatch, contribution=[0.5 * WAVE] * 3) is None, "the wrong way"
+
+
+@pytest.mark.parametrize(("cosine", "expected"), [(0.801, ZERO), (0.799, None)])
+def test_it_acts_against_the_known_effect(monkeypatch: pytest.MonkeyPatch, cosine: float, expected: str | None) -> None:
+    turned = cosine * WAVE + np.sqrt(1 - cosine**2) * OTHER
+    assert counted(monkeypatch, contribution=[-turned] * 3) == expected
+
+
+@pytest.mark.parametrize(("share", "expected"), [(0.199, None), (0.201, ZERO), (1.499, ZERO), (1.501, None)])
+def test_it_takes_away_a_fifth_to_one_and_a_half(
+    monkeypatch: pytest.MonkeyPatch, share: float, expected: str | None
+) -> None:
+    assert counted(monkeypatch, contribution=[-share * WAVE] * 3) == expected
+
+
+@pytest.mark.parametrize(("size", "expected"), [(0.599, ZERO), (0.601, None)])
+def test_it_is_smaller_than_the_known_effect(
+    monkeypatch: pytest.MonkeyPatch, size: float, expected: str | None
+) -> None:
+    assert counted(monkeypatch, size=size) == expected
+
+
+def test_what_does_nothing_counts_from_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
+    assert counted(monkeypatch, contribution=[0.0 * WAVE] * 3) is None
+    assert counted(monkeypatch, other=0.0 * WAVE) is None
+
+
+def test_a_known_effect_by_another_temperature(spec: Model) -> None:
+    data = make_data(tests=3)
+    (response,) = fit_model(spec, data, uncertainty=False).responses
+    test, (term,) = data.tests[0], response.terms
+    found = from_other_zero(response, 0, "T_hall", test)
+    rise = test.values["T_hall"] - test.values["T_hall"][0]
+    assert found is not None
+    tau = term.params["tau"] * 60.0
+    np.testing.assert_allclose(np.ptp(found), np.ptp(term.gains["gain"] * lag(rise, tau, STEP_S)), rtol=0.05)
+    own = from_other_zero(response, 0, "T_bearing", test)
+    np.testing.assert_allclose(own, term.contribution(test), atol=1e-9)
+    assert from_other_zero(response, 0, "T_nowhere", test) is None
+    assert is_warm(test, "T_hall")
+    assert not is_warm(test, "spindle_speed")
+    assert not is_warm(test, "T_nowhere")
+
+
+def test_what_a_speed_drives_counts_from_no_temperature(spec: Model) -> None:
+    name = next(
+        n for n, e in effects().items() if n.startswith("spindle") and e.needs[0].quantity == "rotational_speed"
+    )
+    by_speed = spec.model_copy(
+        update={"effects": [EffectSpec(effect=name, drivers={effects()[name].needs[0].role: "spindle_speed"})]}
+    )
+    data = make_data(tests=3)
+    (response,) = fit_model(by_speed, data, uncertainty=False).responses
+    assert from_other_zero(response, 0, "T_hall", data.tests[0]) is None

@@ -1,0 +1,273 @@
+"""Which effects are selected, and which of two is preferred (diagnosis/selection.py)."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import pytest
+
+from thermodata.diagnosis import selection as selecting
+from thermodata.diagnosis.candidates import CandidateEffect
+from thermodata.diagnosis.discrepancy import Noise
+from thermodata.diagnosis.evidence import Columns, columns
+from thermodata.diagnosis.problem import Problem
+from thermodata.diagnosis.scored import Scored
+from thermodata.diagnosis.selection import (
+    Ranked,
+    Selection,
+    extended,
+    first_ranking,
+    preferred,
+    rank_in,
+    select,
+)
+from thermodata.plugin import Param
+
+from .hand_made import Parts, PlainEffect, of_tests, problem, scored
+from .lagged import Lagged
+
+NOISE = Noise(0.3, 0.3, 900.0, 0.5)
+TAU = Param("tau", "min", 5, 1, 30, "")
+
+
+def name(found: Scored | None) -> str | None:
+    return None if found is None else found.candidate.effect.name
+
+
+# ---- which of two is preferred
+
+
+def test_the_most_likely_is_preferred() -> None:
+    assert preferred([]) is None
+    assert name(preferred([scored("a", evidence=100.0), scored("b", evidence=99.9)])) == "a"
+
+
+@pytest.mark.parametrize(("evidence", "taken"), [(95.1, "named"), (94.9, "lag")])
+def test_a_name_on_the_same_channel_is_worth_a_twentieth(evidence: float, taken: str) -> None:
+    lag = scored("lag", family="generic", evidence=100.0)
+    assert name(preferred([lag, scored("named", evidence=evidence, shape=(0.0, 1.0))])) == taken
+
+
+@pytest.mark.parametrize(
+    ("evidence", "cosine", "taken"),
+    [(80.1, 0.81, "named"), (79.9, 0.81, "lag"), (80.1, 0.79, "lag"), (80.1, -0.81, "named")],
+)
+def test_a_name_on_another_channel_that_acts_alike_is_worth_a_fifth(evidence: float, cosine: float, taken: str) -> None:
+    lag = scored("lag", family="generic", evidence=100.0)
+    shape = (cosine, (1 - cosine**2) ** 0.5)
+    assert name(preferred([lag, scored("named", channels=("T_b",), evidence=evidence, shape=shape)])) == taken
+    same = scored("named", evidence=evidence, shape=shape)
+    assert name(preferred([lag, same])) == taken, "nor is one on the same channel worth less"
+    two = scored("named", channels=("T_b", "T_c"), evidence=evidence, shape=shape)
+    assert name(preferred([lag, two])) == "lag", "two channels may do anything"
+
+
+def test_between_names_or_between_lags_the_evidence_decides() -> None:
+    for family in ("feed_x", "generic"):
+        first = scored("first", family=family, evidence=100.0)
+        other = scored("other", family=family, channels=("T_b",), evidence=99.0)
+        assert name(preferred([first, other])) == "first"
+
+
+@pytest.mark.parametrize(("family", "given"), [("generic", True), ("control", True), ("feed_x", False)])
+@pytest.mark.parametrize(("evidence", "enough"), [(80.1, True), (79.9, False)])
+def test_fewer_of_its_channels_are_worth_a_fifth(family: str, given: bool, evidence: float, enough: bool) -> None:
+    """Where a difference of any two temperatures could have been asked for."""
+    both = scored("both", family=family, channels=("T_a", "T_b"), evidence=100.0)
+    one = scored("one", family=family, evidence=evidence, shape=(0.0, 1.0))
+    assert name(preferred([both, one])) == ("one" if given and enough else "both")
+    apart = scored("one", family=family, channels=("T_c",), evidence=evidence, shape=(0.0, 1.0))
+    assert name(preferred([both, apart])) == "both"
+
+
+def test_what_needs_fewer_channels_is_asked_for_a_name_in_turn() -> None:
+    both = scored("both", family="generic", channels=("T_a", "T_b"), evidence=100.0)
+    one = scored("one", family="generic", evidence=90.0)
+    named = scored("named", evidence=86.0, shape=(0.0, 1.0))
+    assert name(preferred([both, one, named])) == "named", "95 % of the 90"
+    assert name(preferred([both, one, replace(named, evidence=85.0)])) == "one"
+
+
+def test_what_was_not_scored_is_not_preferred() -> None:
+    lag = scored("lag", family="generic", evidence=100.0)
+    assert name(preferred([lag, scored("named", evidence=99.0, shape=())])) == "lag"
+
+
+# ---- forward, and back
+
+
+class Worlds:
+    """Evidence given by hand: `evidence` says that of a name beside the chosen names, 0 where nothing is said."""
+
+    def __init__(self, monkeypatch: pytest.MonkeyPatch, evidence: Callable[[str, frozenset[str]], float]) -> None:
+        self.evidence = evidence
+        self.made: dict[int, Scored] = {}
+        self.asked: list[frozenset[str]] = []
+        monkeypatch.setattr(selecting, "beside", lambda problem, chosen: self._beside(problem, chosen))
+        monkeypatch.setattr(selecting, "rank", lambda problem, pool, noise: self._rank(problem, pool, True))
+        monkeypatch.setattr(selecting, "rank_in", lambda problem, pool, noise: self._rank(problem, pool))
+        monkeypatch.setattr(selecting, "likeliest", lambda problem, noise: noise)
+
+    def _beside(self, problem: Problem, chosen: Sequence[Scored]) -> Problem:
+        return replace(problem, response=",".join(s.candidate.effect.name for s in chosen))
+
+    def _rank(self, problem: Problem, pool: Sequence[Columns], searched: bool = False) -> Ranked:
+        known = frozenset(filter(None, problem.response.split(",")))
+        if searched:
+            self.asked.append(known)
+        found = []
+        for one in pool:
+            evidence = self.evidence(one.candidate.effect.name, known)
+            found.append(replace(self.made[id(one)], columns=one, evidence=evidence))
+        space: Any = type("Known", (), {"space": type("Space", (), {"noise": NOISE})})
+        return Ranked(space, tuple(sorted(found, key=lambda s: -s.evidence)))
+
+    def select(self, names: str, sound: Callable[[Scored], bool] = lambda s: True, **of: Any) -> Selection:
+        pool = []
+        for i, n in enumerate(names):
+            one = scored(n, channels=(f"T_{i}",), shape=np.eye(len(names))[i].tolist(), **of)
+            self.made[id(one.columns)] = one
+            pool.append(one.columns)
+        start = replace(of_tests(4), response="")
+        return select(start, self._rank(start, pool), sound)
+
+
+def members(found: Selection) -> list[str | None]:
+    return [name(m.scored) for m in found.members]
+
+
+@pytest.mark.parametrize(("evidence", "chosen"), [(10.1, ["a", "b"]), (9.9, ["a"])])
+def test_a_further_effect_brings_ten(monkeypatch: pytest.MonkeyPatch, evidence: float, chosen: list[str]) -> None:
+    world = Worlds(monkeypatch, lambda n, known: {"a": 100.0, "b": evidence}[n])
+    assert members(world.select("ab")) == chosen
+
+
+def test_five_are_added_at_most(monkeypatch: pytest.MonkeyPatch) -> None:
+    world = Worlds(monkeypatch, lambda n, known: 100.0 - ord(n) / 10)
+    assert members(world.select("abcdefg")) == list("abcde")
+
+
+def test_each_is_weighed_beside_all_others_and_kept_as_it_was_chosen(monkeypatch: pytest.MonkeyPatch) -> None:
+    alone = {"a": 100.0, "b": 50.0, "c": 5.0}
+    world = Worlds(monkeypatch, lambda n, known: alone[n] + 20.0 * len(known) if n != "c" else 5.0)
+    found = world.select("abc")
+    assert [(name(m.alone), m.alone.evidence, m.scored.evidence) for m in found.members] == [
+        ("a", 100.0, 120.0),
+        ("b", 70.0, 70.0),
+    ]
+    assert [[name(s) for s in m.beside] for m in found.members] == [["a", "c"], ["b", "c"]]
+    assert [name(s) for s in found.first.ranked] == ["a", "b", "c"], "beside the model alone"
+
+
+def test_the_least_likely_unsound_one_goes_first_and_may_clear_the_others(monkeypatch: pytest.MonkeyPatch) -> None:
+    """b is unsound only beside c, which goes first."""
+    world = Worlds(monkeypatch, lambda n, known: {"a": 100.0, "b": 60.0, "c": 30.0}[n] + ("c" in known))
+    found = world.select("abc", lambda s: s.candidate.effect.name == "a" or s.evidence == 60.0)
+    assert members(found) == ["a", "b"]
+    assert [name(s) for s in found.dropped] == ["c"]
+
+
+def test_what_an_unsound_one_stood_in_the_way_of_is_asked_for_again(monkeypatch: pytest.MonkeyPatch) -> None:
+    def evidence(n: str, known: frozenset[str]) -> float:
+        return {"proxy": 0.0, "p": 100.0, "q": 1.0 if "p" in known else 50.0}[n]
+
+    world = Worlds(monkeypatch, evidence)
+    found = world.select("pq", lambda s: s.candidate.effect.name != "p")
+    assert (members(found), [name(s) for s in found.dropped]) == (["q"], ["p"])
+    assert found.noise is NOISE
+
+
+def test_it_is_asked_again_twice(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Each pass finds one more that is unsound; the fifth would be sound."""
+
+    def evidence(n: str, known: frozenset[str]) -> float:
+        return 1.0 if known else 100.0 - ord(n) / 10
+
+    world = Worlds(monkeypatch, evidence)
+    found = world.select("abcde", lambda s: s.candidate.effect.name == "e")
+    assert [name(s) for s in found.dropped] == ["a", "b", "c"]
+    assert found.members == ()
+    assert members(world.select("abe", lambda s: s.candidate.effect.name == "e")) == ["e"]
+
+
+@pytest.mark.parametrize(("other", "after", "taken"), [(106.0, 0.3, "b"), (105.0, 0.3, "a"), (106.0, 0.5, "a")])
+def test_a_member_is_swapped_for_what_does_clearly_better_beside_the_others(
+    monkeypatch: pytest.MonkeyPatch, other: float, after: float, taken: str
+) -> None:
+    """Its own evidence, 100, is under 95 % of the other's, and left-out tests are foretold better too."""
+
+    def evidence(n: str, known: frozenset[str]) -> float:
+        if "c" not in known:
+            return {"a": 100.0, "b": 90.0, "c": 40.0}[n] if not known else {"b": 1.0, "a": 1.0, "c": 40.0}[n]
+        return {"a": 100.0, "b": 1.0 if "a" in known else other, "c": 40.0}[n]
+
+    world = Worlds(monkeypatch, evidence)
+    original = world._rank
+
+    def rank(problem: Problem, pool: Sequence[Columns], searched: bool = False) -> Ranked:
+        found = original(problem, pool, searched)
+        rows = found.ranked[0].rows if found.ranked else None
+        moved = tuple(
+            replace(s, sse_after=after**2 * rows) if name(s) == "b" and rows is not None else s for s in found.ranked
+        )
+        return Ranked(found.known, moved)
+
+    monkeypatch.setattr(world, "_rank", rank)
+    found = world.select("abc")
+    assert members(found) == [taken, "c"]
+    assert name(found.members[0].alone) == "a"
+
+
+# ---- rankings
+
+
+def driven(seed: int, n: int = 80, gain: float = 2.0) -> Parts:
+    rng = np.random.default_rng(seed)
+    u = np.cumsum(rng.normal(size=n))
+    y = gain * (u - u.mean()) + 0.3 * rng.normal(size=n)
+    return Parts(y - y.mean(), values={"T_a": u, "T_b": rng.normal(size=n), "T_still": np.ones(n)})
+
+
+def asked(effect: PlainEffect, channel: str = "T_a") -> CandidateEffect:
+    return CandidateEffect(effect, {"u": channel}, "feed_x")
+
+
+def test_two_tests_and_a_driver_that_moves_are_needed() -> None:
+    pool = [asked(PlainEffect("a")), asked(PlainEffect("still"), "T_still")]
+    assert first_ranking(problem(driven(0)), pool) is None
+    found = first_ranking(problem(driven(0), driven(1)), pool)
+    assert found is not None
+    assert [name(s) for s in found.ranked] == ["a"]
+    assert first_ranking(problem(driven(0), driven(1)), pool[1:]) is None
+
+
+def test_left_out_tests_are_computed_for_the_first_fifteen() -> None:
+    one = problem(driven(0), driven(1))
+    effects = [asked(PlainEffect("a"))] + [asked(PlainEffect(f"b{i}"), "T_b") for i in range(16)]
+    pool = [c for c in (columns(one, e) for e in effects) if c is not None]
+    found = rank_in(one, pool[::-1], NOISE)
+    assert [len(s.rows) for s in found.ranked] == [2] * 15 + [0] * 2
+    assert name(found.ranked[0]) == "a"
+    totals = [s.weighed.total for s in found.ranked]
+    assert totals == sorted(totals, reverse=True)
+
+
+def test_an_effect_among_what_is_known_may_grow_and_move_its_time_constant_at_a_price() -> None:
+    one = problem(driven(0), driven(1))
+    made = columns(one, asked(Lagged(params=(TAU,))))
+    assert made is not None
+    best = rank_in(one, [made], NOISE).ranked[0]
+    point = best.weighed.best[0]
+    assert point == 0, "the driver acts at once"
+    more = extended(one, made, best.weighed)
+    for old, new, full in zip(one.blocks, more.blocks, made.blocks, strict=True):
+        own = full[:, point, :1] * best.weighed.coefficients[:1]
+        np.testing.assert_allclose(new.base, np.hstack([old.base, own]))
+        otherwise = full[:, point, 1:] * best.weighed.coefficients[0]
+        slower = (full[:, point + 1, :1] - full[:, point, :1]) * best.weighed.coefficients[0]
+        np.testing.assert_allclose(new.slack, np.hstack([otherwise, slower]))
+    again = rank_in(more, [made], NOISE).ranked[0]
+    assert again.evidence < 1.0 < 50.0 < best.evidence

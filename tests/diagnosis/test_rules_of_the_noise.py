@@ -1,0 +1,181 @@
+"""Which noise is searched for, and which priors there are: discrepancy.py, known.py, evidence.py."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from thermodata.diagnosis.candidates import CandidateEffect
+from thermodata.diagnosis.discrepancy import Noise, Whitened, ascend, bounds_of, left_over
+from thermodata.diagnosis.evidence import columns
+from thermodata.diagnosis.known import known, likeliest
+from thermodata.diagnosis.problem import Problem
+from thermodata.plugin import Float1D, Gain, Param
+
+from .hand_made import Parts, PlainEffect, problem
+from .lagged import Lagged
+
+STEP = 300.0
+
+
+def slow(rng: np.random.Generator, n: int, tau_s: float) -> Float1D:
+    """A unit Ornstein-Uhlenbeck process."""
+    a = np.exp(-STEP / tau_s)
+    x = np.empty(n)
+    x[0] = rng.normal()
+    for i in range(1, n):
+        x[i] = a * x[i - 1] + np.sqrt(1 - a**2) * rng.normal()
+    return x
+
+
+def of_noise(white: float, size: float, tau_s: float = 7200.0, tests: int = 4, n: int = 150) -> Problem:
+    rng = np.random.default_rng(2)
+    made = [white * rng.normal(size=n) + size * slow(rng, n, tau_s) for _ in range(tests)]
+    return problem(*(Parts(y - y.mean()) for y in made), noise=white, step_s=STEP)
+
+
+@pytest.mark.parametrize(("white", "size", "tau_s"), [(0.3, 1.0, 7200.0), (1.0, 1.5, 3600.0)])
+def test_noise_is_found_again_where_it_is_known(white: float, size: float, tau_s: float) -> None:
+    found = likeliest(of_noise(white, size, tau_s))
+    assert found.white == pytest.approx(white, rel=0.3)
+    assert found.slow == pytest.approx(size, rel=0.5)
+    assert tau_s / 2.5 < found.tau_s < tau_s * 2.5
+
+
+def test_white_noise_is_a_tenth_of_what_the_model_leaves_at_least() -> None:
+    smooth = of_noise(0.0, 1.0, 36000.0)
+    assert likeliest(smooth).white == pytest.approx(0.1 * left_over(smooth))
+    noisy = of_noise(0.3, 1.0, 36000.0)
+    assert likeliest(noisy).white > 0.15 * left_over(noisy)
+
+
+def test_the_bounds_of_the_search() -> None:
+    """In shares of what the model leaves; ten minutes to four days; a share of 3 % to 300 %."""
+    one = problem(Parts(np.tile([2.0, -2.0], 50)), noise=0.1)
+    first, bounds = bounds_of(one)
+    assert (first.white, first.slow, first.tau_s, first.share) == pytest.approx((0.1, 2.0, 7200.0, 0.5))
+    np.testing.assert_allclose(np.exp(bounds[0]), [0.002, 2.0])
+    np.testing.assert_allclose(np.exp(bounds[1:]), [[0.02, 8.0], [600.0, 345600.0], [0.03, 3.0]])
+    loud, wide = bounds_of(replace(one, noise=3.0))
+    assert (loud.white, np.exp(wide[0, 1])) == pytest.approx((3.0, 6.0)), "the noise lies within"
+    assert bounds_of(replace(one, noise=float("nan")))[0].white == pytest.approx(0.04)
+
+
+def test_the_search_climbs_to_the_largest_value_within_bounds() -> None:
+    bounds = np.array([[-5.0, 5.0]] * 3 + [[-5.0, 1.0]])
+    top = np.array([1.0, -2.0, 0.5, 3.0])
+    found = ascend(lambda x: -float(np.sum((x - top) ** 2)), np.zeros(4), bounds)
+    np.testing.assert_allclose(found, [1.0, -2.0, 0.5, 1.0], atol=0.15)
+    outside = ascend(lambda x: 0.0, np.full(4, 9.0), bounds)
+    np.testing.assert_array_equal(outside, [5.0, 5.0, 5.0, 1.0])
+
+
+def test_the_search_ends() -> None:
+    asked: list[float] = []
+
+    def rising(x: Float1D) -> float:
+        asked.append(float(x.sum()))
+        return float(x.sum())
+
+    ascend(rising, np.zeros(4), np.array([[0.0, 1e9]] * 4), most=20)
+    assert 20 <= len(asked) <= 30
+
+
+@pytest.mark.parametrize(("rows", "thinned"), [(1044, []), (1056, [2]), (1740, [2]), (1760, [3])])
+def test_the_noise_is_searched_in_some_seven_hundred_rows(
+    monkeypatch: pytest.MonkeyPatch, rows: int, thinned: list[int]
+) -> None:
+    """Every second one from one and a half times as many on."""
+    asked: list[int] = []
+    thin = Problem.thinned
+    monkeypatch.setattr(Problem, "thinned", lambda self, every: asked.append(every) or thin(self, every))
+    monkeypatch.setattr("thermodata.diagnosis.known.ascend", lambda goal, x, bounds: x)
+    likeliest(of_noise(0.3, 1.0, n=rows // 4))
+    assert asked == thinned
+
+
+def test_a_thinned_problem_keeps_every_second_row_of_what_is_long_enough() -> None:
+    long, short = np.arange(20.0), np.arange(19.0)
+    thin = problem(Parts(long, base=long[:, None], slack=long[:, None]), Parts(short)).thinned(2)
+    a, b = thin.blocks
+    for values in (a.residual, a.response, a.base[:, 0], a.slack[:, 0], a.t_s / 60.0):
+        np.testing.assert_array_equal(values, np.arange(0.0, 20.0, 2.0))
+    assert len(a.segment) == 10
+    np.testing.assert_array_equal(b.residual, short)
+
+
+def test_the_search_begins_where_it_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("thermodata.diagnosis.known.ascend", lambda goal, x, bounds: x)
+    start = Noise(0.5, 0.7, 3000.0, 0.2)
+    found = likeliest(of_noise(0.3, 1.0), start)
+    assert (found.white, found.slow, found.tau_s, found.share) == pytest.approx((0.5, 0.7, 3000.0, 0.2))
+
+
+def test_whitened_noise_is_white_and_offsets_are_gone() -> None:
+    noise = Noise(0.3, 1.0, 7200.0, 0.5)
+    one = of_noise(0.3, 1.0, tests=6)
+    space = Whitened(one, noise)
+    white = np.concatenate([space.of(i, b.residual[:, None])[:, 0] for i, b in enumerate(one.blocks)])
+    assert white.std() == pytest.approx(1.0, abs=0.1)
+    assert abs(np.corrcoef(white[1:], white[:-1])[0, 1]) < 0.1
+    assert space.rows == 6 * 149
+    np.testing.assert_allclose(space.of(0, np.full((150, 1), 50.0)), 0.0, atol=1e-9)
+    np.testing.assert_allclose(
+        space.projected(0, space.of(0, one.blocks[0].residual[:, None])), space.of(0, one.blocks[0].residual[:, None])
+    )
+
+
+# ---- priors
+
+
+@pytest.mark.parametrize(("own", "deviation"), [(1.0, 2.0), (0.51, 2.0), (0.49, 1 / 0.49), (0.1, 10.0), (5.0, 2.0)])
+def test_a_known_gain_may_double_or_be_as_large_as_the_response(own: float, deviation: float) -> None:
+    wave = np.tile([1.0, -1.0], 20)
+    one = problem(*[Parts(wave, base=own * wave[:, None], slack=wave[:, None])] * 2)
+    found = known(one, Noise(0.1, 0.1, 600.0, 0.25))
+    assert found.precision**-0.5 == pytest.approx([deviation, 0.25])
+
+
+def test_an_effect_that_does_nothing_has_a_prior_too() -> None:
+    one = problem(*[Parts(np.tile([1.0, -1.0], 20), base=np.zeros((40, 1)))] * 2)
+    assert np.isfinite(known(one, Noise(0.1, 0.1, 600.0, 0.25)).log_evidence)
+
+
+def two(effect: PlainEffect, log_prior: float = 0.0) -> tuple[Problem, CandidateEffect]:
+    rng = np.random.default_rng(0)
+    parts = []
+    for _ in range(2):
+        u = np.cumsum(rng.normal(size=60))
+        parts.append(Parts(np.tile([2.0, -2.0], 30), values={"T_a": u, "T_still": np.ones(60)}))
+    return problem(*parts), CandidateEffect(effect, {"u": "T_a"}, "feed_x", log_prior=log_prior)
+
+
+def test_a_coefficient_of_1_is_as_large_as_the_response_and_half_of_it_acts_otherwise() -> None:
+    one, asked = two(Lagged(params=(Param("tau", "min", 5, 1, 30, ""),)))
+    found = columns(one, asked)
+    assert found is not None
+    assert found.width.tolist() == [1.0, 0.5, 0.5]
+    assert found.gains == 1
+    for p in range(len(found.points)):
+        assert np.sqrt(np.mean(np.vstack([b[:, p, :1] for b in found.blocks]) ** 2)) == pytest.approx(2.0)
+
+
+@pytest.mark.parametrize("times", [0.02, 0.5, 3.0])
+def test_a_gain_beyond_what_is_plausible_costs_a_quarter_of_its_squared_logarithm(times: float) -> None:
+    """Ten times costs 1.3. times: how large a gain is plausible, as a multiple of that of a coefficient of 1."""
+    one, asked = two(PlainEffect())
+    plain = columns(one, asked)
+    assert plain is not None
+    gain = Gain("gain", "um/K", (0.0, times * float(plain.scale[0, 0])), "any", "")
+    found = columns(*two(PlainEffect(gains=(gain,)), log_prior=-3.0))
+    assert found is not None
+    over = np.maximum(np.array([0.03, 0.1, 0.3, 1.0, 3.0]) / times, 1.0)
+    np.testing.assert_allclose(found.prior[0], -3.0 - np.log(5) - 0.25 * np.log(over) ** 2)
+
+
+def test_a_driver_that_never_moves_is_not_weighed() -> None:
+    one, asked = two(PlainEffect())
+    assert columns(one, replace(asked, binding={"u": "T_still"})) is None
+    assert columns(one, asked) is not None

@@ -1,0 +1,170 @@
+"""A verdict in words: every claim, every refinement, probabilities, and no word against another."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Sequence
+from typing import Any
+
+import pytest
+
+from thermodata.report.collect import _reason
+from thermodata.report.data import ReportData
+from thermodata.report.page import _locked, headline, render
+from thermodata.report.verdict import explainable, listed, named, probability, told, verdict_sentence
+from thermodata.schema.result import Candidate, Diagnosis
+
+from .conftest import diagnosis
+
+
+def one(effect: str, **more: Any) -> Candidate:
+    given: dict[str, Any] = {
+        "rank": 1,
+        "id": f"{effect}:T",
+        "effect": effect,
+        "family": effect,
+        "drivers": ["T"],
+        "claimed": False,
+        "p_value": 0.005,
+        "rmse_um_before": 4.0,
+        "rmse_um_after": 1.0,
+        "fit_before": None,
+        "fit_after": None,
+        "why": f"because of {effect}",
+    }
+    return Candidate(**{**given, **more})
+
+
+def claim(effect: str, share: float | None = 0.94, **more: Any) -> Candidate:
+    locked = {"locked_rmse_um_before": 5.0, "locked_rmse_um_after": 2.0}
+    return one(effect, **{"claimed": True, "probability": share, **locked, **more})
+
+
+def found(verdict: Any, candidates: Sequence[Candidate], **more: Any) -> Diagnosis:
+    return diagnosis().model_copy(update={"verdict": verdict, "candidates": list(candidates), **more})
+
+
+@pytest.mark.parametrize(
+    ("share", "text"),
+    [(None, ""), (0.94, "94 %"), (0.9996, "over 99 %"), (1.0, "100 %"), (0.004, "under 1 %"), (0.0, "under 1 %")],
+)
+def test_a_probability_is_a_share_in_percent_and_never_certain_below_one(share: float | None, text: str) -> None:
+    assert probability(share) == text
+
+
+def test_names_are_listed_with_an_and() -> None:
+    assert [listed(["a", "b", "c"][:n]) for n in range(4)] == ["", "a", "a and b", "a, b and c"]
+    assert (named(one("sun")), named(one("sun", drivers=[]))) == ("sun (T)", "sun")
+
+
+def test_one_claim_is_told_with_its_probability_and_both_errors() -> None:
+    assert verdict_sentence(found("effect", [claim("screw"), one("other", probability=0.2)])) == (
+        "missing: screw (T), probability 94 %; error on left-out tests 4.00 -> 1.00 um; locked tests 5.00 -> 2.00 um"
+    )
+    bare = claim("screw", None, locked_rmse_um_before=None, locked_rmse_um_after=None)
+    assert verdict_sentence(found("effect", [bare])) == "missing: screw (T); error on left-out tests 4.00 -> 1.00 um"
+
+
+def test_all_claims_of_one_answer_are_told() -> None:
+    a, b, c = claim("screw"), claim("sun", 0.7, rmse_um_before=2.0), claim("oil", None)
+    assert verdict_sentence(found("effect", [a, b])) == (
+        "missing: screw (T), probability 94 %, and sun (T), probability 70 %; error on left-out tests, each beside the "
+        "other: screw 4.00 -> 1.00 um, sun 2.00 -> 1.00 um; locked tests with both 5.00 -> 2.00 um"
+    )
+    text = verdict_sentence(found("effect", [a, b, c]))
+    assert text.startswith("missing: screw (T), probability 94 %, sun (T), probability 70 %, and oil (T); ")
+    assert "each beside the others: " in text
+    assert "locked tests with all 3 " in text
+
+
+def test_refinements_are_offered_and_never_missing() -> None:
+    second, bearing = one("mode", refinement=True), one("bearing", refinement=True)
+    assert verdict_sentence(found("refine", [second])) == (
+        "no cause is missing; what the model has can be refined by mode (T), error on left-out tests 4.00 -> 1.00 um"
+    )
+    assert "refined by mode (T) and bearing (T), " in verdict_sentence(found("refine", [second, bearing]))
+    assert "missing: mode" not in verdict_sentence(found("refine", [second, bearing]))
+    both = verdict_sentence(found("effect", [claim("screw"), second]))
+    assert both.startswith("missing: screw (T), ")
+    assert both.endswith("; what the model has can be refined by mode (T)")
+    assert verdict_sentence(found("unknown", [second])).endswith("can be refined by mode (T)")
+
+
+def test_no_error_falls_upward() -> None:
+    """Over all tests an error may rise though it falls where the effect acts, and locked tests are asked by shape."""
+    rises = {"rmse_um_before": 0.61, "rmse_um_after": 0.80}
+    text = verdict_sentence(
+        found("effect", [claim("screw", locked_rmse_um_before=0.5, locked_rmse_um_after=0.6, **rises)])
+    )
+    assert "error on left-out tests (falls where it acts only; over all: 0.610 -> 0.800 um)" in text
+    assert "locked tests (held by their shape; from their first samples on: 0.500 -> 0.600 um)" in text
+    assert "falls where" not in verdict_sentence(found("effect", [claim("screw")]))
+
+
+def test_what_is_unknown_does_not_deny_what_is_named_below() -> None:
+    text = verdict_sentence(
+        found("unknown", [one("mode", refinement=True, probability=0.9), one("sun", probability=0.35)])
+    )
+    assert "the likeliest that was logged is sun (T), probability 35 %" in text
+    assert "nothing logged" not in text
+    assert verdict_sentence(found("unknown", [])) == "something is missing that nothing logged explains"
+
+
+def test_every_verdict_has_words_without_any_candidate() -> None:
+    said = {v: verdict_sentence(found(v, [])) for v in ("effect", "refine", "none", "unknown", "not_testable")}
+    assert len(set(said.values())) == len(said)
+    assert said["refine"].startswith("no cause is missing")
+
+
+def test_what_a_candidate_could_take_away_is_no_promise() -> None:
+    assert explainable(found("none", [], explainable=None)) == ""
+    assert explainable(found("none", [], explainable=0.0)) == ""
+    assert explainable(found("none", [], explainable=0.4)) == (
+        "one candidate alone takes away up to 40 % of the squared residual"
+    )
+
+
+def test_evidence_is_told_of_all_claims_and_refinements_else_of_the_first() -> None:
+    a, b, mode, rest = claim("a"), claim("b"), one("mode", refinement=True), one("rest")
+    assert told(found("effect", [a, b, mode, rest])) == [a, b, mode]
+    assert told(found("unknown", [mode, rest, one("last")])) == [rest, mode]
+    assert told(found("none", [])) == []
+
+
+def test_a_page_names_all_claims_with_their_probabilities(blind: ReportData) -> None:
+    asked = found("effect", [claim("screw"), claim("sun", 0.7), one("mode", refinement=True), one("rest")])
+    page = dataclasses.replace(blind, diagnosis=asked)
+    assert headline(page) == "dZ misses screw (T) and sun (T)"
+    html = render(page)
+    html = html[: html.index("<script>")]
+    assert html.count('<span class="badge good">claimed</span>') == 2
+    assert html.count('<span class="badge">refines</span>') == 1
+    assert '<td class="n">94\u00a0%</td>' in html.replace("94 %", "94\u00a0%")
+    for effect in ("screw", "sun", "mode"):
+        assert f"because of {effect}" in html
+    assert "because of rest" not in html
+
+
+def test_a_page_tells_why_of_each_claim_that_was_added(data: ReportData) -> None:
+    asked = found("effect", [claim("screw"), claim("sun", equivalent=["oil:T", "air:T"])])
+    html = render(dataclasses.replace(data, reason=asked))
+    assert "screw:T: because of screw." in html
+    assert "sun:T: because of sun." in html
+    assert "These tests can&#39;t tell sun:T from oil:T and air:T." in html
+
+
+def test_locked_errors_are_those_of_all_claims_only_where_all_were_added(data: ReportData) -> None:
+    asked = found("effect", [claim("screw"), claim("sun")])
+    both = dataclasses.replace(data, reason=asked, effects=("air", "screw", "sun_2"))
+    assert _locked(both) == (5.0, 2.0)
+    assert _locked(dataclasses.replace(both, effects=("air", "screw", "sunny"))) is None
+
+
+def test_the_reason_of_a_version_stands_as_far_back_as_its_answer_has_claims() -> None:
+    single, pair = found("effect", [claim("a")]), found("effect", [claim("a"), claim("b")])
+    assert _reason([]) is None
+    assert _reason([single]) is single
+    assert _reason([pair, None]) is pair
+    assert _reason([single, None]) is None
+    assert _reason([pair, None, None]) is None
+    assert _reason([pair, single]) is single

@@ -1,0 +1,115 @@
+"""A verdict in words, the same in the terminal and on the page: every claim and every refinement that it holds."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+from thermodata.report.words import number, percent
+
+if TYPE_CHECKING:
+    from thermodata.schema.result import Candidate, Diagnosis
+
+
+def probability(share: float | None) -> str:
+    """'94 %', and never certain: 'over 99 %'; '' where none is stated."""
+    if share is None:
+        return ""
+    return "under 1 %" if share < 0.01 else percent(share)
+
+
+def listed(names: Sequence[str]) -> str:
+    """'a', 'a and b', 'a, b and c'."""
+    return " and ".join(filter(None, [", ".join(names[:-1]), *names[-1:]]))
+
+
+def claims_of(found: Diagnosis) -> list[Candidate]:
+    """The missing causes that are claimed, the first one first."""
+    return [c for c in found.candidates if c.claimed]
+
+
+def refinements_of(found: Diagnosis) -> list[Candidate]:
+    """What would refine effects that the model has."""
+    return [c for c in found.candidates if c.refinement]
+
+
+def told(found: Diagnosis) -> list[Candidate]:
+    """The candidates whose evidence is told in full: all claims, else the first of the others; and all refinements."""
+    others = [c for c in found.candidates if not c.refinement]
+    return [*(claims_of(found) or others[:1]), *refinements_of(found)]
+
+
+def named(one: Candidate) -> str:
+    """'feed_screw (T_nut_Z)'."""
+    return f"{one.effect} ({', '.join(one.drivers)})" if one.drivers else one.effect
+
+
+def verdict_sentence(found: Diagnosis) -> str:
+    """The verdict in one sentence with its figures: every claim, every refinement."""
+    claims, refined = claims_of(found), refinements_of(found)
+    beside = f"what the model has can be refined by {listed([named(c) for c in refined])}" if refined else ""
+    if found.verdict == "effect" and claims:
+        return "; ".join(filter(None, [_missing(claims), beside]))
+    if found.verdict == "unknown":
+        return "; ".join(filter(None, [_unclaimed(found), beside]))
+    if found.verdict == "refine" and beside:
+        return f"no cause is missing; {beside}, {_left_out(refined)}"
+    return {
+        "effect": "missing: an effect that the data point to",
+        "refine": "no cause is missing, but an effect that is there acts otherwise than modelled",
+        "none": "no effect is missing: what is left is noise, or too small to matter",
+        "not_testable": "these tests can't tell which effect is missing",
+    }[found.verdict]
+
+
+def _missing(claims: Sequence[Candidate]) -> str:
+    names = [
+        named(c) + (f", probability {probability(c.probability)}" if c.probability is not None else "") for c in claims
+    ]
+    # commas stand within a name and its probability
+    text = f"missing: {names[0] if len(names) == 1 else ', and '.join([', '.join(names[:-1]), names[-1]])}"
+    return f"{text}; {_left_out(claims)}{_locked(claims)}"
+
+
+def _left_out(some: Sequence[Candidate]) -> str:
+    """What each gives on left-out tests. Over all of them an error may rise though it falls where the effect acts."""
+    if len(some) == 1:
+        return _from_to("error on left-out tests", some[0].rmse_um_before, some[0].rmse_um_after)
+    each = [f"{_from_to(c.effect, c.rmse_um_before, c.rmse_um_after)}" for c in some]
+    return f"error on left-out tests, each beside the other{'s' if len(some) > 2 else ''}: {', '.join(each)}"
+
+
+def _locked(claims: Sequence[Candidate]) -> str:
+    """Locked tests are scored with all claims together, from their first samples; a claim holds there by its shape."""
+    before, after = claims[0].locked_rmse_um_before, claims[0].locked_rmse_um_after
+    if before is None or after is None:
+        return ""
+    all_of = "" if len(claims) == 1 else " with both" if len(claims) == 2 else f" with all {len(claims)}"
+    return "; " + _from_to(f"locked tests{all_of}", before, after, "held by their shape; from their first samples on")
+
+
+def _from_to(
+    what: str, before: float | None, after: float | None, rises: str = "falls where it acts only; over all"
+) -> str:
+    if before is None or after is None:
+        return f"{what} not known"
+    figures = f"{number(before)} -> {number(after)} um"
+    return f"{what} {figures}" if after < before else f"{what} ({rises}: {figures})"
+
+
+def _unclaimed(found: Diagnosis) -> str:
+    """What is missing has no name; the likeliest candidate is told with it, for it stands below."""
+    first = next((c for c in found.candidates if c.probability is not None and not c.refinement), None)
+    if first is None:
+        return "something is missing that nothing logged explains"
+    return (
+        "something is missing, and the evidence suffices to name no cause; the likeliest that was logged is "
+        f"{named(first)}, probability {probability(first.probability)}"
+    )
+
+
+def explainable(found: Diagnosis) -> str:
+    """What the best single candidate takes away, which is no claim; '' where nothing is known of it."""
+    if not found.explainable:
+        return ""
+    return f"one candidate alone takes away up to {percent(found.explainable)} of the squared residual"
