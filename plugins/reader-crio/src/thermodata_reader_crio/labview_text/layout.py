@@ -18,6 +18,7 @@ from thermodata.reader.text.number import clean, decimal_mark, is_empty, is_over
 from thermodata.reader.text.time_columns import is_time_header, unit_of_time
 from thermodata.reader.time_units import SECONDS
 from thermodata_reader_crio.labview_clock import LABVIEW_SECONDS
+from thermodata_reader_crio.labview_text.wanted import Wanted, may_be_time
 
 _MOST_HEADER = 30
 _MAY_BE_1904 = re.compile(rb"[234]\x00?(?:\d\x00?){9}|\d\x00?[eE]")  # UTF-16 has zeros between
@@ -82,19 +83,9 @@ def _lines(text: str) -> list[str]:
     return [line.rstrip("\r") for line in text.split("\n")] if "\n" in text else text.split("\r")
 
 
-@dataclass(frozen=True)
-class Wanted:
-    """What is declared of the time. column: its name, or number from 1; counted: rows come at a declared period; sure:
-    whether a column that may be the time or not is asked for."""
-
-    column: Any = None
-    counted: bool = False
-    sure: bool = True
-
-
 def find_layout(lines: Sequence[str], name: str, wanted: Wanted) -> Layout:
-    """The layout by a file's first lines. FormatError where they are no rows of numbers, or nothing tells whether a
-    column is the time."""
+    """The layout by a file's first lines. FormatError where they are no rows of numbers, QuestionError where
+    nothing tells whether a column is the time."""
     lines = lines[: _MOST_HEADER + _MOST_ROWS]
     for delimiter in ("\t", ";", ",", " "):
         found = _rows(lines, delimiter)
@@ -204,7 +195,7 @@ def _clock(
     without names by even steps."""
 
     def counting(at: int) -> tuple[Literal["1904", "seconds"], int, float]:
-        unit = unit_of_time(names[at], units[at])
+        unit = wanted.unit or unit_of_time(names[at], units[at])
         if unit in (None, "s") and _since_1904(values[:, at]):
             return "1904", at, 1.0
         return "seconds", at, SECONDS.get(unit or "s", 1.0)
@@ -215,7 +206,7 @@ def _clock(
         if isinstance(wanted.column, int) and 1 <= wanted.column <= len(names):
             return counting(wanted.column - 1)
         raise FormatError(f"no column '{wanted.column}' for the time", where=where, expected=", ".join(names))
-    if wanted.counted:
+    if wanted.period_s is not None:
         return "none", 0, 1.0
     for at in (0, values.shape[1] - 1):
         if _since_1904(values[:, at]):
@@ -228,15 +219,9 @@ def _clock(
         return "none", 0, 1.0
     steps = np.diff(values[:, 0])
     if not named and steps.max() <= _EVEN * steps.min():
-        return "seconds", 0, 1.0
+        return counting(0)
     if wanted.sure:
-        raise FormatError(
-            "a first column that rises from row to row, and is not called a time",
-            where=where,
-            got=f"{names[0]}: {values[0, 0]:g}, {values[1, 0]:g}, ...",
-            expected="a column called time, or a declared one",
-            hint="declare options: {time: 1} where it is the time [s], or {increment: 1 s} where rows come at a period",
-        )
+        raise may_be_time(names[0], values[:, 0], where)
     return "none", 0, 1.0
 
 
