@@ -12,7 +12,7 @@ import pyarrow.parquet as pq
 import pytest
 import scipy.io
 
-from thermodata.errors import FormatError
+from thermodata.errors import FormatError, QuestionError
 
 from .conftest import Lab
 
@@ -38,7 +38,7 @@ def rows(times: list[Any], between: str = ";") -> str:
     ids=["dates", "seconds", "times of day over midnight"],
 )
 def test_a_file_that_stands_newest_first_is_turned_round(lab: Lab, times: list[Any]) -> None:
-    lab.write("raw/a.csv", "time;T\n" + rows(times))
+    lab.write("raw/a.csv", f"{'time' if isinstance(times[0], str) else 'time [s]'};T\n" + rows(times))
     said = lab.ingest(T1)
     assert said.code == 0, said.err
     t_s, values = lab.values("T1")
@@ -128,10 +128,14 @@ def test_a_column_that_rises_is_not_the_time_where_rows_come_at_a_declared_perio
 @pytest.mark.parametrize("head", ["T1\tT2\n", "Pos [mm]\tdX\n", ""])
 def test_a_first_column_that_rises_without_being_called_a_time_is_asked_for(read: Any, head: str) -> None:
     text = head + "".join(f"{20 * (1 - 0.9**i):.6f}\t{30 + i / 4}\n" for i in range(50))
-    with pytest.raises(FormatError, match="not called a time") as caught:
+    with pytest.raises(QuestionError, match="not called a time") as caught:
         read(text, "a.txt", "crio")
     assert "increment" in str(caught.value.hint)
-    assert read(text, "a.txt", "crio", options={"time": 1}).t_ns["data"].size == 50
+    once = read(text, "a.txt", "crio", options={"time": 1}).t_ns["data"]
+    assert once.size == 50
+    minutes = read(text, "a.txt", "crio", table={"time": {"column": 1, "unit": "min"}}).t_ns["data"]
+    np.testing.assert_allclose(minutes, once * 60, atol=60)
+    assert {**caught.value.declare["time"]} == {"column": 1, "unit": "unknown"}
 
 
 def test_a_time_that_is_not_the_first_column_is_found_by_its_name(read: Any) -> None:
@@ -141,14 +145,26 @@ def test_a_time_that_is_not_the_first_column_is_found_by_its_name(read: Any) -> 
         np.testing.assert_array_equal(next(iter(data.t_ns.values())), np.arange(50) * 60_000_000_000)
 
 
-def test_rows_without_a_time_are_asked_for_and_sniff_recommends_no_reader_for_them(lab: Lab, read: Any) -> None:
+def test_rows_without_a_time_are_asked_for_and_sniff_says_so(lab: Lab, read: Any) -> None:
     text = "T1\tT2\n" + "".join(f"{20 + i % 3}\t{30 + i % 5}\n" for i in range(50))
-    with pytest.raises(FormatError, match="no time column"):
+    with pytest.raises(QuestionError, match="no time column") as caught:
         read(text, "a.txt", "crio")
+    assert caught.value.declare == {"time": {"period": "unknown"}}
     assert read(text, "a.txt", "crio", options={"increment": "2 s"}).t_ns["data"][-1] == 98_000_000_000
+    for by in ("crio", "table"):
+        data = read(text, "a.txt", by, table={"time": {"period": 2.0}})
+        np.testing.assert_array_equal(next(iter(data.t_ns.values())), np.arange(50) * 2_000_000_000)
     said = lab("sniff", lab.write("raw/a.txt", text))
     assert "can read it where a source declares it" not in said.out + said.err
-    assert "increment" in said.out + said.err
+    assert "leaves a question: no time column" in said.out
+
+
+@pytest.mark.parametrize("by", ["crio", "table"])
+@pytest.mark.parametrize("time", [{"column": 1, "unit": "unknown"}, {"period": "unknown"}])
+def test_an_open_answer_is_no_time(read: Any, time: dict[str, Any], by: str) -> None:
+    text = "T1\tT2\n" + "".join(f"{20 * (1 - 0.9**i):.6f}\t{30 + i / 4}\n" for i in range(50))
+    with pytest.raises(FormatError, match="is not answered yet"):
+        read(text, "a.txt", by, table={"time": time})
 
 
 def parquet(**columns: Any) -> bytes:
@@ -165,7 +181,7 @@ def test_of_two_columns_of_times_the_one_that_is_called_time_counts(read: Any) -
     made, time = (T0 + N * np.timedelta64(s, "s") for s in (1, 10))
     data = read(parquet(created=made, time=time, T1=N / 8), "a.parquet")
     np.testing.assert_array_equal(data.t_ns["table"], time.astype("datetime64[ns]").astype(np.int64))
-    numbers = read(parquet(t=20 + N / 8, time=N * 10.0, T1=N / 8), "b.parquet")
+    numbers = read(parquet(**{"t": 20 + N / 8, "time [s]": N * 10.0, "T1": N / 8}), "b.parquet")
     np.testing.assert_array_equal(numbers.t_ns["table"], N * 10_000_000_000)
     with pytest.raises(FormatError, match="several columns of times") as caught:
         read(parquet(start=made, end=time, T1=N / 8), "c.parquet")
