@@ -103,13 +103,14 @@ def test_what_goes_with_the_error_by_another_gain_in_each_test_is_not_claimed(sp
 
 
 def test_what_is_kin_to_the_model_is_a_refinement_and_no_missing_cause(spec: Model) -> None:
-    """A second bearing beside the one that the model has: smaller, with its own heat, and much else is left."""
+    """A second bearing beside the one that the model has: smaller, with its own heat, and something else is left."""
     rng = np.random.default_rng(8)
 
     def rear(channels: dict[str, Any], t: np.ndarray) -> np.ndarray:
         load = np.repeat(rng.uniform(0, 8, 12), len(t) // 12)
+        unlogged = np.repeat(rng.uniform(0, 3.6, 9), len(t) // 9)
         channels["T_rear"] = 22 + lag(load, 900, STEP_S) + rng.normal(0, 0.02, len(t))
-        return lag(-1.0 * (channels["T_rear"] - channels["T_rear"][0]), 3000, STEP_S) + rng.normal(0, 2.0, len(t))
+        return lag(-1.5 * (channels["T_rear"] - channels["T_rear"][0]), 3000, STEP_S) + lag(unlogged, 1800, STEP_S)
 
     info = {**CHANNELS, "T_rear": ChannelInfo("T_rear", "temperature", "degC", at="spindle.bearing.rear")}
     data = make_data(rear)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import replace
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -105,25 +106,26 @@ class Worlds:
     def __init__(self, monkeypatch: pytest.MonkeyPatch, evidence: Callable[[str, frozenset[str]], float]) -> None:
         self.evidence = evidence
         self.made: dict[int, Scored] = {}
-        self.asked: list[frozenset[str]] = []
         monkeypatch.setattr(selecting, "beside", lambda problem, chosen: self._beside(problem, chosen))
-        monkeypatch.setattr(selecting, "rank", lambda problem, pool, noise: self._rank(problem, pool, True))
-        monkeypatch.setattr(selecting, "rank_in", lambda problem, pool, noise: self._rank(problem, pool))
+        monkeypatch.setattr(selecting, "rank", lambda problem, pool, noise, **of: self._rank(problem, pool, **of))
+        monkeypatch.setattr(selecting, "rank_in", lambda problem, pool, noise, **of: self._rank(problem, pool, **of))
         monkeypatch.setattr(selecting, "likeliest", lambda problem, noise: noise)
+        monkeypatch.setattr(selecting, "moments", lambda known, columns: None)
+        monkeypatch.setattr(selecting, "_scored", lambda problem, known, one, *of: self._scored(problem, one))
 
     def _beside(self, problem: Problem, chosen: Sequence[Scored]) -> Problem:
         return replace(problem, response=",".join(s.candidate.effect.name for s in chosen))
 
-    def _rank(self, problem: Problem, pool: Sequence[Columns], searched: bool = False) -> Ranked:
+    def _rank(self, problem: Problem, pool: Sequence[Columns], *, left_out: bool = True) -> Ranked:
+        found = [self._scored(problem, one) for one in pool]
+        if not left_out:
+            found = [replace(s, rows=np.zeros(0), sse_before=np.zeros(0), sse_after=np.zeros(0)) for s in found]
+        known: Any = SimpleNamespace(problem=problem, space=SimpleNamespace(noise=NOISE))
+        return Ranked(known, tuple(sorted(found, key=lambda s: -s.evidence)))
+
+    def _scored(self, problem: Problem, one: Columns) -> Scored:
         known = frozenset(filter(None, problem.response.split(",")))
-        if searched:
-            self.asked.append(known)
-        found = []
-        for one in pool:
-            evidence = self.evidence(one.candidate.effect.name, known)
-            found.append(replace(self.made[id(one)], columns=one, evidence=evidence))
-        space: Any = type("Known", (), {"space": type("Space", (), {"noise": NOISE})})
-        return Ranked(space, tuple(sorted(found, key=lambda s: -s.evidence)))
+        return replace(self.made[id(one)], columns=one, evidence=self.evidence(one.candidate.effect.name, known))
 
     def select(self, names: str, sound: Callable[[Scored], bool] = lambda s: True, **of: Any) -> Selection:
         pool = []
@@ -160,6 +162,7 @@ def test_each_is_weighed_beside_all_others_and_kept_as_it_was_chosen(monkeypatch
     ]
     assert [[name(s) for s in m.beside] for m in found.members] == [["a", "c"], ["b", "c"]]
     assert [name(s) for s in found.first.ranked] == ["a", "b", "c"], "beside the model alone"
+    assert all(len(m.alone.rows) == len(m.scored.rows) == 10 for m in found.members), "left-out tests are asked"
 
 
 def test_the_least_likely_unsound_one_goes_first_and_may_clear_the_others(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -168,6 +171,14 @@ def test_the_least_likely_unsound_one_goes_first_and_may_clear_the_others(monkey
     found = world.select("abc", lambda s: s.candidate.effect.name == "a" or s.evidence == 60.0)
     assert members(found) == ["a", "b"]
     assert [name(s) for s in found.dropped] == ["c"]
+
+
+def test_what_was_chosen_first_may_go_and_the_later_one_stay(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The first one was chosen for what the second one did."""
+    world = Worlds(monkeypatch, lambda n, known: 60.0 if n == "b" else 20.0 if known else 100.0)
+    found = world.select("ab", lambda s: s.candidate.effect.name == "b")
+    assert (members(found), [name(s) for s in found.dropped]) == (["b"], ["a"])
+    assert found.dropped[0].evidence == 20.0, "as it was judged beside the other"
 
 
 def test_what_an_unsound_one_stood_in_the_way_of_is_asked_for_again(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -205,17 +216,13 @@ def test_a_member_is_swapped_for_what_does_clearly_better_beside_the_others(
         return {"a": 100.0, "b": 1.0 if "a" in known else other, "c": 40.0}[n]
 
     world = Worlds(monkeypatch, evidence)
-    original = world._rank
+    original = world._scored
 
-    def rank(problem: Problem, pool: Sequence[Columns], searched: bool = False) -> Ranked:
-        found = original(problem, pool, searched)
-        rows = found.ranked[0].rows if found.ranked else None
-        moved = tuple(
-            replace(s, sse_after=after**2 * rows) if name(s) == "b" and rows is not None else s for s in found.ranked
-        )
-        return Ranked(found.known, moved)
+    def as_left_out(problem: Problem, one: Columns) -> Scored:
+        made = original(problem, one)
+        return replace(made, sse_after=after**2 * made.rows) if name(made) == "b" else made
 
-    monkeypatch.setattr(world, "_rank", rank)
+    monkeypatch.setattr(world, "_scored", as_left_out)
     found = world.select("abc")
     assert members(found) == [taken, "c"]
     assert name(found.members[0].alone) == "a"
@@ -251,6 +258,11 @@ def test_left_out_tests_are_computed_for_the_first_fifteen() -> None:
     found = rank_in(one, pool[::-1], NOISE)
     assert [len(s.rows) for s in found.ranked] == [2] * 15 + [0] * 2
     assert name(found.ranked[0]) == "a"
+    by_evidence = rank_in(one, pool[::-1], NOISE, left_out=False)
+    assert [s.evidence for s in by_evidence.ranked] == [s.evidence for s in found.ranked]
+    assert [len(s.rows) for s in by_evidence.ranked] == [0] * 17
+    for seen, full in zip(by_evidence.ranked, found.ranked, strict=True):
+        np.testing.assert_array_equal(seen.shape, full.shape)
     totals = [s.weighed.total for s in found.ranked]
     assert totals == sorted(totals, reverse=True)
 

@@ -253,7 +253,9 @@ def test_diagnosis_names_the_hidden_effect(lab: Lab, diagnosis: dict[str, Any]) 
     assert (first["claimed"], first["rank"]) == (True, 1)
     assert first["effect"] == lab.truth.hidden
     assert first["family"] == lab.truth.family
-    assert first["drivers"] == list(lab.truth.drivers.values())
+    # the feed that heats the nut and the nut's temperature tell the same
+    true = f"{lab.truth.hidden}:{','.join(lab.truth.drivers.values())}"
+    assert true in (first["id"], *first["equivalent"])
     assert first["p_value"] < 0.05
     assert first["rmse_um_after"] < 0.5 * first["rmse_um_before"]
     assert first["locked_rmse_um_after"] < 0.5 * first["locked_rmse_um_before"]

@@ -162,7 +162,7 @@ def story(step: Step, folder: Path, hide: str, seed: int) -> dict[str, Any]:
         a, b = claims[0].locked_rmse_um_before, claims[0].locked_rmse_um_after
         if b is not None:
             step.line(f"tests that nobody had looked at {number(a)} -> {number(b)} um ({change(a, b)})")
-    elif found.verdict == "refine":
+    elif found.verdict in ("none", "refine"):
         step.title(6, "add: no cause is missing, so nothing is added")
         for offered in refinements_of(found):
             step.line(f"offered: thermodata --store {folder / 'thermodata.store'} add {base.model[:12]} {offered.id}")

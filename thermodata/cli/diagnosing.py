@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 def diagnose_command(session: Session, model: str, top: int) -> None:
     """Say which physical effect MODEL misses.
 
-    Or that none is missing, or that these tests can't tell.
+    Or that none is missing, that what MODEL has can be refined, or that these tests can't tell.
 
     A candidate is claimed only if all evidence holds; locked tests are opened for claims only, and counted.
     """

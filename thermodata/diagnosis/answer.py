@@ -172,6 +172,7 @@ def _candidate(
     claimed = any(member is c for c in judgement.claims)
     beside = member.beside if member else investigation.selection.first.ranked if investigation.selection else ()
     held = confirmation if claimed else None
+    told = _beside_the_model(s, investigation)
     return Candidate(
         rank=rank,
         id=s.candidate.id,
@@ -183,10 +184,10 @@ def _candidate(
         # measured for what heads the list, and for claims; nothing is known of the share of the others
         probability=probability(s) if heads else None,
         p_value=p_value(s.evidence, measure.chance),
-        rmse_um_before=_rmse(s.sse_before, s),
-        rmse_um_after=_rmse(s.sse_after, s),
-        fit_before=_fit(s.sse_before, s, measure.spread),
-        fit_after=_fit(s.sse_after, s, measure.spread),
+        rmse_um_before=_rmse(told.sse_before, told),
+        rmse_um_after=_rmse(told.sse_after, told),
+        fit_before=_fit(told.sse_before, told, measure.spread),
+        fit_after=_fit(told.sse_after, told, measure.spread),
         locked_rmse_um_before=held.before if held else None,
         locked_rmse_um_after=held.after if held else None,
         parameters=held.parameters.get(s.candidate.id, {}) if held else {},
@@ -230,6 +231,13 @@ def _why(
     if judgement.claims:
         return f"{numbers}; not claimed: {judgement.claims[0].scored.candidate.id} explains it, or more"
     return f"{numbers}; not claimed: {judgement.reason}"
+
+
+def _beside_the_model(s: Scored, investigation: Investigation) -> Scored:
+    """The candidate beside the user's own model, where it shows there what it does; else beside what hides it."""
+    ranked = investigation.selection.first.ranked if investigation.selection is not None else ()
+    alone = next((f for f in ranked if f.columns is s.columns and len(f.rows)), s)
+    return alone if _fall(alone) >= _fall(s) or not len(s.rows) else s
 
 
 def _rmse(sse: np.ndarray, s: Scored) -> float | None:

@@ -52,7 +52,7 @@ class Block:
 class Problem:
     """All tests of one response. step_s: of the compressed samples. noise: short-term noise of the response.
     kept: what stays the same as long as samples and offsets do, by who made it: columns of candidates (`basis`),
-    surrogates (`chance`)."""
+    distances in time (`discrepancy`)."""
 
     response: str
     unit: str

@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from thermodata.store.base.counting import Tell
 
 # raise it where a rule of the diagnosis changes: answers of older rules are then given anew
-RULES_VERSION = 3
+RULES_VERSION = 4
 
 
 def _key(model: Loaded) -> str:
@@ -48,7 +48,7 @@ def kept_diagnosis(store: Store, ref: str) -> Diagnosis | None:
 def diagnose(store: Store, ref: str, tell: Tell | None = None) -> Diagnosis:
     """Which effect is missing in a model of the store (an id, a unique prefix or a name).
 
-    tell: is told how many candidates are done, of how many; each against all its surrogates."""
+    tell: is told how many candidates are done, of how many."""
     from thermodata.store.catalogue.models import count_locked_look, keep_answer, kept_answer, save_diagnosis
 
     model = load(store, ref)

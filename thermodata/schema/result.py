@@ -133,7 +133,7 @@ class Candidate(Result):
     refinement: whether it refines an effect that the model has (a second mode, a switch, a lead), which is never a
         missing cause
     probability: posterior probability that this cause is missing, given the data; null where none is stated
-    p_value: share of surrogate residuals on which the best of all candidates does as well
+    p_value: share of responses in which nothing is missing on which the best of all candidates does as well
     rmse_um_before: error on left-out tests without it, in the response's unit
     rmse_um_after: with it
     fit_before: the same as FIT [%]
