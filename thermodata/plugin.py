@@ -143,6 +143,8 @@ class Reader(Protocol):
     - `version: str` stands in the raw data's key in place of its distribution's version.
     - `heads: Mapping[str, bytes]`, format -> the first bytes of a small file of it (in capitals: "SHDR"). The
       conformance kit shows them to all other readers, none of which may claim them.
+    - `unordered: bool`: the rows of its files need not stand in the order of their times (messages of many writers):
+      they are sorted, and a step back is no clock that was set.
     - `gives_way: bool`: the reader is a general one, and claims a file only where no other reader does.
     """
 

@@ -99,8 +99,10 @@ def test_the_calibration_of_another_axis_or_kind_is_refused() -> None:
 def test_the_declared_unit_counts_and_a_contradiction_is_told() -> None:
     declared = channel("temperature", unit="degC")
     assert values([20.0], declared, "V") == [20.0]
-    assert "taken as degC" in (unit_contradiction(declared, "V") or "")
-    assert unit_contradiction(declared, "K") is None
+    assert "instead_of: V" in (unit_contradiction(declared, "V") or "")
+    assert "instead_of: K" in (unit_contradiction(declared, "K") or "")
+    assert unit_contradiction(channel("temperature", unit="degC", instead_of="K"), "K") is None
+    assert unit_contradiction(declared, "°C") is None
     assert unit_contradiction(declared, None) is None
 
 

@@ -233,3 +233,21 @@ def test_a_table_with_dates_that_names_the_tests_is_no_log(tmp_path: Path) -> No
     assert made.table.file == "tabulka.csv"
     said = {t.id: t.conditions.get("speed") for t in made.tests}
     assert (said["run_a"], said["run_b"]) == ("9000 1/min", "6000 1/min")
+
+
+def test_numbers_that_read_in_two_ways_are_asked_whoever_reads_them(tmp_path: Path) -> None:
+    """LabVIEW's text without a time, or with a column that may be one; points that may part thousands."""
+    n = range(50)
+    for k in (1, 2):
+        (tmp_path / f"bare{k}.lvm").write_text("".join(f"{20 * (1 - 0.9**i):.6f}\t{30 + k * i / 4}\n" for i in n))
+        (tmp_path / f"still{k}.lvm").write_text("".join(f"{20 + k * (i % 3) / 7:.5f}\t{30 + i % 5}\n" for i in n))
+        (tmp_path / f"point{k}.csv").write_text(
+            "time [s];T\n" + "".join(f"{i};1.{250 * k * i % 1000:03d}\n" for i in n)
+        )
+    made, campaign = drafted(tmp_path)
+    assert len(campaign.tests) == 6
+    assert sorted(repr(s.table) for s in made.sources) == [
+        "{'decimal': 'unknown'}",
+        "{'time': {'column': 1, 'unit': 'unknown'}}",
+        "{'time': {'period': 'unknown'}}",
+    ]

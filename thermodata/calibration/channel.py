@@ -89,14 +89,29 @@ def channel_sign(channel: Channel, calibrations: Sequence[CalibrationResult], op
 
 
 def unit_contradiction(channel: Channel, signal_unit: str | None) -> str | None:
-    """A note where the campaign file's unit is of another kind than the file's own; the campaign file's counts."""
+    """Why the campaign file's unit may not stand for the file's own: what to declare. None where both say the same,
+    one says nothing (or what is no unit), or `instead_of` names the file's."""
     if channel.unit is None or not signal_unit or not is_unit(signal_unit):
         return None
+    if same_unit(signal_unit, channel.unit):
+        return None
+    if channel.instead_of is not None:
+        if same_unit(signal_unit, channel.instead_of):
+            return None
+        return f"the file says '{signal_unit}', not '{channel.instead_of}' as instead_of has it"
+    return (
+        f"the file says '{signal_unit}', the campaign file says '{channel.unit}'; try: leave out unit where the file "
+        f"is right, or declare unit: {channel.unit}, instead_of: {signal_unit}"
+    )
+
+
+def same_unit(one: str, other: str) -> bool:
+    """Whether two spellings mean one unit."""
     try:
-        linear_conversion(signal_unit, channel.unit)
+        factor, offset = linear_conversion(one, other)
     except UsageError:
-        return f"the file says '{signal_unit}', the campaign file says '{channel.unit}': taken as {channel.unit}"
-    return None
+        return False
+    return bool(abs(factor - 1) < 1e-9 and abs(offset) < 1e-9)
 
 
 def reading_unit(

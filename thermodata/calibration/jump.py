@@ -23,6 +23,9 @@ from thermodata.schema.campaign import JumpCalibration
 _LEAST_SAMPLES = 20
 
 
+_AS_LARGE = 0.7  # of the smallest commanded move: a step that may be one of them
+
+
 def evaluate_jump(
     name: str,
     spec: JumpCalibration,
@@ -89,6 +92,7 @@ def evaluate_jump(
             "unit_out": "um",
             "moves_um": moves,
             "steps_found": len(steps),
+            "steps_beside": _beside(steps, match),
             "drift_um_per_h": None if fit.drift_um_per_s is None else fit.drift_um_per_s * 3600.0,
             "plateaus": [_row(p, level, rest) for p, level, rest in zip(dwells, levels, fit.residual_um, strict=True)],
         },
@@ -104,6 +108,13 @@ def _matched(t_s: Float1D, v: Float1D, moves: list[float], dwell_s: float) -> tu
         match = match_moves(finer, moves, dwell_s / 3)
         steps = steps if match is None else finer
     return steps, match
+
+
+def _beside(steps: list[Step], match: Match) -> int:
+    """How many steps as large as a commanded move no move accounts for."""
+    least = _AS_LARGE * min(abs(s.size) for s in match.steps)
+    moved = {s.t_s for s in match.steps}
+    return sum(abs(s.size) >= least and s.t_s not in moved for s in steps)
 
 
 def _checked_moves(name: str, spec: JumpCalibration) -> list[float]:

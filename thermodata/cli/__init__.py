@@ -7,9 +7,15 @@ from collections.abc import Sequence
 
 def main(argv: Sequence[str] | None = None) -> int:
     """Run one command and return its exit code; the console script of the distribution."""
-    from thermodata.cli.app import run
+    try:
+        from thermodata.cli.app import run
 
-    return run(argv)
+        return run(argv)
+    except KeyboardInterrupt:  # before there is anything that could say it better
+        import sys
+
+        sys.stderr.write("error: interrupted\n")
+        return 1
 
 
 __all__ = ["main"]

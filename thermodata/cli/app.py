@@ -96,6 +96,13 @@ def cli(ctx: click.Context, store: str) -> None:
 def run(argv: Sequence[str] | None = None) -> int:
     """Run, and turn what went wrong into 'error: ...' on stderr and an exit code."""
     warnings.showwarning = _warn
+    if sys.stdout is None:
+        sys.stdout = open(os.devnull, "w")  # noqa: SIM115 - to the end of the program
+        return _fail("stdout is closed: there is nowhere to answer to\ntry: > /dev/null where no answer is wanted", 1)
+    for stream in (sys.stdout, sys.stderr):
+        # a letter that the terminal's encoding lacks is shown by its number
+        if hasattr(stream, "reconfigure") and (stream.encoding or "").lower().replace("-", "") != "utf8":
+            stream.reconfigure(errors="backslashreplace")
     try:
         code = cli.main(args=None if argv is None else list(argv), prog_name="thermodata", standalone_mode=False)
         sys.stdout.flush()

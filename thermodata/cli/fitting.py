@@ -35,6 +35,9 @@ def resolve(store: Store, ref: str) -> str:
     return fit(store, spec, base=Path(ref).parent).model
 
 
+_RISES = 1.005  # an error that rises by less is the same
+
+
 @command("fit")
 @click.argument("model")
 def fit_command(session: Session, model: str) -> None:
@@ -112,6 +115,24 @@ def add_command(session: Session, model: str, candidate: str) -> None:
         lambda: in_units_of(
             session, result.response, "\n\n".join([before_after_text(result), fit_text(result, scores=False)])
         ),
+    )
+    worse = made_worse(result)
+    if worse is not None:
+        session.say(worse)
+
+
+def made_worse(result: FitResult) -> str | None:
+    """A warning where an added effect raised the error of a role; None where it did not."""
+    found = []
+    for role in ("verification", "calibration"):
+        before, after = pooled(result.before or [], role), pooled(result.scores, role)
+        if before is not None and after is not None and after > before * _RISES:
+            found.append(f"{role} {before:.3g} -> {after:.3g} um")
+    if not found:
+        return None
+    return (
+        f"warning: the model is worse with it: {', '.join(found)}; thermodata diagnose says whether the effect is "
+        "claimed, and the version before is still there"
     )
 
 

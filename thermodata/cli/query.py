@@ -7,6 +7,7 @@ import io
 import json
 import sys
 from collections.abc import Iterator
+from itertools import chain, islice
 from typing import Any
 
 import click
@@ -39,14 +40,18 @@ def sql_command(session: Session, query: str | None, as_csv: bool, rows: int) ->
         if sys.stdin.isatty():
             raise UsageError("no query", hint='thermodata sql "select * from test"')
         query = sys.stdin.read()
-    relation = session.view().sql(query)
+    view = session.view()
+    relation = view.sql(query)
+    unverified = view.verify(query)
+    if unverified is not None:
+        session.say(unverified)
     columns: list[str] = list(relation.columns)
     if as_csv:
         _write_csv(columns, _batches(relation))
     elif session.as_json:
         _write_json(columns, _batches(relation))
     else:
-        found = relation.limit(rows + 1).fetchall()
+        found = list(islice(chain.from_iterable(_batches(relation.limit(rows + 1))), rows + 1))
         click.echo(
             table(
                 [{str(i): v for i, v in enumerate(r)} for r in found[:rows]],

@@ -12,6 +12,7 @@ import numpy as np
 
 from thermodata.plugin import Block, Loss, Reader, Signal, Source
 from thermodata.reader.guard import described, guarded
+from thermodata.reader.newest_first import NOTE, Steps
 from thermodata.reader.registry import claims, sniff
 
 FIRST_ROWS = 5
@@ -32,9 +33,11 @@ class _Stream:
     gaps: int = 0
     largest: int = 0
     head: list[dict[str, Any]] = field(default_factory=list)
+    clock: Steps = field(default_factory=Steps)
 
     def add(self, block: Block, absolute: bool, first_rows: int) -> None:
         t = block.t_ns
+        self.clock.add(t)
         joined = t if self.last is None else np.concatenate(([self.last], t))
         steps = np.diff(joined)
         self.first = int(t[0]) if self.first is None else self.first
@@ -103,7 +106,7 @@ def preview(
         "complete": said.complete,
         "whole": whole,
         "rows_read": read,
-        "notes": list(said.notes),
+        "notes": [*said.notes, *([NOTE] if any(s.clock.newest_first for s in streams.values()) else [])],
         "losses": [
             {
                 "where": x.where,

@@ -9,7 +9,7 @@ from zoneinfo import ZoneInfo, ZoneInfoNotFoundError
 import numpy as np
 import numpy.typing as npt
 
-from thermodata.errors import UsageError
+from thermodata.errors import FormatError, UsageError
 from thermodata.plugin import Bool1D, Int1D
 
 NAT = np.iinfo(np.int64).min
@@ -58,6 +58,8 @@ def local_to_utc_ns(naive: npt.NDArray[Any], timezone: str | None) -> tuple[Int1
     naive: shape (n,), datetime64; NaT stays the smallest int64 (`zone.NAT`). timezone None: taken as UTC, with
     a note. The hour that repeats in autumn is told apart by the step back of the clock inside it; where no row
     steps back, by the neighbour that it joins. Times that do not exist in spring keep the offset of before.
+
+    FormatError where the times run straight on through a change of the zone: that clock keeps one offset all year.
     """
     local = naive.astype("datetime64[ns]").astype(np.int64)
     if timezone is None:
@@ -79,6 +81,8 @@ def local_to_utc_ns(naive: npt.NDArray[Any], timezone: str | None) -> tuple[Int1
         if not inside.any():
             continue
         when = datetime.fromtimestamp(instant // _S, UTC).strftime("%Y-%m-%dT%H:%M:%SZ")
+        if _runs_on(local, inside, before, after):
+            raise _keeps_one_offset(timezone, when, before, after)
         if after > before:
             utc[inside] = local[inside] - before
             notes.append(
@@ -94,6 +98,31 @@ def local_to_utc_ns(naive: npt.NDArray[Any], timezone: str | None) -> tuple[Int1
                 f"{int(second.sum())} in its second" + ("" if sure else " (no row steps back: a guess)")
             )
     return utc, notes
+
+
+def _runs_on(local: Int1D, inside: Bool1D, before: int, after: int) -> bool:
+    """Whether rows go straight on behind the hour that a zone skips; or through the one that it repeats, from before it
+    to an hour behind it, for a clock may be set late."""
+    rows, shift, skipped = np.flatnonzero(inside), abs(after - before), after > before
+    first, last = int(rows[0]), int(rows[-1])
+    behind = np.flatnonzero(local[last + 1 :] >= local[last] + (0 if skipped else shift))
+    if not behind.size or (first == 0 and not skipped):
+        return False
+    part = local[last if skipped else first - 1 : last + 2 + int(behind[0])]
+    steps = np.diff(part)
+    return bool((part != NAT).all() and (steps >= -_STEP_BACK).all() and (steps < shift).all())
+
+
+def _keeps_one_offset(timezone: str, when: str, before: int, after: int) -> FormatError:
+    hours = [ns / 3.6e12 for ns in (min(before, after), max(before, after))]
+    # the names of the Etc zones have their signs turned round
+    winter, summer = (f"Etc/GMT{-h:+.0f}" if h else "Etc/GMT" for h in hours)
+    return FormatError(
+        f"local times that run straight on where {timezone} changes its clocks, at {when}",
+        expected="an hour that is skipped in spring, or repeated in autumn",
+        got="neither: the logger's clock keeps one offset",
+        hint=f"declare timezone: {winter} where it keeps winter time, {summer} for summer time, or UTC",
+    )
 
 
 def _second_pass(local: Int1D, inside: Bool1D, shift: int) -> tuple[Bool1D, bool]:

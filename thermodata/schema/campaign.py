@@ -238,6 +238,7 @@ class Channel(Strict):
     schedule: [[time, value], ...] for what nobody logged but everybody knows; held between
     quantity: what it is; its canonical unit follows
     unit: of the raw values, where the file does not say it
+    instead_of: the unit that the file states, where that is wrong and `unit` is right
     axis: of a displacement: the machine's axis
     at: dotted place on the machine: spindle.bearing.front
     relative_to: place that a displacement is measured against
@@ -252,6 +253,7 @@ class Channel(Strict):
     schedule: list[tuple[Value, Value]] | None = None
     quantity: Quantity
     unit: str | None = None
+    instead_of: str | None = None
     axis: Literal["X", "Y", "Z", "A", "B", "C"] | None = None
     at: str | None = None
     relative_to: str | None = None
@@ -266,6 +268,8 @@ class Channel(Strict):
             raise ValueError(f"a channel has exactly one of 'signal', 'derive' and 'schedule'; got {origins or 'none'}")
         if self.signal is not None and self.source is None:
             raise ValueError("a channel with 'signal' needs 'source'")
+        if self.instead_of is not None and self.unit is None:
+            raise ValueError("'instead_of' names the file's unit that 'unit' replaces: write both")
         return self
 
 
@@ -384,6 +388,7 @@ class ChannelOverride(Strict):
     source: key of `sources`
     signal: its name in the file
     unit: of the raw values
+    instead_of: the unit that the file states, where that is wrong
     axis: of a displacement
     at: dotted place
     relative_to: place it is measured against
@@ -396,6 +401,7 @@ class ChannelOverride(Strict):
     source: str | None = None
     signal: str | None = None
     unit: str | None = None
+    instead_of: str | None = None
     axis: Literal["X", "Y", "Z", "A", "B", "C"] | None = None
     at: str | None = None
     relative_to: str | None = None

@@ -93,7 +93,15 @@ def normal_unit(text: str) -> str:
     # "nm" in lower case is nanometres; torque is written with a capital N
     if bare == "nm":
         return "nm"
-    return UNIT_SPELLING.get(bare.casefold(), text.strip())
+    known = UNIT_SPELLING.get(bare.casefold())
+    if known is not None:
+        return known
+    # in these the case of the prefix counts: mOhm and MOhm, mNm and MNm
+    if torque := re.fullmatch(r"(k|m|M|c|d|da|u|µ|μ)?N[·.*]?(m|mm|cm)", bare):
+        return f"{torque[1] or ''}N*{torque[2]}"
+    if resistance := re.fullmatch(r"([kMmGuµμ]?)(?:[Oo]hms?|OHM|Ω|Ω)", bare):
+        return f"{resistance[1]}ohm"
+    return re.sub(r"\b([kcdm]?m)\^?([23])(?![\d.])", r"\1**\2", text.strip())
 
 
 @lru_cache(maxsize=1)

@@ -28,6 +28,7 @@ UNIT_SPELLING: dict[str, str] = {
     "rev/s": "turn/second",
     "rps": "turn/second",
     "hz": "turn/second",
+    "khz": "kiloturn/second",
     "degc": "degC",
     "°c": "degC",
     "℃": "degC",

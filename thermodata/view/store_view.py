@@ -9,14 +9,12 @@ from typing import TYPE_CHECKING, Any
 from thermodata.errors import StoreError, UsageError, unknown_name
 from thermodata.store import Store
 from thermodata.store.base.connection import damaged_data, literal
+from thermodata.view.statements import check_statement
 
 if TYPE_CHECKING:
     import duckdb
 
     from thermodata.view.dataset import Dataset
-
-
-_READING = frozenset({"SELECT", "EXPLAIN", "PRAGMA", "CALL", "COPY", "MULTI"})  # MULTI is what PIVOT becomes
 
 
 class StoreView:
@@ -49,15 +47,7 @@ class StoreView:
         try:
             # the connection is a copy that later queries share: a write would spoil it and change nothing on disk
             for statement in con.extract_statements(query):
-                if statement.type.name not in _READING:
-                    raise UsageError(
-                        "a query only reads the store",
-                        where=query.strip()[:200],
-                        expected="SELECT, FROM, DESCRIBE, SHOW or COPY ... TO",
-                        got=statement.type.name,
-                        hint="thermodata snapshot OUT.duckdb gives a file of "
-                        "your own to write in; thermodata forget removes a test",
-                    )
+                check_statement(statement, self.path)
             relation = con.sql(query, params=params) if params is not None else con.sql(query)
         except duckdb.IOException as error:
             raise StoreError(
@@ -76,6 +66,17 @@ class StoreView:
             raise UsageError("the query gives no table", expected="SELECT, FROM, DESCRIBE or SHOW", got=query)
         return relation
 
+    def verify(self, query: str) -> str | None:
+        """Looks at the checksums of the files that a query reads; see `verify.verify_pages`. A sentence where not all
+        were looked at."""
+        from thermodata.view.verify import verify_pages
+
+        con = self.store.connect()
+        statements = con.extract_statements(query)
+        if len(statements) != 1 or statements[0].type.name != "SELECT":
+            return None if not statements else "the pages of what it read were not verified: thermodata check does"
+        return verify_pages(con, self.path, query)
+
     def signal(self, campaign: str, test: str, channel: str) -> duckdb.DuckDBPyRelation:
         """One channel of one test: campaign, test, source, channel, t, t_s, value, flag."""
         return self._macro("signal", campaign, test, channel)
@@ -91,8 +92,19 @@ class StoreView:
     def residual(
         self, model: str, campaign: str | None = None, test: str | None = None, response: str | None = None
     ) -> duckdb.DuckDBPyRelation:
-        """Measured and predicted of a model. model: its id, a unique prefix of it, or a name (the newest version)."""
-        given = {"model": self.model_id(model), "campaign": campaign, "test": test, "response": response}
+        """Measured and predicted of a model. model: its id, a unique prefix of it, or a name (the newest version).
+
+        UsageError names the nearest campaign, test or response where the model was not predicted on the given one.
+        """
+        chosen = self.model_id(model)
+        for name, value in (("campaign", campaign), ("test", test), ("response", response)):
+            if value is None:
+                continue
+            query = f"select distinct {name} from prediction where model = ? order by {name}"
+            known = [str(row[0]) for row in self.sql(query, [chosen]).fetchall()]
+            if value not in known:
+                raise unknown_name(f"{name} in the predictions of {model}", value, known)
+        given = {"model": chosen, "campaign": campaign, "test": test, "response": response}
         where = " and ".join(f"{name} = {literal(value)}" for name, value in given.items() if value is not None)
         return self.sql(f"select * from residual where {where} order by campaign, test, response, t_s")
 

@@ -114,3 +114,34 @@ def test_a_short_last_chunk_is_noted(tmp_path: Path, tdms) -> None:  # type: ign
     data = read(tmp_path, tdms.segment(objects, np.arange(12.0).tobytes()))
     np.testing.assert_array_equal(data.values["G", "G/a"], [0, 1, 2, 3, 8, 9])
     assert "written shorter" in data.recording.notes[0]
+
+
+SCALE = {"NI_Number_Of_Scales": 2, "NI_Scale[1]_Scale_Type": "Linear", "NI_Scale[1]_Linear_Y_Intercept": 0.0}
+
+
+@pytest.mark.parametrize(
+    "segments",
+    [
+        ({"unit_string": "V"}, {"unit_string": "mV"}),
+        ({**SCALE, "NI_Scale[1]_Linear_Slope": 1.0}, {**SCALE, "NI_Scale[1]_Linear_Slope": 1000.0}),
+    ],
+    ids=["unit", "slope"],
+)
+def test_a_channel_that_changes_its_meaning_within_the_file_is_left_out(  # type: ignore[no-untyped-def]
+    tmp_path: Path, tdms, segments: tuple[dict[str, object], ...]
+) -> None:
+    def made(name: str, *segments: dict[str, object]) -> Data:
+        parts = []
+        for properties in segments:
+            z = tdms.channel("Eddy", "Z", "float64", 4, tdms.wave(**properties))
+            y = tdms.channel("Eddy", "Y", "float64", 4, tdms.wave(unit_string="V"))
+            parts.append(tdms.segment([z, y], np.arange(8.0).tobytes()))
+        (tmp_path / name).write_bytes(b"".join(parts))
+        return load(Reader(), tmp_path / name, Source())
+
+    data = made("a.tdms", *segments)
+    assert [s.name for s in data.recording.signals] == ["Eddy/Y"]
+    assert any("Eddy/Z is left out" in x.reason and "split the file there" in x.reason for x in data.losses)
+    same = made("b.tdms", segments[0], segments[0])
+    assert [s.name for s in same.recording.signals] == ["Eddy/Z", "Eddy/Y"]
+    assert same.losses == ()

@@ -18,12 +18,12 @@ MAIN = "http://schemas.openxmlformats.org/spreadsheetml/2006/main"
 OFFICE = "http://schemas.openxmlformats.org/officeDocument/2006/relationships"
 PACKAGE = "http://schemas.openxmlformats.org/package/2006"
 TYPES = "application/vnd.openxmlformats-"
-# cell formats: 0 general, 1 date and time, 2 duration, 3 time of day, 4 date
+# cell formats: 0 general, 1 date and time, 2 duration, 3 time of day, 4 date, 5 per cent
 STYLES = (
     f'<styleSheet xmlns="{MAIN}"><numFmts count="1"><numFmt numFmtId="164" formatCode="[h]:mm:ss"/></numFmts>'
     '<fonts count="1"><font/></fonts><fills count="1"><fill/></fills><borders count="1"><border/></borders>'
-    '<cellStyleXfs count="1"><xf/></cellStyleXfs><cellXfs count="5"><xf numFmtId="0"/><xf numFmtId="22"/>'
-    '<xf numFmtId="164"/><xf numFmtId="21"/><xf numFmtId="14"/></cellXfs></styleSheet>'
+    '<cellStyleXfs count="1"><xf/></cellStyleXfs><cellXfs count="6"><xf numFmtId="0"/><xf numFmtId="22"/>'
+    '<xf numFmtId="164"/><xf numFmtId="21"/><xf numFmtId="14"/><xf numFmtId="10"/></cellXfs></styleSheet>'
 )
 
 
@@ -170,3 +170,43 @@ def test_an_archive_whose_parts_are_said_to_begin_before_it_is_refused(tmp_path:
     path.write_bytes(data)
     with pytest.raises(FormatError, match=r"damaged workbook|not a readable workbook"):
         load(Reader(), path, Source())
+
+
+@pytest.mark.parametrize("head", ["load", "load [%]"])
+def test_numbers_that_are_shown_in_per_cent_are_in_per_cent(tmp_path: Path, head: str) -> None:
+    rows: list[list[object]] = [["time [s]", head, "T1"], *([i, 0.25 + i / 64, 20.5] for i in range(20))]
+    data = read(tmp_path, {"a": sheet(rows, (0, 5, 0))})
+    signal = data.recording.signals[0]
+    assert signal.unit == "%"
+    assert signal.scaling is not None
+    assert dict(signal.scaling.properties) == {"gain": 100.0, "offset": 0.0}
+    np.testing.assert_array_equal(data.values["table", head], 0.25 + np.arange(20) / 64)  # as it stands in the file
+    assert data.recording.signals[1].scaling is None
+
+
+def test_a_fraction_that_has_a_unit_of_its_own_stays_one(tmp_path: Path) -> None:
+    rows: list[list[object]] = [["time [s]", "load [ratio]"], *([i, 0.25] for i in range(20))]
+    signal = read(tmp_path, {"a": sheet(rows, (0, 5))}).recording.signals[0]
+    assert (signal.unit, signal.scaling) == ("ratio", None)
+
+
+def test_a_column_partly_in_per_cent_is_refused(tmp_path: Path) -> None:
+    rows: list[list[object]] = [["time [s]", "load"], *([i, 0.25] for i in range(20))]
+    mixed = sheet(rows, (0, 5)).replace('<c r="B7" s="5">', '<c r="B7" s="0">')
+    with pytest.raises(FormatError, match="mixes numbers in per cent"):
+        read(tmp_path, {"a": mixed})
+
+
+@pytest.mark.parametrize("value", ["", "<v/>", "<v></v>"])
+def test_a_formula_that_no_sheet_computed_is_a_loss(tmp_path: Path, value: str) -> None:
+    rows: list[list[object]] = [["time [s]", "T1", "T2"], *([i, 20.5, 20.5] for i in range(20))]
+    never = sheet(rows).replace('<c r="C9" s="0"><v>20.5</v>', f'<c r="C9" s="0"><f>B9*2</f>{value}')
+    data = read(tmp_path, {"a": never})
+    assert "1 cells of the workbook hold a formula without its value" in data.losses[0].reason
+    assert np.isnan(data.values["table", "T2"][7])
+
+
+def test_times_of_day_of_a_sheet_go_over_midnight(tmp_path: Path) -> None:
+    rows: list[list[object]] = [["time", "T1"], *([((86_100 + 10 * i) % 86_400) / 86_400, 20.5] for i in range(60))]
+    data = read(tmp_path, {"a": sheet(rows, (3, 0))})
+    np.testing.assert_allclose(data.t_ns["table"] / 1e9, np.arange(60) * 10.0, atol=1e-3)

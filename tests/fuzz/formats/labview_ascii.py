@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import random
 
-from tests.fuzz.harness import Mutation, Seed
+from tests.fuzz.harness import Mutation, Seed, Source
 from tests.fuzz.mutations import cut, edit_parts, flip, insert
 
 READER = "crio"
@@ -47,7 +47,8 @@ FILES = _all()
 
 
 def seeds() -> list[Seed]:
-    return [Seed(name, data) for name, data in FILES.items()]
+    counted = Source(options={"increment": "1 s"})
+    return [Seed(name, data, counted if name == "none.lvm" else Source()) for name, data in FILES.items()]
 
 
 def mutate(seed: Seed, rng: random.Random) -> Mutation:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from thermodata.errors import FormatError
+from thermodata.errors import FormatError, QuestionError
 from thermodata.reader.text.columns import dtype_of, find_decimal
 from thermodata.reader.text.number import EXACT
 
@@ -67,9 +67,12 @@ def test_the_decimal_mark_of_the_numbers(columns: list[list[str]], delimiter: st
 
 
 def test_marks_that_may_be_either_are_asked() -> None:
-    with pytest.raises(FormatError, match="commas that may part thousands") as error:
-        find_decimal([["8,000", "12,500"]], ",", "a.csv")
-    assert error.value.where == "a.csv"
+    for marks, cell, delimiter, fraction in (("commas", "8,000", ",", ","), ("points", "8.000", ";", ".")):
+        with pytest.raises(QuestionError, match=f"{marks} that may part thousands") as error:
+            find_decimal([[cell, "12" + cell[1:]]], delimiter, "a.csv")
+        assert error.value.where == "a.csv"
+        assert error.value.declare == {"decimal": "unknown"}
+        assert error.value.meanwhile == {"decimal": fraction}
     with pytest.raises(FormatError, match="decimal point and with a decimal comma"):
         find_decimal([["1,5"], ["1.5"]], ";", "a.csv")
 

@@ -34,4 +34,6 @@ def claimed_table(lines: tuple[str, ...]) -> Table:
     """The table in a file's first lines. FormatError where they hold none."""
     lines = lines[:_LINES] if len(lines) > 2 * _LINES else lines
     whole = lines[:-1] if len(lines) > 1 and not lines[-1] else lines
-    return find_table(whole, Sample(whole, (), "utf-8", None, False, True), Source(), "the first lines", STREAM)
+    # whose table it is does not hang on its decimal mark: whoever reads it asks for that
+    source = Source(table={"decimal": "."})
+    return find_table(whole, Sample(whole, (), "utf-8", None, False, True), source, "the first lines", STREAM)

@@ -23,6 +23,8 @@ _TEXT_NAME = re.compile(r"(?i)comment|note|alarm|message|text|label|remark|bemer
 _PLAIN = re.compile(r"(?:[+-]?\d{1,15}(?:[.,]\d{1,15})?(?:\n|\Z))+", re.ASCII)
 _INTEGER = re.compile(r"[+-]?\d{1,19}", re.ASCII)
 _FRACTIONS = 200  # cells of a column that are asked for their decimal mark
+_ONE_GROUP = re.compile(r"[+-]?[1-9]\d{0,2}\.\d{3}", re.ASCII)
+_BARE_THOUSANDS = re.compile(r"[+-]?\d{4,}", re.ASCII)
 _GROUPED = re.compile(r"[+-]?[1-9]\d{0,2}(,\d{3})+", re.ASCII)
 
 
@@ -53,25 +55,38 @@ def dtype_of(cells: Sequence[str], name: str = "", unit: str | None = None) -> s
 def find_decimal(columns: Iterable[Sequence[str]], delimiter: str, where: str) -> str | None:
     """The decimal mark of the number cells of some columns; None where none has a fraction.
 
-    FormatError: both marks occur. QuestionError: commas stand in quotes between commas: thousands, or a fraction.
+    FormatError: both marks occur. QuestionError: commas stand in quotes between commas, or points between semicolons
+    (which part cells where the comma is the decimal mark), and each of them may part thousands or begin a fraction.
     """
+    columns = list(columns)
     cells = [c for column in columns for c in [c for c in column if "," in c or "." in c][:_FRACTIONS]]
     if delimiter != ",":
-        return decimal_mark(cells)
+        mark = decimal_mark(cells)
+        points = [c for c in map(clean, cells) if "." in c and is_number(c)]
+        doubtful = delimiter == ";" and mark == "." and all(_ONE_GROUP.fullmatch(c) for c in points)
+        # a thousand that is not parted proves that points don't part thousands here
+        if doubtful and not any(_BARE_THOUSANDS.fullmatch(clean(c)) for column in columns for c in column):
+            raise _either("points", points[0], "semicolons", where)
+        return mark
     commas = [c for c in map(clean, cells) if "," in c and to_float(c, ",") is not None]
     if not commas:
         return "."
     if any(re.fullmatch(r"[+-]?\d*\.\d+", clean(c)) for c in cells):
         return "."
     if all(_GROUPED.fullmatch(c) for c in commas):
-        raise QuestionError(
-            "commas that may part thousands or begin a fraction",
-            where=where,
-            expected="a decimal mark that is declared",
-            got=f'"{commas[0]}" between commas',
-            hint="declare table: {decimal: '.'} where they are thousands, or ','",
-            ask=f"decimal: '.' or ','? \"{commas[0]}\" may be thousands or a fraction",
-            declare={"decimal": UNKNOWN},
-            meanwhile={"decimal": ","},
-        )
+        raise _either("commas", f'"{commas[0]}"', "commas", where)
     return ","
+
+
+def _either(marks: str, got: str, between: str, where: str) -> QuestionError:
+    thousands, fraction = (".", ",") if marks == "commas" else (",", ".")
+    return QuestionError(
+        f"{marks} that may part thousands or begin a fraction",
+        where=where,
+        expected="a decimal mark that is declared",
+        got=f"{got} between {between}",
+        hint=f"declare table: {{decimal: '{thousands}'}} where they part thousands, or {{decimal: '{fraction}'}}",
+        ask=f"decimal: '.' or ','? {got} may be thousands or a fraction",
+        declare={"decimal": UNKNOWN},
+        meanwhile={"decimal": fraction},
+    )

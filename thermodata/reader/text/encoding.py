@@ -143,6 +143,7 @@ def decode_head(start: bytes) -> str | None:
     """The text of a file's first bytes (which may end inside a character), or None where it is binary."""
     if start.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
         return codecs.getincrementaldecoder("utf-16")("replace").decode(start)
+    start = start.rstrip(b"\0") or start  # what a power cut left behind the last line
     if b"\0" in start[:4096]:
         try:
             encoding, _ = find_encoding(start[: len(start) // 2 * 2])

@@ -8,9 +8,11 @@ from datetime import UTC, datetime
 import numpy as np
 
 from thermodata.plugin import Int1D
+from thermodata.reader.newest_first import Steps
 from thermodata.reader.zone import NAT, local_to_utc_ns
 
-_NEAR = 3 * 3600 * 10**9
+_HOUR = 3600 * 10**9
+_NEAR = 3 * _HOUR
 _HALF_DAY = 12 * 3600 * 10**9
 
 
@@ -29,7 +31,7 @@ class LocalClock:
         utc, _ = local_to_utc_ns(joined.view("datetime64[ns]"), self.timezone)
         result = utc[self._before.size :]
         self._before = joined[-1:]
-        if self._repeats(int(joined[-1])):
+        if any(self._repeats(int(joined[-1]) - hours * _HOUR) for hours in range(3)):
             far = np.flatnonzero(np.abs(joined - joined[-1]) > _NEAR)
             self._before = joined[far[-1] if far.size else 0 :]
         return result
@@ -44,7 +46,7 @@ class LocalClock:
 
 class DayCount:
     """Times of day without a date, in file order: they count from the first, and each step back by half a day or more
-    is the next midnight."""
+    is the next midnight; in a file that stands newest first each step ahead by as much is the midnight before."""
 
     NOTE = "times of day without a date: counted from the first row"
 
@@ -52,6 +54,7 @@ class DayCount:
         self._first: int | None = None
         self._last = 0
         self._nights = 0
+        self._clock = Steps()
 
     def relative(self, of_day_ns: Int1D) -> Int1D:
         """Nanoseconds since the first of all, shape (n,); NAT stays."""
@@ -62,7 +65,9 @@ class DayCount:
             if self._first is None:
                 self._first = self._last = int(values[0])
             steps = np.diff(values, prepend=self._last)
-            nights = self._nights + np.cumsum(steps < -_HALF_DAY)
+            self._clock.add(values)
+            turned = -(steps > _HALF_DAY).astype(np.int64) if self._clock.newest_first else steps < -_HALF_DAY
+            nights = self._nights + np.cumsum(turned)
             result[good] = values + nights * 2 * _HALF_DAY - self._first
             self._last, self._nights = int(values[-1]), int(nights[-1])
         return result

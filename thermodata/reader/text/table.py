@@ -17,6 +17,7 @@ from thermodata.reader.text.columns import dtype_of, find_decimal
 from thermodata.reader.text.grid import TIME, Grid
 from thermodata.reader.text.layout import STREAM, Group, Layout, find
 from thermodata.reader.text.lines import Sample, last_line_is_whole, sample
+from thermodata.reader.text.long_rows import refuse_long
 from thermodata.reader.text.number import clean
 from thermodata.reader.text.quality_columns import Pairs, quality_pairs, worded
 from thermodata.reader.text.time_formats import find_formats
@@ -25,6 +26,7 @@ from thermodata.reader.time_units import SECONDS
 from thermodata.reader.zone import NAT
 
 _HEAD_LINES = 500  # in which the layout shows
+_HEADER_LINES, _CELL_LINES = 60, 16  # in which cells over several lines are headers, and of how many lines
 _TYPED_ROWS = 2000  # of the head, by which columns are typed
 
 
@@ -173,13 +175,16 @@ def find_table(head: Sequence[str], first: Sample, source: Source, where: str, s
     def cells(line: str) -> list[str]:
         return [clean(c) for c in delimiters.fields(line, delimiter, quoted)]
 
-    rows = [cells(line) for line in top]
+    rows = [cells(line) for line in (_records(top) if quoted else top)]
     if head[0].lower().startswith("sep=") and len(rows[0]) <= 2:
         rows[0] = [""]
     layout = find(rows, said, where)
     width = len(layout.names)
+    # lines of a header were joined, rows are not
+    top_rows = map(cells, top[layout.first :]) if quoted else rows[layout.first :]
     later = map(cells, (*head[max(len(top), layout.first) : layout.first + _TYPED_ROWS], *first.rest))
-    body = [r for r in (*rows[layout.first :], *later) if len(r) == width]
+    body = [r for r in (*top_rows, *later) if len(r) == width]
+    refuse_long(layout.names, body, where)
     groups = tuple(_timed(g, layout, body, head, cells, first, stream, where) for g in layout.groups)
     dated = [r for r in body if all(_reads(r, g) for g in groups[:1])]
     cells_of = {name: [r[i] for r in dated] for i, name in enumerate(layout.names)}
@@ -220,6 +225,21 @@ def find_table(head: Sequence[str], first: Sample, source: Source, where: str, s
         quality=quality,
         notes=notes,
     )
+
+
+def _records(lines: Sequence[str]) -> list[str]:
+    """The lines, those of a header whose cells go over several joined: at the last of them, the others blank, so that
+    lines keep their numbers."""
+    joined: list[str] = []
+    at = 0
+    while at < len(lines):
+        end = at
+        if at < _HEADER_LINES and lines[at].count('"') % 2:
+            more = range(at + 1, min(len(lines), at + _CELL_LINES))
+            end = next((k for k in more if lines[k].count('"') % 2), at)
+        joined += [*[""] * (end - at), " ".join(lines[at : end + 1])]
+        at = end + 1
+    return joined
 
 
 def _top(head: Sequence[str]) -> Sequence[str]:

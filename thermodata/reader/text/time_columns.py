@@ -153,7 +153,8 @@ def find_time(
         return (clocks[0],)
     numbers = [i for i in words if share(i, is_number, 0.6)]
     if numbers:
-        return (numbers[0],)
+        # a "t" may be many things beside a column that is called time
+        return (min(numbers, key=lambda i: split_unit(names[i])[0].strip(" .:") == "t"),)
     if (units[0] or "").strip().lower() in SECONDS and share(0, is_number, 0.6):
         return (0,)
     damaged = [i for i in range(width) if share(i, is_dated, 0.3)]

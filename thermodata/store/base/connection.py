@@ -77,6 +77,8 @@ def settle(con: duckdb.DuckDBPyConnection, folder: Path) -> None:
 
     con.execute(f"set global file_search_path = {literal(str(folder))}")
     con.execute("set enable_progress_bar = false")
+    # nothing is ever fetched from elsewhere because a query names a function or a file of some kind
+    con.execute("set global autoinstall_known_extensions = false; set global autoload_known_extensions = false")
     # an ASOF join of a few probes falls back to a nested loop that takes 12-20 s instead of 20 ms
     with contextlib.suppress(duckdb.CatalogException):  # a version that has no such loop
         con.execute("set global asof_loop_join_threshold = 0")

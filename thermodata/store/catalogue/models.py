@@ -14,7 +14,7 @@ from thermodata.schema.model import Model
 from thermodata.schema.result import Diagnosis, FitResult
 from thermodata.store.base.connection import fetch, insert
 from thermodata.store.base.encoder import COMPRESSION
-from thermodata.store.base.files import publish, safe_name, temporary
+from thermodata.store.base.files import publish, safe_name, temporary, write_error
 from thermodata.store.catalogue.store import Store
 
 if TYPE_CHECKING:
@@ -285,7 +285,10 @@ def _write_prediction(store: Path, model: str, key: tuple[str, str, str], table:
 
     name = "__".join(safe_name(part, 50) for part in key) + ".parquet"
     target = store / "model" / safe_name(model) / name
-    target.parent.mkdir(parents=True, exist_ok=True)
+    try:
+        target.parent.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise write_error(target, error) from error
     part = temporary(target)
     try:
         pq.write_table(table, part, compression=COMPRESSION, row_group_size=100_000)

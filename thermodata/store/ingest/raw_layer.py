@@ -7,7 +7,7 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
-from thermodata.errors import FormatError, StoreError, ThermodataError, UsageError
+from thermodata.errors import FormatError, StoreError, ThermodataError, UsageError, nearest
 from thermodata.plugin import Loss, Reader, Source
 from thermodata.schema.campaign import Campaign, JumpCalibration, SourceSpec, Test
 from thermodata.store.base.files import DISK_FULL, is_whole, write_error
@@ -143,16 +143,19 @@ class RawIngest:
             if not isinstance(spec, JumpCalibration):
                 continue
             path = file_inside(self.folder, spec.file, f"calibrations.{name}.file")
-            before = self.inventory.raw_rows("", name)
+            # a copy of another file is of another probe, or of another day
+            before = [r for r in self.inventory.raw_rows("", name) if r.source_path == spec.file]
             source = self.campaign.sources[spec.source]
             if path.is_file() or before:
                 streams[name] = self._file(
                     spec.file, spec.source, source, before, f"calibration {name}", ("", name), gone=not path.is_file()
                 )
             else:
+                near = nearest(path.name, [p.name for p in path.parent.glob("*")] if path.parent.is_dir() else [])
                 self.losses.append(
                     loss_row(
-                        "no such file: the calibration can't be evaluated",
+                        "no such file: the calibration can't be evaluated"
+                        + (f"; did you mean '{near}'?" if near else ""),
                         file=spec.file,
                         test=f"calibration {name}",
                         source=spec.source,

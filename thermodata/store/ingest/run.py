@@ -19,6 +19,7 @@ from thermodata.store.ingest.inventory import BY_TEST, Row, read_inventory
 from thermodata.store.ingest.progress import Progress, TextProgress
 from thermodata.store.ingest.raw_layer import RawIngest, loss_row
 from thermodata.store.ingest.tidy_layer import tidy_tests
+from thermodata.store.ingest.unanswered import unanswered
 from thermodata.store.tidy.calibrations import evaluate
 from thermodata.store.tidy.plan import bind
 
@@ -110,7 +111,7 @@ def _ingest(store: Store, path: Path, watch: Progress) -> IngestSummary:
         made=tidy_layer.new_streams,
         calibrations=[{**r.row(campaign.id), "name": r.name} for r in results.values()],
         losses=raw_layer.losses + tidy_layer.losses + [loss_row(p) for p in problems],
-        notes=list(dict.fromkeys(raw_layer.notes + tidy_layer.notes)),
+        notes=list(dict.fromkeys(unanswered(campaign) + raw_layer.notes + tidy_layer.notes)),
     )
     # what was damaged and is made anew has the same rows: the views must see it all the same
     if nothing_new(planned, inventory) and not tidy_layer.new_streams and not raw_layer.read:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import errno
 import json
 import os
 from collections import Counter
@@ -208,8 +209,9 @@ def _kept_alive(path: Path, size_bytes: int) -> bool:
         return False
     try:
         os.utime(path)  # so that a gc which runs meanwhile sees a young file
-    except OSError:
-        return False
+    except OSError as error:
+        # where nothing can be written, no gc runs either
+        return error.errno in (errno.EROFS, errno.EACCES, errno.EPERM)
     return True
 
 

@@ -77,21 +77,27 @@ def check_store(store: Store, *, repair: bool = False) -> Checked:
 
 
 def _problem(path: Path, rows: int, size_bytes: int | None) -> str | None:
-    import pyarrow as pa
-    import pyarrow.parquet as pq
-
     if not path.exists():
         return "gone"
     if not is_whole(path, size_bytes):
         return "cut, or overwritten"
+    return altered(path, rows)
+
+
+def altered(path: Path, rows: int | None = None) -> str | None:
+    """What is wrong with the pages of a Parquet file, by their checksums; None: nothing. rows: how many it should
+    have."""
+    import pyarrow as pa
+    import pyarrow.parquet as pq
+
     try:
         with pq.ParquetFile(path, page_checksum_verification=True, memory_map=False) as file:
-            if file.metadata.num_rows != rows:
+            if rows is not None and file.metadata.num_rows != rows:
                 return f"{file.metadata.num_rows} rows instead of {rows}"
             for i in range(file.num_row_groups):
                 file.read_row_group(i, use_threads=False)
-    except (OSError, pa.ArrowException) as error:
-        return "altered: " + str(error).splitlines()[0]
+    except (OSError, ValueError, pa.ArrowException) as error:  # a name that is no UTF-8 any more is a ValueError
+        return "altered: " + (str(error).splitlines() or [type(error).__name__])[0]
     return None
 
 

@@ -25,7 +25,8 @@ class Order:
     at, shifts: rows from which on another shift holds, and the shifts that are added to the times, shapes (k,) and
     (k + 1,): the first one holds from row 0. marked: rows whose time was made or at which the clock was set.
     islands: (first, past-the-last) rows of the stretches that are out of order, shape (m, 2): sorting each of them
-    sorts the stream. extent: the earliest and latest time. notes: what was found, in words.
+    sorts the stream. extent: the earliest and latest time. notes: what was found, in words. trusted: whether each row
+    has a time of its own, so that one which is out of order is no doubtful one.
     """
 
     keep: int
@@ -35,6 +36,7 @@ class Order:
     islands: Int1D
     extent: tuple[int, int] = (0, 0)
     notes: tuple[str, ...] = ()
+    trusted: bool = False
 
     def moved(self, t_ns: Int1D, start: int) -> Int1D:
         """Times of the rows from start on, with the shifts."""
@@ -67,6 +69,20 @@ def find_order(times: Times, n: int, *, resets_allowed: bool) -> Order:
         faults.notes(),
     )
     return replace(order, islands=_islands(times, order, faults.lowest))
+
+
+def by_time(times: Times, n: int) -> Order:
+    """The order of n rows whose times are sound, wherever they stand: all are sorted."""
+    lowest, highest = [], np.iinfo(np.int64).min
+    for first in range(0, n, CHUNK_ROWS):
+        t = times(first, min(n, first + CHUNK_ROWS))
+        lowest.append(int(t.min()))
+        highest = max(highest, int(t.max()))
+    order = replace(in_order(n), extent=(min(lowest, default=0), highest if lowest else 0), trusted=True)
+    islands = _islands(times, order, lowest)
+    rows = int((islands[:, 1] - islands[:, 0]).sum())
+    notes = (f"{rows} rows stand out of order: sorted by their times",) if rows else ()
+    return replace(order, islands=islands, notes=notes)
 
 
 def _islands(times: Times, order: Order, lowest: list[int]) -> Int1D:

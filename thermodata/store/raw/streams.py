@@ -12,7 +12,7 @@ from typing import Any
 
 from thermodata.errors import FormatError, PluginError, ThermodataError
 from thermodata.plugin import Loss, Reader, Recording, Scaling, Signal, Source
-from thermodata.reader import registry
+from thermodata.reader import newest_first, registry
 from thermodata.reader.guard import described, guarded
 from thermodata.schema.campaign import SourceSpec
 from thermodata.store.base.files import key_of, safe_name
@@ -27,6 +27,8 @@ class RawStream:
 
     path: relative to the store. columns: signal name -> column of the Parquet file. first_ns, last_ns: the smallest and
     the largest recorded time. ordered: whether no row is earlier than the one before it (None: nobody looked).
+    newest_first: the rows stand from the last to the first; what reads them turns them round.
+    unordered: the reader says that rows need not stand in the order of their times.
     """
 
     key: str
@@ -50,6 +52,8 @@ class RawStream:
     notes: tuple[str, ...] = ()
     losses: tuple[Loss, ...] = field(default=())
     ordered: bool | None = None
+    newest_first: bool = False
+    unordered: bool = False
 
     def to_json(self) -> str:
         """Everything but what the table `file` has columns for."""
@@ -81,6 +85,8 @@ class RawStream:
                 ],
                 # older stores don't have it: their rows must stay as they are
                 **({} if self.ordered is None else {"ordered": self.ordered}),
+                **({"newest_first": True} if self.newest_first else {}),
+                **({"unordered": True} if self.unordered else {}),
             },
             default=_plain,
             sort_keys=True,
@@ -123,6 +129,8 @@ class RawStream:
             tuple(meta["notes"]),
             tuple(Loss(**loss) for loss in json.loads(row["losses"] or "[]")),
             meta.get("ordered"),
+            meta.get("newest_first", False),
+            meta.get("unordered", False),
         )
 
     def losses_json(self) -> str:
@@ -208,7 +216,9 @@ def read_raw(
                             got=item.stream,
                         )
                     target = store / "raw" / f"{key}-{safe_name(item.stream, 40) or 'main'}.parquet"
-                    writers[item.stream] = StreamWriter(target, by_stream[item.stream])
+                    writers[item.stream] = StreamWriter(
+                        target, by_stream[item.stream], unordered=bool(getattr(reader, "unordered", False))
+                    )
                 writers[item.stream].add(item)
         except (ThermodataError, MemoryError, KeyboardInterrupt):
             raise
@@ -274,6 +284,8 @@ def _finish(
         tuple(writer.signals),
         writer.columns,
         tuple(sorted(writer.flagged)),
-        tuple(recording.notes),
+        (*recording.notes, *([newest_first.NOTE] if writer.newest_first else [])),
         ordered=writer.ordered,
+        newest_first=writer.newest_first,
+        unordered=writer.unordered and not writer.ordered,
     )

@@ -11,12 +11,13 @@ import numpy as np
 
 from thermodata.errors import PluginError
 from thermodata.plugin import Array, Block, Int1D, Signal
+from thermodata.reader.newest_first import Steps
 from thermodata.store.base.arrow import to_arrow
 from thermodata.store.base.encoder import Encoder
 from thermodata.store.base.files import publish, temporary
 from thermodata.store.raw.clock_faults import LEAP_NS
 from thermodata.store.raw.columns import RawFile
-from thermodata.store.raw.order import find_order
+from thermodata.store.raw.order import by_time, find_order
 
 if TYPE_CHECKING:
     import pyarrow as pa
@@ -34,12 +35,13 @@ class StreamWriter:
     A column `<signal>__flag` appears with the first block that flags the signal.
     """
 
-    def __init__(self, target: Path, signals: list[Signal]) -> None:
-        self.target, self.signals = target, signals
+    def __init__(self, target: Path, signals: list[Signal], *, unordered: bool = False) -> None:
+        self.target, self.signals, self.unordered = target, signals, unordered
         self.columns = _column_names(signals)
         self.flagged: set[str] = set()
         self.rows, self.first_ns, self.last_ns, self.step_ns = 0, 0, 0, 0
         self.ordered = True
+        self._clock = Steps()
         self._group_rows = group_rows(len(signals) + 1)
         self._waiting: list[Block] = []
         self._waiting_rows = 0
@@ -57,6 +59,7 @@ class StreamWriter:
             self.ordered = self._goes_on(block.t_ns)
             self.first_ns = self.first_ns if self.rows else int(block.t_ns[0])
             self.last_ns = int(block.t_ns[-1])
+        self._clock.add(block.t_ns)
         if n > 1 and len(self._steps) < 64:
             self._steps.append(int(np.median(np.diff(block.t_ns[:4096]))))
         self.rows += n
@@ -66,6 +69,11 @@ class StreamWriter:
             self._waiting_rows += len(part.t_ns)
             if self._waiting_rows >= self._group_rows:
                 self._flush()
+
+    @property
+    def newest_first(self) -> bool:
+        """Whether the rows stand in the file from the last to the first."""
+        return not self.ordered and not self.unordered and self._clock.newest_first
 
     def _goes_on(self, t_ns: Int1D) -> bool:
         """Whether a block's times rise, from where the last one ended, and not by a year at once."""
@@ -79,13 +87,28 @@ class StreamWriter:
     def finish(self, meta: Mapping[str, Any]) -> None:
         """Writes what waits and makes the file appear."""
         self._flush()
-        self.step_ns = int(np.median(self._steps)) if self._steps else 0
+        self.step_ns = abs(int(np.median(self._steps))) if self._steps else 0
         assert self._encoder is not None
         self._encoder.close({"thermodata": json.dumps(dict(meta))})
         if not self.ordered:
-            self.first_ns, self.last_ns = _extent(self._encoder.part, self.rows)
+            self.first_ns, self.last_ns = self._extent(self._encoder.part)
         publish(self._encoder.part, self.target)
         self._encoder = None
+
+    def _extent(self, path: Path) -> tuple[int, int]:
+        """Where a recording begins and ends whose clock has faults: up to a reset, for what follows may mean
+        anything."""
+        file, n = RawFile(path), self.rows
+
+        def times(a: int, b: int) -> Int1D:
+            first, last = (n - b, n - a) if self.newest_first else (a, b)
+            t_ns: Int1D = file.read(["t_ns"], first, last)[0]
+            return t_ns[::-1] if self.newest_first else t_ns
+
+        try:
+            return (by_time(times, n) if self.unordered else find_order(times, n, resets_allowed=False)).extent
+        finally:
+            file.close()
 
     def discard(self) -> None:
         """Drops an unfinished file; nothing where it is finished."""
@@ -132,15 +155,6 @@ class StreamWriter:
             if signal.name in self.flagged:
                 arrays.append(_chunked([_flags(b, signal.name) for b in blocks], blocks, pa.uint16()))
         return pa.Table.from_arrays(arrays, schema=schema)
-
-
-def _extent(path: Path, rows: int) -> tuple[int, int]:
-    """Where a recording begins and ends whose clock has faults: up to a reset, for what follows may mean anything."""
-    file = RawFile(path)
-    try:
-        return find_order(lambda a, b: file.read(["t_ns"], a, b)[0], rows, resets_allowed=False).extent
-    finally:
-        file.close()
 
 
 def _chunked(parts: list[Array | None], blocks: list[Block], kind: pa.DataType) -> pa.ChunkedArray:

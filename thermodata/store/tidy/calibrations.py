@@ -49,6 +49,13 @@ def evaluate(
                 problems.append(f"calibration '{name}': " + "; ".join(str(error).splitlines()))
                 continue
             results[name] = evaluate_jump(name, spec, t_ns, volts, others, unit=unit)
+            beside = results[name].detail["steps_beside"]
+            if beside:
+                many = len(spec.moves)
+                problems.append(
+                    f"calibration '{name}': {beside} more steps as large as the {many} commanded moves stand in "
+                    f"'{spec.signal}' of {spec.file}; which of them the moves are is a guess: write all moves"
+                )
         elif isinstance(spec, LinearCalibration):
             results[name] = evaluate_linear(name, spec, _unit_of(campaign, name))
         else:

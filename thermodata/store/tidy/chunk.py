@@ -12,6 +12,8 @@ import numpy as np
 from thermodata.calibration.result import CalibrationResult
 from thermodata.errors import ThermodataError, UsageError
 from thermodata.plugin import Array, Int1D
+from thermodata.reader.text.number import is_empty, is_overload
+from thermodata.schema.flag import Flag
 from thermodata.schema.quantity import canonical
 from thermodata.store.tidy import derive
 from thermodata.store.tidy.plan import Bound, TestPlan
@@ -90,6 +92,10 @@ class Chunk:
                 self._kept[bound.name] = self._measured(bound, bound.signal.name)
         return self._kept[bound.name]
 
+    def raw(self, signal: str) -> Array | None:
+        """A signal as the raw layer has it; None where no file does."""
+        return self._raw.get(signal)
+
     def _measured(self, bound: Bound, signal: str) -> tuple[Array, Array]:
         if signal not in self._asked:
             return Chunk(self.series, self.member, self.start, self.stop, [bound]).values(bound)
@@ -103,6 +109,10 @@ class Chunk:
         from_reader = self._flags.get(signal)
         if from_reader is not None:
             flags = flags | from_reader.astype(np.uint16)
+            if raw.dtype.kind in "iub" and not bound.is_text:
+                # integers and truth values have no NaN: where the file said nothing, the raw layer holds a 0
+                nothing = (from_reader.astype(np.uint16) & np.uint16(Flag.NOT_MEASURING)) != 0
+                values = np.where(nothing & (raw == 0), np.nan, values)
         if self._clock is not None:
             flags = flags | self._clock
         return values, flags
@@ -166,4 +176,17 @@ def calibrated(chunk: Chunk, bounds: Sequence[Bound], problems: list[str], pool:
             problems.append(answer)
         else:
             columns[bound.name] = answer
+            if bound.signal is not None and bound.signal.dtype == "str" and not bound.is_text:
+                _say_words(chunk.raw(bound.signal.name), answer, problems)
     return columns
+
+
+def _say_words(raw: Array | None, column: Column, problems: list[str]) -> None:
+    """A problem where texts are no numbers: once a channel."""
+    said = f"channel '{column.bound.name}': text where numbers are expected"
+    if raw is None or any(p.startswith(said) for p in problems):
+        return
+    lost = [str(raw[i]) for i in np.flatnonzero(np.isnan(column.values)).tolist() if raw[i] is not None]
+    word = next((w for w in lost if not is_empty(w) and not is_overload(w)), None)
+    if word is not None:
+        problems.append(f"{said}, such as '{word[:40]}': what is no number is left without a value")

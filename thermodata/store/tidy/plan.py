@@ -123,12 +123,35 @@ def bind(plan: TestPlan) -> None:
             except UsageError as error:
                 plan.problems.append(f"channel '{name}': " + "; ".join(str(error).splitlines()))
                 continue
+            problem = _unit_problem(channel, unit, signal, [r for r in source.raws if r.stream == raw.stream])
+            if problem is not None:
+                plan.problems.append(f"channel '{name}': {problem}; it is left without values")
+                continue
             plan.bound[name] = Bound(name, channel, source.name, raw.stream, signal, channel.unit or unit)
     for name, channel in channels.items():
         if channel.derive is not None:
             _bind_derived(plan, channels, name, channel, ())
     order = list(plan.campaign.channels)
     plan.bound = {n: plan.bound[n] for n in sorted(plan.bound, key=order.index)}
+
+
+def _unit_problem(channel: Channel, unit: str | None, signal: Signal, raws: Iterable[RawStream]) -> str | None:
+    """Why a channel has no one unit: its files differ, or the campaign file contradicts them."""
+    from thermodata.calibration.channel import same_unit, unit_contradiction
+
+    said: dict[str, str] = {}
+    for raw in raws:
+        for other in raw.signals:
+            if other.name == signal.name and (written := other.unit or split_unit(other.name)[1]):
+                said.setdefault(written, raw.source_path)
+    first = next(iter(said), None)
+    for written, path in said.items():
+        if first is not None and not same_unit(first, written):
+            return (
+                f"'{first}' in {said[first]}, and '{written}' in {path}; try: a source of its own for files of "
+                "another unit"
+            )
+    return unit_contradiction(channel, unit)
 
 
 def operands(expression: str, names: Iterable[str]) -> list[str]:

@@ -12,7 +12,7 @@ import numpy as np
 from thermodata.plugin import Array, Int1D, Loss
 from thermodata.schema.flag import Flag
 from thermodata.store.raw.columns import RawFiles
-from thermodata.store.raw.order import Order, find_order, in_order
+from thermodata.store.raw.order import Order, by_time, find_order, in_order
 from thermodata.store.raw.streams import RawStream
 
 _IN_MEMORY = 1_000_000  # rows: so many times are kept [8 MB]; of longer streams they are read again
@@ -72,7 +72,7 @@ class Timeline:
             return whole_clock
         t = self._file_times(low, high)
         late = np.zeros(high - low, dtype=bool)
-        for a, b in self._islands_in(low, high):
+        for a, b in [] if self.order.trusted else self._islands_in(low, high):
             part = t[a - low : b - low]
             late[a - low : b - low] = part < np.maximum.accumulate(part)
         late[self._marked_in(low, high) - low] = True
@@ -96,7 +96,8 @@ class Timeline:
         for rows in groups[:_MOST_STRETCHES]:
             t = self._file_times(int(rows[0]), int(rows[-1]) + 1)
             stretches.append((int(t.min()), int(t.max()), len(rows), "; ".join(self.order.notes)))
-        for a, b in self.order.islands[: _MOST_STRETCHES - len(stretches)].tolist():
+        unsorted = [] if self.order.trusted else self.order.islands.tolist()
+        for a, b in unsorted[: _MOST_STRETCHES - len(stretches)]:
             t = self._file_times(a, b)
             late = int(np.count_nonzero(t < np.maximum.accumulate(t)))
             stretches.append((int(t.min()), int(t.max()), late, "rows out of order, sorted"))
@@ -129,7 +130,7 @@ class Timeline:
         low, _, order = self._window(row, row + 1)
         at = row if order is None else low + int(order[row - low])
         raw, file_row, _ = next(iter(self._within(at, at + 1)))
-        return raw, file_row
+        return raw, raw.rows - 1 - file_row if raw.newest_first else file_row
 
     def flagged(self, signals: Iterable[str]) -> bool:
         """Whether a reader flagged any row of these signals."""
@@ -145,10 +146,14 @@ class Timeline:
 
     def _read(self, raw: RawStream, columns: Sequence[str], start: int, stop: int) -> list[Array]:
         assert self.store is not None
-        return self._files.get(self.store / raw.path).read(columns, start, stop)
+        file = self._files.get(self.store / raw.path)
+        if raw.newest_first:
+            return [a[::-1] for a in file.read(columns, raw.rows - stop, raw.rows - start)]
+        return file.read(columns, start, stop)
 
     def _within(self, start: int, stop: int) -> Iterable[tuple[RawStream, int, int]]:
-        """(raw, its rows a to b) that make up rows start to stop in file order."""
+        """(raw, its rows a to b) that make up rows start to stop in file order; of a file that stands newest first
+        they are counted from its end."""
         at = 0
         for raw, _ in self.raws:
             a, b = max(start - at, 0), min(stop - at, raw.rows)
@@ -222,7 +227,10 @@ def make_timeline(
     line = Timeline(n, store, tuple(raws), correct, in_order(n), suspect, (), tuple(notes))
     if _known_ordered(raws):
         return line
-    order = find_order(line._file_times, n, resets_allowed=resets_allowed)
+    if all(raw.unordered or raw.ordered for raw, _ in raws) and any(raw.unordered for raw, _ in raws):
+        order = by_time(line._file_times, n)
+    else:
+        order = find_order(line._file_times, n, resets_allowed=resets_allowed)
     if order.keep < n:
         line.losses = (_lost(line, order.keep, n),)
     line.notes += order.notes

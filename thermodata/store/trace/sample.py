@@ -25,6 +25,9 @@ Answer = dict[str, Any]
 Again = Callable[[RawStream, int, str, str], Answer]
 
 
+_NEAR_S, _NEAR = 1.0, 0.05  # a time that was rounded lies no farther beyond the test [s], [of its length]
+
+
 def find_sample(
     con: duckdb.DuckDBPyConnection,
     store: Path,
@@ -93,6 +96,17 @@ def _tidy_row(
             }
     if best is None:
         raise UsageError(f"channel '{name}' has no samples in test '{test}'")
+    (known,) = fetch(con, "select duration_s from test where campaign = ? and test = ?", [campaign, test])
+    end_s = max(float(known["duration_s"] or 0.0), best["t_s"])
+    near_s = max(_NEAR_S, _NEAR * end_s)
+    if t_s > end_s + near_s or t_s < min(best["t_s"], 0.0) - near_s:
+        raise UsageError(
+            f"test '{test}' has no sample at {t_s:g} s",
+            where=f"channel {name}",
+            expected=f"a time from {min(best['t_s'], 0.0):g} s to {end_s:g} s ({end_s / 3600:.4g} h)",
+            got=f"{t_s:g} s ({t_s / 3600:.4g} h)",
+            hint=f"its nearest sample is at {best['t_s']:g} s",
+        )
     return best
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 
+from thermodata.schema.flag import INVALID
 from thermodata.store.base.connection import literal, quoted
 from thermodata.store.views.catalogue import RESPONSES, Catalogue, Column, Group
 from thermodata.store.views.dispatch import dispatcher, files_call, from_files, known_call, refuse
@@ -31,14 +32,18 @@ VIEWS: dict[str, Callable[[Column], bool]] = {
 
 
 def long_views(catalogue: Catalogue) -> Iterator[str]:
-    """The statements that make `sample` and its selections by quantity."""
+    """The statements that make `sample`, of all samples, and its selections by quantity, of the valid ones: a mean or
+    an extreme over them is one of measurements, not of defects."""
     for name, wanted in VIEWS.items():
         parts = [
             _unpivoted(g, columns)
             for g in catalogue.groups
             if (columns := [c for c in g.columns if not c.text and wanted(c)])
         ]
-        yield f"create view {name} as {' union all '.join(parts) or _EMPTY}"
+        text = " union all ".join(parts)
+        if text and name != "sample":
+            text = f"select * from ({text}) where value is not null and coalesce(flag, 0) & {int(INVALID)} = 0"
+        yield f"create view {name} as {text or _EMPTY}"
         for column, comment in _COMMENTS.items():
             yield f"comment on column {name}.{column} is {literal(comment)}"
 

@@ -14,6 +14,7 @@ class Reader:
     """JSON messages through Arrow; ROS 2 (cdr) and protobuf where their packages are installed."""
 
     name = "mcap"
+    unordered = True  # several writers put their messages into one file, each when it comes to it
     formats = ("MCAP with JSON, protobuf, ROS 2 (ros2msg, ros2idl) or ROS 1 messages",)
 
     def sniff(self, head: Head) -> str | None:

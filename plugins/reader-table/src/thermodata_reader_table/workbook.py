@@ -7,16 +7,18 @@ signals are `sheet/name`.
 from __future__ import annotations
 
 import datetime as dt
-from collections.abc import Iterator
+from collections import Counter
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any, Literal
 
 import numpy as np
 
 from thermodata.errors import FormatError, QuestionError, ThermodataError, UsageError
-from thermodata.plugin import Array, Block, Bool1D, Int1D, Loss, Recording, Signal, Source
+from thermodata.plugin import Array, Block, Bool1D, Int1D, Loss, Recording, Scaling, Signal, Source
 from thermodata.reader.text.cell import is_empty
 from thermodata.reader.text.layout import STREAM, Group, Layout, find, one_clock
 from thermodata.reader.text.number import clean, decimal_mark, values_of
@@ -31,6 +33,7 @@ from thermodata.reader.time_units import SECONDS, to_ns
 from thermodata.reader.zone import NAT
 from thermodata.schema.flag import Flag
 from thermodata_reader_table.workbook_check import check_size
+from thermodata_reader_table.workbook_percent import percent_columns
 
 _BLOCK_VALUES = 1_000_000
 _SMALL = 8_000_000
@@ -38,10 +41,12 @@ _SMALL = 8_000_000
 
 @dataclass(frozen=True)
 class Book:
-    """sheets: name -> rows, of those that are wanted and hold some. odd: what check_size() counted."""
+    """sheets: name -> rows, of those that are wanted and hold some. odd: what check_size() counted. percent: sheet ->
+    column -> numbers that are shown in per cent."""
 
     sheets: dict[str, list[list[Any]]]
     odd: dict[str, int]
+    percent: dict[str, Counter[int]]
 
 
 def _book(path: Path, source: Source) -> Book:
@@ -91,7 +96,7 @@ def _load(name: str, mtime_ns: int, size: int, wanted: int | str | None) -> Book
             where=path.name,
             expected="a table",
         )
-    return Book(sheets, odd)
+    return Book(sheets, odd, percent_columns(path))
 
 
 _kept = lru_cache(maxsize=1)(_load)
@@ -100,7 +105,8 @@ _kept = lru_cache(maxsize=1)(_load)
 @dataclass
 class Stream:
     """Columns with one time, in memory. names: as the recording has them; at: the sheet's row of each, shape (n,);
-    over: rows of a column whose cells say overload; sheet: where it stands."""
+    over: rows of a column whose cells say overload; sheet: where it stands; percent: columns that hold a fraction and
+    show it in per cent."""
 
     name: str
     times: Stamps
@@ -109,12 +115,22 @@ class Stream:
     at: Int1D
     over: dict[str, Bool1D]
     sheet: str
+    percent: frozenset[str]
 
 
 class Table:
-    """A sheet, column by column. decimal: of numbers that stand as text."""
+    """A sheet, column by column. decimal: of numbers that stand as text. percent: column -> numbers in per cent."""
 
-    def __init__(self, sheet: str, rows: list[list[Any]], layout: Layout, where: str, source: Source) -> None:
+    def __init__(
+        self,
+        sheet: str,
+        rows: list[list[Any]],
+        layout: Layout,
+        where: str,
+        source: Source,
+        percent: Mapping[int, int] = MappingProxyType({}),
+    ) -> None:
+        self.percent = percent
         self.sheet, self.layout, self.where, self.source = sheet, layout, where, source
         self.notes = list(layout.notes)
         self.losses: list[Loss] = []
@@ -142,14 +158,36 @@ class Table:
                     bool,
                 )
             values, units, over = dict[str, Array](), dict[str, str | None](), dict[str, Bool1D]()
+            percent: set[str] = set()
             for i in group.columns:
                 column, unit, beyond = self._values(self.layout.names[i], self.columns[i])
                 values[before + self.layout.names[i]] = column[keep]
                 units[before + self.layout.names[i]] = self.layout.units[i] or unit
+                if self._in_percent(i):
+                    units[before + self.layout.names[i]] = "%"
+                    percent.add(before + self.layout.names[i])
                 if beyond.any():
                     over[before + self.layout.names[i]] = beyond[keep]
             at = np.flatnonzero(keep).astype(np.int64) + self.layout.first + 1
-            yield Stream(name, Stamps(times.t_ns[keep], times.absolute, ()), values, units, at, over, self.sheet)
+            stamps = Stamps(times.t_ns[keep], times.absolute, ())
+            yield Stream(name, stamps, values, units, at, over, self.sheet, frozenset(percent))
+
+    def _in_percent(self, column: int) -> bool:
+        """Whether a column is shown in per cent, and its header does not say that it is a fraction. FormatError where
+        some of its numbers are and others are not."""
+        shown = self.percent.get(column, 0)
+        if not shown or self.layout.units[column] not in (None, "%"):
+            return False
+        numbers = sum(isinstance(c, int | float) and not isinstance(c, bool) for c in self.columns[column])
+        if shown < numbers:
+            raise FormatError(
+                f"column '{self.layout.names[column]}' mixes numbers in per cent with others",
+                where=self.where,
+                expected="one format of its cells",
+                got=f"{shown} of {numbers} in per cent",
+                hint="give all of its cells one format in the workbook",
+            )
+        return True
 
     def _times(self, group: Group) -> Stamps:
         if group.counted:
@@ -268,7 +306,12 @@ def read(path: Path, source: Source) -> Read:
     groups: list[Group] = []
     for sheet, layout in tables.items():
         table = Table(
-            sheet, book.sheets[sheet], layout, f"{path.name} sheet '{sheet}'" if several else path.name, source
+            sheet,
+            book.sheets[sheet],
+            layout,
+            f"{path.name} sheet '{sheet}'" if several else path.name,
+            source,
+            book.percent.get(sheet, {}),
         )
         streams += list(table.streams(sheet if several else None))
         notes += [f"sheet '{sheet}': {note}" for note in table.notes] if several else table.notes
@@ -288,7 +331,13 @@ def read(path: Path, source: Source) -> Read:
 def describe(path: Path, source: Source) -> Recording:
     found = read(path, source)
     signals = tuple(
-        Signal(name, s.name, s.units[name], "str" if v.dtype == object else "float64")
+        Signal(
+            name,
+            s.name,
+            s.units[name],
+            "str" if v.dtype == object else "float64",
+            Scaling("linear", {"gain": 100.0, "offset": 0.0}) if name in s.percent else None,
+        )
         for s in found.streams
         for name, v in s.values.items()
     )

@@ -27,7 +27,7 @@ _ROW = re.compile(rb"""<(?:\w+:)?row\s[^>]*?\br\s*=\s*["']\s*(\d+)""")
 _ODD = {
     "hold an error such as #N/A": re.compile(rb'<(?:\w+:)?c [^>]*?t="e"'),
     "hold a formula without its value (open the workbook once in a spreadsheet and save it)": re.compile(
-        rb"(?:</(?:\w+:)?f>|<(?:\w+:)?f [^>]*/>)</(?:\w+:)?c>"
+        rb"(?:</(?:\w+:)?f>|<(?:\w+:)?f [^>]*/>)\s*(?:<(?:\w+:)?v\s*/>|<(?:\w+:)?v>\s*</(?:\w+:)?v>)?\s*</(?:\w+:)?c>"
     ),
     "hidden": re.compile(rb'<(?:\w+:)?row [^>]*?hidden="(?:1|true)"'),
 }

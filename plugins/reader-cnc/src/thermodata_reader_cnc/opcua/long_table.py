@@ -7,7 +7,7 @@ Where the table is sorted by tag, each tag is a stream of its own, for there is 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
 from pathlib import Path
@@ -19,6 +19,7 @@ from thermodata.reader.text.delimiter import fields
 from thermodata.reader.text.grid import BadLine, Grid
 from thermodata.reader.text.lines import ODD, chunks, from_line, sample, split_last_line
 from thermodata.reader.text.locate import line_of, lines_of
+from thermodata.reader.text.long_rows import NAME_WORDS, VALUE_WORDS
 from thermodata.reader.text.losses import NAMED
 from thermodata.reader.text.number import clean, to_float
 from thermodata.reader.text.rows import parse
@@ -45,9 +46,13 @@ _TIMES = (
     "servertime",
     "time",
     "receivedat",
+    "zeitstempel",
+    "zeit",
+    "čas",
 )
-_TAGS = ("tagname", "varname", "nodeid", "node", "displayname", "browsename", "tag", "itemid", "name")
-_VALUES = ("tagval", "tagvalue", "varvalue", "value")
+_TAGS = ("tagname", "varname", "nodeid", "node", "displayname", "browsename", "tag", "itemid", *NAME_WORDS)
+_VALUES = ("tagval", "tagvalue", "varvalue", *VALUE_WORDS)
+_UNITS = ("unit", "units", "einheit", "jednotka", "engineeringunits")
 _STATUS = ("statusname", "statustext", "tagquality", "quality", "statuscode", "status", "validity")
 
 
@@ -64,6 +69,7 @@ class Layout:
     status: int | None
     form: TimeFormat
     zero_good: bool
+    unit: int | None = None
 
     @property
     def grid(self) -> Grid:
@@ -96,7 +102,8 @@ def find_layout(lines: Sequence[str], where: str) -> Layout | None:
             if form.role != "datetime":
                 continue
             zero = status is None or zero_is_good((cells[status] for cells in body), names[status])
-            return Layout(delimiter, row, len(names), times, tag, value, status, form, zero)
+            unit = next((names.index(n) for n in _UNITS if n in names), None)
+            return Layout(delimiter, row, len(names), times, tag, value, status, form, zero, unit)
     return None
 
 
@@ -170,6 +177,7 @@ class _Look:
     by_tag: bool
     whole: bool
     notes: tuple[str, ...]
+    units: Mapping[str, str]
 
 
 def _look(path: Path, source: Source) -> _Look:
@@ -201,14 +209,42 @@ def _look(path: Path, source: Source) -> _Look:
     notes = [first.note] if first.note else []
     notes += ["sorted by tag: each tag is a stream"] if by_tag else []
     return _Look(
-        layout, replace(plan, apart=plan.apart or by_tag), first.encoding, by_tag, first.ends_with_newline, tuple(notes)
+        layout,
+        replace(plan, apart=plan.apart or by_tag),
+        first.encoding,
+        by_tag,
+        first.ends_with_newline,
+        tuple(notes),
+        _units(layout, (*lines[layout.row + 1 :], *first.rest), path.name),
     )
+
+
+def _units(layout: Layout, lines: Sequence[str], where: str) -> dict[str, str]:
+    """The unit of each tag, where rows name one; FormatError where a tag has several."""
+    units: dict[str, str] = {}
+    if layout.unit is None or layout.tag is None:
+        return units
+    for line in lines:
+        cells = [clean(c) for c in fields(line, layout.delimiter)]
+        if len(cells) != layout.width or not cells[layout.unit]:
+            continue
+        tag, unit = cells[layout.tag], cells[layout.unit]
+        if units.setdefault(tag, unit) != unit:
+            raise FormatError(
+                f"'{tag}' has several units",
+                where=where,
+                expected="one",
+                got=f"{units[tag]} and {unit}",
+                hint="give the values of each unit a name of their own",
+            )
+    return units
 
 
 def describe(path: Path, source: Source) -> Recording:
     """Tags and the first time of a log, by samples of it."""
     look = _look(path, source)
-    return events.recording(look.plan, source, complete=None if look.whole else False, notes=look.notes)
+    found = events.recording(look.plan, source, complete=None if look.whole else False, notes=look.notes)
+    return replace(found, signals=tuple(replace(s, unit=look.units.get(s.name, s.unit)) for s in found.signals))
 
 
 def blocks(path: Path, source: Source) -> Iterator[Block | Loss]:

@@ -15,19 +15,24 @@ from thermodata.plugin import Float2D, Head
 from thermodata.reader.text.encoding import decode_head
 from thermodata.reader.text.header import looks_like_unit, split_unit
 from thermodata.reader.text.number import clean, decimal_mark, is_empty, is_overload, to_bool, to_float
+from thermodata.reader.text.time_columns import is_time_header, unit_of_time
+from thermodata.reader.time_units import SECONDS
 from thermodata_reader_crio.labview_clock import LABVIEW_SECONDS
+from thermodata_reader_crio.labview_text.wanted import Wanted, may_be_time
 
 _MOST_HEADER = 30
 _MAY_BE_1904 = re.compile(rb"[234]\x00?(?:\d\x00?){9}|\d\x00?[eE]")  # UTF-16 has zeros between
 _MOST_ROWS = 500
 _FEWEST_ROWS = 3
+_EVEN = 1.1  # the longest step of a clock by its shortest, where nothing else tells that it is one
+_TIME_WORDS = re.compile(r"(?i)^(x[_ ]?values?|seconds|sekunden|sec|s)$")
 
 
 @dataclass(frozen=True)
 class Layout:
     """first: lines before the first row; header: these lines, stripped; time: its column (0 where there is none);
-    values: the other columns; text: name of a last column of free text, or None; doubtful: numbers of lines before the
-    first row that hold numbers themselves, so may be damaged rows."""
+    seconds: in one unit of the time; values: the other columns; text: name of a last column of free text, or None;
+    doubtful: numbers of lines before the first row that hold numbers themselves, so may be damaged rows."""
 
     delimiter: str
     decimal: str
@@ -39,6 +44,7 @@ class Layout:
     time: int
     text: str | None
     doubtful: tuple[int, ...] = ()
+    seconds: float = 1.0
 
     @property
     def values(self) -> list[int]:
@@ -60,7 +66,7 @@ def claims(head: Head) -> str | None:
     if head.size_bytes > len(start) and len(lines) > 1:
         lines.pop()
     try:
-        layout = find_layout(lines, head.name, None)
+        layout = find_layout(lines, head.name, Wanted(sure=False))
     except FormatError:
         return None
     if layout.clock == "1904" and not layout.units[layout.time] and (layout.delimiter == "\t" or not layout.header):
@@ -77,9 +83,9 @@ def _lines(text: str) -> list[str]:
     return [line.rstrip("\r") for line in text.split("\n")] if "\n" in text else text.split("\r")
 
 
-def find_layout(lines: Sequence[str], name: str, wanted: Any) -> Layout:
-    """The layout by a file's first lines. wanted: the time column as declared (name, or number from 1). FormatError
-    where they are no rows of numbers."""
+def find_layout(lines: Sequence[str], name: str, wanted: Wanted) -> Layout:
+    """The layout by a file's first lines. FormatError where they are no rows of numbers, QuestionError where
+    nothing tells whether a column is the time."""
     lines = lines[: _MOST_HEADER + _MOST_ROWS]
     for delimiter in ("\t", ";", ",", " "):
         found = _rows(lines, delimiter)
@@ -143,7 +149,7 @@ def _rows(lines: Sequence[str], delimiter: str) -> tuple[int, int, str, bool] | 
 
 
 def _made(
-    lines: Sequence[str], delimiter: str, first: int, columns: int, decimal: str, text: bool, name: str, wanted: Any
+    lines: Sequence[str], delimiter: str, first: int, columns: int, decimal: str, text: bool, name: str, wanted: Wanted
 ) -> Layout:
     heads = [row for line in lines[:first] if len(row := _split(line, delimiter)) >= columns and any(row)]
     units_row = len(heads) > 1 and _is_units(heads[-1])
@@ -163,7 +169,7 @@ def _made(
         ],
         np.float64,
     )
-    clock, time = _clock(values, names, wanted, name)
+    clock, time, seconds = _clock(values, names, units, wanted, name, bool(heads))
     free = None
     if text:
         title = titles[columns] if columns < len(titles) and titles[columns] else "Comment"
@@ -174,7 +180,7 @@ def _made(
         for i, line in enumerate(lines[:first])
         if "\0" in line or any(to_float(c, decimal) is not None for c in _split(line, delimiter)[1:])
     )
-    return Layout(delimiter, decimal, first, header, _unique(names), tuple(units), clock, time, free, doubtful)
+    return Layout(delimiter, decimal, first, header, _unique(names), tuple(units), clock, time, free, doubtful, seconds)
 
 
 def _is_units(row: list[str]) -> bool:
@@ -182,22 +188,52 @@ def _is_units(row: list[str]) -> bool:
     return bool(filled) and sum(looks_like_unit(c) for c in filled) >= max(1, len(filled) - 1)
 
 
-def _clock(values: Float2D, names: list[str], wanted: Any, name: str) -> tuple[Literal["1904", "seconds", "none"], int]:
-    """Which column is the time, and what it counts in."""
-    if wanted is not None:
-        if wanted in names:
-            at = names.index(wanted)
-        elif isinstance(wanted, int) and 1 <= wanted <= len(names):
-            at = wanted - 1
-        else:
-            raise FormatError(f"no column '{wanted}' for the time", where=name, expected=", ".join(names))
-        return ("1904" if _since_1904(values[:, at]) else "seconds"), at
+def _clock(
+    values: Float2D, names: list[str], units: list[str | None], wanted: Wanted, where: str, named: bool
+) -> tuple[Literal["1904", "seconds", "none"], int, float]:
+    """(what the time counts in, its column, seconds in one unit): as declared, by its size, by its header; rows
+    without names by even steps."""
+
+    def counting(at: int) -> tuple[Literal["1904", "seconds"], int, float]:
+        unit = wanted.unit or unit_of_time(names[at], units[at])
+        if unit in (None, "s") and _since_1904(values[:, at]):
+            return "1904", at, 1.0
+        return "seconds", at, SECONDS.get(unit or "s", 1.0)
+
+    if wanted.column is not None:
+        if wanted.column in names:
+            return counting(names.index(wanted.column))
+        if isinstance(wanted.column, int) and 1 <= wanted.column <= len(names):
+            return counting(wanted.column - 1)
+        raise FormatError(f"no column '{wanted.column}' for the time", where=where, expected=", ".join(names))
+    if wanted.period_s is not None:
+        return "none", 0, 1.0
     for at in (0, values.shape[1] - 1):
         if _since_1904(values[:, at]):
-            return "1904", at
-    first = values[:, 0]
-    rising = first.size > 1 and bool(np.isfinite(first).all()) and bool((np.diff(first) > 0).all())
-    return ("seconds", 0) if rising else ("none", 0)
+            return "1904", at, 1.0
+    called = [i for i in range(len(names)) if is_time_header(names[i], units[i]) or _TIME_WORDS.match(names[i])]
+    called = [i for i in called if _moves(values[:, i])]
+    if called and named:
+        return counting(called[0])
+    if not _rises(values[:, 0]):
+        return "none", 0, 1.0
+    steps = np.diff(values[:, 0])
+    if not named and steps.max() <= _EVEN * steps.min():
+        return counting(0)
+    if wanted.sure:
+        raise may_be_time(names[0], values[:, 0], where)
+    return "none", 0, 1.0
+
+
+def _moves(column: Any) -> bool:
+    """Whether a column that is called a time may be one."""
+    full = column[np.isfinite(column)]
+    steps = np.diff(full)
+    return bool(full.size > 0.6 * column.size and steps.size and max((steps >= 0).mean(), (steps <= 0).mean()) > 0.9)
+
+
+def _rises(column: Any) -> bool:
+    return column.size > 1 and bool(np.isfinite(column).all()) and bool((np.diff(column) > 0).all())
 
 
 def _since_1904(column: Any) -> bool:

@@ -14,10 +14,10 @@ from thermodata.reader.text.grid import Grid, Rows
 from thermodata.reader.text.lines import ODD, Chunk, chunks, sample, without_cut_line
 from thermodata.reader.text.rows import parse
 from thermodata.schema.flag import Flag
-from thermodata.schema.quantity import value_in
 from thermodata_reader_crio.comments import flags_of, is_odd, texts
 from thermodata_reader_crio.labview_clock import EPOCH_1904_NS, step_ns
 from thermodata_reader_crio.labview_text.layout import Layout, find_layout
+from thermodata_reader_crio.labview_text.wanted import Wanted, no_time, wanted_of
 from thermodata_reader_crio.row_times import counted_ns, seconds_ns
 
 STREAM = "data"
@@ -25,15 +25,18 @@ STREAM = "data"
 
 def describe(path: Path, source: Source) -> Recording:
     """Columns, clock and start of a file, by its first lines."""
-    layout, _, notes = _layout(path, source)
+    wanted = wanted_of(source, path.name)
+    layout, _, notes = _layout(path, source, wanted)
     if not layout.header:
         notes.append("no line of names: columns are numbered")
     if layout.clock == "1904":
         notes.append(f"'{layout.names[layout.time]}' is taken as seconds since 1904 UTC, as LabVIEW counts")
     elif layout.clock == "seconds":
-        notes.append(f"'{layout.names[layout.time]}' rises from row to row: taken as seconds from a start")
-    elif source.options.get("increment") is None:
-        notes.append("no time column: rows are counted as 1 s each; declare options: {increment: 0.1 s}, or {time: 1}")
+        how = "seconds" if layout.seconds == 1 else f"counts of {layout.seconds:g} s"
+        if wanted.unit is None:
+            notes.append(f"'{layout.names[layout.time]}' is taken as {how} from a start")
+    elif wanted.period_s is None:
+        raise no_time(layout.names, path.name)
     signals = [Signal(layout.names[i], STREAM, layout.units[i]) for i in layout.values]
     if layout.text:
         signals.append(Signal(layout.text, STREAM, None, "str"))
@@ -44,46 +47,46 @@ def describe(path: Path, source: Source) -> Recording:
     return Recording(tuple(signals), "absolute" if layout.clock == "1904" else "relative", start, None, tuple(notes))
 
 
-def _layout(path: Path, source: Source) -> tuple[Layout, str, list[str]]:
+def _layout(path: Path, source: Source, wanted: Wanted) -> tuple[Layout, str, list[str]]:
     first = sample(path, source.encoding)
     # a last line without its end may be half a row: it decides nothing
     head = first.head[:-1] if first.whole and not first.ends_with_newline else first.head
     if not head:
         raise FormatError("no whole line", where=path.name, expected="rows of numbers", got="no line that ends")
-    return find_layout(head, path.name, source.options.get("time")), first.encoding, [first.note] if first.note else []
+    return find_layout(head, path.name, wanted), first.encoding, [first.note] if first.note else []
 
 
 def blocks(path: Path, source: Source) -> Iterator[Block | Loss]:
     """The rows, each with its line, and a loss for what does not read."""
-    layout, encoding, _ = _layout(path, source)
+    wanted = wanted_of(source, path.name)
+    layout, encoding, _ = _layout(path, source, wanted)
     if layout.doubtful:
         yield Loss(
             f"{path.name} line {layout.doubtful[0]}",
             reason=f"{len(layout.doubtful)} lines before the first "
             "row that hold numbers: damaged rows, or a header of another kind",
         )
-    rows = _RowReader(path.name, layout, source)
+    rows = _RowReader(path.name, layout, source, 1.0 if wanted.period_s is None else wanted.period_s)
     for chunk in chunks(path, encoding):
         yield from rows.items(chunk)
 
 
 @dataclass
 class _RowReader:
-    """Chunk by chunk. done: rows so far; last_ns: time of the last."""
+    """Chunk by chunk. step_s: from row to row, where they are counted; done: rows so far; last_ns: time of the last."""
 
     name: str
     layout: Layout
     source: Source
+    step_s: float
     done: int = 0
     last_ns: int | None = None
 
     def __post_init__(self) -> None:
-        layout, options = self.layout, self.source.options
+        layout = self.layout
         kinds = ("float64",) * len(layout.names) + ("str",) * (layout.text is not None)
         self.grid = Grid(layout.delimiter, layout.decimal, kinds, least=len(layout.names), blank_rows=True)
-        step = options.get("increment")
-        self.step_s = 1.0 if step is None else value_in(step, "s")
-        self.block_rows = int(options.get("block_rows", 0))
+        self.block_rows = int(self.source.options.get("block_rows", 0))
 
     def items(self, chunk: Chunk) -> Iterator[Block | Loss]:
         """The blocks of a chunk, and its losses."""
@@ -113,7 +116,7 @@ class _RowReader:
         if self.layout.clock == "none":
             return counted_ns(self.done, rows.n, step_ns(self.step_s), 0)
         start = EPOCH_1904_NS if self.layout.clock == "1904" else 0
-        return seconds_ns(rows.columns[self.layout.time].values, start)
+        return seconds_ns(rows.columns[self.layout.time].values * self.layout.seconds, start)
 
     def _block(self, rows: Rows, words: Array | None, t_ns: Int1D, good: Bool1D) -> Block:
         layout = self.layout

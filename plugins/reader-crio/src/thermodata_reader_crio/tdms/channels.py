@@ -97,20 +97,31 @@ def scaling(layers: Sequence[Mapping[str, Any]], where: str) -> Scaling | None:
 
 
 def channels(
-    index: Index, cols: Mapping[str, list[Column]], file: str, unscaled: set[str], notes: list[str]
+    index: Index, cols: Mapping[str, list[Column]], file: str, unscaled: set[str], notes: list[str], partly: list[str]
 ) -> dict[str, list[Channel]]:
-    """Group -> its channels, in the file's order."""
+    """Group -> its channels, in the file's order. partly: takes a sentence for each that is left out."""
     types = {path: found.type for layout in index.layouts for path, found in layout.objects}
     groups: dict[str, list[Channel]] = {}
     clocks: dict[Any, Clock | None] = {}
     for path, found in cols.items():
         group, name = names(path)
         full = f"{group}/{name}" if group or not name.startswith("/") else name
+        if (change := _new_meaning(index, path, full in unscaled or name in unscaled)) is not None:
+            partly.append(f"{full} is left out: within the file it changes its {change}; split the file there")
+            continue
         if not group and name == path:
             notes.append(f"{path[:80]}: not the path of a channel in a group")
         made = _made(index, path, found, types[path], file, full, unscaled, notes, clocks)
         groups.setdefault(group, []).extend(made)
     return groups
+
+
+def _new_meaning(index: Index, path: str, unscaled: bool) -> str | None:
+    """How a channel's unit or scaling, or those of its group or of the file, change within the file; None: they don't,
+    or raw numbers are wanted."""
+    group = "/'" + names(path)[0].replace("'", "''") + "'"
+    changes = [index.meanings[p] for p in (path, group, "/") if p in index.meanings]
+    return next((c for c in changes if not (unscaled and c.startswith("NI_Scal"))), None)
 
 
 def _made(

@@ -53,7 +53,7 @@ def _opened(path: Path, source: Source) -> File:
     index = read_index(path)
     cols, partly = columns(index)
     notes = list(index.notes)
-    groups = channels(index, cols, path.name, set(source.options.get("unscaled", ())), notes)
+    groups = channels(index, cols, path.name, set(source.options.get("unscaled", ())), notes, partly)
     taken: dict[str, int] = {}
     found: list[Stream] = []
     with path.open("rb") as file:
@@ -65,6 +65,6 @@ def _opened(path: Path, source: Source) -> File:
             where=path.name,
             expected="channels with raw data",
             got=f"{index.segments} segments, {len(index.properties)} objects",
-            hint=index.damage,
+            hint=index.damage or next(iter(partly), None),
         )
     return File(index, tuple(found), tuple(notes), tuple(partly))

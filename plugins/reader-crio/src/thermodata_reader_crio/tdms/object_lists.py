@@ -132,7 +132,7 @@ class ObjectLists:
             if name not in known or known[name] != value:
                 self._generation += 1
                 if name in known and len(self.index.pieces) and name.startswith(_MEANING):
-                    self.index.note(f"{path[:80]}: {name} changes within the file; the last one is taken for all of it")
+                    self.index.meanings.setdefault(path, f"{name}, '{known[name]}' and then '{value}'"[:200])
                 known[name] = value
                 if name in CLOCK:
                     changed[name] = value

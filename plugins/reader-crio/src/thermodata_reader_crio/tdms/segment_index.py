@@ -85,6 +85,7 @@ class Index:
     pieces: Pieces = field(default_factory=Pieces)
     clock_changes: dict[str, list[ClockChange]] = field(default_factory=dict)
     holes: list[Hole] = field(default_factory=list)
+    meanings: dict[str, str] = field(default_factory=dict)
     notes: list[str] = field(default_factory=list)
     good_end: int = 0
     expected_end: int | None = None

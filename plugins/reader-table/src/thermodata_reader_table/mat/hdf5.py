@@ -88,7 +88,7 @@ class _Walk:
         for name in names:
             try:
                 with damaged(f"{self.where} variable '{name}'"):
-                    variables[name] = self.node(self.file[name], 0)
+                    variables[name] = self.node(_own(self.file, name), 0)
             except FormatError as error:
                 losses.append(
                     Loss(f"{self.where} variable '{name}'", None, None, None, f"a damaged variable: {error.got}")
@@ -108,6 +108,8 @@ class _Walk:
         import h5py
 
         self.nodes += 1
+        if isinstance(item, h5py.Dataset) and (item.external or item.is_virtual):
+            raise ValueError("its values stand in another file, which is not read: save it with all that it holds")
         if depth > MAX_DEPTH or self.nodes > MAX_NODES:
             raise ValueError("nested too deep" if depth > MAX_DEPTH else f"more than {MAX_NODES} parts")
         kind = _text(item.attrs.get("MATLAB_class"))
@@ -141,7 +143,7 @@ class _Walk:
         if order is not None:
             wanted = [b"".join(bytes(c) for c in letters).decode("utf-8", "replace") for letters in order]
             names = [n for n in wanted if n in names] + [n for n in names if n not in wanted]
-        fields = {n: group[n] for n in names}
+        fields = {n: _own(group, n) for n in names}
         if fields and all(_holds_references(f) and "MATLAB_class" not in f.attrs for f in fields.values()):
             columns = {n: self._cells(f, depth).items for n, f in fields.items()}
             if len({len(c) for c in columns.values()}) != 1:
@@ -163,6 +165,16 @@ class _Walk:
             int(item.size) // rows if rows else 0,
             tuple(self.node(self.file[r], depth + 1) if r else _no_numbers() for r in references),
         )
+
+
+def _own(group: Any, name: str) -> Any:
+    """A member of a group. ValueError for a link into another file: what is read must stand in the bytes that the store
+    knows by their hash, and in the campaign's folder."""
+    import h5py
+
+    if isinstance(group.get(name, getlink=True), h5py.ExternalLink):
+        raise ValueError("a link into another file, which is not followed: save it with all that it holds")
+    return group[name]
 
 
 def _holds_references(item: Any) -> bool:

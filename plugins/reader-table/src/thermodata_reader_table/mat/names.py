@@ -80,6 +80,19 @@ _UNITS = {
     "yunits",
     "variableunits",
 }
+_GENERAL = {
+    *"xy",
+    "channel",
+    "channels",
+    "data",
+    "signal",
+    "signals",
+    "variable",
+    "variables",
+    "value",
+    "values",
+    "col",
+}
 _STEP = {
     "dt",
     "ts",
@@ -145,6 +158,15 @@ def names_names(name: str) -> bool:
 def names_units(name: str) -> bool:
     """Whether a variable holds the units of others."""
     return squeezed(name) in _UNITS or squeezed(name).endswith("units")
+
+
+def unit_of(name: str) -> str | None:
+    """The variable whose unit one holds that is called after it: T1_unit, unit_T1, T1Unit; None for another one."""
+    match = re.fullmatch(r"(?P<a>.+?)(?:_[Uu]nits?|Units?)|[Uu]nits?_(?P<b>.+)|unit(?P<c>[A-Z].*)", name)
+    if match is None:
+        return None
+    other = match["a"] or match["b"] or match["c"]
+    return None if names_time_unit(name) or squeezed(other) in _GENERAL else other
 
 
 def names_time_unit(name: str) -> bool:

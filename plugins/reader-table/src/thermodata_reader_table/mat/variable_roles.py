@@ -71,6 +71,9 @@ def _texts(plan: Plan, scope: Scope, name: str, path: str, node: Text | Cells, i
     lines = lines_of(node)
     if lines is None:
         _cells(plan, scope, path, node, inner)
+    elif len(lines) == 1 and (of := say.unit_of(name)) is not None:
+        scope.unit_of.setdefault(of, lines[0])
+        scope.properties[name] = lines[0][:500]
     elif len(lines) == 1:
         if say.names_time_unit(name):
             scope.time_unit = lines[0]

@@ -16,7 +16,7 @@ from thermodata.reader.open_questions import unit_question
 from thermodata.reader.text import split_unit, time_formats
 from thermodata.reader.text.header import unique
 from thermodata.reader.text.time_columns import column as find_column
-from thermodata.reader.text.time_columns import find_time, unit_of_time
+from thermodata.reader.text.time_columns import find_time, is_time_header, unit_of_time
 from thermodata.reader.text.time_formats import times_of_numbers
 from thermodata.reader.text.time_groups import one_time
 from thermodata.reader.time_units import check_unit, found_epoch
@@ -90,7 +90,7 @@ class Table:
             stamped = [i for i, f in enumerate(self.schema) if pt.is_timestamp(f.type)]
             spans = [i for i, f in enumerate(self.schema) if pt.is_duration(f.type)]
             if stamped or spans:
-                column = [*stamped, *spans][0]
+                column = self._one_of(stamped or spans)
             elif "t_ns" in self.names:
                 column, unit = self.names.index("t_ns"), "ns"
             else:
@@ -121,6 +121,19 @@ class Table:
                 raise unit_question(self.names[column], values, self.path.name)
             self.notes.append(f"time column '{self.names[column]}' has no unit: by its size it is {text}")
         return column, check_unit(str(text), self.path.name)
+
+    def _one_of(self, columns: list[int]) -> int:
+        """The time among columns of times: the only one, or the one that is called so. FormatError for others."""
+        called = [i for i in columns if is_time_header(self.names[i])]
+        if len(columns) == 1 or len(called) == 1:
+            return (called or columns)[0]
+        raise FormatError(
+            "several columns of times",
+            where=self.path.name,
+            got=", ".join(self.names[i] for i in called or columns),
+            expected="one, or one of them that is called time",
+            hint=f"declare table: {{time: {{column: {self.names[(called or columns)[0]]}}}}}",
+        )
 
     def times(self, column: Any) -> time_formats.Stamps:
         """Times of the time column, or of a part of it. Local times want the whole column: the order of all its

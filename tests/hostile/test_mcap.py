@@ -1,0 +1,69 @@
+"""MCAP whose messages don't stand in the order of their log times, and JSON that says null."""
+
+from __future__ import annotations
+
+import io
+import json
+import random
+from collections.abc import Iterable
+
+import numpy as np
+import pytest
+from mcap.writer import Writer
+
+from .conftest import Lab
+
+T0 = 1_770_000_000_000_000_000
+S = 1_000_000_000
+X = {"pos": {"signal": "/axis.x", "quantity": "position", "unit": "mm"}}
+LOG = {"reader": "mcap"}
+
+
+SCHEMA = {"type": "object", "properties": {"x": {"type": "integer"}, "on": {"type": "boolean"}}}
+
+
+def recording(messages: Iterable[tuple[int, object]], schema: object = None) -> bytes:
+    buffer = io.BytesIO()
+    writer = Writer(buffer, chunk_size=4096)
+    writer.start()
+    known = 0 if schema is None else writer.register_schema("axis", "jsonschema", json.dumps(schema).encode())
+    axis = writer.register_channel("/axis", "json", known)
+    for t, message in messages:
+        writer.add_message(axis, t, json.dumps(message).encode(), t)
+    writer.finish()
+    return buffer.getvalue()
+
+
+def test_messages_are_sorted_by_their_log_time_however_far_they_stand(lab: Lab) -> None:
+    order = list(range(2000))
+    random.Random(3).shuffle(order)
+    lab.write("raw/a.mcap", recording((T0 + k * S // 10, {"x": k / 8}) for k in order))
+    said = lab.ingest(X, LOG)
+    assert said.code == 0, said.out + said.err
+    t_s, values = lab.values("pos")
+    np.testing.assert_allclose(t_s, np.arange(2000) / 10)
+    np.testing.assert_array_equal(values, np.arange(2000) / 8)
+    assert "out of order: sorted" in said.out
+    # no doubt about any of them
+    assert json.loads(lab("sql", "select max(flag) as f from sample", "--json").out) == [{"f": 0}]
+    traced = json.loads(lab("trace", "odd", "one", "pos", "--at", "42.3 s", "--verify", "--json").out)
+    assert traced["sample"]["value"] == 423 / 8
+    assert traced["sample"]["raw"]["again"]["value"] == 423 / 8
+
+
+@pytest.mark.parametrize("schema", [None, SCHEMA])
+def test_null_in_a_field_of_integers_is_no_value(lab: Lab, schema: object) -> None:
+    numbers = [None if k % 7 == 3 and k > 50 else k for k in range(200)]
+    lab.write("raw/a.mcap", recording(((T0 + k * S, {"x": n}) for k, n in enumerate(numbers)), schema))
+    assert lab.ingest(X, LOG).code == 0
+    _, values = lab.values("pos")
+    np.testing.assert_array_equal(values, [np.nan if n is None else n for n in numbers])
+
+
+def test_null_in_a_field_of_integers_that_only_comes_late_is_no_value(lab: Lab) -> None:
+    numbers = [None if k % 100 == 77 and 13_000 < k < 14_000 else k for k in range(30_000)]
+    messages = ((T0 + k * S, {"x": n, "text": "a" * 600}) for k, n in enumerate(numbers))
+    lab.write("raw/a.mcap", recording(messages))
+    lab.ingest(X, LOG)
+    _, values = lab.values("pos")
+    np.testing.assert_array_equal(values, [np.nan if n is None else n for n in numbers])

@@ -1,0 +1,206 @@
+"""Clocks as labs have them: newest first, without daylight saving, in hours, beside a rising temperature."""
+
+from __future__ import annotations
+
+import io
+from datetime import datetime, timedelta
+from typing import Any
+
+import numpy as np
+import pyarrow as pa
+import pyarrow.parquet as pq
+import pytest
+import scipy.io
+
+from thermodata.errors import FormatError, QuestionError
+
+from .conftest import Lab
+
+T1 = {"T1": {"signal": "T", "quantity": "temperature", "unit": "degC"}}
+
+
+def stamps(start: str, step_s: int, n: int) -> list[str]:
+    first = datetime.fromisoformat(start)
+    return [f"{first + timedelta(seconds=step_s * i):%Y-%m-%d %H:%M:%S}" for i in range(n)]
+
+
+def rows(times: list[Any], between: str = ";") -> str:
+    return "".join(f"{t}{between}{20 + i / 8}\n" for i, t in enumerate(times))
+
+
+@pytest.mark.parametrize(
+    "times",
+    [
+        stamps("2026-03-02 08:00:00", 10, 200)[::-1],
+        list(range(1990, -1, -10)),
+        [t[11:] for t in stamps("2026-03-02 23:55:00", 10, 200)][::-1],
+    ],
+    ids=["dates", "seconds", "times of day over midnight"],
+)
+def test_a_file_that_stands_newest_first_is_turned_round(lab: Lab, times: list[Any]) -> None:
+    lab.write("raw/a.csv", f"{'time' if isinstance(times[0], str) else 'time [s]'};T\n" + rows(times))
+    said = lab.ingest(T1)
+    assert said.code == 0, said.err
+    t_s, values = lab.values("T1")
+    np.testing.assert_allclose(t_s - t_s[0], np.arange(200) * 10.0)
+    np.testing.assert_array_equal(values, 20 + np.arange(200)[::-1] / 8)
+    assert "newest first" in said.out
+    assert "newest first" in lab("preview", lab.folder / "raw/a.csv").out
+    traced = lab("trace", "odd", "one", "T1", "--at", "0 s", "--verify")
+    assert "line 201" in traced.out
+    assert traced.code == 0
+
+
+def test_files_that_stand_newest_first_are_joined_in_order(lab: Lab) -> None:
+    all_stamps = stamps("2026-03-02 08:00:00", 10, 200)
+    lab.write("raw/a.csv", "time;T\n" + rows(all_stamps[:100][::-1]))
+    lab.write("raw/b.csv", "time;T\n" + rows(all_stamps[100:][::-1]))
+    assert lab.ingest(T1).code == 0
+    t_s, values = lab.values("T1")
+    np.testing.assert_allclose(t_s, np.arange(200) * 10.0)
+    np.testing.assert_array_equal(values, 20 + np.concatenate([np.arange(100)[::-1], np.arange(100)[::-1]]) / 8)
+
+
+ZONE = {"timezone": "Europe/Prague"}
+
+
+@pytest.mark.parametrize(
+    ("start", "winter"), [("2026-10-24 22:00:00", "2026-10-24T21:00"), ("2026-03-29 00:00:00", "2026-03-28T23:00")]
+)
+@pytest.mark.parametrize("step_s", [1, 60, 1800])
+def test_a_clock_without_daylight_saving_is_asked_for(lab: Lab, start: str, winter: str, step_s: int) -> None:
+    n = 36000 // step_s
+    lab.write("raw/a.csv", "time;T\n" + rows(stamps(start, step_s, n)))
+    said = lab.ingest(T1, ZONE)
+    assert said.code == 3
+    assert "keeps one offset" in said.out + said.err
+    assert "timezone: Etc/GMT-1" in said.out + said.err
+    assert lab.ingest(T1, {"timezone": "Etc/GMT-1"}).code == 0
+    t_s, _ = lab.values("T1")
+    np.testing.assert_allclose(t_s, np.arange(n) * step_s)
+    assert winter in lab("sql", "select min(t) as t from sample", "--csv").out.replace(" ", "T")
+
+
+@pytest.mark.parametrize("late_s", [0, 300])
+@pytest.mark.parametrize(("change", "shift"), [("2026-10-25 03:00:00", -3600), ("2026-03-29 02:00:00", 3600)])
+def test_a_clock_that_follows_daylight_saving_at_once_or_late_is_read(
+    lab: Lab, change: str, shift: int, late_s: int
+) -> None:
+    at = datetime.fromisoformat(change) + timedelta(seconds=late_s)
+    before = [at - timedelta(seconds=10 * i) for i in range(1500, 0, -1)]
+    local = [*before, *(at + timedelta(seconds=shift + 10 * i) for i in range(1500))]
+    lab.write("raw/a.csv", "time;T\n" + rows([f"{t:%Y-%m-%d %H:%M:%S}" for t in local]))
+    assert lab.ingest(T1, ZONE).code == 0 or late_s
+    assert "keeps one offset" not in lab("preview", lab.folder / "raw/a.csv").out
+    if not late_s:
+        np.testing.assert_allclose(lab.values("T1")[0], np.arange(3000) * 10.0)
+
+
+HEADS = ["Zeit in h", "Zeit [h]", "Zeit (h)", "t / h", "time_h", "Time, h", "Zeit h", "Time in hours", "t [Std]"]
+
+
+@pytest.mark.parametrize("by", ["crio", "table"])
+@pytest.mark.parametrize(
+    ("head", "seconds"),
+    [
+        *((head, 3600.0) for head in HEADS),
+        ("Zeit [min]", 60.0),
+        ("Zeit in min", 60.0),
+        ("Zeit (ms)", 1e-3),
+        ("time_ms", 1e-3),
+        ("time [days]", 86400.0),
+        ("time [s]", 1.0),
+        ("time_s", 1.0),
+    ],
+)
+def test_the_unit_of_a_time_stands_in_its_header(read: Any, head: str, seconds: float, by: str) -> None:
+    data = read(f"{head}\tT1\n" + rows([i / 2 for i in range(50)], "\t"), "a.txt", by)
+    np.testing.assert_allclose(next(iter(data.t_ns.values())) / 1e9, np.arange(50) / 2 * seconds)
+
+
+def test_a_column_that_rises_is_not_the_time_where_rows_come_at_a_declared_period(read: Any) -> None:
+    text = "T1\tT2\n" + "".join(f"{20 + i / 8}\t{30 + i / 4}\n" for i in range(50))
+    data = read(text, "a.txt", "crio", options={"increment": "60 s"})
+    np.testing.assert_array_equal(data.t_ns["data"], np.arange(50) * 60_000_000_000)
+    np.testing.assert_array_equal(data.values["data", "T1"], 20 + np.arange(50) / 8)
+
+
+@pytest.mark.parametrize("head", ["T1\tT2\n", "Pos [mm]\tdX\n", ""])
+def test_a_first_column_that_rises_without_being_called_a_time_is_asked_for(read: Any, head: str) -> None:
+    text = head + "".join(f"{20 * (1 - 0.9**i):.6f}\t{30 + i / 4}\n" for i in range(50))
+    with pytest.raises(QuestionError, match="not called a time") as caught:
+        read(text, "a.txt", "crio")
+    assert "increment" in str(caught.value.hint)
+    once = read(text, "a.txt", "crio", options={"time": 1}).t_ns["data"]
+    assert once.size == 50
+    minutes = read(text, "a.txt", "crio", table={"time": {"column": 1, "unit": "min"}}).t_ns["data"]
+    np.testing.assert_allclose(minutes, once * 60, atol=60)
+    assert {**caught.value.declare["time"]} == {"column": 1, "unit": "unknown"}
+
+
+def test_a_time_that_is_not_the_first_column_is_found_by_its_name(read: Any) -> None:
+    text = "T1\ttime [min]\n" + "".join(f"{20 + i / 8}\t{i}\n" for i in range(50))
+    for by in ("crio", "table"):
+        data = read(text, "a.txt", by)
+        np.testing.assert_array_equal(next(iter(data.t_ns.values())), np.arange(50) * 60_000_000_000)
+
+
+def test_rows_without_a_time_are_asked_for_and_sniff_says_so(lab: Lab, read: Any) -> None:
+    text = "T1\tT2\n" + "".join(f"{20 + i % 3}\t{30 + i % 5}\n" for i in range(50))
+    with pytest.raises(QuestionError, match="no time column") as caught:
+        read(text, "a.txt", "crio")
+    assert caught.value.declare == {"time": {"period": "unknown"}}
+    assert read(text, "a.txt", "crio", options={"increment": "2 s"}).t_ns["data"][-1] == 98_000_000_000
+    for by in ("crio", "table"):
+        data = read(text, "a.txt", by, table={"time": {"period": 2.0}})
+        np.testing.assert_array_equal(next(iter(data.t_ns.values())), np.arange(50) * 2_000_000_000)
+    said = lab("sniff", lab.write("raw/a.txt", text))
+    assert "can read it where a source declares it" not in said.out + said.err
+    assert "leaves a question: no time column" in said.out
+
+
+@pytest.mark.parametrize("by", ["crio", "table"])
+@pytest.mark.parametrize("time", [{"column": 1, "unit": "unknown"}, {"period": "unknown"}])
+def test_an_open_answer_is_no_time(read: Any, time: dict[str, Any], by: str) -> None:
+    text = "T1\tT2\n" + "".join(f"{20 * (1 - 0.9**i):.6f}\t{30 + i / 4}\n" for i in range(50))
+    with pytest.raises(FormatError, match="is not answered yet"):
+        read(text, "a.txt", by, table={"time": time})
+
+
+def parquet(**columns: Any) -> bytes:
+    buffer = io.BytesIO()
+    pq.write_table(pa.table(columns), buffer)
+    return buffer.getvalue()
+
+
+N = np.arange(50)
+T0 = np.datetime64("2026-03-02T08:00:00", "ns")
+
+
+def test_of_two_columns_of_times_the_one_that_is_called_time_counts(read: Any) -> None:
+    made, time = (T0 + N * np.timedelta64(s, "s") for s in (1, 10))
+    data = read(parquet(created=made, time=time, T1=N / 8), "a.parquet")
+    np.testing.assert_array_equal(data.t_ns["table"], time.astype("datetime64[ns]").astype(np.int64))
+    numbers = read(parquet(**{"t": 20 + N / 8, "time [s]": N * 10.0, "T1": N / 8}), "b.parquet")
+    np.testing.assert_array_equal(numbers.t_ns["table"], N * 10_000_000_000)
+    with pytest.raises(FormatError, match="several columns of times") as caught:
+        read(parquet(start=made, end=time, T1=N / 8), "c.parquet")
+    assert "declare table: {time: {column: start}}" in str(caught.value.hint)
+
+
+def mat(**variables: Any) -> bytes:
+    buffer = io.BytesIO()
+    scipy.io.savemat(buffer, variables)
+    return buffer.getvalue()
+
+
+@pytest.mark.parametrize("said", [{"time_unit": "min"}, {"units": {"time": "min"}}, {"unit_time": "min"}])
+def test_the_unit_of_a_time_may_stand_beside_it_in_a_mat_file(read: Any, said: dict[str, Any]) -> None:
+    data = read(mat(time=N * 1.0, T1=N / 8, **said), "a.mat")
+    np.testing.assert_array_equal(next(iter(data.t_ns.values())), N * 60_000_000_000)
+
+
+@pytest.mark.parametrize("by", ["table", "cnc"])
+def test_times_of_day_go_over_midnight(read: Any, by: str) -> None:
+    data = read("time;T\n" + rows([t[11:] for t in stamps("2026-03-02 23:55:00", 10, 200)]), by=by)
+    np.testing.assert_array_equal(next(iter(data.t_ns.values())), np.arange(200) * 10_000_000_000)

@@ -1,0 +1,163 @@
+"""What was said too quietly: moves, places, times and names that are wrong end as an error, or as a line."""
+
+from __future__ import annotations
+
+import os
+import shutil
+from pathlib import Path
+
+import h5py
+import numpy as np
+import pytest
+
+from thermodata.cli.fitting import made_worse
+from thermodata.errors import UsageError
+from thermodata.schema.result import FitResult, Score
+from thermodata.view import StoreView
+
+from .conftest import Lab
+from .test_times import T1, rows, stamps
+
+DZ = {"signal": "Z", "quantity": "displacement", "unit": "V", "axis": "Z", "at": "tcp", "calibration": "jump_z"}
+JUMP = {"kind": "jump", "axis": "Z", "source": "log", "file": "cal/jump.csv", "signal": "Z", "dwell": "10 s"}
+
+
+def jump(moves: list[float], volts_per_um: float = 0.02) -> str:
+    """A log at 10 Hz of a probe that is moved, 10 s at each place."""
+    levels = np.repeat(5 + np.concatenate([[0.0], np.cumsum(moves)]) * volts_per_um, 100)
+    noise = 1e-4 * np.random.default_rng(1).standard_normal(levels.size)
+    return "time [s],Z [V]\n" + "".join(f"{i / 10:.1f},{v:.6f}\n" for i, v in enumerate(levels + noise))
+
+
+def test_moves_that_leave_out_steps_are_said(lab: Lab) -> None:
+    lab.write("raw/a.csv", jump([0.5, 0.5]))
+    lab.write("cal/jump.csv", jump([100, -50, 60, 100, -50]))
+    said = lab.ingest({"dZ": DZ}, calibrations={"jump_z": {**JUMP, "moves": ["100 um", "-50 um", "60 um"]}})
+    assert said.code == 3
+    assert "2 more steps as large as the 3 commanded moves" in said.out + said.err
+    whole = {**JUMP, "moves": ["100 um", "-50 um", "60 um", "100 um", "-50 um"]}
+    said = lab.ingest({"dZ": DZ}, calibrations={"jump_z": whole})
+    assert "more steps as large" not in said.out + said.err
+
+
+def test_a_mistyped_jump_file_is_not_replaced_by_an_older_copy(lab: Lab) -> None:
+    lab.write("raw/a.csv", jump([0.5, 0.5]))
+    lab.write("cal/jump.csv", jump([100, -100]))
+    moves = {"moves": ["100 um", "-100 um"]}
+    assert lab.ingest({"dZ": DZ}, calibrations={"jump_z": {**JUMP, **moves}}).code == 0
+    said = lab.ingest({"dZ": DZ}, calibrations={"jump_z": {**JUMP, **moves, "file": "cal/jmp.csv"}})
+    assert said.code == 3
+    assert "no such file: the calibration can't be evaluated; did you mean 'jump.csv'?" in said.out + said.err
+    assert np.isnan(lab.values("dZ")[1]).all()
+
+
+def test_a_time_beyond_a_test_is_refused(lab: Lab) -> None:
+    lab.write("raw/a.csv", "time;T\n" + rows(stamps("2026-03-02 08:00:00", 10, 361)))
+    assert lab.ingest(T1).code == 0
+    for at in ("25 h", "-1 h"):
+        said = lab("trace", "odd", "one", "T1", f"--at={at}")
+        assert said.code == 2
+        assert "expected: a time from 0 s to 3600 s (1 h)" in said.err
+    assert lab("trace", "odd", "one", "T1", "--at", "1 h").code == 0
+    assert lab("trace", "odd", "one", "T1", "--at", "3 s").code == 0
+
+
+def test_a_wrong_place_is_answered_with_the_nearest_and_open_questions_are_listed(lab: Lab) -> None:
+    lab.write("raw/a.csv", "time;T\n" + rows(stamps("2026-03-02 08:00:00", 10, 40)))
+    said = lab.ingest({"T1": {**T1["T1"], "at": "spindle.bearng.front"}})
+    assert "no place 'spindle.bearng.front' is known; did you mean 'spindle.bearing.front'?" in said.out
+    said = lab.ingest(T1)
+    assert "without a place (at: ...): T1; no effect that needs one there will be tried" in said.out
+    assert "no test has a role" in said.out
+    said = lab.ingest({"T1": {**T1["T1"], "at": "spindle.bearing.front"}}, tests=[{"id": "one", "role": "calibration"}])
+    assert "did you mean" not in said.out
+    assert "without a place" not in said.out
+    assert "no test has a role" not in said.out
+    # places of a lab's own are allowed: what is near to none is left alone
+    assert "no place" not in lab.ingest({"T1": {**T1["T1"], "at": "quill.xyzzy"}}).out
+
+
+def test_a_residual_of_an_unknown_test_names_the_nearest(story: Path) -> None:
+    view = StoreView(story)
+    assert view.residual("baseline", test="day1").fetchall()
+    with pytest.raises(UsageError, match="no test in the predictions of baseline 'dayx'") as caught:
+        view.residual("baseline", test="dayx")
+    assert "day" in str(caught.value.hint)
+    with pytest.raises(UsageError, match="no response"):
+        view.residual("baseline", response="dQ")
+
+
+@pytest.fixture
+def story(lab: Lab) -> Path:
+    body = "".join(
+        f"{i * 60},{20 + 5 * (1 - np.exp(-i / 60)):.4f},{3 * (1 - np.exp(-i / 90)):.4f}\n" for i in range(300)
+    )
+    for test in ("heat1", "day1"):
+        lab.write(f"raw/{test}.csv", f"time [s],T1 [degC],dZ [um]\n{body}")
+    said = lab.ingest(
+        {
+            "T1": {"signal": "T1", "quantity": "temperature", "at": "spindle.bearing.front"},
+            "dZ": {"signal": "dZ", "quantity": "displacement", "axis": "Z", "at": "tcp", "calibration": "probe"},
+        },
+        {"files": "raw/{test}.csv"},
+        tests=[{"id": "heat1", "role": "calibration"}, {"id": "day1", "role": "verification"}],
+        calibrations={
+            "probe": {"kind": "scale", "axis": "Z", "gain": "1 um/um", "facing": "-Z", "increases_with": "approach"}
+        },
+    )
+    assert said.code == 0, said.out + said.err
+    lab.write(
+        "model.yaml",
+        "schema: thermodata/model/1\nname: baseline\ncampaign: odd\nresponse: {axis: Z, at: tcp}\nstep: 60 s\n"
+        "effects: [{effect: spindle_bearing, drivers: {temperature: T1}}]\n",
+    )
+    assert lab("fit", lab.folder / "model.yaml").code == 0
+    return lab.folder / "store"
+
+
+def score(role: str, rmse_um: float) -> Score:
+    return Score(
+        model="m", campaign="c", test=role, role=role, response="dZ", phase="all", fit=50.0, rmse_um=rmse_um,
+        ptp_um=9.0, ptp_residual_um=3.0, max_um=3.0, n=100,
+    )  # fmt: skip
+
+
+@pytest.mark.parametrize(("after", "worse"), [(3.0, False), (3.61, False), (3.84, True)])
+def test_an_effect_that_makes_a_model_worse_is_said(after: float, worse: bool) -> None:
+    result = FitResult(
+        model="m", name="m", parent=None, campaigns=["c"], response="dZ", parameters={}, checks=[],
+        scores=[score("verification", after)], before=[score("verification", 3.61)],
+    )  # fmt: skip
+    assert (made_worse(result) is not None) is worse
+
+
+@pytest.mark.parametrize("kind", ["link", "external", "virtual"])
+def test_an_hdf5_file_that_reads_others_is_refused(lab: Lab, kind: str) -> None:
+    secret = lab.folder / "secret.mat"
+    secret.parent.mkdir(parents=True, exist_ok=True)
+    values = np.arange(50.0)[None, :]
+    with h5py.File(secret, "w") as file:
+        file["T1"] = values
+        file["T1"].attrs["MATLAB_class"] = np.bytes_("double")
+    (lab.folder / "secret.bin").write_bytes(values.tobytes())
+    path = lab.write("raw/a.mat", b"")
+    with h5py.File(path, "w", userblock_size=512) as file:
+        file["time"] = values
+        file["T2"] = values
+        if kind == "link":
+            file["T1"] = h5py.ExternalLink(os.fspath(secret), "/T1")
+        elif kind == "external":
+            file.create_dataset("T1", (1, 50), "<f8", external=[(os.fspath(lab.folder / "secret.bin"), 0, 400)])
+        else:
+            layout = h5py.VirtualLayout((1, 50), "<f8")
+            layout[:] = h5py.VirtualSource(os.fspath(secret), "T1", (1, 50))
+            file.create_virtual_dataset("T1", layout)
+        for name in ("time", "T2", *(() if kind == "link" else ("T1",))):
+            file[name].attrs["MATLAB_class"] = np.bytes_("double")
+    head = b"MATLAB 7.3 MAT-file".ljust(116) + bytes(8) + b"\x00\x02IM"
+    with path.open("r+b") as raw:
+        raw.write(head)
+    found = lab("preview", path)
+    assert "another file" in found.out + found.err, (found.code, found.out[-800:], found.err)
+    assert "T1  " not in found.out
+    shutil.rmtree(lab.folder / "raw")
