@@ -25,7 +25,6 @@ MODE = "it is another mode of what the model has"
 AIR = "ambient"  # a temperature of the air counts from nothing else
 # what a model leaves that is good already: more, and something is missing (share of the response)
 GOOD = 0.4
-POOR = 0.5  # and what is poor whatever the model has at the place
 # what takes away so much of what is left (as a share of the error) is missing, not another mode of what is there
 MOST = 0.6
 # a known effect is replaced where, beside the candidate, it is worth this share of what it was worth alone
@@ -50,16 +49,16 @@ class Refinement:
         if not self.fitted.terms:
             return None
         kin, most = scored.candidate.kin, scored.drop >= MOST
-        poor = scored.error_before > POOR * rms(self.problem.response_blocks)
-        if refines(scored.candidate.effect) or (kin == "same" and not most) or (kin == "near" and not (most and poor)):
+        if refines(scored.candidate.effect) or (kin == "same" and not most):
             return MODE
         if scored.error_before > GOOD * rms(self.problem.response_blocks):
             return None
         largest = max(self._size(i) for i in range(len(self.fitted.terms)))
         if kin is not None and not most and acting_size(scored) < SMALL * largest:
             return MODE
+        may_replace = (kin == "near" or not most) and (kin is not None or scored.candidate.family == GENERIC)
         for number, term in enumerate(self.fitted.terms):
-            if (kin == "near" or not most) and self._replaces(scored, number):
+            if may_replace and self._replaces(scored, number):
                 return f"it takes the place of {term.id}"
             channel = self._other_zero(scored, number)
             if channel is not None:
