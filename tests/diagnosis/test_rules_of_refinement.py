@@ -82,27 +82,15 @@ def test_another_mode_of_the_same_takes_away_under_three_fifths(
     assert said(cause("same", after=after), response) == expected
 
 
-@pytest.mark.parametrize(
-    ("after", "response", "expected"),
-    [(0.399, 1.99, None), (0.399, 2.01, MODE), (0.401, 1.99, MODE), (0.01, 100.0, MODE)],
-)
-def test_what_is_near_is_a_cause_where_much_is_left_and_it_takes_most(
-    after: float, response: float, expected: str | None
-) -> None:
-    """Half of the response: an error of 1."""
-    assert said(cause("near", after=after), response) == expected
-
-
 @pytest.mark.parametrize(("size", "expected"), [(0.599, MODE), (0.601, None)])
-def test_kin_elsewhere_is_a_mode_where_it_is_under_three_fifths_of_the_largest_effect(
-    size: float, expected: str | None
+@pytest.mark.parametrize("kin", ["near", "related"])
+def test_kin_is_a_mode_where_it_is_under_three_fifths_of_the_largest_effect(
+    size: float, expected: str | None, kin: Kin
 ) -> None:
     known = (WAVE, 0.1 * OTHER)
-    assert said(cause("related", size=size), known=known, families="feed_x feed_y") == expected
+    assert said(cause(kin, size=size), known=known, families="feed_x feed_y") == expected
     assert said(cause(None, size=size), known=known, families="feed_x feed_y") is None
-    assert said(cause("related", size=size, after=0.399), known=known, families="feed_x feed_y") is None, (
-        "it takes most"
-    )
+    assert said(cause(kin, size=size, after=0.399), known=known, families="feed_x feed_y") is None, "it takes most"
 
 
 @pytest.mark.parametrize(("response", "expected"), [(2.49, None), (2.51, MODE)])
@@ -127,7 +115,7 @@ def replacing(
     asked = Refinement(model("feed_x"), world(100.0), NOISE)
     monkeypatch.setattr(Refinement, "_cost", lambda self, problem, term: alone if problem is asked.problem else beside)
     contribution = cosine * WAVE + np.sqrt(1 - cosine**2) * OTHER
-    return asked(scored(**{"contribution": [contribution] * 3, "after": 0.5, **of}))
+    return asked(scored(**{"family": "generic", "contribution": [contribution] * 3, "after": 0.5, **of}))
 
 
 PLACE = "it takes the place of term0"
@@ -154,6 +142,12 @@ def test_a_known_effect_is_replaced_where_it_is_worth_a_tenth_beside_what_acts_a
 def test_what_takes_most_away_replaces_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
     assert replacing(monkeypatch, 100.0, 1.0, after=0.401) == PLACE
     assert replacing(monkeypatch, 100.0, 1.0, after=0.399) is None
+    assert replacing(monkeypatch, 100.0, 1.0, after=0.399, kin="near") == PLACE, "but what sits at its place"
+
+
+def test_what_names_another_heat_takes_no_place(monkeypatch: pytest.MonkeyPatch) -> None:
+    assert replacing(monkeypatch, 100.0, 1.0, family="feed_y") is None
+    assert replacing(monkeypatch, 100.0, 1.0, family="feed_y", kin="related") == PLACE
 
 
 def test_the_cost_of_an_effect_is_asked_in_earnest() -> None:
@@ -162,11 +156,11 @@ def test_the_cost_of_an_effect_is_asked_in_earnest() -> None:
     both = Parts(100 * (WAVE + OTHER) + 0.1 * rng.normal(size=ROWS), base=100 * np.column_stack([WAVE, OTHER]))
     one = problem(*[both] * 3)
     asked = Refinement(model("feed_x", "feed_y"), one, NOISE)
-    twin = scored(contribution=[100 * WAVE] * 3, after=0.5)
+    twin = scored(contribution=[100 * WAVE] * 3, after=0.5, family="generic")
     assert asked._cost(one, 0) > 1000.0
     assert asked(twin) == "it takes the place of term0"
-    assert asked(scored(contribution=[100 * OTHER] * 3, after=0.5)) == "it takes the place of term1"
-    assert asked(scored(contribution=[100 * (WAVE + OTHER)] * 3, after=0.5)) is None
+    assert asked(scored(contribution=[100 * OTHER] * 3, after=0.5, family="generic")) == "it takes the place of term1"
+    assert asked(scored(contribution=[100 * (WAVE + OTHER)] * 3, after=0.5, family="generic")) is None
 
 
 def test_an_effect_is_dropped_with_its_time_constants_and_what_was_added_stays() -> None:

@@ -53,7 +53,8 @@ def test_white_noise_is_a_tenth_of_what_the_model_leaves_at_least() -> None:
 
 def test_the_bounds_of_the_search() -> None:
     """In shares of what the model leaves; ten minutes to four days; a share of 3 % to 300 %."""
-    one = problem(Parts(np.tile([2.0, -2.0], 50)), noise=0.1)
+    short = problem(Parts(np.tile([2.0, -2.0], 50)), noise=0.1)
+    one = replace(short, blocks=tuple(replace(b, t_s=np.linspace(0.0, 28_800.0, 100)) for b in short.blocks))
     first, bounds = bounds_of(one)
     assert (first.white, first.slow, first.tau_s, first.share) == pytest.approx((0.1, 2.0, 7200.0, 0.5))
     np.testing.assert_allclose(np.exp(bounds[0]), [0.002, 2.0])
@@ -61,6 +62,14 @@ def test_the_bounds_of_the_search() -> None:
     loud, wide = bounds_of(replace(one, noise=3.0))
     assert (loud.white, np.exp(wide[0, 1])) == pytest.approx((3.0, 6.0)), "the noise lies within"
     assert bounds_of(replace(one, noise=float("nan")))[0].white == pytest.approx(0.04)
+
+
+def test_a_short_test_has_a_slow_noise_of_its_own_scale() -> None:
+    """A twentieth of the longest test where that is under ten minutes; the search begins at a quarter of it."""
+    one = problem(Parts(np.tile([2.0, -2.0], 50)), noise=0.1)
+    brief = replace(one, blocks=tuple(replace(b, t_s=np.linspace(0.0, 200.0, 100)) for b in one.blocks))
+    first, bounds = bounds_of(brief)
+    assert (first.tau_s, np.exp(bounds[2, 0])) == pytest.approx((50.0, 10.0))
 
 
 def test_the_search_climbs_to_the_largest_value_within_bounds() -> None:

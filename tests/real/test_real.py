@@ -109,7 +109,9 @@ def test_no_claim_without_a_falling_error_on_the_locked_part(
         assert (r.diagnosis["verdict"] == "effect") == (r.claimed is not None)
 
 
-def test_the_ribbons_temperature_stands_first_for_the_leaf_spring(heater: Any, capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_ribbons_temperature_stands_first_for_the_leaf_spring(
+    heater: Any, capsys: pytest.CaptureFixture[str]
+) -> None:
     assert heater.ingested["losses"] == []
     rows = heater.ask("sql", "select channel, min(value) as low, max(value) as high from temperature group by 1")
     found = {r["channel"]: (r["low"], r["high"]) for r in rows}

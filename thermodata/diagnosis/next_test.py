@@ -50,8 +50,8 @@ def to_find(tests: int, spots: Sequence[WeakSpot], first: Scored | None = None) 
     if tests < ENOUGH_TESTS:
         shares = ", ".join(f"{share} with {n} tests" for n, share in CLAIMED_BY_TESTS)
         return (
-            f"{tests} tests took part; on simulated machines a missing cause was named on {shares}: add tests that each "
-            "heat one source alone (spindle, one axis, table, hall air)"
+            f"{tests} tests took part; on simulated machines a missing cause was named on {shares}: add tests that "
+            "each heat one source alone (spindle, one axis, table, hall air)"
         )
     worst = spots[0].state if spots else "no state in particular"
     worst = spots[0].state if spots else "no state in particular"
