@@ -198,6 +198,7 @@ CHANNELS = {
     "T_b": ChannelInfo("T_b", "temperature", "degC", at="axis.x.nut"),
     "n": ChannelInfo("n", "rotational_speed", "rpm", at="spindle"),
     "T_free": ChannelInfo("T_free", "temperature", "degC"),
+    "T_loose": ChannelInfo("T_loose", "temperature", "degC"),
 }
 
 
@@ -209,6 +210,7 @@ def test_twins_are_told_apart_by_what_drives_the_claimed_one() -> None:
     assert "same place: not separable by another test" in (advice("T_a", "T_b") or "")
     assert "to tell a:n from b:T_a: short pulses of speed" in (advice("n", "T_a") or "")
     assert "one is heated and the other is not" in (advice("T_a", "n") or "")
-    assert "one is heated and the other is not" in (advice("T_free", "T_free") or ""), "nowhere is not the same place"
+    assert "one is heated and the other is not" in (advice("T_free", "T_loose") or ""), "nowhere is not the same place"
     assert advice("T_a", "T_b", same_effect=True) is None
+    assert advice("T_a", "T_a") is None, "one channel by another name is no rival"
     assert to_separate(scored("a"), [], CHANNELS) is None

@@ -28,8 +28,12 @@ _PROTOCOL = {
 def to_separate(chosen: Scored, twins: Sequence[Scored], channels: Mapping[str, ChannelInfo]) -> str | None:
     """The advice where several candidates explain the same."""
     mine = chosen.candidate
-    # the same effect by another driver is no other answer
-    others = [t.candidate for t in twins if t.candidate.effect.name != mine.effect.name]
+    # the same effect by another driver is no other answer, nor is the same channel by another name
+    others = [
+        t.candidate
+        for t in twins
+        if t.candidate.effect.name != mine.effect.name and set(t.candidate.channels) != set(mine.channels)
+    ]
     if not others:
         return None
     other = others[0]
