@@ -25,6 +25,7 @@ from thermodata.diagnosis.null import best_of_chance, p_value
 from thermodata.diagnosis.problem import Problem
 from thermodata.diagnosis.scored import Scored
 from thermodata.diagnosis.selection import rank_in
+from thermodata.diagnosis.side_by_side import SideBySide, log_evidence
 from thermodata.plugin import Float1D, Float2D, Gain, Param
 
 from .hand_made import Parts, problem
@@ -314,3 +315,20 @@ def test_chance_draws_how_the_known_effects_act_otherwise_and_not_their_gains(sh
         for s, f in zip(_responses(base, np.random.default_rng(0)), fitted, strict=True)
     )
     assert (away > 1e4) is moves
+
+
+def test_tests_side_by_side_give_the_evidence_of_each_by_itself() -> None:
+    """Of unequal length, and with an offset each; where one has two offsets, it is left to the slow way."""
+    rng = np.random.default_rng(3)
+    parts = [Parts(rng.normal(size=n), base=rng.normal(size=(n, 2)), slack=rng.normal(size=(n, 1))) for n in (30, 17)]
+    one, noise = problem(*parts), Noise(0.3, 0.8, 900.0, 0.7)
+    beside = SideBySide(one)
+    expected = known(one, noise)
+    gram, cross, energy, logdet = beside.products(noise)
+    np.testing.assert_allclose(gram, expected.gram.sum(axis=0), rtol=1e-9)
+    np.testing.assert_allclose(cross, expected.cross.sum(axis=0), rtol=1e-9)
+    found = log_evidence(gram, cross, energy, logdet, beside.rows, expected.precision)
+    assert beside.fits
+    assert found == pytest.approx(expected.log_evidence, rel=1e-9)
+    stepped = one.split({one.blocks[0].test.key: [float(one.blocks[0].t_s[10]) + 1.0]})
+    assert not SideBySide(stepped).fits

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from thermodata.diagnosis.discrepancy import LEAST_WHITE, Noise, Whitened, ascend, bounds_of, halved, left_over
 from thermodata.diagnosis.problem import Problem
+from thermodata.diagnosis.side_by_side import SideBySide, log_evidence
 from thermodata.plugin import Float1D, Float2D, Int1D
 
 FloatND = NDArray[np.float64]
@@ -49,11 +50,8 @@ class Known:
     @property
     def log_evidence(self) -> float:
         """Of the response, offsets integrated out."""
-        factor = self.factor(self.every)
-        half = halved(factor, self.cross.sum(axis=0)[:, None])[:, 0]
-        logdet = 2 * np.log(np.diag(factor)).sum() - np.log(self.precision).sum()
-        quad = self.energy.sum() - half @ half
-        return float(-0.5 * (quad + logdet + self.space.logdet + self.space.rows * np.log(2 * np.pi)))
+        of_all = self.gram.sum(axis=0), self.cross.sum(axis=0), float(self.energy.sum())
+        return log_evidence(*of_all, self.space.logdet, self.space.rows, self.precision)
 
 
 def known(problem: Problem, noise: Noise) -> Known:
@@ -65,6 +63,7 @@ def likeliest(problem: Problem, start: Noise | None = None) -> Noise:
     every = max(1, round(problem.rows / SEARCHED))
     thin = problem.thinned(every) if every > 1 else problem
     first, bounds = bounds_of(problem)
+    tests = SideBySide(thin)
     last: tuple[Float1D, Any] | None = None
 
     def evidence(x: Float1D) -> float:
@@ -72,8 +71,12 @@ def likeliest(problem: Problem, start: Noise | None = None) -> Noise:
         noise = Noise(*(float(v) for v in np.exp(x)))
         # the price of other time constants changes no covariance
         if last is None or not np.array_equal(last[0], x[:3]):
-            last = x[:3], _whitened(thin, noise)
-        return _with_prior(thin, noise, *last[1]).log_evidence
+            made: Any = tests.products(noise) if tests.fits else _whitened(thin, noise)
+            last = x[:3], made
+        if not tests.fits:
+            return _with_prior(thin, noise, *last[1]).log_evidence
+        gram, cross, energy, logdet = last[1]
+        return log_evidence(gram, cross, energy, logdet, tests.rows, _precision(thin, noise.share))
 
     found = ascend(evidence, np.log(astuple(first if start is None else start)), bounds)
     white, slow, tau_s, share = (float(v) for v in np.exp(found))
