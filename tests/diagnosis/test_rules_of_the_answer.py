@@ -27,7 +27,7 @@ from .stand_ins import Fitted, Response
 
 SPOT = WeakSpot(campaign="c", test="t0", from_s=0, to_s=60, rmse_um=1.0, state="spindle at rest")
 FIRST = scored("first", after=0.3, size=2.0)
-TWIN = scored("twin", after=0.35)
+TWIN = scored("twin", channels=("T_b",), after=0.35)
 OTHER = scored("other", after=0.9, evidence=-50.0, shape=(0.0, 1.0))
 RANKED = (FIRST, TWIN, OTHER)
 
@@ -188,8 +188,8 @@ class TestAnswer:
         self, monkeypatch: pytest.MonkeyPatch, spec: Model
     ) -> None:
         found = self.answered(monkeypatch, spec, claim(FIRST))
-        assert "to tell first:T_a from twin:T_a" in (found.next_test or "")
-        assert [c.equivalent for c in found.candidates] == [["twin:T_a"], ["first:T_a"], []]
+        assert "to tell first:T_a from twin:T_b" in (found.next_test or "")
+        assert [c.equivalent for c in found.candidates] == [["twin:T_b"], ["first:T_a"], []]
         assert self.answered(monkeypatch, spec, claim(OTHER)).next_test is None
 
     def test_the_numbers_are_those_of_the_left_out_tests(self, monkeypatch: pytest.MonkeyPatch, spec: Model) -> None:
