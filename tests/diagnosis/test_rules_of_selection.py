@@ -226,6 +226,7 @@ def test_a_member_is_swapped_for_what_does_clearly_better_beside_the_others(
     found = world.select("abc")
     assert members(found) == [taken, "c"]
     assert name(found.members[0].alone) == "a"
+    assert members(world.select("abc", lambda s: name(s) != "b")) == ["a", "c"], "never for an unsound one"
 
 
 # ---- rankings

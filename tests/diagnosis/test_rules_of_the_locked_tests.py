@@ -145,9 +145,9 @@ def asked(holds: Callable[[str], bool]) -> tuple[list[str], Callable[[Sequence[J
     return seen, ask
 
 
-def kept(judgement: Judgement, holds: Callable[[str], bool]) -> tuple[Judgement, list[str], str]:
+def kept(judgement: Judgement, holds: Callable[[str], bool], unsound: str = "") -> tuple[Judgement, list[str], str]:
     seen, ask = asked(holds)
-    found = kept_where_they_hold(judgement, ask, "um")
+    found = kept_where_they_hold(judgement, ask, lambda twin: twin.candidate.effect.name not in unsound, "um")
     return found, seen, "".join(c.scored.candidate.effect.name for c in found.claims)
 
 
@@ -169,6 +169,21 @@ def test_the_smallest_claim_goes_before_all_go() -> None:
     assert kept(judged("a", "b", "c", twins="t"), lambda n: n == "t")[2] == "t"
 
 
+def test_a_twin_keeps_the_rules_of_a_claim_itself() -> None:
+    _, seen, names = kept(judged("a", twins="tu"), lambda n: n in "tu", unsound="t")
+    assert (seen, names) == (["a", "u"], "u")
+
+
+def test_a_twin_of_what_the_model_has_is_no_cause() -> None:
+    one, kin = scored("a"), scored("t", kin="near")
+    own = Judged(one, one, None, (one, kin))
+    found, seen, _ = kept(Judgement("effect", (own,), (), (own,), ""), lambda n: n == "t")
+    assert (found.verdict, seen) == ("unknown", ["a"])
+    alike = scored("a", kin="near")
+    own = Judged(alike, alike, None, (alike, kin))
+    assert kept(Judgement("effect", (own,), (), (own,), ""), lambda n: n == "t")[2] == "t"
+
+
 def test_four_twins_are_tried() -> None:
     assert kept(judged("a", twins="tuvwx"), lambda n: False)[1] == ["a", "t", "u", "v", "w"]
 
@@ -182,7 +197,7 @@ def test_a_claim_that_the_locked_tests_contradict_is_withdrawn_with_its_own_figu
 
 
 def test_where_there_are_no_locked_tests_the_claims_are_kept() -> None:
-    assert kept_where_they_hold(judged("a"), lambda claims: None, "um").verdict == "effect"
+    assert kept_where_they_hold(judged("a"), lambda claims: None, lambda twin: True, "um").verdict == "effect"
 
 
 # ---- what is compared

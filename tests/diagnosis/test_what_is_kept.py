@@ -45,7 +45,6 @@ def test_a_point_that_changes_nothing_is_not_ranked_again() -> None:
     found = basis(task(), CandidateEffect(Scaled(), {"u": "T_a"}, "feed_x"))
     assert len(found.points) == 5, "five time constants, four exponents"
     assert {p["exponent"] for p in found.points} == {1.0}, "the first of those alike"
-    assert found.middle == 2
     assert [o.shape for o in found.others] == [(120, 5, 2, 1)] * 3
 
 

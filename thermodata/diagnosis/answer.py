@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -14,6 +14,7 @@ from thermodata.diagnosis.judge import (
     Judged,
     Judgement,
     blunt,
+    claimable,
     equivalents,
     explained,
     failed_rules,
@@ -58,20 +59,28 @@ def answer(fitted: FittedModel, data: Dataset, library: Mapping[str, Effect], mo
     if not judgement.claims:
         locked = []
     else:
-        judgement = kept_where_they_hold(judgement, investigation.borne_out, response.unit)
+        judgement = kept_where_they_hold(
+            judgement,
+            investigation.borne_out,
+            lambda twin: claimable(twin, investigation.measure, response.unit),
+            response.unit,
+        )
         asked = judgement.claims or investigation.judgement.claims
         chosen = [c.scored.candidate for c in asked]
         confirmation = confirm(fitted.spec, index, data, chosen, usable, locked, refitted)
     return Answer(_diagnosis(investigation, judgement, confirmation, data, model_id), tuple(locked))
 
 
-def kept_where_they_hold(judgement: Judgement, ask: BorneOut, unit: str) -> Judgement:
+def kept_where_they_hold(
+    judgement: Judgement, ask: BorneOut, claimable: Callable[[Scored], bool], unit: str
+) -> Judgement:
     """The claims that hold on the locked tests together, else with a twin in the place of the largest, else without
-    the smallest; "unknown" where none does. unit: of the response."""
+    the smallest; "unknown" where none does. claimable: whether a twin keeps the rules of a claim itself. unit: of the
+    response."""
     claims = judgement.claims
     first: Foretold | None = None
     while claims:
-        for tried in (claims, *_with_twins(claims)):
+        for tried in (claims, *_with_twins(claims, claimable)):
             found = ask(tried)
             if found is None or found.holds:
                 return replace(judgement, claims=tried)
@@ -86,11 +95,13 @@ def kept_where_they_hold(judgement: Judgement, ask: BorneOut, unit: str) -> Judg
     return replace(judgement, verdict="unknown", claims=(), reason=reason)
 
 
-def _with_twins(claims: Sequence[Judged]) -> list[tuple[Judged, ...]]:
+def _with_twins(claims: Sequence[Judged], claimable: Callable[[Scored], bool]) -> list[tuple[Judged, ...]]:
     """What can't be told apart is one claim, and one member that does not hold is no reason against the others."""
     largest = claims[0]
-    twins = equivalents(largest.scored, largest.beside)[:TWINS_TRIED]
-    return [(replace(largest, scored=twin), *claims[1:]) for twin in twins]
+    # a twin of the model's own effects refines them: it is no cause, however it does on the locked tests
+    kin = (None, largest.scored.candidate.kin)
+    twins = [t for t in equivalents(largest.scored, largest.beside) if t.candidate.kin in kin and claimable(t)]
+    return [(replace(largest, scored=twin), *claims[1:]) for twin in twins[:TWINS_TRIED]]
 
 
 def worst_response(fitted: FittedModel, tests: Sequence[TestData]) -> int:
@@ -206,7 +217,7 @@ def _why(
     held: Confirmation | None,
 ) -> str:
     unit, count = problem.unit, int(s.acts.sum())
-    others = [j.scored.candidate.id for j in judgement.judged if member is not None and j is not member]
+    others = [j.scored.candidate.id for j in judgement.judged if member is not None and j.alone is not member.alone]
     beside = f", beside {' and '.join(others)}," if others else ""
     improves = round(s.better * count)
     way = "falls" if s.error_after < s.error_before else "does not fall"

@@ -20,30 +20,15 @@ KEPT_BYTES = 256 * 2**20  # of columns; what is beyond is made anew
 
 @dataclass(frozen=True, slots=True)
 class Basis:
-    """A candidate's columns. points: of the grid, without those that change nothing; middle: the one in its middle.
+    """A candidate's columns. points: of the grid, without those that change nothing.
 
     own: a block each, shape (m, points, gains). others: shape (m, points, ways, gains), how each column differs where
     the effect acts faster or slower (`CandidateEffect.slack_params`).
     """
 
     points: list[dict[str, float]]
-    middle: int
     own: list[NDArray[np.float64]]
     others: list[NDArray[np.float64]]
-
-    @property
-    def plain(self) -> list[list[Float2D]]:
-        """For each point, a block's columns (m, gains)."""
-        return [[own[:, i] for own in self.own] for i in range(len(self.points))]
-
-    def extended(self, gains: Float2D) -> list[list[Float2D]]:
-        """The same with what acts faster and slower at the gains of each point, shape (points, gains):
-        (m, gains + ways)."""
-        both = [
-            np.concatenate([own, np.einsum("mpwg,pg->mpw", others, gains)], axis=2)
-            for own, others in zip(self.own, self.others, strict=True)
-        ]
-        return [[columns[:, i] for columns in both] for i in range(len(self.points))]
 
     @property
     def nbytes(self) -> int:
@@ -80,7 +65,7 @@ def _made(problem: Problem, candidate: CandidateEffect) -> Basis:
     kept = sorted(set(place))
     own = [np.ascontiguousarray(each[:, kept, 0]) for each in compressed]
     others = [each[:, kept, 1:] - each[:, kept, :1] for each in compressed]
-    return Basis([points[i] for i in kept], kept.index(place[len(points) // 2]), own, others)
+    return Basis([points[i] for i in kept], own, others)
 
 
 def _first_alike(compressed: Sequence[NDArray[np.float64]]) -> list[int]:

@@ -61,7 +61,7 @@ class CandidateEffect:
         return np.zeros((size, len(self.effect.gains))) if drivers is None else columns(self.effect, drivers, p)
 
     def slack_params(self, p: Mapping[str, float]) -> list[dict[str, float]]:
-        """The parameters of the same effect acting faster and slower (see `investigate.slack_columns`)."""
+        """The parameters of the same effect acting faster and slower (see `known_effects.otherwise`)."""
         return [
             {**p, param.name: p[param.name] * factor}
             for param in self.effect.params

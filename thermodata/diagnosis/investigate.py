@@ -29,14 +29,13 @@ from thermodata.view.dataset import ChannelInfo, Dataset, TestData
 # rows of all tests in which candidates are weighed: the covariance of a test costs the cube of its rows
 WEIGHED_ROWS = 2400
 
-
 # what the locked tests say of some claims; None where there are none
 BorneOut = Callable[[Sequence[Judged]], Foretold | None]
 
 
 @dataclass(frozen=True, slots=True)
 class Investigation:
-    """problem: in fine samples, for steps and faults. selection: None where nothing can be left out."""
+    """problem: in the samples in which candidates are weighed. selection: None where nothing can be left out."""
 
     problem: Problem
     selection: Selection | None

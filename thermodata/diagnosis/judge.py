@@ -183,6 +183,11 @@ def blunt(scored: Scored) -> str | None:
     )
 
 
+def claimable(scored: Scored, measure: Measure, unit: str) -> bool:
+    """Whether it keeps every rule of a claim; what it refines is another question."""
+    return not failed_rules(scored, measure, unit) and blunt(scored) is None
+
+
 def _unnamed(scored: Scored) -> bool:
     """Whether its place is known, and still no effect has a name for it; where no place is declared, nothing could."""
     return scored.candidate.family == GENERIC and not scored.candidate.placeless

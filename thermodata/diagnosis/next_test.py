@@ -58,7 +58,6 @@ def to_find(tests: int, spots: Sequence[WeakSpot], first: Scored | None = None) 
             "each heat one source alone (spindle, one axis, table, hall air)"
         )
     worst = spots[0].state if spots else "no state in particular"
-    worst = spots[0].state if spots else "no state in particular"
     logged = ""
     if first is not None and first.drop >= WORTH_A_TEST:
         channels = ", ".join(first.candidate.channels)

@@ -29,6 +29,7 @@ NAMED_SHARE = 0.95
 ALIKE_SHARE = 0.8  # the same for a name on another channel that acts alike (cosine)
 ALIKE = 0.8
 FEWER_SHARE = 0.8
+CONTROL = "control"  # its static compensation is a difference of any two temperatures
 
 
 @dataclass(frozen=True, slots=True)
@@ -91,7 +92,7 @@ def select(problem: Problem, first: Ranked, sound: Callable[[Scored], bool]) -> 
             current = _each_beside_others(problem, chosen, noise)
         if len(dropped) == before:
             break
-    members = tuple(_member(problem, pool, chosen, i, current[i], noise) for i in range(len(chosen)))
+    members = tuple(_member(problem, pool, chosen, i, current[i], noise, sound) for i in range(len(chosen)))
     return Selection(first, members, tuple(dropped), noise)
 
 
@@ -128,13 +129,19 @@ def _each_beside_others(problem: Problem, chosen: Sequence[Scored], noise: Noise
 
 
 def _member(
-    problem: Problem, pool: Sequence[Columns], chosen: Sequence[Scored], number: int, own: Scored, noise: Noise
+    problem: Problem,
+    pool: Sequence[Columns],
+    chosen: Sequence[Scored],
+    number: int,
+    own: Scored,
+    noise: Noise,
+    sound: Callable[[Scored], bool],
 ) -> Member:
-    """One that another candidate does clearly better, beside the others, is swapped for it."""
+    """One that a sound candidate does clearly better, beside the others, is swapped for it."""
     others = [c for i, c in enumerate(chosen) if i != number]
     ranking = rank_in(beside(problem, others), without(pool, others), noise)
     best = preferred(ranking.ranked)
-    if best is not None and _clearly(best, own) and best.drop > own.drop:
+    if best is not None and _clearly(best, own) and best.drop > own.drop and sound(best):
         return Member(chosen[number], best, ranking.ranked)
     return Member(chosen[number], own, ranking.ranked)
 
@@ -192,9 +199,6 @@ def preferred(ranked: Sequence[Scored]) -> Scored | None:
         ):
             return other if not fewer else preferred([other, *(s for s in ranked if s is not other and s is not best)])
     return best
-
-
-CONTROL = "control"  # its static compensation is a difference of any two temperatures
 
 
 def extended(problem: Problem, made: Columns, weighed: Weighed) -> Problem:
