@@ -104,7 +104,7 @@ class RawIngest:
             before.setdefault(raw.source_path, []).append(raw)
         there = set(files.paths)
         same = twins(files.paths, self._hashes(files.paths))
-        for path in sorted({*there, *(p for p in before if files.claims(p))}, key=natural):
+        for path in sorted({*there, *(p for p in before if p not in there and files.claims(p))}, key=natural):
             if path in same:
                 self.notes.append(f"{path}: left out, its content is that of {same[path]}")
                 self._done(path)
