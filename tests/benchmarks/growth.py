@@ -1,4 +1,4 @@
-"""How thermodata grows: a campaign of 1,000 tests, a hundred long ones, very wide and very dense files; before and after.
+"""How thermodata grows: a campaign of 1,000 tests, a hundred long ones, very wide and very dense files.
 
     uv run python tests/benchmarks/growth.py [--tests 1000] [--part ingest query ...] [--runs 1]
     uv run python tests/benchmarks/growth.py --against ../before/.venv/bin/python     # another checkout beside it
@@ -125,7 +125,11 @@ def queries(programs: Sequence[Program], folder: Path, tests: int, runs: int) ->
     for view in ("sample", "temperature"):
         query = f"select test, avg(value) from {view} where channel = 'T3' group by test"
         yield measured(
-            f"{view}: mean of a channel in each test", "0.1 s", programs, runs, lambda p, q=query: answered(p, stores, q)
+            f"{view}: mean of a channel in each test",
+            "0.1 s",
+            programs,
+            runs,
+            lambda p, q=query: answered(p, stores, q),
         )
         query = f"select avg(value) from {view} where channel = 'T3'"
         yield measured(
@@ -165,7 +169,9 @@ def previews(programs: Sequence[Program], folder: Path, tests: int, runs: int) -
     ):
         make(folder / name)
         print(f"{name}: {(folder / name).stat().st_size / 1e6:.1f} MB", file=sys.stderr)
-        yield measured(f"preview of {what}", limit, programs, runs, lambda p, n=name: p("preview", folder / n, "--json"))
+        yield measured(
+            f"preview of {what}", limit, programs, runs, lambda p, n=name: p("preview", folder / n, "--json")
+        )
 
 
 def drafts(programs: Sequence[Program], folder: Path, tests: int, runs: int) -> Iterator[Row]:
@@ -231,12 +237,15 @@ def digests(store: Path) -> list[tuple[str, str]]:
     import duckdb
 
     found = [
-        (str(p.relative_to(store)), hashlib.sha256(p.read_bytes()).hexdigest()) for p in sorted(store.rglob("*.parquet"))
+        (str(p.relative_to(store)), hashlib.sha256(p.read_bytes()).hexdigest())
+        for p in sorted(store.rglob("*.parquet"))
     ]
     with duckdb.connect(str(store / "catalog.duckdb"), read_only=True) as con:
         for name in CATALOGUE:
             left = ", ".join(
-                f"\"{c}\"" for (c,) in con.execute(f"select column_name from (describe {name})").fetchall() if c not in MOMENTS
+                f'"{c}"'
+                for (c,) in con.execute(f"select column_name from (describe {name})").fetchall()
+                if c not in MOMENTS
             )
             rows = sorted(map(repr, con.execute(f"select {left} from {name}").fetchall()))
             found.append((name, hashlib.sha256(repr(rows).encode()).hexdigest()))
@@ -270,6 +279,7 @@ def main() -> None:
     arguments.add_argument("--against", type=Path, help="the Python of another version's environment")
     arguments.add_argument("--folder", type=Path)
     given = arguments.parse_args()
+    os.environ.pop("PYTHONDONTWRITEBYTECODE", None)  # or every process compiles itself anew
     programs = [Program("now", Path(sys.executable))]
     if given.against:
         programs.insert(0, Program("before", Path(os.path.abspath(given.against))))
