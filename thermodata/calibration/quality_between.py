@@ -9,10 +9,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from itertools import accumulate
 
 import numpy as np
 
-from thermodata.plugin import Float1D
+from thermodata.plugin import Array, Bool1D, Float1D, Float2D
 
 POINTS = 24  # of a test, evenly spread over it
 _LEAST_K = 8.0
@@ -37,48 +38,63 @@ def offsets_between_tests(tests: Sequence[Levels]) -> dict[tuple[str, str], floa
     no later test began after a rest, for then a part that stays hot would look the same.
     """
     ordered = sorted(tests, key=lambda t: t.start_s)
-    rested = [
-        i > 0 and ordered[i].start_s - max(t.end_s for t in ordered[:i]) >= _RESTED_S for i in range(len(ordered))
-    ]
+    ends = accumulate((t.end_s for t in ordered), max)
+    rested = [False] * bool(ordered) + [t.start_s - end >= _RESTED_S for t, end in zip(ordered[1:], ends, strict=False)]
     offsets: dict[tuple[str, str], float] = {}
-    for channel in dict.fromkeys(c for t in ordered for c in t.series):
-        spans = [_difference(t, channel) for t in ordered]
-        change = _change(spans, rested)
+    for channel, spans in _differences(ordered).items():
+        told = np.flatnonzero(np.isfinite(spans[:, 0]))
+        change = _change(spans[told], np.array(rested, bool)[told])
         if change is None:
             continue
         at, size = change
-        offsets |= {(t.test, channel): size for t, s in zip(ordered[at:], spans[at:], strict=True) if s is not None}
+        offsets |= {(ordered[i].test, channel): size for i in told[at:]}
     return offsets
 
 
-def _difference(test: Levels, channel: str) -> tuple[float, float, float] | None:
-    """(lowest, highest, median) difference [K] of a channel from the median of the others; None where untold."""
-    own = test.series.get(channel)
-    others = [x for name, x in test.series.items() if name != channel and np.isfinite(x).any()]
-    if own is None or len(others) < _LEAST_OTHERS:
-        return None
-    stacked = np.stack(others)
-    enough = np.isfinite(own) & (np.isfinite(stacked).sum(axis=0) >= _LEAST_OTHERS)
-    if not enough.any():
-        return None
-    d = own[enough] - np.nanmedian(stacked[:, enough], axis=0)
-    return float(d.min()), float(d.max()), float(np.median(d))
+def _differences(tests: Sequence[Levels]) -> dict[str, Float2D]:
+    """Channel -> shape (tests, 3): lowest, highest and median difference [K] from the median of the others; NaN where
+    untold."""
+    spans = {c: np.full((len(tests), 3), np.nan) for c in dict.fromkeys(c for t in tests for c in t.series)}
+    alike: dict[tuple[str, ...], list[int]] = {}
+    for i, test in enumerate(tests):
+        alike.setdefault(tuple(test.series), []).append(i)
+    for names, at in alike.items():
+        stacked = np.array([[tests[i].series[name] for name in names] for i in at])
+        for k, name in enumerate(names):
+            own, others = stacked[:, k], np.delete(stacked, k, axis=1)
+            enough = np.isfinite(own) & (np.isfinite(others).sum(axis=1) >= _LEAST_OTHERS)
+            some = enough.any(axis=1)
+            if not some.any():
+                continue
+            d = np.where(enough, own - _median(others, 1), np.nan)[some]
+            spans[name][np.array(at)[some]] = np.stack(
+                [np.nanmin(d, axis=1), np.nanmax(d, axis=1), _median(d, 1)], axis=1
+            )
+    return spans
 
 
-def _change(spans: Sequence[tuple[float, float, float] | None], rested: Sequence[bool]) -> tuple[int, float] | None:
-    """(first test that is off, by how much): where all differences after lie beyond all before."""
-    told = [i for i, s in enumerate(spans) if s is not None]
-    best: tuple[int, float] | None = None
-    widest = _LEAST_K
-    for split in range(1, len(told)):
-        before = [s for i in told[:split] if (s := spans[i]) is not None]
-        after = [s for i in told[split:] if (s := spans[i]) is not None]
-        if not any(rested[i] for i in told[split:]):
-            continue
-        up = min(s[0] for s in after) - max(s[1] for s in before)
-        down = min(s[0] for s in before) - max(s[1] for s in after)
-        if max(up, down) > widest:
-            widest = max(up, down)
-            size = float(np.median([s[2] for s in after]) - np.median([s[2] for s in before]))
-            best = told[split], size
-    return best
+def _median(values: Array, axis: int) -> Array:
+    """The median of what is finite; NaN where nothing is. numpy's own takes 0.4 ms a call for the few values of a
+    test."""
+    ordered = np.sort(np.where(np.isfinite(values), values, np.nan), axis=axis)  # NaN goes to the end
+    count = np.isfinite(ordered).sum(axis=axis, keepdims=True)
+    low = np.take_along_axis(ordered, np.maximum((count - 1) // 2, 0), axis)
+    high = np.take_along_axis(ordered, np.minimum(count // 2, ordered.shape[axis] - 1), axis)
+    return np.where(count > 0, (low + high) / 2, np.nan).squeeze(axis)
+
+
+def _change(spans: Float2D, rested: Bool1D) -> tuple[int, float] | None:
+    """(first test that is off, by how much): where all differences after lie beyond all before. spans: shape (n, 3),
+    nothing of it NaN."""
+    if len(spans) < 2:
+        return None
+    low, high, middle = spans.T
+    # of a split before test i: the extremes of those before it, and from it on
+    up = np.minimum.accumulate(low[::-1])[::-1][1:] - np.maximum.accumulate(high)[:-1]
+    down = np.minimum.accumulate(low)[:-1] - np.maximum.accumulate(high[::-1])[::-1][1:]
+    size = np.maximum(up, down)
+    size[~np.logical_or.accumulate(rested[::-1])[::-1][1:]] = -np.inf
+    split = int(np.argmax(size)) + 1
+    if size[split - 1] <= _LEAST_K:
+        return None
+    return split, float(np.median(middle[split:]) - np.median(middle[:split]))
