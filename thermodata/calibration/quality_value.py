@@ -11,6 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from thermodata.calibration.tread import exact_tread_of, tread_of
 from thermodata.plugin import Array, Bool1D, Float1D, Int1D
 from thermodata.schema.flag import Flag
 
@@ -18,6 +19,7 @@ _LEAST_HELD = 10  # samples
 _LEAST_HELD_S = 5.0
 _SPIKE = 10.0  # of the noise of a difference
 _REACH = 8
+_TAIL, _TAIL_TIMES = 0.995, 5.0  # a spike is so many times what a channel does every two hundred samples
 _OFFSET_K = 5.0
 _MANY_SPIKES = 0.005
 _AROUND = 20  # samples that tell a level
@@ -88,6 +90,13 @@ def true_runs(hit: Bool1D) -> tuple[Int1D, Int1D]:
     return rows[np.concatenate([[True], parted])], rows[np.concatenate([parted, [True]])] + 1
 
 
+def is_staircase(x: Float1D, own: RunStats) -> bool:
+    """Whether a channel stands on treads that are coarse beside its changes, though means, or steps of several at
+    once, make finer differences: on a tread it repeats a value, and an extreme, as a matter of course."""
+    tread = exact_tread_of([x])
+    return own.step < 2.5 * tread
+
+
 def held_runs(
     x: Float1D, t_ns: Array, own: RunStats, others: Mapping[str, Array], stats: Mapping[str, RunStats]
 ) -> Iterator[tuple[int, int, bool, str]]:
@@ -96,7 +105,7 @@ def held_runs(
     The channel must be fine-grained, and either noisy of its own, or jump where it is released while others moved
     (the drift that nobody saw). Stuck: it got there by a jump, so it is no reading that was held.
     """
-    if not own.float_like or not len(own.starts):
+    if not own.float_like or not len(own.starts) or is_staircase(x, own):
         return
     # expected number of such runs by chance under 1/1000
     least = np.log(1e-3 / len(x)) / np.log(max(own.chance, 1e-3)) * 1.5
@@ -137,10 +146,38 @@ def spikes(x: Float1D, own: RunStats) -> tuple[Bool1D, bool]:
     noise = max(own.step, 2.0 * own.finest)
     if own.leap <= _SPIKE * noise:
         return hit, False
+    rows, height = _stand_out(x, noise)
+    if len(rows):
+        # a flicker between two treads is no spike
+        noise = max(noise, tread_of([x]))
+        rows, height = rows[height > _SPIKE * noise], height[height > _SPIKE * noise]
+    hit[rows] = True
+    _without_long(hit)
+    count = int(hit.sum())
+    many = count > max(10, _MANY_SPIKES * n)
+    if count:
+        # air in a draught, a probe at high speed: what comes in all sizes is no spike
+        beyond = _beyond(hit, rows, height, _TAIL_TIMES * _tail(x))
+        if beyond.any() or not many:
+            return beyond, int(beyond.sum()) > max(10, _MANY_SPIKES * n)
+    return hit, many
+
+
+def _beyond(hit: Bool1D, rows: Int1D, height: Float1D, least: float) -> Bool1D:
+    """The runs of `hit` that stand out by more than `least` somewhere. rows, height: shape (k,)."""
+    top = np.zeros(len(hit))
+    top[rows] = height
+    beyond = np.zeros_like(hit)
+    for a, b in zip(*true_runs(hit), strict=True):
+        beyond[a:b] = top[a:b].max() > least
+    return beyond
+
+
+def _stand_out(x: Float1D, noise: float) -> tuple[Int1D, Float1D]:
+    """(rows that stand out from what is around them by more than 10 times the noise, by how much)."""
+    n = len(x)
     with np.errstate(invalid="ignore"):
         jumps = np.flatnonzero(np.abs(np.diff(x)) > _SPIKE * noise)
-    if not len(jumps):
-        return hit, False
     near = np.unique(np.clip((jumps[:, None] + np.array([1, 2, 3, 0, -1, -2])).ravel(), 0, n - 1))
     if len(near) > 0.2 * n + 1000:
         near = near[:: int(len(near) / (0.2 * n + 1000)) + 1]
@@ -151,19 +188,32 @@ def spikes(x: Float1D, own: RunStats) -> tuple[Bool1D, bool]:
     enough = (fine[:, :half].sum(axis=1) >= 3) & (fine[:, half:].sum(axis=1) >= 3)
     near, around = near[enough], around[enough]
     if not len(near):
-        return hit, False
+        return near, np.empty(0)
     left, right = np.nanmedian(around[:, :half], axis=1), np.nanmedian(around[:, half:], axis=1)
     middle = (left + right) / 2
     spread = np.nanmedian(np.abs(around - np.where(np.arange(2 * half) < half, left[:, None], right[:, None])), axis=1)
     height = np.abs(x[near] - middle)
     with np.errstate(invalid="ignore"):
         out = (height > np.maximum(_SPIKE * noise, 10 * spread)) & (np.abs(left - right) < 0.3 * height)
-    hit[near[out]] = True
+    return near[out], height[out]
+
+
+def _without_long(hit: Bool1D) -> None:
     for a, b in zip(*true_runs(hit), strict=True):
         if b - a > 3:
             hit[a:b] = False
-    count = int(hit.sum())
-    return hit, count > max(10, _MANY_SPIKES * n)
+
+
+def _tail(x: Float1D) -> float:
+    """How far a sample lies from the middle of what is 3 before and 3 after it, exceeded by one of two hundred (and
+    by ten in any case, for so many spikes may be there)."""
+    off = np.abs(x[3:-3] - (x[:-6] + x[6:]) / 2)
+    off = off[np.isfinite(off)]
+    if len(off) > 50_000:
+        off = off[:: len(off) // 50_000 + 1]
+    # the spikes themselves are among them, each with the two that it shifts
+    share = max(1 - _TAIL, 30 / max(len(off), 1))
+    return float(np.quantile(off, 1 - share)) / float(np.sqrt(1.5)) if share < 0.5 else 0.0
 
 
 def offset_steps(

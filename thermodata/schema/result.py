@@ -280,7 +280,7 @@ class Diagnosis(Result):
     verdict: effect: one is missing; refine: none is missing, but an effect that is there acts otherwise than modelled;
         none: what is left is noise; unknown: something is left that nothing logged explains; not_testable: the tests
         cannot tell
-    noise_um: short-term noise of the response, in its unit
+    noise_um: short-term noise of the response, in its unit; of a staircase at least what its treads leave
     rmse_um: error on left-out tests without any candidate
     explainable: largest fall of the squared error that a candidate gives, 0 to 1
     weak_spots: where the model fails, by cost
