@@ -1,4 +1,4 @@
-"""What is wrong with a column's values: held and stuck readings, spikes, sudden offsets.
+"""What is wrong with a column's values: held and stuck readings, spikes. (Sudden offsets: `quality_step`.)
 
 All of it leans on one look at the differences of neighbours (RunStats): how fine the readings are, how noisy,
 and how often neighbours are equal by chance.
@@ -13,17 +13,13 @@ import numpy as np
 
 from thermodata.calibration.tread import exact_tread_of, tread_of
 from thermodata.plugin import Array, Bool1D, Float1D, Int1D
-from thermodata.schema.flag import Flag
 
 _LEAST_HELD = 10  # samples
 _LEAST_HELD_S = 5.0
 _SPIKE = 10.0  # of the noise of a difference
 _REACH = 8
 _TAIL, _TAIL_TIMES = 0.995, 5.0  # a spike is so many times what a channel does every two hundred samples
-_OFFSET_K = 5.0
 _MANY_SPIKES = 0.005
-_AROUND = 20  # samples that tell a level
-_BACK = 0.3  # of a step: what comes so near to the level before it has come back
 
 
 @dataclass(frozen=True, slots=True)
@@ -214,74 +210,3 @@ def _tail(x: Float1D) -> float:
     # the spikes themselves are among them, each with the two that it shifts
     share = max(1 - _TAIL, 30 / max(len(off), 1))
     return float(np.quantile(off, 1 - share)) / float(np.sqrt(1.5)) if share < 0.5 else 0.0
-
-
-def offset_steps(
-    x: Float1D, t_ns: Array, flags: Array, of_time: Array, own: RunStats
-) -> Iterator[tuple[int, int, float, str]]:
-    """(start, stop, size [K], how) where a temperature steps by more than 5 K within one sample, or over a pause by
-    more than it ever changes in such a time, and stays there: thermal mass forbids it, a failing sensor or a
-    changed plug does it. Ends at a step back, or at the end. Where the value comes back by itself the step was real.
-
-    x: shape (n,), degC. flags: of the column so far; of_time: of the times; uint16, shape (n,).
-    """
-    if own.step <= 0:
-        return
-    ignored = Flag.SPIKE | Flag.STUCK | Flag.OUT_OF_RANGE | Flag.HELD
-    least = max(_OFFSET_K, 40 * own.step)
-    if own.leap <= least / 2 and not (flags & np.uint16(ignored)).any():
-        return
-    rows = np.flatnonzero((flags & np.uint16(ignored)) == 0)
-    if len(rows) < 40:
-        return
-    y = x[rows]
-    d = np.diff(y)
-    gap = ((of_time[rows[1:]] & int(Flag.GAP)) != 0) | (np.diff(rows) > 5)
-    jumps = np.flatnonzero(np.abs(d) > least / 2)
-    open_at, looked, size, level, how = -1, 0, 0.0, 0.0, ""
-    for j in jumps.tolist():
-        if open_at >= 0 and _comes_back(y[looked : j + 1], level, size):
-            open_at = -1
-        looked = j + 1
-        if open_at >= 0:
-            if abs(d[j] + size) < 0.5 * abs(size):
-                yield int(rows[open_at]), int(rows[j]) + 1, size, how
-                open_at = -1
-        elif abs(d[j]) > least and _stays(y, d, j) and (not gap[j] or _beyond_its_pace(y, t_ns[rows], d, j)):
-            pause = (t_ns[rows[j + 1]] - t_ns[rows[j]]) / 1e9
-            open_at, size = j + 1, float(d[j])
-            level = float(np.median(y[max(0, j - _AROUND) : j + 1]))
-            how = f"over a pause of {pause:.4g} s" if gap[j] else "within one sample"
-    if open_at >= 0 and not _comes_back(y[looked:], level, size):
-        yield int(rows[open_at]), len(x), size, how
-
-
-def _comes_back(after: Float1D, level: float, size: float) -> bool:
-    """Whether what follows a step returns, without a step, to the level before it: by medians of _AROUND samples."""
-    whole = after[: len(after) // _AROUND * _AROUND].reshape(-1, _AROUND)
-    return bool((np.abs(np.median(whole, axis=1) - level) < _BACK * abs(size)).any()) if len(whole) else False
-
-
-def _beyond_its_pace(y: Float1D, t_ns: Array, d: Float1D, j: int) -> bool:
-    """Whether the change over the pause after row j is more than twice what the channel does in such a time
-    elsewhere, and more than its range on either side: over a long pause a machine may have cooled."""
-    pause = int(t_ns[j + 1] - t_ns[j])
-    later = np.searchsorted(t_ns, t_ns + pause)
-    inside = later < len(y)
-    inside[max(0, int(np.searchsorted(t_ns, t_ns[j] - pause))) : j + 1] = False  # those that span the pause itself
-    rows = np.flatnonzero(inside)
-    spread = max(float(np.ptp(y[: j + 1])), float(np.ptp(y[j + 1 :])))
-    if len(rows) < 20:  # a pause longer than what was recorded on either side
-        return abs(float(d[j])) > max(2 * _OFFSET_K, 3 * spread)
-    usual = float(np.max(np.abs(y[later[rows]] - y[rows])))
-    return abs(float(d[j])) > max(2 * usual, 1.2 * spread)
-
-
-def _stays(y: Float1D, d: Float1D, j: int) -> bool:
-    """Whether the step after row j lasts, and stands out of the changes around it."""
-    before, after = y[max(0, j - 20) : j + 1], y[j + 1 : j + 21]
-    if len(before) < 5 or len(after) < 5 or abs(np.median(after) - np.median(before)) < 0.7 * abs(d[j]):
-        return False
-    around = np.abs(np.concatenate([d[max(0, j - 200) : j], d[j + 1 : j + 201]]))
-    around = around[around > 0]
-    return not len(around) or bool(abs(d[j]) > 3 * np.quantile(around, 0.9))
