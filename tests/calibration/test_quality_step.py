@@ -34,8 +34,10 @@ def stepped(size: float, step_s: float, pause_s: float = 0.0, tau_s: float = 0.0
 
 @pytest.mark.parametrize(
     ("size", "step_s", "flagged"),
-    [(5.6, 1.0, True), (4.6, 1.0, False), (13.0, 60.0, False), (16.0, 60.0, True), (21.5, 600.0, True)]
-    + [(18.0, 600.0, False), (-30.0, 600.0, True)],
+    [
+        *((5.6, 1.0, True), (4.6, 1.0, False), (13.0, 60.0, False), (16.0, 60.0, True)),
+        *((21.5, 600.0, True), (18.0, 600.0, False), (-30.0, 600.0, True)),
+    ],
 )
 def test_a_step_is_more_than_heat_can_do_in_the_time(size: float, step_s: float, flagged: bool) -> None:
     assert stepped(size, step_s)[0] is flagged

@@ -114,7 +114,7 @@ def _goes_on(y: Float1D, j: int, size: float) -> bool:
     after, before = y[j + 1 : j + 1 + _AROUND], y[max(0, j + 1 - _AROUND) : j + 1]
     further = float(np.median(after[len(after) // 2 :]) - after[0])
     usual = float(before[-1] - np.median(before[: (len(before) + 1) // 2]))
-    return (further - usual) * np.sign(size) > _GOES_ON * abs(size)
+    return bool((further - usual) * np.sign(size) > _GOES_ON * abs(size))
 
 
 def _comes_back(after: Float1D, level: float, size: float) -> bool:
