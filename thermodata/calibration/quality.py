@@ -47,13 +47,14 @@ MOST_EVENTS = 2000  # of a channel and flag; `concise` makes fewer of them
 class ColumnInput:
     """A column. values: shape (n,), in the canonical unit (text for a label). flags: those that it already has
     (from the reader and from `calibrate`), kept and reported. range: (low, high) in the canonical unit. at: its place,
-    where it is known."""
+    where it is known. elsewhere: how it reads in other tests, where this one does not tell."""
 
     values: Array
     quantity: str
     flags: Array | None = None
     range: tuple[float, float] | None = None
     at: str | None = None
+    elsewhere: RunStats | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -110,7 +111,7 @@ def _column(
     if name in stats:
         x = np.asarray(column.values, dtype=np.float64)
         others = {k: columns[k].values for k in stats if k != name} if len(stats[name].starts) else {}
-        for start, stop, stuck, why in held_runs(x, t_ns, stats[name], others, stats):
+        for start, stop, stuck, why in held_runs(x, t_ns, stats[name], others, stats, column.elsewhere):
             if (flags[start:stop] & np.uint16(Flag.SATURATED | Flag.OUT_OF_RANGE)).all():
                 continue  # at the end of its range a reading stands still
             flag = Flag.STUCK if stuck else Flag.HELD

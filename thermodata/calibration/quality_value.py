@@ -7,7 +7,7 @@ and how often neighbours are equal by chance.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -94,14 +94,24 @@ def is_staircase(x: Float1D, own: RunStats) -> bool:
 
 
 def held_runs(
-    x: Float1D, t_ns: Array, own: RunStats, others: Mapping[str, Array], stats: Mapping[str, RunStats]
+    x: Float1D,
+    t_ns: Array,
+    own: RunStats,
+    others: Mapping[str, Array],
+    stats: Mapping[str, RunStats],
+    elsewhere: RunStats | None = None,
 ) -> Iterator[tuple[int, int, bool, str]]:
     """(start, stop, stuck, why) of exactly constant stretches that chance can't explain.
 
     The channel must be fine-grained, and either noisy of its own, or jump where it is released while others moved
-    (the drift that nobody saw). Stuck: it got there by a jump, so it is no reading that was held.
+    (the drift that nobody saw). Stuck: it got there by a jump, so it is no reading that was held. elsewhere: how the
+    channel reads in other tests, which counts where it stands for too long to tell here.
     """
-    if not own.float_like or not len(own.starts) or is_staircase(x, own):
+    if not len(own.starts):
+        return
+    if elsewhere is not None and not own.float_like:
+        own = replace(elsewhere, starts=own.starts, lengths=own.lengths)
+    elif not own.float_like or is_staircase(x, own):
         return
     # expected number of such runs by chance under 1/1000
     least = np.log(1e-3 / len(x)) / np.log(max(own.chance, 1e-3)) * 1.5
