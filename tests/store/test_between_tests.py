@@ -147,3 +147,44 @@ def test_a_flag_is_overruled_with_a_reason_that_stays(store: Store, tmp_path: Pa
     path.write_text(text.replace(RULE, ""), encoding="utf-8")
     ingest(store, path)
     assert set(flagged(store, "T_1", Flag.OFFSET)) == {"day3", "day4"}
+
+
+MODEL = """
+schema: thermodata/model/1
+name: baseline
+campaign: days
+response: {channel: dZ}
+step: 60 s
+effects:
+  - {effect: lag, drivers: {u: n}}
+"""
+
+
+def test_a_fit_says_what_it_loses_to_flags_and_a_faulty_sensor_is_no_candidate(store: Store, tmp_path: Path) -> None:
+    import yaml
+
+    from thermodata.diagnosis.candidates import candidates
+    from thermodata.diagnosis.logging_faults import faulty_sensors
+    from thermodata.effect.registry import effects
+    from thermodata.modelling.fit import fit_model
+    from thermodata.schema.model import Model
+    from thermodata.view.load import load_dataset
+
+    logs = [day(1), day(2), day(3, T1=30.0), day(4, T1=30.0)]
+    logs[1][0]["main"]["dZ"][450:] = logs[1][0]["main"]["dZ"][450]
+    extra = "".join(f"  - {{id: day{k}, kind: spindle, role: calibration}}\n" for k in (1, 2, 3, 4))
+    path = lab(tmp_path, logs)
+    text = path.read_text(encoding="utf-8")
+    path.write_text(text.replace(TESTS, "tests:\n" + extra), encoding="utf-8")
+    ingest(store, path)
+    data = load_dataset(store, ["days"], 60.0)
+    assert {n for n, c in data.channels.items() if c.faulty} == {"T_1", "dZ"}
+    fitted = fit_model(Model.model_validate(yaml.safe_load(MODEL)), data)
+    failed = {c.name: c for c in fitted.checks() if c.name.startswith("lost_to_flags")}
+    assert list(failed) == ["lost_to_flags:days/day2"]
+    assert failed["lost_to_flags:days/day2"].advice.startswith("25 % of 'dZ' does not count in 'day2'")
+    asked = candidates(effects(), data.channels, [], "dZ")
+    assert asked
+    assert not [c for c in asked if "T_1" in c.channels]
+    assert [c for c in asked if "T_2" in c.channels]
+    assert [(a.kind, a.test) for a in faulty_sensors(data, "dZ")] == [("sensor", "day3"), ("sensor", "day4")]

@@ -168,11 +168,11 @@ class Candidate(Result):
 class Artefact(Result):
     """A fault of the logs, beside any verdict.
 
-    kind: step, clock_offset, sign, gain or parameters
+    kind: step, clock_offset, sign, gain, parameters or sensor
     campaign: id
     test: id; empty where all tests share it
     at_s: from the test's start [s]
-    size_um: its size, in the response's unit
+    size_um: its size, in the response's unit; null for a sensor
     why: the evidence in a sentence
     """
 
