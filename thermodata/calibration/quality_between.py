@@ -21,6 +21,11 @@ _LEAVES_K = 2.0  # a drift begins where it leaves by more what was usual, and do
 _RESTED_S = 4 * 3600.0  # bearings and motors cool in one to two hours
 _LEVEL_K = 2.0  # four of five others within so much of their median: without a clock, a machine at rest
 _LEVEL_SHARE = 0.8
+_FOLLOWS_SHARE = (
+    0.6  # of the others suffices in two tests and more, where the sensor does as before, but for a constant
+)
+_FOLLOWS_K = 2.0
+_SET_POINTS, _SET_APART_K = 4, 5.0
 _LEAST_OTHERS = 3
 _UNTOLD: tuple[Float1D, Float1D] = np.empty(0), np.empty(0)
 _LEAST_BEFORE = 3  # points, or nobody knows what was usual
@@ -76,25 +81,33 @@ def offsets_between_tests(tests: Sequence[Levels]) -> dict[tuple[str, str], Off]
     offsets: dict[tuple[str, str], Off] = {}
     for channel in dict.fromkeys(c for t in ordered for c, x in t.series.items() if x.quantity == "temperature"):
         spans = [d.get(channel, _UNTOLD) for d in differences]
-        rested = [_rested(ordered, i, channel, dated) for i in range(len(ordered))]
-        offsets |= _from_the_failure_on(ordered, channel, spans, rested)
+        level = [_level(ordered, i, channel, dated) for i in range(len(ordered))]
+        offsets |= _from_the_failure_on(ordered, channel, spans, level)
     return offsets
 
 
-def _rested(tests: Sequence[Levels], i: int, channel: str, dated: bool) -> bool:
-    """Whether a machine had levelled out before a test."""
+def _level(tests: Sequence[Levels], i: int, channel: str, dated: bool) -> float:
+    """How far a machine had levelled out before a test: the share of other temperatures that begin alike; 1 after a
+    rest, 0 where the clocks tell that there was none."""
     if dated and i:
         ends = [t.end_s or 0.0 for t in tests[:i]]
-        return (tests[i].start_s or 0.0) - max(ends) >= _RESTED_S
+        return float((tests[i].start_s or 0.0) - max(ends) >= _RESTED_S)
     first = [
         float(sound[0])
         for name, x in tests[i].series.items()
-        if name != channel and x.quantity == "temperature" and len(sound := x.sound[np.isfinite(x.sound)])
+        if name != channel
+        and x.quantity == "temperature"
+        and len(sound := x.sound[np.isfinite(x.sound)])
+        and not _is_set_point(sound)
     ]
     if len(first) < _LEAST_OTHERS:
-        return False
-    near = np.abs(np.array(first) - np.median(first)) <= _LEVEL_K
-    return bool(near.mean() >= _LEVEL_SHARE)
+        return 0.0
+    return float(np.mean(np.abs(np.array(first) - np.median(first)) <= _LEVEL_K))
+
+
+def _is_set_point(x: Float1D) -> bool:
+    """A few values, far apart: what the machine was told, not what a sensor read."""
+    return len(np.unique(x)) <= _SET_POINTS and float(np.ptp(x)) > _SET_APART_K
 
 
 def _differences(test: Levels) -> dict[str, tuple[Float1D, Float1D]]:
@@ -141,11 +154,11 @@ def _at(x: Course, t_s: Float1D) -> Float1D:
 
 
 def _from_the_failure_on(
-    tests: Sequence[Levels], channel: str, spans: Sequence[tuple[Float1D, Float1D]], rested: Sequence[bool]
+    tests: Sequence[Levels], channel: str, spans: Sequence[tuple[Float1D, Float1D]], level: Sequence[float]
 ) -> dict[tuple[str, str], Off]:
     d = np.concatenate([x for _, x in spans])
     of = np.repeat(np.arange(len(spans)), [len(x) for _, x in spans])
-    begin, off = max((_change(sign * d, of, rested) for sign in (1.0, -1.0)), key=lambda c: c[1] > 0)
+    begin, off = max((_change(sign * d, of, level) for sign in (1.0, -1.0)), key=lambda c: c[1] > 0)
     if not off or abs(np.median(d[:begin])) > abs(np.median(d[off:])):
         return {}
     size = float(np.median(d[off:]) - np.median(d[:begin]))
@@ -155,7 +168,7 @@ def _from_the_failure_on(
     return {(tests[i].test, channel): Off(size, since if i == at else None) for i in np.unique(of[begin:]).tolist()}
 
 
-def _change(d: Float1D, of: Int1D, rested: Sequence[bool]) -> tuple[int, int]:
+def _change(d: Float1D, of: Int1D, level: Sequence[float]) -> tuple[int, int]:
     """(first point that is off, first one after the drift) where all differences after lie above all before; (0, 0)
     where none do. d: shape (m,), in order; of: shape (m,), the test of each.
 
@@ -173,7 +186,10 @@ def _change(d: Float1D, of: Int1D, rested: Sequence[bool]) -> tuple[int, int]:
     ok: Bool1D = leaves & (off < len(d))
     ok &= np.where(off > begins, of[np.clip(off - 1, 0, len(d) - 1)] == of[begins], True)
     for b, o in zip(begins[ok].tolist(), off[ok].tolist(), strict=True):
-        # a later test that began at rest, and is off from its first point on
-        if any(rested[i] for i in np.unique(of[o:]).tolist() if int(np.searchsorted(of, i)) >= o):
+        whole = [i for i in np.unique(of[o:]).tolist() if int(np.searchsorted(of, i)) >= o]
+        if any(level[i] >= _LEVEL_SHARE for i in whole):  # off from its first point on, though the machine had rested
+            return b, o
+        follows = float(np.ptp(d[o:])) <= float(np.ptp(d[:b])) + _FOLLOWS_K
+        if len(whole) > 1 and follows and all(level[i] >= _FOLLOWS_SHARE for i in whole):
             return b, o
     return 0, 0

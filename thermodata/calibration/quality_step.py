@@ -21,6 +21,7 @@ _USUAL_CHANGES = 40  # a step is so many of a fine reading's usual changes,
 _TREADS = 6  # or so many treads of a coarse one
 _SMALL, _LEAST_SMALL = 0.25, 3  # changes of a quarter of the step: a reading that has fewer of them is a set point
 _GOES_ON = 0.15  # of a step: what goes on by so much the same way, more than before it, is heat
+_SOON = 9  # samples in which it does; later the heater may be off again
 _AROUND = 20  # samples that tell a level
 _BACK = 0.3  # of a step: what comes so near to the level before has come back
 _STOOD_S = 2 * 3600.0  # a coarse reading that stays on one tread for so long
@@ -111,9 +112,9 @@ def _least(moves: Float1D) -> float:
 
 def _goes_on(y: Float1D, j: int, size: float) -> bool:
     """Whether what follows the step after row j goes the same way, by more than the reading went before it."""
-    after, before = y[j + 1 : j + 1 + _AROUND], y[max(0, j + 1 - _AROUND) : j + 1]
-    further = float(np.median(after[len(after) // 2 :]) - after[0])
-    usual = float(before[-1] - np.median(before[: (len(before) + 1) // 2]))
+    after, before = y[j + 1 : j + 1 + _SOON], y[max(0, j + 1 - _SOON) : j + 1]
+    further = float(np.median(after[len(after) // 3 :]) - after[0])
+    usual = float(before[-1] - np.median(before[: -(len(before) // 3) or None]))
     return bool((further - usual) * np.sign(size) > _GOES_ON * abs(size))
 
 

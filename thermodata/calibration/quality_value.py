@@ -212,11 +212,11 @@ def _without_long(hit: Bool1D) -> None:
 
 def _tail(x: Float1D) -> float:
     """How far a sample lies from the middle of what is 3 before and 3 after it, exceeded by one of two hundred (and
-    by ten in any case, for so many spikes may be there)."""
+    by twelve in any case: two spikes of two samples shift so many)."""
     off = np.abs(x[3:-3] - (x[:-6] + x[6:]) / 2)
     off = off[np.isfinite(off)]
     if len(off) > 50_000:
         off = off[:: len(off) // 50_000 + 1]
     # the spikes themselves are among them, each with the two that it shifts
-    share = max(1 - _TAIL, 30 / max(len(off), 1))
+    share = max(1 - _TAIL, 12 / max(len(off), 1))
     return float(np.quantile(off, 1 - share)) / float(np.sqrt(1.5)) if share < 0.5 else 0.0

@@ -15,7 +15,7 @@ Key = tuple[str, str]
 FAULTY_SHARE = 0.2  # of a test: a channel that lost more of it is no witness
 # a sensor that is off, or does not move any more, has failed, however soon it is mended
 _FAILED = ("offset", "stuck")
-# events that say nothing against a sensor: where a table has a blank between the rows of a slower logger, nothing is lost
+# events that say nothing against a sensor: a blank between the rows of a slower logger is no loss
 _NO_FAULT = (OVERRULED, "only while not measuring", "not flagged", "no number")
 _COUNTS_NOT = frozenset(str(f.name).lower() for f in Flag if f & INVALID and f != Flag.NOT_MEASURING)
 
