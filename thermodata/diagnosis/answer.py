@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from thermodata.diagnosis import next_test
+from thermodata.diagnosis.artefact import noise_with_treads
 from thermodata.diagnosis.confirm import Confirmation, confirm, on_all_open
 from thermodata.diagnosis.investigate import BorneOut, Investigation, investigate
 from thermodata.diagnosis.judge import (
@@ -141,7 +142,7 @@ def _diagnosis(
         model=model_id,
         response=problem.response,
         verdict=judgement.verdict,
-        noise_um=problem.noise if np.isfinite(problem.noise) else None,
+        noise_um=noise_with_treads(problem) if np.isfinite(problem.noise) else None,
         rmse_um=remaining(alone.first.ranked[0]) if alone is not None else _left(problem),
         explainable=max((float(np.clip(_fall(s), 0.0, 1.0)) for s in scored), default=None),
         weak_spots=investigation.spots,

@@ -28,6 +28,7 @@ SEVERITY = (
     Flag.HELD,
     Flag.STUCK,
     Flag.OFFSET,
+    Flag.FOREIGN,
 )
 _DEFECT = int(INVALID & ~Flag.NOT_MEASURING)
 TINTS = {
@@ -43,6 +44,7 @@ TINTS = {
     "held": "#0ea5e9",
     "stuck": "#db2777",
     "offset": "#dc2626",
+    "foreign": "#7f1d1d",
 }
 _PANEL, _LANE, _GAP, _TOP, _BOTTOM = 120, 17, 26, 26, 44  # [px]
 _MOST_PANELS = 6
