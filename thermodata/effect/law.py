@@ -15,12 +15,13 @@ Names are drivers and parameters; a parameter in min or h that stands as a time 
 from __future__ import annotations
 
 import ast
-from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, fields, is_dataclass, replace
+import operator as op
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, fields, replace
 from functools import lru_cache
-from typing import Any, Literal, TypeAlias, cast
+from typing import Any, Literal, TypeAlias, cast, get_args
 
-from thermodata.effect.linear import Filter, Mode
+from thermodata.effect.linear import Filter
 from thermodata.errors import PluginError
 
 Operator = Literal["+", "-", "*", "/", "**"]
@@ -110,6 +111,7 @@ class Filtered:
 
 Node: TypeAlias = Number | Symbol | Binary | Absolute | Compare | Logic | Where | Lag | Delay | Filtered
 Law: TypeAlias = str | Node
+NODES = get_args(Node)
 ZERO, ONE = Number(0.0), Number(1.0)
 
 _BINARY: dict[type[ast.operator], Operator] = {
@@ -127,6 +129,7 @@ _COMPARE: dict[type[ast.cmpop], Comparator] = {
     ast.Eq: "==",
     ast.NotEq: "!=",
 }
+_COMPUTED = {"+": op.add, "-": op.sub, "*": op.mul, "/": op.truediv, "**": op.pow}
 _FUNCTIONS = {"abs": 1, "lag": 2, "delay": 2, "where": 3}
 
 
@@ -137,7 +140,7 @@ def parse(text: str) -> Node:
         return _tree(ast.parse(text.strip(), mode="eval").body)
     except SyntaxError as error:
         raise PluginError("a law is no formula", where=text, got=str(error)) from None
-    except _Foreign as error:
+    except _ForeignError as error:
         raise PluginError(
             "a law holds what no control computes",
             where=text,
@@ -146,7 +149,7 @@ def parse(text: str) -> Node:
         ) from None
 
 
-class _Foreign(Exception):
+class _ForeignError(Exception):
     pass
 
 
@@ -169,7 +172,7 @@ def _tree(node: ast.expr) -> Node:
         if _FUNCTIONS.get(name) == len(inner_nodes):
             made: dict[str, type[Any]] = {"abs": Absolute, "lag": Lag, "delay": Delay, "where": Where}
             return cast(Node, made[name](*inner_nodes))
-    raise _Foreign(ast.unparse(node))
+    raise _ForeignError(ast.unparse(node))
 
 
 def tree(law: Law) -> Node:
@@ -181,9 +184,7 @@ def children(node: Node) -> Iterator[Node]:
     """The nodes right below one."""
     for field in fields(node):
         value = getattr(node, field.name)
-        for one in value if isinstance(value, tuple) else (value,):
-            if is_dataclass(one) and not isinstance(one, Filter | Mode | type):
-                yield cast(Node, one)
+        yield from (one for one in (value if isinstance(value, tuple) else (value,)) if isinstance(one, NODES))
 
 
 def walk(node: Node) -> Iterator[Node]:
@@ -193,67 +194,58 @@ def walk(node: Node) -> Iterator[Node]:
         yield from walk(child)
 
 
+def mapped(node: Node, change: Callable[[Node], Node]) -> Node:
+    """The node with each of its children changed."""
+    changed: dict[str, Any] = {}
+    for field in fields(node):
+        value = getattr(node, field.name)
+        if isinstance(value, tuple):
+            changed[field.name] = tuple(change(one) for one in value)
+        elif isinstance(value, NODES):
+            changed[field.name] = change(value)
+    return cast(Node, replace(cast(Any, node), **changed)) if changed else node
+
+
 def put(node: Node, values: Mapping[str, Node]) -> Node:
     """The tree with symbols replaced by other trees."""
     if isinstance(node, Symbol):
         return values.get(node.name, node)
-    changed = {
-        f.name: tuple(put(one, values) for one in value) if isinstance(value, tuple) else put(value, values)
-        for f in fields(node)
-        if (is_dataclass(value := getattr(node, f.name)) and not isinstance(value, Filter)) or isinstance(value, tuple)
-    }
-    return replace(node, **changed) if changed else node
+    return mapped(node, lambda one: put(one, values))
 
 
 def with_parameters(law: Law, p: Mapping[str, float], units: Mapping[str, str]) -> Node:
     """The tree with the parameters' values; times in s where they are times (in `lag` and `delay`)."""
-    node = tree(law)
     plain: dict[str, Node] = {name: Number(float(value)) for name, value in p.items()}
     times: dict[str, Node] = {
         name: Number(float(value) * SECONDS.get(units.get(name, "s"), 1.0)) for name, value in p.items()
     }
 
+    def time(one: Node) -> Node:
+        # a choice between times: its condition is in the parameters' own units
+        if isinstance(one, Where):
+            return Where(put(one.condition, plain), time(one.then), time(one.other))
+        return put(one, times)
+
     def inside(one: Node) -> Node:
         if isinstance(one, Lag):
-            return Lag(inside(one.of), fold(_times_in(one.tau, times, plain)))
+            return Lag(inside(one.of), fold(time(one.tau)))
         if isinstance(one, Delay):
-            return Delay(inside(one.of), fold(_times_in(one.dead, times, plain)))
-        if isinstance(one, Symbol):
-            return plain.get(one.name, one)
-        changed = {
-            f.name: tuple(inside(x) for x in value) if isinstance(value, tuple) else inside(value)
-            for f in fields(one)
-            if (is_dataclass(value := getattr(one, f.name)) and not isinstance(value, Filter))
-            or isinstance(value, tuple)
-        }
-        return replace(one, **changed) if changed else one
+            return Delay(inside(one.of), fold(time(one.dead)))
+        return plain.get(one.name, one) if isinstance(one, Symbol) else mapped(one, inside)
 
-    return fold(inside(node))
-
-
-def _times_in(node: Node, times: Mapping[str, Node], plain: Mapping[str, Node]) -> Node:
-    """A choice between times: its condition is in the parameters' own units."""
-    if isinstance(node, Where):
-        return Where(put(node.condition, plain), _times_in(node.then, times, plain), _times_in(node.other, times, plain))
-    return put(node, times)
+    return fold(inside(tree(law)))
 
 
 def fold(node: Node) -> Node:
     """Constants computed, and what multiplies by 1 or adds 0 left out."""
-    changed = {
-        f.name: tuple(fold(one) for one in value) if isinstance(value, tuple) else fold(value)
-        for f in fields(node)
-        if (is_dataclass(value := getattr(node, f.name)) and not isinstance(value, Filter)) or isinstance(value, tuple)
-    }
-    node = replace(node, **changed) if changed else node
+    node = mapped(node, fold)
     if isinstance(node, Absolute) and isinstance(node.of, Number):
         return Number(abs(node.of.value))
     if not isinstance(node, Binary):
         return node
     left, right = node.left, node.right
-    if isinstance(left, Number) and isinstance(right, Number):
-        a, b = left.value, right.value
-        return Number({"+": a + b, "-": a - b, "*": a * b, "/": a / b if b else 0.0, "**": a**b}[node.operator])
+    if isinstance(left, Number) and isinstance(right, Number) and not (node.operator == "/" and right == ZERO):
+        return Number(float(_COMPUTED[node.operator](left.value, right.value)))
     if node.operator == "*" and ONE in (left, right):
         return right if left == ONE else left
     if node.operator in ("/", "**") and right == ONE:
@@ -273,48 +265,3 @@ def symbols(node: Node) -> set[str]:
 def is_static(node: Node) -> bool:
     """Whether it remembers nothing: no lag, no delay, no filter below it."""
     return not any(isinstance(n, Lag | Delay | Filtered) for n in walk(node))
-
-
-def written(node: Node) -> str:
-    """The tree as a person writes it."""
-    return _written(node, 0)
-
-
-_RANK = {"+": 1, "-": 1, "*": 2, "/": 2, "**": 3}
-
-
-def _written(node: Node, outer: int) -> str:
-    match node:
-        case Number(value):
-            return f"{value:.6g}"
-        case Symbol(name):
-            return name
-        case Absolute(of):
-            return f"|{_written(of, 0)}|"
-        case Binary(operator, left, right):
-            rank = _RANK[operator]
-            text = f"{_written(left, rank)} {operator} {_written(right, rank + 1)}"
-            return f"({text})" if rank < outer else text
-        case Compare(operator, left, right):
-            return f"{_written(left, 1)} {operator} {_written(right, 1)}"
-        case Logic("not", of):
-            return f"not ({_written(of[0], 0)})"
-        case Logic(operator, of):
-            return f" {operator} ".join(f"({_written(one, 0)})" for one in of)
-        case Where(condition, then, other):
-            return f"({_written(then, 0)} where {_written(condition, 0)}, else {_written(other, 0)})"
-        case Lag(of, tau):
-            return f"F_{_time(tau)}{{{_written(of, 0)}}}"
-        case Delay(of, dead):
-            return f"{_written(of, 3)}(t - {_time(dead)})"
-        case Filtered(of, by):
-            return f"H{len(by.modes)}{{{_written(of, 0)}}}"
-    raise TypeError(type(node))
-
-
-def _time(node: Node) -> str:
-    if isinstance(node, Number):
-        return f"{node.value / 60:.4g} min"
-    if isinstance(node, Where):
-        return f"[{_time(node.then)} where {_written(node.condition, 0)}, else {_time(node.other)}]"
-    return _written(node, 0)

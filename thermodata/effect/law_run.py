@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from itertools import pairwise
 
 import numpy as np
 
@@ -73,7 +74,7 @@ def _switched(u: Float1D, tau: Float1D, step_s: float) -> Float1D:
     """A lag whose time constant is another from one sample on: that of the new sample counts."""
     edges = [0, *(np.flatnonzero(np.diff(tau)) + 1), len(u)]
     out = np.zeros(len(u))
-    for a, b in zip(edges[:-1], edges[1:], strict=True):
+    for a, b in pairwise(edges):
         first = max(a - 1, 0)
         out[a:b] = lag(u[first:b], float(tau[a]), step_s, float(out[first]) if a else 0.0)[a - first :]
     return out

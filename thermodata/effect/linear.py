@@ -177,7 +177,9 @@ def partial_fractions_of_s(numerator: Float1D, denominator: Float1D, time_s: flo
             raise UsageError("two poles of a transfer function coincide", where=where, got=_text(complex(p)))
         if p.imag >= 0:
             weight, s = -residue / p, p / time_s
-            modes.append(Mode(float(weight.real), s=float(s.real)) if p.imag == 0 else Mode(complex(weight), complex(s)))
+            modes.append(
+                Mode(float(weight.real), s=float(s.real)) if p.imag == 0 else Mode(complex(weight), complex(s))
+            )
     return Filter(direct, (), tuple(modes))
 
 

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from thermodata.export.control.body import Variable, make_body
+from thermodata.export.control.body import make_body
 from thermodata.export.control.printer import Printer, Words, digits, heading
 from thermodata.export.control.program import Program
+from thermodata.export.control.statements import Variable
 
 
 def c_files(program: Program, real: str = "LREAL") -> dict[str, str]:
@@ -48,7 +49,7 @@ def c_files(program: Program, real: str = "LREAL") -> dict[str, str]:
         "",
         f"#define {name.upper()}_CYCLE_S {program.cycle_s!r}",
         "",
-        f"/* What the control reads; set every valid_* to 1, or to 0 where it knows better. */",
+        "/* What the control reads; set every valid_* to 1, or to 0 where it knows better. */",
         "typedef struct {",
         *(f"    {_declared(v, kind)}" for v in body.variables if v.held == "in"),
         f"}} {name}_inputs;",

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from thermodata.effect import law
+from thermodata.export.control.printer import Printer, Words
 from thermodata.export.control.program import Program
 
 SCHEMA = "thermodata/control/1"
@@ -52,9 +53,7 @@ def as_data(program: Program) -> dict[str, Any]:
                 "of": _formula(s.of),
                 "about": s.about,
                 "while": None if s.condition is None else _formula(s.condition),
-                "rates": [
-                    {"forgotten": _plain(r.forgotten), "new": _plain(r.new), "tau_s": r.tau_s} for r in s.rates
-                ],
+                "rates": [{"forgotten": _plain(r.forgotten), "new": _plain(r.new), "tau_s": r.tau_s} for r in s.rates],
                 "late_cycles": s.late if s.kind == "delay" else None,
             }
             for s in program.states
@@ -129,12 +128,23 @@ def _plain(value: complex) -> float | list[float]:
 
 
 def _formula(node: law.Node) -> str:
-    from thermodata.export.control.printer import Printer, Words
-
     words = Words(
-        "==", "!=", " and ", " or ", "not ", "1", "0", "abs({})", "({} ** {})", "", "", "", "", (), "", repr
+        equal="==",
+        unequal="!=",
+        both=" and ",
+        either=" or ",
+        no="not ",
+        true="1",
+        false="0",
+        absolute="abs({})",
+        power="({} ** {})",
+        assign="",
+        if_="",
+        else_="",
+        end_if=None,
+        fill=(),
+        comment="",
+        real=repr,
+        choose="({} if {} else {})",
     )
-    match node:
-        case law.Where(condition, then, other):
-            return f"({_formula(then)} if {_formula(condition)} else {_formula(other)})"
     return Printer(words, lambda name: name).text(node)

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from thermodata.effect import law
-from thermodata.export.control.body import Assign, Body, Fill, If, Say, Statement, Whole
+from thermodata.export.control.statements import Assign, Body, Fill, If, Say, Statement, Whole
 
 _RANK = {"+": 4, "-": 4, "*": 5, "/": 5, "**": 6}
 _COMPARED, _LOGIC = 3, {"not": 2, "and": 1, "or": 0}
@@ -36,6 +36,7 @@ class Words:
     fill: tuple[str, ...]
     comment: str
     real: Callable[[float], str]
+    choose: str | None = None  # then, condition, other: where a language has it within a formula
 
 
 def digits(value: float, single: bool) -> str:
@@ -98,6 +99,8 @@ class Printer:
             case law.Binary(operator, left, right):
                 rank = _RANK[operator]
                 return _in(f"{self.text(left, rank)} {operator} {self.text(right, rank + 1)}", rank < outer)
+            case law.Where(condition, then, other) if w.choose is not None:
+                return w.choose.format(self.text(then, 0), self.text(condition), self.text(other, 0))
             case law.Compare(operator, left, right):
                 sign = {"==": w.equal, "!=": w.unequal}.get(operator, operator)
                 return _in(f"{self.text(left, 4)} {sign} {self.text(right, 4)}", outer >= 0)

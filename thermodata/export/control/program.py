@@ -6,26 +6,18 @@ coefficients differ from 1 by a millionth, and what 32 bits leave of them is wro
 
 from __future__ import annotations
 
-import re
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
-from itertools import count
+from dataclasses import dataclass
 
 from thermodata.effect import law
+from thermodata.effect.law_text import written
+from thermodata.effect.linear import Filter, Mode
 from thermodata.errors import UsageError
+from thermodata.export.control.names import Names, identifier
 from thermodata.modelling.laws import TermLaw
 
 LONGEST_S, SHORTEST_S = 3600.0, 1e-3  # of a cycle
 MOST_DELAYED = 50_000  # samples in one delay
-RESERVED = frozenset(
-    """abs action and any array at begin bool by byte case char class configuration const constant cycle_s date def del
-    dint div do double dt dword elif else elsif end eno en except exit export exp expt extends false float for from
-    function goto if import in int interface is lambda len limit limited lint log long lreal lword max method min mod
-    none not of or out pass pi program raise range real repeat resource result retain return self short signed sint
-    sizeof static step string struct switch then this time to true try type udint uint ulint union unsigned until using
-    usint var void volatile while with word xor yield restart running begin fault displacement correction target move
-    good hold gap change sum k t d tod sel mux sqrt ln sin cos tan sgn input output name state step version""".split()
-)
 
 
 @dataclass(frozen=True)
@@ -118,26 +110,6 @@ class Program:
         return max(1, round(self.limits.hold_s / self.cycle_s))
 
 
-@dataclass
-class _Taken:
-    """Names, each once whatever the case (structured text does not see it)."""
-
-    names: set[str] = field(default_factory=set)
-
-    def take(self, wanted: str) -> str:
-        base = re.sub(r"_+", "_", re.sub(r"\W", "_", wanted, flags=re.ASCII)).strip("_") or "x"
-        base = f"m_{base}" if base[0].isdigit() else base
-        tries = (base if i == 0 else f"{base}_{i + 1}" for i in count())
-        name = next(n for n in tries if n.lower() not in self.names and n.lower() not in RESERVED)
-        self.names.add(name.lower())
-        return name
-
-
-def identifier(text: str) -> str:
-    """A name that all languages take."""
-    return _Taken().take(text)
-
-
 def build(
     name: str,
     response: str,
@@ -151,7 +123,7 @@ def build(
     """The program of some laws. inputs: channel -> how it is read. UsageError for a cycle that the laws don't fit."""
     if not SHORTEST_S <= cycle_s <= LONGEST_S:
         raise UsageError("a cycle of a control", expected=f"{SHORTEST_S:g} s to {LONGEST_S:g} s", got=f"{cycle_s:g} s")
-    taken = _Taken()
+    taken = Names()
     named = {channel: taken.take(one.name) for channel, one in inputs.items()}
     for one in list(named.values()):  # what is made of an input's name
         taken.names |= {f"{p}_{one}".lower() for p in ("valid", "held", "bad", "lost", "seen", "ok")}
@@ -179,7 +151,7 @@ def build(
 class _Maker:
     """Takes the states out of formulas; equal ones are one."""
 
-    def __init__(self, cycle_s: float, taken: _Taken, held: Mapping[str, law.Node]) -> None:
+    def __init__(self, cycle_s: float, taken: Names, held: Mapping[str, law.Node]) -> None:
         self.cycle_s, self.taken, self.held = cycle_s, taken, held
         self.drives: dict[tuple[law.Node, bool], Drive] = {}
         self.states: dict[tuple[object, ...], State] = {}
@@ -230,23 +202,20 @@ class _Maker:
             case law.Number(value) if value <= 0:
                 return of
             case law.Number(value):
-                rates, condition, about = (self._rate(value),), None, f"tau = {value / 60:.9g} min"
+                return self._state("lag", of, f"tau = {value / 60:.9g} min", rates=(self._rate(value),))
             case law.Where(condition, law.Number(then), law.Number(other)) if then > 0 and other > 0:
                 condition = self.flat(condition, where)
                 rates = (self._rate(then), self._rate(other))
-                about = f"tau = {then / 60:.9g} min while {law.written(condition)}, else {other / 60:.9g} min"
-            case _:
-                raise UsageError(
-                    "a time constant that changes steadily can't run in a control",
-                    where=where,
-                    expected="a number, or a choice between two",
-                    got=law.written(tau),
-                )
-        return self._state("lag", of, about, rates=rates, condition=condition)
+                about = f"tau = {then / 60:.9g} min while {written(condition)}, else {other / 60:.9g} min"
+                return self._state("lag", of, about, rates=rates, condition=condition)
+        raise UsageError(
+            "a time constant that changes steadily can't run in a control",
+            where=where,
+            expected="a number, or a choice between two",
+            got=written(tau),
+        )
 
     def _rate(self, tau_s: float) -> Rate:
-        from thermodata.effect.linear import Mode
-
         _, forgotten, new = Mode(1.0, s=-1.0 / tau_s).stepped(self.cycle_s)
         return Rate(forgotten.real, new.real, tau_s)
 
@@ -263,14 +232,13 @@ class _Maker:
         late = round(late) if abs(late - round(late)) < 1e-9 * late else late
         return self._state("delay", of, f"{dead_s / 60:.6g} min late", length=int(-(-late // 1)) + 1, late=float(late))
 
-    def _filter(self, of: law.Node, by: law.Filter, where: str) -> law.Node:
+    def _filter(self, of: law.Node, by: Filter, where: str) -> law.Node:
         total: law.Node = law.Binary("*", law.Number(by.direct), of) if by.direct else law.ZERO
         parts: list[tuple[complex, law.Node]] = [(g, self._delay(of, t)) for t, g in by.late if g]
         for mode in by.modes:
             try:
                 _, forgotten, new = mode.stepped(self.cycle_s)
             except UsageError as error:
-                error.where = where
                 raise UsageError(
                     error.what, where=where, expected=error.expected, got=error.got, hint=error.hint
                 ) from None

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from thermodata.export.control.body import Body, Variable, make_body
+from thermodata.export.control.body import make_body
 from thermodata.export.control.printer import Printer, Words, digits, heading
 from thermodata.export.control.program import Program
+from thermodata.export.control.statements import Variable
 
 _SECTIONS = (("in", "VAR_INPUT"), ("out", "VAR_OUTPUT"), ("kept", "VAR RETAIN"), ("temp", "VAR_TEMP"))
 
@@ -61,8 +62,3 @@ def _declared(v: Variable, real: str, words: Words) -> str:
     start = " := TRUE" if v.kind == "bool" and v.start else ""
     about = f" {words.comment.format(v.about)}" if v.about else ""
     return f"{v.name} : {kind}{start};{about}"
-
-
-def body_of(program: Program, real: str) -> Body:
-    """What the text is made of."""
-    return make_body(program, compensated=real == "REAL")

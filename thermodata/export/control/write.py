@@ -44,6 +44,12 @@ class Written:
     real: str
 
 
+def files_of(program: Program, target: str) -> list[str]:
+    """The names of the files that `write` makes."""
+    endings = (".h", ".c") if target == "c" else (TARGETS[target].suffix,)
+    return [program.name + ending for ending in endings]
+
+
 def write(program: Program, target: str, folder: Path, real: str | None = None) -> Written:
     """Write the program into a folder; its files are named by its name. UsageError for numbers that a target has
     not."""
