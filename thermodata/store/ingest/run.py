@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from thermodata.errors import StoreError
+from thermodata.schema.campaign import Campaign
 from thermodata.schema.load import load_campaign
 from thermodata.store.catalogue.store import Store
 from thermodata.store.ingest.catalogue_rows import calibration_row, raw_row
@@ -54,7 +55,10 @@ class IngestSummary:
 
 
 def ingest(
-    store: Store, campaign_path: Path | str, progress: Progress | Callable[[str], None] | None = None
+    store: Store,
+    campaign_path: Path | str,
+    progress: Progress | Callable[[str], None] | None = None,
+    campaign: Campaign | None = None,
 ) -> IngestSummary:
     """Brings a campaign into the store: raw layer, calibrations, tidy layer, and then one commit.
 
@@ -62,11 +66,12 @@ def ingest(
     and the source files need not be there any more. A file that can't be read is a loss and doesn't stop the
     others. Raises SpecError for a wrong campaign file and CalibrationError for a contradictory calibration; then,
     and when it is interrupted, the store stays as it was. progress: is told what is being done, and how far it is.
+    campaign: in place of a file's content; the path then says where its logs are.
     """
     watch = TextProgress(progress or (lambda _: None)) if progress is None or callable(progress) else progress
     for attempt in range(_ATTEMPTS):
         try:
-            return _ingest(store, Path(campaign_path), watch)
+            return _ingest(store, Path(campaign_path), watch, campaign)
         except VanishedError as error:
             if attempt == _ATTEMPTS - 1:
                 raise StoreError(
@@ -78,9 +83,9 @@ def ingest(
     raise AssertionError("unreachable")
 
 
-def _ingest(store: Store, path: Path, watch: Progress) -> IngestSummary:
+def _ingest(store: Store, path: Path, watch: Progress, given: Campaign | None) -> IngestSummary:
     began, now = time.monotonic(), datetime.now(UTC).replace(tzinfo=None)
-    campaign = load_campaign(path)
+    campaign = load_campaign(path) if given is None else given
     with store.reader() as con:
         inventory = read_inventory(con, store.path, campaign.id)
     raw_layer = RawIngest(store.path, path.absolute().parent, campaign, inventory, watch)
