@@ -34,6 +34,7 @@ SECTIONS: dict[str, dict[str, str]] = {
         "add": "fitting",
         "history": "fitting",
         "portability": "fitting",
+        "show": "show",
         "predict": "predict",
         "model": "control",
         "diagnose": "diagnosing",
