@@ -10,7 +10,6 @@ import subprocess
 import sys
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pyarrow.parquet as pq
@@ -133,7 +132,7 @@ def test_a_test_without_a_driver_is_left_out_with_its_reason(say: Say, campaign:
         csv.writer(file).writerows([c for i, c in enumerate(row) if i != at] for row in rows)
     said = say("--store", campaign / "thermodata.store", "predict", "baseline", logs)
     assert said.code == 3
-    assert "left out: march/run_2: no driver for spindle_bearing (T_bearing)" in said.err
+    assert "left out: march/run_2: nothing in its logs is read by the model" in said.err
     assert "run_10" in said.out
     assert "run_2" not in said.out
 
@@ -221,3 +220,44 @@ def test_what_can_not_run_in_a_control_is_refused_with_reason_and_way_out(
     assert "left out" in written
     assert "no effect 'nu'" in run(*words, "--without", "nu").err
     assert "no group of nut 'hot'" in run(*words, "--without", "warm_start", "--group", "nut=hot").err
+
+
+# ---- show
+
+
+def test_show_says_what_the_fit_found(ask: Say) -> None:
+    fitted = json.loads(ask("fit", "baseline", "--json").out)["parameters"]
+    shown = json.loads(ask("show", "baseline", "--json").out)["responses"][0]
+    (path,) = shown["paths"]
+    assert (path["effect"], path["drive"], path["unit"]) == ("spindle_bearing", "T_bearing", "um/K")
+    assert path["gain_at_rest"] == pytest.approx(fitted["spindle_bearing.gain"]["value"])
+    assert path["time_constants_min"] == pytest.approx([fitted["spindle_bearing.tau"]["value"]])
+    assert path["poles"][0][0] == pytest.approx(np.exp(-1.0 / path["time_constants_min"][0]))
+    assert sum(path["a"]) / sum(path["b"]) == pytest.approx(path["gain_at_rest"])
+    assert path["step_response"]["y"][-1] == pytest.approx(path["gain_at_rest"], rel=0.01)
+    residual = shown["residual"]
+    assert residual["autocorrelation"][0] == 1.0
+    assert residual["ljung_box"][0]["p_value"] < 1e-3  # the nut that the model lacks
+    assert [s["state"].partition(":")[0] for s in shown["states"]] == ["spindle_bearing"]
+    text = ask("show", "baseline").out
+    for told in ("poles z", "gain at rest", "Ljung-Box", "residual against", "um/K"):
+        assert told in text
+
+
+def test_show_draws_a_picture(ask: Say, refused: Callable[..., str], tmp_path: Path) -> None:
+    pytest.importorskip("matplotlib", reason="matplotlib is an extra")
+    out = tmp_path / "show.png"
+    assert str(out) in ask("show", "baseline", "--png", out).out
+    assert out.read_bytes()[:8] == b"\x89PNG\r\n\x1a\n"
+    assert out.stat().st_size > 20_000
+    assert "FILE.png" in refused("show", "baseline", "--png", tmp_path / "show.svg")
+    assert "no effect 'spindle'" in refused("show", "baseline", "--effect", "spindle")
+
+
+def test_without_matplotlib_the_hint_is_the_extra(
+    refused: Callable[..., str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setitem(sys.modules, "matplotlib", None)
+    said = refused("show", "baseline", "--png", tmp_path / "show.png")
+    assert "thermodata[picture]" in said
+    assert not (tmp_path / "show.png").exists()

@@ -68,9 +68,10 @@ def predict_command(
     kind = None if out is None else check_out(out, force)
     store = session.store()
     loaded = load(store, resolve(store, model))
-    with _data(session, store, loaded.fitted, target) as data:
+    with _data(session, store, loaded.fitted, target) as (data, empty):
         chosen = _chosen(data, tests, dict(_pair(c) for c in conditions))
         made, left_out = predict(loaded.fitted, chosen)
+    left_out += [f"{name}: nothing in its logs is read by the model" for name in empty if not tests]
     for reason in left_out:
         session.say(f"left out: {reason}")
     if not made:
@@ -158,9 +159,9 @@ def _chosen(data: Dataset, tests: tuple[str, ...], conditions: dict[str, str | f
 
 
 @contextmanager
-def _data(session: Session, store: Store, fitted: FittedModel, target: str) -> Iterator[Dataset]:
-    """The tests of a campaign of the store; of a campaign file or a folder, through a store that goes again."""
-    from thermodata.view.load import load_dataset
+def _data(session: Session, store: Store, fitted: FittedModel, target: str) -> Iterator[tuple[Dataset, list[str]]]:
+    """The tests of a campaign of the store; of a campaign file or a folder, through a store that goes again. And tests
+    without data."""
 
     path = Path(target)
     with store.reader() as con:
@@ -168,7 +169,7 @@ def _data(session: Session, store: Store, fitted: FittedModel, target: str) -> I
     if path.exists() and target in known:
         raise UsageError(f"'{target}' is a campaign of the store and a path", hint=f"./{target} is the path alone")
     if target in known:
-        yield load_dataset(store, target, fitted.spec.step)
+        yield _loaded(store, target, fitted.spec.step)
         return
     if not path.exists():
         raise UsageError(
@@ -178,7 +179,17 @@ def _data(session: Session, store: Store, fitted: FittedModel, target: str) -> I
         )
     with tempfile.TemporaryDirectory(prefix="thermodata-predict-") as folder:
         passing, campaign = _ingested(session, store, fitted, path, Path(folder))
-        yield load_dataset(passing, campaign, fitted.spec.step)
+        yield _loaded(passing, campaign, fitted.spec.step)
+
+
+def _loaded(store: Store, campaign: str, step_s: float) -> tuple[Dataset, list[str]]:
+    from thermodata.view.load import load_dataset
+
+    data = load_dataset(store, campaign, step_s)
+    with store.reader() as con:
+        rows = con.execute("select test from test where campaign = ? order by rowid", [campaign]).fetchall()
+    there = {t.test for t in data.tests}
+    return data, [f"{campaign}/{row[0]}" for row in rows if row[0] not in there]
 
 
 def _ingested(session: Session, store: Store, fitted: FittedModel, path: Path, folder: Path) -> tuple[Store, str]:

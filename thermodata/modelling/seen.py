@@ -22,6 +22,7 @@ from thermodata.plugin import Float1D
 from thermodata.view.dataset import Dataset, TestData
 
 POINTS = 240  # of a curve
+BELOW = 30.0  # the lowest frequency is that much below the slowest corner
 SETTLED = 5.0  # time constants that a step response shows
 LONGEST = 1440  # lags of the autocorrelation
 LJUNG_BOX = (10, 20, 50)  # lags
@@ -74,7 +75,7 @@ def see(fitted: FittedModel, data: Dataset) -> list[Seen]:
 
 
 def _see(response: FittedResponse, data: Dataset) -> Seen:
-    made, hidden, shown = list[SeenPath](), list[tuple[str, str]](), list[tuple[TermLaw, Path]]()
+    systems, hidden, shown = list[tuple[TermLaw, Path, System]](), list[tuple[str, str]](), list[tuple[TermLaw, Path]]()
     for term in response.terms:
         groups = list(term.groups) if term.bound.spec.gain_by else [""]
         for group in groups:
@@ -84,10 +85,12 @@ def _see(response: FittedResponse, data: Dataset) -> Seen:
                 if one.why_not is not None:
                     raise CurvedError(one.why_not)
                 parts = _paths(one)
-                made += [_seen(one, path, response.unit, data.step_s) for path in parts]
+                systems += [(one, path, system_of(path.by, data.step_s)) for path in parts]
                 shown += [(one, path) for path in parts if group == groups[0]]
             except (CurvedError, UsageError) as error:
                 hidden.append((term.id, " ".join(str(error).split())))
+    slowest = max((t for _, _, s in systems for t in s.taus_s), default=3600.0)
+    lowest = 1.0 / (2 * np.pi * BELOW * max(slowest, data.step_s))
     tests = [t for t in data.tests if t.key in response.calibrate and response.can_predict(t)]
     residuals = [np.where(response.mask(t), response.residual(t), np.nan)[t.in_window] for t in tests]
     count = int(sum(np.isfinite(r).sum() for r in residuals))
@@ -97,7 +100,7 @@ def _see(response: FittedResponse, data: Dataset) -> Seen:
         response.name,
         response.unit,
         data.step_s,
-        tuple(made),
+        tuple(_seen(term, path, system, response.unit, lowest) for term, path, system in systems),
         tuple(dict.fromkeys(hidden)),
         correlation,
         count,
@@ -113,13 +116,12 @@ def _paths(term: TermLaw) -> list[Path]:
     return [p for p in paths(total) if p.drive != law.ZERO]
 
 
-def _seen(term: TermLaw, path: Path, unit: str, step_s: float) -> SeenPath:
-    system = system_of(path.by, step_s)
+def _seen(term: TermLaw, path: Path, system: System, unit: str, lowest: float) -> SeenPath:
+    step_s = system.step_s
     slow = max([*system.taus_s, *(t for t, _ in path.by.late), 10 * step_s])
     n = int(SETTLED * slow / step_s) + 2
     kept = np.unique(np.linspace(0, n - 1, min(n, POINTS)).astype(int))
     response = system.step_response(n)[kept]
-    lowest = 1.0 / (2 * np.pi * slow * 30.0)
     hertz = np.geomspace(lowest, 0.499 / step_s, POINTS)
     answer = system.frequency_response(2 * np.pi * hertz)
     phase = np.rad2deg(np.unwrap(np.angle(answer)))

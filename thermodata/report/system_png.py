@@ -68,7 +68,7 @@ def _step(axes: Any, seen: Seen, colours: dict[str, str]) -> None:
         ylabel=f"[{seen.unit} a unit]",
     )
     if seen.paths:
-        axes.legend(fontsize="small")
+        axes.legend(fontsize="small", loc="center right")
 
 
 def _bode(axes: Any, seen: Seen, colours: dict[str, str], phase: bool) -> None:
