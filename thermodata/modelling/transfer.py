@@ -14,6 +14,7 @@ import numpy as np
 
 from thermodata.effect.lag import lag, step_of
 from thermodata.errors import SpecError
+from thermodata.modelling.digits import refuse_lost_digits
 from thermodata.plugin import Drivers, Float1D, Float2D, Gain, Need, Param
 
 NAME = "transfer_function"
@@ -155,8 +156,10 @@ def given(fixed: Mapping[str, float], where: str | None = None) -> GivenFunction
         return GivenFunction(
             _run(lists.get("num", {})), _run(lists.get("den", {})), None, fixed.get("time_s", 1.0), where
         )
-    den = lists.get("b", {})
-    return GivenFunction(_run(lists.get("a", {})), _run({0: 1.0, **den}), fixed.get("sample_s", 1.0), where=where)
+    numerator, denominator = _run(lists.get("a", {})), _run({0: 1.0, **lists.get("b", {})})
+    function = GivenFunction(numerator, denominator, fixed.get("sample_s", 1.0), where=where)
+    refuse_lost_digits(numerator, denominator, fixed.get("sample_s", 1.0), where)
+    return function
 
 
 def is_coefficient(name: str) -> bool:

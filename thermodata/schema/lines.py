@@ -20,11 +20,13 @@ Place = tuple[str | int, ...]
 
 @dataclass(slots=True)
 class Document:
-    """Plain data and where it stood: `line[place]` is the 1-based line of the key or item at that place."""
+    """Plain data and where it stood: `line[place]` is the 1-based line of the key or item at that place.
+    `digits[place]` is the text of a number with a fraction."""
 
     path: Path
     data: Any
     line: dict[Place, int] = field(default_factory=dict)
+    digits: dict[Place, str] = field(default_factory=dict)
 
     def where(self, place: Sequence[str | int]) -> str:
         """`file:line (a.b[2])`, at the deepest known part of the place."""
@@ -178,7 +180,7 @@ class _Builder:
         if isinstance(node, yaml.SequenceNode):
             return [self.build(item, (*place, i), depth + 1) for i, item in enumerate(node.value)]
         try:
-            return self.loader.construct_object(node)
+            value = self.loader.construct_object(node)
         except (yaml.YAMLError, ValueError):
             raise SpecError(
                 "a value that YAML cannot read",
@@ -186,6 +188,9 @@ class _Builder:
                 got=str(node.value)[:80],
                 hint="put it in quotes",
             ) from None
+        if isinstance(value, float):
+            self.document.digits[place] = node.value
+        return value
 
     def _mapping(self, node: yaml.MappingNode, place: Place, depth: int) -> dict[str, Any]:
         result: dict[str, Any] = {}

@@ -7,6 +7,7 @@ from typing import Annotated, Any, Literal
 from pydantic import Field, PlainSerializer, field_validator, model_validator
 
 from thermodata.schema.campaign import Seconds, Strict
+from thermodata.schema.printed import PrintedNumber
 
 # a model written as JSON is a model file again, and there a time has a unit
 _WITH_UNIT = PlainSerializer(lambda s: f"{s:.12g} s", return_type=str, when_used="json")
@@ -70,7 +71,7 @@ class EffectSpec(Strict):
     orders: tuple[int, int] | None = None
     gain_by: str | None = None
     shared: list[str] = []
-    fixed: dict[str, float] = {}
+    fixed: dict[str, PrintedNumber] = {}
     start: dict[str, float] = {}
     bounds: dict[str, tuple[float, float]] = {}
     file: str | None = None
