@@ -12,13 +12,14 @@ from thermodata.errors import UsageError
 from thermodata.modelling.arx import identify_arx, placeholder
 from thermodata.modelling.bound import BoundResponse, BoundTerm
 from thermodata.modelling.checks import checks
+from thermodata.modelling.coarse import search_from_coarse
 from thermodata.modelling.design import GRID, MOMENTS, Design, Nonlinear
 from thermodata.modelling.fitted import FittedModel
 from thermodata.modelling.fitted_response import FittedResponse, FittedTerm, Values, has_response
 from thermodata.modelling.orders import choose_orders, open_orders
 from thermodata.modelling.resolve import resolve
 from thermodata.modelling.roles import Key
-from thermodata.modelling.search import Problem, search
+from thermodata.modelling.search import Problem
 from thermodata.modelling.uncertainty import deviations
 from thermodata.plugin import Param
 from thermodata.schema.model import Model
@@ -129,8 +130,9 @@ def _fit(
             got=", ".join(f"{t.campaign}/{t.test}" for t in tests) or "no test",
             hint="look at the response's flags (thermodata quality) and at 'phases'",
         )
-    problem = make_problem(design, {order.index(i): term for i, term in held.items()})
-    x = search(problem)
+    fixed = {order.index(i): term for i, term in held.items()}
+    problem = make_problem(design, fixed)
+    x = search_from_coarse(problem, tests, lambda some: make_problem(Design(bound, design.terms, some, wanted), fixed))
     gains = problem.gains(problem.matrix(x))
     sds, logs = deviations(problem, x, gains) if uncertainty else ([{} for _ in design.slots], frozenset[str]())
     by_member: dict[int, dict[str, Values]] = {i: {} for i in members}

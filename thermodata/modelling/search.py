@@ -61,14 +61,20 @@ class Problem:
         return np.array([f.outside(f.start) for f in self.free], dtype=np.float64)
 
 
-def search(problem: Problem, sweep: bool = True) -> Float1D:
-    """The point with the least squared error; shape (free parameters,)."""
-    x = problem.start()
+def search(problem: Problem, start: Float1D | None = None) -> Float1D:
+    """The point with the least squared error; shape (free parameters,). start: a point near it, in place of a look
+    over the whole range."""
+    x = problem.start() if start is None else start
     if not len(x) or not problem.design.n:
         return x
-    if sweep:
-        x = _sweeps(problem, x)
-    return _refine(problem, x)
+    return _refine(problem, _sweeps(problem, x) if start is None else x)
+
+
+def along_whole_range(problem: Problem, x: Float1D, i: int) -> Float1D:
+    """The best point over the range of one parameter, the others as they are; shape (free parameters,)."""
+    f = problem.free[i]
+    points = np.linspace(f.outside(f.lower), f.outside(f.upper), f.points)
+    return _along(problem, x, i, points, np.inf)[0]
 
 
 def _sweeps(problem: Problem, x: Float1D) -> Float1D:

@@ -12,7 +12,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from thermodata.effect.lag import lag, step_of
+from thermodata.effect.lag import lag, lags, step_of
 from thermodata.errors import SpecError
 from thermodata.modelling.digits import refuse_lost_digits
 from thermodata.plugin import Drivers, Float1D, Float2D, Gain, Need, Param
@@ -59,15 +59,15 @@ class FreeFunction:
         taus = [p[param.name] * 60.0 for param in self.params]
         if self.method == "varpro":
             return np.column_stack([lag(u, t, step) for t in taus])
-        slow = u
-        for t in taus:
-            slow = lag(slow, t, step)
         # numerator in powers of the difference operator (1 - 1/q), which spans the same functions as powers
         # of 1/q but leaves the columns apart; each is scaled to the size of the one before
-        columns = [slow]
+        columns = np.empty((len(u), self.orders[0]), order="F")
+        columns[:, 0] = lags(u, taus, step)
         for j in range(1, self.orders[0]):
-            columns.append(np.diff(columns[-1], prepend=columns[-1][0]) * taus[min(j, len(taus)) - 1] / step)
-        return np.column_stack(columns)
+            columns[0, j] = 0.0
+            np.subtract(columns[1:, j - 1], columns[:-1, j - 1], out=columns[1:, j])
+            columns[:, j] *= taus[min(j, len(taus)) - 1] / step
+        return columns
 
 
 class GivenFunction:
