@@ -184,6 +184,22 @@ def test_fit_add_and_history(data: Callable[..., Any], ask: Say, campaign: Path)
         assert "RMSE" in ask(*words).out or "class" in ask(*words).out
 
 
+def test_orders_are_shown_with_what_they_foretell(data: Callable[..., Any], ask: Say, say: Say, campaign: Path) -> None:
+    model = (campaign / "baseline.yaml").read_text(encoding="utf-8").split("effects:")[0]
+    path = campaign / "function.yaml"
+    path.write_text(model + "effects: [{effect: transfer_function, drivers: {u: T_bearing}, orders: [1, 1]}]\n")
+    rows = data("orders", path)
+    assert sum(row["chosen"] for row in rows) == 1
+    assert {"effect", "numerator", "denominator", "fit_left_out", "fit_worst", "fit_calibration", "why"} <= set(rows[0])
+    assert len(data("orders", path, "--method", "oe")) == 16
+    said = ask("orders", path).out
+    assert "FIT left out [%]" in said
+    assert "<-" in said
+    found = say("--store", campaign / "thermodata.store", "orders", campaign / "baseline.yaml")
+    assert found.code == 2
+    assert "no transfer function" in found.err
+
+
 def test_a_report_of_a_version_tells_what_it_changed(
     data: Callable[..., Any], ask: Say, campaign: Path, tmp_path: Path
 ) -> None:

@@ -42,6 +42,7 @@ def checks(response: FittedResponse, tests: Sequence[TestData]) -> dict[str, Any
     rows = [
         *_samples(residual, design, len(gains) + sum(len(t.effect.params) for t in response.terms)),
         *_conditioning(matrix, names),
+        *_orders(response),
     ]
     for term in response.terms:
         rows += [
@@ -113,6 +114,21 @@ def _conditioning(matrix: Float2D, names: list[str]) -> list[Check]:
                     )
                 )
     return rows
+
+
+def _orders(response: FittedResponse) -> list[Check]:
+    return [
+        Check(
+            name=f"orders:{row.effect}",
+            value=row.fit_left_out,
+            threshold=None,
+            passed=True,
+            advice=f"{row.numerator} over {row.denominator} chosen by FIT on what was left out, of "
+            f"{sum(other.effect == row.effect for other in response.tried)}; thermodata orders shows them all",
+        )
+        for row in response.tried
+        if row.chosen
+    ]
 
 
 def _bounds(term: FittedTerm) -> list[Check]:

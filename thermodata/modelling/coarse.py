@@ -41,6 +41,16 @@ def search_from_coarse(problem: Problem, tests: Sequence[TestData], make: Make) 
     return search(problem, start=x)
 
 
+def coarse_tests(tests: Sequence[TestData], wanted: tuple[str, ...] | None) -> list[TestData]:
+    """The tests with about as many samples as a choice needs; as they are where there are few. Declared phases go by
+    time and stay; phases that are told from the machine's work would move with the grid."""
+    total = sum(int(t.in_window.sum()) for t in tests)
+    plain = wanted is None or all(t.phases for t in tests)
+    factor = 1 if not tests or not plain else min(total // ENOUGH, min(len(t.t_s) for t in tests) // 50)
+    factor = min(factor, int(LONGEST_S / _step_s(tests[0]))) if tests else 1
+    return [coarser(t, factor) for t in tests] if factor > 1 else list(tests)
+
+
 def coarser(test: TestData, factor: int) -> TestData:
     """Means of the valid samples of `factor` neighbours; what is left over at the end goes."""
     n = len(test.t_s) // factor

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 
@@ -98,6 +99,7 @@ class FittedResponse:
     calibrate: frozenset[Key]
     checks: tuple[Check, ...] = ()
     noise: float | None = None  # rms of the calibration residual
+    tried: tuple[Any, ...] = ()  # orders.Tried: what was chosen from, where the file left orders open
 
     @property
     def name(self) -> str:

@@ -11,9 +11,11 @@ from thermodata.errors import UsageError
 from thermodata.modelling.candidate import candidate_spec, with_effect
 from thermodata.modelling.fit import fit_model
 from thermodata.modelling.fitted import FittedModel
+from thermodata.modelling.orders import Tried
 from thermodata.modelling.portability import Portability, portability
 from thermodata.modelling.result import make_result, model_id
 from thermodata.modelling.table import prediction_tables
+from thermodata.modelling.transfer import NAME
 from thermodata.schema.model import EffectSpec, Model
 from thermodata.schema.result import FitResult, Score
 from thermodata.view.dataset import Dataset
@@ -99,6 +101,28 @@ def transfer(store: Store, ref: str) -> list[Portability]:
     rows = portability(model.fitted, model.data)
     save_findings(store, model.identity, "portability", [(r.campaign, r.test, r.to_json()) for r in rows])
     return rows
+
+
+def orders(store: Store, spec: Model, *, method: str | None = None, base: Path | None = None) -> list[Tried]:
+    """Every order of the model's transfer functions that was tried, whether the file leaves them open or not; nothing
+    is saved. method: in place of the file's. UsageError where the model has no function to identify."""
+    effects = [_with_open_orders(e, method) for e in spec.effects]
+    spec = _absolute(spec.model_copy(update={"effects": effects}), base)
+    fitted = fit_model(spec, load_data(store, spec), uncertainty=False)
+    found = [row for response in fitted.responses for row in response.tried]
+    if not found:
+        raise UsageError(
+            f"model '{spec.name}' has no transfer function whose orders could be chosen",
+            expected=f"an effect {{effect: {NAME}, drivers: {{u: ...}}}} without given coefficients",
+            got=", ".join(e.effect for e in spec.effects) or "no effects",
+        )
+    return found
+
+
+def _with_open_orders(effect: EffectSpec, method: str | None) -> EffectSpec:
+    if effect.effect != NAME:
+        return effect
+    return effect.model_copy(update={"orders": None, "method": method or effect.method})
 
 
 def chosen_effect(store: Store, model: str, spec: Model, candidate: str | int) -> EffectSpec:
