@@ -184,6 +184,26 @@ def test_fit_add_and_history(data: Callable[..., Any], ask: Say, campaign: Path)
         assert "RMSE" in ask(*words).out or "class" in ask(*words).out
 
 
+def test_a_model_of_the_store_is_an_effect_of_another(data: Callable[..., Any], campaign: Path) -> None:
+    base = data("fit", campaign / "baseline.yaml")
+    head = (campaign / "baseline.yaml").read_text(encoding="utf-8").split("effects:")[0]
+    path = campaign / "twice.yaml"
+    nut = "{effect: feed_screw, drivers: {temperature: T_nut_Z}}"
+    path.write_text(
+        head.replace("baseline", "twice") + f"effects: [{{effect: model, name: baseline, gain: K}}, {nut}]\n"
+    )
+    twice = data("fit", path)
+    assert 0.5 < twice["parameters"]["model.K"]["value"] < 1.5
+    again = data("compare", twice["model"])
+    assert again["parameters"]["model.K"]["value"] == pytest.approx(twice["parameters"]["model.K"]["value"])
+    path.write_text(path.read_text().replace("name: baseline", f"name: {base['model']}"))
+    by_id = data("fit", path)
+    assert 0.5 < by_id["parameters"]["model.K"]["value"] < 1.5
+    assert by_id["model"] != twice["model"]
+    path.write_text(path.read_text().replace(base["model"], "baseline.yaml").replace("gain: K", "gain: 1.5"))
+    assert data("fit", path)["parameters"]["model.gain"]["value"] == 1.5
+
+
 def test_orders_are_shown_with_what_they_foretell(data: Callable[..., Any], ask: Say, say: Say, campaign: Path) -> None:
     model = (campaign / "baseline.yaml").read_text(encoding="utf-8").split("effects:")[0]
     path = campaign / "function.yaml"

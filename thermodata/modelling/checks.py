@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from thermodata.modelling.bound import each_group_its_own
 from thermodata.modelling.design import Design
 from thermodata.modelling.fitted_response import FittedResponse, FittedTerm
 from thermodata.modelling.uncertainty import effective_count
@@ -26,7 +27,7 @@ RIPPLE = 1.0  # of the prediction within a sample, in the response's unit
 
 def checks(response: FittedResponse, tests: Sequence[TestData]) -> dict[str, Any]:
     """{'checks': ..., 'noise': rms of the calibration residual} of a fitted response."""
-    design = Design(response.bound, [t.bound for t in response.terms], tests, response.phases)
+    design = Design(response.bound, [each_group_its_own(t.bound) for t in response.terms], tests, response.phases)
     blocks, names, gains = [], [], list[float]()
     for s, slot in enumerate(design.slots):
         term = response.terms[slot.term]

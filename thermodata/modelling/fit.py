@@ -2,19 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import replace
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
 
 from thermodata.errors import UsageError
 from thermodata.modelling.arx import identify_arx, placeholder
-from thermodata.modelling.bound import BoundResponse, BoundTerm
+from thermodata.modelling.bound import BoundResponse
 from thermodata.modelling.checks import checks
 from thermodata.modelling.fitted import FittedModel
 from thermodata.modelling.fitted_response import FittedResponse, FittedTerm, has_response
 from thermodata.modelling.joint import fit_jointly
 from thermodata.modelling.orders import Near, Tried, choose_orders, open_orders
+from thermodata.modelling.places import fit_together, together
 from thermodata.modelling.resolve import resolve
 from thermodata.modelling.roles import Key
 from thermodata.schema.model import Model
@@ -28,16 +29,40 @@ def fit_model(spec: Model, data: Dataset, *, base: Path | None = None, uncertain
     Tests that lack the response or a driver are skipped and named in `.skipped`. Raises SpecError where the spec does
     not fit the data, UsageError where no calibration test is left.
     """
-    roles, bound = resolve(spec, data, base)
+    inside = _fitter_of_models_inside(data, base)
+    roles, bound = resolve(spec, data, base, inside)
     wanted = None if spec.phases is None else tuple(spec.phases)
-    responses, skipped = [], list[str]()
+    skipped = list[str]()
     keys = (*roles.calibrate, *roles.verify) if spec.in_sample else roles.calibrate
-    for response in counted(bound, "responses"):
-        usable, why = _usable(response, [data.test(*key) for key in keys])
+    open_tests: list[list[TestData]] = []
+    for response in bound:
+        usable, why = usable_tests(response, [data.test(*key) for key in keys])
+        open_tests.append(usable)
         skipped += why
-        fitted = fit_response(response, usable, wanted, data, uncertainty=uncertainty)
-        responses.append(replace(fitted, calibrate=frozenset(roles.calibrate)))
-    return FittedModel(spec, roles, tuple(responses), tuple(dict.fromkeys(skipped)))
+    if together(bound):
+        fitted = fit_together(bound, open_tests, wanted, data, fit_response)
+        if uncertainty:
+            fitted = [replace(r, **checks(r, t)) for r, t in zip(fitted, open_tests, strict=True)]
+    else:
+        fitted = [
+            fit_response(response, usable, wanted, data, uncertainty=uncertainty)
+            for response, usable in zip(counted(bound, "responses"), open_tests, strict=True)
+        ]
+    responses = tuple(replace(response, calibrate=frozenset(roles.calibrate)) for response in fitted)
+    return FittedModel(spec, roles, responses, tuple(dict.fromkeys(skipped)))
+
+
+def _fitter_of_models_inside(data: Dataset, base: Path | None) -> Callable[[Model], FittedModel]:
+    """A model that several responses hold is fitted once."""
+    kept: dict[str, FittedModel] = {}
+
+    def fit(inside: Model) -> FittedModel:
+        key = inside.model_dump_json(by_alias=True)
+        if key not in kept:
+            kept[key] = fit_model(inside, data, base=base, uncertainty=False)
+        return kept[key]
+
+    return fit
 
 
 def fit_response(
@@ -52,18 +77,20 @@ def fit_response(
     find their own tests (default: among `tests`)."""
     tried: list[Tried] = []
     held: dict[int, FittedTerm] = {}
-    for own, members in _stages(bound.terms):
-        pool = tests if data is None else data.tests
-        part = replace(bound, terms=tuple(bound.terms[i] for i in members))
-        first, _ = _usable(part, [t for t in pool if t.key in own])
+    for stage in _stages(bound, tests, data):
+        part = replace(stage.bound, terms=tuple(bound.terms[i] for i in stage.members))
+        first, why = usable_tests(part, stage.tests)
         if not first:
             raise UsageError(
                 "no usable test for an effect that is identified first",
-                where=", ".join(bound.terms[i].id for i in members),
-                expected="the response and the drivers in " + ", ".join("/".join(k) for k in own),
+                where=", ".join(bound.terms[i].id for i in stage.members),
+                expected=f"'{stage.bound.name}' and the drivers in "
+                + (", ".join("/".join(t.key) for t in stage.tests) or "a test"),
+                got="; ".join(why[:8]) or None,
             )
-        bound, found = _identify(bound, members, {}, first, wanted, uncertainty, tried)
-        held |= {i: replace(found[i], held=True) for i in members}
+        known, found = _identify(stage.bound, stage.members, {}, first, None, uncertainty, tried)
+        bound = replace(bound, terms=known.terms)
+        held |= {i: replace(found[i], held=True) for i in stage.members}
     rest = [i for i in range(len(bound.terms)) if i not in held]
     bound, found = _identify(bound, rest, held, tests, wanted, uncertainty, tried)
     fitted = {**held, **found}
@@ -133,12 +160,13 @@ def _with_placeholders(bound: BoundResponse, members: Sequence[int]) -> tuple[Bo
     return replace(bound, terms=terms), arx
 
 
-def _usable(bound: BoundResponse, tests: Sequence[TestData]) -> tuple[list[TestData], list[str]]:
+def usable_tests(bound: BoundResponse, tests: Sequence[TestData]) -> tuple[list[TestData], list[str]]:
+    """Tests with the response and all drivers; and of the others, what they lack."""
     usable, why = [], []
     for test in tests:
         missing = [t.id for t in bound.terms if not t.has(test)]
         if not has_response(bound, test):
-            why.append(f"{test.campaign}/{test.test}: no '{bound.name}'")
+            why.append(f"{test.campaign}/{test.test}: no '{bound.channel_of(test)}'")
         elif missing:
             why.append(f"{test.campaign}/{test.test}: no driver for {', '.join(missing)}")
         else:
@@ -146,10 +174,28 @@ def _usable(bound: BoundResponse, tests: Sequence[TestData]) -> tuple[list[TestD
     return usable, why
 
 
-def _stages(terms: Sequence[BoundTerm]) -> list[tuple[frozenset[Key], list[int]]]:
-    """Effects that share their own tests are identified together, in the order of the file."""
-    stages: dict[frozenset[Key], list[int]] = {}
-    for i, term in enumerate(terms):
-        if term.calibrate is not None:
-            stages.setdefault(term.calibrate, []).append(i)
-    return list(stages.items())
+@dataclass(frozen=True)
+class _Stage:
+    """Effects that are identified before the others, together, on tests or on a response of their own."""
+
+    bound: BoundResponse
+    members: tuple[int, ...]
+    tests: tuple[TestData, ...]
+
+
+def _stages(bound: BoundResponse, tests: Sequence[TestData], data: Dataset | None) -> list[_Stage]:
+    """In the order of the file. All phases of a stage's tests count: an idle test has no heating."""
+    pool = tests if data is None else data.tests
+    members: dict[tuple[frozenset[Key] | None, tuple[tuple[str, str], ...] | None], list[int]] = {}
+    for i, term in enumerate(bound.terms):
+        if term.calibrate is not None or term.seen_at is not None:
+            seen = None if term.seen_at is None else tuple(term.seen_at.items())
+            members.setdefault((term.calibrate, seen), []).append(i)
+    stages = []
+    for (own, seen), places in members.items():
+        where = bound
+        if seen is not None:
+            where = replace(bound, name=seen[0][1], unit=bound.units.get(seen[0][1], bound.unit), channels=dict(seen))
+        keys = {t.key for t in tests} if own is None else own
+        stages.append(_Stage(where, tuple(places), tuple(t for t in pool if t.key in keys)))
+    return stages

@@ -7,14 +7,16 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from thermodata.errors import UsageError
-from thermodata.modelling.bound import BoundResponse, BoundTerm
+from thermodata.modelling.bound import BoundResponse, BoundTerm, each_group_its_own
 from thermodata.modelling.coarse import search_from_coarse
-from thermodata.modelling.design import GRID, MOMENTS, Design, Nonlinear
-from thermodata.modelling.fitted_response import FittedTerm, Values
+from thermodata.modelling.design import GRID, MOMENTS, Design, Nonlinear, factor
+from thermodata.modelling.fitted_response import FACTOR, FittedTerm, Values
 from thermodata.modelling.search import Problem, search
 from thermodata.modelling.uncertainty import deviations
 from thermodata.plugin import Float1D, Param
 from thermodata.view.dataset import TestData
+
+FACTORS = (0.02, 50.0)  # of one group's gains to another's
 
 
 def fit_jointly(
@@ -30,7 +32,8 @@ def fit_jointly(
     """Fit some terms of a response together, with others held. near: the terms as they were found on nearly the same
     data, where the search starts without a look over the whole range. loose: see `search`."""
     order = [*members, *held]
-    design = Design(bound, [bound.terms[i] for i in order], tests, wanted)
+    terms = [bound.terms[i] if i in members else each_group_its_own(bound.terms[i]) for i in order]
+    design = Design(bound, terms, tests, wanted)
     if not design.n:
         raise UsageError(
             "no sample counts in the calibration tests",
@@ -52,21 +55,42 @@ def fit_jointly(
         if order[slot.term] in by_member:
             names = [g.name for g in bound.terms[order[slot.term]].effect.gains]
             values = gains[problem.starts[s] : problem.starts[s + 1]]
-            by_member[order[slot.term]][slot.group] = Values(
-                params, dict(zip(names, map(float, values), strict=True)), sds[s], logs, problem.silent[s]
-            )
+            found = Values(params, dict(zip(names, map(float, values), strict=True)), sds[s], logs, problem.silent[s])
+            by_member[order[slot.term]] |= _by_group(design, s, found)
     return {i: FittedTerm(bound.terms[i], groups or {"": _at_start(bound.terms[i])}) for i, groups in by_member.items()}
 
 
-def _near(problem: Problem, found: Mapping[int, FittedTerm]) -> Float1D:
+def _by_group(design: Design, s: int, found: Values) -> dict[str, Values]:
+    """What a slot found, for each of its groups; where they differ by a factor, with the factor in the gains."""
+    slot = design.slots[s]
+    if not slot.factors:
+        return {slot.group: found}
+    own = {p.name for p in design.terms[slot.term].effect.params}
+    params = {name: value for name, value in found.params.items() if name in own}
+    groups = {}
+    for group in dict.fromkeys(slot.factors):
+        g = found.params.get(factor(group), 1.0)
+        spread = {n: sd * (1.0 if n in own else g) for n, sd in found.sd.items() if not n.startswith("g[")}
+        if factor(group) in found.sd:
+            spread[FACTOR] = found.sd[factor(group)]
+        logs = found.log_names | {FACTOR}
+        gains = {n: g * v for n, v in found.gains.items()}
+        groups[group] = Values(params, gains, spread, logs, found.silent, g)
+    return groups
+
+
+def _near(problem: Problem, known: Mapping[int, FittedTerm]) -> Float1D:
     """The point of the search where the terms stood; shape (free parameters,)."""
     x = problem.start()
     for i, free in enumerate(problem.free):
         slot = problem.design.slots[free.slots[0]]
-        term = found.get(slot.term)
+        term = known.get(slot.term)
         values = None if term is None else term.groups.get(slot.group, next(iter(term.groups.values())))
         if values is not None and free.param.name in values.params:
             x[i] = free.outside(values.params[free.param.name])
+        elif term is not None:
+            factors = {factor(group): found.factor for group, found in term.groups.items()}
+            x[i] = free.outside(factors.get(free.param.name, free.start))
     return x
 
 
@@ -111,8 +135,14 @@ def make_problem(design: Design, held: Mapping[int, FittedTerm]) -> Problem:
             if param.name in term.spec.fixed:
                 continue
             together = not term.spec.shared or param.name in term.spec.shared
-            for group in [tuple(slots)] if together else [(s,) for s in slots]:
+            by_place = list(dict.fromkeys(design.slots[s].place for s in slots))
+            shared = [tuple(s for s in slots if design.slots[s].place == place) for place in by_place]
+            for group in shared if together else [(s,) for s in slots]:
                 _add(design, term, param, group, free, fixed)
+        for s in slots:
+            for other in design.other_groups(s):
+                g = Param(factor(other), "1", 1.0, *FACTORS, "factor on all gains")
+                free.append(Nonlinear(g, (s,), *FACTORS, 1.0, True))
     silent = [
         frozenset(set(p) - set(design.terms[slot.term].spec.fixed)) if slot.term not in held else frozenset[str]()
         for slot, p in zip(design.slots, fixed, strict=True)

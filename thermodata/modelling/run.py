@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from thermodata.errors import UsageError
+from thermodata.modelling import nested
 from thermodata.modelling.candidate import candidate_spec, with_effect
 from thermodata.modelling.fit import fit_model
 from thermodata.modelling.fitted import FittedModel
@@ -55,7 +56,7 @@ def fit(
     """Fit and save. base: the folder of the model file, which `file` of an effect is relative to."""
     from thermodata.store.catalogue.models import save_fit
 
-    spec = _absolute(spec, base)
+    spec = self_contained(store, spec, base)
     data = load_data(store, spec)
     fitted = fit_model(spec, data)
     result = make_result(fitted, data, model_id(spec, data.data_version), parent=parent, before=before)
@@ -107,7 +108,7 @@ def orders(store: Store, spec: Model, *, method: str | None = None, base: Path |
     """Every order of the model's transfer functions that was tried, whether the file leaves them open or not; nothing
     is saved. method: in place of the file's. UsageError where the model has no function to identify."""
     effects = [_with_open_orders(e, method) for e in spec.effects]
-    spec = _absolute(spec.model_copy(update={"effects": effects}), base)
+    spec = self_contained(store, spec.model_copy(update={"effects": effects}), base)
     fitted = fit_model(spec, load_data(store, spec), uncertainty=False)
     found = [row for response in fitted.responses for row in response.tried]
     if not found:
@@ -145,11 +146,25 @@ def chosen_effect(store: Store, model: str, spec: Model, candidate: str | int) -
     return candidate_spec(name, load_data(store, spec).channels)
 
 
-def _absolute(spec: Model, base: Path | None) -> Model:
-    if not any(e.file for e in spec.effects):
-        return spec
-    effects = [
-        e if e.file is None else e.model_copy(update={"file": str(((base or Path()) / e.file).resolve())})
-        for e in spec.effects
-    ]
+def self_contained(store: Store, spec: Model, base: Path | None = None) -> Model:
+    """The spec with what it names from elsewhere: files by their full path, other models as they are now."""
+    effects = []
+    for effect in spec.effects:
+        if effect.file is not None:
+            effect = effect.model_copy(update={"file": str(((base or Path()) / effect.file).resolve())})
+        if effect.effect == nested.NAME and effect.inside is None and effect.name is not None:
+            inside = _model_named(store, effect.name, base)
+            effect = effect.model_copy(update={"inside": inside.model_dump(mode="json", by_alias=True)})
+        effects.append(effect)
     return spec.model_copy(update={"effects": effects})
+
+
+def _model_named(store: Store, name: str, base: Path | None) -> Model:
+    """A file beside the model's own, or a model of the store."""
+    from thermodata.schema.load import load_model
+    from thermodata.store.catalogue.models import find_model
+
+    path = (base or Path()) / name
+    if name.endswith((".yaml", ".yml")):
+        return self_contained(store, load_model(path), path.parent)
+    return find_model(store, name).spec

@@ -197,9 +197,7 @@ class _Builder:
         name = self.document.path.name
         for key_node, value_node in node.value:
             line = key_node.start_mark.line + 1
-            if not isinstance(key_node, yaml.ScalarNode):
-                raise SpecError("a key must be a word", where=f"{name}:{line}")
-            key = str(key_node.value)
+            key = _key(key_node, f"{name}:{line}")
             if key in result:
                 raise SpecError(
                     f"the key '{key}' stands twice",
@@ -210,6 +208,15 @@ class _Builder:
             self.document.line[(*place, key)] = line
             result[key] = self.build(value_node, (*place, key), depth + 1)
         return result
+
+
+def _key(node: yaml.Node, where: str) -> str:
+    """A word, or a list of words as it is written: `[D25, D63]: k1` names what several keys have in common."""
+    if isinstance(node, yaml.ScalarNode):
+        return str(node.value)
+    if isinstance(node, yaml.SequenceNode) and all(isinstance(part, yaml.ScalarNode) for part in node.value):
+        return f"[{', '.join(str(part.value) for part in node.value)}]"
+    raise SpecError("a key must be a word, or a list of words", where=where)
 
 
 def at_place(data: Any, place: Sequence[str | int]) -> Any:
