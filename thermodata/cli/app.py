@@ -30,6 +30,7 @@ SECTIONS: dict[str, dict[str, str]] = {
     },
     "Model": {
         "fit": "fitting",
+        "orders": "ordering",
         "compare": "fitting",
         "add": "fitting",
         "history": "fitting",
