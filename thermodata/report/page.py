@@ -142,7 +142,7 @@ def what_is_left(data: ReportData) -> list[tuple[str, str, str]]:
     whole = _rms([p.residual for p in data.tests])
     slow = _rms([block_mean(p.residual, max(1, round(SLOW_S / p.step_s))) for p in data.tests])
     rows = [
-        ("left over in all open tests", whole, "calibration and verification together, as in the history below"),
+        ("left over in all open tests", whole, "calibration and verification tests together"),
         (f"of it, in means of {duration(SLOW_S)}", slow, "keeps its sign for long: systematic, not noise"),
         ("noise", _noise(data), NOISE.format(length=duration(step))),
     ]
