@@ -138,7 +138,7 @@ def test_time_is_limited(small_store: Path) -> None:
     ],
 )
 def test_memory_is_limited(small_store: Path, query: str) -> None:
-    with pytest.raises(ThermodataError, match="memory|query fails"):
+    with pytest.raises(ThermodataError, match=r"memory|query fails"):
         ask(small_store, query, Limits(seconds=30, memory_mb=128))
 
 

@@ -37,14 +37,14 @@ class Table:
     more: bool
 
 
-def ask(store: Path | str, query: str, limits: Limits = Limits()) -> Table:  # noqa: B008 - frozen
+def ask(store: Path | str, query: str, limits: Limits = Limits()) -> Table:
     """The rows of one SELECT over a store. UsageError where it is refused, fails, or goes beyond a limit."""
     with _running(store, query, "table", limits) as (head, _):
         columns = tuple((str(name), str(kind)) for name, kind in head["columns"])
         return Table(columns, tuple(tuple(row) for row in head["rows"]), bool(head["more"]))
 
 
-def stream(store: Path | str, query: str, form: Form, limits: Limits = Limits()) -> Iterator[bytes]:  # noqa: B008
+def stream(store: Path | str, query: str, form: Form, limits: Limits = Limits()) -> Iterator[bytes]:
     """The same as CSV or Parquet, in pieces; errors come before the first piece. An answer that goes beyond a limit
     once it began ends with an error, and never looks whole."""
     with _running(store, query, form, limits) as (_, body):
@@ -79,7 +79,8 @@ def _running(store: Path | str, query: str, form: Form, limits: Limits) -> Itera
     watch = threading.Timer(limits.seconds, end)
     watch.start()
     try:
-        assert process.stdin is not None and process.stdout is not None
+        assert process.stdin is not None
+        assert process.stdout is not None
         process.stdin.write(json.dumps(request).encode() + b"\n")
         process.stdin.close()
         yield _head(process, late, limits), process.stdout
