@@ -111,3 +111,26 @@ def _paths(
 
 def _numbers(column: np.ndarray) -> Float1D:
     return np.ma.filled(np.ma.asarray(column).astype(np.float64), np.nan)
+
+
+@dataclass(frozen=True, slots=True)
+class RangeFigures:
+    """What a stretch of a test does to its error [of the response]. n: samples that count, in all and inside. rmse_*:
+    None where none counts."""
+
+    n: int
+    n_inside: int
+    rmse: float | None
+    rmse_inside: float | None
+    rmse_without: float | None
+
+
+def range_figures(found: Prediction, from_s: float, to_s: float) -> RangeFigures:
+    """The error in a stretch, and of the test without it, by the model as it was fitted: nothing is fitted again."""
+    counts = found.valid & np.isfinite(found.residual)
+    inside = counts & (found.t_s >= from_s) & (found.t_s <= to_s)
+
+    def rmse(mask: Bool1D) -> float | None:
+        return float(np.sqrt(np.mean(found.residual[mask] ** 2))) if mask.any() else None
+
+    return RangeFigures(int(counts.sum()), int(inside.sum()), rmse(counts), rmse(inside), rmse(counts & ~inside))

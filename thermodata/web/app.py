@@ -13,7 +13,7 @@ from thermodata.errors import StoreError, ThermodataError
 from thermodata.web import assets
 from thermodata.web.desk import Desk
 from thermodata.web.guard import Guard
-from thermodata.web.pages import campaign_map
+from thermodata.web.pages import campaign_map, test
 from thermodata.web.render import page
 
 
@@ -23,6 +23,10 @@ def application(desk: Desk) -> Starlette:
         routes=[
             Route("/static/{name:path}", assets.serve, methods=["GET"]),
             Route("/", campaign_map.show, methods=["GET"]),
+            Route("/test", test.show, methods=["GET"]),
+            Route("/test/data", test.data, methods=["GET"]),
+            Route("/test/range", test.stretch, methods=["GET"]),
+            Route("/trace", test.way_back, methods=["GET"]),
         ],
         middleware=[Middleware(Guard, desk=desk)],
         exception_handlers={ThermodataError: _refused, HTTPException: _no_page},
