@@ -63,7 +63,9 @@ class Client:
         asked = [{"type": "http.request", "body": body, "more_body": False}]
 
         async def receive() -> dict[str, Any]:
-            return asked.pop() if asked else {"type": "http.disconnect"}
+            if not asked:
+                await asyncio.Event().wait()  # a browser that stays
+            return asked.pop()
 
         async def send(message: dict[str, Any]) -> None:
             sent.append(message)

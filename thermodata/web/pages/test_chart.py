@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from thermodata.chart.colour import EFFECTS, LANE, MEASURED, MODEL, RESIDUAL, effect_styles
-from thermodata.chart.spec import Axis, Chart, Panel, Row, Series, Span, Strip
+from thermodata.chart.spec import Axis, Chart, Panel, Row, Series, Span, Strip, Style
 from thermodata.plugin import Float1D
 from thermodata.view.events import About
 from thermodata.view.predictions import Prediction
@@ -97,7 +97,7 @@ def _of_channels(channels: Sequence[Channel], values: dict[str, tuple[Float1D, F
         else:
             x, y = values[channel.name]
             if np.isfinite(y).any() and np.nanmax(y) > np.nanmin(y):  # what never moved says nothing
-                style = "steps" if channel.held else "line"
+                style: Style = "steps" if channel.held else "line"
                 strips.append(Strip(Series(channel.name, channel.unit, y, LANE, x=x, style=style), channel.name))
     # a place with one sensor needs no panel of its own
     alone = [key for key, members in groups.items() if len(members) == 1 and key[0].startswith("temperature")]
