@@ -64,7 +64,7 @@ class Chromium:
         )
         for end in (to_child, from_child, *high):
             os.close(end)
-        self._rest, self._last = b"", 0
+        self._rest, self._last, self.ended = b"", 0, False
         self.events: list[dict[str, Any]] = []
 
     def call(self, method: str, session: str | None = None, timeout_s: float = 60.0, **params: Any) -> dict[str, Any]:
@@ -73,7 +73,11 @@ class Chromium:
         number, message = self._last, {"id": self._last, "method": method, "params": params}
         if session:
             message["sessionId"] = session
-        os.write(self._write, json.dumps(message).encode() + b"\0")
+        try:
+            os.write(self._write, json.dumps(message).encode() + b"\0")
+        except BrokenPipeError:
+            self.ended = True
+            raise ConnectionError("the browser has ended") from None
         until = time.monotonic() + timeout_s
         while time.monotonic() < until:
             for answer in self._messages(until):
@@ -90,7 +94,11 @@ class Chromium:
             ready, _, _ = select.select([self._read], [], [], max(0.0, min(1.0, until - time.monotonic())))
             if not ready:
                 return
-            self._rest += os.read(self._read, 1 << 20)
+            got = os.read(self._read, 1 << 20)
+            if not got:
+                self.ended = True
+                raise ConnectionError("the browser has ended")
+            self._rest += got
         while b"\0" in self._rest:
             raw, _, self._rest = self._rest.partition(b"\0")
             yield json.loads(raw)

@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable
+from functools import cache
 
-MEASURED, MODEL, RESIDUAL, SOURCE, LANE, MUTED = "measured", "model", "residual", "source", "lane", "muted"
+from thermodata.chart.assets import asset
+
 EFFECTS = tuple(f"effect-{i}" for i in range(1, 7))
 """Told apart by people who miss one kind of cone as well; more than six lines repeat them with other dashes."""
+FONT = "system-ui, -apple-system, 'Segoe UI', Roboto, 'Helvetica Neue', Arial, sans-serif"
 _DASHES = ("solid", "dashed", "dotted")
 
 
@@ -14,3 +18,10 @@ def effect_styles(names: Iterable[str]) -> dict[str, tuple[str, str]]:
     """Name -> (colour, dash), in the order of the names: no two of the first eighteen are alike."""
     each = enumerate(dict.fromkeys(names))
     return {name: (EFFECTS[i % 6], _DASHES[i // 6 % 3]) for i, name in each}
+
+
+@cache
+def light() -> dict[str, str]:
+    """Name -> '#rrggbb' of the light look, for a picture that stands in no page."""
+    block = asset("palette.css").partition("{")[2].partition("}")[0]
+    return dict(re.findall(r"--c-([\w-]+):\s*(#[0-9a-f]{6})", block))

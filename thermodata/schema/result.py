@@ -348,6 +348,7 @@ class Diagnosis(Result):
         none: what is left is noise; unknown: something is left that nothing logged explains; not_testable: the tests
         cannot tell
     noise_um: short-term noise of the response, in its unit
+    noise_over_s: averaging time of the samples that the noise lies between [s]; null where it was not kept
     rmse_um: error on left-out tests without any candidate
     explainable: largest fall of the squared error that a candidate gives, 0 to 1
     weak_spots: where the model fails, by cost
@@ -362,6 +363,7 @@ class Diagnosis(Result):
     response: str
     verdict: Literal["effect", "refine", "none", "unknown", "not_testable"]
     noise_um: float | None
+    noise_over_s: float | None = None
     rmse_um: float | None
     explainable: float | None
     weak_spots: list[WeakSpot]

@@ -80,6 +80,8 @@
         const text = s.name + (s.band ? " ± " + s.band.label : "");
         key.append(swatch, T.make("span", "", this._label(p, i) && this.narrow ? this._label(p, i) + " " + text : text), value);
         key.addEventListener("click", () => this.toggle(p, i));
+        ["mouseenter", "focus"].forEach(n => key.addEventListener(n, () => this.single(p, i)));
+        ["mouseleave", "blur"].forEach(n => key.addEventListener(n, () => this.single(p, -1)));
         // one curve whose name is the title needs no key, only its value
         if (p.series.length === 1 && (p.strip || s.name === p.title)) { head.append(value); }
         else head.append(key);
@@ -126,7 +128,7 @@
       return {
         width: this._width(), height: this._height(p),
         padding: [p.strip ? 2 : 8, () => chart.gutter, p.last ? 0 : 4, 0],
-        legend: {show: false},
+        legend: {show: false}, focus: {alpha: 0.2},
         cursor: {y: false, drag: {x: true, y: false, setScale: false, dist: 5},
           points: {size: 6, show: !p.strip && !p.rows}, dataIdx: (u, i, near, x) => i ? T.nearest(u.data[0], u.data[i], x) : near,
           bind: {dblclick: () => () => { chart.whole(); return null; },
@@ -286,6 +288,12 @@
       if (show) this.hidden.delete(id); else this.hidden.add(id);
       p.values[i].key.setAttribute("aria-pressed", String(show));
       p.plot.setSeries(line.column, {show: show});
+    }
+
+    // one curve among many: the others fade; -1 for none
+    single(p, i) {
+      const line = p.lines.find(l => l.series === i);
+      p.plot.setSeries(line ? line.column : null, {focus: true});
     }
 
     // ---- zoom

@@ -34,8 +34,8 @@
 
     colour(v) {
       const share = Math.max(-1, Math.min(1, v / this.spec.limit)), zero = rgb(T.colour("zero"));
-      // small errors must be seen beside large ones: the square root opens the middle
-      return mixed(zero, rgb(T.colour(share < 0 ? "cold" : "hot")), Math.sqrt(Math.abs(share)));
+      // a little opened in the middle, for small errors must be seen beside large ones; the key shows it
+      return mixed(zero, rgb(T.colour(share < 0 ? "cold" : "hot")), Math.pow(Math.abs(share), 0.75));
     }
 
     draw() {

@@ -1,4 +1,5 @@
-// Finds the charts of a page: <div data-chart="ID" data-height="PX"> draws <script type="application/json" id="ID">.
+// Finds the charts of a page: an element with data-chart="ID" (and data-height, in px) draws the JSON of the script
+// element with that id.
 // They are drawn when they come near the window (a campaign has dozens), all of them before printing, and `scan` takes up
 // those that came into the page later. data-wheel and data-drag are the options of chart.js.
 (function () {
