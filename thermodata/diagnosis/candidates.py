@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Container, Iterable, Mapping
 from dataclasses import dataclass, replace
 from itertools import product
 from typing import Literal
@@ -21,6 +21,7 @@ Led = tuple[Drivers, int]
 # effect of a family that the model has, at its place. "related": one elsewhere
 Kin = Literal["same", "near", "related"] | None
 GENERIC = "generic"
+CONTROL = "control"  # its static compensation is a difference of any two temperatures
 STATIC = "static"
 NOT_DRIVERS = frozenset({"displacement", "tilt", "label"})
 SECONDS = {"s": 1.0, "min": 60.0, "h": 3600.0}
@@ -101,8 +102,13 @@ def candidates(
             if refines(effect) and not any(e in refines(effect) and n & names for e, n in have):
                 continue
             found.append(candidate)
-    named = {c.channels for c in found if c.family != GENERIC}
-    return [replace(c, log_prior=UNNAMED) if c.family == GENERIC and c.channels in named else c for c in found]
+    named = {c.channels for c in found if c.family not in (GENERIC, CONTROL)}
+    return [replace(c, log_prior=UNNAMED) if _says_little(c, named) else c for c in found]
+
+
+def _says_little(candidate: CandidateEffect, named: Container[tuple[str, ...]]) -> bool:
+    """Whether its name says no more than which channels it reads."""
+    return candidate.family == CONTROL or (candidate.family == GENERIC and candidate.channels in named)
 
 
 def _kin(

@@ -8,7 +8,7 @@ from typing import Literal
 
 import numpy as np
 
-from thermodata.diagnosis.candidates import GENERIC
+from thermodata.diagnosis.candidates import CONTROL, GENERIC
 from thermodata.diagnosis.null import p_value
 from thermodata.diagnosis.problem import Problem
 from thermodata.diagnosis.scored import Scored
@@ -26,15 +26,16 @@ SHARP_LIMIT = 0.15
 UNNAMED_SHARP_LIMIT = 0.25
 # where nobody declared any place a claim names a channel, not physics, and there is nothing that it could be taken for
 PLACELESS_SHARP_LIMIT = 0.05
+# so much evidence a sample outweighs what left-out tests say: their error is that of the known effects, too
+OVERWHELMING = 0.6
 DROP_LIMIT = 0.15  # fall of the error on left-out tests in which it acts,
 UNNAMED_DROP_LIMIT = 0.3  # and of what names no physics: any slow temperature steadies a misfit a little
 BETTER_LIMIT = 0.6  # share of these tests that it makes more probable
 SPREAD_LIMIT = 0.5  # of its gain between tests, as a share,
 FORETOLD = 0.5  # unless left-out tests are foretold to this share of their error: few tests can't tell a spread
 WORTH_SHARE = 0.1  # of the response: less is not worth a name
-BESIDE_SHARE = 0.7  # of the largest claim's: a further claim must explain as much
+BESIDE_SHARP_LIMIT = 0.3  # log evidence a sample of a further claim: what is small may be what the first leaves
 MOST_CLAIMS = 3
-STEADIES = 2.8  # a promised fall beyond this many times its own size only steadies an extrapolation
 FLOOR_SHARE = 0.1  # a residual under this share of the response (FIT 90) is left alone
 NOISE_TIMES = 5.0
 ALIKE = 0.9  # cosine of contributions that can't be told apart
@@ -127,11 +128,9 @@ def _nothing(verdict: Verdict, reason: str) -> Judgement:
 
 
 def _claims(own: Sequence[Judged]) -> tuple[Judged, ...]:
-    """The first that was chosen, and named ones that explain nearly as much: what is far smaller, or has no name, may
-    be what the first leaves; once that is added, it is asked again."""
-    least = BESIDE_SHARE * explained(own[0].alone) if own else 0.0
-    further = (j for j in own[1:] if explained(j.scored) >= least and j.scored.candidate.family != GENERIC)
-    return (*own[:1], *further)[:MOST_CLAIMS]
+    """The first that was chosen, and others that are sharp: what is dull beside it may be what the first leaves; once
+    that is added, it is asked again."""
+    return (*own[:1], *(j for j in own[1:] if sharpness(j.scored) >= BESIDE_SHARP_LIMIT))[:MOST_CLAIMS]
 
 
 def failed_rules(scored: Scored, measure: Measure, unit: str) -> list[str]:
@@ -142,7 +141,8 @@ def failed_rules(scored: Scored, measure: Measure, unit: str) -> list[str]:
         failed.append(f"chance does as well in {p:.1%} of responses in which nothing is missing (limit {P_LIMIT:.0%})")
     count = int(scored.acts.sum())
     limit = UNNAMED_DROP_LIMIT if _unnamed(scored) else DROP_LIMIT
-    if scored.drop < limit:
+    doubtful = sharpness(scored) < OVERWHELMING
+    if doubtful and scored.drop < limit:
         failed.append(
             f"in the {count} left-out tests in which it acts the error falls by {max(scored.drop, 0):.0%} only "
             f"(limit {limit:.0%})"
@@ -152,20 +152,15 @@ def failed_rules(scored: Scored, measure: Measure, unit: str) -> list[str]:
             f"it makes {round(scored.better * count)} of the {count} tests in which it acts more probable (limit "
             f"{BETTER_LIMIT:.0%})"
         )
-    if scored.spread > SPREAD_LIMIT and scored.drop < FORETOLD:
+    if doubtful and scored.spread > SPREAD_LIMIT and scored.drop < FORETOLD:
         failed.append(
             f"its gain differs between tests by {scored.spread:.0%} (limit {SPREAD_LIMIT:.0%}): a cause acts alike "
             "everywhere"
         )
-    if explained(scored) < WORTH_SHARE * measure.spread:
+    if doubtful and explained(scored) < WORTH_SHARE * measure.spread:
         failed.append(
             f"it explains {explained(scored):.2g} {unit} where it acts, of {measure.spread:.2g} {unit} (limit "
             f"{WORTH_SHARE:.0%})"
-        )
-    if explained(scored) > STEADIES * acting_size(scored):
-        failed.append(
-            f"the error falls by more than {STEADIES:g} times its own size: it only steadies what the model "
-            "extrapolates"
         )
     return failed
 
@@ -190,7 +185,7 @@ def claimable(scored: Scored, measure: Measure, unit: str) -> bool:
 
 def _unnamed(scored: Scored) -> bool:
     """Whether its place is known, and still no effect has a name for it; where no place is declared, nothing could."""
-    return scored.candidate.family == GENERIC and not scored.candidate.placeless
+    return scored.candidate.family in (GENERIC, CONTROL) and not scored.candidate.placeless
 
 
 def probability(scored: Scored) -> float:
