@@ -17,7 +17,7 @@ from thermodata.plugin import Drivers, Effect, Float2D, Param
 from thermodata.view.dataset import ChannelInfo, TestData
 
 Led = tuple[Drivers, int]
-# "same": another mode of an effect that the model has, another bearing, another reading of its channels. "near": an
+# "same": another mode of an effect that the model has, another reading of its channels or of the same cause. "near": an
 # effect of a family that the model has, at its place. "related": one elsewhere
 Kin = Literal["same", "near", "related"] | None
 GENERIC = "generic"
@@ -97,7 +97,7 @@ def candidates(
             if (effect.name, names) in have or names in lagged:
                 continue
             near = names <= read or _near(names, read, channels)
-            kin = _kin(effect, family, names, near, known, have)
+            kin = _kin(effect, family, names, near, known, have, library, usable)
             candidate = CandidateEffect(effect, binding, family, nowhere, kin=kin)
             if refines(effect) and not any(e in refines(effect) and n & names for e, n in have):
                 continue
@@ -118,13 +118,17 @@ def _kin(
     near: bool,
     families: frozenset[str],
     have: frozenset[tuple[str, frozenset[str]]],
+    library: Mapping[str, Effect],
+    channels: Mapping[str, ChannelInfo],
 ) -> Kin:
     if refines(effect) or (family == GENERIC and near):
         return "same"
     if family not in families:
         return None
     read = frozenset[str]().union(*(n for _, n in have))
-    if names <= read or any(name == effect.name for name, _ in have):
+    # a temperature is the state of one body; a speed makes heat, and force
+    again = names <= read and all(channels[n].quantity == "temperature" for n in names)
+    if again or any(cause(library[name]) == cause(effect) for name, _ in have if name in library):
         return "same"
     return "near" if near else "related"
 
@@ -133,6 +137,12 @@ def _near(names: frozenset[str], read: frozenset[str], channels: Mapping[str, Ch
     """Whether a channel sits where the model reads one already: at its place, around it, or within it."""
     mine, theirs = ({p for n in some if n in channels and (p := channels[n].at)} for some in (names, read))
     return any(holds(a, b) or holds(b, a) for a in mine for b in theirs)
+
+
+def cause(effect: Effect) -> str:
+    """The heat or motion that an effect stands for: bearing friction, whether by temperature or by speed."""
+    found: str = getattr(effect, "cause", effect.name)
+    return found
 
 
 def refines(effect: Effect) -> tuple[str, ...]:

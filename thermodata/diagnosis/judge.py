@@ -103,14 +103,14 @@ def judge(
         return Judgement("effect", claims, kept, judged, "")
     left = remaining(selection.first.ranked[0])
     standing = [j.scored for j in judged if j.refines is None]
-    if kept and not standing:
-        return Judgement("refine", (), kept, judged, "no cause is missing; what the model has can be refined")
     if left <= measure.floor:
         why = (
-            f"the error on left-out tests, {left:.2g} {problem.unit}, is at the floor of "
+            f"the error beside all that the model can do, {left:.2g} {problem.unit}, is at the floor of "
             f"{measure.floor:.2g} {problem.unit} (noise, and {FLOOR_SHARE:.0%} of the response)"
         )
         return Judgement("none", (), (), judged, why)
+    if kept and not standing:
+        return Judgement("refine", (), kept, judged, "no cause is missing; what the model has can be refined")
     best = selection.first.ranked[0]
     if standing:
         best = standing[0]
@@ -157,6 +157,8 @@ def failed_rules(scored: Scored, measure: Measure, unit: str) -> list[str]:
             f"its gain differs between tests by {scored.spread:.0%} (limit {SPREAD_LIMIT:.0%}): a cause acts alike "
             "everywhere"
         )
+    if doubtful and count < 2:
+        failed.append("it acts in one test only: no other foretells it")
     if doubtful and explained(scored) < WORTH_SHARE * measure.spread:
         failed.append(
             f"it explains {explained(scored):.2g} {unit} where it acts, of {measure.spread:.2g} {unit} (limit "

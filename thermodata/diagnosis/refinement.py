@@ -49,7 +49,7 @@ class Refinement:
         if not self.fitted.terms:
             return None
         kin, most = scored.candidate.kin, scored.drop >= MOST
-        if refines(scored.candidate.effect) or (kin == "same" and not most):
+        if refines(scored.candidate.effect) or kin == "same":
             return MODE
         good = scored.error_before <= GOOD * rms(self.problem.response_blocks)
         largest = max(self._size(i) for i in range(len(self.fitted.terms)))
