@@ -18,14 +18,13 @@ from thermodata.plugin import Float1D
 Verdict = Literal["effect", "refine", "none", "unknown", "not_testable"]
 
 P_LIMIT = 0.01
-PROBABILITY = (2.77, 3.61)  # of a logistic curve over the logarithm of the evidence a sample
-# log evidence a sample, in the noise that is left once all members are in: the noise must fall by a seventh. A cause
-# has the timing of what is missing and leaves little noise; what stands in for it has its slow shape alone
-SHARP_LIMIT = 0.15
-# and of what names no physics: the temperature of a body also sharpens a known effect
-UNNAMED_SHARP_LIMIT = 0.25
-# where nobody declared any place a claim names a channel, not physics, and there is nothing that it could be taken for
-PLACELESS_SHARP_LIMIT = 0.05
+# that a sound candidate is the cause: a logistic curve over the logarithm of its evidence a sample, and the spread of
+# its gain between tests (docs/method.md#probability)
+PROBABILITY = (3.28, 2.18, -2.51)
+USUAL_SPREAD = 0.15
+CLAIMED = 0.7  # a claim is this probable at least;
+# where nobody declared any place it names a channel, not physics, and there is nothing that it could be taken for
+PLACELESS_CLAIMED = 0.5
 # so much evidence a sample outweighs what left-out tests say: their error is that of the known effects, too
 OVERWHELMING = 0.6
 DROP_LIMIT = 0.15  # fall of the error on left-out tests in which it acts,
@@ -168,15 +167,16 @@ def failed_rules(scored: Scored, measure: Measure, unit: str) -> list[str]:
 
 
 def blunt(scored: Scored) -> str | None:
-    """Why a sound candidate is still no cause; None where its timing is that of what is missing."""
-    limit = UNNAMED_SHARP_LIMIT if _unnamed(scored) else SHARP_LIMIT
-    if scored.candidate.placeless:
-        limit = PLACELESS_SHARP_LIMIT
-    if sharpness(scored) >= limit:
+    """Why a sound candidate is still no cause; None where its timing is that of what is missing, in every test.
+
+    A cause has the timing of what is missing and leaves little noise; what stands in for it has its slow shape alone.
+    """
+    sure, limit = probability(scored), PLACELESS_CLAIMED if scored.candidate.placeless else CLAIMED
+    if sure >= limit:
         return None
     return (
-        f"its evidence is {sharpness(scored):.2f} a sample (limit {limit:g}): it has the slow shape of what is "
-        "missing, but not its timing"
+        f"causes like it were right in {sure:.0%} of cases only (limit {limit:.0%}): its evidence is "
+        f"{sharpness(scored):.2f} a sample, and its gain differs between tests by {scored.spread:.0%}"
     )
 
 
@@ -191,9 +191,12 @@ def _unnamed(scored: Scored) -> bool:
 
 
 def probability(scored: Scored) -> float:
-    """That the candidate is what is missing: the share that was right at its sharpness on 97 simulated machines of two
-    makes (development seeds; docs/method.md#probability)."""
-    odds = PROBABILITY[0] + PROBABILITY[1] * np.log10(max(sharpness(scored), 1e-4))
+    """That a sound candidate is what is missing: the share that was right among those with its sharpness and spread, on
+    simulated machines (development seeds)."""
+    level, sharp, spread = PROBABILITY
+    # one test tells no spread: the usual one is taken
+    between = scored.spread if scored.acts.sum() > 1 else USUAL_SPREAD
+    odds = level + sharp * np.log10(max(sharpness(scored), 1e-4)) + spread * between
     return float(1 / (1 + np.exp(-odds)))
 
 
