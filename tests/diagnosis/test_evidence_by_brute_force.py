@@ -178,7 +178,9 @@ def test_leaving_a_test_out_by_moments_equals_refitting_without_it() -> None:
         nothing = np.zeros((4 * ROWS, 0))
         alone = posterior(one, range(4), base, nothing, np.zeros(0))
         own = posterior(one, others, base, np.vstack([c[j] for j in others]), width)[-c[i].shape[1] :]
-        rest = replace(one, blocks=tuple(replace(b, response=b.response - a @ own) for b, a in zip(one.blocks, c, strict=True)))
+        rest = replace(
+            one, blocks=tuple(replace(b, response=b.response - a @ own) for b, a in zip(one.blocks, c, strict=True))
+        )
         beside = posterior(rest, range(4), base, nothing, np.zeros(0))
         assert found.sse_before[i] == pytest.approx(np.sum((y - x @ alone) ** 2), rel=1e-6)
         assert found.sse_after[i] == pytest.approx(np.sum((y - c[i] @ own - x @ beside) ** 2), rel=1e-6)
