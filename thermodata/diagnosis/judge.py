@@ -20,7 +20,7 @@ Verdict = Literal["effect", "refine", "none", "unknown", "not_testable"]
 P_LIMIT = 0.01
 # that a sound candidate is the cause: a logistic curve over the logarithm of its evidence a sample, and the spread of
 # its gain between tests (docs/method.md#probability)
-PROBABILITY = (3.28, 2.18, -2.51)
+PROBABILITY = (3.27, 2.22, -1.69)
 USUAL_SPREAD = 0.15
 CLAIMED = 0.7  # a claim is this probable at least;
 # where nobody declared any place it names a channel, not physics, and there is nothing that it could be taken for
