@@ -16,7 +16,6 @@ from thermodata.diagnosis.judge import (
     explained,
     failed_rules,
     probability,
-    remaining,
     sharpness,
 )
 
@@ -176,9 +175,8 @@ def test_the_floor_is_five_times_the_noise_or_a_tenth_of_the_response(
     assert Measure(spread, noise, np.zeros(0)).floor == pytest.approx(floor)
 
 
-def test_what_remains_and_what_is_explained() -> None:
+def test_what_is_explained() -> None:
     one = scored(before=[2.0] * 5 + [1.0] * 5, after=[1.0] * 10, size=[1.0] * 5 + [0.0] * 5)
-    assert remaining(one) == pytest.approx(np.sqrt(2.5))
     assert explained(one) == pytest.approx(np.sqrt(3.0)), "where it acts"
     assert explained(scored(before=1.0, after=2.0)) == 0.0, "what makes it worse explains nothing"
 

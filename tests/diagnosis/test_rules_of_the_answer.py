@@ -67,7 +67,7 @@ class TestAnswer:
         response = Response({t.test: rng.normal(size=len(t.t_s)) for t in [*given, locked[0]]})
         fitted: Any = Fitted([response], spec, given, locked)
         known: Any = None
-        selection = Selection(Ranked(known, tuple(ranked)), (), tuple(dropped), Noise(0.1, 0.1, 600.0, 0.5))
+        selection = Selection(Ranked(known, tuple(ranked)), (), tuple(dropped), Noise(0.1, 0.1, 600.0, 0.5), 1.0)
         self.asked: list[list[str]] = []
         self.opened: list[tuple[list[str], list[str]]] = []
 
