@@ -28,9 +28,10 @@ def test_a_rung_does_not_hold_exactly_where_its_rule_fails(seed: int) -> None:
     found = rungs(one, held, "um")
     said = len(failed_rules(one, held, "um")) + (blunt(one) is not None)
     assert sum(not r.holds for r in found) == said
-    assert [r.name for r in found] == ["chance", "fall", "tests", "gain", "worth", "steadies", "timing"]
+    assert [r.name for r in found] == ["chance", "fall", "tests", "gain", "others", "worth", "probability"]
     for r in found:
-        if r.value is not None and r.name != "gain":
+        # where the evidence overwhelms, or left-out tests are foretold, some are not asked
+        if r.value is not None and r.name in ("chance", "tests", "probability"):
             assert r.holds is (r.value <= r.limit if r.at == "most" else r.value >= r.limit)
 
 
