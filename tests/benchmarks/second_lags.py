@@ -61,12 +61,14 @@ def on_lathe(strata: Sequence[str], seeds: Sequence[int]) -> Iterator[Case]:
 
 def on_library(hidden: Sequence[str], seeds: Sequence[int]) -> Iterator[Case]:
     from thermodata.virtual.binned import to_dataset
+    from thermodata.virtual.catalogue import drivers_of
     from thermodata.virtual.world import make_world
 
     for seed in seeds:
         for hide in hidden:
             world = make_world(hide, seed)
-            yield Case(hide, seed, to_dataset(world, 60.0), world.baseline(), [world.right()])
+            right = EffectSpec(effect=hide, drivers=dict(drivers_of(hide, world.axis)))
+            yield Case(hide, seed, to_dataset(world, 60.0), world.baseline(), [right])
 
 
 def measured(case: Case) -> dict[str, Any]:

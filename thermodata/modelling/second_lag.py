@@ -82,10 +82,12 @@ def with_second_lags(spec: Model, data: Dataset) -> Refined:
     """
     waiting = [i for i, effect in enumerate(spec.effects) if is_single_lag(effect, spec.effects)]
     if not waiting:
-        return Refined(spec, (), ["no second lag: the model has no effect with one lag that a second could stand beside"])
+        return Refined(
+            spec, (), ["no second lag: the model has no effect with one lag that a second could stand beside"]
+        )
     left_out = LeftOut(spec, data)
     if left_out.tests < LEAST_TESTS:
-        few = f"no second lag: {left_out.tests} open tests, and {LEAST_TESTS} can be left out in turn and tell"
+        few = f"no second lag: {left_out.tests} open tests, and from {LEAST_TESTS} on they can be left out in turn"
         return Refined(spec, (), [few])
     try:
         now, whole = left_out.errors(spec), left_out.whole
@@ -102,7 +104,7 @@ def with_second_lags(spec: Model, data: Dataset) -> Refined:
         spec, now, whole = best.spec, best.errors, left_out.fitted(best.spec)
         # what did not help before is not asked again: each question costs a fit for every fold
         waiting = [t.place for t in useful if t is not best]
-    none = f"no second lag: none takes {100 * FALL:.0f} % off the error on left-out tests, and most tests better"
+    none = f"no second lag: none takes {100 * FALL:.0f} % off the error on left-out tests"
     return Refined(spec, tuple(found), [str(lag) for lag in found] or [none])
 
 
