@@ -1,4 +1,4 @@
-"""What a second lag gives on locked tests when the right effect is added: the turning centre, and the library's machine.
+"""What a second lag gives on locked tests when the right effect is added: turning centre, and the library's machine.
 
     uv run --no-sync python tests/benchmarks/second_lags.py run OUT.jsonl --seeds 600:621
     uv run --no-sync python tests/benchmarks/second_lags.py run OUT.jsonl --machine library --seeds 600:606

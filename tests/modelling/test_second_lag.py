@@ -35,7 +35,7 @@ def two_alike(u: Float1D) -> Float1D:
 
 
 def machine(answer: Answer, roles: str = "cccvl") -> Dataset:
-    """Tests of eight hours in which the nut grows as `answer` says and the bearing as one lag. roles: a letter a test."""
+    """Eight hours a test, in which the nut acts as `answer` says and the bearing as one lag. roles: a letter a test."""
     tests = []
     for k, letter in enumerate(roles):
         role = {"c": "calibration", "v": "verification", "l": "locked"}[letter]
