@@ -99,10 +99,13 @@ def compare_command(session: Session, models: tuple[str, ...]) -> None:
 @command("add")
 @click.argument("model")
 @click.argument("candidate")
-def add_command(session: Session, model: str, candidate: str) -> None:
+@click.option("--plain", is_flag=True, help="Add that one effect, with one time constant, and no more.")
+def add_command(session: Session, model: str, candidate: str, plain: bool) -> None:
     """Make a new version of MODEL with an effect more.
 
-    CANDIDATE is its rank or id, as diagnose printed them. Prints the errors before and after.
+    CANDIDATE is its rank or id, as diagnose printed them. Where tests that are left out of the fit want it, the effect
+    and those that MODEL has get a second lag, for a part of a machine answers heat by a quick share and a slow one.
+    Prints the errors before and after.
     """
     from thermodata.cli.progress import counting_line
     from thermodata.modelling.run import add
@@ -110,13 +113,15 @@ def add_command(session: Session, model: str, candidate: str) -> None:
 
     store = session.store()
     with counting_line() as tell, watched(tell):
-        result = add(store, resolve(store, model), candidate)
+        result = add(store, resolve(store, model), candidate, plain=plain)
     session.answer(
         result,
         lambda: in_units_of(
             session, result.response, "\n\n".join([before_after_text(result), fit_text(result, scores=False)])
         ),
     )
+    for note in result.notes:
+        session.say(note)
     worse = made_worse(result)
     if worse is not None:
         session.say(worse)

@@ -89,6 +89,8 @@ class FitResult(Result):
     scores: a row a test, response and phase
     checks: what the fit says of itself
     before: of add: the parent's scores
+    added: of add: ids of the effects that the parent has not; a second lag of an effect is one of its own
+    notes: of add: which second lags were taken in and why, in sentences
     """
 
     model: str
@@ -100,6 +102,8 @@ class FitResult(Result):
     scores: list[Score]
     checks: list[Check]
     before: list[Score] | None = None
+    added: list[str] | None = None
+    notes: list[str] = []
 
 
 class WeakSpot(Result):
