@@ -13,7 +13,8 @@ import numpy as np
 from thermodata.errors import UsageError
 from thermodata.modelling.seen import Seen
 
-PALETTE = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#b8860b", "#56b4e9", "#444444", "#8a5fbf")  # told apart by all eyes
+# told apart by all eyes
+PALETTE = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#b8860b", "#56b4e9", "#444444", "#8a5fbf")
 DPI = 110
 ROW_IN, WIDE_IN = 3.1, 13.0  # [inch]
 BAND = 1.96
