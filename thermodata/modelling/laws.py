@@ -7,15 +7,16 @@ did not write one; `TermLaw.why_not` says which.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from thermodata.calibration import nodes
 from thermodata.calibration.expression import parse
 from thermodata.effect import law
 from thermodata.errors import UsageError, unknown_name
-from thermodata.modelling import prediction
 from thermodata.modelling.drivers import ZERO_AT_REST, names_of
 from thermodata.modelling.fitted_response import FittedResponse, FittedTerm, Values
+from thermodata.modelling.nested import ModelOutput
+from thermodata.modelling.of_tests import OfTests
 from thermodata.modelling.parameters import gain_unit
 from thermodata.view.dataset import ChannelInfo
 
@@ -86,7 +87,9 @@ def _law(
     why = why or _why_not(term)
     drives: dict[str, Drive] = {}
     gains: tuple[GainLaw, ...] = ()
-    if why is None:
+    if why is None and isinstance(effect, ModelOutput):
+        drives, gains, why = _inside(effect, values, laws(effect.response, channels, step_s, None, campaign))
+    elif why is None:
         try:
             drives = {role: _drive(term, channels, role, text) for role, text in binding.items()}
             gains = _gains(response, term, values, set(binding), step_s)
@@ -121,13 +124,30 @@ def _gains(
     )
 
 
+def _inside(
+    effect: ModelOutput, values: Values, terms: Sequence[TermLaw]
+) -> tuple[dict[str, Drive], tuple[GainLaw, ...], str | None]:
+    """Another model's output: its terms, each times the factor on it."""
+    drives: dict[str, Drive] = {}
+    gains: list[GainLaw] = []
+    factor = float(values.gains[effect.gains[0].name])
+    for term in terms:
+        if term.why_not is not None:
+            return {}, (), f"in the model inside it, {term.id}: {term.why_not}"
+        names = {role: f"{term.id}_{role}" for role in term.drives}
+        drives |= {names[role]: replace(drive, role=names[role]) for role, drive in term.drives.items()}
+        renamed: dict[str, law.Node] = {role: law.Symbol(name) for role, name in names.items()}
+        gains += [
+            GainLaw(f"{term.id}.{g.name}", factor * g.value, g.unit, law.put(g.tree, renamed)) for g in term.gains
+        ]
+    return drives, tuple(gains), None
+
+
 def _group(term: FittedTerm, wanted: str | None) -> tuple[str, str | None]:
-    by = term.bound.spec.gain_by
-    if by is None:
-        return "", None
+    by = " and ".join(term.bound.spec.gains_by)
     if wanted is not None:
         if wanted not in term.groups:
-            raise unknown_name(f"group of {term.id}", wanted, list(term.groups), where=f"gain_by: {by}")
+            raise unknown_name(f"group of {term.id}", wanted, list(term.groups), where=f"gain_by: {by or 'none'}")
         return wanted, None
     if len(term.groups) == 1:
         return next(iter(term.groups)), None
@@ -135,11 +155,16 @@ def _group(term: FittedTerm, wanted: str | None) -> tuple[str, str | None]:
 
 
 def _why_not(term: FittedTerm) -> str | None:
-    if isinstance(term.effect, prediction.Prediction):
+    if isinstance(term.effect, ModelOutput):
+        return None
+    if isinstance(term.effect, OfTests):
         return "its numbers are another program's for these tests: it has no drivers"
     if term.bound.only is not None:
         named = ", ".join("/".join(k) for k in sorted(term.bound.only))
         return f"it exists in some tests only ({named})"
+    if term.bound.spec.phases is not None:
+        phases = ", ".join(term.bound.spec.phases)
+        return f"it acts in phases only ({phases}), which a control is not told: spindle_heating_cooling has the switch"
     stated = getattr(term.effect, "not_in_control", None)
     if stated:
         return str(stated)

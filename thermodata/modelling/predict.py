@@ -4,16 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from typing import cast
 
 import numpy as np
 
 from thermodata.errors import ThermodataError, UsageError
-from thermodata.modelling.bound import BoundTerm
 from thermodata.modelling.fitted import FittedModel
 from thermodata.modelling.fitted_response import FittedResponse, FittedTerm
-from thermodata.modelling.prediction import Prediction
+from thermodata.modelling.nested import ModelOutput
 from thermodata.modelling.resolve import bind, find_response
-from thermodata.plugin import Bool1D, Float1D
+from thermodata.plugin import Bool1D, Effect, Float1D
 from thermodata.view.dataset import ChannelInfo, Dataset, TestData
 
 
@@ -77,30 +77,27 @@ def rebound(response: FittedResponse, fitted: FittedModel, data: Dataset) -> Fit
 
 
 def _rebound(term: FittedTerm, by_campaign: Mapping[str, Mapping[str, ChannelInfo]]) -> FittedTerm:
-    old = term.bound
+    old, effect = term.bound, term.effect
     bindings = dict(old.bindings)
+    if isinstance(effect, ModelOutput):
+        inner = tuple(_rebound(t, by_campaign) for t in effect.response.terms)
+        made = ModelOutput(replace(effect.response, terms=inner), old.id, effect.gains[0].name)
+        return replace(term, bound=replace(old, effect=cast(Effect, made), _drivers={}))
     for campaign, channels in by_campaign.items():
         if campaign not in bindings:
             given = old.spec.drivers or dict(old.binding)  # what was found by place in the fit goes by its name
-            bindings[campaign] = bind(old.effect, given, channels, f"effect '{old.id}', campaign {campaign}")
-    return replace(term, bound=BoundTerm(old.id, old.effect, old.spec, bindings, old.family, old.only, old.calibrate))
+            bindings[campaign] = bind(effect, given, channels, f"effect '{old.id}', campaign {campaign}")
+    return replace(term, bound=replace(old, bindings=bindings, _drivers={}))
 
 
 def _why_not(response: FittedResponse, test: TestData) -> str | None:
     for term in response.terms:
-        if isinstance(term.effect, Prediction) and not term.effect.has(test):
-            return f"{term.id}: the file has no prediction for this test"
-        if not term.bound.has(test):
-            return f"no driver for {term.id} ({', '.join(term.bound.bindings[test.campaign].values())})"
         try:
-            known = term.can_predict(test)
+            why = term.why_not(test)
         except ThermodataError as error:
-            return f"{term.id}: {error.what}; known: {', '.join(term.groups)}"
-        if not known:
-            return (
-                f"{term.id}: no gain for {term.bound.spec.gain_by} = {term.bound.group(test)}; "
-                f"known: {', '.join(term.groups)}"
-            )
+            why = f"{term.id}: {error.what}; known: {', '.join(term.groups)}"
+        if why is not None:
+            return why
     return None
 
 

@@ -16,6 +16,7 @@ from thermodata.modelling.fitted import FittedModel
 from thermodata.modelling.fitted_response import FittedResponse, FittedTerm
 from thermodata.modelling.laws import TermLaw, laws
 from thermodata.modelling.linear_parts import CurvedError, Path, paths
+from thermodata.modelling.of_tests import OfTests
 from thermodata.modelling.residual_tests import Against, LjungBox, against, autocorrelation, ljung_box
 from thermodata.modelling.state_space import System, system_of
 from thermodata.plugin import Float1D
@@ -77,9 +78,9 @@ def see(fitted: FittedModel, data: Dataset) -> list[Seen]:
 def _see(response: FittedResponse, data: Dataset) -> Seen:
     systems, hidden, shown = list[tuple[TermLaw, Path, System]](), list[tuple[str, str]](), list[tuple[TermLaw, Path]]()
     for term in response.terms:
-        groups = list(term.groups) if term.bound.spec.gain_by else [""]
+        groups = list(term.groups)
         for group in groups:
-            found = laws(response, data.channels, data.step_s, {term.id: group} if group else None)
+            found = laws(response, data.channels, data.step_s, {term.id: group})
             one = next(t for t in found if t.id == term.id)
             try:
                 if one.why_not is not None:
@@ -175,10 +176,10 @@ def _states(
             unit = _unit(path, term, "x").partition("/")[2] or "1"
             found.append(against(f"{term.id}: {_named(path.drive, term)}{tau}", unit, courses, residuals))
     unique = {a.state: a for a in found}
-    return tuple(unique.values())
+    return tuple(a for a in unique.values() if len(a.centres))
 
 
 def _course(term: FittedTerm, node: law.Node, test: TestData, step_s: float) -> Float1D:
-    if not (term.bound.covers(test) and term.bound.has(test)):
+    if isinstance(term.effect, OfTests) or not (term.bound.covers(test) and term.bound.has(test)):
         return np.full(int(test.in_window.sum()), np.nan)
     return evaluate(node, term.bound.drivers(test).values, step_s)[test.in_window]

@@ -35,6 +35,7 @@ def collect(store: Store, ref: str) -> ReportData:
     """All of a report about a model (id, prefix or name). Opens no locked test."""
     from thermodata.modelling.result import make_result
     from thermodata.modelling.run import load
+    from thermodata.modelling.seen import see
     from thermodata.store.catalogue.models import find_model, load_diagnosis, model_chain
 
     stored = find_model(store, ref)
@@ -70,6 +71,7 @@ def collect(store: Store, ref: str) -> ReportData:
         looks=_looks(store, [m.model for m in chain]),
         first=tuple(_by_role(_first(store, chain, loaded))),
         stale=stored.stale,
+        systems=tuple(see(loaded.fitted, loaded.data)),
     )
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import Any
 
+from thermodata.modelling.seen import Seen
 from thermodata.plugin import Float1D
 from thermodata.schema.result import Check, Diagnosis, Parameter, Score, WeakSpot
 
@@ -88,6 +89,7 @@ class ReportData:
     weak: dict[str, list[WeakSpot]] = field(default_factory=dict)
     first: tuple[TestPart, ...] = ()
     stale: bool = False
+    systems: tuple[Seen, ...] = ()
 
     @property
     def added(self) -> str | None:

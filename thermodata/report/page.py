@@ -17,6 +17,7 @@ from thermodata.report.figures import overview_map, part_chart, points_for, resi
 from thermodata.report.glossary import HOW, NOISE
 from thermodata.report.headline import capital, headline, sentences
 from thermodata.report.heat_charts import heat_charts
+from thermodata.report.system_charts import system_charts
 from thermodata.report.verdict import probability, told, verdict_sentence
 from thermodata.report.words import base_role, change, duration, heat_lines, number, typeset
 from thermodata.report.write import page_values, write_page
@@ -109,6 +110,8 @@ def _figures(
     if heat:
         drawn = heat_charts(heat.courses, data.unit, heat.direction is not None)
         made.update({f"heat{i}": figure for i, figure in enumerate(drawn)})
+    for i, seen in enumerate(data.systems):
+        made.update({f"system{i}-{name}": drawn for name, drawn in system_charts(seen, styles).items()})
     most = points_for(data.tests)
     for i, part in enumerate(data.tests):
         own = [(rank, w) for rank, w in spots if _is_of(part, data, w)]
