@@ -10,6 +10,7 @@ import click
 from thermodata.cli.common import Session, command, in_units_of, plain
 from thermodata.cli.table import table
 from thermodata.errors import UsageError
+from thermodata.report.glossary import explained
 from thermodata.report.words import base_role, change, duration, number, pooled
 
 if TYPE_CHECKING:
@@ -27,7 +28,7 @@ def resolve(store: Store, ref: str) -> str:
     from thermodata.store.catalogue.models import find_model
 
     spec = load_model(Path(ref))
-    if not any(e.file for e in spec.effects):  # a file's content is known to the fit only
+    if not any(e.file or e.name for e in spec.effects):  # what these are now is known to the fit only
         try:
             return find_model(store, model_id(spec, load_data(store, spec).data_version)).model
         except UsageError:
@@ -204,6 +205,7 @@ def portability_command(session: Session, model: str) -> None:
                 ("ptp_n", "PTP n [um]"),
                 ("ptp_c", "PTP c [um]"),
                 ("verdict", "class"),
+                ("why", "x for"),
             ],
         ),
     )
@@ -294,14 +296,12 @@ def before_after_text(result: FitResult) -> str:
     for role in dict.fromkeys(base_role(row["role"]) for row in rows):
         a, b = pooled(result.before or [], role), pooled(result.scores, role)
         rows.append({"test": "all", "role": role, "before": a, "rmse_um": b, "change": change(a, b)})
-    return table(
-        rows,
-        [
-            ("campaign", "campaign"),
-            ("test", "test"),
-            ("role", "role"),
-            ("before", "before [um]"),
-            ("rmse_um", "after [um]"),
-            ("change", "change"),
-        ],
-    )
+    columns = [
+        ("campaign", "campaign"),
+        ("test", "test"),
+        ("role", "role"),
+        ("before", "before [um]"),
+        ("rmse_um", "after [um]"),
+        ("change", "change"),
+    ]
+    return f"{table(rows, columns)}\n\n{explained('verification', 'fitted')}"

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from thermodata.modelling.bound import each_group_its_own
 from thermodata.modelling.design import Design
 from thermodata.modelling.drivers import names_of
 from thermodata.modelling.fitted_response import FittedResponse, FittedTerm
@@ -28,7 +29,7 @@ RIPPLE = 1.0  # of the prediction within a sample, in the response's unit
 
 def checks(response: FittedResponse, tests: Sequence[TestData]) -> dict[str, Any]:
     """{'checks': ..., 'noise': rms of the calibration residual} of a fitted response."""
-    design = Design(response.bound, [t.bound for t in response.terms], tests, response.phases)
+    design = Design(response.bound, [each_group_its_own(t.bound) for t in response.terms], tests, response.phases)
     blocks, names, gains = [], [], list[float]()
     for s, slot in enumerate(design.slots):
         term = response.terms[slot.term]
@@ -45,6 +46,7 @@ def checks(response: FittedResponse, tests: Sequence[TestData]) -> dict[str, Any
         *_samples(residual, design, len(gains) + sum(len(t.effect.params) for t in response.terms)),
         *_conditioning(matrix, names),
         *_lost(response, tests),
+        *_orders(response),
     ]
     for term in response.terms:
         rows += [
@@ -141,6 +143,21 @@ def _conditioning(matrix: Float2D, names: list[str]) -> list[Check]:
                     )
                 )
     return rows
+
+
+def _orders(response: FittedResponse) -> list[Check]:
+    return [
+        Check(
+            name=f"orders:{row.effect}",
+            value=row.fit_left_out,
+            threshold=None,
+            passed=True,
+            advice=f"{row.numerator} over {row.denominator} chosen by FIT on what was left out, of "
+            f"{sum(other.effect == row.effect for other in response.tried)}; thermodata orders shows them all",
+        )
+        for row in response.tried
+        if row.chosen
+    ]
 
 
 def _bounds(term: FittedTerm) -> list[Check]:

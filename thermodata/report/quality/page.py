@@ -10,11 +10,10 @@ from typing import TYPE_CHECKING, Any
 
 from thermodata.report.causes import Cause, by_cause
 from thermodata.report.quality.data import TestQuality, Trace, collect
-from thermodata.report.quality.figure import SEVERITY, TINTS, draw_test, when
+from thermodata.report.quality.figure import SEVERITY, draw_test, when
 from thermodata.report.words import duration, typeset
-from thermodata.report.write import script_json, write_page
+from thermodata.report.write import page_values, write_page
 from thermodata.schema.flag import INVALID, OVERRULED, Flag
-from thermodata.version import __version__
 
 if TYPE_CHECKING:
     from thermodata.view import StoreView
@@ -32,28 +31,21 @@ def build_quality_report(view: StoreView, campaign: str | None, out: Path | str)
 def render(tests: Sequence[TestQuality]) -> str:
     """The page's HTML. Names and texts from data are escaped; figures stand in it as JSON."""
     import jinja2
-    from markupsafe import Markup
-    from plotly.offline import get_plotlyjs
 
-    report, own = files("thermodata.report"), files("thermodata.report.quality")
+    own = files("thermodata.report.quality")
     environment = jinja2.Environment(autoescape=True, trim_blocks=True, lstrip_blocks=True)
     pictures = {f"test{i}": draw_test(t) for i, t in enumerate(tests)}
-    shown = [_shown(t, f"test{i}", pictures[f"test{i}"]["layout"]["height"]) for i, t in enumerate(tests)]
+    shown = [_shown(t, f"test{i}") for i, t in enumerate(tests)]
     used = {name for row in shown for name, _ in row["counts"]} | {
         n for t in tests for trace in t.traces for n in _names(trace)
     }
     return environment.from_string((own / "page.html.j2").read_text(encoding="utf-8")).render(
         campaign=tests[0].campaign if tests else "no tests",
         tests=shown,
-        tints=TINTS,
-        version=__version__,
         legend=[n for n in _WORST_FIRST if n in used],
         headline=headline(tests),
         sentences=sentences(tests),
-        json={key: Markup(script_json(figure)) for key, figure in pictures.items()},
-        css=Markup((report / "page.css").read_text(encoding="utf-8")),
-        js=Markup((report / "page.js").read_text(encoding="utf-8")),
-        plotly=Markup(get_plotlyjs()),
+        **page_values(pictures),
     )
 
 
@@ -144,7 +136,7 @@ def _names(trace: Trace) -> set[str]:
     return {str(f.name).lower() for f in Flag if f and seen & f}
 
 
-def _shown(test: TestQuality, key: str, height: int) -> dict[str, Any]:
+def _shown(test: TestQuality, key: str) -> dict[str, Any]:
     samples, flagged = sum(t.samples for t in test.traces), sum(t.flagged for t in test.traces)
     counts = Counter(e["flag"] for e in test.events if not _overruled(e))
     worst = sorted((t for t in test.traces if t.flagged), key=lambda t: -t.flagged)[:3]
@@ -159,7 +151,6 @@ def _shown(test: TestQuality, key: str, height: int) -> dict[str, Any]:
         "length": duration(test.duration_s),
         "samples": count(samples),
         "share": share(flagged, samples),
-        "height": height,
         "counts": [(n, counts[n]) for n in _WORST_FIRST if n in counts],
         "losses": [_counted(c) for c in by_cause(test.losses, str)],
         "worst": [f"{t.name} {share(t.flagged, t.samples)}" for t in worst],
