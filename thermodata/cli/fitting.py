@@ -10,6 +10,7 @@ import click
 from thermodata.cli.common import Session, command, in_units_of, plain
 from thermodata.cli.table import table
 from thermodata.errors import UsageError
+from thermodata.report.glossary import explained
 from thermodata.report.words import base_role, change, duration, number, pooled
 
 if TYPE_CHECKING:
@@ -310,14 +311,12 @@ def before_after_text(result: FitResult) -> str:
     for role in dict.fromkeys(base_role(row["role"]) for row in rows):
         a, b = pooled(result.before or [], role), pooled(result.scores, role)
         rows.append({"test": "all", "role": role, "before": a, "rmse_um": b, "change": change(a, b)})
-    return table(
-        rows,
-        [
-            ("campaign", "campaign"),
-            ("test", "test"),
-            ("role", "role"),
-            ("before", "before [um]"),
-            ("rmse_um", "after [um]"),
-            ("change", "change"),
-        ],
-    )
+    columns = [
+        ("campaign", "campaign"),
+        ("test", "test"),
+        ("role", "role"),
+        ("before", "before [um]"),
+        ("rmse_um", "after [um]"),
+        ("change", "change"),
+    ]
+    return f"{table(rows, columns)}\n\n{explained('verification', 'fitted')}"

@@ -7,14 +7,16 @@ decimals, its time constants three. Its poles are real, between 0 and 1 (heat fl
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from itertools import pairwise
 
 import numpy as np
 
 from thermodata.effect.lag import lag, lags, step_of
+from thermodata.effect.law import Law
 from thermodata.errors import SpecError
 from thermodata.modelling.digits import refuse_lost_digits
+from thermodata.modelling.transfer_law import free_law, given_law
 from thermodata.plugin import Drivers, Float1D, Float2D, Gain, Need, Param
 
 NAME = "transfer_function"
@@ -76,6 +78,10 @@ class FreeFunction:
             columns[:, j] *= taus[min(j, len(taus)) - 1] / step
         return columns
 
+    def law(self, roles: Collection[str], p: Mapping[str, float], step_s: float) -> tuple[Law, ...]:
+        """One formula a gain; see `thermodata.effect.law`."""
+        return free_law(self.method, self.orders, [p[param.name] * 60.0 for param in self.params], step_s)
+
 
 class GivenFunction:
     """Coefficients as printed: a0.. over b0.. at `sample_s`, or num0.. over den0.. of s, num0 + num1 s + num2 s^2
@@ -120,6 +126,10 @@ class GivenFunction:
 
     def basis(self, drivers: Drivers, p: Mapping[str, float]) -> Float2D:
         return self.simulate(drivers.t_s, drivers.values["u"]).reshape(-1, 1)
+
+    def law(self, roles: Collection[str], p: Mapping[str, float], step_s: float) -> tuple[Law, ...]:
+        """One formula a gain; see `thermodata.effect.law`."""
+        return given_law(self.num, self.den, self.sample_s, self.time_s)
 
     def simulate(self, t_s: Float1D, u: Float1D) -> Float1D:
         """Free run from balance: shape (n,) on the grid t_s [s]."""
