@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from thermodata.cli.common import Session, in_units_of, plain
-from thermodata.cli.fitting import resolve
 from thermodata.cli.layout import LAYOUTS
+
+if TYPE_CHECKING:
+    from thermodata.store import Store
 
 _COLUMNS = [
     ("fit", "FIT [%]"),
@@ -22,12 +24,11 @@ _COLUMNS = [
 ]
 
 
-def answer_against(session: Session, models: Sequence[str], against: str, layout: str) -> None:
-    """Print the table of `compare --against`."""
+def answer_against(session: Session, store: Store, models: Sequence[str], against: str, layout: str) -> None:
+    """Print the table of `compare --against`. models, against: as the store knows them."""
     from thermodata.modelling.run import compare_against
 
-    store = session.store()
-    rows = [plain(row) for row in compare_against(store, [resolve(store, m) for m in models], resolve(store, against))]
+    rows = [plain(row) for row in compare_against(store, models, against)]
     names = [str(row["response"]) for row in rows]
     session.answer(rows, lambda: in_units_of(session, list(dict.fromkeys(names)), _text(rows, layout)))
 

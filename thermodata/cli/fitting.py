@@ -86,7 +86,8 @@ def compare_command(session: Session, models: tuple[str, ...], against: str | No
     if against is not None:
         from thermodata.cli.besides import answer_against
 
-        answer_against(session, models, against, layout)
+        store = session.store()
+        answer_against(session, store, [resolve(store, m) for m in models], resolve(store, against), layout)
         return
     from thermodata.modelling.run import compare, load
     from thermodata.report.spots import weak_spots_of

@@ -16,6 +16,7 @@ from thermodata.errors import UsageError, unknown_name
 from thermodata.modelling import prediction
 from thermodata.modelling.drivers import ZERO_AT_REST, names_of
 from thermodata.modelling.fitted_response import FittedResponse, FittedTerm, Values
+from thermodata.modelling.of_tests import OfTests
 from thermodata.modelling.parameters import gain_unit
 from thermodata.view.dataset import ChannelInfo
 
@@ -137,6 +138,10 @@ def _group(term: FittedTerm, wanted: str | None) -> tuple[str, str | None]:
 def _why_not(term: FittedTerm) -> str | None:
     if isinstance(term.effect, prediction.Prediction):
         return "its numbers are another program's for these tests: it has no drivers"
+    if isinstance(term.effect, OfTests):
+        return "it is another model's output: export that model, and the effects of this one"
+    if term.bound.spec.phases is not None:
+        return f"it acts in some phases only ({', '.join(term.bound.spec.phases)}), which a control does not tell"
     if term.bound.only is not None:
         named = ", ".join("/".join(k) for k in sorted(term.bound.only))
         return f"it exists in some tests only ({named})"

@@ -91,7 +91,7 @@ def _why_not(response: FittedResponse, test: TestData) -> str | None:
         if isinstance(term.effect, Prediction) and not term.effect.has(test):
             return f"{term.id}: the file has no prediction for this test"
         if not term.bound.has(test):
-            return f"no driver for {term.id} ({', '.join(term.bound.bindings[test.campaign].values())})"
+            return f"no driver for {term.id} ({', '.join(term.bound.binding_of(test).values())})"
         try:
             known = term.can_predict(test)
         except ThermodataError as error:
