@@ -65,14 +65,30 @@ def fit_command(session: Session, model: str) -> None:
 
 @command("compare")
 @click.argument("models", nargs=-1, required=True, metavar="MODEL...")
-def compare_command(session: Session, models: tuple[str, ...]) -> None:
+@click.option("--against", metavar="MODEL", help="Print what papers print: each model's rest against this one's.")
+@click.option(
+    "--layout",
+    type=click.Choice(["text", "markdown", "csv", "latex"]),
+    default="text",
+    help="Of the table that --against prints.",
+)
+def compare_command(session: Session, models: tuple[str, ...], against: str | None, layout: str) -> None:
     """Score models against the measurements.
 
     By test and phase, each MODEL beside the others, and where the first fails.
 
     With several models the JSON is that of the first, with the scores of all, and all of them in "models";
     "weak_spots" has those of the first, by response.
+
+    With --against: peak to valley at first and left, both ways (max - min, |max| + |min|), range, how many times less,
+    percent less than the reference, and the mean row; the JSON is a list of these rows.
     """
+    if against is not None:
+        from thermodata.cli.besides import answer_against
+
+        store = session.store()
+        answer_against(session, store, [resolve(store, m) for m in models], resolve(store, against), layout)
+        return
     from thermodata.modelling.run import compare, load
     from thermodata.report.spots import weak_spots_of
     from thermodata.store.catalogue.models import load_diagnosis

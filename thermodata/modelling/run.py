@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 from thermodata.errors import UsageError
 from thermodata.modelling import nested
+from thermodata.modelling.beside import Beside, beside
 from thermodata.modelling.candidate import candidate_spec, with_effect
 from thermodata.modelling.fit import fit_model
 from thermodata.modelling.fitted import FittedModel
@@ -88,6 +89,23 @@ def compare(store: Store, refs: Sequence[str]) -> list[FitResult]:
         model = load(store, ref, uncertainty=True)
         results.append(make_result(model.fitted, model.data, model.identity, parent=model.parent))
     return results
+
+
+def compare_against(store: Store, refs: Sequence[str], reference: str) -> list[Beside]:
+    """The models beside each other on every open test, each against the reference. UsageError where one of them was
+    fitted to another version of the data: their differences would be those of the data."""
+    from thermodata.store.catalogue.models import find_model
+
+    found = {stored.model: stored for stored in (find_model(store, ref) for ref in (*refs, reference))}
+    if old := [f"{stored.name} ({stored.model})" for stored in found.values() if stored.stale]:
+        raise UsageError(
+            "the models were not fitted to the same version of the data",
+            expected="models of the data as they are now",
+            got=f"before a change: {', '.join(old)}",
+            hint="; ".join(f"thermodata fit {stored.model}" for stored in found.values() if stored.stale),
+        )
+    loaded = [load(store, identity) for identity in found]
+    return beside([(m.identity, m.fitted, m.data) for m in loaded], find_model(store, reference).model)
 
 
 def add(store: Store, ref: str, candidate: str | int | EffectSpec, *, plain: bool = False) -> FitResult:
