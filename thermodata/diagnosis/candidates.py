@@ -83,7 +83,8 @@ def candidates(
     have, known = frozenset(present), frozenset(families) - {GENERIC}
     lagged = {names for effect, names in have if library.get(effect) is None or library[effect].family == GENERIC}
     read = frozenset[str]().union(*(names for _, names in have))
-    usable = {n: c for n, c in channels.items() if n != response and c.quantity not in NOT_DRIVERS}
+    # a sensor that failed goes with anything that happened when it did
+    usable = {n: c for n, c in channels.items() if n != response and c.quantity not in NOT_DRIVERS and c.faulty is None}
     placed = any(c.at is not None for c in usable.values() if c.quantity == "temperature")
     found: list[CandidateEffect] = []
     for effect in library.values():

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 
 import numpy as np
 
 from thermodata.effect.lag import lag, step_of
+from thermodata.effect.law import Law
 from thermodata.plugin import Drivers, Float1D, Float2D, Need
 
 from .shared import REFERENCE_SPEED_RPM, Lagged, column, exponent, gain, power_of, tau
@@ -61,6 +62,10 @@ class SpindleBearing2:
         u, step = drivers.values["temperature"], step_of(drivers)
         return np.column_stack([lag(u, p["tau_fast"] * 60, step), lag(u, p["tau_slow"] * 60, step)])
 
+    def law(self, roles: Collection[str], p: Mapping[str, float], step_s: float) -> tuple[Law, ...]:
+        """The same as a formula; see `thermodata.effect.law`."""
+        return ("lag(temperature, tau_fast)", "lag(temperature, tau_slow)")
+
 
 class SpindleMotor(Lagged):
     """The spindle grows with the temperature of its motor winding.
@@ -101,6 +106,7 @@ class SpindleFriction(Lagged):
     needs = (Need("speed", "rotational_speed", ("spindle",)),)
     params = (tau(45, 2, 360), exponent())
     gains = (gain("um", 0.5, 60, "displacement at rest at 10000 rpm"),)
+    driven = ("abs(speed / 10000) ** exponent",)
 
     def drive(self, drivers: Drivers, p: Mapping[str, float]) -> Float1D:
         return power_of(drivers.values["speed"], REFERENCE_SPEED_RPM, p["exponent"])
@@ -127,6 +133,10 @@ class CentrifugalShift:
 
     def basis(self, drivers: Drivers, p: Mapping[str, float]) -> Float2D:
         return column(power_of(drivers.values["speed"], REFERENCE_SPEED_RPM, 2.0))
+
+    def law(self, roles: Collection[str], p: Mapping[str, float], step_s: float) -> tuple[Law, ...]:
+        """The same as a formula; see `thermodata.effect.law`."""
+        return ("(speed / 10000) ** 2",)
 
 
 class SpindleHeatingCooling:
@@ -166,6 +176,10 @@ class SpindleHeatingCooling:
             state = float(part[-1])
         return column(out)
 
+    def law(self, roles: Collection[str], p: Mapping[str, float], step_s: float) -> tuple[Law, ...]:
+        """The same as a formula; see `thermodata.effect.law`."""
+        return ("lag(temperature, where(abs(speed) > 1, tau_on, tau_off))",)
+
 
 class SpeedDependentGain:
     """The gain of the bearing's temperature changes with the speed.
@@ -190,3 +204,7 @@ class SpeedDependentGain:
     def basis(self, drivers: Drivers, p: Mapping[str, float]) -> Float2D:
         u = drivers.values["temperature"] * drivers.values["speed"] / REFERENCE_SPEED_RPM
         return column(lag(u, p["tau"] * 60, step_of(drivers)))
+
+    def law(self, roles: Collection[str], p: Mapping[str, float], step_s: float) -> tuple[Law, ...]:
+        """The same as a formula; see `thermodata.effect.law`."""
+        return ("lag(temperature * speed / 10000, tau)",)
