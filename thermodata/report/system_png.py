@@ -10,9 +10,9 @@ from typing import Any
 
 import numpy as np
 
+from thermodata.chart.colour import effect_codes
 from thermodata.errors import UsageError
 from thermodata.modelling.seen import Seen
-from thermodata.report.colour import effect_colours
 
 DPI = 110
 ROW_IN, WIDE_IN = 3.1, 13.0  # [inch]
@@ -37,7 +37,7 @@ def draw(seen: Sequence[Seen], out: Path, title: str) -> None:
     grid, at = figure.add_gridspec(rows, 6), 0
     figure.suptitle(title)
     for one, more in zip(seen, state_rows, strict=True):
-        colours = effect_colours(list(dict.fromkeys(p.name for p in one.paths)))
+        colours = effect_codes(list(dict.fromkeys(p.name for p in one.paths)))
         _step(figure.add_subplot(grid[at, :3]), one, colours)
         _bode(figure.add_subplot(grid[at, 3:]), one, colours, phase=False)
         _correlation(figure.add_subplot(grid[at + 1, :3]), one)
