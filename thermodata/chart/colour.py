@@ -11,6 +11,7 @@ from thermodata.chart.assets import asset
 MEASURED, MODEL, RESIDUAL, SOURCE, LANE, MUTED = "measured", "model", "residual", "source", "lane", "muted"
 EFFECTS = tuple(f"effect-{i}" for i in range(1, 7))
 """Told apart by people who miss one kind of cone as well; more than six lines repeat them with other dashes."""
+MEASURED, MODEL, RESIDUAL, LANE = "measured", "model", "residual", "lane"
 FONT = "system-ui, -apple-system, 'Segoe UI', Roboto, 'Helvetica Neue', Arial, sans-serif"
 _DASHES = ("solid", "dashed", "dotted")
 
@@ -26,8 +27,3 @@ def light() -> dict[str, str]:
     """Name -> '#rrggbb' of the light look, for a picture that stands in no page."""
     block = asset("palette.css").partition("{")[2].partition("}")[0]
     return dict(re.findall(r"--c-([\w-]+):\s*(#[0-9a-f]{6})", block))
-
-
-def effect_codes(names: Iterable[str]) -> dict[str, str]:
-    """Name -> '#rrggbb' of the light look, for a picture that stands in no page; after six they repeat."""
-    return {name: light()[colour] for name, (colour, _) in effect_styles(names).items()}

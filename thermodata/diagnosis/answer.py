@@ -20,7 +20,6 @@ from thermodata.diagnosis.judge import (
     explained,
     failed_rules,
     probability,
-    remaining,
 )
 from thermodata.diagnosis.locked import Foretold
 from thermodata.diagnosis.null import p_value
@@ -144,7 +143,7 @@ def _diagnosis(
         verdict=judgement.verdict,
         noise_um=noise_with_treads(problem) if np.isfinite(problem.noise) else None,
         noise_over_s=next((float(b.test.t_s[1] - b.test.t_s[0]) for b in problem.blocks if len(b.test.t_s) > 1), None),
-        rmse_um=remaining(alone.first.ranked[0]) if alone is not None else _left(problem),
+        rmse_um=alone.left if alone is not None else _left(problem),
         explainable=max((float(np.clip(_fall(s), 0.0, 1.0)) for s in scored), default=None),
         weak_spots=investigation.spots,
         candidates=[

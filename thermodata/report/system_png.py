@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from thermodata.chart.colour import effect_codes
+from thermodata.chart.colour import effect_styles, light
 from thermodata.errors import UsageError
 from thermodata.modelling.seen import Seen
 
@@ -37,7 +37,7 @@ def draw(seen: Sequence[Seen], out: Path, title: str) -> None:
     grid, at = figure.add_gridspec(rows, 6), 0
     figure.suptitle(title)
     for one, more in zip(seen, state_rows, strict=True):
-        colours = effect_codes(list(dict.fromkeys(p.name for p in one.paths)))
+        colours = {n: light()[c] for n, (c, _) in effect_styles(p.name for p in one.paths).items()}
         _step(figure.add_subplot(grid[at, :3]), one, colours)
         _bode(figure.add_subplot(grid[at, 3:]), one, colours, phase=False)
         _correlation(figure.add_subplot(grid[at + 1, :3]), one)
