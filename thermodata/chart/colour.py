@@ -8,7 +8,6 @@ from functools import cache
 
 from thermodata.chart.assets import asset
 
-MEASURED, MODEL, RESIDUAL, SOURCE, LANE, MUTED = "measured", "model", "residual", "source", "lane", "muted"
 EFFECTS = tuple(f"effect-{i}" for i in range(1, 7))
 """Told apart by people who miss one kind of cone as well; more than six lines repeat them with other dashes."""
 MEASURED, MODEL, RESIDUAL, LANE = "measured", "model", "residual", "lane"
