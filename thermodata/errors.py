@@ -27,6 +27,10 @@ class ThermodataError(Exception):
         self.what, self.where, self.expected, self.got, self.hint = what, where, expected, got, hint
         super().__init__(str(self))
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        # by default its text would become its `what` where it comes from another process
+        return _as_it_was, (type(self), self.args), self.__dict__
+
     def __str__(self) -> str:
         lines = [self.what]
         if self.where is not None:
@@ -38,6 +42,10 @@ class ThermodataError(Exception):
         if self.hint is not None:
             lines.append(f"try: {self.hint}")
         return "\n".join(lines)
+
+
+def _as_it_was(kind: type[ThermodataError], args: tuple[Any, ...]) -> ThermodataError:
+    return kind.__new__(kind, *args)
 
 
 class UsageError(ThermodataError):

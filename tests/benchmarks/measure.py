@@ -32,8 +32,8 @@ class Run:
         return json.loads(self.out)
 
 
-def run(words: Sequence[object], cwd: Path | None = None) -> Run:
-    """One process. CalledProcessError with its stderr where it fails."""
+def run(words: Sequence[object], cwd: Path | None = None, ok: Sequence[int] = (0,)) -> Run:
+    """One process. CalledProcessError with its stderr where it ends with another code than those of `ok`."""
     with tempfile.TemporaryFile("w+") as said:  # a file: a pipe could fill while the other is read
         begin = time.perf_counter()
         child = subprocess.Popen([str(w) for w in words], cwd=cwd, stdout=subprocess.PIPE, stderr=said, text=True)
@@ -45,7 +45,7 @@ def run(words: Sequence[object], cwd: Path | None = None) -> Run:
         child.stdout.close()
         said.seek(0)
         err = said.read()
-    if child.returncode:
+    if child.returncode not in ok:
         raise subprocess.CalledProcessError(child.returncode, list(map(str, words)), out, err)
     return Run(seconds, usage.ru_maxrss / 1024, out, usage.ru_utime + usage.ru_stime)
 

@@ -35,6 +35,7 @@ CONTRACT = {
     "diagnose",
     "add",
     "history",
+    "orders",
     "report",
     "workbench",
     "simulate",

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from thermodata.errors import UsageError
-from thermodata.modelling import fit_model
+from thermodata.modelling import coarse, fit_model
 from thermodata.view.dataset import Dataset
 
 from .conftest import EFFECTS, TRUTH, Change, Spec
@@ -220,3 +220,28 @@ def test_phases_restrict_what_is_fitted(world: Dataset, spec: Spec) -> None:
     tests = tuple(replace(t, phases={"heating": (0.0, 20000.0)}) for t in world.tests)
     fitted = fit_model(spec(*EFFECTS, phases=["heating"]), replace(world, tests=tests)).responses[0]
     assert fitted.mask(tests[0]).sum() == (tests[0].t_s <= 20000.0).sum()
+
+
+def test_many_samples_are_first_looked_at_on_a_coarse_grid(world: Dataset, spec: Spec, monkeypatch: Any) -> None:
+    """The optimum is that of all samples, wherever the search started."""
+    full = fit_model(spec(*EFFECTS), world, uncertainty=False).parameters()
+    monkeypatch.setattr(coarse, "MANY", 2000)
+    monkeypatch.setattr(coarse, "ENOUGH", 700)
+    seen: list[int] = []
+    monkeypatch.setattr(coarse, "coarser", lambda t, k, make=coarse.coarser: seen.append(k) or make(t, k))
+    again = fit_model(spec(*EFFECTS), world, uncertainty=False).parameters()
+    assert set(seen) == {5}
+    for name, found in again.items():
+        assert found.value == pytest.approx(full[name].value, rel=2e-3), name
+
+
+def test_a_coarse_test_holds_means_of_what_is_valid(world: Dataset) -> None:
+    test = world.tests[0]
+    good = test.valid["dZ"].copy()
+    good[:7] = False
+    rough = coarse.coarser(replace(test, valid={**test.valid, "dZ": good}), 5)
+    assert len(rough.t_s) == len(test.t_s) // 5
+    assert rough.t_s[1] == test.t_s[5]
+    assert not rough.valid["dZ"][0]
+    assert rough.values["dZ"][1] == pytest.approx(test.values["dZ"][7:10].mean())
+    assert rough.values["speed"][4] == pytest.approx(test.values["speed"][20:25].mean())

@@ -114,3 +114,19 @@ def test_names_from_data_can_not_break_the_page(tests: list[TestQuality]) -> Non
     )
     assert evil not in render([named])
     assert render([])
+
+
+def test_what_is_overruled_is_told_with_its_reason_and_not_counted(tests: list[TestQuality]) -> None:
+    event = {**tests[1].events[1], "detail": "overruled: the bed's heater was on (was: a step of +30.0 K)"}
+    both = [dataclasses.replace(t, test=t.test + x, events=(event,)) for t, x in ((tests[0], "a"), (tests[0], "b"))]
+    assert sentences(both) == ["2 overruled by the campaign file: T_column (day1a, offset): the bed's heater was on."]
+    assert headline(both) == "All of 24\u00a0k samples in 2 tests count"
+    body = render(both)
+    assert "heater was on" in body
+
+
+def test_losses_of_one_cause_are_one_line(tests: list[TestQuality]) -> None:
+    lost = dataclasses.replace(tests[1], losses=tuple(f"raw/day2.tdms, byte {i}: cut" for i in range(40)))
+    body = render([lost])
+    assert "40 times: raw/day2.tdms, byte 0: cut" in body
+    assert "byte 7: cut" not in body

@@ -91,9 +91,8 @@ def channel_sign(channel: Channel, calibrations: Sequence[CalibrationResult], op
 def unit_contradiction(channel: Channel, signal_unit: str | None) -> str | None:
     """Why the campaign file's unit may not stand for the file's own: what to declare. None where both say the same,
     one says nothing (or what is no unit), or `instead_of` names the file's."""
-    if channel.unit is None or not signal_unit or not is_unit(signal_unit):
-        return None
-    if same_unit(signal_unit, channel.unit):
+    # what is spelled alike needs no table of units
+    if channel.unit is None or not signal_unit or same_unit(signal_unit, channel.unit) or not is_unit(signal_unit):
         return None
     if channel.instead_of is not None:
         if same_unit(signal_unit, channel.instead_of):

@@ -96,7 +96,9 @@ def diagnosis_text(found: Diagnosis, top: int = 8) -> str:
         parts.append(
             "artefacts\n"
             + "\n".join(
-                f"  ! {a.kind} in {a.campaign}/{a.test} at {duration(a.at_s)}: {number(a.size_um)} um. {a.why}"
+                f"  ! {a.kind} in {a.campaign}/{a.test}"
+                + ("" if a.size_um is None else f" at {duration(a.at_s)}: {number(a.size_um)} um")
+                + f". {a.why}"
                 for a in found.artefacts
             )
         )

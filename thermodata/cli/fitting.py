@@ -28,7 +28,7 @@ def resolve(store: Store, ref: str) -> str:
     from thermodata.store.catalogue.models import find_model
 
     spec = load_model(Path(ref))
-    if not any(e.file for e in spec.effects):  # a file's content is known to the fit only
+    if not any(e.file or e.name for e in spec.effects):  # what these are now is known to the fit only
         try:
             return find_model(store, model_id(spec, load_data(store, spec).data_version)).model
         except UsageError:
@@ -205,6 +205,7 @@ def portability_command(session: Session, model: str) -> None:
                 ("ptp_n", "PTP n [um]"),
                 ("ptp_c", "PTP c [um]"),
                 ("verdict", "class"),
+                ("why", "x for"),
             ],
         ),
     )

@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from thermodata.diagnosis import ladder, next_test
+from thermodata.diagnosis.artefact import noise_with_treads
 from thermodata.diagnosis.confirm import Confirmation, confirm, on_all_open
 from thermodata.diagnosis.investigate import BorneOut, Investigation, investigate
 from thermodata.diagnosis.judge import (
@@ -19,7 +20,6 @@ from thermodata.diagnosis.judge import (
     explained,
     failed_rules,
     probability,
-    remaining,
 )
 from thermodata.diagnosis.locked import Foretold
 from thermodata.diagnosis.null import p_value
@@ -141,9 +141,9 @@ def _diagnosis(
         model=model_id,
         response=problem.response,
         verdict=judgement.verdict,
-        noise_um=problem.noise if np.isfinite(problem.noise) else None,
+        noise_um=noise_with_treads(problem) if np.isfinite(problem.noise) else None,
         noise_over_s=next((float(b.test.t_s[1] - b.test.t_s[0]) for b in problem.blocks if len(b.test.t_s) > 1), None),
-        rmse_um=remaining(alone.first.ranked[0]) if alone is not None else _left(problem),
+        rmse_um=alone.left if alone is not None else _left(problem),
         explainable=max((float(np.clip(_fall(s), 0.0, 1.0)) for s in scored), default=None),
         weak_spots=investigation.spots,
         candidates=[

@@ -5,25 +5,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from thermodata.diagnosis.candidates import GENERIC
-from thermodata.diagnosis.judge import (
-    BETTER_LIMIT,
-    DROP_LIMIT,
-    FORETOLD,
-    P_LIMIT,
-    PLACELESS_SHARP_LIMIT,
-    SHARP_LIMIT,
-    SPREAD_LIMIT,
-    STEADIES,
-    UNNAMED_DROP_LIMIT,
-    UNNAMED_SHARP_LIMIT,
-    WORTH_SHARE,
-    Measure,
-    acting_size,
-    explained,
-    sharpness,
-)
-from thermodata.diagnosis.null import p_value
+from thermodata.diagnosis.judge import Measure, rules, surely
 from thermodata.diagnosis.problem import Problem
 from thermodata.diagnosis.scored import Scored
 from thermodata.plugin import Float1D
@@ -34,38 +16,18 @@ _QUANTILES = 41
 
 def rungs(scored: Scored, measure: Measure, unit: str) -> list[Rung]:
     """Every rule of a claim, in the order in which they are asked; a candidate may be claimed where all hold."""
-    unnamed = scored.candidate.family == GENERIC and not scored.candidate.placeless
-    sharp = UNNAMED_SHARP_LIMIT if unnamed else SHARP_LIMIT
-    if scored.candidate.placeless:
-        sharp = PLACELESS_SHARP_LIMIT
-    size = acting_size(scored)
-    p = p_value(scored.evidence, measure.chance)
-    fall = UNNAMED_DROP_LIMIT if unnamed else DROP_LIMIT
-    steady = explained(scored) / size if size > 0 else (np.inf if explained(scored) > 0 else 0.0)
-    # few tests can't tell a spread: it is not asked where left-out tests are foretold well
-    spread_holds = not (scored.spread > SPREAD_LIMIT and scored.drop < FORETOLD)
-    falls = f"how much its gain differs between tests; not asked where the error falls by {FORETOLD:.0%}"
     return [
-        _most("chance", "share of responses without a missing effect on which chance does as well", p, P_LIMIT),
-        _least("fall", "fall of the error on left-out tests in which it acts", scored.drop, fall),
-        _least("tests", "share of these tests that it makes more probable", scored.better, BETTER_LIMIT),
-        _most("gain", falls, scored.spread, SPREAD_LIMIT).model_copy(update={"holds": spread_holds}),
-        _least("worth", "what it explains where it acts", explained(scored), WORTH_SHARE * measure.spread, unit),
-        _most("steadies", "what it explains, in multiples of its own size", steady, STEADIES),
-        _least("timing", "log evidence a sample: its timing, not its slow shape alone", sharpness(scored), sharp),
+        Rung(
+            name=rule.name,
+            asks=rule.asks,
+            value=float(rule.value) if np.isfinite(rule.value) else None,
+            limit=float(rule.limit),
+            unit=rule.unit,
+            at=rule.at,
+            holds=bool(rule.holds),
+        )
+        for rule in (*rules(scored, measure, unit), surely(scored))
     ]
-
-
-def _most(name: str, asks: str, value: float, limit: float, unit: str = "1") -> Rung:
-    return Rung(name=name, asks=asks, value=_told(value), limit=limit, unit=unit, at="most", holds=value <= limit)
-
-
-def _least(name: str, asks: str, value: float, limit: float, unit: str = "1") -> Rung:
-    return Rung(name=name, asks=asks, value=_told(value), limit=limit, unit=unit, at="least", holds=value >= limit)
-
-
-def _told(value: float) -> float | None:
-    return float(value) if np.isfinite(value) else None
 
 
 def left_out(scored: Scored, problem: Problem) -> list[LeftOut]:

@@ -8,12 +8,15 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from thermodata.errors import UsageError
+from thermodata.modelling import nested
 from thermodata.modelling.candidate import candidate_spec, with_effect
 from thermodata.modelling.fit import fit_model
 from thermodata.modelling.fitted import FittedModel
+from thermodata.modelling.orders import Tried
 from thermodata.modelling.portability import Portability, portability
 from thermodata.modelling.result import make_result, model_id
 from thermodata.modelling.table import prediction_tables
+from thermodata.modelling.transfer import NAME
 from thermodata.schema.model import EffectSpec, Model
 from thermodata.schema.result import FitResult, Score
 from thermodata.view.dataset import Dataset
@@ -53,7 +56,7 @@ def fit(
     """Fit and save. base: the folder of the model file, which `file` of an effect is relative to."""
     from thermodata.store.catalogue.models import save_fit
 
-    spec = _absolute(spec, base)
+    spec = self_contained(store, spec, base)
     data = load_data(store, spec)
     fitted = fit_model(spec, data)
     result = make_result(fitted, data, model_id(spec, data.data_version), parent=parent, before=before)
@@ -101,6 +104,28 @@ def transfer(store: Store, ref: str) -> list[Portability]:
     return rows
 
 
+def orders(store: Store, spec: Model, *, method: str | None = None, base: Path | None = None) -> list[Tried]:
+    """Every order of the model's transfer functions that was tried, whether the file leaves them open or not; nothing
+    is saved. method: in place of the file's. UsageError where the model has no function to identify."""
+    effects = [_with_open_orders(e, method) for e in spec.effects]
+    spec = self_contained(store, spec.model_copy(update={"effects": effects}), base)
+    fitted = fit_model(spec, load_data(store, spec), uncertainty=False)
+    found = [row for response in fitted.responses for row in response.tried]
+    if not found:
+        raise UsageError(
+            f"model '{spec.name}' has no transfer function whose orders could be chosen",
+            expected=f"an effect {{effect: {NAME}, drivers: {{u: ...}}}} without given coefficients",
+            got=", ".join(e.effect for e in spec.effects) or "no effects",
+        )
+    return found
+
+
+def _with_open_orders(effect: EffectSpec, method: str | None) -> EffectSpec:
+    if effect.effect != NAME:
+        return effect
+    return effect.model_copy(update={"orders": None, "method": method or effect.method})
+
+
 def chosen_effect(store: Store, model: str, spec: Model, candidate: str | int) -> EffectSpec:
     """What a user names: the rank of the stored diagnosis, an id, or any 'effect:channels'; UsageError for none."""
     from thermodata.store.catalogue.models import load_diagnosis
@@ -121,11 +146,25 @@ def chosen_effect(store: Store, model: str, spec: Model, candidate: str | int) -
     return candidate_spec(name, load_data(store, spec).channels)
 
 
-def _absolute(spec: Model, base: Path | None) -> Model:
-    if not any(e.file for e in spec.effects):
-        return spec
-    effects = [
-        e if e.file is None else e.model_copy(update={"file": str(((base or Path()) / e.file).resolve())})
-        for e in spec.effects
-    ]
+def self_contained(store: Store, spec: Model, base: Path | None = None) -> Model:
+    """The spec with what it names from elsewhere: files by their full path, other models as they are now."""
+    effects = []
+    for effect in spec.effects:
+        if effect.file is not None:
+            effect = effect.model_copy(update={"file": str(((base or Path()) / effect.file).resolve())})
+        if effect.effect == nested.NAME and effect.inside is None and effect.name is not None:
+            inside = _model_named(store, effect.name, base)
+            effect = effect.model_copy(update={"inside": inside.model_dump(mode="json", by_alias=True)})
+        effects.append(effect)
     return spec.model_copy(update={"effects": effects})
+
+
+def _model_named(store: Store, name: str, base: Path | None) -> Model:
+    """A file beside the model's own, or a model of the store."""
+    from thermodata.schema.load import load_model
+    from thermodata.store.catalogue.models import find_model
+
+    path = (base or Path()) / name
+    if name.endswith((".yaml", ".yml")):
+        return self_contained(store, load_model(path), path.parent)
+    return find_model(store, name).spec

@@ -63,9 +63,21 @@ def failed_readers() -> dict[str, str]:
     return dict(_all()[1])
 
 
+@lru_cache(maxsize=1)
+def _versions() -> dict[str, str]:
+    return {name: point.dist.version for name, point in installed().items() if point.dist is not None}
+
+
+def distribution_version(name: str) -> str:
+    """The version of the distribution that brought a reader; '' where it can't be told. Looked up once a process:
+    it takes as long as reading a small log, and every file asks."""
+    return _versions().get(name, "")
+
+
 def reload() -> None:
     """Look again at what is installed."""
     _all.cache_clear()
+    _versions.cache_clear()
 
 
 def reader(name: str) -> Reader:

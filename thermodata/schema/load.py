@@ -9,7 +9,7 @@ from thermodata.errors import SpecError
 from thermodata.schema.campaign import Campaign
 from thermodata.schema.crosscheck import check_campaign
 from thermodata.schema.explain import validate
-from thermodata.schema.lines import Document, parse_document, read_document
+from thermodata.schema.lines import Document, at_place, parse_document, read_document
 from thermodata.schema.model import Model
 from thermodata.schema.tests_from import expand
 
@@ -46,7 +46,15 @@ def parse_model(text: str, name: str = "model.yaml") -> Model:
 
 def _model(document: Document) -> Model:
     _expect_schema(document, "thermodata/model/1")
+    _keep_digits(document)
     return validate(Model, document)
+
+
+def _keep_digits(document: Document) -> None:
+    """What an effect fixes may be a printed coefficient: its text says how far it is known."""
+    for place, text in document.digits.items():
+        if "fixed" in place[:-1] and text != repr(at_place(document.data, place)):
+            at_place(document.data, place[:-1])[place[-1]] = text
 
 
 def _expect_schema(document: Document, expected: str) -> None:

@@ -137,6 +137,7 @@ def delta_factor(unit: str, target: str) -> float:
     return linear_conversion(unit, target)[0]
 
 
+@lru_cache(maxsize=4096)
 def is_unit(text: str) -> bool:
     """Whether the text is a unit at all (a lab's or pint's spelling)."""
     try:

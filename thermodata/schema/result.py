@@ -235,11 +235,11 @@ class Candidate(Result):
 class Artefact(Result):
     """A fault of the logs, beside any verdict.
 
-    kind: step, clock_offset, sign, gain or parameters
+    kind: step, clock_offset, sign, gain, parameters or sensor
     campaign: id
     test: id; empty where all tests share it
     at_s: from the test's start [s]
-    size_um: its size, in the response's unit
+    size_um: its size, in the response's unit; null for a sensor
     why: the evidence in a sentence
     """
 
@@ -347,7 +347,7 @@ class Diagnosis(Result):
     verdict: effect: one is missing; refine: none is missing, but an effect that is there acts otherwise than modelled;
         none: what is left is noise; unknown: something is left that nothing logged explains; not_testable: the tests
         cannot tell
-    noise_um: short-term noise of the response, in its unit
+    noise_um: short-term noise of the response, in its unit; of a staircase at least what its treads leave
     noise_over_s: averaging time of the samples that the noise lies between [s]; null where it was not kept
     rmse_um: error on left-out tests without any candidate
     explainable: largest fall of the squared error that a candidate gives, 0 to 1

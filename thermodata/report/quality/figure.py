@@ -28,6 +28,7 @@ SEVERITY = (
     Flag.HELD,
     Flag.STUCK,
     Flag.OFFSET,
+    Flag.FOREIGN,
 )
 _DEFECT = int(INVALID & ~Flag.NOT_MEASURING)
 _PANEL, _A_LABEL = 120, 13  # [px]

@@ -60,14 +60,17 @@ def is_whole(path: Path, size_bytes: int | None = None) -> bool:
     """Whether a Parquet file is there with its beginning and its end, and as long as it was: not whether a byte in
     it was changed."""
     try:
-        with path.open("rb") as file:
-            size = file.seek(0, os.SEEK_END)
+        # by the system's own calls: every ingest asks for every file of the store
+        fd = os.open(path, os.O_RDONLY | getattr(os, "O_BINARY", 0))
+        try:
+            size = os.fstat(fd).st_size
             if size < 12 or (size_bytes is not None and size != size_bytes):
                 return False
-            file.seek(0)
-            begun = file.read(4)
-            file.seek(size - 8)
-            tail = file.read(8)
+            begun = os.read(fd, 4)
+            os.lseek(fd, size - 8, os.SEEK_SET)
+            tail = os.read(fd, 8)
+        finally:
+            os.close(fd)
     except OSError:
         return False
     return begun == tail[4:] == b"PAR1" and int.from_bytes(tail[:4], "little") + 12 <= size

@@ -63,15 +63,22 @@ class Store:
     @contextmanager
     def reader(self) -> Iterator[duckdb.DuckDBPyConnection]:
         """A connection to a copy of the catalogue in memory, as of the last commit. No lock is held meanwhile."""
-        cursor = connection.cursor_of(self._fresh())
+        with self.marked_reader() as (con, _):
+            yield con
+
+    @contextmanager
+    def marked_reader(self) -> Iterator[tuple[duckdb.DuckDBPyConnection, str]]:
+        """As `reader`, with the mark of that commit; '' where the store has none."""
+        mark, con = self._fresh()
+        cursor = connection.cursor_of(con)
         try:
-            yield cursor
+            yield cursor, mark
         finally:
             cursor.close()
 
     def connect(self) -> duckdb.DuckDBPyConnection:
         """As `reader`, for callers that close it themselves."""
-        return connection.cursor_of(self._fresh())
+        return connection.cursor_of(self._fresh()[1])
 
     def private_copy(self) -> duckdb.DuckDBPyConnection:
         """A copy of the catalogue that nobody else sees, for work that attaches databases. The caller closes it."""
@@ -84,21 +91,21 @@ class Store:
             row = con.execute("select max(generation) from store").fetchone()
         return int(row[0]) if row else 0
 
-    def _fresh(self) -> duckdb.DuckDBPyConnection:
+    def _fresh(self) -> tuple[str, duckdb.DuckDBPyConnection]:
         with self._guard:
-            if self._copy is not None and self._copy[0] == self._mark():
-                return self._copy[1]
+            if self._copy is not None and self._copy[0] == self.mark():
+                return self._copy
             mark, con = self._copied()
             # without a mark it can't be told when to refresh: then every reader copies
             self._copy = (mark, con) if mark else None
-            return con
+            return mark, con
 
     def _copied(self) -> tuple[str, duckdb.DuckDBPyConnection]:
         """The mark of a commit, and a copy in memory of the catalogue as of then."""
         con = connection.memory(self.path)  # before the turn: it takes longer than the turn
         try:
             with self._turn(exclusive=False):
-                mark = self._mark()
+                mark = self.mark()
                 self._copy_into(con)
         except BaseException:
             con.close()
@@ -121,7 +128,8 @@ class Store:
             con.close()
             raise connection.damaged(path, error) from error
 
-    def _mark(self) -> str:
+    def mark(self) -> str:
+        """What changes with every commit; '' where it can't be told."""
         try:
             return (self.path / _MARK).read_text()
         except OSError:
@@ -130,11 +138,12 @@ class Store:
     # ---- writing ---------------------------------------------------------------------------------
 
     @contextmanager
-    def write(self, *, views: bool = True) -> Iterator[duckdb.DuckDBPyConnection]:
+    def write(self, *, views: bool = True, mark: str | None = None) -> Iterator[duckdb.DuckDBPyConnection]:
         """One transaction on the catalogue, alone. On success the views are made anew and all becomes visible
         at once; on an exception nothing does. Bulk goes to Parquet before this is entered.
 
-        views: False where neither files nor tests nor channels change. Not to be entered twice in one thread."""
+        views: False where neither files nor tests nor channels change. mark: that of this commit, for who wants to
+        know it again. Not to be entered twice in one thread."""
         with self._guard:
             con = connection.memory(self.path)  # before the turn: it takes 20 ms
             try:
@@ -147,7 +156,7 @@ class Store:
                             regenerate_views(con, self.path)
                         # before the commit: who sees the new mark waits for this turn to end, whoever dies in
                         # between causes one needless refresh; the other order could leave a stale copy in use
-                        write_text(self.path / _MARK, secrets.token_hex(8))
+                        write_text(self.path / _MARK, mark or new_mark())
                         _commit(con, self.path / CATALOGUE)
                     except BaseException:
                         _rollback(con)
@@ -207,9 +216,14 @@ class Store:
                 con.close()
             for folder in ("raw", "tidy", "model"):
                 (self.path / folder).mkdir(exist_ok=True)
-            write_text(self.path / _MARK, secrets.token_hex(8))
+            write_text(self.path / _MARK, new_mark())
             part.replace(target)
             fsync_folder(self.path)
+
+
+def new_mark() -> str:
+    """The mark of a commit that is to be."""
+    return secrets.token_hex(8)
 
 
 def regenerate_views(con: duckdb.DuckDBPyConnection, folder: Path) -> None:

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 from thermodata.schema.campaign import Campaign
 from thermodata.store.base.connection import fetch, insert
 from thermodata.store.base.files import key_of
-from thermodata.store.ingest.inventory import BY_TEST, Inventory, Row, comparable
+from thermodata.store.ingest.inventory import BY_TEST, Inventory, Row, same
 
 if TYPE_CHECKING:
     import duckdb
@@ -41,6 +41,14 @@ class Planned:
     def paths(self) -> set[str]:
         return {row["path"] for rows in self.rows["file"].values() for row in rows}
 
+    def parts(self) -> dict[str, int | None]:
+        """The store's files, and their sizes where the catalogue tells them."""
+        return {
+            row["path"]: row["bytes"] if row["layer"] == "tidy" else None
+            for rows in self.rows["file"].values()
+            for row in rows
+        }
+
     def data_version(self) -> str:
         return key_of(*(f"{t}:{version_of(self.rows, t)}" for t in sorted(self.rows["test"])))
 
@@ -59,50 +67,54 @@ def version_of(rows: Mapping[str, Mapping[str, list[Row]]], test: str) -> str:
     return key_of(*sorted(parts))
 
 
-def changes(planned: Planned, inventory: Inventory) -> set[str]:
-    """The tests whose rows differ from those in the catalogue."""
-    return {t for table in BY_TEST for t in _changed(planned.rows[table], inventory.rows[table])}
+def changes(planned: Planned, inventory: Inventory) -> dict[str, set[str]]:
+    """Table -> the tests whose rows differ from those in the catalogue."""
+    return {table: _changed(planned.rows[table], inventory.rows[table]) for table in BY_TEST}
 
 
 def _changed(planned: Mapping[str, list[Row]], stored: Mapping[str, list[Row]]) -> set[str]:
     """The tests whose rows of one table differ."""
-    return {
-        t for t in planned.keys() | stored.keys() if comparable(planned.get(t, [])) != comparable(stored.get(t, []))
-    }
+    return {t for t in planned.keys() | stored.keys() if not same(planned.get(t, []), stored.get(t, []))}
 
 
-def nothing_new(planned: Planned, inventory: Inventory) -> bool:
-    """Whether the catalogue says already what the plan says."""
+def nothing_new(planned: Planned, inventory: Inventory, changed: Mapping[str, set[str]]) -> bool:
+    """Whether the catalogue says already what the plan says. changed: their `changes`."""
     return (
         inventory.campaign is not None
         and json.loads(inventory.campaign["spec"]) == json.loads(planned.spec)
-        and comparable(planned.calibrations) == comparable(inventory.calibrations)
-        and not changes(planned, inventory)
+        and same(planned.calibrations, inventory.calibrations)
+        and not any(changed.values())
     )
 
 
 def commit(
-    con: duckdb.DuckDBPyConnection, store: Path, planned: Planned, inventory: Inventory, now: datetime
+    con: duckdb.DuckDBPyConnection,
+    store: Path,
+    planned: Planned,
+    inventory: Inventory,
+    differing: Mapping[str, set[str]],
+    now: datetime,
 ) -> list[str]:
     """Brings the campaign's rows to the plan inside the caller's transaction; returns the models gone stale.
 
-    inventory: the state within this same transaction. Raises VanishedError where a planned file isn't there.
+    inventory: the state within this same transaction; differing: its `changes`.
+    Raises VanishedError where a planned file isn't there.
     """
     missing = [p for p in planned.paths() if not (store / p).exists()]
     if missing:
         raise VanishedError(missing[0])
     campaign = planned.campaign.id
-    changed = changes(planned, inventory)
+    changed = {t for tests in differing.values() for t in tests}
     stale = {
         t
         for t in changed
         if inventory.rows["test"].get(t) and version_of(planned.rows, t) != version_of(inventory.rows, t)
     }
     for table in BY_TEST:
-        gone = _changed(planned.rows[table], inventory.rows[table])
+        gone = set(differing[table])
         if table == "test" and (gone or list(planned.rows[table]) != list(inventory.rows[table])):
             # it keeps the order of the campaign file, so all of its rows are written again
-            gone = planned.rows[table].keys() | inventory.rows[table].keys()
+            gone = {*planned.rows[table], *inventory.rows[table]}
         if gone:
             con.execute(f"delete from {table} where campaign = ? and list_contains(?, test)", [campaign, sorted(gone)])
         insert(con, table, [row for t, rows in planned.rows[table].items() if t in gone for row in rows])

@@ -26,9 +26,10 @@ Row = dict[str, Any]
 @dataclass(slots=True)
 class Inventory:
     """name: the campaign. raws: key -> its streams, of any campaign and of earlier versions of files too.
-    rows: table -> test -> rows of this campaign."""
+    rows: table -> test -> rows of this campaign. generation: of the store, as of this reading."""
 
     name: str = ""
+    generation: int = -1
     raws: dict[str, list[RawStream]] = field(default_factory=dict)
     rows: dict[str, dict[str, list[Row]]] = field(default_factory=dict)
     campaign: Row | None = None
@@ -56,7 +57,7 @@ def read_inventory(con: duckdb.DuckDBPyConnection, store: Path | None, campaign:
     """The catalogue's rows about a campaign. Raw files that are gone or cut are left out.
 
     store: the folder; None where the raw files don't matter, which each are opened to see whether they are whole."""
-    inventory = Inventory(campaign)
+    inventory = Inventory(campaign, generation_of(con))
     seen: set[str] = set()
     for row in fetch(con, "select * from file where layer in ('raw', 'superseded')") if store else ():
         if row["path"] not in seen and store and is_whole(store / row["path"]):
@@ -78,6 +79,21 @@ def read_inventory(con: duckdb.DuckDBPyConnection, store: Path | None, campaign:
             if clock is not None:
                 inventory.clocks[clock.key] = clock
     return inventory
+
+
+def generation_of(con: duckdb.DuckDBPyConnection) -> int:
+    """Counts the commits of a store: what was read at one is what stands there still."""
+    row = con.execute("select max(generation) from store").fetchone()
+    return int(row[0]) if row else 0
+
+
+def same(one: list[Row], other: list[Row]) -> bool:
+    """Whether rows say the same, in whatever order and whenever they were written."""
+    return _told(one) == _told(other) or comparable(one) == comparable(other)
+
+
+def _told(rows: list[Row]) -> list[Row]:
+    return [{k: v for k, v in row.items() if k not in _MOMENTS} for row in rows]
 
 
 def comparable(rows: list[Row]) -> list[str]:

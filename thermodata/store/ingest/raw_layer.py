@@ -2,22 +2,28 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
 from thermodata.errors import FormatError, StoreError, ThermodataError, UsageError, nearest
 from thermodata.plugin import Loss, Reader, Source
+from thermodata.reader import registry
 from thermodata.schema.campaign import Campaign, JumpCalibration, SourceSpec, Test
 from thermodata.store.base.files import DISK_FULL, is_whole, write_error
 from thermodata.store.ingest.file_versions import pinned, read_otherwise, twins
 from thermodata.store.ingest.inventory import Inventory
 from thermodata.store.ingest.progress import Progress, counted
 from thermodata.store.ingest.resolve import SourceFiles, file_inside, natural, resolve
+from thermodata.store.ingest.side_by_side import read_side_by_side, workers_for
+from thermodata.store.ingest.unchanged import Seen, seen
+from thermodata.store.ingest.worker import Task
 from thermodata.store.raw.source_file import ChangedError, SourceFile, frozen, settled
-from thermodata.store.raw.streams import RawStream, declared, find_reader, raw_key, read_raw
+from thermodata.store.raw.streams import RAW_VERSION, RawStream, declared, find_reader, raw_key, read_raw, version_of
+from thermodata.store.tidy.keys import TIDY_VERSION
 from thermodata.store.tidy.plan import SourcePlan, TestPlan
+from thermodata.version import __version__
 
 Losses = list[dict[str, Any]]
 
@@ -56,6 +62,8 @@ class RawIngest:
     notes: list[str] = field(default_factory=list)
     files: set[str] = field(default_factory=set)
     read: int = 0
+    # what was said of this time only, and not when the same is ingested again
+    passing: bool = False
     _told: set[str] = field(default_factory=set)
     _settled: dict[str, SourceFile] = field(default_factory=dict)
     _odd: dict[str, str] = field(default_factory=dict)
@@ -66,14 +74,88 @@ class RawIngest:
 
     def survey(self) -> None:
         """Finds all files, and says how many and how much that is."""
+        root = self.folder.resolve()
         for test in self.campaign.tests:
             for name in self.campaign.sources:
-                self._source_files[test.id, name] = resolve(self.folder, self.campaign, test, name)
+                self._source_files[test.id, name] = resolve(self.folder, self.campaign, test, name, root)
                 self._odd.update(self._source_files[test.id, name].odd)
         paths = {p for files in self._source_files.values() for p in files.paths}
         paths |= {c.file for c in self.campaign.calibrations.values() if isinstance(c, JumpCalibration)}
         self._sizes = {p: size for p in paths if (size := self._size(p)) is not None}
         self.watch.begin(len(self._sizes), sum(self._sizes.values()))
+
+    def seen(self, campaign_path: Path) -> Seen:
+        """What an answer depends on beside the content of the files that were found."""
+        versions: dict[str, str | None] = {}
+        for source, spec in self.campaign.sources.items():
+            try:
+                versions[spec.reader] = version_of(self._reader(spec.reader, source))
+            except UsageError:  # told where a file needs it
+                versions[spec.reader] = None
+        jumps = [c.file for c in self.campaign.calibrations.values() if isinstance(c, JumpCalibration)]
+        listed = {p for files in self._source_files.values() for p in files.paths}
+        return seen(
+            self.store,
+            campaign_path,
+            {path: self._full(path) for path in sorted(listed.union(jumps))},
+            self.campaign.model_dump_json(by_alias=True),
+            repr(list(self._source_files.items())),
+            repr(versions),
+            f"{__version__} {RAW_VERSION} {TIDY_VERSION}",
+        )
+
+    def read_ahead(self) -> None:
+        """Reads what the store doesn't hold yet, several files side by side where that pays. What can't be read so is
+        left to whoever asks for it."""
+        known = {
+            (row["source_path"], row["bytes"])
+            for rows in self.inventory.rows.get("file", {}).values()
+            for row in rows
+            if row["layer"] == "raw"
+        }
+        new = [(p, size) for p, size in self._sizes.items() if (p, size) not in known]
+        workers = workers_for(len(new), sum(size for _, size in new))
+        if not workers:
+            return
+        self.watch.say(f"reading {workers} files at a time")
+        for task, found in read_side_by_side(self._tasks(), workers, self.watch.samples):
+            if isinstance(found, StoreError):
+                raise _with_room(found, task.path, task.file)
+            if isinstance(found, list | ThermodataError | OSError):
+                self._streams[task.key] = found
+                self.read += isinstance(found, list)
+                self._done(task.path)
+            elif found is not None:
+                raise found
+
+    def _tasks(self) -> Iterator[Task]:
+        """Each file once that an installed reader is to read, in the order in which it will be asked for."""
+        asked: set[str] = set()
+        for path, source, spec in self._listed():
+            try:
+                reader, file = self._reader(spec.reader, source), self._settle(path)
+            except (ThermodataError, OSError):
+                continue  # told where the file is read
+            declaration = declared(source, spec)
+            key = raw_key(file.sha256, reader, declaration)
+            if key in asked or key in self.inventory.raws or registry.readers().get(spec.reader) is not reader:
+                continue
+            asked.add(key)
+            yield Task(key, self.store, path, file, spec.reader, declaration)
+
+    def _listed(self) -> Iterator[tuple[str, str, SourceSpec]]:
+        """(path, source, what is declared of it) of the files whose present content is wanted."""
+        for calibration in self.campaign.calibrations.values():
+            if isinstance(calibration, JumpCalibration) and calibration.file in self._sizes:
+                yield calibration.file, calibration.source, self.campaign.sources[calibration.source]
+        for (test, source), files in self._source_files.items():
+            for path in files.paths:
+                if path not in self.campaign.versions:
+                    yield path, source, self.campaign.sources[source].of_test(test)
+
+    def hashes(self) -> dict[str, str]:
+        """Source path -> SHA-256, of all files that were looked at."""
+        return {path: file.sha256 for path, file in self._settled.items()}
 
     def _size(self, path: str) -> int | None:
         try:
@@ -104,12 +186,13 @@ class RawIngest:
             before.setdefault(raw.source_path, []).append(raw)
         there = set(files.paths)
         same = twins(files.paths, self._hashes(files.paths))
-        for path in sorted({*there, *(p for p in before if files.claims(p))}, key=natural):
+        for path in sorted({*there, *(p for p in before if p not in there and files.claims(p))}, key=natural):
             if path in same:
                 self.notes.append(f"{path}: left out, its content is that of {same[path]}")
                 self._done(path)
             elif path not in there and (new := self._renamed_to(before[path], files.paths)):
                 self.notes.append(f"{path}: is {new} now, with the same content")
+                self.passing = True
             else:
                 plan.raws += self._file(
                     path, name, spec, before.get(path, []), test.id, (test.id, name), gone=path not in there
@@ -189,6 +272,7 @@ class RawIngest:
             except (ThermodataError, OSError) as error:
                 if isinstance(error, OSError) and str(error.filename).startswith(str(self.store)):
                     raise write_error(Path(error.filename), error) from error
+                self.passing = True  # the next time it may be read
                 reason = "; ".join(str(error).splitlines())
                 self.losses.append(loss_row(reason, test=test, source=source, file=path))
                 raws = self._former(path, before)
@@ -287,13 +371,7 @@ class RawIngest:
                     self._streams[key] = self._read_settled(path, file, reader, declaration)
                     self.read += 1
                 except StoreError as error:
-                    if error.what == DISK_FULL:
-                        # raw Parquet takes about as much as the log, and the tidy layer as much again
-                        needed = f"about {max(1, 2 * file.bytes // 1_000_000)} MB for {path}"
-                        raise StoreError(
-                            error.what, where=error.where, expected=needed, got=error.got, hint=error.hint
-                        ) from error
-                    raise
+                    raise _with_room(error, path, file) from error
                 except (ThermodataError, OSError) as error:
                     self._streams[key] = error
         streams = self._streams[key]
@@ -319,8 +397,18 @@ class RawIngest:
                 )
             self._settled[path] = copy
             self.notes.append(f"{path}: {copy.note}")
+            self.passing = True
             return [replace(r, notes=tuple(dict.fromkeys((*r.notes, copy.note or "")))) for r in raws]
 
 
 def _renamed(raw: RawStream, path: str) -> RawStream:
     return replace(raw, source_path=path)
+
+
+def _with_room(error: StoreError, path: str, file: SourceFile) -> StoreError:
+    """The same error; where the disk is full, with how much room the file takes."""
+    if error.what != DISK_FULL:
+        return error
+    # raw Parquet takes about as much as the log, and the tidy layer as much again
+    needed = f"about {max(1, 2 * file.bytes // 1_000_000)} MB for {path}"
+    return StoreError(error.what, where=error.where, expected=needed, got=error.got, hint=error.hint)

@@ -43,16 +43,17 @@ def patterns_of(campaign: Campaign, test: Test, source: str) -> tuple[tuple[str,
     return tuple(_checked(p, test.id) for p in listed), shared, own is not None
 
 
-def resolve(folder: Path, campaign: Campaign, test: Test, source: str) -> SourceFiles:
-    """The files of a source in a test, as they stand in the campaign's folder now."""
+def resolve(folder: Path, campaign: Campaign, test: Test, source: str, root: Path | None = None) -> SourceFiles:
+    """The files of a source in a test, as they stand in the campaign's folder now. root: the folder without links,
+    where the caller has it."""
     patterns, shared, explicit = patterns_of(campaign, test, source)
-    root = folder.resolve()
+    root = root or folder.resolve()
     paths: dict[str, str | None] = {}
     odd: dict[str, str] = {}
     for pattern in patterns:
         # a folder or a pipe that a pattern happens to fit is nobody's log; one that is named is a mistake
         named = not glob.has_magic(pattern)
-        for name in sorted(glob.glob(pattern, root_dir=root, recursive=True), key=natural):
+        for name in sorted(_fitting(root, pattern, named), key=natural):
             relative = PurePosixPath(Path(name)).as_posix()
             if not _is_text(relative):
                 odd[text := os.fsencode(relative).decode("utf-8", "backslashreplace")] = relative
@@ -71,6 +72,13 @@ def resolve(folder: Path, campaign: Campaign, test: Test, source: str) -> Source
     )
 
 
+def _fitting(root: Path, pattern: str, named: bool) -> list[str]:
+    """What stands in the folder under a pattern, or under a name, which takes a fifth of the time."""
+    if not named:
+        return glob.glob(pattern, root_dir=root, recursive=True)
+    return [pattern] if pattern and os.path.lexists(os.path.join(root, pattern)) else []
+
+
 def _is_text(name: str) -> bool:
     try:
         name.encode()
@@ -82,10 +90,10 @@ def _is_text(name: str) -> bool:
 def _refusal(root: Path, name: str, named: bool) -> str | None:
     """Why a path isn't read: None where it is a file inside the folder, '' where it need not be mentioned."""
     try:
-        real = (root / name).resolve()
-        if not real.is_relative_to(root):
+        real = os.path.realpath(os.path.join(root, name))
+        if real != str(root) and not real.startswith(os.path.join(root, "")):
             return "leads outside the campaign's folder"
-        kind = kind_of(real.stat())
+        kind = kind_of(os.stat(real))
     except FileNotFoundError:
         return "a link to nothing"
     except (OSError, RuntimeError, ValueError) as error:

@@ -4,26 +4,29 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
-from dataclasses import asdict, dataclass, field
+from dataclasses import asdict, dataclass, field, replace
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
 
 from thermodata.errors import StoreError
+from thermodata.schema.campaign import Campaign
 from thermodata.schema.load import load_campaign
-from thermodata.store.catalogue.store import Store
+from thermodata.store.catalogue.store import Store, new_mark
 from thermodata.store.ingest.catalogue_rows import calibration_row, raw_row
-from thermodata.store.ingest.commit import Planned, VanishedError, commit, nothing_new
+from thermodata.store.ingest.commit import Planned, VanishedError, changes, commit, nothing_new
 from thermodata.store.ingest.file_versions import keep_earlier
-from thermodata.store.ingest.inventory import BY_TEST, Row, read_inventory
+from thermodata.store.ingest.inventory import BY_TEST, Inventory, Row, generation_of, read_inventory
 from thermodata.store.ingest.progress import Progress, TextProgress
 from thermodata.store.ingest.raw_layer import RawIngest, loss_row
 from thermodata.store.ingest.tidy_layer import tidy_tests
 from thermodata.store.ingest.unanswered import unanswered
+from thermodata.store.ingest.unchanged import answer, keep
 from thermodata.store.tidy.calibrations import evaluate
 from thermodata.store.tidy.plan import bind
 
 _ATTEMPTS = 3
+NOTHING = "nothing changed: the store holds these files and this campaign file already"
 
 
 @dataclass(slots=True)
@@ -54,7 +57,10 @@ class IngestSummary:
 
 
 def ingest(
-    store: Store, campaign_path: Path | str, progress: Progress | Callable[[str], None] | None = None
+    store: Store,
+    campaign_path: Path | str,
+    progress: Progress | Callable[[str], None] | None = None,
+    campaign: Campaign | None = None,
 ) -> IngestSummary:
     """Brings a campaign into the store: raw layer, calibrations, tidy layer, and then one commit.
 
@@ -62,11 +68,12 @@ def ingest(
     and the source files need not be there any more. A file that can't be read is a loss and doesn't stop the
     others. Raises SpecError for a wrong campaign file and CalibrationError for a contradictory calibration; then,
     and when it is interrupted, the store stays as it was. progress: is told what is being done, and how far it is.
+    campaign: in place of a file's content; the path then says where its logs are.
     """
     watch = TextProgress(progress or (lambda _: None)) if progress is None or callable(progress) else progress
     for attempt in range(_ATTEMPTS):
         try:
-            return _ingest(store, Path(campaign_path), watch)
+            return _ingest(store, Path(campaign_path), watch, campaign)
         except VanishedError as error:
             if attempt == _ATTEMPTS - 1:
                 raise StoreError(
@@ -78,13 +85,18 @@ def ingest(
     raise AssertionError("unreachable")
 
 
-def _ingest(store: Store, path: Path, watch: Progress) -> IngestSummary:
+def _ingest(store: Store, path: Path, watch: Progress, given: Campaign | None) -> IngestSummary:
     began, now = time.monotonic(), datetime.now(UTC).replace(tzinfo=None)
-    campaign = load_campaign(path)
-    with store.reader() as con:
-        inventory = read_inventory(con, store.path, campaign.id)
-    raw_layer = RawIngest(store.path, path.absolute().parent, campaign, inventory, watch)
+    campaign = load_campaign(path) if given is None else given
+    raw_layer = RawIngest(store.path, path.absolute().parent, campaign, Inventory(), watch)
     raw_layer.survey()
+    here = raw_layer.seen(path.absolute())
+    known = answer(here, store.mark()) if given is None else None
+    if known is not None:
+        return replace(IngestSummary(**known), seconds=time.monotonic() - began)
+    with store.marked_reader() as (con, mark):
+        inventory = raw_layer.inventory = read_inventory(con, store.path, campaign.id)
+    raw_layer.read_ahead()
     jumps = raw_layer.jump_files()
     results, problems = evaluate(store.path, campaign, jumps)
     plans = []
@@ -113,16 +125,23 @@ def _ingest(store: Store, path: Path, watch: Progress) -> IngestSummary:
         losses=raw_layer.losses + tidy_layer.losses + [loss_row(p) for p in problems],
         notes=list(dict.fromkeys(unanswered(campaign) + raw_layer.notes + tidy_layer.notes)),
     )
+    again = replace(summary, read=0, made=0, notes=[*summary.notes, NOTHING])
     # what was damaged and is made anew has the same rows: the views must see it all the same
-    if nothing_new(planned, inventory) and not tidy_layer.new_streams and not raw_layer.read:
-        summary.notes.append("nothing changed: the store holds these files and this campaign file already")
+    changed = changes(planned, inventory)
+    if nothing_new(planned, inventory, changed) and not tidy_layer.new_streams and not raw_layer.read:
+        summary = again
     else:
-        with store.write() as con:
-            current = read_inventory(con, None, campaign.id)
-            summary.stale = commit(con, store.path, planned, current, now)
+        mark = new_mark()
+        with store.write(mark=mark) as con:
+            if generation_of(con) != inventory.generation:
+                inventory = read_inventory(con, None, campaign.id)
+                changed = changes(planned, inventory)
+            summary.stale = commit(con, store.path, planned, inventory, changed, now)
         summary.changed = True
         if summary.stale:
             summary.notes.append(f"{len(summary.stale)} fitted models are stale now: fit them again")
+    if not raw_layer.passing and given is None:
+        keep(here, mark, raw_layer.hashes(), planned.parts(), again.to_json())
     summary.seconds = time.monotonic() - began
     return summary
 

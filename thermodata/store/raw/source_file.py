@@ -79,8 +79,10 @@ def settled(path: Path) -> SourceFile:
     """A file and its hash. The mark is that from before the hash: what is written meanwhile shows in `check`."""
     with opened(path) as handle:
         mark = mark_of(os.fstat(handle.fileno()))
-        digest = hashlib.file_digest(handle, "sha256").hexdigest()
-    return SourceFile(path, digest, mark[2], mark)
+        digest = hashlib.sha256()
+        while data := handle.read(_CHUNK):
+            digest.update(data)
+    return SourceFile(path, digest.hexdigest(), mark[2], mark)
 
 
 @contextmanager

@@ -6,7 +6,6 @@ import dataclasses
 import json
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
-from importlib import metadata
 from pathlib import Path
 from typing import Any
 
@@ -163,10 +162,7 @@ def version_of(reader: Reader) -> str:
     own = getattr(reader, "version", None)
     if isinstance(own, str):
         return own
-    for entry in metadata.entry_points(group="thermodata.reader"):
-        if entry.name == reader.name and entry.dist is not None:
-            return entry.dist.version
-    return ""
+    return registry.distribution_version(reader.name)
 
 
 def raw_key(sha256: str, reader: Reader, source: Source) -> str:
