@@ -117,6 +117,7 @@ def _onward() -> HTMLResponse:
     # a redirect would still count as a step from elsewhere, on which a Strict cookie is not sent
     return HTMLResponse(
         '<!doctype html><html lang="en"><head><meta charset="utf-8"><title>thermodata</title>'
+        '<link rel="icon" href="/static/mark.svg">'
         '<meta http-equiv="refresh" content="0;url=/"></head><body><p><a href="/">Open the workbench</a></p>'
         "</body></html>"
     )

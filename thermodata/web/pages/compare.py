@@ -9,7 +9,7 @@ import numpy as np
 from starlette.requests import Request
 from starlette.responses import Response
 
-from thermodata.chart.colour import EFFECTS, RESIDUAL
+from thermodata.chart.colour import EFFECTS
 from thermodata.chart.pack import script_json
 from thermodata.chart.spec import Axis, Chart, HeatMap, Limit, Panel, Series
 from thermodata.plugin import Float1D
@@ -170,7 +170,7 @@ def _correlated(parts: list[Any]) -> Chart:
     panel = Panel(
         "autocorrelation of the residual",
         "",
-        [Series("autocorrelation", "", correlation, RESIDUAL, style="line")],
+        [Series("autocorrelation", "", correlation, "residual", style="line")],
         height=140,
         zero=True,
         limits=near,
@@ -185,7 +185,7 @@ def _over(store: Store, parts: list[Any], channel: str, unit: str) -> Chart:
         f"residual over {channel}",
         unit,
         [
-            Series("residual", unit, found.residual, RESIDUAL, x=found.value, style="points", label=""),
+            Series("residual", unit, found.residual, "residual", x=found.value, style="points", label=""),
             Series("mean", unit, found.means, EFFECTS[0], x=found.bins, width=2.4, label=""),
         ],
         height=220,

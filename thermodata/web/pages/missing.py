@@ -8,7 +8,7 @@ import numpy as np
 from starlette.requests import Request
 from starlette.responses import Response
 
-from thermodata.chart.colour import EFFECTS, RESIDUAL
+from thermodata.chart.colour import EFFECTS
 from thermodata.chart.pack import script_json
 from thermodata.chart.spec import Axis, Chart, Panel, Series
 from thermodata.effect import effects
@@ -118,7 +118,7 @@ def _course(c: Candidate, unit: str) -> Chart:
                 run.test,
                 unit,
                 [
-                    Series("residual", unit, np.asarray(run.residual_um), RESIDUAL, x=np.asarray(run.t_s) / 3600),
+                    Series("residual", unit, np.asarray(run.residual_um), "residual", x=np.asarray(run.t_s) / 3600),
                     Series(c.effect, unit, np.asarray(run.contribution_um), EFFECTS[0], x=np.asarray(run.t_s) / 3600),
                 ],
                 height=110,

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from thermodata.chart.colour import EFFECTS, LANE, MEASURED, MODEL, RESIDUAL, effect_styles
+from thermodata.chart.colour import EFFECTS, effect_styles
 from thermodata.chart.spec import Axis, Chart, Panel, Row, Series, Span, Strip, Style
 from thermodata.plugin import Float1D
 from thermodata.view.events import About
@@ -59,14 +59,14 @@ def _of_model(predicted: Sequence[Prediction]) -> list[Panel]:
                 f"{p.response}, model",
                 "um",
                 [
-                    Series("measured", "um", measured, MEASURED, x=x),
-                    Series("model", "um", p.predicted, MODEL, x=x),
+                    Series("measured", "um", measured, "measured", x=x),
+                    Series("model", "um", p.predicted, "model", x=x),
                 ],
             ),
             Panel(
                 f"{p.response}, residual",
                 "um",
-                [Series("residual", "um", np.where(p.valid, p.residual, np.nan), RESIDUAL, x=x)],
+                [Series("residual", "um", np.where(p.valid, p.residual, np.nan), "residual", x=x)],
                 height=110,
                 zero=True,
             ),
@@ -98,7 +98,7 @@ def _of_channels(channels: Sequence[Channel], values: dict[str, tuple[Float1D, F
             x, y = values[channel.name]
             if np.isfinite(y).any() and np.nanmax(y) > np.nanmin(y):  # what never moved says nothing
                 style: Style = "steps" if channel.held else "line"
-                strips.append(Strip(Series(channel.name, channel.unit, y, LANE, x=x, style=style), channel.name))
+                strips.append(Strip(Series(channel.name, channel.unit, y, "lane", x=x, style=style), channel.name))
     # a place with one sensor needs no panel of its own
     alone = [key for key, members in groups.items() if len(members) == 1 and key[0].startswith("temperature")]
     if len(alone) > 1:
