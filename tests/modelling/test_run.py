@@ -93,7 +93,7 @@ def test_adding_the_missing_effect_makes_the_error_fall(store: Store, spec: Spec
     assert find_model(store, "short").model == grown.model
     # the truth is single lags, and the store keeps what was said
     assert grown.added == ["feed_screw"]
-    assert grown.notes == ["no second lag: none takes 10 % off the error on left-out tests"]
+    assert grown.notes == ["no second lag: none takes 20 % off the error on left-out tests"]
     assert find_model(store, grown.model).result == grown
     assert (parent.added, parent.notes) == (None, [])
 

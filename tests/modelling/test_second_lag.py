@@ -73,7 +73,7 @@ def test_one_lag_stays_one(both: Model) -> None:
     refined = with_second_lags(both, machine(single))
     assert refined.spec == both
     assert refined.lags == ()
-    assert "none takes 10 % off" in refined.notes[0]
+    assert "none takes 20 % off" in refined.notes[0]
 
 
 def test_two_lags_that_lie_on_each_other_are_not_two(both: Model, monkeypatch: pytest.MonkeyPatch) -> None:
