@@ -29,7 +29,7 @@ SCORE = {
     "max_um",
     "n",
 }
-FIT = {"model", "name", "parent", "campaigns", "response", "parameters", "scores", "checks", "before"}
+FIT = {"model", "name", "parent", "campaigns", "response", "parameters", "scores", "checks", "before", "added", "notes"}
 
 
 @pytest.fixture
@@ -259,6 +259,8 @@ def test_diagnose_add_by_rank_and_report(say: Say, tmp_path: Path) -> None:
         "response",
         "verdict",
         "noise_um",
+        "noise_over_s",
+        "chance",
         "rmse_um",
         "explainable",
         "weak_spots",
@@ -278,6 +280,14 @@ def test_diagnose_add_by_rank_and_report(say: Say, tmp_path: Path) -> None:
     better = json.loads(say("--store", store, "add", base, "1", "--json").out)
     assert better["parent"] == base
     assert say("--store", store, "add", base, "99").code == 2
+    back = say("--store", store, "remove", better["model"], "feed_screw", "--json")
+    taken = json.loads(back.out)
+    assert taken["notes"] == ["removed: feed_screw"]
+    assert (taken["parent"], taken["before"]) == (better["model"], better["scores"])
+    start = json.loads(say("--store", store, "compare", base, "--json").out)
+    assert [s["rmse_um"] for s in taken["scores"]] == pytest.approx([s["rmse_um"] for s in start["scores"]], rel=0.3)
+    wrong = say("--store", store, "remove", better["model"], "feed_srew")
+    assert (wrong.code, "the model has no effect 'feed_srew'" in wrong.err) == (2, True)
     assert say("--store", store, "report", better["model"], "-o", tmp_path / "r.html").code == 0
     page = (tmp_path / "r.html").read_text(encoding="utf-8")
     assert "Why feed_screw was added" in page

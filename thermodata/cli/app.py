@@ -33,6 +33,7 @@ SECTIONS: dict[str, dict[str, str]] = {
         "orders": "ordering",
         "compare": "fitting",
         "add": "fitting",
+        "remove": "fitting",
         "history": "fitting",
         "portability": "fitting",
         "show": "show",

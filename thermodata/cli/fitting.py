@@ -143,6 +143,32 @@ def add_command(session: Session, model: str, candidate: str, plain: bool) -> No
         session.say(worse)
 
 
+@command("remove")
+@click.argument("model")
+@click.argument("effect")
+def remove_command(session: Session, model: str, effect: str) -> None:
+    """Make a new version of MODEL without an effect.
+
+    EFFECT is its id in the model, as fit printed it, or its name where that is one effect only. Its second lag goes
+    with it. Prints the errors before and after; the version before stays.
+    """
+    from thermodata.cli.progress import counting_line
+    from thermodata.modelling.run import remove
+    from thermodata.store.base.counting import watched
+
+    store = session.store()
+    with counting_line() as tell, watched(tell):
+        result = remove(store, resolve(store, model), effect)
+    session.answer(
+        result,
+        lambda: in_units_of(
+            session, result.response, "\n\n".join([before_after_text(result), fit_text(result, scores=False)])
+        ),
+    )
+    for note in result.notes:
+        session.say(note)
+
+
 def made_worse(result: FitResult) -> str | None:
     """A warning where an added effect raised the error of a role; None where it did not."""
     found = []

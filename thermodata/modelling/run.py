@@ -17,7 +17,7 @@ from thermodata.modelling.orders import Tried
 from thermodata.modelling.portability import Portability, portability
 from thermodata.modelling.resolve import term_ids
 from thermodata.modelling.result import make_result, model_id
-from thermodata.modelling.second_lag import with_second_lags
+from thermodata.modelling.second_lag import is_lag_of, with_second_lags
 from thermodata.modelling.table import prediction_tables
 from thermodata.modelling.transfer import NAME
 from thermodata.schema.model import EffectSpec, Model
@@ -126,6 +126,34 @@ def add(store: Store, ref: str, candidate: str | int | EffectSpec, *, plain: boo
         spec, notes = refined.spec, refined.notes
     added = term_ids(spec.effects)[len(parent.spec.effects) :]
     return fit(store, spec, parent=parent.model, before=before, added=added, notes=notes)
+
+
+def remove(store: Store, ref: str, effect: str) -> FitResult:
+    """A new version with one effect less: by its id, or its name where that is one effect only; its second lag goes
+    with it, and the others keep their ids. `before` has the parent's scores, `notes` what went. UsageError for no such
+    effect."""
+    from thermodata.store.catalogue.models import find_model
+
+    parent = find_model(store, ref)
+    ids = term_ids(parent.spec.effects)
+    named = [i for i, e in zip(ids, parent.spec.effects, strict=True) if effect in (i, e.effect)]
+    of = effect if effect in ids else named[0] if len(named) == 1 else None
+    if of is None:
+        raise UsageError(
+            f"'{effect}' is {len(named)} effects of the model" if named else f"the model has no effect '{effect}'",
+            where=f"model '{parent.spec.name}'",
+            expected=", ".join(named or ids) or "a model with effects",
+            got=effect,
+        )
+    gone = [i for i in ids if i == of or is_lag_of(i, of)]
+    kept = [e.model_copy(update={"id": i}) for i, e in zip(ids, parent.spec.effects, strict=True) if i not in gone]
+    # an id that stands there by itself is not written
+    bare = [e.model_copy(update={"id": None}) if e.id == e.effect else e for e in kept]
+    effects = bare if term_ids(bare) == [e.id for e in kept] else kept
+    old = load(store, parent.model)
+    before = make_result(old.fitted, old.data, parent.model).scores
+    spec = parent.spec.model_copy(update={"effects": effects})
+    return fit(store, spec, parent=parent.model, before=before, notes=[f"removed: {', '.join(gone)}"])
 
 
 def transfer(store: Store, ref: str) -> list[Portability]:

@@ -130,6 +130,11 @@ def _tried(left_out: LeftOut, spec: Model, whole: FittedModel, place: int, now: 
     return _Trial(place, more, errors, share, SecondLag(ids[place], str(second.id), tau, param.unit, *figures))
 
 
+def is_lag_of(identity: str, of: str) -> bool:
+    """Whether an id is that of a further lag of an effect, as `with_second_lags` names it."""
+    return identity.startswith(f"{of}_lag") and identity.removeprefix(f"{of}_lag").isdigit()
+
+
 def is_single_lag(spec: EffectSpec, among: Sequence[EffectSpec]) -> bool:
     """Whether an effect is one lag that a second could stand beside: not where the file holds its values or identifies
     it on tests of its own, nor where it stands twice already (a third lag is nothing that tests can tell)."""
