@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import io
 import json
+import re
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -228,7 +229,8 @@ def test_a_report_of_a_version_tells_what_it_changed(
     found = data("report", better["model"], "-o", tmp_path / "r.html")
     page = (tmp_path / "r.html").read_text(encoding="utf-8")
     assert found["bytes"] == len(page.encode())
-    assert "With feed_screw the error of dZ falls from" in page
+    assert "was added to baseline, and no diagnosis claims it" in page
+    assert re.search(r"The error on (the tests that were fitted|\w+ tests) falls: ", page)
     assert 'id="test2"' in page
     assert 'id="waterfall"' in page
     assert "none was opened" in page
