@@ -25,3 +25,14 @@ def run(t: Int1D, **columns: tuple[str, Array]) -> tuple[dict[str, Array], list[
 
 def kinds(events: list[QualityEvent]) -> list[tuple[str | None, str]]:
     return [(e.channel, e.flag) for e in events]
+
+
+def gauge(
+    seed: int = 0, n: int = N, tread: float = 2.0, dither: float = 0.05, noise: float = 0.1, count: float = 0.086
+) -> Float1D:
+    """A gauge in treads of 2 um, of which nobody sees the noise but where it flickers about a riser, behind a converter
+    with noise of its own that counts in 0.086 um."""
+    rng = np.random.default_rng(seed)
+    slow = 15 * np.sin(np.arange(n) / 1400 + seed) + np.cumsum(rng.normal(0, 0.01, n))
+    x = np.round((slow + rng.normal(0, dither, n)) / tread) * tread
+    return np.asarray(np.round((x + rng.normal(0, noise, n)) / count) * count if noise else x)

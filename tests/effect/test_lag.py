@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from thermodata.effect.lag import lag
+from thermodata.effect.lag import lag, lags
 
 
 def test_a_ramp_is_exact_at_any_step() -> None:
@@ -51,3 +51,13 @@ def test_the_same_curve_sampled_coarser_gives_the_same_answer() -> None:
     # the corners at 20000 s and 40000 s lie between coarse samples; the rest runs straight
     assert not corners.any()
     assert np.max(np.abs(coarse - lag(u, 5400.0, 60.0)[::10])) < 0.01
+
+
+def test_lags_behind_each_other_in_one_pass_are_the_lags_one_by_one() -> None:
+    u = 3.0 + np.random.default_rng(1).normal(size=500).cumsum()
+    taus = (30.0, 900.0, 9000.0)
+    one_by_one = u
+    for tau in taus:
+        one_by_one = lag(one_by_one, tau, 60.0)
+    assert np.allclose(lags(u, taus, 60.0), one_by_one, rtol=1e-9, atol=1e-12)
+    assert np.array_equal(lags(u, (), 60.0), u)

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import copy
+import json
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 import yaml
+from pydantic import ValidationError
 
 from thermodata.effect.lag import lag
 from thermodata.errors import SpecError, UsageError
@@ -15,6 +18,8 @@ from thermodata.modelling import fit_model
 from thermodata.modelling.score import scores
 from thermodata.modelling.transfer import GivenFunction, given
 from thermodata.plugin import Float1D
+from thermodata.schema.load import parse_model
+from thermodata.schema.model import EffectSpec
 from thermodata.view.dataset import ChannelInfo, Dataset, TestData
 
 from .conftest import Spec
@@ -143,6 +148,60 @@ def test_usable_printed_functions_settle_at_their_gain_at_rest(name: str) -> Non
     t = np.arange(0.0, 12 * f["slowest_tau_h"] * 3600, 60.0)
     settled = function.simulate(t, np.minimum(t / 60.0, 1.0))[-1]
     assert settled == pytest.approx(f["dc_um_per_K"], rel=1e-3)
+
+
+def _as_printed(name: str) -> dict[str, Any]:
+    """fixed: as a model file would read it, with the digits that stand in the paper."""
+    text = yaml.load(PUBLISHED.read_text(), yaml.BaseLoader)
+    group, _, own = name.partition(".")
+    lists = {letter: text[group][own][letter] for letter in "ab"}
+    lines = [f"{letter}{i}: {value}" for letter, values in lists.items() for i, value in enumerate(values)]
+    model = parse_model(
+        "schema: thermodata/model/1\nname: p\ncampaign: c\nresponse: {axis: Z}\n"
+        f"effects: [{{effect: transfer_function, fixed: {{{', '.join(lines)}}}}}]"
+    )
+    return model.effects[0].fixed
+
+
+DISCRETE = sorted(n for n, f in PRINTED.items() if "b" in f)
+
+
+@pytest.mark.parametrize("name", DISCRETE)
+def test_printed_coefficients_are_taken_or_refused_with_the_reason(name: str) -> None:
+    fixed, usable = _as_printed(name), PRINTED[name]["usable"]
+    if usable:
+        function = given(fixed, "p")
+        assert function is not None
+        assert function.gain_at_rest == pytest.approx(PRINTED[name]["dc_um_per_K"], rel=1e-3)
+    else:
+        with pytest.raises(SpecError, match=r"printed digits|not stable") as refusal:
+            given(fixed, "p")
+        assert refusal.value.expected
+        assert refusal.value.got
+        assert "more" in str(refusal.value.hint)
+
+
+def test_nine_of_the_printed_functions_cannot_be_used() -> None:
+    assert (len(DISCRETE), sum(not PRINTED[n]["usable"] for n in DISCRETE)) == (29, 9)
+
+
+def test_zeros_at_the_end_of_a_coefficient_count_and_survive_storing() -> None:
+    short = {"a0": 0.0001, "b0": 1, "b1": -0.9999}
+    with pytest.raises(SpecError, match="printed digits") as refusal:
+        given(short, "p")
+    assert refusal.value.got == "b0 + b1 = 0.0001"
+    lines = "schema: thermodata/model/1\nname: p\ncampaign: c\nresponse: {axis: Z}\neffects:\n"
+    model = parse_model(lines + "  - {effect: transfer_function, fixed: {a0: 0.00010, b0: 1, b1: -0.99990}}")
+    again = type(model).model_validate_json(model.model_dump_json(by_alias=True))
+    for fixed in (model.effects[0].fixed, again.effects[0].fixed, copy.deepcopy(model).effects[0].fixed):
+        function = given(fixed, "p")
+        assert function is not None
+        assert function.gain_at_rest == pytest.approx(1.0)
+    assert again == model
+    plain = model.model_copy(update={"effects": [EffectSpec(effect="static", fixed={"gain": 1.5, "b": 2})]})
+    assert json.loads(plain.model_dump_json(by_alias=True))["effects"][0]["fixed"] == {"gain": 1.5, "b": 2.0}
+    with pytest.raises(ValidationError, match="number"):
+        EffectSpec(effect="static", fixed={"gain": "much"})
 
 
 def test_a_printed_function_whose_digits_make_it_unstable_is_refused() -> None:

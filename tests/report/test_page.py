@@ -6,14 +6,24 @@ import os
 import re
 from pathlib import Path
 
+import numpy as np
+import pytest
+
+from thermodata.chart import Strip
 from thermodata.report.data import ReportData
-from thermodata.report.page import headline, render
+from thermodata.report.error_rows import error_rows, headline_error
+from thermodata.report.figures import part_chart, points_for, residual_scale
+from thermodata.report.glossary import ERRORS
+from thermodata.report.headline import error_sentence, headline
+from thermodata.report.page import render, what_is_left
+
+from .conftest import diagnosis
 
 _FIGURE = re.compile(r'<script type="application/json" id="(\w+)">(.*?)</script>', re.S)
 
 
 def body(page: str) -> str:
-    """The page without plotly.js."""
+    """The page without its script."""
     return page[: page.index("<script>")]
 
 
@@ -28,32 +38,92 @@ def test_a_page_holds_everything_and_asks_the_network_for_nothing(data: ReportDa
     _keep(page, "after")
     assert not re.search(r"<(script|link|img|iframe)[^>]+(src|href)\s*=", body(page))
     assert not re.search(r"url\(\s*['\"]?http", body(page))
-    assert len(page) < 8_000_000
+    assert not re.search(r"\sstyle=|\son\w+=", body(page)), "the policy refuses what is inline"
+    assert len(page) < 400_000
     figures = {key: json.loads(text) for key, text in _FIGURE.findall(page)}
-    assert set(figures) == {"overview", "waterfall", "test0", "test1", "test2"}
-    for text in ("With feed_screw", "day2 1 time", "jump_z", "µm/K", "collinear", "feed_motor:T_motor_Z"):
+    assert set(figures) == {"overview", "test0", "test1", "test2"}
+    for text in ("Missing in dZ was feed_screw", "day2 1 time", "jump_z", "µm/K", "collinear", "feed_motor:T_motor_Z"):
         assert text in body(page)
 
 
-def test_the_headline_says_what_the_added_effect_did(data: ReportData) -> None:
-    assert headline(data) == "With feed_screw the error of dZ falls from 4.24 to 0.942 um (-78 %)"
+def test_the_headline_says_what_was_missing_what_else_it_could_be_and_one_error(data: ReportData) -> None:
+    assert headline(data) == (
+        "Missing in dZ was feed_screw (T_nut_Z), or feed_motor (T_motor_Z); these tests can't tell which"
+    )
+    assert error_sentence(data) == "The error on locked tests falls: 4.60 -> 0.950 um (-79 %)"
 
 
 def test_without_a_parent_the_headline_is_the_verdict(blind: ReportData) -> None:
     _keep(render(blind), "before")
-    assert headline(blind) == "dZ misses feed_screw (T_nut_Z)"
+    assert headline(blind).startswith("dZ misses feed_screw (T_nut_Z), or feed_motor (T_motor_Z)")
+    assert error_sentence(blind) == "The error on locked tests is 4.60 um"
 
 
-def test_weak_spots_are_shaded_in_their_own_test_only(blind: ReportData) -> None:
+def test_every_error_of_a_page_stands_under_its_word_and_one_heads_it(data: ReportData) -> None:
+    rows = {r.word: (r.before, r.after) for r in error_rows(data)}
+    assert list(rows) == [w for w in ERRORS if w in rows]
+    assert rows["locked"] == (4.6, 0.95)
+    assert rows["left-out"] == (4.2, 0.9)
+    assert rows["verification"] == pytest.approx((4.6, 1.1))
+    assert rows["fitted"] == pytest.approx((4.0503, 0.8515), abs=1e-3)
+    text = body(render(data))
+    for word in rows:
+        assert ERRORS[word] in text
+    assert text.count('<tr class="head">') == 1
+
+
+def test_verification_tests_that_helped_to_choose_are_no_test_any_more(data: ReportData) -> None:
+    scores = [s.model_copy(update={"role": "verification (in-sample)"}) if "ver" in s.role else s for s in data.scores]
+    rows = error_rows(dataclasses.replace(data, scores=scores, reason=None))
+    assert [(r.word, r.tested) for r in rows] == [("verification", False), ("fitted", False)]
+    assert headline_error(rows) == rows[-1], "what the fit has seen says nothing better"
+
+
+def test_an_effect_that_nobody_claims_says_so(data: ReportData) -> None:
+    added = dataclasses.replace(data, reason=diagnosis("none"))
+    assert headline(added) == "feed_screw was added to baseline, and no diagnosis claims it"
+
+
+def test_noise_is_named_with_its_averaging_time_beside_what_is_systematic(data: ReportData) -> None:
+    left = {what: note for what, _, note in what_is_left(data)}
+    assert "between neighbouring means of 30 s" in left["noise"]
+    figures = {what: float(figure) for what, figure, _ in what_is_left(data)}
+    assert figures["of it, in means of 30 min"] < figures["left over in all open tests"]
+    limits = part_chart(data.tests[0], [], {}, 0.7, "um", 1200).panels[1].limits  # type: ignore[union-attr]
+    assert limits[0].label == "noise of 30 s means ±0.70\u00a0µm"
+
+
+def test_the_heat_map_keeps_the_scale_of_the_first_version(data: ReportData, blind: ReportData) -> None:
+    figures = dict(_FIGURE.findall(render(dataclasses.replace(data, first=blind.tests))))
+    first, now = json.loads(figures["first"]), json.loads(figures["overview"])
+    assert first["limit"] == now["limit"] == residual_scale([t.residual for t in blind.tests])
+    assert now["limit"] > 3 * residual_scale([t.residual for t in data.tests])
+    assert now["targets"] == ["test0", "test1", "test2"]
+
+
+def test_weak_spots_are_ranked_by_cost_shaded_in_their_own_test_and_lead_there(blind: ReportData) -> None:
     page = render(blind)
     figures = {key: json.loads(text) for key, text in _FIGURE.findall(page)}
-    shaded = {
-        key: [s for s in f["layout"]["shapes"] if s["type"] == "rect" and s["yref"] == "y2 domain"]
-        for key, f in figures.items()
-        if key.startswith("test")
-    }
+    shaded = {k: [s for s in f["spans"] if s["kind"] == "weak"] for k, f in figures.items() if k.startswith("test")}
     assert [len(shaded[k]) for k in ("test0", "test1", "test2")] == [1, 0, 1]
-    assert shaded["test2"][0]["x0"] == 11000 / 3600
+    assert shaded["test2"][0]["from"] == 11000 / 3600
+    assert (shaded["test2"][0]["rank"], shaded["test0"][0]["rank"]) == (1, 2)
+    assert f'data-show="test2" data-from="{11000 / 3600}"' in page
+
+
+def test_a_page_of_many_tests_draws_fewer_points(data: ReportData) -> None:
+    assert points_for(data.tests) == 1200
+    assert points_for(data.tests * 12) < 700
+    assert points_for(data.tests * 1000) == 240
+
+
+def test_states_are_drawn_where_they_change(data: ReportData) -> None:
+    spec = part_chart(data.tests[0], [], {}, None, "um", 1200)
+    (speed,) = (p.series for p in spec.panels if isinstance(p, Strip) and p.series.name == "spindle_speed")
+    assert len(speed.y) < 60
+    hours = np.asarray(speed.x)
+    assert np.interp(hours, np.arange(1680) / 120, data.tests[0].lanes[0].values) == pytest.approx(speed.y, abs=4501)
+    assert (hours[0], hours[-1]) == pytest.approx((0.0, 1679 / 120), abs=0.02), "from the first block to the last"
 
 
 def test_texts_from_data_can_not_break_the_page(data: ReportData) -> None:
@@ -66,4 +136,4 @@ def test_texts_from_data_can_not_break_the_page(data: ReportData) -> None:
 
 def test_a_model_without_tests_or_diagnosis_still_has_a_page(data: ReportData) -> None:
     bare = dataclasses.replace(data, tests=(), scores=[], before=[], versions=(), reason=None, calibrations=())
-    assert "No predictions are stored" in render(bare)
+    assert "No test of this model can be predicted" in render(bare)

@@ -11,6 +11,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from thermodata.chart import Panel
 from thermodata.report.quality.data import TestQuality, Trace
 from thermodata.report.quality.figure import SEVERITY, draw_test, worst_flag
 from thermodata.report.quality.page import headline, render, sentences
@@ -75,26 +76,30 @@ def test_a_picture_a_test_with_marks_lanes_and_gaps(tests: list[TestQuality]) ->
     drawn = figures(render(tests))
     assert set(drawn) == {"test0", "test1"}
     sound, failed = drawn["test0"], drawn["test1"]
-    assert [t["type"] for t in sound["data"]] == ["scatter", "scatter"]
-    marks = [t for t in failed["data"] if t.get("mode") == "markers"]
-    assert [len(t["x"]) for t in marks] == [30]
-    (lanes,) = (t for t in failed["data"] if t["type"] == "heatmap")
-    assert lanes["y"] == ["T_column"]
-    assert [v for v in lanes["z"][0] if v is not None] == [SEVERITY.index(Flag.OFFSET)] * 30
-    bands = [s for s in failed["layout"]["shapes"] if s["type"] == "rect"]
-    assert [(round(s["x0"] * 3600), round(s["x1"] * 3600)) for s in bands] == [(100, 1600)]
+    assert [x["name"] for x in sound["panels"][0]["series"]] == ["T_column", "T_bed"]
+    assert [x["label"] for x in failed["panels"][0]["series"]] == ["T_bed", "T_column"], "each curve has its name"
+    assert [x["colour"] for x in failed["panels"][0]["series"]] == ["quiet", "effect-1"]
+    (marks,) = failed["panels"][0]["marks"]
+    assert len(marks["x"]) == 30
+    assert (marks["reasons"], marks["colours"]) == (["offset"], ["flag-offset"])
+    assert [(r["name"], [x[2:] for x in r["runs"]]) for r in failed["rows"]] == [
+        ("T_column", [["flag-offset", "offset"]])
+    ]
+    assert failed["rows"][0]["runs"][0][:2] == pytest.approx([3000 / 3600, 6000 / 3600], abs=1e-5)
+    bands = [(round(x["from"] * 3600), round(x["to"] * 3600)) for x in failed["spans"] if x["kind"] == "gap"]
+    assert bands == [(100, 1600)]
 
 
 def test_what_dwarfs_the_panel_is_drawn_at_its_edge_with_its_value(tests: list[TestQuality]) -> None:
     far = trace("T_column", bad=slice(10, 12), flag=Flag.OUT_OF_RANGE)
     far.low[10:12] = 850.0
     made = draw_test(dataclasses.replace(tests[0], traces=(far, trace("T_bed"))))
-    low, high = made["layout"]["yaxis"]["range"]
-    (mark,) = (t for t in made["data"] if t.get("mode") == "markers")
-    assert high < 30
-    assert all(low < y < high for y in mark["y"])
-    assert mark["customdata"][0][0] == 850.0
-    assert mark["marker"]["symbol"] == ["triangle-up"] * 2
+    (panel,) = made.panels
+    assert isinstance(panel, Panel)
+    assert panel.range is not None
+    assert panel.range[1] < 30
+    (mark,) = panel.marks
+    assert list(mark.y) == [850.0, 850.0], "what is read is the value; the script draws it at the edge"
 
 
 def test_the_worst_flag_of_a_bin_gives_its_colour() -> None:
@@ -109,3 +114,19 @@ def test_names_from_data_can_not_break_the_page(tests: list[TestQuality]) -> Non
     )
     assert evil not in render([named])
     assert render([])
+
+
+def test_what_is_overruled_is_told_with_its_reason_and_not_counted(tests: list[TestQuality]) -> None:
+    event = {**tests[1].events[1], "detail": "overruled: the bed's heater was on (was: a step of +30.0 K)"}
+    both = [dataclasses.replace(t, test=t.test + x, events=(event,)) for t, x in ((tests[0], "a"), (tests[0], "b"))]
+    assert sentences(both) == ["2 overruled by the campaign file: T_column (day1a, offset): the bed's heater was on."]
+    assert headline(both) == "All of 24\u00a0k samples in 2 tests count"
+    body = render(both)
+    assert "heater was on" in body
+
+
+def test_losses_of_one_cause_are_one_line(tests: list[TestQuality]) -> None:
+    lost = dataclasses.replace(tests[1], losses=tuple(f"raw/day2.tdms, byte {i}: cut" for i in range(40)))
+    body = render([lost])
+    assert "40 times: raw/day2.tdms, byte 0: cut" in body
+    assert "byte 7: cut" not in body

@@ -10,7 +10,9 @@ import pytest
 
 from thermodata.report.collect import _reason
 from thermodata.report.data import ReportData
-from thermodata.report.page import _locked, headline, render
+from thermodata.report.error_rows import error_rows
+from thermodata.report.headline import headline
+from thermodata.report.page import render
 from thermodata.report.verdict import explainable, listed, named, probability, told, verdict_sentence
 from thermodata.schema.result import Candidate, Diagnosis
 
@@ -134,12 +136,12 @@ def test_evidence_is_told_of_all_claims_and_refinements_else_of_the_first() -> N
 def test_a_page_names_all_claims_with_their_probabilities(blind: ReportData) -> None:
     asked = found("effect", [claim("screw"), claim("sun", 0.7), one("mode", refinement=True), one("rest")])
     page = dataclasses.replace(blind, diagnosis=asked)
-    assert headline(page) == "dZ misses screw (T) and sun (T)"
+    assert headline(page) == "dZ misses 1. screw (T); 94 % sure; and 2. sun (T); 70 % sure"
     html = render(page)
     html = html[: html.index("<script>")]
     assert html.count('<span class="badge good">claimed</span>') == 2
     assert html.count('<span class="badge">refines</span>') == 1
-    assert '<td class="n">94\u00a0%</td>' in html.replace("94 %", "94\u00a0%")
+    assert '<td class="n" data-label="probability">94 %</td>' in html
     for effect in ("screw", "sun", "mode"):
         assert f"because of {effect}" in html
     assert "because of rest" not in html
@@ -147,17 +149,17 @@ def test_a_page_names_all_claims_with_their_probabilities(blind: ReportData) -> 
 
 def test_a_page_tells_why_of_each_claim_that_was_added(data: ReportData) -> None:
     asked = found("effect", [claim("screw"), claim("sun", equivalent=["oil:T", "air:T"])])
-    html = render(dataclasses.replace(data, reason=asked))
+    html = render(dataclasses.replace(data, reason=asked, effects=("air", "screw", "sun")))
     assert "screw:T: because of screw." in html
     assert "sun:T: because of sun." in html
-    assert "These tests can&#39;t tell sun:T from oil:T and air:T." in html
+    assert "2. sun (T), or oil (T), or air (T); these tests can&#39;t tell which; 94\u00a0% sure" in html
 
 
 def test_locked_errors_are_those_of_all_claims_only_where_all_were_added(data: ReportData) -> None:
     asked = found("effect", [claim("screw"), claim("sun")])
     both = dataclasses.replace(data, reason=asked, effects=("air", "screw", "sun_2"))
-    assert _locked(both) == (5.0, 2.0)
-    assert _locked(dataclasses.replace(both, effects=("air", "screw", "sunny"))) is None
+    assert {r.word: (r.before, r.after) for r in error_rows(both)}["locked"] == (5.0, 2.0)
+    assert "locked" not in {r.word for r in error_rows(dataclasses.replace(both, effects=("air", "screw", "sunny")))}
 
 
 def test_the_reason_of_a_version_stands_as_far_back_as_its_answer_has_claims() -> None:

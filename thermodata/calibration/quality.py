@@ -11,11 +11,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from thermodata.calibration.quality_limit import clipped, impossible, sentinels
+from thermodata.calibration.quality_step import offset_steps, stood_before
 from thermodata.calibration.quality_time import TimeFlags, time_flags
 from thermodata.calibration.quality_value import (
     RunStats,
     held_runs,
-    offset_steps,
     run_stats,
     spikes,
     true_runs,
@@ -47,13 +47,14 @@ MOST_EVENTS = 2000  # of a channel and flag; `concise` makes fewer of them
 class ColumnInput:
     """A column. values: shape (n,), in the canonical unit (text for a label). flags: those that it already has
     (from the reader and from `calibrate`), kept and reported. range: (low, high) in the canonical unit. at: its place,
-    where it is known."""
+    where it is known. elsewhere: how it reads in other tests, where this one does not tell."""
 
     values: Array
     quantity: str
     flags: Array | None = None
     range: tuple[float, float] | None = None
     at: str | None = None
+    elsewhere: RunStats | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -110,7 +111,7 @@ def _column(
     if name in stats:
         x = np.asarray(column.values, dtype=np.float64)
         others = {k: columns[k].values for k in stats if k != name} if len(stats[name].starts) else {}
-        for start, stop, stuck, why in held_runs(x, t_ns, stats[name], others, stats):
+        for start, stop, stuck, why in held_runs(x, t_ns, stats[name], others, stats, column.elsewhere):
             if (flags[start:stop] & np.uint16(Flag.SATURATED | Flag.OUT_OF_RANGE)).all():
                 continue  # at the end of its range a reading stands still
             flag = Flag.STUCK if stuck else Flag.HELD
@@ -119,9 +120,20 @@ def _column(
         if column.quantity in _INERT:
             events += _mark_spikes(name, x, flags, t_ns, stats[name])
         if column.quantity == "temperature" and not is_at_tool(column.at):
-            for start, stop, size, why in offset_steps(x, t_ns, flags, time.flags, stats[name]):
-                flags[start:stop] |= np.uint16(Flag.OFFSET)
-                events.append(_event(name, "offset", t_ns, start, stop, f"a step of {size:+.1f} K {why}"))
+            for step in list(offset_steps(x, t_ns, flags, time.flags, stats[name])):
+                neighbours = [
+                    np.asarray(columns[k].values, dtype=np.float64)
+                    for k in stats
+                    if k != name and columns[k].quantity == "temperature"
+                ]
+                since = stood_before(x, t_ns, step, stats[name], neighbours)
+                flag, start, stop = (Flag.OFFSET, step.start, step.stop)
+                why = f"a step of {step.size:+.1f} K {step.how}"
+                if since is not None:
+                    flag, start, stop = Flag.HELD, since, step.start
+                    why = f"on one tread, then {why}"
+                flags[start:stop] |= np.uint16(flag)
+                events.append(_event(name, str(flag.name).lower(), t_ns, start, stop, why))
     return flags, _capped(events)
 
 

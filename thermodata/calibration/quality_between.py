@@ -1,100 +1,195 @@
-"""A temperature sensor that fails between two tests: from one day on it reads many kelvin more than its neighbours.
+"""A temperature sensor that fails between two tests, or slowly within one: from one day on it reads many kelvin more
+than its neighbours.
 
 Within a test such a sensor looks sound. Its difference from the median of all other temperatures gives it away: it
 lies beyond all that was seen before, in every later test and throughout, even at the start of a test before which the
-machine stood long enough for its parts to level out.
+machine had levelled out. Where it drifted there, the drift is flagged with it.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
-from itertools import accumulate
+from dataclasses import dataclass, field
 
 import numpy as np
 
-from thermodata.plugin import Array, Bool1D, Float1D, Float2D
+from thermodata.plugin import Array, Bool1D, Float1D, Float2D, Int1D
 
-POINTS = 24  # of a test, evenly spread over it
+POINTS = 32  # of a test, evenly spread over it
 _LEAST_K = 8.0
+_LEAVES_K = 2.0  # a drift begins where it leaves by more what was usual, and does not come back
 _RESTED_S = 4 * 3600.0  # bearings and motors cool in one to two hours
+_LEVEL_K = 2.0  # four of five others within so much of their median: without a clock, a machine at rest
+_LEVEL_SHARE = 0.8
+_FOLLOWS_SHARE = (
+    0.6  # of the others suffices in two tests and more, where the sensor does as before, but for a constant
+)
+_FOLLOWS_K = 2.0
+_SET_POINTS, _SET_APART_K = 4, 5.0
 _LEAST_OTHERS = 3
+_UNTOLD: tuple[Float1D, Float1D] = np.empty(0), np.empty(0)
+_LEAST_BEFORE = 3  # points, or nobody knows what was usual
+
+
+@dataclass(frozen=True, slots=True)
+class Course:
+    """A channel at a few moments of a test. t_s, values: shape (n,), in time order; NaN where nothing valid is. off:
+    shape (n,), where it is flagged as off already."""
+
+    t_s: Float1D
+    values: Float1D
+    quantity: str = "temperature"
+    off: Bool1D | None = None
+
+    @property
+    def sound(self) -> Float1D:
+        """The values, NaN where it is off."""
+        return self.values if self.off is None else np.where(self.off, np.nan, self.values)
 
 
 @dataclass(frozen=True, slots=True)
 class Levels:
-    """Temperatures of a test at POINTS moments; channel -> shape (POINTS,), degC, NaN where nothing valid is."""
+    """What a test's channels were like. start_s: on the absolute clock [s]; None where the test has none. pauses:
+    (from, to) [s] of the test in which nothing was logged."""
 
     test: str
-    start_s: float
-    end_s: float
-    series: Mapping[str, Float1D]
+    start_s: float | None
+    end_s: float | None
+    series: Mapping[str, Course]
+    pauses: Sequence[tuple[float, float]] = field(default=())
 
 
-def offsets_between_tests(tests: Sequence[Levels]) -> dict[tuple[str, str], float]:
-    """(test, channel) -> by how much the channel is off [K], for every test from the failure on.
+@dataclass(frozen=True, slots=True)
+class Off:
+    """By how much a sensor is off [K] in a test, and from when on [s]; None: throughout."""
 
-    start_s, end_s: on one absolute clock [s]. A channel needs three others to be compared with. Nothing is said where
-    no later test began after a rest, for then a part that stays hot would look the same.
+    size: float
+    since_s: float | None = None
+
+
+def offsets_between_tests(tests: Sequence[Levels]) -> dict[tuple[str, str], Off]:
+    """(test, channel) -> by how much the channel is off, for every test from the failure on.
+
+    tests: in the order of the campaign file, which counts where one of them has no absolute clock; else their clocks
+    do. A channel needs three others to be compared with. Nothing is said where no later test began with a machine
+    that had levelled out (after a rest of 4 h, or without clocks, with most temperatures alike), for then a part that
+    stays hot would look the same.
     """
-    ordered = sorted(tests, key=lambda t: t.start_s)
-    ends = accumulate((t.end_s for t in ordered), max)
-    rested = [False] * bool(ordered) + [t.start_s - end >= _RESTED_S for t, end in zip(ordered[1:], ends, strict=False)]
-    offsets: dict[tuple[str, str], float] = {}
-    for channel, spans in _differences(ordered).items():
-        told = np.flatnonzero(np.isfinite(spans[:, 0]))
-        change = _change(spans[told], np.array(rested, bool)[told])
-        if change is None:
-            continue
-        at, size = change
-        offsets |= {(ordered[i].test, channel): size for i in told[at:]}
+    dated = all(t.start_s is not None and t.end_s is not None for t in tests)
+    ordered = sorted(tests, key=lambda t: t.start_s or 0.0) if dated else list(tests)
+    differences = [_differences(t) for t in ordered]
+    offsets: dict[tuple[str, str], Off] = {}
+    for channel in dict.fromkeys(c for t in ordered for c, x in t.series.items() if x.quantity == "temperature"):
+        spans = [d.get(channel, _UNTOLD) for d in differences]
+        level = [_level(ordered, i, channel, dated) for i in range(len(ordered))]
+        offsets |= _from_the_failure_on(ordered, channel, spans, level)
     return offsets
 
 
-def _differences(tests: Sequence[Levels]) -> dict[str, Float2D]:
-    """Channel -> shape (tests, 3): lowest, highest and median difference [K] from the median of the others; NaN where
-    untold."""
-    spans = {c: np.full((len(tests), 3), np.nan) for c in dict.fromkeys(c for t in tests for c in t.series)}
-    alike: dict[tuple[str, ...], list[int]] = {}
-    for i, test in enumerate(tests):
-        alike.setdefault(tuple(test.series), []).append(i)
-    for names, at in alike.items():
-        stacked = np.array([[tests[i].series[name] for name in names] for i in at])
-        for k, name in enumerate(names):
-            own, others = stacked[:, k], np.delete(stacked, k, axis=1)
-            enough = np.isfinite(own) & (np.isfinite(others).sum(axis=1) >= _LEAST_OTHERS)
-            some = enough.any(axis=1)
-            if not some.any():
-                continue
-            d = np.where(enough, own - _median(others, 1), np.nan)[some]
-            spans[name][np.array(at)[some]] = np.stack(
-                [np.nanmin(d, axis=1), np.nanmax(d, axis=1), _median(d, 1)], axis=1
-            )
-    return spans
+def _level(tests: Sequence[Levels], i: int, channel: str, dated: bool) -> float:
+    """How far a machine had levelled out before a test: the share of other temperatures that begin alike; 1 after a
+    rest, 0 where the clocks tell that there was none."""
+    if dated and i:
+        ends = [t.end_s or 0.0 for t in tests[:i]]
+        return float((tests[i].start_s or 0.0) - max(ends) >= _RESTED_S)
+    first = [
+        float(sound[0])
+        for name, x in tests[i].series.items()
+        if name != channel
+        and x.quantity == "temperature"
+        and len(sound := x.sound[np.isfinite(x.sound)])
+        and not _is_set_point(sound)
+    ]
+    if len(first) < _LEAST_OTHERS:
+        return 0.0
+    return float(np.mean(np.abs(np.array(first) - np.median(first)) <= _LEVEL_K))
 
 
-def _median(values: Array, axis: int) -> Array:
-    """The median of what is finite; NaN where nothing is. numpy's own takes 0.4 ms a call for the few values of a
-    test."""
-    ordered = np.sort(np.where(np.isfinite(values), values, np.nan), axis=axis)  # NaN goes to the end
-    count = np.isfinite(ordered).sum(axis=axis, keepdims=True)
-    low = np.take_along_axis(ordered, np.maximum((count - 1) // 2, 0), axis)
-    high = np.take_along_axis(ordered, np.minimum(count // 2, ordered.shape[axis] - 1), axis)
-    return np.where(count > 0, (low + high) / 2, np.nan).squeeze(axis)
+def _is_set_point(x: Float1D) -> bool:
+    """A few values, far apart: what the machine was told, not what a sensor read."""
+    return len(np.unique(x)) <= _SET_POINTS and float(np.ptp(x)) > _SET_APART_K
 
 
-def _change(spans: Float2D, rested: Bool1D) -> tuple[int, float] | None:
-    """(first test that is off, by how much): where all differences after lie beyond all before. spans: shape (n, 3),
-    nothing of it NaN."""
-    if len(spans) < 2:
-        return None
-    low, high, middle = spans.T
-    # of a split before test i: the extremes of those before it, and from it on
-    up = np.minimum.accumulate(low[::-1])[::-1][1:] - np.maximum.accumulate(high)[:-1]
-    down = np.minimum.accumulate(low)[:-1] - np.maximum.accumulate(high[::-1])[::-1][1:]
-    size = np.maximum(up, down)
-    size[~np.logical_or.accumulate(rested[::-1])[::-1][1:]] = -np.inf
-    split = int(np.argmax(size)) + 1
-    if size[split - 1] <= _LEAST_K:
-        return None
-    return split, float(np.median(middle[split:]) - np.median(middle[:split]))
+def _differences(test: Levels) -> dict[str, tuple[Float1D, Float1D]]:
+    """Channel -> (times, differences [K] from the median of the others), shape (m,)."""
+    known = {n: x for n, x in test.series.items() if x.quantity == "temperature" and np.isfinite(x.sound).any()}
+    if len(known) <= _LEAST_OTHERS:
+        return {}
+    grids: list[Float1D] = []
+    for x in known.values():
+        if not any(np.array_equal(x.t_s, t) for t in grids):
+            grids.append(x.t_s)
+    found: dict[str, tuple[Float1D, Float1D]] = {}
+    for t_s in grids:
+        stacked = np.stack([_at(x, t_s) for x in known.values()])
+        d = stacked - _median_of_others(stacked)
+        for (name, x), row in zip(known.items(), d, strict=True):
+            if np.array_equal(x.t_s, t_s) and np.isfinite(row).any():
+                found[name] = t_s[np.isfinite(row)], row[np.isfinite(row)]
+    return found
+
+
+def _median_of_others(x: Float2D) -> Float2D:
+    """Of each row the median of all other rows, column by column; NaN where these are fewer than three numbers."""
+    order = np.argsort(x, axis=0)  # NaN last
+    ordered, rank = np.take_along_axis(x, order, axis=0), np.argsort(order, axis=0)
+    others = np.isfinite(x).sum(axis=0)[None] - np.isfinite(x)
+
+    def nth(n: Array) -> Float2D:
+        n = n + (n >= rank)
+        return np.take_along_axis(ordered, np.clip(n, 0, len(x) - 1), axis=0)
+
+    median = (nth((others - 1) // 2) + nth(others // 2)) / 2
+    return np.where(np.isfinite(x) & (others >= _LEAST_OTHERS), median, np.nan)
+
+
+def _at(x: Course, t_s: Float1D) -> Float1D:
+    """A course at other times; NaN where its next point lies further away than its points from each other."""
+    if x.t_s is t_s or np.array_equal(x.t_s, t_s):
+        return x.sound
+    sound = np.isfinite(x.sound)
+    near = np.abs(t_s[:, None] - x.t_s[sound][None]).min(axis=1) if sound.any() else np.full(len(t_s), np.inf)
+    apart = float(np.median(np.diff(x.t_s))) if len(x.t_s) > 1 else np.inf
+    return np.where(near <= 1.5 * apart, np.interp(t_s, x.t_s[sound], x.sound[sound]), np.nan)
+
+
+def _from_the_failure_on(
+    tests: Sequence[Levels], channel: str, spans: Sequence[tuple[Float1D, Float1D]], level: Sequence[float]
+) -> dict[tuple[str, str], Off]:
+    d = np.concatenate([x for _, x in spans])
+    of = np.repeat(np.arange(len(spans)), [len(x) for _, x in spans])
+    begin, off = max((_change(sign * d, of, level) for sign in (1.0, -1.0)), key=lambda c: c[1] > 0)
+    if not off or abs(np.median(d[:begin])) > abs(np.median(d[off:])):
+        return {}
+    size = float(np.median(d[off:]) - np.median(d[:begin]))
+    at = int(of[begin])
+    within = begin - int(np.searchsorted(of, at))
+    since = float(spans[at][0][within - 1]) if within else None
+    return {(tests[i].test, channel): Off(size, since if i == at else None) for i in np.unique(of[begin:]).tolist()}
+
+
+def _change(d: Float1D, of: Int1D, level: Sequence[float]) -> tuple[int, int]:
+    """(first point that is off, first one after the drift) where all differences after lie above all before; (0, 0)
+    where none do. d: shape (m,), in order; of: shape (m,), the test of each.
+
+    Between the last sound point and the first one that is off it may drift, within one test.
+    """
+    if len(d) <= _LEAST_BEFORE:
+        return 0, 0
+    highest = np.maximum.accumulate(d)
+    lowest_after = np.minimum.accumulate(d[::-1])[::-1]
+    begins = np.arange(_LEAST_BEFORE, len(d))
+    before = highest[begins - 1]
+    # where it stays beyond the limit from then on; the first point that leaves what was usual for good
+    off = np.searchsorted(lowest_after, before + _LEAST_K, side="right")
+    leaves = lowest_after[begins] > before + _LEAVES_K
+    ok: Bool1D = leaves & (off < len(d))
+    ok &= np.where(off > begins, of[np.clip(off - 1, 0, len(d) - 1)] == of[begins], True)
+    for b, o in zip(begins[ok].tolist(), off[ok].tolist(), strict=True):
+        whole = [i for i in np.unique(of[o:]).tolist() if int(np.searchsorted(of, i)) >= o]
+        if any(level[i] >= _LEVEL_SHARE for i in whole):  # off from its first point on, though the machine had rested
+            return b, o
+        follows = float(np.ptp(d[o:])) <= float(np.ptp(d[:b])) + _FOLLOWS_K
+        if len(whole) > 1 and follows and all(level[i] >= _FOLLOWS_SHARE for i in whole):
+            return b, o
+    return 0, 0

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from thermodata.calibration.quality_value import RunStats, true_runs
+from thermodata.calibration.quality_value import RunStats, is_staircase, true_runs
 from thermodata.plugin import Array, Bool1D, Float1D
 
 # What can be measured in a lab, in canonical units: heaters and cuts are hot, no machine is colder than -60 degC.
@@ -110,7 +110,7 @@ def clipped(x: Float1D, own: RunStats, quantity: str) -> Iterator[tuple[Bool1D, 
     for limit, side in ((float(values.max()), "upper"), (float(values.min()), "lower")):
         at: Bool1D = x == limit
         count = int(at.sum())
-        if count < 10 or limit == 0.0 or count > 0.5 * len(values):
+        if count < 10 or limit == 0.0 or count > 0.5 * len(values) or is_staircase(values, own):
             continue
         starts, stops = true_runs(at)
         creeps = _approach(x, starts, stops) < 20 * own.step

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from thermodata.calibration.tread_noisy import noisy_tread_of
 from thermodata.plugin import Float1D
 
 MOST_ROWS = 20_000  # of a stretch: its middle tells as much
@@ -17,10 +18,18 @@ MOST_RISES = 12  # that a spacing is sought among, the commonest ones
 OFF = 0.05  # of a tread: a value so near to a multiple is on it, by chance one of ten
 ON_TREAD = 0.5  # least share of the standing samples that are on it
 FINER = 0.1  # more than chance: a finer spacing that holds so many more is the tread
+COARSER = 1.5  # than the exact tread, or levels with noise are the same ones, known less exactly
 NEAR, FAR = 10, 1000  # treads from the commonest level that the spacing is fitted over, first and then
 
 
 def tread_of(stretches: Sequence[Float1D]) -> float:
+    """The spacing that a reading moves by at once, in its unit, be it exact or with noise of its own; 0 where it is
+    finer than what it reads. stretches: of one channel, each of shape (n,) and with a zero of its own (a test)."""
+    exact, noisy = exact_tread_of(stretches), noisy_tread_of(stretches)
+    return noisy if noisy > COARSER * exact else exact
+
+
+def exact_tread_of(stretches: Sequence[Float1D]) -> float:
     """The largest common spacing of the values at which a reading stands still, in its unit; 0 where there is none.
 
     stretches: of one channel, each of shape (n,) and with a zero of its own (a test); raw readings, or means over bins:

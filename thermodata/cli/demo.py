@@ -158,10 +158,12 @@ def story(step: Step, folder: Path, hide: str, seed: int) -> dict[str, Any]:
         for claim in claims:
             better = add(store, model, claim.id)
             model, after = better.model, pooled(better.scores)
-        step.line(f"all tests {number(before)} -> {number(after)} um ({change(before, after)})")
+        step.line(
+            f"open tests, which are all fitted by now {number(before)} -> {number(after)} um ({change(before, after)})"
+        )
         a, b = claims[0].locked_rmse_um_before, claims[0].locked_rmse_um_after
         if b is not None:
-            step.line(f"tests that nobody had looked at {number(a)} -> {number(b)} um ({change(a, b)})")
+            step.line(f"locked tests {number(a)} -> {number(b)} um ({change(a, b)})")
     elif found.verdict in ("none", "refine"):
         step.title(6, "add: no cause is missing, so nothing is added")
         for offered in refinements_of(found):
@@ -208,7 +210,7 @@ def summary_text(result: dict[str, Any]) -> str:
         rows.append(("refined by", listed(result["refinements"])))
     if result["equivalents"]:
         rows.append(("not told from", ", ".join(result["equivalents"])))
-    rows.append(("error", pair(result["rmse_um_before"], result["rmse_um_after"])))
+    rows.append(("open tests", pair(result["rmse_um_before"], result["rmse_um_after"])))
     if result["locked_rmse_um_after"] is not None:
         rows.append(("locked tests", pair(result["locked_rmse_um_before"], result["locked_rmse_um_after"])))
     rows += [

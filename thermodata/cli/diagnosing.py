@@ -9,7 +9,8 @@ import click
 from thermodata.cli.common import Session, command, in_units_of
 from thermodata.cli.fitting import resolve, spots_text
 from thermodata.cli.table import table
-from thermodata.report.verdict import explainable, probability, told, verdict_sentence
+from thermodata.report.glossary import explained
+from thermodata.report.verdict import explainable, noise_words, probability, told, verdict_sentence
 from thermodata.report.words import duration, heat_lines, number
 
 if TYPE_CHECKING:
@@ -83,7 +84,8 @@ def times(n: int) -> str:
 
 def diagnosis_text(found: Diagnosis, top: int = 8) -> str:
     """A diagnosis for a person."""
-    figures = [f"residual {number(found.rmse_um)} um", f"noise {number(found.noise_um)} um", explainable(found)]
+    left = f"error on left-out tests {number(found.rmse_um)} um"
+    figures = [left, noise_words(found), explainable(found)]
     parts = [f"{verdict_sentence(found)}\n{', '.join(filter(None, figures))}"]
     if found.candidates:
         parts.append(_candidates_text(found.candidates[:top]))
@@ -94,7 +96,9 @@ def diagnosis_text(found: Diagnosis, top: int = 8) -> str:
         parts.append(
             "artefacts\n"
             + "\n".join(
-                f"  ! {a.kind} in {a.campaign}/{a.test} at {duration(a.at_s)}: {number(a.size_um)} um. {a.why}"
+                f"  ! {a.kind} in {a.campaign}/{a.test}"
+                + ("" if a.size_um is None else f" at {duration(a.at_s)}: {number(a.size_um)} um")
+                + f". {a.why}"
                 for a in found.artefacts
             )
         )
@@ -120,6 +124,7 @@ def diagnosis_text(found: Diagnosis, top: int = 8) -> str:
         )
     if found.next_test:
         parts.append(f"next test: {found.next_test}")
+    parts.append(explained("left-out", *(["locked"] if any(c.locked_rmse_um_after for c in found.candidates) else [])))
     return "\n\n".join(parts)
 
 

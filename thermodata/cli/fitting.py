@@ -10,6 +10,7 @@ import click
 from thermodata.cli.common import Session, command, in_units_of, plain
 from thermodata.cli.table import table
 from thermodata.errors import UsageError
+from thermodata.report.glossary import explained
 from thermodata.report.words import base_role, change, duration, number, pooled
 
 if TYPE_CHECKING:
@@ -27,7 +28,7 @@ def resolve(store: Store, ref: str) -> str:
     from thermodata.store.catalogue.models import find_model
 
     spec = load_model(Path(ref))
-    if not any(e.file for e in spec.effects):  # a file's content is known to the fit only
+    if not any(e.file or e.name for e in spec.effects):  # what these are now is known to the fit only
         try:
             return find_model(store, model_id(spec, load_data(store, spec).data_version)).model
         except UsageError:
@@ -64,14 +65,30 @@ def fit_command(session: Session, model: str) -> None:
 
 @command("compare")
 @click.argument("models", nargs=-1, required=True, metavar="MODEL...")
-def compare_command(session: Session, models: tuple[str, ...]) -> None:
+@click.option("--against", metavar="MODEL", help="Print what papers print: each model's rest against this one's.")
+@click.option(
+    "--layout",
+    type=click.Choice(["text", "markdown", "csv", "latex"]),
+    default="text",
+    help="Of the table that --against prints.",
+)
+def compare_command(session: Session, models: tuple[str, ...], against: str | None, layout: str) -> None:
     """Score models against the measurements.
 
     By test and phase, each MODEL beside the others, and where the first fails.
 
     With several models the JSON is that of the first, with the scores of all, and all of them in "models";
     "weak_spots" has those of the first, by response.
+
+    With --against: peak to valley at first and left, both ways (max - min, |max| + |min|), range, how many times less,
+    percent less than the reference, and the mean row; the JSON is a list of these rows.
     """
+    if against is not None:
+        from thermodata.cli.besides import answer_against
+
+        store = session.store()
+        answer_against(session, store, [resolve(store, m) for m in models], resolve(store, against), layout)
+        return
     from thermodata.modelling.run import compare, load
     from thermodata.report.spots import weak_spots_of
     from thermodata.store.catalogue.models import load_diagnosis
@@ -98,10 +115,13 @@ def compare_command(session: Session, models: tuple[str, ...]) -> None:
 @command("add")
 @click.argument("model")
 @click.argument("candidate")
-def add_command(session: Session, model: str, candidate: str) -> None:
+@click.option("--plain", is_flag=True, help="Add that one effect, with one time constant, and no more.")
+def add_command(session: Session, model: str, candidate: str, plain: bool) -> None:
     """Make a new version of MODEL with an effect more.
 
-    CANDIDATE is its rank or id, as diagnose printed them. Prints the errors before and after.
+    CANDIDATE is its rank or id, as diagnose printed them. Where tests that are left out of the fit want it, the effect
+    and those that MODEL has get a second lag, for a part of a machine answers heat by a quick share and a slow one.
+    Prints the errors before and after.
     """
     from thermodata.cli.progress import counting_line
     from thermodata.modelling.run import add
@@ -109,13 +129,15 @@ def add_command(session: Session, model: str, candidate: str) -> None:
 
     store = session.store()
     with counting_line() as tell, watched(tell):
-        result = add(store, resolve(store, model), candidate)
+        result = add(store, resolve(store, model), candidate, plain=plain)
     session.answer(
         result,
         lambda: in_units_of(
             session, result.response, "\n\n".join([before_after_text(result), fit_text(result, scores=False)])
         ),
     )
+    for note in result.notes:
+        session.say(note)
     worse = made_worse(result)
     if worse is not None:
         session.say(worse)
@@ -204,6 +226,7 @@ def portability_command(session: Session, model: str) -> None:
                 ("ptp_n", "PTP n [um]"),
                 ("ptp_c", "PTP c [um]"),
                 ("verdict", "class"),
+                ("why", "x for"),
             ],
         ),
     )
@@ -294,14 +317,12 @@ def before_after_text(result: FitResult) -> str:
     for role in dict.fromkeys(base_role(row["role"]) for row in rows):
         a, b = pooled(result.before or [], role), pooled(result.scores, role)
         rows.append({"test": "all", "role": role, "before": a, "rmse_um": b, "change": change(a, b)})
-    return table(
-        rows,
-        [
-            ("campaign", "campaign"),
-            ("test", "test"),
-            ("role", "role"),
-            ("before", "before [um]"),
-            ("rmse_um", "after [um]"),
-            ("change", "change"),
-        ],
-    )
+    columns = [
+        ("campaign", "campaign"),
+        ("test", "test"),
+        ("role", "role"),
+        ("before", "before [um]"),
+        ("rmse_um", "after [um]"),
+        ("change", "change"),
+    ]
+    return f"{table(rows, columns)}\n\n{explained('verification', 'fitted')}"

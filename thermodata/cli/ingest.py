@@ -9,6 +9,7 @@ import click
 
 from thermodata.cli.common import Session, command, plain
 from thermodata.cli.table import fields, table
+from thermodata.report.causes import losses_in_words, notes_in_words
 
 
 @command("ingest")
@@ -52,10 +53,20 @@ def ingest_text(summary: dict[str, Any]) -> str:
     ]
     if summary["calibrations"]:
         parts.append(calibrations_text(summary["calibrations"]))
-    for title, key in (("losses", "losses"), ("notes", "notes")):
-        if summary[key]:
-            parts.append(title + "\n" + "\n".join(f"  - {_sentence(item)}" for item in summary[key]))
+    names = {str(x[k]) for x in summary["losses"] for k in ("test", "source") if x.get(k)}
+    for title, lines in (
+        ("losses", losses_in_words(summary["losses"], names)),
+        ("notes", notes_in_words(summary["notes"], names | _heads(summary["notes"]))),
+    ):
+        if lines:
+            parts.append(title + "\n" + "\n".join(f"  - {line}" for line in lines))
     return "\n\n".join(parts)
+
+
+def _heads(notes: list[str]) -> set[str]:
+    """Names of tests and sources that notes begin with: 'day1, daq: ...'."""
+    heads = [n.partition(": ")[0] for n in notes if ": " in n]
+    return {part for head in heads if head.count(",") < 3 for part in head.split(", ") if " " not in part}
 
 
 def calibrations_text(rows: list[dict[str, Any]]) -> str:
@@ -95,9 +106,3 @@ def calibrations_text(rows: list[dict[str, Any]]) -> str:
 
 def _number(value: Any) -> str:
     return f"{value:,}".replace(",", " ") if isinstance(value, int) else str(value)
-
-
-def _sentence(item: Any) -> str:
-    if isinstance(item, dict):
-        return ", ".join(f"{k} {v}" for k, v in item.items() if v is not None)
-    return str(item)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from pathlib import Path
 from typing import Any
 
@@ -16,6 +17,7 @@ from thermodata.report.words import duration
 @command("quality")
 @campaign_option
 @click.option("--events", is_flag=True, help="Each event with its time, not the sums.")
+@click.option("--channels", is_flag=True, help="A row for each test and channel, not for each cause.")
 @click.option(
     "--report",
     "-o",
@@ -23,11 +25,12 @@ from thermodata.report.words import duration
     metavar="FILE",
     help="Write an HTML page with a picture a test.",
 )
-def quality_command(session: Session, campaign: str | None, events: bool, report: Path | None) -> None:
-    """Show what was flagged.
+def quality_command(session: Session, campaign: str | None, events: bool, channels: bool, report: Path | None) -> None:
+    """Show what was flagged, and what was lost.
 
-    Gaps, spikes, saturation, held and stuck values, sensors that stepped, suspect clocks; flagged rows are kept.
-    --report draws it: one self-contained page, each test with its channels and flags over time.
+    Gaps, spikes, saturation, held and stuck values, sensors that stepped, suspect clocks; flagged rows are kept. One
+    cause is one row, with its first place. --json always gives a row for each test and channel. --report draws it: one
+    self-contained page, each test with its channels and flags over time.
     """
     if report is not None:
         from thermodata.report.quality.page import build_quality_report
@@ -35,35 +38,56 @@ def quality_command(session: Session, campaign: str | None, events: bool, report
         page = build_quality_report(session.view(), campaign, report)
         session.answer({"report": str(page), "bytes": page.stat().st_size}, lambda: str(page))
         return
-    rows = rows_of(session, "select * from quality_event", campaign, "campaign, test, source, channel, from_s")
-    if not events:
-        sums: dict[tuple[str, ...], dict[str, Any]] = {}
-        for row in rows:
-            key = tuple(str(row[k]) for k in ("campaign", "test", "source", "channel", "flag"))
-            total = sums.setdefault(
-                key,
-                {
-                    **{k: row[k] for k in ("campaign", "test", "source", "channel", "flag")},
-                    "events": 0,
-                    "n": 0,
-                    "from_s": row["from_s"],
-                    "to_s": row["to_s"],
-                },
-            )
-            total["events"] += 1
-            total["n"] += row["n"] or 0
-            total["to_s"] = max((v for v in (total["to_s"], row["to_s"]) if v is not None), default=None)
-        rows = list(sums.values())
+    from thermodata.report.quality.told import by_cause, by_channel, with_reason
+
+    found = rows_of(session, "select * from quality_event", campaign, "campaign, test, source, channel, from_s")
+    rows = [with_reason(row) for row in found]
+    losses = _losses(session, campaign)
+
+    def text() -> str:
+        parts = []
+        if events or channels:
+            shown = rows if events else by_channel(rows)
+            parts.append(_table(shown, "detail" if events else "events"))
+        elif rows:
+            parts.append(_causes(by_cause(rows)))
+        return "\n\n".join([*(parts if rows else ["nothing was flagged"]), *losses])
+
+    session.answer(rows if events else by_channel(rows), text)
+
+
+def _table(rows: list[dict[str, Any]], last: str) -> str:
     shown = [{**row, "first": duration(row["from_s"]), "last": duration(row["to_s"])} for row in rows]
     columns = [
-        ("campaign", "campaign"),
-        ("test", "test"),
-        ("source", "source"),
-        ("channel", "channel"),
-        ("flag", "flag"),
-        ("n", "samples"),
-        ("first", "from"),
-        ("last", "to"),
+        *((k, k) for k in ("campaign", "test", "source", "channel", "flag")),
+        *(("n", "samples"), ("first", "from"), ("last", "to"), (last, last)),
     ]
-    columns += [("detail", "detail")] if events else [("events", "events")]
-    session.answer(rows, lambda: table(shown, columns) if rows else "nothing was flagged")
+    columns += [("overruled", "overruled")] if last == "events" and any(r["overruled"] for r in rows) else []
+    return table(shown, columns, widest=100)
+
+
+def _causes(rows: list[dict[str, Any]]) -> str:
+    campaigns = len({row["campaign"] for row in rows}) > 1
+    columns = [
+        *([("campaign", "campaign")] if campaigns else []),
+        *(("flag", "flag"), ("n", "samples"), ("events", "events"), ("tests", "tests"), ("channels", "channels")),
+        *(("first", "first"), ("detail", "there")),
+    ]
+    return table(rows, columns, widest=100)
+
+
+def _losses(session: Session, campaign: str | None) -> list[str]:
+    """What could not be read or made, a line a cause."""
+    from thermodata.report.causes import losses_in_words
+
+    query = "select campaign, test, source, source_path, losses, columns from file"
+    found: list[dict[str, Any]] = []
+    for row in rows_of(session, f"select * from ({query} where layer <> 'superseded')", campaign, "test, source"):
+        place = {"test": row["test"] or None, "source": row["source"] or None, "file": row["source_path"]}
+        found += [{**place, **loss} for loss in json.loads(row["losses"] or "[]")]
+        meta = json.loads(row["columns"] or "{}")
+        found += [{**place, "reason": p} for p in (meta.get("problems", []) if isinstance(meta, dict) else [])]
+    once = list({json.dumps(x, sort_keys=True, default=str): x for x in found}.values())
+    names = {str(x[k]) for x in once for k in ("test", "source") if x.get(k)}
+    lines = losses_in_words(once, names)
+    return ["losses\n" + "\n".join(f"  - {line}" for line in lines)] if lines else []

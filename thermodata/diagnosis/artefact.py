@@ -57,6 +57,12 @@ def tread_of_response(problem: Problem) -> float:
     return tread_of([t.values[name][t.valid[name]] for t in tests.values()])
 
 
+def noise_with_treads(problem: Problem) -> float:
+    """What a reading is known to: its noise, or where it stands on treads what rounding to them leaves, which is
+    spread evenly over one."""
+    return max(problem.noise, tread_of_response(problem) / float(np.sqrt(12)))
+
+
 def _steps_in(block: Block, problem: Problem, tread: float, explained: Callable[[int], bool]) -> list[Step]:
     r, t = block.residual, block.t_s
     side = max(4, int(SIDE_S / problem.step_s))

@@ -7,10 +7,11 @@ from dataclasses import replace
 
 import numpy as np
 
+from thermodata.diagnosis.candidates import NOT_DRIVERS
 from thermodata.diagnosis.problem import Block, Problem
 from thermodata.plugin import Float2D
 from thermodata.schema.result import Artefact
-from thermodata.view.dataset import TestData
+from thermodata.view.dataset import Dataset, TestData
 
 SHIFTS_S = (-900.0, -600.0, -450.0, -300.0, -180.0, -120.0, 120.0, 180.0, 300.0, 450.0, 600.0, 900.0)
 MISFIT_TIMES = 3.0  # a fit that leaves this many times what a refit leaves has wrong parameters
@@ -194,6 +195,24 @@ def _fault(kind: str, block: Block, squared: float, why: str) -> Artefact:
         size_um=float(np.sqrt(squared / max(len(block.response), 1))),
         why=why,
     )
+
+
+def faulty_sensors(data: Dataset, response: str) -> list[Artefact]:
+    """Channels whose sensor is judged faulty in a test: they are asked as no driver of a candidate, in any test."""
+    return [
+        Artefact(
+            kind="sensor",
+            campaign=test.campaign,
+            test=test.test,
+            at_s=None,
+            size_um=None,
+            why=f"'{name}' is flagged '{info.faulty}', so it is no driver of a candidate: see thermodata quality, and "
+            "overrule the flag in the campaign file where the reading is sound",
+        )
+        for test in data.tests
+        for name, info in test.channels.items()
+        if info.faulty is not None and name != response and info.quantity not in NOT_DRIVERS
+    ]
 
 
 def wrong_parameters(problem: Problem, now: float, refitted: float, floor: float) -> list[Artefact]:

@@ -9,6 +9,7 @@ A zero-order hold in its place shifts the answer by half a step, which a fit the
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 
 import numpy as np
 
@@ -42,3 +43,17 @@ def lag(u: Float1D, tau_s: float, step_s: float, start: float = 0.0) -> Float1D:
     a, new, old = ramp_coefficients(tau_s, step_s)
     x, _ = lfilter([new, old], [1.0, -a], u, zi=[start - new * u[0]])
     return np.asarray(x, dtype=np.float64)
+
+
+def lags(u: Float1D, taus_s: Sequence[float], step_s: float) -> Float1D:
+    """F_tau1{F_tau2{...u}}, each as `lag` from 0, in one pass: shape (n,) like u. All taus_s [s] above 0."""
+    if len(u) == 0 or not len(taus_s):
+        return np.array(u, dtype=np.float64)
+    from scipy.signal import sosfilt
+
+    sections, state = np.zeros((len(taus_s), 6)), np.zeros((len(taus_s), 2))
+    for section, tau_s in zip(sections, taus_s, strict=True):
+        a, new, old = ramp_coefficients(tau_s, step_s)
+        section[:] = (new, old, 0.0, 1.0, -a, 0.0)
+    state[0, 0] = -sections[0, 0] * u[0]  # every later lag starts on a 0
+    return np.asarray(sosfilt(sections, u, zi=state)[0], dtype=np.float64)

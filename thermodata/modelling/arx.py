@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
+from itertools import pairwise
 from typing import cast
 
 import numpy as np
@@ -12,9 +13,13 @@ from thermodata.errors import SpecError, UsageError
 from thermodata.modelling.bound import BoundResponse, BoundTerm
 from thermodata.modelling.drivers import step_s
 from thermodata.modelling.fitted_response import FittedTerm, fit_mask
+from thermodata.modelling.phases import runs
 from thermodata.modelling.transfer import FreeFunction, GivenFunction
-from thermodata.plugin import Effect
+from thermodata.plugin import Bool1D, Effect
 from thermodata.view.dataset import TestData
+
+FEWEST_IN_A_ROW = 0.5  # of the time between first and last sample
+FEWEST_WINDOWS = 4  # fewer are gaps of a record
 
 
 def placeholder(term: BoundTerm) -> BoundTerm:
@@ -50,6 +55,7 @@ def identify_arx(
         constants = [np.full(len(u), float(j == m)) for m in range(len(tests))]
         good = np.logical_and.reduce([np.roll(mask, k) for k in range(nb + 1)]) & np.isfinite(rest)
         good[:span] = False
+        _refuse_windows(term.id, test, mask, good)
         rows.append(np.column_stack([*past, *constants])[good])
         targets.append(rest[good])
     x, y = np.concatenate(rows), np.concatenate(targets)
@@ -76,3 +82,25 @@ def identify_arx(
     spec = term.spec.model_copy(update={"fixed": {"gain": 1.0}})
     identified = replace(term, effect=cast(Effect, function), spec=spec, _drivers={})
     return replace(bound, terms=tuple(identified if k == i else t for k, t in enumerate(bound.terms)))
+
+
+def _refuse_windows(where: str, test: TestData, mask: Bool1D, good: Bool1D) -> None:
+    """A sample is predicted from the samples just before it. A response that is measured in windows has these only
+    inside of a window, where nothing moves but noise: the function found is one of the noise (FIT -57 in free run)."""
+    rows = np.flatnonzero(mask)
+    if len(rows) < 2:
+        return
+    share = float(good.sum()) / (rows[-1] - rows[0] + 1)
+    windows = runs(mask)
+    if share >= FEWEST_IN_A_ROW or len(windows) < FEWEST_WINDOWS:
+        return
+    step = step_s(test)
+    measured = float(np.median([b - a for a, b in windows])) * step
+    pause = float(np.median([b - a for (_, a), (b, _) in pairwise(windows)])) * step
+    raise UsageError(
+        "ARX needs the response sample after sample, and it was measured in windows",
+        where=f"{where}, test {test.campaign}/{test.test}",
+        expected=f"at least {FEWEST_IN_A_ROW:.0%} of the samples with the ones before them",
+        got=f"{share:.0%}: {len(windows)} windows of about {measured:g} s with pauses of about {pause:g} s",
+        hint="method: oe or varpro, which run freely between the windows",
+    )

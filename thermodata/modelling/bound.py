@@ -3,20 +3,22 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
 from thermodata.errors import unknown_name
-from thermodata.modelling import prediction
+from thermodata.modelling.acting import acting, moved_while
 from thermodata.modelling.drivers import has_drivers, make_drivers
 from thermodata.modelling.lead import columns, with_lead
+from thermodata.modelling.of_tests import OfTests
 from thermodata.modelling.roles import Key
 from thermodata.plugin import Bool1D, Drivers, Effect, Float2D
 from thermodata.schema.model import EffectSpec
 from thermodata.view.dataset import TestData
 
 KEPT_TESTS = 1024  # drivers a term keeps; changed copies of tests count too
+PLACE = "response's place"  # a condition of tests that were copied for each of several responses
 
 
 @dataclass(frozen=True)
@@ -29,7 +31,9 @@ class BoundTerm:
     bindings: Mapping[str, Mapping[str, str]]
     family: str
     only: frozenset[Key] | None = None  # the tests it exists in; None: all
-    calibrate: frozenset[Key] | None = None  # identified on these first, then held
+    calibrate: frozenset[Key] | None = None  # identified on these first
+    seen_at: Mapping[str, str] | None = None  # campaign -> the response that it is identified on first, then held
+    apart: bool = False  # parameters of its own at each place, where several responses are fitted together
     _drivers: dict[int, tuple[TestData, Drivers, tuple[Drivers, int]]] = field(
         default_factory=dict, repr=False, compare=False
     )
@@ -45,9 +49,11 @@ class BoundTerm:
         """Whether the test has what the term reads (a term that does not cover a test needs nothing there)."""
         if not self.covers(test):
             return True
-        if isinstance(self.effect, prediction.Prediction):
+        if self.spec.phases is not None and acting(test, self.spec.phases) is None:
+            return False
+        if isinstance(self.effect, OfTests):
             return self.effect.has(test)
-        return has_drivers(test, self._binding_of(test))
+        return has_drivers(test, self.binding_of(test))
 
     def drivers(self, test: TestData) -> Drivers:
         """What the effect sees of the test."""
@@ -59,7 +65,7 @@ class BoundTerm:
         if kept is None or kept[0] is not test:
             if len(self._drivers) >= KEPT_TESTS:
                 self._drivers.clear()
-            drivers = make_drivers(test, self.effect, self._binding_of(test))
+            drivers = make_drivers(test, self.effect, self.binding_of(test))
             kept = self._drivers[id(test)] = (test, drivers, with_lead(drivers))
         return kept
 
@@ -67,15 +73,18 @@ class BoundTerm:
         """shape (n, gains); zeros where the term does not cover the test."""
         if not self.covers(test):
             return np.zeros((len(test.t_s), len(self.effect.gains)))
-        if isinstance(self.effect, prediction.Prediction):
-            return self.effect.column(test)
-        return columns(self.effect, self._kept(test)[2], params)
+        if isinstance(self.effect, OfTests):
+            found = self.effect.column(test)
+        else:
+            found = columns(self.effect, self._kept(test)[2], params)
+        where = None if self.spec.phases is None else acting(test, self.spec.phases)
+        return found if where is None else moved_while(found, where)
 
     def known(self, test: TestData) -> Bool1D | None:
         """Where all drivers were measured, or nearly; None: everywhere."""
         if not self.covers(test):
             return None
-        if isinstance(self.effect, prediction.Prediction):
+        if isinstance(self.effect, OfTests):
             return np.isfinite(self.effect.column(test)[:, 0])
         if not self.effect.needs:
             return None
@@ -87,25 +96,36 @@ class BoundTerm:
 
     def group(self, test: TestData) -> str:
         """The value that its gain belongs to ('' where one gain serves all)."""
-        by = self.spec.gain_by
-        if by is None:
-            return ""
-        name = by.removeprefix("conditions.")
+        values = [self._value(name, test) for name in self.spec.gains_by]
+        return ", ".join(self.spec.groups.get(v, v) for v in values if v)
+
+    def _value(self, by: str, test: TestData) -> str:
+        if by == "place":
+            return str(test.conditions.get(PLACE, ""))
         if by in ("test", "machine", "campaign"):
             return str(getattr(test, by))
+        name = "tool.id" if by == "tool" and "tool" not in test.conditions else by
         if name not in test.conditions:
             raise unknown_name(
                 "condition",
-                name,
-                [*test.conditions, "test", "machine", "campaign"],
+                by,
+                [*test.conditions, "test", "machine", "campaign", "tool", "place"],
                 where=f"gain_by of effect '{self.id}', test {test.campaign}/{test.test}",
             )
         value = test.conditions[name]
         return f"{value:g}" if isinstance(value, float | int) else str(value)
 
-    def _binding_of(self, test: TestData) -> Mapping[str, str]:
+    def binding_of(self, test: TestData) -> Mapping[str, str]:
+        """role -> channel or expression, as the test's campaign names them."""
         found = self.bindings.get(test.campaign)
         return self.binding if found is None else found
+
+
+def each_group_its_own(term: BoundTerm) -> BoundTerm:
+    """The same term with gains of each group by themselves, where the factor between groups is known."""
+    if not term.spec.one_gain:
+        return term
+    return replace(term, spec=term.spec.model_copy(update={"one_gain": False}))
 
 
 @dataclass(frozen=True)
@@ -117,6 +137,7 @@ class BoundResponse:
     channels: Mapping[str, str]
     terms: tuple[BoundTerm, ...]
     units: Mapping[str, str] = field(default_factory=dict)  # of every channel, by name
+    weights: Mapping[str, float] = field(default_factory=dict)  # test or phase -> weight of its samples; 1 else
 
     def channel_of(self, test: TestData) -> str:
         return self.channels.get(test.campaign, self.name)

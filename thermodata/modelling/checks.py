@@ -8,7 +8,9 @@ from typing import Any
 
 import numpy as np
 
+from thermodata.modelling.bound import each_group_its_own
 from thermodata.modelling.design import Design
+from thermodata.modelling.drivers import names_of
 from thermodata.modelling.fitted_response import FittedResponse, FittedTerm
 from thermodata.modelling.uncertainty import effective_count
 from thermodata.plugin import Float1D, Float2D
@@ -21,12 +23,13 @@ FEWEST = 5.0  # independent samples a parameter
 AT_BOUND = 1e-3  # of the bound, or of the range where that may be zero
 LAGS_APART = 1.5  # ratio of two time constants of one effect
 UNSURE = 1.0  # standard deviation of log(tau) that says nothing
+LOST = 0.2  # of a test's samples, to flags
 RIPPLE = 1.0  # of the prediction within a sample, in the response's unit
 
 
 def checks(response: FittedResponse, tests: Sequence[TestData]) -> dict[str, Any]:
     """{'checks': ..., 'noise': rms of the calibration residual} of a fitted response."""
-    design = Design(response.bound, [t.bound for t in response.terms], tests, response.phases)
+    design = Design(response.bound, [each_group_its_own(t.bound) for t in response.terms], tests, response.phases)
     blocks, names, gains = [], [], list[float]()
     for s, slot in enumerate(design.slots):
         term = response.terms[slot.term]
@@ -42,10 +45,14 @@ def checks(response: FittedResponse, tests: Sequence[TestData]) -> dict[str, Any
     rows = [
         *_samples(residual, design, len(gains) + sum(len(t.effect.params) for t in response.terms)),
         *_conditioning(matrix, names),
+        *_lost(response, tests),
+        *_orders(response),
+        *_warm(design),
     ]
     for term in response.terms:
         rows += [
             *_bounds(term),
+            *_gain_bounds(term),
             *_long(term, tests),
             *_plausible(term),
             *_second_lag(term),
@@ -68,6 +75,31 @@ def _samples(residual: Float1D, design: Design, parameters: int) -> list[Check]:
             + ("" if count >= need else f"; {parameters} parameters want {need:.0f}: add tests"),
         )
     ]
+
+
+def _lost(response: FittedResponse, tests: Sequence[TestData]) -> list[Check]:
+    """Tests of which flags take away more than a fifth, of the response or of a driver."""
+    read = {n for term in response.terms for text in term.binding.values() for n in names_of(text)}
+    rows = []
+    for test in tests:
+        own = response.bound.channel_of(test)
+        named = {n: info for n in (own, *sorted(read - {own})) if (info := test.channels.get(n)) is not None}
+        lost = {n: info.lost for n, info in named.items() if info.lost > LOST}
+        if not lost:
+            continue
+        worst = max(lost, key=lambda n: lost[n])
+        told = ", ".join(f"{100 * share:.0f} % of '{name}'" for name, share in lost.items())
+        rows.append(
+            Check(
+                name=f"lost_to_flags:{test.campaign}/{test.test}",
+                value=lost[worst],
+                threshold=LOST,
+                passed=False,
+                advice=f"{told} does not count in '{test.test}': look at thermodata quality, overrule what is sound, "
+                "or leave the test out",
+            )
+        )
+    return rows
 
 
 def _conditioning(matrix: Float2D, names: list[str]) -> list[Check]:
@@ -115,6 +147,21 @@ def _conditioning(matrix: Float2D, names: list[str]) -> list[Check]:
     return rows
 
 
+def _orders(response: FittedResponse) -> list[Check]:
+    return [
+        Check(
+            name=f"orders:{row.effect}",
+            value=row.fit_left_out,
+            threshold=None,
+            passed=True,
+            advice=f"{row.numerator} over {row.denominator} chosen by FIT on what was left out, of "
+            f"{sum(other.effect == row.effect for other in response.tried)}; thermodata orders shows them all",
+        )
+        for row in response.tried
+        if row.chosen
+    ]
+
+
 def _bounds(term: FittedTerm) -> list[Check]:
     rows = []
     for group, values in term.groups.items():
@@ -137,6 +184,49 @@ def _bounds(term: FittedTerm) -> list[Check]:
                         )
                     )
     return rows
+
+
+def _gain_bounds(term: FittedTerm) -> list[Check]:
+    """A gain that a bound holds: the data want another, and the fit could not say which."""
+    rows = []
+    for group, values in term.groups.items():
+        tag = f"[{group}]" if group else ""
+        for gain in term.effect.gains:
+            spec = term.bound.spec
+            if gain.name in spec.fixed or (gain.name not in spec.bounds and gain.sign == "any"):
+                continue
+            library = {"+": (0.0, np.inf), "-": (-np.inf, 0.0), "any": (-np.inf, np.inf)}[gain.sign]
+            whose = "the model file" if gain.name in spec.bounds else f"the library ({term.effect.name}: {gain.sign})"
+            value = values.gains[gain.name]
+            for end in spec.bounds.get(gain.name, library):
+                if np.isfinite(end) and abs(value - end) <= AT_BOUND * abs(end):
+                    rows.append(
+                        Check(
+                            name=f"at_bound:{term.id}.{gain.name}{tag}",
+                            value=value,
+                            threshold=float(end),
+                            passed=False,
+                            advice=f"held at {end:g} by a bound of {whose}: the data want it beyond; another effect "
+                            "may be behind it, or the bound is wrong",
+                        )
+                    )
+    return rows
+
+
+def _warm(design: Design) -> list[Check]:
+    """Tests that began warm: what faded is left out of the fit, and stands in the scores."""
+    return [
+        Check(
+            name=f"warm_start:{test.campaign}/{test.test}",
+            value=None,
+            threshold=None,
+            passed=True,
+            advice="start_state: warm: how warm each part was is not known; what fades from the start was fitted "
+            "freely, and the free run begins at balance all the same",
+        )
+        for test, free in zip(design.tests, design.nuisance, strict=True)
+        if free.free is not None
+    ]
 
 
 def _long(term: FittedTerm, tests: Sequence[TestData]) -> list[Check]:
@@ -204,8 +294,6 @@ def _ripple(response: FittedResponse, term: FittedTerm, tests: Sequence[TestData
     """What one step of a coarse sensor does to the prediction within a sample."""
     rows = []
     infos = {n: i for t in tests for n, i in t.channels.items()}
-    from thermodata.modelling.drivers import names_of
-
     for role, text in term.binding.items():
         sizes = [infos[n].resolution for n in names_of(text) if n in infos]
         resolution = max((r for r in sizes if r), default=0.0)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 
@@ -13,6 +14,8 @@ from thermodata.modelling.roles import Key
 from thermodata.plugin import Bool1D, Effect, Float1D, Float2D
 from thermodata.schema.result import Check
 from thermodata.view.dataset import TestData
+
+FACTOR = "g"
 
 
 @dataclass(frozen=True)
@@ -25,6 +28,7 @@ class Values:
     sd: Mapping[str, float] = field(default_factory=dict)
     log_names: frozenset[str] = frozenset()
     silent: frozenset[str] = frozenset()  # params that change nothing with these drivers
+    factor: float = 1.0  # that the gains hold, where the groups differ by one factor
 
 
 @dataclass(frozen=True)
@@ -33,7 +37,8 @@ class FittedTerm:
 
     bound: BoundTerm
     groups: Mapping[str, Values]
-    held: bool = False  # identified on its own tests, then held
+    held: bool = False  # identified first, then held
+    alone: Mapping[str, Values] | None = None  # groups as found on its own tests, before all were refined together
 
     @property
     def id(self) -> str:
@@ -66,7 +71,7 @@ class FittedTerm:
 
     def values(self, test: TestData) -> Values | None:
         """What applies to a test; None where its group was in no calibration test."""
-        return self.groups.get(self.bound.group(test)) if self.bound.spec.gain_by else self.groups.get("")
+        return self.groups.get(self.bound.group(test))
 
     def columns(self, test: TestData) -> Float2D:
         """The effect's basis at the fitted parameters, shape (n, gains), not centred, not masked."""
@@ -83,9 +88,18 @@ class FittedTerm:
 
     def can_predict(self, test: TestData) -> bool:
         """A gain a test (gain_by: test) is nothing to an unseen test; any other unknown group is a refusal."""
+        return self.why_not(test) is None
+
+    def why_not(self, test: TestData) -> str | None:
+        """What the term lacks to predict a test; None where it can."""
         if not self.bound.covers(test):
-            return True
-        return self.bound.has(test) and (self.bound.spec.gain_by == "test" or self.values(test) is not None)
+            return None
+        if not self.bound.has(test):
+            needs = ", ".join(self.bound.binding_of(test).values())
+            return f"no driver for {self.id}" + (f" ({needs})" if needs else "")
+        if self.bound.spec.gains_by == ("test",) or self.values(test) is not None:
+            return None
+        return f"no calibration test gave {self.id} a gain for '{self.bound.group(test)}'"
 
 
 @dataclass(frozen=True)
@@ -98,6 +112,7 @@ class FittedResponse:
     calibrate: frozenset[Key]
     checks: tuple[Check, ...] = ()
     noise: float | None = None  # rms of the calibration residual
+    tried: tuple[Any, ...] = ()  # orders.Tried: what was chosen from, where the file left orders open
 
     @property
     def name(self) -> str:
@@ -109,7 +124,13 @@ class FittedResponse:
 
     def can_predict(self, test: TestData) -> bool:
         """Whether the test has the response, every driver, and a gain for its group."""
-        return has_response(self.bound, test) and all(term.can_predict(test) for term in self.terms)
+        return self.why_not(test) is None
+
+    def why_not(self, test: TestData) -> str | None:
+        """Why the test can't be predicted; None where it can."""
+        if not has_response(self.bound, test):
+            return f"no '{self.bound.channel_of(test)}'"
+        return next((why for term in self.terms if (why := term.why_not(test)) is not None), None)
 
     def predict(self, test: TestData) -> Float1D:
         """Free-run simulation: the sum of the contributions, without an offset."""

@@ -1,17 +1,22 @@
-"""Orders of a transfer function that the model file leaves open: by free-run FIT, the fewest that do as well."""
+"""Orders of a transfer function that the model file leaves open: by FIT on left-out tests, the fewest that do as well.
+
+FIT on the tests that were fitted rises with every coefficient, and says nothing of an unseen test.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
-from dataclasses import replace
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import asdict, dataclass, replace
 from itertools import pairwise
-from typing import cast
+from typing import Any, cast
 
 import numpy as np
 
-from thermodata.errors import UsageError
+from thermodata.errors import SpecError, UsageError
 from thermodata.modelling.bound import BoundResponse, BoundTerm
-from thermodata.modelling.fitted_response import FittedResponse
+from thermodata.modelling.coarse import coarse_tests
+from thermodata.modelling.fitted_response import FittedResponse, FittedTerm, fit_mask
+from thermodata.modelling.left_out import folds, left_out_fit
 from thermodata.modelling.score import fit_percent
 from thermodata.modelling.transfer import MOST, NAME, FreeFunction
 from thermodata.plugin import Effect
@@ -20,7 +25,37 @@ from thermodata.view.dataset import TestData
 AS_GOOD = 0.5  # points of FIT
 APART = 1.5  # ratio of two time constants
 SURE = 0.7  # standard deviation of log(tau)
-Fit = Callable[[BoundResponse], FittedResponse]
+Near = Mapping[int, FittedTerm] | None
+Identify = Callable[[BoundResponse, Sequence[TestData], Near, bool], FittedResponse]
+
+
+@dataclass(frozen=True)
+class Tried:
+    """Orders that were tried. fit_left_out, fit_worst: FIT [%] on tests (or parts of the one test) left out, all
+    together and the worst; fit_calibration: on those that were fitted. why: what speaks against them, or None."""
+
+    response: str
+    effect: str
+    method: str
+    numerator: int
+    denominator: int
+    fit_left_out: float | None
+    fit_worst: float | None
+    fit_calibration: float | None
+    chosen: bool = False
+    why: str | None = None
+
+    def to_json(self) -> dict[str, Any]:
+        return asdict(self)
+
+
+@dataclass(frozen=True)
+class Choice:
+    """bound: with the orders set; near: where a search may start; table: every order that was tried."""
+
+    bound: BoundResponse
+    near: Near
+    table: tuple[Tried, ...]
 
 
 def open_orders(bound: BoundResponse) -> list[int]:
@@ -32,31 +67,65 @@ def open_orders(bound: BoundResponse) -> list[int]:
     ]
 
 
-def choose_orders(bound: BoundResponse, i: int, tests: Sequence[TestData], fit: Fit) -> BoundResponse:
-    """The response with the orders of term i set. fit: fits a response with uncertainty.
+def choose_orders(
+    bound: BoundResponse,
+    i: int,
+    tests: Sequence[TestData],
+    wanted: tuple[str, ...] | None,
+    identify: Identify,
+) -> Choice:
+    """Set the orders of term i. identify: fits a response to some tests (near a point, with uncertainty or without).
 
-    varpro: one lag more only while all lags are apart, inside their bounds and known (a third lag that the data
-    can't identify is refused). oe and arx: 1-4 x 1-4, unstable functions left out.
+    varpro: 1 to 4 lags, alone and with a direct term, as long as all are apart, inside their bounds and known (a third
+    lag that the data can't identify is refused). oe and arx: 1-4 x 1-4, unstable functions left out. Lags need no
+    sample after sample, so that oe and varpro are tried on means of neighbours where there are many samples.
     """
-    if (bound.terms[i].spec.method or "varpro") == "varpro":
-        best = bound
-        for count in range(1, MOST + 1):
-            trial = with_orders(bound, i, (count, count))
-            if count > 1 and not _identified(fit(trial), i):
-                break
-            best = trial
-        return best
-    tried: list[tuple[float, int, BoundResponse]] = []
-    for orders in _pairs():
+    term = bound.terms[i]
+    method = term.spec.method or "varpro"
+    some = list(tests) if method == "arx" else coarse_tests(tests, wanted)
+    channel_of = bound.channel_of
+    found = folds(some, channel_of, lambda t: fit_mask(bound, list(bound.terms), wanted, t))
+    rows: list[tuple[Tried, BoundResponse, FittedResponse | None]] = []
+    reasons: list[UsageError] = []
+    last: FittedResponse | None = None
+    for orders in _pairs(method):
         trial = with_orders(bound, i, orders)
+        row = Tried(bound.name, term.id, method, *orders, None, None, None)
         try:
-            tried.append((free_run_fit(fit(trial), tests), sum(orders), trial))
-        except UsageError:  # not stable
-            continue
-    if not tried:
-        raise UsageError("no order from 1 to 4 gives a stable function", where=bound.terms[i].id, hint="method: varpro")
-    top = max(score for score, _, _ in tried)
-    return min((t for t in tried if t[0] >= top - AS_GOOD), key=lambda t: (t[1], -t[0]))[2]
+            same_lags = last is not None and orders[0] > 1 and method == "oe"
+            full = identify(trial, some, _near(bound, last) if same_lags else None, method == "varpro")
+            last = full
+            start = None if method == "arx" else _near(trial, full)
+            total, worst = left_out_fit(
+                found,
+                lambda train, b=trial, near=start: identify(b, train, near, False),  # type: ignore[misc]
+            )
+            row = replace(
+                row,
+                fit_left_out=_finite(total),
+                fit_worst=_finite(worst),
+                fit_calibration=_finite(free_run_fit(full, some)),
+                why=_unidentified(full, i) if method == "varpro" and orders != (1, 1) else None,
+            )
+            rows.append((row, trial, full))
+        except (UsageError, SpecError) as error:
+            reasons.append(error if isinstance(error, UsageError) else UsageError(error.what, where=term.id))
+            rows.append((replace(row, why=error.what), trial, None))
+            last = None
+        if method == "varpro" and orders[0] > orders[1] and rows[-1][0].why and rows[-2][0].why:
+            break
+    good = [r for r in rows if r[0].why is None]
+    if not good:
+        raise reasons[0]
+    scored = [r for r in good if r[0].fit_left_out is not None] or good[:1]
+    top = max(_number(r[0].fit_left_out) for r in scored)
+    best = min(
+        (r for r in scored if _number(r[0].fit_left_out) >= top - AS_GOOD),
+        key=lambda r: (r[0].numerator + r[0].denominator, -_number(r[0].fit_left_out)),
+    )
+    table = tuple(replace(r[0], chosen=r is best) for r in rows)
+    full = cast(FittedResponse, best[2])
+    return Choice(best[1], None if method == "arx" else _near(best[1], full), table)
 
 
 def with_orders(bound: BoundResponse, i: int, orders: tuple[int, int]) -> BoundResponse:
@@ -82,17 +151,36 @@ def free_run_fit(response: FittedResponse, tests: Sequence[TestData]) -> float:
     return -np.inf if fit is None else fit
 
 
-def _pairs() -> Iterator[tuple[int, int]]:
-    for numerator in range(1, MOST + 1):
-        for denominator in range(1, MOST + 1):
+def _pairs(method: str) -> Iterator[tuple[int, int]]:
+    for denominator in range(1, MOST + 1):
+        for numerator in range(1, MOST + 1) if method != "varpro" else (denominator, denominator + 1):
             yield numerator, denominator
 
 
-def _identified(response: FittedResponse, i: int) -> bool:
-    term = response.terms[i]
+def _near(bound: BoundResponse, full: FittedResponse | None) -> Near:
+    """Terms by their place in the response; None where there is nothing to start from."""
+    if full is None:
+        return None
+    places = {term.id: i for i, term in enumerate(bound.terms)}
+    return {places[term.id]: term for term in full.terms}
+
+
+def _unidentified(response: FittedResponse, i: int) -> str | None:
+    term = next(t for t in response.terms if t.id == response.bound.terms[i].id)
     taus = sorted((term.params[p.name], p.name) for p in term.effect.params)
-    apart = all(b[0] > APART * a[0] for a, b in pairwise(taus))
+    if any(b[0] <= APART * a[0] for a, b in pairwise(taus)):
+        return "two lags are one"
     # a time constant at its bound has no deviation
-    sure = all(term.sd.get(name, np.inf) < SURE for _, name in taus)
-    weighty = all(abs(term.gains[g.name]) > 2 * term.sd.get(g.name, np.inf) for g in term.effect.gains)
-    return apart and sure and weighty
+    if any(term.sd.get(name, np.inf) >= SURE for _, name in taus):
+        return "a time constant that these tests do not tell"
+    if any(abs(term.gains[g.name]) <= 2 * term.sd.get(g.name, np.inf) for g in term.effect.gains):
+        return "a lag without a gain"
+    return None
+
+
+def _finite(value: float) -> float | None:
+    return float(value) if np.isfinite(value) else None
+
+
+def _number(value: float | None) -> float:
+    return -np.inf if value is None else value

@@ -6,7 +6,7 @@ import math
 from collections.abc import Sequence
 
 from thermodata.calibration.expression import parse
-from thermodata.modelling.fitted_response import FittedResponse, FittedTerm, Values
+from thermodata.modelling.fitted_response import FACTOR, FittedResponse, FittedTerm, Values
 from thermodata.schema.result import Parameter
 
 Z95 = 1.96
@@ -26,19 +26,24 @@ def term_parameters(response: FittedResponse, term: FittedTerm) -> dict[str, Par
     """'effect.parameter' of one term; parameters that groups share appear once."""
     by_name: dict[str, Parameter] = {}
     for group, values in term.groups.items():
-        tag = f"[{group}]" if term.bound.spec.gain_by else ""
+        tag = f"[{group}]" if group else ""
         own = {
             p.name
             for p in term.effect.params
-            if term.bound.spec.gain_by and term.bound.spec.shared and p.name not in term.bound.spec.shared
+            if tag and term.bound.spec.shared and p.name not in term.bound.spec.shared
         }
         for param in term.effect.params:
             if param.name in values.silent:
                 continue
             name = f"{term.id}.{param.name}{tag if param.name in own else ''}"
             by_name.setdefault(name, _parameter(values.params[param.name], param.unit, param.name, values))
+        if term.bound.spec.one_gain:
+            by_name[f"{term.id}.{FACTOR}{tag}"] = _parameter(values.factor, "1", FACTOR, values)
+            tag = ""
         for gain in term.effect.gains:
             unit = gain_unit(response, term, gain.unit)
+            if f"{term.id}.{gain.name}{tag}" in by_name and term.bound.spec.one_gain:
+                continue
             by_name[f"{term.id}.{gain.name}{tag}"] = _parameter(values.gains[gain.name], unit, gain.name, values)
     return by_name
 

@@ -60,6 +60,11 @@ def activity(test: TestData) -> Bool1D | None:
     return working
 
 
+def activity_is_known(test: TestData) -> bool:
+    """Whether a channel tells when the machine works, even if it never does."""
+    return any(info.quantity in _ACTIVITY and name in test.values for name, info in test.channels.items())
+
+
 def runs(mask: Bool1D) -> list[tuple[int, int]]:
     """[from, to) of each run of True."""
     edges = np.flatnonzero(np.diff(np.concatenate([[False], mask, [False]]).astype(np.int8)))

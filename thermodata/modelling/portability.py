@@ -9,47 +9,54 @@ from typing import Literal
 import numpy as np
 
 from thermodata.modelling.fitted import FittedModel
-from thermodata.modelling.fitted_response import FittedResponse
+from thermodata.modelling.fitted_response import FittedResponse, has_response
 from thermodata.modelling.phases import phases
 from thermodata.modelling.score import fit_percent, peak_sum
 from thermodata.plugin import Bool1D, Float1D
 from thermodata.view.dataset import Dataset, TestData
 
-Verdict = Literal["portable", "with_correction", "not_portable"]
+Verdict = Literal["portable", "with_correction", "not_portable", "x"]
 END_S = 1800.0  # the end of heating is a mean over this long
 
 
 @dataclass(frozen=True)
 class Portability:
     """One test. g: least squares; g_end: from the end of heating (one point: noisier). fit_* [%], ptp_* [response's
-    unit] as printed in [straka2021] (|max| + |min|): measured, residual without (n) and with (c) the gain."""
+    unit] as printed in [straka2021] (|max| + |min|): measured, residual without (n) and with (c) the gain. verdict "x"
+    where it can't be predicted, for a sensor is missing on that machine: `why` says which."""
 
     campaign: str
     test: str
     machine: str
     role: str
     response: str
-    g: float | None
-    g_end: float | None
-    fit_n: float | None
-    fit_c: float | None
-    ptp_measured: float
-    ptp_n: float
-    ptp_c: float
-    verdict: Verdict
+    g: float | None = None
+    g_end: float | None = None
+    fit_n: float | None = None
+    fit_c: float | None = None
+    ptp_measured: float | None = None
+    ptp_n: float | None = None
+    ptp_c: float | None = None
+    verdict: Verdict = "x"
+    why: str | None = None
 
     def to_json(self) -> dict[str, object]:
         return asdict(self)
 
 
 def portability(fitted: FittedModel, data: Dataset, *, locked: bool = False) -> list[Portability]:
-    """A row a test and response, over all tests that the model can predict, of whatever role (locked only if asked)."""
-    rows = []
+    """A row a test and response, over all tests that have the response, of whatever role (locked only if asked)."""
+    rows: list[Portability] = []
     for test in data.tests:
         role = fitted.roles.role(test.key)
         if role == "locked" and not locked:
             continue
-        rows += [_carry(r, test, role) for r in fitted.responses if r.can_predict(test) and r.mask(test).any()]
+        for response in fitted.responses:
+            why = response.why_not(test)
+            if why is not None and has_response(response.bound, test):
+                rows.append(Portability(test.campaign, test.test, test.machine, role, response.name, why=why))
+            elif why is None and response.mask(test).any():
+                rows.append(_carry(response, test, role))
     return rows
 
 

@@ -9,22 +9,21 @@ from pathlib import Path
 import numpy as np
 
 from thermodata.errors import SpecError, nearest
-from thermodata.plugin import Drivers, Float1D, Float2D, Gain, Need, Param
+from thermodata.modelling.of_tests import OfTests
+from thermodata.plugin import Float1D, Float2D, Gain
 from thermodata.view.dataset import TestData
 
 NAME = "prediction"
 _COLUMNS = ("test", "t_s", "predicted")
 
 
-class Prediction:
+class Prediction(OfTests):
     """Interpolated onto the grid; NaN outside the times that the file covers. Its gain is 1 unless freed."""
 
     name = NAME
     family = "prediction"
     meaning = "what another program predicted"
     source = "the file"
-    needs: tuple[Need, ...] = ()
-    params: tuple[Param, ...] = ()
     gains = (Gain("gain", "1", (0.0, float("inf")), "any", "factor on the prediction"),)
 
     def __init__(self, tables: Mapping[str, tuple[Float1D, Float1D]]) -> None:
@@ -42,9 +41,6 @@ class Prediction:
         out = np.interp(test.t_s, t, y - y[0], left=0.0)
         # past its end a prediction says nothing; a held value would score as if it did
         return np.where(test.t_s <= t[-1], out, np.nan).reshape(-1, 1)
-
-    def basis(self, drivers: Drivers, p: Mapping[str, float]) -> Float2D:
-        raise SpecError("a prediction belongs to tests, it has no drivers")
 
     def _key(self, test: TestData) -> str | None:
         return next((k for k in (f"{test.campaign}/{test.test}", test.test) if k in self.tables), None)

@@ -2,49 +2,88 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from types import SimpleNamespace
-from typing import Any, cast
+from typing import Any, TypeVar, cast
 
 from thermodata.effect import effect as find_effect
 from thermodata.effect.binding import ANY, bindings, family_of
 from thermodata.effect.places import holds
-from thermodata.errors import SpecError, UsageError, unknown_name
-from thermodata.modelling import prediction, transfer
+from thermodata.errors import SpecError, ThermodataError, UsageError, unknown_name
+from thermodata.modelling import nested, prediction, shaped, transfer
 from thermodata.modelling.bound import BoundResponse, BoundTerm
 from thermodata.modelling.drivers import names_of
+from thermodata.modelling.nuisance import known_weights
 from thermodata.modelling.roles import Roles, find_tests, resolve_roles
 from thermodata.plugin import Effect
 from thermodata.schema.model import Driver, EffectSpec, Model, Place, Response
 from thermodata.view.dataset import ChannelInfo, Dataset
 
+Found = TypeVar("Found")
+_OWNED = {
+    "method": transfer.NAME,
+    "orders": transfer.NAME,
+    "file": prediction.NAME,
+    "name": nested.NAME,
+    "gain": nested.NAME,
+}
 
-def resolve(spec: Model, data: Dataset, base: Path | None = None) -> tuple[Roles, tuple[BoundResponse, ...]]:
-    """Everything that the spec names, found. base: folder that `file` of an effect is relative to."""
+
+class MissingChannelError(SpecError):
+    """A campaign has no channel for something: another campaign may have it."""
+
+
+def resolve(
+    spec: Model, data: Dataset, base: Path | None = None, fit_inside: nested.FitInside | None = None
+) -> tuple[Roles, tuple[BoundResponse, ...]]:
+    """Everything that the spec names, found. base: folder that `file` of an effect is relative to; fit_inside: fits a
+    model that the spec holds as an effect to the same data."""
     roles = resolve_roles(spec, data)
     by_campaign = {c: _channels(data, c) for c in dict.fromkeys(t.campaign for t in data.tests)}
+    known_weights(spec, data)
     responses = []
     for response in spec.responses:
-        names = {c: find_response(response, channels, c) for c, channels in by_campaign.items()}
+        names = _response_by_campaign(response, by_campaign)
         first = next(iter(names))
         responses.append(
             BoundResponse(
                 names[first],
                 by_campaign[first][names[first]].unit,
                 names,
-                bind_terms(spec.effects, data, by_campaign, base),
+                bind_terms(spec.effects, data, by_campaign, base, names[first], fit_inside),
                 {n: i.unit for infos in by_campaign.values() for n, i in infos.items()},
+                spec.weights,
             )
         )
     return roles, tuple(responses)
+
+
+def _response_by_campaign(response: Response, by_campaign: Mapping[str, Mapping[str, ChannelInfo]]) -> dict[str, str]:
+    """campaign -> channel. A campaign without the response can't be predicted, and is no error while another has it."""
+    return _where_it_is(by_campaign, lambda campaign, channels: find_response(response, channels, campaign))
+
+
+def _where_it_is(
+    by_campaign: Mapping[str, Mapping[str, ChannelInfo]], find: Callable[[str, Mapping[str, ChannelInfo]], Found]
+) -> dict[str, Found]:
+    found: dict[str, Found] = {}
+    missing: list[ThermodataError] = []
+    for campaign, channels in by_campaign.items():
+        try:
+            found[campaign] = find(campaign, channels)
+        except MissingChannelError as error:
+            missing.append(error)
+    if not found:
+        raise missing[0]
+    return found
 
 
 def find_response(response: Response, channels: Mapping[str, ChannelInfo], campaign: str) -> str:
     """The channel that a response means. Ambiguity is an error that lists the choices."""
     if response.channel is not None:
         if response.channel not in channels:
-            raise unknown_name("channel", response.channel, list(channels), where=f"response, campaign {campaign}")
+            raise _no_channel(response.channel, channels, f"response, campaign {campaign}")
         return response.channel
     moving = {n: i for n, i in channels.items() if i.quantity in ("displacement", "tilt")}
     hits = [
@@ -56,7 +95,7 @@ def find_response(response: Response, channels: Mapping[str, ChannelInfo], campa
     hits = exact or hits
     wanted = f"{{axis: {response.axis}{f', at: {response.at}' if response.at else ''}}}"
     if not hits:
-        raise SpecError(
+        raise MissingChannelError(
             f"no displacement is {wanted}",
             where=f"response, campaign {campaign}",
             expected=", ".join(f"{n} (axis {i.axis}, at {i.at})" for n, i in moving.items())
@@ -77,17 +116,29 @@ def bind_terms(
     data: Dataset,
     by_campaign: Mapping[str, Mapping[str, ChannelInfo]],
     base: Path | None = None,
+    channel: str = "",
+    fit_inside: nested.FitInside | None = None,
 ) -> tuple[BoundTerm, ...]:
     ids = term_ids(effects)
     terms = []
     for name, given in zip(ids, effects, strict=True):
         spec = as_it_was_made(given)
-        effect = make_effect(spec, name, base)
-        bound_by = {
-            c: bind(effect, spec.drivers, channels, f"effect '{name}', campaign {c}")
-            for c, channels in by_campaign.items()
-        }
-        first = next(iter(by_campaign))
+        if spec.effect == nested.NAME:
+            effect: Effect = cast(
+                Effect, nested.model_output(spec, channel, tuple(by_campaign), _fitter(fit_inside), name)
+            )
+        else:
+            effect = make_effect(spec, name, base)
+        if spec.also:
+            effect = cast(Effect, shaped.Shaped(effect, spec.also, f"effect '{name}': also"))
+        bound_by = _where_it_is(
+            by_campaign,
+            lambda c, channels, e=effect, s=spec, n=name: bind(  # type: ignore[misc]
+                e, s.drivers, channels, f"effect '{n}', campaign {c}"
+            ),
+        )
+        first = next(iter(bound_by))
+        seen_at = None if spec.response is None else _response_by_campaign(spec.response, by_campaign)
         only = None if spec.tests is None else frozenset(find_tests(spec.tests, data, f"effect '{name}': tests"))
         calibrate = (
             None
@@ -99,7 +150,7 @@ def bind_terms(
             if key not in known and not (spec.effect == transfer.NAME and transfer.is_coefficient(key)):
                 raise unknown_name("parameter", key, known, where=f"effect '{name}'")
         family = family_of(effect, bound_by[first], by_campaign[first])
-        terms.append(BoundTerm(name, effect, spec, bound_by, family, only, calibrate))
+        terms.append(BoundTerm(name, effect, spec, bound_by, family, only, calibrate, seen_at))
     return tuple(terms)
 
 
@@ -119,7 +170,11 @@ def term_ids(effects: Sequence[EffectSpec]) -> list[str]:
 
 
 def as_it_was_made(spec: EffectSpec) -> EffectSpec:
-    """Another program's prediction is scored as that program made it, unless the model frees its gain."""
+    """Another program's prediction is scored as that program made it, unless the model frees its gain; a model's
+    output takes the gain that stands beside its name."""
+    if spec.effect == nested.NAME:
+        held = {nested.GAIN: float(spec.gain)} if isinstance(spec.gain, float) else {}
+        return spec.model_copy(update={"fixed": {**held, **spec.fixed}})
     freed = "gain" in spec.bounds or "gain" in spec.start or spec.gain_by is not None
     if spec.effect != prediction.NAME or freed or "gain" in spec.fixed:
         return spec
@@ -137,9 +192,9 @@ def make_effect(spec: EffectSpec, where: str, base: Path | None) -> Effect:
         if spec.file is None:
             raise SpecError("an effect 'prediction' needs 'file'", where=where, expected="file: theirs.csv")
         return cast(Effect, prediction.read_prediction((base or Path()) / spec.file))
-    for key in ("method", "orders", "file"):
+    for key, owner in _OWNED.items():
         if getattr(spec, key) is not None:
-            raise SpecError(f"'{key}' belongs to {transfer.NAME} or {prediction.NAME}", where=f"effect '{where}'")
+            raise SpecError(f"'{key}' belongs to {owner}", where=f"effect '{where}'")
     return find_effect(spec.effect)
 
 
@@ -160,7 +215,7 @@ def bind(
         return binding
     choices = bindings(cast(Effect, SimpleNamespace(needs=rest)), channels)
     if not choices:
-        raise SpecError(
+        raise MissingChannelError(
             f"no channel fits what '{effect.name}' needs",
             where=where,
             expected="; ".join(f"{n.role}: {n.quantity} at {' or '.join(n.places) or 'any place'}" for n in rest),
@@ -186,8 +241,9 @@ def _driver(driver: Driver, quantity: str, channels: Mapping[str, ChannelInfo], 
             and (i.quantity == quantity if quantity != ANY else i.quantity not in ("displacement", "label"))
         ]
         if len(hits) != 1:
+            kind = SpecError if hits else MissingChannelError
             places = sorted({i.at for i in channels.values() if i.at})
-            raise SpecError(
+            raise kind(
                 f"{len(hits) or 'no'} channels lie at '{driver.at}'",
                 where=where,
                 expected="one",
@@ -197,8 +253,19 @@ def _driver(driver: Driver, quantity: str, channels: Mapping[str, ChannelInfo], 
         return hits[0]
     for name in names_of(driver):
         if name not in channels:
-            raise unknown_name("channel", name, list(channels), where=where)
+            raise _no_channel(name, channels, where)
     return driver
+
+
+def _no_channel(name: str, channels: Mapping[str, ChannelInfo], where: str) -> MissingChannelError:
+    said = unknown_name("channel", name, list(channels), where=where)
+    return MissingChannelError(said.what, where=said.where, expected=said.expected, got=said.got, hint=said.hint)
+
+
+def _fitter(given: nested.FitInside | None) -> nested.FitInside:
+    if given is None:
+        raise SpecError("a model inside of a model is not fitted here")
+    return given
 
 
 def _channels(data: Dataset, campaign: str) -> dict[str, ChannelInfo]:

@@ -13,15 +13,24 @@ from thermodata.schema.result import Check, FitResult, Score
 from thermodata.view.dataset import Dataset
 
 ID_LENGTH = 12
+# keys of an effect that ids of models without them do not know
+_LATER = frozenset({"response", "phases", "also", "groups", "one_gain", "name", "gain", "inside"})
 
 
 def model_id(spec: Model, data_version: str, base: Path | None = None) -> str:
     """Content-addressed: the spec, the data's version, and the files that the spec names."""
-    text = json.dumps(spec.model_dump(mode="json", by_alias=True), sort_keys=True, ensure_ascii=False)
+    content = spec.model_dump(mode="json", by_alias=True)
+    for effect in content["effects"]:
+        for key in _LATER & effect.keys():
+            if effect[key] is None or effect[key] is False or effect[key] in ({}, []):
+                del effect[key]
+    if not content["weights"]:
+        del content["weights"]
+    text = json.dumps(content, sort_keys=True, ensure_ascii=False)
     digest = hashlib.sha256(f"{text}\n{data_version}".encode())
-    for effect in spec.effects:
-        if effect.file is not None:
-            digest.update(((base or Path()) / effect.file).read_bytes())
+    for given in spec.effects:
+        if given.file is not None:
+            digest.update(((base or Path()) / given.file).read_bytes())
     return digest.hexdigest()[:ID_LENGTH]
 
 
@@ -47,6 +56,21 @@ def make_result(
         response=names[0] if len(names) == 1 else names,
         parameters=fitted.parameters(),
         scores=scores(fitted, data, identity, locked=locked),
-        checks=[*fitted.checks(), *skipped],
+        checks=[*fitted.checks(), *skipped, *_not_predicted(fitted, data, locked)],
         before=before,
     )
+
+
+def _not_predicted(fitted: FittedModel, data: Dataset, locked: bool) -> list[Check]:
+    """Tests of the model that have no score, and why: none vanishes without a word."""
+    said = {why.split(":")[0] for why in fitted.skipped}
+    roles = ("calibration", "verification", *(["locked"] if locked else []))
+    rows = []
+    for test in fitted.tests(data, *roles):
+        name = f"{test.campaign}/{test.test}"
+        reasons = [f"{r.name}: {why}" for r in fitted.responses if (why := r.why_not(test)) is not None]
+        if reasons and name not in said:
+            rows.append(
+                Check(name=f"not_predicted:{name}", value=None, threshold=None, passed=False, advice="; ".join(reasons))
+            )
+    return rows

@@ -8,12 +8,18 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from thermodata.errors import UsageError
+from thermodata.modelling import nested
+from thermodata.modelling.beside import Beside, beside
 from thermodata.modelling.candidate import candidate_spec, with_effect
 from thermodata.modelling.fit import fit_model
 from thermodata.modelling.fitted import FittedModel
+from thermodata.modelling.orders import Tried
 from thermodata.modelling.portability import Portability, portability
+from thermodata.modelling.resolve import term_ids
 from thermodata.modelling.result import make_result, model_id
+from thermodata.modelling.second_lag import with_second_lags
 from thermodata.modelling.table import prediction_tables
+from thermodata.modelling.transfer import NAME
 from thermodata.schema.model import EffectSpec, Model
 from thermodata.schema.result import FitResult, Score
 from thermodata.view.dataset import Dataset
@@ -48,15 +54,23 @@ def load_data(store: Store, spec: Model) -> Dataset:
 
 
 def fit(
-    store: Store, spec: Model, *, base: Path | None = None, parent: str | None = None, before: list[Score] | None = None
+    store: Store,
+    spec: Model,
+    *,
+    base: Path | None = None,
+    parent: str | None = None,
+    before: list[Score] | None = None,
+    **said: list[str],
 ) -> FitResult:
-    """Fit and save. base: the folder of the model file, which `file` of an effect is relative to."""
+    """Fit and save. base: the folder of the model file, which `file` of an effect is relative to. said: `added` and
+    `notes` of the result."""
     from thermodata.store.catalogue.models import save_fit
 
-    spec = _absolute(spec, base)
+    spec = self_contained(store, spec, base)
     data = load_data(store, spec)
     fitted = fit_model(spec, data)
     result = make_result(fitted, data, model_id(spec, data.data_version), parent=parent, before=before)
+    result = result.model_copy(update=said)
     save_fit(
         store,
         spec=spec,
@@ -77,9 +91,27 @@ def compare(store: Store, refs: Sequence[str]) -> list[FitResult]:
     return results
 
 
-def add(store: Store, ref: str, candidate: str | int | EffectSpec) -> FitResult:
-    """A new version with one effect more: a rank or id of the stored diagnosis, or any 'effect:channels'.
-    `before` has the parent's scores."""
+def compare_against(store: Store, refs: Sequence[str], reference: str) -> list[Beside]:
+    """The models beside each other on every open test, each against the reference. UsageError where one of them was
+    fitted to another version of the data: their differences would be those of the data."""
+    from thermodata.store.catalogue.models import find_model
+
+    found = {stored.model: stored for stored in (find_model(store, ref) for ref in (*refs, reference))}
+    if old := [f"{stored.name} ({stored.model})" for stored in found.values() if stored.stale]:
+        raise UsageError(
+            "the models were not fitted to the same version of the data",
+            expected="models of the data as they are now",
+            got=f"before a change: {', '.join(old)}",
+            hint="; ".join(f"thermodata fit {stored.model}" for stored in found.values() if stored.stale),
+        )
+    loaded = [load(store, identity) for identity in found]
+    return beside([(m.identity, m.fitted, m.data) for m in loaded], find_model(store, reference).model)
+
+
+def add(store: Store, ref: str, candidate: str | int | EffectSpec, *, plain: bool = False) -> FitResult:
+    """A new version with one effect more: a rank or id of the stored diagnosis, or any 'effect:channels'; and with
+    second lags where left-out tests want them (`second_lag`). plain: that one effect and no more.
+    `before` has the parent's scores, `added` the ids of what is new, `notes` why."""
     from thermodata.store.catalogue.models import find_model
 
     parent = find_model(store, ref)
@@ -88,7 +120,12 @@ def add(store: Store, ref: str, candidate: str | int | EffectSpec) -> FitResult:
     )
     old = load(store, parent.model)
     before = make_result(old.fitted, old.data, parent.model).scores
-    return fit(store, with_effect(parent.spec, effect), parent=parent.model, before=before)
+    spec, notes = with_effect(parent.spec, effect), list[str]()
+    if not plain:
+        refined = with_second_lags(spec, old.data)
+        spec, notes = refined.spec, refined.notes
+    added = term_ids(spec.effects)[len(parent.spec.effects) :]
+    return fit(store, spec, parent=parent.model, before=before, added=added, notes=notes)
 
 
 def transfer(store: Store, ref: str) -> list[Portability]:
@@ -99,6 +136,28 @@ def transfer(store: Store, ref: str) -> list[Portability]:
     rows = portability(model.fitted, model.data)
     save_findings(store, model.identity, "portability", [(r.campaign, r.test, r.to_json()) for r in rows])
     return rows
+
+
+def orders(store: Store, spec: Model, *, method: str | None = None, base: Path | None = None) -> list[Tried]:
+    """Every order of the model's transfer functions that was tried, whether the file leaves them open or not; nothing
+    is saved. method: in place of the file's. UsageError where the model has no function to identify."""
+    effects = [_with_open_orders(e, method) for e in spec.effects]
+    spec = self_contained(store, spec.model_copy(update={"effects": effects}), base)
+    fitted = fit_model(spec, load_data(store, spec), uncertainty=False)
+    found = [row for response in fitted.responses for row in response.tried]
+    if not found:
+        raise UsageError(
+            f"model '{spec.name}' has no transfer function whose orders could be chosen",
+            expected=f"an effect {{effect: {NAME}, drivers: {{u: ...}}}} without given coefficients",
+            got=", ".join(e.effect for e in spec.effects) or "no effects",
+        )
+    return found
+
+
+def _with_open_orders(effect: EffectSpec, method: str | None) -> EffectSpec:
+    if effect.effect != NAME:
+        return effect
+    return effect.model_copy(update={"orders": None, "method": method or effect.method})
 
 
 def chosen_effect(store: Store, model: str, spec: Model, candidate: str | int) -> EffectSpec:
@@ -121,11 +180,25 @@ def chosen_effect(store: Store, model: str, spec: Model, candidate: str | int) -
     return candidate_spec(name, load_data(store, spec).channels)
 
 
-def _absolute(spec: Model, base: Path | None) -> Model:
-    if not any(e.file for e in spec.effects):
-        return spec
-    effects = [
-        e if e.file is None else e.model_copy(update={"file": str(((base or Path()) / e.file).resolve())})
-        for e in spec.effects
-    ]
+def self_contained(store: Store, spec: Model, base: Path | None = None) -> Model:
+    """The spec with what it names from elsewhere: files by their full path, other models as they are now."""
+    effects = []
+    for effect in spec.effects:
+        if effect.file is not None:
+            effect = effect.model_copy(update={"file": str(((base or Path()) / effect.file).resolve())})
+        if effect.effect == nested.NAME and effect.inside is None and effect.name is not None:
+            inside = _model_named(store, effect.name, base)
+            effect = effect.model_copy(update={"inside": inside.model_dump(mode="json", by_alias=True)})
+        effects.append(effect)
     return spec.model_copy(update={"effects": effects})
+
+
+def _model_named(store: Store, name: str, base: Path | None) -> Model:
+    """A file beside the model's own, or a model of the store."""
+    from thermodata.schema.load import load_model
+    from thermodata.store.catalogue.models import find_model
+
+    path = (base or Path()) / name
+    if name.endswith((".yaml", ".yml")):
+        return self_contained(store, load_model(path), path.parent)
+    return find_model(store, name).spec

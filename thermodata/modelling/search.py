@@ -61,14 +61,20 @@ class Problem:
         return np.array([f.outside(f.start) for f in self.free], dtype=np.float64)
 
 
-def search(problem: Problem, sweep: bool = True) -> Float1D:
-    """The point with the least squared error; shape (free parameters,)."""
-    x = problem.start()
+def search(problem: Problem, start: Float1D | None = None, loose: bool = False) -> Float1D:
+    """The point with the least squared error; shape (free parameters,). start: a point near it, in place of a look
+    over the whole range. loose: near enough to say how good the model is, not what its parameters are."""
+    x = problem.start() if start is None else start
     if not len(x) or not problem.design.n:
         return x
-    if sweep:
-        x = _sweeps(problem, x)
-    return _refine(problem, x)
+    return _refine(problem, _sweeps(problem, x) if start is None else x, loose)
+
+
+def along_whole_range(problem: Problem, x: Float1D, i: int) -> Float1D:
+    """The best point over the range of one parameter, the others as they are; shape (free parameters,)."""
+    f = problem.free[i]
+    points = np.linspace(f.outside(f.lower), f.outside(f.upper), f.points)
+    return _along(problem, x, i, points, np.inf)[0]
 
 
 def _sweeps(problem: Problem, x: Float1D) -> Float1D:
@@ -117,7 +123,7 @@ def _along(problem: Problem, x: Float1D, i: int, points: Float1D, best: float) -
     return out, best
 
 
-def _refine(problem: Problem, x: Float1D) -> Float1D:
+def _refine(problem: Problem, x: Float1D, loose: bool) -> Float1D:
     from scipy.optimize import least_squares
 
     low = np.array([f.outside(f.lower) for f in problem.free])
@@ -131,10 +137,10 @@ def _refine(problem: Problem, x: Float1D) -> Float1D:
         method="trf",
         diff_step=1e-5,
         x_scale=high - low,
-        xtol=1e-7,
-        ftol=1e-9,
+        xtol=1e-4 if loose else 1e-7,
+        ftol=1e-5 if loose else 1e-9,
         gtol=1e-12,
-        max_nfev=60,
+        max_nfev=12 if loose else 60,
     )
     at_x = problem.residual(x)
     return np.asarray(optimum.x) if 2 * optimum.cost <= float(at_x @ at_x) else x

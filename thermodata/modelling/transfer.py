@@ -7,17 +7,21 @@ decimals, its time constants three. Its poles are real, between 0 and 1 (heat fl
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from itertools import pairwise
 
 import numpy as np
 
-from thermodata.effect.lag import lag, step_of
+from thermodata.effect.lag import lag, lags, step_of
+from thermodata.effect.law import Law
 from thermodata.errors import SpecError
+from thermodata.modelling.digits import refuse_lost_digits
+from thermodata.modelling.transfer_law import free_law, given_law
 from thermodata.plugin import Drivers, Float1D, Float2D, Gain, Need, Param
 
 NAME = "transfer_function"
 MOST = 4
+DIRECT = "direct"  # the gain of what follows at once, without a lag
 SOURCE = "[horejs2010], [ljung1999]: y(k) = [a0 u(k) + a1 u(k-1) + ... - b1 y(k-1) - ...] / b0"
 _ANY = (Need("u", "*"),)
 _COEFFICIENT = re.compile(r"^(a|b|num|den)(\d+)$")
@@ -25,16 +29,20 @@ _INF = float("inf")
 
 
 class FreeFunction:
-    """Identified from the data. oe: `orders[0]` numerator and `orders[1]` denominator coefficients;
-    varpro: a sum of `orders[1]` lags. basis: shape (n, len(gains))."""
+    """Identified from the data. oe: `orders[0]` numerator and `orders[1]` denominator coefficients; varpro: a sum of
+    `orders[1]` lags, and beside them what follows at once where `orders[0]` is one more. basis: shape (n, gains)."""
 
     family = "generic"
     source = SOURCE
 
     def __init__(self, method: str, orders: tuple[int, int]) -> None:
-        if not (1 <= orders[0] <= MOST and 1 <= orders[1] <= MOST):
+        most = min(MOST, orders[1]) + 1 if method == "varpro" else MOST
+        if not (1 <= orders[0] <= most and 1 <= orders[1] <= MOST):
             raise SpecError(
-                "orders of a transfer function", expected=f"two whole numbers from 1 to {MOST}", got=str(list(orders))
+                "orders of a transfer function",
+                expected=f"two whole numbers from 1 to {MOST}"
+                + ("; the first is one more than the second for a direct term" if method == "varpro" else ""),
+                got=str(list(orders)),
             )
         self.method, self.orders = method, orders
         self.name, self.needs = NAME, _ANY
@@ -47,6 +55,7 @@ class FreeFunction:
         )
         if method == "varpro":
             gains = [f"gain_{i + 1}" for i in range(orders[1])] if orders[1] > 1 else ["gain"]
+            gains += [DIRECT] if orders[0] > orders[1] else []
         else:
             gains = ["gain"] + [f"lead_{j}" for j in range(1, orders[0])]
         self.gains = tuple(
@@ -57,16 +66,21 @@ class FreeFunction:
         u, step = drivers.values["u"], step_of(drivers)
         taus = [p[param.name] * 60.0 for param in self.params]
         if self.method == "varpro":
-            return np.column_stack([lag(u, t, step) for t in taus])
-        slow = u
-        for t in taus:
-            slow = lag(slow, t, step)
+            direct = [u] if self.orders[0] > self.orders[1] else []
+            return np.column_stack([*(lag(u, t, step) for t in taus), *direct])
         # numerator in powers of the difference operator (1 - 1/q), which spans the same functions as powers
         # of 1/q but leaves the columns apart; each is scaled to the size of the one before
-        columns = [slow]
+        columns = np.empty((len(u), self.orders[0]), order="F")
+        columns[:, 0] = lags(u, taus, step)
         for j in range(1, self.orders[0]):
-            columns.append(np.diff(columns[-1], prepend=columns[-1][0]) * taus[min(j, len(taus)) - 1] / step)
-        return np.column_stack(columns)
+            columns[0, j] = 0.0
+            np.subtract(columns[1:, j - 1], columns[:-1, j - 1], out=columns[1:, j])
+            columns[:, j] *= taus[min(j, len(taus)) - 1] / step
+        return columns
+
+    def law(self, roles: Collection[str], p: Mapping[str, float], step_s: float) -> tuple[Law, ...]:
+        """One formula a gain; see `thermodata.effect.law`."""
+        return free_law(self.method, self.orders, [p[param.name] * 60.0 for param in self.params], step_s)
 
 
 class GivenFunction:
@@ -113,6 +127,10 @@ class GivenFunction:
     def basis(self, drivers: Drivers, p: Mapping[str, float]) -> Float2D:
         return self.simulate(drivers.t_s, drivers.values["u"]).reshape(-1, 1)
 
+    def law(self, roles: Collection[str], p: Mapping[str, float], step_s: float) -> tuple[Law, ...]:
+        """One formula a gain; see `thermodata.effect.law`."""
+        return given_law(self.num, self.den, self.sample_s, self.time_s)
+
     def simulate(self, t_s: Float1D, u: Float1D) -> Float1D:
         """Free run from balance: shape (n,) on the grid t_s [s]."""
         from scipy.signal import cont2discrete, lfilter
@@ -155,8 +173,10 @@ def given(fixed: Mapping[str, float], where: str | None = None) -> GivenFunction
         return GivenFunction(
             _run(lists.get("num", {})), _run(lists.get("den", {})), None, fixed.get("time_s", 1.0), where
         )
-    den = lists.get("b", {})
-    return GivenFunction(_run(lists.get("a", {})), _run({0: 1.0, **den}), fixed.get("sample_s", 1.0), where=where)
+    numerator, denominator = _run(lists.get("a", {})), _run({0: 1.0, **lists.get("b", {})})
+    function = GivenFunction(numerator, denominator, fixed.get("sample_s", 1.0), where=where)
+    refuse_lost_digits(numerator, denominator, fixed.get("sample_s", 1.0), where)
+    return function
 
 
 def is_coefficient(name: str) -> bool:

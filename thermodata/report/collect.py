@@ -1,15 +1,15 @@
-"""Collects a report's data from a store: its tables, the stored predictions, and the tests' operating state."""
+"""Collects a report's data from a store: one fit to its data as they are now, and what its tables say beside it."""
 
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable, Sequence
-from pathlib import Path
+from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 
-from thermodata.plugin import Bool1D, Float1D
+from thermodata.modelling.score import role_of
+from thermodata.plugin import Array, Bool1D, Float1D
 from thermodata.report.data import Curve, ReportData, TestPart, Version
 from thermodata.report.records import written_conditions
 from thermodata.report.spots import weak_spots_of
@@ -19,10 +19,11 @@ from thermodata.schema.model import EffectSpec
 from thermodata.schema.result import Diagnosis, Score
 
 if TYPE_CHECKING:
+    from thermodata.modelling.fitted import FittedModel
     from thermodata.modelling.run import Loaded
     from thermodata.store import Store
     from thermodata.store.catalogue.models import StoredModel
-    from thermodata.view.dataset import TestData
+    from thermodata.view.dataset import Dataset, TestData
 
 _LANES = ("rotational_speed", "feed", "power", "load", "state", "flow")
 _ROLES = ("calibration", "verification", "locked")
@@ -32,17 +33,22 @@ _MOST_LANES, _MOST_DRIVERS = 6, 8
 
 def collect(store: Store, ref: str) -> ReportData:
     """All of a report about a model (id, prefix or name). Opens no locked test."""
+    from thermodata.modelling.result import make_result
     from thermodata.modelling.run import load
+    from thermodata.modelling.seen import see
     from thermodata.store.catalogue.models import find_model, load_diagnosis, model_chain
 
     stored = find_model(store, ref)
     chain = model_chain(store, stored.model)
-    loaded = load(store, stored.model)
+    loaded = load(store, stored.model, uncertainty=True)
     diagnosis = load_diagnosis(store, stored.model)
     reason = _reason([load_diagnosis(store, m.model) for m in chain[:-1]])
     responses = tuple(r.name for r in loaded.fitted.responses)
-    result = stored.result
-    before = result.before or (chain[-2].result.scores if len(chain) > 1 else [])
+    # curves, scores and parameters are of one fit; what was kept may be of data that have changed since
+    result = make_result(loaded.fitted, loaded.data, stored.model)
+    scores = [_scores_today(store, m, loaded) for m in chain[:-1]] + [result.scores]
+    before = scores[-2] if len(chain) > 1 else stored.result.before or []
+    conditions = written_conditions(r["spec"] for r in _rows(store, "select spec from campaign"))
     return ReportData(
         model=stored.model,
         name=stored.name,
@@ -56,15 +62,41 @@ def collect(store: Store, ref: str) -> ReportData:
         scores=_by_role(result.scores),
         checks=result.checks,
         before=before,
-        tests=tuple(_by_role(_tests(store, stored.model, loaded))),
-        versions=versions(chain),
+        tests=tuple(_by_role(_tests(loaded.fitted, loaded.data, conditions))),
+        versions=versions(chain, scores),
         diagnosis=diagnosis,
         reason=reason,
         weak=weak_spots_of(loaded, (reason, diagnosis)),
         calibrations=tuple(_calibrations(store, stored.spec.campaign_ids)),
         looks=_looks(store, [m.model for m in chain]),
+        first=tuple(_by_role(_first(store, chain, loaded))),
         stale=stored.stale,
+        systems=tuple(see(loaded.fitted, loaded.data)),
     )
+
+
+def _refitted(store: Store, version: StoredModel, loaded: Loaded) -> tuple[FittedModel, Dataset]:
+    """A version of the same chain on the data as they are now."""
+    from thermodata.modelling.fit import fit_model
+    from thermodata.modelling.run import load_data
+
+    same = (version.spec.campaign_ids, version.spec.step) == (loaded.fitted.spec.campaign_ids, loaded.fitted.spec.step)
+    data = loaded.data if same else load_data(store, version.spec)
+    return fit_model(version.spec, data, uncertainty=False), data
+
+
+def _scores_today(store: Store, version: StoredModel, loaded: Loaded) -> list[Score]:
+    if not version.stale:
+        return version.result.scores
+    from thermodata.modelling.score import scores
+
+    return scores(*_refitted(store, version, loaded), version.model)
+
+
+def _first(store: Store, chain: Sequence[StoredModel], loaded: Loaded) -> Iterable[TestPart]:
+    """The tests as the chain's first version foretells them; nothing where there is no other version."""
+    if len(chain) > 1:
+        yield from _tests(*_refitted(store, chain[0], loaded), {})
 
 
 def _reason(earlier: Sequence[Diagnosis | None]) -> Diagnosis | None:
@@ -81,8 +113,9 @@ def _by_role(rows: Iterable[Part]) -> list[Part]:
     return sorted(rows, key=lambda r: _ROLES.index(base_role(r.role)) if base_role(r.role) in _ROLES else len(_ROLES))
 
 
-def versions(chain: Sequence[StoredModel]) -> tuple[Version, ...]:
-    """The chain as rows, oldest first, with what each version added to the one before it."""
+def versions(chain: Sequence[StoredModel], scored: Sequence[list[Score]] | None = None) -> tuple[Version, ...]:
+    """The chain as rows, oldest first, with what each version added to the one before it. scored: the scores of each,
+    those that were kept with it where None."""
     from thermodata.modelling.resolve import term_ids
 
     made, known = [], set[str]()
@@ -93,7 +126,7 @@ def versions(chain: Sequence[StoredModel]) -> tuple[Version, ...]:
             if i
             else []
         )
-        scores = m.result.scores
+        scores = scored[i] if scored is not None else m.result.scores
         made.append(
             Version(
                 m.model,
@@ -116,31 +149,33 @@ def _in_words(spec: EffectSpec, term: str) -> str:
     return f"{spec.effect}({', '.join(d if isinstance(d, str) else d.at for d in spec.drivers.values())})"
 
 
-def _tests(store: Store, model: str, loaded: Loaded) -> Iterable[TestPart]:
-    """A part for every stored prediction, in the order of the data."""
-    rows = _rows(store, "select campaign, test, response, path from prediction where model = ?", [model])
-    paths = {(r["campaign"], r["test"], r["response"]): store.path / r["path"] for r in rows}
-    conditions = written_conditions(r["spec"] for r in _rows(store, "select spec from campaign"))
-    drivers = _driver_names(loaded)
-    for test in loaded.data.tests:
-        for response in loaded.fitted.responses:
-            path = paths.get((test.campaign, test.test, response.name))
-            if path is not None and path.is_file():
-                yield _part(
-                    test, response.name, loaded.fitted.roles.role(test.key), path, drivers, conditions.get(test.key, {})
-                )
+def _tests(
+    fitted: FittedModel, data: Dataset, conditions: Mapping[tuple[str, str], dict[str, Any]]
+) -> Iterable[TestPart]:
+    """A part for every open test and response that can be predicted, in the order of the data."""
+    from thermodata.modelling.table import prediction_columns
+
+    drivers = _driver_names(fitted, data)
+    for test in fitted.tests(data):
+        for response in fitted.responses:
+            if response.can_predict(test):
+                columns = prediction_columns(response, test)
+                role = role_of(fitted, test)
+                yield _part(test, response.name, role, columns, drivers, conditions.get(test.key, {}))
 
 
 def _part(
-    test: TestData, response: str, role: str, path: Path, drivers: Sequence[str], conditions: dict[str, Any]
+    test: TestData,
+    response: str,
+    role: str,
+    found: Mapping[str, Array],
+    drivers: Sequence[str],
+    conditions: dict[str, Any],
 ) -> TestPart:
     """One prediction with the state of its test, on the prediction's own grid."""
-    import pyarrow.parquet as pq
-
-    table = pq.read_table(path)
-    columns = {name: np.asarray(table[name].to_numpy(), dtype=np.float64) for name in table.column_names}
+    columns = {name: np.asarray(values, dtype=np.float64) for name, values in found.items()}
     step = float(test.t_s[1] - test.t_s[0]) if len(test.t_s) > 1 else 30.0
-    start = float(columns["t_s"][0]) if table.num_rows else 0.0
+    start = float(columns["t_s"][0]) if len(columns["t_s"]) else 0.0
     # a grid with a hole (rows left out) is widened: the page draws by index
     index = np.rint((columns["t_s"] - start) / step).astype(np.int64)
     n = int(index[-1]) + 1 if len(index) else 0
@@ -198,18 +233,18 @@ def _lane_names(test: TestData) -> list[str]:
     return [c.name for c in sorted(found, key=lambda c: _LANES.index(c.quantity))]
 
 
-def _driver_names(loaded: Loaded) -> list[str]:
+def _driver_names(fitted: FittedModel, data: Dataset) -> list[str]:
     """The temperatures that the model's effects are driven by."""
     from thermodata.modelling.drivers import names_of
 
     names = [
         name
-        for response in loaded.fitted.responses
+        for response in fitted.responses
         for term in response.terms
         for text in term.binding.values()
         for name in names_of(text)
     ]
-    info = loaded.data.channels
+    info = data.channels
     return [n for n in dict.fromkeys(names) if n in info and info[n].quantity.startswith("temperature")]
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import Any
 
+from thermodata.modelling.seen import Seen
 from thermodata.plugin import Float1D
 from thermodata.schema.result import Check, Diagnosis, Parameter, Score, WeakSpot
 
@@ -62,7 +63,9 @@ class ReportData:
 
     diagnosis: of this model; reason: of its last ancestor that has one, which says why effects were added since.
     versions: oldest first. looks: how often each locked test was opened. calibrations: rows of the catalogue's table.
-    weak: weak spots by response.
+    weak: weak spots by response. first: the tests as the first version foretells them, for the scale of residuals;
+    empty where this is it. All but diagnosis and reason is of one fit to the data as they are now; stale: they changed
+    since the model was kept.
     """
 
     model: str
@@ -84,7 +87,9 @@ class ReportData:
     calibrations: tuple[dict[str, Any], ...] = ()
     looks: dict[str, int] = field(default_factory=dict)
     weak: dict[str, list[WeakSpot]] = field(default_factory=dict)
+    first: tuple[TestPart, ...] = ()
     stale: bool = False
+    systems: tuple[Seen, ...] = ()
 
     @property
     def added(self) -> str | None:

@@ -1,417 +1,176 @@
-"""The page's figures as plain Plotly specifications (data and layout); nothing here draws."""
+"""The page's figures as charts and heat maps (thermodata.chart); nothing here draws."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
-from itertools import pairwise
-from typing import Any
 
 import numpy as np
 
+from thermodata.chart import Axis, Chart, HeatMap, Limit, Panel, Series, Span, Strip
+from thermodata.chart.decimate import MOST_POINTS, block_mean, block_size
 from thermodata.plugin import Float1D
-from thermodata.report import colour
-from thermodata.report.data import Curve, TestPart, Version
-from thermodata.report.decimate import MOST_POINTS, block_mean, block_size, packed
-from thermodata.report.words import duration, number
+from thermodata.report.data import Curve, TestPart
+from thermodata.report.words import duration, number, typeset
 from thermodata.schema.result import WeakSpot
 
-Figure = dict[str, Any]
-_GAP, _TOP, _BOTTOM = 22, 50, 44  # [px]
+TIME = "time from the start of the test"
+PANEL_EXTRA = 48  # [px] of a panel beside its plot: title, keys, margins
+_TALL, _LOW, _MIDDLE = 230, 140, 170  # [px]
+_MOST_VALUES = 240_000  # of all curves of a page: 2.7 bytes each
+_LEAST_POINTS = 240
 
 
-@dataclass(slots=True)
-class _Panels:
-    """Panels stacked over one x axis; each has its own y axis, placed by pixels once all heights are known."""
-
-    traces: list[dict[str, Any]] = field(default_factory=list)
-    titles: list[tuple[str, int, dict[str, Any]]] = field(default_factory=list)
-
-    def add(self, title: str, height: int, **axis: Any) -> str:
-        """A new panel below the others; returns the name of its axis ('y', 'y2', ...)."""
-        self.titles.append((title, height, axis))
-        return "y" if len(self.titles) == 1 else f"y{len(self.titles)}"
-
-    def layout(self, span: tuple[float, float]) -> Figure:
-        """The layout with all axes; x in hours over `span`."""
-        inner = sum(h for _, h, _ in self.titles) + _GAP * (len(self.titles) - 1)
-        made: Figure = base_layout(inner + _TOP + _BOTTOM)
-        made.update(hovermode="x", hoversubplots="axis", annotations=[], shapes=[])
-        top = float(inner)
-        for i, (title, height, axis) in enumerate(self.titles, 1):
-            low, high = max(0.0, (top - height) / inner), min(1.0, top / inner)
-            made["yaxis" if i == 1 else f"yaxis{i}"] = {
-                "domain": [low, high],
-                "anchor": "x",
-                "gridcolor": colour.GRID,
-                "zeroline": False,
-                "nticks": max(3, height // 26),
-                "tickfont": {"size": 11, "color": colour.MUTED},
-                **axis,
-            }
-            made["annotations"].append(
-                {
-                    "text": title,
-                    "xref": "paper",
-                    "yref": "paper",
-                    "x": 0,
-                    "y": high,
-                    "xanchor": "left",
-                    "yanchor": "bottom",
-                    "showarrow": False,
-                    "font": {
-                        "size": 11.5 if height > 60 else 10.5,
-                        "color": colour.INK if height > 60 else colour.MUTED,
-                    },
-                }
-            )
-            top -= height + _GAP
-        made["xaxis"] = {
-            "range": list(span),
-            "anchor": f"y{len(self.titles)}" if len(self.titles) > 1 else "y",
-            "gridcolor": colour.GRID,
-            "zeroline": False,
-            "showline": True,
-            "linecolor": "#cbd5e1",
-            "title": {"text": "time from the start of the test [h]", "font": {"size": 11.5, "color": colour.MUTED}},
-            "tickfont": {"size": 11, "color": colour.MUTED},
-            "showspikes": True,
-            "spikemode": "across",
-            "spikethickness": 1,
-            "spikedash": "dot",
-            "spikecolor": colour.MUTED,
-        }
-        return made
+def points_for(parts: Sequence[TestPart]) -> int:
+    """How many points a curve of the page may have, so that a page of many tests can still be mailed."""
+    curves = sum(3 + len(p.contributions) + len(p.drivers) + len(p.lanes) for p in parts)
+    return int(np.clip(_MOST_VALUES // max(curves, 1), _LEAST_POINTS, MOST_POINTS))
 
 
-def base_layout(height: int) -> Figure:
-    """What all figures share."""
-    return {
-        "height": height,
-        "margin": {"l": 56, "r": 14, "t": _TOP, "b": _BOTTOM, "pad": 0},
-        "autosize": True,
-        "paper_bgcolor": colour.PAPER,
-        "plot_bgcolor": colour.PAPER,
-        "font": {"family": colour.FONT, "color": colour.INK},
-        "hoverlabel": {"font": {"family": colour.FONT, "size": 12}},
-        "dragmode": "zoom",
-        "legend": {
-            "orientation": "h",
-            "x": 1,
-            "xanchor": "right",
-            "y": 1,
-            "yanchor": "bottom",
-            "font": {"size": 11},
-            "bgcolor": "rgba(0,0,0,0)",
-        },
-    }
+def part_chart(
+    part: TestPart,
+    weak: Sequence[tuple[int, WeakSpot]],
+    styles: Mapping[str, tuple[str, str]],
+    noise_um: float | None,
+    unit: str,
+    most: int,
+) -> Chart:
+    """Measured and model, residual with weak spots, contributions, drivers, and the operating state below.
 
-
-def test_figure(
-    part: TestPart, weak: Sequence[WeakSpot], colours: Mapping[str, str], noise_um: float | None, unit: str
-) -> Figure:
-    """Measured and model, residual with weak spots, contributions, drivers, and the operating state below."""
-    size = block_size(len(part.measured))
-    step_h = part.step_s * size / 3600
-    x0 = (part.start_s + part.step_s * (size - 1) / 2) / 3600
-    span = (part.start_s / 3600, (part.start_s + part.step_s * len(part.measured)) / 3600)
-    panels = _Panels()
-
-    def line(values: Float1D, axis: str, name: str, tint: str, unit_: str, mode: str = "lines", **more: Any) -> None:
-        panels.traces.append(
-            {
-                "type": "scatter",
-                "mode": mode,
-                "x0": x0,
-                "dx": step_h,
-                "y": packed(block_mean(values, size)),
-                "yaxis": axis,
-                "name": name,
-                "connectgaps": False,
-                "hovertemplate": f"{name} %{{y:.4~g}} {unit_}<extra></extra>",
-                **{"line": {"color": tint, "width": 1.6}, **more},
-            }
-        )
-
-    top = panels.add(f"<b>{part.response}</b> [{unit}]", 230)
+    weak: with their ranks over the whole page.
+    """
+    size = block_size(len(part.measured), most)
+    hours = _hours(part, size)
+    whole = (part.start_s / 3600, (part.start_s + part.step_s * len(part.measured)) / 3600)
     # a machine that is measured now and then gives points; a line would hide where it was not measured
     sparse = bool(np.mean(np.isfinite(part.residual)) < 0.9)
-    dots: dict[str, Any] = {"mode": "markers"} if sparse else {}
-    line(
-        part.measured,
-        top,
-        "measured",
-        colour.MEASURED,
-        unit,
-        line={"color": colour.MEASURED, "width": 1.5},
-        marker={"color": colour.MEASURED, "size": 3},
-        **dots,
-    )
-    line(part.predicted, top, "model", colour.MODEL, unit, line={"color": colour.MODEL, "width": 2.2})
-    below = panels.add(f"<b>residual</b>, measured - model [{unit}]", 130, zeroline=True, zerolinecolor="#cbd5e1")
-    line(
-        part.residual,
-        below,
-        "residual",
-        colour.RESIDUAL,
-        unit,
-        showlegend=False,
-        line={"color": colour.RESIDUAL, "width": 1.3},
-        marker={"color": colour.RESIDUAL, "size": 3},
-        **dots,
-    )
+
+    def series(name: str, values: Float1D, colour: str, **more: object) -> Series:
+        return Series(name, unit, block_mean(values, size), colour, **more)  # type: ignore[arg-type]
+
+    panels: list[Panel | Strip] = [
+        Panel(
+            part.response,
+            unit,
+            [
+                series("measured", part.measured, "measured", style="points" if sparse else "line", width=1.4),
+                series("model", part.predicted, "model", width=2.0),
+            ],
+            height=_TALL,
+        ),
+        Panel(
+            "residual: measured − model",
+            unit,
+            [series("residual", part.residual, "residual", style="points" if sparse else "line", width=1.3)],
+            height=_LOW,
+            zero=True,
+            limits=_noise_limits(noise_um, part.step_s, unit),
+        ),
+    ]
     if part.contributions:
-        axis = panels.add(f"<b>contributions</b> of the effects [{unit}]", 170)
-        for curve in part.contributions:
-            line(
-                curve.values,
-                axis,
-                curve.name,
-                colours.get(curve.name, colour.MUTED),
-                unit,
-                legend="legend2",
-                line={"color": colours.get(curve.name, colour.MUTED), "width": 1.8},
+        curves = [
+            series(
+                c.name, c.values, styles.get(c.name, ("muted", "solid"))[0], dash=styles.get(c.name, ("", "solid"))[1]
             )
-    if part.drivers:
-        axis = panels.add(f"<b>drivers</b> [{part.drivers[0].unit}]", 120)
-        for i, curve in enumerate(part.drivers):
-            tint = _DRIVER_TINTS[i % len(_DRIVER_TINTS)]
-            line(curve.values, axis, curve.name, tint, curve.unit, legend="legend3", line={"color": tint, "width": 1.3})
-    for lane in part.lanes:
-        _lane(panels, lane, line)
-    layout = panels.layout(span)
-    _place_legends(layout, panels)
-    for w in weak:
-        begin, end = w.from_s / 3600, w.to_s / 3600
-        layout["shapes"] += [_shade(begin, end, "y domain"), _shade(begin, end, "y2 domain")]
-        layout["annotations"].append(
-            _note(
-                f"{number(w.rmse_um, 2)} {unit}",
-                (begin + end) / 2,
-                1,
-                "y2 domain",
-                "#92400e",
-                hovertext=f"{w.state}, {duration(w.to_s - w.from_s)}",
-            )
-        )
-    if noise_um:
-        layout["shapes"] += [
-            {
-                "type": "line",
-                "xref": "paper",
-                "x0": 0,
-                "x1": 1,
-                "yref": "y2",
-                "y0": y,
-                "y1": y,
-                "line": {"color": colour.MUTED, "width": 1, "dash": "dot"},
-            }
-            for y in (noise_um, -noise_um)
+            for c in part.contributions
         ]
-    for name, (from_s, to_s) in part.phases.items():
-        begin, end = from_s / 3600, to_s / 3600
-        layout["shapes"].append(
-            {
-                "type": "line",
-                "xref": "x",
-                "x0": begin,
-                "x1": begin,
-                "yref": "y domain",
-                "y0": 0,
-                "y1": 1,
-                "line": {"color": "#cbd5e1", "width": 1, "dash": "dash"},
-            }
-        )
-        layout["annotations"].append(_note(name, (begin + end) / 2, 0, "y domain", colour.MUTED))
-    return {"data": panels.traces, "layout": layout}
+        panels.append(Panel("contributions of the effects", unit, curves, height=_by_labels(_MIDDLE, curves)))
+    if part.drivers:
+        panels.append(_drivers(part.drivers, size))
+    panels += [_lane(c, hours, size) for c in part.lanes]
+    return Chart(
+        f"Test {part.test}: measured and modelled {part.response} with the residual, contributions, drivers and state",
+        Axis(TIME, "h", range=whole),
+        hours,
+        panels,
+        spans=[*_weak_spans(weak, unit), *_phase_spans(part)],
+    )
 
 
-_DRIVER_TINTS = ("#be123c", "#0e7490", "#65a30d", "#7c3aed", "#a16207", "#475569", "#db2777", "#0369a1")
+def _hours(part: TestPart, size: int) -> Float1D:
+    """Middles of the blocks [h]."""
+    n = -(-len(part.measured) // size)
+    return np.asarray((part.start_s + part.step_s * (np.arange(n) * size + (size - 1) / 2)) / 3600)
 
 
-def _lane(panels: _Panels, lane: Curve, line: Any) -> None:
-    """One operating state as a low filled strip, scaled to its own largest value."""
-    finite = lane.values[np.isfinite(lane.values)]
+def _noise_limits(noise_um: float | None, step_s: float, unit: str) -> list[Limit]:
+    if not noise_um:
+        return []
+    label = typeset(f"noise of {duration(step_s)} means ±{number(noise_um, 2)} {unit}")
+    return [Limit(noise_um, label), Limit(-noise_um, "")]
+
+
+def _by_labels(height: int, curves: Sequence[Series]) -> int:
+    """A panel high enough for the labels at the ends of its lines."""
+    return max(height, 13 * len(curves) + 16)
+
+
+def _drivers(drivers: Sequence[Curve], size: int) -> Panel:
+    from thermodata.chart import effect_styles
+
+    styles = effect_styles(c.name for c in drivers)
+    curves = [
+        Series(c.name, c.unit, block_mean(c.values, size), styles[c.name][0], dash=styles[c.name][1], width=1.3)
+        for c in drivers
+    ]
+    return Panel("drivers", drivers[0].unit, curves, height=_by_labels(120, curves))
+
+
+def _lane(lane: Curve, hours: Float1D, size: int) -> Strip:
+    """One operating state: only where it changes, for most of them rest for hours."""
+    values = block_mean(lane.values, size)
+    finite = values[np.isfinite(values)]
     top = float(np.max(np.abs(finite))) if len(finite) else 1.0
-    low = min(0.0, float(np.min(finite))) if len(finite) else 0.0
     unit = "" if lane.unit in ("1", "") else f" {lane.unit}"
-    axis = panels.add(
-        f"{lane.name} (max {number(top)}{unit})" if unit else lane.name,
-        24,
-        showticklabels=False,
-        showgrid=False,
-        fixedrange=True,
-        range=[low * 1.1, max(top, 1e-12) * 1.1],
-    )
-    line(
-        lane.values,
-        axis,
-        lane.name,
-        colour.LANE,
-        lane.unit if unit else "",
-        showlegend=False,
-        fill="tozeroy",
-        fillcolor=colour.faint(colour.LANE, 0.45),
-        line={"color": colour.LANE, "width": 1, "shape": "hv"},
-    )
+    same = np.zeros(len(values), bool)
+    same[1:-1] = (values[1:-1] == values[:-2]) | (np.isnan(values[1:-1]) & np.isnan(values[:-2]))
+    title = f"{lane.name} (at most {number(top)}{unit})" if unit else lane.name
+    return Strip(Series(lane.name, lane.unit, values[~same], "lane", x=hours[~same], style="area", width=1.0), title)
 
 
-def _place_legends(layout: Figure, panels: _Panels) -> None:
-    """Legends of contributions and drivers stand on their panel's title line."""
-    for key in ("legend2", "legend3"):
-        axis = next((t["yaxis"] for t in panels.traces if t.get("legend") == key), None)
-        if axis is not None:
-            domain = layout["yaxis" + axis[1:]]["domain"]
-            layout[key] = {**layout["legend"], "y": domain[1]}
+def _weak_spans(weak: Sequence[tuple[int, WeakSpot]], unit: str) -> list[Span]:
+    return [
+        Span(
+            w.from_s / 3600,
+            w.to_s / 3600,
+            "weak",
+            typeset(f"{number(w.rmse_um, 2)} {unit}"),
+            w.state,
+            rank=rank,
+            panels=(0, 1),
+        )
+        for rank, w in weak
+    ]
 
 
-def _shade(x0: float, x1: float, yref: str) -> dict[str, Any]:
-    return {
-        "type": "rect",
-        "xref": "x",
-        "x0": x0,
-        "x1": x1,
-        "yref": yref,
-        "y0": 0,
-        "y1": 1,
-        "fillcolor": colour.faint(colour.WEAK, 0.16),
-        "line": {"width": 0},
-        "layer": "below",
-    }
+def _phase_spans(part: TestPart) -> list[Span]:
+    return [Span(a / 3600, b / 3600, "phase", name, panels=(0,)) for name, (a, b) in part.phases.items()]
 
 
-def _note(text: str, x: float, y: int, yref: str, tint: str, **more: Any) -> dict[str, Any]:
-    """A small text inside a panel, at its top (y 1) or bottom (y 0)."""
-    return {
-        "text": text,
-        "x": x,
-        "xref": "x",
-        "y": y,
-        "yref": yref,
-        "yanchor": "top" if y else "bottom",
-        "showarrow": False,
-        "font": {"size": 10.5, "color": tint},
-        **more,
-    }
+def residual_scale(residuals: Sequence[Float1D]) -> float:
+    """What the colours of the heat map reach to [unit of the response]: all but the most extreme hundredth."""
+    seen = [np.abs(r[np.isfinite(r)]) for r in residuals]
+    together = np.concatenate(seen) if seen else np.empty(0)
+    return float(np.quantile(together, 0.99)) or 1.0 if len(together) else 1.0
 
 
-def overview_figure(parts: Sequence[TestPart], unit: str) -> Figure:
-    """The residual of every test as one coloured strip each, over hours: where the model fails, at a glance."""
+def overview_map(
+    parts: Sequence[TestPart], unit: str, limit: float, targets: Sequence[str], about: str, note: str
+) -> HeatMap:
+    """The residual of every test as one coloured strip each: where the model fails, at a glance."""
     size = block_size(max(len(p.residual) for p in parts), 400)
     strips = [block_mean(p.residual, size) for p in parts]
-    columns, dx_h = max(len(s) for s in strips), parts[0].step_s * size / 3600  # a model has one step
+    columns = max(len(s) for s in strips)
     z = np.array([np.pad(s, (0, columns - len(s)), constant_values=np.nan) for s in strips])
-    seen = np.abs(z[np.isfinite(z)])
-    limit = float(np.quantile(seen, 0.99)) if len(seen) else 1.0
-    names = [p.test if len({q.campaign for q in parts}) == 1 else f"{p.campaign}/{p.test}" for p in parts]
-    several = len({p.response for p in parts}) > 1
-    names = [f"{n} {p.response}" if several else n for n, p in zip(names, parts, strict=True)]
-    layout = base_layout(26 * len(parts) + 74)
-    layout.update(
-        margin={"l": 10, "r": 10, "t": 8, "b": 44},
-        yaxis={"autorange": "reversed", "automargin": True, "tickfont": {"size": 12}, "fixedrange": True, "ticks": ""},
-        xaxis={
-            "title": {"text": "time from the start of the test [h]", "font": {"size": 11.5, "color": colour.MUTED}},
-            "tickfont": {"size": 11, "color": colour.MUTED},
-            "showgrid": False,
-            "zeroline": False,
-        },
-    )
-    scale = [[0, "#2166ac"], [0.25, "#92c5de"], [0.5, "#f7f7f7"], [0.75, "#f4a582"], [1, "#b2182b"]]
-    return {
-        "data": [
-            {
-                "type": "heatmap",
-                "z": packed(z),
-                "y": names,
-                "x0": dx_h / 2,
-                "dx": dx_h,
-                "zmid": 0,
-                "zmin": -limit,
-                "zmax": limit,
-                "ygap": 5,
-                "colorscale": scale,
-                "hoverongaps": False,
-                "hovertemplate": f"%{{y}}, %{{x:.1f}} h: %{{z:.2f}} {unit}<extra></extra>",
-                "colorbar": {
-                    "title": {"text": unit, "font": {"size": 11}},
-                    "thickness": 10,
-                    "outlinewidth": 0,
-                    "tickfont": {"size": 10.5},
-                },
-            }
-        ],
-        "layout": layout,
-    }
+    one, several = len({q.campaign for q in parts}) == 1, len({p.response for p in parts}) > 1
+    names = [(p.test if one else f"{p.campaign}/{p.test}") + (f" {p.response}" if several else "") for p in parts]
+    step_h = parts[0].step_s * size / 3600  # a model has one step
+    return HeatMap(about, Axis(TIME, "h"), unit, names, z, [len(s) for s in strips], 0.0, step_h, limit, note, targets)
 
 
-def waterfall_figure(versions: Sequence[Version], noise_um: float | None, unit: str) -> Figure:
-    """The error of the first version, what each added effect took from it, and what is left."""
-    kept = [v for v in versions if v.all_um is not None]
-    errors = [v.all_um for v in kept if v.all_um is not None]
-    steps = [b - a for a, b in pairwise(errors)]
-    names = [kept[0].name, *(f"+ {v.added or v.name}" for v in kept[1:]), "now"]
-    layout = base_layout(250)
-    layout.update(
-        showlegend=False,
-        margin={"l": 50, "r": 14, "t": 18, "b": 40},
-        yaxis={
-            "title": {"text": f"RMSE [{unit}]", "font": {"size": 11.5, "color": colour.MUTED}},
-            "gridcolor": colour.GRID,
-            "rangemode": "tozero",
-            "tickfont": {"size": 11},
-        },
-        xaxis={"type": "category", "tickfont": {"size": 12}},
-        shapes=[],
-        annotations=[],
-    )
-    if noise_um:
-        layout["shapes"].append(
-            {
-                "type": "line",
-                "xref": "paper",
-                "x0": 0,
-                "x1": 1,
-                "y0": noise_um,
-                "y1": noise_um,
-                "line": {"color": colour.MUTED, "width": 1, "dash": "dot"},
-            }
-        )
-        layout["annotations"].append(
-            {
-                "text": "noise",
-                "xref": "paper",
-                "x": 1,
-                "y": noise_um,
-                "yanchor": "bottom",
-                "xanchor": "right",
-                "showarrow": False,
-                "font": {"size": 10.5, "color": colour.MUTED},
-            }
-        )
-    texts = [number(errors[0]), *(f"{'+' if s > 0 else '−'}{number(abs(s))}" for s in steps), number(errors[-1])]
-    return {
-        "data": [
-            {
-                "type": "waterfall",
-                "x": names,
-                "y": [errors[0], *steps, errors[-1]],
-                "text": texts,
-                "textposition": "auto",
-                "insidetextfont": {"color": "#ffffff"},
-                "textangle": 0,
-                "width": [0.36] * len(texts),
-                "measure": ["absolute", *("relative" for _ in steps), "total"],
-                "cliponaxis": False,
-                "connector": {"line": {"color": "#cbd5e1", "width": 1}},
-                "hovertemplate": "%{x}: %{text}<extra></extra>",
-                "decreasing": {"marker": {"color": colour.GOOD}},
-                "increasing": {"marker": {"color": colour.RESIDUAL}},
-                "totals": {"marker": {"color": colour.MODEL}},
-            }
-        ],
-        "layout": layout,
-    }
-
-
-__all__ = ["MOST_POINTS", "Figure", "base_layout", "overview_figure", "test_figure", "waterfall_figure"]
+def height_of(chart: Chart | HeatMap) -> int:
+    """About as high as it will be drawn [px], so that a page does not jump when it is."""
+    if isinstance(chart, HeatMap):
+        return 26 * len(chart.rows) + 90
+    strips = sum(p.height + 20 for p in chart.panels if isinstance(p, Strip))
+    panels = sum(p.height + PANEL_EXTRA for p in chart.panels if isinstance(p, Panel))
+    return strips + panels + (17 * len(chart.rows) + PANEL_EXTRA if chart.rows else 0) + 66

@@ -1,25 +1,42 @@
-// Figures are drawn when they come into sight (a campaign has dozens), and all of them before printing.
+// Links between a page's parts: weak spots and heat maps lead to the test, zoomed; the navigation shows where one is.
 (function () {
-  var config = {displaylogo: false, responsive: true, modeBarButtonsToRemove: ["select2d", "lasso2d", "autoScale2d"]};
-  function draw(box) {
-    if (box.dataset.drawn) return;
-    box.dataset.drawn = "1";
-    var figure = JSON.parse(document.getElementById(box.dataset.figure).textContent);
-    if (box.clientWidth < 620) {
-      figure.layout.margin.l = Math.min(figure.layout.margin.l, 40);
-      figure.layout.dragmode = false;           // a finger scrolls the page
-      // the panels' titles need the line for themselves: legends move below the plot's top
-      ["legend", "legend2", "legend3"].forEach(function (k) { if (figure.layout[k]) figure.layout[k].yanchor = "top"; });
+  "use strict";
+  function box(id) { return document.querySelector('[data-chart="' + id + '"]'); }
+
+  document.addEventListener("click", function (e) {
+    const link = e.target.closest("[data-show]");
+    if (!link || !box(link.dataset.show)) return;
+    e.preventDefault();
+    const from = Number(link.dataset.from), to = Number(link.dataset.to), room = 0.5 * (to - from);
+    ThermoChart.show(box(link.dataset.show), from - room, to + room);
+  });
+  document.addEventListener("tc:pick", function (e) {
+    if (e.detail.target) {
+      ThermoChart.show(box(e.detail.target));
+      const chart = ThermoChart.of(box(e.detail.target));
+      if (chart) chart.point(e.detail.x);
     }
-    var bar = box.dataset.figure.indexOf("test") === 0;      // only the figures of tests are worth the tools
-    Plotly.newPlot(box, figure.data, figure.layout, Object.assign({displayModeBar: bar ? "hover" : false}, config));
+  });
+
+  const look = document.getElementById("look");
+  if (look) {
+    look.hidden = false;
+    look.addEventListener("click", function () {
+      const root = document.documentElement;
+      const dark = root.dataset.theme ? root.dataset.theme === "dark" : window.matchMedia("(prefers-color-scheme: dark)").matches;
+      root.dataset.theme = dark ? "light" : "dark";
+    });
   }
-  var boxes = document.querySelectorAll("[data-figure]");
-  function all() { boxes.forEach(draw); }
-  if (!("IntersectionObserver" in window)) { all(); return; }
-  var seen = new IntersectionObserver(function (entries) {
-    entries.forEach(function (e) { if (e.isIntersecting) { draw(e.target); seen.unobserve(e.target); } });
-  }, {rootMargin: "600px"});
-  boxes.forEach(function (b) { seen.observe(b); });
-  window.addEventListener("beforeprint", all);
+
+  const links = new Map([...document.querySelectorAll("nav.toc a[href^='#']")].map(a => [a.getAttribute("href").slice(1), a]));
+  const seen = new IntersectionObserver(entries => entries.forEach(e => {
+    const link = links.get(e.target.id);
+    if (!e.isIntersecting || !link) return;
+    links.forEach(l => l.removeAttribute("aria-current"));
+    link.setAttribute("aria-current", "true");
+  }), {rootMargin: "-15% 0px -75% 0px"});
+  links.forEach((_, id) => { const part = document.getElementById(id); if (part) seen.observe(part); });
+
+  // what is folded stays away from paper only if nobody opened it: a reader of paper can't
+  window.addEventListener("beforeprint", () => document.querySelectorAll("details[data-print]").forEach(d => { d.open = true; }));
 })();

@@ -2,23 +2,33 @@
 
 from __future__ import annotations
 
-import re
 from importlib.resources import files
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from thermodata.report.colour import effect_colours
+import numpy as np
+
+from thermodata.chart import Chart, HeatMap, effect_styles
+from thermodata.chart.decimate import block_mean
+from thermodata.report.bars import waterfall
 from thermodata.report.data import ReportData, TestPart
-from thermodata.report.figures import Figure, overview_figure, test_figure, waterfall_figure
-from thermodata.report.heat_figure import heat_figures
-from thermodata.report.verdict import claims_of, explainable, listed, named, probability, told, verdict_sentence
-from thermodata.report.words import base_role, change, duration, heat_lines, number, pooled, typeset
-from thermodata.report.write import script_json, write_page
-from thermodata.version import __version__
+from thermodata.report.error_rows import error_rows, headline_error
+from thermodata.report.figures import overview_map, part_chart, points_for, residual_scale
+from thermodata.report.glossary import HOW, NOISE
+from thermodata.report.headline import capital, headline, sentences
+from thermodata.report.heat_charts import heat_charts
+from thermodata.report.system_charts import system_charts
+from thermodata.report.verdict import probability, told, verdict_sentence
+from thermodata.report.words import base_role, change, duration, heat_lines, number, typeset
+from thermodata.report.write import page_values, write_page
 
 if TYPE_CHECKING:
-    from thermodata.schema.result import MissingHeat
+    from thermodata.schema.result import MissingHeat, WeakSpot
     from thermodata.store import Store
+
+SPOTS_SHOWN = 10
+SLOW_S = 1800.0
+"""An error that keeps its sign for so long is systematic [s]."""
 
 
 def build_report(store: Store, ref: str, out: Path | str) -> Path:
@@ -31,42 +41,38 @@ def build_report(store: Store, ref: str, out: Path | str) -> Path:
 def render(data: ReportData) -> str:
     """The page's HTML. Names and texts from data are escaped; figures stand in it as JSON."""
     import jinja2
-    from markupsafe import Markup
-    from plotly.offline import get_plotlyjs
 
-    here = files("thermodata.report")
     environment = jinja2.Environment(autoescape=True, trim_blocks=True, lstrip_blocks=True)
     environment.filters.update(
         base_role=base_role,
         duration=duration,
         typeset=typeset,
         probability=probability,
+        change=change,
         number=lambda value, digits=3: typeset(number(value, digits)),
     )
-    template = environment.from_string((here / "page.html.j2").read_text(encoding="utf-8"))
-    colours = effect_colours([*data.effects, *(c.name for t in data.tests for c in t.contributions)])
-    figures = _figures(data, colours)
+    template = environment.from_string((files("thermodata.report") / "page.html.j2").read_text(encoding="utf-8"))
+    styles = effect_styles([*data.effects, *(c.name for t in data.tests for c in t.contributions)])
+    spots = ranked_spots(data)
     heat = _heat(data)
+    errors = error_rows(data)
     return template.render(
         data=data,
         unit=typeset(data.unit),
-        version=__version__,
-        colours=colours,
-        figures=figures,
-        json={key: Markup(script_json(figure)) for key, figure in figures.items()},
-        css=Markup((here / "page.css").read_text(encoding="utf-8")),
-        js=Markup((here / "page.js").read_text(encoding="utf-8")),
-        plotly=Markup(get_plotlyjs()),
-        overview="overview" in figures,
-        waterfall="waterfall" in figures,
+        styles=styles,
+        **page_values(_figures(data, styles, spots)),
+        waterfall=waterfall(data.versions),
         heat=heat,
         heat_lines=[(what, typeset(text)) for what, text in heat_lines(heat)] if heat else [],
-        weak=sorted((w for found in data.weak.values() for w in found), key=lambda w: -w.rmse_um),
+        weak=[(rank, w, _box(data, w)) for rank, w in spots],
         headline=typeset(headline(data)),
-        sentences=[typeset(line) for line in _sentences(data)],
-        tiles=tiles(data),
-        verdict=typeset(_capital(verdict_sentence(data.diagnosis))) if data.diagnosis else "",
-        reason=typeset(_capital(verdict_sentence(data.reason))) if data.reason else "",
+        sentences=[typeset(line) for line in sentences(data)],
+        errors=errors,
+        head=headline_error(errors),
+        how=HOW,
+        left=what_is_left(data),
+        verdict=typeset(capital(verdict_sentence(data.diagnosis))) if data.diagnosis else "",
+        reason=typeset(capital(verdict_sentence(data.reason))) if data.reason else "",
         tests=[_test(data, part, f"test{i}") for i, part in enumerate(data.tests)],
         parameters=[
             {"effect": key.rpartition(".")[0] or key, "name": key.rpartition(".")[2], **p.model_dump()}
@@ -81,115 +87,74 @@ def render(data: ReportData) -> str:
     )
 
 
-def _figures(data: ReportData, colours: dict[str, str]) -> dict[str, Figure]:
-    noise = next((d.noise_um for d in (data.diagnosis, data.reason) if d and d.noise_um), None)
-    made: dict[str, Figure] = {}
+def ranked_spots(data: ReportData) -> list[tuple[int, WeakSpot]]:
+    """The weak spots of all responses that are worth a look, the costliest first, from 1 on."""
+    found = [w for spots in data.weak.values() for w in spots]
+    costliest = sorted(found, key=lambda w: -(w.rmse_um**2) * (w.to_s - w.from_s))[:SPOTS_SHOWN]
+    return list(enumerate(costliest, 1))
+
+
+def _figures(
+    data: ReportData, styles: dict[str, tuple[str, str]], spots: list[tuple[int, WeakSpot]]
+) -> dict[str, Chart | HeatMap]:
+    made: dict[str, Chart | HeatMap] = {}
     if data.tests:
-        made["overview"] = overview_figure(data.tests, typeset(data.unit))
-    if len(data.versions) > 1 and sum(v.all_um is not None for v in data.versions) > 1:
-        made["waterfall"] = waterfall_figure(data.versions, noise, typeset(data.unit))
+        limit = residual_scale([t.residual for t in data.first or data.tests])
+        targets = [f"test{i}" for i in range(len(data.tests))]
+        note = "Point at a strip to read it; click to see its test there."
+        if data.first:
+            about = f"Residual of every test in the first version, {data.versions[0].name}"
+            made["first"] = overview_map(data.first, data.unit, limit, [""] * len(data.first), about, "")
+        made["overview"] = overview_map(data.tests, data.unit, limit, targets, "Residual of every test", note)
     heat = _heat(data)
     if heat:
-        drawn = heat_figures(heat.courses, typeset(data.unit), heat.direction is not None)
+        drawn = heat_charts(heat.courses, data.unit, heat.direction is not None)
         made.update({f"heat{i}": figure for i, figure in enumerate(drawn)})
+    for i, seen in enumerate(data.systems):
+        made.update({f"system{i}-{name}": drawn for name, drawn in system_charts(seen, styles).items()})
+    most = points_for(data.tests)
     for i, part in enumerate(data.tests):
-        weak = [w for w in data.weak.get(part.response, ()) if (w.campaign, w.test) == (part.campaign, part.test)]
-        made[f"test{i}"] = test_figure(part, weak, colours, noise, typeset(data.unit))
+        own = [(rank, w) for rank, w in spots if _is_of(part, data, w)]
+        made[f"test{i}"] = part_chart(part, own, styles, _noise(data), data.unit, most)
     return made
+
+
+def _is_of(part: TestPart, data: ReportData, spot: WeakSpot) -> bool:
+    same = (spot.campaign, spot.test) == (part.campaign, part.test)
+    return same and any(w is spot for w in data.weak.get(part.response, ()))
+
+
+def _box(data: ReportData, spot: WeakSpot) -> str:
+    """The id of the chart that shows it, '' where there is none."""
+    return next((f"test{i}" for i, part in enumerate(data.tests) if _is_of(part, data, spot)), "")
+
+
+def _noise(data: ReportData) -> float | None:
+    return next((d.noise_um for d in (data.diagnosis, data.reason) if d and d.noise_um), None)
 
 
 def _heat(data: ReportData) -> MissingHeat | None:
     return data.diagnosis.unknown.heat if data.diagnosis and data.diagnosis.unknown else None
 
 
-def headline(data: ReportData) -> str:
-    """The page's first sentence: what was added and what it did, or the verdict, or the plain error."""
-    roles = ("calibration", "verification")
-    before, after = pooled(data.before, *roles), pooled(data.scores, *roles)
-    if data.added and before and after is not None:
-        if after >= before:
-            return f"{data.added} does not lower the error: {number(before)} -> {number(after)} {data.unit}"
-        return (
-            f"With {data.added} the error of {', '.join(data.responses)} falls from {number(before)} to "
-            f"{number(after)} {data.unit} ({change(before, after)})"
-        )
-    if data.diagnosis:
-        claims = claims_of(data.diagnosis)
-        if claims:
-            return f"{', '.join(data.responses)} misses {listed([named(c) for c in claims])}"
-        return _capital(verdict_sentence(data.diagnosis))
-    return f"{data.name} follows {', '.join(data.responses)} to {number(after)} {data.unit}"
+def what_is_left(data: ReportData) -> list[tuple[str, str, str]]:
+    """(what, figure, note): the residual of all open tests, what of it is slow, and the noise."""
+    if not data.tests:
+        return []
+    step = data.tests[0].step_s
+    whole = _rms([p.residual for p in data.tests])
+    slow = _rms([block_mean(p.residual, max(1, round(SLOW_S / p.step_s))) for p in data.tests])
+    rows = [
+        ("left over in all open tests", whole, "calibration and verification tests together"),
+        (f"of it, in means of {duration(SLOW_S)}", slow, "keeps its sign for long: systematic, not noise"),
+        ("noise", _noise(data), NOISE.format(length=duration(step))),
+    ]
+    return [(what, number(value), note) for what, value, note in rows if value is not None]
 
 
-def _sentences(data: ReportData) -> list[str]:
-    lines = []
-    if data.added and data.reason:
-        claims = claims_of(data.reason)
-        for claim in claims:
-            # ids stay as they are typed
-            why, it = (f"{claim.id}: {claim.why}", claim.id) if len(claims) > 1 else (_capital(claim.why), "it")
-            if claim.why:
-                lines.append(why + ("" if why.endswith(".") else "."))
-            if claim.equivalent:
-                lines.append(f"These tests can't tell {it} from {listed(claim.equivalent)}.")
-    if data.diagnosis:
-        lines.append(("Now: " if data.added else "") + _capital(verdict_sentence(data.diagnosis)) + ".")
-    return lines
-
-
-def tiles(data: ReportData) -> list[dict[str, str]]:
-    """Key figures: error by role before and after, FIT, noise."""
-    made = []
-    for role, what in (("calibration", "Error in calibration tests"), ("verification", "Error in verification tests")):
-        after, before = pooled(data.scores, role), pooled(data.before, role)
-        if after is not None:
-            in_sample = any("in-sample" in s.role for s in data.scores if base_role(s.role) == role)
-            note = "took part in choosing the effect" if in_sample else "RMSE, free-run"
-            made.append(_tile(what, before, after, data.unit, note))
-    locked = _locked(data)
-    if locked:
-        made.append(_tile("Error in locked tests", *locked, data.unit, "took no part in the choice"))
-    fits = sorted(s.fit for s in data.scores if s.phase == "all" and s.fit is not None)
-    if fits:
-        made.append(
-            {
-                "what": "FIT, median over tests",
-                "was": "",
-                "value": number(fits[len(fits) // 2]),
-                "unit": "%",
-                "badge": "",
-                "tone": "",
-                "note": f"worst {number(fits[0])} %, best {number(fits[-1])} %",
-            }
-        )
-    found = data.diagnosis or data.reason
-    if found and found.noise_um:
-        made.append(_tile("Noise of the measurement", None, found.noise_um, data.unit, explainable(found)))
-    return made
-
-
-def _tile(what: str, before: float | None, after: float, unit: str, note: str) -> dict[str, str]:
-    better = before is not None and after < before
-    return {
-        "what": what,
-        "was": number(before) if before is not None else "",
-        "value": number(after),
-        "unit": typeset(unit),
-        "badge": typeset(change(before, after)) if before is not None else "",
-        "tone": "good" if better else "bad",
-        "note": note,
-    }
-
-
-def _locked(data: ReportData) -> tuple[float | None, float] | None:
-    """Locked error (before, after): of the claims that were confirmed where all were added, else of the model's own
-    scores."""
-    claims = claims_of(data.reason) if data.reason else []
-    added = all(any(re.fullmatch(rf"{re.escape(c.effect)}(_\d+)?", term) for term in data.effects) for c in claims)
-    if data.added and claims and added and claims[0].locked_rmse_um_after is not None:
-        return claims[0].locked_rmse_um_before, claims[0].locked_rmse_um_after
-    after = pooled(data.scores, "locked")
-    return None if after is None else (pooled(data.before, "locked"), after)
+def _rms(residuals: list[np.ndarray]) -> float | None:
+    seen = np.concatenate([r[np.isfinite(r)] for r in residuals])
+    return float(np.sqrt(np.mean(seen**2))) if len(seen) else None
 
 
 def locked_note(data: ReportData) -> str:
@@ -229,7 +194,3 @@ def _score_rows(data: ReportData) -> dict[str, Any]:
     found = [c for d in (data.diagnosis, data.reason) if d for c in d.candidates]
     tried = [e for c in found for e in (c.rmse_um_before, c.rmse_um_after) if e]
     return {"whole": rows, "most_score": max(errors, default=1.0) or 1.0, "most_candidate": max(tried, default=1.0)}
-
-
-def _capital(text: str) -> str:
-    return text[:1].upper() + text[1:]

@@ -5,10 +5,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from thermodata.report.words import number, percent
+from thermodata.report.words import duration, number, percent
 
 if TYPE_CHECKING:
     from thermodata.schema.result import Candidate, Diagnosis
+
+NOISY = 1.5
+"""An error up to so many times the noise is noise."""
 
 
 def probability(share: float | None) -> str:
@@ -57,9 +60,31 @@ def verdict_sentence(found: Diagnosis) -> str:
     return {
         "effect": "missing: an effect that the data point to",
         "refine": "no cause is missing, but an effect that is there acts otherwise than modelled",
-        "none": "no effect is missing: what is left is noise, or too small to matter",
+        "none": f"no effect is missing: {_left_over(found)}",
         "not_testable": "these tests can't tell which effect is missing",
     }[found.verdict]
+
+
+def _left_over(found: Diagnosis) -> str:
+    """What is left where nothing is missing: noise, or what is slower than noise and yet too little to ask about."""
+    if found.rmse_um is None:
+        return "too little is left to ask about"
+    left = f"{number(found.rmse_um)} um are left on left-out tests"
+    if found.noise_um is None:
+        return f"{left}, too little to ask about"
+    noise = f"noise{_between(found)} of {number(found.noise_um)} um"
+    if found.rmse_um <= NOISY * found.noise_um:
+        return f"{left}, and they are {noise}"
+    return f"{left}, more than the {noise}, but too little to ask about"
+
+
+def _between(found: Diagnosis) -> str:
+    return f" between neighbouring means of {duration(found.noise_over_s)}" if found.noise_over_s else ""
+
+
+def noise_words(found: Diagnosis) -> str:
+    """'noise 0.0563 um between neighbouring means of 60 s'; '' where none is known."""
+    return "" if found.noise_um is None else f"noise {number(found.noise_um)} um{_between(found)}"
 
 
 def _missing(claims: Sequence[Candidate]) -> str:

@@ -501,6 +501,30 @@ class TestsFrom(Strict):
     set: dict[str, Any] = {}
 
 
+class Overrule(Strict):
+    """`overrule[]`: a flag that is wrong, and why. The samples count again; the event stays, with the reason.
+
+    flag: its name, as `thermodata quality` shows it
+    channel: key of `channels`; by default every one that has the flag
+    because: why the reading is sound; kept and shown wherever the flag was
+    tests: ids of the tests in which it is wrong; by default all
+    window: [from, to] in the test, as `thermodata quality --events` shows it; by default throughout
+    """
+
+    flag: Literal["held", "stuck", "saturated", "spike", "out_of_range", "offset", "foreign"]
+    channel: str | None = None
+    because: str
+    tests: list[str] = []
+    window: tuple[Seconds, Seconds] | None = None
+
+    @field_validator("because")
+    @classmethod
+    def _a_reason(cls, value: str) -> str:
+        if not value.strip():
+            raise ValueError("say why the reading is sound: the reason stands beside the flag from then on")
+        return " ".join(value.split())
+
+
 class Campaign(Strict):
     """A campaign file: what was measured, where, by what, and how it is calibrated. `tests_from` is expanded by
     the loader into `tests`.
@@ -514,6 +538,7 @@ class Campaign(Strict):
     tests: the tests
     tests_from: many tests, from file names or a table
     versions: file -> SHA-256 (6 digits or more) of an earlier version of it that counts
+    overrule: flags that are wrong, each with its reason
     notes: free text
     """
 
@@ -526,6 +551,7 @@ class Campaign(Strict):
     tests: list[Test] = []
     tests_from: TestsFrom | list[TestsFrom] | None = None
     versions: dict[str, str] = {}
+    overrule: list[Overrule] = Field(default=[], exclude_if=lambda rules: not rules)
     notes: str = ""
 
     @field_validator("id")
@@ -574,6 +600,7 @@ __all__ = [
     "LinearCalibration",
     "Machine",
     "Measuring",
+    "Overrule",
     "Role",
     "ScaleCalibration",
     "Sensor",

@@ -16,6 +16,7 @@ def check_campaign(campaign: Campaign, document: Document) -> None:
     _calibrations(campaign, document)
     _sources(campaign, document)
     _tests(campaign, document)
+    _overruled(campaign, document)
 
 
 def _known(kind: str, name: str, choices: Collection[str], document: Document, place: Place) -> None:
@@ -150,3 +151,19 @@ def _tests(campaign: Campaign, document: Document) -> None:
                     got=f"[{begin:g} s, {end:g} s]",
                     hint="phases count from the start of the recording, as the window does",
                 )
+
+
+def _overruled(campaign: Campaign, document: Document) -> None:
+    tests = [test.id for test in campaign.tests]
+    for i, rule in enumerate(campaign.overrule):
+        if rule.channel is not None:
+            _known("channel", rule.channel, campaign.channels, document, ("overrule", i, "channel"))
+        for k, test in enumerate(rule.tests):
+            _known("test", test, tests, document, ("overrule", i, "tests", k))
+        if rule.window is not None and rule.window[1] <= rule.window[0]:
+            raise SpecError(
+                "a window that ends before it starts",
+                where=document.where(("overrule", i, "window")),
+                expected="[from, to] with from < to, from the start of the test",
+                got=f"[{rule.window[0]:g} s, {rule.window[1]:g} s]",
+            )

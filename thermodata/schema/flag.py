@@ -21,6 +21,7 @@ class Flag(IntFlag):
     OFFSET = 512  # a sensor that reads many kelvin more, or less, from one moment on
     DUPLICATE_TIME = 1024  # a second sample at one time
     RATE_CHANGE = 2048  # the first sample at another rate
+    FOREIGN = 4096  # of another recording: after a pause nearly every channel lies elsewhere
 
 
 # A sample with any of these does not count in means, fits and scores. A gap marks the first sample after it
@@ -34,4 +35,8 @@ INVALID = (
     | Flag.STUCK
     | Flag.OFFSET
     | Flag.DUPLICATE_TIME
+    | Flag.FOREIGN
 )
+# What a campaign file may overrule: what rests on a sensor's values, never what rests on its clock.
+OVERRULABLE = ("held", "stuck", "saturated", "spike", "out_of_range", "offset", "foreign")
+OVERRULED = "overruled: "  # begins the detail of an event that was; its reason follows

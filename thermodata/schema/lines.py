@@ -20,11 +20,13 @@ Place = tuple[str | int, ...]
 
 @dataclass(slots=True)
 class Document:
-    """Plain data and where it stood: `line[place]` is the 1-based line of the key or item at that place."""
+    """Plain data and where it stood: `line[place]` is the 1-based line of the key or item at that place.
+    `digits[place]` is the text of a number with a fraction."""
 
     path: Path
     data: Any
     line: dict[Place, int] = field(default_factory=dict)
+    digits: dict[Place, str] = field(default_factory=dict)
 
     def where(self, place: Sequence[str | int]) -> str:
         """`file:line (a.b[2])`, at the deepest known part of the place."""
@@ -178,7 +180,7 @@ class _Builder:
         if isinstance(node, yaml.SequenceNode):
             return [self.build(item, (*place, i), depth + 1) for i, item in enumerate(node.value)]
         try:
-            return self.loader.construct_object(node)
+            value = self.loader.construct_object(node)
         except (yaml.YAMLError, ValueError):
             raise SpecError(
                 "a value that YAML cannot read",
@@ -186,15 +188,16 @@ class _Builder:
                 got=str(node.value)[:80],
                 hint="put it in quotes",
             ) from None
+        if isinstance(value, float):
+            self.document.digits[place] = node.value
+        return value
 
     def _mapping(self, node: yaml.MappingNode, place: Place, depth: int) -> dict[str, Any]:
         result: dict[str, Any] = {}
         name = self.document.path.name
         for key_node, value_node in node.value:
             line = key_node.start_mark.line + 1
-            if not isinstance(key_node, yaml.ScalarNode):
-                raise SpecError("a key must be a word", where=f"{name}:{line}")
-            key = str(key_node.value)
+            key = _key(key_node, f"{name}:{line}")
             if key in result:
                 raise SpecError(
                     f"the key '{key}' stands twice",
@@ -205,6 +208,15 @@ class _Builder:
             self.document.line[(*place, key)] = line
             result[key] = self.build(value_node, (*place, key), depth + 1)
         return result
+
+
+def _key(node: yaml.Node, where: str) -> str:
+    """A word, or a list of words as it is written: `[D25, D63]: k1` names what several keys have in common."""
+    if isinstance(node, yaml.ScalarNode):
+        return str(node.value)
+    if isinstance(node, yaml.SequenceNode) and all(isinstance(part, yaml.ScalarNode) for part in node.value):
+        return f"[{', '.join(str(part.value) for part in node.value)}]"
+    raise SpecError("a key must be a word, or a list of words", where=where)
 
 
 def at_place(data: Any, place: Sequence[str | int]) -> Any:

@@ -9,14 +9,22 @@ from thermodata.errors import SpecError
 from thermodata.schema.campaign import Campaign
 from thermodata.schema.crosscheck import check_campaign
 from thermodata.schema.explain import validate
-from thermodata.schema.lines import Document, parse_document, read_document
+from thermodata.schema.lines import Document, at_place, parse_document, read_document
 from thermodata.schema.model import Model
 from thermodata.schema.tests_from import expand
 
 
 def load_campaign(path: Path | str) -> Campaign:
     """A campaign file with `tests_from` expanded into `tests`; SpecError names file and line."""
-    document = read_document(Path(path))
+    return _campaign(read_document(Path(path)))
+
+
+def parse_campaign(text: str, name: str = "campaign.yaml") -> Campaign:
+    """A campaign from text, as `load_campaign` does from a file."""
+    return _campaign(parse_document(text, Path(name)))
+
+
+def _campaign(document: Document) -> Campaign:
     _expect_schema(document, "thermodata/campaign/1")
     campaign = validate(Campaign, document)
     check_campaign(campaign, document)
@@ -38,7 +46,15 @@ def parse_model(text: str, name: str = "model.yaml") -> Model:
 
 def _model(document: Document) -> Model:
     _expect_schema(document, "thermodata/model/1")
+    _keep_digits(document)
     return validate(Model, document)
+
+
+def _keep_digits(document: Document) -> None:
+    """What an effect fixes may be a printed coefficient: its text says how far it is known."""
+    for place, text in document.digits.items():
+        if "fixed" in place[:-1] and text != repr(at_place(document.data, place)):
+            at_place(document.data, place[:-1])[place[-1]] = text
 
 
 def _expect_schema(document: Document, expected: str) -> None:

@@ -7,6 +7,7 @@ from typing import Annotated, Any, Literal
 from pydantic import Field, PlainSerializer, field_validator, model_validator
 
 from thermodata.schema.campaign import Seconds, Strict
+from thermodata.schema.printed import PrintedNumber
 
 # a model written as JSON is a model file again, and there a time has a unit
 _WITH_UNIT = PlainSerializer(lambda s: f"{s:.12g} s", return_type=str, when_used="json")
@@ -46,34 +47,78 @@ Driver = str | Place  # a channel, a difference "T_a - T_b", or a place
 class EffectSpec(Strict):
     """`effects[]`: one effect of the model, with what is fixed of it.
 
-    effect: name of an installed effect, or transfer_function, or prediction
+    effect: name of an installed effect, or transfer_function, prediction, or model
     id: its name in the answers; by default the effect's, numbered where it repeats
     drivers: role -> channel, difference of channels (T_a - T_b), or {at: place}; found by place where left out
-    calibrate_on: tests that identify this effect first, before the others
+    calibrate_on: tests that identify this effect first, before the others; all of their phases count
+    response: the effect is identified on this response first, and used as found
+    phases: the effect acts in these phases only, and is identified from them; between them it keeps what it had
+        reached. heating is all the time that the machine works, unless the tests declare phases
     tests: the tests that it exists in (a slip); by default all
     method: of a transfer function: oe, arx, or varpro (a sum of lags)
     orders: of a transfer function: numbers of numerator and denominator coefficients; chosen where left out
-    gain_by: one gain for each value of a condition: conditions.spindle
-    shared: parameters that all groups of gain_by share
+    also: what its drivers go through first, as parameters beside its own: dead_time [s], sensor_lag [s]
+    gain_by: one gain for each value of a condition: conditions.spindle, or D; or test, machine, campaign, tool, or
+        place (of the response: time constants are then shared by the places); or a list of them
+    groups: values of gain_by that have one gain: {[D25, D63]: k1, D100: k2}
+    one_gain: one factor g for each value of gain_by, over all gains of the effect
+    shared: parameters that all groups of gain_by share; by default all
     fixed: parameter or gain -> value, in the effect's unit
     start: parameter -> where its search starts
     bounds: parameter -> [lower, upper], in the effect's unit
     file: of a prediction: CSV with the columns test, t_s [s], predicted
+    name: of a model: its name or id in the store, or its file; what it predicts is the driver
+    gain: of a model: a number holds the factor on its output; a word, or nothing, leaves it free (under that name)
+    inside: set by fit: the model that `name` was, as it was then
     """
 
     effect: str
     id: str | None = None
     drivers: dict[str, Driver] = {}
     calibrate_on: list[str] | None = None
+    response: Response | None = None
+    phases: list[str] | None = None
     tests: list[str] | None = None
     method: Literal["oe", "arx", "varpro"] | None = None
     orders: tuple[int, int] | None = None
-    gain_by: str | None = None
+    also: list[str] = []
+    gain_by: str | list[str] | None = None
+    groups: dict[str, str] = {}
+    one_gain: bool = False
     shared: list[str] = []
-    fixed: dict[str, float] = {}
+    fixed: dict[str, PrintedNumber] = {}
     start: dict[str, float] = {}
     bounds: dict[str, tuple[float, float]] = {}
     file: str | None = None
+    name: str | None = None
+    gain: float | str | None = None
+    inside: dict[str, Any] | None = None
+
+    @field_validator("groups", mode="before")
+    @classmethod
+    def _each(cls, value: Any) -> Any:
+        """{"[D25, D63]": k1} -> {D25: k1, D63: k1}: a list as a key means each of its values."""
+        if not isinstance(value, dict):
+            return value
+        named: dict[str, str] = {}
+        for key, label in value.items():
+            for one in str(key).strip().removeprefix("[").removesuffix("]").split(","):
+                if one.strip() in named:
+                    raise ValueError(f"'{one.strip()}' is in two groups")
+                named[one.strip()] = str(label)
+        return named
+
+    @model_validator(mode="after")
+    def _belongs(self) -> EffectSpec:
+        if self.gain_by is None and (self.groups or self.one_gain):
+            raise ValueError(f"'{'groups' if self.groups else 'one_gain'}' needs 'gain_by'")
+        return self
+
+    @property
+    def gains_by(self) -> tuple[str, ...]:
+        """What each gain belongs to, without 'conditions.'; empty where one gain serves all."""
+        names = [self.gain_by] if isinstance(self.gain_by, str) else self.gain_by or []
+        return tuple(name.removeprefix("conditions.") for name in names)
 
 
 class Model(Strict):
@@ -88,6 +133,7 @@ class Model(Strict):
     verify_on: tests that are scored; by default those with the role verification
     locked: tests that are opened to confirm a claim only; by default those with the role locked
     phases: the phases that count: [heating]; by default all
+    weights: test or phase -> weight of its samples in the fit: {etve: 0.2}; by default 1
     step: of the grid of fit and simulation [s]
     effects: the sum
     in_sample: set by add: verification tests are fitted too, and their scores say so
@@ -103,6 +149,7 @@ class Model(Strict):
     verify_on: list[str] | None = None
     locked: list[str] | None = None
     phases: list[str] | None = None
+    weights: dict[str, Annotated[float, Field(ge=0)]] = {}
     step: Annotated[Seconds, Field(gt=0), _WITH_UNIT] = 30.0
     effects: list[EffectSpec] = []
     in_sample: bool = False

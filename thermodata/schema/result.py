@@ -89,6 +89,8 @@ class FitResult(Result):
     scores: a row a test, response and phase
     checks: what the fit says of itself
     before: of add: the parent's scores
+    added: of add: ids of the effects that the parent has not; a second lag of an effect is one of its own
+    notes: of add: which second lags were taken in and why, in sentences
     """
 
     model: str
@@ -100,6 +102,8 @@ class FitResult(Result):
     scores: list[Score]
     checks: list[Check]
     before: list[Score] | None = None
+    added: list[str] | None = None
+    notes: list[str] = []
 
 
 class WeakSpot(Result):
@@ -119,6 +123,65 @@ class WeakSpot(Result):
     to_s: float
     rmse_um: float
     state: str
+
+
+class Rung(Result):
+    """One rule of a claim.
+
+    name: chance, fall, tests, gain, worth, steadies or timing
+    asks: what is measured
+    value: measured; null where it can't be
+    limit: of the rule
+    unit: of value and limit; 1 for shares
+    at: whether the value has to be at least or at most the limit
+    holds: whether the rule is met
+    """
+
+    name: str
+    asks: str
+    value: float | None
+    limit: float
+    unit: str
+    at: Literal["least", "most"]
+    holds: bool
+
+
+class LeftOut(Result):
+    """A test, or a part of one, as the others foretell it.
+
+    campaign: id
+    test: id
+    from_s: where the part begins, from the test's start [s]
+    to_s: where it ends [s]
+    acts: whether the candidate does something in it
+    rmse_um_before: error without the candidate, in the response's unit
+    rmse_um_after: with it
+    """
+
+    campaign: str
+    test: str
+    from_s: float
+    to_s: float
+    acts: bool
+    rmse_um_before: float
+    rmse_um_after: float
+
+
+class CandidateCourse(Result):
+    """What a candidate would take of the residual in one test, free offsets removed; lists have one entry a sample.
+
+    campaign: id
+    test: id
+    t_s: from the test's start [s]
+    residual_um: what the model leaves over, in the response's unit
+    contribution_um: the candidate's, with its gains as all open tests give them
+    """
+
+    campaign: str
+    test: str
+    t_s: list[float]
+    residual_um: list[float]
+    contribution_um: list[float]
 
 
 class Candidate(Result):
@@ -143,6 +206,10 @@ class Candidate(Result):
     parameters: of the effect, fitted to all open tests; for a claimed one only
     equivalent: ids that the data cannot tell from it
     why: the evidence in a sentence
+    evidence: log Bayes factor of the model with it against the model without
+    rungs: every rule of a claim with its value and limit
+    left_out: each left-out test before and after; beside the user's own model, or beside all that is chosen
+    courses: the residual and the contribution; for claims, refinements and the head of the list only
     """
 
     rank: int
@@ -163,16 +230,20 @@ class Candidate(Result):
     parameters: dict[str, Parameter] = {}
     equivalent: list[str] = []
     why: str = ""
+    evidence: float | None = None
+    rungs: list[Rung] = []
+    left_out: list[LeftOut] = []
+    courses: list[CandidateCourse] = []
 
 
 class Artefact(Result):
     """A fault of the logs, beside any verdict.
 
-    kind: step, clock_offset, sign, gain or parameters
+    kind: step, clock_offset, sign, gain, parameters or sensor
     campaign: id
     test: id; empty where all tests share it
     at_s: from the test's start [s]
-    size_um: its size, in the response's unit
+    size_um: its size, in the response's unit; null for a sensor
     why: the evidence in a sentence
     """
 
@@ -280,7 +351,8 @@ class Diagnosis(Result):
     verdict: effect: one is missing; refine: none is missing, but an effect that is there acts otherwise than modelled;
         none: what is left is noise; unknown: something is left that nothing logged explains; not_testable: the tests
         cannot tell
-    noise_um: short-term noise of the response, in its unit
+    noise_um: short-term noise of the response, in its unit; of a staircase at least what its treads leave
+    noise_over_s: averaging time of the samples that the noise lies between [s]; null where it was not kept
     rmse_um: error on left-out tests without any candidate
     explainable: largest fall of the squared error that a candidate gives, 0 to 1
     weak_spots: where the model fails, by cost
@@ -288,12 +360,14 @@ class Diagnosis(Result):
     artefacts: faults of the logs
     unknown: for the verdict unknown
     next_test: which test to run, or which sensor to add
+    chance: quantiles (0 to 1 in even steps) of the best log evidence in responses in which nothing is missing
     """
 
     model: str
     response: str
     verdict: Literal["effect", "refine", "none", "unknown", "not_testable"]
     noise_um: float | None
+    noise_over_s: float | None = None
     rmse_um: float | None
     explainable: float | None
     weak_spots: list[WeakSpot]
@@ -301,6 +375,7 @@ class Diagnosis(Result):
     artefacts: list[Artefact]
     unknown: Unknown | None = None
     next_test: str | None = None
+    chance: list[float] = []
 
 
 class TestConfirmed(Result):

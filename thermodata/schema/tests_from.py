@@ -56,7 +56,7 @@ def _from_files(campaign: Campaign, spec: TestsFrom, document: Document, place: 
             got=str(spec.source),
         )
     folder = document.path.parent.resolve()
-    pattern = _pattern(spec.files)
+    pattern = pattern_of(spec.files)
     table = _read_table(spec, folder, document, place) if spec.table else {}
     tests = []
     for path in sorted(folder.glob(_FIELD.sub("*", spec.files))):
@@ -83,7 +83,7 @@ def _from_files(campaign: Campaign, spec: TestsFrom, document: Document, place: 
     return tests
 
 
-def _pattern(files: str) -> re.Pattern[str]:
+def pattern_of(files: str) -> re.Pattern[str]:
     """A glob with {names} as a regular expression; the same name twice must match the same text."""
     text, seen, last = "", set(), 0
     for field in _FIELD.finditer(files):

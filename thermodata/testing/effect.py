@@ -16,6 +16,8 @@ from itertools import product
 
 import numpy as np
 
+from thermodata.effect.law import with_parameters
+from thermodata.effect.law_run import evaluate
 from thermodata.errors import PluginError
 from thermodata.plugin import Drivers, Effect, Float1D, Need
 from thermodata.schema.quantity import QUANTITIES
@@ -162,6 +164,29 @@ def every_parameter_changes_something(effect: Effect) -> Iterator[str]:
         yield f"no driver makes {sorted(silent)} matter"
 
 
+def its_law_is_its_basis(effect: Effect) -> Iterator[str]:
+    law = getattr(effect, "law", None)
+    if law is None:
+        return
+    units = {q.name: q.unit for q in effect.params}
+    for drivers in _variants(effect):
+        for ends in ("start", "lower", "upper"):
+            p = {q.name: float(getattr(q, ends)) for q in effect.params}
+            columns = effect.basis(drivers, p)
+            formulas = law(set(drivers.values), p, STEP_S)
+            if len(formulas) != len(effect.gains):
+                yield f"{len(formulas)} formulas for {len(effect.gains)} gains"
+                return
+            for gain, formula, column in zip(effect.gains, formulas, columns.T, strict=True):
+                told = evaluate(with_parameters(formula, p, units), drivers.values, STEP_S)
+                if not np.allclose(told, column, rtol=1e-9, atol=1e-9 * max(1.0, float(np.abs(column).max()))):
+                    yield f"the law of '{gain.name}' gives something else than the basis, by {_most(told - column):.3g}"
+
+
+def _most(values: Float1D) -> float:
+    return float(np.abs(values).max())
+
+
 RULES: tuple[Rule, ...] = (
     it_has_all_that_the_contract_names,
     what_it_states_beyond_the_contract_is_text,
@@ -175,6 +200,7 @@ RULES: tuple[Rule, ...] = (
     it_does_not_look_ahead,
     it_says_the_same_twice,
     every_parameter_changes_something,
+    its_law_is_its_basis,
 )
 
 

@@ -13,7 +13,11 @@ from thermodata.plugin import Bool1D, Float1D
 
 @dataclass(frozen=True, slots=True)
 class ChannelInfo:
-    """A channel as the campaign file describes it. unit is canonical; sign '+' once normalised, else 'unknown'."""
+    """A channel as the campaign file describes it. unit is canonical; sign '+' once normalised, else 'unknown'.
+
+    lost: share of its samples in this test that flags rule out. faulty: the flag for which its sensor is judged faulty
+    in this test (of a dataset: in any); None where it is sound.
+    """
 
     name: str
     quantity: str
@@ -24,6 +28,8 @@ class ChannelInfo:
     source: str | None = None
     sign: str = "+"
     resolution: float | None = None
+    lost: float = 0.0
+    faulty: str | None = None
 
 
 @dataclass(frozen=True, slots=True)

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from thermodata.errors import ThermodataError
 from thermodata.schema.quantity import linear_conversion, split_value
 from thermodata.store.catalogue.conditions import plain_value
 from thermodata.view.dataset import ChannelInfo
+from thermodata.view.flagged import flagged_channels
 
 if TYPE_CHECKING:
     import duckdb
@@ -75,12 +77,17 @@ def channel_infos(
         "from channel where list_contains(?, campaign) and quantity <> 'label' order by rowid",
         [list(campaigns)],
     ).fetchall()
+    flagged = flagged_channels(con, campaigns)
     infos: dict[tuple[str, str], dict[str, ChannelInfo]] = {}
     for campaign, test, name, quantity, unit, at, axis, relative_to, source, sign, sensor, raw_unit in rows:
         resolution = _json(sensor).get("resolution")
         infos.setdefault((campaign, test), {})[name] = ChannelInfo(
             name, quantity, unit, at, axis, relative_to, source, sign, _resolution(resolution, unit, raw_unit)
         )
+        own = flagged.get((campaign, test), {}).get(name)
+        if own is not None:
+            known = infos[campaign, test][name]
+            infos[campaign, test][name] = replace(known, lost=own.lost, faulty=own.faulty)
     return infos
 
 

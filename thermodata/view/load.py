@@ -12,6 +12,7 @@ from __future__ import annotations
 
 import hashlib
 from collections.abc import Collection, Iterable, Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -59,7 +60,9 @@ def load_dataset(
     union: dict[str, ChannelInfo] = {}
     for test in tests:
         for name, info in test.channels.items():
-            union.setdefault(name, info)
+            known = union.setdefault(name, info)
+            if info.faulty is not None and known.faulty is None:
+                union[name] = replace(known, faulty=info.faulty)
     return Dataset(float(step_s), tests, union, _version([(c, versions[c]) for c in wanted]))
 
 

@@ -3,17 +3,17 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from importlib.resources import files
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from thermodata.report.causes import Cause, by_cause
 from thermodata.report.quality.data import TestQuality, Trace, collect
-from thermodata.report.quality.figure import SEVERITY, TINTS, draw_test, when
+from thermodata.report.quality.figure import SEVERITY, draw_test, when
 from thermodata.report.words import duration, typeset
-from thermodata.report.write import script_json, write_page
-from thermodata.schema.flag import INVALID, Flag
-from thermodata.version import __version__
+from thermodata.report.write import page_values, write_page
+from thermodata.schema.flag import INVALID, OVERRULED, Flag
 
 if TYPE_CHECKING:
     from thermodata.view import StoreView
@@ -31,28 +31,21 @@ def build_quality_report(view: StoreView, campaign: str | None, out: Path | str)
 def render(tests: Sequence[TestQuality]) -> str:
     """The page's HTML. Names and texts from data are escaped; figures stand in it as JSON."""
     import jinja2
-    from markupsafe import Markup
-    from plotly.offline import get_plotlyjs
 
-    report, own = files("thermodata.report"), files("thermodata.report.quality")
+    own = files("thermodata.report.quality")
     environment = jinja2.Environment(autoescape=True, trim_blocks=True, lstrip_blocks=True)
     pictures = {f"test{i}": draw_test(t) for i, t in enumerate(tests)}
-    shown = [_shown(t, f"test{i}", pictures[f"test{i}"]["layout"]["height"]) for i, t in enumerate(tests)]
+    shown = [_shown(t, f"test{i}") for i, t in enumerate(tests)]
     used = {name for row in shown for name, _ in row["counts"]} | {
         n for t in tests for trace in t.traces for n in _names(trace)
     }
     return environment.from_string((own / "page.html.j2").read_text(encoding="utf-8")).render(
         campaign=tests[0].campaign if tests else "no tests",
         tests=shown,
-        tints=TINTS,
-        version=__version__,
         legend=[n for n in _WORST_FIRST if n in used],
         headline=headline(tests),
         sentences=sentences(tests),
-        json={key: Markup(script_json(figure)) for key, figure in pictures.items()},
-        css=Markup((report / "page.css").read_text(encoding="utf-8")),
-        js=Markup((report / "page.js").read_text(encoding="utf-8")),
-        plotly=Markup(get_plotlyjs()),
+        **page_values(pictures),
     )
 
 
@@ -65,7 +58,7 @@ def headline(tests: Sequence[TestQuality]) -> str:
     reasons = Counter[str]()
     for test in tests:
         for event in test.events:
-            if event["flag"] not in _INFORMATION:
+            if event["flag"] not in _INFORMATION and not _overruled(event):
                 reasons[event["flag"]] += event["n"] or 0
     if not flagged:
         return f"All of {count(samples)} samples in {len(tests)} tests count"
@@ -80,6 +73,7 @@ def sentences(tests: Sequence[TestQuality]) -> list[str]:
     if lost:
         said.append(f"Data were lost in {', '.join(lost[:6])}{' and others' if len(lost) > 6 else ''}: see below.")
     for flag, words in (
+        ("foreign", "with a part of another recording"),
         ("offset", "stepped against what came before"),
         ("stuck", "stuck at one value"),
         ("held", "frozen for a while"),
@@ -89,14 +83,30 @@ def sentences(tests: Sequence[TestQuality]) -> list[str]:
             (e["channel"] or e["source"] or "all channels"): t.test
             for t in reversed(tests)
             for e in t.events
-            if e["flag"] == flag
+            if e["flag"] == flag and not _overruled(e)
         }
         if where:
             named = ", ".join(f"{channel} (from {test})" for channel, test in list(where.items())[:5])
             more = " …" if len(where) > 5 else ""
-            thing = "source" if flag == "clock_suspect" else "channel"
+            thing = "source" if flag in ("clock_suspect", "foreign") else "channel"
             said.append(f"{len(where)} {thing}{'' if len(where) == 1 else 's'} {words}: {named}{more}.")
+    said += [
+        f"{len(cause.members)} overruled by the campaign file: {cause.text}."
+        for cause in by_cause(
+            [(t, e) for t in tests for e in t.events if _overruled(e)],
+            lambda x: f"{x[1]['channel'] or 'all channels'} ({x[0].test}, {x[1]['flag']}): {_reason(x[1])}",
+            {t.test for t in tests} | {str(e["channel"]) for t in tests for e in t.events},
+        )
+    ]
     return said
+
+
+def _overruled(event: Mapping[str, Any]) -> bool:
+    return bool((event["detail"] or "").startswith(OVERRULED))
+
+
+def _reason(event: Mapping[str, Any]) -> str:
+    return str(event["detail"])[len(OVERRULED) :].partition(" (was: ")[0]
 
 
 def share(part: int, whole: int) -> str:
@@ -115,6 +125,10 @@ def count(n: int) -> str:
     return str(n)
 
 
+def _counted(cause: Cause[str]) -> str:
+    return f"{len(cause.members)} times: {cause.text}" if len(cause.members) > 1 else cause.text
+
+
 def _names(trace: Trace) -> set[str]:
     import numpy as np
 
@@ -122,9 +136,9 @@ def _names(trace: Trace) -> set[str]:
     return {str(f.name).lower() for f in Flag if f and seen & f}
 
 
-def _shown(test: TestQuality, key: str, height: int) -> dict[str, Any]:
+def _shown(test: TestQuality, key: str) -> dict[str, Any]:
     samples, flagged = sum(t.samples for t in test.traces), sum(t.flagged for t in test.traces)
-    counts = Counter(e["flag"] for e in test.events)
+    counts = Counter(e["flag"] for e in test.events if not _overruled(e))
     worst = sorted((t for t in test.traces if t.flagged), key=lambda t: -t.flagged)[:3]
     longest = sorted(test.events, key=lambda e: -((e["to_s"] or 0) - (e["from_s"] or 0)))[:_MOST_EVENTS]
     longest.sort(key=lambda e: (e["from_s"] or 0, e["channel"] or ""))
@@ -137,9 +151,8 @@ def _shown(test: TestQuality, key: str, height: int) -> dict[str, Any]:
         "length": duration(test.duration_s),
         "samples": count(samples),
         "share": share(flagged, samples),
-        "height": height,
         "counts": [(n, counts[n]) for n in _WORST_FIRST if n in counts],
-        "losses": test.losses,
+        "losses": [_counted(c) for c in by_cause(test.losses, str)],
         "worst": [f"{t.name} {share(t.flagged, t.samples)}" for t in worst],
         "total": len(test.events),
         "events": [{**e, "when": when(e["from_s"], e["to_s"]), "detail": typeset(e["detail"] or "")} for e in longest],

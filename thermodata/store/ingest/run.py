@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from thermodata.errors import StoreError
+from thermodata.schema.campaign import Campaign
 from thermodata.schema.load import load_campaign
 from thermodata.store.catalogue.store import Store, new_mark
 from thermodata.store.ingest.catalogue_rows import calibration_row, raw_row
@@ -56,7 +57,10 @@ class IngestSummary:
 
 
 def ingest(
-    store: Store, campaign_path: Path | str, progress: Progress | Callable[[str], None] | None = None
+    store: Store,
+    campaign_path: Path | str,
+    progress: Progress | Callable[[str], None] | None = None,
+    campaign: Campaign | None = None,
 ) -> IngestSummary:
     """Brings a campaign into the store: raw layer, calibrations, tidy layer, and then one commit.
 
@@ -64,11 +68,12 @@ def ingest(
     and the source files need not be there any more. A file that can't be read is a loss and doesn't stop the
     others. Raises SpecError for a wrong campaign file and CalibrationError for a contradictory calibration; then,
     and when it is interrupted, the store stays as it was. progress: is told what is being done, and how far it is.
+    campaign: in place of a file's content; the path then says where its logs are.
     """
     watch = TextProgress(progress or (lambda _: None)) if progress is None or callable(progress) else progress
     for attempt in range(_ATTEMPTS):
         try:
-            return _ingest(store, Path(campaign_path), watch)
+            return _ingest(store, Path(campaign_path), watch, campaign)
         except VanishedError as error:
             if attempt == _ATTEMPTS - 1:
                 raise StoreError(
@@ -80,13 +85,13 @@ def ingest(
     raise AssertionError("unreachable")
 
 
-def _ingest(store: Store, path: Path, watch: Progress) -> IngestSummary:
+def _ingest(store: Store, path: Path, watch: Progress, given: Campaign | None) -> IngestSummary:
     began, now = time.monotonic(), datetime.now(UTC).replace(tzinfo=None)
-    campaign = load_campaign(path)
+    campaign = load_campaign(path) if given is None else given
     raw_layer = RawIngest(store.path, path.absolute().parent, campaign, Inventory(), watch)
     raw_layer.survey()
     here = raw_layer.seen(path.absolute())
-    known = answer(here, store.mark())
+    known = answer(here, store.mark()) if given is None else None
     if known is not None:
         return replace(IngestSummary(**known), seconds=time.monotonic() - began)
     with store.marked_reader() as (con, mark):
@@ -135,7 +140,7 @@ def _ingest(store: Store, path: Path, watch: Progress) -> IngestSummary:
         summary.changed = True
         if summary.stale:
             summary.notes.append(f"{len(summary.stale)} fitted models are stale now: fit them again")
-    if not raw_layer.passing:
+    if not raw_layer.passing and given is None:
         keep(here, mark, raw_layer.hashes(), planned.parts(), again.to_json())
     summary.seconds = time.monotonic() - began
     return summary

@@ -21,12 +21,14 @@ from thermodata.store.base.files import is_whole, key_of
 from thermodata.store.ingest import catalogue_rows
 from thermodata.store.ingest.inventory import BY_TEST, Inventory, Row
 from thermodata.store.ingest.raw_layer import loss_row
+from thermodata.store.tidy.between import Verdict, levels_of, verdicts
 from thermodata.store.tidy.clock_offsets import clocks_of
+from thermodata.store.tidy.event import event_of
 from thermodata.store.tidy.keys import member_key
+from thermodata.store.tidy.overrule import idle
 from thermodata.store.tidy.plan import SCHEDULE, TestPlan
 from thermodata.store.tidy.series import Member, TestSeries
 from thermodata.store.tidy.source_clock import Clock, Span, span
-from thermodata.store.tidy.temperature_levels import levels_of, offsets_by_test
 from thermodata.store.tidy.writer import TidyResult, write_member
 
 Columns = list[tuple[str, bool]]
@@ -68,7 +70,8 @@ def tidy_tests(
 ) -> TidyLayer:
     """Tidies every stream of every test that isn't there under its content key.
 
-    A sensor that failed between two tests shows only once all are tidied; the streams that it spoils are made again.
+    A sensor that failed between two tests, and a foreign part, show only once all are tidied; the streams that they
+    spoil are made again.
     """
     layer = TidyLayer()
     tidier = _Tidier(store, _columns(plans), calibrations, inventory, now, say, layer)
@@ -83,20 +86,23 @@ def tidy_tests(
             x := levels_of(
                 t.plan.test.id,
                 None if t.where.relative else t.where.zero_ns / 1e9,
+                {name: b.channel.quantity for name, b in t.plan.bound.items()},
                 [r for rows in t.files.values() for r in rows],
             )
         )
         is not None
     ]
-    failed = offsets_by_test(levels)
+    known = verdicts(levels)
     for plan in plans:
         test = tidied.get(plan.test.id)
         if test is not None:
             with _loss_where_it_fails(layer, plan):
-                tidier.mark(test, failed.get(plan.test.id, {}))
+                tidier.mark(test, known.get(plan.test.id, Verdict()))
                 _add_rows(layer, test, calibrations, now)
         layer.losses += [loss_row(p, test=plan.test.id) for p in plan.problems]
         layer.notes += plan.notes
+    events = {name: [event_of(r) for rows in t.events.values() for r in rows] for name, t in tidied.items()}
+    layer.notes += idle(plans[0].campaign.overrule if plans else [], events)
     return layer
 
 
@@ -149,17 +155,16 @@ class _Tidier:
                     if (r["source"], r["stream"]) == member
                 ]
             else:
-                self._write(test, series, member, base, {})
+                self._write(test, series, member, base, Verdict())
         return test
 
-    def mark(self, test: _Tidied, failed: Mapping[str, float]) -> None:
-        """Makes those streams again whose files were made with other failed sensors in mind. failed: channel -> by how
-        much its sensor is off [K]."""
+    def mark(self, test: _Tidied, verdict: Verdict) -> None:
+        """Makes those streams again whose files were made with another verdict in mind."""
         series = None
         for member, rows in test.files.items():
             meta = [json.loads(r["columns"]) for r in rows]
-            wanted = {c: size for c, size in failed.items() if any(c in m["channels"] for m in meta)}
-            if wanted != next((m["offsets"] for m in meta if "offsets" in m), {}):
+            wanted = verdict.of(c for m in meta for c in m["channels"])
+            if wanted.to_json() != next((m["verdict"] for m in meta if "verdict" in m), {}):
                 series = series or self._series(test)
                 self._write(test, series, member, self._base(test, member), wanted)
 
@@ -169,13 +174,14 @@ class _Tidier:
     def _base(self, test: _Tidied, member: Member) -> str:
         return member_key(test.plan, member, self.columns[member], test.clocks, test.where, self.calibrations)
 
-    def _write(self, test: _Tidied, series: TestSeries, member: Member, base: str, failed: Mapping[str, float]) -> None:
+    def _write(self, test: _Tidied, series: TestSeries, member: Member, base: str, verdict: Verdict) -> None:
         name, campaign = test.plan.test.id, test.plan.campaign.id
         self.say(f"{name}: {member[0]}/{member[1]}")
-        key = key_of(base, json.dumps(failed, sort_keys=True)) if failed else base
-        result = write_member(series, member, self.columns[member], key, failed)
+        said = verdict.to_json()
+        key = key_of(base, json.dumps(said, sort_keys=True)) if said else base
+        result = write_member(series, member, self.columns[member], key, verdict)
         self.layer.new_streams += 1
-        test.files[member] = _tidy_rows(campaign, name, member, result, self.store, self.now, base, failed)
+        test.files[member] = _tidy_rows(campaign, name, member, result, self.store, self.now, base, said)
         test.events[member] = [
             {"campaign": campaign, "test": name, "source": member[0], "stream": member[1], **dataclasses.asdict(e)}
             for e in result.events
@@ -235,14 +241,14 @@ def _tidy_rows(
     store: Path,
     now: datetime,
     base: str,
-    failed: Mapping[str, float],
+    verdict: Mapping[str, Any],
 ) -> list[Row]:
     rows: list[Row] = []
     for file in result.files:
         meta: dict[str, Any] = {"channels": file.columns, "to_s": file.to_s, "base": base}
         meta |= {"levels": file.levels} if file.levels else {}
         meta |= {"notes": list(result.notes)} if result.notes and file is result.files[-1] else {}
-        meta |= {"offsets": dict(failed)} if failed else {}
+        meta |= {"verdict": dict(verdict)} if verdict else {}
         if file is result.files[-1]:
             meta |= {"samples": result.samples, "flags": dict(result.flags), "problems": result.problems}
         rows.append(

@@ -10,12 +10,13 @@ from thermodata.calibration.measuring import measuring_names
 from thermodata.calibration.result import CalibrationResult
 from thermodata.store.base.files import key_of
 from thermodata.store.tidy import derive
+from thermodata.store.tidy.overrule import rules_of
 from thermodata.store.tidy.plan import SCHEDULE, Bound, TestPlan
 from thermodata.store.tidy.series import Member
 from thermodata.store.tidy.source_clock import Clock, Span
 
 # counts the changes of calibration, flagging and layout that make older tidy files out of date
-TIDY_VERSION = "3"
+TIDY_VERSION = "4"
 MEASURED = ("displacement", "tilt", "angle")
 
 
@@ -37,8 +38,12 @@ def member_key(
     for name in measuring_names(measuring):
         if name in plan.bound:
             _collect(plan, plan.bound[name], used)
+    names = {b.name for b in here}
+    rules = [r for r in rules_of(plan.campaign, plan.test.id) if r.channel is None or r.channel in names]
     members = {(b.source, b.stream) for b in used.values()} | {member}
     parts = [TIDY_VERSION, repr(member), repr(list(columns)), repr(span), repr(measuring)]
+    if rules:
+        parts.append(repr([r.model_dump(mode="json", exclude={"tests"}) for r in rules]))
     for name in sorted(used):
         parts.append(channel_text(used[name], calibrations))
     for source, stream in sorted(members):

@@ -16,28 +16,19 @@ from thermodata.plugin import Array, Int1D
 from thermodata.schema.campaign import Measuring
 from thermodata.schema.flag import Flag
 from thermodata.store.tidy import windows
+from thermodata.store.tidy.between import Verdict
 from thermodata.store.tidy.chunk import Chunk, Column, calibrated
+from thermodata.store.tidy.event import Event
 from thermodata.store.tidy.keys import MEASURED
 from thermodata.store.tidy.measuring import Stretches, find_stretches, lasts, measures
 from thermodata.store.tidy.not_measuring import Activity, join_while_not_measuring
 from thermodata.store.tidy.plan import SCHEDULE, Bound
 from thermodata.store.tidy.series import Member, TestSeries
+from thermodata.store.tidy.standing import join_while_standing
 from thermodata.store.tidy.windows import Joined
 
 _T = TypeVar("_T")
 _PERIOD_ROWS = 1_000_000
-
-
-@dataclass(frozen=True, slots=True)
-class Event:
-    """A stretch of flagged samples; times in seconds from the test's start. channel: None for the whole stream."""
-
-    channel: str | None
-    flag: str
-    from_s: float
-    to_s: float
-    n: int
-    detail: str | None = None
 
 
 @dataclass(slots=True)
@@ -45,7 +36,7 @@ class Flagged:
     """Walks through a stream once, or twice where it has too many columns to be held side by side.
 
     bounds: the channels. start, stop: rows. events: complete once `chunks` has ended. problems: gets what can't be
-    calibrated, and why `measuring` can't be evaluated.
+    calibrated, and why `measuring` can't be evaluated. verdict: what other tests say of the channels.
     """
 
     series: TestSeries
@@ -54,6 +45,7 @@ class Flagged:
     start: int
     stop: int
     problems: list[str]
+    verdict: Verdict = field(default_factory=Verdict)
     events: list[Event] = field(default_factory=list)
     _judged: list[QualityEvent] = field(default_factory=list)
     _activity: dict[str, Activity] = field(default_factory=dict)
@@ -67,7 +59,7 @@ class Flagged:
         zero = self.series.span.zero_ns
         self.events += [
             Event(e.channel, e.flag, (e.from_ns - zero) / 1e9, (e.to_ns - zero) / 1e9, e.n, e.detail or None)
-            for e in concise(join_while_not_measuring(self._judged, self._activity))
+            for e in concise(join_while_standing(join_while_not_measuring(self._judged, self._activity), self.series))
         ]
 
     def _of_the_clock(self) -> list[QualityEvent]:
@@ -102,7 +94,7 @@ class Flagged:
         wanted = min(windows.WINDOW_ROWS, windows.WINDOW_VALUES // max(1, len(bounds)))
         size = max(1, wanted // rows) * rows
         margin = min(windows.MARGIN_ROWS, size // 2)
-        joined = Joined()
+        joined = Joined(elsewhere={n: r.stats() for b in bounds if (r := self.verdict.reading(n := b.name))})
 
         def load(a: int) -> tuple[Chunk, dict[str, Column], dict[str, Column]]:
             chunk = self._chunk(max(self.start, a - margin), min(self.stop, a + size + margin), bounds)

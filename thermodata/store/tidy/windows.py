@@ -14,6 +14,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from thermodata.calibration.quality import MOST_EVENTS, ColumnInput, QualityEvent, flag_stream
+from thermodata.calibration.quality_value import RunStats
 from thermodata.plugin import Array, Int1D
 from thermodata.schema.flag import Flag
 from thermodata.store.tidy.chunk import Column
@@ -38,9 +39,11 @@ class _Carried:
 
 @dataclass(slots=True)
 class Joined:
-    """Takes the windows of a stream in order. events: of the windows so far, in order of time."""
+    """Takes the windows of a stream in order. events: of the windows so far, in order of time. elsewhere: channel ->
+    how it reads in other tests, where this one does not tell."""
 
     events: list[QualityEvent] = field(default_factory=list)
+    elsewhere: Mapping[str, RunStats] = field(default_factory=dict)
     _carried: dict[str, _Carried] = field(default_factory=dict)
     _open: dict[tuple[str | None, str], int] = field(default_factory=dict)
     _count: dict[tuple[str | None, str], int] = field(default_factory=dict)
@@ -54,7 +57,13 @@ class Joined:
         flags, events = flag_stream(
             t_ns,
             {
-                n: ColumnInput(values=c.values, quantity=c.bound.channel.quantity, flags=c.flags, at=c.bound.channel.at)
+                n: ColumnInput(
+                    values=c.values,
+                    quantity=c.bound.channel.quantity,
+                    flags=c.flags,
+                    at=c.bound.channel.at,
+                    elsewhere=self.elsewhere.get(n),
+                )
                 for n, c in columns.items()
             },
         )

@@ -9,17 +9,19 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from thermodata.plugin import Int1D, Loss
+from thermodata.plugin import Bool1D, Float1D, Int1D, Loss
 from thermodata.schema.flag import Flag
 from thermodata.store.base.arrow import to_arrow
 from thermodata.store.base.encoder import Encoder
 from thermodata.store.base.files import publish, temporary
 from thermodata.store.raw.writer import group_rows
+from thermodata.store.tidy.between import Sampler, Verdict
 from thermodata.store.tidy.chunk import Column
+from thermodata.store.tidy.event import Event
+from thermodata.store.tidy.overrule import overrule, overruled, rules_of
 from thermodata.store.tidy.plan import Bound
-from thermodata.store.tidy.quality import Event, Flagged
+from thermodata.store.tidy.quality import Flagged
 from thermodata.store.tidy.series import Member, TestSeries
-from thermodata.store.tidy.temperature_levels import Sampler
 from thermodata.store.tidy.timeline import Timeline
 
 if TYPE_CHECKING:
@@ -39,7 +41,7 @@ class TidyFile:
     rows: int
     columns: list[str]
     to_s: float = 0.0  # of the last row
-    levels: dict[str, list[float | None]] = field(default_factory=dict)  # see `temperature_levels.Sampler`
+    levels: dict[str, Any] = field(default_factory=dict)  # see `between.Sampler`
 
 
 @dataclass(slots=True)
@@ -54,13 +56,13 @@ class TidyResult:
 
 
 def write_member(
-    series: TestSeries, member: Member, columns: Columns, key: str, offsets: Mapping[str, float] | None = None
+    series: TestSeries, member: Member, columns: Columns, key: str, verdict: Verdict | None = None
 ) -> TidyResult:
     """Makes the tidy files of one stream of a test, one row group in memory at a time.
 
     columns: (channel, is text) of the campaign's stream, in the campaign's order; one that this test lacks is NULL.
-    A channel that can't be calibrated is NULL and a problem; the others are written. offsets: channels whose sensor
-    failed before this test, and by how much they are off [K]; they are flagged throughout.
+    A channel that can't be calibrated is NULL and a problem; the others are written. verdict: what the other tests, and
+    the test as a whole, say of its channels.
     """
     result = TidyResult()
     line, rows = series.timeline(member), series.rows(member)
@@ -70,7 +72,9 @@ def write_member(
         result.problems.append(f"no rows of '{member[0]}' lie in the test's window")
         return result
     here = [b for b in series.plan.bound.values() if (b.source, b.stream) == member]
-    flagged = Flagged(series, member, here, rows.history, rows.stop, result.problems)
+    verdict = (verdict or Verdict()).of(b.name for b in here)
+    rules = rules_of(series.plan.campaign, series.plan.test.id)
+    flagged = Flagged(series, member, here, rows.history, rows.stop, result.problems, verdict)
     sampler = Sampler(here, rows.start, rows.stop)
     parts = [
         _Part(series, name, columns, key, a, b)
@@ -79,17 +83,18 @@ def write_member(
     ]
     try:
         for first, t_ns, channels in flagged.chunks(group_rows(len(columns) + 1), [rows.start]):
-            sampler.take(first, channels)
-            for name in offsets or ():
-                if name in channels:
-                    channels[name].flags = channels[name].flags | np.uint16(Flag.OFFSET)
+            t_s = series.t_s(t_ns)
+            overrule(rules, t_s, channels)
+            sampler.take(first, t_s, channels)
+            _pass(verdict, t_s, channels)
+            overrule(rules, t_s, channels)
             part = parts[0] if first < parts[0].stop else parts[1]
             part.add(t_ns, channels)
             if part.name == "test":
                 _count(result, channels)
-        result.events += flagged.events + _failed(series, line, rows.start, rows.stop, here, offsets or {})
+        result.events += overruled(rules, flagged.events + _passed(series, line, rows.start, rows.stop, here, verdict))
         result.files += [part.finish() for part in parts]
-        result.files[-1].levels = sampler.series()
+        result.files[-1].levels = sampler.levels()
     finally:
         for part in parts:
             part.discard()
@@ -97,25 +102,54 @@ def write_member(
     return result
 
 
-def _failed(
-    series: TestSeries, line: Timeline, start: int, stop: int, here: Sequence[Bound], offsets: Mapping[str, float]
+def _pass(verdict: Verdict, t_s: Float1D, channels: Mapping[str, Column]) -> None:
+    """Flags what other tests, and the test as a whole, say of its channels."""
+    for name, (_, since) in verdict.offsets.items():
+        if name in channels:
+            off = np.uint16(Flag.OFFSET) * (t_s > (-np.inf if since is None else since))
+            channels[name].flags = channels[name].flags | off.astype(np.uint16)
+    if verdict.foreign is not None:
+        within = _within(t_s, verdict.foreign[0], verdict.foreign[1])
+        if within.any():
+            for column in channels.values():
+                column.flags = column.flags | np.where(within, np.uint16(Flag.FOREIGN), np.uint16(0))
+
+
+def _within(t_s: Float1D, a: float | None, b: float | None) -> Bool1D:
+    """Where a time lies from a to b [s], ends included; None: no end."""
+    return np.asarray((t_s >= (-np.inf if a is None else a)) & (t_s <= (np.inf if b is None else b)))
+
+
+def _passed(
+    series: TestSeries, line: Timeline, start: int, stop: int, here: Sequence[Bound], verdict: Verdict
 ) -> list[Event]:
-    """One event over the whole test for each sensor that failed before it."""
-    failed = [b.name for b in here if b.name in offsets] if start < stop else []
-    if not failed:
+    """One event for each sensor that is off since an earlier test or drifted away, and one for a foreign part."""
+    if start >= stop:
         return []
-    from_s, to_s = series.t_s(np.concatenate([line.times(start, start + 1), line.times(stop - 1, stop)])).tolist()
-    return [
-        Event(
-            name,
-            "offset",
-            from_s,
-            to_s,
-            stop - start,
-            f"{offsets[name]:+.1f} K against its neighbours since an earlier test",
-        )
-        for name in failed
-    ]
+
+    def stretch(a: float | None, b: float | None, after: int) -> tuple[float, float, int] | None:
+        """(from_s, to_s, rows) of the test's own rows from a to b; after: 1 without a itself."""
+        zero = series.span.zero_ns
+        first = start if a is None else max(start, line.find(zero + round(a * 1e9) + after))
+        last = stop if b is None else min(stop, line.find(zero + round(b * 1e9) + 1))
+        if first >= last:
+            return None
+        ends = np.concatenate([line.times(first, first + 1), line.times(last - 1, last)])
+        from_s, to_s = series.t_s(ends).tolist()
+        return from_s, to_s, last - first
+
+    events = []
+    for name in (b.name for b in here if b.name in verdict.offsets):
+        size, since = verdict.offsets[name]
+        found = stretch(since, None, 1)
+        if found is not None:
+            drifted = "since an earlier test" if since is None else "from here on, and in later tests"
+            events.append(Event(name, "offset", *found, f"{size:+.1f} K against its neighbours {drifted}"))
+    if verdict.foreign is not None:
+        found = stretch(verdict.foreign[0], verdict.foreign[1], 0)
+        if found is not None:
+            events.append(Event(None, "foreign", *found, verdict.foreign[2]))
+    return events
 
 
 class _Part:

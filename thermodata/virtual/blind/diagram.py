@@ -5,10 +5,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 from html import escape
 
-from thermodata.report.colour import FONT, GRID, INK, MODEL, MUTED, PAPER, RESIDUAL
+from thermodata.chart.colour import FONT, light
 from thermodata.virtual.blind.reliability import Reliability
 from thermodata.virtual.blind.wording import SORTS
 
+INK, MUTED, GRID, PAPER, MODEL, RESIDUAL = (
+    light()[name] for name in ("ink", "muted", "grid", "paper", "model", "residual")
+)
 SIDE, LEFT, TOP, BELOW = 360, 62, 52, 132  # [px]
 STRIP = 44  # height of the counts below
 LOOK = {"first": (MODEL, -4), "claim": (RESIDUAL, 4)}  # colour, shift [px]

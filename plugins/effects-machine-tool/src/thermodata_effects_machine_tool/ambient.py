@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 
 from thermodata.effect.lag import lag, step_of
+from thermodata.effect.law import Law
 from thermodata.plugin import Drivers, Float1D, Float2D, Need
 
 from .shared import Lagged, column, gain, tau
@@ -61,6 +62,10 @@ class AmbientSkin:
         u, step = drivers.values["temperature"], step_of(drivers)
         return column(lag(u, p["tau_fast"] * 60, step) - lag(u, p["tau_slow"] * 60, step))
 
+    def law(self, roles: Collection[str], p: Mapping[str, float], step_s: float) -> tuple[Law, ...]:
+        """The same as a formula; see `thermodata.effect.law`."""
+        return ("lag(temperature, tau_fast) - lag(temperature, tau_slow)",)
+
 
 class VerticalGradient(Lagged):
     """Air that is warmer above than below tilts the column.
@@ -80,6 +85,7 @@ class VerticalGradient(Lagged):
     needs = (Need("top", "temperature", ("hall.top",)), Need("bottom", "temperature", ("hall.bottom",)))
     params = (tau(60, 2, 360),)
     gains = (gain("um/K", 2, 30, "displacement at rest a kelvin between top and bottom"),)
+    driven = ("top - bottom",)
 
     def drive(self, drivers: Drivers, p: Mapping[str, float]) -> Float1D:
         return drivers.values["top"] - drivers.values["bottom"]
@@ -103,6 +109,7 @@ class Sun(Lagged):
     needs = (Need("irradiance", "irradiance", ("hall.*",)),)
     params = (tau(60, 5, 360),)
     gains = (gain("um", 1, 15, "displacement at rest at 500 W/m2"),)
+    driven = ("irradiance / 500",)
 
     def drive(self, drivers: Drivers, p: Mapping[str, float]) -> Float1D:
         return drivers.values["irradiance"] / 500.0

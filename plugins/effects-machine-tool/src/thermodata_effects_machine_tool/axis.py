@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 
 import numpy as np
 
 from thermodata.effect.lag import lag, step_of
+from thermodata.effect.law import Law
 from thermodata.plugin import Drivers, Float1D, Float2D, Need
 
 from .shared import REFERENCE_FEED_M_MIN, Lagged, exponent, gain, power_of, tau
@@ -37,6 +38,7 @@ class FeedScrew(Lagged):
     )
     params = (tau(60, 18, 240), exponent(1.0))
     gains = (gain("um/K", 0.5, 5, "displacement at rest a kelvin (um at 10 m/min where the feed drives it)"),)
+    driven = ("abs(feed / 10) ** exponent",)
 
     def drive(self, drivers: Drivers, p: Mapping[str, float]) -> Float1D:
         if "feed" in drivers.values:
@@ -91,6 +93,10 @@ class ScrewGrowth:
         warmth = lag(drivers.values["temperature"], p["tau"] * 60, step_of(drivers))
         return np.column_stack([warmth * drivers.values["position"] / 1000.0, warmth])
 
+    def law(self, roles: Collection[str], p: Mapping[str, float], step_s: float) -> tuple[Law, ...]:
+        """The same as a formula; see `thermodata.effect.law`."""
+        return ("lag(temperature, tau) * position / 1000", "lag(temperature, tau)")
+
 
 class TableBearing(Lagged):
     """The bearing of the table warms, and the table grows.
@@ -113,6 +119,7 @@ class TableBearing(Lagged):
     )
     params = (tau(60, 2, 360), exponent(1.5))
     gains = (gain("um/K", 0.2, 60, "displacement at rest a kelvin (um at 1000 rpm where the speed drives it)"),)
+    driven = ("abs(speed / 1000) ** exponent",)
 
     def drive(self, drivers: Drivers, p: Mapping[str, float]) -> Float1D:
         if "speed" in drivers.values:

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 
 import numpy as np
 
+from thermodata.effect.law import Law
 from thermodata.plugin import Drivers, Float2D, Need, Param
 
 from .shared import Lagged, column, gain, tau
@@ -56,6 +57,10 @@ class Static:
     def basis(self, drivers: Drivers, p: Mapping[str, float]) -> Float2D:
         return column(drivers.values["u"])
 
+    def law(self, roles: Collection[str], p: Mapping[str, float], step_s: float) -> tuple[Law, ...]:
+        """The same as a formula; see `thermodata.effect.law`."""
+        return ("u",)
+
 
 class Step:
     """A probe or its fixture slips at one moment.
@@ -72,6 +77,7 @@ class Step:
     equation = "d = A H(t - at)"
     telltale = "a jump between two samples that no command explains, and it stays; told apart by repeating the test"
     source = "docs/method.md#artefacts; bounds: docs/method.md#bounds-of-the-effects"
+    not_in_control = "it is a slip of one probe in one test, which the control does not have"
     needs = ()
     params = (Param("at", "min", 60.0, 0.0, 2880.0, "moment of the step, from the test's start"),)
     gains = (gain("um", 1, 100, "size"),)
@@ -95,6 +101,7 @@ class Drift:
     equation = "d = k t"
     telltale = "a straight line whatever the machine does; told apart by a test at rest"
     source = "docs/method.md#artefacts; bounds: docs/method.md#bounds-of-the-effects"
+    not_in_control = "it is the drift of a probe and grows without end, which the control does not have"
     needs = ()
     params = ()
     gains = (gain("um/h", 0.05, 2, "drift"),)
@@ -118,6 +125,7 @@ class WarmStart:
     equation = "d = A exp(-t / tau)"
     telltale = "a course at the start of each test that fades whatever follows; told apart by soaking for 12 h before"
     source = "docs/method.md#the-model; bounds: docs/method.md#bounds-of-the-effects"
+    not_in_control = "it is what was left when a test began; a control goes on from its last state instead"
     needs = ()
     params = (tau(60, 5, 720),)
     gains = (gain("um", 0.5, 20, "displacement that is still to go at the start"),)

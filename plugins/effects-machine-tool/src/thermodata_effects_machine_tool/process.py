@@ -67,6 +67,7 @@ class Coolant(Lagged):
     needs = (Need("state", "state", ("coolant",), True), Need("flow", "flow", ("coolant",), True))
     params = (tau(20, 5, 90),)
     gains = (gain("um", 0.5, 30, "displacement at rest with the coolant on"),)
+    driven = ("state", "flow / 10")
 
     def drive(self, drivers: Drivers, p: Mapping[str, float]) -> Float1D:
         return drivers.values["state"] if "state" in drivers.values else drivers.values["flow"] / 10.0

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 
 import numpy as np
 
 from thermodata.effect.lag import lag, step_of
+from thermodata.effect.law import Law, symbols, tree
 from thermodata.plugin import Drivers, Float1D, Float2D, Gain, Need, Param
 
 # Speeds are divided by one fixed value and not by a test's own highest, or a gain would not carry over tests.
@@ -51,6 +52,7 @@ class Lagged:
     needs: tuple[Need, ...]
     params: tuple[Param, ...]
     gains: tuple[Gain, ...]
+    driven: tuple[str, ...] = ()  # `drive` as formulas, for `law`: the first whose drivers are bound
 
     def drive(self, drivers: Drivers, p: Mapping[str, float]) -> Float1D:
         """shape (n,): what is lagged."""
@@ -59,3 +61,9 @@ class Lagged:
     def basis(self, drivers: Drivers, p: Mapping[str, float]) -> Float2D:
         """Shape (n, 1): the lagged drive, for a gain of 1."""
         return column(lag(self.drive(drivers, p), p["tau"] * 60.0, step_of(drivers)))
+
+    def law(self, roles: Collection[str], p: Mapping[str, float], step_s: float) -> tuple[Law, ...]:
+        """The same as a formula; see `thermodata.effect.law`."""
+        known = {*roles, *(q.name for q in self.params)}
+        drives = [*self.driven, *(n.role for n in self.needs)]
+        return (f"lag({next(d for d in drives if symbols(tree(d)) <= known)}, tau)",)

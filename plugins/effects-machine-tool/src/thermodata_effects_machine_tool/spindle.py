@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 
 import numpy as np
 
 from thermodata.effect.lag import lag, step_of
+from thermodata.effect.law import Law
 from thermodata.plugin import Drivers, Float1D, Float2D, Need
 
 from .shared import REFERENCE_SPEED_RPM, Lagged, column, exponent, gain, power_of, tau
+
+BEARING_FRICTION = "bearing friction"  # one heat, read by its temperature or its speed: `cause` of these effects
 
 
 class SpindleBearing(Lagged):
@@ -23,6 +26,7 @@ class SpindleBearing(Lagged):
     """
 
     name = "spindle_bearing"
+    cause = BEARING_FRICTION
     family = "spindle"
     meaning = "growth of the spindle with its bearing temperature: k F{dT}"
     equation = "d = k F_tau{dT}"
@@ -44,6 +48,7 @@ class SpindleBearing2:
     """
 
     name = "spindle_bearing_2"
+    cause = BEARING_FRICTION
     refines = ("spindle_bearing",)
     family = "spindle"
     meaning = "growth of the spindle in two modes: k1 F_fast{dT} + k2 F_slow{dT}; two slopes in cooling"
@@ -60,6 +65,10 @@ class SpindleBearing2:
     def basis(self, drivers: Drivers, p: Mapping[str, float]) -> Float2D:
         u, step = drivers.values["temperature"], step_of(drivers)
         return np.column_stack([lag(u, p["tau_fast"] * 60, step), lag(u, p["tau_slow"] * 60, step)])
+
+    def law(self, roles: Collection[str], p: Mapping[str, float], step_s: float) -> tuple[Law, ...]:
+        """The same as a formula; see `thermodata.effect.law`."""
+        return ("lag(temperature, tau_fast)", "lag(temperature, tau_slow)")
 
 
 class SpindleMotor(Lagged):
@@ -93,6 +102,7 @@ class SpindleFriction(Lagged):
     """
 
     name = "spindle_friction"
+    cause = BEARING_FRICTION
     family = "spindle"
     meaning = "friction heat of the spindle from its speed, where no sensor sees it: k F{(n/10000 rpm)^p}"
     equation = "d = k F_tau{(|n| / 10000 rpm)^p}"
@@ -101,6 +111,7 @@ class SpindleFriction(Lagged):
     needs = (Need("speed", "rotational_speed", ("spindle",)),)
     params = (tau(45, 2, 360), exponent())
     gains = (gain("um", 0.5, 60, "displacement at rest at 10000 rpm"),)
+    driven = ("abs(speed / 10000) ** exponent",)
 
     def drive(self, drivers: Drivers, p: Mapping[str, float]) -> Float1D:
         return power_of(drivers.values["speed"], REFERENCE_SPEED_RPM, p["exponent"])
@@ -128,6 +139,10 @@ class CentrifugalShift:
     def basis(self, drivers: Drivers, p: Mapping[str, float]) -> Float2D:
         return column(power_of(drivers.values["speed"], REFERENCE_SPEED_RPM, 2.0))
 
+    def law(self, roles: Collection[str], p: Mapping[str, float], step_s: float) -> tuple[Law, ...]:
+        """The same as a formula; see `thermodata.effect.law`."""
+        return ("(speed / 10000) ** 2",)
+
 
 class SpindleHeatingCooling:
     """Heating differs from cooling: the air that a turning spindle moves carries heat away.
@@ -140,6 +155,7 @@ class SpindleHeatingCooling:
     """
 
     name = "spindle_heating_cooling"
+    cause = BEARING_FRICTION
     refines = ("spindle_bearing",)
     family = "spindle"
     meaning = "heating that differs from cooling: k F{dT} with tau_on while the spindle turns, else tau_off"
@@ -166,6 +182,10 @@ class SpindleHeatingCooling:
             state = float(part[-1])
         return column(out)
 
+    def law(self, roles: Collection[str], p: Mapping[str, float], step_s: float) -> tuple[Law, ...]:
+        """The same as a formula; see `thermodata.effect.law`."""
+        return ("lag(temperature, where(abs(speed) > 1, tau_on, tau_off))",)
+
 
 class SpeedDependentGain:
     """The gain of the bearing's temperature changes with the speed.
@@ -177,6 +197,7 @@ class SpeedDependentGain:
     """
 
     name = "speed_dependent_gain"
+    cause = BEARING_FRICTION
     refines = ("spindle_bearing",)
     family = "spindle"
     meaning = "the gain of the bearing temperature depends on the speed: k F{dT (n/10000 rpm)}"
@@ -190,3 +211,7 @@ class SpeedDependentGain:
     def basis(self, drivers: Drivers, p: Mapping[str, float]) -> Float2D:
         u = drivers.values["temperature"] * drivers.values["speed"] / REFERENCE_SPEED_RPM
         return column(lag(u, p["tau"] * 60, step_of(drivers)))
+
+    def law(self, roles: Collection[str], p: Mapping[str, float], step_s: float) -> tuple[Law, ...]:
+        """The same as a formula; see `thermodata.effect.law`."""
+        return ("lag(temperature * speed / 10000, tau)",)

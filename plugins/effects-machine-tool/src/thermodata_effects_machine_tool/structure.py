@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 
+from thermodata.effect.law import Law
 from thermodata.plugin import Drivers, Float1D, Float2D, Need
 
 from .shared import Lagged, column, gain, tau
@@ -30,6 +31,7 @@ class ColumnBending(Lagged):
     )
     params = (tau(20, 0.5, 120),)
     gains = (gain("um/K", 1, 60, "displacement at rest a kelvin between the sides"),)
+    driven = ("warm_side - cold_side",)
 
     def drive(self, drivers: Drivers, p: Mapping[str, float]) -> Float1D:
         return drivers.values["warm_side"] - drivers.values["cold_side"]
@@ -76,3 +78,7 @@ class ControlCompensation:
 
     def basis(self, drivers: Drivers, p: Mapping[str, float]) -> Float2D:
         return column(drivers.values["spindle"] - drivers.values["base"])
+
+    def law(self, roles: Collection[str], p: Mapping[str, float], step_s: float) -> tuple[Law, ...]:
+        """The same as a formula; see `thermodata.effect.law`."""
+        return ("spindle - base",)

@@ -1,0 +1,263 @@
+"""A model taken out of the lab by commands: written for a control, run on logs without displacement, shown."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+import shutil
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pyarrow.parquet as pq
+import pytest
+
+from thermodata.cli import main
+
+from .conftest import Said, write_campaign
+
+Say = Callable[..., Said]
+
+
+@pytest.fixture(scope="module")
+def campaign(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The small campaign with sensors that flicker as real ones do: readings that stand still are flagged as held."""
+    folder = tmp_path_factory.mktemp("flicker") / "lab"
+    path = write_campaign(folder)
+    rng = np.random.default_rng(3)
+    for log in sorted((folder / "raw").glob("*.csv")):
+        head = log.read_text().splitlines()[0]
+        rows = np.genfromtxt(log, delimiter=",", skip_header=1)
+        rows[:, 2:5] += rng.normal(0.0, 0.01, (len(rows), 3))
+        np.savetxt(log, rows, fmt="%.4f", delimiter=",", header=head, comments="")
+    for words in (["ingest", path], ["fit", folder / "baseline.yaml"]):
+        assert main(["--store", str(folder / "thermodata.store"), *map(str, words), "--json"]) == 0
+    return folder
+
+
+@pytest.fixture
+def ask(say: Say, campaign: Path) -> Say:
+    """Runs a command on the campaign's store; it must succeed."""
+
+    def run(*words: object) -> Said:
+        said = say("--store", campaign / "thermodata.store", *words)
+        assert said.code == 0, said.err
+        return said
+
+    return run
+
+
+@pytest.fixture
+def refused(say: Say, campaign: Path) -> Callable[..., str]:
+    """Runs a command that must be refused; its words."""
+
+    def run(*words: object) -> str:
+        said = say("--store", campaign / "thermodata.store", *words)
+        assert (said.code, said.out) == (2, "")
+        return said.err
+
+    return run
+
+
+@pytest.fixture
+def logs(campaign: Path, tmp_path: Path) -> Path:
+    """Two logs of the machine without its displacement."""
+    folder = tmp_path / "march"
+    folder.mkdir()
+    for name, old in (("run_2", "heat1"), ("run_10", "day2")):
+        rows = list(csv.reader((campaign / "raw" / f"{old}.csv").open()))
+        at = rows[0].index("dZ [um]")
+        with (folder / f"{name}.csv").open("w", newline="") as file:
+            csv.writer(file).writerows([c for i, c in enumerate(row) if i != at] for row in rows)
+    return folder
+
+
+def test_logs_without_displacement_are_predicted(ask: Say, logs: Path) -> None:
+    answer = json.loads(ask("predict", "baseline", logs, "--json").out)
+    assert [t["test"] for t in answer["tests"]] == ["run_2", "run_10"]
+    first = answer["tests"][0]
+    assert (first["campaign"], first["response"], first["unit"], first["rmse"]) == ("march", "dZ", "um", None)
+    assert first["known"] == 1.0
+    kept = json.loads(ask("sql", "select t_s, predicted from residual where test = 'heat1' order by t_s", "--json").out)
+    kept = np.array([[row["t_s"], row["predicted"]] for row in kept])
+    assert np.allclose(first["t_s"], kept[:, 0])
+    assert np.allclose(np.diff(first["predicted"]), np.diff(kept[:, 1]), atol=1e-9)
+    assert np.ptp(first["predicted"]) > 5.0
+
+
+def test_a_prediction_is_a_table_a_file_and_csv(ask: Say, logs: Path, tmp_path: Path) -> None:
+    out = tmp_path / "predicted.parquet"
+    text = ask("predict", "baseline", logs, "--out", out).out
+    assert "run_2" in text
+    assert "lowest [um]" in text
+    table = pq.read_table(out)
+    assert table.column_names == [
+        "campaign", "test", "response", "t_s", "predicted", "measured", "known", "c__spindle_bearing",
+    ]  # fmt: skip
+    assert table.column("measured").null_count == table.num_rows
+    rows = list(csv.DictReader(io.StringIO(ask("predict", "baseline", logs, "--csv", "--test", "run_10").out)))
+    assert {r["test"] for r in rows} == {"run_10"}
+    wanted = [
+        v for v, t in zip(*(table.column(c).to_pylist() for c in ("predicted", "test")), strict=True) if t == "run_10"
+    ]
+    assert np.allclose([float(r["predicted [um]"]) for r in rows], wanted)
+
+
+def test_a_campaign_shows_its_error_but_not_that_of_a_locked_test(ask: Say, campaign: Path) -> None:
+    by_name = json.loads(ask("predict", "baseline", "small", "--json").out)["tests"]
+    by_file = json.loads(ask("predict", "baseline", campaign / "campaign.yaml", "--json").out)["tests"]
+    assert [t["predicted"] for t in by_name] == [t["predicted"] for t in by_file]
+    rmse = {t["test"]: t["rmse"] for t in by_name}
+    assert rmse["day1"] > 0.3
+    assert rmse["day2"] is None
+
+
+def test_what_can_not_be_predicted_is_said(ask: Say, refused: Callable[..., str], logs: Path, tmp_path: Path) -> None:
+    assert "no folder, campaign file or campaign 'nope'" in refused("predict", "baseline", "nope")
+    empty = tmp_path / "empty"
+    empty.mkdir()
+    assert "thermodata init" in refused("predict", "baseline", empty)
+    assert "no test 'run_3'" in refused("predict", "baseline", logs, "--test", "run_3")
+    assert "--force replaces it" in refused("predict", "baseline", logs, "--out", _touched(tmp_path / "x.csv"))
+    assert ".parquet or .csv" in refused("predict", "baseline", logs, "--out", tmp_path / "x.xlsx")
+
+
+def test_a_test_without_a_driver_is_left_out_with_its_reason(say: Say, campaign: Path, logs: Path) -> None:
+    rows = list(csv.reader((logs / "run_2.csv").open()))
+    at = rows[0].index("T_bearing [degC]")
+    with (logs / "run_2.csv").open("w", newline="") as file:
+        csv.writer(file).writerows([c for i, c in enumerate(row) if i != at] for row in rows)
+    said = say("--store", campaign / "thermodata.store", "predict", "baseline", logs)
+    assert said.code == 3
+    assert "left out: march/run_2: nothing in its logs is read by the model" in said.err
+    assert "run_10" in said.out
+    assert "run_2" not in said.out
+
+
+def _touched(path: Path) -> Path:
+    path.write_text("")
+    return path
+
+
+def test_a_model_runs_in_a_python_of_its_own_as_it_was_predicted(ask: Say, campaign: Path, tmp_path: Path) -> None:
+    answer = json.loads(
+        ask("model", "export", "baseline", "--to", "python", "--cycle", "60 s", "-o", tmp_path, "--json").out
+    )
+    assert [i["name"] for i in answer["inputs"]] == ["T_bearing"]
+    assert (answer["cycle_s"], answer["effects"], answer["states"]) == (60.0, ["spindle_bearing"], 1)
+    log = list(csv.reader((campaign / "raw" / "heat1.csv").open()))
+    at = log[0].index("T_bearing [degC]")
+    text = "T_bearing\n" + "\n".join(row[at] for row in log[1:]) + "\n"
+    done = subprocess.run(
+        [sys.executable, "-I", "-S", answer["files"][0]], input=text, capture_output=True, text=True, check=True
+    )
+    made = [float(row["displacement"]) for row in csv.DictReader(io.StringIO(done.stdout))]
+    told = json.loads(ask("predict", "baseline", "small", "--test", "heat1", "--json").out)["tests"][0]["predicted"]
+    # the logs' grid is the control's: only what a start counts from differs (a mean of the first minutes there)
+    assert np.abs(np.diff(np.array(made) - np.array(told))).max() < 0.01
+    assert np.abs(np.array(made) - np.array(told))[-1] < 0.1
+
+
+@pytest.mark.parametrize("target", ["st", "scl", "c", "python", "json", "mat"])
+def test_every_target_is_written_once(
+    ask: Say, refused: Callable[..., str], campaign: Path, tmp_path: Path, target: str
+) -> None:
+    words = ("model", "export", "baseline", "--to", target, "-o", tmp_path)
+    text = ask(*words).out
+    files = sorted(p.name for p in tmp_path.iterdir())
+    assert files
+    assert all(name in text for name in files)
+    assert "baseline_dZ" in files[0]
+    assert "--force replaces it" in refused(*words)
+    ask(*words, "--force")
+
+
+def test_limits_cycle_and_names_are_the_users(ask: Say, refused: Callable[..., str], tmp_path: Path) -> None:
+    words = ("model", "export", "baseline", "--to", "json", "-o", tmp_path)
+    ask(*words, "--cycle", "500 ms", "--limit", "40", "--rate", "5", "--hold", "2 min", "--name", "Kompenzace Z")
+    data = json.loads((tmp_path / "Kompenzace_Z.json").read_text())
+    assert data["cycle_s"] == 0.5
+    assert data["limits"] == {"correction": 40.0, "rate_per_min": 5.0, "hold_s": 120.0}
+    assert "a cycle of a control" in refused(*words, "--cycle", "2 h")
+    assert "--limit is larger than 0" in refused(*words, "--limit", "-4")
+    assert "64 bits" in refused(*words, "--real", "real")
+
+
+def test_what_can_not_run_in_a_control_is_refused_with_reason_and_way_out(
+    say: Say, campaign: Path, tmp_path: Path
+) -> None:
+    lab = tmp_path / "lab"
+    shutil.copytree(campaign, lab)
+    text = (lab / "baseline.yaml").read_text().replace("name: baseline", "name: with_start")
+    extra = "drivers: {u: T_nut_Z}, gain_by: conditions.day, fixed: {tau: 45}"
+    (lab / "with_start.yaml").write_text(
+        text + "  - {effect: warm_start, gain_by: test}\n" + f"  - {{effect: lag, id: nut, {extra}}}\n"
+    )
+    declared = (lab / "campaign.yaml").read_text()
+    for i, test in enumerate(("heat1", "heat2", "day1", "day2")):
+        condition = f"conditions: {{day: {'cold' if i % 2 else 'warm'}}}"
+        line = next(x for x in declared.splitlines() if f"id: {test}," in x)
+        declared = declared.replace(line, line.replace("conditions: {speed: 9000 rpm}", condition))
+    (lab / "campaign.yaml").write_text(declared)
+
+    def run(*words: object) -> Said:
+        return say("--store", lab / "thermodata.store", *words)
+
+    assert run("ingest", lab / "campaign.yaml").code == 0
+    words = ("model", "export", lab / "with_start.yaml", "--to", "st", "-o", tmp_path)
+    said = run(*words)
+    assert said.code == 2
+    assert "warm_start: " in said.err
+    assert "exists in" not in said.err
+    assert "nut: its gain differs by conditions.day (" in said.err
+    assert "--without warm_start" in said.err
+    assert run(*words, "--without", "warm_start", "--group", "nut=cold").code == 0
+    written = (tmp_path / "with_start_dZ.st").read_text()
+    assert "nut: cold" in written
+    assert "left out" in written
+    assert "no effect 'nu'" in run(*words, "--without", "nu").err
+    assert "no group of nut 'hot'" in run(*words, "--without", "warm_start", "--group", "nut=hot").err
+
+
+# ---- show
+
+
+def test_show_says_what_the_fit_found(ask: Say) -> None:
+    fitted = json.loads(ask("fit", "baseline", "--json").out)["parameters"]
+    shown = json.loads(ask("show", "baseline", "--json").out)["responses"][0]
+    (path,) = shown["paths"]
+    assert (path["effect"], path["drive"], path["unit"]) == ("spindle_bearing", "T_bearing", "um/K")
+    assert path["gain_at_rest"] == pytest.approx(fitted["spindle_bearing.gain"]["value"])
+    assert path["time_constants_min"] == pytest.approx([fitted["spindle_bearing.tau"]["value"]])
+    assert path["poles"][0][0] == pytest.approx(np.exp(-1.0 / path["time_constants_min"][0]))
+    assert sum(path["a"]) / sum(path["b"]) == pytest.approx(path["gain_at_rest"])
+    assert path["step_response"]["y"][-1] == pytest.approx(path["gain_at_rest"], rel=0.01)
+    residual = shown["residual"]
+    assert residual["autocorrelation"][0] == 1.0
+    assert residual["ljung_box"][0]["p_value"] < 1e-3  # the nut that the model lacks
+    assert [s["state"].partition(":")[0] for s in shown["states"]] == ["spindle_bearing"]
+    text = ask("show", "baseline").out
+    for told in ("poles z", "gain at rest", "Ljung-Box", "residual against", "um/K"):
+        assert told in text
+
+
+def test_show_draws_a_picture(ask: Say, refused: Callable[..., str], tmp_path: Path) -> None:
+    pytest.importorskip("matplotlib", reason="matplotlib is an extra")
+    out = tmp_path / "show.png"
+    assert str(out) in ask("show", "baseline", "--png", out).out
+    assert out.read_bytes()[:8] == b"\x89PNG\r\n\x1a\n"
+    assert out.stat().st_size > 20_000
+    assert "FILE.png" in refused("show", "baseline", "--png", tmp_path / "show.svg")
+    assert "no effect 'spindle'" in refused("show", "baseline", "--effect", "spindle")
+
+
+def test_without_matplotlib_the_hint_is_the_extra(
+    refused: Callable[..., str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setitem(sys.modules, "matplotlib", None)
+    said = refused("show", "baseline", "--png", tmp_path / "show.png")
+    assert "thermodata[picture]" in said
+    assert not (tmp_path / "show.png").exists()

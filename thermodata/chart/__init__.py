@@ -1,0 +1,37 @@
+"""Charts: what is drawn as plain values (`spec`), fewer points (`decimate`), and the one script that draws them all.
+
+Both pages of this program use it, the saved report and the local workbench; see docs/charts.md.
+"""
+
+from __future__ import annotations
+
+from thermodata.chart.assets import SCRIPTS, STYLES, asset, script, style
+from thermodata.chart.colour import effect_styles
+from thermodata.chart.decimate import columns_in, min_max, shortened
+from thermodata.chart.pack import packed, script_json
+from thermodata.chart.spec import Axis, Band, Chart, HeatMap, Limit, Marks, Panel, Row, Series, Span, Strip
+
+__all__ = [
+    "SCRIPTS",
+    "STYLES",
+    "Axis",
+    "Band",
+    "Chart",
+    "HeatMap",
+    "Limit",
+    "Marks",
+    "Panel",
+    "Row",
+    "Series",
+    "Span",
+    "Strip",
+    "asset",
+    "columns_in",
+    "effect_styles",
+    "min_max",
+    "packed",
+    "script",
+    "script_json",
+    "shortened",
+    "style",
+]

@@ -1,0 +1,29 @@
+"""The script and the styles of all charts, as files to serve or as one text to put into a page."""
+
+from __future__ import annotations
+
+from importlib.resources import files
+
+from thermodata.errors import unknown_name
+
+SCRIPTS = ("uplot/uPlot.iife.min.js", "data.js", "paint.js", "readout.js", "chart.js", "heatmap.js", "mount.js")
+"""In the order in which a page has to load them."""
+STYLES = ("uplot/uPlot.min.css", "palette.css", "chart.css")
+
+
+def asset(name: str) -> str:
+    """The text of one of SCRIPTS, STYLES or 'uplot/LICENSE'; any other name is refused."""
+    known = (*SCRIPTS, *STYLES, "uplot/LICENSE")
+    if name not in known:
+        raise unknown_name("file of the charts", name, known)
+    return (files("thermodata.chart") / "static" / name).read_text(encoding="utf-8")
+
+
+def script() -> str:
+    """All scripts as one; needs no other, no eval, no network, and adds only `ThermoChart` and `uPlot` to a page."""
+    return "\n".join(asset(name) for name in SCRIPTS)
+
+
+def style() -> str:
+    """All styles as one; colours are custom properties, light and dark."""
+    return "\n".join(asset(name) for name in STYLES)

@@ -1,0 +1,126 @@
+"""A model taken out of the lab: shown as a system, run on logs without displacement, written for a control."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import click
+
+from thermodata.cli.common import Session, command
+from thermodata.cli.fitting import resolve
+from thermodata.cli.table import fields
+from thermodata.errors import UsageError
+
+_TARGETS = ("st", "scl", "c", "python", "json", "mat")
+
+
+def _seconds(ctx: click.Context, param: click.Parameter, value: str) -> float:
+    """A time as '1s', '500 ms', '10 min'; a bare number is in seconds."""
+    from thermodata.schema.quantity import value_in
+
+    return value_in(value, "s")
+
+
+@command("model")
+@click.argument("action", type=click.Choice(["export"]))
+@click.argument("model")
+@click.option(
+    "--to", "target", type=click.Choice(_TARGETS), required=True, help="Structured text, Siemens SCL, C99, and so on."
+)
+@click.option("--cycle", callback=_seconds, default="1s", show_default=True, help="The control calls it this often.")
+@click.option(
+    "--out", "-o", type=click.Path(path_type=Path, file_okay=False), metavar="DIR", help="Where to write (default: .)."
+)
+@click.option("--real", type=click.Choice(["real", "lreal"]), help="Width of numbers: 32 or 64 bits (st, scl: real).")
+@click.option("--response", metavar="CHANNEL", help="Which, of a model with several.")
+@click.option("--name", help="Of the program (default: model_response).")
+@click.option("--without", metavar="EFFECT,...", default="", help="Effects to leave out.")
+@click.option("--group", "groups", multiple=True, metavar="EFFECT=VALUE", help="Whose gain, where gain_by has several.")
+@click.option("--limit", type=float, help="Largest correction [um] (default: half more than in the tests).")
+@click.option("--rate", type=float, help="Largest change [um a minute] (default: twice what the tests had).")
+@click.option("--hold", callback=_seconds, default="10 min", show_default=True, help="How long a bad reading is held.")
+@click.option("--force", is_flag=True, help="Replace files that exist.")
+def model_command(
+    session: Session,
+    action: str,
+    model: str,
+    target: str,
+    cycle: float,
+    out: Path | None,
+    real: str | None,
+    response: str | None,
+    name: str | None,
+    without: str,
+    groups: tuple[str, ...],
+    limit: float | None,
+    rate: float | None,
+    hold: float,
+    force: bool,
+) -> None:
+    """Write MODEL as a program for a control: model export MODEL --to st.
+
+    Frozen and self-contained, for a fixed cycle: it starts from balance or goes on from its last state, holds bad
+    readings, and limits the correction and its rate. What can't run there is refused with the reason.
+    """
+    from thermodata.export.control import write
+    from thermodata.export.control.of_model import Asked, program_of
+    from thermodata.export.control.write import files_of
+    from thermodata.modelling.run import load
+
+    store = session.store()
+    loaded = load(store, resolve(store, model))
+    asked = Asked(
+        cycle,
+        response,
+        name,
+        tuple(n.strip() for n in without.split(",") if n.strip()),
+        dict(_pair(text) for text in groups),
+        limit,
+        rate,
+        hold,
+    )
+    program = program_of(loaded.identity, loaded.fitted, loaded.data, asked)
+    folder = out or Path()
+    there = [str(folder / n) for n in files_of(program, target) if (folder / n).exists()]
+    if there and not force:
+        raise UsageError(
+            "the file exists", where=", ".join(there), hint="--force replaces it, --out DIR writes elsewhere"
+        )
+    written = write(program, target, folder, real)
+    payload = {
+        "model": loaded.identity,
+        "response": program.response,
+        "to": target,
+        "files": list(written.files),
+        "cycle_s": program.cycle_s,
+        "real": written.real,
+        "inputs": [{"name": i.name, "unit": i.unit, "low": i.low, "high": i.high} for i in program.inputs],
+        "effects": [t.effect for t in program.terms],
+        "states": len(program.states),
+        "limit": program.limits.correction,
+        "rate_per_min": program.limits.rate,
+        "hold_s": program.limits.hold_s,
+        "left_out": list(asked.without),
+    }
+    session.answer(
+        payload,
+        lambda: fields(
+            [
+                ("model", f"{loaded.fitted.spec.name} {loaded.identity}"),
+                ("files", list(written.files)),
+                ("cycle", f"{program.cycle_s:g} s"),
+                ("numbers", f"{written.real} ({32 if written.real == 'real' else 64} bits)"),
+                ("inputs", [f"{i.name} [{i.unit}]" for i in program.inputs]),
+                ("states", len(program.states)),
+                ("limit", f"{program.limits.correction:g} {program.unit}, {program.limits.rate:g} {program.unit}/min"),
+                ("bad readings", f"held for {program.limits.hold_s:g} s"),
+            ]
+        ),
+    )
+
+
+def _pair(text: str) -> tuple[str, str]:
+    name, found, value = text.partition("=")
+    if not found or not name.strip():
+        raise UsageError("a group", expected="EFFECT=VALUE, for example spindle_bearing=SP2", got=text)
+    return name.strip(), value.strip()

@@ -1,0 +1,181 @@
+"""`show`: a model as a system, in numbers and pictures."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from thermodata.cli.common import Session, command
+from thermodata.cli.fitting import resolve
+from thermodata.cli.table import table
+from thermodata.errors import UsageError
+from thermodata.report.words import duration, number
+
+if TYPE_CHECKING:
+    from thermodata.modelling.seen import Seen, SeenPath
+
+DIGITS = 12  # of coefficients: a pole at 0.99998 needs nine
+
+
+@command("show")
+@click.argument("model")
+@click.option("--effect", "effects", multiple=True, metavar="EFFECT", help="Only this one; may be repeated.")
+@click.option(
+    "--png", type=click.Path(path_type=Path, dir_okay=False), metavar="FILE", help="Draw it all into a picture."
+)
+def show_command(session: Session, model: str, effects: tuple[str, ...], png: Path | None) -> None:
+    """Show MODEL as a system: coefficients, poles, step response, Bode.
+
+    At the model's step, for inputs that run straight between samples: coefficients a over b, poles and zeros of z, time
+    constants, gain at rest, state space; and what the residual of the calibration tests still tells: its
+    autocorrelation with Ljung-Box, and how it goes with each state. --json has the curves too.
+    """
+    from thermodata.modelling.run import load
+    from thermodata.modelling.seen import see
+
+    if png is not None and png.suffix.lower() != ".png":
+        raise UsageError("a picture is a PNG", expected="FILE.png", got=str(png))
+    store = session.store()
+    loaded = load(store, resolve(store, model))
+    seen = [_only(s, effects) for s in see(loaded.fitted, loaded.data)]
+    if png is not None:
+        from thermodata.report.system_png import draw
+
+        draw(seen, png, f"{loaded.fitted.spec.name} {loaded.identity}")
+    payload = {
+        "model": loaded.identity,
+        "name": loaded.fitted.spec.name,
+        "picture": None if png is None else str(png),
+        "responses": [_payload(s) for s in seen],
+    }
+
+    def text() -> str:
+        parts = [f"{loaded.fitted.spec.name}  {loaded.identity}", *(_text(s) for s in seen)]
+        return "\n\n".join(parts + ([str(png)] if png is not None else []))
+
+    session.answer(payload, text)
+
+
+def _only(seen: Seen, effects: tuple[str, ...]) -> Seen:
+    from dataclasses import replace
+
+    from thermodata.errors import unknown_name
+
+    known = list(dict.fromkeys([p.effect for p in seen.paths] + [e for e, _ in seen.not_shown]))
+    for name in effects:
+        if name not in known:
+            raise unknown_name("effect", name, known)
+    if not effects:
+        return seen
+    return replace(
+        seen,
+        paths=tuple(p for p in seen.paths if p.effect in effects),
+        not_shown=tuple((e, w) for e, w in seen.not_shown if e in effects),
+        states=tuple(s for s in seen.states if s.state.partition(":")[0] in effects),
+    )
+
+
+def _payload(seen: Seen) -> dict[str, Any]:
+    return {
+        "response": seen.response,
+        "unit": seen.unit,
+        "step_s": seen.step_s,
+        "paths": [_path(p) for p in seen.paths],
+        "not_shown": [{"effect": e, "why": w} for e, w in seen.not_shown],
+        "residual": {
+            "n": seen.count,
+            "lags_s": [k * seen.step_s for k in range(len(seen.correlation))],
+            "autocorrelation": seen.correlation,
+            "ljung_box": seen.ljung_box,
+        },
+        "states": seen.states,
+    }
+
+
+def _path(p: SeenPath) -> dict[str, Any]:
+    s = p.system
+    return {
+        "effect": p.effect,
+        "group": p.group or None,
+        "drive": p.drive,
+        "times": p.times,
+        "while": p.holds,
+        "gain_at_rest": s.at_rest,
+        "unit": p.unit,
+        "a": s.a,
+        "b": s.b,
+        "poles": [[z.real, z.imag] for z in s.poles.tolist()],
+        "zeros": [[z.real, z.imag] for z in s.zeros.tolist()],
+        "time_constants_min": [t / 60.0 for t in s.taus_s],
+        "state_space": {"A": s.A, "B": s.B, "C": s.C, "D": s.D},
+        "step_response": {"t_s": p.step[0], "y": p.step[1]},
+        "bode": {"hz": p.bode[0], "magnitude": p.bode[1], "phase_deg": p.bode[2]},
+    }
+
+
+def _text(seen: Seen) -> str:
+    parts = [f"{seen.response} [{seen.unit}], at its step of {seen.step_s:g} s"]
+    rows = [
+        {
+            "path": p.name,
+            "drive": p.drive + (f", times {p.times}" if p.times else ""),
+            "rest": f"{number(p.system.at_rest)} {p.unit}",
+            "tau": ", ".join(f"{t / 60:.4g} min" for t in p.system.taus_s) or "at once",
+            "poles": _complexes(p.system.poles.tolist()),
+            "zeros": _complexes(p.system.zeros.tolist()),
+        }
+        for p in seen.paths
+    ]
+    columns = [("path", "effect"), ("drive", "driven by"), ("rest", "gain at rest"), ("tau", "time constants")]
+    if rows:
+        parts.append(table(rows, [*columns, ("poles", "poles z"), ("zeros", "zeros z")]))
+    for p in seen.paths:
+        if len(p.system.poles):
+            parts.append(_coefficients(p))
+    if seen.not_shown:
+        parts.append("not shown\n" + "\n".join(f"  {e}: {w}" for e, w in seen.not_shown))
+    parts.append(_residual(seen))
+    return "\n\n".join(parts)
+
+
+def _coefficients(p: SeenPath) -> str:
+    s = p.system
+    lines = [p.name, f"  a  {_numbers(s.a)}", f"  b  {_numbers(s.b)}"]
+    for name, matrix in (("A", s.A), ("B", s.B.T), ("C", s.C), ("D", s.D)):
+        rows = "; ".join(_numbers(row) for row in matrix)
+        lines.append(f"  {name}{chr(39) if name == 'B' else ' '} [{rows}]")
+    return "\n".join(lines)
+
+
+def _residual(seen: Seen) -> str:
+    step = seen.step_s
+    marks = [
+        k for k in (1, round(600 / step), round(3600 / step), round(4 * 3600 / step)) if 0 < k < len(seen.correlation)
+    ]
+    remembered = ", ".join(f"{seen.correlation[k]:.2f} after {duration(k * step)}" for k in dict.fromkeys(marks))
+    lines = [f"residual of the calibration tests: {seen.count} samples; autocorrelation {remembered or '-'}"]
+    for one in seen.ljung_box:
+        white = "white" if one.p_value > 0.05 else "not white"
+        lines.append(f"  Ljung-Box over {one.lags} lags: Q {number(one.q)}, p {one.p_value:.2g}: {white}")
+    if seen.states:
+        rows = [
+            {"state": s.state, "r": f"{s.correlation:+.2f}", "slope": f"{number(s.slope)} {_per(seen.unit, s.unit)}"}
+            for s in seen.states
+        ]
+        lines += ["", table(rows, [("state", "residual against"), ("r", "correlation"), ("slope", "slope")], widest=80)]
+    return "\n".join(lines)
+
+
+def _per(unit: str, over: str) -> str:
+    return unit if over in ("1", "") else f"{unit}/{over}"
+
+
+def _numbers(values: Any) -> str:
+    return ", ".join(f"{v:.{DIGITS}g}" for v in values)
+
+
+def _complexes(values: list[complex]) -> str:
+    shown = [v for v in values if v.imag >= 0]
+    return ", ".join(f"{v.real:.9g}" if v.imag == 0 else f"{v.real:.6g} ± {v.imag:.6g}j" for v in shown) or "-"

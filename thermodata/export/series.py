@@ -1,0 +1,74 @@
+"""Predictions as one table: Parquet, CSV, or Arrow."""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from thermodata.errors import UsageError
+from thermodata.modelling.predict import Predicted
+
+_SUFFIXES = {".parquet": "parquet", ".pq": "parquet", ".csv": "csv"}
+
+
+def as_table(predictions: Sequence[Predicted], unit_in_names: bool = False) -> Any:
+    """pyarrow table, one row a test, response and time: predicted, measured (null where there is none), known, and
+    c__EFFECT, its share. unit_in_names: 'predicted [um]'."""
+    import pyarrow as pa
+
+    effects = list(dict.fromkeys(n for p in predictions for n in p.contributions))
+    parts = []
+    for p in predictions:
+        n = len(p.t_s)
+        nothing = np.full(n, np.nan)
+        columns: dict[str, Any] = {
+            "campaign": pa.array([p.campaign] * n),
+            "test": pa.array([p.test] * n),
+            "response": pa.array([p.response] * n),
+            "t_s": p.t_s,
+            "predicted": p.predicted,
+            "measured": pa.array(nothing if p.measured is None else p.measured, from_pandas=True),
+            "known": p.known,
+            **{f"c__{e}": p.contributions.get(e, nothing) for e in effects},
+        }
+        parts.append(pa.table(columns))
+    table = pa.concat_tables(parts)
+    units = sorted({p.unit for p in predictions})
+    if not unit_in_names or len(units) != 1:
+        return table.replace_schema_metadata({b"thermodata.unit": json.dumps(units).encode()})
+    ends = {"t_s": "[s]", **{n: f"[{units[0]}]" for n in table.column_names if n[:3] in ("pre", "mea", "c__")}}
+    return table.rename_columns([f"{n} {ends[n]}" if n in ends else n for n in table.column_names])
+
+
+def check_out(out: Path, force: bool) -> str:
+    """The format that a file's name says. UsageError for another, and for a file that exists."""
+    kind = _SUFFIXES.get(out.suffix.lower())
+    if kind is None:
+        raise UsageError(
+            "the file's name does not say the format", where=str(out), expected=".parquet or .csv", got=out.suffix
+        )
+    if out.exists() and not force:
+        raise UsageError("the file exists", where=str(out), hint="--force replaces it")
+    return kind
+
+
+def write_table(predictions: Sequence[Predicted], out: Path, kind: str) -> None:
+    """Write the table; a cut write leaves no half file."""
+    import pyarrow.csv
+    import pyarrow.parquet as pq
+
+    out.parent.mkdir(parents=True, exist_ok=True)
+    part = out.with_name(f".{out.name}.{os.getpid()}.part")
+    try:
+        if kind == "parquet":
+            pq.write_table(as_table(predictions), part)
+        else:
+            pyarrow.csv.write_csv(as_table(predictions, unit_in_names=True), part)
+        part.replace(out)
+    finally:
+        part.unlink(missing_ok=True)

@@ -1,0 +1,69 @@
+"""Another model's output as an effect: the frame as found at the stator, times a gain at the tool ([mares2017])."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+
+from thermodata.errors import SpecError
+from thermodata.modelling.fitted import FittedModel
+from thermodata.modelling.fitted_response import FittedResponse
+from thermodata.modelling.of_tests import OfTests
+from thermodata.plugin import Float2D, Gain
+from thermodata.schema.model import EffectSpec, Model
+from thermodata.view.dataset import TestData
+
+NAME = "model"
+GAIN = "gain"
+FitInside = Callable[[Model], FittedModel]
+
+
+class ModelOutput(OfTests):
+    """Free run of a fitted response, without its offset."""
+
+    name = NAME
+    family = "model"
+    source = "docs/method.md#the-model"
+
+    def __init__(self, response: FittedResponse, label: str, gain: str = GAIN) -> None:
+        self.response = response
+        self.meaning = f"what the model '{label}' predicts"
+        self.gains = (Gain(gain, "1", (0.0, float("inf")), "any", "factor on the model's output"),)
+
+    def has(self, test: TestData) -> bool:
+        return all(term.can_predict(test) for term in self.response.terms)
+
+    def column(self, test: TestData) -> Float2D:
+        out = self.response.predict(test)
+        for term in self.response.terms:
+            known = term.bound.known(test)
+            if known is not None:
+                out = np.where(known, out, np.nan)
+        return out.reshape(-1, 1)
+
+
+def model_output(spec: EffectSpec, channel: str, campaigns: tuple[str, ...], fit: FitInside, where: str) -> ModelOutput:
+    """The effect that `{effect: model, name: ...}` means. channel: the response that it is used for; campaigns: whose
+    data are at hand. SpecError where the model was not looked up, or has no response to take."""
+    if spec.inside is None:
+        raise SpecError("an effect 'model' needs the name of a model", where=where, expected="name: frame")
+    inside = Model.model_validate(spec.inside)
+    if missing := [c for c in inside.campaign_ids if c not in campaigns]:
+        raise SpecError(
+            f"the model '{inside.name}' was fitted to other campaigns",
+            where=where,
+            expected=f"campaigns: [{', '.join(dict.fromkeys((*campaigns, *inside.campaign_ids)))}]",
+            got=f"without {', '.join(missing)}",
+        )
+    responses = fit(inside).responses
+    same = [r for r in responses if r.name == channel] or list(responses)
+    if len(same) > 1:
+        raise SpecError(
+            f"the model '{inside.name}' has several responses",
+            where=where,
+            expected="one, or one that is the response here",
+            got=", ".join(r.name for r in responses),
+        )
+    word = spec.gain if isinstance(spec.gain, str) else GAIN
+    return ModelOutput(same[0], spec.name or inside.name, word)

@@ -1,0 +1,85 @@
+"""Many lines of one cause become one: how often, and where first."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any, Generic, TypeVar
+
+T = TypeVar("T")
+MOST_PLACES = 3  # named beside the first
+_QUOTED = re.compile(r"'[^']*'|\"[^\"]*\"")
+_PATH = re.compile(r"[^\s,:;()]*[/\\][^\s,:;()]*|[\w.-]+\.[A-Za-z]\w{1,5}\b")
+_NUMBER = re.compile(r"[-+]?\d(?:[\d.,:TZ+-]*\d)?(?:[eE][-+]?\d+)?")
+_WORD = re.compile(r"[\w.-]+")
+
+
+@dataclass(frozen=True, slots=True)
+class Cause(Generic[T]):
+    """Lines of one cause, in their order. text: the first one's."""
+
+    text: str
+    members: tuple[T, ...]
+
+    @property
+    def first(self) -> T:
+        return self.members[0]
+
+
+def cause_of(text: str, names: Collection[str] = ()) -> str:
+    """A text without what differs from place to place: numbers, what is quoted, paths, and these names."""
+    known = set(names)
+    text = _WORD.sub(lambda word: "~" if word.group() in known else word.group(), _QUOTED.sub("~", text))
+    text = _NUMBER.sub("#", _PATH.sub("~", text))
+    return re.sub(r"~(, ~)+", "~", text)  # lists of names of any length
+
+
+def by_cause(items: Iterable[T], text: Callable[[T], str], names: Collection[str] = ()) -> list[Cause[T]]:
+    """The causes in the order of their first members."""
+    groups: dict[str, list[T]] = {}
+    for item in items:
+        groups.setdefault(cause_of(text(item), names), []).append(item)
+    return [Cause(text(some[0]), tuple(some)) for some in groups.values()]
+
+
+def losses_in_words(losses: Sequence[Mapping[str, Any]], names: Collection[str] = ()) -> list[str]:
+    """A line a cause; `names`: of tests, sources and channels."""
+    said = []
+    for cause in by_cause(losses, lambda x: str(x["reason"]), names):
+        line = f"{cause.text}{_place(cause.first)}"
+        if len(cause.members) > 1:
+            others = dict.fromkeys(o for x in cause.members[1:] if (o := _short(x)) and o != _short(cause.first))
+            line = f"{len(cause.members)} times: {line}{_others(list(others))}"
+        said.append(line)
+    return said
+
+
+def notes_in_words(notes: Sequence[str], names: Collection[str] = ()) -> list[str]:
+    """A line a cause. A note begins with its place: 'day1, daq: ...' or 'raw/day1.csv: ...'."""
+    said = []
+    for cause in by_cause(notes, str, names):
+        line = cause.text
+        if len(cause.members) > 1:
+            heads = [m.partition(": ")[0] for m in cause.members[1:]]
+            places = [h for h in heads if cause_of(h, names) == "~"]
+            line = f"{len(cause.members)} times: {line}{_others(list(dict.fromkeys(places)))}"
+        said.append(line)
+    return said
+
+
+def _place(loss: Mapping[str, Any]) -> str:
+    parts = [str(loss[k]) for k in ("test", "source", "file", "where") if loss.get(k) is not None]
+    share = f", {100 * loss['fraction']:.2g} % of the file" if loss.get("fraction") else ""
+    return f" ({', '.join(parts)}{share})" if parts else ""
+
+
+def _short(loss: Mapping[str, Any]) -> str:
+    return str(loss.get("file") or loss.get("test") or loss.get("source") or "")
+
+
+def _others(places: Sequence[str]) -> str:
+    if not places:
+        return ""
+    more = f" and {len(places) - MOST_PLACES} more" if len(places) > MOST_PLACES else ""
+    return f"; also in {', '.join(places[:MOST_PLACES])}{more}"

@@ -1,0 +1,87 @@
+"""The errors of a page, each under its word of the glossary, and the one that heads it."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from thermodata.report.data import ReportData
+from thermodata.report.glossary import ERRORS
+from thermodata.report.verdict import claims_of
+from thermodata.report.words import base_role, pooled
+from thermodata.schema.result import Candidate
+
+
+@dataclass(frozen=True, slots=True)
+class ErrorRow:
+    """One error of a model. word: of the glossary. before: without the last effect, None where there is none.
+    tested: whether the fit and the choice of effects have not seen these tests."""
+
+    word: str
+    before: float | None
+    after: float
+    tested: bool
+    note: str
+
+    @property
+    def meaning(self) -> str:
+        return ERRORS[self.word]
+
+
+def error_rows(data: ReportData) -> list[ErrorRow]:
+    """From what the model has seen least to what it has seen most; what is not known is left out."""
+    rows = [_locked_row(data), _left_out_row(data), _role_row(data, "verification"), _role_row(data, "calibration")]
+    return [r for r in rows if r is not None]
+
+
+def headline_error(rows: Sequence[ErrorRow]) -> ErrorRow | None:
+    """The one that tells most of how the model foretells."""
+    return next((r for r in rows if r.tested), rows[-1] if rows else None)
+
+
+def added_claims(data: ReportData) -> list[Candidate]:
+    """The claims behind the model's last version that it has by now; empty where none of them was claimed."""
+    claims = claims_of(data.reason) if data.reason and data.added else []
+    return [c for c in claims if any(re.fullmatch(rf"{re.escape(c.effect)}(_\d+)?", term) for term in data.effects)]
+
+
+def _all_added(data: ReportData) -> list[Candidate]:
+    """The claims of one answer, once the model has them all: they were judged beside each other."""
+    claims = added_claims(data)
+    return claims if data.reason and len(claims) == len(claims_of(data.reason)) else []
+
+
+def _locked_row(data: ReportData) -> ErrorRow | None:
+    """Of the claims that were confirmed where all were added, or are claimed now, without and with them."""
+    claims = _all_added(data)
+    claimed = claims_of(data.diagnosis) if data.diagnosis and not claims else []
+    for c in (*claims, *claimed):
+        before, after = c.locked_rmse_um_before, c.locked_rmse_um_after
+        if after is not None and before is not None:
+            # what is claimed, but not added, is no error of this model yet: its own is the one before
+            if claims:
+                return ErrorRow("locked", before, after, True, "")
+            return ErrorRow("locked", None, before, True, f"{after:.3g} {data.unit} with what is claimed")
+    after = pooled(data.scores, "locked")
+    return None if after is None else ErrorRow("locked", pooled(data.before, "locked"), after, True, "")
+
+
+def _left_out_row(data: ReportData) -> ErrorRow | None:
+    claims = _all_added(data)
+    if len(claims) == 1 and claims[0].rmse_um_after is not None:
+        return ErrorRow("left-out", claims[0].rmse_um_before, claims[0].rmse_um_after, True, "")
+    if data.diagnosis and data.diagnosis.rmse_um is not None:
+        return ErrorRow("left-out", None, data.diagnosis.rmse_um, True, "")
+    return None
+
+
+def _role_row(data: ReportData, role: str) -> ErrorRow | None:
+    before, after = pooled(data.before, role), pooled(data.scores, role)
+    if after is None:
+        return None
+    in_sample = any("in-sample" in s.role for s in data.scores if base_role(s.role) == role)
+    note = "fitted too by now: they took part in the choice" if in_sample else ""
+    if role == "calibration":
+        return ErrorRow("fitted", before, after, False, "calibration tests")
+    return ErrorRow("verification", before, after, not in_sample, note)

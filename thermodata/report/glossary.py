@@ -1,0 +1,20 @@
+"""The words for errors, each with one meaning on every page and in every command."""
+
+from __future__ import annotations
+
+ERRORS = {
+    "locked": "tests that no fit and no choice has seen; they are opened to confirm a claim, and every look is counted",
+    "left-out": "each open test in turn, foretold by a fit to the others; what the diagnosis judges by",
+    "verification": "tests that were kept out of the fit; once they helped to choose an effect they are fitted too, "
+    "and say so",
+    "fitted": "tests that the model was fitted to: how well it bends to them, not how well it foretells",
+}
+"""From what a model has seen least to what it has seen most. The first that a page knows is its headline error."""
+
+HOW = "Errors are root mean squares of measured minus model; the model runs freely, and each sample counts once."
+NOISE = "between neighbouring means of {length}; an error that keeps its sign for longer is no noise"
+
+
+def explained(*words: str) -> str:
+    """A line for each word, as commands print them below their tables."""
+    return "\n".join(f"{word}: {ERRORS[word]}" for word in words)

@@ -1,0 +1,92 @@
+"""The first words of a report: what is missing, or was, what else it could be, how sure that is, and one error."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from thermodata.report.data import ReportData
+from thermodata.report.error_rows import ErrorRow, added_claims, error_rows, headline_error
+from thermodata.report.verdict import claims_of, listed, named, probability, verdict_sentence
+from thermodata.report.words import change, number
+from thermodata.schema.result import Candidate
+
+_MOST_NAMES = 3
+
+
+def headline(data: ReportData) -> str:
+    """The page's first sentence: the cause with what it can't be told from, and how sure; or the verdict."""
+    claims, responses = added_claims(data), ", ".join(data.responses)
+    if data.added:
+        if claims:
+            return f"Missing in {responses} was {causes(claims)}"
+        return f"{data.added} was added to {data.name}, and no diagnosis claims it"
+    if data.diagnosis:
+        claims = claims_of(data.diagnosis)
+        if claims:
+            return f"{responses} misses {causes(claims)}"
+        return capital(verdict_sentence(data.diagnosis))
+    return f"{data.name} models {responses}; thermodata diagnose {data.name} says what it misses"
+
+
+def error_sentence(data: ReportData) -> str:
+    """The one error of the head, by its word; '' where nothing was scored."""
+    row = headline_error(error_rows(data))
+    if row is None:
+        return ""
+    what = f"The error on {tests_of(row)}"
+    if row.before is None:
+        return f"{what} is {number(row.after)} {data.unit}"
+    verb = "falls" if row.after < row.before else "does not fall"
+    return f"{what} {verb}: {number(row.before)} -> {number(row.after)} {data.unit} ({change(row.before, row.after)})"
+
+
+def tests_of(row: ErrorRow) -> str:
+    """'locked tests', 'the tests that were fitted'."""
+    return "the tests that were fitted" if row.word == "fitted" else f"{row.word} tests"
+
+
+def causes(claims: Sequence[Candidate]) -> str:
+    """'coolant (coolant_on), or lag (coolant_on); these tests can't tell which; 98 % sure', for each claim."""
+    told = [_cause(c) for c in claims]
+    if len(claims) == 1:
+        return told[0]
+    return "; and ".join(f"{number}. {text}" for number, text in enumerate(told, 1))
+
+
+def _cause(claim: Candidate) -> str:
+    others = [_as_named(e) for e in claim.equivalent[:_MOST_NAMES]]
+    more = len(claim.equivalent) - len(others)
+    names = [named(claim), *others, *([f"{more} more"] if more else [])]
+    which = ["these tests can't tell which"] if others else []
+    sure = [f"{probability(claim.probability)} sure"] if claim.probability is not None else []
+    return "; ".join([", or ".join(names), *which, *sure])
+
+
+def _as_named(candidate: str) -> str:
+    """'feed_screw:T_nut_Z' -> 'feed_screw (T_nut_Z)'."""
+    effect, _, channels = candidate.partition(":")
+    return f"{effect} ({channels.replace('+', ', ')})" if channels else effect
+
+
+def sentences(data: ReportData) -> list[str]:
+    """What stands below: the error, the evidence of what was added, and the verdict of now."""
+    row = headline_error(error_rows(data))
+    # the verdict that nothing is missing has that figure already
+    said = row is not None and number(row.after) in headline(data)
+    lines = [] if said else [error_sentence(data)]
+    claims = added_claims(data)
+    for claim in claims:
+        # ids stay as they are typed
+        why = f"{claim.id}: {claim.why}" if len(claims) > 1 else capital(claim.why)
+        lines.append(why)
+        if len(claim.equivalent) > _MOST_NAMES:
+            lines.append(f"These tests can't tell {claim.id} from {listed(claim.equivalent)}")
+    if data.diagnosis and (data.added or claims_of(data.diagnosis)):
+        lines.append(("Now: " if data.added else "") + capital(verdict_sentence(data.diagnosis)))
+    return [line if line.endswith(".") else f"{line}." for line in lines if line]
+
+
+def capital(text: str) -> str:
+    """With a capital, but for a name that is typed so: it has an underscore or a bracket next to it."""
+    first = text.partition(" ")[0]
+    return text if "_" in first or text.partition(" ")[2].startswith("(") else text[:1].upper() + text[1:]

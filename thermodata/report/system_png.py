@@ -1,0 +1,105 @@
+"""A model as a system, drawn into a PNG: step responses, Bode, autocorrelation, residual against each state."""
+
+from __future__ import annotations
+
+import math
+import os
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from thermodata.chart.colour import effect_styles, light
+from thermodata.errors import UsageError
+from thermodata.modelling.seen import Seen
+
+DPI = 110
+ROW_IN, WIDE_IN = 3.1, 13.0  # [inch]
+BAND = 1.96
+
+
+def draw(seen: Sequence[Seen], out: Path, title: str) -> None:
+    """Write the picture; a cut write leaves no half file. UsageError where matplotlib is not installed."""
+    try:
+        import matplotlib
+
+        matplotlib.use("Agg")
+        from matplotlib import pyplot
+    except ImportError:
+        raise UsageError(
+            "a PNG needs matplotlib, which is not installed",
+            hint="pip install 'thermodata[picture]'; thermodata report MODEL draws the same into a page without it",
+        ) from None
+    state_rows = [math.ceil(len(s.states) / 3) for s in seen]
+    rows = sum(2 + n for n in state_rows)
+    figure = pyplot.figure(figsize=(WIDE_IN, ROW_IN * rows + 0.6), dpi=DPI, layout="constrained")
+    grid, at = figure.add_gridspec(rows, 6), 0
+    figure.suptitle(title)
+    for one, more in zip(seen, state_rows, strict=True):
+        colours = {n: light()[c] for n, (c, _) in effect_styles(p.name for p in one.paths).items()}
+        _step(figure.add_subplot(grid[at, :3]), one, colours)
+        _bode(figure.add_subplot(grid[at, 3:]), one, colours, phase=False)
+        _correlation(figure.add_subplot(grid[at + 1, :3]), one)
+        _bode(figure.add_subplot(grid[at + 1, 3:]), one, colours, phase=True)
+        for i, state in enumerate(one.states):
+            axes = figure.add_subplot(grid[at + 2 + i // 3, 2 * (i % 3) : 2 * (i % 3) + 2])
+            _against(axes, state, one.unit)
+        at += 2 + more
+    out.parent.mkdir(parents=True, exist_ok=True)
+    part = out.with_name(f".{out.name}.{os.getpid()}.part")
+    try:
+        figure.savefig(part, format="png")
+        part.replace(out)
+    finally:
+        pyplot.close(figure)
+        part.unlink(missing_ok=True)
+
+
+def _step(axes: Any, seen: Seen, colours: dict[str, str]) -> None:
+    longest = max((p.step[0][-1] for p in seen.paths), default=3600.0)
+    for p in seen.paths:
+        t, y = p.step
+        axes.plot([*t / 3600.0, longest / 3600.0], [*y, y[-1]], color=colours[p.name], label=f"{p.name} [{p.unit}]")
+    axes.axhline(0.0, color="0.6", linewidth=0.6)
+    axes.set(
+        title=f"Step response of {seen.response}, a unit of each drive",
+        xlabel="time [h]",
+        ylabel=f"[{seen.unit} a unit]",
+    )
+    if seen.paths:
+        axes.legend(fontsize="small", loc="center right")
+
+
+def _bode(axes: Any, seen: Seen, colours: dict[str, str], phase: bool) -> None:
+    for p in seen.paths:
+        hertz, size, angle = p.bode
+        minutes = 1.0 / hertz / 60.0
+        (axes.semilogx if phase else axes.loglog)(minutes, angle if phase else size, color=colours[p.name])
+    axes.invert_xaxis()
+    axes.grid(True, which="major", color="0.9")
+    what = "phase [deg]" if phase else f"magnitude [{seen.unit} a unit]"
+    axes.set(title=f"Bode: {what}", xlabel="period [min]", ylabel=what)
+
+
+def _correlation(axes: Any, seen: Seen) -> None:
+    hours = np.arange(len(seen.correlation)) * seen.step_s / 3600.0
+    axes.fill_between(hours, 0.0, seen.correlation, step="mid", color="#7b8794", alpha=0.5)
+    band = BAND / math.sqrt(max(seen.count, 1))
+    axes.axhspan(-band, band, color="#f0b429", alpha=0.35, linewidth=0)
+    axes.axhline(0.0, color="0.3", linewidth=0.6)
+    told = "; ".join(f"{one.lags} lags p {one.p_value:.2g}" for one in seen.ljung_box)
+    axes.set(
+        title=f"Autocorrelation of the residual (Ljung-Box: {told or 'too short'})",
+        xlabel="lag [h]",
+        ylim=(-1.05, 1.05),
+    )
+
+
+def _against(axes: Any, state: Any, unit: str) -> None:
+    axes.errorbar(state.centres, state.means, yerr=state.sds, fmt="o-", color="#2f6f9f", ecolor="#b8cfe0", markersize=3)
+    axes.axhline(0.0, color="0.6", linewidth=0.6)
+    over = "" if state.unit in ("1", "") else f" [{state.unit}]"
+    axes.set(xlabel=f"{state.state}{over}", ylabel=f"residual [{unit}]")
+    axes.set_title(f"r = {state.correlation:+.2f}", fontsize="medium")
+    axes.xaxis.label.set_size("small")

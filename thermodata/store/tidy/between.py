@@ -1,0 +1,201 @@
+"""What is known of a test only beside others, or as a whole: enough is kept of each channel to tell it, a verdict comes
+back, and the streams that it touches are made again."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import asdict, dataclass, field
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from thermodata.calibration.quality_between import POINTS, Course, Levels, offsets_between_tests
+from thermodata.calibration.quality_foreign import foreign_part
+from thermodata.calibration.quality_still import Reading, read_elsewhere
+from thermodata.calibration.quality_value import run_stats
+from thermodata.plugin import Array, Float1D
+from thermodata.schema.flag import INVALID, Flag
+from thermodata.schema.places import is_at_tool
+
+if TYPE_CHECKING:
+    from thermodata.store.tidy.chunk import Column
+    from thermodata.store.tidy.plan import Bound
+
+_QUANTITIES = ("temperature", "displacement", "tilt", "humidity")
+_HELD = ("displacement", "tilt")
+_MOST_PAUSES = 20
+# a sensor that is off is seen as it reads: whether a part of the test is foreign shows in all channels alike
+_SEEN = np.uint16(INVALID & ~Flag.OFFSET)
+
+
+@dataclass(frozen=True, slots=True)
+class Verdict:
+    """What other tests, and the test as a whole, say of its channels.
+
+    offsets: channel -> (by how much its sensor is off [K], since when [s] or None: throughout). foreign: (from, to) [s]
+    of another recording, and why. readings: channel -> how it reads in other tests (step, finest, chance, alternates).
+    """
+
+    offsets: Mapping[str, tuple[float, float | None]] = field(default_factory=dict)
+    foreign: tuple[float | None, float | None, str] | None = None
+    readings: Mapping[str, tuple[float, float, float, float]] = field(default_factory=dict)
+
+    def of(self, channels: Iterable[str]) -> Verdict:
+        """What concerns these channels."""
+        names = set(channels)
+        return Verdict(
+            {c: o for c, o in self.offsets.items() if c in names},
+            self.foreign,
+            {c: r for c, r in self.readings.items() if c in names},
+        )
+
+    def to_json(self) -> dict[str, Any]:
+        """Plain data; empty where there is nothing to say."""
+        return json.loads(json.dumps({k: v for k, v in asdict(self).items() if v}))  # type: ignore[no-any-return]
+
+    def reading(self, channel: str) -> Reading | None:
+        """How a channel reads in other tests; None where the test tells it itself."""
+        known = self.readings.get(channel)
+        return None if known is None else Reading(*known, moving=0, stood_s=0.0)
+
+
+class Sampler:
+    """Picks POINTS samples of each slow channel, evenly over rows start to stop, and the pauses between rows, while a
+    stream is walked through."""
+
+    def __init__(self, bounds: Sequence[Bound], start: int, stop: int) -> None:
+        self._rows = np.unique(np.linspace(start, max(stop - 1, start), POINTS).astype(np.int64))
+        self._start = start
+        self._t_s = np.full(len(self._rows), np.nan)
+        mine = [b for b in bounds if b.channel.derive is None and b.channel.quantity in _QUANTITIES]
+        self._points = {
+            b.name: np.full(len(self._rows), np.nan)
+            for b in mine
+            if not (b.channel.quantity == "temperature" and is_at_tool(b.channel.at))
+        }
+        self._off = {name: np.zeros(len(self._rows), dtype=bool) for name in self._points}
+        self._readings: dict[str, Reading | None] = {b.name: None for b in mine if b.channel.quantity in _HELD}
+        self._pauses: list[tuple[float, float]] = []
+        self._last_s: float | None = None
+
+    def take(self, first: int, t_s: Float1D, columns: Mapping[str, Column]) -> None:
+        """The next chunk: its first row, times from the test's start, and its channels with their own flags."""
+        if first < self._start or not len(t_s):
+            return
+        here = (self._rows >= first) & (self._rows < first + len(t_s))
+        at = self._rows[here] - first
+        self._t_s[here] = t_s[at]
+        for name in self._points:
+            if name in columns:
+                flags = columns[name].flags[at]
+                self._points[name][here] = np.where((flags & _SEEN) == 0, columns[name].values[at], np.nan)
+                self._off[name][here] = (flags & np.uint16(Flag.OFFSET)) != 0
+        for name in self._readings:
+            if name in columns:
+                self._readings[name] = _more(self._readings[name], columns[name], t_s)
+        self._add_pauses(t_s, columns)
+
+    def _add_pauses(self, t_s: Float1D, columns: Mapping[str, Column]) -> None:
+        """Pauses of the stream: where every channel has the flag."""
+        if columns:
+            gap: Array = np.bitwise_and.reduce([c.flags & np.uint16(Flag.GAP) for c in columns.values()])
+            for row in np.flatnonzero(gap).tolist():
+                before = t_s[row - 1] if row else self._last_s
+                if before is not None:
+                    self._pauses.append((float(before), float(t_s[row])))
+        self._last_s = float(t_s[-1])
+
+    def levels(self) -> dict[str, Any]:
+        """Ready for JSON: t_s, values (None where nothing valid is), off (points at which the channel is flagged as
+        off), pauses, readings. Empty where no channel is slow."""
+        values = {n: _rounded(p) for n, p in self._points.items() if np.isfinite(p).any()}
+        if not values:
+            return {}
+        readings = {n: asdict(r) for n, r in self._readings.items() if r is not None}
+        longest = sorted(sorted(self._pauses, key=lambda p: p[0] - p[1])[:_MOST_PAUSES])
+        return {
+            "t_s": _rounded(self._t_s),
+            "values": values,
+            "off": {n: np.flatnonzero(o).tolist() for n, o in self._off.items() if o.any()},
+            "pauses": longest,
+            "readings": readings,
+        }
+
+
+def _rounded(x: Float1D) -> list[float | None]:
+    return [round(float(v), 3) if np.isfinite(v) else None for v in x]
+
+
+def _more(known: Reading | None, column: Column, t_s: Float1D) -> Reading:
+    """How a channel reads, from the chunk in which it moves most; and its longest stretch of one value in any."""
+    # what stands is wanted here: a verdict that flags it must come out the same once it is flagged
+    x = np.where((column.flags & np.uint16(INVALID & ~(Flag.HELD | Flag.STUCK))) == 0, column.values, np.nan)
+    stats = run_stats(x)
+    d = np.diff(x)
+    moving = int(np.count_nonzero(d[np.isfinite(d)]))
+    stood = max(
+        (float(t_s[a + n - 1] - t_s[a]) for a, n in zip(stats.starts.tolist(), stats.lengths.tolist(), strict=True)),
+        default=0.0,
+    )
+    stood = max(stood, known.stood_s if known else 0.0)
+    if known is not None and known.moving >= moving:
+        return Reading(known.step, known.finest, known.chance, known.alternates, known.moving, stood)
+    return Reading(stats.step, stats.finest, stats.chance, stats.alternates, moving, stood)
+
+
+def levels_of(
+    test: str, start_s: float | None, quantities: Mapping[str, str], rows: Sequence[Mapping[str, Any]]
+) -> tuple[Levels, dict[str, Reading]] | None:
+    """What a test's channels were like, and how they read, from the rows of its tidy files; None where nothing is kept.
+
+    start_s: on the absolute clock; None where the test has none. quantities: of its channels.
+    """
+    series: dict[str, Course] = {}
+    pauses: list[tuple[float, float]] = []
+    readings: dict[str, Reading] = {}
+    end = 0.0
+    for row in rows:
+        if row["layer"] != "tidy" or row["part"] != "test":
+            continue
+        meta = json.loads(row["columns"])
+        end = max(end, meta["to_s"])
+        levels = meta.get("levels")
+        if not levels:
+            continue
+        t_s = _numbers(levels["t_s"])
+        for name, values in levels["values"].items():
+            off = np.isin(np.arange(len(t_s)), levels["off"].get(name, []))
+            series[name] = Course(t_s, _numbers(values), quantities.get(name, ""), off)
+        pauses += [(a, b) for a, b in levels["pauses"]]
+        readings |= {n: Reading(**r) for n, r in levels["readings"].items()}
+    if not series:
+        return None
+    return Levels(test, start_s, None if start_s is None else start_s + end, series, tuple(pauses)), readings
+
+
+def _numbers(values: Sequence[float | None]) -> Float1D:
+    return np.array([np.nan if v is None else v for v in values], dtype=np.float64)
+
+
+def verdicts(tests: Sequence[tuple[Levels, Mapping[str, Reading]]]) -> dict[str, Verdict]:
+    """Test -> what is known of it beside the others. tests: in the order of the campaign file."""
+    offsets: dict[str, dict[str, tuple[float, float | None]]] = {}
+    for (test, channel), off in offsets_between_tests([x for x, _ in tests]).items():
+        offsets.setdefault(test, {})[channel] = round(off.size, 1), off.since_s
+    readings: dict[str, dict[str, tuple[float, float, float, float]]] = {}
+    seen = {(x.test, c): r for x, known in tests for c, r in known.items()}
+    for (test, channel), r in read_elsewhere(seen).items():
+        readings.setdefault(test, {})[channel] = r.step, r.finest, r.chance, r.alternates
+    found: dict[str, Verdict] = {}
+    for levels, _ in tests:
+        part = foreign_part(levels)
+        foreign = None if part is None else (_finite(part[0]), _finite(part[1]), part[2])
+        verdict = Verdict(offsets.get(levels.test, {}), foreign, readings.get(levels.test, {}))
+        if verdict != Verdict():
+            found[levels.test] = verdict
+    return found
+
+
+def _finite(x: float) -> float | None:
+    return x if np.isfinite(x) else None

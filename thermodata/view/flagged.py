@@ -1,0 +1,69 @@
+"""What of each channel does not count in a test, and which sensors are judged faulty: from the quality events."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+from thermodata.schema.flag import INVALID, OVERRULED, Flag
+
+if TYPE_CHECKING:
+    import duckdb
+
+Key = tuple[str, str]
+FAULTY_SHARE = 0.2  # of a test: a channel that lost more of it is no witness
+# a sensor that is off, or does not move any more, has failed, however soon it is mended
+_FAILED = ("offset", "stuck")
+# events that say nothing against a sensor: a blank between the rows of a slower logger is no loss
+_NO_FAULT = (OVERRULED, "only while not measuring", "not flagged", "no number")
+_COUNTS_NOT = frozenset(str(f.name).lower() for f in Flag if f & INVALID and f != Flag.NOT_MEASURING)
+
+
+@dataclass(slots=True)
+class Flagged:
+    """Of a channel in a test. lost: share of its samples that flags rule out, at most 1. flags: flag -> share."""
+
+    flags: dict[str, float] = field(default_factory=dict)
+
+    @property
+    def lost(self) -> float:
+        """Share of the samples that flags rule out."""
+        return min(1.0, sum(self.flags.values()))
+
+    @property
+    def faulty(self) -> str | None:
+        """Which flag judges the sensor faulty; None where none does."""
+        failed = [f for f in _FAILED if f in self.flags]
+        if not failed and self.lost > FAULTY_SHARE:
+            failed = sorted(self.flags, key=lambda f: -self.flags[f])[:1]
+        return failed[0].replace("_", " ") if failed else None
+
+
+def flagged_channels(con: duckdb.DuckDBPyConnection, campaigns: Sequence[str]) -> dict[Key, dict[str, Flagged]]:
+    """(campaign, test) -> channel -> what of it does not count; only channels that lost something. What the campaign
+    file overrules, what happened only while the test did not measure, and blanks are not counted."""
+    rows = con.execute(
+        "select e.campaign, e.test, e.source, e.stream, e.channel, lower(e.flag) as flag, sum(e.n) as n, "
+        "any_value(f.rows) as rows from quality_event e join (select campaign, test, source, stream, sum(rows) as rows "
+        "from file where layer = 'tidy' group by all) f using (campaign, test, source, stream) "
+        "where list_contains(?, e.campaign) "
+        + "".join("and not starts_with(coalesce(e.detail, ''), ?) " for _ in _NO_FAULT)
+        + "group by all",
+        [list(campaigns), *_NO_FAULT],
+    ).fetchall()
+    members = con.execute(
+        "select distinct campaign, test, source, stream, channel from channel where list_contains(?, campaign)",
+        [list(campaigns)],
+    ).fetchall()
+    of_stream: dict[tuple[str, ...], list[str]] = {}
+    for *member, channel in members:
+        of_stream.setdefault(tuple(member), []).append(channel)
+    found: dict[Key, dict[str, Flagged]] = {}
+    for campaign, test, source, stream, channel, flag, n, total in rows:
+        if flag not in _COUNTS_NOT or not n or not total:
+            continue
+        for name in [channel] if channel else of_stream.get((campaign, test, source, stream), []):
+            flags = found.setdefault((campaign, test), {}).setdefault(name, Flagged()).flags
+            flags[flag] = flags.get(flag, 0.0) + n / total
+    return found
