@@ -67,7 +67,7 @@ class Chromium:
         self._rest, self._last, self.ended = b"", 0, False
         self.events: list[dict[str, Any]] = []
 
-    def call(self, method: str, session: str | None = None, timeout_s: float = 60.0, **params: Any) -> dict[str, Any]:
+    def call(self, method: str, session: str | None = None, timeout_s: float = 180.0, **params: Any) -> dict[str, Any]:
         """The result of a command; events that arrive meanwhile go to `events`."""
         self._last += 1
         number, message = self._last, {"id": self._last, "method": method, "params": params}
@@ -136,14 +136,20 @@ class Page:
     def call(self, method: str, **params: Any) -> dict[str, Any]:
         return self._browser.call(method, self._session, **params)
 
-    def go(self, url: str, timeout_s: float = 30.0) -> None:
+    def go(self, url: str, timeout_s: float = 180.0) -> None:
         """Loads an address and waits until it is there."""
-        self.call("Page.navigate", url=url)
         until = time.monotonic() + timeout_s
-        while self.js("document.readyState !== 'complete' || location.href === 'about:blank'"):
+        while True:
+            failed = self.call("Page.navigate", url=url).get("errorText")
+            if failed:
+                raise ConnectionError(f"{url}: {failed}")
+            again = time.monotonic() + timeout_s / 6  # a tab that was just made sometimes forgets where it was sent
+            while time.monotonic() < again:
+                if self.js("document.readyState === 'complete' && location.href !== 'about:blank'"):
+                    return
+                time.sleep(0.02)
             if time.monotonic() > until:
                 raise TimeoutError(f"{url}: not loaded within {timeout_s:g} s")
-            time.sleep(0.02)
 
     def look(self, width: int, height: int, dark: bool = False, mobile: bool = False) -> None:
         """The window's size, and what the system prefers."""
@@ -158,7 +164,7 @@ class Page:
             raise RuntimeError(json.dumps(answer["exceptionDetails"])[:2000])
         return answer["result"].get("value")
 
-    def wait(self, expression: str, timeout_s: float = 10.0) -> Any:
+    def wait(self, expression: str, timeout_s: float = 60.0) -> Any:
         """The expression's value as soon as it is true."""
         until = time.monotonic() + timeout_s
         while True:

@@ -73,13 +73,11 @@ def test_what_says_that_it_refines_does_so_however_much_it_takes_away() -> None:
     assert said(cause(refines=("known0",), after=0.01), response=1.0) == MODE
 
 
-@pytest.mark.parametrize(("after", "expected"), [(0.401, MODE), (0.399, None)])
+@pytest.mark.parametrize("after", [0.9, 0.01])
 @pytest.mark.parametrize("response", [1.0, 100.0])
-def test_another_mode_of_the_same_takes_away_under_three_fifths(
-    after: float, expected: str | None, response: float
-) -> None:
-    """Whether the model is poor or good."""
-    assert said(cause("same", after=after), response) == expected
+def test_what_reads_the_same_cause_again_is_another_mode_of_it(after: float, response: float) -> None:
+    """However much it takes away, and whether the model is poor or good."""
+    assert said(cause("same", after=after), response) == MODE
 
 
 @pytest.mark.parametrize(("size", "expected"), [(0.599, MODE), (0.601, None)])
@@ -143,6 +141,16 @@ def test_what_takes_most_away_replaces_nothing(monkeypatch: pytest.MonkeyPatch) 
     assert replacing(monkeypatch, 100.0, 1.0, after=0.401) == PLACE
     assert replacing(monkeypatch, 100.0, 1.0, after=0.399) is None
     assert replacing(monkeypatch, 100.0, 1.0, after=0.399, kin="near") == PLACE, "but what sits at its place"
+
+
+def test_what_sits_at_its_place_takes_it_however_poor_the_model_is(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The error before is 1: of a response of 1, or of 100."""
+    for kin, expected in (("near", PLACE), ("related", None)):
+        asked = Refinement(model("feed_x"), world(1.0), NOISE)
+        monkeypatch.setattr(
+            Refinement, "_cost", lambda self, problem, term, whole=asked.problem: 100.0 if problem is whole else 1.0
+        )
+        assert asked(scored(kin=kin, contribution=[WAVE] * 3, after=0.5)) == expected
 
 
 def test_what_names_another_heat_takes_no_place(monkeypatch: pytest.MonkeyPatch) -> None:

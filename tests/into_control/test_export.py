@@ -140,6 +140,14 @@ def test_an_identified_function_is_itself_at_the_step_of_its_fit(orders: tuple[i
     assert np.abs(made[::60] - truth).max() < LREAL_UM
 
 
+@pytest.mark.parametrize("orders", [(1, 1), (2, 1), (3, 2)])
+def test_lags_with_a_direct_term_beside_them_run_at_any_cycle(orders: tuple[int, int], tmp_path: Path) -> None:
+    found = driven(FreeFunction("varpro", orders), 5.0, tau=40.0, tau_1=15.0, tau_2=120.0)  # type: ignore[arg-type]
+    values = readings([found], 10.0, hours=4)
+    made = run_python(program([found], 10.0, step_s=60.0), values, tmp_path)
+    assert np.abs(made - free_run([found], 10.0, values)).max() < LREAL_UM
+
+
 def test_json_and_mat_say_the_same(tmp_path: Path) -> None:
     from scipy.io import loadmat
 

@@ -343,3 +343,80 @@ def test_a_sensor_missing_on_one_machine_is_an_x_in_the_table(lab: Dataset) -> N
     none = _data(*(replace(t, values={k: v for k, v in t.values.items() if k != "T_tool"}) for t in data.tests))
     with pytest.raises(UsageError, match="no channel fits"):
         fit_model(spec, none)
+
+
+# ---- what a driver goes through, weights, a warm start
+
+
+def _late(name: str, role: str, seed: int) -> TestData:
+    """The bearing acts 5 min late, and its sensor shows it with a lag of 3 min."""
+    test = _test(name, role, seed, noise=0.02)
+    warm = test.values["T_sp"] - 20
+    late = np.interp(test.t_s - 300.0, test.t_s, warm)
+    y = 1.5 * lag(late, 2400, STEP) + np.random.default_rng(seed).normal(0, 0.02, len(late))
+    return replace(test, values={**test.values, "dZ": y, "T_sp": 20 + lag(warm, 180.0, STEP)})
+
+
+def test_dead_time_and_sensor_lag_are_parameters_of_any_effect() -> None:
+    data = _data(_late("a", "calibration", 1), _late("b", "calibration", 2), _late("c", "verification", 3))
+    text = "response: {axis: Z, at: tcp}\neffects: [{effect: spindle_bearing, also: [dead_time], %s}]"
+    slow = _data(*(replace(t, values={**t.values, "T_sp": t.values["T_sp"]}) for t in data.tests))
+    found = fit_model(_spec(text % "start: {dead_time: 60}"), slow)
+    # 5 min late, seen 3 min late: 2 min are left
+    assert _value(found, "spindle_bearing.dead_time") == pytest.approx(120, abs=15)
+    assert found.parameters()["spindle_bearing.dead_time"].unit == "s"
+    both = text.replace("[dead_time]", "[dead_time, sensor_lag]")
+    held = fit_model(_spec(both % "fixed: {sensor_lag: 180}"), data)
+    assert _value(held, "spindle_bearing.dead_time") == pytest.approx(300, abs=15)
+    assert _value(held, "spindle_bearing.tau") == pytest.approx(40, rel=0.03)
+    assert np.std(held.responses[0].residual(data.tests[2])) < 0.03
+    sensor = fit_model(_spec(both % "fixed: {dead_time: 300}"), data)
+    assert _value(sensor, "spindle_bearing.sensor_lag") == pytest.approx(180, rel=0.1)
+    with pytest.raises(UsageError, match="dead_tim"):
+        fit_model(_spec("response: {axis: Z, at: tcp}\neffects: [{effect: spindle_bearing, also: [dead_tim]}]"), data)
+
+
+def test_weights_say_what_counts(lab: Dataset) -> None:
+    wrong = replace(lab.tests[2], values={**lab.tests[2].values, "dZ_stator": lab.tests[2].values["dZ_stator"] * 1.5})
+    data = _data(lab.tests[0], lab.tests[1], wrong)
+    text = f"response: {{axis: Z, at: stator}}\neffects:{FRAME}"
+    gains = [
+        _value(fit_model(_spec(text, weights={"b": weight}), data, uncertainty=False), "spindle.gain")
+        for weight in (1.0, 0.05, 0.0)
+    ]
+    assert gains[0] > gains[1] > gains[2]
+    assert gains[2] == pytest.approx(1.5, rel=0.01)
+    assert gains[0] > 1.7
+    where = acting(lab.tests[1], ["cooling"])
+    assert where is not None
+    moved = lab.tests[1].values["dZ_stator"] + 5.0 * where
+    cooled = replace(lab.tests[1], values={**lab.tests[1].values, "dZ_stator": moved})
+    data = _data(lab.tests[0], cooled)
+    spoilt, spared = (
+        _value(fit_model(_spec(text, weights=w), data, uncertainty=False), "spindle.gain") for w in ({}, {"cooling": 0})
+    )
+    assert abs(spared - 1.5) < 0.5 * abs(spoilt - 1.5)
+    with pytest.raises(UsageError, match="cooling"):
+        fit_model(_spec(text, weights={"coolin": 1}), data)
+
+
+def test_a_test_that_began_warm_does_not_bend_the_fit(lab: Dataset) -> None:
+    warm = []
+    for k, test in enumerate(lab.tests[:3]):
+        fades = (10.0 + 5 * k) * np.exp(-test.t_s / 5000.0)
+        warm.append(replace(test, values={**test.values, "dZ_stator": test.values["dZ_stator"] + fades}))
+    text = f"response: {{axis: Z, at: stator}}\neffects:{FRAME}"
+    bent = fit_model(_spec(text), _data(*warm))
+    data = _data(*(replace(t, start_state="warm") for t in warm))
+    fitted = fit_model(_spec(text), data)
+    for name, truth in (("spindle.gain", 1.5), ("spindle.tau", 40.0), ("hall.gain", -2.0), ("hall.tau", 150.0)):
+        assert _value(fitted, name) == pytest.approx(truth, rel=0.05), name
+    assert abs(_value(bent, "spindle.gain") - 1.5) > 0.1
+    assert {c.name for c in fitted.checks() if c.name.startswith("warm")} >= {"warm_start:lab/a"}
+
+
+def test_a_gain_that_a_bound_holds_says_so(lab: Dataset) -> None:
+    text = "response: {axis: Z, at: stator}\neffects: [{effect: spindle_bearing, bounds: {gain: [0, 1]}}]"
+    (said,) = [c for c in fit_model(_spec(text), lab).checks() if c.name == "at_bound:spindle_bearing.gain"]
+    assert said.threshold == 1.0
+    assert "a bound of the model file" in said.advice

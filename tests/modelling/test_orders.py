@@ -85,9 +85,35 @@ def test_the_fit_of_what_was_fitted_has_no_say(noisy: Dataset, spec: Spec) -> No
 
 def test_lags_stop_where_one_more_is_not_told(noisy: Dataset, spec: Spec) -> None:
     table = _tried(noisy, spec)
-    assert [r.denominator for r in table] == list(range(1, len(table) + 1))
-    assert table[-1].why
-    assert not table[-1].chosen
+    pairs = [(r.numerator, r.denominator) for r in table]
+    assert pairs == [(1, 1), (2, 1), (2, 2), (3, 2), (3, 3), (4, 3), (4, 4), (5, 4)][: len(pairs)]
+    assert all(r.why for r in table[-2:])
+    assert not any(r.chosen for r in table if r.why)
+    (chosen,) = [r for r in table if r.chosen]
+    assert chosen.denominator == 2
+
+
+def test_a_direct_term_stands_beside_the_lags_where_the_data_want_it(spec: Spec) -> None:
+    """Nearly all printed functions have one: a sensor that is slower than what it drives."""
+
+    def with_direct(seed: int, role: str, direct: float) -> TestData:
+        test = _test(seed, role, hours=16)
+        warmth = test.values["T"] - 22
+        y = direct * warmth + 3.0 * lag(warmth, 2400, 60.0) + np.random.default_rng(seed).normal(0, 0.1, len(warmth))
+        return replace(test, values={**test.values, "dZ": y})
+
+    for direct, orders in ((4.5, (2, 1)), (0.0, (1, 1))):
+        data = _data(*(with_direct(k, r, direct) for k, r in enumerate(["calibration"] * 2 + ["verification"])))
+        fitted = fit_model(spec(FUNCTION), data)
+        response = fitted.responses[0]
+        assert response.terms[0].bound.spec.orders == orders
+        found = fitted.parameters()
+        assert found["transfer_function.gain"].value == pytest.approx(3.0, rel=0.03)
+        assert found["transfer_function.tau"].value == pytest.approx(40.0, rel=0.1)
+        if direct:
+            assert found["transfer_function.direct"].value == pytest.approx(direct, rel=0.03)
+            assert found["transfer_function.direct"].unit == "um/K"
+        assert np.std(response.residual(data.tests[2])) < 0.3
 
 
 def test_one_test_is_cut_into_parts(spec: Spec) -> None:

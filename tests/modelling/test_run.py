@@ -91,6 +91,21 @@ def test_adding_the_missing_effect_makes_the_error_fall(store: Store, spec: Spec
     assert [m.model for m in model_chain(store, grown.model)] == [parent.model, grown.model]
     # the newest version goes by the name
     assert find_model(store, "short").model == grown.model
+    # the truth is single lags, and the store keeps what was said
+    assert grown.added == ["feed_screw"]
+    assert grown.notes == ["no second lag: none takes 20 % off the error on left-out tests"]
+    assert find_model(store, grown.model).result == grown
+    assert (parent.added, parent.notes) == (None, [])
+
+
+def test_what_add_takes_in_besides_is_said_and_plain_leaves_it(store: Store, spec: Spec) -> None:
+    # without its coolant the rest of this model is wrong in a way that a second lag of the speed's heat can use
+    parent = run.fit(store, spec({"effect": "lag", "drivers": {"u": "speed"}}, name="speed"))
+    grown = run.add(store, parent.model, "feed_screw:T_nut")
+    assert grown.added == ["feed_screw", *(note.split()[0] for note in grown.notes if "is a second lag of" in note)]
+    assert set(grown.added) == {k.split(".")[0] for k in grown.parameters} - {"lag"}
+    plain = run.add(store, parent.model, "feed_screw:T_nut", plain=True)
+    assert (plain.added, plain.notes) == (["feed_screw"], [])
 
 
 def test_a_candidate_goes_by_its_rank(store: Store, spec: Spec) -> None:

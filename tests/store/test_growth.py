@@ -407,3 +407,34 @@ def test_a_worker_with_another_reader_leaves_the_file_to_who_asked(tmp_path: Pat
     key = streams.raw_key(task.file.sha256, registry.reader("table"), Source())
     known = worker.read(worker.Task(key, tmp_path, "x.csv", task.file, "table", Source()), lambda samples: None)
     assert isinstance(known.streams, list)
+
+
+def test_a_channel_of_long_tests_is_a_branch_of_its_own_and_says_the_same(
+    store: Store, lab: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    from thermodata.store.views import long
+
+    ingest(store, lab)
+
+    def answers() -> list[Any]:
+        with store.reader() as con:
+            queries = [f"select * from {view} order by all" for view in ("sample", "temperature", "driver")]
+            return [con.execute(q).fetchall() for q in queries] + [
+                con.execute("describe sample").fetchall(),
+                con.execute("select test, avg(value) from sample where channel = 'speed' group by all").fetchall(),
+            ]
+
+    def text() -> str:
+        with store.reader() as con:
+            return str(con.execute("select sql from duckdb_views() where view_name = 'sample'").fetchall())
+
+    together = answers()
+    assert "CROSS JOIN" in text().upper()
+    monkeypatch.setattr(long, "_LONG_ROWS", 1)
+    with store.write():
+        pass
+    assert "CROSS JOIN" not in text().upper()
+    apart = answers()
+    assert apart[:-1] == together[:-1]
+    assert sorted(apart[-1]) == sorted(together[-1])
+    assert len(together[0]) == 2 * 40 * TESTS

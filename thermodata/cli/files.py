@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
-import re
 import sys
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 
 from thermodata.cli.common import Session, command, plain
 from thermodata.cli.table import table
 from thermodata.errors import UsageError
+
+if TYPE_CHECKING:
+    from thermodata.draft.make import Drafted
 
 _FILE = click.Path(path_type=Path, exists=True, dir_okay=False)
 
@@ -28,75 +30,28 @@ def init_command(session: Session, folder: Path, force: bool) -> None:
     never overwritten.
     """
     from thermodata.draft.answer import as_json
-    from thermodata.draft.baseline import model_text
-    from thermodata.draft.plan import plan
-    from thermodata.draft.scan import scan
-    from thermodata.draft.write import questions_in, text_of
-    from thermodata.schema.load import load_campaign, load_model
+    from thermodata.draft.make import draft_files
 
-    out = folder / "campaign.yaml"
-    if out.exists() and not force:
-        raise UsageError(
-            "the campaign file exists, and is never overwritten",
-            where=str(out),
-            hint="--force keeps it as campaign.1.yaml and drafts anew",
-        )
-    found = scan(folder, _progress(session))
-    if not found.logs:
-        raise UsageError(
-            "no file that a reader claims",
-            where=str(folder),
-            expected="raw logs",
-            got="; ".join(f"{p}: {w}" for p, w in found.ignored[:5]) or "nothing",
-            hint="thermodata plugins lists the installed readers; thermodata sniff FILE says more",
-        )
-    name = re.sub(r"[^A-Za-z0-9._-]+", "-", plain_name(folder.resolve().name)).strip("-._")[:100] or "campaign"
-    draft = plan(name, folder, found)
-    text, model = text_of(draft), model_text(draft)
-    _keep(session, out)
-    _write_new(out, text)
-    load_campaign(out)  # a draft that doesn't load is a defect: it raises here
-    first = folder / "model.yaml"
-    if model is not None and (force or not first.exists()):
-        _keep(session, first)
-        _write_new(first, model)
-        load_model(first)
-        session.say(f"a first model of what the sensors explain: {first}")
-    asked = questions_in(text)
-    files = len({f.path for f in found.logs})
+    made = draft_files(folder, force=force, progress=_progress(session))
+    for before, after in made.kept:
+        session.say(f"the {before.name} that was there is now {after}")
+    if made.model is not None:
+        session.say(f"a first model of what the sensors explain: {made.model}")
+    draft = made.draft
     session.say(
-        f"{files} files, {len(draft.tests)} tests, {len(draft.sources)} sources, "
-        f"{sum(c.said.quantity is not None for c in draft.channels)} channels; {asked} lines hold a question: "
-        f"grep '# ?' {out}"
+        f"{made.files} files, {len(draft.tests)} tests, {len(draft.sources)} sources, "
+        f"{sum(c.said.quantity is not None for c in draft.channels)} channels; {made.questions} lines hold a question: "
+        f"grep '# ?' {made.campaign}"
     )
-    session.answer(as_json(draft, out, files, asked, first if model else None), lambda: str(out))
+    answer = as_json(draft, made.campaign, made.files, made.questions, _first_model(made))
+    session.answer(answer, lambda: str(made.campaign))
 
 
-def _keep(session: Session, path: Path) -> None:
-    """Moves a file that is there out of the way: campaign.yaml to campaign.1.yaml."""
-    if path.exists():
-        names = (path.with_name(f"{path.stem}.{n}{path.suffix}") for n in range(1, 10_000))
-        kept = next(p for p in names if not p.exists())
-        path.rename(kept)
-        session.say(f"the {path.name} that was there is now {kept}")
+def _first_model(made: Drafted) -> Path | None:
+    """The model file that is there now, drafted or older; None where the sensors allow none."""
+    from thermodata.draft.baseline import model_text
 
-
-def plain_name(text: str) -> str:
-    """A folder's name in plain letters, in any script."""
-    from thermodata.draft.naming import plain
-
-    return text if text.isascii() else plain(text)
-
-
-def _write_new(out: Path, text: str) -> None:
-    """Writes a file that must not be there yet, not even since a moment ago."""
-    try:
-        with out.open("x", encoding="utf-8") as file:
-            file.write(text)
-    except FileExistsError:
-        raise UsageError("the campaign file exists, and is never overwritten", where=str(out)) from None
-    except OSError as error:
-        raise UsageError("cannot write the draft", where=str(out), got=error.strerror or str(error)) from None
+    return made.campaign.with_name("model.yaml") if made.model or model_text(made.draft) else None
 
 
 def _progress(session: Session) -> Callable[[int, int, str], None] | None:

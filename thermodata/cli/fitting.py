@@ -65,14 +65,30 @@ def fit_command(session: Session, model: str) -> None:
 
 @command("compare")
 @click.argument("models", nargs=-1, required=True, metavar="MODEL...")
-def compare_command(session: Session, models: tuple[str, ...]) -> None:
+@click.option("--against", metavar="MODEL", help="Print what papers print: each model's rest against this one's.")
+@click.option(
+    "--layout",
+    type=click.Choice(["text", "markdown", "csv", "latex"]),
+    default="text",
+    help="Of the table that --against prints.",
+)
+def compare_command(session: Session, models: tuple[str, ...], against: str | None, layout: str) -> None:
     """Score models against the measurements.
 
     By test and phase, each MODEL beside the others, and where the first fails.
 
     With several models the JSON is that of the first, with the scores of all, and all of them in "models";
     "weak_spots" has those of the first, by response.
+
+    With --against: peak to valley at first and left, both ways (max - min, |max| + |min|), range, how many times less,
+    percent less than the reference, and the mean row; the JSON is a list of these rows.
     """
+    if against is not None:
+        from thermodata.cli.besides import answer_against
+
+        store = session.store()
+        answer_against(session, store, [resolve(store, m) for m in models], resolve(store, against), layout)
+        return
     from thermodata.modelling.run import compare, load
     from thermodata.report.spots import weak_spots_of
     from thermodata.store.catalogue.models import load_diagnosis
@@ -99,10 +115,13 @@ def compare_command(session: Session, models: tuple[str, ...]) -> None:
 @command("add")
 @click.argument("model")
 @click.argument("candidate")
-def add_command(session: Session, model: str, candidate: str) -> None:
+@click.option("--plain", is_flag=True, help="Add that one effect, with one time constant, and no more.")
+def add_command(session: Session, model: str, candidate: str, plain: bool) -> None:
     """Make a new version of MODEL with an effect more.
 
-    CANDIDATE is its rank or id, as diagnose printed them. Prints the errors before and after.
+    CANDIDATE is its rank or id, as diagnose printed them. Where tests that are left out of the fit want it, the effect
+    and those that MODEL has get a second lag, for a part of a machine answers heat by a quick share and a slow one.
+    Prints the errors before and after.
     """
     from thermodata.cli.progress import counting_line
     from thermodata.modelling.run import add
@@ -110,13 +129,15 @@ def add_command(session: Session, model: str, candidate: str) -> None:
 
     store = session.store()
     with counting_line() as tell, watched(tell):
-        result = add(store, resolve(store, model), candidate)
+        result = add(store, resolve(store, model), candidate, plain=plain)
     session.answer(
         result,
         lambda: in_units_of(
             session, result.response, "\n\n".join([before_after_text(result), fit_text(result, scores=False)])
         ),
     )
+    for note in result.notes:
+        session.say(note)
     worse = made_worse(result)
     if worse is not None:
         session.say(worse)

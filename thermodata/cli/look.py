@@ -13,6 +13,7 @@ from thermodata.cli.table import table
 from thermodata.errors import UsageError, unknown_name
 from thermodata.report.records import records, written_conditions
 from thermodata.report.words import duration
+from thermodata.view.overview import Asked, find_tests
 
 campaign_option = click.option("--campaign", "-c", help="Only this campaign.")
 
@@ -46,9 +47,16 @@ def rows_of(session: Session, query: str, campaign: str | None, order: str) -> l
 
 @command("tests")
 @campaign_option
-def tests_command(session: Session, campaign: str | None) -> None:
+@click.option("--role", help="Only of this role.")
+@click.option("--kind", help="Only of this kind.")
+@click.option("--find", metavar="WORDS", help="Only where all WORDS stand in name, kind, role, conditions or notes.")
+def tests_command(session: Session, campaign: str | None, role: str | None, kind: str | None, find: str | None) -> None:
     """List the tests: kind, role, length and conditions."""
     rows = rows_of(session, "select * from test", campaign, "campaign, test")
+    if role or kind or find:
+        asked = Asked(find or "", campaign or "", role or "", kind or "", per_page=max(1, len(rows)))
+        found = {(r.campaign, r.test) for r in find_tests(session.store(), asked).rows}
+        rows = [row for row in rows if (row["campaign"], row["test"]) in found]
     specs = records(session.view(), "select spec from campaign")
     written = written_conditions(row["spec"] for row in specs)
     shown = [

@@ -8,7 +8,7 @@ from typing import Any
 from thermodata.cli.table import fields, table
 from thermodata.draft.look import Meant, Watch, campaign_of, flagged, meaning_of
 from thermodata.errors import UsageError
-from thermodata.plugin import Reader, Source
+from thermodata.plugin import Reader, Signal, Source
 
 
 def previewed(file: Path, name: str | None, timezone: str | None, rows: int, campaign: Path | None) -> dict[str, Any]:
@@ -19,18 +19,22 @@ def previewed(file: Path, name: str | None, timezone: str | None, rows: int, cam
     """
     from thermodata.reader.guard import described
     from thermodata.reader.preview import preview
-    from thermodata.reader.registry import reader
+    from thermodata.reader.registry import reader, sniff
 
     meant, source, chosen = _declared(file, campaign)
     chosen = reader(name) if name else chosen
     if timezone is not None:
         source = Source(source.name, timezone, source.encoding, source.table, source.topics, source.options)
     watch = Watch()
-    found = preview(file, source, chosen, rows=rows, watch=watch)
-    signals = described(chosen or reader(found["reader"]), file, source).signals
+    chosen = chosen or sniff(file)
+    recording = described(chosen, file, source)
+    found = preview(file, source, chosen, rows=rows, watch=watch, recording=recording)
     absolute = found["clock"] == "absolute"
+    by_stream: dict[str, list[Signal]] = {}
+    for each in recording.signals:
+        by_stream.setdefault(each.stream, []).append(each)
     for stream in found["streams"]:
-        own = [s for s in signals if s.stream == stream["stream"]]
+        own = by_stream[stream["stream"]]
         told, events = flagged(watch, stream["stream"], own, meant, absolute)
         for signal in stream["signals"]:
             signal.update(

@@ -2,13 +2,18 @@
 
 from __future__ import annotations
 
+import sys
+import webbrowser
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import click
 
 from thermodata.cli.common import Session, command
 from thermodata.cli.fitting import resolve
-from thermodata.errors import UsageError
+
+if TYPE_CHECKING:
+    from thermodata.web.desk import Desk
 
 
 @command("report")
@@ -35,6 +40,27 @@ def report_command(session: Session, model: str, out: Path | None) -> None:
 
 
 @command("workbench")
-def workbench_command(session: Session) -> None:
-    """Open the local web page."""
-    raise UsageError("'workbench' is not supported yet", hint="thermodata report MODEL writes a page to look at")
+@click.argument("folder", required=False, type=click.Path(path_type=Path), metavar="[STORE|FOLDER]")
+@click.option("--write", is_flag=True, help="Let the pages change the store: add effects, ingest, draft.")
+@click.option("--port", default=0, show_default="any free one", type=click.IntRange(0, 65535), help="Port to open.")
+@click.option("--no-browser", is_flag=True, help="Print the address only.")
+def workbench_command(session: Session, folder: Path | None, write: bool, port: int, no_browser: bool) -> None:
+    """Open the local web page.
+
+    Of a store, or of a folder of raw logs. It listens on 127.0.0.1 only; the printed address lets one browser in, once.
+    """
+    from thermodata.web.serve import serve, ticket_address
+
+    # the default store is the one of FOLDER, where a folder is named
+    named = None if folder is not None and session.store_path == Path("thermodata.store") else session.store_path
+
+    def opened(desk: Desk) -> None:
+        address = ticket_address(desk)
+        payload = {"address": address, "port": desk.port, "store": str(desk.store_path), "write": desk.write}
+        session.answer(payload, lambda: address)
+        session.say("it runs until Ctrl+C; the address works once")
+        sys.stdout.flush()
+        if not no_browser:
+            webbrowser.open(address)
+
+    serve(folder, named, write=write, port=port, opened=opened)

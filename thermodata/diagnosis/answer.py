@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from thermodata.diagnosis import next_test
+from thermodata.diagnosis import ladder, next_test
 from thermodata.diagnosis.artefact import noise_with_treads
 from thermodata.diagnosis.confirm import Confirmation, confirm, on_all_open
 from thermodata.diagnosis.investigate import BorneOut, Investigation, investigate
@@ -20,7 +20,6 @@ from thermodata.diagnosis.judge import (
     explained,
     failed_rules,
     probability,
-    remaining,
 )
 from thermodata.diagnosis.locked import Foretold
 from thermodata.diagnosis.null import p_value
@@ -144,7 +143,7 @@ def _diagnosis(
         verdict=judgement.verdict,
         noise_um=noise_with_treads(problem) if np.isfinite(problem.noise) else None,
         noise_over_s=next((float(b.test.t_s[1] - b.test.t_s[0]) for b in problem.blocks if len(b.test.t_s) > 1), None),
-        rmse_um=remaining(alone.first.ranked[0]) if alone is not None else _left(problem),
+        rmse_um=alone.left if alone is not None else _left(problem),
         explainable=max((float(np.clip(_fall(s), 0.0, 1.0)) for s in scored), default=None),
         weak_spots=investigation.spots,
         candidates=[
@@ -154,6 +153,7 @@ def _diagnosis(
         artefacts=investigation.artefacts,
         unknown=characterise(problem, investigation.spots) if judgement.verdict == "unknown" else None,
         next_test=advice,
+        chance=ladder.chance(investigation.measure),
     )
 
 
@@ -193,7 +193,7 @@ def _candidate(
         family=s.candidate.family,
         drivers=list(s.candidate.channels),
         claimed=claimed,
-        refinement=any(member is r for r in judgement.refinements),
+        refinement=_refining(member, judgement),
         # measured for what heads the list, and for claims; nothing is known of the share of the others
         probability=probability(s) if heads else None,
         p_value=p_value(s.evidence, measure.chance),
@@ -206,7 +206,15 @@ def _candidate(
         parameters=held.parameters.get(s.candidate.id, {}) if held else {},
         equivalent=[t.candidate.id for t in equivalents(s, beside)] if rank <= 5 else [],
         why=_why(s, member, claimed, problem, investigation, judgement, held),
+        evidence=float(s.evidence) if np.isfinite(s.evidence) else None,
+        rungs=ladder.rungs(s, measure, problem.unit),
+        left_out=ladder.left_out(told, problem),
+        courses=ladder.courses(s, problem) if heads or claimed or _refining(member, judgement) else [],
     )
+
+
+def _refining(member: Judged | None, judgement: Judgement) -> bool:
+    return any(member is r for r in judgement.refinements)
 
 
 def _why(

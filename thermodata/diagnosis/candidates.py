@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Container, Iterable, Mapping
 from dataclasses import dataclass, replace
 from itertools import product
 from typing import Literal
@@ -17,10 +17,11 @@ from thermodata.plugin import Drivers, Effect, Float2D, Param
 from thermodata.view.dataset import ChannelInfo, TestData
 
 Led = tuple[Drivers, int]
-# "same": another mode of an effect that the model has, another bearing, another reading of its channels. "near": an
+# "same": another mode of an effect that the model has, another reading of its channels or of the same cause. "near": an
 # effect of a family that the model has, at its place. "related": one elsewhere
 Kin = Literal["same", "near", "related"] | None
 GENERIC = "generic"
+CONTROL = "control"  # its static compensation is a difference of any two temperatures
 STATIC = "static"
 NOT_DRIVERS = frozenset({"displacement", "tilt", "label"})
 SECONDS = {"s": 1.0, "min": 60.0, "h": 3600.0}
@@ -97,13 +98,18 @@ def candidates(
             if (effect.name, names) in have or names in lagged:
                 continue
             near = names <= read or _near(names, read, channels)
-            kin = _kin(effect, family, names, near, known, have)
+            kin = _kin(effect, family, names, near, known, have, library, usable)
             candidate = CandidateEffect(effect, binding, family, nowhere, kin=kin)
             if refines(effect) and not any(e in refines(effect) and n & names for e, n in have):
                 continue
             found.append(candidate)
-    named = {c.channels for c in found if c.family != GENERIC}
-    return [replace(c, log_prior=UNNAMED) if c.family == GENERIC and c.channels in named else c for c in found]
+    named = {c.channels for c in found if c.family not in (GENERIC, CONTROL)}
+    return [replace(c, log_prior=UNNAMED) if _says_little(c, named) else c for c in found]
+
+
+def _says_little(candidate: CandidateEffect, named: Container[tuple[str, ...]]) -> bool:
+    """Whether its name says no more than which channels it reads."""
+    return candidate.family == CONTROL or (candidate.family == GENERIC and candidate.channels in named)
 
 
 def _kin(
@@ -113,13 +119,17 @@ def _kin(
     near: bool,
     families: frozenset[str],
     have: frozenset[tuple[str, frozenset[str]]],
+    library: Mapping[str, Effect],
+    channels: Mapping[str, ChannelInfo],
 ) -> Kin:
     if refines(effect) or (family == GENERIC and near):
         return "same"
     if family not in families:
         return None
     read = frozenset[str]().union(*(n for _, n in have))
-    if names <= read or any(name == effect.name for name, _ in have):
+    # a temperature is the state of one body; a speed makes heat, and force
+    again = names <= read and all(channels[n].quantity == "temperature" for n in names)
+    if again or any(cause(library[name]) == cause(effect) for name, _ in have if name in library):
         return "same"
     return "near" if near else "related"
 
@@ -128,6 +138,12 @@ def _near(names: frozenset[str], read: frozenset[str], channels: Mapping[str, Ch
     """Whether a channel sits where the model reads one already: at its place, around it, or within it."""
     mine, theirs = ({p for n in some if n in channels and (p := channels[n].at)} for some in (names, read))
     return any(holds(a, b) or holds(b, a) for a in mine for b in theirs)
+
+
+def cause(effect: Effect) -> str:
+    """The heat or motion that an effect stands for: bearing friction, whether by temperature or by speed."""
+    found: str = getattr(effect, "cause", effect.name)
+    return found
 
 
 def refines(effect: Effect) -> tuple[str, ...]:

@@ -8,7 +8,7 @@ from typing import Literal
 
 import numpy as np
 
-from thermodata.diagnosis.candidates import GENERIC
+from thermodata.diagnosis.candidates import CONTROL, GENERIC
 from thermodata.diagnosis.null import p_value
 from thermodata.diagnosis.problem import Problem
 from thermodata.diagnosis.scored import Scored
@@ -18,23 +18,24 @@ from thermodata.plugin import Float1D
 Verdict = Literal["effect", "refine", "none", "unknown", "not_testable"]
 
 P_LIMIT = 0.01
-PROBABILITY = (2.77, 3.61)  # of a logistic curve over the logarithm of the evidence a sample
-# log evidence a sample, in the noise that is left once all members are in: the noise must fall by a seventh. A cause
-# has the timing of what is missing and leaves little noise; what stands in for it has its slow shape alone
-SHARP_LIMIT = 0.15
-# and of what names no physics: the temperature of a body also sharpens a known effect
-UNNAMED_SHARP_LIMIT = 0.25
-# where nobody declared any place a claim names a channel, not physics, and there is nothing that it could be taken for
-PLACELESS_SHARP_LIMIT = 0.05
+# that a sound candidate is the cause: a logistic curve over the logarithm of its evidence a sample, and the spread of
+# its gain between tests (docs/method.md#probability)
+PROBABILITY = (3.27, 2.22, -1.69)
+USUAL_SPREAD = 0.15
+CLAIMED = 0.7  # a claim is this probable at least;
+# where nobody declared any place it names a channel, not physics, and there is nothing that it could be taken for
+PLACELESS_CLAIMED = 0.5
+# so much evidence a sample outweighs what left-out tests say: their error is that of the known effects, too
+OVERWHELMING = 0.6
 DROP_LIMIT = 0.15  # fall of the error on left-out tests in which it acts,
 UNNAMED_DROP_LIMIT = 0.3  # and of what names no physics: any slow temperature steadies a misfit a little
+LEAST_TESTS = 2  # in which it acts: no other foretells what acts in one only
 BETTER_LIMIT = 0.6  # share of these tests that it makes more probable
 SPREAD_LIMIT = 0.5  # of its gain between tests, as a share,
 FORETOLD = 0.5  # unless left-out tests are foretold to this share of their error: few tests can't tell a spread
 WORTH_SHARE = 0.1  # of the response: less is not worth a name
-BESIDE_SHARE = 0.7  # of the largest claim's: a further claim must explain as much
+BESIDE_SHARP_LIMIT = 0.3  # log evidence a sample of a further claim: what is small may be what the first leaves
 MOST_CLAIMS = 3
-STEADIES = 2.8  # a promised fall beyond this many times its own size only steadies an extrapolation
 FLOOR_SHARE = 0.1  # a residual under this share of the response (FIT 90) is left alone
 NOISE_TIMES = 5.0
 ALIKE = 0.9  # cosine of contributions that can't be told apart
@@ -100,16 +101,16 @@ def judge(
     kept = tuple(j for j in judged if j.refines is not None)
     if claims:
         return Judgement("effect", claims, kept, judged, "")
-    left = remaining(selection.first.ranked[0])
+    left = selection.left
     standing = [j.scored for j in judged if j.refines is None]
-    if kept and not standing:
-        return Judgement("refine", (), kept, judged, "no cause is missing; what the model has can be refined")
     if left <= measure.floor:
         why = (
             f"the error on left-out tests, {left:.2g} {problem.unit}, is at the floor of "
             f"{measure.floor:.2g} {problem.unit} (noise, and {FLOOR_SHARE:.0%} of the response)"
         )
         return Judgement("none", (), (), judged, why)
+    if kept and not standing:
+        return Judgement("refine", (), kept, judged, "no cause is missing; what the model has can be refined")
     best = selection.first.ranked[0]
     if standing:
         best = standing[0]
@@ -127,60 +128,121 @@ def _nothing(verdict: Verdict, reason: str) -> Judgement:
 
 
 def _claims(own: Sequence[Judged]) -> tuple[Judged, ...]:
-    """The first that was chosen, and named ones that explain nearly as much: what is far smaller, or has no name, may
-    be what the first leaves; once that is added, it is asked again."""
-    least = BESIDE_SHARE * explained(own[0].alone) if own else 0.0
-    further = (j for j in own[1:] if explained(j.scored) >= least and j.scored.candidate.family != GENERIC)
-    return (*own[:1], *further)[:MOST_CLAIMS]
+    """The first that was chosen, and others that are sharp: what is dull beside it may be what the first leaves; once
+    that is added, it is asked again."""
+    return (*own[:1], *(j for j in own[1:] if sharpness(j.scored) >= BESIDE_SHARP_LIMIT))[:MOST_CLAIMS]
+
+
+@dataclass(frozen=True, slots=True)
+class Rule:
+    """One rule of a claim, asked of a candidate. value: held against the limit, at the `least` or at the `most`; beyond
+    it the rule may hold, where it is not asked. asks: what it asks, in words. fails: why who breaks it is no cause."""
+
+    name: str
+    asks: str
+    value: float
+    limit: float
+    at: Literal["least", "most"]
+    holds: bool
+    fails: str
+    unit: str = "1"
+
+
+def rules(scored: Scored, measure: Measure, unit: str) -> list[Rule]:
+    """Every rule that a sound candidate keeps, in the order in which they are asked."""
+    p, count = p_value(scored.evidence, measure.chance), int(scored.acts.sum())
+    fall = UNNAMED_DROP_LIMIT if _unnamed(scored) else DROP_LIMIT
+    told, worth = explained(scored), WORTH_SHARE * measure.spread
+    sure = sharpness(scored) >= OVERWHELMING
+    unasked = f"; not asked where the evidence is overwhelming, {OVERWHELMING:g} a sample"
+    return [
+        Rule(
+            "chance",
+            "share of responses without a missing effect on which chance does as well",
+            p,
+            P_LIMIT,
+            "most",
+            p <= P_LIMIT,
+            f"chance does as well in {p:.1%} of responses in which nothing is missing (limit {P_LIMIT:.0%})",
+        ),
+        Rule(
+            "fall",
+            f"fall of the error on left-out tests in which it acts{unasked}",
+            scored.drop,
+            fall,
+            "least",
+            sure or scored.drop >= fall,
+            f"in the {count} left-out tests in which it acts the error falls by {max(scored.drop, 0):.0%} only (limit "
+            f"{fall:.0%})",
+        ),
+        Rule(
+            "tests",
+            "share of these tests that it makes more probable",
+            scored.better,
+            BETTER_LIMIT,
+            "least",
+            scored.better >= BETTER_LIMIT,
+            f"it makes {round(scored.better * count)} of the {count} tests in which it acts more probable (limit "
+            f"{BETTER_LIMIT:.0%})",
+        ),
+        Rule(
+            "gain",
+            f"how much its gain differs between tests; not asked where the error falls by {FORETOLD:.0%}, or the "
+            "evidence is overwhelming",
+            scored.spread,
+            SPREAD_LIMIT,
+            "most",
+            sure or scored.spread <= SPREAD_LIMIT or scored.drop >= FORETOLD,
+            f"its gain differs between tests by {scored.spread:.0%} (limit {SPREAD_LIMIT:.0%}): a cause acts alike "
+            "everywhere",
+        ),
+        Rule(
+            "others",
+            f"tests in which it acts{unasked}",
+            count,
+            LEAST_TESTS,
+            "least",
+            sure or count >= LEAST_TESTS,
+            "it acts in one test only: no other foretells it",
+        ),
+        Rule(
+            "worth",
+            f"what it explains where it acts{unasked}",
+            told,
+            worth,
+            "least",
+            sure or told >= worth,
+            f"it explains {told:.2g} {unit} where it acts, of {measure.spread:.2g} {unit} (limit {WORTH_SHARE:.0%})",
+            unit,
+        ),
+    ]
+
+
+def surely(scored: Scored) -> Rule:
+    """Whether a sound candidate is a cause: it has the timing of what is missing and leaves little noise, in every test
+    alike; what stands in for it has its slow shape alone."""
+    sure, limit = probability(scored), PLACELESS_CLAIMED if scored.candidate.placeless else CLAIMED
+    return Rule(
+        "probability",
+        "that it is what is missing, by its log evidence a sample and the spread of its gain",
+        sure,
+        limit,
+        "least",
+        sure >= limit,
+        f"causes like it were right in {sure:.0%} of cases only (limit {limit:.0%}): its evidence is "
+        f"{sharpness(scored):.2f} a sample, and its gain differs between tests by {scored.spread:.0%}",
+    )
 
 
 def failed_rules(scored: Scored, measure: Measure, unit: str) -> list[str]:
-    """The rules that a candidate fails, as sentences; none where it may be claimed."""
-    failed = []
-    p = p_value(scored.evidence, measure.chance)
-    if p > P_LIMIT:
-        failed.append(f"chance does as well in {p:.1%} of responses in which nothing is missing (limit {P_LIMIT:.0%})")
-    count = int(scored.acts.sum())
-    limit = UNNAMED_DROP_LIMIT if _unnamed(scored) else DROP_LIMIT
-    if scored.drop < limit:
-        failed.append(
-            f"in the {count} left-out tests in which it acts the error falls by {max(scored.drop, 0):.0%} only "
-            f"(limit {limit:.0%})"
-        )
-    if scored.better < BETTER_LIMIT:
-        failed.append(
-            f"it makes {round(scored.better * count)} of the {count} tests in which it acts more probable (limit "
-            f"{BETTER_LIMIT:.0%})"
-        )
-    if scored.spread > SPREAD_LIMIT and scored.drop < FORETOLD:
-        failed.append(
-            f"its gain differs between tests by {scored.spread:.0%} (limit {SPREAD_LIMIT:.0%}): a cause acts alike "
-            "everywhere"
-        )
-    if explained(scored) < WORTH_SHARE * measure.spread:
-        failed.append(
-            f"it explains {explained(scored):.2g} {unit} where it acts, of {measure.spread:.2g} {unit} (limit "
-            f"{WORTH_SHARE:.0%})"
-        )
-    if explained(scored) > STEADIES * acting_size(scored):
-        failed.append(
-            f"the error falls by more than {STEADIES:g} times its own size: it only steadies what the model "
-            "extrapolates"
-        )
-    return failed
+    """The rules that a candidate fails, as sentences; none where it is sound."""
+    return [rule.fails for rule in rules(scored, measure, unit) if not rule.holds]
 
 
 def blunt(scored: Scored) -> str | None:
-    """Why a sound candidate is still no cause; None where its timing is that of what is missing."""
-    limit = UNNAMED_SHARP_LIMIT if _unnamed(scored) else SHARP_LIMIT
-    if scored.candidate.placeless:
-        limit = PLACELESS_SHARP_LIMIT
-    if sharpness(scored) >= limit:
-        return None
-    return (
-        f"its evidence is {sharpness(scored):.2f} a sample (limit {limit:g}): it has the slow shape of what is "
-        "missing, but not its timing"
-    )
+    """Why a sound candidate is still no cause; None where it may be claimed."""
+    rule = surely(scored)
+    return None if rule.holds else rule.fails
 
 
 def claimable(scored: Scored, measure: Measure, unit: str) -> bool:
@@ -190,24 +252,22 @@ def claimable(scored: Scored, measure: Measure, unit: str) -> bool:
 
 def _unnamed(scored: Scored) -> bool:
     """Whether its place is known, and still no effect has a name for it; where no place is declared, nothing could."""
-    return scored.candidate.family == GENERIC and not scored.candidate.placeless
+    return scored.candidate.family in (GENERIC, CONTROL) and not scored.candidate.placeless
 
 
 def probability(scored: Scored) -> float:
-    """That the candidate is what is missing: the share that was right at its sharpness on 97 simulated machines of two
-    makes (development seeds; docs/method.md#probability)."""
-    odds = PROBABILITY[0] + PROBABILITY[1] * np.log10(max(sharpness(scored), 1e-4))
+    """That a sound candidate is what is missing: the share that was right among those with its sharpness and spread, on
+    simulated machines (development seeds)."""
+    level, sharp, spread = PROBABILITY
+    # one test tells no spread: the usual one is taken
+    between = scored.spread if scored.acts.sum() > 1 else USUAL_SPREAD
+    odds = level + sharp * np.log10(max(sharpness(scored), 1e-4)) + spread * between
     return float(1 / (1 + np.exp(-odds)))
 
 
 def sharpness(scored: Scored) -> float:
     """Log evidence a sample."""
     return scored.evidence / max(float(scored.rows.sum()), 1.0)
-
-
-def remaining(scored: Scored) -> float:
-    """RMS error of all left-out tests without the candidate, each test alike."""
-    return float(np.sqrt(np.mean(scored.sse_before / scored.rows)))
 
 
 def explained(scored: Scored) -> float:

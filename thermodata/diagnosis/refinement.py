@@ -49,17 +49,19 @@ class Refinement:
         if not self.fitted.terms:
             return None
         kin, most = scored.candidate.kin, scored.drop >= MOST
-        if refines(scored.candidate.effect) or (kin == "same" and not most):
+        if refines(scored.candidate.effect) or kin == "same":
             return MODE
-        if scored.error_before > GOOD * rms(self.problem.response_blocks):
-            return None
+        good = scored.error_before <= GOOD * rms(self.problem.response_blocks)
         largest = max(self._size(i) for i in range(len(self.fitted.terms)))
-        if kin is not None and not most and acting_size(scored) < SMALL * largest:
+        if good and kin is not None and not most and acting_size(scored) < SMALL * largest:
             return MODE
-        may_replace = (kin == "near" or not most) and (kin is not None or scored.candidate.family == GENERIC)
+        # what reads the same heat elsewhere stands for the known effect, however much else is missing
+        may_replace = kin == "near" or (good and not most and (kin is not None or scored.candidate.family == GENERIC))
         for number, term in enumerate(self.fitted.terms):
             if may_replace and self._replaces(scored, number):
                 return f"it takes the place of {term.id}"
+            if not good:
+                continue
             channel = self._other_zero(scored, number)
             if channel is not None:
                 return f"it acts as {term.id} would if its temperature counted from {channel}"

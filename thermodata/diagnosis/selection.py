@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from thermodata.diagnosis.candidates import GENERIC, CandidateEffect
+from thermodata.diagnosis.candidates import CONTROL, GENERIC, CandidateEffect
 from thermodata.diagnosis.discrepancy import Noise
 from thermodata.diagnosis.evidence import Columns, Moments, Weighed, columns, moments, weigh
 from thermodata.diagnosis.invariance import spread_of_gain
@@ -29,7 +29,7 @@ NAMED_SHARE = 0.95
 ALIKE_SHARE = 0.8  # the same for a name on another channel that acts alike (cosine)
 ALIKE = 0.8
 FEWER_SHARE = 0.8
-CONTROL = "control"  # its static compensation is a difference of any two temperatures
+UNNAMED = (GENERIC, CONTROL)
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,12 +54,14 @@ class Member:
 @dataclass(frozen=True, slots=True)
 class Selection:
     """first: the ranking beside the model alone. members: in the order of their choice. dropped: what the evidence
-    chose and a rule forbade. noise: beside all members."""
+    chose and a rule forbade. noise: beside all members. left: RMS error of the model alone on left-out tests, in the
+    response's unit."""
 
     first: Ranked
     members: tuple[Member, ...]
     dropped: tuple[Scored, ...]
     noise: Noise
+    left: float
 
 
 def first_ranking(problem: Problem, candidates: Sequence[CandidateEffect]) -> Ranked | None:
@@ -93,7 +95,7 @@ def select(problem: Problem, first: Ranked, sound: Callable[[Scored], bool]) -> 
         if len(dropped) == before:
             break
     members = tuple(_member(problem, pool, chosen, i, current[i], noise, sound) for i in range(len(chosen)))
-    return Selection(first, members, tuple(dropped), noise)
+    return Selection(first, members, tuple(dropped), noise, first.known.left_out)
 
 
 def _forward(
@@ -185,10 +187,11 @@ def preferred(ranked: Sequence[Scored]) -> Scored | None:
     own = set(best.candidate.channels)
     for other in (s for s in ranked[1:] if len(s.shape)):
         theirs = set(other.candidate.channels)
-        fewer = theirs < own and best.candidate.family in (GENERIC, CONTROL)
-        named = best.candidate.family == GENERIC != other.candidate.family and own & theirs
+        fewer = theirs < own and best.candidate.family in UNNAMED
+        named = best.candidate.family in UNNAMED and other.candidate.family not in UNNAMED and own & theirs
         elsewhere = (
-            best.candidate.family == GENERIC != other.candidate.family
+            best.candidate.family in UNNAMED
+            and other.candidate.family not in UNNAMED
             and len(other.candidate.channels) == 1
             and abs(float(best.shape @ other.shape)) > ALIKE
         )
@@ -219,17 +222,19 @@ def extended(problem: Problem, made: Columns, weighed: Weighed) -> Problem:
 def _scored(problem: Problem, base: Known, one: Columns, products: Moments, w: Weighed) -> Scored:
     tests = base.every
     before, after, gained = np.zeros(len(tests)), np.zeros(len(tests)), np.zeros(len(tests))
+    theta, factor = base.mean(tests), base.factor(tests)
+    toward = products.known.sum(axis=0)
     for i, block in enumerate(problem.blocks):
-        others = np.delete(tests, i)
-        seen = weigh(base, one, products, others)
+        seen = weigh(base, one, products, np.delete(tests, i))
         gained[i] = w.total - seen.total
+        # its size and times from the other tests; what is known is fitted beside it, to all: what a model foretells
+        # badly without a test, for no other excites it, says nothing of a candidate
         point, _ = seen.best
-        theta = base.mean(others)
-        left = block.response - np.hstack([block.base, block.slack]) @ theta
+        held = np.hstack([block.base, block.slack])
+        left = block.response - held @ theta
         before[i] = left @ left
-        toward = products.known[others].sum(axis=0)[point].T @ seen.coefficients
-        pulled = solved(base.factor(others), toward[:, None])[:, 0]
-        left = left + np.hstack([block.base, block.slack]) @ pulled - one.blocks[i][:, point] @ seen.coefficients
+        pulled = solved(factor, (toward[point].T @ seen.coefficients)[:, None])[:, 0]
+        left = left + held @ pulled - one.blocks[i][:, point] @ seen.coefficients
         after[i] = left @ left
     contribution = [b[:, w.best[0]] @ w.coefficients for b in one.blocks]
     rows = np.array([len(c) for c in contribution])

@@ -137,6 +137,7 @@ class BoundResponse:
     channels: Mapping[str, str]
     terms: tuple[BoundTerm, ...]
     units: Mapping[str, str] = field(default_factory=dict)  # of every channel, by name
+    weights: Mapping[str, float] = field(default_factory=dict)  # test or phase -> weight of its samples; 1 else
 
     def channel_of(self, test: TestData) -> str:
         return self.channels.get(test.campaign, self.name)

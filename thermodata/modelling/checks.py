@@ -47,10 +47,12 @@ def checks(response: FittedResponse, tests: Sequence[TestData]) -> dict[str, Any
         *_conditioning(matrix, names),
         *_lost(response, tests),
         *_orders(response),
+        *_warm(design),
     ]
     for term in response.terms:
         rows += [
             *_bounds(term),
+            *_gain_bounds(term),
             *_long(term, tests),
             *_plausible(term),
             *_second_lag(term),
@@ -182,6 +184,49 @@ def _bounds(term: FittedTerm) -> list[Check]:
                         )
                     )
     return rows
+
+
+def _gain_bounds(term: FittedTerm) -> list[Check]:
+    """A gain that a bound holds: the data want another, and the fit could not say which."""
+    rows = []
+    for group, values in term.groups.items():
+        tag = f"[{group}]" if group else ""
+        for gain in term.effect.gains:
+            spec = term.bound.spec
+            if gain.name in spec.fixed or (gain.name not in spec.bounds and gain.sign == "any"):
+                continue
+            library = {"+": (0.0, np.inf), "-": (-np.inf, 0.0), "any": (-np.inf, np.inf)}[gain.sign]
+            whose = "the model file" if gain.name in spec.bounds else f"the library ({term.effect.name}: {gain.sign})"
+            value = values.gains[gain.name]
+            for end in spec.bounds.get(gain.name, library):
+                if np.isfinite(end) and abs(value - end) <= AT_BOUND * abs(end):
+                    rows.append(
+                        Check(
+                            name=f"at_bound:{term.id}.{gain.name}{tag}",
+                            value=value,
+                            threshold=float(end),
+                            passed=False,
+                            advice=f"held at {end:g} by a bound of {whose}: the data want it beyond; another effect "
+                            "may be behind it, or the bound is wrong",
+                        )
+                    )
+    return rows
+
+
+def _warm(design: Design) -> list[Check]:
+    """Tests that began warm: what faded is left out of the fit, and stands in the scores."""
+    return [
+        Check(
+            name=f"warm_start:{test.campaign}/{test.test}",
+            value=None,
+            threshold=None,
+            passed=True,
+            advice="start_state: warm: how warm each part was is not known; what fades from the start was fitted "
+            "freely, and the free run begins at balance all the same",
+        )
+        for test, free in zip(design.tests, design.nuisance, strict=True)
+        if free.free is not None
+    ]
 
 
 def _long(term: FittedTerm, tests: Sequence[TestData]) -> list[Check]:

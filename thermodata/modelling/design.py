@@ -1,6 +1,7 @@
-"""The linear half of a fit: masked, centred columns of every term over all tests, kept by time constant.
+"""The linear half of a fit: masked columns of every term over all tests, kept by time constant.
 
-Each test is centred by itself (that is its free offset), and the state of every lag restarts at each test.
+Each test is freed by itself of what nobody knows (its offset; see `nuisance`), and the state of every lag restarts at
+each test.
 """
 
 from __future__ import annotations
@@ -13,6 +14,7 @@ import numpy as np
 
 from thermodata.modelling.bound import PLACE, BoundResponse, BoundTerm
 from thermodata.modelling.fitted_response import fit_mask
+from thermodata.modelling.nuisance import Nuisance
 from thermodata.plugin import Bool1D, Float1D, Float2D, Param
 from thermodata.view.dataset import TestData
 
@@ -70,8 +72,12 @@ class Design:
         edges = np.concatenate([[0], np.cumsum(self.counts)])
         self.parts = [slice(int(a), int(b)) for a, b in pairwise(edges)]
         self.n = int(edges[-1])
+        self.nuisance = [Nuisance(t, m, bound) for t, m in zip(tests, self.masks, strict=True)]
         self.y: Float1D = np.concatenate(
-            [_centred(t.values[bound.channel_of(t)][m]) for t, m in zip(tests, self.masks, strict=True)]
+            [
+                free.without(t.values[bound.channel_of(t)][m])
+                for t, m, free in zip(tests, self.masks, self.nuisance, strict=True)
+            ]
             or [np.zeros(0)]
         )
         self.slots = tuple(self._slots())
@@ -109,7 +115,7 @@ class Design:
             for k, j in enumerate(self.slots[slot].tests):
                 full = term.columns(self.tests[j], params)[self.masks[j]]
                 own = self.slots[slot].factors[k] if self.slots[slot].factors else ""
-                kept[self.parts[j]] = (full - full.mean(axis=0)) * params.get(factor(own), 1.0)
+                kept[self.parts[j]] = self.nuisance[j].without(full) * params.get(factor(own), 1.0)
             if (len(self._kept) + 1) * kept.nbytes > KEPT_BYTES:
                 self._kept.clear()
             self._kept[key] = kept
@@ -119,7 +125,3 @@ class Design:
 def factor(group: str) -> str:
     """The name of a group's factor among the parameters."""
     return f"g[{group}]"
-
-
-def _centred(values: Float1D) -> Float1D:
-    return values - values.mean() if len(values) else values

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 
@@ -12,12 +12,13 @@ from thermodata.modelling.arx import identify_arx, placeholder
 from thermodata.modelling.bound import BoundResponse
 from thermodata.modelling.checks import checks
 from thermodata.modelling.fitted import FittedModel
-from thermodata.modelling.fitted_response import FittedResponse, FittedTerm, has_response
+from thermodata.modelling.fitted_response import FittedResponse, FittedTerm
 from thermodata.modelling.joint import fit_jointly
 from thermodata.modelling.orders import Near, Tried, choose_orders, open_orders
 from thermodata.modelling.places import fit_together, together
 from thermodata.modelling.resolve import resolve
-from thermodata.modelling.roles import Key
+from thermodata.modelling.staged import moved_as_well, refined, stages_of
+from thermodata.modelling.usable import usable_tests
 from thermodata.schema.model import Model
 from thermodata.store.base.counting import counted
 from thermodata.view.dataset import Dataset, TestData
@@ -77,7 +78,8 @@ def fit_response(
     find their own tests (default: among `tests`)."""
     tried: list[Tried] = []
     held: dict[int, FittedTerm] = {}
-    for stage in _stages(bound, tests, data):
+    stages = stages_of(bound, tests, data)
+    for stage in stages:
         part = replace(stage.bound, terms=tuple(bound.terms[i] for i in stage.members))
         first, why = usable_tests(part, stage.tests)
         if not first:
@@ -93,11 +95,14 @@ def fit_response(
         held |= {i: replace(found[i], held=True) for i in stage.members}
     rest = [i for i in range(len(bound.terms)) if i not in held]
     bound, found = _identify(bound, rest, held, tests, wanted, uncertainty, tried)
-    fitted = {**held, **found}
+    fitted = refined(bound, {**held, **found}, tests, stages, wanted, uncertainty)
     terms = tuple(fitted[i] for i in range(len(bound.terms)))
     response = FittedResponse(bound, terms, wanted, frozenset(t.key for t in tests))
     response = replace(response, tried=tuple(tried))
-    return replace(response, **checks(response, tests)) if uncertainty else response
+    if not uncertainty:
+        return response
+    said = checks(response, tests)
+    return replace(response, checks=(*said["checks"], *moved_as_well(response, stages)), noise=said["noise"])
 
 
 def _identify(
@@ -158,44 +163,3 @@ def _with_placeholders(bound: BoundResponse, members: Sequence[int]) -> tuple[Bo
     arx = [i for i, t in enumerate(bound.terms) if i in members and t.spec.method == "arx" and t.effect.params]
     terms = tuple(placeholder(t) if i in arx else t for i, t in enumerate(bound.terms))
     return replace(bound, terms=terms), arx
-
-
-def usable_tests(bound: BoundResponse, tests: Sequence[TestData]) -> tuple[list[TestData], list[str]]:
-    """Tests with the response and all drivers; and of the others, what they lack."""
-    usable, why = [], []
-    for test in tests:
-        missing = [t.id for t in bound.terms if not t.has(test)]
-        if not has_response(bound, test):
-            why.append(f"{test.campaign}/{test.test}: no '{bound.channel_of(test)}'")
-        elif missing:
-            why.append(f"{test.campaign}/{test.test}: no driver for {', '.join(missing)}")
-        else:
-            usable.append(test)
-    return usable, why
-
-
-@dataclass(frozen=True)
-class _Stage:
-    """Effects that are identified before the others, together, on tests or on a response of their own."""
-
-    bound: BoundResponse
-    members: tuple[int, ...]
-    tests: tuple[TestData, ...]
-
-
-def _stages(bound: BoundResponse, tests: Sequence[TestData], data: Dataset | None) -> list[_Stage]:
-    """In the order of the file. All phases of a stage's tests count: an idle test has no heating."""
-    pool = tests if data is None else data.tests
-    members: dict[tuple[frozenset[Key] | None, tuple[tuple[str, str], ...] | None], list[int]] = {}
-    for i, term in enumerate(bound.terms):
-        if term.calibrate is not None or term.seen_at is not None:
-            seen = None if term.seen_at is None else tuple(term.seen_at.items())
-            members.setdefault((term.calibrate, seen), []).append(i)
-    stages = []
-    for (own, seen), places in members.items():
-        where = bound
-        if seen is not None:
-            where = replace(bound, name=seen[0][1], unit=bound.units.get(seen[0][1], bound.unit), channels=dict(seen))
-        keys = {t.key for t in tests} if own is None else own
-        stages.append(_Stage(where, tuple(places), tuple(t for t in pool if t.key in keys)))
-    return stages

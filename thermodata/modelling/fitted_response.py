@@ -37,7 +37,8 @@ class FittedTerm:
 
     bound: BoundTerm
     groups: Mapping[str, Values]
-    held: bool = False  # identified on its own tests, then held
+    held: bool = False  # identified first, then held
+    alone: Mapping[str, Values] | None = None  # groups as found on its own tests, before all were refined together
 
     @property
     def id(self) -> str:

@@ -76,9 +76,9 @@ def choose_orders(
 ) -> Choice:
     """Set the orders of term i. identify: fits a response to some tests (near a point, with uncertainty or without).
 
-    varpro: 1 to 4 lags, as long as all are apart, inside their bounds and known (a third lag that the data can't
-    identify is refused). oe and arx: 1-4 x 1-4, unstable functions left out. Lags need no sample after sample, so
-    that oe and varpro are tried on means of neighbours where there are many samples.
+    varpro: 1 to 4 lags, alone and with a direct term, as long as all are apart, inside their bounds and known (a third
+    lag that the data can't identify is refused). oe and arx: 1-4 x 1-4, unstable functions left out. Lags need no
+    sample after sample, so that oe and varpro are tried on means of neighbours where there are many samples.
     """
     term = bound.terms[i]
     method = term.spec.method or "varpro"
@@ -105,14 +105,14 @@ def choose_orders(
                 fit_left_out=_finite(total),
                 fit_worst=_finite(worst),
                 fit_calibration=_finite(free_run_fit(full, some)),
-                why=_unidentified(full, i) if method == "varpro" and orders[1] > 1 else None,
+                why=_unidentified(full, i) if method == "varpro" and orders != (1, 1) else None,
             )
             rows.append((row, trial, full))
         except (UsageError, SpecError) as error:
             reasons.append(error if isinstance(error, UsageError) else UsageError(error.what, where=term.id))
             rows.append((replace(row, why=error.what), trial, None))
             last = None
-        if method == "varpro" and rows[-1][0].why:
+        if method == "varpro" and orders[0] > orders[1] and rows[-1][0].why and rows[-2][0].why:
             break
     good = [r for r in rows if r[0].why is None]
     if not good:
@@ -153,7 +153,7 @@ def free_run_fit(response: FittedResponse, tests: Sequence[TestData]) -> float:
 
 def _pairs(method: str) -> Iterator[tuple[int, int]]:
     for denominator in range(1, MOST + 1):
-        for numerator in range(1, MOST + 1) if method != "varpro" else (denominator,):
+        for numerator in range(1, MOST + 1) if method != "varpro" else (denominator, denominator + 1):
             yield numerator, denominator
 
 

@@ -11,9 +11,10 @@ from thermodata.effect import effect as find_effect
 from thermodata.effect.binding import ANY, bindings, family_of
 from thermodata.effect.places import holds
 from thermodata.errors import SpecError, ThermodataError, UsageError, unknown_name
-from thermodata.modelling import nested, prediction, transfer
+from thermodata.modelling import nested, prediction, shaped, transfer
 from thermodata.modelling.bound import BoundResponse, BoundTerm
 from thermodata.modelling.drivers import names_of
+from thermodata.modelling.nuisance import known_weights
 from thermodata.modelling.roles import Roles, find_tests, resolve_roles
 from thermodata.plugin import Effect
 from thermodata.schema.model import Driver, EffectSpec, Model, Place, Response
@@ -40,6 +41,7 @@ def resolve(
     model that the spec holds as an effect to the same data."""
     roles = resolve_roles(spec, data)
     by_campaign = {c: _channels(data, c) for c in dict.fromkeys(t.campaign for t in data.tests)}
+    known_weights(spec, data)
     responses = []
     for response in spec.responses:
         names = _response_by_campaign(response, by_campaign)
@@ -51,6 +53,7 @@ def resolve(
                 names,
                 bind_terms(spec.effects, data, by_campaign, base, names[first], fit_inside),
                 {n: i.unit for infos in by_campaign.values() for n, i in infos.items()},
+                spec.weights,
             )
         )
     return roles, tuple(responses)
@@ -126,6 +129,8 @@ def bind_terms(
             )
         else:
             effect = make_effect(spec, name, base)
+        if spec.also:
+            effect = cast(Effect, shaped.Shaped(effect, spec.also, f"effect '{name}': also"))
         bound_by = _where_it_is(
             by_campaign,
             lambda c, channels, e=effect, s=spec, n=name: bind(  # type: ignore[misc]

@@ -14,7 +14,7 @@ from thermodata.view.dataset import Dataset
 
 ID_LENGTH = 12
 # keys of an effect that ids of models without them do not know
-_LATER = frozenset({"response", "phases", "groups", "one_gain", "name", "gain", "inside"})
+_LATER = frozenset({"response", "phases", "also", "groups", "one_gain", "name", "gain", "inside"})
 
 
 def model_id(spec: Model, data_version: str, base: Path | None = None) -> str:
@@ -22,8 +22,10 @@ def model_id(spec: Model, data_version: str, base: Path | None = None) -> str:
     content = spec.model_dump(mode="json", by_alias=True)
     for effect in content["effects"]:
         for key in _LATER & effect.keys():
-            if effect[key] is None or effect[key] is False or effect[key] == {}:
+            if effect[key] is None or effect[key] is False or effect[key] in ({}, []):
                 del effect[key]
+    if not content["weights"]:
+        del content["weights"]
     text = json.dumps(content, sort_keys=True, ensure_ascii=False)
     digest = hashlib.sha256(f"{text}\n{data_version}".encode())
     for given in spec.effects:

@@ -9,12 +9,15 @@ from typing import TYPE_CHECKING
 
 from thermodata.errors import UsageError
 from thermodata.modelling import nested
+from thermodata.modelling.beside import Beside, beside
 from thermodata.modelling.candidate import candidate_spec, with_effect
 from thermodata.modelling.fit import fit_model
 from thermodata.modelling.fitted import FittedModel
 from thermodata.modelling.orders import Tried
 from thermodata.modelling.portability import Portability, portability
+from thermodata.modelling.resolve import term_ids
 from thermodata.modelling.result import make_result, model_id
+from thermodata.modelling.second_lag import with_second_lags
 from thermodata.modelling.table import prediction_tables
 from thermodata.modelling.transfer import NAME
 from thermodata.schema.model import EffectSpec, Model
@@ -51,15 +54,23 @@ def load_data(store: Store, spec: Model) -> Dataset:
 
 
 def fit(
-    store: Store, spec: Model, *, base: Path | None = None, parent: str | None = None, before: list[Score] | None = None
+    store: Store,
+    spec: Model,
+    *,
+    base: Path | None = None,
+    parent: str | None = None,
+    before: list[Score] | None = None,
+    **said: list[str],
 ) -> FitResult:
-    """Fit and save. base: the folder of the model file, which `file` of an effect is relative to."""
+    """Fit and save. base: the folder of the model file, which `file` of an effect is relative to. said: `added` and
+    `notes` of the result."""
     from thermodata.store.catalogue.models import save_fit
 
     spec = self_contained(store, spec, base)
     data = load_data(store, spec)
     fitted = fit_model(spec, data)
     result = make_result(fitted, data, model_id(spec, data.data_version), parent=parent, before=before)
+    result = result.model_copy(update=said)
     save_fit(
         store,
         spec=spec,
@@ -80,9 +91,27 @@ def compare(store: Store, refs: Sequence[str]) -> list[FitResult]:
     return results
 
 
-def add(store: Store, ref: str, candidate: str | int | EffectSpec) -> FitResult:
-    """A new version with one effect more: a rank or id of the stored diagnosis, or any 'effect:channels'.
-    `before` has the parent's scores."""
+def compare_against(store: Store, refs: Sequence[str], reference: str) -> list[Beside]:
+    """The models beside each other on every open test, each against the reference. UsageError where one of them was
+    fitted to another version of the data: their differences would be those of the data."""
+    from thermodata.store.catalogue.models import find_model
+
+    found = {stored.model: stored for stored in (find_model(store, ref) for ref in (*refs, reference))}
+    if old := [f"{stored.name} ({stored.model})" for stored in found.values() if stored.stale]:
+        raise UsageError(
+            "the models were not fitted to the same version of the data",
+            expected="models of the data as they are now",
+            got=f"before a change: {', '.join(old)}",
+            hint="; ".join(f"thermodata fit {stored.model}" for stored in found.values() if stored.stale),
+        )
+    loaded = [load(store, identity) for identity in found]
+    return beside([(m.identity, m.fitted, m.data) for m in loaded], find_model(store, reference).model)
+
+
+def add(store: Store, ref: str, candidate: str | int | EffectSpec, *, plain: bool = False) -> FitResult:
+    """A new version with one effect more: a rank or id of the stored diagnosis, or any 'effect:channels'; and with
+    second lags where left-out tests want them (`second_lag`). plain: that one effect and no more.
+    `before` has the parent's scores, `added` the ids of what is new, `notes` why."""
     from thermodata.store.catalogue.models import find_model
 
     parent = find_model(store, ref)
@@ -91,7 +120,12 @@ def add(store: Store, ref: str, candidate: str | int | EffectSpec) -> FitResult:
     )
     old = load(store, parent.model)
     before = make_result(old.fitted, old.data, parent.model).scores
-    return fit(store, with_effect(parent.spec, effect), parent=parent.model, before=before)
+    spec, notes = with_effect(parent.spec, effect), list[str]()
+    if not plain:
+        refined = with_second_lags(spec, old.data)
+        spec, notes = refined.spec, refined.notes
+    added = term_ids(spec.effects)[len(parent.spec.effects) :]
+    return fit(store, spec, parent=parent.model, before=before, added=added, notes=notes)
 
 
 def transfer(store: Store, ref: str) -> list[Portability]:

@@ -21,6 +21,7 @@ from thermodata.plugin import Drivers, Float1D, Float2D, Gain, Need, Param
 
 NAME = "transfer_function"
 MOST = 4
+DIRECT = "direct"  # the gain of what follows at once, without a lag
 SOURCE = "[horejs2010], [ljung1999]: y(k) = [a0 u(k) + a1 u(k-1) + ... - b1 y(k-1) - ...] / b0"
 _ANY = (Need("u", "*"),)
 _COEFFICIENT = re.compile(r"^(a|b|num|den)(\d+)$")
@@ -28,16 +29,20 @@ _INF = float("inf")
 
 
 class FreeFunction:
-    """Identified from the data. oe: `orders[0]` numerator and `orders[1]` denominator coefficients;
-    varpro: a sum of `orders[1]` lags. basis: shape (n, len(gains))."""
+    """Identified from the data. oe: `orders[0]` numerator and `orders[1]` denominator coefficients; varpro: a sum of
+    `orders[1]` lags, and beside them what follows at once where `orders[0]` is one more. basis: shape (n, gains)."""
 
     family = "generic"
     source = SOURCE
 
     def __init__(self, method: str, orders: tuple[int, int]) -> None:
-        if not (1 <= orders[0] <= MOST and 1 <= orders[1] <= MOST):
+        most = min(MOST, orders[1]) + 1 if method == "varpro" else MOST
+        if not (1 <= orders[0] <= most and 1 <= orders[1] <= MOST):
             raise SpecError(
-                "orders of a transfer function", expected=f"two whole numbers from 1 to {MOST}", got=str(list(orders))
+                "orders of a transfer function",
+                expected=f"two whole numbers from 1 to {MOST}"
+                + ("; the first is one more than the second for a direct term" if method == "varpro" else ""),
+                got=str(list(orders)),
             )
         self.method, self.orders = method, orders
         self.name, self.needs = NAME, _ANY
@@ -50,6 +55,7 @@ class FreeFunction:
         )
         if method == "varpro":
             gains = [f"gain_{i + 1}" for i in range(orders[1])] if orders[1] > 1 else ["gain"]
+            gains += [DIRECT] if orders[0] > orders[1] else []
         else:
             gains = ["gain"] + [f"lead_{j}" for j in range(1, orders[0])]
         self.gains = tuple(
@@ -60,7 +66,8 @@ class FreeFunction:
         u, step = drivers.values["u"], step_of(drivers)
         taus = [p[param.name] * 60.0 for param in self.params]
         if self.method == "varpro":
-            return np.column_stack([lag(u, t, step) for t in taus])
+            direct = [u] if self.orders[0] > self.orders[1] else []
+            return np.column_stack([*(lag(u, t, step) for t in taus), *direct])
         # numerator in powers of the difference operator (1 - 1/q), which spans the same functions as powers
         # of 1/q but leaves the columns apart; each is scaled to the size of the one before
         columns = np.empty((len(u), self.orders[0]), order="F")

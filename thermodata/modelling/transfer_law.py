@@ -19,9 +19,11 @@ _U = Symbol("u")
 
 
 def free_law(method: str, orders: tuple[int, int], taus_s: Sequence[float], step_s: float) -> tuple[Law, ...]:
-    """varpro: a lag a gain. oe: the chain of all lags, and from the second gain on its differences."""
+    """varpro: a lag a gain, and last the driver itself where it has a direct term. oe: the chain of all lags, and from
+    the second gain on its differences."""
     if method == "varpro":
-        return tuple(Filtered(_U, lag_filter(tau)) for tau in taus_s)
+        lagged = tuple(Filtered(_U, lag_filter(tau)) for tau in taus_s)
+        return (*lagged, _U) if orders[0] > orders[1] else lagged
     num, den, poles = np.ones(1), np.ones(1), []
     for tau in taus_s:
         a, new, old = ramp_coefficients(tau, step_s)

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from thermodata.plugin import Block, Loss, Reader, Signal, Source
+from thermodata.plugin import Block, Loss, Reader, Recording, Signal, Source
 from thermodata.reader.guard import described, guarded
 from thermodata.reader.newest_first import NOTE, Steps
 from thermodata.reader.registry import claims, sniff
@@ -65,11 +65,13 @@ def preview(
     most_rows: int = MOST_ROWS,
     most_s: float = MOST_S,
     watch: Callable[[Block], None] | None = None,
+    recording: Recording | None = None,
 ) -> dict[str, Any]:
     """A file as plain data, ready for JSON. reader: which one (default: the one that claims the file).
 
     rows: first rows a stream; most_rows, most_s: where reading ends in a large file ('whole' is False then, and what is
-    said of rows, gaps and losses holds for the part that was read); watch: sees every block that is read.
+    said of rows, gaps and losses holds for the part that was read); watch: sees every block that is read; recording:
+    what describe() said, where the caller has it already.
 
     Keys: file, size_bytes, reader, reason, clock, timezone, start, complete, whole, rows_read, notes, losses, and
     streams, each with stream, rows, start, end, duration_s, step_s, rate_hz, gaps, largest_step_s, backward, repeated,
@@ -79,9 +81,12 @@ def preview(
     path = Path(path)
     source = source or Source()
     chosen = reader if reader is not None else sniff(path)
-    said = described(chosen, path, source)
+    said = described(chosen, path, source) if recording is None else recording
     absolute = said.clock == "absolute"
     streams: dict[str, _Stream] = {s.stream: _Stream() for s in said.signals}
+    signals: dict[str, list[Signal]] = {name: [] for name in streams}
+    for signal in said.signals:
+        signals[signal.stream].append(signal)
     losses: list[Loss] = []
     began, read, whole = time.monotonic(), 0, True
     for item in guarded(chosen, path, source, said):
@@ -117,10 +122,7 @@ def preview(
             }
             for x in losses
         ],
-        "streams": [
-            _shown(name, stream, [s for s in said.signals if s.stream == name], absolute)
-            for name, stream in streams.items()
-        ],
+        "streams": [_shown(name, stream, signals[name], absolute) for name, stream in streams.items()],
     }
 
 

@@ -73,7 +73,12 @@ def _memory(seen: Seen) -> Chart:
     panel = Panel(
         "autocorrelation of the residual", "1", [series], height=150, range=(-1.0, 1.0), limits=limits, zero=True
     )
-    return Chart(f"How long the residual of {seen.response} remembers itself", Axis("lag", "h"), hours, [panel])
+    return Chart(
+        f"How long the residual of {seen.response} remembers itself",
+        Axis("lag", "h"),
+        hours.astype(np.float64),
+        [panel],
+    )
 
 
 def _against(state: Against, unit: str) -> Chart:

@@ -10,11 +10,10 @@ from typing import Any
 
 import numpy as np
 
+from thermodata.chart.colour import effect_styles, light
 from thermodata.errors import UsageError
 from thermodata.modelling.seen import Seen
 
-# told apart by all eyes
-PALETTE = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#b8860b", "#56b4e9", "#444444", "#8a5fbf")
 DPI = 110
 ROW_IN, WIDE_IN = 3.1, 13.0  # [inch]
 BAND = 1.96
@@ -38,7 +37,7 @@ def draw(seen: Sequence[Seen], out: Path, title: str) -> None:
     grid, at = figure.add_gridspec(rows, 6), 0
     figure.suptitle(title)
     for one, more in zip(seen, state_rows, strict=True):
-        colours = {p.name: PALETTE[i % len(PALETTE)] for i, p in enumerate(one.paths)}
+        colours = {n: light()[c] for n, (c, _) in effect_styles(p.name for p in one.paths).items()}
         _step(figure.add_subplot(grid[at, :3]), one, colours)
         _bode(figure.add_subplot(grid[at, 3:]), one, colours, phase=False)
         _correlation(figure.add_subplot(grid[at + 1, :3]), one)

@@ -16,7 +16,15 @@ from thermodata.schema.tests_from import expand
 
 def load_campaign(path: Path | str) -> Campaign:
     """A campaign file with `tests_from` expanded into `tests`; SpecError names file and line."""
-    document = read_document(Path(path))
+    return _campaign(read_document(Path(path)))
+
+
+def parse_campaign(text: str, name: str = "campaign.yaml") -> Campaign:
+    """A campaign from text, as `load_campaign` does from a file."""
+    return _campaign(parse_document(text, Path(name)))
+
+
+def _campaign(document: Document) -> Campaign:
     _expect_schema(document, "thermodata/campaign/1")
     campaign = validate(Campaign, document)
     check_campaign(campaign, document)

@@ -57,6 +57,7 @@ class EffectSpec(Strict):
     tests: the tests that it exists in (a slip); by default all
     method: of a transfer function: oe, arx, or varpro (a sum of lags)
     orders: of a transfer function: numbers of numerator and denominator coefficients; chosen where left out
+    also: what its drivers go through first, as parameters beside its own: dead_time [s], sensor_lag [s]
     gain_by: one gain for each value of a condition: conditions.spindle, or D; or test, machine, campaign, tool, or
         place (of the response: time constants are then shared by the places); or a list of them
     groups: values of gain_by that have one gain: {[D25, D63]: k1, D100: k2}
@@ -80,6 +81,7 @@ class EffectSpec(Strict):
     tests: list[str] | None = None
     method: Literal["oe", "arx", "varpro"] | None = None
     orders: tuple[int, int] | None = None
+    also: list[str] = []
     gain_by: str | list[str] | None = None
     groups: dict[str, str] = {}
     one_gain: bool = False
@@ -131,6 +133,7 @@ class Model(Strict):
     verify_on: tests that are scored; by default those with the role verification
     locked: tests that are opened to confirm a claim only; by default those with the role locked
     phases: the phases that count: [heating]; by default all
+    weights: test or phase -> weight of its samples in the fit: {etve: 0.2}; by default 1
     step: of the grid of fit and simulation [s]
     effects: the sum
     in_sample: set by add: verification tests are fitted too, and their scores say so
@@ -146,6 +149,7 @@ class Model(Strict):
     verify_on: list[str] | None = None
     locked: list[str] | None = None
     phases: list[str] | None = None
+    weights: dict[str, Annotated[float, Field(ge=0)]] = {}
     step: Annotated[Seconds, Field(gt=0), _WITH_UNIT] = 30.0
     effects: list[EffectSpec] = []
     in_sample: bool = False

@@ -89,6 +89,8 @@ class FitResult(Result):
     scores: a row a test, response and phase
     checks: what the fit says of itself
     before: of add: the parent's scores
+    added: of add: ids of the effects that the parent has not; a second lag of an effect is one of its own
+    notes: of add: which second lags were taken in and why, in sentences
     """
 
     model: str
@@ -100,6 +102,8 @@ class FitResult(Result):
     scores: list[Score]
     checks: list[Check]
     before: list[Score] | None = None
+    added: list[str] | None = None
+    notes: list[str] = []
 
 
 class WeakSpot(Result):
@@ -119,6 +123,65 @@ class WeakSpot(Result):
     to_s: float
     rmse_um: float
     state: str
+
+
+class Rung(Result):
+    """One rule of a claim.
+
+    name: chance, fall, tests, gain, worth, steadies or timing
+    asks: what is measured
+    value: measured; null where it can't be
+    limit: of the rule
+    unit: of value and limit; 1 for shares
+    at: whether the value has to be at least or at most the limit
+    holds: whether the rule is met
+    """
+
+    name: str
+    asks: str
+    value: float | None
+    limit: float
+    unit: str
+    at: Literal["least", "most"]
+    holds: bool
+
+
+class LeftOut(Result):
+    """A test, or a part of one, as the others foretell it.
+
+    campaign: id
+    test: id
+    from_s: where the part begins, from the test's start [s]
+    to_s: where it ends [s]
+    acts: whether the candidate does something in it
+    rmse_um_before: error without the candidate, in the response's unit
+    rmse_um_after: with it
+    """
+
+    campaign: str
+    test: str
+    from_s: float
+    to_s: float
+    acts: bool
+    rmse_um_before: float
+    rmse_um_after: float
+
+
+class CandidateCourse(Result):
+    """What a candidate would take of the residual in one test, free offsets removed; lists have one entry a sample.
+
+    campaign: id
+    test: id
+    t_s: from the test's start [s]
+    residual_um: what the model leaves over, in the response's unit
+    contribution_um: the candidate's, with its gains as all open tests give them
+    """
+
+    campaign: str
+    test: str
+    t_s: list[float]
+    residual_um: list[float]
+    contribution_um: list[float]
 
 
 class Candidate(Result):
@@ -143,6 +206,10 @@ class Candidate(Result):
     parameters: of the effect, fitted to all open tests; for a claimed one only
     equivalent: ids that the data cannot tell from it
     why: the evidence in a sentence
+    evidence: log Bayes factor of the model with it against the model without
+    rungs: every rule of a claim with its value and limit
+    left_out: each left-out test before and after; beside the user's own model, or beside all that is chosen
+    courses: the residual and the contribution; for claims, refinements and the head of the list only
     """
 
     rank: int
@@ -163,6 +230,10 @@ class Candidate(Result):
     parameters: dict[str, Parameter] = {}
     equivalent: list[str] = []
     why: str = ""
+    evidence: float | None = None
+    rungs: list[Rung] = []
+    left_out: list[LeftOut] = []
+    courses: list[CandidateCourse] = []
 
 
 class Artefact(Result):
@@ -289,6 +360,7 @@ class Diagnosis(Result):
     artefacts: faults of the logs
     unknown: for the verdict unknown
     next_test: which test to run, or which sensor to add
+    chance: quantiles (0 to 1 in even steps) of the best log evidence in responses in which nothing is missing
     """
 
     model: str
@@ -303,6 +375,7 @@ class Diagnosis(Result):
     artefacts: list[Artefact]
     unknown: Unknown | None = None
     next_test: str | None = None
+    chance: list[float] = []
 
 
 class TestConfirmed(Result):

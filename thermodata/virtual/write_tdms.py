@@ -31,7 +31,7 @@ def write_test(path: Path, world: World, run: Run, book: Logbook, rate_hz: float
         if s.source == "daq":
             x = np.interp(t, op.t_s, run.readings[s.name]) + 0.3 * s.noise_k * rng.standard_normal(len(t))
             columns[book.names[s.name]] = np.round(x / s.resolution) * s.resolution, "degC"
-    _write(path, columns, run.start_unix_s, 1.0 / rate_hz, {"test": op.id, "machine": world.machine_id})
+    write_recording(path, columns, run.start_unix_s, 1.0 / rate_hz, {"test": op.id, "machine": world.machine_id})
 
 
 def write_jump(path: Path, world: World, axis: int, book: Logbook, rng: np.random.Generator) -> None:
@@ -47,12 +47,13 @@ def write_jump(path: Path, world: World, axis: int, book: Logbook, rng: np.rando
         um = (moved if i == axis else book.crosstalk * moved) + drift
         columns[book.names[f"d{probe.axis}"]] = probe.volts(um, rng, world.white_um), "V"
     start = min(r.start_unix_s for r in world.runs) - 3600.0 * (3 - axis)
-    _write(path, columns, start, 1.0 / JUMP_RATE_HZ, {"test": f"jump {'XYZ'[axis]}"})
+    write_recording(path, columns, start, 1.0 / JUMP_RATE_HZ, {"test": f"jump {'XYZ'[axis]}"})
 
 
-def _write(
+def write_recording(
     path: Path, columns: dict[str, tuple[Float1D, str]], start_s: float, step_s: float, properties: dict[str, str]
 ) -> None:
+    """columns: 'group/channel' -> (values, unit), shapes (n,), one a step_s from start_s [UTC s]."""
     from nptdms import ChannelObject, GroupObject, RootObject, TdmsWriter
 
     start = np.datetime64(round(start_s * 1e6), "us")

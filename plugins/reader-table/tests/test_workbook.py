@@ -47,6 +47,28 @@ def bomb(path: Path, members: dict[str, bytes]) -> Path:
     return path
 
 
+@pytest.mark.parametrize("tag", ["row", "x:row"])
+@pytest.mark.parametrize("sheets", [1, 20])
+def test_a_workbook_of_too_many_rows_is_refused_before_they_are_read(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, sheets: int, tag: str
+) -> None:
+    from thermodata_reader_table import workbook_check
+
+    def made(rows: int) -> Path:
+        path = tmp_path / f"{rows}.xlsx"
+        with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as book:
+            for i in range(sheets):
+                inside = f"<{tag}><c><v>1</v></c></{tag}>" * (rows // sheets)
+                book.writestr(f"xl/worksheets/sheet{i}.xml", f"<worksheet><sheetData>{inside}</sheetData></worksheet>")
+        return path
+
+    monkeypatch.setattr(workbook_check, "MAX_ROWS", 100_000)
+    workbook_check.check_size(made(100_000))
+    with pytest.raises(FormatError, match="too many rows") as error:
+        workbook_check.check_size(made(100_020))
+    assert "at most 100000 rows" in str(error.value)
+
+
 def test_a_workbook_that_unpacks_to_too_much_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(workbook_check, "MAX_UNPACKED", 10_000_000)
     path = bomb(tmp_path / "x.xlsx", {"xl/workbook.xml": b"<a/>", "xl/worksheets/sheet1.xml": b" " * 20_000_000})

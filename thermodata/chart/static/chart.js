@@ -200,7 +200,7 @@
       const r = uPlot.pxRatio, ctx = u.ctx;
       if (p.rows) T.lanes(u, p.rows, this.narrow);
       if (p.zero) T.limits(u, [{y: 0, label: "", colour: "muted"}]);
-      T.limits(u, p.limits); T.marks(u, p.marks);
+      T.limits(u, p.limits); T.marks(u, p.marks); T.spanlabels(u, this.spec.spans, p.number);
       T.endlabels(u, this._ends(p, u));
       [["A", this.a], ["B", this.b]].forEach(([name, x]) => {
         if (x === null || x < this.lo || x > this.hi) return;

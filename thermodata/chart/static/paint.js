@@ -50,7 +50,6 @@
         ctx.fillStyle = T.colour("weak");
         ctx.globalAlpha = s.rank === 1 ? 0.14 : 0.07; ctx.fillRect(from, top, width, height);
         ctx.globalAlpha = 1; ctx.fillRect(from, top, width, 3 * r);
-        if (s.rank) T.text(ctx, String(s.rank), from + 4 * r, top + 11 * r, T.colour("warn"), r, 11, "left", true);
       } else if (s.kind === "phase") {
         ctx.strokeStyle = T.colour("line"); ctx.lineWidth = r; ctx.setLineDash([4 * r, 3 * r]);
         ctx.beginPath(); ctx.moveTo(a, top); ctx.lineTo(a, top + height); ctx.stroke(); ctx.setLineDash([]);
@@ -58,9 +57,23 @@
         ctx.fillStyle = T.colour("muted"); ctx.globalAlpha = 0.08; ctx.fillRect(from, top, width, height); ctx.globalAlpha = 1;
         T.hatched(ctx, from, top, width, height, T.colour("muted"), r, 0.35);
       }
-      // said once, in the first panel that the stretch is in
-      if (s.kind !== "weak" && s.label && width > 30 * r && number === (s.panels ? s.panels[0] : 0)) {
-        T.text(ctx, s.label, from + 4 * r, top + height - 8 * r, T.colour("muted"), r, 10.5, "left", true);
+    });
+    ctx.restore();
+  };
+
+  // their words, above curves and grid: the rank of a weak spot, the name of a stretch in the first panel that it is in
+  T.spanlabels = function (u, spans, number) {
+    const ctx = u.ctx, r = uPlot.pxRatio, left = u.bbox.left, right = left + u.bbox.width, foot = u.bbox.top + u.bbox.height;
+    ctx.save();
+    ctx.beginPath(); ctx.rect(left, u.bbox.top, u.bbox.width, u.bbox.height); ctx.clip();
+    spans.forEach(function (s) {
+      if (s.panels && !s.panels.includes(number)) return;
+      const from = Math.max(u.valToPos(s.from, "x", true), left), to = Math.min(u.valToPos(s.to, "x", true), right);
+      if (to < left || from > right) return;
+      if (s.kind === "weak") {
+        if (s.rank) T.text(ctx, String(s.rank), from + 4 * r, u.bbox.top + 11 * r, T.colour("warn"), r, 11, "left", true);
+      } else if (s.label && to - from > 30 * r && number === (s.panels ? s.panels[0] : 0)) {
+        T.text(ctx, s.label, from + 4 * r, foot - 8 * r, T.colour("muted"), r, 10.5, "left", true);
       }
     });
     ctx.restore();

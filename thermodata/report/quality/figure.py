@@ -108,7 +108,7 @@ def _panel(quantity: str, members: Sequence[Trace], hours: Float1D) -> Panel:
             t.good,
             *styles.get(t.name, ("quiet", "solid"))[:1],
             dash=styles.get(t.name, ("quiet", "solid"))[1],
-            width=1.6 if t.name in styles else 1.0,
+            width=1.6 if t.name in styles else 1.2,
         )
         for t in sorted(members, key=_bad)
     ]

@@ -38,7 +38,7 @@ class Group:
     """Tidy files of one (campaign, source, stream) with equal columns, so one read_parquet serves them all.
 
     name: unique suffix for views and macros. paths: test -> its files, relative to the store. broken: the first of
-    them that is gone or cut, if any.
+    them that is gone or cut, if any. rows: of all of them.
     """
 
     campaign: str
@@ -48,6 +48,7 @@ class Group:
     columns: tuple[Column, ...]
     paths: Mapping[str, tuple[str, ...]]
     broken: str | None = None
+    rows: int = 0
 
     @property
     def files(self) -> list[str]:
@@ -88,7 +89,7 @@ def read_catalogue(con: duckdb.DuckDBPyConnection, folder: Path | None = None) -
     folder: the store's, to find out which files are gone or cut.
     """
     rows = con.execute(
-        "select campaign, source, stream, test, path, columns->>'$.channels', bytes from file "
+        "select campaign, source, stream, test, path, columns->>'$.channels', bytes, rows from file "
         "where layer = 'tidy' and part = 'test' order by campaign, source, stream, test, path"
     ).fetchall()
     known = con.execute(
@@ -100,8 +101,9 @@ def read_catalogue(con: duckdb.DuckDBPyConnection, folder: Path | None = None) -
     files: dict[tuple[str, str, str, str | None], dict[str, list[str]]] = {}
     # files made before a campaign's channels changed stand in their own group: their columns differ
     sizes: dict[str, int | None] = {}
-    for campaign, source, stream, test, path, channels, size in rows:
-        sizes[path] = size
+    lengths: dict[str, int] = {}
+    for campaign, source, stream, test, path, channels, size, length in rows:
+        sizes[path], lengths[path] = size, length or 0
         files.setdefault((campaign, source, stream, channels), {}).setdefault(test, []).append(path)
     streams: dict[tuple[str, str], set[str]] = {}
     for campaign, source, stream, _ in files:
@@ -122,6 +124,7 @@ def read_catalogue(con: duckdb.DuckDBPyConnection, folder: Path | None = None) -
                 _columns(con, whole, channels, source, described.get(campaign, {})),
                 paths,
                 broken[0] if broken else None,
+                sum(lengths[p] for p in set(listed)),
             )
         )
     order = {c: _ordered(described.get(c, {}), [g for g in groups if g.campaign == c]) for c in campaigns}

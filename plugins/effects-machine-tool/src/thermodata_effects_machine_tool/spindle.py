@@ -12,6 +12,8 @@ from thermodata.plugin import Drivers, Float1D, Float2D, Need
 
 from .shared import REFERENCE_SPEED_RPM, Lagged, column, exponent, gain, power_of, tau
 
+BEARING_FRICTION = "bearing friction"  # one heat, read by its temperature or its speed: `cause` of these effects
+
 
 class SpindleBearing(Lagged):
     """The spindle grows with the temperature of its bearings.
@@ -24,6 +26,7 @@ class SpindleBearing(Lagged):
     """
 
     name = "spindle_bearing"
+    cause = BEARING_FRICTION
     family = "spindle"
     meaning = "growth of the spindle with its bearing temperature: k F{dT}"
     equation = "d = k F_tau{dT}"
@@ -45,6 +48,7 @@ class SpindleBearing2:
     """
 
     name = "spindle_bearing_2"
+    cause = BEARING_FRICTION
     refines = ("spindle_bearing",)
     family = "spindle"
     meaning = "growth of the spindle in two modes: k1 F_fast{dT} + k2 F_slow{dT}; two slopes in cooling"
@@ -98,6 +102,7 @@ class SpindleFriction(Lagged):
     """
 
     name = "spindle_friction"
+    cause = BEARING_FRICTION
     family = "spindle"
     meaning = "friction heat of the spindle from its speed, where no sensor sees it: k F{(n/10000 rpm)^p}"
     equation = "d = k F_tau{(|n| / 10000 rpm)^p}"
@@ -150,6 +155,7 @@ class SpindleHeatingCooling:
     """
 
     name = "spindle_heating_cooling"
+    cause = BEARING_FRICTION
     refines = ("spindle_bearing",)
     family = "spindle"
     meaning = "heating that differs from cooling: k F{dT} with tau_on while the spindle turns, else tau_off"
@@ -191,6 +197,7 @@ class SpeedDependentGain:
     """
 
     name = "speed_dependent_gain"
+    cause = BEARING_FRICTION
     refines = ("spindle_bearing",)
     family = "spindle"
     meaning = "the gain of the bearing temperature depends on the speed: k F{dT (n/10000 rpm)}"

@@ -15,6 +15,7 @@ from thermodata.errors import FormatError
 
 MAX_UNPACKED = 1 << 30
 MAX_CELLS = 60_000_000
+MAX_ROWS = 4 * 1_048_576  # of all sheets together: more are read in minutes and gigabytes
 _SPARSE = 3_000_000  # cells of a sheet that may be almost empty
 _RIGHT, _BOTTOM = 16_384, 1_048_576  # columns and rows that a sheet can have
 # as loosely as any reader of XML takes it: what a cell says of its place is what is allocated
@@ -37,7 +38,8 @@ def check_size(path: Path) -> dict[str, int]:
     """How many cells and rows of all sheets are of each kind of _ODD.
 
     FormatError for a workbook that is no ZIP, or whose parts unpack to more than 1 GiB (whatever their headers
-    say), or whose cells span an absurd area: a reader of it would take all memory."""
+    say), or whose sheets have more than MAX_ROWS rows, or whose cells span an absurd area: a reader of
+    it would take all memory."""
     try:
         with zipfile.ZipFile(path) as archive:
             members = archive.infolist()
@@ -47,6 +49,7 @@ def check_size(path: Path) -> dict[str, int]:
         ) from None
     unpacked, odd = 0, dict.fromkeys(_ODD, 0)
     with path.open("rb") as file:
+        _check_rows(file, members, path)
         for member in members:
             sheet = _Extent() if member.filename.startswith("xl/worksheets/") else None
             rest = b""
@@ -68,6 +71,28 @@ def check_size(path: Path) -> dict[str, int]:
             if sheet is not None:
                 sheet.check(f"{path.name} {member.filename}")
     return odd
+
+
+def _check_rows(file: Any, members: list[zipfile.ZipInfo], path: Path) -> None:
+    """FormatError where there are too many rows. Counts no more than these, before anything is looked at closely."""
+    rows = unpacked = 0
+    for member in members:
+        rest = b""
+        for part in _inflate(file, member, path) if member.filename.startswith("xl/worksheets/") else ():
+            text = rest + part
+            rows += text.count(b"<row") + text.count(b":row") // 2  # a row with a prefix: begun and ended
+            rest = part[-3:]
+            unpacked += len(part)
+            if rows > MAX_ROWS:
+                raise FormatError(
+                    "workbook of too many rows",
+                    where=f"{path.name} {member.filename}",
+                    expected=f"at most {MAX_ROWS} rows in all sheets together",
+                    got=f"{path.stat().st_size} bytes that unpack to more",
+                    hint="export it as CSV or Parquet",
+                )
+            if unpacked > MAX_UNPACKED:
+                return  # told where all parts are added up
 
 
 class _Extent:

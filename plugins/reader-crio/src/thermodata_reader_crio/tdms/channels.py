@@ -103,6 +103,7 @@ def channels(
     types = {path: found.type for layout in index.layouts for path, found in layout.objects}
     groups: dict[str, list[Channel]] = {}
     clocks: dict[Any, Clock | None] = {}
+    ended: dict[tuple[int, int], bool] = {}
     for path, found in cols.items():
         group, name = names(path)
         full = f"{group}/{name}" if group or not name.startswith("/") else name
@@ -111,7 +112,7 @@ def channels(
             continue
         if not group and name == path:
             notes.append(f"{path[:80]}: not the path of a channel in a group")
-        made = _made(index, path, found, types[path], file, full, unscaled, notes, clocks)
+        made = _made(index, path, found, types[path], file, full, unscaled, notes, clocks, ended)
         groups.setdefault(group, []).extend(made)
     return groups
 
@@ -134,10 +135,11 @@ def _made(
     unscaled: set[str],
     notes: list[str],
     clocks: dict[Any, Clock | None],
+    ended: dict[tuple[int, int], bool],
 ) -> list[Channel]:
     own = index.properties.get(path, {})
     clock = clock_of(index, found[0], own, clocks)
-    if clock is not None and not clock.ends_before(max(found[0].length, found[0].planned)):
+    if clock is not None and not _ends(clock, max(found[0].length, found[0].planned), ended):
         notes.append(f"{full}: its wf_increment of {own['wf_increment']} s ends beyond any date; not used as its time")
         clock = None
     unit = own.get("unit_string") or own.get("NI_UnitDescription") or None
@@ -175,6 +177,15 @@ def _made(
         return [_channel(full, short, found, None, unit or "ns", properties, clock, "int64")]
     dtype = "bool" if kind == BOOL and found[0].dtype == "u1" else None
     return [_channel(full, short, found, scale, unit, properties, clock, dtype)]
+
+
+def _ends(clock: Clock, rows: int, ended: dict[tuple[int, int], bool]) -> bool:
+    """Whether all rows have a time that a store can hold. ended: answers for other channels of the same clock; the
+    clocks outlive it."""
+    key = id(clock), rows
+    if key not in ended:
+        ended[key] = clock.ends_before(rows)
+    return ended[key]
 
 
 def _channel(

@@ -1,0 +1,77 @@
+"""Answers go into the lines of a campaign file, and nothing else changes."""
+
+from __future__ import annotations
+
+import pytest
+
+from thermodata.draft.fill_in import filled_in, questions
+from thermodata.errors import SpecError, UsageError
+
+TEXT = """\
+# a head that stays
+schema: thermodata/campaign/1
+id: lab
+machine:
+  id: unknown   # ? the machine's number
+sources:
+  nc: {reader: cnc, files: "raw/{test}.csv"}   # ? timezone? local times
+channels:
+  T06: {source: nc, signal: "Temp, {6}", quantity: temperature, unit: degC}   # ? at: where on the machine?
+  dZ: {source: nc, signal: Z, quantity: displacement, unit: V, axis: Z, at: tcp, calibration: jump_Z}
+calibrations:
+  jump_Z: {kind: jump, axis: Z, source: nc, file: raw/jump.csv, signal: Z, moves: unknown, dwell: 12 s}   # ? moves
+tests:   # ? role of each
+  - {id: day1, kind: other, role: none}   # ? kind? e.g. spindle
+"""
+ANSWERS = {
+    "machine.id": "M 12",
+    "sources.nc.timezone": "Europe/Prague",
+    "channels.T06.at": "spindle.bearing.front",
+    "calibrations.jump_Z.moves": "100 um, -100 um",
+    "tests.0.kind": "spindle",
+    "tests.0.role": "calibration",
+}
+
+
+def test_each_question_has_its_place_and_its_choices() -> None:
+    found = {q.name: q for q in questions(TEXT)}
+    assert list(found) == list(ANSWERS)
+    assert found["channels.T06.at"].kind == "place"
+    assert "axis.*.nut" in found["channels.T06.at"].choices
+    assert found["tests.0.role"].choices == ("calibration", "verification", "locked", "none")
+    assert found["tests.0.role"].about == "day1"
+    assert all(q.open for q in found.values() if q.name != "tests.0.kind")
+
+
+def test_answers_change_their_own_lines_only() -> None:
+    after = filled_in(TEXT, ANSWERS)
+    assert '  id: "M 12"   # answered: the machine\'s number' in after
+    assert 'files: "raw/{test}.csv", timezone: Europe/Prague}' in after
+    assert 'signal: "Temp, {6}", quantity: temperature, unit: degC, at: spindle.bearing.front}' in after
+    assert 'moves: [100 um, "-100 um"], dwell: 12 s}' in after
+    assert "- {id: day1, kind: spindle, role: calibration}" in after
+    changed = [(a, b) for a, b in zip(TEXT.splitlines(), after.splitlines(), strict=True) if a != b]
+    assert len(changed) == 5
+    assert not [q for q in questions(after) if q.open]
+
+
+def test_no_answer_changes_nothing() -> None:
+    assert filled_in(TEXT, {}) == TEXT
+    assert filled_in(TEXT, {"machine.id": " ", "tests.0.role": "none"}) == TEXT
+
+
+def test_an_answer_is_a_value_and_never_a_part_of_the_file() -> None:
+    after = filled_in(TEXT, {"channels.T06.at": "a}, evil: {b: [c"})
+    assert 'at: "a}, evil: {b: [c"}' in after
+    assert [q.value for q in questions(after) if q.name == "channels.T06.at"] == ["a}, evil: {b: [c"]
+    with pytest.raises(UsageError, match="one line"):
+        filled_in(TEXT, {"machine.id": "a\nchannels: {}"})
+
+
+def test_what_was_not_asked_and_what_does_not_load_is_refused() -> None:
+    with pytest.raises(UsageError, match="no question"):
+        filled_in(TEXT, {"id": "other"})
+    with pytest.raises(SpecError):
+        filled_in(TEXT, {"tests.0.role": "favourite"})
+    with pytest.raises(SpecError):
+        filled_in(TEXT, {"calibrations.jump_Z.moves": "a lot"})

@@ -1,0 +1,157 @@
+"""A second lag where left-out tests want it: found where the machine is distributed, refused where it is not."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from thermodata.effect.lag import lag
+from thermodata.modelling import fit_model, second_lag
+from thermodata.modelling.left_out_error import Errors, LeftOut
+from thermodata.modelling.second_lag import is_single_lag, with_second_lags
+from thermodata.plugin import Float1D
+from thermodata.schema.model import EffectSpec, Model
+from thermodata.view.dataset import Dataset
+
+from .conftest import CHANNELS, STEP, Spec, make_test
+
+Answer = Callable[[Float1D], Float1D]
+
+
+def distributed(u: Float1D) -> Float1D:
+    return 3.0 * lag(u, 600, STEP) + 2.0 * lag(u, 12000, STEP)
+
+
+def single(u: Float1D) -> Float1D:
+    return 5.0 * lag(u, 2400, STEP)
+
+
+def two_alike(u: Float1D) -> Float1D:
+    """One lag behind another of the same time constant: as two lags side by side these are two huge gains."""
+    return 5.0 * lag(lag(u, 2400, STEP), 2400, STEP)
+
+
+def machine(answer: Answer, roles: str = "cccvl") -> Dataset:
+    """Eight hours a test, in which the nut acts as `answer` says and the bearing as one lag. roles: a letter a test."""
+    tests = []
+    for k, letter in enumerate(roles):
+        role = {"c": "calibration", "v": "verification", "l": "locked"}[letter]
+        test = make_test(k, role, hours=8.0)
+        nut, bearing = (test.values[n] - test.values[n][0] for n in ("T_nut", "T_bearing"))
+        noise = np.random.default_rng(100 + k).normal(0, 0.2, len(nut))
+        tests.append(replace(test, values={**test.values, "dZ": answer(nut) + 2.0 * lag(bearing, 1800, STEP) + noise}))
+    return Dataset(STEP, tuple(tests), CHANNELS, "v1")
+
+
+@pytest.fixture(scope="module")
+def world() -> Dataset:
+    return machine(distributed)
+
+
+@pytest.fixture
+def both(spec: Spec) -> Model:
+    return spec("spindle_bearing", {"effect": "lag", "drivers": {"u": "T_nut"}}, in_sample=True)
+
+
+def test_a_distributed_part_gets_its_second_lag_and_no_other_part_does(world: Dataset, both: Model) -> None:
+    refined = with_second_lags(both, world)
+    (found,) = refined.lags
+    assert (found.of, found.id) == ("lag", "lag_lag2")
+    assert sorted(found.tau) == pytest.approx([10.0, 200.0], rel=0.1)
+    assert found.after < 0.25 < found.before
+    assert (found.better, found.tests) == (4, 4)
+    assert refined.spec.effects[:2] == both.effects
+    assert refined.notes == [str(found)]
+    gains = {n: p.value for n, p in fit_model(refined.spec, world).parameters().items() if n.endswith("gain")}
+    assert sorted((gains["lag.gain"], gains["lag_lag2.gain"])) == pytest.approx([2.0, 3.0], rel=0.1)
+
+
+def test_one_lag_stays_one(both: Model) -> None:
+    refined = with_second_lags(both, machine(single))
+    assert refined.spec == both
+    assert refined.lags == ()
+    assert "none takes 20 % off" in refined.notes[0]
+
+
+def test_two_lags_that_lie_on_each_other_are_not_two(both: Model, monkeypatch: pytest.MonkeyPatch) -> None:
+    data = machine(two_alike)
+    assert with_second_lags(both, data).lags == ()
+    monkeypatch.setattr(second_lag, "APART", 1.0)
+    assert [lag.of for lag in with_second_lags(both, data).lags] == ["lag"]
+
+
+def test_the_limit_stands_between_a_fall_that_suffices_and_one_that_does_not(
+    world: Dataset, both: Model, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    left_out = LeftOut(both, world)
+    (found,) = with_second_lags(both, world).lags
+    spec = with_second_lags(both, world).spec
+    before, after = left_out.errors(both), left_out.errors(spec)
+    fall = 1 - max(after.over(before), after.typical(before))
+    assert 1 - found.after / found.before >= fall
+    for limit, taken in ((fall - 1e-6, 1), (fall + 1e-6, 0)):
+        monkeypatch.setattr(second_lag, "FALL", limit)
+        assert len(with_second_lags(both, world).lags) == taken
+
+
+def test_locked_tests_take_no_part(world: Dataset, both: Model) -> None:
+    wild = replace(world.tests[-1], values={**world.tests[-1].values, "dZ": world.tests[-1].values["dZ"] * -50.0})
+    assert world.tests[-1].role == "locked"
+    changed = replace(world, tests=(*world.tests[:-1], wild))
+    assert with_second_lags(both, changed) == with_second_lags(both, world)
+
+
+def test_two_tests_are_too_few(both: Model) -> None:
+    refined = with_second_lags(both, machine(distributed, "ccl"))
+    assert refined.spec == both
+    assert refined.notes == ["no second lag: 2 open tests, and from 3 on they can be left out in turn"]
+
+
+def test_the_error_of_left_out_tests_counts_samples_or_tests() -> None:
+    one, two = ("dZ", ("c", "a")), ("dZ", ("c", "b"))
+    before = Errors({one: 300, two: 100}, {one: 1.0, two: 9.0})
+    after = Errors({one: 300, two: 100}, {one: 4.0, two: 1.0})
+    assert before.rmse("dZ") == pytest.approx(np.sqrt(3.0))
+    assert after.over(before) == pytest.approx(np.sqrt(3.25 / 3.0))
+    assert after.typical(before) == pytest.approx(np.sqrt(2 * 1 / 3))
+    assert after.better(before) == 1
+    assert np.isnan(before.rmse("dX"))
+
+
+@pytest.mark.parametrize(
+    ("effect", "asked"),
+    [
+        ({"effect": "lag", "drivers": {"u": "T_nut"}}, True),
+        ({"effect": "feed_screw"}, True),
+        ({"effect": "lag", "drivers": {"u": "T_nut"}, "fixed": {"tau": 5}}, False),
+        ({"effect": "lag", "drivers": {"u": "T_nut"}, "calibrate_on": ["t0"]}, False),
+        ({"effect": "spindle_bearing_2"}, False),
+        ({"effect": "centrifugal_shift"}, False),
+        ({"effect": "warm_start"}, False),
+        ({"effect": "transfer_function", "drivers": {"u": "T_nut"}}, False),
+    ],
+)
+def test_only_a_single_free_lag_of_a_driver_is_asked(effect: dict[str, object], asked: bool) -> None:
+    spec = EffectSpec.model_validate(effect)
+    assert is_single_lag(spec, [spec]) is asked
+
+
+def test_what_stands_twice_is_asked_for_no_third(world: Dataset, both: Model) -> None:
+    twice = with_second_lags(both, world).spec
+    assert not any(is_single_lag(e, twice.effects) for e in twice.effects if e.effect == "lag")
+    assert with_second_lags(twice, world).spec == twice
+
+
+def test_the_exponent_of_friction_is_held_as_fitted(spec: Spec) -> None:
+    model = spec({"effect": "spindle_friction", "id": "heat"}, in_sample=True)
+    data = machine(single)
+    tests = tuple(
+        replace(t, values={**t.values, "dZ": 40 * distributed((t.values["speed"] / 1e4) ** 1.5)}) for t in data.tests
+    )
+    refined = with_second_lags(model, replace(data, tests=tests))
+    assert [lag.id for lag in refined.lags] == ["heat_lag2"]
+    assert refined.spec.effects[-1].fixed["exponent"] == pytest.approx(1.5, abs=0.2)
+    assert refined.spec.effects[-1].bounds["tau"] == (1.0, 480.0)

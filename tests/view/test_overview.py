@@ -1,0 +1,177 @@
+"""The list of tests: what is found, in which order, and what stands beside each."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import pytest
+
+from thermodata.errors import UsageError
+from thermodata.store import Store
+from thermodata.view.models import model_rows
+from thermodata.view.overview import Asked, find_tests
+from thermodata.view.predictions import predictions, residual_strips
+from thermodata.view.window import channels_of, read_window
+
+T_S = np.arange(600) * 10.0
+
+
+@pytest.fixture(scope="module")
+def store(build_once: Callable[[], Any]) -> Store:
+    """Three tests; a model with a residual of +2 um in the first half of heat1; saturation in day1."""
+    b = build_once()
+    for test, kind, role, conditions in (
+        ("heat1", "spindle", "calibration", '{"speed": "9000 rpm"}'),
+        ("day1", "linear_axis", "verification", "{}"),
+        ("day2", "mixed", "locked", '{"hall": "warm"}'),
+    ):
+        b.test("lab", test, kind=kind, role=role, conditions=conditions, duration_s=5990.0)
+        b.channel("lab", test, "dZ")
+        b.channel("lab", test, "T_nut", "temperature")
+        flag = np.zeros(600)
+        flag[:60] = 4 if test == "day1" else 0
+        z = np.sin(T_S / 300)
+        z[300] = 50.0
+        b.tidy("lab", test, T_S, {"dZ": (z, flag), "T_nut": 20 + T_S / 3600})
+        b.rows["file"][-1]["columns"] = (
+            '{"samples": 1200, "flags": ' + ('{"saturated": 60}' if test == "day1" else "{}") + "}"
+        )
+    b.model("m1", "baseline", campaigns=["lab"], response="dZ", spec='{"effects": [{"effect": "lag"}]}')
+    residual = np.where(T_S < 3000, 2.0, 0.0)
+    data = {"t_s": T_S, "measured": residual, "predicted": 0 * residual, "residual": residual}
+    valid = T_S < 4500
+    b.prediction("lab", "heat1", "m1", "dZ", {**data, "valid": valid, "c__lag": residual / 2})
+    b.add(
+        "score_row",
+        campaign="lab",
+        test="heat1",
+        model="m1",
+        role="calibration",
+        response="dZ",
+        phase="all",
+        fit=50.0,
+        rmse_um=1.41,
+        n=600,
+    )
+    made: Store = b.store()
+    return made
+
+
+@pytest.mark.parametrize(
+    ("asked", "tests"),
+    [
+        (Asked(), ["heat1", "day1", "day2"]),
+        (Asked(find="day"), ["day1", "day2"]),
+        (Asked(find="DAY warm"), ["day2"]),
+        (Asked(find="9000 rpm"), ["heat1"]),
+        (Asked(find="linear axis"), ["day1"]),
+        (Asked(find="%"), []),
+        (Asked(find="' or true --"), []),
+        (Asked(role="locked"), ["day2"]),
+        (Asked(kind="spindle", find="heat"), ["heat1"]),
+        (Asked(sort="test"), ["day1", "day2", "heat1"]),
+        (Asked(sort="valid"), ["day1", "heat1", "day2"]),
+        (Asked(sort="error", model="m1"), ["heat1", "day1", "day2"]),
+        (Asked(per_page=2, page=2), ["day2"]),
+        (Asked(per_page=2, page=99), ["day2"]),
+    ],
+)
+def test_what_is_asked_for_is_found_in_its_order(store: Store, asked: Asked, tests: list[str]) -> None:
+    assert [r.test for r in find_tests(store, asked).rows] == tests
+
+
+def test_a_test_says_what_counts_and_what_the_model_leaves(store: Store) -> None:
+    found = find_tests(store, Asked(model="m1"))
+    heat, day, locked = found.rows
+    assert (heat.valid, day.valid, heat.rmse_um, locked.rmse_um) == (1.0, 0.95, 1.41, None)
+    assert heat.conditions == {"speed": "9000 rpm"}
+    assert (found.total, found.all_tests, found.pages) == (3, 3, 1)
+    assert found.roles == {"calibration": 1, "verification": 1, "locked": 1}
+
+
+def test_wrong_names_are_refused_with_the_right_ones(store: Store) -> None:
+    with pytest.raises(UsageError, match="did you mean 'lab'"):
+        find_tests(store, Asked(campaign="lap"))
+    with pytest.raises(UsageError, match="no order"):
+        find_tests(store, Asked(sort="colour"))  # type: ignore[arg-type]
+    with pytest.raises(UsageError, match="no test"):
+        channels_of(store, "lab", "heat")
+
+
+def test_strips_show_the_residual_where_it_is_and_nothing_where_nothing_was_measured(store: Store) -> None:
+    strips = residual_strips(store, "m1", [("lab", "heat1"), ("lab", "day2")], bins=10)
+    assert list(strips) == [("lab", "heat1")]
+    strip = strips["lab", "heat1"]
+    assert strip[:5] == pytest.approx([2.0] * 5)
+    assert strip[5:7] == pytest.approx([0.0] * 2, abs=0.1)
+    assert np.isnan(strip[8:]).all()
+
+
+def test_a_prediction_is_as_it_was_stored(store: Store) -> None:
+    (found,) = predictions(store, "m1", "lab", "heat1")
+    assert list(found.contributions) == ["lag"]
+    assert found.residual == pytest.approx(np.where(T_S < 3000, 2.0, 0.0))
+    assert found.valid.sum() == 450
+    assert predictions(store, "m1", "lab", "day2") == []
+
+
+def test_a_wide_window_keeps_its_extremes_and_a_narrow_one_every_sample(store: Store) -> None:
+    channels = channels_of(store, "lab", "heat1")
+    assert [c.name for c in channels] == ["dZ", "T_nut"]
+    (wide,) = read_window(store, "lab", "heat1", channels, most=100)
+    assert not wide.each
+    assert len(wide.t_s) == 100
+    assert np.all(np.diff(wide.t_s) > 0)
+    assert np.nanmax(wide.values["dZ"]) == 50.0
+    (narrow,) = read_window(store, "lab", "heat1", channels, (100.0, 200.0), most=100)
+    assert narrow.each
+    assert narrow.t_s == pytest.approx(np.arange(100.0, 201.0, 10.0))
+    assert narrow.values["dZ"] == pytest.approx(np.sin(narrow.t_s / 300))
+
+
+def test_samples_that_do_not_count_are_shown_on_request_only(store: Store) -> None:
+    channels = channels_of(store, "lab", "day1")[:1]
+    for most in (100, 10_000):
+        (window,) = read_window(store, "lab", "day1", channels, most=most)
+        assert np.isnan(window.values["dZ"][window.t_s < 590]).all()
+        (window,) = read_window(store, "lab", "day1", channels, flagged=True, most=most)
+        assert np.isfinite(window.values["dZ"]).all()
+
+
+def test_a_window_beside_the_test_is_empty(store: Store) -> None:
+    (window,) = read_window(store, "lab", "heat1", channels_of(store, "lab", "heat1"), (9e5, 9e6))
+    assert len(window.t_s) == 0
+
+
+def test_models_come_with_their_effects_and_units(store: Store) -> None:
+    (model,) = model_rows(store)
+    assert (model.label, model.unit, model.effects, model.responses) == ("baseline 1", "um", ("lag",), ("dZ",))
+
+
+def test_a_thousand_tests_are_searched_in_a_moment(build: Callable[..., Any]) -> None:
+    b = build()
+    for i in range(1000):
+        b.test("big", f"t{i:04}", conditions=f'{{"speed": "{i} rpm"}}')
+        b.add(
+            "file",
+            campaign="big",
+            test=f"t{i:04}",
+            source="daq",
+            stream="daq",
+            layer="tidy",
+            part="test",
+            key=f"k{i}",
+            path=f"tidy/{i}.parquet",
+            columns='{"samples": 100, "flags": {"spike": 1}}',
+            added_at="2026-03-01",
+        )
+    store = b.store()
+    find_tests(store, Asked())
+    began = time.monotonic()
+    found = find_tests(store, Asked(find="777"))
+    assert [r.test for r in found.rows] == ["t0777"]
+    assert found.rows[0].valid == pytest.approx(0.99)
+    assert time.monotonic() - began < 2.0

@@ -1,0 +1,155 @@
+"""Models side by side, an effect added with its progress, cancelled, and what is left when a server dies."""
+
+from __future__ import annotations
+
+import json
+import re
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from thermodata.errors import UsageError
+from thermodata.store import Store
+from thermodata.store.keep.check import check_store
+from thermodata.view.models import model_rows
+from thermodata.view.predictions import Prediction
+from thermodata.view.residuals import against, autocorrelation, predicted_tests, residuals
+from thermodata.web.work import Work
+
+from .client import Client
+
+
+def finished(client: Client, text: str, seconds: float = 300.0) -> tuple[str, str | None]:
+    """The last fragment of a piece of work, and where the browser is sent."""
+    end = time.monotonic() + seconds
+    while time.monotonic() < end:
+        at = re.search(r'hx-get="(/work/[^"]+)"', text)
+        if at is None:
+            return text, None
+        answer = client.get(at[1])
+        text = answer.text
+        if answer.header("hx-redirect"):
+            return text, answer.header("hx-redirect")
+        time.sleep(0.1)
+    raise AssertionError(f"still at work: {text}")
+
+
+def test_adding_makes_a_version_on_the_same_scale_and_the_one_before_stays(writer: Client, lab: Path) -> None:
+    store = Store(lab / "thermodata.store")
+    first = model_rows(store)[0]
+    assert "Add it</button>" in writer.get(f"/add?model={first.model}&candidate=1").text
+    answer = writer.post("/work/add", {"model": first.model, "candidate": "1"})
+    assert answer.status == 200
+    _, onward = finished(writer, answer.text)
+    assert onward is not None
+    assert onward.startswith("/compare?model=")
+    assert [m.version for m in model_rows(store)] == [2, 1]
+    text = writer.get(onward).text
+    limits = [json.loads(m)["limit"] for m in re.findall(r'id="heat\d">(.*?)</script>', text)]
+    assert len(limits) == 2
+    assert limits[0] == limits[1]
+    assert "How the error fell" in text
+    assert f'href="/compare?model={first.model}">Undo' in text
+    # undone is only left: both versions are there
+    assert writer.get(f"/compare?model={first.model}").status == 200
+
+
+def test_what_fails_is_told_as_in_a_terminal(writer: Client) -> None:
+    text, onward = finished(writer, writer.post("/work/add", {"model": "baseline", "candidate": "coolent:T_hall"}).text)
+    assert onward is None
+    assert 'role="alert"' in text
+    assert "coolent" in text
+    assert writer.post("/work/add", {"model": "baseline"}).status == 400
+    assert writer.post("/work/format_disk", {}).status == 400
+    assert writer.get("/work/nothing").status == 400
+
+
+def test_work_stays_inside_the_chosen_folders(writer: Client) -> None:
+    for task, field in (("ingest", "campaign"), ("fit", "path")):
+        answer = writer.post(f"/work/{task}", {field: "../elsewhere.yaml"})
+        assert answer.status == 400
+        assert "outside of the chosen folders" in answer.text
+    assert writer.post("/work/report", {"model": "baseline", "out": "/tmp/page.html"}).status == 400
+
+
+def test_cancelled_work_leaves_the_store_as_it_was(writer: Client, lab: Path) -> None:
+    store = Store(lab / "thermodata.store")
+    before = [m.model for m in model_rows(store)]
+    text = writer.post("/work/add", {"model": "baseline", "candidate": "1"}).text
+    cancel = re.search(r'hx-post="(/work/[^"]+/cancel)"', text)[1]
+    assert "Cancelled" in writer.post(cancel).text
+    time.sleep(0.5)
+    assert [m.model for m in model_rows(store)] == before
+    assert not check_store(store).damaged
+
+
+def test_no_more_than_two_at_once(lab: Path) -> None:
+    work = Work()
+    store = lab / "thermodata.store"
+    try:
+        for _ in range(2):
+            work.start("diagnose", "asking", store, {"model": "baseline"})
+        with pytest.raises(UsageError, match="still running"):
+            work.start("diagnose", "asking", store, {"model": "baseline"})
+    finally:
+        work.close()
+
+
+def test_a_child_ends_with_its_server(lab: Path) -> None:
+    store = lab / "thermodata.store"
+    request = json.dumps({"task": "ingest", "store": str(store), "arguments": {"campaign": str(lab / "campaign.yaml")}})
+    child = subprocess.Popen(
+        [sys.executable, "-m", "thermodata.web.child"], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True
+    )
+    assert child.stdin is not None
+    child.stdin.write(request + "\n")
+    child.stdin.close()  # as when the server is killed
+    assert child.wait(20) in (0, 1)
+    assert not check_store(Store(store)).damaged
+
+
+def test_the_comparison_shows_only_what_differs(reader: Client) -> None:
+    text = reader.get("/compare").text
+    assert "Residual over every test" in text
+    assert "Nothing differs" in reader.get("/compare?differs=1").text  # one model differs from nothing
+
+
+def test_the_residual_over_a_channel(reader: Client) -> None:
+    text = reader.get("/compare?over=spindle_speed").text
+    spec = json.loads(re.search(r'id="against">(.*?)</script>', text)[1])
+    assert spec["axis"]["unit"] == "rpm"
+    assert reader.get("/compare?over=nothing").status == 400
+
+
+def test_a_residual_over_its_own_driver_is_found(lab: Path) -> None:
+    store = Store(lab / "thermodata.store")
+    model = model_rows(store)[0]
+    keys = predicted_tests(store, model.model)
+    assert keys == [("small", "heat1"), ("small", "heat2"), ("small", "day1")]
+    found = against(store, residuals(store, model.model, keys, "dZ"), "T_nut_Z")
+    # the baseline lacks the nut: the warmer it is, the more is left over
+    assert found.means[-1] - found.means[0] > 3
+    assert np.all(np.diff(found.bins) >= 0)
+
+
+def test_noise_forgets_and_a_slow_residual_remembers() -> None:
+    rng = np.random.default_rng(0)
+    t_s = np.arange(2000) * 60.0
+    noise, slow = rng.normal(size=2000), np.sin(2 * np.pi * t_s / 36000)
+
+    def of(residual: np.ndarray) -> Prediction:
+        valid = np.ones(2000, bool)
+        valid[500:600] = False
+        return Prediction("c", "t", "dZ", t_s, residual, residual, residual, valid, {})
+
+    lag, c = autocorrelation([of(noise)], 6000.0)
+    assert c[0] == pytest.approx(1.0)
+    assert np.abs(c[1:]).max() < 0.1
+    lag, c = autocorrelation([of(slow)], 36000.0)
+    assert c[lag == 9000.0] == pytest.approx(0.0, abs=0.1)
+    assert c[lag == 18000.0] == pytest.approx(-1.0, abs=0.1)
+    assert len(autocorrelation([], 60.0)[0]) == 0

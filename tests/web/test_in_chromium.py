@@ -1,0 +1,189 @@
+"""The workbench in a real browser: the story by mouse and by keys, no request elsewhere, no complaint of the page."""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from urllib.parse import urlsplit
+
+import pytest
+
+from thermodata.store import Store
+from thermodata.view.models import model_rows
+
+from ..chromium import Chromium, Page
+
+PAGES = (
+    "/",
+    "/test?campaign=small&test=heat1",
+    "/test?campaign=small&test=day2",
+    "/trace?campaign=small&test=heat1&channel=dZ&at=3600",
+    "/missing",
+    "/compare?over=spindle_speed",
+    "/add?model=baseline&candidate=1",
+    "/sql?q=select+t_s,+value+from+signal('small','heat1','dZ')",
+    "/start",
+    "/report",
+)
+
+
+@dataclass(frozen=True)
+class Served:
+    """A workbench in a process of its own, and a tab that it let in."""
+
+    page: Page
+    origin: str
+    lab: Path
+    process: subprocess.Popen[str]
+
+    def go(self, path: str) -> None:
+        self.page.go(self.origin + path)
+
+    def press(self, selector: str) -> None:
+        x, y = self.page.wait(
+            f"(() => {{ const e = document.querySelector({json.dumps(selector)}); if (!e) return null; "
+            "e.scrollIntoView({block: 'center'}); const r = e.getBoundingClientRect(); "
+            "return [r.left + r.width / 2, r.top + r.height / 2]; })()"
+        )
+        self.page.click(x, y)
+
+
+@pytest.fixture
+def served(lab: Path, chromium: Chromium) -> Iterator[Served]:
+    process = subprocess.Popen(
+        [sys.executable, "-m", "thermodata", "workbench", str(lab), "--write", "--no-browser", "--json"],
+        stdout=subprocess.PIPE,
+        text=True,
+    )
+    assert process.stdout is not None
+    text = ""
+    while not text.rstrip().endswith("}"):
+        text += process.stdout.readline()
+    address = json.loads(text)["address"]
+    page = chromium.open(address)
+    page.wait("location.pathname === '/' && document.readyState === 'complete'", timeout_s=60)
+    try:
+        yield Served(page, f"http://{urlsplit(address).netloc}", lab, process)
+    finally:
+        page.close()
+        process.kill()
+        process.wait()
+
+
+def looks(lab: Path) -> int:
+    row = Store(lab / "thermodata.store").connect().execute("select count(*) from locked_look").fetchone()
+    assert row is not None
+    return int(row[0])
+
+
+def test_every_page_wide_narrow_light_and_dark(served: Served) -> None:
+    """No complaint, no request elsewhere, nothing wider than the window; looking opens no lock."""
+    before = looks(served.lab)
+    for path in PAGES:
+        for width, dark in ((1280, False), (390, True)):
+            served.page.look(width, 900, dark, mobile=width < 600)
+            served.go(path)
+            served.page.js("document.querySelectorAll('[data-chart]').forEach(b => ThermoChart.of(b))")
+            assert served.page.js("document.documentElement.scrollWidth <= innerWidth"), (path, width)
+    assert served.page.complaints() == []
+    assert {urlsplit(u).netloc for u in served.page.requests()} == {urlsplit(served.origin).netloc}
+    assert looks(served.lab) == before
+
+
+def test_axe_finds_no_violation(served: Served) -> None:
+    named = os.environ.get("THERMODATA_AXE")
+    if not named:
+        pytest.skip("no axe-core: name its axe.min.js in THERMODATA_AXE; .ci/run fetches it")
+    rules = Path(named).read_text(encoding="utf-8")
+    for path in PAGES:
+        served.go(path)
+        served.page.js(rules + "; 0")
+        found = served.page.js(
+            "axe.run().then(r => r.violations.map(v => v.id + ': ' + v.nodes.map(n => n.target.join(' ')).join(', ')))"
+        )
+        assert found == [], path
+
+
+def test_the_story_by_mouse(served: Served) -> None:
+    first = model_rows(Store(served.lab / "thermodata.store"))[0]
+    served.press("table.tests td.name a")
+    served.page.wait("location.pathname === '/test' && document.querySelector('#plot canvas')")
+    served.go("/missing")
+    assert "issing" in served.page.js("document.querySelector('h1').textContent")
+    served.press("a[href^='/add']")
+    served.page.wait("location.pathname === '/add'")
+    served.press("form[hx-post='/work/add'] button")
+    served.page.wait("location.pathname === '/compare'", timeout_s=240)
+    models = model_rows(Store(served.lab / "thermodata.store"))
+    assert [m.version for m in models] == [2, 1]
+    assert "beside" in served.page.wait("document.querySelector('h1').textContent")
+    # undo: the version before, and both are still there
+    served.press("a.quiet[href*='model=" + first.model + "']")
+    served.page.wait(f"location.search.includes('{first.model}')")
+    assert len(model_rows(Store(served.lab / "thermodata.store"))) == 2
+    assert served.page.complaints() == []
+
+
+def test_the_way_by_keyboard_alone(served: Served) -> None:
+    page = served.page
+    page.js("document.querySelector('table.tests td.name a').focus()")
+    page.key("Enter")
+    page.wait("location.pathname === '/test' && document.querySelector('#plot canvas')")
+    page.js("document.getElementById('plot').focus()")
+    page.key("+")
+    page.wait("new URLSearchParams(location.search).has('from')")  # the zoom is in the address
+    page.wait("document.getElementById('plot').dataset.refined")
+    before = page.js("location.search")
+    page.key("0")
+    page.wait(f"location.search !== {json.dumps(before)}")
+    page.key("Enter")  # back to the file of the point under the cursor
+    assert page.complaints() == []
+
+
+def test_a_zoom_in_the_address_is_shown_again(served: Served) -> None:
+    served.go("/test?campaign=small&test=heat1&from=3600&to=7200")
+    served.page.wait("ThermoChart.of(document.getElementById('plot')).lo === 1")
+    assert served.page.js("ThermoChart.of(document.getElementById('plot')).hi") == 2
+
+
+def test_searching_narrows_the_list_without_a_reload(served: Served) -> None:
+    served.page.js("window.kept = 1; document.getElementById('find').focus()")
+    for letter in "day1":
+        served.page.key(letter)
+    served.page.wait("document.querySelectorAll('table.tests tbody tr').length === 1")
+    assert served.page.js("window.kept") == 1
+    assert served.page.js("location.search.includes('find=day1')")
+
+
+def test_a_page_of_another_origin_gets_nothing(served: Served, chromium: Chromium) -> None:
+    stranger = chromium.open("data:text/html,<title>elsewhere</title>")
+    try:
+        assert (
+            stranger.js(f"fetch('{served.origin}/', {{credentials: 'include'}}).then(r => 'read', () => 'refused')")
+            == "refused"
+        )
+        assert stranger.js(
+            f"fetch('{served.origin}/work/add', {{method: 'POST', credentials: 'include', mode: 'no-cors', "
+            "body: 'model=baseline&candidate=1'}).then(r => r.type, () => 'refused')"
+        ) in ("opaque", "refused")
+    finally:
+        stranger.close()
+    assert len(model_rows(Store(served.lab / "thermodata.store"))) == 1
+
+
+def test_the_server_killed_during_an_add_leaves_the_store_whole(served: Served) -> None:
+    from thermodata.store.keep.check import check_store
+
+    served.go("/add?model=baseline&candidate=1")
+    served.press("form[hx-post='/work/add'] button")
+    served.page.wait("document.querySelector('.task')")
+    served.process.kill()
+    served.process.wait()
+    store = Store(served.lab / "thermodata.store")
+    assert not check_store(store).damaged
+    assert len(model_rows(store)) in (1, 2)

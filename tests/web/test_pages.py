@@ -1,0 +1,118 @@
+"""What the pages say, asked without a browser."""
+
+from __future__ import annotations
+
+import json
+import re
+from pathlib import Path
+
+import pytest
+
+from thermodata.store import Store
+from thermodata.web.pages.strip import strip_svg
+
+from .client import Client
+from .conftest import client_of
+
+PAGES = ["/", "/test?campaign=small&test=heat1", "/test?campaign=small&test=day2", "/trace?campaign=small&test=heat1"]
+
+
+@pytest.mark.parametrize("url", PAGES)
+def test_nothing_is_inline_and_every_page_shows_its_command(reader: Client, url: str) -> None:
+    answer = reader.get(url)
+    assert answer.status == 200
+    assert not re.search(r"<style|\sstyle=|\son[a-z]+=|javascript:", answer.text)
+    for script in re.findall(r"<script([^>]*)>", answer.text):
+        assert "src=" in script or 'type="application/json"' in script
+    assert re.search(r"<code>thermodata .*</code>", answer.text)
+    assert not re.search(r'(?:href|src|action)="(?:https?:)?//', answer.text)
+
+
+@pytest.mark.parametrize("url", PAGES)
+def test_looking_computes_nothing_and_opens_nothing(made_lab: Path, url: str) -> None:
+    store = Store(made_lab / "thermodata.store")
+    before = {p: (p.stat().st_mtime_ns, p.stat().st_size) for p in made_lab.rglob("*") if p.is_file()}
+    looks = store.connect().execute("select count(*) from locked_look").fetchone()
+    assert client_of(made_lab)[0].get(url).status == 200
+    assert {p: (p.stat().st_mtime_ns, p.stat().st_size) for p in made_lab.rglob("*") if p.is_file()} == before
+    assert store.connect().execute("select count(*) from locked_look").fetchone() == looks
+
+
+def test_the_map_lists_the_tests_with_what_the_model_leaves(reader: Client) -> None:
+    text = reader.get("/").text
+    assert "4 tests" in text
+    for name in ("heat1", "heat2", "day1", "day2"):
+        assert f">{name}</a>" in text
+    assert text.count('<svg class="strip"') == 3  # the locked one has none
+    assert "locked: opened only to confirm a claim" in text
+
+
+def test_a_search_that_finds_nothing_says_what_to_do(reader: Client) -> None:
+    text = reader.get("/?find=no+such+thing").text
+    assert "No test is like that" in text
+    assert 'href="/"' in text
+
+
+def test_a_folder_without_a_store_says_what_to_do(tmp_path: Path) -> None:
+    text = client_of(tmp_path)[0].get("/").text
+    assert "There is no store yet" in text
+    assert 'href="/start"' in text
+
+
+def test_names_from_data_are_escaped(reader: Client) -> None:
+    text = reader.get('/?find="><script>alert(1)</script>').text
+    assert "<script>alert" not in text
+    answer = reader.get("/test?campaign=small&test=<img src=x>")
+    assert answer.status == 400
+    assert "<img src=x" not in answer.text
+
+
+def test_a_wrong_name_is_answered_with_the_right_one(reader: Client) -> None:
+    answer = reader.get("/test?campaign=small&test=heat")
+    assert answer.status == 400
+    assert "heat1" in answer.text
+    assert reader.get("/?page=x").status == 400
+    assert reader.get("/test?campaign=small&test=heat1&from=nan&to=3").status == 400
+    assert reader.get("/nothing").status == 404
+
+
+def test_a_test_draws_its_channels_and_its_model(reader: Client) -> None:
+    text = reader.get("/test?campaign=small&test=heat1").text
+    spec = json.loads(re.search(r'<script type="application/json" id="chart">(.*?)</script>', text, re.S)[1])
+    titles = [p["title"] for p in spec["panels"]]
+    assert "dZ, model" in titles
+    assert "dZ, residual" in titles
+    assert "temperature, elsewhere" in titles
+    assert "spindle_speed" in titles
+
+
+def test_the_model_of_a_locked_test_is_not_shown(reader: Client) -> None:
+    text = reader.get("/test?campaign=small&test=day2").text
+    assert "Locked: no model was fitted to it" in text
+    assert "dZ, residual" not in text
+    assert "dZ" in text  # what was measured is
+
+
+def test_a_window_is_finer_than_the_whole(reader: Client) -> None:
+    url = "/test/data?campaign=small&test=heat1&show=dZ&model=none"
+    part = json.loads(reader.get(url + "&from=3600&to=7200").text)
+    assert part["panels"][0]["series"][0]["x"] == {"start": 1.0, "step": pytest.approx(1 / 60), "n": 61}
+    assert part["axis"]["range"][0] == 0
+
+
+def test_a_stretch_says_its_samples_and_its_error(reader: Client) -> None:
+    text = reader.get("/test/range?campaign=small&test=heat1&from=3600&to=7200").text
+    assert "of 360 samples that count" in text
+    assert "window: [3600 s, 7200 s]" in text
+    assert reader.get("/test/range?campaign=small&test=heat1&from=3600&to=3600").status == 400
+
+
+def test_a_point_leads_back_to_the_row_of_its_file(reader: Client) -> None:
+    text = reader.get("/trace?campaign=small&test=heat1&channel=dZ&at=3600").text
+    assert "raw/heat1.csv" in text
+    assert "<dt>row</dt><dd>61</dd>" in text
+
+
+def test_a_strip_tints_by_size_and_sign() -> None:
+    text = str(strip_svg([0.0, 1.0, -0.5, float("nan")], 1.0))  # type: ignore[arg-type]
+    assert re.findall(r'class="(hot s6|cold s3|none)"', text) == ["hot s6", "cold s3", "none"]

@@ -1,0 +1,92 @@
+"""SQL, the way from raw logs to a store, and the report."""
+
+from __future__ import annotations
+
+import json
+import re
+from pathlib import Path
+from urllib.parse import quote
+
+from thermodata.store import Store
+
+from .client import Client
+from .conftest import client_of, write_headers
+from .test_compare_and_add import finished
+
+
+def test_a_query_gives_rows_a_picture_and_files(reader: Client) -> None:
+    query = quote("select t_s, value from signal('small', 'heat1', 'dZ') order by t_s")
+    text = reader.get(f"/sql?q={query}").text
+    assert "360 rows" in text
+    assert json.loads(re.search(r'id="sqlplot">(.*?)</script>', text)[1])["axis"]["label"] == "t_s"
+    answer = reader.get(f"/sql/csv?q={query}")
+    assert answer.header("content-disposition") == 'attachment; filename="thermodata.csv"'
+    assert len(answer.text.splitlines()) == 361
+    assert reader.get(f"/sql/parquet?q={query}").body[:4] == b"PAR1"
+
+
+def test_what_is_refused_is_said_beside_the_query(reader: Client) -> None:
+    for query in ("copy (select 1) to '/tmp/x'", "select * from read_text('/etc/passwd')", "drop table test"):
+        answer = reader.get(f"/sql?q={quote(query)}")
+        assert answer.status == 400
+        assert "This query is not run here" in answer.text
+        assert "root:" not in answer.text
+        assert reader.get(f"/sql/csv?q={quote(query)}").status == 400
+    assert reader.get("/sql/exe?q=select+1").status == 400
+
+
+def test_the_views_stand_beside_with_their_units(reader: Client) -> None:
+    text = reader.get("/sql").text
+    assert "<summary>temperature</summary>" in text
+    assert "[s] from the start of the test" in text
+    assert "/sql?q=select" in text
+
+
+def test_from_a_folder_of_raw_logs_to_a_store(made_lab: Path, tmp_path: Path) -> None:
+    import shutil
+
+    shutil.copytree(made_lab / "raw", tmp_path / "new" / "raw")
+    client, desk = client_of(tmp_path / "new", write=True)
+    client = Client(client.app, [*client.headers, *write_headers(desk)])
+    assert "Draft campaign.yaml" in client.get("/start").text
+    _, onward = finished(client, client.post("/work/draft", {"folder": str(tmp_path / "new")}).text)
+    assert onward is not None
+    text = client.get(onward).text
+    assert "that only you can answer" in text
+    names = re.findall(r'name="(answer\.[^"]+)"', text)
+    roles = [n for n in names if n.endswith(".role")]
+    assert roles
+    path = str(tmp_path / "new" / "campaign.yaml")
+    form = {"file": path, "answer.machine.id": "138", **dict.fromkeys(roles, "calibration")}
+    before = Path(path).read_text()
+    shown = client.post("/start/preview", form).text
+    assert "+  id: 138" in shown.replace("&#34;", '"').replace('"138"', "138")
+    assert Path(path).read_text() == before  # shown, not written
+    assert "is written" in client.post("/start/write", form).text
+    assert "role: calibration" in Path(path).read_text()
+    assert (tmp_path / "new" / "campaign.1.yaml").read_text() == before
+    _, onward = finished(client, client.post("/work/ingest", {"campaign": path}).text)
+    assert onward is not None
+    assert client.get(onward).status == 200
+    assert Store(tmp_path / "new" / "thermodata.store").generation > 0
+
+
+def test_answers_stay_inside_the_folder(writer: Client, tmp_path: Path) -> None:
+    for url in ("/start/preview", "/start/write"):
+        answer = writer.post(url, {"file": "/etc/hosts.yaml", "answer.machine.id": "x"})
+        assert answer.status == 400
+        assert "outside of the chosen folders" in answer.text
+    assert writer.get("/start?file=../x.yaml").status == 400
+
+
+def test_a_report_is_written_into_the_folder_and_taken_as_a_file(writer: Client, lab: Path) -> None:
+    text = writer.get("/report").text
+    out = re.search(r'name="out" value="([^"]+)"', text)[1]
+    model = re.search(r'name="model" value="([^"]+)"', text)[1]
+    _, onward = finished(writer, writer.post("/work/report", {"model": model, "out": out}).text)
+    assert onward is not None
+    assert (lab / out).is_file()
+    answer = writer.get(onward)
+    assert (answer.header("content-disposition") or "").startswith("attachment")
+    assert writer.get("/report/file?name=campaign.yaml").status == 400
+    assert writer.get("/report/file?name=../../etc/passwd").status == 400

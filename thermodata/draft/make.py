@@ -1,0 +1,95 @@
+"""A folder of raw logs -> campaign.yaml and a first model.yaml beside them; what is there is kept."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from pathlib import Path
+
+from thermodata.draft.baseline import model_text
+from thermodata.draft.naming import plain
+from thermodata.draft.plan import Draft, plan
+from thermodata.draft.scan import Progress, scan
+from thermodata.draft.write import questions_in, text_of
+from thermodata.errors import UsageError
+from thermodata.schema.load import load_campaign, load_model
+
+
+@dataclass(frozen=True, slots=True)
+class Drafted:
+    """campaign, model: the files that were written; model is None where no sensor allows one, or where one was there.
+    kept: what was there before -> its new name. files: raw ones. questions: lines that hold one."""
+
+    campaign: Path
+    model: Path | None
+    kept: tuple[tuple[Path, Path], ...]
+    draft: Draft
+    files: int
+    questions: int
+
+
+def draft_files(folder: Path, *, force: bool = False, progress: Progress | None = None) -> Drafted:
+    """force: a campaign file that is there becomes campaign.1.yaml; without it that is a UsageError, as is a folder
+    without any file that a reader claims. progress: is told (done, of, path)."""
+    out = folder / "campaign.yaml"
+    if out.exists() and not force:
+        raise UsageError(
+            "the campaign file exists, and is never overwritten",
+            where=str(out),
+            hint="--force keeps it as campaign.1.yaml and drafts anew",
+        )
+    found = scan(folder, progress)
+    if not found.logs:
+        raise UsageError(
+            "no file that a reader claims",
+            where=str(folder),
+            expected="raw logs",
+            got="; ".join(f"{p}: {w}" for p, w in found.ignored[:5]) or "nothing",
+            hint="thermodata plugins lists the installed readers; thermodata sniff FILE says more",
+        )
+    name = re.sub(r"[^A-Za-z0-9._-]+", "-", plain_name(folder.resolve().name)).strip("-._")[:100] or "campaign"
+    draft = plan(name, folder, found)
+    text, model = text_of(draft), model_text(draft)
+    kept = [keep(out)]
+    write_new(out, text)
+    load_campaign(out)  # a draft that doesn't load is a defect: it raises here
+    first = folder / "model.yaml"
+    made = model is not None and (force or not first.exists())
+    if made and model is not None:
+        kept.append(keep(first))
+        write_new(first, model)
+        load_model(first)
+    return Drafted(
+        out,
+        first if made else None,
+        tuple(k for k in kept if k is not None),
+        draft,
+        len({f.path for f in found.logs}),
+        questions_in(text),
+    )
+
+
+def plain_name(text: str) -> str:
+    """A folder's name in plain letters, in any script."""
+    return text if text.isascii() else plain(text)
+
+
+def keep(path: Path) -> tuple[Path, Path] | None:
+    """Moves a file that is there out of the way: campaign.yaml to campaign.1.yaml. (before, after), or None."""
+    if not path.exists():
+        return None
+    names = (path.with_name(f"{path.stem}.{n}{path.suffix}") for n in range(1, 10_000))
+    kept = next(p for p in names if not p.exists())
+    path.rename(kept)
+    return path, kept
+
+
+def write_new(out: Path, text: str) -> None:
+    """Writes a file that must not be there yet, not even since a moment ago."""
+    try:
+        with out.open("x", encoding="utf-8") as file:
+            file.write(text)
+    except FileExistsError:
+        raise UsageError("the campaign file exists, and is never overwritten", where=str(out)) from None
+    except OSError as error:
+        raise UsageError("cannot write the draft", where=str(out), got=error.strerror or str(error)) from None

@@ -1,0 +1,68 @@
+"""What was flagged in a test, and its named stretches, as rows for a picture."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+from thermodata.store.base.connection import fetch
+
+if TYPE_CHECKING:
+    from thermodata.store import Store
+
+_MOST = 2_000
+
+
+@dataclass(frozen=True, slots=True)
+class Flagged:
+    """A stretch of a channel with one flag. n: samples. channel: '' where all channels of a source have it."""
+
+    channel: str
+    source: str
+    flag: str
+    from_s: float
+    to_s: float
+    n: int
+    detail: str
+
+
+@dataclass(frozen=True, slots=True)
+class About:
+    """A test as the catalogue has it. phases: name -> (from, to) [s]. flagged: in order of time, at most 2,000."""
+
+    row: dict[str, Any]
+    phases: dict[str, tuple[float, float]]
+    flagged: tuple[Flagged, ...]
+    looks: int
+
+
+def about_test(store: Store, campaign: str, test: str) -> About:
+    """looks: how often its lock was opened."""
+    own = [campaign, test]
+    with store.reader() as con:
+        row = fetch(con, "select * from test where campaign = ? and test = ?", own)[0]
+        phases = fetch(con, "select phase, from_s, to_s from phase where campaign = ? and test = ?", own)
+        events = fetch(
+            con,
+            "select channel, source, flag, from_s, to_s, n, detail from quality where campaign = ? and test = ? "
+            f"and from_s is not null order by from_s, channel limit {_MOST}",
+            own,
+        )
+        looks = con.execute("select count(*) from locked_look where campaign = ? and test = ?", own).fetchone()
+    return About(
+        row,
+        {p["phase"]: (p["from_s"], p["to_s"]) for p in phases},
+        tuple(
+            Flagged(
+                e["channel"] or "",
+                e["source"] or "",
+                e["flag"],
+                e["from_s"],
+                e["to_s"] if e["to_s"] is not None else e["from_s"],
+                e["n"] or 0,
+                e["detail"] or "",
+            )
+            for e in events
+        ),
+        int(looks[0]) if looks else 0,
+    )

@@ -1,0 +1,75 @@
+"""The models of a store, newest first, with their errors by role."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass
+from datetime import datetime
+from typing import TYPE_CHECKING
+
+from thermodata.store.base.connection import fetch
+
+if TYPE_CHECKING:
+    from thermodata.store import Store
+
+
+@dataclass(frozen=True, slots=True)
+class ModelRow:
+    """version: its place in the chain of versions, 1 is the first. effects: names in the order of the model file.
+    calibration_um, verification_um: RMSE over tests of the role, in `unit`. verdict: of its diagnosis, None where it
+    has none."""
+
+    model: str
+    name: str
+    version: int
+    parent: str | None
+    created_at: datetime
+    stale: bool
+    campaigns: tuple[str, ...]
+    responses: tuple[str, ...]
+    unit: str
+    effects: tuple[str, ...]
+    calibration_um: float | None
+    verification_um: float | None
+    verdict: str | None
+
+    @property
+    def label(self) -> str:
+        return f"{self.name} {self.version}"
+
+
+_MODELS = """
+with e as (select model, max(version) as version, max(rmse_um_calibration) as calibration,
+                  max(rmse_um_verification) as verification from history group by model),
+d as (select model, arg_max(verdict, created_at) as verdict from diagnosis group by model),
+u as (select m.model, min(c.unit) as unit from model m, channel c
+      where list_contains(m.campaigns, c.campaign) and list_contains(string_split(m.response, ', '), c.channel)
+      group by m.model)
+select m.model, m.name, coalesce(e.version, 1) as version, m.parent, m.created_at, m.stale, m.campaigns, m.response,
+       coalesce(u.unit, 'um') as unit, m.spec, e.calibration, e.verification, d.verdict
+from model m left join e on e.model = m.model left join d on d.model = m.model left join u on u.model = m.model
+order by m.created_at desc, m.rowid desc"""
+
+
+def model_rows(store: Store) -> list[ModelRow]:
+    """All models of the store."""
+    with store.reader() as con:
+        rows = fetch(con, _MODELS)
+    return [
+        ModelRow(
+            r["model"],
+            r["name"],
+            int(r["version"]),
+            r["parent"],
+            r["created_at"],
+            bool(r["stale"]),
+            tuple(r["campaigns"]),
+            tuple(r["response"].split(", ")),
+            "K" if r["unit"] == "degC" else r["unit"],  # of an error
+            tuple(e["effect"] for e in json.loads(r["spec"]).get("effects", [])),
+            r["calibration"],
+            r["verification"],
+            r["verdict"],
+        )
+        for r in rows
+    ]

@@ -1,0 +1,169 @@
+"""The tests of a store as a list to look through: searched, filtered, sorted, a page at a time."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any, Literal
+
+from thermodata.errors import unknown_name
+from thermodata.schema.flag import INVALID, Flag
+
+if TYPE_CHECKING:
+    import duckdb
+
+    from thermodata.store import Store
+
+Sort = Literal["file", "test", "start", "length", "error", "valid"]
+SORTS: tuple[Sort, ...] = ("file", "test", "start", "length", "error", "valid")
+_ORDER: dict[Sort, str] = {
+    "file": "campaign, place",
+    "test": "campaign, test",
+    "start": "start nulls last, campaign, place",
+    "length": "duration_s desc nulls last, campaign, place",
+    "error": "rmse_um desc nulls last, campaign, place",
+    "valid": "valid nulls last, campaign, place",
+}
+# what ran while the test did not measure is no defect of it: saturation there is counted with 'not measuring'
+_RULED_OUT = ", ".join(f"'{flag.name.lower()}'" for flag in Flag if flag.name and flag & INVALID)
+_TESTS = f"""
+with counted as (
+    select campaign, test, cast(columns->>'$.samples' as bigint) as samples,
+           unnest(coalesce(cast(columns->'$.flags' as map(varchar, bigint)), map {{}}).map_entries()) as flag
+    from file where layer = 'tidy' and part = 'test'),
+idle as (
+    select campaign, test, lower(flag) as flag, sum(n) as n from quality_event
+    where detail = 'only while not measuring' group by all),
+ruled_out as (
+    select c.campaign, c.test, sum(greatest(c.flag.value - coalesce(i.n, 0), 0)) as n
+    from counted c left join idle i on (i.campaign, i.test, i.flag) = (c.campaign, c.test, lower(c.flag.key))
+    where lower(c.flag.key) in ({_RULED_OUT}) group by all),
+sizes as (
+    select campaign, test, sum(cast(columns->>'$.samples' as bigint)) as samples, count(*) as streams
+    from file where layer = 'tidy' and part = 'test' group by all),
+errors as (
+    select campaign, test, max(rmse_um) as rmse_um, min(fit) as fit from score_row
+    where model = $model and phase = 'all' group by all),
+said as (
+    select c.campaign, t.value->>'$.id' as test, t.value->'$.conditions' as conditions
+    from campaign c, json_each(c.spec, '$.tests') t),
+listed as (
+    select t.rowid as place, t.campaign, t.test, t.kind, t.role, t.start, t.duration_s,
+           coalesce(said.conditions, t.conditions) as conditions, t.notes,
+           s.samples, coalesce(s.streams, 0) as streams,
+           case when s.samples > 0 then 1 - least(coalesce(r.n, 0) / s.samples, 1) end as valid, e.rmse_um, e.fit
+    from test t
+    left join sizes s on (s.campaign, s.test) = (t.campaign, t.test)
+    left join ruled_out r on (r.campaign, r.test) = (t.campaign, t.test)
+    left join errors e on (e.campaign, e.test) = (t.campaign, t.test)
+    left join said on (said.campaign, said.test) = (t.campaign, t.test))
+"""
+
+
+@dataclass(frozen=True, slots=True)
+class Asked:
+    """What is looked for. find: words that all stand in a test's name, kind, role, conditions or notes. model: whose
+    errors are shown beside the tests. page: from 1."""
+
+    find: str = ""
+    campaign: str = ""
+    role: str = ""
+    kind: str = ""
+    model: str = ""
+    sort: Sort = "file"
+    page: int = 1
+    per_page: int = 50
+
+
+@dataclass(frozen=True, slots=True)
+class TestRow:
+    """valid: share of the samples that count, 0 to 1; None where nothing was logged. rmse_um, fit: of the model's worst
+    response over the whole test; None where it was not predicted."""
+
+    __test__ = False
+    campaign: str
+    test: str
+    kind: str
+    role: str
+    start: Any
+    duration_s: float | None
+    conditions: dict[str, Any]
+    notes: str | None
+    samples: int
+    streams: int
+    valid: float | None
+    rmse_um: float | None
+    fit: float | None
+
+
+@dataclass(frozen=True, slots=True)
+class TestList:
+    """One page. total: of all that was found; all_tests: of the store. campaigns, roles, kinds: with their counts."""
+
+    __test__ = False
+    rows: tuple[TestRow, ...]
+    total: int
+    all_tests: int
+    page: int
+    pages: int
+    campaigns: dict[str, int] = field(default_factory=dict)
+    roles: dict[str, int] = field(default_factory=dict)
+    kinds: dict[str, int] = field(default_factory=dict)
+
+
+def find_tests(store: Store, asked: Asked) -> TestList:
+    """The tests that are asked for, in the asked order. UsageError for a campaign or an order that there is not; a page
+    beyond the last one is the last one."""
+    if asked.sort not in SORTS:
+        raise unknown_name("order", asked.sort, SORTS)
+    with store.reader() as con:
+        counts = {name: _counts(con, name) for name in ("campaign", "role", "kind")}
+        if asked.campaign and asked.campaign not in counts["campaign"]:
+            raise unknown_name("campaign", asked.campaign, list(counts["campaign"]))
+        where, params = _condition(asked)
+        total_row = con.execute(f"{_TESTS} select count(*) from listed where {where}", params).fetchone()
+        total = int(total_row[0]) if total_row else 0
+        pages = max(1, -(-total // asked.per_page))
+        page = min(max(asked.page, 1), pages)
+        found = con.execute(
+            f"{_TESTS} select * exclude (place) from listed where {where} order by {_ORDER[asked.sort]} "
+            f"limit {int(asked.per_page)} offset {int((page - 1) * asked.per_page)}",
+            params,
+        )
+        names = [d[0] for d in found.description or ()]
+        rows = tuple(_row(dict(zip(names, values, strict=True))) for values in found.fetchall())
+    return TestList(
+        rows,
+        total,
+        sum(counts["campaign"].values()),
+        page,
+        pages,
+        campaigns=counts["campaign"],
+        roles=counts["role"],
+        kinds=counts["kind"],
+    )
+
+
+def _counts(con: duckdb.DuckDBPyConnection, column: str) -> dict[str, int]:
+    rows = con.execute(f"select {column}, count(*) from test group by 1 order by min(rowid)").fetchall()
+    return {str(name): int(n) for name, n in rows}
+
+
+def _condition(asked: Asked) -> tuple[str, dict[str, Any]]:
+    parts, params = ["true"], {"model": asked.model}
+    for name in ("campaign", "role", "kind"):
+        if value := getattr(asked, name):
+            parts.append(f"{name} = ${name}")
+            params[name] = value
+    text = "lower(concat_ws(' ', campaign, test, kind, replace(kind, '_', ' '), role, conditions, notes))"
+    for i, word in enumerate(asked.find.lower().split()[:20]):
+        parts.append(f"contains({text}, $word{i})")
+        params[f"word{i}"] = word
+    return " and ".join(parts), params
+
+
+def _row(values: dict[str, Any]) -> TestRow:
+    said = json.loads(values["conditions"] or "{}")
+    return TestRow(
+        **{**values, "conditions": said if isinstance(said, dict) else {}, "samples": values["samples"] or 0}
+    )

@@ -1,0 +1,158 @@
+"""A stretch of a test's channels for a screen: every sample where there are few, the extremes of each bin where there
+are many."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from thermodata.errors import unknown_name
+from thermodata.plugin import Float1D
+from thermodata.schema.flag import INVALID
+from thermodata.store.base.connection import fetch, quoted
+from thermodata.store.views.wide import file_list
+
+if TYPE_CHECKING:
+    import duckdb
+
+    from thermodata.store import Store
+
+MOST_SAMPLES = 2_400
+
+
+@dataclass(frozen=True, slots=True)
+class Channel:
+    """A channel of numbers in a test. held: a state that stands until its next sample."""
+
+    name: str
+    quantity: str
+    unit: str
+    at: str | None
+    axis: str | None
+    source: str
+    stream: str
+    held: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Window:
+    """Channels of one stream. t_s: shape (n,) [s] from the test's start. values: channel -> shape (n,), NaN where no
+    sample counts. each: whether these are the samples themselves, else the lowest and the highest of each bin."""
+
+    t_s: Float1D
+    values: dict[str, Float1D]
+    each: bool
+
+
+def channels_of(store: Store, campaign: str, test: str) -> list[Channel]:
+    """In the campaign's order. UsageError for a campaign or a test that there is not."""
+    with store.reader() as con:
+        tests = [r["test"] for r in fetch(con, "select test from test where campaign = ?", [campaign])]
+        if not tests:
+            campaigns = [r["campaign"] for r in fetch(con, "select campaign from campaign")]
+            raise unknown_name("campaign", campaign, campaigns)
+        if test not in tests:
+            raise unknown_name("test", test, tests)
+        rows = fetch(
+            con,
+            'select channel, quantity, unit, "at", axis, source, stream from channel '
+            "where campaign = ? and test = ? and quantity <> 'label' order by rowid",
+            [campaign, test],
+        )
+    return [
+        Channel(
+            r["channel"],
+            r["quantity"],
+            r["unit"],
+            r["at"],
+            r["axis"],
+            r["source"] or "",
+            r["stream"] or "",
+            r["quantity"] == "state",
+        )
+        for r in rows
+    ]
+
+
+def read_window(
+    store: Store,
+    campaign: str,
+    test: str,
+    channels: Sequence[Channel],
+    span: tuple[float, float] | None = None,
+    *,
+    flagged: bool = False,
+    most: int = MOST_SAMPLES,
+) -> list[Window]:
+    """One window a stream that has any of the channels. span: (from, to) [s], all where None. flagged: samples that do
+    not count are shown too. Reads the columns that are asked for, and no more of the file than the span."""
+    streams: dict[tuple[str, str], list[str]] = {}
+    for channel in channels:
+        streams.setdefault((channel.source, channel.stream), []).append(channel.name)
+    found = []
+    with store.reader() as con:
+        for (source, stream), names in streams.items():
+            files = fetch(
+                con,
+                "select path from file where layer = 'tidy' and part = 'test' and campaign = ? and test = ? "
+                "and source = ? and stream = ? order by path",
+                [campaign, test, source, stream],
+            )
+            if files:
+                found.append(_window(con, [f["path"] for f in files], names, span, flagged, most))
+    return found
+
+
+def _window(
+    con: duckdb.DuckDBPyConnection,
+    paths: Sequence[str],
+    names: Sequence[str],
+    span: tuple[float, float] | None,
+    flagged: bool,
+    most: int,
+) -> Window:
+    table = f"read_parquet({file_list(paths)}, hive_partitioning = false)"
+    there = {row[0] for row in con.execute(f"describe select * from {table}").fetchall()}
+    names = [n for n in names if n in there]
+    row = con.execute(f"select min(t_s), max(t_s), count(*) from {table}").fetchone()
+    low, high, count = (row[0], row[1], row[2]) if row and row[2] else (0.0, 0.0, 0)
+    if span is not None:
+        low, high = max(low, span[0]), min(high, span[1])
+        inside = con.execute(f"select count(*) from {table} where t_s between ? and ?", [low, high]).fetchone()
+        count = inside[0] if inside else 0
+    if not names or not count:
+        return Window(np.empty(0), {n: np.empty(0) for n in names}, True)
+    values = {
+        n: quoted(n) if flagged else f"case when {quoted(n + '__flag')} & {int(INVALID)} = 0 then {quoted(n)} end"
+        for n in names
+    }
+    where = f"t_s between {low!r} and {high!r}"
+    if count <= most:
+        columns = ", ".join(f"cast({v} as double) as {quoted(n)}" for n, v in values.items())
+        got = con.execute(f"select t_s as t__s, {columns} from {table} where {where} order by t_s").fetchnumpy()
+        return Window(_filled(got["t__s"]), {n: _filled(got[n]) for n in names}, True)
+    bins = most // 2
+    width = (high - low) / bins or 1.0
+    columns = ", ".join(
+        f"min(cast({v} as double)) as {quoted(n + '__low')}, max(cast({v} as double)) as {quoted(n + '__high')}"
+        for n, v in values.items()
+    )
+    got = con.execute(
+        f"select least(cast(floor((t_s - {low!r}) / {width!r}) as integer), {bins - 1}) as bin__k, {columns} "
+        f"from {table} where {where} group by 1 order by 1"
+    ).fetchnumpy()
+    at = np.asarray(got["bin__k"], dtype=np.int64)
+    t_s = low + (np.repeat(np.arange(bins), 2) + np.tile([0.25, 0.75], bins)) * width
+    out = {}
+    for n in names:
+        both = np.full((bins, 2), np.nan)
+        both[at, 0], both[at, 1] = _filled(got[n + "__low"]), _filled(got[n + "__high"])
+        out[n] = both.ravel()
+    return Window(t_s, out, False)
+
+
+def _filled(column: np.ndarray) -> Float1D:
+    return np.ma.filled(np.ma.asarray(column).astype(np.float64), np.nan)

@@ -1,0 +1,105 @@
+"""What a workbench was started with: its store, the folders that it may look into, and whether it may write."""
+
+from __future__ import annotations
+
+import hmac
+import secrets
+import threading
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from thermodata.errors import UsageError
+from thermodata.store import Store
+from thermodata.store.catalogue.store import CATALOGUE
+
+DEFAULT_STORE = "thermodata.store"
+
+
+class Keys:
+    """What lets a browser in. ticket: of the opened address, once. session: of the cookie. form: of every write.
+
+    All are random of 256 bits and live as long as the process.
+    """
+
+    def __init__(self) -> None:
+        self.ticket, self.session, self.form = (secrets.token_urlsafe(32) for _ in range(3))
+        self._spent = False
+        self._guard = threading.Lock()
+
+    def spend(self, ticket: str) -> bool:
+        """Whether this is the ticket, for the first time."""
+        with self._guard:
+            right = same(ticket, self.ticket) and not self._spent
+            self._spent = self._spent or right
+            return right
+
+
+def same(given: str, right: str) -> bool:
+    """Compares without telling how much was right."""
+    return hmac.compare_digest(given.encode("utf-8", "replace"), right.encode())
+
+
+@dataclass(frozen=True, slots=True)
+class Desk:
+    """store_path: absolute; there may be no store yet. folders: resolved; nothing outside of them is read or written.
+    port: of 127.0.0.1."""
+
+    store_path: Path
+    folders: tuple[Path, ...]
+    write: bool
+    port: int
+    keys: Keys = field(default_factory=Keys, repr=False)
+
+    @property
+    def host(self) -> str:
+        """As the Host header must say it."""
+        return f"127.0.0.1:{self.port}"
+
+    @property
+    def address(self) -> str:
+        return f"http://{self.host}"
+
+    @property
+    def has_store(self) -> bool:
+        return (self.store_path / CATALOGUE).exists()
+
+    def store(self) -> Store:
+        """UsageError where there is none yet."""
+        return Store(self.store_path)
+
+    def inside(self, name: str | Path) -> Path:
+        """A path of the user's, resolved: relative ones from the first folder, links followed. UsageError where it
+        leads out of the chosen folders."""
+        text = str(name)
+        if "\0" in text:
+            raise UsageError("a path holds no zero byte", where=repr(text))
+        given = Path(text).expanduser()
+        real = (given if given.is_absolute() else self.folders[0] / given).resolve()
+        if not any(real == folder or folder in real.parents for folder in self.folders):
+            raise UsageError(
+                "this path is outside of the chosen folders",
+                where=text,
+                expected=" or ".join(f"below {folder}" for folder in self.folders),
+                got=str(real),
+                hint="thermodata workbench FOLDER opens another one",
+            )
+        return real
+
+
+def desk_of(given: Path | None, store: Path | None, *, write: bool, port: int) -> Desk:
+    """given: a store, or a folder of raw logs with or without a store in it; None is the working folder.
+    store: named beside it. UsageError where the folder is none."""
+    folder = Path.cwd() if given is None else given.absolute()
+    if given is not None and not folder.is_dir():
+        raise UsageError(
+            "no such folder", where=str(folder), expected="a store or a folder of raw logs", hint="thermodata demo DIR"
+        )
+    if store is None and (folder / CATALOGUE).exists():
+        # a campaign and its raw files stand beside their store
+        return Desk(folder, _resolved(folder.parent, folder), write, port)
+    path = (folder / DEFAULT_STORE if store is None else store).absolute()
+    return Desk(path, _resolved(folder, path), write, port)
+
+
+def _resolved(*folders: Path) -> tuple[Path, ...]:
+    return tuple(dict.fromkeys(folder.resolve() for folder in folders))

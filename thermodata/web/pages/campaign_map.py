@@ -1,0 +1,72 @@
+"""The campaign map: all tests of the store, searched, filtered and paged, each with what the model leaves of it."""
+
+from __future__ import annotations
+
+from typing import Any, cast
+
+from starlette.requests import Request
+from starlette.responses import Response
+
+from thermodata.view.models import ModelRow, model_rows
+from thermodata.view.overview import Asked, Sort, find_tests
+from thermodata.view.predictions import residual_strips
+from thermodata.web.command import command
+from thermodata.web.pages.strip import strip_svg
+from thermodata.web.query import number_in
+from thermodata.web.render import desk_of, page
+
+PER_PAGE = 50
+
+
+def show(request: Request) -> Response:
+    """GET /: find, campaign, role, kind, sort, model, page."""
+    desk, given = desk_of(request), request.query_params
+    if not desk.has_store:
+        return page(request, "no_store.html.j2", title="No store yet", command="thermodata ingest CAMPAIGN.yaml")
+    store = desk.store()
+    models = model_rows(store)
+    chosen = next((m for m in models if m.model == given.get("model")), models[0] if models else None)
+    asked = Asked(
+        find=given.get("find", "")[:200],
+        campaign=given.get("campaign", ""),
+        role=given.get("role", ""),
+        kind=given.get("kind", ""),
+        model=chosen.model if chosen else "",
+        sort=cast(Sort, given.get("sort", "file")),
+        page=number_in(given, "page", 1),
+        per_page=PER_PAGE,
+    )
+    found = find_tests(store, asked)
+    strips = residual_strips(store, asked.model, [(r.campaign, r.test) for r in found.rows]) if chosen else {}
+    limit = _limit(strips)
+    return page(
+        request,
+        "campaign_map.html.j2",
+        title="Tests",
+        command=_command(desk.store_path, asked),
+        found=found,
+        asked=asked,
+        models=models,
+        chosen=chosen,
+        strips={key: strip_svg(values, limit) for key, values in strips.items()},
+        limit=limit,
+        unit=_unit(chosen),
+    )
+
+
+def _limit(strips: dict[Any, Any]) -> float:
+    """One scale for all strips of a page, or a small residual would look as bad as a large one."""
+    import numpy as np
+
+    everything = np.concatenate(list(strips.values())) if strips else np.empty(0)
+    there = np.abs(everything[np.isfinite(everything)])
+    return float(np.quantile(there, 0.98)) if len(there) else 1.0
+
+
+def _command(store: Any, asked: Asked) -> str:
+    options = [("-c", asked.campaign), ("--role", asked.role), ("--kind", asked.kind), ("--find", asked.find)]
+    return command(store, "tests", *(word for name, value in options if value for word in (name, value)))
+
+
+def _unit(model: ModelRow | None) -> str:
+    return model.unit if model else "um"

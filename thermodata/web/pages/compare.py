@@ -1,0 +1,210 @@
+"""Models side by side: one is pinned, the others are told by their difference to it, on its scale."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from starlette.requests import Request
+from starlette.responses import Response
+
+from thermodata.chart.colour import EFFECTS
+from thermodata.chart.pack import script_json
+from thermodata.chart.spec import Axis, Chart, HeatMap, Limit, Panel, Series
+from thermodata.plugin import Float1D
+from thermodata.report.collect import versions
+from thermodata.report.data import Version
+from thermodata.report.words import base_role, pooled
+from thermodata.schema.result import Score
+from thermodata.store import Store
+from thermodata.store.catalogue.models import find_model, model_chain
+from thermodata.view.models import ModelRow, model_rows
+from thermodata.view.predictions import residual_strips
+from thermodata.view.residuals import against, autocorrelation, predicted_tests, residuals
+from thermodata.web.command import command
+from thermodata.web.pages.drawn import pair
+from thermodata.web.render import desk_of, page
+
+BINS = 120
+_MOST_LAG_S = 6 * 3600.0
+_SAME = 0.005  # of the pinned error: less is no difference
+
+
+@dataclass(frozen=True, slots=True)
+class Line:
+    """A test and response: one error for each model, None where it was not predicted."""
+
+    campaign: str
+    test: str
+    role: str
+    response: str
+    phase: str
+    errors: tuple[float | None, ...]
+
+    @property
+    def differs(self) -> bool:
+        known = [e for e in self.errors if e is not None]
+        return len(known) > 1 and max(known) - min(known) > _SAME * max(known)
+
+
+def show(request: Request) -> Response:
+    """GET /compare: model (several), pin, response, over (a channel), differs."""
+    desk, given = desk_of(request), request.query_params
+    store = desk.store()
+    models = model_rows(store)
+    if not models:
+        return page(request, "compare.html.j2", title="Compare", command="thermodata fit model.yaml", models=[])
+    chosen = _chosen(models, [m for m in given.getlist("model") if m], given.get("pin", ""))
+    pinned = chosen[0]
+    results = [find_model(store, m.model).result for m in chosen]
+    lines = _lines([r.scores for r in results])
+    only = given.get("differs") == "1"
+    response = given.get("response") if given.get("response") in pinned.responses else pinned.responses[0]
+    keys = predicted_tests(store, pinned.model)
+    newest = chosen[-1]
+    parts = residuals(store, newest.model, predicted_tests(store, newest.model), str(response))
+    over = given.get("over", "")
+    chain = versions(model_chain(store, newest.model))
+    return page(
+        request,
+        "compare.html.j2",
+        title="Compare",
+        command=command(desk.store_path, "compare", *(m.model for m in chosen)),
+        models=models,
+        chosen=chosen,
+        pinned=pinned,
+        newest=newest,
+        unit=pinned.unit,
+        lines=[line for line in lines if line.differs or not only],
+        hidden=sum(not line.differs for line in lines) if only else 0,
+        only=only,
+        most=max((e for line in lines for e in line.errors if e is not None), default=1.0),
+        roles=_roles([r.scores for r in results]),
+        parameters=_parameters([r.parameters for r in results]),
+        heat=[(m, script_json(heat.as_json())) for m, heat in _maps(store, chosen, keys, str(response))],
+        chain=chain,
+        waterfall=_waterfall(chain),
+        undo=_undo(chosen[-1], models),
+        autocorrelation=script_json(_correlated(parts).as_json()) if parts else None,
+        over=over,
+        against=script_json(_over(store, parts, over, newest.unit).as_json()) if over and parts else None,
+        channels=_channels(store, pinned),
+        response=response,
+        pair=pair,
+    )
+
+
+def _chosen(models: list[ModelRow], named: list[str], pin: str) -> list[ModelRow]:
+    """The pinned one first; unasked, the newest beside the version that it came from."""
+    by_id = {m.model: m for m in models}
+    found = [by_id[n] for n in dict.fromkeys(named) if n in by_id]
+    if not found:
+        found = [models[0]]
+    if len(found) == 1 and found[0].parent in by_id:
+        found = [by_id[found[0].parent], found[0]]
+    first = by_id.get(pin)
+    return [first, *(m for m in found if m is not first)] if first else found
+
+
+def _lines(scores: list[list[Score]]) -> list[Line]:
+    keys = {
+        (s.campaign, s.test, s.response, s.phase): base_role(s.role)
+        for each in scores
+        for s in each
+        if s.phase == "all"
+    }
+    known = [{(s.campaign, s.test, s.response, s.phase): s.rmse_um for s in each} for each in scores]
+    return [Line(k[0], k[1], role, k[2], k[3], tuple(e.get(k) for e in known)) for k, role in keys.items()]
+
+
+def _roles(scores: list[list[Score]]) -> list[tuple[str, list[float | None]]]:
+    names = dict.fromkeys(base_role(s.role) for each in scores for s in each)
+    return [(role, [pooled(each, role) for each in scores]) for role in names]
+
+
+def _parameters(each: list[dict[str, Any]]) -> list[tuple[str, list[Any]]]:
+    names = dict.fromkeys(name for some in each for name in some)
+    return [(name, [some.get(name) for some in each]) for name in names]
+
+
+def _maps(
+    store: Store, models: list[ModelRow], keys: list[tuple[str, str]], response: str
+) -> list[tuple[ModelRow, HeatMap]]:
+    """A map of each model on the scale of the pinned one: a fall must be seen."""
+    made, limit = [], 0.0
+    for model in models:
+        strips = residual_strips(store, model.model, keys, response, BINS)
+        if not strips:
+            continue
+        values = np.vstack([strips.get(k, np.full(BINS, np.nan)) for k in keys])
+        limit = limit or float(np.nanquantile(np.abs(values), 0.99)) or 1.0
+        heat = HeatMap(
+            f"Residual of {response} by {model.label} over every test",
+            Axis("share of the test", "%"),
+            model.unit,
+            [test for _, test in keys],
+            values,
+            [BINS] * len(keys),
+            0.0,
+            100 / BINS,
+            limit,
+        )
+        made.append((model, heat))
+    return made
+
+
+def _waterfall(chain: tuple[Version, ...]) -> list[tuple[Version, float, float | None]]:
+    """(version, its error, the error before it)."""
+    known = [v for v in chain if v.all_um is not None]
+    return [(v, v.all_um or 0.0, known[i - 1].all_um if i else None) for i, v in enumerate(known)]
+
+
+def _undo(newest: ModelRow, models: list[ModelRow]) -> ModelRow | None:
+    return next((m for m in models if m.model == newest.parent), None)
+
+
+def _correlated(parts: list[Any]) -> Chart:
+    lag_s, correlation = autocorrelation(parts, _MOST_LAG_S)
+    near = [Limit(1 / np.e, "1/e")]
+    panel = Panel(
+        "autocorrelation of the residual",
+        "",
+        [Series("autocorrelation", "", correlation, "residual", style="line")],
+        height=140,
+        zero=True,
+        limits=near,
+    )
+    return Chart("How long the residual remembers", Axis("lag", "h"), lag_s / 3600, [panel], tools=False)
+
+
+def _over(store: Store, parts: list[Any], channel: str, unit: str) -> Chart:
+    found = against(store, parts, channel)
+    span = _wide(found.value)
+    panel = Panel(
+        f"residual over {channel}",
+        unit,
+        [
+            Series("residual", unit, found.residual, "residual", x=found.value, style="points", label=""),
+            Series("mean", unit, found.means, EFFECTS[0], x=found.bins, width=2.4, label=""),
+        ],
+        height=220,
+        zero=True,
+    )
+    axis = Axis(channel, found.unit, range=span)
+    return Chart(f"Residual over {channel}", axis, np.empty(0), [panel], tools=False)
+
+
+def _wide(values: Float1D) -> tuple[float, float]:
+    low, high = float(np.nanmin(values)), float(np.nanmax(values))
+    return (low, high) if high > low else (low - 0.5, high + 0.5)
+
+
+def _channels(store: Store, model: ModelRow) -> list[str]:
+    with store.reader() as con:
+        rows = con.execute(
+            "select channel from channel where list_contains(?, campaign) and quantity <> 'label' "
+            "group by channel order by min(rowid)",
+            [list(model.campaigns)],
+        ).fetchall()
+    return [name for (name,) in rows]

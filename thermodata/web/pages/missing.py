@@ -1,0 +1,159 @@
+"""What is missing: the stored answer of `diagnose`, told rung by rung. Looking at it computes nothing."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from starlette.requests import Request
+from starlette.responses import Response
+
+from thermodata.chart.colour import EFFECTS
+from thermodata.chart.pack import script_json
+from thermodata.chart.spec import Axis, Chart, Panel, Series
+from thermodata.effect import effects
+from thermodata.effect.unbound import unbound
+from thermodata.report.verdict import claims_of, explainable, listed, told, verdict_sentence
+from thermodata.report.words import number
+from thermodata.schema.result import Candidate, Diagnosis
+from thermodata.store import Store
+from thermodata.store.base.connection import fetch
+from thermodata.store.catalogue.models import load_diagnosis
+from thermodata.view.describe import channel_infos
+from thermodata.view.models import ModelRow, model_rows
+from thermodata.web.command import command
+from thermodata.web.pages.drawn import among, pair
+from thermodata.web.render import desk_of, page
+
+# where the evidence behind a rung stands on the page
+RUNG_TARGET = {
+    "chance": "chance",
+    "fall": "left",
+    "tests": "left",
+    "gain": "left",
+    "worth": "course",
+    "steadies": "course",
+    "timing": "course",
+}
+STUMBLES = {
+    "chance": "chance does as well",
+    "fall": "the error hardly falls",
+    "tests": "in few tests",
+    "gain": "its gain differs",
+    "worth": "too small",
+    "steadies": "only steadies",
+    "timing": "not its timing",
+}
+_NOTHING = {
+    "none": ("Nothing is missing", "What is left is noise, or too small to matter: the model explains these tests."),
+    "unknown": ("Something is missing that has no name", "No effect of the library has its timing."),
+    "not_testable": ("These tests can't tell", "An effect is claimed only where it also predicts a left-out test."),
+}
+
+
+def show(request: Request) -> Response:
+    """GET /missing: model."""
+    desk = desk_of(request)
+    store = desk.store()
+    models = model_rows(store)
+    model = next((m for m in models if m.model == request.query_params.get("model")), models[0] if models else None)
+    if model is None:
+        return page(
+            request, "missing.html.j2", title="What is missing", command="thermodata fit model.yaml", model=None
+        )
+    found = load_diagnosis(store, model.model)
+    shown = told(found) if found else []
+    nothing = _NOTHING.get(found.verdict if found else "", _NOTHING["none"])
+    return page(
+        request,
+        "missing.html.j2",
+        title="What is missing",
+        command=command(desk.store_path, "diagnose", model.model),
+        models=models,
+        model=model,
+        found=found,
+        unit=model.unit,
+        headline=_headline(found) if found else "What does it miss?",
+        about=_about(found, model) if found else "",
+        told=shown,
+        nothing={"title": nothing[0], "text": nothing[1]},
+        charts={c.rank: script_json(_course(c, model.unit).as_json()) for c in shown if c.courses},
+        most={c.rank: max((r.rmse_um_before for r in c.left_out), default=1.0) for c in shown},
+        rivals=[c for c in (found.candidates if found else []) if c not in shown],
+        rung_target=RUNG_TARGET,
+        stumbles=STUMBLES,
+        looks=_looks(store, model),
+        locked=_locked(store, model),
+        unbound=_unbound(store, model),
+        added=_added(found, model, models),
+        among=among,
+        pair=pair,
+        add_command=lambda c: command(desk.store_path, "add", model.model, c.id),
+    )
+
+
+def _headline(found: Diagnosis) -> str:
+    """How sure, and what else it could be, in one sentence."""
+    sentence = verdict_sentence(found)
+    others = [e for c in claims_of(found) for e in c.equivalent]
+    if others:
+        sentence = sentence.replace("; error on", f", or {listed(others)}: these tests can't tell; error on", 1)
+    return sentence[:1].upper() + sentence[1:]
+
+
+def _about(found: Diagnosis, model: ModelRow) -> str:
+    parts = [f"{model.label} leaves {number(found.rmse_um)} {model.unit} on left-out tests"] if found.rmse_um else []
+    parts += [f"short-term noise {number(found.noise_um)} {model.unit}"] if found.noise_um else []
+    return "; ".join(filter(None, [*parts, explainable(found)]))
+
+
+def _course(c: Candidate, unit: str) -> Chart:
+    length = max((run.t_s[-1] / 3600 for run in c.courses if run.t_s), default=1.0)
+    return Chart(
+        f"What the model leaves over in each test, and what {c.id} would take of it",
+        Axis("time", "h", range=(0.0, length)),
+        np.empty(0),
+        [
+            Panel(
+                run.test,
+                unit,
+                [
+                    Series("residual", unit, np.asarray(run.residual_um), "residual", x=np.asarray(run.t_s) / 3600),
+                    Series(c.effect, unit, np.asarray(run.contribution_um), EFFECTS[0], x=np.asarray(run.t_s) / 3600),
+                ],
+                height=110,
+                zero=True,
+            )
+            for run in c.courses
+        ],
+    )
+
+
+def _looks(store: Store, model: ModelRow) -> list[dict[str, Any]]:
+    with store.reader() as con:
+        return fetch(
+            con,
+            "select test, count(*) as n, any_value(reason) as reason from locked_look "
+            "where list_contains(?, campaign) group by campaign, test order by test",
+            [list(model.campaigns)],
+        )
+
+
+def _locked(store: Store, model: ModelRow) -> list[str]:
+    with store.reader() as con:
+        rows = fetch(
+            con, "select test from test where role = 'locked' and list_contains(?, campaign)", [list(model.campaigns)]
+        )
+    return [row["test"] for row in rows]
+
+
+def _unbound(store: Store, model: ModelRow) -> list[Any]:
+    with store.reader() as con:
+        infos = channel_infos(con, model.campaigns)
+    channels = {name: info for table in infos.values() for name, info in table.items() if name not in model.responses}
+    return unbound({n: e for n, e in effects().items() if e.family != "artefact"}, channels)
+
+
+def _added(found: Diagnosis | None, model: ModelRow, models: list[ModelRow]) -> set[str]:
+    """Candidates that the model has already."""
+    return {c.id for c in (found.candidates if found else []) if c.effect in model.effects and c.claimed}

@@ -1,0 +1,154 @@
+"""SQL over the store, in a process of its own; the views stand beside the question."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+from starlette.requests import Request
+from starlette.responses import Response, StreamingResponse
+
+from thermodata.chart.colour import effect_styles
+from thermodata.chart.pack import script_json
+from thermodata.chart.spec import Axis, Chart, Panel, Series
+from thermodata.errors import ThermodataError, UsageError, unknown_name
+from thermodata.store import Store
+from thermodata.store.base.connection import fetch
+from thermodata.view.sandbox.ask import Form, Limits, Table, ask, stream
+from thermodata.web.command import command
+from thermodata.web.render import desk_of, page
+
+EXAMPLES = (
+    ("all tests", "select test, kind, role, duration_s from test"),
+    ("errors of a role", "select * from score where role like 'verification%' and phase = 'all'"),
+    ("a test on one grid", "select * from binned('{campaign}', '{test}', '60 s')"),
+    (
+        "extremes of each channel",
+        "select channel, min(value), max(value) from temperature group by all order by 3 desc",
+    ),
+)
+_KINDS: dict[str, str] = {"csv": "text/csv", "parquet": "application/vnd.apache.parquet"}
+_TAKEN = Limits(seconds=120, rows=5_000_000)
+_MOST_CURVES, _MOST_QUERY = 6, 20_000
+
+
+def show(request: Request) -> Response:
+    """GET /sql: q (the query, run where there is one), plot (the column along x)."""
+    desk, given = desk_of(request), request.query_params
+    store = desk.store()
+    query = given.get("q", "").strip()
+    table: Table | None = None
+    error: ThermodataError | None = None
+    if query:
+        try:
+            table = ask(store.path, _short(query))
+        except ThermodataError as refused:
+            error = refused
+    numbers = _numbers(table) if table else []
+    x = given.get("plot") or (numbers[0] if "t_s" not in numbers else "t_s") if len(numbers) > 1 else ""
+    return page(
+        request,
+        "sql.html.j2",
+        title="SQL",
+        command=command(desk.store_path, "sql", query or EXAMPLES[0][1]),
+        status=400 if error else 200,
+        sql=query,
+        table=table,
+        error=error,
+        numbers=numbers,
+        x=x,
+        plot=script_json(_chart(table, x, numbers).as_json())
+        if table and x in numbers and len(table.rows) > 1
+        else None,
+        views=_views(store),
+        examples=_examples(store),
+    )
+
+
+def take(request: Request) -> Response:
+    """GET /sql/FORM: all rows of q as a file."""
+    form = request.path_params["form"]
+    if form not in _KINDS:
+        raise unknown_name("form", form, list(_KINDS))
+    query = request.query_params.get("q", "")
+    chosen: Form = "csv" if form == "csv" else "parquet"
+    pieces = stream(desk_of(request).store().path, _short(query), chosen, _TAKEN)
+    next(pieces)  # what is refused is told on a page, before a file begins
+    headers = {"content-disposition": f'attachment; filename="thermodata.{form}"'}
+    return StreamingResponse(_bytes(pieces), media_type=_KINDS[form], headers=headers)
+
+
+def _bytes(pieces: Iterator[bytes]) -> Iterator[bytes]:
+    yield from pieces
+
+
+def _short(query: str) -> str:
+    if len(query) > _MOST_QUERY:
+        raise UsageError("the query is too long", expected=f"at most {_MOST_QUERY} letters", got=str(len(query)))
+    return query
+
+
+def _numbers(table: Table) -> list[str]:
+    """Columns of numbers, by name; of equal names the first."""
+    kinds = ("DOUBLE", "FLOAT", "INT", "BIGINT", "DECIMAL", "HUGEINT")
+    return list(dict.fromkeys(n for n, kind in table.columns if any(k in kind for k in kinds) and "[" not in kind))
+
+
+def _chart(table: Table, x: str, numbers: list[str]) -> Chart:
+    names = [n for n, _ in table.columns]
+    values = {n: np.array([_float(row[names.index(n)]) for row in table.rows]) for n in numbers}
+    order = np.argsort(values[x], kind="stable")
+    order = order[np.isfinite(values[x][order])]
+    curves = [n for n in numbers if n != x and not n.endswith("__flag")][:_MOST_CURVES]
+    styles = effect_styles(curves)
+    along = values[x][order]
+    # many rows of one x make no line
+    style = "line" if len(along) and len(np.unique(along)) > 0.9 * len(along) else "points"
+    return Chart(
+        f"{', '.join(curves)} over {x}",
+        Axis(x, "s" if x.endswith("_s") else ""),
+        along,
+        [
+            Panel(
+                ", ".join(curves),
+                "",
+                [Series(n, "", values[n][order], styles[n][0], dash=styles[n][1], style=style) for n in curves],  # type: ignore[arg-type]
+                height=260,
+            )
+        ],
+    )
+
+
+def _float(value: Any) -> float:
+    try:
+        return float(value)
+    except (TypeError, ValueError):
+        return float("nan")
+
+
+def _views(store: Store) -> list[tuple[str, list[tuple[str, str, str]]]]:
+    """(view or table, its columns with type and comment), the views first."""
+    with store.reader() as con:
+        rows = fetch(
+            con,
+            "select table_name, column_name, data_type, comment from duckdb_columns() "
+            "where not internal and schema_name = 'main' order by table_name, column_index",
+        )
+        views = [
+            r["view_name"]
+            for r in fetch(con, "select view_name from duckdb_views() where not internal order by view_name")
+        ]
+    columns: dict[str, list[tuple[str, str, str]]] = {}
+    for r in rows:
+        if not r["column_name"].endswith("__flag"):
+            columns.setdefault(r["table_name"], []).append((r["column_name"], r["data_type"], r["comment"] or ""))
+    names = [v for v in views if v != "made_from"] + [t for t in columns if t not in views]
+    return [(name, columns.get(name, [])) for name in dict.fromkeys(names)]
+
+
+def _examples(store: Store) -> list[tuple[str, str]]:
+    with store.reader() as con:
+        row = con.execute("select campaign, test from test order by rowid limit 1").fetchone()
+    campaign, test = (str(v).replace("'", "''") for v in row) if row else ("campaign", "test")
+    return [(name, text.format(campaign=campaign, test=test)) for name, text in EXAMPLES]

@@ -1,0 +1,100 @@
+"""From a folder of raw logs to a store: the draft, its questions as a form, the changed lines, and the ingest."""
+
+from __future__ import annotations
+
+import difflib
+from pathlib import Path
+
+from starlette.requests import Request
+from starlette.responses import Response
+
+from thermodata.draft.fill_in import Question, filled_in, questions
+from thermodata.draft.make import keep, write_new
+from thermodata.errors import UsageError
+from thermodata.web.command import command
+from thermodata.web.form import form_of
+from thermodata.web.render import desk_of, page
+
+_ANSWER = "answer."
+_MOST_BYTES = 4 << 20
+# (title, which questions, what they decide)
+GROUPS = (
+    ("The machine and its clocks", ("text", "zone"), "A log in local time needs its zone, or nothing lines up."),
+    ("Jump tests", ("moves",), "The commanded moves, signed, in machine coordinates: 100 um, 50 um, -200 um"),
+    ("Where the sensors are", ("place",), "An effect is tried only where a sensor sits at its place."),
+    ("The tests", ("kind", "role"), "Fitted, checked, locked for the last word, or kept only."),
+)
+# of the machine, for the schematic: the first parts of places that are drawn
+BODIES = ("column", "headstock", "spindle", "ram", "axis", "table", "bed", "hall", "coolant")
+
+
+def show(request: Request) -> Response:
+    """GET /start: file (a campaign file in a chosen folder)."""
+    desk = desk_of(request)
+    folder = desk.folders[0]
+    path = desk.inside(request.query_params.get("file") or "campaign.yaml")
+    text = _read(path) if path.is_file() else None
+    asked = questions(text) if text is not None else []
+    return page(
+        request,
+        "start.html.j2",
+        title="Start",
+        command=command(desk.store_path, "init", folder) if text is None else command(desk.store_path, "ingest", path),
+        folder=folder,
+        path=path,
+        there=text is not None,
+        groups=[(title, [q for q in asked if q.kind in kinds], why) for title, kinds, why in GROUPS],
+        open_ones=sum(q.open for q in asked),
+        bodies={body: sum(q.value.startswith(body) for q in asked if q.kind == "place") for body in BODIES},
+        models=sorted(p.name for p in path.parent.glob("*.yaml") if p.name.startswith("model"))[:5],
+        answer=_ANSWER,
+    )
+
+
+async def preview(request: Request) -> Response:
+    """POST /start/preview: the lines that the answers change; nothing is written."""
+    desk, form = desk_of(request), await form_of(request)
+    path = desk.inside(form.get("file", ""))
+    before = _read(path)
+    after = filled_in(before, _answers(form, questions(before)))
+    lines = list(difflib.unified_diff(before.splitlines(), after.splitlines(), "before", "after", lineterm="", n=0))
+    return page(
+        request,
+        "start_diff.html.j2",
+        title="",
+        command="",
+        path=path,
+        lines=lines[2:],
+        form=form,
+        changed=before != after,
+    )
+
+
+async def write(request: Request) -> Response:
+    """POST /start/write: the answers go into the file; the one before is kept as campaign.N.yaml."""
+    desk, form = desk_of(request), await form_of(request)
+    path = desk.inside(form.get("file", ""))
+    before = _read(path)
+    after = filled_in(before, _answers(form, questions(before)))
+    kept = None
+    if after != before:
+        kept = keep(path)
+        write_new(path, after)
+    return page(request, "start_written.html.j2", title="", command="", path=path, kept=kept[1] if kept else None)
+
+
+def _answers(form: dict[str, str], asked: list[Question]) -> dict[str, str]:
+    """Only what differs from what stands there; a name that is no question is refused by `filled_in`."""
+    stands = {q.name: q.value for q in asked}
+    given = {k.removeprefix(_ANSWER): v.strip() for k, v in form.items() if k.startswith(_ANSWER)}
+    return {name: value for name, value in given.items() if value != stands.get(name)}
+
+
+def _read(path: Path) -> str:
+    if not path.is_file() or path.suffix not in (".yaml", ".yml"):
+        raise UsageError(
+            "there is no such campaign file", where=str(path), hint="draft one first: thermodata init FOLDER"
+        )
+    if path.stat().st_size > _MOST_BYTES:
+        raise UsageError("this campaign file is too long for a form", where=str(path), hint="edit it by hand")
+    return path.read_text(encoding="utf-8")

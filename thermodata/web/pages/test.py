@@ -1,0 +1,156 @@
+"""One test: its curves in any window, and from any point back to the row of a file."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from starlette.requests import Request
+from starlette.responses import JSONResponse, Response
+
+from thermodata.chart.pack import script_json
+from thermodata.chart.spec import Chart
+from thermodata.errors import UsageError
+from thermodata.store import Store
+from thermodata.store.trace.lineage import trace
+from thermodata.view.events import About, about_test
+from thermodata.view.models import ModelRow, model_rows
+from thermodata.view.predictions import Prediction, predictions, range_figures
+from thermodata.view.window import Channel, channels_of, read_window
+from thermodata.web.command import command
+from thermodata.web.pages.test_chart import drawn_as_curve, test_chart
+from thermodata.web.query import seconds_in
+from thermodata.web.render import desk_of, page
+
+_MOST_CURVES, _MOST_STRIPS = 24, 10  # that are drawn unasked: more are chosen by name
+
+
+def show(request: Request) -> Response:
+    """GET /test: campaign, test, model, from, to [s], show (channels, or 'all'), flagged."""
+    desk, given = desk_of(request), request.query_params
+    store = desk.store()
+    campaign, test = _named(given)
+    channels, chosen = _channels(store, given)
+    models = [m for m in model_rows(store) if campaign in m.campaigns]
+    model = _model(models, given)
+    about, predicted = about_test(store, campaign, test), _predicted(store, model, given)
+    chart = _chart(store, about, chosen, predicted, given)
+    from_s, to_s = seconds_in(given, "from"), seconds_in(given, "to")
+    return page(
+        request,
+        "test.html.j2",
+        title=test,
+        section="/",
+        command=command(desk.store_path, "trace", campaign, test),
+        about=about,
+        channels=channels,
+        chosen={c.name for c in chosen},
+        models=models,
+        model=model,
+        predicted=predicted,
+        chart=script_json(chart.as_json()),
+        span=None if from_s is None or to_s is None else (from_s / 3600, to_s / 3600),
+        neighbours=_neighbours(store, campaign, test),
+        flagged=given.get("flagged") == "1",
+    )
+
+
+def data(request: Request) -> Response:
+    """GET /test/data: the chart of a window in as many points as a screen has."""
+    store, given = desk_of(request).store(), request.query_params
+    campaign, test = _named(given)
+    _, chosen = _channels(store, given)
+    model = _model([m for m in model_rows(store) if campaign in m.campaigns], given)
+    chart = _chart(store, about_test(store, campaign, test), chosen, _predicted(store, model, given), given)
+    return JSONResponse(chart.as_json())
+
+
+def stretch(request: Request) -> Response:
+    """GET /test/range: what a stretch (from, to) does to the error, and the lines that would keep or name it."""
+    store, given = desk_of(request).store(), request.query_params
+    campaign, test = _named(given)
+    channels_of(store, campaign, test)
+    from_s, to_s = seconds_in(given, "from"), seconds_in(given, "to")
+    if from_s is None or to_s is None or not from_s < to_s:
+        raise UsageError("a stretch has a beginning and an end", expected="from < to, in seconds")
+    models = [m for m in model_rows(store) if campaign in m.campaigns]
+    found = _predicted(store, _model(models, given), given)
+    return page(
+        request,
+        "test_range.html.j2",
+        title="",
+        command="",
+        from_s=from_s,
+        to_s=to_s,
+        test=test,
+        figures=[(p.response, range_figures(p, from_s, to_s)) for p in found],
+        unit=models[0].unit if models else "um",
+    )
+
+
+def way_back(request: Request) -> Response:
+    """GET /trace: one sample of a channel, back to the row of the file that it came from."""
+    desk, given = desk_of(request), request.query_params
+    campaign, test = _named(given)
+    channel, at_s = given.get("channel", ""), seconds_in(given, "at")
+    found = trace(desk.store(), campaign, test, channel or None, t_s=at_s)
+    words = ["trace", campaign, test, *([channel] if channel else [])]
+    words += ["--at", f"{at_s:.6g} s"] if at_s is not None else []
+    return page(
+        request,
+        "trace.html.j2",
+        title=f"Where {channel or test} comes from",
+        section="/",
+        command=command(desk.store_path, *words, "--verify"),
+        found=found,
+        campaign=campaign,
+        test=test,
+        channel=channel,
+        at_s=at_s,
+    )
+
+
+def _named(given: Mapping[str, str]) -> tuple[str, str]:
+    return given.get("campaign", ""), given.get("test", "")
+
+
+def _channels(store: Store, given: Mapping[str, str]) -> tuple[list[Channel], list[Channel]]:
+    """(all, those to draw)."""
+    known = channels_of(store, *_named(given))
+    names = given.get("show", "")
+    if names == "all":
+        return known, known
+    if not names:
+        curves = [c for c in known if drawn_as_curve(c)][:_MOST_CURVES]
+        strips = [c for c in known if not drawn_as_curve(c)][:_MOST_STRIPS]
+        return known, [*curves, *strips]
+    wanted = set(names.split(","))
+    return known, [c for c in known if c.name in wanted]
+
+
+def _model(models: list[ModelRow], given: Mapping[str, str]) -> ModelRow | None:
+    named = given.get("model", "")
+    return next((m for m in models if m.model == named), models[0] if models and named != "none" else None)
+
+
+def _predicted(store: Store, model: ModelRow | None, given: Mapping[str, str]) -> list[Prediction]:
+    return predictions(store, model.model, *_named(given)) if model else []
+
+
+def _chart(
+    store: Store, about: About, chosen: list[Channel], predicted: list[Prediction], given: Mapping[str, str]
+) -> Chart:
+    from_s, to_s = seconds_in(given, "from"), seconds_in(given, "to")
+    span = None if from_s is None or to_s is None else (from_s, to_s)
+    windows = read_window(
+        store, about.row["campaign"], about.row["test"], chosen, span, flagged=given.get("flagged") == "1"
+    )
+    return test_chart(about, chosen, windows, predicted)
+
+
+def _neighbours(store: Store, campaign: str, test: str) -> tuple[str | None, str | None]:
+    with store.reader() as con:
+        names = [
+            n for (n,) in con.execute("select test from test where campaign = ? order by rowid", [campaign]).fetchall()
+        ]
+    at = names.index(test)
+    return names[at - 1] if at else None, names[at + 1] if at + 1 < len(names) else None

@@ -1,0 +1,94 @@
+"""Templates to pages. Every page is told which command does the same."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from functools import cache
+from typing import Any
+from urllib.parse import urlencode
+
+import jinja2
+from starlette.requests import Request
+from starlette.responses import HTMLResponse
+
+from thermodata.report.verdict import probability
+from thermodata.report.words import base_role, change, duration, number, percent, typeset
+from thermodata.version import __version__
+from thermodata.web.assets import SCRIPTS, STYLES
+from thermodata.web.desk import Desk
+
+# (path, title, whether it needs a store), in the order of the work
+PAGES = (
+    ("/start", "Start"),
+    ("/", "Tests"),
+    ("/compare", "Compare"),
+    ("/missing", "What is missing"),
+    ("/sql", "SQL"),
+    ("/report", "Report"),
+)
+
+
+@cache
+def environment() -> jinja2.Environment:
+    """Everything from data is escaped; a name that a template misspells is an error."""
+    made = jinja2.Environment(
+        loader=jinja2.PackageLoader("thermodata.web"),
+        autoescape=True,
+        trim_blocks=True,
+        lstrip_blocks=True,
+        undefined=jinja2.StrictUndefined,
+    )
+    made.filters.update(
+        number=lambda value, digits=3: typeset(number(value, digits)),
+        duration=duration,
+        typeset=typeset,
+        probability=probability,
+        percent=lambda share: typeset(percent(share)),
+        base_role=base_role,
+        plain=lambda text: str(text).replace("_", " "),
+        grouped=lambda n: f"{n:,}".replace(",", "\u202f"),
+    )
+    made.globals.update(link=link, version=__version__, change=change)
+    return made
+
+
+def desk_of(request: Request) -> Desk:
+    desk: Desk = request.app.state.desk
+    return desk
+
+
+def link(path: str, /, **state: Any) -> str:
+    """A page with its state; what is empty is left out."""
+    kept = [(k, v) for k, v in state.items() if v not in (None, "", ())]
+    query = urlencode(kept, doseq=True)
+    return f"{path}?{query}" if query else path
+
+
+def page(
+    request: Request,
+    template: str,
+    *,
+    title: str,
+    command: str,
+    status: int = 200,
+    headers: Mapping[str, str] | None = None,
+    **context: Any,
+) -> HTMLResponse:
+    """A whole page, or a part of one where the template is a part. command: that does the same in a terminal."""
+    desk = desk_of(request)
+    text = (
+        environment()
+        .get_template(template)
+        .render(
+            title=title,
+            command=command,
+            desk=desk,
+            here=request.url.path,
+            pages=PAGES,
+            query={"model": "", **request.query_params},
+            styles=STYLES,
+            scripts=SCRIPTS,
+            **context,
+        )
+    )
+    return HTMLResponse(text, status_code=status, headers=dict(headers or {}))
