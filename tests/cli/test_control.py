@@ -211,8 +211,8 @@ def test_what_can_not_run_in_a_control_is_refused_with_reason_and_way_out(
     said = run(*words)
     assert said.code == 2
     assert "warm_start: " in said.err
-    assert "exists in" not in said.err
-    assert "nut: its gain differs by conditions.day (" in said.err
+    assert "goes on from its last state" in said.err
+    assert "nut: its gain differs by day (" in said.err
     assert "--without warm_start" in said.err
     assert run(*words, "--without", "warm_start", "--group", "nut=cold").code == 0
     written = (tmp_path / "with_start_dZ.st").read_text()

@@ -291,3 +291,41 @@ def test_units_version_and_parameters_stand_in_the_comments() -> None:
     for text in (structured_text(made), python_module(made), structured_text(made, dialect="scl")):
         for told in ("test 0123456789ab", "tau = 20 min", "gain = 12 um/u", "every 0.5 s", "[um]", "[degC]"):
             assert told in text, told
+
+
+# ---- the whole way from a fitted model
+
+
+def test_another_models_output_runs_in_a_control_and_phases_are_refused(tmp_path: Path) -> None:
+    """Model A of [mares2017]: a frame's output times a gain is its own effects, each times that gain."""
+    from thermodata.modelling import laws as room
+    from thermodata.modelling.bound import BoundResponse, BoundTerm
+    from thermodata.modelling.fitted_response import FittedResponse, FittedTerm, Values
+    from thermodata.modelling.nested import ModelOutput
+    from thermodata.schema.model import EffectSpec
+    from thermodata.view.dataset import ChannelInfo
+
+    one = driven("spindle_bearing")
+    channels = {"T": ChannelInfo("T", "temperature", "degC", "spindle.bearing")}
+    spec = EffectSpec(effect="spindle_bearing")
+    bound = BoundTerm("bearing", one.effect, spec, {"c": {"temperature": "T"}}, "spindle")
+    inner = FittedTerm(bound, {"": Values({"tau": 20.0}, {"gain": 3.0})})
+    frame = FittedResponse(BoundResponse("dY", "um", {"c": "dY"}, (bound,)), (inner,), None, frozenset())
+    made = ModelOutput(frame, "frame", "K")
+    outer = BoundTerm("frame", made, EffectSpec(effect="model", name="frame"), {"c": {}}, "model")  # type: ignore[arg-type]
+    whole = FittedResponse(
+        BoundResponse("dZ", "um", {"c": "dZ"}, (outer,)),
+        (FittedTerm(outer, {"": Values({}, {"K": 2.0})}),),
+        None,
+        frozenset(),
+    )
+    (term,) = room.laws(whole, channels, 60.0)
+    assert term.why_not is None
+    assert [(g.name, g.value) for g in term.gains] == [("bearing.gain", 6.0)]
+    assert [d.text for d in term.drives.values()] == ["T"]
+    phased = FittedTerm(
+        BoundTerm("b", one.effect, EffectSpec(effect="spindle_bearing", phases=["heating"]), bound.bindings, "spindle"),
+        inner.groups,
+    )
+    (refused,) = room.laws(FittedResponse(whole.bound, (phased,), None, frozenset()), channels, 60.0)
+    assert "phases only (heating)" in str(refused.why_not)

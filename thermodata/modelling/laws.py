@@ -84,7 +84,7 @@ def _law(
     effect, binding = term.effect, term.bound.bindings.get(campaign or "", term.binding)
     group, why = _group(term, wanted)
     values = term.groups.get(group) or next(iter(term.groups.values()))
-    why = why or _why_not(term)
+    why = _why_not(term) or why
     drives: dict[str, Drive] = {}
     gains: tuple[GainLaw, ...] = ()
     if why is None and isinstance(effect, ModelOutput):

@@ -47,7 +47,7 @@ def _bode(seen: Seen, styles: Mapping[str, tuple[str, str]]) -> Chart:
             Series(
                 p.name,
                 "deg" if of == 2 else p.unit,
-                p.bode[of],
+                p.bode[of][::-1],
                 styles[p.effect][0],
                 dash=styles[p.effect][1],
                 label="",
@@ -55,7 +55,7 @@ def _bode(seen: Seen, styles: Mapping[str, tuple[str, str]]) -> Chart:
             for p in seen.paths
         ]
 
-    periods = 1.0 / seen.paths[0].bode[0] / 60.0  # the same of all paths
+    periods = 1.0 / seen.paths[0].bode[0][::-1] / 60.0  # the same of all paths; x runs upward
     panels = [
         Panel("size", f"{seen.unit} a unit", curves(1), height=150, scale="log"),
         Panel("phase", "deg", curves(2), height=110),
@@ -66,7 +66,7 @@ def _bode(seen: Seen, styles: Mapping[str, tuple[str, str]]) -> Chart:
 
 
 def _memory(seen: Seen) -> Chart:
-    hours = np.arange(len(seen.correlation)) * seen.step_s / 3600.0
+    hours = np.arange(len(seen.correlation), dtype=np.float64) * np.float64(seen.step_s / 3600.0)
     band = BAND / math.sqrt(max(seen.count, 1))
     limits = [Limit(band, "white within"), Limit(-band, "")]
     series = Series("autocorrelation", "1", seen.correlation, "residual", style="area", label="")
