@@ -31,18 +31,16 @@ RUNG_TARGET = {
     "fall": "left",
     "tests": "left",
     "gain": "left",
+    "others": "left",
     "worth": "course",
-    "steadies": "course",
-    "timing": "course",
 }
 STUMBLES = {
     "chance": "chance does as well",
     "fall": "the error hardly falls",
     "tests": "in few tests",
     "gain": "its gain differs",
+    "others": "in one test only",
     "worth": "too small",
-    "steadies": "only steadies",
-    "timing": "not its timing",
 }
 _NOTHING = {
     "none": ("Nothing is missing", "What is left is noise, or too small to matter: the model explains these tests."),
