@@ -232,7 +232,7 @@ def test_a_report_of_a_version_tells_what_it_changed(
     assert "was added to baseline, and no diagnosis claims it" in page
     assert re.search(r"The error on (the tests that were fitted|\w+ tests) falls: ", page)
     assert 'id="test2"' in page
-    assert 'id="waterfall"' in page
+    assert "How it got here" in page
     assert "none was opened" in page
 
 

@@ -86,7 +86,7 @@ def test_every_page_wide_narrow_light_and_dark(served: Served) -> None:
     before = looks(served.lab)
     for path in PAGES:
         for width, dark in ((1280, False), (390, True)):
-            served.page.look(width, 900, dark, mobile=width < 600)
+            served.page.look(width, 900, dark)
             served.go(path)
             served.page.js("document.querySelectorAll('[data-chart]').forEach(b => ThermoChart.of(b))")
             assert served.page.js("document.documentElement.scrollWidth <= innerWidth"), (path, width)

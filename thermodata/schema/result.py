@@ -128,7 +128,7 @@ class WeakSpot(Result):
 class Rung(Result):
     """One rule of a claim.
 
-    name: chance, fall, tests, gain, worth, steadies or timing
+    name: of the rule: chance, fall, tests, gain, others, worth and more
     asks: what is measured
     value: measured; null where it can't be
     limit: of the rule

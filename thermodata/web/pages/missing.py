@@ -33,7 +33,6 @@ RUNG_TARGET = {
     "gain": "left",
     "others": "left",
     "worth": "course",
-    "probability": "course",
 }
 STUMBLES = {
     "chance": "chance does as well",
@@ -42,7 +41,6 @@ STUMBLES = {
     "gain": "its gain differs",
     "others": "in one test only",
     "worth": "too small",
-    "probability": "not sure enough",
 }
 _NOTHING = {
     "none": ("Nothing is missing", "What is left is noise, or too small to matter: the model explains these tests."),
