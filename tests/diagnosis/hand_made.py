@@ -68,7 +68,7 @@ def scored(
     placeless: bool = False,
     refines: tuple[str, ...] = (),
     kin: Kin = None,
-    evidence: float = 500.0,
+    evidence: float = 390.0,
     gained: float | Sequence[float] = 50.0,
     before: float | Sequence[float] = 1.0,
     after: float | Sequence[float] = 0.4,

@@ -25,7 +25,9 @@ USUAL_SPREAD = 0.15
 CLAIMED = 0.7  # a claim is this probable at least;
 # where nobody declared any place it names a channel, not physics, and there is nothing that it could be taken for
 PLACELESS_CLAIMED = 0.5
-# so much evidence a sample outweighs what left-out tests say: their error is that of the known effects, too
+# so much evidence a sample outweighs what left-out tests say: how far their error falls, for the known effects take part
+# of what is missing; and even how many they are, and that the gain differs between them
+STRONG = 0.4
 OVERWHELMING = 0.6
 DROP_LIMIT = 0.15  # fall of the error on left-out tests in which it acts,
 UNNAMED_DROP_LIMIT = 0.3  # and of what names no physics: any slow temperature steadies a misfit a little
@@ -153,8 +155,8 @@ def rules(scored: Scored, measure: Measure, unit: str) -> list[Rule]:
     p, count = p_value(scored.evidence, measure.chance), int(scored.acts.sum())
     fall = UNNAMED_DROP_LIMIT if _unnamed(scored) else DROP_LIMIT
     told, worth = explained(scored), WORTH_SHARE * measure.spread
-    sure = sharpness(scored) >= OVERWHELMING
-    unasked = f"; not asked where the evidence is overwhelming, {OVERWHELMING:g} a sample"
+    strong, overwhelming = sharpness(scored) >= STRONG, sharpness(scored) >= OVERWHELMING
+    unasked = "; not asked where the evidence is {:g} a sample"
     return [
         Rule(
             "chance",
@@ -167,11 +169,11 @@ def rules(scored: Scored, measure: Measure, unit: str) -> list[Rule]:
         ),
         Rule(
             "fall",
-            f"fall of the error on left-out tests in which it acts{unasked}",
+            f"fall of the error on left-out tests in which it acts{unasked.format(STRONG)}",
             scored.drop,
             fall,
             "least",
-            sure or scored.drop >= fall,
+            strong or scored.drop >= fall,
             f"in the {count} left-out tests in which it acts the error falls by {max(scored.drop, 0):.0%} only (limit "
             f"{fall:.0%})",
         ),
@@ -188,30 +190,30 @@ def rules(scored: Scored, measure: Measure, unit: str) -> list[Rule]:
         Rule(
             "gain",
             f"how much its gain differs between tests; not asked where the error falls by {FORETOLD:.0%}, or the "
-            "evidence is overwhelming",
+            f"evidence is {OVERWHELMING:g} a sample",
             scored.spread,
             SPREAD_LIMIT,
             "most",
-            sure or scored.spread <= SPREAD_LIMIT or scored.drop >= FORETOLD,
+            overwhelming or scored.spread <= SPREAD_LIMIT or scored.drop >= FORETOLD,
             f"its gain differs between tests by {scored.spread:.0%} (limit {SPREAD_LIMIT:.0%}): a cause acts alike "
             "everywhere",
         ),
         Rule(
             "others",
-            f"tests in which it acts{unasked}",
+            f"tests in which it acts{unasked.format(OVERWHELMING)}",
             count,
             LEAST_TESTS,
             "least",
-            sure or count >= LEAST_TESTS,
+            overwhelming or count >= LEAST_TESTS,
             "it acts in one test only: no other foretells it",
         ),
         Rule(
             "worth",
-            f"what it explains where it acts{unasked}",
+            f"what it explains where it acts{unasked.format(STRONG)}",
             told,
             worth,
             "least",
-            sure or told >= worth,
+            strong or told >= worth,
             f"it explains {told:.2g} {unit} where it acts, of {measure.spread:.2g} {unit} (limit {WORTH_SHARE:.0%})",
             unit,
         ),
