@@ -112,7 +112,7 @@ def test_axe_finds_no_violation(served: Served) -> None:
 def test_the_story_by_mouse(served: Served) -> None:
     first = model_rows(Store(served.lab / "thermodata.store"))[0]
     served.press("table.tests td.name a")
-    served.page.wait("location.pathname === '/test' && document.querySelector('#plot canvas')")
+    served.page.wait("location.pathname === '/test' && !!document.querySelector('#plot canvas')")
     served.go("/missing")
     assert "issing" in served.page.js("document.querySelector('h1').textContent")
     served.press("a[href^='/add']")
@@ -133,7 +133,7 @@ def test_the_way_by_keyboard_alone(served: Served) -> None:
     page = served.page
     page.js("document.querySelector('table.tests td.name a').focus()")
     page.key("Enter")
-    page.wait("location.pathname === '/test' && document.querySelector('#plot canvas')")
+    page.wait("location.pathname === '/test' && !!document.querySelector('#plot canvas')")
     page.js("document.getElementById('plot').focus()")
     page.key("+")
     page.wait("new URLSearchParams(location.search).has('from')")  # the zoom is in the address
