@@ -62,8 +62,8 @@
       };
       add("+", "Zoom in (+ key, wheel, or drag over a stretch)", () => this.scale(0.5));
       add("−", "Zoom out (- key)", () => this.scale(2));
-      add("whole", "Show everything (0 key, or double-click)", () => this.whole());
-      this.both = add("A–B", "Two cursors with their difference (keys a and b)", () => this.toggleMeasure());
+      add("whole", "Show the whole (0 key, or double-click)", () => this.whole());
+      this.both = add("A–B", "A–B: two cursors with their difference (keys a and b)", () => this.toggleMeasure());
       this.both.setAttribute("aria-pressed", "false");
       this.bar.append(tools);
     }
