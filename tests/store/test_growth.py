@@ -365,7 +365,7 @@ def test_few_files_are_hashed_ahead_of_the_workers(monkeypatch: pytest.MonkeyPat
 
             self.answers: Any = SimpleQueue()
             self.most = self.waiting = 0
-            self.tasks = self
+            self.tasks, self.ended = self, False
 
         def put(self, task: Any) -> None:
             self.waiting += 1
@@ -373,13 +373,14 @@ def test_few_files_are_hashed_ahead_of_the_workers(monkeypatch: pytest.MonkeyPat
             self.answers.put((task, worker.Done(None)))
 
         def end(self) -> None:
-            pass
+            self.ended = True
 
     pool = Pool(2)
     monkeypatch.setattr(side_by_side, "_Pool", lambda workers: pool)
     for _ in side_by_side.read_side_by_side(iter(range(50)), 2, lambda n: None):  # type: ignore[arg-type]
         pool.waiting -= 1
     assert pool.most <= 4
+    assert pool.ended, "no worker stays behind"
 
 
 @pytest.mark.parametrize(
@@ -431,8 +432,8 @@ def test_a_channel_of_long_tests_is_a_branch_of_its_own_and_says_the_same(
     together = answers()
     assert "CROSS JOIN" in text().upper()
     monkeypatch.setattr(long, "_LONG_ROWS", 1)
-    with store.write():
-        pass
+    with store.write() as con:
+        con.execute("select 1")  # a commit of nothing makes the views anew
     assert "CROSS JOIN" not in text().upper()
     apart = answers()
     assert apart[:-1] == together[:-1]

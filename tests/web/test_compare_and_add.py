@@ -27,7 +27,7 @@ def finished(client: Client, text: str, seconds: float = 300.0) -> tuple[str, st
     """The last fragment of a piece of work, and where the browser is sent."""
     end = time.monotonic() + seconds
     while time.monotonic() < end:
-        at = re.search(r'hx-get="(/work/[^"]+)"', text)
+        at = re.search(r'hx-get="(/task/[^"]+)"', text)
         if at is None:
             return text, None
         answer = client.get(at[1])
@@ -42,7 +42,7 @@ def test_adding_makes_a_version_on_the_same_scale_and_the_one_before_stays(write
     store = Store(lab / "thermodata.store")
     first = model_rows(store)[0]
     assert "Add it</button>" in writer.get(f"/add?model={first.model}&candidate=1").text
-    answer = writer.post("/work/add", {"model": first.model, "candidate": "1"})
+    answer = writer.post("/task/add", {"model": first.model, "candidate": "1"})
     assert answer.status == 200
     _, onward = finished(writer, answer.text)
     assert onward is not None
@@ -59,28 +59,30 @@ def test_adding_makes_a_version_on_the_same_scale_and_the_one_before_stays(write
 
 
 def test_what_fails_is_told_as_in_a_terminal(writer: Client) -> None:
-    text, onward = finished(writer, writer.post("/work/add", {"model": "baseline", "candidate": "coolent:T_hall"}).text)
+    text, onward = finished(writer, writer.post("/task/add", {"model": "baseline", "candidate": "coolent:T_hall"}).text)
     assert onward is None
     assert 'role="alert"' in text
     assert "coolent" in text
-    assert writer.post("/work/add", {"model": "baseline"}).status == 400
-    assert writer.post("/work/format_disk", {}).status == 400
-    assert writer.get("/work/nothing").status == 400
+    assert writer.post("/task/add", {"model": "baseline"}).status == 400
+    assert writer.post("/task/format_disk", {}).status == 400
+    assert writer.get("/task/nothing").status == 400
 
 
-def test_work_stays_inside_the_chosen_folders(writer: Client) -> None:
+def test_work_stays_inside_the_chosen_folders(writer: Client, tmp_path_factory: pytest.TempPathFactory) -> None:
     for task, field in (("ingest", "campaign"), ("fit", "path")):
-        answer = writer.post(f"/work/{task}", {field: "../elsewhere.yaml"})
+        answer = writer.post(f"/task/{task}", {field: "../elsewhere.yaml"})
         assert answer.status == 400
         assert "outside of the chosen folders" in answer.text
-    assert writer.post("/work/report", {"model": "baseline", "out": "/tmp/page.html"}).status == 400
+    page = tmp_path_factory.mktemp("elsewhere") / "page.html"
+    assert writer.post("/task/report", {"model": "baseline", "out": str(page)}).status == 400
+    assert not page.exists()
 
 
 def test_cancelled_work_leaves_the_store_as_it_was(writer: Client, lab: Path) -> None:
     store = Store(lab / "thermodata.store")
     before = [m.model for m in model_rows(store)]
-    text = writer.post("/work/add", {"model": "baseline", "candidate": "1"}).text
-    cancel = re.search(r'hx-post="(/work/[^"]+/cancel)"', text)[1]
+    text = writer.post("/task/add", {"model": "baseline", "candidate": "1"}).text
+    cancel = re.search(r'hx-post="(/task/[^"]+/cancel)"', text)[1]
     assert "Cancelled" in writer.post(cancel).text
     time.sleep(0.5)
     assert [m.model for m in model_rows(store)] == before

@@ -112,7 +112,7 @@ def test_nothing_but_get_head_and_post(bare: tuple[Client, Desk], method: str) -
 
 def test_a_workbench_that_only_reads_writes_nothing(made_lab: Path) -> None:
     client, desk = client_of(made_lab)
-    answer = client.post("/work/add", {"model": "baseline", "candidate": "1"}, write_headers(desk))
+    answer = client.post("/task/add", {"model": "baseline", "candidate": "1"}, write_headers(desk))
     assert answer.status == 403
     assert "--write" in answer.text
     assert desk.keys.form not in client.get("/").text  # nor does it hand out what a write needs

@@ -117,7 +117,7 @@ def test_the_story_by_mouse(served: Served) -> None:
     assert "issing" in served.page.js("document.querySelector('h1').textContent")
     served.press("a[href^='/add']")
     served.page.wait("location.pathname === '/add'")
-    served.press("form[hx-post='/work/add'] button")
+    served.press("form[hx-post='/task/add'] button")
     served.page.wait("location.pathname === '/compare'", timeout_s=240)
     models = model_rows(Store(served.lab / "thermodata.store"))
     assert [m.version for m in models] == [2, 1]
@@ -168,7 +168,7 @@ def test_a_page_of_another_origin_gets_nothing(served: Served, chromium: Chromiu
             == "refused"
         )
         assert stranger.js(
-            f"fetch('{served.origin}/work/add', {{method: 'POST', credentials: 'include', mode: 'no-cors', "
+            f"fetch('{served.origin}/task/add', {{method: 'POST', credentials: 'include', mode: 'no-cors', "
             "body: 'model=baseline&candidate=1'}).then(r => r.type, () => 'refused')"
         ) in ("opaque", "refused")
     finally:
@@ -180,7 +180,7 @@ def test_the_server_killed_during_an_add_leaves_the_store_whole(served: Served) 
     from thermodata.store.keep.check import check_store
 
     served.go("/add?model=baseline&candidate=1")
-    served.press("form[hx-post='/work/add'] button")
+    served.press("form[hx-post='/task/add'] button")
     served.page.wait("document.querySelector('.task')")
     served.process.kill()
     served.process.wait()

@@ -60,7 +60,7 @@ def test_without_a_diagnosis_the_page_says_how_to_get_one(lab: Path) -> None:
     text = client_of(lab)[0].get("/missing").text
     assert "was not diagnosed yet" in text
     assert "thermodata" in text
-    assert 'hx-post="/work/diagnose"' in client_of(lab, write=True)[0].get("/missing").text
+    assert 'hx-post="/task/diagnose"' in client_of(lab, write=True)[0].get("/missing").text
 
 
 def test_without_a_model_the_page_says_how_to_get_one(lab: Path) -> None:

@@ -25,13 +25,16 @@ def test_a_query_gives_rows_a_picture_and_files(reader: Client) -> None:
     assert reader.get(f"/sql/parquet?q={query}").body[:4] == b"PAR1"
 
 
-def test_what_is_refused_is_said_beside_the_query(reader: Client) -> None:
-    for query in ("copy (select 1) to '/tmp/x'", "select * from read_text('/etc/passwd')", "drop table test"):
+def test_what_is_refused_is_said_beside_the_query(reader: Client, tmp_path: Path) -> None:
+    secret, stolen = tmp_path / "secret.txt", tmp_path / "x.csv"
+    secret.write_text("root: nobody should read this")
+    for query in (f"copy (select 1) to '{stolen}'", f"select * from read_text('{secret}')", "drop table test"):
         answer = reader.get(f"/sql?q={quote(query)}")
         assert answer.status == 400
         assert "This query is not run here" in answer.text
         assert "root:" not in answer.text
         assert reader.get(f"/sql/csv?q={quote(query)}").status == 400
+    assert not stolen.exists()
     assert reader.get("/sql/exe?q=select+1").status == 400
 
 
@@ -49,7 +52,7 @@ def test_from_a_folder_of_raw_logs_to_a_store(made_lab: Path, tmp_path: Path) ->
     client, desk = client_of(tmp_path / "new", write=True)
     client = Client(client.app, [*client.headers, *write_headers(desk)])
     assert "Draft campaign.yaml" in client.get("/start").text
-    _, onward = finished(client, client.post("/work/draft", {"folder": str(tmp_path / "new")}).text)
+    _, onward = finished(client, client.post("/task/draft", {"folder": str(tmp_path / "new")}).text)
     assert onward is not None
     text = client.get(onward).text
     assert "that only you can answer" in text
@@ -65,7 +68,7 @@ def test_from_a_folder_of_raw_logs_to_a_store(made_lab: Path, tmp_path: Path) ->
     assert "is written" in client.post("/start/write", form).text
     assert "role: calibration" in Path(path).read_text()
     assert (tmp_path / "new" / "campaign.1.yaml").read_text() == before
-    _, onward = finished(client, client.post("/work/ingest", {"campaign": path}).text)
+    _, onward = finished(client, client.post("/task/ingest", {"campaign": path}).text)
     assert onward is not None
     assert client.get(onward).status == 200
     assert Store(tmp_path / "new" / "thermodata.store").generation > 0
@@ -83,7 +86,7 @@ def test_a_report_is_written_into_the_folder_and_taken_as_a_file(writer: Client,
     text = writer.get("/report").text
     out = re.search(r'name="out" value="([^"]+)"', text)[1]
     model = re.search(r'name="model" value="([^"]+)"', text)[1]
-    _, onward = finished(writer, writer.post("/work/report", {"model": model, "out": out}).text)
+    _, onward = finished(writer, writer.post("/task/report", {"model": model, "out": out}).text)
     assert onward is not None
     assert (lab / out).is_file()
     answer = writer.get(onward)

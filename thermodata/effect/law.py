@@ -150,7 +150,7 @@ def parse(text: str) -> Node:
 
 
 class _ForeignError(Exception):
-    pass
+    """A part of a formula that no control computes, as it is written."""
 
 
 def _tree(node: ast.expr) -> Node:

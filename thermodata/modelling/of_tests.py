@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from collections.abc import Mapping
 
 from thermodata.errors import SpecError
@@ -9,7 +10,7 @@ from thermodata.plugin import Drivers, Float2D, Gain, Need, Param
 from thermodata.view.dataset import TestData
 
 
-class OfTests:
+class OfTests(ABC):
     """What a model file spells out by itself. One gain, 1 for the output as it is."""
 
     name = ""
@@ -20,13 +21,13 @@ class OfTests:
     params: tuple[Param, ...] = ()
     gains: tuple[Gain, ...] = ()
 
+    @abstractmethod
     def has(self, test: TestData) -> bool:
         """Whether there is an output for the test."""
-        raise NotImplementedError
 
+    @abstractmethod
     def column(self, test: TestData) -> Float2D:
         """shape (n, 1); NaN where there is no output."""
-        raise NotImplementedError
 
     def basis(self, drivers: Drivers, p: Mapping[str, float]) -> Float2D:
         """Raises SpecError: see `column`."""

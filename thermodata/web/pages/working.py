@@ -23,7 +23,7 @@ _PATHS = ("path", "campaign", "out", "folder")
 
 
 async def start(request: Request) -> Response:
-    """POST /work/TASK with its fields."""
+    """POST /task/TASK with its fields."""
     task = request.path_params["task"]
     if task not in STARTED:
         raise unknown_name("work", task, list(STARTED))
@@ -39,12 +39,12 @@ async def start(request: Request) -> Response:
 
 
 async def watch(request: Request) -> Response:
-    """GET /work/ID: how far it is; when it is done, the browser goes on to the result."""
+    """GET /task/ID: how far it is; when it is done, the browser goes on to the result."""
     return _shown(request, work_of(request).job(request.path_params["task"]))
 
 
 async def cancel(request: Request) -> Response:
-    """POST /work/ID/cancel."""
+    """POST /task/ID/cancel."""
     return _shown(request, work_of(request).cancel(request.path_params["task"]))
 
 
