@@ -245,7 +245,6 @@ def test_show_says_what_the_fit_found(ask: Say) -> None:
 
 
 def test_show_draws_a_picture(ask: Say, refused: Callable[..., str], tmp_path: Path) -> None:
-    pytest.importorskip("matplotlib", reason="matplotlib is an extra")
     out = tmp_path / "show.png"
     assert str(out) in ask("show", "baseline", "--png", out).out
     assert out.read_bytes()[:8] == b"\x89PNG\r\n\x1a\n"

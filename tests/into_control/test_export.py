@@ -9,6 +9,7 @@ import sys
 from collections.abc import Mapping
 from pathlib import Path
 
+import blark
 import numpy as np
 import pytest
 
@@ -278,7 +279,6 @@ def test_the_text_keeps_the_rules_of_the_language(dialect: str, real: str) -> No
 
 
 def test_an_independent_parser_takes_the_structured_text() -> None:
-    blark = pytest.importorskip("blark", reason="blark, a parser of IEC 61131-3, is not installed")
     made = program([driven(name) for name in LAWFUL], 1.0)
     for real in ("REAL", "LREAL"):
         text = structured_text(made, real)

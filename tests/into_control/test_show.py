@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import control
 import numpy as np
 import pytest
 
@@ -13,7 +14,6 @@ from thermodata.modelling.residual_tests import against, autocorrelation, ljung_
 from thermodata.modelling.state_space import system_of
 from thermodata.modelling.transfer import GivenFunction
 
-control = pytest.importorskip("control", reason="python-control is a dependency of the tests")
 SAME = 1e-9
 STEP = 60.0
 

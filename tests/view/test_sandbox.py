@@ -82,12 +82,14 @@ def test_everything_but_one_select_is_refused(small_store: Path, tmp_path: Path,
     assert parquet.read_bytes() == before
 
 
-@pytest.mark.parametrize("query", REFUSED.values(), ids=REFUSED)
+# the parser takes a file for a table, which only the connection can refuse
+PARSED = {name: query for name, query in REFUSED.items() if not query.startswith("select * from '")}
+
+
+@pytest.mark.parametrize("query", PARSED.values(), ids=PARSED)
 def test_the_parser_alone_refuses_it_too(small_store: Path, tmp_path: Path, query: str) -> None:
     # two walls: each must hold without the other
     con = Store(small_store).private_copy()
-    if query.startswith("select * from '"):
-        pytest.skip("the parser takes a file for a table; the connection refuses it")
     with pytest.raises(UsageError):
         check_select(con, query.format(out=tmp_path / "out", parquet=tmp_path / "x.parquet"))
 
