@@ -164,10 +164,11 @@ def ranked() -> Scored:
 
 
 def test_leaving_a_test_out_by_moments_equals_refitting_without_it() -> None:
-    """The candidate's size and times come from the other tests; what is known is fitted beside it, to all."""
+    """Whole; and the candidate alone, with what is known fitted beside it to all tests."""
     one, found = small(), ranked()
     base, cols = known(one, NOISE), made(small())
-    whole = logsumexp(by_hand(one, range(4), base, cols))
+    whole, nothing = logsumexp(by_hand(one, range(4), base, cols)), np.zeros((4 * ROWS, 0))
+    of_all = posterior(one, range(4), base, nothing, np.zeros(0))
     for i in range(4):
         others = [j for j in range(4) if j != i]
         log_bf = by_hand(one, others, base, cols)
@@ -175,15 +176,15 @@ def test_leaving_a_test_out_by_moments_equals_refitting_without_it() -> None:
         c = [b[:, point] for b in cols.blocks]
         width = np.array([0.03, 0.1, 0.3, 1.0, 3.0])[size] * np.array([1.0, 1.0, 0.5, 0.5, 0.5, 0.5])
         x, y = stacked(one, [i])
-        nothing = np.zeros((4 * ROWS, 0))
-        alone = posterior(one, range(4), base, nothing, np.zeros(0))
-        own = posterior(one, others, base, np.vstack([c[j] for j in others]), width)[-c[i].shape[1] :]
-        rest = replace(
-            one, blocks=tuple(replace(b, response=b.response - a @ own) for b, a in zip(one.blocks, c, strict=True))
-        )
-        beside = posterior(rest, range(4), base, nothing, np.zeros(0))
+        alone = posterior(one, others, base, np.zeros((len(others) * ROWS, 0)), np.zeros(0))
+        both = posterior(one, others, base, np.vstack([c[j] for j in others]), width)
         assert found.sse_before[i] == pytest.approx(np.sum((y - x @ alone) ** 2), rel=1e-6)
-        assert found.sse_after[i] == pytest.approx(np.sum((y - c[i] @ own - x @ beside) ** 2), rel=1e-6)
+        assert found.sse_after[i] == pytest.approx(np.sum((y - np.hstack([x, c[i]]) @ both) ** 2), rel=1e-6)
+        own = both[-c[i].shape[1] :]
+        blocks = tuple(replace(b, response=b.response - a @ own) for b, a in zip(one.blocks, c, strict=True))
+        beside = posterior(replace(one, blocks=blocks), range(4), base, nothing, np.zeros(0))
+        assert found.own_before[i] == pytest.approx(np.sum((y - x @ of_all) ** 2), rel=1e-6)
+        assert found.own_after[i] == pytest.approx(np.sum((y - c[i] @ own - x @ beside) ** 2), rel=1e-6)
         assert found.gained[i] == pytest.approx(whole - logsumexp(log_bf), abs=1e-6)
     assert found.evidence == pytest.approx(whole + 0.7, abs=1e-6), "the prior of a candidate is no evidence"
     assert found.drop > 0.3

@@ -22,7 +22,7 @@ from thermodata.diagnosis.judge import (
 from .hand_made import measure, scored
 
 CHANCE = "chance does as well"
-FALL = "left-out tests in which it acts the error falls by"
+FALL = "tests in which it acts the error falls by"
 FEW = "tests in which it acts more probable"
 GAIN = "its gain differs between tests by"
 LITTLE = "it explains"

@@ -31,6 +31,7 @@ from .hand_made import Parts, PlainEffect, of_tests, problem, scored
 from .lagged import Lagged
 
 NOISE = Noise(0.3, 0.3, 900.0, 0.5)
+ERRORS = ("sse_before", "sse_after", "own_before", "own_after")
 TAU = Param("tau", "min", 5, 1, 30, "")
 
 
@@ -119,7 +120,7 @@ class Worlds:
     def _rank(self, problem: Problem, pool: Sequence[Columns], *, left_out: bool = True) -> Ranked:
         found = [self._scored(problem, one) for one in pool]
         if not left_out:
-            found = [replace(s, rows=np.zeros(0), sse_before=np.zeros(0), sse_after=np.zeros(0)) for s in found]
+            found = [replace(s, rows=np.zeros(0), **dict.fromkeys(ERRORS, np.zeros(0))) for s in found]
         known: Any = SimpleNamespace(problem=problem, space=SimpleNamespace(noise=NOISE), left_out=1.0)
         return Ranked(known, tuple(sorted(found, key=lambda s: -s.evidence)))
 
@@ -220,7 +221,7 @@ def test_a_member_is_swapped_for_what_does_clearly_better_beside_the_others(
 
     def as_left_out(problem: Problem, one: Columns) -> Scored:
         made = original(problem, one)
-        return replace(made, sse_after=after**2 * made.rows) if name(made) == "b" else made
+        return replace(made, own_after=after**2 * made.rows) if name(made) == "b" else made
 
     monkeypatch.setattr(world, "_scored", as_left_out)
     found = world.select("abc")

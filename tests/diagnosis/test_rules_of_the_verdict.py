@@ -119,5 +119,5 @@ def test_a_claim_is_made_though_the_error_is_at_the_floor() -> None:
 def test_the_unknown_says_why_the_best_was_refused() -> None:
     found = verdict()
     assert found.verdict == "unknown"
-    assert "the best, hopeless:T_a, fails because in the 10 left-out tests" in found.reason
+    assert "the best, hopeless:T_a, fails because in the 10 tests in which it acts" in found.reason
     assert "1 um remain on left-out tests" in found.reason

@@ -232,9 +232,9 @@ def _why(
     improves = round(s.better * count)
     way = "falls" if s.error_after < s.error_before else "does not fall"
     numbers = (
-        f"where it acts ({count} of {len(s.rows)} tests){beside} the error on left-out tests {way} "
-        f"({s.error_before:.2f} -> {s.error_after:.2f} {unit}) and it makes {improves} of {count} more probable; its "
-        f"gain differs between tests by {s.spread:.0%}"
+        f"where it acts ({count} of {len(s.rows)} tests){beside} the error {way} "
+        f"({s.error_before:.2f} -> {s.error_after:.2f} {unit}), its size from the other tests, and it makes "
+        f"{improves} of {count} more probable; its gain differs between tests by {s.spread:.0%}"
     )
     chance = p_value(s.evidence, investigation.measure.chance)
     if claimed:

@@ -169,13 +169,13 @@ def rules(scored: Scored, measure: Measure, unit: str) -> list[Rule]:
         ),
         Rule(
             "fall",
-            f"fall of the error on left-out tests in which it acts{unasked.format(STRONG)}",
+            f"fall of the error where it acts, its size from the other tests{unasked.format(STRONG)}",
             scored.drop,
             fall,
             "least",
             strong or scored.drop >= fall,
-            f"in the {count} left-out tests in which it acts the error falls by {max(scored.drop, 0):.0%} only (limit "
-            f"{fall:.0%})",
+            f"in the {count} tests in which it acts the error falls by {max(scored.drop, 0):.0%} only, its size from "
+            f"the others (limit {fall:.0%})",
         ),
         Rule(
             "tests",
@@ -273,7 +273,7 @@ def sharpness(scored: Scored) -> float:
 
 
 def explained(scored: Scored) -> float:
-    """RMS of what it takes away on left-out tests in which it acts."""
+    """RMS of what it takes away in tests in which it acts, its size from the others."""
     return float(np.sqrt(max(0.0, scored.error_before**2 - scored.error_after**2)))
 
 
@@ -299,4 +299,4 @@ def _alike(a: Scored, b: Scored) -> bool:
 
 
 def _error(scored: Scored) -> float:
-    return float(np.sqrt(np.mean(scored.sse_after / scored.rows)))
+    return float(np.sqrt(np.mean(scored.own_after / scored.rows)))

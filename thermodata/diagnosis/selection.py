@@ -15,9 +15,10 @@ from thermodata.diagnosis.candidates import CONTROL, GENERIC, CandidateEffect
 from thermodata.diagnosis.discrepancy import Noise
 from thermodata.diagnosis.evidence import Columns, Moments, Weighed, columns, moments, weigh
 from thermodata.diagnosis.invariance import spread_of_gain
-from thermodata.diagnosis.known import Known, known, likeliest, solved
-from thermodata.diagnosis.problem import Problem
+from thermodata.diagnosis.known import FloatND, Known, known, likeliest, solved
+from thermodata.diagnosis.problem import Block, Problem
 from thermodata.diagnosis.scored import Scored
+from thermodata.plugin import Float1D, Float2D
 from thermodata.store.base.counting import counted
 
 MOST = 5  # effects that one diagnosis adds
@@ -221,21 +222,15 @@ def extended(problem: Problem, made: Columns, weighed: Weighed) -> Problem:
 
 def _scored(problem: Problem, base: Known, one: Columns, products: Moments, w: Weighed) -> Scored:
     tests = base.every
-    before, after, gained = np.zeros(len(tests)), np.zeros(len(tests)), np.zeros(len(tests))
-    theta, factor = base.mean(tests), base.factor(tests)
-    toward = products.known.sum(axis=0)
+    before, after, own_before, own_after, gained = np.zeros((5, len(tests)))
+    of_all = base.mean(tests), base.factor(tests), products.known.sum(axis=0)
     for i, block in enumerate(problem.blocks):
-        seen = weigh(base, one, products, np.delete(tests, i))
+        others = np.delete(tests, i)
+        seen = weigh(base, one, products, others)
         gained[i] = w.total - seen.total
-        # its size and times from the other tests; what is known is fitted beside it, to all: what a model foretells
-        # badly without a test, for no other excites it, says nothing of a candidate
-        point, _ = seen.best
-        held = np.hstack([block.base, block.slack])
-        left = block.response - held @ theta
-        before[i] = left @ left
-        pulled = solved(factor, (toward[point].T @ seen.coefficients)[:, None])[:, 0]
-        left = left + held @ pulled - one.blocks[i][:, point] @ seen.coefficients
-        after[i] = left @ left
+        of_others = base.mean(others), base.factor(others), products.known[others].sum(axis=0)
+        before[i], after[i] = _errors(block, one.blocks[i], seen, *of_others)
+        own_before[i], own_after[i] = _errors(block, one.blocks[i], seen, *of_all)
     contribution = [b[:, w.best[0]] @ w.coefficients for b in one.blocks]
     rows = np.array([len(c) for c in contribution])
     size = np.sqrt([np.mean(c**2) for c in contribution])
@@ -248,10 +243,25 @@ def _scored(problem: Problem, base: Known, one: Columns, products: Moments, w: W
         rows=rows,
         sse_before=before,
         sse_after=after,
+        own_before=own_before,
+        own_after=own_after,
         size=size,
         spread=spread_of_gain(base, contribution),
         shape=_shape(base, contribution),
     )
+
+
+def _errors(
+    block: Block, columns: FloatND, seen: Weighed, theta: Float1D, factor: Float2D, toward: FloatND
+) -> tuple[float, float]:
+    """Squared error of a test without and with the candidate of the others. theta, factor, toward: of the tests that
+    the known effects are fitted to: their coefficients and posterior, and their products with the candidate."""
+    point, _ = seen.best
+    held = np.hstack([block.base, block.slack])
+    without = block.response - held @ theta
+    pulled = solved(factor, (toward[point].T @ seen.coefficients)[:, None])[:, 0]
+    among = without + held @ pulled - columns[:, point] @ seen.coefficients
+    return float(without @ without), float(among @ among)
 
 
 def _seen(base: Known, one: Columns, w: Weighed) -> Scored:
@@ -260,8 +270,9 @@ def _seen(base: Known, one: Columns, w: Weighed) -> Scored:
 
 
 def _unscored(one: Columns, w: Weighed) -> Scored:
-    none = np.zeros(0)
-    return Scored(one.candidate, one, w, w.total - one.candidate.log_prior, none, none, none, none, none, 1.0, none)
+    no = np.zeros(0)
+    evidence = w.total - one.candidate.log_prior
+    return Scored(one.candidate, one, w, evidence, no, no, no, no, no, no, no, spread=1.0, shape=no)
 
 
 def _shape(base: Known, contribution: Sequence[np.ndarray]) -> np.ndarray:
