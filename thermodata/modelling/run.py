@@ -91,9 +91,9 @@ def compare(store: Store, refs: Sequence[str]) -> list[FitResult]:
     return results
 
 
-def compare_against(store: Store, refs: Sequence[str], reference: str) -> list[Beside]:
-    """The models beside each other on every open test, each against the reference. UsageError where one of them was
-    fitted to another version of the data: their differences would be those of the data."""
+def compare_against(store: Store, refs: Sequence[str], reference: str, tests: Sequence[str] = ()) -> list[Beside]:
+    """The models beside each other on every open test (or on those named), each against the reference. UsageError
+    where one of them was fitted to another version of the data: their differences would be those of the data."""
     from thermodata.store.catalogue.models import find_model
 
     found = {stored.model: stored for stored in (find_model(store, ref) for ref in (*refs, reference))}
@@ -105,7 +105,7 @@ def compare_against(store: Store, refs: Sequence[str], reference: str) -> list[B
             hint="; ".join(f"thermodata fit {stored.model}" for stored in found.values() if stored.stale),
         )
     loaded = [load(store, identity) for identity in found]
-    return beside([(m.identity, m.fitted, m.data) for m in loaded], find_model(store, reference).model)
+    return beside([(m.identity, m.fitted, m.data) for m in loaded], find_model(store, reference).model, tests)
 
 
 def add(store: Store, ref: str, candidate: str | int | EffectSpec, *, plain: bool = False) -> FitResult:
