@@ -213,6 +213,30 @@ def test_another_models_output_times_a_gain(lab: Dataset) -> None:
     assert model_id(spec, "v") != model_id(held, "v")
 
 
+def test_one_part_of_another_model_times_a_gain(lab: Dataset) -> None:
+    """The spindle's function as found at the stator acts twice at the tool centre point, the hall's once."""
+    whole = {t.test: t for t in lab.tests}
+    hall = {name: -2.0 * lag(t.values["T_hall"] - 20, 9000, STEP) for name, t in whole.items()}
+    once = _data(*(replace(t, values={**t.values, "dZ": t.values["dZ"] - hall[t.test]}) for t in lab.tests))
+    effects = [
+        {"effect": "model", "id": "g", "name": "frame", "parts": ["spindle"], "inside": _inside(lab)},
+        {"effect": "model", "id": "h", "name": "frame", "parts": ["hall"], "gain": 1, "inside": _inside(lab)},
+        *yaml.safe_load(CUT),
+    ]
+    fitted = fit_model(_spec("response: {axis: Z, at: tcp}", effects=effects), once)
+    assert _value(fitted, "g.gain") == pytest.approx(2.0, rel=0.01)
+    spindle, both = fitted.responses[0].terms[:2]
+    test = once.test("lab", "c")
+    assert np.std(both.contribution(test) - hall["c"]) < 0.05
+    assert np.std(spindle.contribution(test)) > 5
+    unknown = [{**effects[0], "parts": ["spindel"]}, *effects[1:]]
+    with pytest.raises(UsageError, match="spindel") as refusal:
+        fit_model(_spec("response: {axis: Z, at: tcp}", effects=unknown), once)
+    assert "spindle" in str(refusal.value.hint)
+    with pytest.raises(SpecError, match="'parts' belongs to model"):
+        fit_model(_spec("response: {axis: Z, at: tcp}\neffects: [{effect: ambient_frame, parts: [a]}]"), lab)
+
+
 def test_a_model_inside_has_to_be_found_first(lab: Dataset) -> None:
     with pytest.raises(SpecError, match="needs the name of a model"):
         fit_model(_spec("response: {axis: Z, at: tcp}\neffects: [{effect: model, name: frame}]"), lab)

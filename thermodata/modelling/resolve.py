@@ -27,6 +27,7 @@ _OWNED = {
     "file": prediction.NAME,
     "name": nested.NAME,
     "gain": nested.NAME,
+    "parts": nested.NAME,
 }
 
 
@@ -146,7 +147,8 @@ def bind_terms(
             else frozenset(find_tests(spec.calibrate_on, data, f"effect '{name}': calibrate_on"))
         )
         known = [p.name for p in effect.params] + [g.name for g in effect.gains]
-        for key in [*spec.fixed, *spec.start, *spec.bounds, *spec.shared]:
+        shared = [] if spec.shared == "none" else spec.shared
+        for key in [*spec.fixed, *spec.start, *spec.bounds, *shared]:
             if key not in known and not (spec.effect == transfer.NAME and transfer.is_coefficient(key)):
                 raise unknown_name("parameter", key, known, where=f"effect '{name}'")
         family = family_of(effect, bound_by[first], by_campaign[first])
