@@ -289,6 +289,42 @@ effects:{FRAME}
     assert alone["dZ/turning.tau_1"].value != alone["dZ_far/turning.tau_1"].value
 
 
+ALIKE = ", gain_by: place, groups: {dZ: both, dZ_far: both}}\n"
+
+
+def test_places_share_an_effect_that_was_identified_on_tests_of_its_own(lab: Dataset) -> None:
+    """The hall on an idle test; turning on a test that has all places, and only the tool's place on the other."""
+    near = replace(lab.tests[1], values={k: v for k, v in lab.tests[1].values.items() if k != "dZ_far"})
+    data = _data(lab.tests[0], near, *lab.tests[2:])
+    frame = FRAME.replace("}\n", ALIKE)
+    text = f"""
+response: [{{axis: Z, at: tcp}}, {{channel: dZ_far}}]
+effects:{frame}
+  - {{effect: tool_elongation, id: tool, gain_by: place}}
+  - {{effect: transfer_function, id: turning, drivers: {{u: T_table}}, orders: [2, 2], gain_by: place, one_gain: true}}
+"""
+    whole = fit_model(_spec(text), data).parameters()
+    staged = text.replace("id: hall,", "id: hall, calibrate_on: [idle],").replace(
+        "id: turning,", "id: turning, calibrate_on: [b],"
+    )
+    found = fit_model(_spec(staged), data).parameters()
+    assert {name: p.value for name, p in found.items()} == pytest.approx(
+        {n: p.value for n, p in whole.items()}, rel=1e-3
+    )
+    assert found["dZ_far/turning.g"].value == pytest.approx(2.2, rel=0.03)
+
+
+def test_a_place_without_a_calibration_test_takes_what_all_places_share(lab: Dataset) -> None:
+    bare = [replace(t, values={k: v for k, v in t.values.items() if k != "dZ_far"}) for t in lab.tests[:3]]
+    same = replace(lab.tests[3], values={**lab.tests[3].values, "dZ_far": lab.tests[3].values["dZ"]})
+    data = _data(*bare, same)
+    text = "response: [{axis: Z, at: tcp}, {channel: dZ_far}]\neffects:" + (FRAME + CUT).replace("}\n", ALIKE)
+    fitted = fit_model(_spec(text), data)
+    far = fitted.responses[1]
+    assert (far.checks, far.noise) == ((), None)
+    assert np.std(far.residual(same)) == pytest.approx(np.std(fitted.responses[0].residual(same)))
+
+
 def _by_tool() -> Dataset:
     return _data(
         _test("a", "calibration", 1, tool="D25"),
