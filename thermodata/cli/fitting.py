@@ -231,7 +231,8 @@ def history_command(session: Session, model: str) -> None:
 
 @command("portability")
 @click.argument("model")
-def portability_command(session: Session, model: str) -> None:
+@click.option("--test", "tests", multiple=True, metavar="TEST", help="Only this test; may be repeated.")
+def portability_command(session: Session, model: str, tests: tuple[str, ...]) -> None:
     """Say how MODEL transfers to other tests and machines.
 
     The gain g that fits the model to each, the error without (n) and with (c) it, and the class: portable,
@@ -240,12 +241,14 @@ def portability_command(session: Session, model: str) -> None:
     from thermodata.modelling.run import transfer
 
     store = session.store()
-    rows = [plain(row) for row in transfer(store, resolve(store, model))]
+    rows = [plain(row) for row in transfer(store, resolve(store, model), tests)]
+    several = len({row["response"] for row in rows}) > 1
     session.answer(
         rows,
         lambda: table(
             rows,
             [
+                *([("response", "response")] if several else []),
                 ("campaign", "campaign"),
                 ("test", "test"),
                 ("machine", "machine"),

@@ -17,6 +17,7 @@ from thermodata.modelling.orders import Tried
 from thermodata.modelling.portability import Portability, portability
 from thermodata.modelling.resolve import term_ids
 from thermodata.modelling.result import make_result, model_id
+from thermodata.modelling.roles import find_tests
 from thermodata.modelling.second_lag import is_lag_of, with_second_lags
 from thermodata.modelling.table import prediction_tables
 from thermodata.modelling.transfer import NAME
@@ -156,14 +157,16 @@ def remove(store: Store, ref: str, effect: str) -> FitResult:
     return fit(store, spec, parent=parent.model, before=before, notes=[f"removed: {', '.join(gone)}"])
 
 
-def transfer(store: Store, ref: str) -> list[Portability]:
-    """How far the model carries over to each test and machine of its campaigns; kept as findings of the model."""
+def transfer(store: Store, ref: str, tests: Sequence[str] = ()) -> list[Portability]:
+    """How far the model carries over to each test and machine of its campaigns (or to those named); all are kept as
+    findings of the model. UsageError for an unknown test."""
     from thermodata.store.catalogue.models import save_findings
 
     model = load(store, ref)
     rows = portability(model.fitted, model.data)
     save_findings(store, model.identity, "portability", [(r.campaign, r.test, r.to_json()) for r in rows])
-    return rows
+    wanted = find_tests(tests, model.data, "--test")
+    return [r for r in rows if not tests or (r.campaign, r.test) in wanted]
 
 
 def orders(store: Store, spec: Model, *, method: str | None = None, base: Path | None = None) -> list[Tried]:
