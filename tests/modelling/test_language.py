@@ -15,8 +15,10 @@ from thermodata.errors import SpecError, UsageError
 from thermodata.modelling import fit_model
 from thermodata.modelling.acting import acting
 from thermodata.modelling.fitted import FittedModel
+from thermodata.modelling.left_out_error import LeftOut
 from thermodata.modelling.portability import portability
 from thermodata.modelling.result import make_result, model_id
+from thermodata.modelling.second_lag import with_second_lags
 from thermodata.plugin import Float1D
 from thermodata.schema.load import parse_model
 from thermodata.schema.model import Model
@@ -262,6 +264,48 @@ def test_the_frame_is_identified_at_the_stator_and_used_at_the_tool(lab: Dataset
     no_stator = _data(*(replace(t, values={k: v for k, v in t.values.items() if k != "dZ_stator"}) for t in half.tests))
     with pytest.raises(SpecError, match="stator"):
         fit_model(_spec(f"response: {{axis: Z, at: tcp}}\neffects:{seen}{CUT}"), no_stator)
+
+
+# ---- an effect that acts on some responses only
+
+
+ACTS = """
+response: [{axis: Z, at: tcp}, {axis: Z, at: stator}]
+effects:
+  - {effect: spindle_bearing, id: spindle}
+  - {effect: ambient_frame, id: hall}
+  - {effect: tool_elongation, id: tool, acts_on: [%s]}
+  - {effect: transfer_function, id: turning, drivers: {u: T_table}, acts_on: [{axis: Z, at: tcp}]%s}
+"""
+
+
+def test_an_effect_acts_on_some_responses_only(lab: Dataset) -> None:
+    spec = _spec(ACTS % ("{axis: Z, at: tcp}", ", orders: [2, 2]"))
+    fitted = fit_model(spec, lab)
+    tcp, stator = fitted.responses
+    assert [[t.id for t in r.terms] for r in (tcp, stator)] == [
+        ["spindle", "hall", "tool", "turning"],
+        ["spindle", "hall"],
+    ]
+    found = fitted.parameters()
+    assert found["dZ/tool.gain"].value == pytest.approx(-1.7, rel=0.03)
+    assert not [name for name in found if name.startswith(("dZ_stator/tool", "dZ_stator/turning"))]
+    alone = fit_model(_spec(f"response: {{axis: Z, at: stator}}\neffects:{FRAME}"), lab).parameters()
+    assert found["dZ_stator/hall.tau"].value == alone["hall.tau"].value
+    # orders that are left open are each effect's own, wherever it stands in a response
+    left_out = LeftOut(_spec(ACTS % ("{axis: Z, at: tcp}", "")), lab)
+    assert left_out.errors(left_out.whole.spec).rmse("dZ_stator") < 0.2
+    second = with_second_lags(_spec(ACTS % ("{axis: Z, at: stator}", ", orders: [2, 2]")), lab)
+    assert second.notes
+
+
+def test_an_effect_acts_on_responses_of_its_model(lab: Dataset) -> None:
+    for where in ("{channel: dZ_far}", ""):
+        with pytest.raises(SpecError, match="acts on responses of its model") as refusal:
+            fit_model(_spec(ACTS % (where, ", orders: [2, 2]")), lab)
+        assert refusal.value.expected == "some of dZ, dZ_stator"
+    with pytest.raises(SpecError, match="share time constants"):
+        fit_model(_spec(ACTS % ("{axis: Z, at: tcp}", ", orders: [2, 2], gain_by: place")), lab)
 
 
 # ---- gains by place, by groups, and one factor

@@ -140,7 +140,7 @@ def test_orders_are_open_beside_an_effect_with_tests_of_its_own(spec: Spec) -> N
         air = 20 + 3 * hall[test.test]
         dz = warm * test.values["dZ"] - 6 * hall[test.test]
         values = {"dZ": dz, "T": 22 + warm * (test.values["T"] - 22), "T_hall": air}
-        return replace(test, values=values, valid={k: test.in_window for k in values}, channels=infos)
+        return replace(test, values=values, valid=dict.fromkeys(values, test.in_window), channels=infos)
 
     data = replace(_data(with_hall(first, 1.0), with_hall(second, 0.0)), channels=infos)
     air = {"effect": "transfer_function", "id": "air", "drivers": {"u": "T_hall"}, "calibrate_on": [second.test]}

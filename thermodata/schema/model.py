@@ -52,6 +52,7 @@ class EffectSpec(Strict):
     drivers: role -> channel, difference of channels (T_a - T_b), or {at: place}; found by place where left out
     calibrate_on: tests that identify this effect first, before the others; all of their phases count
     response: the effect is identified on this response first, and used as found
+    acts_on: the responses that it acts on; by default all
     phases: the effect acts in these phases only, and is identified from them; between them it keeps what it had
         reached. heating is all the time that the machine works, unless the tests declare phases
     tests: the tests that it exists in (a slip); by default all
@@ -78,6 +79,7 @@ class EffectSpec(Strict):
     drivers: dict[str, Driver] = {}
     calibrate_on: list[str] | None = None
     response: Response | None = None
+    acts_on: list[Response] | None = None
     phases: list[str] | None = None
     tests: list[str] | None = None
     method: Literal["oe", "arx", "varpro"] | None = None
