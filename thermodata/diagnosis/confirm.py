@@ -12,6 +12,7 @@ from thermodata.diagnosis.locked import Foretold
 from thermodata.modelling.fit import fit_model
 from thermodata.modelling.fitted import FittedModel
 from thermodata.modelling.fitted_response import FittedResponse
+from thermodata.modelling.resolve import term_ids
 from thermodata.schema.model import EffectSpec, Model
 from thermodata.schema.result import Parameter
 from thermodata.view.dataset import Dataset, TestData
@@ -97,7 +98,7 @@ def _parameters(
     more: FittedModel, known: int, candidates: Sequence[CandidateEffect]
 ) -> dict[str, dict[str, Parameter]]:
     """Of each candidate, by its id: the effects that were added stand last, in their order."""
-    added = [t.id for t in more.responses[0].terms[known:]]
+    added = term_ids(more.spec.effects)[known:]
     found = more.parameters()
     return {
         c.id: {name: p for name, p in found.items() if term in name.split(".")}
