@@ -87,9 +87,19 @@ def _spanning(rows: Sequence[Sequence[Cell]], width: int) -> list[int]:
         and len(filled[last]) > 1
         and not any(is_number(c) or is_stamp(c) for c in filled[last])
         and not _are_units(filled[found[-1]])
+        and not _ends_early(rows[last], rows[found[-1]], width)
     ):
         found.append(last)
     return found
+
+
+def _ends_early(row: Sequence[Cell], above: Sequence[Cell], width: int) -> bool:
+    """Whether a row of few cells is cut off or foreign, and leaves nothing out that is merged with the row above it:
+    that names every column, and the row's cells are its first."""
+    named = [c not in ("", None) for c in above[:width]]
+    said = [c not in ("", None) for c in row[:width]]
+    few = said.index(False) if False in said else len(said)
+    return len(named) == width and all(named) and few < width and not any(said[few:])
 
 
 def lines_between(rows: Sequence[Sequence[Cell]], width: int, skip: int) -> list[str]:
