@@ -78,23 +78,29 @@ def offsets_between_tests(tests: Sequence[Levels]) -> dict[tuple[str, str], Off]
     dated = all(t.start_s is not None and t.end_s is not None for t in tests)
     ordered = sorted(tests, key=lambda t: t.start_s or 0.0) if dated else list(tests)
     differences = [_differences(t) for t in ordered]
+    rested = _rested(ordered) if dated else None
     offsets: dict[tuple[str, str], Off] = {}
     for channel in dict.fromkeys(c for t in ordered for c, x in t.series.items() if x.quantity == "temperature"):
         spans = [d.get(channel, _UNTOLD) for d in differences]
-        level = [_level(ordered, i, channel, dated) for i in range(len(ordered))]
+        level = [_level(t, channel) if rested is None or not i else rested[i] for i, t in enumerate(ordered)]
         offsets |= _from_the_failure_on(ordered, channel, spans, level)
     return offsets
 
 
-def _level(tests: Sequence[Levels], i: int, channel: str, dated: bool) -> float:
-    """How far a machine had levelled out before a test: the share of other temperatures that begin alike; 1 after a
-    rest, 0 where the clocks tell that there was none."""
-    if dated and i:
-        ends = [t.end_s or 0.0 for t in tests[:i]]
-        return float((tests[i].start_s or 0.0) - max(ends) >= _RESTED_S)
+def _rested(tests: Sequence[Levels]) -> list[float]:
+    """Of each test 1 where the clocks tell that the machine rested before it, else 0. tests: by their clocks."""
+    rested, end_s = [], -np.inf
+    for test in tests:
+        rested.append(float((test.start_s or 0.0) - end_s >= _RESTED_S))
+        end_s = max(end_s, test.end_s or 0.0)
+    return rested
+
+
+def _level(test: Levels, channel: str) -> float:
+    """How far a machine had levelled out before a test: the share of other temperatures that begin alike."""
     first = [
         float(sound[0])
-        for name, x in tests[i].series.items()
+        for name, x in test.series.items()
         if name != channel
         and x.quantity == "temperature"
         and len(sound := x.sound[np.isfinite(x.sound)])
@@ -117,14 +123,17 @@ def _differences(test: Levels) -> dict[str, tuple[Float1D, Float1D]]:
         return {}
     grids: list[Float1D] = []
     for x in known.values():
-        if not any(np.array_equal(x.t_s, t) for t in grids):
+        if not any(x.t_s is t or np.array_equal(x.t_s, t) for t in grids):
             grids.append(x.t_s)
+    apart: dict[int, float] = {}  # of the points of a grid, which the channels of a stream share
+    for t_s in {id(x.t_s): x.t_s for x in known.values()}.values() if len(grids) > 1 else ():
+        apart[id(t_s)] = float(np.median(np.diff(t_s))) if len(t_s) > 1 else np.inf
     found: dict[str, tuple[Float1D, Float1D]] = {}
     for t_s in grids:
-        stacked = np.stack([_at(x, t_s) for x in known.values()])
+        stacked = np.stack([_at(x, t_s, apart.get(id(x.t_s), np.inf)) for x in known.values()])
         d = stacked - _median_of_others(stacked)
         for (name, x), row in zip(known.items(), d, strict=True):
-            if np.array_equal(x.t_s, t_s) and np.isfinite(row).any():
+            if (x.t_s is t_s or np.array_equal(x.t_s, t_s)) and np.isfinite(row).any():
                 found[name] = t_s[np.isfinite(row)], row[np.isfinite(row)]
     return found
 
@@ -143,13 +152,13 @@ def _median_of_others(x: Float2D) -> Float2D:
     return np.where(np.isfinite(x) & (others >= _LEAST_OTHERS), median, np.nan)
 
 
-def _at(x: Course, t_s: Float1D) -> Float1D:
-    """A course at other times; NaN where its next point lies further away than its points from each other."""
+def _at(x: Course, t_s: Float1D, apart: float) -> Float1D:
+    """A course at other times; NaN where its next point lies further away than its points from each other, apart [s]
+    as a rule."""
     if x.t_s is t_s or np.array_equal(x.t_s, t_s):
         return x.sound
     sound = np.isfinite(x.sound)
     near = np.abs(t_s[:, None] - x.t_s[sound][None]).min(axis=1) if sound.any() else np.full(len(t_s), np.inf)
-    apart = float(np.median(np.diff(x.t_s))) if len(x.t_s) > 1 else np.inf
     return np.where(near <= 1.5 * apart, np.interp(t_s, x.t_s[sound], x.sound[sound]), np.nan)
 
 
