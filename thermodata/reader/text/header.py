@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
+from functools import lru_cache
 
 from thermodata.reader.text.cell import Cell, is_number, is_stamp
 from thermodata.reader.text.number import clean
@@ -21,6 +22,7 @@ _TRAILING = re.compile(
 )
 
 
+@lru_cache(maxsize=4096)
 def looks_like_unit(text: str) -> bool:
     """Whether a text reads as a unit: an alias (U/min, Grd C, °C) or SI symbols with / * and powers."""
     bare = re.sub(r"\s+", "", text).strip("[]()")
@@ -29,6 +31,7 @@ def looks_like_unit(text: str) -> bool:
     return bare.casefold() in UNIT_SPELLING or _UNIT.match(text.strip()) is not None
 
 
+@lru_cache(maxsize=4096)
 def split_unit(header: str) -> tuple[str, str | None]:
     """(name, unit or None): 'ch3(um)' -> ('ch3', 'um'), 'Temp [degC]' -> ('Temp', 'degC').
 

@@ -54,10 +54,12 @@ class RawStream:
     ordered: bool | None = None
     newest_first: bool = False
     unordered: bool = False
+    # as it was read; a copy that was changed has none
+    _told: str | None = field(default=None, init=False, repr=False, compare=False)
 
     def to_json(self) -> str:
         """Everything but what the table `file` has columns for."""
-        return json.dumps(
+        return self._told or json.dumps(
             {
                 "stream": self.stream,
                 "first_ns": self.first_ns,
@@ -111,7 +113,7 @@ class RawStream:
             )
             for s in meta["signals"]
         )
-        return cls(
+        raw = cls(
             row["key"],
             row["path"],
             meta["stream"],
@@ -136,6 +138,9 @@ class RawStream:
             meta.get("newest_first", False),
             meta.get("unordered", False),
         )
+        if "superseded_at" not in meta:
+            object.__setattr__(raw, "_told", row["columns"])
+        return raw
 
     def losses_json(self) -> str:
         return json.dumps([dataclasses.asdict(loss) for loss in self.losses], default=_plain)
