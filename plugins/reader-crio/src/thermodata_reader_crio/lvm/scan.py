@@ -177,7 +177,7 @@ class _Scan:
         if "\0" in text:
             yield Loss(
                 f"{self.path.name} line {line}",
-                reason=f"{text.count(chr(0))} NUL bytes in the line of names: what was written there, and rows, are lost",
+                reason=f"{text.count(chr(0))} NUL bytes in the line of names: what stood there, and rows, are lost",
             )
             text = text.replace("\0", "")
         try:
