@@ -12,7 +12,7 @@ from thermodata.modelling.coarse import search_from_coarse
 from thermodata.modelling.design import GRID, MOMENTS, Design, Nonlinear, factor
 from thermodata.modelling.fitted_response import FACTOR, FittedTerm, Values
 from thermodata.modelling.search import Problem, search
-from thermodata.modelling.uncertainty import deviations
+from thermodata.modelling.uncertainty import Spread, spreads
 from thermodata.plugin import Float1D, Param
 from thermodata.view.dataset import TestData
 
@@ -49,13 +49,15 @@ def fit_jointly(
         start = None if near is None else _near(problem, {order.index(i): near[i] for i in members if i in near})
         x = search(problem, start, loose)
     gains = problem.gains(problem.matrix(x))
-    sds, logs = deviations(problem, x, gains) if uncertainty else ([{} for _ in design.slots], frozenset[str]())
+    none = [Spread() for _ in design.slots], frozenset[str]()
+    spread, logs = spreads(problem, x, gains) if uncertainty else none
     by_member: dict[int, dict[str, Values]] = {i: {} for i in members}
     for s, (slot, params) in enumerate(zip(design.slots, problem.params(x), strict=True)):
         if order[slot.term] in by_member:
             names = [g.name for g in bound.terms[order[slot.term]].effect.gains]
             values = gains[problem.starts[s] : problem.starts[s + 1]]
-            found = Values(params, dict(zip(names, map(float, values), strict=True)), sds[s], logs, problem.silent[s])
+            known = dict(zip(names, map(float, values), strict=True))
+            found = Values(params, known, spread[s].sd, spread[s].half, logs, problem.silent[s])
             by_member[order[slot.term]] |= _by_group(design, s, found)
     return {i: FittedTerm(bound.terms[i], groups or {"": _at_start(bound.terms[i])}) for i, groups in by_member.items()}
 
@@ -70,13 +72,17 @@ def _by_group(design: Design, s: int, found: Values) -> dict[str, Values]:
     groups = {}
     for group in dict.fromkeys(slot.factors):
         g = found.params.get(factor(group), 1.0)
-        spread = {n: sd * (1.0 if n in own else g) for n, sd in found.sd.items() if not n.startswith("g[")}
-        if factor(group) in found.sd:
-            spread[FACTOR] = found.sd[factor(group)]
+        sd, half = (_of_group(spread, group, g, own) for spread in (found.sd, found.half))
         logs = found.log_names | {FACTOR}
         gains = {n: g * v for n, v in found.gains.items()}
-        groups[group] = Values(params, gains, spread, logs, found.silent, g)
+        groups[group] = Values(params, gains, sd, half, logs, found.silent, g)
     return groups
+
+
+def _of_group(spread: Mapping[str, float], group: str, g: float, own: set[str]) -> dict[str, float]:
+    """Deviations of gains grow with the group's factor, whose own stands beside them."""
+    found = {n: value * (1.0 if n in own else g) for n, value in spread.items() if not n.startswith("g[")}
+    return found | ({FACTOR: spread[factor(group)]} if factor(group) in spread else {})
 
 
 def _near(problem: Problem, known: Mapping[int, FittedTerm]) -> Float1D:

@@ -2,20 +2,29 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass, field
+
 import numpy as np
 
 from thermodata.modelling.search import Problem
-from thermodata.plugin import Float1D, Float2D
+from thermodata.modelling.slow_noise import scatter
+from thermodata.modelling.start_unknown import disturbances
+from thermodata.plugin import Float1D
 
 _LONGEST = 0.25  # of a test; a longer memory cannot be told from a trend
 
 
-def deviations(problem: Problem, x: Float1D, gains: Float1D) -> tuple[list[dict[str, float]], frozenset[str]]:
-    """Standard deviations a slot by name, and the names that are searched as logarithms (theirs is of log(value)).
+@dataclass(frozen=True)
+class Spread:
+    """Of a slot's parameters and gains, by name. sd: standard deviation; half: half of the interval of 95 %. What is
+    searched as a logarithm has those of log(value). Parameters at a bound and held gains have none."""
 
-    [newey1987] with a Bartlett window as long as twice the residual's own memory, a test by itself.
-    Parameters at a bound and held gains have none.
-    """
+    sd: dict[str, float] = field(default_factory=dict)
+    half: dict[str, float] = field(default_factory=dict)
+
+
+def spreads(problem: Problem, x: Float1D, gains: Float1D) -> tuple[list[Spread], frozenset[str]]:
+    """One a slot, and the names that are searched as logarithms."""
     design = problem.design
     matrix = problem.matrix(x)
     residual = design.y - matrix @ gains
@@ -36,14 +45,16 @@ def deviations(problem: Problem, x: Float1D, gains: Float1D) -> tuple[list[dict[
             if problem.low[k] < gains[k] < problem.high[k]:
                 columns.append(matrix[:, k])
                 owners.append(((s,), gain.name))
-    by_slot: list[dict[str, float]] = [{} for _ in design.slots]
+    by_slot = [Spread() for _ in design.slots]
     logs = frozenset(f.param.name for f in problem.free if f.log)
     if not columns or design.n <= len(columns):
         return by_slot, logs
-    for (slots, name), sd in zip(owners, _robust(np.column_stack(columns), residual, design.parts), strict=True):
-        if np.isfinite(sd):
+    unknown = disturbances(design, problem.params(x), gains, problem.starts)
+    found = scatter(np.column_stack(columns), residual, design.parts, unknown)
+    for (slots, name), sd, half in zip(owners, found.sd, found.half, strict=True):
+        if np.isfinite(sd) and np.isfinite(half):
             for s in slots:
-                by_slot[s][name] = float(sd)
+                by_slot[s].sd[name], by_slot[s].half[name] = float(sd), float(half)
     return by_slot, logs
 
 
@@ -71,31 +82,3 @@ def _correlations(residual: Float1D, parts: list[slice]) -> Float1D:
     rho = cover[1:] / cover[0]
     below = np.flatnonzero(rho < 0.05)
     return np.asarray(rho[: below[0]] if len(below) else rho)
-
-
-def _robust(jacobian: Float2D, residual: Float1D, parts: list[slice]) -> Float1D:
-    size = np.sqrt(np.sum(jacobian**2, axis=0))
-    size[size == 0] = 1.0
-    unit = jacobian / size
-    bread = np.linalg.pinv(unit.T @ unit, rcond=1e-12)
-    scores = unit * residual[:, None]
-    span_of_memory = memory(residual, parts)
-    width = int(np.ceil(2 * span_of_memory))
-    meat = np.zeros((len(size), len(size)))
-    for part in parts:
-        own = scores[part]
-        if len(own):
-            # the Bartlett-weighted sum of lagged products is the mean product of moving sums
-            span = max(1, min(width, len(own)))
-            total = np.cumsum(
-                np.concatenate([np.zeros((span, own.shape[1])), own, np.zeros((span - 1, own.shape[1]))]), axis=0
-            )
-            moving = total[span:] - total[:-span]
-            meat += moving.T @ moving / span
-    n, k = jacobian.shape
-    # what the window cuts off (a quarter, were the correlation exponential), and what k parameters and a free mean
-    # a test take out of n / memory independent samples; without these, 95 % intervals hold the truth in 80 %
-    free = n / span_of_memory
-    lost = 1.0 - span_of_memory / (2 * max(width, 1)) if span_of_memory > 1.5 else 1.0
-    cover = bread @ meat @ bread / lost * free / max(0.25 * free, free - k - len(parts))
-    return np.asarray(np.sqrt(np.maximum(np.diag(cover), 0.0)) / size, dtype=np.float64)
