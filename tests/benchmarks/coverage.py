@@ -6,7 +6,8 @@
 The machines are heat balances integrated in steps of 10 s by Heun's rule, with noise drawn sample by sample: nothing of
 the library's lags or of its simulated machines takes part. What is fitted is the model that the machine has; so what is
 measured are the intervals, not the choice of a model. `width`: half of the interval as a share of the truth, median
-(of a time constant: of its logarithm). `none`: parameters without an interval, which count as misses.
+(of a time constant: of its logarithm). `none`: parameters without an interval, which count as misses; of an interval
+that is open at one end the other counts.
 """
 
 from __future__ import annotations
@@ -151,7 +152,8 @@ def _wandering(n: int, memory: float, size: float, rng: np.random.Generator) -> 
 
 @dataclass(frozen=True)
 class Seen:
-    """One parameter of one machine. width: half the interval as a share of the truth; None without an interval."""
+    """One parameter of one machine. width: half the interval as a share of the truth, inf where it is open, None where
+    there is none."""
 
     case: str
     noise: str
@@ -173,11 +175,13 @@ def intervals(case: str, noise: str, seed: int) -> Iterator[Seen]:
     for name, true in machine.truth.items():
         p = found[name]
         kind = name.partition(".")[2].partition("_")[0]
+        inside = (p.low is None or p.low <= true) and (p.high is None or true <= p.high)
         if p.low is None or p.high is None:
-            yield Seen(case, noise, len(machine.tests), kind, False, None, seconds)
+            known = p.low is not None or p.high is not None
+            yield Seen(case, noise, len(machine.tests), kind, known and inside, np.inf if known else None, seconds)
             continue
         half = np.log(p.high / p.low) / 2 if kind == "tau" else (p.high - p.low) / 2 / abs(true)
-        yield Seen(case, noise, len(machine.tests), kind, p.low <= true <= p.high, float(half), seconds)
+        yield Seen(case, noise, len(machine.tests), kind, inside, float(half), seconds)
 
 
 def table(seen: Sequence[Seen]) -> list[str]:

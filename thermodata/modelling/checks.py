@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from thermodata.modelling.apart import told_apart
 from thermodata.modelling.bound import each_group_its_own
 from thermodata.modelling.design import Design
 from thermodata.modelling.drivers import names_of
@@ -48,6 +49,7 @@ def checks(response: FittedResponse, tests: Sequence[TestData]) -> dict[str, Any
         *_lost(response, tests),
         *_orders(response),
         *_warm(design),
+        *told_apart(response, tests),
     ]
     for term in response.terms:
         rows += [

@@ -8,9 +8,9 @@ import numpy as np
 
 from thermodata.errors import UsageError
 from thermodata.modelling.bound import BoundResponse, BoundTerm, each_group_its_own
-from thermodata.modelling.coarse import search_from_coarse
+from thermodata.modelling.coarse import rough, search_from_coarse
 from thermodata.modelling.design import GRID, MOMENTS, Design, Nonlinear, factor
-from thermodata.modelling.fitted_response import FACTOR, FittedTerm, Values
+from thermodata.modelling.fitted_response import FACTOR, FittedResponse, FittedTerm, Values
 from thermodata.modelling.search import Problem, search
 from thermodata.modelling.uncertainty import Spread, spreads
 from thermodata.plugin import Float1D, Param
@@ -43,23 +43,43 @@ def fit_jointly(
         )
     fixed = {order.index(i): term for i, term in held.items()}
     problem = make_problem(design, fixed)
+
+    def on(some: Sequence[TestData]) -> Problem:
+        return make_problem(Design(bound, design.terms, some, wanted), fixed)
+
     if near is None and not loose:
-        x = search_from_coarse(problem, tests, lambda t: make_problem(Design(bound, design.terms, t, wanted), fixed))
+        x = search_from_coarse(problem, tests, on)
     else:
         start = None if near is None else _near(problem, {order.index(i): near[i] for i in members if i in near})
         x = search(problem, start, loose)
     gains = problem.gains(problem.matrix(x))
     none = [Spread() for _ in design.slots], frozenset[str]()
-    spread, logs = spreads(problem, x, gains) if uncertainty else none
+    spread, logs = spreads(problem, x, gains, rough(problem, tests, wanted, on)) if uncertainty else none
     by_member: dict[int, dict[str, Values]] = {i: {} for i in members}
     for s, (slot, params) in enumerate(zip(design.slots, problem.params(x), strict=True)):
         if order[slot.term] in by_member:
             names = [g.name for g in bound.terms[order[slot.term]].effect.gains]
             values = gains[problem.starts[s] : problem.starts[s + 1]]
             known = dict(zip(names, map(float, values), strict=True))
-            found = Values(params, known, spread[s].sd, spread[s].half, logs, problem.silent[s])
+            found = Values(params, known, spread[s].sd, spread[s].half, spread[s].ends, logs, problem.silent[s])
             by_member[order[slot.term]] |= _by_group(design, s, found)
     return {i: FittedTerm(bound.terms[i], groups or {"": _at_start(bound.terms[i])}) for i, groups in by_member.items()}
+
+
+def fitted_problem(response: FittedResponse, tests: Sequence[TestData]) -> tuple[Problem, Float1D, Problem | None]:
+    """What was fitted, as a problem at its point: all terms that were not held, the same on fewer samples (None where
+    there are few)."""
+    held = {i: term for i, term in enumerate(response.terms) if term.held}
+    order = [*(i for i in range(len(response.terms)) if i not in held), *held]
+    terms = [each_group_its_own(t.bound) if t.held else t.bound for t in (response.terms[i] for i in order)]
+    fixed = {order.index(i): term for i, term in held.items()}
+
+    def on(some: Sequence[TestData]) -> Problem:
+        return make_problem(Design(response.bound, terms, some, response.phases), fixed)
+
+    problem = on(tests)
+    x = _near(problem, {k: response.terms[i] for k, i in enumerate(order)})
+    return problem, x, rough(problem, tests, response.phases, on)
 
 
 def _by_group(design: Design, s: int, found: Values) -> dict[str, Values]:
@@ -73,9 +93,10 @@ def _by_group(design: Design, s: int, found: Values) -> dict[str, Values]:
     for group in dict.fromkeys(slot.factors):
         g = found.params.get(factor(group), 1.0)
         sd, half = (_of_group(spread, group, g, own) for spread in (found.sd, found.half))
+        ends = {n: e for n, e in found.ends.items() if n in own}
         logs = found.log_names | {FACTOR}
         gains = {n: g * v for n, v in found.gains.items()}
-        groups[group] = Values(params, gains, sd, half, logs, found.silent, g)
+        groups[group] = Values(params, gains, sd, half, ends, logs, found.silent, g)
     return groups
 
 

@@ -67,6 +67,9 @@ def driver_unit(response: FittedResponse, term: FittedTerm) -> str:
 
 
 def _parameter(value: float, unit: str, name: str, values: Values) -> Parameter:
+    if name in values.ends:
+        low, high = values.ends[name]
+        return Parameter(value=value, unit=unit, low=low, high=high)
     half = values.half.get(name)
     if half is None:
         return Parameter(value=value, unit=unit)

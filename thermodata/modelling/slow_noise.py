@@ -44,14 +44,64 @@ def scatter(
 ) -> Scatter:
     """Of least squares. jacobian: shape (n, k); parts: the rows of each test; unknown: what else moves some rows by one
     standard deviation, each by itself. NaN where too little is left to tell."""
+    noise = make_noise(jacobian, residual, parts)
+    return nothing(jacobian.shape[1]) if noise is None else noise.scatter(jacobian, parts, unknown)
+
+
+def nothing(count: int) -> Scatter:
+    """Where nothing can be told."""
+    return Scatter(np.full(count, np.nan), np.full(count, np.nan))
+
+
+@dataclass(frozen=True)
+class Noise:
+    """Every noise that the residual of a fit allows. Shapes (noises,): memory [samples]; slow: its power over that of
+    the white noise at `lowest`; white: the variance of that, in the response's unit squared; share: how likely.
+    left: degrees of freedom."""
+
+    memory: Float1D
+    slow: Float1D
+    white: Float1D
+    share: Float1D
+    lowest: float
+    left: float
+
+    def scatter(
+        self, jacobian: Float2D, parts: Sequence[slice], unknown: Sequence[tuple[slice, Float1D]] = ()
+    ) -> Scatter:
+        """Of least squares on these or on other tests; see the function `scatter`."""
+        k = jacobian.shape[1]
+        if not k:
+            return nothing(0)
+        size = _size(jacobian)
+        bands = _Bands(jacobian / size, _long_enough(parts))
+        plain = np.linalg.pinv(bands.products.sum(axis=0), rcond=1e-12, hermitian=True)
+        power = _spectra(bands.frequency, self.memory, self.slow, self.lowest) * self.white[:, None]
+        meat = np.einsum("gb,bij->gij", power, bands.products)
+        variance = np.einsum("ij,gjk,ki->gi", plain, meat, plain)
+        pulls = plain @ np.array([(jacobian[rows] / size).T @ moved for rows, moved in unknown]).reshape(-1, k).T
+        variance += np.sum(pulls**2, axis=1)
+        sd = np.sqrt(np.maximum(self.share @ variance, 0.0))
+        half = np.array([_half(self.share, np.sqrt(np.maximum(v, 0.0)), self.left) for v in variance.T])
+        return Scatter(sd / size, half / size)
+
+
+def make_noise(jacobian: Float2D, residual: Float1D, parts: Sequence[slice]) -> Noise | None:
+    """See `scatter`; None where too little is left to tell."""
     k = jacobian.shape[1]
-    size = np.sqrt(np.sum(jacobian**2, axis=0))
-    size[size == 0] = 1.0
-    bands = _Bands(np.column_stack([jacobian / size, residual]), [p for p in parts if p.stop - p.start > 2])
-    left = bands.count.sum() - k
+    bands = _Bands(np.column_stack([jacobian / _size(jacobian), residual]), _long_enough(parts))
+    left = float(bands.count.sum()) - k
     if left < 2:
-        return Scatter(np.full(k, np.nan), np.full(k, np.nan))
-    spectra = _spectra(bands)  # (noises, bands)
+        return None
+    lowest = np.pi / bands.longest
+    memory, slow = (
+        v.ravel()
+        for v in np.meshgrid(
+            np.geomspace(1.0, 2.0 * bands.longest, MEMORIES), np.geomspace(LEAST_SHARE, MOST_SHARE, SHARES)
+        )
+    )
+    memory, slow = np.append(memory, 1.0), np.append(slow, 0.0)
+    spectra = _spectra(bands.frequency, memory, slow, lowest)  # (noises, bands)
     weighted = np.einsum("gb,bij->gij", 1.0 / spectra, bands.products)
     bread = np.linalg.pinv(weighted[:, :k, :k], rcond=1e-12, hermitian=True)
     cross = weighted[:, :k, k]
@@ -59,15 +109,17 @@ def scatter(
     _, information = np.linalg.slogdet(weighted[:, :k, :k] + 1e-12 * np.eye(k))
     likelihood = -0.5 * (np.log(spectra) @ bands.count + information + left * np.log(np.maximum(square, 1e-300)))
     share = np.exp(likelihood - likelihood.max())
-    share /= share.sum()
-    plain = np.linalg.pinv(bands.products[:, :k, :k].sum(axis=0), rcond=1e-12, hermitian=True)
-    meat = np.einsum("gb,bij->gij", spectra * (square / left)[:, None], bands.products[:, :k, :k])
-    variance = np.einsum("ij,gjk,ki->gi", plain, meat, plain)
-    pulls = plain @ np.array([(jacobian[rows] / size).T @ moved for rows, moved in unknown]).reshape(-1, k).T
-    variance += np.sum(pulls**2, axis=1)
-    sd = np.sqrt(np.maximum(share @ variance, 0.0))
-    half = np.array([_half(share, np.sqrt(np.maximum(v, 0.0)), left) for v in variance.T])
-    return Scatter(sd / size, half / size)
+    kept = share > 1e-6 * share.max()
+    return Noise(memory[kept], slow[kept], square[kept] / left, share[kept] / share[kept].sum(), lowest, left)
+
+
+def _size(columns: Float2D) -> Float1D:
+    size = np.sqrt(np.sum(columns**2, axis=0))
+    return np.asarray(np.where(size > 0, size, 1.0))
+
+
+def _long_enough(parts: Sequence[slice]) -> list[slice]:
+    return [p for p in parts if p.stop - p.start > 2]
 
 
 class _Bands:
@@ -92,19 +144,14 @@ class _Bands:
         self.products = np.array([all_of_them[r].T @ all_of_them[r] for r in rows]).reshape(len(rows), m, m)
 
 
-def _spectra(bands: _Bands) -> Float2D:
-    """Every noise that is thought of, as variances of the bands (a common factor is free): shape (noises, bands)."""
-    rows: list[Float1D] = [np.ones(len(bands.frequency))]
-    lowest = np.pi / bands.longest
-    for memory in np.geomspace(1.0, 2.0 * bands.longest, MEMORIES):
-        keep = np.exp(-1.0 / memory)
+def _spectra(frequency: Float1D, memory: Float1D, slow: Float1D, lowest: float) -> Float2D:
+    """Variances of coefficients of these frequencies over those of the white noise; shape (noises, frequencies)."""
+    keep = np.exp(-1.0 / memory)[:, None]
 
-        def shape(omega: Array, keep: float = keep) -> Array:
-            return np.asarray(1.0 / (1.0 + keep**2 - 2.0 * keep * np.cos(omega)))
+    def shape(omega: Array) -> Array:
+        return np.asarray(1.0 / (1.0 + keep**2 - 2.0 * keep * np.cos(omega)))
 
-        slow = shape(bands.frequency) / shape(np.array(lowest))
-        rows += [1.0 + share * slow for share in np.geomspace(LEAST_SHARE, MOST_SHARE, SHARES)]
-    return np.array(rows)
+    return np.asarray(1.0 + slow[:, None] * shape(frequency[None, :]) / shape(np.array(lowest)))
 
 
 def _half(share: Float1D, sd: Float1D, left: float) -> float:
@@ -112,8 +159,7 @@ def _half(share: Float1D, sd: Float1D, left: float) -> float:
     from scipy.optimize import brentq
     from scipy.special import stdtr, stdtrit
 
-    kept = share > 1e-6
-    share, sd = share[kept] / share[kept].sum(), np.maximum(sd[kept], 1e-300)
+    sd = np.maximum(sd, 1e-300)
     top = float(sd.max())
     if not np.isfinite(top) or top <= 1e-299:
         return float("nan")

@@ -2,60 +2,128 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 
 import numpy as np
 
+from thermodata.modelling.design import MOMENTS
+from thermodata.modelling.fitted_response import Ends
+from thermodata.modelling.profile import Profile
 from thermodata.modelling.search import Problem
 from thermodata.modelling.slow_noise import scatter
 from thermodata.modelling.start_unknown import disturbances
 from thermodata.plugin import Float1D
 
+STEP = 1e-4  # of a parameter's range, for its slope
 _LONGEST = 0.25  # of a test; a longer memory cannot be told from a trend
 
 
 @dataclass(frozen=True)
 class Spread:
-    """Of a slot's parameters and gains, by name. sd: standard deviation; half: half of the interval of 95 %. What is
-    searched as a logarithm has those of log(value). Parameters at a bound and held gains have none."""
+    """Of a slot's parameters and gains, by name. sd: standard deviation; half: half of the interval of 95 %, both of
+    log(value) where that is searched; ends: of the interval by profile, where it is not as wide up as down. Parameters
+    at a bound have ends alone, held gains nothing."""
 
     sd: dict[str, float] = field(default_factory=dict)
     half: dict[str, float] = field(default_factory=dict)
+    ends: dict[str, Ends] = field(default_factory=dict)
 
 
-def spreads(problem: Problem, x: Float1D, gains: Float1D) -> tuple[list[Spread], frozenset[str]]:
-    """One a slot, and the names that are searched as logarithms."""
-    design = problem.design
-    matrix = problem.matrix(x)
-    residual = design.y - matrix @ gains
-    columns: list[Float1D] = []
-    owners: list[tuple[tuple[int, ...], str]] = []
+@dataclass(frozen=True)
+class Owner:
+    """Of a column of the Jacobian: its slots and name, and its place among the searched parameters (None: a gain)."""
+
+    slots: tuple[int, ...]
+    name: str
+    place: int | None = None
+
+
+def spreads(
+    problem: Problem, x: Float1D, gains: Float1D, rough: Problem | None = None
+) -> tuple[list[Spread], frozenset[str]]:
+    """One a slot, and the names that are searched as logarithms. rough: the same problem on fewer samples, for
+    profiles."""
+    by_slot = [Spread() for _ in problem.design.slots]
+    logs = frozenset(f.param.name for f in problem.free if f.log)
+    inside = _Estimate(problem, x, gains, _inside(problem, x))
+    for owner, sd, half in zip(inside.owners, inside.scatter.sd, inside.scatter.half, strict=True):
+        if np.isfinite(sd) and np.isfinite(half):
+            for s in owner.slots:
+                by_slot[s].sd[owner.name], by_slot[s].half[owner.name] = float(sd), float(half)
+    whole = len(_inside(problem, x)) == len(problem.free)
+    for i, profile, half in _profiles(inside if whole else _Estimate(problem, x, gains), rough):
+        if not profile.is_quadratic(half):
+            ends = profile.ends(half)
+            for s in problem.free[i].slots:
+                by_slot[s].ends[problem.free[i].param.name] = ends
+    return by_slot, logs
+
+
+def profiles(
+    problem: Problem, x: Float1D, gains: Float1D, rough: Problem | None = None
+) -> Iterator[tuple[int, Profile, float]]:
+    """(place, profile, half of the quadratic interval in the units of the search) of every searched parameter but
+    moments, whose error has no slope; those at a bound as well."""
+    return _profiles(_Estimate(problem, x, gains), rough)
+
+
+class _Estimate:
+    """The Jacobian of the prediction to some searched parameters (all) and all free gains, and how they scatter."""
+
+    def __init__(self, problem: Problem, x: Float1D, gains: Float1D, places: Iterable[int] | None = None) -> None:
+        self.problem, self.x = problem, x
+        design = problem.design
+        matrix = problem.matrix(x)
+        columns: list[Float1D] = []
+        self.owners: list[Owner] = []
+        for i in range(len(problem.free)) if places is None else places:
+            nonlinear = problem.free[i]
+            low, high = nonlinear.outside(nonlinear.lower), nonlinear.outside(nonlinear.upper)
+            delta = STEP * (high - low) * (1.0 if x[i] + STEP * (high - low) < high else -1.0)
+            trial = x.copy()
+            trial[i] += delta
+            columns.append((problem.matrix(trial) - matrix) @ gains / delta)
+            self.owners.append(Owner(nonlinear.slots, nonlinear.param.name, i))
+        for s, slot in enumerate(design.slots):
+            for j, gain in enumerate(design.terms[slot.term].effect.gains):
+                k = problem.starts[s] + j
+                if problem.low[k] < gains[k] < problem.high[k]:
+                    columns.append(matrix[:, k])
+                    self.owners.append(Owner((s,), gain.name))
+        self.jacobian = np.column_stack(columns) if columns else np.zeros((design.n, 0))
+        unknown = disturbances(design, problem.params(x), gains, problem.starts)
+        self.scatter = scatter(self.jacobian, design.y - matrix @ gains, design.parts, unknown)
+
+
+def _profiles(estimate: _Estimate, rough: Problem | None) -> Iterator[tuple[int, Profile, float]]:
+    problem, x, jacobian = estimate.problem, estimate.x, estimate.jacobian
+    size = np.sqrt(np.sum(jacobian**2, axis=0))
+    moves = size > 0
+    size[~moves] = 1.0
+    inverse = np.linalg.pinv((jacobian / size).T @ (jacobian / size), rcond=1e-12) / np.outer(size, size)
+    small = problem if rough is None else rough
+    free_to_move = _inside(problem, x)
+    places = {owner.place: k for k, owner in enumerate(estimate.owners) if owner.place is not None}
+    for i, free in enumerate(problem.free):
+        k = places[i]
+        half = float(estimate.scatter.half[k])
+        if free.points == MOMENTS or not moves[k] or not np.isfinite(half) or inverse[k, k] <= 0 or half <= 0:
+            continue
+        allowed = half**2 / inverse[k, k] * small.design.n / problem.design.n
+        along = np.array([inverse[places[o], k] / inverse[k, k] if o in free_to_move else 0.0 for o in places])
+        along[i] = 1.0
+        yield i, Profile(small, x, i, allowed, along), half
+
+
+def _inside(problem: Problem, x: Float1D) -> list[int]:
+    """Searched parameters that do not stand at a bound."""
+    found = []
     for i, nonlinear in enumerate(problem.free):
         low, high = nonlinear.outside(nonlinear.lower), nonlinear.outside(nonlinear.upper)
-        delta = 1e-4 * (high - low)
-        if not low + 10 * delta < x[i] < high - 10 * delta:
-            continue
-        trial = x.copy()
-        trial[i] += delta
-        columns.append((problem.matrix(trial) - matrix) @ gains / delta)
-        owners.append((nonlinear.slots, nonlinear.param.name))
-    for s, slot in enumerate(design.slots):
-        for j, gain in enumerate(design.terms[slot.term].effect.gains):
-            k = problem.starts[s] + j
-            if problem.low[k] < gains[k] < problem.high[k]:
-                columns.append(matrix[:, k])
-                owners.append(((s,), gain.name))
-    by_slot = [Spread() for _ in design.slots]
-    logs = frozenset(f.param.name for f in problem.free if f.log)
-    if not columns or design.n <= len(columns):
-        return by_slot, logs
-    unknown = disturbances(design, problem.params(x), gains, problem.starts)
-    found = scatter(np.column_stack(columns), residual, design.parts, unknown)
-    for (slots, name), sd, half in zip(owners, found.sd, found.half, strict=True):
-        if np.isfinite(sd) and np.isfinite(half):
-            for s in slots:
-                by_slot[s].sd[name], by_slot[s].half[name] = float(sd), float(half)
-    return by_slot, logs
+        if low + 10 * STEP * (high - low) < x[i] < high - 10 * STEP * (high - low):
+            found.append(i)
+    return found
 
 
 def memory(residual: Float1D, parts: list[slice]) -> float:
