@@ -7,15 +7,15 @@ from collections.abc import Collection, Mapping
 import numpy as np
 import pytest
 
-from thermodata.effect import effects
+from thermodata.effect import all_effects
 from thermodata.errors import PluginError
 from thermodata.plugin import Drivers, Float2D, Gain, Need, Param
 from thermodata.testing import effect as kit
 
 
-@pytest.mark.parametrize("name", sorted(effects()))
+@pytest.mark.parametrize("name", sorted(all_effects()))
 def test_the_installed_effect_keeps_the_contract(name: str) -> None:
-    assert kit.faults(effects()[name]) == {}
+    assert kit.faults(all_effects()[name]) == {}
 
 
 class Good:
