@@ -64,6 +64,11 @@ def checks(response: FittedResponse, tests: Sequence[TestData]) -> dict[str, Any
     return {"checks": tuple(rows), "noise": noise}
 
 
+def at_bounds(response: FittedResponse) -> list[Check]:
+    """Parameters and gains that a bound holds, and gains beyond what the library thinks possible."""
+    return [c for term in response.terms for c in (*_bounds(term), *_gain_bounds(term), *_plausible(term))]
+
+
 def _samples(residual: Float1D, design: Design, parameters: int) -> list[Check]:
     count = effective_count(residual, design.parts)
     need = FEWEST * max(1, parameters)
