@@ -28,9 +28,11 @@ def fit_jointly(
     uncertainty: bool,
     near: Mapping[int, FittedTerm] | None = None,
     loose: bool = False,
+    profiled: bool = True,
 ) -> dict[int, FittedTerm]:
     """Fit some terms of a response together, with others held. near: the terms as they were found on nearly the same
-    data, where the search starts without a look over the whole range. loose: see `search`."""
+    data, where the search starts without a look over the whole range. loose: see `search`.
+    profiled: whether intervals are looked at by their profiles."""
     order = [*members, *held]
     terms = [bound.terms[i] if i in members else each_group_its_own(bound.terms[i]) for i in order]
     design = Design(bound, terms, tests, wanted)
@@ -47,6 +49,9 @@ def fit_jointly(
     def on(some: Sequence[TestData]) -> Problem:
         return make_problem(Design(bound, design.terms, some, wanted), fixed)
 
+    def look() -> Problem | None:
+        return rough(problem, tests, wanted, on)
+
     if near is None and not loose:
         x = search_from_coarse(problem, tests, on)
     else:
@@ -54,7 +59,7 @@ def fit_jointly(
         x = search(problem, start, loose)
     gains = problem.gains(problem.matrix(x))
     none = [Spread() for _ in design.slots], frozenset[str]()
-    spread, logs = spreads(problem, x, gains, rough(problem, tests, wanted, on)) if uncertainty else none
+    spread, logs = spreads(problem, x, gains, look if profiled else None) if uncertainty else none
     by_member: dict[int, dict[str, Values]] = {i: {} for i in members}
     for s, (slot, params) in enumerate(zip(design.slots, problem.params(x), strict=True)):
         if order[slot.term] in by_member:

@@ -17,24 +17,31 @@ from thermodata.modelling.search import Problem, search
 from thermodata.plugin import Float1D
 
 ALIKE = (0.7, 1.4)  # of the allowed rise, at the ends of the quadratic interval, that make it the profile's
-CLOSE = 0.02  # of half the quadratic interval: how closely an end is found
+CLOSE = 0.05  # of half the quadratic interval: how closely an end is found
 POINTS = 9  # of the curve, on each side
 
 
 class Profile:
     """Of a searched parameter (place i). allowed: rise of the squared error at an end of the interval of 95 %;
-    along: how the searched parameters move with this one where the error is quadratic, shape (free parameters,)."""
+    along: how the searched parameters move with this one where the error is quadratic, shape (free parameters,); x: the
+    optimum of this problem; moved: of this parameter to the optimum of the problem that it stands for."""
 
-    def __init__(self, problem: Problem, x: Float1D, i: int, allowed: float, along: Float1D) -> None:
+    def __init__(
+        self, problem: Problem, x: Float1D, i: int, allowed: float, along: Float1D, moved: float = 0.0
+    ) -> None:
         self.problem, self.x, self.i, self.allowed, self.along = problem, x, i, allowed, along
+        self.moved = moved
         self.free = problem.free[i]
         self.low, self.high = self.free.outside(self.free.lower), self.free.outside(self.free.upper)
         residual = problem.residual(x)
         self.least = float(residual @ residual)
         self._near: dict[float, Float1D] = {float(x[i]): np.delete(x, i)}
+        self._rises: dict[float, float] = {}
 
     def rise(self, at: float) -> float:
         """Of the squared error where the parameter is held at a point of the search, as a share of what is allowed."""
+        if at in self._rises:  # another search from another start would end a little elsewhere
+            return self._rises[at]
         rest = [f for k, f in enumerate(self.problem.free) if k != self.i]
         held = [dict(h) for h in self.problem.held]
         for slot in self.free.slots:
@@ -44,7 +51,8 @@ class Profile:
         found = search(part, self._near[nearest], loose=True)
         self._near[at] = found
         residual = part.residual(found)
-        return (float(residual @ residual) - self.least) / self.allowed
+        self._rises[at] = (float(residual @ residual) - self.least) / self.allowed
+        return self._rises[at]
 
     def is_quadratic(self, half: float) -> bool:
         """Whether an interval of that half width, in the units of the search, has the profile's ends."""
@@ -59,19 +67,22 @@ class Profile:
 
     def ends(self, half: float) -> Ends:
         low, high = self._end(-half), self._end(half)
-        return (None if low is None else self.free.inside(low), None if high is None else self.free.inside(high))
+        return (None if low is None else self._value(low), None if high is None else self._value(high))
+
+    def _value(self, at: float) -> float:
+        return self.free.inside(at + self.moved)
 
     def curve(self, half: float) -> list[tuple[float, float]]:
         """(value, root mean square of the residual) from twice the half width below to twice above."""
         at = float(self.x[self.i])
         count = max(1, self.problem.design.n)
-        rows = [(self.free.inside(at), float(np.sqrt(self.least / count)))]
+        rows = [(self._value(at), float(np.sqrt(self.least / count)))]
         for side in (-1.0, 1.0):
             for step in np.linspace(0, 2 * half, POINTS + 1)[1:]:
                 point = at + side * float(step)
                 if self.low <= point <= self.high:
                     square = self.least + self.rise(point) * self.allowed
-                    rows.append((self.free.inside(point), float(np.sqrt(max(0.0, square) / count))))
+                    rows.append((self._value(point), float(np.sqrt(max(0.0, square) / count))))
         return sorted(rows)
 
     def _straight(self, step: float) -> float:
@@ -93,4 +104,6 @@ class Profile:
             outer = bound
             if abs(outer - inner) < 1e-12 or self.rise(outer) < 1.0:
                 return None
-        return float(brentq(lambda p: self.rise(p) - 1.0, inner, outer, xtol=CLOSE * abs(half)))
+        if self.rise(inner) >= 1.0:
+            return inner
+        return float(brentq(lambda p: self.rise(float(p)) - 1.0, inner, outer, xtol=CLOSE * abs(half)))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -10,11 +10,13 @@ import numpy as np
 from thermodata.modelling.design import MOMENTS
 from thermodata.modelling.fitted_response import Ends
 from thermodata.modelling.profile import Profile
-from thermodata.modelling.search import Problem
+from thermodata.modelling.search import Problem, search
 from thermodata.modelling.slow_noise import scatter
 from thermodata.modelling.start_unknown import disturbances
 from thermodata.plugin import Float1D
 
+Rough = Callable[[], Problem | None]
+UNKNOWN = 3.0  # half an interval, in units of the search (a factor of 20): of what nobody knows no profile is asked
 STEP = 1e-4  # of a parameter's range, for its slope
 _LONGEST = 0.25  # of a test; a longer memory cannot be told from a trend
 
@@ -40,10 +42,10 @@ class Owner:
 
 
 def spreads(
-    problem: Problem, x: Float1D, gains: Float1D, rough: Problem | None = None
+    problem: Problem, x: Float1D, gains: Float1D, rough: Rough | None = None
 ) -> tuple[list[Spread], frozenset[str]]:
-    """One a slot, and the names that are searched as logarithms. rough: the same problem on fewer samples, for
-    profiles."""
+    """One a slot, and the names that are searched as logarithms. rough: makes the same problem on fewer samples, for
+    profiles; None: without profiles."""
     by_slot = [Spread() for _ in problem.design.slots]
     logs = frozenset(f.param.name for f in problem.free if f.log)
     inside = _Estimate(problem, x, gains, _inside(problem, x))
@@ -51,9 +53,11 @@ def spreads(
         if np.isfinite(sd) and np.isfinite(half):
             for s in owner.slots:
                 by_slot[s].sd[owner.name], by_slot[s].half[owner.name] = float(sd), float(half)
+    if rough is None or not problem.free:
+        return by_slot, logs
     whole = len(_inside(problem, x)) == len(problem.free)
-    for i, profile, half in _profiles(inside if whole else _Estimate(problem, x, gains), rough):
-        if not profile.is_quadratic(half):
+    for i, profile, half in _profiles(inside if whole else _Estimate(problem, x, gains), rough()):
+        if half < UNKNOWN and not profile.is_quadratic(half):
             ends = profile.ends(half)
             for s in problem.free[i].slots:
                 by_slot[s].ends[problem.free[i].param.name] = ends
@@ -102,7 +106,8 @@ def _profiles(estimate: _Estimate, rough: Problem | None) -> Iterator[tuple[int,
     moves = size > 0
     size[~moves] = 1.0
     inverse = np.linalg.pinv((jacobian / size).T @ (jacobian / size), rcond=1e-12) / np.outer(size, size)
-    small = problem if rough is None else rough
+    # on other samples the optimum is a little elsewhere, and from beside it an error is no parabola
+    small, near = (problem, x) if rough is None else (rough, search(rough, x))
     free_to_move = _inside(problem, x)
     places = {owner.place: k for k, owner in enumerate(estimate.owners) if owner.place is not None}
     for i, free in enumerate(problem.free):
@@ -113,7 +118,7 @@ def _profiles(estimate: _Estimate, rough: Problem | None) -> Iterator[tuple[int,
         allowed = half**2 / inverse[k, k] * small.design.n / problem.design.n
         along = np.array([inverse[places[o], k] / inverse[k, k] if o in free_to_move else 0.0 for o in places])
         along[i] = 1.0
-        yield i, Profile(small, x, i, allowed, along), half
+        yield i, Profile(small, near, i, allowed, along, float(x[i] - near[i])), half
 
 
 def _inside(problem: Problem, x: Float1D) -> list[int]:
