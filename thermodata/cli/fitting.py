@@ -290,9 +290,9 @@ def fit_text(result: FitResult, *, scores: bool = True) -> str:
 
 
 def span(parameter: Parameter) -> str:
-    """'0.9 … 1.2', or '-' where the uncertainty is not known."""
+    """'0.9 … 1.2', '0.9 …' where these tests set no upper end, or '-' where the uncertainty is not known."""
     low, high = parameter.low, parameter.high
-    return "-" if low is None or high is None else f"{number(low)} … {number(high)}"
+    return "-" if low is None and high is None else f"{number(low)} … {number(high)}".replace("-", "")
 
 
 def scores_text(scores: list[Score], phases: bool = False) -> str:

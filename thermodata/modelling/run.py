@@ -15,6 +15,7 @@ from thermodata.modelling.fit import fit_model
 from thermodata.modelling.fitted import FittedModel
 from thermodata.modelling.orders import Tried
 from thermodata.modelling.portability import Portability, portability
+from thermodata.modelling.profiles import Profiles, profiles_of
 from thermodata.modelling.resolve import term_ids
 from thermodata.modelling.result import make_result, model_id
 from thermodata.modelling.roles import find_tests
@@ -189,6 +190,12 @@ def _with_open_orders(effect: EffectSpec, method: str | None) -> EffectSpec:
     if effect.effect != NAME:
         return effect
     return effect.model_copy(update={"orders": None, "method": method or effect.method})
+
+
+def profiles(store: Store, ref: str) -> Profiles:
+    """The interval of every time constant of a stored model by its profile, and what the tests can't tell apart."""
+    model = load(store, ref)
+    return profiles_of(model.fitted, model.data)
 
 
 def chosen_effect(store: Store, model: str, spec: Model, candidate: str | int) -> EffectSpec:
