@@ -134,7 +134,7 @@ def _claims(own: Sequence[Judged]) -> tuple[Judged, ...]:
 
 def failed_rules(scored: Scored, measure: Measure, unit: str) -> list[str]:
     """The rules that a candidate fails, as sentences; none where it may be claimed."""
-    failed = []
+    failed = [why for why in [scored.candidate.unforetold] if why]
     p = p_value(scored.evidence, measure.chance)
     if p > P_LIMIT:
         failed.append(f"chance does as well in {p:.1%} of responses in which nothing is missing (limit {P_LIMIT:.0%})")

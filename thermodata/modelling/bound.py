@@ -16,6 +16,7 @@ from thermodata.plugin import Bool1D, Drivers, Effect, Float2D
 from thermodata.schema.model import EffectSpec
 from thermodata.view.dataset import TestData
 
+OF_TESTS = ("test", "machine", "campaign")  # what a gain can differ by, beside conditions
 KEPT_TESTS = 1024  # drivers a term keeps; changed copies of tests count too
 
 
@@ -90,22 +91,27 @@ class BoundTerm:
         by = self.spec.gain_by
         if by is None:
             return ""
-        name = by.removeprefix("conditions.")
-        if by in ("test", "machine", "campaign"):
-            return str(getattr(test, by))
-        if name not in test.conditions:
+        value = group_of(test, by)
+        if value is None:
             raise unknown_name(
                 "condition",
-                name,
-                [*test.conditions, "test", "machine", "campaign"],
+                by.removeprefix("conditions."),
+                [*test.conditions, *OF_TESTS],
                 where=f"gain_by of effect '{self.id}', test {test.campaign}/{test.test}",
             )
-        value = test.conditions[name]
-        return f"{value:g}" if isinstance(value, float | int) else str(value)
+        return value
 
     def _binding_of(self, test: TestData) -> Mapping[str, str]:
         found = self.bindings.get(test.campaign)
         return self.binding if found is None else found
+
+
+def group_of(test: TestData, by: str) -> str | None:
+    """The value of a `gain_by` in a test; None where the test has no such condition."""
+    if by in OF_TESTS:
+        return str(getattr(test, by))
+    value = test.conditions.get(by.removeprefix("conditions."))
+    return f"{value:g}" if isinstance(value, float | int) else None if value is None else str(value)
 
 
 @dataclass(frozen=True)

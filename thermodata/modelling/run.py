@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from thermodata.errors import UsageError
-from thermodata.modelling.candidate import candidate_spec, with_effect
+from thermodata.modelling.candidate import with_candidate, with_effect
 from thermodata.modelling.fit import fit_model
 from thermodata.modelling.fitted import FittedModel
 from thermodata.modelling.portability import Portability, portability
@@ -78,17 +78,18 @@ def compare(store: Store, refs: Sequence[str]) -> list[FitResult]:
 
 
 def add(store: Store, ref: str, candidate: str | int | EffectSpec) -> FitResult:
-    """A new version with one effect more: a rank or id of the stored diagnosis, or any 'effect:channels'.
-    `before` has the parent's scores."""
+    """A new version with one effect more: a rank or id of the stored diagnosis, or any 'effect:channels'; or with
+    several gains of one that it has, 'gain_by:effect,condition'. `before` has the parent's scores."""
     from thermodata.store.catalogue.models import find_model
 
     parent = find_model(store, ref)
-    effect = (
-        candidate if isinstance(candidate, EffectSpec) else chosen_effect(store, parent.model, parent.spec, candidate)
-    )
     old = load(store, parent.model)
+    if isinstance(candidate, EffectSpec):
+        grown = with_effect(parent.spec, candidate)
+    else:
+        grown = with_candidate(parent.spec, chosen_id(store, parent.model, candidate), old.data.channels)
     before = make_result(old.fitted, old.data, parent.model).scores
-    return fit(store, with_effect(parent.spec, effect), parent=parent.model, before=before)
+    return fit(store, grown, parent=parent.model, before=before)
 
 
 def transfer(store: Store, ref: str) -> list[Portability]:
@@ -101,8 +102,9 @@ def transfer(store: Store, ref: str) -> list[Portability]:
     return rows
 
 
-def chosen_effect(store: Store, model: str, spec: Model, candidate: str | int) -> EffectSpec:
-    """What a user names: the rank of the stored diagnosis, an id, or any 'effect:channels'; UsageError for none."""
+def chosen_id(store: Store, model: str, candidate: str | int) -> str:
+    """What a user names: the id of a rank of the stored diagnosis, or the name as it is; UsageError for no such
+    rank."""
     from thermodata.store.catalogue.models import load_diagnosis
 
     name = str(candidate)
@@ -118,7 +120,7 @@ def chosen_effect(store: Store, model: str, spec: Model, candidate: str | int) -
                 got=name,
             )
         name = ranks[int(name)]
-    return candidate_spec(name, load_data(store, spec).channels)
+    return name
 
 
 def _absolute(spec: Model, base: Path | None) -> Model:

@@ -85,11 +85,16 @@ def versions(chain: Sequence[StoredModel]) -> tuple[Version, ...]:
     """The chain as rows, oldest first, with what each version added to the one before it."""
     from thermodata.modelling.resolve import term_ids
 
-    made, known = [], set[str]()
+    made: list[Version] = []
+    known: dict[str, str | None] = {}
     for i, m in enumerate(chain):
         ids = term_ids(m.spec.effects)
         fresh = (
-            [_in_words(spec, name) for spec, name in zip(m.spec.effects, ids, strict=True) if name not in known]
+            [
+                _in_words(spec, name) if name not in known else f"{name} by {spec.gain_by}"
+                for spec, name in zip(m.spec.effects, ids, strict=True)
+                if name not in known or known[name] != spec.gain_by
+            ]
             if i
             else []
         )
@@ -105,7 +110,7 @@ def versions(chain: Sequence[StoredModel]) -> tuple[Version, ...]:
                 m.stale,
             )
         )
-        known = set(ids)
+        known = {name: spec.gain_by for name, spec in zip(ids, m.spec.effects, strict=True)}
     return tuple(made)
 
 
