@@ -101,7 +101,8 @@ def compare_command(session: Session, models: tuple[str, ...]) -> None:
 def add_command(session: Session, model: str, candidate: str) -> None:
     """Make a new version of MODEL with an effect more.
 
-    CANDIDATE is its rank or id, as diagnose printed them. Prints the errors before and after.
+    CANDIDATE is its rank or id, as diagnose printed them; gain_by:EFFECT,CONDITION gives an effect of MODEL a gain for
+    each value of a condition. Prints the errors before and after.
     """
     from thermodata.cli.progress import counting_line
     from thermodata.modelling.run import add

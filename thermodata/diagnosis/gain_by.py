@@ -1,7 +1,7 @@
 """The model's own effects with a gain for each value of a condition: another tool, machine, preload.
 
 One gain for three tools leaves an error that no channel explains, so that no effect of the library can name it. What
-is asked is the term's contribution as it is fitted, cut by the condition that stands beside each test: a column a value.
+is asked is the term's contribution as it is fitted, a column for each value of a condition of the tests.
 """
 
 from __future__ import annotations
