@@ -162,8 +162,10 @@ def _one_free_gain(term: FittedTerm) -> bool:
 
 
 def _conditions(tests: Sequence[TestData]) -> list[str]:
-    """Those that every test has, what names something physical before what only tells tests apart."""
-    names = [f"conditions.{n}" for n in dict.fromkeys(n for t in tests for n in t.conditions) if n not in OF_TESTS]
+    """Those that every test has: names before numbers, which may act by more than their value; last what only tells
+    tests apart."""
+    said = {n: isinstance(v, str) for t in tests for n, v in t.conditions.items() if n not in OF_TESTS}
+    names = [f"conditions.{n}" for n in sorted(said, key=lambda n: not said[n])]
     return [n for n in (*names, "machine", "campaign") if all(group_of(t, n) not in (None, "") for t in tests)]
 
 
