@@ -190,6 +190,17 @@ def test_leaving_a_test_out_by_moments_equals_refitting_without_it() -> None:
     assert found.rows.tolist() == [ROWS] * 4
 
 
+def test_the_model_alone_is_left_out_by_moments_too() -> None:
+    one = small()
+    base, errors = known(one, NOISE), []
+    for i in range(4):
+        others = [j for j in range(4) if j != i]
+        x, y = stacked(one, [i])
+        alone = posterior(one, others, base, np.zeros((len(others) * ROWS, 0)), np.zeros(0))
+        errors.append(np.mean((y - x @ alone) ** 2))
+    assert base.left_out == pytest.approx(np.sqrt(np.mean(errors)), rel=1e-6)
+
+
 def test_the_shape_is_what_the_known_effects_cannot_do() -> None:
     one, found = small(), ranked()
     base = known(one, NOISE)

@@ -130,7 +130,9 @@ class TestJudged:
         def select(problem: Problem, given: Ranked, sound: Any) -> Selection:
             assert given is first
             self.sound = sound
-            return Selection(first, tuple(Member(m, m, tuple(ranked)) for m in members or ()), (), NOISE)
+            return Selection(
+                first, tuple(Member(m, m, tuple(ranked)) for m in members or ()), (), NOISE, ranked[0].error_before
+            )
 
         def built(*of: Any, **named: Any) -> Problem:
             self.rows.append(named["rows"])

@@ -120,7 +120,7 @@ class Worlds:
         found = [self._scored(problem, one) for one in pool]
         if not left_out:
             found = [replace(s, rows=np.zeros(0), sse_before=np.zeros(0), sse_after=np.zeros(0)) for s in found]
-        known: Any = SimpleNamespace(problem=problem, space=SimpleNamespace(noise=NOISE))
+        known: Any = SimpleNamespace(problem=problem, space=SimpleNamespace(noise=NOISE), left_out=1.0)
         return Ranked(known, tuple(sorted(found, key=lambda s: -s.evidence)))
 
     def _scored(self, problem: Problem, one: Columns) -> Scored:

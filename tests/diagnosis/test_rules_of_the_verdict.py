@@ -22,10 +22,11 @@ HOPELESS = scored("hopeless", before=1.0, after=0.95)
 def selection(
     *members: Scored, first: Sequence[Scored] = (HOPELESS,), alone: Sequence[Scored] | None = None
 ) -> Selection:
-    """alone: each member as it was chosen, by default the same as beside the others."""
+    """alone: each member as it was chosen, by default the same as beside the others. The model leaves what the first
+    of all candidates finds."""
     chosen = members if alone is None else alone
     made = tuple(Member(a, m, tuple(first)) for a, m in zip(chosen, members, strict=True))
-    return Selection(Ranked(UNKNOWN, tuple(first)), made, (), NOISE)
+    return Selection(Ranked(UNKNOWN, tuple(first)), made, (), NOISE, first[0].error_before)
 
 
 def verdict(
@@ -98,7 +99,7 @@ def test_a_blunt_cause_is_not_claimed_and_is_no_refinement_either() -> None:
     found = verdict(blunt)
     assert (found.verdict, found.claims, names(found.judged)) == ("unknown", (), ["blunt"])
     assert (
-        "the best, blunt:T_a, fails because causes like it were right in 68% of cases only (limit 70%)" in found.reason
+        "the best, blunt:T_a, fails because causes like it were right in 69% of cases only (limit 70%)" in found.reason
     )
     beside = verdict(blunt, scored("mode"), refined=["mode"])
     assert (beside.verdict, beside.refinements) == ("unknown", ()), "something is missing too"

@@ -57,8 +57,8 @@ def calibration(file: str, old: str, new: str, why: str) -> Mutant:
 MUTANTS = [
     # ---- a claim
     diagnosis("judge.py", "P_LIMIT = 0.01", "P_LIMIT = 0.9", "chance is claimed as a cause"),
-    diagnosis("judge.py", "(3.28, 2.18, -2.51)", "(5.28, 2.18, -2.51)", "an answer is too sure of itself"),
-    diagnosis("judge.py", "2.18, -2.51)", "2.18, 0.0)", "an answer is sure of a proxy of another gain a test"),
+    diagnosis("judge.py", "(3.27, 2.22, -1.69)", "(5.27, 2.22, -1.69)", "an answer is too sure of itself"),
+    diagnosis("judge.py", "2.22, -1.69)", "2.22, 0.0)", "an answer is sure of a proxy of another gain a test"),
     diagnosis("judge.py", "\nCLAIMED = 0.7", "\nCLAIMED = 0.6", "what is slow stands in for a cause"),
     diagnosis("judge.py", "PLACELESS_CLAIMED = 0.5", "PLACELESS_CLAIMED = 0.7", "nothing is ever claimed"),
     diagnosis("judge.py", "USUAL_SPREAD = 0.15", "USUAL_SPREAD = 1.0", "what acts in one test is never claimed"),

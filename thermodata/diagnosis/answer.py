@@ -19,7 +19,6 @@ from thermodata.diagnosis.judge import (
     explained,
     failed_rules,
     probability,
-    remaining,
 )
 from thermodata.diagnosis.locked import Foretold
 from thermodata.diagnosis.null import p_value
@@ -143,7 +142,7 @@ def _diagnosis(
         response=problem.response,
         verdict=judgement.verdict,
         noise_um=problem.noise if np.isfinite(problem.noise) else None,
-        rmse_um=remaining(alone.first.ranked[0]) if alone is not None else _left(problem),
+        rmse_um=alone.left if alone is not None else _left(problem),
         explainable=max((float(np.clip(_fall(s), 0.0, 1.0)) for s in scored), default=None),
         weak_spots=investigation.spots,
         candidates=[

@@ -12,7 +12,7 @@ from thermodata.diagnosis.artefact import as_artefacts, find_steps
 from thermodata.diagnosis.candidates import CandidateEffect, candidates
 from thermodata.diagnosis.evidence import columns
 from thermodata.diagnosis.gain_by import gains_by_condition
-from thermodata.diagnosis.judge import Judged, Judgement, Measure, failed_rules, judge, remaining
+from thermodata.diagnosis.judge import Judged, Judgement, Measure, failed_rules, judge
 from thermodata.diagnosis.known import rms
 from thermodata.diagnosis.known_effects import otherwise, remembered
 from thermodata.diagnosis.locked import Foretold, foretell
@@ -99,8 +99,7 @@ def investigate(
     spots = weak_spots([(t, asked_about.residual(t), asked_about.mask(t)) for t in tests], problem.noise)
     faults = gains_are_wrong_only_where_nothing_is_missing(faults, judgement)
     if selection is not None:
-        left = remaining(selection.first.ranked[0])
-        faults += wrong_parameters(problem, _error_of(asked_about, tests), left, measure.floor)
+        faults += wrong_parameters(problem, _error_of(asked_about, tests), selection.left, measure.floor)
     artefacts = first_of_each([*as_artefacts(steps, info.unit), *faults])
 
     def borne_out(claims: Sequence[Judged]) -> Foretold | None:

@@ -20,7 +20,7 @@ Verdict = Literal["effect", "refine", "none", "unknown", "not_testable"]
 P_LIMIT = 0.01
 # that a sound candidate is the cause: a logistic curve over the logarithm of its evidence a sample, and the spread of
 # its gain between tests (docs/method.md#probability)
-PROBABILITY = (3.28, 2.18, -2.51)
+PROBABILITY = (3.27, 2.22, -1.69)
 USUAL_SPREAD = 0.15
 CLAIMED = 0.7  # a claim is this probable at least;
 # where nobody declared any place it names a channel, not physics, and there is nothing that it could be taken for
@@ -100,11 +100,11 @@ def judge(
     kept = tuple(j for j in judged if j.refines is not None)
     if claims:
         return Judgement("effect", claims, kept, judged, "")
-    left = remaining(selection.first.ranked[0])
+    left = selection.left
     standing = [j.scored for j in judged if j.refines is None]
     if left <= measure.floor:
         why = (
-            f"the error beside all that the model can do, {left:.2g} {problem.unit}, is at the floor of "
+            f"the error on left-out tests, {left:.2g} {problem.unit}, is at the floor of "
             f"{measure.floor:.2g} {problem.unit} (noise, and {FLOOR_SHARE:.0%} of the response)"
         )
         return Judgement("none", (), (), judged, why)
@@ -203,11 +203,6 @@ def probability(scored: Scored) -> float:
 def sharpness(scored: Scored) -> float:
     """Log evidence a sample."""
     return scored.evidence / max(float(scored.rows.sum()), 1.0)
-
-
-def remaining(scored: Scored) -> float:
-    """RMS error of all left-out tests without the candidate, each test alike."""
-    return float(np.sqrt(np.mean(scored.sse_before / scored.rows)))
 
 
 def explained(scored: Scored) -> float:

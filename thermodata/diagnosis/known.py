@@ -48,6 +48,15 @@ class Known:
         return np.arange(len(self.white))
 
     @property
+    def left_out(self) -> float:
+        """RMS error of tests that are left out in turn, each alike, in the response's unit."""
+        squares = []
+        for i, block in enumerate(self.problem.blocks):
+            theta = self.mean(np.delete(self.every, i))
+            squares.append(np.mean((block.response - np.hstack([block.base, block.slack]) @ theta) ** 2))
+        return float(np.sqrt(np.mean(squares)))
+
+    @property
     def log_evidence(self) -> float:
         """Of the response, offsets integrated out."""
         of_all = self.gram.sum(axis=0), self.cross.sum(axis=0), float(self.energy.sum())

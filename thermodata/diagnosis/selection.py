@@ -55,12 +55,14 @@ class Member:
 @dataclass(frozen=True, slots=True)
 class Selection:
     """first: the ranking beside the model alone. members: in the order of their choice. dropped: what the evidence
-    chose and a rule forbade. noise: beside all members."""
+    chose and a rule forbade. noise: beside all members. left: RMS error of the model alone on left-out tests, in the
+    response's unit."""
 
     first: Ranked
     members: tuple[Member, ...]
     dropped: tuple[Scored, ...]
     noise: Noise
+    left: float
 
 
 def first_ranking(problem: Problem, candidates: Sequence[CandidateEffect]) -> Ranked | None:
@@ -94,7 +96,7 @@ def select(problem: Problem, first: Ranked, sound: Callable[[Scored], bool]) -> 
         if len(dropped) == before:
             break
     members = tuple(_member(problem, pool, chosen, i, current[i], noise, sound) for i in range(len(chosen)))
-    return Selection(first, members, tuple(dropped), noise)
+    return Selection(first, members, tuple(dropped), noise, first.known.left_out)
 
 
 def _forward(

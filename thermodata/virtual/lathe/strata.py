@@ -9,7 +9,7 @@ from typing import Literal
 # Rules of the diagnosis are made on the first seeds only. The others are opened once a rule is frozen, so that a figure
 # of theirs is worth something; whoever has tuned on one has spent it, and moves SEALED on.
 DEVELOPMENT = range(0, 100_000)
-SEALED = range(100_000, 200_000)
+SEALED = range(200_000, 300_000)
 
 
 @dataclass(frozen=True, slots=True)
