@@ -10,7 +10,9 @@ from typing import Any
 import numpy as np
 import pytest
 
+from thermodata.diagnosis import next_test
 from thermodata.diagnosis.answer import answer
+from thermodata.diagnosis.candidates import CandidateEffect
 from thermodata.diagnosis.gain_by import gains_by_condition, named
 from thermodata.effect import effects
 from thermodata.effect.lag import lag
@@ -18,10 +20,11 @@ from thermodata.errors import UsageError
 from thermodata.modelling.fit import fit_model
 from thermodata.modelling.fitted_response import FittedResponse
 from thermodata.schema.model import EffectSpec, Model
-from thermodata.schema.result import Candidate, Diagnosis
+from thermodata.schema.result import Candidate, Diagnosis, WeakSpot
 from thermodata.view.dataset import Dataset
 
 from .conftest import STEP_S, base, make_data
+from .hand_made import scored
 
 Add = Callable[[dict[str, Any], np.ndarray], np.ndarray]
 TOOLS = ("T1", "T2", "T3", "T1", "T2", "T3", "T2")  # the last test is locked
@@ -206,3 +209,20 @@ def test_what_a_user_names_must_be_there(spec: Model) -> None:
         named(response, "spindle_bering", "conditions.tool", data.tests)
     with pytest.raises(UsageError, match="condition"):
         named(response, "spindle_bearing", "conditions.tol", data.tests)
+
+
+class Differs(CandidateEffect):
+    """A known effect with other gains, as far as advice asks."""
+
+    gain_by = "conditions.tool"
+    id = ID
+
+
+def test_the_advice_is_the_same_work_with_each_value() -> None:
+    cause, plain = scored("coolant", channels=("T_c",)), scored("screw", channels=("T_b",), after=0.4)
+    differs = replace(plain, candidate=Differs(plain.candidate.effect, plain.candidate.binding, "feed_x"))
+    said = next_test.to_separate(cause, [differs], {})
+    assert said == f"to tell coolant:T_c from {ID}: the same work with each value of conditions.tool"
+    spots: list[WeakSpot] = []
+    assert "do the same work with each value of conditions.tool" in next_test.to_find(8, spots, differs)
+    assert "T_b is logged and ranks first" in next_test.to_find(8, spots, plain)
