@@ -171,7 +171,8 @@ def test_more_than_eight_values_are_no_groups(values: int, there: bool, spec: Mo
 
 def test_conditions_that_part_the_tests_alike_are_one_candidate(spec: Model) -> None:
     diameters = [{"T1": 25.0, "T2": 63.0, "T3": 100.0}[t] for t in TOOLS]
-    data = with_conditions(make_data(), **{"tool.id": TOOLS, "tool.diameter": diameters})
+    named_so: dict[str, Sequence[float | str]] = {"tool.id": TOOLS, "tool.diameter": diameters}
+    data = with_conditions(make_data(), **named_so)
     (found,) = found_in(data, spec)
     assert (found.id, found.alike) == ("gain_by:spindle_bearing,conditions.tool.id", ("conditions.tool.diameter",))
 

@@ -16,7 +16,7 @@ from thermodata.diagnosis.gain_by import named
 from thermodata.effect import effect as find_effect
 from thermodata.effect import effects
 from thermodata.errors import UsageError
-from thermodata.modelling.candidate import candidate_spec, gain_by_of
+from thermodata.modelling.candidate import candidate_spec, gain_by_of, with_gain_by
 from thermodata.modelling.fitted_response import FittedResponse
 from thermodata.modelling.run import Loaded, chosen_id, load
 from thermodata.schema.result import Confirmed, Diagnosis, TestConfirmed
@@ -115,6 +115,7 @@ def confirm_choice(store: Store, ref: str, candidate: str | int) -> tuple[Confir
 def _chosen(model: Loaded, response: FittedResponse, name: str) -> CandidateEffect:
     changed = gain_by_of(name)
     if changed is not None:
+        with_gain_by(model.fitted.spec, *changed)  # refuses what `add` would refuse
         return named(response, *changed, model.data.tests)
     spec = candidate_spec(name, model.data.channels)
     return CandidateEffect(find_effect(spec.effect), {r: str(c) for r, c in spec.drivers.items()}, family="")
