@@ -11,15 +11,18 @@ import numpy as np
 
 from thermodata.effect.binding import bindings, candidate_id, family_of
 from thermodata.effect.places import holds
+from thermodata.modelling.candidate import with_effect
 from thermodata.modelling.drivers import has_drivers, make_drivers
 from thermodata.modelling.lead import columns, with_lead
 from thermodata.plugin import Drivers, Effect, Float2D, Param
+from thermodata.schema.model import EffectSpec, Model
 from thermodata.view.dataset import ChannelInfo, TestData
 
 Led = tuple[Drivers, int]
 # "same": another mode of an effect that the model has, another reading of its channels or of the same cause. "near": an
-# effect of a family that the model has, at its place. "related": one elsewhere
-Kin = Literal["same", "near", "related"] | None
+# effect of a family that the model has, at its place. "related": one elsewhere. "itself": an effect of the model with
+# other gains (`gain_by`)
+Kin = Literal["same", "near", "related", "itself"] | None
 GENERIC = "generic"
 CONTROL = "control"  # its static compensation is a difference of any two temperatures
 STATIC = "static"
@@ -36,7 +39,8 @@ UNNAMED = -3.0
 class CandidateEffect:
     """An effect and the channels it would be driven by. family: with the axis that its channels sit on.
     placeless: nobody declared where any temperature sits, so it can only be a plain lag. log_prior: how much less
-    probable than others before any data. kin: how near it is to what the model has already (`Kin`)."""
+    probable than others before any data. kin: how near it is to what the model has already (`Kin`). unforetold: why
+    left-out tests can't be asked of it; None where they can."""
 
     effect: Effect
     binding: Mapping[str, str]
@@ -44,6 +48,7 @@ class CandidateEffect:
     placeless: bool = False
     log_prior: float = 0.0
     kin: Kin = None
+    unforetold: str | None = None
 
     @property
     def channels(self) -> tuple[str, ...]:
@@ -52,6 +57,20 @@ class CandidateEffect:
     @property
     def id(self) -> str:
         return candidate_id(self.effect.name, self.binding)
+
+    @property
+    def within(self) -> str | None:
+        """The term of the model that it changes; None where it is a term more."""
+        return None
+
+    @property
+    def gain_by(self) -> str | None:
+        """The condition that its gain differs by."""
+        return None
+
+    def added_to(self, spec: Model) -> Model:
+        """A model with it."""
+        return with_effect(spec, EffectSpec(effect=self.effect.name, drivers=dict(self.binding)))
 
     def drivers(self, test: TestData) -> Led | None:
         """What the effect sees of a test; None where the test lacks a channel."""

@@ -12,7 +12,7 @@ from thermodata.diagnosis.locked import Foretold
 from thermodata.modelling.fit import fit_model
 from thermodata.modelling.fitted import FittedModel
 from thermodata.modelling.fitted_response import FittedResponse
-from thermodata.schema.model import EffectSpec, Model
+from thermodata.schema.model import Model
 from thermodata.schema.result import Parameter
 from thermodata.view.dataset import Dataset, TestData
 
@@ -42,9 +42,10 @@ class Confirmation:
 
 
 def extended(spec: Model, candidates: Sequence[CandidateEffect]) -> Model:
-    """The model with candidates as further effects."""
-    added = [EffectSpec(effect=c.effect.name, drivers=dict(c.binding)) for c in candidates]
-    return spec.model_copy(update={"effects": [*spec.effects, *added]})
+    """The model with candidates: as further effects, or as further gains of those that it has."""
+    for one in candidates:
+        spec = one.added_to(spec)
+    return spec
 
 
 def on_all_open(spec: Model, tests: Sequence[TestData], locked: Sequence[TestData]) -> Model:
@@ -97,12 +98,10 @@ def _parameters(
     more: FittedModel, known: int, candidates: Sequence[CandidateEffect]
 ) -> dict[str, dict[str, Parameter]]:
     """Of each candidate, by its id: the effects that were added stand last, in their order."""
-    added = [t.id for t in more.responses[0].terms[known:]]
+    added = iter(t.id for t in more.responses[0].terms[known:])
+    terms = {c.id: c.within or next(added) for c in candidates}
     found = more.parameters()
-    return {
-        c.id: {name: p for name, p in found.items() if term in name.split(".")}
-        for c, term in zip(candidates, added, strict=True)
-    }
+    return {c: {name: p for name, p in found.items() if term in name.split(".")} for c, term in terms.items()}
 
 
 def rmse(fitted: FittedResponse, tests: Sequence[TestData], *, free: bool = False) -> float | None:

@@ -12,6 +12,7 @@ import numpy as np
 
 from thermodata.diagnosis.candidates import GENERIC, refines
 from thermodata.diagnosis.discrepancy import Noise
+from thermodata.diagnosis.gain_by import in_words
 from thermodata.diagnosis.judge import acting_size
 from thermodata.diagnosis.known import known, rms
 from thermodata.diagnosis.known_effects import from_other_zero, is_warm, owners
@@ -48,6 +49,8 @@ class Refinement:
         """What it refines of the model, in words."""
         if not self.fitted.terms:
             return None
+        if scored.candidate.kin == "itself":
+            return in_words(scored, self.fitted, self.problem, self.noise)
         kin, most = scored.candidate.kin, scored.drop >= MOST
         if refines(scored.candidate.effect) or kin == "same":
             return MODE

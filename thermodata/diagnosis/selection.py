@@ -30,6 +30,7 @@ NAMED_SHARE = 0.95
 ALIKE_SHARE = 0.8  # the same for a name on another channel that acts alike (cosine)
 ALIKE = 0.8
 FEWER_SHARE = 0.8
+CAUSE_SHARE = 0.8  # and a cause, beside another gain for each value of a condition: tests differ in much else
 UNNAMED = (GENERIC, CONTROL)
 
 
@@ -186,7 +187,7 @@ def preferred(ranked: Sequence[Scored]) -> Scored | None:
         return None
     best = ranked[0]
     own = set(best.candidate.channels)
-    for other in (s for s in ranked[1:] if len(s.shape)):
+    for other in (s for s in ranked[1:] if len(s.shape) and not s.candidate.gain_by):
         theirs = set(other.candidate.channels)
         fewer = theirs < own and best.candidate.family in UNNAMED
         named = best.candidate.family in UNNAMED and other.candidate.family not in UNNAMED and own & theirs
@@ -198,6 +199,7 @@ def preferred(ranked: Sequence[Scored]) -> Scored | None:
         )
         if (
             (fewer and other.evidence >= FEWER_SHARE * best.evidence)
+            or (best.candidate.gain_by and other.evidence >= CAUSE_SHARE * best.evidence)
             or (named and other.evidence >= NAMED_SHARE * best.evidence)
             or (elsewhere and other.evidence >= ALIKE_SHARE * best.evidence)
         ):

@@ -17,6 +17,8 @@ from thermodata.plugin import Bool1D, Drivers, Effect, Float2D
 from thermodata.schema.model import EffectSpec
 from thermodata.view.dataset import TestData
 
+OF_TESTS = ("test", "machine", "campaign")  # what a gain can differ by, beside conditions,
+OF_RESPONSES = ("tool", "place")  # and by what has a name of its own
 KEPT_TESTS = 1024  # drivers a term keeps; changed copies of tests count too
 PLACE = "response's place"  # a condition of tests that were copied for each of several responses
 
@@ -100,25 +102,33 @@ class BoundTerm:
         return ", ".join(self.spec.groups.get(v, v) for v in values if v)
 
     def _value(self, by: str, test: TestData) -> str:
-        if by == "place":
-            return str(test.conditions.get(PLACE, ""))
-        if by in ("test", "machine", "campaign"):
-            return str(getattr(test, by))
-        name = "tool.id" if by == "tool" and "tool" not in test.conditions else by
-        if name not in test.conditions:
+        value = group_of(test, by)
+        if value is None:
             raise unknown_name(
                 "condition",
                 by,
-                [*test.conditions, "test", "machine", "campaign", "tool", "place"],
+                [*test.conditions, *OF_TESTS, *OF_RESPONSES],
                 where=f"gain_by of effect '{self.id}', test {test.campaign}/{test.test}",
             )
-        value = test.conditions[name]
-        return f"{value:g}" if isinstance(value, float | int) else str(value)
+        return value
 
     def binding_of(self, test: TestData) -> Mapping[str, str]:
         """role -> channel or expression, as the test's campaign names them."""
         found = self.bindings.get(test.campaign)
         return self.binding if found is None else found
+
+
+def group_of(test: TestData, by: str) -> str | None:
+    """The value of one name of `gain_by` in a test; None where the test has no such condition."""
+    if by == "place":
+        return str(test.conditions.get(PLACE, ""))
+    if by in OF_TESTS:
+        return str(getattr(test, by))
+    name = by.removeprefix("conditions.")
+    if name == "tool" and name not in test.conditions:
+        name = "tool.id"
+    value = test.conditions.get(name)
+    return f"{value:g}" if isinstance(value, float | int) else None if value is None else str(value)
 
 
 def each_group_its_own(term: BoundTerm) -> BoundTerm:

@@ -1,4 +1,7 @@
-"""A candidate of a diagnosis as a line of a model file: 'feed_screw:T_nut_Z' -> effect and drivers."""
+"""A candidate of a diagnosis as a line of a model file: 'feed_screw:T_nut_Z' -> effect and drivers.
+
+'gain_by:spindle_bearing,conditions.tool' is no further line: it gives a line that is there a gain for each tool.
+"""
 
 from __future__ import annotations
 
@@ -7,7 +10,27 @@ from collections.abc import Mapping
 from thermodata.effect import effect as find_effect
 from thermodata.effect.binding import Described, bindings
 from thermodata.errors import UsageError, unknown_name
+from thermodata.modelling.resolve import term_ids
 from thermodata.schema.model import EffectSpec, Model
+
+GAIN_BY = "gain_by:"
+
+
+def gain_by_id(term: str, by: str) -> str:
+    """The id of a candidate that gives a term of the model a gain for each value of a condition."""
+    return f"{GAIN_BY}{term},{by}"
+
+
+def gain_by_of(candidate: str) -> tuple[str, str] | None:
+    """(term, condition) of such an id; None for all others."""
+    term, _, by = candidate.removeprefix(GAIN_BY).partition(",")
+    return (term.strip(), by.strip()) if candidate.startswith(GAIN_BY) else None
+
+
+def with_candidate(spec: Model, candidate: str, channels: Mapping[str, Described]) -> Model:
+    """The model with what an id names. UsageError as `candidate_spec` and `with_gain_by` have it."""
+    changed = gain_by_of(candidate)
+    return with_effect(spec, candidate_spec(candidate, channels)) if changed is None else with_gain_by(spec, *changed)
 
 
 def candidate_spec(candidate: str, channels: Mapping[str, Described]) -> EffectSpec:
@@ -34,3 +57,24 @@ def with_effect(spec: Model, effect: EffectSpec) -> Model:
     """A new model: the same, and one effect more. Verification tests take part in the choice, so they are fitted too
     and their scores say so."""
     return spec.model_copy(update={"effects": [*spec.effects, effect], "in_sample": True})
+
+
+def with_gain_by(spec: Model, term: str, by: str) -> Model:
+    """A new model: the same, and one effect of it with a gain for each value of `by`. UsageError where the model has no
+    such effect, or the effect has several gains already."""
+    ids = term_ids(spec.effects)
+    if term not in ids:
+        raise unknown_name("effect", term, ids, where=f"model '{spec.name}'")
+    old = spec.effects[ids.index(term)]
+    where = f"model '{spec.name}', effect '{term}'"
+    if not by:
+        raise UsageError(
+            "no condition to part the gain by",
+            where=where,
+            expected="conditions.NAME, machine or campaign",
+            hint=f"name it: {gain_by_id(term, 'conditions.NAME')}",
+        )
+    if old.gain_by is not None:
+        raise UsageError("the effect has several gains already", where=where, got=f"gain_by: {old.gain_by}")
+    effects = [e if e is not old else e.model_copy(update={"gain_by": by}) for e in spec.effects]
+    return spec.model_copy(update={"effects": effects, "in_sample": True})

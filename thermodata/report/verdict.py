@@ -43,8 +43,9 @@ def told(found: Diagnosis) -> list[Candidate]:
 
 
 def named(one: Candidate) -> str:
-    """'feed_screw (T_nut_Z)'."""
-    return f"{one.effect} ({', '.join(one.drivers)})" if one.drivers else one.effect
+    """'feed_screw (T_nut_Z)', and what its gain differs by."""
+    name = f"{one.effect} ({', '.join(one.drivers)})" if one.drivers else one.effect
+    return f"{name} with a gain for each {one.gain_by}" if one.gain_by else name
 
 
 def verdict_sentence(found: Diagnosis) -> str:
