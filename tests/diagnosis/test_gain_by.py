@@ -215,7 +215,7 @@ def test_what_a_user_names_must_be_there(spec: Model) -> None:
 class Differs(CandidateEffect):
     """A known effect with other gains, as far as advice asks."""
 
-    gain_by = "conditions.tool"
+    protocol = "the same work with each value of conditions.tool"
     id = ID
 
 

@@ -124,7 +124,7 @@ def _diagnosis(
     problem = investigation.problem
     shown = _shown(investigation, judgement)
     refining = judgement.refinements
-    head = next((s for s, m in shown if not s.candidate.gain_by and not any(m is r for r in refining)), None)
+    head = next((s for s, m in shown if not s.candidate.within and not any(m is r for r in refining)), None)
 
     def claimed(member: Judged | None) -> bool:
         return any(member is c for c in judgement.claims)
@@ -194,6 +194,7 @@ def _candidate(
         family=s.candidate.family,
         drivers=list(s.candidate.channels),
         gain_by=s.candidate.gain_by,
+        phases=list(s.candidate.phases),
         claimed=claimed,
         refinement=_refining(member, judgement),
         # measured for what heads the list, and for claims; nothing is known of the share of the others

@@ -81,7 +81,7 @@ def confirm(
         rmse(ours, usable, free=True),
         rmse(theirs, usable, free=True),
         _changed(ours, theirs, usable),
-        _parameters(more, len(spec.effects), candidates),
+        _parameters(more, base, candidates),
         tuple(
             (t.key, a, b) for t in usable if (a := rmse(ours, [t])) is not None and (b := rmse(theirs, [t])) is not None
         ),
@@ -95,13 +95,14 @@ def _changed(ours: FittedResponse, theirs: FittedResponse, tests: Sequence[TestD
 
 
 def _parameters(
-    more: FittedModel, known: int, candidates: Sequence[CandidateEffect]
+    more: FittedModel, base: FittedModel, candidates: Sequence[CandidateEffect]
 ) -> dict[str, dict[str, Parameter]]:
-    """Of each candidate, by its id: the effects that were added stand last, in their order."""
-    added = iter(t.id for t in more.responses[0].terms[known:])
-    terms = {c.id: c.within or next(added) for c in candidates}
+    """Of each candidate, by its id: of the effects that it changed, or that were added in its order."""
+    had = {t.id for t in base.responses[0].terms}.union(*(c.becomes for c in candidates))
+    added = iter(t.id for t in more.responses[0].terms if t.id not in had)
+    terms = {c.id: c.becomes or (next(added),) for c in candidates}
     found = more.parameters()
-    return {c: {name: p for name, p in found.items() if term in name.split(".")} for c, term in terms.items()}
+    return {c: {n: p for n, p in found.items() if set(some) & set(n.split("."))} for c, some in terms.items()}
 
 
 def rmse(fitted: FittedResponse, tests: Sequence[TestData], *, free: bool = False) -> float | None:

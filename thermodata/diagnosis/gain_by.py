@@ -7,12 +7,13 @@ is asked is the term's contribution as it is fitted, a column for each value of 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import cast
 
 import numpy as np
 
-from thermodata.diagnosis.candidates import UNNAMED, CandidateEffect, Led
+from thermodata.diagnosis.candidates import UNNAMED, InTest
+from thermodata.diagnosis.changed import TIMES, ChangedEffect, EffectOfModel, is_free
 from thermodata.diagnosis.discrepancy import Noise
 from thermodata.diagnosis.known import known
 from thermodata.diagnosis.known_effects import owners
@@ -22,103 +23,77 @@ from thermodata.diagnosis.selection import beside
 from thermodata.errors import unknown_name
 from thermodata.modelling.bound import OF_TESTS, group_of
 from thermodata.modelling.candidate import gain_by_id, with_gain_by
-from thermodata.modelling.drivers import has_drivers, make_drivers, names_of
 from thermodata.modelling.fitted_response import FittedResponse, FittedTerm
-from thermodata.modelling.lead import with_lead
-from thermodata.plugin import Drivers, Effect, Float1D, Float2D, Gain, Need, Param
+from thermodata.plugin import Effect, Float1D, Gain
 from thermodata.schema.model import Model
 from thermodata.view.dataset import TestData
 
 MOST_VALUES = 8  # of a condition: more are no groups of tests
-TIMES = (0.1, 3.0)  # what else a gain may be, by machine, wear or preload; soft (`evidence.BEYOND`)
-VALUE = "value"
 
 
 @dataclass(frozen=True, slots=True)
-class GainOfEach:
+class GainOfEach(EffectOfModel):
     """A fitted effect as several: what it does in the tests of each value, in the response's unit."""
 
-    fitted: FittedTerm
     values: tuple[str, ...]
-    params: tuple[Param, ...] = ()
-
-    @property
-    def name(self) -> str:
-        return self.fitted.effect.name
-
-    @property
-    def family(self) -> str:
-        return self.fitted.family
 
     @property
     def meaning(self) -> str:
         return f"{self.fitted.effect.meaning}, with a gain for each of {', '.join(self.values)}"
 
     @property
-    def source(self) -> str:
-        return self.fitted.effect.source
-
-    @property
-    def needs(self) -> tuple[Need, ...]:
-        return self.fitted.effect.needs
-
-    @property
     def gains(self) -> tuple[Gain, ...]:
         """How much more than the one gain, as a share of it."""
         return tuple(Gain(v, "1", TIMES, "any", f"more than the one gain, at {v}") for v in self.values)
 
-    def basis(self, drivers: Drivers, p: Mapping[str, float]) -> Float2D:
-        """Shape (n, values); zero but for the value that stands in `drivers.conditions`."""
-        gains = np.array([self.fitted.gains[g.name] for g in self.fitted.effect.gains])
-        whole = self.fitted.effect.basis(drivers, {**self.fitted.params, **p}) @ np.where(gains == 0, 1.0, gains)
-        columns = np.zeros((len(drivers.t_s), len(self.values)))
-        value = drivers.conditions[VALUE]
-        if value in self.values:
-            columns[:, self.values.index(str(value))] = whole
-        return columns
-
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class GainByCondition(CandidateEffect):
-    """A term of the model with a gain for each value of a condition. by: as `gain_by` of a model file has it. alike:
+class GainByCondition(ChangedEffect):
+    """An effect of the model with a gain for each value of a condition. by: as `gain_by` of a model file has it. alike:
     conditions that part the tests in the same way."""
 
-    term: FittedTerm
     by: str
     alike: tuple[str, ...] = ()
-
-    @property
-    def channels(self) -> tuple[str, ...]:
-        """That drive the term, and no expressions of them."""
-        return tuple(dict.fromkeys(n for text in self.binding.values() for n in names_of(text)))
 
     @property
     def id(self) -> str:
         return gain_by_id(self.term.id, self.by)
 
     @property
-    def within(self) -> str:
-        return self.term.id
+    def becomes(self) -> tuple[str, ...]:
+        return (self.term.id,)
 
     @property
     def gain_by(self) -> str:
         return self.by
 
-    def drivers(self, test: TestData) -> Led | None:
-        """What the term sees of a test, and the value that its gain belongs to."""
-        binding = self.term.bound.bindings.get(test.campaign, self.binding)
-        value = group_of(test, self.by)
-        if value is None or not self.term.bound.covers(test) or not has_drivers(test, binding):
-            return None
-        drivers = make_drivers(test, self.term.effect, binding)
-        return with_lead(replace(drivers, conditions={VALUE: value}))
+    @property
+    def protocol(self) -> str:
+        return f"the same work with each value of {self.by}"
+
+    def in_test(self, test: TestData) -> InTest:
+        """Zero but for the value that the test has."""
+        values, value = [g.name for g in self.effect.gains], group_of(test, self.by)
+        columns = np.zeros((len(test.t_s), len(values)))
+        if value in values and self.term.bound.covers(test) and self.term.bound.has(test):
+            gains = np.array([self.term.gains[g.name] for g in self.term.effect.gains])
+            columns[:, values.index(value)] = self.term.columns(test) @ np.where(gains == 0, 1.0, gains)
+        return lambda p: columns
 
     def slack_params(self, p: Mapping[str, float]) -> list[dict[str, float]]:
-        """None: that the term may act faster and slower stands among what is known."""
+        """None: that the effect may act faster and slower stands among what is known."""
         return []
 
     def added_to(self, spec: Model) -> Model:
         return with_gain_by(spec, self.term.id, self.by)
+
+    def in_words(self, scored: Scored, fitted: FittedResponse, problem: Problem, noise: Noise) -> str:
+        """'spindle_bearing acts with another gain for each conditions.tool (T1 1, T2 0.6 times)': times the largest."""
+        times = _relative_gains(self, scored, fitted, problem, noise)
+        values = [g.name for g in self.effect.gains]
+        said = ", ".join(f"{value} {share:.2g}" for value, share in zip(values, times, strict=True))
+        alike = f"; {' and '.join(self.alike)} part the tests alike" if self.alike else ""
+        return f"{self.term.id} acts with another gain for each {self.by} ({said} times{alike})"
 
 
 def gains_by_condition(
@@ -128,7 +103,7 @@ def gains_by_condition(
     data, which a model with the condition must be able to score; locked ones are read for their conditions only."""
     found = []
     for term in fitted.terms:
-        if not _one_free_gain(term):
+        if not is_free(term):
             continue
         mine = [t for t in tests if term.bound.covers(t)]
         parted: dict[tuple[int, ...], list[str]] = {}
@@ -151,14 +126,6 @@ def named(fitted: FittedResponse, term: str, by: str, tests: Sequence[TestData])
     if any(group_of(t, by) is None for t in mine):
         raise unknown_name("condition", by, _conditions(mine), where=f"candidate '{gain_by_id(term, by)}', every test")
     return _candidate(terms[term], by, (), mine, tests)
-
-
-def _one_free_gain(term: FittedTerm) -> bool:
-    """Whether a gain is fitted to all tests. What was identified on tests of its own has no gain for the others, and
-    an ARX function has none."""
-    spec = term.bound.spec
-    free = any(g.name not in spec.fixed for g in term.effect.gains)
-    return spec.gain_by is None and not term.held and free and bool(term.effect.needs) and spec.method != "arx"
 
 
 def _conditions(tests: Sequence[TestData]) -> list[str]:
@@ -201,22 +168,12 @@ def _unforetold(by: str, groups: Mapping[str, Sequence[TestData]], every: Sequen
     )
 
 
-def in_words(scored: Scored, fitted: FittedResponse, problem: Problem, noise: Noise) -> str:
-    """'spindle_bearing acts with another gain for each conditions.tool (T1 1, T2 0.6 times)': times the largest."""
-    candidate = scored.candidate
-    assert isinstance(candidate, GainByCondition)
-    times = _relative_gains(scored, fitted, problem, noise)
-    values = [g.name for g in candidate.effect.gains]
-    said = ", ".join(f"{value} {share:.2g}" for value, share in zip(values, times, strict=True))
-    alike = f"; {' and '.join(candidate.alike)} part the tests alike" if candidate.alike else ""
-    return f"{candidate.term.id} acts with another gain for each {candidate.by} ({said} times{alike})"
-
-
-def _relative_gains(scored: Scored, fitted: FittedResponse, problem: Problem, noise: Noise) -> Float1D:
+def _relative_gains(
+    candidate: GainByCondition, scored: Scored, fitted: FittedResponse, problem: Problem, noise: Noise
+) -> Float1D:
     """The gain of each value by the largest, shape (values,): of the one gain and of what is added to it together, for
     the data tell only their sum."""
-    candidate, columns = scored.candidate, scored.columns
-    assert isinstance(candidate, GainByCondition)
+    columns = scored.columns
     more = beside(problem, [scored])
     theta = known(more, noise).mean(np.arange(len(more.blocks)))
     number = next(i for i, t in enumerate(fitted.terms) if t is candidate.term)

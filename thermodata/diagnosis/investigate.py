@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from threadpoolctl import threadpool_limits
 
+from thermodata.diagnosis.apart import heating_and_cooling_apart
 from thermodata.diagnosis.artefact import as_artefacts, find_steps
 from thermodata.diagnosis.candidates import CandidateEffect, candidates
 from thermodata.diagnosis.evidence import columns
@@ -24,11 +25,11 @@ from thermodata.diagnosis.logging_faults import (
     wrong_parameters,
 )
 from thermodata.diagnosis.null import best_of_chance
+from thermodata.diagnosis.present import present
 from thermodata.diagnosis.problem import TARGET_ROWS, Base, Problem, build_problem
 from thermodata.diagnosis.refinement import Refinement
 from thermodata.diagnosis.selection import Selection, first_ranking, rank_in, select
 from thermodata.diagnosis.weak import weak_spots
-from thermodata.modelling.drivers import names_of
 from thermodata.modelling.fitted_response import FittedResponse
 from thermodata.plugin import Effect
 from thermodata.schema.result import Artefact, WeakSpot
@@ -90,13 +91,12 @@ def investigate(
         at.setdefault(step.test.key, []).append(step.at_s)
     faults = _faults(fitted, data, fine, base)
     problem = compressed(WEIGHED_ROWS).split(at)
-    present = [
-        (t.effect.name, frozenset(n for text in t.binding.values() for n in names_of(text))) for t in fitted.terms
-    ]
-    asked = candidates(library, data.channels, present, fitted.name, [t.family for t in fitted.terms])
+    asked = candidates(library, data.channels, present(fitted), fitted.name)
     weighed = {b.test.key for b in problem.blocks}
-    by_condition = gains_by_condition(fitted, [t for t in tests if t.key in weighed], data.tests)
+    among = [t for t in tests if t.key in weighed]
+    by_condition = gains_by_condition(fitted, among, data.tests)
     asked += [c for c in by_condition if c.unforetold is None]
+    asked += heating_and_cooling_apart(fitted, among, data.tests)
     # thousands of small products: threads of the linear algebra library would wait for each other
     with threadpool_limits(1):
         selection, judgement, measure = _judged(fitted, problem, asked, seed)
@@ -178,7 +178,7 @@ def _faults(fitted: FittedResponse, data: Dataset, problem: Problem, base: Base)
     """Clocks and probes, where there is a model to hold them against."""
     if not problem.blocks or not problem.blocks[0].base.shape[1]:
         return []
-    drivers = {n for t in fitted.terms for text in t.binding.values() for n in names_of(text)}
+    drivers = {n for one in present(fitted) for n in one.channels}
     sources = clocks_beside(data.channels, drivers, fitted.name)
     moved = clock_offsets(problem, base, sources)
     return [*moved, *turned_probes(problem)]

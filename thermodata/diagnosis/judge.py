@@ -8,8 +8,8 @@ from typing import Literal
 
 import numpy as np
 
-from thermodata.diagnosis.candidates import CONTROL, GENERIC
 from thermodata.diagnosis.null import p_value
+from thermodata.diagnosis.present import CONTROL, GENERIC
 from thermodata.diagnosis.problem import Problem
 from thermodata.diagnosis.scored import Scored
 from thermodata.diagnosis.selection import Selection

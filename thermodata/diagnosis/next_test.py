@@ -37,8 +37,8 @@ def to_separate(chosen: Scored, twins: Sequence[Scored], channels: Mapping[str, 
     if not others:
         return None
     other = others[0]
-    if other.gain_by is not None:
-        return f"to tell {mine.id} from {other.id}: the same work with each value of {other.gain_by}"
+    if other.protocol is not None:
+        return f"to tell {mine.id} from {other.id}: {other.protocol}"
     if _places(mine, channels) and _places(mine, channels) == _places(other, channels):
         return (
             f"{mine.id} and {other.id} have their sensors at the same place: not separable by another test; add a "
@@ -61,8 +61,8 @@ def to_find(tests: int, spots: Sequence[WeakSpot], first: Scored | None = None) 
         )
     worst = spots[0].state if spots else "no state in particular"
     logged = ""
-    if first is not None and first.candidate.gain_by is not None and first.drop >= WORTH_A_TEST:
-        logged = f"do the same work with each value of {first.candidate.gain_by}; if nothing differs, "
+    if first is not None and first.candidate.protocol is not None and first.drop >= WORTH_A_TEST:
+        logged = f"do {first.candidate.protocol}; if nothing differs, "
     elif first is not None and first.drop >= WORTH_A_TEST:
         channels = ", ".join(first.candidate.channels)
         logged = (

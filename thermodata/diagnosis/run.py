@@ -10,13 +10,14 @@ import json
 from typing import TYPE_CHECKING
 
 from thermodata.diagnosis.answer import answer, worst_response
+from thermodata.diagnosis.apart import named_apart
 from thermodata.diagnosis.candidates import CandidateEffect
 from thermodata.diagnosis.confirm import confirm
 from thermodata.diagnosis.gain_by import named
 from thermodata.effect import effect as find_effect
 from thermodata.effect import effects
 from thermodata.errors import UsageError
-from thermodata.modelling.candidate import candidate_spec, gain_by_of, with_gain_by
+from thermodata.modelling.candidate import candidate_spec, changed, gain_by_of, phases_of
 from thermodata.modelling.fitted_response import FittedResponse
 from thermodata.modelling.run import Loaded, chosen_id, load
 from thermodata.schema.result import Confirmed, Diagnosis, TestConfirmed
@@ -113,9 +114,10 @@ def confirm_choice(store: Store, ref: str, candidate: str | int) -> tuple[Confir
 
 
 def _chosen(model: Loaded, response: FittedResponse, name: str) -> CandidateEffect:
-    changed = gain_by_of(name)
-    if changed is not None:
-        with_gain_by(model.fitted.spec, *changed)  # refuses what `add` would refuse
-        return named(response, *changed, model.data.tests)
+    changed(model.fitted.spec, name)  # refuses what `add` would refuse
+    if (by := gain_by_of(name)) is not None:
+        return named(response, *by, model.data.tests)
+    if (apart := phases_of(name)) is not None:
+        return named_apart(response, *apart)
     spec = candidate_spec(name, model.data.channels)
     return CandidateEffect(find_effect(spec.effect), {r: str(c) for r, c in spec.drivers.items()}, family="")

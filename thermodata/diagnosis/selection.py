@@ -11,11 +11,12 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from thermodata.diagnosis.candidates import CONTROL, GENERIC, CandidateEffect
+from thermodata.diagnosis.candidates import CandidateEffect
 from thermodata.diagnosis.discrepancy import Noise
 from thermodata.diagnosis.evidence import Columns, Moments, Weighed, columns, moments, weigh
 from thermodata.diagnosis.invariance import spread_of_gain
 from thermodata.diagnosis.known import FloatND, Known, known, likeliest, solved
+from thermodata.diagnosis.present import CONTROL, GENERIC
 from thermodata.diagnosis.problem import Block, Problem
 from thermodata.diagnosis.scored import Scored
 from thermodata.plugin import Float1D, Float2D
@@ -30,7 +31,7 @@ NAMED_SHARE = 0.95
 ALIKE_SHARE = 0.8  # the same for a name on another channel that acts alike (cosine)
 ALIKE = 0.8
 FEWER_SHARE = 0.8
-CAUSE_SHARE = 0.8  # and a cause, beside another gain for each value of a condition: tests differ in much else
+CAUSE_SHARE = 0.8  # and a cause, beside an effect of the model that acts otherwise: tests differ in much else
 UNNAMED = (GENERIC, CONTROL)
 
 
@@ -187,7 +188,7 @@ def preferred(ranked: Sequence[Scored]) -> Scored | None:
         return None
     best = ranked[0]
     own = set(best.candidate.channels)
-    for other in (s for s in ranked[1:] if len(s.shape) and not s.candidate.gain_by):
+    for other in (s for s in ranked[1:] if len(s.shape) and not s.candidate.within):
         theirs = set(other.candidate.channels)
         fewer = theirs < own and best.candidate.family in UNNAMED
         named = best.candidate.family in UNNAMED and other.candidate.family not in UNNAMED and own & theirs
@@ -199,7 +200,7 @@ def preferred(ranked: Sequence[Scored]) -> Scored | None:
         )
         if (
             (fewer and other.evidence >= FEWER_SHARE * best.evidence)
-            or (best.candidate.gain_by and other.evidence >= CAUSE_SHARE * best.evidence)
+            or (best.candidate.within and other.evidence >= CAUSE_SHARE * best.evidence)
             or (named and other.evidence >= NAMED_SHARE * best.evidence)
             or (elsewhere and other.evidence >= ALIKE_SHARE * best.evidence)
         ):

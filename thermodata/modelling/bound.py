@@ -9,9 +9,10 @@ import numpy as np
 
 from thermodata.errors import unknown_name
 from thermodata.modelling.acting import acting, moved_while
-from thermodata.modelling.drivers import has_drivers, make_drivers
+from thermodata.modelling.drivers import has_drivers, make_drivers, names_of
 from thermodata.modelling.lead import columns, with_lead
 from thermodata.modelling.of_tests import OfTests
+from thermodata.modelling.phases import activity_channels
 from thermodata.modelling.roles import Key
 from thermodata.plugin import Bool1D, Drivers, Effect, Float2D
 from thermodata.schema.model import EffectSpec
@@ -79,8 +80,20 @@ class BoundTerm:
             found = self.effect.column(test)
         else:
             found = columns(self.effect, self._kept(test)[2], params)
+        return self.while_acting(test, found)
+
+    def while_acting(self, test: TestData, found: Float2D) -> Float2D:
+        """Columns of the whole test, shape (n, k), as far as the term's phases last."""
         where = None if self.spec.phases is None else acting(test, self.spec.phases)
         return found if where is None else moved_while(found, where)
+
+    def reads(self, test: TestData) -> tuple[str, ...]:
+        """Every channel that its columns depend on in a test: its drivers, and what tells its phases."""
+        if isinstance(self.effect, OfTests):
+            return self.effect.reads(test)
+        own = [n for text in self.binding_of(test).values() for n in names_of(text)]
+        phased = activity_channels(test) if self.spec.phases is not None else []
+        return tuple(dict.fromkeys([*own, *phased]))
 
     def known(self, test: TestData) -> Bool1D | None:
         """Where all drivers were measured, or nearly; None: everywhere."""

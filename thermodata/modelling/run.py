@@ -110,8 +110,8 @@ def compare_against(store: Store, refs: Sequence[str], reference: str) -> list[B
 
 def add(store: Store, ref: str, candidate: str | int | EffectSpec, *, plain: bool = False) -> FitResult:
     """A new version with one effect more: a rank or id of the stored diagnosis, or any 'effect:channels'; or with
-    several gains of one that it has, 'gain_by:effect,condition'; and with second lags where left-out tests want them
-    (`second_lag`). plain: no second lags.
+    one that it has changed, 'gain_by:effect,condition' or 'phases:effect,heating,cooling'; and with second lags where
+    left-out tests want them (`second_lag`). plain: no second lags.
     `before` has the parent's scores, `added` the ids of what is new, `notes` why."""
     from thermodata.store.catalogue.models import find_model
 
@@ -126,7 +126,8 @@ def add(store: Store, ref: str, candidate: str | int | EffectSpec, *, plain: boo
     if not plain:
         refined = with_second_lags(grown, old.data)
         grown, notes = refined.spec, refined.notes
-    added = term_ids(grown.effects)[len(parent.spec.effects) :]
+    had = term_ids(parent.spec.effects)
+    added = [i for i in term_ids(grown.effects) if i not in had]
     return fit(store, grown, parent=parent.model, before=before, added=added, notes=notes)
 
 

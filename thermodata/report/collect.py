@@ -156,7 +156,8 @@ def _in_words(spec: EffectSpec, term: str) -> str:
     """An effect's name says what it is; a plain lag is told by its channel."""
     if spec.effect not in ("lag", "static"):
         return term
-    return f"{spec.effect}({', '.join(d if isinstance(d, str) else d.at for d in spec.drivers.values())})"
+    acts = f" in {' and '.join(spec.phases)}" if spec.phases else ""
+    return f"{spec.effect}({', '.join(d if isinstance(d, str) else d.at for d in spec.drivers.values())}){acts}"
 
 
 def _tests(
