@@ -18,13 +18,13 @@ from thermodata.diagnosis.discrepancy import Noise
 from thermodata.diagnosis.known import known
 from thermodata.diagnosis.known_effects import owners
 from thermodata.diagnosis.problem import Problem
-from thermodata.diagnosis.scored import Scored
+from thermodata.diagnosis.scored import ACTS, Scored
 from thermodata.diagnosis.selection import beside
 from thermodata.errors import unknown_name
 from thermodata.modelling.bound import OF_TESTS, group_of
 from thermodata.modelling.candidate import gain_by_id, with_gain_by
 from thermodata.modelling.fitted_response import FittedResponse, FittedTerm
-from thermodata.plugin import Effect, Float1D, Gain
+from thermodata.plugin import Bool1D, Effect, Float1D, Gain, Int1D
 from thermodata.schema.model import Model
 from thermodata.view.dataset import TestData
 
@@ -99,13 +99,14 @@ class GainByCondition(ChangedEffect):
 def gains_by_condition(
     fitted: FittedResponse, tests: Sequence[TestData], every: Sequence[TestData]
 ) -> list[GainByCondition]:
-    """Each term with one gain, by each condition that parts its tests. tests: those that are weighed. every: all of the
-    data, which a model with the condition must be able to score; locked ones are read for their conditions only."""
+    """Each effect with one gain, by each condition that parts the tests in which it acts: where it rests, any gain is
+    as good. tests: those that are weighed. every: all of the data, which a model with the condition must be able to
+    score; locked ones are read for their conditions only."""
     found = []
     for term in fitted.terms:
         if not is_free(term):
             continue
-        mine = [t for t in tests if term.bound.covers(t)]
+        mine = _where_it_acts(term, [t for t in tests if term.bound.covers(t)])
         parted: dict[tuple[int, ...], list[str]] = {}
         for by in _conditions([t for t in every if term.bound.covers(t)]):
             groups = [str(group_of(t, by)) for t in mine]
@@ -126,6 +127,11 @@ def named(fitted: FittedResponse, term: str, by: str, tests: Sequence[TestData])
     if any(group_of(t, by) is None for t in mine):
         raise unknown_name("condition", by, _conditions(mine), where=f"candidate '{gain_by_id(term, by)}', every test")
     return _candidate(terms[term], by, (), mine, tests)
+
+
+def _where_it_acts(term: FittedTerm, tests: Sequence[TestData]) -> list[TestData]:
+    sizes = [float(np.std(term.contribution(t))) for t in tests]
+    return [t for t, size in zip(tests, sizes, strict=True) if size > 0 and size >= ACTS * max(sizes)]
 
 
 def _conditions(tests: Sequence[TestData]) -> list[str]:
@@ -171,16 +177,30 @@ def _unforetold(by: str, groups: Mapping[str, Sequence[TestData]], every: Sequen
 def _relative_gains(
     candidate: GainByCondition, scored: Scored, fitted: FittedResponse, problem: Problem, noise: Noise
 ) -> Float1D:
-    """The gain of each value by the largest, shape (values,): of the one gain and of what is added to it together, for
-    the data tell only their sum."""
-    columns = scored.columns
+    """The gain of each value by the largest, shape (values,): how much of the effect as fitted stands in all that it
+    does in the tests of the value, by least squares. Its own gains and what is added to them can't be told apart."""
     more = beside(problem, [scored])
     theta = known(more, noise).mean(np.arange(len(more.blocks)))
     number = next(i for i, t in enumerate(fitted.terms) if t is candidate.term)
-    first, gains = owners(fitted)[0].index(number), len(candidate.term.effect.gains)
-    one = float(np.mean(theta[first : first + gains]))
-    own = scored.weighed.coefficients[: columns.gains]
-    added = theta[problem.blocks[0].base.shape[1] :][: columns.gains]
-    whole = one + added * np.where(own == 0, 1.0, own) * columns.scale[scored.weighed.best[0]]
-    largest = whole[int(np.argmax(np.abs(whole)))]
-    return np.asarray(whole / largest if largest else whole)
+    base, spare = (np.array(o, dtype=np.int64) for o in owners(fitted))
+    first = more.blocks[0]
+    all_of_it = np.concatenate(
+        [_of_effect(first.base.shape[1], base, number), _of_effect(first.slack.shape[1], spare, number)]
+    )
+    as_fitted = np.flatnonzero(base == number)[: len(candidate.term.effect.gains)]
+    values = [g.name for g in candidate.effect.gains]
+    found = np.zeros((2, len(values)))
+    for block in more.blocks:
+        value = group_of(block.test, candidate.by)
+        if value in values:
+            one = block.base[:, as_fitted].sum(axis=1)
+            does = np.hstack([block.base, block.slack])[:, all_of_it] @ theta[all_of_it]
+            found[:, values.index(value)] += one @ does, one @ one
+    times = found[0] / np.where(found[1] > 0, found[1], 1.0)
+    largest = times[int(np.argmax(np.abs(times)))]
+    return np.asarray(times / largest if largest else times)
+
+
+def _of_effect(columns: int, owned: Int1D, number: int) -> Bool1D:
+    """Which columns belong to an effect: its own, and those behind all known ones, which are added to it."""
+    return np.concatenate([owned == number, np.ones(columns - len(owned), bool)])
