@@ -61,6 +61,8 @@ CANDIDATE = {
     "effect",
     "family",
     "drivers",
+    "gain_by",
+    "phases",
     "claimed",
     "refinement",
     "probability",

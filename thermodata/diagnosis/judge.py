@@ -8,8 +8,8 @@ from typing import Literal
 
 import numpy as np
 
-from thermodata.diagnosis.candidates import CONTROL, GENERIC
 from thermodata.diagnosis.null import p_value
+from thermodata.diagnosis.present import CONTROL, GENERIC
 from thermodata.diagnosis.problem import Problem
 from thermodata.diagnosis.scored import Scored
 from thermodata.diagnosis.selection import Selection
@@ -238,7 +238,8 @@ def surely(scored: Scored) -> Rule:
 
 def failed_rules(scored: Scored, measure: Measure, unit: str) -> list[str]:
     """The rules that a candidate fails, as sentences; none where it is sound."""
-    return [rule.fails for rule in rules(scored, measure, unit) if not rule.holds]
+    failed = [rule.fails for rule in rules(scored, measure, unit) if not rule.holds]
+    return [why for why in [scored.candidate.unforetold] if why] + failed
 
 
 def blunt(scored: Scored) -> str | None:

@@ -10,11 +10,13 @@ from dataclasses import replace
 
 import numpy as np
 
-from thermodata.diagnosis.candidates import GENERIC, refines
+from thermodata.diagnosis.candidates import refines
+from thermodata.diagnosis.changed import ChangedEffect
 from thermodata.diagnosis.discrepancy import Noise
 from thermodata.diagnosis.judge import acting_size, blunt
 from thermodata.diagnosis.known import known, rms
 from thermodata.diagnosis.known_effects import from_other_zero, is_warm, owners
+from thermodata.diagnosis.present import GENERIC
 from thermodata.diagnosis.problem import Block, Problem
 from thermodata.diagnosis.scored import Scored
 from thermodata.diagnosis.selection import beside
@@ -48,6 +50,8 @@ class Refinement:
         """What it refines of the model, in words."""
         if not self.fitted.terms:
             return None
+        if isinstance(scored.candidate, ChangedEffect):
+            return scored.candidate.in_words(scored, self.fitted, self.problem, self.noise)
         kin, most = scored.candidate.kin, scored.drop >= MOST
         if refines(scored.candidate.effect) or kin == "same":
             return MODE

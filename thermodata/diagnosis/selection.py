@@ -11,11 +11,12 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from thermodata.diagnosis.candidates import CONTROL, GENERIC, CandidateEffect
+from thermodata.diagnosis.candidates import CandidateEffect
 from thermodata.diagnosis.discrepancy import Noise
 from thermodata.diagnosis.evidence import Columns, Moments, Weighed, columns, moments, weigh
 from thermodata.diagnosis.invariance import spread_of_gain
 from thermodata.diagnosis.known import FloatND, Known, known, likeliest, likeliest_of, solved
+from thermodata.diagnosis.present import CONTROL, GENERIC
 from thermodata.diagnosis.problem import Block, Problem
 from thermodata.diagnosis.scored import Scored
 from thermodata.plugin import Float1D, Float2D, Int1D
@@ -32,6 +33,7 @@ ALIKE = 0.8
 FEWER_SHARE = 0.8
 STANDS = 0.15  # of the first one's evidence: less, and no noise brings a candidate to the front
 TRIED = 5  # candidates beside which the noise is estimated
+CAUSE_SHARE = 0.8  # and a cause, beside an effect of the model that acts otherwise: tests differ in much else
 UNNAMED = (GENERIC, CONTROL)
 
 
@@ -263,7 +265,7 @@ def preferred(ranked: Sequence[Scored]) -> Scored | None:
         return None
     best = ranked[0]
     own = set(best.candidate.channels)
-    for other in (s for s in ranked[1:] if len(s.shape)):
+    for other in (s for s in ranked[1:] if len(s.shape) and not s.candidate.within):
         theirs = set(other.candidate.channels)
         fewer = theirs < own and best.candidate.family in UNNAMED
         named = best.candidate.family in UNNAMED and other.candidate.family not in UNNAMED and own & theirs
@@ -275,6 +277,7 @@ def preferred(ranked: Sequence[Scored]) -> Scored | None:
         )
         if (
             (fewer and other.evidence >= FEWER_SHARE * best.evidence)
+            or (best.candidate.within and other.evidence >= CAUSE_SHARE * best.evidence)
             or (named and other.evidence >= NAMED_SHARE * best.evidence)
             or (elsewhere and other.evidence >= ALIKE_SHARE * best.evidence)
         ):

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 from thermodata.errors import UsageError
 from thermodata.modelling import nested
 from thermodata.modelling.beside import Beside, beside
-from thermodata.modelling.candidate import candidate_spec, with_effect
+from thermodata.modelling.candidate import with_candidate, with_effect
 from thermodata.modelling.fit import fit_model
 from thermodata.modelling.fitted import FittedModel
 from thermodata.modelling.orders import Tried
@@ -111,23 +111,26 @@ def compare_against(store: Store, refs: Sequence[str], reference: str, tests: Se
 
 
 def add(store: Store, ref: str, candidate: str | int | EffectSpec, *, plain: bool = False) -> FitResult:
-    """A new version with one effect more: a rank or id of the stored diagnosis, or any 'effect:channels'; and with
-    second lags where left-out tests want them (`second_lag`). plain: that one effect and no more.
+    """A new version with one effect more: a rank or id of the stored diagnosis, or any 'effect:channels'; or with
+    one that it has changed, 'gain_by:effect,condition' or 'phases:effect,heating,cooling'; and with second lags where
+    left-out tests want them (`second_lag`). plain: no second lags.
     `before` has the parent's scores, `added` the ids of what is new, `notes` why."""
     from thermodata.store.catalogue.models import find_model
 
     parent = find_model(store, ref)
-    effect = (
-        candidate if isinstance(candidate, EffectSpec) else chosen_effect(store, parent.model, parent.spec, candidate)
-    )
     old = load(store, parent.model)
+    if isinstance(candidate, EffectSpec):
+        grown = with_effect(parent.spec, candidate)
+    else:
+        grown = with_candidate(parent.spec, chosen_id(store, parent.model, candidate), old.data.channels)
     before = make_result(old.fitted, old.data, parent.model).scores
-    spec, notes = with_effect(parent.spec, effect), list[str]()
+    notes = list[str]()
     if not plain:
-        refined = with_second_lags(spec, old.data)
-        spec, notes = refined.spec, refined.notes
-    added = term_ids(spec.effects)[len(parent.spec.effects) :]
-    return fit(store, spec, parent=parent.model, before=before, added=added, notes=notes)
+        refined = with_second_lags(grown, old.data)
+        grown, notes = refined.spec, refined.notes
+    had = term_ids(parent.spec.effects)
+    added = [i for i in term_ids(grown.effects) if i not in had]
+    return fit(store, grown, parent=parent.model, before=before, added=added, notes=notes)
 
 
 def remove(store: Store, ref: str, effect: str) -> FitResult:
@@ -198,8 +201,9 @@ def profiles(store: Store, ref: str) -> Profiles:
     return profiles_of(model.fitted, model.data)
 
 
-def chosen_effect(store: Store, model: str, spec: Model, candidate: str | int) -> EffectSpec:
-    """What a user names: the rank of the stored diagnosis, an id, or any 'effect:channels'; UsageError for none."""
+def chosen_id(store: Store, model: str, candidate: str | int) -> str:
+    """What a user names: the id of a rank of the stored diagnosis, or the name as it is; UsageError for no such
+    rank."""
     from thermodata.store.catalogue.models import load_diagnosis
 
     name = str(candidate)
@@ -215,7 +219,7 @@ def chosen_effect(store: Store, model: str, spec: Model, candidate: str | int) -
                 got=name,
             )
         name = ranks[int(name)]
-    return candidate_spec(name, load_data(store, spec).channels)
+    return name
 
 
 def self_contained(store: Store, spec: Model, base: Path | None = None) -> Model:

@@ -140,7 +140,7 @@ def is_single_lag(spec: EffectSpec, among: Sequence[EffectSpec]) -> bool:
     it on tests of its own, nor where it stands twice already (a third lag is nothing that tests can tell)."""
 
     def same(other: EffectSpec) -> bool:
-        keys = ("effect", "drivers", "tests", "gain_by")
+        keys = ("effect", "drivers", "tests", "gain_by", "phases")
         return all(getattr(spec, key) == getattr(other, key) for key in keys)
 
     held = bool(spec.fixed) or spec.calibrate_on is not None

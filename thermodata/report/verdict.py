@@ -43,8 +43,10 @@ def told(found: Diagnosis) -> list[Candidate]:
 
 
 def named(one: Candidate) -> str:
-    """'feed_screw (T_nut_Z)'."""
-    return f"{one.effect} ({', '.join(one.drivers)})" if one.drivers else one.effect
+    """'feed_screw (T_nut_Z)', and how it acts otherwise than the model has it."""
+    name = f"{one.effect} ({', '.join(one.drivers)})" if one.drivers else one.effect
+    by_phase = f" with a function of its own in {listed(one.phases)}" if one.phases else ""
+    return f"{name}{by_phase}{f' with a gain for each {one.gain_by}' if one.gain_by else ''}"
 
 
 def verdict_sentence(found: Diagnosis) -> str:
