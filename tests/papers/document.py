@@ -25,7 +25,9 @@ def hold_table(name: str, head: Sequence[str], rows: Sequence[Sequence[Cell]]) -
     found = place.search(page)
     assert found, f"{PAGE.name} has no table <!-- {name} -->"
     if os.environ.get("THERMODATA_WRITE_PAPERS"):
-        PAGE.write_text(place.sub(lambda hit: hit[1] + table, page), encoding="utf-8")
+        rest = page[found.end() :]
+        apart = "" if rest.startswith("\n") else "\n"
+        PAGE.write_text(f"{page[: found.start(2)]}{table}{apart}{rest}", encoding="utf-8")
         return
     old, new = found[2].splitlines(), table.splitlines()
     assert len(old) == len(new), f"{name}: {len(new)} lines were measured"

@@ -94,11 +94,11 @@ MACHINES = {
 # test: machine, moving axis, feed [m/min], hours of cooling, role
 TESTS = {
     "no1a": ("138", "Y", 10.0, 16.0, "calibration"),
-    "no1b": ("138", "Y", 5.0, 16.0, "verification"),
-    "no1c": ("138", "Y", 15.0, 16.0, "verification"),
+    "no1b": ("138", "Y", 5.0, 12.0, "verification"),
+    "no1c": ("138", "Y", 15.0, 12.0, "verification"),
     "no2a": ("138", "Z", 10.0, 16.0, "calibration"),
-    "no2b": ("138", "Z", 5.0, 16.0, "verification"),
-    "no2c": ("138", "Z", 15.0, 16.0, "verification"),
+    "no2b": ("138", "Z", 5.0, 12.0, "verification"),
+    "no2c": ("138", "Z", 15.0, 12.0, "verification"),
 }
 for _k, _machine in enumerate(("79", "103", "118", "AMP")):
     for _axis in "YZ":
@@ -231,17 +231,24 @@ calibrate_on: [no{k}a]
 verify_on: [no{k}b, no{k}c]
 phases: [heating]
 effects:
-  - {{effect: transfer_function, id: xy, drivers: {{u: {input}}}, {orders}
+  - {{effect: transfer_function, id: xy, drivers: {{u: {input}}}, orders: [2, 1],
      acts_on: [{{axis: X, at: tcp}}, {{axis: Y, at: tcp}}]}}
-  - {{effect: transfer_function, id: z, drivers: {{u: "{input} - T_amb"}}, {orders} acts_on: [{{axis: Z, at: tcp}}]}}
+  - {{effect: transfer_function, id: z, drivers: {{u: "{input} - T_amb"}}, orders: [2, 1],
+     acts_on: [{{axis: Z, at: tcp}}]}}
   - {{effect: transfer_function, id: amb, drivers: {{u: T_amb}}, orders: [2, 1], calibrate_on: [idle],
      acts_on: [{{axis: Z, at: tcp}}]}}
 """
 NUMBER = {"Y": 1, "Z": 2}
+OPEN = """\
+response: [{axis: X, at: tcp}, {axis: Y, at: tcp}]
+calibrate_on: [no2a]
+phases: [heating]
+effects: [{effect: transfer_function, drivers: {u: T_Z_stat}}]
+"""
 
 
-def _rival(axis: str, kind: str, orders: str = "orders: [2, 1],") -> str:
-    return RIVAL.format(k=NUMBER[axis], input=f"T_{axis}_{kind}", orders=orders)
+def _rival(axis: str, kind: str) -> str:
+    return RIVAL.format(k=NUMBER[axis], input=f"T_{axis}_{kind}")
 
 
 # annex 1: the functions that the displacements came from, in one file; all feeds, heating and cooling
@@ -319,7 +326,7 @@ def test_no_input_is_best_and_none_fails(lab: Lab) -> None:
 
 def test_orders_1_to_4_are_tried_and_arx_is_refused(lab: Lab) -> None:
     """The thesis interpolates between the measurements for its ARX."""
-    model = lab.model("open", "p000", _rival("Z", "stat", orders=""))
+    model = lab.model("open", "p000", OPEN)
     table = lab.json("orders", model, "--method", "oe")
     for response in ("dX", "dY"):
         tried = {(r["numerator"], r["denominator"]): r for r in table if r["response"] == response}
@@ -386,8 +393,7 @@ def test_the_document_has_the_functions(lab: Lab) -> None:
             found[f"{at}.direct"]["value"] + found[f"{at}.gain"]["value"]
             for found, at in ((heating, alone), (every, whole))
         ]
-        span = [f"{heating[f'{alone}.tau'][end]:.0f}" for end in ("low", "high")]
-        line += [tau, f"{heating[f'{alone}.tau']['value']:.0f} ({' to '.join(span)})", every[f"{whole}.tau"]["value"]]
+        line += [tau, heating[f"{alone}.tau"]["value"], every[f"{whole}.tau"]["value"]]
         lines.append(line)
     head = ["error, cause", "at once printed [um/K]", "by heating at 10 m/min", "by all", "at rest printed [um/K]"]
     head += ["by heating", "by all", "tau printed [min]", "by heating", "by all"]
