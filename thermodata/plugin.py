@@ -137,6 +137,9 @@ class Reader(Protocol):
     It reads the file in bounded memory, and may take as long as reading it. `thermodata trace --verify` shows it.
     A reader without `locate` may have the same method under its first name, `place`.
 
+    Another one is `beginning(path, source) -> Reader | None`: a reader of this file that gives its first rows alone,
+    for a preview of a file whose `describe` must read all of it; None where the file is no larger than a look needs.
+
     It may also have attributes, which none needs:
 
     - `formats: tuple[str, ...]` names what it reads, for `thermodata plugins show`.

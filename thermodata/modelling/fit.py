@@ -43,7 +43,11 @@ def fit_model(spec: Model, data: Dataset, *, base: Path | None = None, uncertain
     if together(bound):
         fitted = fit_together(bound, open_tests, wanted, data, fit_response)
         if uncertainty:
-            fitted = [replace(r, **checks(r, t)) for r, t in zip(fitted, open_tests, strict=True)]
+            # a place without a calibration test has its parameters from the others
+            said = [
+                checks(r, t) if t else {"checks": (), "noise": None} for r, t in zip(fitted, open_tests, strict=True)
+            ]
+            fitted = [replace(r, **own) for r, own in zip(fitted, said, strict=True)]
     else:
         fitted = [
             fit_response(response, usable, wanted, data, uncertainty=uncertainty)

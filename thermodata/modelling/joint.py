@@ -166,7 +166,7 @@ def make_problem(design: Design, held: Mapping[int, FittedTerm]) -> Problem:
         for param in term.effect.params:
             if param.name in term.spec.fixed:
                 continue
-            together = not term.spec.shared or param.name in term.spec.shared
+            together = term.spec.shares(param.name)
             by_place = list(dict.fromkeys(design.slots[s].place for s in slots))
             shared = [tuple(s for s in slots if design.slots[s].place == place) for place in by_place]
             for group in shared if together else [(s,) for s in slots]:

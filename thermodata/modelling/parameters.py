@@ -25,11 +25,7 @@ def term_parameters(response: FittedResponse, term: FittedTerm) -> dict[str, Par
     by_name: dict[str, Parameter] = {}
     for group, values in term.groups.items():
         tag = f"[{group}]" if group else ""
-        own = {
-            p.name
-            for p in term.effect.params
-            if tag and term.bound.spec.shared and p.name not in term.bound.spec.shared
-        }
+        own = {p.name for p in term.effect.params if tag and not term.bound.spec.shares(p.name)}
         for param in term.effect.params:
             if param.name in values.silent:
                 continue
