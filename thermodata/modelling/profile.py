@@ -3,7 +3,7 @@
 A deviation makes an interval that reaches as far up as down. Where a test is too short for a lag, the error falls
 steeply on one side and hardly rises on the other, and only the profile tells where the data end. The error may rise as
 much as a quadratic one would up to the ends of its own interval, correlated residuals and all, so that both intervals
-are the same where the error is quadratic. Source: [bates1988], and for what correlation does [chandler2007]
+are the same where the error is quadratic. Source: [bates1988]
 """
 
 from __future__ import annotations

@@ -46,7 +46,16 @@ def load(store: Store, ref: str, *, uncertainty: bool = False) -> Loaded:
 
     stored = find_model(store, ref)
     data = load_data(store, stored.spec)
-    return Loaded(stored.model, stored.parent, fit_model(stored.spec, data, uncertainty=uncertainty), data)
+    return Loaded(stored.model, stored.parent, fit_alone(stored.spec, data, uncertainty=uncertainty), data)
+
+
+def fit_alone(spec: Model, data: Dataset, *, base: Path | None = None, uncertainty: bool = True) -> FittedModel:
+    """`fit_model` on one core: its matrices are so small that threads wait for each other, four times as long as they
+    work."""
+    from threadpoolctl import threadpool_limits
+
+    with threadpool_limits(1):
+        return fit_model(spec, data, base=base, uncertainty=uncertainty)
 
 
 def load_data(store: Store, spec: Model) -> Dataset:
@@ -70,7 +79,7 @@ def fit(
 
     spec = self_contained(store, spec, base)
     data = load_data(store, spec)
-    fitted = fit_model(spec, data)
+    fitted = fit_alone(spec, data)
     result = make_result(fitted, data, model_id(spec, data.data_version), parent=parent, before=before)
     result = result.model_copy(update=said)
     save_fit(
@@ -178,7 +187,7 @@ def orders(store: Store, spec: Model, *, method: str | None = None, base: Path |
     is saved. method: in place of the file's. UsageError where the model has no function to identify."""
     effects = [_with_open_orders(e, method) for e in spec.effects]
     spec = self_contained(store, spec.model_copy(update={"effects": effects}), base)
-    fitted = fit_model(spec, load_data(store, spec), uncertainty=False)
+    fitted = fit_alone(spec, load_data(store, spec), uncertainty=False)
     found = [row for response in fitted.responses for row in response.tried]
     if not found:
         raise UsageError(
