@@ -99,7 +99,7 @@ def test_a_blunt_cause_is_not_claimed_and_is_no_refinement_either() -> None:
     found = verdict(blunt)
     assert (found.verdict, found.claims, names(found.judged)) == ("unknown", (), ["blunt"])
     assert (
-        "the best, blunt:T_a, fails because causes like it were right in 69% of cases only (limit 70%)" in found.reason
+        "the best, blunt:T_a, fails because causes like it were right in 62% of cases only (limit 70%)" in found.reason
     )
     beside = verdict(blunt, scored("mode"), refined=["mode"])
     assert (beside.verdict, beside.refinements) == ("unknown", ()), "something is missing too"

@@ -12,6 +12,7 @@ from thermodata.diagnosis.locked import Foretold
 from thermodata.modelling.fit import fit_model
 from thermodata.modelling.fitted import FittedModel
 from thermodata.modelling.fitted_response import FittedResponse
+from thermodata.modelling.resolve import term_ids
 from thermodata.schema.model import Model
 from thermodata.schema.result import Parameter
 from thermodata.view.dataset import Dataset, TestData
@@ -98,8 +99,8 @@ def _parameters(
     more: FittedModel, base: FittedModel, candidates: Sequence[CandidateEffect]
 ) -> dict[str, dict[str, Parameter]]:
     """Of each candidate, by its id: of the effects that it changed, or that were added in its order."""
-    had = {t.id for t in base.responses[0].terms}.union(*(c.becomes for c in candidates))
-    added = iter(t.id for t in more.responses[0].terms if t.id not in had)
+    had = set(term_ids(base.spec.effects)).union(*(c.becomes for c in candidates))
+    added = iter(i for i in term_ids(more.spec.effects) if i not in had)
     terms = {c.id: c.becomes or (next(added),) for c in candidates}
     found = more.parameters()
     return {c: {n: p for n, p in found.items() if set(some) & set(n.split("."))} for c, some in terms.items()}

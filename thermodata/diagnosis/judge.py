@@ -20,7 +20,7 @@ Verdict = Literal["effect", "refine", "none", "unknown", "not_testable"]
 P_LIMIT = 0.01
 # that a sound candidate is the cause: a logistic curve over the logarithm of its evidence a sample, and the spread of
 # its gain between tests (docs/method.md#probability)
-PROBABILITY = (3.27, 2.22, -1.69)
+PROBABILITY = (3.13, 2.43, -0.97)
 USUAL_SPREAD = 0.15
 CLAIMED = 0.7  # a claim is this probable at least;
 # where nobody declared any place it names a channel, not physics, and there is nothing that it could be taken for
@@ -28,7 +28,7 @@ PLACELESS_CLAIMED = 0.5
 # so much evidence a sample outweighs what left-out tests say: how far their error falls, for the known effects take
 # part of what is missing; and even how many they are, and that the gain differs between them
 STRONG = 0.4
-OVERWHELMING = 0.6
+OVERWHELMING = 0.5
 DROP_LIMIT = 0.15  # fall of the error on left-out tests in which it acts,
 UNNAMED_DROP_LIMIT = 0.3  # and of what names no physics: any slow temperature steadies a misfit a little
 LEAST_TESTS = 2  # in which it acts: no other foretells what acts in one only
@@ -270,7 +270,7 @@ def probability(scored: Scored) -> float:
 
 def sharpness(scored: Scored) -> float:
     """Log evidence a sample."""
-    return scored.evidence / max(float(scored.rows.sum()), 1.0)
+    return (scored.evidence if scored.credit is None else scored.credit) / max(float(scored.rows.sum()), 1.0)
 
 
 def explained(scored: Scored) -> float:

@@ -13,7 +13,7 @@ import numpy as np
 from thermodata.diagnosis.candidates import refines
 from thermodata.diagnosis.changed import ChangedEffect
 from thermodata.diagnosis.discrepancy import Noise
-from thermodata.diagnosis.judge import acting_size
+from thermodata.diagnosis.judge import acting_size, blunt
 from thermodata.diagnosis.known import known, rms
 from thermodata.diagnosis.known_effects import from_other_zero, is_warm, owners
 from thermodata.diagnosis.present import GENERIC
@@ -57,7 +57,8 @@ class Refinement:
             return MODE
         good = scored.error_before <= GOOD * rms(self.problem.response_blocks)
         largest = max(self._size(i) for i in range(len(self.fitted.terms)))
-        if good and kin is not None and not most and acting_size(scored) < SMALL * largest:
+        # what is surely a cause is one, however small beside its kin
+        if good and kin is not None and not most and blunt(scored) and acting_size(scored) < SMALL * largest:
             return MODE
         # what reads the same heat elsewhere stands for the known effect, however much else is missing
         may_replace = kin == "near" or (good and not most and (kin is not None or scored.candidate.family == GENERIC))

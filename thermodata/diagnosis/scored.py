@@ -23,7 +23,7 @@ class Scored:
     squared error of each test, left out whole. own_before, own_after: the same with only the candidate left out: its
     size and times from the other tests, what is known fitted beside it to all. size: RMS of the contribution in each
     test. spread: of its gain between tests. shape: whitened contribution without what the known effects can do, unit
-    length."""
+    length. credit: of a member, its log evidence beside the likelier members alone; None for all else."""
 
     candidate: CandidateEffect
     columns: Columns
@@ -38,6 +38,7 @@ class Scored:
     size: Float1D
     spread: float
     shape: Float1D
+    credit: float | None = None
 
     @property
     def acts(self) -> Bool1D:

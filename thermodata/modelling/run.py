@@ -15,8 +15,10 @@ from thermodata.modelling.fit import fit_model
 from thermodata.modelling.fitted import FittedModel
 from thermodata.modelling.orders import Tried
 from thermodata.modelling.portability import Portability, portability
+from thermodata.modelling.profiles import Profiles, profiles_of
 from thermodata.modelling.resolve import term_ids
 from thermodata.modelling.result import make_result, model_id
+from thermodata.modelling.roles import find_tests
 from thermodata.modelling.second_lag import is_lag_of, with_second_lags
 from thermodata.modelling.table import prediction_tables
 from thermodata.modelling.transfer import NAME
@@ -91,9 +93,9 @@ def compare(store: Store, refs: Sequence[str]) -> list[FitResult]:
     return results
 
 
-def compare_against(store: Store, refs: Sequence[str], reference: str) -> list[Beside]:
-    """The models beside each other on every open test, each against the reference. UsageError where one of them was
-    fitted to another version of the data: their differences would be those of the data."""
+def compare_against(store: Store, refs: Sequence[str], reference: str, tests: Sequence[str] = ()) -> list[Beside]:
+    """The models beside each other on every open test (or on those named), each against the reference. UsageError
+    where one of them was fitted to another version of the data: their differences would be those of the data."""
     from thermodata.store.catalogue.models import find_model
 
     found = {stored.model: stored for stored in (find_model(store, ref) for ref in (*refs, reference))}
@@ -105,7 +107,7 @@ def compare_against(store: Store, refs: Sequence[str], reference: str) -> list[B
             hint="; ".join(f"thermodata fit {stored.model}" for stored in found.values() if stored.stale),
         )
     loaded = [load(store, identity) for identity in found]
-    return beside([(m.identity, m.fitted, m.data) for m in loaded], find_model(store, reference).model)
+    return beside([(m.identity, m.fitted, m.data) for m in loaded], find_model(store, reference).model, tests)
 
 
 def add(store: Store, ref: str, candidate: str | int | EffectSpec, *, plain: bool = False) -> FitResult:
@@ -159,14 +161,16 @@ def remove(store: Store, ref: str, effect: str) -> FitResult:
     return fit(store, spec, parent=parent.model, before=before, notes=[f"removed: {', '.join(gone)}"])
 
 
-def transfer(store: Store, ref: str) -> list[Portability]:
-    """How far the model carries over to each test and machine of its campaigns; kept as findings of the model."""
+def transfer(store: Store, ref: str, tests: Sequence[str] = ()) -> list[Portability]:
+    """How far the model carries over to each test and machine of its campaigns (or to those named); all are kept as
+    findings of the model. UsageError for an unknown test."""
     from thermodata.store.catalogue.models import save_findings
 
     model = load(store, ref)
     rows = portability(model.fitted, model.data)
     save_findings(store, model.identity, "portability", [(r.campaign, r.test, r.to_json()) for r in rows])
-    return rows
+    wanted = find_tests(tests, model.data, "--test")
+    return [r for r in rows if not tests or (r.campaign, r.test) in wanted]
 
 
 def orders(store: Store, spec: Model, *, method: str | None = None, base: Path | None = None) -> list[Tried]:
@@ -189,6 +193,12 @@ def _with_open_orders(effect: EffectSpec, method: str | None) -> EffectSpec:
     if effect.effect != NAME:
         return effect
     return effect.model_copy(update={"orders": None, "method": method or effect.method})
+
+
+def profiles(store: Store, ref: str) -> Profiles:
+    """The interval of every time constant of a stored model by its profile, and what the tests can't tell apart."""
+    model = load(store, ref)
+    return profiles_of(model.fitted, model.data)
 
 
 def chosen_id(store: Store, model: str, candidate: str | int) -> str:

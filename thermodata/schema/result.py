@@ -18,8 +18,8 @@ class Parameter(Result):
 
     value: in `unit`
     unit: as the effect states it
-    low: lower end; null at a bound or where held
-    high: upper end
+    low: lower end; null at a bound, where held, or where these tests set none
+    high: upper end; likewise
     """
 
     value: float
