@@ -177,12 +177,20 @@ def test_parameters_are_wrong_where_a_refit_leaves_a_third(
 
 
 @pytest.mark.parametrize(
-    ("verdict", "kinds"), [("none", ["gain", "sign"]), ("effect", ["sign"]), ("unknown", ["sign"])]
+    ("verdict", "at_floor", "kinds"),
+    [
+        ("none", True, ["gain", "sign"]),
+        ("none", False, ["sign"]),
+        ("effect", True, ["sign"]),
+        ("unknown", False, ["sign"]),
+    ],
 )
-def test_a_wrong_gain_is_said_only_with_the_verdict_none(verdict: str, kinds: list[str]) -> None:
+def test_a_wrong_gain_is_said_only_with_the_verdict_none_at_the_floor(
+    verdict: str, at_floor: bool, kinds: list[str]
+) -> None:
     faults = [artefact("gain"), artefact("sign")]
     judgement = Judgement(verdict, (), (), (), "")  # type: ignore[arg-type]
-    assert [a.kind for a in gains_are_wrong_only_where_nothing_is_missing(faults, judgement)] == kinds
+    assert [a.kind for a in gains_are_wrong_only_where_nothing_is_missing(faults, judgement, at_floor)] == kinds
 
 
 def test_a_fault_is_said_once_a_test_and_a_turned_test_has_no_steps() -> None:

@@ -105,11 +105,28 @@ def test_a_blunt_cause_is_not_claimed_and_is_no_refinement_either() -> None:
     assert (beside.verdict, beside.refinements) == ("unknown", ()), "something is missing too"
 
 
-@pytest.mark.parametrize(("before", "expected"), [(0.199, "none"), (0.201, "unknown")])
-def test_an_error_at_the_floor_is_left_alone(before: float, expected: str) -> None:
+@pytest.mark.parametrize(
+    ("before", "expected", "words"),
+    [
+        (0.199, "none", "is at the floor of 0.2 um"),
+        (0.201, "none", "is 10% of the response, as lags leave of a machine that lacks nothing (limit 25%)"),
+        (0.499, "none", "is 25% of the response"),
+        (0.501, "unknown", "0.5 um remain on left-out tests"),
+    ],
+)
+def test_an_error_at_the_floor_or_of_a_good_model_is_left_alone(before: float, expected: str, words: str) -> None:
+    """Of a response of 2."""
     found = verdict(first=[scored("h", before=before, after=0.95 * before)], floor=0.2)
     assert found.verdict == expected
-    assert ("is at the floor" in found.reason) == (expected == "none")
+    assert words in found.reason
+
+
+def test_a_good_model_may_be_refined_and_may_still_lack_what_is_not_sure() -> None:
+    first = [scored("h", before=0.4, after=0.3)]
+    mode, dull = scored("mode", before=0.4), scored("dull", before=0.4, evidence=50.0)
+    assert verdict(mode, first=first, refined=["mode"]).verdict == "refine"
+    assert verdict(dull, first=first).verdict == "unknown"
+    assert verdict(first=first).verdict == "none"
 
 
 def test_a_claim_is_made_though_the_error_is_at_the_floor() -> None:

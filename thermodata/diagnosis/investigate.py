@@ -103,7 +103,8 @@ def investigate(
         selection = _with_unforetold(problem, selection, [c for c in by_condition if c.unforetold])
     asked_about = fitted if as_fitted is None else as_fitted
     spots = weak_spots([(t, asked_about.residual(t), asked_about.mask(t)) for t in tests], problem.noise)
-    faults = gains_are_wrong_only_where_nothing_is_missing(faults, judgement)
+    at_floor = selection is not None and selection.left <= measure.floor
+    faults = gains_are_wrong_only_where_nothing_is_missing(faults, judgement, at_floor)
     if selection is not None:
         faults += wrong_parameters(problem, _error_of(asked_about, tests), selection.left, measure.floor)
     artefacts = [
@@ -163,9 +164,12 @@ def _error_of(fitted: FittedResponse, tests: Sequence[TestData]) -> float:
     return float(np.sqrt(np.mean(whole**2)))
 
 
-def gains_are_wrong_only_where_nothing_is_missing(faults: list[Artefact], judgement: Judgement) -> list[Artefact]:
-    """A missing effect also makes one test larger or smaller than the others say."""
-    return faults if judgement.verdict == "none" else [f for f in faults if f.kind != "gain"]
+def gains_are_wrong_only_where_nothing_is_missing(
+    faults: list[Artefact], judgement: Judgement, at_floor: bool
+) -> list[Artefact]:
+    """A missing effect also makes one test larger or smaller than the others say, and so does what lags leave.
+    at_floor: whether the model leaves no more than is left alone."""
+    return faults if judgement.verdict == "none" and at_floor else [f for f in faults if f.kind != "gain"]
 
 
 def clocks_beside(channels: Mapping[str, ChannelInfo], drivers: Iterable[str], response: str) -> dict[str, str]:

@@ -39,6 +39,9 @@ WORTH_SHARE = 0.1  # of the response: less is not worth a name
 BESIDE_SHARP_LIMIT = 0.3  # log evidence a sample of a further claim: what is small may be what the first leaves
 MOST_CLAIMS = 3
 FLOOR_SHARE = 0.1  # a residual under this share of the response (FIT 90) is left alone
+# what lags leave of a distributed machine that lacks nothing is under this share of its response (FIT 75); what they
+# leave where a cause is missing is more (docs/method.md#verdicts)
+GOOD_SHARE = 0.25
 NOISE_TIMES = 5.0
 ALIKE = 0.9  # cosine of contributions that can't be told apart
 # nor can those that act alike at all and leave nearly the same error, where the tests that one wins are not more than
@@ -61,6 +64,11 @@ class Measure:
     def floor(self) -> float:
         """An error that is left alone: noise, and what a sum of lags leaves of a distributed machine."""
         return max(NOISE_TIMES * self.noise if np.isfinite(self.noise) else 0.0, FLOOR_SHARE * self.spread)
+
+    @property
+    def good(self) -> float:
+        """An error that a good model has, though something may refine it."""
+        return max(self.floor, GOOD_SHARE * self.spread)
 
 
 @dataclass(frozen=True, slots=True)
@@ -113,6 +121,12 @@ def judge(
         return Judgement("none", (), (), judged, why)
     if kept and not standing:
         return Judgement("refine", (), kept, judged, "no cause is missing; what the model has can be refined")
+    if left <= measure.good and not standing:
+        why = (
+            f"the error on left-out tests, {left:.2g} {problem.unit}, is {left / measure.spread:.0%} of the response, "
+            f"as lags leave of a machine that lacks nothing (limit {GOOD_SHARE:.0%}), and nothing logged explains it"
+        )
+        return Judgement("none", (), (), judged, why)
     best = selection.first.ranked[0]
     if standing:
         best = standing[0]

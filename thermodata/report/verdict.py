@@ -79,7 +79,7 @@ def _left_over(found: Diagnosis) -> str:
     noise = f"noise{_between(found)} of {number(found.noise_um)} um"
     if found.rmse_um <= NOISY * found.noise_um:
         return f"{left}, and they are {noise}"
-    return f"{left}, more than the {noise}, but too little to ask about"
+    return f"{left}, more than the {noise}, but no more than models leave of a machine that lacks nothing"
 
 
 def _between(found: Diagnosis) -> str:
