@@ -72,7 +72,10 @@ def fit_command(session: Session, model: str) -> None:
     default="text",
     help="Of the table that --against prints.",
 )
-def compare_command(session: Session, models: tuple[str, ...], against: str | None, layout: str) -> None:
+@click.option("--test", "tests", multiple=True, metavar="TEST", help="With --against: only this test; may be repeated.")
+def compare_command(
+    session: Session, models: tuple[str, ...], against: str | None, layout: str, tests: tuple[str, ...]
+) -> None:
     """Score models against the measurements.
 
     By test and phase, each MODEL beside the others, and where the first fails.
@@ -81,14 +84,17 @@ def compare_command(session: Session, models: tuple[str, ...], against: str | No
     "weak_spots" has those of the first, by response.
 
     With --against: peak to valley at first and left, both ways (max - min, |max| + |min|), range, how many times less,
-    percent less than the reference, and the mean row; the JSON is a list of these rows.
+    percent less than the reference, and the mean row (over the tests that all of them predict, or over each --test);
+    the JSON is a list of these rows.
     """
     if against is not None:
         from thermodata.cli.besides import answer_against
 
         store = session.store()
-        answer_against(session, store, [resolve(store, m) for m in models], resolve(store, against), layout)
+        answer_against(session, store, [resolve(store, m) for m in models], resolve(store, against), layout, tests)
         return
+    if tests:
+        raise UsageError("--test chooses rows of the table that --against prints", hint="add --against MODEL")
     from thermodata.modelling.run import compare, load
     from thermodata.report.spots import weak_spots_of
     from thermodata.store.catalogue.models import load_diagnosis
@@ -119,8 +125,10 @@ def compare_command(session: Session, models: tuple[str, ...], against: str | No
 def add_command(session: Session, model: str, candidate: str, plain: bool) -> None:
     """Make a new version of MODEL with an effect more.
 
-    CANDIDATE is its rank or id, as diagnose printed them. Where tests that are left out of the fit want it, the effect
-    and those that MODEL has get a second lag, for a part of a machine answers heat by a quick share and a slow one.
+    CANDIDATE is its rank or id, as diagnose printed them; gain_by:EFFECT,CONDITION gives an effect of MODEL a gain for
+    each value of a condition, and phases:EFFECT,heating,cooling parts it into one for each phase. Where tests that are
+    left out of the fit want it, the effect and those that MODEL has get a second lag, for a part of a machine answers
+    heat by a quick share and a slow one.
     Prints the errors before and after.
     """
     from thermodata.cli.progress import counting_line
@@ -225,7 +233,8 @@ def history_command(session: Session, model: str) -> None:
 
 @command("portability")
 @click.argument("model")
-def portability_command(session: Session, model: str) -> None:
+@click.option("--test", "tests", multiple=True, metavar="TEST", help="Only this test; may be repeated.")
+def portability_command(session: Session, model: str, tests: tuple[str, ...]) -> None:
     """Say how MODEL transfers to other tests and machines.
 
     The gain g that fits the model to each, the error without (n) and with (c) it, and the class: portable,
@@ -234,12 +243,14 @@ def portability_command(session: Session, model: str) -> None:
     from thermodata.modelling.run import transfer
 
     store = session.store()
-    rows = [plain(row) for row in transfer(store, resolve(store, model))]
+    rows = [plain(row) for row in transfer(store, resolve(store, model), tests)]
+    several = len({row["response"] for row in rows}) > 1
     session.answer(
         rows,
         lambda: table(
             rows,
             [
+                *([("response", "response")] if several else []),
                 ("campaign", "campaign"),
                 ("test", "test"),
                 ("machine", "machine"),
@@ -281,9 +292,9 @@ def fit_text(result: FitResult, *, scores: bool = True) -> str:
 
 
 def span(parameter: Parameter) -> str:
-    """'0.9 … 1.2', or '-' where the uncertainty is not known."""
+    """'0.9 … 1.2', '0.9 …' where these tests set no upper end, or '-' where the uncertainty is not known."""
     low, high = parameter.low, parameter.high
-    return "-" if low is None or high is None else f"{number(low)} … {number(high)}"
+    return "-" if low is None and high is None else f"{number(low)} … {number(high)}".replace("-", "")
 
 
 def scores_text(scores: list[Score], phases: bool = False) -> str:
