@@ -18,10 +18,12 @@ def test_writers_and_readers_in_processes_of_their_own_all_succeed() -> None:
             "2",
             "--tests",
             "2",
+            "--pause",
+            "0.05",  # or readers take a busy machine from the writers that they wait for
         ],
         capture_output=True,
         text=True,
-        timeout=300,
+        timeout=1500,
         check=False,
     )
     # the exit code tells the waits too, which belong to the machine

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import argparse
 import json
+import os
 import shutil
 import subprocess
 import sys
@@ -59,12 +60,14 @@ def write(store_path: Path, campaign: Path, rounds: int) -> dict[str, object]:
     return {"waits": waits, "turns": turns}
 
 
-def read(store_path: Path, stop: Path) -> dict[str, object]:
-    """Asks until the file `stop` is there; each answer must be of one commit."""
+def read(store_path: Path, stop: Path, pause_s: float) -> dict[str, object]:
+    """Asks until the file `stop` is there, or whoever would write it is not; each answer must be of one commit."""
     from thermodata.store import Store
 
     waits: list[float] = []
-    while not stop.exists():
+    parent = os.getppid()
+    while not stop.exists() and os.getppid() == parent:
+        time.sleep(pause_s)
         begun = time.monotonic()
         store = Store(store_path)
         with store.reader() as con:
@@ -81,12 +84,15 @@ def main() -> int:
     parser.add_argument("--writers", type=int, default=2)
     parser.add_argument("--readers", type=int, default=8)
     parser.add_argument("--tests", type=int, default=8)
+    parser.add_argument("--pause", type=float, default=0.0, help="between two questions of a reader [s]")
     parser.add_argument("--worker", nargs=3)
     given = parser.parse_args()
     if given.worker:
         what, store, argument = given.worker
         found = (
-            read(Path(store), Path(argument)) if what == "read" else write(Path(store), Path(argument), given.ingests)
+            read(Path(store), Path(argument), given.pause)
+            if what == "read"
+            else write(Path(store), Path(argument), given.ingests)
         )
         print(json.dumps(found))
         return 0
@@ -116,6 +122,8 @@ def main() -> int:
                 __file__,
                 "--ingests",
                 str(given.ingests),
+                "--pause",
+                str(given.pause),
                 "--worker",
                 what,
                 str(place / "store"),

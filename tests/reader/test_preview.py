@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
+import pytest
 
 from thermodata.plugin import Block, Head, Loss, Recording, Signal, Source
 from thermodata.reader.preview import preview
@@ -46,6 +47,14 @@ def test_preview_says_start_rate_gaps_and_first_rows(tmp_path: Path) -> None:
     assert len(stream["first_rows"]) == 5
     assert found["losses"][0]["fraction"] == 0.25
     json.dumps(found, allow_nan=False)
+
+
+def test_a_small_file_is_read_whole_however_long_it_takes(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    path = tmp_path / "x.log"
+    path.write_bytes(b"x")
+    assert preview(path, reader=Fake(), most_s=0.0)["whole"]
+    monkeypatch.setattr("thermodata.reader.preview._SMALL", 0)
+    assert not preview(path, reader=Fake(), most_s=0.0)["whole"]
 
 
 def test_preview_of_a_large_file_reads_a_part_and_says_so(tmp_path: Path) -> None:

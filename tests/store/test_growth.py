@@ -111,6 +111,21 @@ def test_the_short_way_is_taken_after_the_first_ingest_too(
     assert said(ingest(store, lab)) == as_again(first)
 
 
+def test_after_an_edit_only_what_was_edited_is_hashed_again(
+    store: Store, lab: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    from thermodata.store.ingest import raw_layer, unchanged
+
+    monkeypatch.setattr(unchanged, "_YOUNG_NS", -(10**15))  # as if the files were written long ago
+    ingest(store, lab)
+    edit(lab, store)
+    hashed: list[str] = []
+    right = raw_layer.settled
+    monkeypatch.setattr(raw_layer, "settled", lambda path: hashed.append(path.name) or right(path))
+    assert ingest(store, lab).read == 1
+    assert hashed == ["t3_a.csv"]
+
+
 def note_of(store: Store) -> str:
     """The name of the one note of a store."""
     (note,) = (store.path / "known").iterdir()

@@ -113,6 +113,25 @@ def test_a_damaged_catalogue_is_a_store_error(filled: Store, harm: str) -> None:
     assert "catalog.duckdb" in error.value.where
 
 
+def test_a_process_that_was_stopped_while_it_waited_did_not_wait(
+    filled: Store, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    from thermodata.store.catalogue import lock
+
+    now, looks = [0.0], [0]
+
+    def busy_twice(fd: int, exclusive: bool) -> bool:
+        looks[0] += 1
+        now[0] += 3600.0  # stopped between two looks
+        return looks[0] > 2
+
+    monkeypatch.setattr(lock, "_try_lock", busy_twice)
+    monkeypatch.setattr(lock.time, "monotonic", lambda: now[0])
+    with lock.catalogue_lock(filled.path, exclusive=True, timeout_s=60.0):
+        pass
+    assert looks[0] == 4  # the turnstile at the third look, and the catalogue at once
+
+
 def test_a_busy_store_says_so_after_its_timeout(filled: Store) -> None:
     impatient = Store(filled.path, timeout_s=0.2)
     with filled.write() as con:

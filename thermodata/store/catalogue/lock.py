@@ -47,22 +47,40 @@ except ImportError:  # not POSIX: a byte of the file is locked, always exclusive
         msvcrt.locking(fd, msvcrt.LK_UNLCK, 1)  # type: ignore[attr-defined,unused-ignore]
 
 
+class _Patience:
+    """How long is waited yet [s]. Time in which this process itself was stopped, or got no turn on a busy machine, is
+    hardly counted: whoever holds the lock may have stood still as long."""
+
+    def __init__(self, seconds: float) -> None:
+        self.seconds = self._left = seconds
+        self._seen = time.monotonic()
+
+    def is_over(self) -> bool:
+        now = time.monotonic()
+        self._left -= min(now - self._seen, _MOST_STEP_S)
+        self._seen = now
+        return self._left < 0
+
+
+_MOST_STEP_S = 0.5  # of one look at the lock and the pause before it
+
+
 @contextmanager
 def catalogue_lock(folder: Path, *, exclusive: bool, timeout_s: float = 60.0) -> Iterator[None]:
     """Holds the catalogue, shared for reading or exclusive for writing; StoreError when it stays busy."""
-    deadline = time.monotonic() + timeout_s
+    patience = _Patience(timeout_s)
     turnstile = _open(folder / TURNSTILE, exclusive)
     if turnstile is None:
         # a store that may only be read: whoever may write it can lock the one file that is there
-        with _reading(folder, deadline, timeout_s):
+        with _reading(folder, patience):
             yield
         return
     try:
-        _wait(turnstile, True, deadline, folder, timeout_s)
+        _wait(turnstile, True, patience, folder)
         catalogue = _open(folder / CATALOGUE, exclusive)
         try:
             if catalogue is not None:
-                _wait(catalogue, exclusive, deadline, folder, timeout_s)
+                _wait(catalogue, exclusive, patience, folder)
             _unlock(turnstile)
             try:
                 yield
@@ -77,14 +95,14 @@ def catalogue_lock(folder: Path, *, exclusive: bool, timeout_s: float = 60.0) ->
 
 
 @contextmanager
-def _reading(folder: Path, deadline: float, timeout_s: float) -> Iterator[None]:
+def _reading(folder: Path, patience: _Patience) -> Iterator[None]:
     try:
         fd = os.open(folder / CATALOGUE, os.O_RDONLY | _FLAGS)
     except OSError:
         yield  # nobody ever wrote here since the store was copied
         return
     try:
-        _wait(fd, False, deadline, folder, timeout_s)
+        _wait(fd, False, patience, folder)
         yield
     finally:
         os.close(fd)
@@ -103,15 +121,15 @@ def _open(path: Path, exclusive: bool) -> int | None:
         raise write_error(path, error) from error
 
 
-def _wait(fd: int, exclusive: bool, deadline: float, folder: Path, timeout_s: float) -> None:
+def _wait(fd: int, exclusive: bool, patience: _Patience, folder: Path) -> None:
     pause = 0.0005
     attempt: Callable[[], bool] = lambda: _try_lock(fd, exclusive)  # noqa: E731
     while not attempt():
-        if time.monotonic() > deadline:
+        if patience.is_over():
             raise StoreError(
                 "the store is busy",
                 where=str(folder),
-                expected=f"a free catalogue within {timeout_s:g} s",
+                expected=f"a free catalogue within {patience.seconds:g} s",
                 got="another process held it all the time",
                 hint="wait for the other program, or end one that hangs in this store",
             )
