@@ -169,6 +169,20 @@ def test_more_than_eight_values_are_no_groups(values: int, there: bool, spec: Mo
     assert (ID in asked(with_conditions(data, tool=tools), spec)) is there
 
 
+def test_a_value_whose_tests_rest_is_no_value(spec: Model) -> None:
+    """T3 stands in one test, in which the spindle stays as cold as it was."""
+    tools = ("T1", "T2", "T1", "T2", "T1", "T3", "T1")
+    data = make_data(by_tool({"T1": 1.0, "T2": 0.6, "T3": 1.0}, tools))
+    resting = data.tests[5]
+    cold = np.full(len(resting.t_s), 22.0)
+    still = replace(resting, values={**resting.values, "T_bearing": cold, "dZ": 0.0 * cold})
+    data = replace(data, tests=(*data.tests[:5], still, data.tests[6]))
+    (found,) = found_in(with_conditions(data, tool=tools), spec)
+    assert (found.id, found.unforetold) == (ID, None)
+    assert [g.name for g in found.effect.gains] == ["T1", "T2"]
+    assert not found.in_test(still)({}).any()
+
+
 def test_conditions_that_part_the_tests_alike_are_one_candidate(spec: Model) -> None:
     diameters = [{"T1": 25.0, "T2": 63.0, "T3": 100.0}[t] for t in TOOLS]
     named_so: dict[str, Sequence[float | str]] = {"tool.id": TOOLS, "tool.diameter": diameters}

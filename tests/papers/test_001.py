@@ -15,7 +15,8 @@ from thermodata.effect.lag import lag
 from thermodata.modelling.transfer import GivenFunction
 from thermodata.plugin import Float1D
 
-from .lab import STEP_S, Lab, Logged, grid, hall_air, levels, make_lab, moved_in, noisy, value
+from .document import hold_table
+from .lab import STEP_S, Lab, Logged, Once, grid, hall_air, levels, made_once, moved_in, noisy, value, write_logs
 
 HEAT = GivenFunction([0.0162, 10.74, 5.368], [0.002098, 2.379, 1.0], None)
 HALL = GivenFunction(
@@ -63,8 +64,6 @@ def _write(folder: Path) -> None:
             "T_base": Logged(noisy(21.5 + base, 200 + day, 0.03), "degC"),
             "nActSpeed": Logged(speed, "rpm", decimals=0),
         }
-        from .lab import write_logs
-
         write_logs(folder, test, day, write_one)
 
 
@@ -103,8 +102,8 @@ effects:
 
 
 @pytest.fixture(scope="module")
-def lab(tmp_path_factory: pytest.TempPathFactory) -> Lab:
-    return make_lab(tmp_path_factory.mktemp("p001"), CAMPAIGN, _write)
+def lab(once: Once, tmp_path_factory: pytest.TempPathFactory) -> Lab:
+    return made_once(once, tmp_path_factory.mktemp("lab"), "p001", CAMPAIGN, _write)
 
 
 def test_the_functions_of_the_paper_are_found(lab: Lab) -> None:
@@ -165,3 +164,48 @@ def test_the_table_against_the_linear_model_is_the_papers(lab: Lab) -> None:
     latex = lab.run("compare", "functions", "--against", "linear", "--layout", "latex")
     assert latex.count(r"\\") == len(csv)
     assert r"\toprule" in latex
+
+
+def test_the_document_has_the_table(lab: Lab) -> None:
+    """Last: it refits the linear model with the k of the control in both directions."""
+    found = lab.json("fit", lab.model("functions", "p001", FUNCTIONS))
+    lines: list[list[str | float]] = []
+    printed: dict[str, tuple[str, float | str]] = {"dZ": ("7", "97.17"), "dY": ("1.5", "-")}
+    fits = {(s["response"], s["test"]): s["fit"] for s in found["scores"] if s["phase"] == "heating"}
+    for response, (k, fit) in printed.items():
+        linear = LINEAR.replace("gain_by: place", f"fixed: {{gain: {k}}}")
+        axis = response[1]
+        linear = linear.replace("[{axis: Z, at: tcp}, {axis: Y, at: tcp}]", f"{{axis: {axis}, at: tcp}}")
+        lab.run("fit", lab.model(f"linear_{axis}", "p001", linear))
+        rows = lab.json("compare", "functions", "--against", f"linear_{axis}", "--test", "spectrum")
+        own, reference = (
+            next(r for r in rows if (r["name"], r["response"], r["test"]) == (name, response, "spectrum"))
+            for name in ("functions", f"linear_{axis}")
+        )
+        less = {"dZ": "-", "dY": "more than 85"}[response]
+        lines.append(
+            [
+                axis,
+                fit,
+                fits[response, "sp6400"],
+                own["initial"],
+                reference["residual"],
+                own["residual"],
+                less,
+                own["against"],
+            ]
+        )
+    hold_table(
+        "horejs2010: functions against the linear model",
+        [
+            "direction",
+            "FIT of calibration printed [%]",
+            "here",
+            "spectrum at first [um]",
+            "left by k (T_spindle - T_base) [um]",
+            "by functions [um]",
+            "less printed [%]",
+            "here",
+        ],
+        lines,
+    )

@@ -16,6 +16,7 @@ from thermodata.effect.lag import lag
 from thermodata.modelling.transfer import GivenFunction
 from thermodata.plugin import Float1D
 
+from .document import hold_table
 from .lab import STEP_S, Lab, Logged, grid, hall_air, levels, make_lab, noisy, value, write_logs
 
 SP2 = GivenFunction([16.0005, -15.9975], [1, -0.99983], 1.0)
@@ -182,3 +183,27 @@ def test_spindle_1s_function_fails_on_the_others(lab: Lab) -> None:
     assert alone["sp1_spectrum"]["fit"] == pytest.approx(own["sp1_spectrum"]["fit"], abs=0.1)
     assert alone["sp2_spectrum"]["fit"] < 60 < 98 < own["sp2_spectrum"]["fit"]
     assert alone["sp3_spectrum"]["fit"] < 85 < 98 < own["sp3_spectrum"]["fit"]
+
+
+def test_the_document_has_the_tables(lab: Lab) -> None:
+    rows = lab.json("compare", "own", "--against", "times_g")
+    by_name = {(r["test"], r["name"]): r for r in rows}
+    g = lab.json("compare", "times_g")
+    printed = {"SP1": ("1", 74, 74, 19, 19), "SP2": ("1.75", 85, 60, 16, 34), "SP3": ("1.25", 81, 66, 10, 14)}
+    lines = []
+    for spindle, (printed_g, *figures) in printed.items():
+        own, gain = (by_name[f"{spindle.lower()}_spectrum", name] for name in ("own", "times_g"))
+        here = [own["fit"], gain["fit"], own["residual_peaks"], gain["residual_peaks"]]
+        pairs = [v for pair in zip(figures, here, strict=True) for v in pair]
+        lines.append([spindle, printed_g, value(g, f"sp.g[{spindle}]"), *pairs])
+    head = ["spindle", "g printed", "here"]
+    for what in ("FIT own [%]", "FIT g [%]", "PTP own [um]", "PTP g [um]"):
+        head += [f"{what} printed", "here"]
+    hold_table("horejs2022: tables 4 and 5", head, lines)
+    scores = {s["test"]: s["fit"] for s in lab.json("compare", "own")["scores"] if s["phase"] == "all"}
+    calibration = {"sp1_9000": 86.0, "sp2_9000": 90.0, "sp3_9000": 94.0, "etve": 74.0}
+    hold_table(
+        "horejs2022: calibration",
+        ["test", "FIT printed [%]", "here"],
+        [[test, fit, scores[test]] for test, fit in calibration.items()],
+    )

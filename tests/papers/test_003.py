@@ -16,6 +16,7 @@ from thermodata.effect.lag import lag
 from thermodata.modelling.transfer import GivenFunction
 from thermodata.plugin import Float1D
 
+from .document import hold_table
 from .lab import IDLE_S, STEP_S, Lab, Logged, grid, hall_air, levels, make_lab, noisy, value, write_logs
 
 MILLING = GivenFunction([10.01220, -9.9895457], [1, -0.877647, 0.020108, -0.141865], 1.0)
@@ -161,6 +162,19 @@ def test_the_table_of_the_paper_at_four_places(lab: Lab) -> None:
         assert own["n"] < 0.8 * 16 * 60
     table = lab.run(*AGAINST, "--layout", "latex")
     assert r"dZ\_3000 & both & coupled &" in table
+
+
+def test_the_document_has_the_table(lab: Lab) -> None:
+    rows = {(r["response"], r["name"]): r for r in lab.json(*AGAINST) if r["test"] == "both"}
+    found = lab.json("compare", "coupled")
+    printed = {"dZ_tcp": (82, "6", "-"), "dZ_0": (90, "7", "-"), "dZ_1500": (92, "9", "-"), "dZ_3000": (87, "8", "2.2")}
+    lines = []
+    for place, (fit, fold, g) in printed.items():
+        own, milled = rows[place, "coupled"], rows[place, "milled"]
+        here = value(found, f"{place}/turning.g")
+        lines.append([place, fit, own["fit"], fold, own["fold"], g, here, milled["residual"], own["residual"]])
+    head = ["place", "FIT printed [%]", "here", "x-fold printed", "here", "g printed", "here"]
+    hold_table("mares2021: table 3", [*head, "left by milling alone [um]", "by both [um]"], lines)
 
 
 def test_a_step_of_the_tables_sensor_is_seen_in_the_prediction(lab: Lab) -> None:

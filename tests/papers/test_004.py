@@ -15,9 +15,10 @@ import pytest
 from thermodata.effect.lag import lag
 from thermodata.modelling.transfer import GivenFunction
 
-from .lab import IDLE_S, STEP_S, Lab, Logged, grid, hall_air, make_lab, noisy, value, write_logs
+from .document import hold_table
+from .lab import IDLE_S, STEP_S, Lab, Logged, Once, grid, hall_air, made_once, noisy, value, write_logs
 
-E1 = (2.0, 35.0)  # um/K, min
+E1 = (-4.0, 35.0)  # um/K, min
 E2 = (-2.0, 120.0)
 E3 = GivenFunction([-0.4099, 0.1057, 0.2872], [1, -0.2835, -0.7063], 1.0)
 E3_AT_REST = (-0.4099 + 0.1057 + 0.2872) / (1 - 0.2835 - 0.7063)  # um/K
@@ -104,8 +105,8 @@ C = HEAD + (
 
 
 @pytest.fixture(scope="module")
-def lab(tmp_path_factory: pytest.TempPathFactory) -> Lab:
-    made = make_lab(tmp_path_factory.mktemp("p004"), CAMPAIGN, _write)
+def lab(once: Once, tmp_path_factory: pytest.TempPathFactory) -> Lab:
+    made = made_once(once, tmp_path_factory.mktemp("lab"), "p004", CAMPAIGN, _write)
     for name, text in (("frame", FRAME), ("A", A), ("B", B), ("C", C)):
         made.run("fit", made.model(name, "p004", text))
     return made
@@ -150,6 +151,29 @@ def test_the_cutting_of_finishing_leaves_the_tool_cold(lab: Lab) -> None:
     rows = lab.json("compare", "B", "C", "--against", "A")
     finishing = {r["name"]: r["residual"] for r in rows if r["test"] == "cut25"}
     assert finishing["B"] == pytest.approx(finishing["C"], rel=0.2)
+
+
+def test_the_document_has_the_table(lab: Lab) -> None:
+    rows = {(r["test"], r["name"]): r for r in lab.json("compare", "A", "B", "C", "--against", "A")}
+    printed = {
+        "cut25": ("D25, 6 W here", (65, 49, 86)),
+        "cut63": ("D63, calibration", (67, 90, 92)),
+        "cut63b": ("D63", (76, 87, 86)),
+        "cut100": ("D100, 0.7 kW", (48, 84, 85)),
+        "cut100b": ("D100, 2.5 kW", (54, 72, 81)),
+        "mean": ("mean", (62, 76, 86)),
+    }
+    lines: list[list[str | float | None]] = []
+    for test, (words, fits) in printed.items():
+        line: list[str | float | None] = [words]
+        for name, fit in zip("ABC", fits, strict=True):
+            line += [fit, rows[test, name]["fit"]]
+        lines.append(line)
+    head = ["test", "FIT A printed [%]", "here", "FIT B printed [%]", "here", "FIT C printed [%]", "here"]
+    hold_table("mares2017: FIT", head, lines)
+    peaks = [["at first", 118, rows["mean", "A"]["initial"]]]
+    peaks += [[name, um, rows["mean", name]["residual"]] for name, um in zip("ABC", (51, 36, 20), strict=True)]
+    hold_table("mares2017: peak to valley", ["model", "mean printed [um]", "here"], peaks)
 
 
 def test_models_of_an_older_state_of_the_data_are_refused(lab: Lab, tmp_path: Path) -> None:

@@ -8,8 +8,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 from threadpoolctl import threadpool_limits
 
-from thermodata.diagnosis.apart import heating_and_cooling_apart
 from thermodata.diagnosis.artefact import as_artefacts, find_steps
+from thermodata.diagnosis.by_phase import heating_and_cooling_apart
 from thermodata.diagnosis.candidates import CandidateEffect, candidates
 from thermodata.diagnosis.evidence import columns
 from thermodata.diagnosis.gain_by import gains_by_condition

@@ -10,7 +10,7 @@ import json
 from typing import TYPE_CHECKING
 
 from thermodata.diagnosis.answer import answer, worst_response
-from thermodata.diagnosis.apart import named_apart
+from thermodata.diagnosis.by_phase import named_apart
 from thermodata.diagnosis.candidates import CandidateEffect
 from thermodata.diagnosis.confirm import confirm
 from thermodata.diagnosis.gain_by import named

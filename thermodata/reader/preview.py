@@ -17,6 +17,7 @@ from thermodata.reader.registry import claims, sniff
 
 FIRST_ROWS = 5
 MOST_ROWS, MOST_S = 3_000_000, 8.0  # a preview of a file of any size takes seconds
+_SMALL = 4_000_000  # bytes; a smaller file is read whole, however busy the machine is
 _GAP_FACTOR = 3.0  # an interval of more than so many usual ones is a gap
 
 
@@ -92,6 +93,7 @@ def preview(
         signals[signal.stream].append(signal)
     losses: list[Loss] = []
     began, read = time.monotonic(), 0
+    hurried = path.stat().st_size > _SMALL
     for item in guarded(chosen, path, source, said):
         if isinstance(item, Loss):
             losses.append(item)
@@ -100,7 +102,7 @@ def preview(
         read += item.t_ns.size
         if watch is not None:
             watch(item)
-        if read >= most_rows or time.monotonic() - began > most_s:
+        if read >= most_rows or (hurried and time.monotonic() - began > most_s):
             whole = False
             break
     return {

@@ -37,8 +37,8 @@ def refinements_of(found: Diagnosis) -> list[Candidate]:
 
 
 def told(found: Diagnosis) -> list[Candidate]:
-    """The candidates whose evidence is told in full: all claims, else the first of the others; and all refinements. What
-    the verdict names comes first."""
+    """The candidates whose evidence is told in full: all claims, else the first of the others; and all refinements.
+    What the verdict names comes first."""
     causes = claims_of(found) or [c for c in found.candidates if not c.refinement][:1]
     refined = refinements_of(found)
     return [*refined, *causes] if found.verdict == "refine" else [*causes, *refined]
