@@ -145,3 +145,14 @@ def test_the_curve_has_its_least_error_at_the_fitted_value(spec: Spec) -> None:
     assert list(values) == sorted(values)
     assert values[int(np.argmin(errors))] == pytest.approx(curve.value)
     assert errors[0] > min(errors) < errors[-1]
+
+
+def test_at_a_bound_the_profile_tells_the_other_end(spec: Spec) -> None:
+    """A lag of one minute that may not be under five: the data set the upper end alone."""
+    one = {"effect": "lag", "id": "l", "drivers": {"u": "T"}, "bounds": {"tau": [5.0, 600.0]}}
+    tests = [_test(seed, 3.0, 6.0, 0.3, {1.0: 3.0}) for seed in (5, 6)]
+    found = _fit(spec, tests, one).parameters()["l.tau"]
+    assert found.value == pytest.approx(5.0, rel=1e-3)
+    assert found.low is None
+    assert found.high is not None
+    assert 5.0 < found.high < 8.0

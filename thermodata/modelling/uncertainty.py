@@ -55,9 +55,11 @@ def spreads(
                 by_slot[s].sd[owner.name], by_slot[s].half[owner.name] = float(sd), float(half)
     if rough is None or not problem.free:
         return by_slot, logs
-    whole = len(_inside(problem, x)) == len(problem.free)
+    known = _inside(problem, x)
+    whole = len(known) == len(problem.free)
     for i, profile, half in _profiles(inside if whole else _Estimate(problem, x, gains), rough()):
-        if half < UNKNOWN and not profile.is_quadratic(half):
+        # at a bound the half width says nothing, and the profile has one side only
+        if (half < UNKNOWN or i not in known) and not profile.is_quadratic(half):
             ends = profile.ends(half)
             for s in problem.free[i].slots:
                 by_slot[s].ends[problem.free[i].param.name] = ends
