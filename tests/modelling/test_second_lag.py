@@ -132,11 +132,19 @@ def test_the_error_of_left_out_tests_counts_samples_or_tests() -> None:
         ({"effect": "centrifugal_shift"}, False),
         ({"effect": "warm_start"}, False),
         ({"effect": "transfer_function", "drivers": {"u": "T_nut"}}, False),
+        ({"effect": "model", "name": "frame"}, False),
     ],
 )
 def test_only_a_single_free_lag_of_a_driver_is_asked(effect: dict[str, object], asked: bool) -> None:
     spec = EffectSpec.model_validate(effect)
     assert is_single_lag(spec, [spec]) is asked
+
+
+def test_heating_and_cooling_apart_are_no_two_lags_of_one_effect() -> None:
+    heating, cooling = (
+        EffectSpec(effect="spindle_bearing", id=phase, phases=[phase]) for phase in ("heating", "cooling")
+    )
+    assert is_single_lag(heating, [heating, cooling])
 
 
 def test_what_stands_twice_is_asked_for_no_third(world: Dataset, both: Model) -> None:

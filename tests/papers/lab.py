@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 import json
+import shutil
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import redirect_stderr, redirect_stdout
 from dataclasses import dataclass
@@ -19,6 +20,7 @@ from thermodata.plugin import Bool1D, Float1D
 from thermodata.virtual.write_nc import ZONE, write_export
 from thermodata.virtual.write_tdms import write_recording
 
+Once = Callable[[str, Callable[[Path], object]], Path]  # the fixture `once`
 STEP_S = 10.0
 START_S = datetime(2026, 1, 12, 7, tzinfo=UTC).timestamp()
 UM_PER_V = 40.0  # of the probes, which rest at 5 V
@@ -127,6 +129,12 @@ def make_lab(folder: Path, campaign: str, write: Callable[[Path], None]) -> Lab:
     lab = Lab(folder)
     lab.run("ingest", folder / "campaign.yaml")
     return lab
+
+
+def made_once(once: Once, scratch: Path, name: str, campaign: str, write: Callable[[Path], None]) -> Lab:
+    """A copy, in scratch, of the lab that the first test of the run makes: whoever asks may change his own."""
+    shutil.copytree(once(name, lambda folder: make_lab(folder, campaign, write)), scratch / name)
+    return Lab(scratch / name)
 
 
 def value(fit: Mapping[str, Any], name: str) -> float:

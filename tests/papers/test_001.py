@@ -16,7 +16,7 @@ from thermodata.modelling.transfer import GivenFunction
 from thermodata.plugin import Float1D
 
 from .document import hold_table
-from .lab import STEP_S, Lab, Logged, grid, hall_air, levels, make_lab, moved_in, noisy, value, write_logs
+from .lab import STEP_S, Lab, Logged, Once, grid, hall_air, levels, made_once, moved_in, noisy, value, write_logs
 
 HEAT = GivenFunction([0.0162, 10.74, 5.368], [0.002098, 2.379, 1.0], None)
 HALL = GivenFunction(
@@ -102,8 +102,8 @@ effects:
 
 
 @pytest.fixture(scope="module")
-def lab(tmp_path_factory: pytest.TempPathFactory) -> Lab:
-    return make_lab(tmp_path_factory.mktemp("p001"), CAMPAIGN, _write)
+def lab(once: Once, tmp_path_factory: pytest.TempPathFactory) -> Lab:
+    return made_once(once, tmp_path_factory.mktemp("lab"), "p001", CAMPAIGN, _write)
 
 
 def test_the_functions_of_the_paper_are_found(lab: Lab) -> None:

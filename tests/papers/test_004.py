@@ -16,7 +16,7 @@ from thermodata.effect.lag import lag
 from thermodata.modelling.transfer import GivenFunction
 
 from .document import hold_table
-from .lab import IDLE_S, STEP_S, Lab, Logged, grid, hall_air, make_lab, noisy, value, write_logs
+from .lab import IDLE_S, STEP_S, Lab, Logged, Once, grid, hall_air, made_once, noisy, value, write_logs
 
 E1 = (-4.0, 35.0)  # um/K, min
 E2 = (-2.0, 120.0)
@@ -105,8 +105,8 @@ C = HEAD + (
 
 
 @pytest.fixture(scope="module")
-def lab(tmp_path_factory: pytest.TempPathFactory) -> Lab:
-    made = make_lab(tmp_path_factory.mktemp("p004"), CAMPAIGN, _write)
+def lab(once: Once, tmp_path_factory: pytest.TempPathFactory) -> Lab:
+    made = made_once(once, tmp_path_factory.mktemp("lab"), "p004", CAMPAIGN, _write)
     for name, text in (("frame", FRAME), ("A", A), ("B", B), ("C", C)):
         made.run("fit", made.model(name, "p004", text))
     return made

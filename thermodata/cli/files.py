@@ -38,6 +38,8 @@ def init_command(session: Session, folder: Path, force: bool) -> None:
     if made.model is not None:
         session.say(f"a first model of what the sensors explain: {made.model}")
     draft = made.draft
+    if not draft.sources:
+        session.say(f"no reader claims any file of {folder}: the draft names them, and what would help")
     session.say(
         f"{made.files} files, {len(draft.tests)} tests, {len(draft.sources)} sources, "
         f"{sum(c.said.quantity is not None for c in draft.channels)} channels; {made.questions} lines hold a question: "

@@ -125,8 +125,10 @@ def compare_command(
 def add_command(session: Session, model: str, candidate: str, plain: bool) -> None:
     """Make a new version of MODEL with an effect more.
 
-    CANDIDATE is its rank or id, as diagnose printed them. Where tests that are left out of the fit want it, the effect
-    and those that MODEL has get a second lag, for a part of a machine answers heat by a quick share and a slow one.
+    CANDIDATE is its rank or id, as diagnose printed them; gain_by:EFFECT,CONDITION gives an effect of MODEL a gain for
+    each value of a condition, and phases:EFFECT,heating,cooling parts it into one for each phase. Where tests that are
+    left out of the fit want it, the effect and those that MODEL has get a second lag, for a part of a machine answers
+    heat by a quick share and a slow one.
     Prints the errors before and after.
     """
     from thermodata.cli.progress import counting_line
@@ -290,9 +292,9 @@ def fit_text(result: FitResult, *, scores: bool = True) -> str:
 
 
 def span(parameter: Parameter) -> str:
-    """'0.9 … 1.2', or '-' where the uncertainty is not known."""
+    """'0.9 … 1.2', '0.9 …' where these tests set no upper end, or '-' where the uncertainty is not known."""
     low, high = parameter.low, parameter.high
-    return "-" if low is None or high is None else f"{number(low)} … {number(high)}"
+    return "-" if low is None and high is None else f"{number(low)} … {number(high)}".replace("-", "")
 
 
 def scores_text(scores: list[Score], phases: bool = False) -> str:

@@ -30,7 +30,8 @@ class Drafted:
 
 def draft_files(folder: Path, *, force: bool = False, progress: Progress | None = None) -> Drafted:
     """force: a campaign file that is there becomes campaign.1.yaml; without it that is a UsageError, as is a folder
-    without any file that a reader claims. progress: is told (done, of, path)."""
+    without files. One of files that no reader claims is drafted too, with what would help. progress: is told (done, of,
+    path)."""
     out = folder / "campaign.yaml"
     if out.exists() and not force:
         raise UsageError(
@@ -39,13 +40,13 @@ def draft_files(folder: Path, *, force: bool = False, progress: Progress | None 
             hint="--force keeps it as campaign.1.yaml and drafts anew",
         )
     found = scan(folder, progress)
-    if not found.logs:
+    if not found.logs and not found.ignored:
         raise UsageError(
-            "no file that a reader claims",
+            "a folder without files",
             where=str(folder),
             expected="raw logs",
-            got="; ".join(f"{p}: {w}" for p, w in found.ignored[:5]) or "nothing",
-            hint="thermodata plugins lists the installed readers; thermodata sniff FILE says more",
+            got="nothing",
+            hint="thermodata plugins lists what the installed readers read",
         )
     name = re.sub(r"[^A-Za-z0-9._-]+", "-", plain_name(folder.resolve().name)).strip("-._")[:100] or "campaign"
     draft = plan(name, folder, found)

@@ -20,6 +20,7 @@ from thermodata.draft.quantity import Guess
 from thermodata.draft.values import Values, joined, values_of
 from thermodata.errors import QuestionError, ThermodataError
 from thermodata.plugin import Array, Block, Float1D, Int1D, Loss, Reader, Recording, Signal, Source
+from thermodata.reader.explain import kind_of
 from thermodata.reader.guard import described, guarded
 from thermodata.reader.open_questions import UNKNOWN
 from thermodata.reader.registry import claims, reader
@@ -259,7 +260,7 @@ def _claimant(path: Path) -> tuple[Reader | None, str]:
     if not path.stat().st_size:
         return None, "an empty file"
     if not found:
-        return None, "no reader claims it: thermodata sniff says why"
+        return None, f"no reader claims it ({kind_of(path)}): thermodata sniff says why"
     said = " and ".join(f"{name} ({why})" for name, why in found.items())
     return None, f"two readers claim it: {said}; declare one as the reader of a source"
 

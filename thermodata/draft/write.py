@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import re
 from collections.abc import Mapping, Sequence
+from pathlib import PurePosixPath
 
 from thermodata.draft.plan import Draft, DraftChannel, DraftJump, DraftSource, DraftTest
 from thermodata.draft.testsfrom import Pattern, pattern_of
@@ -13,6 +14,11 @@ _PLACES = "at: where on the machine, e.g. spindle.bearing.front, axis.z.nut, col
 _ROLES = "? role of each: calibration (fitted), verification (checked), locked (for the last word), none (kept only)"
 _WORDS = frozenset(("yes", "no", "on", "off", "true", "false", "null", "y", "n"))
 _OPEN = "?"
+_MOST_KINDS = 8
+_NOBODY = (
+    "? no reader claims any file here: export the logs as CSV (a line of names, a column called time, numbers), or say "
+    "below what reads them; thermodata sniff FILE tells why, thermodata plugins what can be read"
+)
 _HEAD = """\
 # Drafted by thermodata init. '# ?' marks what nobody but you knows: answer it in the line, then delete the mark.
 # 'guess' is what names, units or values suggest; 'sure' is what they agree on. Where 'unknown' stands, nothing is read
@@ -27,9 +33,9 @@ def text_of(draft: Draft) -> str:
         f"id: {scalar(draft.campaign)}",
         "machine:",
         "  id: unknown                      # ? the machine's number",
-        "sources:",
+        "sources:" if draft.sources else f"sources: {{}}                        # {_NOBODY}",
     ]
-    lines += [_source(s) for s in draft.sources]
+    lines += [_source(s) for s in draft.sources] or _sources_of_nobody(draft)
     lines.append(
         f"channels:   # {_PLACES}"
         if any(c.said.quantity for c in draft.channels)
@@ -71,6 +77,19 @@ def _source(s: DraftSource) -> str:
             comments.append(f"clock guess: {s.align.offset_s:+.1f} s in {one_line(s.align.test)}, by what both logged")
     said = "; ".join(filter(None, (f"? {asked}" if asked else "", *comments)))
     return f"  {s.name}: {{{body}}}" + (f"   # {one_line(said)}" if said else "")
+
+
+def _sources_of_nobody(draft: Draft) -> list[str]:
+    """A line for each kind of file, to be filled in by who knows what reads it."""
+    kinds: dict[str, str] = {}
+    for path, _ in draft.not_used:
+        kinds.setdefault(PurePosixPath(path).suffix.lower() or PurePosixPath(path).name, path)
+    return [
+        f"  # {f'log{i}' if i > 1 else 'log'}: {{{flow({'reader': _OPEN, 'files': '{test}' + kind})}}}"
+        f"   # ? what wrote {one_line(path)}?"
+        for i, (kind, path) in enumerate(list(kinds.items())[:_MOST_KINDS], 1)
+        if kind.startswith(".")
+    ]
 
 
 def _channel(c: DraftChannel) -> str:
@@ -120,7 +139,10 @@ def _jump(j: DraftJump) -> str:
 
 def _tests(draft: Draft) -> list[str]:
     if not draft.tests:
-        return ["tests: []                          # ? no recording was found"]
+        return [
+            "tests:",
+            "  - {id: unknown, kind: other, role: none}   # ? no recording is known: a line for each",
+        ]
     pattern = pattern_of(draft)
     if pattern is not None:
         return _tests_from(pattern, draft)

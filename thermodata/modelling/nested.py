@@ -35,6 +35,10 @@ class ModelOutput(OfTests):
     def has(self, test: TestData) -> bool:
         return all(term.can_predict(test) for term in self.response.terms)
 
+    def reads(self, test: TestData) -> tuple[str, ...]:
+        """The channels that its own effects read."""
+        return tuple(dict.fromkeys(n for term in self.response.terms for n in term.bound.reads(test)))
+
     def column(self, test: TestData) -> Float2D:
         out = self.response.predict(test)
         for term in self.response.terms:

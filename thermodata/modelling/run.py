@@ -10,11 +10,12 @@ from typing import TYPE_CHECKING
 from thermodata.errors import UsageError
 from thermodata.modelling import nested
 from thermodata.modelling.beside import Beside, beside
-from thermodata.modelling.candidate import candidate_spec, with_effect
+from thermodata.modelling.candidate import with_candidate, with_effect
 from thermodata.modelling.fit import fit_model
 from thermodata.modelling.fitted import FittedModel
 from thermodata.modelling.orders import Tried
 from thermodata.modelling.portability import Portability, portability
+from thermodata.modelling.profiles import Profiles, profiles_of
 from thermodata.modelling.resolve import term_ids
 from thermodata.modelling.result import make_result, model_id
 from thermodata.modelling.roles import find_tests
@@ -45,7 +46,16 @@ def load(store: Store, ref: str, *, uncertainty: bool = False) -> Loaded:
 
     stored = find_model(store, ref)
     data = load_data(store, stored.spec)
-    return Loaded(stored.model, stored.parent, fit_model(stored.spec, data, uncertainty=uncertainty), data)
+    return Loaded(stored.model, stored.parent, fit_alone(stored.spec, data, uncertainty=uncertainty), data)
+
+
+def fit_alone(spec: Model, data: Dataset, *, base: Path | None = None, uncertainty: bool = True) -> FittedModel:
+    """`fit_model` on one core: its matrices are so small that threads wait for each other, four times as long as they
+    work."""
+    from threadpoolctl import threadpool_limits
+
+    with threadpool_limits(1):
+        return fit_model(spec, data, base=base, uncertainty=uncertainty)
 
 
 def load_data(store: Store, spec: Model) -> Dataset:
@@ -69,7 +79,7 @@ def fit(
 
     spec = self_contained(store, spec, base)
     data = load_data(store, spec)
-    fitted = fit_model(spec, data)
+    fitted = fit_alone(spec, data)
     result = make_result(fitted, data, model_id(spec, data.data_version), parent=parent, before=before)
     result = result.model_copy(update=said)
     save_fit(
@@ -110,23 +120,26 @@ def compare_against(store: Store, refs: Sequence[str], reference: str, tests: Se
 
 
 def add(store: Store, ref: str, candidate: str | int | EffectSpec, *, plain: bool = False) -> FitResult:
-    """A new version with one effect more: a rank or id of the stored diagnosis, or any 'effect:channels'; and with
-    second lags where left-out tests want them (`second_lag`). plain: that one effect and no more.
+    """A new version with one effect more: a rank or id of the stored diagnosis, or any 'effect:channels'; or with
+    one that it has changed, 'gain_by:effect,condition' or 'phases:effect,heating,cooling'; and with second lags where
+    left-out tests want them (`second_lag`). plain: no second lags.
     `before` has the parent's scores, `added` the ids of what is new, `notes` why."""
     from thermodata.store.catalogue.models import find_model
 
     parent = find_model(store, ref)
-    effect = (
-        candidate if isinstance(candidate, EffectSpec) else chosen_effect(store, parent.model, parent.spec, candidate)
-    )
     old = load(store, parent.model)
+    if isinstance(candidate, EffectSpec):
+        grown = with_effect(parent.spec, candidate)
+    else:
+        grown = with_candidate(parent.spec, chosen_id(store, parent.model, candidate), old.data.channels)
     before = make_result(old.fitted, old.data, parent.model).scores
-    spec, notes = with_effect(parent.spec, effect), list[str]()
+    notes = list[str]()
     if not plain:
-        refined = with_second_lags(spec, old.data)
-        spec, notes = refined.spec, refined.notes
-    added = term_ids(spec.effects)[len(parent.spec.effects) :]
-    return fit(store, spec, parent=parent.model, before=before, added=added, notes=notes)
+        refined = with_second_lags(grown, old.data)
+        grown, notes = refined.spec, refined.notes
+    had = term_ids(parent.spec.effects)
+    added = [i for i in term_ids(grown.effects) if i not in had]
+    return fit(store, grown, parent=parent.model, before=before, added=added, notes=notes)
 
 
 def remove(store: Store, ref: str, effect: str) -> FitResult:
@@ -174,7 +187,7 @@ def orders(store: Store, spec: Model, *, method: str | None = None, base: Path |
     is saved. method: in place of the file's. UsageError where the model has no function to identify."""
     effects = [_with_open_orders(e, method) for e in spec.effects]
     spec = self_contained(store, spec.model_copy(update={"effects": effects}), base)
-    fitted = fit_model(spec, load_data(store, spec), uncertainty=False)
+    fitted = fit_alone(spec, load_data(store, spec), uncertainty=False)
     found = [row for response in fitted.responses for row in response.tried]
     if not found:
         raise UsageError(
@@ -191,8 +204,15 @@ def _with_open_orders(effect: EffectSpec, method: str | None) -> EffectSpec:
     return effect.model_copy(update={"orders": None, "method": method or effect.method})
 
 
-def chosen_effect(store: Store, model: str, spec: Model, candidate: str | int) -> EffectSpec:
-    """What a user names: the rank of the stored diagnosis, an id, or any 'effect:channels'; UsageError for none."""
+def profiles(store: Store, ref: str) -> Profiles:
+    """The interval of every time constant of a stored model by its profile, and what the tests can't tell apart."""
+    model = load(store, ref)
+    return profiles_of(model.fitted, model.data)
+
+
+def chosen_id(store: Store, model: str, candidate: str | int) -> str:
+    """What a user names: the id of a rank of the stored diagnosis, or the name as it is; UsageError for no such
+    rank."""
     from thermodata.store.catalogue.models import load_diagnosis
 
     name = str(candidate)
@@ -208,7 +228,7 @@ def chosen_effect(store: Store, model: str, spec: Model, candidate: str | int) -
                 got=name,
             )
         name = ranks[int(name)]
-    return candidate_spec(name, load_data(store, spec).channels)
+    return name
 
 
 def self_contained(store: Store, spec: Model, base: Path | None = None) -> Model:

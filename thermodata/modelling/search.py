@@ -104,6 +104,7 @@ def _along(problem: Problem, x: Float1D, i: int, points: Float1D, best: float) -
     gram, cross, total = matrix.T @ matrix, matrix.T @ design.y, float(design.y @ design.y)
     places = np.concatenate([np.arange(problem.starts[s], problem.starts[s + 1]) for s in nonlinear.slots])
     rest = np.setdiff1d(np.arange(matrix.shape[1]), places)
+    others = matrix[:, rest]
     if not np.isfinite(best):
         best = squared_error(total, gram, cross, solve_gains(gram, cross, problem.low, problem.high))
     out = x
@@ -114,7 +115,7 @@ def _along(problem: Problem, x: Float1D, i: int, points: Float1D, best: float) -
         own = np.concatenate([design.columns(s, params[s]) for s in nonlinear.slots], axis=1)
         g, c = gram.copy(), cross.copy()
         g[np.ix_(places, places)] = own.T @ own
-        g[np.ix_(places, rest)] = own.T @ matrix[:, rest]
+        g[np.ix_(places, rest)] = own.T @ others
         g[np.ix_(rest, places)] = g[np.ix_(places, rest)].T
         c[places] = own.T @ design.y
         error = squared_error(total, g, c, solve_gains(g, c, problem.low, problem.high))

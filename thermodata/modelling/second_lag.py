@@ -15,6 +15,7 @@ from thermodata.errors import UsageError
 from thermodata.modelling.fitted import FittedModel
 from thermodata.modelling.fitted_response import FittedTerm
 from thermodata.modelling.left_out_error import Errors, LeftOut
+from thermodata.modelling.nested import NAME as NESTED
 from thermodata.modelling.orders import APART
 from thermodata.modelling.prediction import NAME as PREDICTION
 from thermodata.modelling.resolve import term_ids
@@ -140,7 +141,7 @@ def is_single_lag(spec: EffectSpec, among: Sequence[EffectSpec]) -> bool:
     it on tests of its own, nor where it stands twice already (a third lag is nothing that tests can tell)."""
 
     def same(other: EffectSpec) -> bool:
-        keys = ("effect", "drivers", "tests", "gain_by")
+        keys = ("effect", "drivers", "tests", "gain_by", "phases")
         return all(getattr(spec, key) == getattr(other, key) for key in keys)
 
     held = bool(spec.fixed) or spec.calibrate_on is not None
@@ -149,7 +150,7 @@ def is_single_lag(spec: EffectSpec, among: Sequence[EffectSpec]) -> bool:
 
 def time_constant(spec: EffectSpec) -> Param | None:
     """The one time constant of an effect; None where it has none, or several, or no driver to lag."""
-    if spec.effect in (TRANSFER, PREDICTION):
+    if spec.effect in (TRANSFER, PREDICTION, NESTED):
         return None
     effect = find_effect(spec.effect)
     times = [p for p in effect.params if p.unit in SECONDS]

@@ -71,6 +71,11 @@ def explain(path: Path) -> Explanation:
     return Explanation(str(path), start.size_bytes, kind, found, others, _advice(start, found, others))
 
 
+def kind_of(path: Path) -> str:
+    """What the first bytes of a file are, in a few words."""
+    return _kind(head(path))
+
+
 def looks_for(name: str) -> str:
     """What a reader looks for, in its own words: its `looks_for`, else the first sentence of its docstring."""
     reader = readers()[name]

@@ -123,7 +123,7 @@ class TableLayout(Strict):
     units_row: the row that holds the units, counted from 1
     skip_rows: rows above the header
     time: its time column, or a list where columns have times of their own
-    delimiter: between cells
+    delimiter: between cells: itself, or tab, semicolon, comma, blanks
     decimal: mark of decimals: '.' or ','; unknown: nothing is read until it is written
     """
 

@@ -67,13 +67,14 @@ def seeds() -> list[Seed]:
                 ['"' + r.replace(";", '","') + '"' for r in _rows(";", ".", "seconds")],
             ).encode(),
         ),
+        Seed("blanks.txt", text("time_s T1 dZ n\n", [f"{r} " for r in _rows(" ", ".", "seconds")]).encode()),
         Seed("sep.csv", text("sep=;\ntime [s];T1;dZ;n\n", _rows(";", ",", "seconds"), "\r\n").encode()),
     ]
 
 
 def whole_of(data: bytes) -> bytes:
     """The delimiter of a seed."""
-    return max((b";", b",", b"\t"), key=data.count)
+    return max((b";", b",", b"\t"), key=data.count) if b" dZ " not in data else b" "
 
 
 def mutate(seed: Seed, rng: random.Random) -> Mutation:
@@ -156,13 +157,13 @@ def mutate(seed: Seed, rng: random.Random) -> Mutation:
         whole = parts[row]
         parts[row] = whole[: rng.randrange(len(whole))] + b"\n"
         # all cells are there: a value that is shorter is a value
-        full = all(parts[row].count(d) == whole.count(d) for d in (b";", b",", b"\t"))
+        full = all(parts[row].count(d) == whole.count(d) for d in (b";", b",", b"\t", b" "))
         return Mutation(b"".join(parts), "line too short", full or not parts[row].strip(), full)
     if what == "end":
         mark = rng.choice((b"\r\n", b"\r", b"\n\n", b"\n\r"))
         other = data.replace(b"\r\n", b"\n").replace(b"\n", mark)
         return Mutation(other, "line ends changed", False, False)
-    delimiter = next(d for d in (b"\t", b";", b",") if d in parts[row])
+    delimiter = next(d for d in (b"\t", b";", b",", b" ") if d in parts[row])
     cells = parts[row].rstrip(b"\r\n").split(delimiter)
     i = rng.randrange(len(cells))
     new = rng.choice(

@@ -6,12 +6,14 @@ A control's export, a logger's CSV, a spreadsheet saved as text: `table` looks a
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 
 from thermodata.errors import FormatError
 from thermodata.plugin import Block, Loss, Recording, Signal, Source
+from thermodata.reader.text.delimiter import parted_bytes
 from thermodata.reader.text.lines import Chunk, chunks
 from thermodata.reader.text.local_clock import DayCount
 from thermodata.reader.text.table import Table, open_table
@@ -92,6 +94,8 @@ def blocks(path: Path, table: Table, source: Source) -> Iterator[Block | Loss]:
     """The rows in chunks of the file, and a loss for each part that does not read."""
     reader = RowReader(table, source, path.stat().st_size)
     for chunk in chunks(path, table.sample.encoding):
+        if table.blanks:
+            chunk = replace(chunk, data=parted_bytes(chunk.data))
         yield from reader.read(_without_header(chunk, table.layout.first))
         if reader.stopped:
             break

@@ -3,16 +3,24 @@
 from __future__ import annotations
 
 import csv
+import re
 from collections import Counter
 from collections.abc import Sequence
 
+from thermodata.reader.text.cell import is_number, is_stamp
+
 DELIMITERS = (";", "\t", ",", "|")
-_WORDS = {"tab": "\t", "\\t": "\t", "semicolon": ";", "comma": ","}
+BLANKS = " "  # as many as there are, tabs among them: columns that stand below each other
+_WORDS = {"tab": "\t", "\\t": "\t", "semicolon": ";", "comma": ",", "space": BLANKS, "blank": BLANKS, "blanks": BLANKS}
 _LOOKED_AT = 500
+_BETWEEN = re.compile(r"[ \t]+(?![\[(])")  # a unit in brackets belongs to the name before it
+_BETWEEN_BYTES = re.compile(rb"[ \t]+(?![\[(])")
+_MARGINS = re.compile(rb"^[ \t]+|[ \t]+(?=\r?$)", re.MULTILINE)
+_NUMBERS, _ALIKE = 0.8, 0.9  # of the cells of a table that blanks part, and of its lines
 
 
 def declared(delimiter: str) -> str:
-    """The delimiter that a campaign file names: itself, or one of the words tab, semicolon, comma."""
+    """The delimiter that a campaign file names: itself, or one of the words tab, semicolon, comma, blanks."""
     return _WORDS.get(delimiter, delimiter)
 
 
@@ -26,10 +34,21 @@ def fields(line: str, delimiter: str, quoted: bool = True) -> list[str]:
         return line.split(delimiter)
 
 
+def parted(line: str) -> str:
+    """A line whose cells blanks part, with a tab between them."""
+    return _BETWEEN.sub("\t", line.strip(" \t"))
+
+
+def parted_bytes(data: bytes) -> bytes:
+    """The same of whole lines in UTF-8, which keep their ends and their number."""
+    return _BETWEEN_BYTES.sub(b"\t", _MARGINS.sub(b"", data))
+
+
 def find_delimiter(lines: Sequence[str]) -> str | None:
     """The delimiter by which most of the last lines have equally many cells, two or more; None where there is none.
 
-    ';' and tabs stand before ',', which may be a decimal mark; a first line 'sep=;' (Excel's) decides.
+    ';' and tabs stand before ',', which may be a decimal mark; a first line 'sep=;' (Excel's) decides. Blanks part
+    cells where nothing else does and nearly all of these are numbers or times.
     """
     if lines and lines[0].lower().startswith("sep=") and len(lines[0].strip()) == 5:
         return lines[0].strip()[-1]
@@ -42,4 +61,17 @@ def find_delimiter(lines: Sequence[str]) -> str | None:
         share = many / len(body) if body else 0.0
         if common >= 2 and share >= 0.5 and (best is None or share > best[0] + 0.2):
             best = (share, delimiter)
-    return best[1] if best else None
+    if best is None or best[1] == ",":
+        return BLANKS if _blanks_part(body, best is not None) else best[1] if best else None
+    return best[1]
+
+
+def _blanks_part(body: Sequence[str], commas: bool) -> bool:
+    """Whether blanks stand between the cells of lines. commas: beside commas, which are decimal marks then."""
+    rows = [line.split() for line in body[-100:]]
+    common, many = Counter(map(len, rows)).most_common(1)[0] if rows else (0, 0)
+    if common < 2 or many < _ALIKE * len(rows):
+        return False
+    cells = [c for row in rows if len(row) == common for c in row]
+    told = sum(is_number(c) or is_stamp(c) for c in cells)
+    return told >= (1.0 if commas else _NUMBERS) * len(cells)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import lru_cache
 from pathlib import Path
 from typing import Any
@@ -70,7 +70,8 @@ def bare_line(line: str) -> str:
 @dataclass(frozen=True)
 class Table:
     """What the first look at a file found. header: the lines above the data, by `bare_line`; kinds: of each column;
-    quality: value column -> (the column of its quality, whether the code 0 is good)."""
+    quality: value column -> (the column of its quality, whether the code 0 is good); blanks: whether any number of them
+    parts its cells: lines are looked at, and read, with tabs in their place."""
 
     name: str
     sample: Sample
@@ -84,6 +85,7 @@ class Table:
     header: frozenset[str]
     quality: Pairs
     notes: tuple[str, ...]
+    blanks: bool = False
 
     @property
     def absolute(self) -> bool:
@@ -166,10 +168,19 @@ def find_table(head: Sequence[str], first: Sample, source: Source, where: str, s
         raise FormatError(
             "no columns found",
             where=where,
-            expected="lines with as many cells between ';', tabs, commas or '|'",
+            expected="lines with as many cells between ';', tabs, commas, '|' or blanks",
             got=repr(head[0][:60]),
             hint="declare table: {delimiter: ...}",
         )
+    blanks = delimiter == delimiters.BLANKS
+    if blanks:
+        delimiter, head = "\t", [delimiters.parted(line) for line in head]
+        first = replace(
+            first,
+            head=tuple(map(delimiters.parted, first.head)),
+            rest=tuple(map(delimiters.parted, first.rest)),
+        )
+        top = _top(head)
     quoted = any('"' in line for line in (*head, *first.rest))
 
     def cells(line: str) -> list[str]:
@@ -224,6 +235,7 @@ def find_table(head: Sequence[str], first: Sample, source: Source, where: str, s
         header=header,
         quality=quality,
         notes=notes,
+        blanks=blanks,
     )
 
 

@@ -29,7 +29,7 @@ def claims(head: Head) -> str | None:
         return None
     if table.layout.first == 0 and len(table.sample.head) < _FEWEST_LINES:
         return None  # a few numbers without a header may be anything
-    shown = "tab" if table.delimiter == "\t" else f"'{table.delimiter}'"
+    shown = "blanks" if table.blanks else "tab" if table.delimiter == "\t" else f"'{table.delimiter}'"
     return f"table: cells separated by {shown}, time in column '{table.layout.names[table.layout.time[0]]}'"
 
 

@@ -10,9 +10,9 @@ from typing import Any
 
 import numpy as np
 
-from thermodata.errors import FormatError
+from thermodata.errors import FormatError, QuestionError
 from thermodata.plugin import Source
-from thermodata.reader.open_questions import unit_question
+from thermodata.reader.open_questions import UNKNOWN, unanswered, unit_question
 from thermodata.reader.text import split_unit, time_formats
 from thermodata.reader.text.header import unique
 from thermodata.reader.text.time_columns import column as find_column
@@ -83,6 +83,8 @@ class Table:
         wanted, unit = said.get("column"), said.get("unit")
         if isinstance(wanted, list):
             wanted = wanted[0]
+        if wanted == UNKNOWN and UNKNOWN not in self.names:
+            raise unanswered("time.column", "the name of the column of times", self.path.name)
         units = [split_unit(n)[1] for n in self.names]
         if wanted is not None:
             column = find_column(wanted, self.names, self.path.name)
@@ -127,12 +129,16 @@ class Table:
         called = [i for i in columns if is_time_header(self.names[i])]
         if len(columns) == 1 or len(called) == 1:
             return (called or columns)[0]
-        raise FormatError(
+        names = [self.names[i] for i in called or columns]
+        raise QuestionError(
             "several columns of times",
             where=self.path.name,
-            got=", ".join(self.names[i] for i in called or columns),
+            got=", ".join(names),
             expected="one, or one of them that is called time",
-            hint=f"declare table: {{time: {{column: {self.names[(called or columns)[0]]}}}}}",
+            hint=f"declare table: {{time: {{column: {names[0]}}}}}",
+            ask=f"which column is the time: {' or '.join(names)}?",
+            declare={"time": {"column": UNKNOWN}},
+            meanwhile={"time": {"column": names[0]}},
         )
 
     def times(self, column: Any) -> time_formats.Stamps:

@@ -1,0 +1,125 @@
+"""Folders from which a draft must come all the same: columns parted by blanks, files of no reader, several times."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from thermodata.schema.load import load_campaign
+
+from .conftest import Said
+
+Say = Callable[..., Said]
+ROWS = [(10 * i, 20 + 0.05 * i, 3000 if i < 60 else 0) for i in range(120)]
+HEADS = {"names": "Time T_front [degC] n [rpm]", "wide": "      Time    T_front [degC]   n [rpm]", "none": None}
+WAYS = {
+    "blanks": "{:.1f} {:.3f} {:d}",
+    "columns": "{:10.1f}  {:8.3f}  {:6d}  ",
+    "tabs": "{:.1f}\t{:.3f}\t{:d}",
+}
+
+
+@pytest.mark.parametrize("head", HEADS)
+@pytest.mark.parametrize("way", WAYS)
+@pytest.mark.parametrize("mark", [".", ","])
+def test_columns_with_blanks_or_tabs_between_are_drafted_and_read(
+    tmp_path: Path, say: Say, way: str, head: str, mark: str
+) -> None:
+    names = HEADS[head] and (HEADS[head] if way != "tabs" else "Time\tT_front [degC]\tn [rpm]")
+    lines = [*([names] if names else []), *(WAYS[way].format(*row).replace(".", mark) for row in ROWS)]
+    (tmp_path / "day1.txt").write_text("\n".join(lines) + "\n")
+    assert say("init", tmp_path).code == 0
+    path = tmp_path / "campaign.yaml"
+    text = path.read_text()
+    assert text.count("unit: unknown") == 1
+    path.write_text(text.replace("unit: unknown", "unit: s"))
+    signal = "T_front" if head != "none" else "column 2"
+    (channel,) = [n for n, c in load_campaign(path).channels.items() if (c.signal or "").startswith(signal)]
+    store = ("--store", tmp_path / "s")
+    assert json.loads(say(*store, "ingest", path, "--json").out)["losses"] == []
+    asked = f"select t_s, value from sample where channel = '{channel}' order by t_s"
+    rows = json.loads(say(*store, "sql", asked, "--json").out)
+    np.testing.assert_allclose([(r["t_s"], r["value"]) for r in rows], [row[:2] for row in ROWS], atol=5e-4)
+
+
+def test_dates_and_times_with_blanks_between_are_two_columns_of_one_time(tmp_path: Path, say: Say) -> None:
+    lines = [f"2026-03-02 08:{i:02d}:00   {20 + i / 8:.3f}  {100 * i}" for i in range(40)]
+    (tmp_path / "day1.txt").write_text("Date Time T1 n\n" + "\n".join(lines) + "\n")
+    found = json.loads(say("preview", tmp_path / "day1.txt", "--json").out)
+    assert (found["clock"], found["rows_read"], found["streams"][0]["step_s"]) == ("absolute", 40, 60.0)
+    assert [s["name"] for s in found["streams"][0]["signals"]] == ["T1", "n"]
+
+
+def test_a_row_that_lacks_a_cell_between_blanks_is_lost_and_told(tmp_path: Path, say: Say) -> None:
+    lines = [f"{i} {20 + i / 8:.3f} {100 * i}" for i in range(40)]
+    lines[17] = "17 1700"
+    (tmp_path / "day1.txt").write_text("time_s T1 n\n" + "\n".join(lines) + "\n")
+    found = json.loads(say("preview", tmp_path / "day1.txt", "--json").out)
+    assert found["rows_read"] == 39
+    assert [x["where"] for x in found["losses"]] == ["day1.txt line 19"]
+
+
+@pytest.mark.parametrize(
+    "text", ["Measured on Monday.\nProbe 3 was loose.\n" * 20, "1. warm up\n2. measure\n3. cool down\n" * 10]
+)
+def test_prose_is_no_table(tmp_path: Path, say: Say, text: str) -> None:
+    (tmp_path / "notes.txt").write_text(text)
+    assert json.loads(say("sniff", tmp_path / "notes.txt", "--json").out)[0]["reader"] is None
+
+
+def test_a_folder_that_no_reader_knows_is_drafted_with_what_would_help(tmp_path: Path, say: Say) -> None:
+    (tmp_path / "scope.wfm").write_bytes(bytes(range(256)) * 40)
+    (tmp_path / "notes.txt").write_text("Measured on Monday.\n")
+    said = say("init", tmp_path)
+    assert said.code == 0
+    assert "no reader claims any file" in said.err
+    text = (tmp_path / "campaign.yaml").read_text()
+    load_campaign(tmp_path / "campaign.yaml")
+    (asked,) = [line for line in text.splitlines() if line.startswith("sources:")]
+    assert "# ?" in asked
+    assert "export the logs as CSV" in asked
+    assert "what wrote scope.wfm?" in text
+    assert "# not used: scope.wfm: no reader claims it (binary;" in text
+    said = say("--store", tmp_path / "s", "ingest", tmp_path / "campaign.yaml")
+    assert said.code == 3
+    assert "no data" in said.out + said.err
+
+
+def test_an_empty_folder_is_refused(tmp_path: Path, say: Say) -> None:
+    said = say("init", tmp_path)
+    assert said.code == 2
+    assert "a folder without files" in said.err
+    assert not (tmp_path / "campaign.yaml").exists()
+
+
+def test_several_columns_of_times_in_parquet_are_asked(tmp_path: Path, say: Say) -> None:
+    pa, pq = pytest.importorskip("pyarrow"), pytest.importorskip("pyarrow.parquet")
+    t = np.datetime64("2026-03-02T08:00:00", "us") + np.arange(60) * np.timedelta64(10, "s")
+    later = t + np.timedelta64(7, "s")
+    table = {"logged_at": pa.array(t), "sent_at": pa.array(later), "T1": 20 + np.arange(60) / 8}
+    pq.write_table(pa.table(table), tmp_path / "a.parquet")
+    assert say("init", tmp_path).code == 0
+    path = tmp_path / "campaign.yaml"
+    text = path.read_text()
+    (line,) = [x for x in text.splitlines() if "column: unknown" in x]
+    assert "# ? which column is the time: logged_at or sent_at?" in line
+    said = say("--store", tmp_path / "s", "ingest", path)
+    assert said.code == 3
+    assert "'time.column' of the table is not answered yet" in said.out + said.err
+    path.write_text(text.replace("column: unknown", "column: logged_at"))
+    assert say("--store", tmp_path / "s", "ingest", path, "--json").code == 0
+    start = say("--store", tmp_path / "s", "sql", "select start from test", "--json").out
+    assert "08:00:00" in start
+
+
+def test_of_several_columns_of_times_the_one_that_is_called_time_counts(tmp_path: Path, say: Say) -> None:
+    pa, pq = pytest.importorskip("pyarrow"), pytest.importorskip("pyarrow.parquet")
+    t = np.datetime64("2026-03-02T08:00:00", "us") + np.arange(60) * np.timedelta64(10, "s")
+    table = {"logged_at": pa.array(t + np.timedelta64(7, "s")), "time": pa.array(t), "T1": 20 + np.arange(60) / 8}
+    pq.write_table(pa.table(table), tmp_path / "a.parquet")
+    found = json.loads(say("preview", tmp_path / "a.parquet", "--json").out)
+    assert found["start"].startswith("2026-03-02T08:00:00")
