@@ -3,9 +3,9 @@
     uv run --with sippy-unipi --with sysidentpy --with pastas --with statsmodels python tests/benchmarks/identify.py
 
 Two true lags, 20 min and 3 h, 24 h at 1 Hz, 0.3 um of white noise, the temperature logged in steps of 0.1 K. A peer
-that is not installed is left out, and the table says so. Each is given the same columns, from balance and relative to
-the start; FIT is printed with both conventions of an offset: from the first 10 min (what a control can know), and the
-best one (what papers often print). Processor time is that of the identification, without the imports.
+that is not installed is left out, and the table says so. Each has the same columns, relative to the start;
+FIT is printed with both conventions of an offset: from the first 10 min (what a control can know), and the best one
+(what papers often print). Processor time is that of identification and free run, without the imports.
 """
 
 from __future__ import annotations

@@ -15,6 +15,7 @@ from thermodata.errors import UsageError
 from thermodata.modelling import fit_model
 from thermodata.modelling.left_out import folds, left_out_fit
 from thermodata.modelling.orders import free_run_fit
+from thermodata.modelling.transfer import GivenFunction
 from thermodata.plugin import Float1D
 from thermodata.schema.model import Model
 from thermodata.view.dataset import ChannelInfo, Dataset, TestData
@@ -179,6 +180,25 @@ def test_a_left_out_test_is_not_fitted(noisy: Dataset) -> None:
 def _in_windows(test: TestData, every_s: float, measured_s: float) -> TestData:
     good = test.t_s % every_s < measured_s
     return replace(test, valid={**test.valid, "dZ": good})
+
+
+def test_arx_counts_the_response_from_its_first_samples(spec: Spec) -> None:
+    """A constant a test would take what the slow pole should say: the gain at rest came out a fourth too small."""
+    tests = [_test(seed, "calibration", hours=16) for seed in (5, 6)]
+    moved = [replace(t, values={**t.values, "dZ": t.values["dZ"] + 500.0 * k}) for k, t in enumerate(tests, 1)]
+    model = spec(FUNCTION | {"method": "arx", "orders": [2, 2]})
+    at_rest = []
+    for each in (tests, moved):
+        effect = fit_model(model, _data(*each)).responses[0].terms[0].effect
+        assert isinstance(effect, GivenFunction)
+        at_rest.append(effect.gain_at_rest)
+    assert at_rest[0] == pytest.approx(1.2 + 2.0, rel=0.12)
+    assert at_rest[1] == pytest.approx(at_rest[0], rel=1e-6)
+    # where a test began warm nobody knows its zero, and a constant stands for it
+    warm = [replace(t, start_state="warm") for t in moved]
+    effect = fit_model(model, _data(*warm)).responses[0].terms[0].effect
+    assert isinstance(effect, GivenFunction)
+    assert effect.gain_at_rest < 0.9 * at_rest[0]
 
 
 def test_arx_is_refused_on_measuring_windows_with_the_reason(spec: Spec) -> None:

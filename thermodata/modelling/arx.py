@@ -15,7 +15,7 @@ from thermodata.modelling.drivers import step_s
 from thermodata.modelling.fitted_response import FittedTerm, fit_mask
 from thermodata.modelling.phases import runs
 from thermodata.modelling.transfer import FreeFunction, GivenFunction
-from thermodata.plugin import Bool1D, Effect
+from thermodata.plugin import Bool1D, Effect, Float1D
 from thermodata.view.dataset import TestData
 
 FEWEST_IN_A_ROW = 0.5  # of the time between first and last sample
@@ -36,12 +36,14 @@ def identify_arx(
 ) -> BoundResponse:
     """The response with term i as an ARX function of what the other effects leave. orders: numerator, denominator.
 
-    y(k) = -b1 y(k-1) - ... + a0 u(k) + a1 u(k-1) + ... + one constant a test; least squares over all tests.
-    UsageError where the function is not stable.
+    y(k) = -b1 y(k-1) - ... + a0 u(k) + a1 u(k-1) + ...; least squares over all tests, y from the first samples of each.
+    A constant would take what the slow poles should say; only a test that began warm has one. UsageError where the
+    function is not stable.
     """
     term = bound.terms[i]
     na, nb = term.spec.orders or (2, 2)
     rows, targets = [], []
+    warm = [m for m, test in enumerate(tests) if test.start_state == "warm"]
     for j, test in enumerate(tests):
         if not term.covers(test):
             continue
@@ -51,8 +53,9 @@ def identify_arx(
                 rest = rest - other.contribution(test)
         mask = fit_mask(bound, list(bound.terms), wanted, test)
         u, span = term.drivers(test).values["u"], max(na - 1, nb)
+        rest = rest - _at_rest(rest, test, bound.channel_of(test))
         past = [np.roll(rest, k) for k in range(1, nb + 1)] + [np.roll(u, k) for k in range(na)]
-        constants = [np.full(len(u), float(j == m)) for m in range(len(tests))]
+        constants = [np.full(len(u), float(j == m)) for m in warm]
         good = np.logical_and.reduce([np.roll(mask, k) for k in range(nb + 1)]) & np.isfinite(rest)
         good[:span] = False
         _refuse_windows(term.id, test, mask, good)
@@ -82,6 +85,15 @@ def identify_arx(
     spec = term.spec.model_copy(update={"fixed": {"gain": 1.0}})
     identified = replace(term, effect=cast(Effect, function), spec=spec, _drivers={})
     return replace(bound, terms=tuple(identified if k == i else t for k, t in enumerate(bound.terms)))
+
+
+def _at_rest(rest: Float1D, test: TestData, channel: str) -> float:
+    """Mean of the first valid samples, whatever phases count: from there the drivers count as well."""
+    counted = test.in_window & np.isfinite(rest) & test.valid.get(channel, np.ones(len(rest), bool))
+    if not counted.any():
+        return 0.0
+    first = counted & (test.t_s < test.t_s[np.argmax(counted)] + max(test.zero_s, 1e-9))
+    return float(rest[first].mean())
 
 
 def _refuse_windows(where: str, test: TestData, mask: Bool1D, good: Bool1D) -> None:

@@ -43,7 +43,7 @@ STUMBLES = {
     "worth": "too small",
 }
 _NOTHING = {
-    "none": ("Nothing is missing", "What is left is noise, or what lags leave of a machine: too little to name a cause by."),
+    "none": ("Nothing is missing", "What is left is noise, or what lags leave of any machine."),
     "unknown": ("Something is missing that has no name", "No effect of the library has its timing."),
     "not_testable": ("These tests can't tell", "An effect is claimed only where it also predicts a left-out test."),
 }
