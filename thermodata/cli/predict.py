@@ -12,10 +12,11 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from thermodata.cli import completing
 from thermodata.cli.common import Session, command
 from thermodata.cli.fitting import resolve
-from thermodata.cli.table import table
 from thermodata.errors import UsageError
+from thermodata.report.table import table
 from thermodata.report.words import duration
 
 if TYPE_CHECKING:
@@ -26,7 +27,7 @@ if TYPE_CHECKING:
 
 
 @command("predict")
-@click.argument("model")
+@click.argument("model", shell_complete=completing.models)
 @click.argument("target", metavar="FOLDER|CAMPAIGN")
 @click.option("--test", "tests", multiple=True, metavar="TEST", help="Only this test; may be repeated.")
 @click.option(
