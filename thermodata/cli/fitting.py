@@ -8,7 +8,7 @@ import click
 
 from thermodata.cli import completing
 from thermodata.cli.common import Session, command, in_units_of, plain
-from thermodata.report.fit_text import before_after_text, compare_text, fit_text, made_worse, spots_text
+from thermodata.report.fit_text import HISTORY, before_after_text, compare_text, fit_text, made_worse, spots_text
 from thermodata.report.table import table
 
 if TYPE_CHECKING:
@@ -166,39 +166,11 @@ def history_command(session: Session, model: str | None) -> None:
 
     Of the newest one where no MODEL is named.
     """
-    from thermodata.report.collect import versions
-    from thermodata.store.catalogue.models import model_chain
+    from thermodata.report.collect import history_rows
 
     store = session.store()
-    stored = model_chain(store, resolve(store, model, session))
-    chain = [
-        {
-            "model": v.model,
-            "name": v.name,
-            "parent": m.parent,
-            "added": v.added,
-            "rmse_um": v.all_um,
-            "calibration_rmse_um": v.calibration_um,
-            "verification_rmse_um": v.verification_um,
-            "stale": v.stale,
-        }
-        for v, m in zip(versions(stored), stored, strict=True)
-    ]
-    session.answer(
-        chain,
-        lambda: table(
-            chain,
-            [
-                ("name", "name"),
-                ("model", "model"),
-                ("added", "added"),
-                ("rmse_um", "RMSE [um]"),
-                ("calibration_rmse_um", "calibration [um]"),
-                ("verification_rmse_um", "verification [um]"),
-                ("stale", "stale"),
-            ],
-        ),
-    )
+    chain = history_rows(store, resolve(store, model, session))
+    session.answer(chain, lambda: table(chain, HISTORY))
 
 
 @command("portability")

@@ -10,9 +10,9 @@ from thermodata.errors import UsageError
 from thermodata.modelling.bound import BoundResponse, BoundTerm, each_group_its_own
 from thermodata.modelling.coarse import search_from_coarse
 from thermodata.modelling.design import GRID, MOMENTS, Design, Nonlinear, factor
-from thermodata.modelling.fitted_response import FACTOR, FittedTerm, Values
+from thermodata.modelling.fitted_response import FACTOR, FittedTerm, Spread, Values
 from thermodata.modelling.search import Problem, search
-from thermodata.modelling.uncertainty import deviations
+from thermodata.modelling.uncertainty import Cover, deviations
 from thermodata.plugin import Float1D, Param
 from thermodata.view.dataset import TestData
 
@@ -49,7 +49,9 @@ def fit_jointly(
         start = None if near is None else _near(problem, {order.index(i): near[i] for i in members if i in near})
         x = search(problem, start, loose)
     gains = problem.gains(problem.matrix(x))
-    sds, logs = deviations(problem, x, gains) if uncertainty else ([{} for _ in design.slots], frozenset[str]())
+    none: tuple[list[dict[str, float]], frozenset[str], Cover | None] = ([{} for _ in design.slots], frozenset(), None)
+    sds, logs, cover = deviations(problem, x, gains) if uncertainty else none
+    spread = None if cover is None else _spread(design, cover, logs)
     by_member: dict[int, dict[str, Values]] = {i: {} for i in members}
     for s, (slot, params) in enumerate(zip(design.slots, problem.params(x), strict=True)):
         if order[slot.term] in by_member:
@@ -57,7 +59,21 @@ def fit_jointly(
             values = gains[problem.starts[s] : problem.starts[s + 1]]
             found = Values(params, dict(zip(names, map(float, values), strict=True)), sds[s], logs, problem.silent[s])
             by_member[order[slot.term]] |= _by_group(design, s, found)
-    return {i: FittedTerm(bound.terms[i], groups or {"": _at_start(bound.terms[i])}) for i, groups in by_member.items()}
+    return {
+        i: FittedTerm(bound.terms[i], groups or {"": _at_start(bound.terms[i])}, spread=spread if groups else None)
+        for i, groups in by_member.items()
+    }
+
+
+def _spread(design: Design, cover: Cover, logs: frozenset[str]) -> Spread | None:
+    """None where groups differ by a factor: what spreads then is a product."""
+    if any(slot.factors for slot in design.slots):
+        return None
+    owners = tuple(
+        (tuple((design.terms[design.slots[s].term].id, design.slots[s].group) for s in slots), name)
+        for slots, name in cover.owners
+    )
+    return Spread(owners, cover.matrix, logs)
 
 
 def _by_group(design: Design, s: int, found: Values) -> dict[str, Values]:

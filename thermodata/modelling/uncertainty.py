@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 
 from thermodata.modelling.search import Problem
@@ -10,8 +12,20 @@ from thermodata.plugin import Float1D, Float2D
 _LONGEST = 0.25  # of a test; a longer memory cannot be told from a trend
 
 
-def deviations(problem: Problem, x: Float1D, gains: Float1D) -> tuple[list[dict[str, float]], frozenset[str]]:
-    """Standard deviations a slot by name, and the names that are searched as logarithms (theirs is of log(value)).
+@dataclass(frozen=True)
+class Cover:
+    """How the parameters of a fit spread together. owners: (slots, name), shape k; matrix: covariance, shape (k, k), of
+    log(value) for names that are searched as logarithms."""
+
+    owners: tuple[tuple[tuple[int, ...], str], ...]
+    matrix: Float2D
+
+
+def deviations(
+    problem: Problem, x: Float1D, gains: Float1D
+) -> tuple[list[dict[str, float]], frozenset[str], Cover | None]:
+    """Standard deviations a slot by name, the names that are searched as logarithms (theirs is of log(value)), and all
+    of them with their correlations; None where there is none.
 
     [newey1987] with a Bartlett window as long as twice the residual's own memory, a test by itself.
     Parameters at a bound and held gains have none.
@@ -39,12 +53,15 @@ def deviations(problem: Problem, x: Float1D, gains: Float1D) -> tuple[list[dict[
     by_slot: list[dict[str, float]] = [{} for _ in design.slots]
     logs = frozenset(f.param.name for f in problem.free if f.log)
     if not columns or design.n <= len(columns):
-        return by_slot, logs
-    for (slots, name), sd in zip(owners, _robust(np.column_stack(columns), residual, design.parts), strict=True):
+        return by_slot, logs, None
+    cover = _robust(np.column_stack(columns), residual, design.parts)
+    sds = np.sqrt(np.maximum(np.diag(cover), 0.0))
+    for (slots, name), sd in zip(owners, sds, strict=True):
         if np.isfinite(sd):
             for s in slots:
                 by_slot[s][name] = float(sd)
-    return by_slot, logs
+    known = bool(np.isfinite(cover).all())
+    return by_slot, logs, Cover(tuple(owners), cover) if known else None
 
 
 def memory(residual: Float1D, parts: list[slice]) -> float:
@@ -73,7 +90,7 @@ def _correlations(residual: Float1D, parts: list[slice]) -> Float1D:
     return np.asarray(rho[: below[0]] if len(below) else rho)
 
 
-def _robust(jacobian: Float2D, residual: Float1D, parts: list[slice]) -> Float1D:
+def _robust(jacobian: Float2D, residual: Float1D, parts: list[slice]) -> Float2D:
     size = np.sqrt(np.sum(jacobian**2, axis=0))
     size[size == 0] = 1.0
     unit = jacobian / size
@@ -98,4 +115,4 @@ def _robust(jacobian: Float2D, residual: Float1D, parts: list[slice]) -> Float1D
     free = n / span_of_memory
     lost = 1.0 - span_of_memory / (2 * max(width, 1)) if span_of_memory > 1.5 else 1.0
     cover = bread @ meat @ bread / lost * free / max(0.25 * free, free - k - len(parts))
-    return np.asarray(np.sqrt(np.maximum(np.diag(cover), 0.0)) / size, dtype=np.float64)
+    return np.asarray(cover / np.outer(size, size), dtype=np.float64)

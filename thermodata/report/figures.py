@@ -6,13 +6,15 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from thermodata.chart import Axis, Chart, HeatMap, Limit, Panel, Series, Span, Strip
+from thermodata.chart import Axis, Band, Chart, HeatMap, Limit, Panel, Series, Span, Strip
 from thermodata.chart.decimate import MOST_POINTS, block_mean, block_size
+from thermodata.modelling.parameters import Z95
 from thermodata.plugin import Float1D
 from thermodata.report.data import Curve, TestPart
 from thermodata.report.words import duration, number, typeset
 from thermodata.schema.result import WeakSpot
 
+BAND_LABEL = "95 % by the parameters"
 TIME = "time from the start of the test"
 PANEL_EXTRA = 48  # [px] of a panel beside its plot: title, keys, margins
 _TALL, _LOW, _MIDDLE = 230, 140, 170  # [px]
@@ -44,8 +46,10 @@ def part_chart(
     # a machine that is measured now and then gives points; a line would hide where it was not measured
     sparse = bool(np.mean(np.isfinite(part.residual)) < 0.9)
 
-    def series(name: str, values: Float1D, colour: str, **more: object) -> Series:
-        return Series(name, unit, block_mean(values, size), colour, **more)  # type: ignore[arg-type]
+    def series(name: str, values: Float1D, colour: str, sd: Float1D | None = None, **more: object) -> Series:
+        shown = block_mean(values, size)
+        band = None if sd is None else band_95(shown, block_mean(sd, size))
+        return Series(name, unit, shown, colour, band=band, **more)  # type: ignore[arg-type]
 
     panels: list[Panel | Strip] = [
         Panel(
@@ -53,7 +57,7 @@ def part_chart(
             unit,
             [
                 series("measured", part.measured, "measured", style="points" if sparse else "line", width=1.4),
-                series("model", part.predicted, "model", width=2.0),
+                series("model", part.predicted, "model", part.predicted_sd, width=2.0),
             ],
             height=_TALL,
         ),
@@ -69,7 +73,11 @@ def part_chart(
     if part.contributions:
         curves = [
             series(
-                c.name, c.values, styles.get(c.name, ("muted", "solid"))[0], dash=styles.get(c.name, ("", "solid"))[1]
+                c.name,
+                c.values,
+                styles.get(c.name, ("muted", "solid"))[0],
+                c.sd,
+                dash=styles.get(c.name, ("", "solid"))[1],
             )
             for c in part.contributions
         ]
@@ -84,6 +92,11 @@ def part_chart(
         panels,
         spans=[*_weak_spans(weak, unit), *_phase_spans(part)],
     )
+
+
+def band_95(y: Float1D, sd: Float1D) -> Band:
+    """Where a curve lies with 95 % by the uncertainty of the fitted parameters. sd: its standard deviation."""
+    return Band(y - Z95 * sd, y + Z95 * sd, BAND_LABEL)
 
 
 def _hours(part: TestPart, size: int) -> Float1D:

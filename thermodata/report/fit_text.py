@@ -11,6 +11,16 @@ from thermodata.report.words import base_role, change, duration, number, pooled
 if TYPE_CHECKING:
     from thermodata.schema.result import FitResult, Parameter, Score, WeakSpot
 
+HISTORY = (
+    ("name", "name"),
+    ("model", "model"),
+    ("added", "added"),
+    ("rmse_um", "RMSE [um]"),
+    ("calibration_rmse_um", "calibration [um]"),
+    ("verification_rmse_um", "verification [um]"),
+    ("stale", "stale"),
+)
+"""The columns of `report.collect.history_rows`."""
 _RISES = 1.005  # an error that rises by less is the same
 
 

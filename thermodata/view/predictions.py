@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -19,13 +19,14 @@ if TYPE_CHECKING:
     from thermodata.store import Store
 
 Key = tuple[str, str]
-_CONTRIBUTION = "c__"
+_CONTRIBUTION, _DEVIATION = "c__", "sd__"
 
 
 @dataclass(frozen=True, slots=True)
 class Prediction:
     """A model in a test, as it was stored with its fit; arrays have shape (n,). residual is measured - predicted, and
-    counts where valid. contributions: of each effect, in the response's unit."""
+    counts where valid. contributions: of each effect, in the response's unit. deviations: standard deviations of
+    'predicted' and of contributions, by the uncertainty of the parameters; of those that were known at the fit."""
 
     campaign: str
     test: str
@@ -36,6 +37,7 @@ class Prediction:
     residual: Float1D
     valid: Bool1D
     contributions: Mapping[str, Float1D]
+    deviations: Mapping[str, Float1D] = field(default_factory=dict)
 
 
 def predictions(store: Store, model: str, campaign: str, test: str) -> list[Prediction]:
@@ -55,10 +57,15 @@ def predictions(store: Store, model: str, campaign: str, test: str) -> list[Pred
                     columns["predicted"],
                     columns["residual"],
                     np.asarray(got["valid"], dtype=bool),
-                    {n.removeprefix(_CONTRIBUTION): v for n, v in columns.items() if n.startswith(_CONTRIBUTION)},
+                    _of(columns, _CONTRIBUTION),
+                    _of(columns, _DEVIATION),
                 )
             )
     return found
+
+
+def _of(columns: Mapping[str, Float1D], begun: str) -> dict[str, Float1D]:
+    return {n.removeprefix(begun): v for n, v in columns.items() if n.startswith(begun)}
 
 
 def residual_strips(

@@ -79,6 +79,8 @@ def _sources(con: duckdb.DuckDBPyConnection, query: str) -> tuple[dict[str, str]
     node = tree["statements"][0]["node"]
     if node.get("type") != "SELECT_NODE" or node.get("group_expressions"):
         return None
+    if (node.get("cte_map") or {}).get("map"):
+        return None
     tables = list(_tables(node.get("from_table") or {}))
     if not tables or "" in tables:
         return None

@@ -47,6 +47,7 @@ def show(request: Request) -> Response:
         models=models,
         model=model,
         predicted=predicted,
+        banded=any(p.deviations for p in predicted),
         chart=script_json(chart.as_json()),
         span=None if from_s is None or to_s is None else (from_s / 3600, to_s / 3600),
         neighbours=_neighbours(store, campaign, test),
