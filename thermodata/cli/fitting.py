@@ -8,7 +8,15 @@ import click
 
 from thermodata.cli import completing
 from thermodata.cli.common import Session, command, in_units_of, plain
-from thermodata.report.fit_text import HISTORY, before_after_text, compare_text, fit_text, made_worse, spots_text
+from thermodata.report.fit_text import (
+    HISTORY,
+    before_after_text,
+    compare_text,
+    differences_text,
+    fit_text,
+    made_worse,
+    spots_text,
+)
 from thermodata.report.table import table
 
 if TYPE_CHECKING:
@@ -64,7 +72,8 @@ def compare_command(session: Session, models: tuple[str, ...], against: str | No
     By test and phase, each MODEL beside the others, and where the first fails; the newest one where none is named.
 
     With several models the JSON is that of the first, with the scores of all, and all of them in "models";
-    "weak_spots" has those of the first, by response.
+    "weak_spots" has those of the first, by response, and "differences" each model's error less that of the first, by
+    test, with its interval of 95 %.
 
     With --against: peak to valley at first and left, both ways (max - min, |max| + |min|), range, how many times less,
     percent less than the reference, and the mean row; the JSON is a list of these rows.
@@ -79,7 +88,7 @@ def compare_command(session: Session, models: tuple[str, ...], against: str | No
         store = session.store()
         answer_against(session, store, named(store), resolve(store, against), layout)
         return
-    from thermodata.modelling.run import compare, load
+    from thermodata.modelling.run import compare, differences_of, load
     from thermodata.report.spots import weak_spots_of
     from thermodata.store.catalogue.models import load_diagnosis
 
@@ -90,13 +99,19 @@ def compare_command(session: Session, models: tuple[str, ...], against: str | No
     payload: dict[str, Any] = {**plain(results[0]), "weak_spots": weak}
     if len(results) > 1:
         payload |= {"scores": [s for r in results for s in r.scores], "models": results}
+    apart = differences_of(store, [r.model for r in results])
+    payload["differences"] = apart or None
     session.answer(
         payload,
         lambda: in_units_of(
             session,
             results[0].response,
             "\n\n".join(
-                [compare_text(results), *(spots_text(found, response) for response, found in weak.items() if found)]
+                [
+                    compare_text(results),
+                    *([differences_text(apart, results)] if apart else []),
+                    *(spots_text(found, response) for response, found in weak.items() if found),
+                ]
             ),
         ),
     )

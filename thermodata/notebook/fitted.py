@@ -218,6 +218,15 @@ class Comparison(Shown):
         """All scores, with the model of each."""
         return Listed((s.model_dump() for r in self.results for s in r.scores), (("model", "model"), *_SCORES))
 
+    @property
+    def differences(self) -> Listed:
+        """Each model's error less that of the first, by test, with its interval of 95 %."""
+        from thermodata.modelling.run import differences_of
+
+        found = differences_of(self.store, [r.model for r in self.results])
+        heads = [("test", "test"), ("response", "response"), ("model", "model"), ("difference_um", "difference")]
+        return Listed((d.to_json() for d in found), [*heads, ("low", "low"), ("high", "high")])
+
     def summary(self) -> str:
         return compare_text(self.results)
 

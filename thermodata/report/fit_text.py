@@ -9,6 +9,9 @@ from thermodata.report.table import table
 from thermodata.report.words import base_role, change, duration, number, pooled
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from thermodata.modelling.differences import TestDifference
     from thermodata.schema.result import FitResult, Parameter, Score, WeakSpot
 
 HISTORY = (
@@ -85,6 +88,24 @@ def compare_text(results: list[FitResult]) -> str:
             row = rows.setdefault(key, {"campaign": s.campaign, "test": s.test, "role": s.role, "phase": s.phase})
             row[f"rmse {result.model}"], row[f"fit {result.model}"] = s.rmse_um, s.fit
     return table(list(rows.values()), columns)
+
+
+def differences_text(found: Sequence[TestDifference], results: Sequence[FitResult]) -> str:
+    """Each model's error less that of the first; what is sure has a mark."""
+    names = {r.model: f"{r.name} {r.model[:6]}" for r in results}
+    many = len({d.response for d in found}) > 1
+    rows = [
+        {
+            **d.to_json(),
+            "model": names[d.model],
+            "range": "too short to say" if d.low is None else f"{number(d.low)} … {number(d.high)}",
+            "sure": "yes" if d.low is not None and d.high is not None and (d.low > 0 or d.high < 0) else "",
+        }
+        for d in found
+    ]
+    columns = [("campaign", "campaign"), ("test", "test"), *([("response", "response")] if many else [])]
+    columns += [("model", "model"), ("difference_um", "difference [um]"), ("range", "95 %"), ("sure", "sure")]
+    return f"difference to {names[found[0].against]}\n{table(rows, columns)}"
 
 
 def spots_text(spots: list[WeakSpot], response: str = "", most: int = 8) -> str:

@@ -98,6 +98,21 @@ def residual_strips(
     return strips
 
 
+def residual_courses(store: Store, model: str, keys: Sequence[Key]) -> dict[tuple[str, str, str], Float1D]:
+    """(campaign, test, response) -> the residual over the prediction's own grid, shape (n,); NaN where none counts."""
+    with store.reader() as con:
+        listed = [(*key, r, p) for key, found in _paths(con, store.path, model, keys).items() for r, p in found]
+        if not listed:
+            return {}
+        got = con.execute(
+            "select file_index as i, case when valid then residual end as residual "
+            f"from read_parquet({file_list(p for *_, p in listed)}) order by file_index, t_s"
+        ).fetchnumpy()
+    values, which = _numbers(got["residual"]), np.asarray(got["i"])
+    edges = np.searchsorted(which, np.arange(len(listed) + 1))
+    return {(c, t, r): values[edges[i] : edges[i + 1]] for i, (c, t, r, _) in enumerate(listed)}
+
+
 def _paths(
     con: duckdb.DuckDBPyConnection, folder: Path, model: str, keys: Sequence[Key]
 ) -> dict[Key, list[tuple[str, str]]]:
