@@ -25,7 +25,7 @@ def asset(name: str) -> str:
 def script() -> str:
     """All scripts as one; needs no other, no eval, no network, and adds only `ThermoChart` and `uPlot` to a page.
 
-    Our own without their comments and indentation, which every saved page would carry: none has a text of several lines.
+    Our own without comments and indentation, which every saved page would carry: none has a text of several lines.
     """
     return "\n".join(asset(name) if "/" in name else _bare(asset(name)) for name in SCRIPTS)
 

@@ -14,7 +14,9 @@ from thermodata.report.data import Curve, TestPart
 from thermodata.report.words import duration, number, typeset
 from thermodata.schema.result import WeakSpot
 
-BAND_LABEL = "95 % by the parameters"
+BAND_LABEL = "95 %"
+SHADED = "shaded: 95 % by the parameters"
+"""What a band is, where there is room to say it."""
 TIME = "time from the start of the test"
 PANEL_EXTRA = 48  # [px] of a panel beside its plot: title, keys, margins
 _TALL, _LOW, _MIDDLE = 230, 140, 170  # [px]
@@ -81,7 +83,10 @@ def part_chart(
             )
             for c in part.contributions
         ]
-        panels.append(Panel("contributions of the effects", unit, curves, height=_by_labels(_MIDDLE, curves)))
+        title = (
+            f"contributions of the effects{f', {SHADED}' if any(c.sd is not None for c in part.contributions) else ''}"
+        )
+        panels.append(Panel(title, unit, curves, height=_by_labels(_MIDDLE, curves)))
     if part.drivers:
         panels.append(_drivers(part.drivers, size))
     panels += [_lane(c, hours, size) for c in part.lanes]

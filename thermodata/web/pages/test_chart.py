@@ -9,7 +9,7 @@ import numpy as np
 from thermodata.chart.colour import EFFECTS, effect_styles
 from thermodata.chart.spec import Axis, Band, Chart, Panel, Row, Series, Span, Strip, Style
 from thermodata.plugin import Float1D
-from thermodata.report.figures import band_95
+from thermodata.report.figures import SHADED, band_95
 from thermodata.view.events import About
 from thermodata.view.predictions import Prediction
 from thermodata.view.window import Channel, Window
@@ -76,7 +76,7 @@ def _of_model(predicted: Sequence[Prediction]) -> list[Panel]:
             styles = effect_styles(p.contributions)
             panels.append(
                 Panel(
-                    f"{p.response}, contributions",
+                    f"{p.response}, contributions{f', {SHADED}' if p.deviations else ''}",
                     "um",
                     [
                         Series(name, "um", y, styles[name][0], x=x, dash=styles[name][1], band=_band(p, name, y))
