@@ -219,6 +219,39 @@ def test_a_zoom_in_the_address_is_shown_again(served: Served) -> None:
     assert served.page.js("ThermoChart.of(document.getElementById('plot')).hi") == 2
 
 
+def test_a_jump_test_is_drawn_in_the_form(served: Served) -> None:
+    folder, t = served.lab, [i / 10 for i in range(600)]
+    rows = "".join(f"{x},{5 + (10 <= x < 30) + 0.5 * (20 <= x < 40)}\n" for x in t)
+    (folder / "raw" / "jump_Z.csv").write_text(f"time [s],Eddy Z [V]\n{rows}")
+    path = folder / "campaign.yaml"
+    line = '  jump_Z: {kind: jump, axis: Z, source: log, file: raw/jump_Z.csv, signal: "Eddy Z", moves: unknown}'
+    path.write_text(path.read_text().replace("calibrations:\n", f"calibrations:\n{line}\n"))
+    served.go("/start")
+    served.page.wait("document.querySelectorAll('.steps input').length === 4")
+    served.page.wait("document.querySelector('.question.wide [data-chart] canvas')")
+    for i, move in enumerate(("100 um", "50 um", "-100 um", "-50 um")):
+        served.page.js(f"document.querySelectorAll('.steps input')[{i}].value = {json.dumps(move)}")
+    served.press("#answers button[type=submit]")
+    served.page.wait("document.querySelector('#diff .diff').textContent.includes('-100 um')")
+    assert served.page.complaints() == []
+
+
+def test_a_dragged_stretch_is_told(served: Served) -> None:
+    served.go("/test?campaign=small&test=heat1")
+    served.page.wait("document.querySelector('#plot canvas')")
+    served.press("#choose")
+    x, y, width = served.page.js(
+        "(() => { const r = document.querySelector('#plot .u-over').getBoundingClientRect(); "
+        "return [r.left, r.top + 20, r.width]; })()"
+    )
+    served.page.drag(x + 0.2 * width, x + 0.4 * width, y)
+    served.page.wait("document.querySelector('#stretch')")
+    told = served.page.js("document.querySelector('#stretch').textContent")
+    assert "samples that count" in told
+    assert "window: [" in told
+    assert served.page.complaints() == []
+
+
 def test_searching_narrows_the_list_without_a_reload(served: Served) -> None:
     served.page.js("window.kept = 1; document.getElementById('find').focus()")
     for letter in "day1":

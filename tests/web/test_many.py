@@ -109,7 +109,7 @@ def test_compare_tells_all_of_them_in_one_page(reader: Client) -> None:
     assert len(re.findall(r'<td class="name"><a href="/test', text)) == 900
     fall = -float(np.sqrt(np.mean(np.sin(np.arange(60) * 60.0 / 900) ** 2)))
     assert f'Over the calibration tests: <span class="good">−{-fall:.3g}</span>' in text  # alike in all of them
-    assert text.count("too short to say") == 900  # an hour of what remembers itself for a quarter of one
+    assert text.count(" … ") >= 900  # each has its interval
     assert "t0009" not in text  # locked
 
 
