@@ -137,6 +137,9 @@ class Reader(Protocol):
     It reads the file in bounded memory, and may take as long as reading it. `thermodata trace --verify` shows it.
     A reader without `locate` may have the same method under its first name, `place`.
 
+    Another one is `beginning(path, source) -> Reader | None`: a reader of this file that gives its first rows alone,
+    for a preview of a file whose `describe` must read all of it; None where the file is no larger than a look needs.
+
     It may also have attributes, which none needs:
 
     - `formats: tuple[str, ...]` names what it reads, for `thermodata plugins show`.
@@ -214,11 +217,11 @@ class Effect(Protocol):
     name: an identifier, the one of its entry point. family: effects of one cause share it; `{a}` in it is filled in
     from the places that its drivers sit at. meaning: a sentence. source: where equation and bounds come from.
 
-    It may have three attributes more, which no effect needs (`thermodata.effect.describe` reads them):
+    It may have four attributes more, which no effect needs (`thermodata.effect.describe` reads them):
     `equation: str`, in plain text with F_tau{u} for a first-order lag; by default the first line of its class's
     docstring that holds " = ". `telltale: str`, how a residual looks where the effect is missing, and what test tells
     it from its like. `refines: tuple[str, ...]`, names of effects that it refines: diagnosis asks for it only where
-    the model has one of them.
+    the model has one of them. `asked: bool`, False where diagnosis does not ask for it by itself.
     """
 
     name: str

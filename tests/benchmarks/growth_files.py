@@ -126,7 +126,7 @@ def wide_csv(path: Path, channels: int = 100_000, rows: int = 10) -> None:
 
 
 def dense_workbook(path: Path, sheets: int = 20, rows: int = 1_000_000) -> None:
-    """Sheets of a million rows of one time and no more: each legal, together absurd, and small when packed."""
+    """Sheets of a million rows of a time and a value: each legal, together absurd, and small when packed."""
     with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED, compresslevel=9) as book:
         book.writestr("[Content_Types].xml", _CONTENT_TYPES)
         book.writestr(
@@ -143,11 +143,12 @@ def dense_workbook(path: Path, sheets: int = 20, rows: int = 1_000_000) -> None:
             for i in range(sheets)
         )
         book.writestr("xl/_rels/workbook.xml.rels", f'<Relationships xmlns="{_PACKAGE}">{targets}</Relationships>')
-        row = "<row><c><v>1</v></c></row>"
+        names = "".join(f'<c t="inlineStr"><is><t>{n}</t></is></c>' for n in ("Time [s]", "T [degC]"))
+        block = "".join(f"<row><c><v>{k}</v></c><c><v>{20 + k / 100}</v></c></row>" for k in range(100))
         for i in range(sheets):
             with book.open(f"xl/worksheets/sheet{i + 1}.xml", "w") as out:
-                out.write(f'<worksheet xmlns="{_MAIN}"><sheetData>'.encode())
-                part = (row * 10_000).encode()
+                out.write(f'<worksheet xmlns="{_MAIN}"><sheetData><row>{names}</row>'.encode())
+                part = (block * 100).encode()
                 for _ in range(rows // 10_000):
                     out.write(part)
                 out.write(b"</sheetData></worksheet>")

@@ -158,6 +158,8 @@ def plain(scored: Any) -> dict[str, Any]:
         "gained": scored.gained.tolist(),
         "sse_before": scored.sse_before.tolist(),
         "sse_after": scored.sse_after.tolist(),
+        "own_before": scored.own_before.tolist(),
+        "own_after": scored.own_after.tolist(),
         "size": scored.size.tolist(),
         "spread": scored.spread,
         "shape": [sum(v * math.sin(k * i) for i, v in zip(rows, scored.shape, strict=True)) for k in (0.01, 1.0)],

@@ -38,6 +38,7 @@ CONTRACT = {
     "confirm",
     "history",
     "orders",
+    "profiles",
     "show",
     "predict",
     "model",

@@ -245,6 +245,20 @@ def test_show_says_what_the_fit_found(ask: Say, monkeypatch: pytest.MonkeyPatch)
         assert told in text
 
 
+def test_show_says_whose_bound_holds_a_gain(ask: Say, campaign: Path) -> None:
+    assert json.loads(ask("show", "baseline", "--json").out)["responses"][0]["at_bounds"] == []
+    text = (campaign / "baseline.yaml").read_text(encoding="utf-8").split("effects:")[0]
+    held = text.replace("name: baseline", "name: held")
+    path = campaign / "held.yaml"
+    path.write_text(
+        held + "effects: [{effect: spindle_bearing, drivers: {temperature: T_bearing}, bounds: {gain: [0, 0.1]}}]\n"
+    )
+    fitted = json.loads(ask("fit", path, "--json").out)
+    (row,) = json.loads(ask("show", fitted["model"], "--json").out)["responses"][0]["at_bounds"]
+    assert (row["name"], row["value"], row["bound"]) == ("at_bound:spindle_bearing.gain", 0.1, 0.1)
+    assert "held at 0.1 by a bound of the model file" in ask("show", fitted["model"]).out
+
+
 def test_show_draws_a_picture(ask: Say, refused: Callable[..., str], tmp_path: Path) -> None:
     out = tmp_path / "show.png"
     assert str(out) in ask("show", "baseline", "--png", out).out

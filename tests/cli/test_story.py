@@ -224,6 +224,20 @@ def test_orders_are_shown_with_what_they_foretell(
     assert "no transfer function" in found.err
 
 
+def test_profiles_are_shown_beside_the_quadratic_intervals(data: Callable[..., Any], ask: Say, campaign: Path) -> None:
+    base = data("fit", campaign / "baseline.yaml")
+    found = data("profiles", base["model"])
+    by_name = {row["parameter"]: row for row in found["parameters"]}
+    assert "spindle_bearing.tau" in by_name
+    row = by_name["spindle_bearing.tau"]
+    assert row["low"] < row["value"] < row["high"]
+    assert min(row["curve"], key=lambda point: point[1])[0] == pytest.approx(row["value"], rel=0.2)
+    assert base["parameters"]["spindle_bearing.tau"]["low"] == pytest.approx(row["profile_low"], rel=0.02)
+    said = ask("profiles", base["model"], "--curves").out
+    assert "95 % by profile" in said
+    assert "RMS left" in said
+
+
 def test_a_report_of_a_version_tells_what_it_changed(
     data: Callable[..., Any], ask: Say, campaign: Path, tmp_path: Path
 ) -> None:

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from thermodata.cli.common import plain
+from thermodata.cli.layout import markdown
 from thermodata.report.table import table
 from thermodata.report.words import change, duration, number, typeset
 
@@ -68,6 +69,11 @@ def test_json_knows_no_nan_and_takes_anything() -> None:
 
     found = plain({"x": [Row(math.nan, np.float64(2.5)), Row(math.inf, np.array([1, 2]))], 3: (True, None)})
     assert found == {"x": [{"a": None, "b": 2.5}, {"a": None, "b": [1, 2]}], "3": [True, None]}
+
+
+def test_a_bar_in_a_heading_does_not_end_a_column_of_markdown() -> None:
+    found = markdown([{"a": 1.0, "b": "x|y"}], [("a", "|max|+|min| [um]"), ("b", "b")]).splitlines()
+    assert found == [r"| \|max\|+\|min\| [um] | b |", "| ---: | --- |", r"| 1.00 | x\|y |"]
 
 
 WIDE = [

@@ -7,7 +7,7 @@ half the logarithm of |Z'Z| besides.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
+from dataclasses import astuple, replace
 from functools import cache
 
 import numpy as np
@@ -20,11 +20,11 @@ from thermodata.diagnosis.candidates import CandidateEffect
 from thermodata.diagnosis.discrepancy import Noise
 from thermodata.diagnosis.evidence import Columns, columns, moments, of_each_series, weigh
 from thermodata.diagnosis.invariance import spread_of_gain
-from thermodata.diagnosis.known import Known, known
+from thermodata.diagnosis.known import Known, known, likeliest
 from thermodata.diagnosis.null import best_of_chance, p_value
 from thermodata.diagnosis.problem import Problem
 from thermodata.diagnosis.scored import Scored
-from thermodata.diagnosis.selection import rank_in
+from thermodata.diagnosis.selection import _likeliest_beside, beside, rank_in
 from thermodata.diagnosis.side_by_side import SideBySide, log_evidence
 from thermodata.plugin import Float1D, Float2D, Gain, Param
 
@@ -163,11 +163,20 @@ def ranked() -> Scored:
     return rank_in(small(), [made(small())], NOISE).ranked[0]
 
 
+def test_the_noise_beside_each_candidate_is_that_beside_it_alone() -> None:
+    one = small()
+    some = rank_in(one, [made(one), made(one, "T_b")], NOISE).ranked
+    for found, candidate in zip(_likeliest_beside(one, some, NOISE), some, strict=True):
+        assert astuple(found) == pytest.approx(astuple(likeliest(beside(one, [candidate]), NOISE)), rel=1e-9)
+    assert _likeliest_beside(one, [], NOISE) == []
+
+
 def test_leaving_a_test_out_by_moments_equals_refitting_without_it() -> None:
-    """The candidate's size and times come from the other tests; what is known is fitted beside it, to all."""
+    """Whole; and the candidate alone, with what is known fitted beside it to all tests."""
     one, found = small(), ranked()
     base, cols = known(one, NOISE), made(small())
-    whole = logsumexp(by_hand(one, range(4), base, cols))
+    whole, nothing = logsumexp(by_hand(one, range(4), base, cols)), np.zeros((4 * ROWS, 0))
+    of_all = posterior(one, range(4), base, nothing, np.zeros(0))
     for i in range(4):
         others = [j for j in range(4) if j != i]
         log_bf = by_hand(one, others, base, cols)
@@ -175,15 +184,15 @@ def test_leaving_a_test_out_by_moments_equals_refitting_without_it() -> None:
         c = [b[:, point] for b in cols.blocks]
         width = np.array([0.03, 0.1, 0.3, 1.0, 3.0])[size] * np.array([1.0, 1.0, 0.5, 0.5, 0.5, 0.5])
         x, y = stacked(one, [i])
-        nothing = np.zeros((4 * ROWS, 0))
-        alone = posterior(one, range(4), base, nothing, np.zeros(0))
-        own = posterior(one, others, base, np.vstack([c[j] for j in others]), width)[-c[i].shape[1] :]
-        rest = replace(
-            one, blocks=tuple(replace(b, response=b.response - a @ own) for b, a in zip(one.blocks, c, strict=True))
-        )
-        beside = posterior(rest, range(4), base, nothing, np.zeros(0))
+        alone = posterior(one, others, base, np.zeros((len(others) * ROWS, 0)), np.zeros(0))
+        both = posterior(one, others, base, np.vstack([c[j] for j in others]), width)
         assert found.sse_before[i] == pytest.approx(np.sum((y - x @ alone) ** 2), rel=1e-6)
-        assert found.sse_after[i] == pytest.approx(np.sum((y - c[i] @ own - x @ beside) ** 2), rel=1e-6)
+        assert found.sse_after[i] == pytest.approx(np.sum((y - np.hstack([x, c[i]]) @ both) ** 2), rel=1e-6)
+        own = both[-c[i].shape[1] :]
+        blocks = tuple(replace(b, response=b.response - a @ own) for b, a in zip(one.blocks, c, strict=True))
+        beside = posterior(replace(one, blocks=blocks), range(4), base, nothing, np.zeros(0))
+        assert found.own_before[i] == pytest.approx(np.sum((y - x @ of_all) ** 2), rel=1e-6)
+        assert found.own_after[i] == pytest.approx(np.sum((y - c[i] @ own - x @ beside) ** 2), rel=1e-6)
         assert found.gained[i] == pytest.approx(whole - logsumexp(log_bf), abs=1e-6)
     assert found.evidence == pytest.approx(whole + 0.7, abs=1e-6), "the prior of a candidate is no evidence"
     assert found.drop > 0.3
@@ -341,10 +350,10 @@ def test_tests_side_by_side_give_the_evidence_of_each_by_itself() -> None:
     one, noise = problem(*parts), Noise(0.3, 0.8, 900.0, 0.7)
     beside = SideBySide(one)
     expected = known(one, noise)
-    gram, cross, energy, logdet = beside.products(noise)
+    gram, cross, energy, logdet, rows = beside.products(noise)
     np.testing.assert_allclose(gram, expected.gram.sum(axis=0), rtol=1e-9)
     np.testing.assert_allclose(cross, expected.cross.sum(axis=0), rtol=1e-9)
-    found = log_evidence(gram, cross, energy, logdet, beside.rows, expected.precision)
+    found = log_evidence(gram, cross, energy, logdet, rows, expected.precision)
     assert beside.fits
     assert found == pytest.approx(expected.log_evidence, rel=1e-9)
     stepped = one.split({one.blocks[0].test.key: [float(one.blocks[0].t_s[10]) + 1.0]})

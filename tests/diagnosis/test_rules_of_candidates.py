@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from thermodata.diagnosis.candidates import CandidateEffect, candidates, grid
+from thermodata.diagnosis.present import Present
 from thermodata.plugin import Effect, Need, Param
 from thermodata.view.dataset import ChannelInfo
 
@@ -30,12 +31,12 @@ LAG = PlainEffect("lag", "generic", needs=(Need("u", "*"),))
 REFINED = replace(NUT, name="screw_lead", refines=("screw",))
 
 
-def asked(*library: Effect, present: tuple[tuple[str, frozenset[str]], ...] = (), response: str = "dZ") -> list[str]:
+def asked(*library: Effect, present: tuple[Present, ...] = (), response: str = "dZ") -> list[str]:
     return [c.id for c in candidates({e.name: e for e in library}, CHANNELS, present, response)]
 
 
-def has(effect: str, *channels: str) -> tuple[str, frozenset[str]]:
-    return effect, frozenset(channels)
+def has(effect: str, *channels: str, family: str = "", modes: int = 1, whole: bool = True) -> Present:
+    return Present(effect, frozenset(channels), family, modes, whole)
 
 
 def test_a_plain_lag_of_every_channel_is_asked_for_beside_its_names() -> None:
@@ -91,7 +92,7 @@ def test_a_lag_is_placeless_where_no_temperature_has_a_place(at: str | None, pla
     }
 
 
-def kin(effect: PlainEffect, channel: str, *present: tuple[str, frozenset[str]], families: tuple[str, ...]) -> object:
+def kin(effect: PlainEffect, channel: str, *present: Present) -> object:
     at = {
         "T_nut": "axis.x.nut",
         "T_axis": "axis.x",
@@ -101,27 +102,27 @@ def kin(effect: PlainEffect, channel: str, *present: tuple[str, frozenset[str]],
     }
     channels = {c: ChannelInfo(c, "temperature", "degC", at=place) for c, place in at.items()}
     library = {e.name: e for e in (effect, NUT)}
-    found = candidates(library, channels, present, "dZ", families)
+    found = candidates(library, channels, present, "dZ")
     return next(c.kin for c in found if c.effect is effect and c.channels == (channel,))
 
 
 @pytest.mark.parametrize(
-    ("effect", "channel", "families", "expected"),
+    ("effect", "channel", "family", "expected"),
     [
-        ("mount", "T_nut", ("feed_x",), "same"),  # another reading of its channels
-        ("mount", "T_nut_2", ("feed_x",), "near"),
-        ("mount", "T_axis", ("feed_x",), "near"),  # around it
-        ("mount", "n", ("feed_x",), "related"),
-        ("mount", "T_nut", ("feed_y",), None),
-        ("mount", "T_nut", ("generic",), None),
-        ("lag", "T_nut_2", (), "same"),
-        ("lag", "T_axis", (), "same"),
-        ("lag", "T_other", (), None),
-        ("refining", "T_nut", (), "same"),
+        ("mount", "T_nut", "feed_x", "same"),  # another reading of its channels
+        ("mount", "T_nut_2", "feed_x", "near"),
+        ("mount", "T_axis", "feed_x", "near"),  # around it
+        ("mount", "n", "feed_x", "related"),
+        ("mount", "T_nut", "feed_y", None),
+        ("mount", "T_nut", "generic", None),
+        ("lag", "T_nut_2", "", "same"),
+        ("lag", "T_axis", "", "same"),
+        ("lag", "T_other", "", None),
+        ("refining", "T_nut", "", "same"),
     ],
 )
 def test_a_candidate_is_kin_by_family_channel_and_place(
-    effect: str, channel: str, families: tuple[str, ...], expected: str | None
+    effect: str, channel: str, family: str, expected: str | None
 ) -> None:
     """To a model that has the screw of X, read at its nut."""
     needs = (Need("u", "temperature"),)
@@ -130,13 +131,13 @@ def test_a_candidate_is_kin_by_family_channel_and_place(
         "lag": LAG,
         "refining": PlainEffect("refining", "wear", needs=needs, refines=("screw",)),
     }[effect]
-    assert kin(made, channel, has("screw", "T_nut"), families=families) == expected
+    assert kin(made, channel, has("screw", "T_nut", family=family)) == expected
 
 
 def test_the_same_effect_on_other_channels_is_the_same() -> None:
     twice = PlainEffect("screw", "feed_x", needs=(Need("u", "temperature"),))
     channels = {c: CHANNELS[c] for c in ("T_nut", "T_oil")}
-    (found,) = candidates({"screw": twice}, channels, (has("screw", "T_nut"),), "dZ", ("feed_x",))
+    (found,) = candidates({"screw": twice}, channels, (has("screw", "T_nut", family="feed_x"),), "dZ")
     assert (found.id, found.kin) == ("screw:T_oil", "same")
 
 
@@ -165,3 +166,47 @@ def test_the_grid_keeps_to_the_bounds_and_to_what_a_sample_resolves() -> None:
     assert wide[1] / wide[0] == pytest.approx(wide[-1] / wide[-2])
     narrow = [p["k"] for p in grid([Param("k", "1", 1, 1.0, 9.9, "")], 60.0)]
     assert narrow == pytest.approx(np.linspace(1.0, 9.9, 4))
+
+
+SCREW = PlainEffect("screw", "feed_{a}", needs=(Need("u", "temperature", ("axis.{a}.nut",)),))
+TWO_MODES = replace(
+    NUT,
+    name="screw_2",
+    refines=("screw",),
+    params=(Param("fast", "min", 15, 1, 60, ""), Param("slow", "min", 150, 60, 360, "")),
+)
+ONE_MODE = (Param("tau", "min", 60, 1, 1440, ""),)
+
+
+@pytest.mark.parametrize(
+    ("present", "there"),
+    [
+        (has("lag", "T_nut"), True),
+        (has("transfer_function", "T_nut"), True),
+        (has("lag", "T_nut", "T_oil"), True),  # of the difference of both
+        (has("lag", "T_oil"), False),
+        (has("lag", "T_nut", whole=False), False),  # one for each phase
+        (has("transfer_function", "T_nut", modes=2), False),  # it has both modes
+        (has("screw", "T_nut", whole=False), False),
+    ],
+)
+def test_a_plain_function_is_refined_as_the_effect_that_it_stands_for(present: Present, there: bool) -> None:
+    found = asked(SCREW, TWO_MODES, replace(LAG, params=ONE_MODE), present=(present,))
+    assert ("screw_2:T_nut" in found) is there
+
+
+def test_a_plain_function_has_family_and_cause_of_what_it_stands_for() -> None:
+    motor = PlainEffect("motor", "feed_x", needs=(Need("u", "temperature", ("hydraulics",)),))
+    library = {e.name: e for e in (SCREW, motor, replace(LAG, params=ONE_MODE))}
+
+    def of(*present: Present) -> dict[str, object]:
+        return {c.id: c.kin for c in candidates(library, CHANNELS, present, "dZ")}
+
+    assert of(has("lag", "T_nut")) == {"motor:T_oil": "related", "lag:T_oil": None, "lag:T_free": None}
+    assert of(has("lag", "T_free"))["motor:T_oil"] is None
+
+
+def test_a_gain_without_a_lag_leaves_the_lag_to_be_asked_for_as_another_mode_of_it() -> None:
+    library = {e.name: e for e in (replace(NUT, params=ONE_MODE), replace(LAG, params=ONE_MODE))}
+    found = {c.id: c.kin for c in candidates(library, CHANNELS, (has("static", "T_nut", modes=0),), "dZ")}
+    assert (found["screw:T_nut"], found["lag:T_nut"]) == ("same", "same")

@@ -76,6 +76,11 @@ def test_a_step_that_was_found_gives_the_rest_of_the_test_an_offset_of_its_own()
     y = np.where(np.arange(100) < 40, 0.0, 5.0)
     whole = problem(Parts(y, base=y[:, None], slack=y[:, None]), Parts(y))
     cut = whole.split({("c", "t0"): [39.5 * STEP_S]})
-    for columns in (cut.blocks[0].residual, cut.blocks[0].base[:, 0], cut.blocks[0].slack[:, 0]):
+    for columns in (
+        cut.blocks[0].response,
+        cut.blocks[0].residual,
+        cut.blocks[0].base[:, 0],
+        cut.blocks[0].slack[:, 0],
+    ):
         np.testing.assert_allclose(columns, 0.0, atol=1e-12)
     assert np.ptp(cut.blocks[1].residual) == 5.0, "another test has no step"

@@ -12,6 +12,7 @@ import pytest
 from thermodata.diagnosis import refinement
 from thermodata.diagnosis.candidates import Kin
 from thermodata.diagnosis.discrepancy import Noise
+from thermodata.diagnosis.judge import CLAIMED, PROBABILITY
 from thermodata.diagnosis.known_effects import from_other_zero, is_warm
 from thermodata.diagnosis.problem import Problem
 from thermodata.diagnosis.refinement import Refinement
@@ -32,6 +33,8 @@ OTHER = np.sqrt(2) * np.cos(2 * np.pi * np.arange(ROWS) / 50)  # at a right angl
 NOISE = Noise(0.1, 0.1, 600.0, 0.5)
 WARM = ChannelInfo("T_a", "temperature", "degC")
 TAU = Param("tau", "min", 30, 1, 360, "")
+# evidence a sample at which a spread of 10 % makes a cause of it
+SURELY = 10 ** ((np.log(CLAIMED / (1 - CLAIMED)) - PROBABILITY[0] - 0.1 * PROBABILITY[2]) / PROBABILITY[1])
 MODE = "it is another mode of what the model has"
 
 
@@ -60,6 +63,11 @@ def cause(kin: Kin = None, **of: Any) -> Scored:
     return scored(**{"kin": kin, "contribution": [OTHER] * 3, "after": 0.5, "size": 1.0, **of})
 
 
+def dull(kin: Kin = None, **of: Any) -> Scored:
+    """The same, of evidence too little for a cause."""
+    return cause(kin, evidence=0.5 * 1000 * SURELY, **of)
+
+
 def test_a_model_without_effects_has_nothing_to_refine() -> None:
     asked = Refinement(SimpleNamespace(terms=()), world(), NOISE)  # type: ignore[arg-type]
     assert asked(cause("same", refines=("plain",))) is None
@@ -86,21 +94,29 @@ def test_kin_is_a_mode_where_it_is_under_three_fifths_of_the_largest_effect(
     size: float, expected: str | None, kin: Kin
 ) -> None:
     known = (WAVE, 0.1 * OTHER)
-    assert said(cause(kin, size=size), known=known, families="feed_x feed_y") == expected
-    assert said(cause(None, size=size), known=known, families="feed_x feed_y") is None
-    assert said(cause(kin, size=size, after=0.399), known=known, families="feed_x feed_y") is None, "it takes most"
+    assert said(dull(kin, size=size), known=known, families="feed_x feed_y") == expected
+    assert said(dull(None, size=size), known=known, families="feed_x feed_y") is None
+    assert said(dull(kin, size=size, after=0.399), known=known, families="feed_x feed_y") is None, "it takes most"
+
+
+@pytest.mark.parametrize("kin", ["near", "related"])
+def test_kin_that_is_surely_a_cause_is_no_mode_however_small(kin: Kin) -> None:
+    known = (WAVE, 0.1 * OTHER)
+    evidence = 1000 * SURELY
+    assert said(cause(kin, size=0.1, evidence=1.01 * evidence), known=known, families="feed_x feed_y") is None
+    assert said(cause(kin, size=0.1, evidence=0.99 * evidence), known=known, families="feed_x feed_y") == MODE
 
 
 @pytest.mark.parametrize(("response", "expected"), [(2.49, None), (2.51, MODE)])
 def test_where_a_model_leaves_more_than_two_fifths_something_is_missing(response: float, expected: str | None) -> None:
-    assert said(cause("related", size=0.1), response) == expected
+    assert said(dull("related", size=0.1), response) == expected
 
 
 def test_the_size_of_an_effect_is_that_of_its_largest_test() -> None:
     small, large = (Parts(100 * WAVE, base=(s * WAVE)[:, None]) for s in (0.01, 1.0))
     asked = Refinement(model("feed_x"), problem(small, small, large), NOISE)
-    assert asked(cause("related", size=0.599)) == MODE
-    assert asked(cause("related", size=0.601)) is None
+    assert asked(dull("related", size=0.599)) == MODE
+    assert asked(dull("related", size=0.601)) is None
 
 
 # ---- in the place of a known effect

@@ -31,6 +31,7 @@ from .hand_made import Parts, PlainEffect, of_tests, problem, scored
 from .lagged import Lagged
 
 NOISE = Noise(0.3, 0.3, 900.0, 0.5)
+ERRORS = ("sse_before", "sse_after", "own_before", "own_after")
 TAU = Param("tau", "min", 5, 1, 30, "")
 
 
@@ -110,18 +111,31 @@ class Worlds:
         monkeypatch.setattr(selecting, "rank", lambda problem, pool, noise, **of: self._rank(problem, pool, **of))
         monkeypatch.setattr(selecting, "rank_in", lambda problem, pool, noise, **of: self._rank(problem, pool, **of))
         monkeypatch.setattr(selecting, "likeliest", lambda problem, noise: noise)
+        monkeypatch.setattr(
+            selecting,
+            "_likeliest_beside",
+            lambda problem, some, start: [selecting.likeliest(self._beside(problem, [s]), start) for s in some],
+        )
+        monkeypatch.setattr(selecting, "known", lambda problem, noise: self._known(problem))
         monkeypatch.setattr(selecting, "moments", lambda known, columns: None)
         monkeypatch.setattr(selecting, "_scored", lambda problem, known, one, *of: self._scored(problem, one))
 
     def _beside(self, problem: Problem, chosen: Sequence[Scored]) -> Problem:
-        return replace(problem, response=",".join(s.candidate.effect.name for s in chosen))
+        known = filter(None, problem.response.split(","))
+        return replace(problem, response=",".join([*known, *(s.candidate.effect.name for s in chosen)]))
+
+    def _known(self, problem: Problem) -> Any:
+        """Its log evidence: that of each name beside those before it."""
+        names = [*filter(None, problem.response.split(","))]
+        total = sum(self.evidence(n, frozenset(names[:i])) for i, n in enumerate(names))
+        noise = SimpleNamespace(noise=NOISE)
+        return SimpleNamespace(problem=problem, space=noise, left_out=1.0, log_evidence=total)
 
     def _rank(self, problem: Problem, pool: Sequence[Columns], *, left_out: bool = True) -> Ranked:
         found = [self._scored(problem, one) for one in pool]
         if not left_out:
-            found = [replace(s, rows=np.zeros(0), sse_before=np.zeros(0), sse_after=np.zeros(0)) for s in found]
-        known: Any = SimpleNamespace(problem=problem, space=SimpleNamespace(noise=NOISE), left_out=1.0)
-        return Ranked(known, tuple(sorted(found, key=lambda s: -s.evidence)))
+            found = [replace(s, rows=np.zeros(0), **dict.fromkeys(ERRORS, np.zeros(0))) for s in found]
+        return Ranked(self._known(problem), tuple(sorted(found, key=lambda s: -s.evidence)))
 
     def _scored(self, problem: Problem, one: Columns) -> Scored:
         known = frozenset(filter(None, problem.response.split(",")))
@@ -220,7 +234,7 @@ def test_a_member_is_swapped_for_what_does_clearly_better_beside_the_others(
 
     def as_left_out(problem: Problem, one: Columns) -> Scored:
         made = original(problem, one)
-        return replace(made, sse_after=after**2 * made.rows) if name(made) == "b" else made
+        return replace(made, own_after=after**2 * made.rows) if name(made) == "b" else made
 
     monkeypatch.setattr(world, "_scored", as_left_out)
     found = world.select("abc")
@@ -284,3 +298,51 @@ def test_an_effect_among_what_is_known_may_grow_and_move_its_time_constant_at_a_
         np.testing.assert_allclose(new.slack, np.hstack([otherwise, slower]))
     again = rank_in(more, [made], NOISE).ranked[0]
     assert again.evidence < 1.0 < 50.0 < best.evidence
+
+
+# ---- what the noise hides, and what two share
+
+
+def test_what_the_noise_hides_is_found_in_the_noise_beside_it(monkeypatch: pytest.MonkeyPatch) -> None:
+    """b is what is missing: beside it little noise is left, and there it stands out; in the noise of all that is
+    missing it is behind a."""
+    evidence = {"a": 40.0, "b": 30.0}
+    clear = replace(NOISE, slow=0.01)
+    world = Worlds(monkeypatch, lambda n, known: evidence[n] if not known else 0.0)
+    monkeypatch.setattr(selecting, "likeliest", lambda problem, noise: clear if "b" in problem.response else NOISE)
+
+    def rank_in(problem: Problem, pool: Sequence[Columns], noise: Noise, **of: Any) -> Ranked:
+        evidence["b"] = 90.0 if noise is clear else 30.0
+        ranked = world._rank(problem, pool, **of)
+        return replace(ranked, known=known(problem, noise))
+
+    def known(problem: Problem, noise: Noise) -> Any:
+        evidence["b"] = 90.0 if noise is clear else 30.0
+        made = world._known(problem)
+        made.space.noise = noise
+        return made
+
+    monkeypatch.setattr(selecting, "rank_in", rank_in)
+    monkeypatch.setattr(selecting, "known", known)
+    assert members(world.select("ab")) == ["b"]
+
+
+@pytest.mark.parametrize(("evidence", "asked"), [(5.9, False), (6.1, True)])
+def test_beside_what_is_far_behind_no_noise_is_estimated(
+    monkeypatch: pytest.MonkeyPatch, evidence: float, asked: bool
+) -> None:
+    """15 % of the first one's evidence."""
+    world = Worlds(monkeypatch, lambda n, known: {"a": 40.0, "b": evidence}[n] if not known else 0.0)
+    beside: list[str] = []
+    monkeypatch.setattr(selecting, "likeliest", lambda problem, noise: [noise, beside.append(problem.response)][0])
+    world.select("ab")
+    assert ("b" in beside) is asked
+
+
+def test_what_two_explain_alike_is_the_likelier_ones(monkeypatch: pytest.MonkeyPatch) -> None:
+    alone, beside = {"a": 100.0, "b": 90.0, "c": 40.0}, {"a": 20.0, "b": 15.0, "c": 40.0}
+    world = Worlds(monkeypatch, lambda n, known: beside[n] if {"a", "b"} & known else alone[n])
+    found = world.select("abc")
+    assert members(found) == ["a", "c", "b"]
+    assert [m.scored.evidence for m in found.members] == [20.0, 40.0, 15.0], "beside all others"
+    assert [m.scored.credit for m in found.members] == [100.0, 40.0, 15.0]

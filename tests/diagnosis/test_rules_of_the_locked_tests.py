@@ -20,6 +20,7 @@ from thermodata.diagnosis.locked import Foretold, foretell
 from thermodata.diagnosis.problem import Problem
 from thermodata.diagnosis.scored import Scored
 from thermodata.diagnosis.selection import rank_in
+from thermodata.modelling.resolve import term_ids
 from thermodata.schema.model import Model
 from thermodata.schema.result import Parameter
 from thermodata.view.dataset import Dataset
@@ -238,8 +239,9 @@ class TestConfirm:
         def fit_model(asked: Model, data: Dataset, **more: Any) -> Fitted:
             self.calibrated.append((asked.calibrate_on, asked.locked))
             count = len(asked.effects)
-            values = {f"dZ.effect{i}.gain": Parameter(value=i, unit="um/K") for i in range(1, count + 1)}
-            terms = tuple(type("Term", (), {"id": f"effect{i}"}) for i in range(1, count + 1))
+            ids = term_ids(asked.effects)
+            values = {f"dZ.{name}.gain": Parameter(value=i, unit="um/K") for i, name in enumerate(ids)}
+            terms = tuple(type("Term", (), {"id": name}) for name in ids)
             return Fitted([Response({}, terms=terms), Response(left[count])], asked, values=values)
 
         monkeypatch.setattr(confirming, "fit_model", fit_model)
@@ -255,7 +257,7 @@ class TestConfirm:
         assert found.after == pytest.approx(np.sqrt(13))
         assert (found.shape_before, found.shape_after) == pytest.approx((4.0, 3.0))
         assert found.changed == pytest.approx(1.0), "without what an offset does"
-        assert {k: list(v) for k, v in found.parameters.items()} == {"first:T_a": ["dZ.effect2.gain"]}
+        assert {k: list(v) for k, v in found.parameters.items()} == {"first:T_a": ["dZ.first.gain"]}
         assert [(key, round(b, 3), round(a, 3)) for key, b, a in found.each] == [(("c", "z"), 4.123, 3.606)]
         assert {(*c, *z) for c, z in self.calibrated} == {("c/o", "c/z", "c/no_driver")}
 
@@ -265,8 +267,8 @@ class TestConfirm:
         found = self.confirmed(monkeypatch, spec, "first", "second")
         assert (found.shape_before, found.shape_after) == pytest.approx((4.0, 1.0))
         assert {k: list(v) for k, v in found.parameters.items()} == {
-            "first:T_a": ["dZ.effect2.gain"],
-            "second:T_a": ["dZ.effect3.gain"],
+            "first:T_a": ["dZ.first.gain"],
+            "second:T_a": ["dZ.second.gain"],
         }
 
     def test_a_fit_that_is_made_is_not_made_again(self, monkeypatch: pytest.MonkeyPatch, spec: Model) -> None:

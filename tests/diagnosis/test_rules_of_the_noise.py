@@ -10,7 +10,7 @@ import pytest
 from thermodata.diagnosis.candidates import CandidateEffect
 from thermodata.diagnosis.discrepancy import Noise, Whitened, ascend, bounds_of, left_over
 from thermodata.diagnosis.evidence import columns
-from thermodata.diagnosis.known import known, likeliest
+from thermodata.diagnosis.known import known, likeliest, likeliest_of
 from thermodata.diagnosis.problem import Problem
 from thermodata.plugin import Float1D, Gain, Param
 
@@ -120,6 +120,28 @@ def test_the_search_begins_where_it_is_told(monkeypatch: pytest.MonkeyPatch) -> 
     start = Noise(0.5, 0.7, 3000.0, 0.2)
     found = likeliest(of_noise(0.3, 1.0), start)
     assert (found.white, found.slow, found.tau_s, found.share) == pytest.approx((0.5, 0.7, 3000.0, 0.2))
+
+
+@pytest.mark.parametrize("n", [40, 70])  # tests side by side in one stack, and one by one
+def test_the_noise_beside_each_part_is_that_of_a_problem_with_this_part_alone(n: int) -> None:
+    """What is known in common, and one of two candidates."""
+    rng = np.random.default_rng(4)
+    whole, alone = [], ([], [])
+    for _ in range(5):
+        both = np.column_stack([np.cumsum(rng.normal(size=n)) for _ in range(3)])
+        spare = rng.normal(size=(n, 2))
+        y = both @ [1.0, 2.0, 0.0] + 0.3 * rng.normal(size=n)
+        whole.append(Parts(y, base=both, slack=spare))
+        for i in (0, 1):
+            alone[i].append(Parts(y, base=both[:, [0, 1 + i]], slack=spare[:, [i]]))
+    parts = [np.array([0, 1, 3]), np.array([0, 2, 4])]
+    found = likeliest_of(problem(*whole, noise=0.3, step_s=STEP), parts)
+    for own, expected in zip(found, alone, strict=True):
+        one = likeliest(problem(*expected, noise=0.3, step_s=STEP))
+        assert (own.white, own.slow, own.tau_s, own.share) == pytest.approx(
+            (one.white, one.slow, one.tau_s, one.share), rel=1e-6
+        )
+    assert found[0].slow < 0.5 * found[1].slow, "beside what is there little is left"
 
 
 def test_whitened_noise_is_white_and_offsets_are_gone() -> None:

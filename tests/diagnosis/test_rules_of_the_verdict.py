@@ -99,7 +99,7 @@ def test_a_blunt_cause_is_not_claimed_and_is_no_refinement_either() -> None:
     found = verdict(blunt)
     assert (found.verdict, found.claims, names(found.judged)) == ("unknown", (), ["blunt"])
     assert (
-        "the best, blunt:T_a, fails because causes like it were right in 69% of cases only (limit 70%)" in found.reason
+        "the best, blunt:T_a, fails because causes like it were right in 62% of cases only (limit 70%)" in found.reason
     )
     beside = verdict(blunt, scored("mode"), refined=["mode"])
     assert (beside.verdict, beside.refinements) == ("unknown", ()), "something is missing too"
@@ -119,5 +119,5 @@ def test_a_claim_is_made_though_the_error_is_at_the_floor() -> None:
 def test_the_unknown_says_why_the_best_was_refused() -> None:
     found = verdict()
     assert found.verdict == "unknown"
-    assert "the best, hopeless:T_a, fails because in the 10 left-out tests" in found.reason
+    assert "the best, hopeless:T_a, fails because in the 10 tests in which it acts" in found.reason
     assert "1 um remain on left-out tests" in found.reason

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from thermodata.effect import effects
+from thermodata.effect import all_effects
 
 ROOT = Path(__file__).parents[2]
 DOCS = ROOT / "docs"
@@ -50,9 +50,9 @@ def missing(text: str) -> list[str]:
     return gone
 
 
-@pytest.mark.parametrize("name", sorted(effects()))
+@pytest.mark.parametrize("name", sorted(all_effects()))
 def test_the_source_of_an_effect_stands_in_the_documents(name: str) -> None:
-    source = effects()[name].source
+    source = all_effects()[name].source
     assert KEY.search(source) or HEADING.search(source), source
     assert missing(source) == []
 

@@ -10,7 +10,7 @@ import pytest
 
 from thermodata.draft.place import place_of
 from thermodata.draft.vocabulary import PLACE_WORDS
-from thermodata.effect import effects
+from thermodata.effect import all_effects
 from thermodata.effect.describe import describe
 from thermodata.effect.publish import linked
 from thermodata.plugin import Drivers, Float2D, Gain, Need, Param
@@ -21,9 +21,9 @@ from thermodata.schema.unit_spelling import UNIT_SPELLING, spellings
 ROOT = Path(__file__).parents[2]
 
 
-@pytest.mark.parametrize("name", sorted(effects()))
+@pytest.mark.parametrize("name", sorted(all_effects()))
 def test_an_effect_states_its_equation_units_and_source_in_its_docstring(name: str) -> None:
-    effect = effects()[name]
+    effect = all_effects()[name]
     said = describe(effect)
     text = " ".join((type(effect).__doc__ or "").split())
     assert said.equation
@@ -85,7 +85,7 @@ def test_sources_become_links() -> None:
 
 
 def test_effects_need_places_that_the_vocabulary_holds() -> None:
-    for effect in effects().values():
+    for effect in all_effects().values():
         for need in effect.needs:
             for place in need.places:
                 letter = "b" if place.startswith("rotary") else "x"

@@ -7,15 +7,15 @@ from collections.abc import Collection, Mapping
 import numpy as np
 import pytest
 
-from thermodata.effect import effects
+from thermodata.effect import all_effects
 from thermodata.errors import PluginError
 from thermodata.plugin import Drivers, Float2D, Gain, Need, Param
 from thermodata.testing import effect as kit
 
 
-@pytest.mark.parametrize("name", sorted(effects()))
+@pytest.mark.parametrize("name", sorted(all_effects()))
 def test_the_installed_effect_keeps_the_contract(name: str) -> None:
-    assert kit.faults(effects()[name]) == {}
+    assert kit.faults(all_effects()[name]) == {}
 
 
 class Good:
@@ -108,6 +108,31 @@ class Idle(Good):
         return drivers.values["u"].reshape(-1, 1).copy()
 
 
+class CountsSamples(Good):
+    """A lag of thirty samples, however long they last."""
+
+    def basis(self, drivers: Drivers, p: Mapping[str, float]) -> Float2D:
+        x, out = 0.0, []
+        for u in drivers.values["u"]:
+            x += (u - x) / (30.0 * p["a"])
+            out.append(x)
+        return np.array(out).reshape(-1, 1)
+
+
+class StopsInGaps(Good):
+    def basis(self, drivers: Drivers, p: Mapping[str, float]) -> Float2D:
+        return np.where(drivers.valid["u"], drivers.values["u"] * p["a"], 0.0).reshape(-1, 1)
+
+
+class NotLinearInKelvin(Good):
+    def basis(self, drivers: Drivers, p: Mapping[str, float]) -> Float2D:
+        return (np.abs(drivers.values["u"]) ** (1.0 + p["a"])).reshape(-1, 1)
+
+
+class KelvinForgotten(Good):
+    gains = (Gain("gain", "um", (0, 10), "any", "k"),)
+
+
 class Promises(Good):
     def law(self, roles: Collection[str], p: Mapping[str, float], step_s: float) -> tuple[str, ...]:
         return ("lag(u, 60) * a",)
@@ -148,6 +173,10 @@ def test_a_good_effect_passes() -> None:
         (Forgetful, kit.it_says_the_same_twice),
         (Meddler, kit.it_says_the_same_twice),
         (Idle, kit.every_parameter_changes_something),
+        (CountsSamples, kit.it_says_the_same_on_any_grid),
+        (StopsInGaps, kit.a_gap_that_was_filled_right_changes_nothing),
+        (NotLinearInKelvin, kit.its_gains_have_the_units_of_what_drives_them),
+        (KelvinForgotten, kit.its_gains_have_the_units_of_what_drives_them),
         (Promises, kit.its_law_is_its_basis),
     ],
 )

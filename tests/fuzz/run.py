@@ -31,7 +31,7 @@ MEANING = (
     "same: all rows of the seed; fewer: some, of an honest file; changed: values were touched, not judged; "
     "reported: loss, incomplete, note or flag; refused: an error of ours"
 )
-BATCH, KEPT, WAIT_FACTOR = 500, 5, 12
+BATCH, KEPT, WAIT_FACTOR, START_S = 500, 5, 12, 120.0
 
 
 @dataclass
@@ -96,29 +96,23 @@ def _one_worker(given: argparse.Namespace, numbers: range, tally: Tally) -> int:
             [str(w) for w in words], stdout=subprocess.PIPE, stderr=said, text=True, env=environment
         )
         assert child.stdout is not None
-        killed = threading.Event()
-
-        def kill() -> None:
-            killed.set()
-            child.kill()
-
+        watch = _Watch(child)
         open_file: tuple[int, str, str] | None = None
-        clock = _timer(120.0, kill)
+        watch.expect(START_S)
         for line in child.stdout:
-            clock.cancel()
             answer = json.loads(line)
             if "start" in answer:
                 open_file = (answer["start"], answer["seed"], answer["kind"])
             elif open_file is not None:
                 tally.add(*open_file, answer)
                 open_file, numbers = None, range(answer["end"] + 1, numbers.stop)
-            clock = _timer(given.limit * WAIT_FACTOR, kill)
-        clock.cancel()
+            watch.expect(given.limit * WAIT_FACTOR)
+        watch.end()
         code = child.wait()
         said.seek(0)
         err = said.read()[-2000:]
     if open_file is not None:
-        why = f"no end after {given.limit * WAIT_FACTOR:g} s" if killed.is_set() else f"the worker died, code {code}"
+        why = f"no end after {given.limit * WAIT_FACTOR:g} s" if watch.killed else f"the worker died, code {code}"
         tally.add(*open_file, {"outcome": "failed", "why": why, "place": why, "trace": err})
         return open_file[0] + 1
     if code or numbers:
@@ -126,11 +120,50 @@ def _one_worker(given: argparse.Namespace, numbers: range, tally: Tally) -> int:
     return numbers.stop
 
 
-def _timer(seconds: float, then: object) -> threading.Timer:
-    timer = threading.Timer(seconds, then)  # type: ignore[arg-type]
-    timer.daemon = True
-    timer.start()
-    return timer
+class _Watch:
+    """Kills a worker that says nothing for too long. One that waits for a busy machine, or that somebody stopped, is
+    not to blame: only the time counts in which it works, or waits for nothing that ever comes."""
+
+    def __init__(self, child: subprocess.Popen[str]) -> None:
+        self.killed = False
+        self._child, self._clock, self._guard = child, threading.Timer(0, str), threading.Lock()
+        self._ended = False
+
+    def expect(self, seconds: float) -> None:
+        """A line within so long."""
+        with self._guard:
+            self._set(seconds, _used_s(self._child.pid)[0])
+
+    def end(self) -> None:
+        with self._guard:
+            self._ended = True
+            self._clock.cancel()
+
+    def _set(self, seconds: float, used_s: float) -> None:
+        self._clock.cancel()
+        self._clock = threading.Timer(seconds, self._look, (seconds, used_s))
+        self._clock.daemon = True
+        self._clock.start()
+
+    def _look(self, seconds: float, used_s: float) -> None:
+        with self._guard:
+            if self._ended or threading.current_thread() is not self._clock:
+                return
+            now_s, state = _used_s(self._child.pid)
+            if state in "RTD" and now_s - used_s < seconds:
+                self._set(seconds, used_s)
+                return
+            self.killed = True
+            self._child.kill()
+
+
+def _used_s(pid: int) -> tuple[float, str]:
+    """Processor time of a process [s], and its state (R: runs or would, T: stopped, D: waits for a disk)."""
+    try:
+        fields = Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()
+    except OSError:
+        return 0.0, "X"
+    return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK"), fields[0]
 
 
 def table(tally: Tally) -> str:

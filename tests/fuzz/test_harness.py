@@ -76,6 +76,17 @@ def test_a_broken_reader_is_caught_and_the_run_goes_on(name: str, tmp_path: Path
         assert "IndexError" in again.stdout
 
 
+def test_a_worker_that_somebody_stopped_is_not_to_blame(tmp_path: Path) -> None:
+    """A busy machine, or one on which something else is measured."""
+    module = tmp_path / "twin.py"
+    stops = (
+        "__import__('subprocess').Popen(['sh', '-c', f'sleep 4; kill -CONT {os.getpid()}']); os.kill(os.getpid(), 19)"
+    )
+    module.write_text(TWIN.format(does=stops))
+    done = run("--format", module, "--count", 8, "--limit", 0.2, "--out", tmp_path / "out")
+    assert done.returncode == 0, done.stdout + done.stderr
+
+
 def test_a_seed_that_is_no_whole_file_is_refused(tmp_path: Path) -> None:
     module = tmp_path / "twin.py"
     module.write_text(

@@ -13,7 +13,7 @@ import blark
 import numpy as np
 import pytest
 
-from thermodata.effect import effects
+from thermodata.effect import all_effects
 from thermodata.export.control.data import as_data, json_text, write_mat
 from thermodata.export.control.program import Limits, Program
 from thermodata.export.control.python import python_module
@@ -26,7 +26,7 @@ from .run_c import COMPILER, run_c
 from .run_st import StError, parse
 
 REAL_UM, LREAL_UM = 0.01, 0.001
-LAWFUL = sorted(n for n, e in effects().items() if hasattr(e, "law"))
+LAWFUL = sorted(n for n, e in all_effects().items() if hasattr(e, "law"))
 needs_c = pytest.mark.skipif(COMPILER is None, reason="no C compiler (gcc, cc, clang) is installed")
 
 

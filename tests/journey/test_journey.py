@@ -61,6 +61,8 @@ CANDIDATE = {
     "effect",
     "family",
     "drivers",
+    "gain_by",
+    "phases",
     "claimed",
     "refinement",
     "probability",
@@ -263,8 +265,7 @@ def test_diagnosis_names_the_hidden_effect(lab: Lab, diagnosis: dict[str, Any]) 
     true = f"{lab.truth.hidden}:{','.join(lab.truth.drivers.values())}"
     assert true in (first["id"], *first["equivalent"])
     assert first["p_value"] < 0.05
-    # its size from the other tests alone, and feed_z is the one test in which it stands by itself
-    assert first["rmse_um_after"] < 0.7 * first["rmse_um_before"]
+    assert first["rmse_um_after"] < 0.5 * first["rmse_um_before"]
     assert first["locked_rmse_um_after"] < 0.5 * first["locked_rmse_um_before"]
     assert all(c["locked_rmse_um_before"] is c["locked_rmse_um_after"] is None for c in others if not c["claimed"])
 
@@ -334,6 +335,6 @@ def test_nothing_is_claimed_on_a_machine_that_lacks_nothing(tmp_path: Path) -> N
     whole = make_lab(tmp_path, "none", 1)
     found = whole.ask("diagnose", whole.base)
     assert set(found) == DIAGNOSIS
-    assert found["verdict"] in ("none", "refine", "unknown", "not_testable")
+    assert found["verdict"] in ("none", "unknown", "not_testable")
     assert not any(c["claimed"] for c in found["candidates"])
     assert all("did not hold" in look["reason"] for look in whole.ask("sql", "from locked_look"))

@@ -193,7 +193,15 @@ def test_a_gain_for_each_machine_and_one_time_constant(world: Dataset, spec: Spe
     assert found["spindle_bearing.gain[SP2]"].value == pytest.approx(3.0, rel=0.03)
     assert found["spindle_bearing.tau"].value == pytest.approx(20.0, rel=0.03)
     free = spec({"effect": "spindle_bearing", "gain_by": "spindle", "shared": ["gain"]}, *EFFECTS[1:])
-    assert {"spindle_bearing.tau[SP1]", "spindle_bearing.tau[SP2]"} <= set(fit_model(free, data).parameters())
+    own = fit_model(free, data).parameters()
+    assert {"spindle_bearing.tau[SP1]", "spindle_bearing.tau[SP2]"} <= set(own)
+    none = spec({"effect": "spindle_bearing", "gain_by": "spindle", "shared": "none"}, *EFFECTS[1:])
+    assert fit_model(none, data).parameters() == own
+    assert [none.effects[0].shares("tau"), model.effects[0].shares("tau"), free.effects[0].shares("tau")] == [
+        False,
+        True,
+        False,
+    ]
 
 
 def _two_spindles(world: Dataset) -> Dataset:

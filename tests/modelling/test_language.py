@@ -15,8 +15,10 @@ from thermodata.errors import SpecError, UsageError
 from thermodata.modelling import fit_model
 from thermodata.modelling.acting import acting
 from thermodata.modelling.fitted import FittedModel
+from thermodata.modelling.left_out_error import LeftOut
 from thermodata.modelling.portability import portability
 from thermodata.modelling.result import make_result, model_id
+from thermodata.modelling.second_lag import with_second_lags
 from thermodata.plugin import Float1D
 from thermodata.schema.load import parse_model
 from thermodata.schema.model import Model
@@ -213,6 +215,30 @@ def test_another_models_output_times_a_gain(lab: Dataset) -> None:
     assert model_id(spec, "v") != model_id(held, "v")
 
 
+def test_one_part_of_another_model_times_a_gain(lab: Dataset) -> None:
+    """The spindle's function as found at the stator acts twice at the tool centre point, the hall's once."""
+    whole = {t.test: t for t in lab.tests}
+    hall = {name: -2.0 * lag(t.values["T_hall"] - 20, 9000, STEP) for name, t in whole.items()}
+    once = _data(*(replace(t, values={**t.values, "dZ": t.values["dZ"] - hall[t.test]}) for t in lab.tests))
+    effects = [
+        {"effect": "model", "id": "g", "name": "frame", "parts": ["spindle"], "inside": _inside(lab)},
+        {"effect": "model", "id": "h", "name": "frame", "parts": ["hall"], "gain": 1, "inside": _inside(lab)},
+        *yaml.safe_load(CUT),
+    ]
+    fitted = fit_model(_spec("response: {axis: Z, at: tcp}", effects=effects), once)
+    assert _value(fitted, "g.gain") == pytest.approx(2.0, rel=0.01)
+    spindle, both = fitted.responses[0].terms[:2]
+    test = once.test("lab", "c")
+    assert np.std(both.contribution(test) - hall["c"]) < 0.05
+    assert np.std(spindle.contribution(test)) > 5
+    unknown = [{**effects[0], "parts": ["spindel"]}, *effects[1:]]
+    with pytest.raises(UsageError, match="spindel") as refusal:
+        fit_model(_spec("response: {axis: Z, at: tcp}", effects=unknown), once)
+    assert "spindle" in str(refusal.value.hint)
+    with pytest.raises(SpecError, match="'parts' belongs to model"):
+        fit_model(_spec("response: {axis: Z, at: tcp}\neffects: [{effect: ambient_frame, parts: [a]}]"), lab)
+
+
 def test_a_model_inside_has_to_be_found_first(lab: Dataset) -> None:
     with pytest.raises(SpecError, match="needs the name of a model"):
         fit_model(_spec("response: {axis: Z, at: tcp}\neffects: [{effect: model, name: frame}]"), lab)
@@ -240,6 +266,48 @@ def test_the_frame_is_identified_at_the_stator_and_used_at_the_tool(lab: Dataset
         fit_model(_spec(f"response: {{axis: Z, at: tcp}}\neffects:{seen}{CUT}"), no_stator)
 
 
+# ---- an effect that acts on some responses only
+
+
+ACTS = """
+response: [{axis: Z, at: tcp}, {axis: Z, at: stator}]
+effects:
+  - {effect: spindle_bearing, id: spindle}
+  - {effect: ambient_frame, id: hall}
+  - {effect: tool_elongation, id: tool, acts_on: [%s]}
+  - {effect: transfer_function, id: turning, drivers: {u: T_table}, acts_on: [{axis: Z, at: tcp}]%s}
+"""
+
+
+def test_an_effect_acts_on_some_responses_only(lab: Dataset) -> None:
+    spec = _spec(ACTS % ("{axis: Z, at: tcp}", ", orders: [2, 2]"))
+    fitted = fit_model(spec, lab)
+    tcp, stator = fitted.responses
+    assert [[t.id for t in r.terms] for r in (tcp, stator)] == [
+        ["spindle", "hall", "tool", "turning"],
+        ["spindle", "hall"],
+    ]
+    found = fitted.parameters()
+    assert found["dZ/tool.gain"].value == pytest.approx(-1.7, rel=0.03)
+    assert not [name for name in found if name.startswith(("dZ_stator/tool", "dZ_stator/turning"))]
+    alone = fit_model(_spec(f"response: {{axis: Z, at: stator}}\neffects:{FRAME}"), lab).parameters()
+    assert found["dZ_stator/hall.tau"].value == alone["hall.tau"].value
+    # orders that are left open are each effect's own, wherever it stands in a response
+    left_out = LeftOut(_spec(ACTS % ("{axis: Z, at: tcp}", "")), lab)
+    assert left_out.errors(left_out.whole.spec).rmse("dZ_stator") < 0.2
+    second = with_second_lags(_spec(ACTS % ("{axis: Z, at: stator}", ", orders: [2, 2]")), lab)
+    assert second.notes
+
+
+def test_an_effect_acts_on_responses_of_its_model(lab: Dataset) -> None:
+    for where in ("{channel: dZ_far}", ""):
+        with pytest.raises(SpecError, match="acts on responses of its model") as refusal:
+            fit_model(_spec(ACTS % (where, ", orders: [2, 2]")), lab)
+        assert refusal.value.expected == "some of dZ, dZ_stator"
+    with pytest.raises(SpecError, match="share time constants"):
+        fit_model(_spec(ACTS % ("{axis: Z, at: tcp}", ", orders: [2, 2], gain_by: place")), lab)
+
+
 # ---- gains by place, by groups, and one factor
 
 
@@ -263,6 +331,42 @@ effects:{FRAME}
         assert response.checks
     alone = fit_model(_spec(text.replace(", gain_by: place", "")), lab, uncertainty=False).parameters()
     assert alone["dZ/turning.tau_1"].value != alone["dZ_far/turning.tau_1"].value
+
+
+ALIKE = ", gain_by: place, groups: {dZ: both, dZ_far: both}}\n"
+
+
+def test_places_share_an_effect_that_was_identified_on_tests_of_its_own(lab: Dataset) -> None:
+    """The hall on an idle test; turning on a test that has all places, and only the tool's place on the other."""
+    near = replace(lab.tests[1], values={k: v for k, v in lab.tests[1].values.items() if k != "dZ_far"})
+    data = _data(lab.tests[0], near, *lab.tests[2:])
+    frame = FRAME.replace("}\n", ALIKE)
+    text = f"""
+response: [{{axis: Z, at: tcp}}, {{channel: dZ_far}}]
+effects:{frame}
+  - {{effect: tool_elongation, id: tool, gain_by: place}}
+  - {{effect: transfer_function, id: turning, drivers: {{u: T_table}}, orders: [2, 2], gain_by: place, one_gain: true}}
+"""
+    whole = fit_model(_spec(text), data).parameters()
+    staged = text.replace("id: hall,", "id: hall, calibrate_on: [idle],").replace(
+        "id: turning,", "id: turning, calibrate_on: [b],"
+    )
+    found = fit_model(_spec(staged), data).parameters()
+    assert {name: p.value for name, p in found.items()} == pytest.approx(
+        {n: p.value for n, p in whole.items()}, rel=1e-3
+    )
+    assert found["dZ_far/turning.g"].value == pytest.approx(2.2, rel=0.03)
+
+
+def test_a_place_without_a_calibration_test_takes_what_all_places_share(lab: Dataset) -> None:
+    bare = [replace(t, values={k: v for k, v in t.values.items() if k != "dZ_far"}) for t in lab.tests[:3]]
+    same = replace(lab.tests[3], values={**lab.tests[3].values, "dZ_far": lab.tests[3].values["dZ"]})
+    data = _data(*bare, same)
+    text = "response: [{axis: Z, at: tcp}, {channel: dZ_far}]\neffects:" + (FRAME + CUT).replace("}\n", ALIKE)
+    fitted = fit_model(_spec(text), data)
+    far = fitted.responses[1]
+    assert (far.checks, far.noise) == ((), None)
+    assert np.std(far.residual(same)) == pytest.approx(np.std(fitted.responses[0].residual(same)))
 
 
 def _by_tool() -> Dataset:

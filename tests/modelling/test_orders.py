@@ -14,6 +14,7 @@ from thermodata.effect.lag import lag
 from thermodata.errors import UsageError
 from thermodata.modelling import fit_model
 from thermodata.modelling.left_out import folds, left_out_fit
+from thermodata.modelling.orders import free_run_fit
 from thermodata.plugin import Float1D
 from thermodata.schema.model import Model
 from thermodata.view.dataset import ChannelInfo, Dataset, TestData
@@ -114,6 +115,41 @@ def test_a_direct_term_stands_beside_the_lags_where_the_data_want_it(spec: Spec)
             assert found["transfer_function.direct"].value == pytest.approx(direct, rel=0.03)
             assert found["transfer_function.direct"].unit == "um/K"
         assert np.std(response.residual(data.tests[2])) < 0.3
+
+
+def test_each_order_of_oe_is_as_good_as_a_fit_of_it(spec: Spec) -> None:
+    """A direct term and a slow return: one coefficient stands at the shortest lag, and two lie far away from there."""
+    test = _test(3, "calibration", hours=16)
+    warm = 9 * lag(((test.t_s > 900) & (test.t_s < 30000)).astype(float), 9000.0, 60.0)
+    y = 2.0 * warm - 0.8 * lag(warm, 21000.0, 60.0) + np.random.default_rng(1).normal(0, 0.1, len(warm))
+    data = _data(replace(test, values={"dZ": y, "T": 22 + warm}))
+    tried = {(r.numerator, r.denominator): r.fit_calibration for r in _tried(data, spec, method="oe")}
+    for orders in ((2, 1), (2, 2), (3, 2)):
+        alone = fit_model(spec(FUNCTION | {"method": "oe", "orders": list(orders)}), data).responses[0]
+        assert tried[orders] == pytest.approx(free_run_fit(alone, data.tests), abs=0.2), orders
+    assert tried[2, 1] - tried[1, 1] > 2
+
+
+def test_orders_are_open_beside_an_effect_with_tests_of_its_own(spec: Spec) -> None:
+    """The effect that comes first stands last in the file, and either can have its orders open."""
+    first, second = (_test(k, "calibration", hours=12) for k in (4, 5))
+    hall = {t.test: np.sin(2 * np.pi * t.t_s / 43200) for t in (first, second)}
+    infos = {**INFOS, "T_hall": ChannelInfo("T_hall", "temperature", "degC", "hall")}
+
+    def with_hall(test: TestData, warm: float) -> TestData:
+        air = 20 + 3 * hall[test.test]
+        dz = warm * test.values["dZ"] - 6 * hall[test.test]
+        values = {"dZ": dz, "T": 22 + warm * (test.values["T"] - 22), "T_hall": air}
+        return replace(test, values=values, valid=dict.fromkeys(values, test.in_window), channels=infos)
+
+    data = replace(_data(with_hall(first, 1.0), with_hall(second, 0.0)), channels=infos)
+    air = {"effect": "transfer_function", "id": "air", "drivers": {"u": "T_hall"}, "calibrate_on": [second.test]}
+    model = spec(FUNCTION | {"id": "heat"}, air, calibrate_on=[first.test], phases=["working"])
+    timed = tuple(replace(t, phases={"working": (0.0, 1e6)}) for t in data.tests)
+    fitted = fit_model(model, replace(data, tests=timed))
+    chosen = {r.effect: (r.numerator, r.denominator) for r in fitted.responses[0].tried if r.chosen}
+    assert set(chosen) == {"heat", "air"}
+    assert chosen["air"][1] == 1
 
 
 def test_one_test_is_cut_into_parts(spec: Spec) -> None:

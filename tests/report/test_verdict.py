@@ -130,6 +130,7 @@ def test_evidence_is_told_of_all_claims_and_refinements_else_of_the_first() -> N
     a, b, mode, rest = claim("a"), claim("b"), one("mode", refinement=True), one("rest")
     assert told(found("effect", [a, b, mode, rest])) == [a, b, mode]
     assert told(found("unknown", [mode, rest, one("last")])) == [rest, mode]
+    assert told(found("refine", [rest, mode])) == [mode, rest], "what the verdict names comes first"
     assert told(found("none", [])) == []
 
 

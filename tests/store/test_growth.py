@@ -287,13 +287,30 @@ def test_a_full_disk_in_a_worker_is_an_error_with_what_is_needed(
 
 
 SLOW = "import time; print('begun', flush=True); time.sleep(60)"
+# a disk that takes its time while a finished file is written to it, and hears of no signal
+STUCK = "import thermodata.store.raw.writer as w; w.publish = lambda *_: stuck()"
+STUCK_FOR = """
+def stuck():
+    import time
+    signal.signal(signal.SIGTERM, signal.SIG_IGN)
+    print('begun', flush=True)
+    time.sleep(60)
+"""
 
 
-@pytest.mark.parametrize("kind", [signal.SIGKILL, signal.SIGINT])
+@pytest.mark.parametrize(("kind", "at"), [(signal.SIGKILL, SLOW), (signal.SIGINT, SLOW), (signal.SIGKILL, STUCK)])
 def test_an_ingest_that_is_ended_ends_its_workers_and_leaves_the_store_as_it_was(
-    store: Store, lab: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, two_workers: None, kind: signal.Signals
+    store: Store,
+    lab: Path,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    two_workers: None,
+    kind: signal.Signals,
+    at: str,
 ) -> None:
-    plugin(tmp_path, monkeypatch, SLOW)
+    plugin(tmp_path, monkeypatch, at)
+    with (tmp_path / "site" / "sitecustomize.py").open("a") as more:
+        more.write(STUCK_FOR)
     child = subprocess.Popen(
         [sys.executable, "-m", "thermodata", "--store", str(store.path), "ingest", str(lab)],
         stdout=subprocess.PIPE,

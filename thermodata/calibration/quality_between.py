@@ -77,24 +77,30 @@ def offsets_between_tests(tests: Sequence[Levels]) -> dict[tuple[str, str], Off]
     """
     dated = all(t.start_s is not None and t.end_s is not None for t in tests)
     ordered = sorted(tests, key=lambda t: t.start_s or 0.0) if dated else list(tests)
-    differences = [_differences(t) for t in ordered]
+    differences = _differences(ordered)
+    rested = _rested(ordered) if dated else None
     offsets: dict[tuple[str, str], Off] = {}
     for channel in dict.fromkeys(c for t in ordered for c, x in t.series.items() if x.quantity == "temperature"):
         spans = [d.get(channel, _UNTOLD) for d in differences]
-        level = [_level(ordered, i, channel, dated) for i in range(len(ordered))]
+        level = [_level(t, channel) if rested is None or not i else rested[i] for i, t in enumerate(ordered)]
         offsets |= _from_the_failure_on(ordered, channel, spans, level)
     return offsets
 
 
-def _level(tests: Sequence[Levels], i: int, channel: str, dated: bool) -> float:
-    """How far a machine had levelled out before a test: the share of other temperatures that begin alike; 1 after a
-    rest, 0 where the clocks tell that there was none."""
-    if dated and i:
-        ends = [t.end_s or 0.0 for t in tests[:i]]
-        return float((tests[i].start_s or 0.0) - max(ends) >= _RESTED_S)
+def _rested(tests: Sequence[Levels]) -> list[float]:
+    """Of each test 1 where the clocks tell that the machine rested before it, else 0. tests: by their clocks."""
+    rested, end_s = [], -np.inf
+    for test in tests:
+        rested.append(float((test.start_s or 0.0) - end_s >= _RESTED_S))
+        end_s = max(end_s, test.end_s or 0.0)
+    return rested
+
+
+def _level(test: Levels, channel: str) -> float:
+    """How far a machine had levelled out before a test: the share of other temperatures that begin alike."""
     first = [
         float(sound[0])
-        for name, x in tests[i].series.items()
+        for name, x in test.series.items()
         if name != channel
         and x.quantity == "temperature"
         and len(sound := x.sound[np.isfinite(x.sound)])
@@ -110,47 +116,81 @@ def _is_set_point(x: Float1D) -> bool:
     return len(np.unique(x)) <= _SET_POINTS and float(np.ptp(x)) > _SET_APART_K
 
 
-def _differences(test: Levels) -> dict[str, tuple[Float1D, Float1D]]:
-    """Channel -> (times, differences [K] from the median of the others), shape (m,)."""
-    known = {n: x for n, x in test.series.items() if x.quantity == "temperature" and np.isfinite(x.sound).any()}
-    if len(known) <= _LEAST_OTHERS:
-        return {}
-    grids: list[Float1D] = []
-    for x in known.values():
-        if not any(np.array_equal(x.t_s, t) for t in grids):
-            grids.append(x.t_s)
-    found: dict[str, tuple[Float1D, Float1D]] = {}
-    for t_s in grids:
-        stacked = np.stack([_at(x, t_s) for x in known.values()])
-        d = stacked - _median_of_others(stacked)
-        for (name, x), row in zip(known.items(), d, strict=True):
-            if np.array_equal(x.t_s, t_s) and np.isfinite(row).any():
-                found[name] = t_s[np.isfinite(row)], row[np.isfinite(row)]
+@dataclass(frozen=True, slots=True)
+class _Stack:
+    """Channels of a test at the times of one of its grids. of: the test; t_s: shape (m,); values: shape (k, m); own:
+    channel -> row, of those that stand on this grid themselves."""
+
+    of: int
+    t_s: Float1D
+    values: Float2D
+    own: Mapping[str, int]
+
+
+def _differences(tests: Sequence[Levels]) -> list[dict[str, tuple[Float1D, Float1D]]]:
+    """Of each test: channel -> (times, differences [K] from the median of the others), shape (m,)."""
+    found: list[dict[str, tuple[Float1D, Float1D]]] = [{} for _ in tests]
+    alike: dict[int, list[_Stack]] = {}
+    for i, test in enumerate(tests):
+        for stack in _stacks(i, test):
+            alike.setdefault(len(stack.values), []).append(stack)
+    for stacks in alike.values():
+        # a median is of one column: those of many tests are taken at once
+        values = np.concatenate([s.values for s in stacks], axis=1)
+        differences = np.split(values - _median_of_others(values), np.cumsum([len(s.t_s) for s in stacks])[:-1], axis=1)
+        for stack, d in zip(stacks, differences, strict=True):
+            known = np.isfinite(d)
+            for name, row in stack.own.items():
+                if known[row].any():
+                    found[stack.of][name] = stack.t_s[known[row]], d[row][known[row]]
     return found
+
+
+def _stacks(i: int, test: Levels) -> list[_Stack]:
+    """A test's temperatures at the times of each of its grids; none where there are too few of them."""
+    sound = {n: (x.t_s, x.sound) for n, x in test.series.items() if x.quantity == "temperature"}
+    sound = {n: (t_s, y) for n, (t_s, y) in sound.items() if np.isfinite(y).any()}
+    if len(sound) <= _LEAST_OTHERS:
+        return []
+    grids: list[Float1D] = []
+    on: dict[str, int] = {}
+    for name, (t_s, _) in sound.items():
+        at = next((k for k, t in enumerate(grids) if t_s is t or np.array_equal(t_s, t)), len(grids))
+        grids += [t_s] if at == len(grids) else []
+        on[name] = at
+    apart = [float(np.median(np.diff(t))) if len(grids) > 1 and len(t) > 1 else np.inf for t in grids]
+    return [
+        _Stack(
+            i,
+            t_s,
+            np.stack([y if on[n] == k else _at(t, y, t_s, apart[on[n]]) for n, (t, y) in sound.items()]),
+            {n: row for row, n in enumerate(sound) if on[n] == k},
+        )
+        for k, t_s in enumerate(grids)
+    ]
 
 
 def _median_of_others(x: Float2D) -> Float2D:
     """Of each row the median of all other rows, column by column; NaN where these are fewer than three numbers."""
+    column = np.arange(x.shape[1])
     order = np.argsort(x, axis=0)  # NaN last
-    ordered, rank = np.take_along_axis(x, order, axis=0), np.argsort(order, axis=0)
+    ordered, rank = x[order, column], np.argsort(order, axis=0)
     others = np.isfinite(x).sum(axis=0)[None] - np.isfinite(x)
 
     def nth(n: Array) -> Float2D:
         n = n + (n >= rank)
-        return np.take_along_axis(ordered, np.clip(n, 0, len(x) - 1), axis=0)
+        return ordered[np.minimum(np.maximum(n, 0), len(x) - 1), column]
 
     median = (nth((others - 1) // 2) + nth(others // 2)) / 2
     return np.where(np.isfinite(x) & (others >= _LEAST_OTHERS), median, np.nan)
 
 
-def _at(x: Course, t_s: Float1D) -> Float1D:
-    """A course at other times; NaN where its next point lies further away than its points from each other."""
-    if x.t_s is t_s or np.array_equal(x.t_s, t_s):
-        return x.sound
-    sound = np.isfinite(x.sound)
-    near = np.abs(t_s[:, None] - x.t_s[sound][None]).min(axis=1) if sound.any() else np.full(len(t_s), np.inf)
-    apart = float(np.median(np.diff(x.t_s))) if len(x.t_s) > 1 else np.inf
-    return np.where(near <= 1.5 * apart, np.interp(t_s, x.t_s[sound], x.sound[sound]), np.nan)
+def _at(own_s: Float1D, x: Float1D, t_s: Float1D, apart: float) -> Float1D:
+    """A course x at other times than its own; NaN where its next point lies further away than its points from each
+    other, apart [s] as a rule."""
+    known = np.isfinite(x)
+    near = np.abs(t_s[:, None] - own_s[known][None]).min(axis=1)
+    return np.where(near <= 1.5 * apart, np.interp(t_s, own_s[known], x[known]), np.nan)
 
 
 def _from_the_failure_on(

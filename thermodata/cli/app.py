@@ -31,6 +31,7 @@ SECTIONS: dict[str, dict[str, str]] = {
     "Model": {
         "fit": "fitting",
         "orders": "ordering",
+        "profiles": "profiling",
         "compare": "fitting",
         "add": "fitting",
         "remove": "fitting",

@@ -24,11 +24,13 @@ _COLUMNS = [
 ]
 
 
-def answer_against(session: Session, store: Store, models: Sequence[str], against: str, layout: str) -> None:
-    """Print the table of `compare --against`. models, against: as the store knows them."""
+def answer_against(
+    session: Session, store: Store, models: Sequence[str], against: str, layout: str, tests: Sequence[str]
+) -> None:
+    """Print the table of `compare --against`. models, against: as the store knows them; tests: none for all."""
     from thermodata.modelling.run import compare_against
 
-    rows = [plain(row) for row in compare_against(store, models, against)]
+    rows = [plain(row) for row in compare_against(store, models, against, tests)]
     names = [str(row["response"]) for row in rows]
     session.answer(rows, lambda: in_units_of(session, list(dict.fromkeys(names)), _text(rows, layout)))
 

@@ -8,6 +8,7 @@ import click
 
 from thermodata.cli import completing
 from thermodata.cli.common import Session, command, in_units_of, plain
+from thermodata.errors import UsageError
 from thermodata.report.fit_text import (
     HISTORY,
     before_after_text,
@@ -66,7 +67,10 @@ def fit_command(session: Session, model: str) -> None:
     default="text",
     help="Of the table that --against prints.",
 )
-def compare_command(session: Session, models: tuple[str, ...], against: str | None, layout: str) -> None:
+@click.option("--test", "tests", multiple=True, metavar="TEST", help="With --against: only this test; may be repeated.")
+def compare_command(
+    session: Session, models: tuple[str, ...], against: str | None, layout: str, tests: tuple[str, ...]
+) -> None:
     """Score models against the measurements.
 
     By test and phase, each MODEL beside the others, and where the first fails; the newest one where none is named.
@@ -76,7 +80,8 @@ def compare_command(session: Session, models: tuple[str, ...], against: str | No
     test, with its interval of 95 %.
 
     With --against: peak to valley at first and left, both ways (max - min, |max| + |min|), range, how many times less,
-    percent less than the reference, and the mean row; the JSON is a list of these rows.
+    percent less than the reference, and the mean row (over the tests that all of them predict, or over each --test);
+    the JSON is a list of these rows.
     """
 
     def named(store: Store) -> list[str]:
@@ -86,8 +91,10 @@ def compare_command(session: Session, models: tuple[str, ...], against: str | No
         from thermodata.cli.besides import answer_against
 
         store = session.store()
-        answer_against(session, store, named(store), resolve(store, against), layout)
+        answer_against(session, store, named(store), resolve(store, against), layout, tests)
         return
+    if tests:
+        raise UsageError("--test chooses rows of the table that --against prints", hint="add --against MODEL")
     from thermodata.modelling.run import compare, differences_of, load
     from thermodata.report.spots import weak_spots_of
     from thermodata.store.catalogue.models import load_diagnosis
@@ -124,8 +131,10 @@ def compare_command(session: Session, models: tuple[str, ...], against: str | No
 def add_command(session: Session, model: str, candidate: str, plain: bool) -> None:
     """Make a new version of MODEL with an effect more.
 
-    CANDIDATE is its rank or id, as diagnose printed them. Where tests that are left out of the fit want it, the effect
-    and those that MODEL has get a second lag, for a part of a machine answers heat by a quick share and a slow one.
+    CANDIDATE is its rank or id, as diagnose printed them; gain_by:EFFECT,CONDITION gives an effect of MODEL a gain for
+    each value of a condition, and phases:EFFECT,heating,cooling parts it into one for each phase. Where tests that are
+    left out of the fit want it, the effect and those that MODEL has get a second lag, for a part of a machine answers
+    heat by a quick share and a slow one.
     Prints the errors before and after.
     """
     from thermodata.cli.progress import counting_line
@@ -190,7 +199,15 @@ def history_command(session: Session, model: str | None) -> None:
 
 @command("portability")
 @click.argument("model", shell_complete=completing.models)
-def portability_command(session: Session, model: str) -> None:
+@click.option(
+    "--test",
+    "tests",
+    multiple=True,
+    metavar="TEST",
+    shell_complete=completing.tests,
+    help="Only this test; may be repeated.",
+)
+def portability_command(session: Session, model: str, tests: tuple[str, ...]) -> None:
     """Say how MODEL transfers to other tests and machines.
 
     The gain g that fits the model to each, the error without (n) and with (c) it, and the class: portable,
@@ -199,7 +216,8 @@ def portability_command(session: Session, model: str) -> None:
     from thermodata.modelling.run import transfer
 
     store = session.store()
-    rows = [plain(row) for row in transfer(store, resolve(store, model))]
+    rows = [plain(row) for row in transfer(store, resolve(store, model), tests)]
+    several = len({row["response"] for row in rows}) > 1
     session.answer(
         rows,
         lambda: table(
@@ -207,6 +225,7 @@ def portability_command(session: Session, model: str) -> None:
             [
                 ("campaign", "campaign"),
                 ("test", "test"),
+                *([("response", "response")] if several else []),
                 ("machine", "machine"),
                 ("role", "role"),
                 ("g", "g"),

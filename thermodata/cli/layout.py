@@ -28,8 +28,8 @@ def markdown(rows: Sequence[Mapping[str, Any]], columns: Iterable[Column]) -> st
     columns = list(columns)
     heads = [heading or " " for _, heading in columns]
     rule = ["---:" if _numbers(rows, key) else "---" for key, _ in columns]
-    lines = [[cell(row.get(key)).replace("|", "\\|") for key, _ in columns] for row in rows]
-    return "\n".join(f"| {' | '.join(line)} |" for line in [heads, rule, *lines])
+    lines = [heads, rule, *([cell(row.get(key)) for key, _ in columns] for row in rows)]
+    return "\n".join("| " + " | ".join(text.replace("|", "\\|") for text in line) + " |" for line in lines)
 
 
 def comma_separated(rows: Sequence[Mapping[str, Any]], columns: Iterable[Column]) -> str:

@@ -69,10 +69,10 @@ def installed() -> list[dict[str, Any]]:
     """One row a plugin: kind, name, distribution, version, about, error (None where it loads)."""
     from importlib.metadata import entry_points
 
-    from thermodata.effect import effects, failed_effects
+    from thermodata.effect import all_effects, failed_effects
     from thermodata.reader import failed_readers, readers
 
-    loaded: dict[str, dict[str, Any]] = {"reader": dict(readers()), "effect": dict(effects())}
+    loaded: dict[str, dict[str, Any]] = {"reader": dict(readers()), "effect": dict(all_effects())}
     failed = {"reader": dict(failed_readers()), "effect": dict(failed_effects())}
     origin = {(kind, point.name): point.dist for kind in loaded for point in entry_points(group=f"thermodata.{kind}")}
     rows = []

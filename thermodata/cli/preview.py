@@ -18,7 +18,7 @@ def previewed(file: Path, name: str | None, timezone: str | None, rows: int, cam
     reader stand over the campaign's.
     """
     from thermodata.reader.guard import described
-    from thermodata.reader.preview import preview
+    from thermodata.reader.preview import beginning_of, preview
     from thermodata.reader.registry import reader, sniff
 
     meant, source, chosen = _declared(file, campaign)
@@ -26,9 +26,9 @@ def previewed(file: Path, name: str | None, timezone: str | None, rows: int, cam
     if timezone is not None:
         source = Source(source.name, timezone, source.encoding, source.table, source.topics, source.options)
     watch = Watch()
-    chosen = chosen or sniff(file)
+    chosen, whole = beginning_of(chosen or sniff(file), file, source)
     recording = described(chosen, file, source)
-    found = preview(file, source, chosen, rows=rows, watch=watch, recording=recording)
+    found = preview(file, source, chosen, rows=rows, watch=watch, recording=recording, beginning=not whole)
     absolute = found["clock"] == "absolute"
     by_stream: dict[str, list[Signal]] = {}
     for each in recording.signals:

@@ -75,6 +75,7 @@ def _only(seen: Seen, effects: tuple[str, ...]) -> Seen:
         paths=tuple(p for p in seen.paths if p.effect in effects),
         not_shown=tuple((e, w) for e, w in seen.not_shown if e in effects),
         states=tuple(s for s in seen.states if s.state.partition(":")[0] in effects),
+        at_bounds=tuple(c for c in seen.at_bounds if c.name.partition(":")[2].rpartition(".")[0] in effects),
     )
 
 
@@ -92,6 +93,9 @@ def _payload(seen: Seen) -> dict[str, Any]:
             "ljung_box": seen.ljung_box,
         },
         "states": seen.states,
+        "at_bounds": [
+            {"name": c.name, "value": c.value, "bound": c.threshold, "why": c.advice} for c in seen.at_bounds
+        ],
     }
 
 
@@ -135,6 +139,8 @@ def _text(seen: Seen) -> str:
     for p in seen.paths:
         if len(p.system.poles):
             parts.append(_coefficients(p))
+    if seen.at_bounds:
+        parts.append("\n".join(f"! {c.name}: {number(c.value)}. {c.advice}" for c in seen.at_bounds))
     if seen.not_shown:
         parts.append("not shown\n" + "\n".join(f"  {e}: {w}" for e, w in seen.not_shown))
     parts.append(_residual(seen))

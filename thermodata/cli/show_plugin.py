@@ -11,7 +11,18 @@ from thermodata.errors import UsageError, unknown_name
 from thermodata.report.table import table
 
 # an effect's own account; null for a reader
-_OF_EFFECTS = ("family", "meaning", "equation", "telltale", "source", "refines", "roles", "parameters", "gains")
+_OF_EFFECTS = (
+    "family",
+    "meaning",
+    "equation",
+    "telltale",
+    "source",
+    "refines",
+    "asked",
+    "roles",
+    "parameters",
+    "gains",
+)
 WIDEST = 200
 
 

@@ -123,7 +123,8 @@ def _diagnosis(
 ) -> Diagnosis:
     problem = investigation.problem
     shown = _shown(investigation, judgement)
-    head = next((s for s, m in shown if not any(m is r for r in judgement.refinements)), None)
+    refining = judgement.refinements
+    head = next((s for s, m in shown if not s.candidate.within and not any(m is r for r in refining)), None)
 
     def claimed(member: Judged | None) -> bool:
         return any(member is c for c in judgement.claims)
@@ -192,6 +193,8 @@ def _candidate(
         effect=s.candidate.effect.name,
         family=s.candidate.family,
         drivers=list(s.candidate.channels),
+        gain_by=s.candidate.gain_by,
+        phases=list(s.candidate.phases),
         claimed=claimed,
         refinement=_refining(member, judgement),
         # measured for what heads the list, and for claims; nothing is known of the share of the others
@@ -232,9 +235,9 @@ def _why(
     improves = round(s.better * count)
     way = "falls" if s.error_after < s.error_before else "does not fall"
     numbers = (
-        f"where it acts ({count} of {len(s.rows)} tests){beside} the error on left-out tests {way} "
-        f"({s.error_before:.2f} -> {s.error_after:.2f} {unit}) and it makes {improves} of {count} more probable; its "
-        f"gain differs between tests by {s.spread:.0%}"
+        f"where it acts ({count} of {len(s.rows)} tests){beside} the error {way} "
+        f"({s.error_before:.2f} -> {s.error_after:.2f} {unit}), its size from the other tests, and it makes "
+        f"{improves} of {count} more probable; its gain differs between tests by {s.spread:.0%}"
     )
     chance = p_value(s.evidence, investigation.measure.chance)
     if claimed:

@@ -57,8 +57,8 @@ def _made(problem: Problem, candidate: CandidateEffect) -> Basis:
         # parts of one test share its columns
         whole = full.get(id(block.test))
         if whole is None:
-            drivers, size = candidate.drivers(block.test), len(block.test.t_s)
-            whole = full[id(block.test)] = np.concatenate([candidate.columns(drivers, size, q) for q in asked], axis=1)
+            columns_at = candidate.in_test(block.test)
+            whole = full[id(block.test)] = np.concatenate([columns_at(q) for q in asked], axis=1)
         columns = block.compress(whole)
         compressed.append(columns.reshape(len(columns), len(points), -1, len(candidate.effect.gains)))
     place = _first_alike(compressed)

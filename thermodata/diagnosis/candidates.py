@@ -2,30 +2,39 @@
 
 from __future__ import annotations
 
-from collections.abc import Container, Iterable, Mapping
+from collections.abc import Callable, Container, Iterable, Mapping
 from dataclasses import dataclass, replace
 from itertools import product
 from typing import Literal
 
 import numpy as np
 
+from thermodata.diagnosis.present import (
+    CONTROL,
+    GENERIC,
+    SECONDS,
+    TIME_UNITS,
+    Present,
+    is_plain,
+    modes,
+    stands_for,
+)
 from thermodata.effect.binding import bindings, candidate_id, family_of
 from thermodata.effect.places import holds
+from thermodata.modelling.candidate import with_effect
 from thermodata.modelling.drivers import has_drivers, make_drivers
 from thermodata.modelling.lead import columns, with_lead
-from thermodata.plugin import Drivers, Effect, Float2D, Param
+from thermodata.plugin import Effect, Float2D, Param
+from thermodata.schema.model import EffectSpec, Model
 from thermodata.view.dataset import ChannelInfo, TestData
 
-Led = tuple[Drivers, int]
+InTest = Callable[[Mapping[str, float]], Float2D]  # parameters -> columns of a test, shape (n, gains)
 # "same": another mode of an effect that the model has, another reading of its channels or of the same cause. "near": an
-# effect of a family that the model has, at its place. "related": one elsewhere
-Kin = Literal["same", "near", "related"] | None
-GENERIC = "generic"
-CONTROL = "control"  # its static compensation is a difference of any two temperatures
+# effect of a family that the model has, at its place. "related": one elsewhere. "itself": an effect of the model with
+# other gains (`gain_by`)
+Kin = Literal["same", "near", "related", "itself"] | None
 STATIC = "static"
 NOT_DRIVERS = frozenset({"displacement", "tilt", "label"})
-SECONDS = {"s": 1.0, "min": 60.0, "h": 3600.0}
-TIME_UNITS = tuple(SECONDS)
 # a distributed machine also acts with these multiples of an effect's time constant
 SLACK_FACTORS = (0.2, 5.0)
 # a plain lag of a channel that a named effect explains as well says less: a twentieth of its prior probability
@@ -36,7 +45,8 @@ UNNAMED = -3.0
 class CandidateEffect:
     """An effect and the channels it would be driven by. family: with the axis that its channels sit on.
     placeless: nobody declared where any temperature sits, so it can only be a plain lag. log_prior: how much less
-    probable than others before any data. kin: how near it is to what the model has already (`Kin`)."""
+    probable than others before any data. kin: how near it is to what the model has already (`Kin`). unforetold: why
+    left-out tests can't be asked of it; None where they can."""
 
     effect: Effect
     binding: Mapping[str, str]
@@ -44,6 +54,7 @@ class CandidateEffect:
     placeless: bool = False
     log_prior: float = 0.0
     kin: Kin = None
+    unforetold: str | None = None
 
     @property
     def channels(self) -> tuple[str, ...]:
@@ -53,13 +64,41 @@ class CandidateEffect:
     def id(self) -> str:
         return candidate_id(self.effect.name, self.binding)
 
-    def drivers(self, test: TestData) -> Led | None:
-        """What the effect sees of a test; None where the test lacks a channel."""
-        return with_lead(make_drivers(test, self.effect, self.binding)) if has_drivers(test, self.binding) else None
+    @property
+    def within(self) -> str | None:
+        """The effect of the model that it changes; None where it is an effect more."""
+        return None
 
-    def columns(self, drivers: Led | None, size: int, p: Mapping[str, float]) -> Float2D:
-        """Shape (size, gains); zero where there are no drivers."""
-        return np.zeros((size, len(self.effect.gains))) if drivers is None else columns(self.effect, drivers, p)
+    @property
+    def becomes(self) -> tuple[str, ...]:
+        """The ids of what that effect is in a model with it."""
+        return ()
+
+    @property
+    def gain_by(self) -> str | None:
+        """The condition that its gain differs by."""
+        return None
+
+    @property
+    def phases(self) -> tuple[str, ...]:
+        """The phases that it acts in by functions of their own."""
+        return ()
+
+    @property
+    def protocol(self) -> str | None:
+        """The test that tells it from others; None where its channels say that (`next_test`)."""
+        return None
+
+    def added_to(self, spec: Model) -> Model:
+        """A model with it."""
+        return with_effect(spec, EffectSpec(effect=self.effect.name, drivers=dict(self.binding)))
+
+    def in_test(self, test: TestData) -> InTest:
+        """What it does in a test; zero where the test lacks a channel."""
+        if not has_drivers(test, self.binding):
+            return lambda p: np.zeros((len(test.t_s), len(self.effect.gains)))
+        led = with_lead(make_drivers(test, self.effect, self.binding))
+        return lambda p: columns(self.effect, led, p)
 
     def slack_params(self, p: Mapping[str, float]) -> list[dict[str, float]]:
         """The parameters of the same effect acting faster and slower (see `known_effects.otherwise`)."""
@@ -74,16 +113,16 @@ class CandidateEffect:
 def candidates(
     library: Mapping[str, Effect],
     channels: Mapping[str, ChannelInfo],
-    present: Iterable[tuple[str, frozenset[str]]],
+    present: Iterable[Present],
     response: str,
-    families: Iterable[str] = (),
 ) -> list[CandidateEffect]:
-    """What could be missing. present: (effect name, its channels) of the model's terms; families: of these. Every
-    channel is asked as a plain lag too, whatever named effects it drives: a name must earn its place. Artefacts are
-    looked for within tests, not here."""
-    have, known = frozenset(present), frozenset(families) - {GENERIC}
-    lagged = {names for effect, names in have if library.get(effect) is None or library[effect].family == GENERIC}
-    read = frozenset[str]().union(*(names for _, names in have))
+    """What could be missing. present: what the model has. Every channel is asked as a plain lag too, whatever named
+    effects it drives: a name must earn its place. Artefacts are looked for within tests, not here."""
+    own = tuple(present)
+    plain = [p for p in own if is_plain(p.effect, library)]
+    # a plain function is no other effect than what it stands for
+    acting = (*own, *(other for p in plain for other in stands_for(p, library, channels)))
+    model = _Model(own, acting, frozenset(p.family for p in acting) - {GENERIC})
     # a sensor that failed goes with anything that happened when it did
     usable = {n: c for n, c in channels.items() if n != response and c.quantity not in NOT_DRIVERS and c.faulty is None}
     placed = any(c.at is not None for c in usable.values() if c.quantity == "temperature")
@@ -95,16 +134,33 @@ def candidates(
         for binding in bindings(effect, usable):
             nowhere = effect.family == GENERIC and not placed
             names, family = frozenset(binding.values()), family_of(effect, binding, channels)
-            if (effect.name, names) in have or names in lagged:
+            if any(p.effect == effect.name and p.channels == names for p in own):
                 continue
-            near = names <= read or _near(names, read, channels)
-            kin = _kin(effect, family, names, near, known, have, library, usable)
-            candidate = CandidateEffect(effect, binding, family, nowhere, kin=kin)
-            if refines(effect) and not any(e in refines(effect) and n & names for e, n in have):
+            if any(p.channels == names and p.modes >= modes(effect) for p in plain):
                 continue
-            found.append(candidate)
+            if refines(effect) and not model.has_one_of(refines(effect), names):
+                continue
+            kin = _kin(effect, family, names, model, library, usable)
+            found.append(CandidateEffect(effect, binding, family, nowhere, kin=kin))
     named = {c.channels for c in found if c.family not in (GENERIC, CONTROL)}
     return [replace(c, log_prior=UNNAMED) if _says_little(c, named) else c for c in found]
+
+
+@dataclass(frozen=True, slots=True)
+class _Model:
+    """own: its effects. acting: these, and what they stand for. families: of all of these."""
+
+    own: tuple[Present, ...]
+    acting: tuple[Present, ...]
+    families: frozenset[str]
+
+    @property
+    def read(self) -> frozenset[str]:
+        return frozenset[str]().union(*(p.channels for p in self.own))
+
+    def has_one_of(self, effects: Container[str], names: frozenset[str]) -> bool:
+        """Whether one of the effects acts in all phases, by one of the channels."""
+        return any(p.effect in effects and p.whole and p.channels & names for p in self.acting)
 
 
 def _says_little(candidate: CandidateEffect, named: Container[tuple[str, ...]]) -> bool:
@@ -116,20 +172,18 @@ def _kin(
     effect: Effect,
     family: str,
     names: frozenset[str],
-    near: bool,
-    families: frozenset[str],
-    have: frozenset[tuple[str, frozenset[str]]],
+    model: _Model,
     library: Mapping[str, Effect],
     channels: Mapping[str, ChannelInfo],
 ) -> Kin:
+    near = names <= model.read or _near(names, model.read, channels)
     if refines(effect) or (family == GENERIC and near):
         return "same"
-    if family not in families:
+    if family not in model.families:
         return None
-    read = frozenset[str]().union(*(n for _, n in have))
     # a temperature is the state of one body; a speed makes heat, and force
-    again = names <= read and all(channels[n].quantity == "temperature" for n in names)
-    if again or any(cause(library[name]) == cause(effect) for name, _ in have if name in library):
+    again = names <= model.read and all(channels[n].quantity == "temperature" for n in names)
+    if again or any(cause(library[p.effect]) == cause(effect) for p in model.acting if p.effect in library):
         return "same"
     return "near" if near else "related"
 

@@ -12,7 +12,8 @@ from thermodata.diagnosis.locked import Foretold
 from thermodata.modelling.fit import fit_model
 from thermodata.modelling.fitted import FittedModel
 from thermodata.modelling.fitted_response import FittedResponse
-from thermodata.schema.model import EffectSpec, Model
+from thermodata.modelling.resolve import term_ids
+from thermodata.schema.model import Model
 from thermodata.schema.result import Parameter
 from thermodata.view.dataset import Dataset, TestData
 
@@ -42,9 +43,10 @@ class Confirmation:
 
 
 def extended(spec: Model, candidates: Sequence[CandidateEffect]) -> Model:
-    """The model with candidates as further effects."""
-    added = [EffectSpec(effect=c.effect.name, drivers=dict(c.binding)) for c in candidates]
-    return spec.model_copy(update={"effects": [*spec.effects, *added]})
+    """The model with candidates: as further effects, or as further gains of those that it has."""
+    for one in candidates:
+        spec = one.added_to(spec)
+    return spec
 
 
 def on_all_open(spec: Model, tests: Sequence[TestData], locked: Sequence[TestData]) -> Model:
@@ -80,7 +82,7 @@ def confirm(
         rmse(ours, usable, free=True),
         rmse(theirs, usable, free=True),
         _changed(ours, theirs, usable),
-        _parameters(more, len(spec.effects), candidates),
+        _parameters(more, base, candidates),
         tuple(
             (t.key, a, b) for t in usable if (a := rmse(ours, [t])) is not None and (b := rmse(theirs, [t])) is not None
         ),
@@ -94,15 +96,14 @@ def _changed(ours: FittedResponse, theirs: FittedResponse, tests: Sequence[TestD
 
 
 def _parameters(
-    more: FittedModel, known: int, candidates: Sequence[CandidateEffect]
+    more: FittedModel, base: FittedModel, candidates: Sequence[CandidateEffect]
 ) -> dict[str, dict[str, Parameter]]:
-    """Of each candidate, by its id: the effects that were added stand last, in their order."""
-    added = [t.id for t in more.responses[0].terms[known:]]
+    """Of each candidate, by its id: of the effects that it changed, or that were added in its order."""
+    had = set(term_ids(base.spec.effects)).union(*(c.becomes for c in candidates))
+    added = iter(name for name in term_ids(more.spec.effects) if name not in had)
+    terms = {c.id: c.becomes or (next(added),) for c in candidates}
     found = more.parameters()
-    return {
-        c.id: {name: p for name, p in found.items() if term in name.split(".")}
-        for c, term in zip(candidates, added, strict=True)
-    }
+    return {c: {n: p for n, p in found.items() if set(some) & set(n.split("."))} for c, some in terms.items()}
 
 
 def rmse(fitted: FittedResponse, tests: Sequence[TestData], *, free: bool = False) -> float | None:

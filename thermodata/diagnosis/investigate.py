@@ -8,8 +8,11 @@ from dataclasses import dataclass, replace
 import numpy as np
 from threadpoolctl import threadpool_limits
 
+from thermodata.diagnosis.apart import heating_and_cooling_apart
 from thermodata.diagnosis.artefact import as_artefacts, find_steps
 from thermodata.diagnosis.candidates import CandidateEffect, candidates
+from thermodata.diagnosis.evidence import columns
+from thermodata.diagnosis.gain_by import gains_by_condition
 from thermodata.diagnosis.judge import Judged, Judgement, Measure, failed_rules, judge
 from thermodata.diagnosis.known import rms
 from thermodata.diagnosis.known_effects import otherwise, remembered
@@ -22,11 +25,11 @@ from thermodata.diagnosis.logging_faults import (
     wrong_parameters,
 )
 from thermodata.diagnosis.null import best_of_chance
+from thermodata.diagnosis.present import present
 from thermodata.diagnosis.problem import TARGET_ROWS, Base, Problem, build_problem
 from thermodata.diagnosis.refinement import Refinement
-from thermodata.diagnosis.selection import Selection, first_ranking, select
+from thermodata.diagnosis.selection import Selection, first_ranking, rank_in, select
 from thermodata.diagnosis.weak import weak_spots
-from thermodata.modelling.drivers import names_of
 from thermodata.modelling.fitted_response import FittedResponse
 from thermodata.plugin import Effect
 from thermodata.schema.result import Artefact, WeakSpot
@@ -88,13 +91,16 @@ def investigate(
         at.setdefault(step.test.key, []).append(step.at_s)
     faults = _faults(fitted, data, fine, base)
     problem = compressed(WEIGHED_ROWS).split(at)
-    present = [
-        (t.effect.name, frozenset(n for text in t.binding.values() for n in names_of(text))) for t in fitted.terms
-    ]
-    asked = candidates(library, data.channels, present, fitted.name, [t.family for t in fitted.terms])
+    asked = candidates(library, data.channels, present(fitted), fitted.name)
+    weighed = {b.test.key for b in problem.blocks}
+    among = [t for t in tests if t.key in weighed]
+    by_condition = gains_by_condition(fitted, among, data.tests)
+    asked += [c for c in by_condition if c.unforetold is None]
+    asked += heating_and_cooling_apart(fitted, among, data.tests)
     # thousands of small products: threads of the linear algebra library would wait for each other
     with threadpool_limits(1):
         selection, judgement, measure = _judged(fitted, problem, asked, seed)
+        selection = _with_unforetold(problem, selection, [c for c in by_condition if c.unforetold])
     asked_about = fitted if as_fitted is None else as_fitted
     spots = weak_spots([(t, asked_about.residual(t), asked_about.mask(t)) for t in tests], problem.noise)
     faults = gains_are_wrong_only_where_nothing_is_missing(faults, judgement)
@@ -139,6 +145,17 @@ def _judged(
     return selection, judge(problem, selection, measure, refines), measure
 
 
+def _with_unforetold(
+    problem: Problem, selection: Selection | None, asked: Sequence[CandidateEffect]
+) -> Selection | None:
+    """What no test foretells takes no part in the choice, and is told beside what did."""
+    if selection is None or not asked:
+        return selection
+    pool = [c for c in (columns(problem, one) for one in asked) if c is not None]
+    more = rank_in(problem, pool, selection.first.known.space.noise)
+    return replace(selection, first=replace(selection.first, ranked=(*selection.first.ranked, *more.ranked)))
+
+
 def _error_of(fitted: FittedResponse, tests: Sequence[TestData]) -> float:
     """RMS residual over what counts, a free offset for each test."""
     parts = [fitted.residual(t)[fitted.mask(t)] for t in tests]
@@ -161,7 +178,7 @@ def _faults(fitted: FittedResponse, data: Dataset, problem: Problem, base: Base)
     """Clocks and probes, where there is a model to hold them against."""
     if not problem.blocks or not problem.blocks[0].base.shape[1]:
         return []
-    drivers = {n for t in fitted.terms for text in t.binding.values() for n in names_of(text)}
+    drivers = {n for one in present(fitted) for n in one.channels}
     sources = clocks_beside(data.channels, drivers, fitted.name)
     moved = clock_offsets(problem, base, sources)
     return [*moved, *turned_probes(problem)]

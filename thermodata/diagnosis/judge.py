@@ -8,8 +8,8 @@ from typing import Literal
 
 import numpy as np
 
-from thermodata.diagnosis.candidates import CONTROL, GENERIC
 from thermodata.diagnosis.null import p_value
+from thermodata.diagnosis.present import CONTROL, GENERIC
 from thermodata.diagnosis.problem import Problem
 from thermodata.diagnosis.scored import Scored
 from thermodata.diagnosis.selection import Selection
@@ -20,7 +20,7 @@ Verdict = Literal["effect", "refine", "none", "unknown", "not_testable"]
 P_LIMIT = 0.01
 # that a sound candidate is the cause: a logistic curve over the logarithm of its evidence a sample, and the spread of
 # its gain between tests (docs/method.md#probability)
-PROBABILITY = (3.27, 2.22, -1.69)
+PROBABILITY = (3.13, 2.43, -0.97)
 USUAL_SPREAD = 0.15
 CLAIMED = 0.7  # a claim is this probable at least;
 # where nobody declared any place it names a channel, not physics, and there is nothing that it could be taken for
@@ -28,7 +28,7 @@ PLACELESS_CLAIMED = 0.5
 # so much evidence a sample outweighs what left-out tests say: how far their error falls, for the known effects take
 # part of what is missing; and even how many they are, and that the gain differs between them
 STRONG = 0.4
-OVERWHELMING = 0.6
+OVERWHELMING = 0.5
 DROP_LIMIT = 0.15  # fall of the error on left-out tests in which it acts,
 UNNAMED_DROP_LIMIT = 0.3  # and of what names no physics: any slow temperature steadies a misfit a little
 LEAST_TESTS = 2  # in which it acts: no other foretells what acts in one only
@@ -169,13 +169,13 @@ def rules(scored: Scored, measure: Measure, unit: str) -> list[Rule]:
         ),
         Rule(
             "fall",
-            f"fall of the error on left-out tests in which it acts{unasked.format(STRONG)}",
+            f"fall of the error where it acts, its size from the other tests{unasked.format(STRONG)}",
             scored.drop,
             fall,
             "least",
             strong or scored.drop >= fall,
-            f"in the {count} left-out tests in which it acts the error falls by {max(scored.drop, 0):.0%} only (limit "
-            f"{fall:.0%})",
+            f"in the {count} tests in which it acts the error falls by {max(scored.drop, 0):.0%} only, its size from "
+            f"the others (limit {fall:.0%})",
         ),
         Rule(
             "tests",
@@ -238,7 +238,8 @@ def surely(scored: Scored) -> Rule:
 
 def failed_rules(scored: Scored, measure: Measure, unit: str) -> list[str]:
     """The rules that a candidate fails, as sentences; none where it is sound."""
-    return [rule.fails for rule in rules(scored, measure, unit) if not rule.holds]
+    failed = [rule.fails for rule in rules(scored, measure, unit) if not rule.holds]
+    return [why for why in [scored.candidate.unforetold] if why] + failed
 
 
 def blunt(scored: Scored) -> str | None:
@@ -269,11 +270,11 @@ def probability(scored: Scored) -> float:
 
 def sharpness(scored: Scored) -> float:
     """Log evidence a sample."""
-    return scored.evidence / max(float(scored.rows.sum()), 1.0)
+    return (scored.evidence if scored.credit is None else scored.credit) / max(float(scored.rows.sum()), 1.0)
 
 
 def explained(scored: Scored) -> float:
-    """RMS of what it takes away on left-out tests in which it acts."""
+    """RMS of what it takes away in tests in which it acts, its size from the others."""
     return float(np.sqrt(max(0.0, scored.error_before**2 - scored.error_after**2)))
 
 
@@ -299,4 +300,4 @@ def _alike(a: Scored, b: Scored) -> bool:
 
 
 def _error(scored: Scored) -> float:
-    return float(np.sqrt(np.mean(scored.sse_after / scored.rows)))
+    return float(np.sqrt(np.mean(scored.own_after / scored.rows)))

@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import astuple, dataclass
-from typing import Any
+from dataclasses import astuple, dataclass, replace
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
 
 from thermodata.diagnosis.discrepancy import LEAST_WHITE, Noise, Whitened, ascend, bounds_of, halved, left_over
 from thermodata.diagnosis.problem import Problem
-from thermodata.diagnosis.side_by_side import SideBySide, log_evidence
+from thermodata.diagnosis.side_by_side import Products, SideBySide, log_evidence
 from thermodata.plugin import Float1D, Float2D, Int1D
 
 FloatND = NDArray[np.float64]
@@ -69,27 +69,48 @@ def known(problem: Problem, noise: Noise) -> Known:
 
 def likeliest(problem: Problem, start: Noise | None = None) -> Noise:
     """The noise of the largest evidence, by a search along each of its numbers in turn; of some `SEARCHED` rows."""
+    every = np.arange(problem.blocks[0].base.shape[1] + problem.blocks[0].slack.shape[1])
+    return likeliest_of(problem, [every], start)[0]
+
+
+def likeliest_of(problem: Problem, parts: Sequence[Int1D], start: Noise | None = None) -> list[Noise]:
+    """The same beside each of some parts of what is known: indices of its columns, of base and slack together. The
+    searches pass through the same noises, and each is whitened once."""
     every = max(1, round(problem.rows / SEARCHED))
     thin = problem.thinned(every) if every > 1 else problem
     first, bounds = bounds_of(problem)
     tests = SideBySide(thin)
-    last: tuple[Float1D, Any] | None = None
+    made: dict[bytes, Products] = {}
 
-    def evidence(x: Float1D) -> float:
-        nonlocal last
-        noise = Noise(*(float(v) for v in np.exp(x)))
+    def products(x: Float1D) -> Products:
         # the price of other time constants changes no covariance
-        if last is None or not np.array_equal(last[0], x[:3]):
-            made: Any = tests.products(noise) if tests.fits else _whitened(thin, noise)
-            last = x[:3], made
-        if not tests.fits:
-            return _with_prior(thin, noise, *last[1]).log_evidence
-        gram, cross, energy, logdet = last[1]
-        return log_evidence(gram, cross, energy, logdet, tests.rows, _precision(thin, noise.share))
+        key = np.round(x[:3], 9).tobytes()
+        if key not in made:
+            noise = _of(x)
+            made[key] = tests.products(noise) if tests.fits else _summed(thin, noise)
+        return made[key]
 
-    found = ascend(evidence, np.log(astuple(first if start is None else start)), bounds)
-    white, slow, tau_s, share = (float(v) for v in np.exp(found))
-    return Noise(max(white, LEAST_WHITE * left_over(problem)), slow, tau_s, share)
+    def evidence(x: Float1D, part: Int1D) -> float:
+        gram, cross, energy, logdet, rows = products(x)
+        precision = _precision(thin, _of(x).share)[part]
+        return log_evidence(gram[np.ix_(part, part)], cross[part], energy, logdet, rows, precision)
+
+    begin = np.log(astuple(first if start is None else start))
+    found = [_of(ascend(partial(evidence, part=part), begin, bounds)) for part in parts]
+    least = LEAST_WHITE * left_over(problem)
+    return [replace(noise, white=max(noise.white, least)) for noise in found]
+
+
+def _of(x: Float1D) -> Noise:
+    return Noise(*(float(v) for v in np.exp(x)))
+
+
+def _summed(problem: Problem, noise: Noise) -> Products:
+    """As `SideBySide.products`, test by test."""
+    space, white, response = _whitened(problem, noise)
+    gram: Float2D = np.sum([w.T @ w for w in white], axis=0)
+    cross: Float1D = np.sum([w.T @ y for w, y in zip(white, response, strict=True)], axis=0)
+    return gram, cross, float(sum(y @ y for y in response)), space.logdet, space.rows
 
 
 def _whitened(problem: Problem, noise: Noise) -> tuple[Whitened, tuple[Float2D, ...], tuple[Float1D, ...]]:

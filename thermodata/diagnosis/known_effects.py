@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from thermodata.diagnosis.candidates import TIME_UNITS
+from thermodata.diagnosis.present import TIME_UNITS
 from thermodata.diagnosis.problem import Base
 from thermodata.modelling.drivers import has_drivers, make_drivers, names_of
 from thermodata.modelling.fitted_response import FittedResponse, FittedTerm
@@ -38,8 +38,7 @@ def remembered(fitted: FittedResponse) -> Base:
     def base(test: TestData) -> Float2D:
         columns: list[Float2D] = []
         for i, term in enumerate(fitted.terms):
-            binding = term.bound.bindings.get(test.campaign, term.binding)
-            read = [test.values[n] for text in binding.values() for n in names_of(text) if n in test.values]
+            read = [test.values[n] for n in term.bound.reads(test) if n in test.values]
             before, made = kept.get((i, test.key), (None, []))
             if before is None or not all(a is b for a, b in zip(before, read, strict=True)):
                 made = _term_columns(term, test)
@@ -104,7 +103,8 @@ def from_other_zero(fitted: FittedResponse, term: int, channel: str, test: TestD
         return None
     gains = np.array([values.gains[g.name] for g in known.effect.gains])
     drivers = make_drivers(test, known.effect, {warm[0]: channel})
-    return np.asarray(led_columns(known.effect, with_lead(drivers), values.params) @ gains)
+    columns = led_columns(known.effect, with_lead(drivers), values.params)
+    return np.asarray(known.bound.while_acting(test, columns) @ gains)
 
 
 def _bank(term: FittedTerm, test: TestData) -> Iterator[Float1D]:

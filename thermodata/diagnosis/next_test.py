@@ -37,6 +37,8 @@ def to_separate(chosen: Scored, twins: Sequence[Scored], channels: Mapping[str, 
     if not others:
         return None
     other = others[0]
+    if other.protocol is not None:
+        return f"to tell {mine.id} from {other.id}: {other.protocol}"
     if _places(mine, channels) and _places(mine, channels) == _places(other, channels):
         return (
             f"{mine.id} and {other.id} have their sensors at the same place: not separable by another test; add a "
@@ -59,7 +61,9 @@ def to_find(tests: int, spots: Sequence[WeakSpot], first: Scored | None = None) 
         )
     worst = spots[0].state if spots else "no state in particular"
     logged = ""
-    if first is not None and first.drop >= WORTH_A_TEST:
+    if first is not None and first.candidate.protocol is not None and first.drop >= WORTH_A_TEST:
+        logged = f"do {first.candidate.protocol}; if nothing differs, "
+    elif first is not None and first.drop >= WORTH_A_TEST:
         channels = ", ".join(first.candidate.channels)
         logged = (
             f"{channels} is logged and ranks first, so run a test that moves it alone, or open the locked tests for "

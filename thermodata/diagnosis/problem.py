@@ -88,6 +88,7 @@ class Problem:
                 replace(
                     block,
                     segment=segment,
+                    response=center(block.response[:, None], segment)[:, 0],
                     residual=center(block.residual[:, None], segment)[:, 0],
                     base=center(block.base, segment),
                     slack=center(block.slack, segment),

@@ -10,11 +10,13 @@ from dataclasses import replace
 
 import numpy as np
 
-from thermodata.diagnosis.candidates import GENERIC, refines
+from thermodata.diagnosis.candidates import refines
+from thermodata.diagnosis.changed import ChangedEffect
 from thermodata.diagnosis.discrepancy import Noise
-from thermodata.diagnosis.judge import acting_size
+from thermodata.diagnosis.judge import acting_size, blunt
 from thermodata.diagnosis.known import known, rms
 from thermodata.diagnosis.known_effects import from_other_zero, is_warm, owners
+from thermodata.diagnosis.present import GENERIC
 from thermodata.diagnosis.problem import Block, Problem
 from thermodata.diagnosis.scored import Scored
 from thermodata.diagnosis.selection import beside
@@ -48,12 +50,15 @@ class Refinement:
         """What it refines of the model, in words."""
         if not self.fitted.terms:
             return None
+        if isinstance(scored.candidate, ChangedEffect):
+            return scored.candidate.in_words(scored, self.fitted, self.problem, self.noise)
         kin, most = scored.candidate.kin, scored.drop >= MOST
         if refines(scored.candidate.effect) or kin == "same":
             return MODE
         good = scored.error_before <= GOOD * rms(self.problem.response_blocks)
         largest = max(self._size(i) for i in range(len(self.fitted.terms)))
-        if good and kin is not None and not most and acting_size(scored) < SMALL * largest:
+        # what is surely a cause is one, however small beside its kin
+        if good and kin is not None and not most and blunt(scored) and acting_size(scored) < SMALL * largest:
             return MODE
         # what reads the same heat elsewhere stands for the known effect, however much else is missing
         may_replace = kin == "near" or (good and not most and (kin is not None or scored.candidate.family == GENERIC))

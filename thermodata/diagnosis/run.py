@@ -10,13 +10,16 @@ import json
 from typing import TYPE_CHECKING
 
 from thermodata.diagnosis.answer import answer, worst_response
+from thermodata.diagnosis.apart import named_apart
 from thermodata.diagnosis.candidates import CandidateEffect
 from thermodata.diagnosis.confirm import confirm
+from thermodata.diagnosis.gain_by import named
 from thermodata.effect import effect as find_effect
 from thermodata.effect import effects
-from thermodata.effect.binding import candidate_id
 from thermodata.errors import UsageError
-from thermodata.modelling.run import Loaded, chosen_effect, load
+from thermodata.modelling.candidate import candidate_spec, changed, gain_by_of, phases_of
+from thermodata.modelling.fitted_response import FittedResponse
+from thermodata.modelling.run import Loaded, chosen_id, load
 from thermodata.schema.result import Confirmed, Diagnosis, TestConfirmed
 from thermodata.store.base.counting import watched
 from thermodata.version import __version__
@@ -26,7 +29,7 @@ if TYPE_CHECKING:
     from thermodata.store.base.counting import Tell
 
 # raise it where a rule of the diagnosis changes: answers of older rules are then given anew
-RULES_VERSION = 8
+RULES_VERSION = 10
 
 
 def _key(model: Loaded) -> str:
@@ -75,16 +78,14 @@ def confirm_choice(store: Store, ref: str, candidate: str | int) -> tuple[Confir
     from thermodata.store.catalogue.models import count_locked_look, keep_answer, kept_answer, locked_looks
 
     model = load(store, ref)
-    spec = chosen_effect(store, model.identity, model.fitted.spec, candidate)
-    drivers = {role: str(channel) for role, channel in spec.drivers.items()}
-    chosen = CandidateEffect(find_effect(spec.effect), drivers, family="")
-    name, key = candidate_id(spec.effect, drivers), _key(model)
-    kept = kept_answer(store, model.identity, f"confirm {name}", key)
-    if kept is not None:
-        return Confirmed.model_validate_json(kept), True
     tests = model.fitted.tests(model.data)
     index = worst_response(model.fitted, tests)
     response = model.fitted.responses[index]
+    chosen = _chosen(model, response, chosen_id(store, model.identity, candidate))
+    name, key = chosen.id, _key(model)
+    kept = kept_answer(store, model.identity, f"confirm {name}", key)
+    if kept is not None:
+        return Confirmed.model_validate_json(kept), True
     usable = [t for t in tests if response.can_predict(t)]
     locked = [t for t in model.fitted.tests(model.data, "locked") if response.can_predict(t)]
     if not locked:
@@ -110,3 +111,13 @@ def confirm_choice(store: Store, ref: str, candidate: str | int) -> tuple[Confir
     )
     keep_answer(store, model.identity, f"confirm {name}", key, result.model_dump_json())
     return result, False
+
+
+def _chosen(model: Loaded, response: FittedResponse, name: str) -> CandidateEffect:
+    changed(model.fitted.spec, name)  # refuses what `add` would refuse
+    if (by := gain_by_of(name)) is not None:
+        return named(response, *by, model.data.tests)
+    if (apart := phases_of(name)) is not None:
+        return named_apart(response, *apart)
+    spec = candidate_spec(name, model.data.channels)
+    return CandidateEffect(find_effect(spec.effect), {r: str(c) for r, c in spec.drivers.items()}, family="")

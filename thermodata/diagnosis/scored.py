@@ -20,8 +20,10 @@ ACTS = 0.2  # of its largest test: less, and a contribution rests there
 class Scored:
     """One candidate beside some known effects. evidence: log Bayes factor against these alone. gained: shape (tests,),
     log probability of each test, given the others, that the candidate adds. rows: of each test. sse_before, sse_after:
-    squared error of each test, left out. size: RMS of the contribution in each test. spread: of its gain between tests.
-    shape: whitened contribution without what the known effects can do, unit length."""
+    squared error of each test, left out whole. own_before, own_after: the same with only the candidate left out: its
+    size and times from the other tests, what is known fitted beside it to all. size: RMS of the contribution in each
+    test. spread: of its gain between tests. shape: whitened contribution without what the known effects can do, unit
+    length. credit: of a member, its log evidence beside the likelier members alone; None for all else."""
 
     candidate: CandidateEffect
     columns: Columns
@@ -31,9 +33,12 @@ class Scored:
     rows: Float1D
     sse_before: Float1D
     sse_after: Float1D
+    own_before: Float1D
+    own_after: Float1D
     size: Float1D
     spread: float
     shape: Float1D
+    credit: float | None = None
 
     @property
     def acts(self) -> Bool1D:
@@ -42,12 +47,13 @@ class Scored:
 
     @property
     def error_before(self) -> float:
-        """RMS on left-out tests in which it acts, each test alike."""
-        return self._error(self.sse_before)
+        """RMS of the tests in which it acts, each alike, its size from the others. A rule of a claim goes by this:
+        what a model foretells badly without a test, for no other excites it, says nothing of a candidate."""
+        return self._error(self.own_before)
 
     @property
     def error_after(self) -> float:
-        return self._error(self.sse_after)
+        return self._error(self.own_after)
 
     @property
     def drop(self) -> float:

@@ -11,13 +11,15 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from thermodata.diagnosis.candidates import CONTROL, GENERIC, CandidateEffect
+from thermodata.diagnosis.candidates import CandidateEffect
 from thermodata.diagnosis.discrepancy import Noise
 from thermodata.diagnosis.evidence import Columns, Moments, Weighed, columns, moments, weigh
 from thermodata.diagnosis.invariance import spread_of_gain
-from thermodata.diagnosis.known import Known, known, likeliest, solved
-from thermodata.diagnosis.problem import Problem
+from thermodata.diagnosis.known import FloatND, Known, known, likeliest, likeliest_of, solved
+from thermodata.diagnosis.present import CONTROL, GENERIC
+from thermodata.diagnosis.problem import Block, Problem
 from thermodata.diagnosis.scored import Scored
+from thermodata.plugin import Float1D, Float2D, Int1D
 from thermodata.store.base.counting import counted
 
 MOST = 5  # effects that one diagnosis adds
@@ -29,6 +31,9 @@ NAMED_SHARE = 0.95
 ALIKE_SHARE = 0.8  # the same for a name on another channel that acts alike (cosine)
 ALIKE = 0.8
 FEWER_SHARE = 0.8
+STANDS = 0.15  # of the first one's evidence: less, and no noise brings a candidate to the front
+TRIED = 5  # candidates beside which the noise is estimated
+CAUSE_SHARE = 0.8  # and a cause, beside an effect of the model that acts otherwise: tests differ in much else
 UNNAMED = (GENERIC, CONTROL)
 
 
@@ -94,6 +99,8 @@ def select(problem: Problem, first: Ranked, sound: Callable[[Scored], bool]) -> 
             current = _each_beside_others(problem, chosen, noise)
         if len(dropped) == before:
             break
+    credits = _credits(problem, current, noise)
+    current = [replace(s, credit=c) for s, c in zip(current, credits, strict=True)]
     members = tuple(_member(problem, pool, chosen, i, current[i], noise, sound) for i in range(len(chosen)))
     return Selection(first, members, tuple(dropped), noise, first.known.left_out)
 
@@ -103,15 +110,75 @@ def _forward(
 ) -> None:
     """Adds to the chosen while the evidence is worth it. last: the ranking beside them."""
     while len(chosen) < MOST:
-        best = preferred(last.ranked)
-        if best is None or best.evidence < WORTH:
+        # what the first pass dropped is small beside what it kept: the noise hides no more causes
+        found = in_noise_of_best(last, TRIED if not dropped else 1)
+        best = None if found is None else preferred(found.ranked)
+        if found is None or best is None or found.worth < WORTH:
             return
+        base = found.known
         if not len(best.rows):
-            base = last.known
             best = _scored(base.problem, base, best.columns, moments(base, best.columns), best.weighed)
         chosen.append(best)
-        noise = last.known.space.noise
-        last = rank(beside(problem, chosen), without(pool, [*chosen, *dropped]), noise, left_out=False)
+        full, rest = beside(problem, chosen), without(pool, [*chosen, *dropped])
+        noise = base.space.noise
+        if best.columns is not found.best:
+            noise = likeliest(full, noise)
+        last = rank_in(full, rest, noise, left_out=False)
+
+
+@dataclass(frozen=True, slots=True)
+class Found:
+    """All candidates, ranked in the noise that is left beside the best of them. worth: what this one adds to the log
+    evidence."""
+
+    known: Known
+    ranked: tuple[Scored, ...]
+    best: Columns
+    worth: float
+
+
+def in_noise_of_best(last: Ranked, tried: int) -> Found | None:
+    """What is missing makes the noise large, and in a large noise the right candidate hardly stands out: so beside each
+    of the first ones the noise is estimated anew."""
+    base = last.known
+    some = _different(last.ranked)[:tried]
+    some = [s for s in some if s.evidence >= STANDS * some[0].evidence]
+    found: tuple[float, Noise, Scored] | None = None
+    for one, noise in zip(some, _likeliest_beside(base.problem, some, base.space.noise), strict=True):
+        worth = known(beside(base.problem, [one]), noise).log_evidence - base.log_evidence
+        if found is None or worth > found[0]:
+            found = worth, noise, one
+    if found is None:
+        return None
+    worth, noise, one = found
+    again = rank_in(base.problem, [s.columns for s in last.ranked], noise, left_out=False)
+    return Found(again.known, again.ranked, one.columns, worth)
+
+
+def _likeliest_beside(problem: Problem, some: Sequence[Scored], start: Noise) -> list[Noise]:
+    """The noise beside each of them alone."""
+    shapes = [problem.blocks[0]]
+    for one in some:
+        problem = beside(problem, [one])
+        shapes.append(problem.blocks[0])
+    base, slack = (np.array([getattr(b, name).shape[1] for b in shapes]) for name in ("base", "slack"))
+
+    def columns(number: int) -> Int1D:
+        """Those of the problem, and of this candidate."""
+        own = [
+            start + np.r_[: ends[0], ends[number] : ends[number + 1]] for start, ends in ((0, base), (base[-1], slack))
+        ]
+        return np.concatenate(own)
+
+    return likeliest_of(problem, [columns(i) for i in range(len(some))], start) if some else []
+
+
+def _different(ranked: Sequence[Scored]) -> list[Scored]:
+    """The first on each set of channels."""
+    found: dict[tuple[str, ...], Scored] = {}
+    for one in ranked:
+        found.setdefault(one.candidate.channels, one)
+    return list(found.values())
 
 
 def beside(problem: Problem, chosen: Sequence[Scored]) -> Problem:
@@ -130,6 +197,17 @@ def _each_beside_others(problem: Problem, chosen: Sequence[Scored], noise: Noise
     return found
 
 
+def _credits(problem: Problem, members: Sequence[Scored], noise: Noise) -> list[float]:
+    """The log evidence of each beside the likelier ones alone: what two of them explain alike is the likelier one's.
+    Least likely first, each goes once it is weighed."""
+    left, found = list(members), {id(one): one.evidence for one in members}
+    while len(left) > 1:
+        left.remove(min(left, key=lambda s: found[id(s)]))
+        for one, again in zip(left, _each_beside_others(problem, left, noise), strict=True):
+            found[id(one)] = again.evidence
+    return [found[id(one)] for one in members]
+
+
 def _member(
     problem: Problem,
     pool: Sequence[Columns],
@@ -144,7 +222,9 @@ def _member(
     ranking = rank_in(beside(problem, others), without(pool, others), noise)
     best = preferred(ranking.ranked)
     if best is not None and _clearly(best, own) and best.drop > own.drop and sound(best):
-        return Member(chosen[number], best, ranking.ranked)
+        # what it replaces leaves it the credit for what likelier and less likely members explain alike
+        gained = best.evidence - own.evidence
+        return Member(chosen[number], replace(best, credit=(own.credit or own.evidence) + gained), ranking.ranked)
     return Member(chosen[number], own, ranking.ranked)
 
 
@@ -185,7 +265,7 @@ def preferred(ranked: Sequence[Scored]) -> Scored | None:
         return None
     best = ranked[0]
     own = set(best.candidate.channels)
-    for other in (s for s in ranked[1:] if len(s.shape)):
+    for other in (s for s in ranked[1:] if len(s.shape) and not s.candidate.within):
         theirs = set(other.candidate.channels)
         fewer = theirs < own and best.candidate.family in UNNAMED
         named = best.candidate.family in UNNAMED and other.candidate.family not in UNNAMED and own & theirs
@@ -197,6 +277,7 @@ def preferred(ranked: Sequence[Scored]) -> Scored | None:
         )
         if (
             (fewer and other.evidence >= FEWER_SHARE * best.evidence)
+            or (best.candidate.within and other.evidence >= CAUSE_SHARE * best.evidence)
             or (named and other.evidence >= NAMED_SHARE * best.evidence)
             or (elsewhere and other.evidence >= ALIKE_SHARE * best.evidence)
         ):
@@ -221,21 +302,15 @@ def extended(problem: Problem, made: Columns, weighed: Weighed) -> Problem:
 
 def _scored(problem: Problem, base: Known, one: Columns, products: Moments, w: Weighed) -> Scored:
     tests = base.every
-    before, after, gained = np.zeros(len(tests)), np.zeros(len(tests)), np.zeros(len(tests))
-    theta, factor = base.mean(tests), base.factor(tests)
-    toward = products.known.sum(axis=0)
+    before, after, own_before, own_after, gained = np.zeros((5, len(tests)))
+    of_all = base.mean(tests), base.factor(tests), products.known.sum(axis=0)
     for i, block in enumerate(problem.blocks):
-        seen = weigh(base, one, products, np.delete(tests, i))
+        others = np.delete(tests, i)
+        seen = weigh(base, one, products, others)
         gained[i] = w.total - seen.total
-        # its size and times from the other tests; what is known is fitted beside it, to all: what a model foretells
-        # badly without a test, for no other excites it, says nothing of a candidate
-        point, _ = seen.best
-        held = np.hstack([block.base, block.slack])
-        left = block.response - held @ theta
-        before[i] = left @ left
-        pulled = solved(factor, (toward[point].T @ seen.coefficients)[:, None])[:, 0]
-        left = left + held @ pulled - one.blocks[i][:, point] @ seen.coefficients
-        after[i] = left @ left
+        of_others = base.mean(others), base.factor(others), products.known[others].sum(axis=0)
+        before[i], after[i] = _errors(block, one.blocks[i], seen, *of_others)
+        own_before[i], own_after[i] = _errors(block, one.blocks[i], seen, *of_all)
     contribution = [b[:, w.best[0]] @ w.coefficients for b in one.blocks]
     rows = np.array([len(c) for c in contribution])
     size = np.sqrt([np.mean(c**2) for c in contribution])
@@ -248,10 +323,25 @@ def _scored(problem: Problem, base: Known, one: Columns, products: Moments, w: W
         rows=rows,
         sse_before=before,
         sse_after=after,
+        own_before=own_before,
+        own_after=own_after,
         size=size,
         spread=spread_of_gain(base, contribution),
         shape=_shape(base, contribution),
     )
+
+
+def _errors(
+    block: Block, columns: FloatND, seen: Weighed, theta: Float1D, factor: Float2D, toward: FloatND
+) -> tuple[float, float]:
+    """Squared error of a test without and with the candidate of the others. theta, factor, toward: of the tests that
+    the known effects are fitted to: their coefficients and posterior, and their products with the candidate."""
+    point, _ = seen.best
+    held = np.hstack([block.base, block.slack])
+    without = block.response - held @ theta
+    pulled = solved(factor, (toward[point].T @ seen.coefficients)[:, None])[:, 0]
+    among = without + held @ pulled - columns[:, point] @ seen.coefficients
+    return float(without @ without), float(among @ among)
 
 
 def _seen(base: Known, one: Columns, w: Weighed) -> Scored:
@@ -260,8 +350,9 @@ def _seen(base: Known, one: Columns, w: Weighed) -> Scored:
 
 
 def _unscored(one: Columns, w: Weighed) -> Scored:
-    none = np.zeros(0)
-    return Scored(one.candidate, one, w, w.total - one.candidate.log_prior, none, none, none, none, none, 1.0, none)
+    no = np.zeros(0)
+    evidence = w.total - one.candidate.log_prior
+    return Scored(one.candidate, one, w, evidence, no, no, no, no, no, no, no, spread=1.0, shape=no)
 
 
 def _shape(base: Known, contribution: Sequence[np.ndarray]) -> np.ndarray:

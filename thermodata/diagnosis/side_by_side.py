@@ -13,6 +13,9 @@ from thermodata.diagnosis.discrepancy import Noise, halved
 from thermodata.diagnosis.problem import Problem
 from thermodata.plugin import Float1D, Float2D
 
+# Gram matrix of the known effects, their products with the response, its energy, log determinant of the covariance, and
+# the rows that are left once the offsets are known
+Products = tuple[Float2D, Float1D, float, float, int]
 SHORT = 60  # rows
 FAR_S = 1e18  # of a row that is filled up, from all others: nothing is shared with it
 
@@ -36,9 +39,8 @@ class SideBySide:
             self._columns[i, :m] = np.column_stack([b.base, b.slack, b.response, np.ones(m)])
             self._real[i, :m] = True
 
-    def products(self, noise: Noise) -> tuple[Float2D, Float1D, float, float]:
-        """Over all tests: (Gram matrix of the known effects, their products with the response, its energy, log
-        determinant of the covariance), offsets integrated out."""
+    def products(self, noise: Noise) -> Products:
+        """Over all tests, offsets integrated out."""
         covariance = noise.slow**2 * np.exp(-self._distances / noise.tau_s)
         rows = np.arange(covariance.shape[1])
         covariance[:, rows, rows] = np.where(self._real, noise.slow**2 + noise.white**2, 1.0)
@@ -49,7 +51,7 @@ class SideBySide:
         both = every[:, :-1, :-1] - every[:, :-1, -1:] * every[:, None, :-1, -1] / offset[:, None, None]
         total = both.sum(axis=0)
         logdet = 2 * float(np.log(factor[:, rows, rows]).sum()) + float(np.log(offset).sum())
-        return total[:-1, :-1], total[:-1, -1], float(total[-1, -1]), logdet
+        return total[:-1, :-1], total[:-1, -1], float(total[-1, -1]), logdet, self.rows
 
 
 def log_evidence(gram: Float2D, cross: Float1D, energy: float, logdet: float, rows: int, precision: Float1D) -> float:

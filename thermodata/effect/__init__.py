@@ -5,6 +5,6 @@ An effect is a plugin (entry points of group `thermodata.effect`); see `thermoda
 
 from __future__ import annotations
 
-from thermodata.effect.registry import effect, effects, failed_effects
+from thermodata.effect.registry import all_effects, effect, effects, failed_effects
 
-__all__ = ["effect", "effects", "failed_effects"]
+__all__ = ["all_effects", "effect", "effects", "failed_effects"]

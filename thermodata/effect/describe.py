@@ -49,8 +49,8 @@ class Solved:
 
 @dataclass(frozen=True, slots=True)
 class Description:
-    """An effect's own account of itself. equation, telltale: None where the effect states none. text: its class's
-    docstring."""
+    """An effect's own account of itself. equation, telltale: None where the effect states none. asked: whether
+    diagnosis asks for it by itself. text: its class's docstring."""
 
     name: str
     family: str
@@ -59,6 +59,7 @@ class Description:
     telltale: str | None
     source: str
     refines: tuple[str, ...]
+    asked: bool
     roles: tuple[Role, ...]
     parameters: tuple[Searched, ...]
     gains: tuple[Solved, ...]
@@ -75,6 +76,7 @@ def describe(effect: Effect) -> Description:
         telltale=_text(effect, "telltale"),
         source=effect.source,
         refines=tuple(getattr(effect, "refines", ())),
+        asked=bool(getattr(effect, "asked", True)),
         roles=tuple(
             Role(n.role, n.quantity, CANONICAL_UNIT.get(n.quantity), tuple(n.places), n.optional) for n in effect.needs
         ),

@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterable
 
 from thermodata.effect.describe import NOT_STATED, Description, describe
-from thermodata.effect.registry import INSTALL, effects
+from thermodata.effect.registry import INSTALL, all_effects
 from thermodata.errors import UsageError
 from thermodata.schema.markdown import code, table
 
@@ -31,7 +31,7 @@ coefficients) and `prediction` (another program's model); see [method.md](method
 
 def text() -> str:
     """The whole document. UsageError where the library is not installed."""
-    ours = [describe(e) for e in effects().values() if type(e).__module__.split(".")[0] == LIBRARY]
+    ours = [describe(e) for e in all_effects().values() if type(e).__module__.split(".")[0] == LIBRARY]
     if not ours:
         raise UsageError("the library of effects is not installed", expected=LIBRARY, hint=INSTALL)
     ours.sort(key=lambda d: (d.family, d.name))
@@ -88,6 +88,8 @@ def _section(d: Description) -> str:
     facts = [("Family", code(d.family)), ("Tell-tale", d.telltale or NOT_STATED), ("Source", linked(d.source))]
     if d.refines:
         facts.insert(1, ("Refines", ", ".join(f"[{n}](#{n})" for n in d.refines)))
+    if not d.asked:
+        facts.append(("Diagnosis", "does not ask for it by itself: a model file names it"))
     parts.append("".join(f"- {name}: {value}\n" for name, value in facts))
     return "\n".join(parts)
 

@@ -14,7 +14,12 @@ INSTALL = "pip install thermodata-effects-machine-tool"
 
 
 def effects() -> dict[str, Effect]:
-    """Every effect that loads, by name, in alphabetical order."""
+    """The effects that diagnosis asks for, by name, in alphabetical order: all but those that say `asked = False`."""
+    return {name: found for name, found in _load()[0].items() if getattr(found, "asked", True)}
+
+
+def all_effects() -> dict[str, Effect]:
+    """Every effect that loads, by name, in alphabetical order: what a model file may name."""
     return dict(_load()[0])
 
 

@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from thermodata.modelling.fitted_response import FittedResponse, FittedTerm, Spread
+from thermodata.modelling.fitted_response import FittedResponse, FittedTerm, Together
 from thermodata.plugin import Float1D, Float2D
 from thermodata.view.dataset import TestData
 
@@ -29,7 +29,7 @@ class Bands:
 
 def bands(response: FittedResponse, test: TestData) -> Bands:
     """Of one response in one test."""
-    slopes: dict[int, tuple[Spread, Float2D]] = {}
+    slopes: dict[int, tuple[Together, Float2D]] = {}
     known: dict[str, Float1D] = {}
     complete = True
     for term in response.terms:
@@ -59,7 +59,7 @@ def _moves(term: FittedTerm) -> bool:
     return any(name not in term.bound.spec.fixed for name in names)
 
 
-def _slopes(term: FittedTerm, spread: Spread, test: TestData) -> Float2D:
+def _slopes(term: FittedTerm, spread: Together, test: TestData) -> Float2D:
     """shape (n, k): of the term's contribution along each parameter of the spread."""
     out = np.zeros((len(test.t_s), len(spread.matrix)))
     values, group = term.values(test), term.bound.group(test)
@@ -81,5 +81,5 @@ def _slopes(term: FittedTerm, spread: Spread, test: TestData) -> Float2D:
     return out
 
 
-def _deviation(slopes: Float2D, spread: Spread) -> Float1D:
+def _deviation(slopes: Float2D, spread: Together) -> Float1D:
     return np.asarray(np.sqrt(np.maximum(np.einsum("ij,ij->i", slopes @ spread.matrix, slopes), 0.0)))

@@ -12,8 +12,10 @@ from typing import Any
 
 import numpy as np
 
+from thermodata.errors import UsageError
 from thermodata.modelling.fitted import FittedModel
 from thermodata.modelling.fitted_response import FittedResponse
+from thermodata.modelling.roles import Key, find_tests
 from thermodata.modelling.score import fit_percent, peak_sum, role_of
 from thermodata.plugin import Float1D
 from thermodata.view.dataset import Dataset, TestData
@@ -55,20 +57,37 @@ class Beside:
 _MEANS = ("fit", "initial", "initial_peaks", "residual", "residual_peaks", "low", "high")
 
 
-def beside(models: Sequence[tuple[str, FittedModel, Dataset]], reference: str) -> list[Beside]:
-    """Rows by test, response and model, then the means. models: (id, model, its data), the reference among them."""
+def beside(
+    models: Sequence[tuple[str, FittedModel, Dataset]], reference: str, tests: Sequence[str] = ()
+) -> list[Beside]:
+    """Rows by test, response and model, then the means. models: (id, model, its data), the reference among them.
+    tests: only these, as test or campaign/test. UsageError for one that no model knows, or that is closed to all."""
     rows: list[Beside] = []
+    wanted = _named(models, tests)
     for identity, fitted, data in models:
         for response in fitted.responses:
             for test in fitted.tests(data):
-                rows.append(_row(identity, fitted, response, test))
+                if not tests or test.key in wanted:
+                    rows.append(_row(identity, fitted, response, test))
+    if closed := [f"{c}/{t}" for c, t in wanted if (c, t) not in {(r.campaign, r.test) for r in rows}]:
+        raise UsageError(
+            "a test that these models neither fit nor verify",
+            where="--test",
+            expected="tests with the role calibration or verification",
+            got=", ".join(closed),
+        )
     rows = [row for row in rows if row.n or row.why]
     rows += _means(rows)
     base = {(r.campaign, r.test, r.response): r for r in rows if r.model == reference}
     rows = [_against(row, base.get((row.campaign, row.test, row.response))) for row in rows]
     order = {identity: i for i, (identity, _, _) in enumerate(models)}
-    tests = {key: i for i, key in enumerate(dict.fromkeys((r.campaign, r.test) for r in rows if r.test != MEAN))}
-    return sorted(rows, key=lambda r: (r.response, tests.get((r.campaign, r.test), len(tests)), order[r.model]))
+    place = {key: i for i, key in enumerate(dict.fromkeys((r.campaign, r.test) for r in rows if r.test != MEAN))}
+    return sorted(rows, key=lambda r: (r.response, place.get((r.campaign, r.test), len(place)), order[r.model]))
+
+
+def _named(models: Sequence[tuple[str, FittedModel, Dataset]], tests: Sequence[str]) -> tuple[Key, ...]:
+    every = {test.key: test for _, _, data in models for test in data.tests}
+    return find_tests(tests, replace(models[0][2], tests=tuple(every.values())), "--test") if tests else ()
 
 
 def _row(identity: str, fitted: FittedModel, response: FittedResponse, test: TestData) -> Beside:

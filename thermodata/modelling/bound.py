@@ -9,14 +9,17 @@ import numpy as np
 
 from thermodata.errors import unknown_name
 from thermodata.modelling.acting import acting, moved_while
-from thermodata.modelling.drivers import has_drivers, make_drivers
+from thermodata.modelling.drivers import has_drivers, make_drivers, names_of
 from thermodata.modelling.lead import columns, with_lead
 from thermodata.modelling.of_tests import OfTests
+from thermodata.modelling.phases import activity_channels
 from thermodata.modelling.roles import Key
 from thermodata.plugin import Bool1D, Drivers, Effect, Float2D
 from thermodata.schema.model import EffectSpec
 from thermodata.view.dataset import TestData
 
+OF_TESTS = ("test", "machine", "campaign")  # what a gain can differ by, beside conditions,
+OF_RESPONSES = ("tool", "place")  # and by what has a name of its own
 KEPT_TESTS = 1024  # drivers a term keeps; changed copies of tests count too
 PLACE = "response's place"  # a condition of tests that were copied for each of several responses
 
@@ -77,8 +80,20 @@ class BoundTerm:
             found = self.effect.column(test)
         else:
             found = columns(self.effect, self._kept(test)[2], params)
+        return self.while_acting(test, found)
+
+    def while_acting(self, test: TestData, found: Float2D) -> Float2D:
+        """Columns of the whole test, shape (n, k), as far as the term's phases last."""
         where = None if self.spec.phases is None else acting(test, self.spec.phases)
         return found if where is None else moved_while(found, where)
+
+    def reads(self, test: TestData) -> tuple[str, ...]:
+        """Every channel that its columns depend on in a test: its drivers, and what tells its phases."""
+        if isinstance(self.effect, OfTests):
+            return self.effect.reads(test)
+        own = [n for text in self.binding_of(test).values() for n in names_of(text)]
+        phased = activity_channels(test) if self.spec.phases is not None else []
+        return tuple(dict.fromkeys([*own, *phased]))
 
     def known(self, test: TestData) -> Bool1D | None:
         """Where all drivers were measured, or nearly; None: everywhere."""
@@ -100,25 +115,33 @@ class BoundTerm:
         return ", ".join(self.spec.groups.get(v, v) for v in values if v)
 
     def _value(self, by: str, test: TestData) -> str:
-        if by == "place":
-            return str(test.conditions.get(PLACE, ""))
-        if by in ("test", "machine", "campaign"):
-            return str(getattr(test, by))
-        name = "tool.id" if by == "tool" and "tool" not in test.conditions else by
-        if name not in test.conditions:
+        value = group_of(test, by)
+        if value is None:
             raise unknown_name(
                 "condition",
                 by,
-                [*test.conditions, "test", "machine", "campaign", "tool", "place"],
+                [*test.conditions, *OF_TESTS, *OF_RESPONSES],
                 where=f"gain_by of effect '{self.id}', test {test.campaign}/{test.test}",
             )
-        value = test.conditions[name]
-        return f"{value:g}" if isinstance(value, float | int) else str(value)
+        return value
 
     def binding_of(self, test: TestData) -> Mapping[str, str]:
         """role -> channel or expression, as the test's campaign names them."""
         found = self.bindings.get(test.campaign)
         return self.binding if found is None else found
+
+
+def group_of(test: TestData, by: str) -> str | None:
+    """The value of one name of `gain_by` in a test; None where the test has no such condition."""
+    if by == "place":
+        return str(test.conditions.get(PLACE, ""))
+    if by in OF_TESTS:
+        return str(getattr(test, by))
+    name = by.removeprefix("conditions.")
+    if name == "tool" and name not in test.conditions:
+        name = "tool.id"
+    value = test.conditions.get(name)
+    return f"{value:g}" if isinstance(value, float | int) else None if value is None else str(value)
 
 
 def each_group_its_own(term: BoundTerm) -> BoundTerm:

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from thermodata.modelling.apart import told_apart
 from thermodata.modelling.bound import each_group_its_own
 from thermodata.modelling.design import Design
 from thermodata.modelling.drivers import names_of
@@ -48,6 +49,7 @@ def checks(response: FittedResponse, tests: Sequence[TestData]) -> dict[str, Any
         *_lost(response, tests),
         *_orders(response),
         *_warm(design),
+        *told_apart(response, tests),
     ]
     for term in response.terms:
         rows += [
@@ -60,6 +62,11 @@ def checks(response: FittedResponse, tests: Sequence[TestData]) -> dict[str, Any
         ]
     noise = float(np.sqrt(np.mean(residual**2))) if len(residual) else None
     return {"checks": tuple(rows), "noise": noise}
+
+
+def at_bounds(response: FittedResponse) -> list[Check]:
+    """Parameters and gains that a bound holds, and gains beyond what the library thinks possible."""
+    return [c for term in response.terms for c in (*_bounds(term), *_gain_bounds(term), *_plausible(term))]
 
 
 def _samples(residual: Float1D, design: Design, parameters: int) -> list[Check]:

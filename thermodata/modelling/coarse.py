@@ -29,16 +29,30 @@ def search_from_coarse(problem: Problem, tests: Sequence[TestData], make: Make) 
     factor = _factor(problem, tests)
     if factor < 2:
         return search(problem)
-    rough = make([coarser(test, factor) for test in tests])
-    alike = [(f.param.name, len(f.slots)) for f in problem.free] == [(f.param.name, len(f.slots)) for f in rough.free]
-    if not alike or not rough.design.n:
+    coarse = make([coarser(test, factor) for test in tests])
+    if not _alike(problem, coarse):
         return search(problem)
-    x = search(rough)
+    x = search(coarse)
     step_min = factor * _step_s(tests[0]) / 60.0
     for i, free in enumerate(problem.free):
         if free.log and free.inside(float(x[i])) < RESOLVED * step_min:
             x = along_whole_range(problem, x, i)
     return search(problem, start=x)
+
+
+def rough(problem: Problem, tests: Sequence[TestData], wanted: tuple[str, ...] | None, make: Make) -> Problem | None:
+    """The same problem on about ENOUGH samples, to look at the error around its optimum; None where it has few, or is
+    not the same there."""
+    some = coarse_tests(tests, wanted)
+    if all(a is b for a, b in zip(some, tests, strict=True)):
+        return None
+    other = make(some)
+    return other if _alike(problem, other) else None
+
+
+def _alike(problem: Problem, other: Problem) -> bool:
+    names = [[(f.param.name, len(f.slots)) for f in p.free] for p in (problem, other)]
+    return names[0] == names[1] and other.design.n > 0
 
 
 def coarse_tests(tests: Sequence[TestData], wanted: tuple[str, ...] | None) -> list[TestData]:

@@ -34,6 +34,7 @@ CYCLE_S = 7200.0  # a driver that changes sides TURNS times within this long goe
 TURNS = 4
 BAND = 0.15  # of its range, about its mean: no side
 EDGE = 0.08  # of its range: where a start is a start
+BACK = 14.49 / 12.0  # of the noise, where a line through three samples goes back half a step
 START_S = 300.0  # the start value is a mean of at most this, while the driver does not move
 
 
@@ -116,17 +117,31 @@ def start_value(values: Float1D, step: float) -> float:
     """
     if len(values) < 3:
         return float(values[0])
-    most = min(max(3, int(START_S / step)), len(values))
     cycle = cycle_mean(values[: int(CYCLE_S / step) + 1])
     if cycle is not None:
         return cycle
+    count = _still(values, step)
+    if count < 3:
+        return float((13.0 * values[0] + 4.0 * values[1] - 5.0 * values[2]) / 12.0)
+    return float(values[:count].mean())
+
+
+def start_deviation(values: Float1D, step: float) -> float:
+    """The standard deviation of `start_value`, by the values' own noise; 0 where nothing tells it."""
+    if len(values) < 4 or cycle_mean(values[: int(CYCLE_S / step) + 1]) is not None:
+        return 0.0
+    count = _still(values, step)
+    return _noise(values) * (BACK if count < 3 else 1.0 / float(np.sqrt(count)))
+
+
+def _still(values: Float1D, step: float) -> int:
+    """Samples from the start on that lie within their noise."""
+    most = min(max(3, int(START_S / step)), len(values))
     noise = _noise(values)
     count = 1
     while count < most and abs(values[count] - values[:count].mean()) <= 3.0 * noise + 1e-12:
         count += 1
-    if count < 3:
-        return float((13.0 * values[0] + 4.0 * values[1] - 5.0 * values[2]) / 12.0)
-    return float(values[:count].mean())
+    return count
 
 
 def cycle_mean(values: Float1D) -> float | None:

@@ -43,7 +43,11 @@ def fit_model(spec: Model, data: Dataset, *, base: Path | None = None, uncertain
     if together(bound):
         fitted = fit_together(bound, open_tests, wanted, data, fit_response)
         if uncertainty:
-            fitted = [replace(r, **checks(r, t)) for r, t in zip(fitted, open_tests, strict=True)]
+            # a place without a calibration test has its parameters from the others
+            said = [
+                checks(r, t) if t else {"checks": (), "noise": None} for r, t in zip(fitted, open_tests, strict=True)
+            ]
+            fitted = [replace(r, **own) for r, own in zip(fitted, said, strict=True)]
     else:
         fitted = [
             fit_response(response, usable, wanted, data, uncertainty=uncertainty)
@@ -133,7 +137,9 @@ def _with_given_orders(
     uncertainty: bool,
 ) -> FittedResponse:
     """The response of these terms alone, while orders are tried."""
-    bound, found = _given_orders(bound, members, held, tests, wanted, uncertainty, near, loose=not uncertainty)
+    bound, found = _given_orders(
+        bound, members, held, tests, wanted, uncertainty, near, loose=not uncertainty, last=False
+    )
     terms = {**held, **found}
     part = replace(bound, terms=tuple(t for i, t in enumerate(bound.terms) if i in terms))
     return FittedResponse(part, tuple(terms[i] for i in sorted(terms)), wanted, frozenset(t.key for t in tests))
@@ -149,13 +155,16 @@ def _given_orders(
     near: Near,
     *,
     loose: bool = False,
+    last: bool = True,
 ) -> tuple[BoundResponse, dict[int, FittedTerm]]:
     bound, arx = _with_placeholders(bound, members)
-    found = fit_jointly(bound, members, held, tests, wanted, uncertainty and not arx, None if arx else near, loose)
+    found = fit_jointly(
+        bound, members, held, tests, wanted, uncertainty and not arx, None if arx else near, loose, last
+    )
     for i in arx:
         bound = identify_arx(bound, i, {**held, **found}, tests, wanted)
     if arx:
-        found = fit_jointly(bound, members, held, tests, wanted, uncertainty, loose=loose)
+        found = fit_jointly(bound, members, held, tests, wanted, uncertainty, loose=loose, profiled=last)
     return bound, found
 
 

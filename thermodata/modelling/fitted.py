@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
-from thermodata.modelling.fitted_response import FittedResponse
+from thermodata.modelling.fitted_response import FittedResponse, FittedTerm
 from thermodata.modelling.parameters import parameters
 from thermodata.modelling.roles import Roles
 from thermodata.schema.model import Model
@@ -26,6 +26,10 @@ class FittedModel:
         """'effect.parameter' -> value, unit and 95 % interval; 'response/effect.parameter' with several responses,
         'effect.gain[group]' with gain_by."""
         return parameters(self.responses)
+
+    def term(self, identity: str) -> FittedTerm:
+        """An effect by its id, in the first response that it acts on."""
+        return next(t for response in self.responses for t in response.terms if t.id == identity)
 
     def checks(self) -> list[Check]:
         return [check for response in self.responses for check in response.checks]

@@ -16,23 +16,30 @@ from thermodata.schema.result import Check
 from thermodata.view.dataset import TestData
 
 FACTOR = "g"
+Z95 = 1.96
+"""Half of an interval of 95 %, in standard deviations."""
+Ends = tuple[float | None, float | None]
+"""Of an interval, as values; None: these tests set no end within the parameter's bounds."""
 
 
 @dataclass(frozen=True)
 class Values:
-    """Parameters of a term in one group of tests. sd: standard deviation by name (of log(value) for params in
-    log_names); NaN-free: what was held or could not be told is absent."""
+    """Parameters of a term in one group of tests. sd: standard deviation by name, half: half of the interval of 95 %
+    (of log(value) for params in log_names); NaN-free: what was held or could not be told is absent. ends: of the
+    interval by profile, where it reaches further to one side."""
 
     params: Mapping[str, float]
     gains: Mapping[str, float]
     sd: Mapping[str, float] = field(default_factory=dict)
+    half: Mapping[str, float] = field(default_factory=dict)
+    ends: Mapping[str, Ends] = field(default_factory=dict)
     log_names: frozenset[str] = frozenset()
     silent: frozenset[str] = frozenset()  # params that change nothing with these drivers
     factor: float = 1.0  # that the gains hold, where the groups differ by one factor
 
 
 @dataclass(frozen=True, eq=False)
-class Spread:
+class Together:
     """How parameters that were fitted together spread together. owners: ((term's id, group), ...) that share one, and
     its name; matrix: covariance, of log(value) for names in `logs`."""
 
@@ -50,7 +57,7 @@ class FittedTerm:
     groups: Mapping[str, Values]
     held: bool = False  # identified first, then held
     alone: Mapping[str, Values] | None = None  # groups as found on its own tests, before all were refined together
-    spread: Spread | None = field(default=None, repr=False, compare=False)
+    spread: Together | None = field(default=None, repr=False, compare=False)
 
     @property
     def id(self) -> str:

@@ -8,11 +8,11 @@ import numpy as np
 
 from thermodata.errors import UsageError
 from thermodata.modelling.bound import BoundResponse, BoundTerm, each_group_its_own
-from thermodata.modelling.coarse import search_from_coarse
+from thermodata.modelling.coarse import rough, search_from_coarse
 from thermodata.modelling.design import GRID, MOMENTS, Design, Nonlinear, factor
-from thermodata.modelling.fitted_response import FACTOR, FittedTerm, Spread, Values
+from thermodata.modelling.fitted_response import FACTOR, FittedResponse, FittedTerm, Together, Values
 from thermodata.modelling.search import Problem, search
-from thermodata.modelling.uncertainty import Cover, deviations
+from thermodata.modelling.uncertainty import Cover, Spread, spreads
 from thermodata.plugin import Float1D, Param
 from thermodata.view.dataset import TestData
 
@@ -28,9 +28,11 @@ def fit_jointly(
     uncertainty: bool,
     near: Mapping[int, FittedTerm] | None = None,
     loose: bool = False,
+    profiled: bool = True,
 ) -> dict[int, FittedTerm]:
     """Fit some terms of a response together, with others held. near: the terms as they were found on nearly the same
-    data, where the search starts without a look over the whole range. loose: see `search`."""
+    data, where the search starts without a look over the whole range. loose: see `search`.
+    profiled: whether intervals are looked at by their profiles."""
     order = [*members, *held]
     terms = [bound.terms[i] if i in members else each_group_its_own(bound.terms[i]) for i in order]
     design = Design(bound, terms, tests, wanted)
@@ -43,29 +45,37 @@ def fit_jointly(
         )
     fixed = {order.index(i): term for i, term in held.items()}
     problem = make_problem(design, fixed)
+
+    def on(some: Sequence[TestData]) -> Problem:
+        return make_problem(Design(bound, design.terms, some, wanted), fixed)
+
+    def look() -> Problem | None:
+        return rough(problem, tests, wanted, on)
+
     if near is None and not loose:
-        x = search_from_coarse(problem, tests, lambda t: make_problem(Design(bound, design.terms, t, wanted), fixed))
+        x = search_from_coarse(problem, tests, on)
     else:
         start = None if near is None else _near(problem, {order.index(i): near[i] for i in members if i in near})
         x = search(problem, start, loose)
     gains = problem.gains(problem.matrix(x))
-    none: tuple[list[dict[str, float]], frozenset[str], Cover | None] = ([{} for _ in design.slots], frozenset(), None)
-    sds, logs, cover = deviations(problem, x, gains) if uncertainty else none
-    spread = None if cover is None else _spread(design, cover, logs)
+    none: tuple[list[Spread], frozenset[str], Cover | None] = ([Spread() for _ in design.slots], frozenset(), None)
+    spread, logs, cover = spreads(problem, x, gains, look if profiled else None) if uncertainty else none
+    together = None if cover is None else _together(design, cover, logs)
     by_member: dict[int, dict[str, Values]] = {i: {} for i in members}
     for s, (slot, params) in enumerate(zip(design.slots, problem.params(x), strict=True)):
         if order[slot.term] in by_member:
             names = [g.name for g in bound.terms[order[slot.term]].effect.gains]
             values = gains[problem.starts[s] : problem.starts[s + 1]]
-            found = Values(params, dict(zip(names, map(float, values), strict=True)), sds[s], logs, problem.silent[s])
+            known = dict(zip(names, map(float, values), strict=True))
+            found = Values(params, known, spread[s].sd, spread[s].half, spread[s].ends, logs, problem.silent[s])
             by_member[order[slot.term]] |= _by_group(design, s, found)
     return {
-        i: FittedTerm(bound.terms[i], groups or {"": _at_start(bound.terms[i])}, spread=spread if groups else None)
+        i: FittedTerm(bound.terms[i], groups or {"": _at_start(bound.terms[i])}, spread=together if groups else None)
         for i, groups in by_member.items()
     }
 
 
-def _spread(design: Design, cover: Cover, logs: frozenset[str]) -> Spread | None:
+def _together(design: Design, cover: Cover, logs: frozenset[str]) -> Together | None:
     """None where groups differ by a factor: what spreads then is a product."""
     if any(slot.factors for slot in design.slots):
         return None
@@ -73,7 +83,23 @@ def _spread(design: Design, cover: Cover, logs: frozenset[str]) -> Spread | None
         (tuple((design.terms[design.slots[s].term].id, design.slots[s].group) for s in slots), name)
         for slots, name in cover.owners
     )
-    return Spread(owners, cover.matrix, logs)
+    return Together(owners, cover.matrix, logs)
+
+
+def fitted_problem(response: FittedResponse, tests: Sequence[TestData]) -> tuple[Problem, Float1D, Problem | None]:
+    """What was fitted, as a problem at its point: all terms that were not held, the same on fewer samples (None where
+    there are few)."""
+    held = {i: term for i, term in enumerate(response.terms) if term.held}
+    order = [*(i for i in range(len(response.terms)) if i not in held), *held]
+    terms = [each_group_its_own(t.bound) if t.held else t.bound for t in (response.terms[i] for i in order)]
+    fixed = {order.index(i): term for i, term in held.items()}
+
+    def on(some: Sequence[TestData]) -> Problem:
+        return make_problem(Design(response.bound, terms, some, response.phases), fixed)
+
+    problem = on(tests)
+    x = _near(problem, {k: response.terms[i] for k, i in enumerate(order)})
+    return problem, x, rough(problem, tests, response.phases, on)
 
 
 def _by_group(design: Design, s: int, found: Values) -> dict[str, Values]:
@@ -86,13 +112,18 @@ def _by_group(design: Design, s: int, found: Values) -> dict[str, Values]:
     groups = {}
     for group in dict.fromkeys(slot.factors):
         g = found.params.get(factor(group), 1.0)
-        spread = {n: sd * (1.0 if n in own else g) for n, sd in found.sd.items() if not n.startswith("g[")}
-        if factor(group) in found.sd:
-            spread[FACTOR] = found.sd[factor(group)]
+        sd, half = (_of_group(spread, group, g, own) for spread in (found.sd, found.half))
+        ends = {n: e for n, e in found.ends.items() if n in own}
         logs = found.log_names | {FACTOR}
         gains = {n: g * v for n, v in found.gains.items()}
-        groups[group] = Values(params, gains, spread, logs, found.silent, g)
+        groups[group] = Values(params, gains, sd, half, ends, logs, found.silent, g)
     return groups
+
+
+def _of_group(spread: Mapping[str, float], group: str, g: float, own: set[str]) -> dict[str, float]:
+    """Deviations of gains grow with the group's factor, whose own stands beside them."""
+    found = {n: value * (1.0 if n in own else g) for n, value in spread.items() if not n.startswith("g[")}
+    return found | ({FACTOR: spread[factor(group)]} if factor(group) in spread else {})
 
 
 def _near(problem: Problem, known: Mapping[int, FittedTerm]) -> Float1D:
@@ -150,7 +181,7 @@ def make_problem(design: Design, held: Mapping[int, FittedTerm]) -> Problem:
         for param in term.effect.params:
             if param.name in term.spec.fixed:
                 continue
-            together = not term.spec.shared or param.name in term.spec.shared
+            together = term.spec.shares(param.name)
             by_place = list(dict.fromkeys(design.slots[s].place for s in slots))
             shared = [tuple(s for s in slots if design.slots[s].place == place) for place in by_place]
             for group in shared if together else [(s,) for s in slots]:

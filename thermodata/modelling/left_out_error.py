@@ -10,6 +10,7 @@ import numpy as np
 from thermodata.modelling.fit import fit_model
 from thermodata.modelling.fitted import FittedModel
 from thermodata.modelling.fitted_response import FittedResponse
+from thermodata.modelling.resolve import term_ids
 from thermodata.modelling.roles import Key, resolve_roles
 from thermodata.modelling.transfer import NAME as TRANSFER
 from thermodata.schema.model import EffectSpec, Model
@@ -89,11 +90,11 @@ class LeftOut:
 
     def _with_orders(self, spec: Model) -> Model:
         """Orders that the file leaves open as all tests chose them: a choice anew in each fold costs sixteen fits."""
-        chosen = [t.bound.spec.orders for t in self.whole.responses[0].terms]
+        chosen = {t.id: t.bound.spec.orders for response in reversed(self.whole.responses) for t in response.terms}
         effects: list[EffectSpec] = []
-        for i, effect in enumerate(spec.effects):
-            is_open = effect.effect == TRANSFER and effect.orders is None and i < len(chosen)
-            effects.append(effect.model_copy(update={"orders": chosen[i]}) if is_open else effect)
+        for name, effect in zip(term_ids(spec.effects), spec.effects, strict=True):
+            is_open = effect.effect == TRANSFER and effect.orders is None and name in chosen
+            effects.append(effect.model_copy(update={"orders": chosen[name]}) if is_open else effect)
         return spec.model_copy(update={"effects": effects})
 
 

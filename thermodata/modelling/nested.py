@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
+from dataclasses import replace
 
 import numpy as np
 
-from thermodata.errors import SpecError
+from thermodata.errors import SpecError, unknown_name
 from thermodata.modelling.fitted import FittedModel
 from thermodata.modelling.fitted_response import FittedResponse
 from thermodata.modelling.of_tests import OfTests
@@ -33,6 +34,10 @@ class ModelOutput(OfTests):
 
     def has(self, test: TestData) -> bool:
         return all(term.can_predict(test) for term in self.response.terms)
+
+    def reads(self, test: TestData) -> tuple[str, ...]:
+        """The channels that its own effects read."""
+        return tuple(dict.fromkeys(n for term in self.response.terms for n in term.bound.reads(test)))
 
     def column(self, test: TestData) -> Float2D:
         out = self.response.predict(test)
@@ -66,4 +71,15 @@ def model_output(spec: EffectSpec, channel: str, campaigns: tuple[str, ...], fit
             got=", ".join(r.name for r in responses),
         )
     word = spec.gain if isinstance(spec.gain, str) else GAIN
-    return ModelOutput(same[0], spec.name or inside.name, word)
+    taken = same[0] if spec.parts is None else _parts(same[0], spec.parts, f"effect '{where}': parts")
+    return ModelOutput(taken, spec.name or inside.name, word)
+
+
+def _parts(response: FittedResponse, parts: Sequence[str], where: str) -> FittedResponse:
+    """The sum of some effects only: a spindle's function, without the hall that stood beside it."""
+    known = [term.id for term in response.terms]
+    for name in parts:
+        if name not in known:
+            raise unknown_name("effect", name, known, where=where)
+    terms = tuple(term for term in response.terms if term.id in parts)
+    return replace(response, bound=replace(response.bound, terms=tuple(t.bound for t in terms)), terms=terms)

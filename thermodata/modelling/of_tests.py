@@ -29,6 +29,10 @@ class OfTests(ABC):
     def column(self, test: TestData) -> Float2D:
         """shape (n, 1); NaN where there is no output."""
 
+    def reads(self, test: TestData) -> tuple[str, ...]:
+        """The channels that the output depends on."""
+        return ()
+
     def basis(self, drivers: Drivers, p: Mapping[str, float]) -> Float2D:
         """Raises SpecError: see `column`."""
         raise SpecError(f"a {self.name} belongs to tests, it has no drivers")

@@ -92,7 +92,8 @@ def choose_orders(
         trial = with_orders(bound, i, orders)
         row = Tried(bound.name, term.id, method, *orders, None, None, None)
         try:
-            same_lags = last is not None and orders[0] > 1 and method == "oe"
+            # one coefficient over a lag is a lag, two are a lag with a direct term: their time constants lie apart
+            same_lags = last is not None and orders[0] > 2 and method == "oe"
             full = identify(trial, some, _near(bound, last) if same_lags else None, method == "varpro")
             last = full
             start = None if method == "arx" else _near(trial, full)
@@ -105,7 +106,7 @@ def choose_orders(
                 fit_left_out=_finite(total),
                 fit_worst=_finite(worst),
                 fit_calibration=_finite(free_run_fit(full, some)),
-                why=_unidentified(full, i) if method == "varpro" and orders != (1, 1) else None,
+                why=_unidentified(full, term.id) if method == "varpro" and orders != (1, 1) else None,
             )
             rows.append((row, trial, full))
         except (UsageError, SpecError) as error:
@@ -165,8 +166,8 @@ def _near(bound: BoundResponse, full: FittedResponse | None) -> Near:
     return {places[term.id]: term for term in full.terms}
 
 
-def _unidentified(response: FittedResponse, i: int) -> str | None:
-    term = next(t for t in response.terms if t.id == response.bound.terms[i].id)
+def _unidentified(response: FittedResponse, identity: str) -> str | None:
+    term = next(t for t in response.terms if t.id == identity)
     taus = sorted((term.params[p.name], p.name) for p in term.effect.params)
     if any(b[0] <= APART * a[0] for a, b in pairwise(taus)):
         return "two lags are one"

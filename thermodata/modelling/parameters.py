@@ -9,8 +9,6 @@ from thermodata.calibration.expression import parse
 from thermodata.modelling.fitted_response import FACTOR, FittedResponse, FittedTerm, Values
 from thermodata.schema.result import Parameter
 
-Z95 = 1.96
-
 
 def parameters(responses: Sequence[FittedResponse]) -> dict[str, Parameter]:
     """See FittedModel.parameters."""
@@ -27,11 +25,7 @@ def term_parameters(response: FittedResponse, term: FittedTerm) -> dict[str, Par
     by_name: dict[str, Parameter] = {}
     for group, values in term.groups.items():
         tag = f"[{group}]" if group else ""
-        own = {
-            p.name
-            for p in term.effect.params
-            if tag and term.bound.spec.shared and p.name not in term.bound.spec.shared
-        }
+        own = {p.name for p in term.effect.params if tag and not term.bound.spec.shares(p.name)}
         for param in term.effect.params:
             if param.name in values.silent:
                 continue
@@ -69,10 +63,13 @@ def driver_unit(response: FittedResponse, term: FittedTerm) -> str:
 
 
 def _parameter(value: float, unit: str, name: str, values: Values) -> Parameter:
-    sd = values.sd.get(name)
-    if sd is None:
+    if name in values.ends:
+        low, high = values.ends[name]
+        return Parameter(value=value, unit=unit, low=low, high=high)
+    half = values.half.get(name)
+    if half is None:
         return Parameter(value=value, unit=unit)
     if name in values.log_names and value > 0:
-        spread = math.exp(min(Z95 * sd, 50.0))
+        spread = math.exp(min(half, 100.0))
         return Parameter(value=value, unit=unit, low=value / spread, high=value * spread)
-    return Parameter(value=value, unit=unit, low=value - Z95 * sd, high=value + Z95 * sd)
+    return Parameter(value=value, unit=unit, low=value - half, high=value + half)

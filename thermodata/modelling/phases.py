@@ -43,13 +43,12 @@ def activity(test: TestData) -> Bool1D | None:
     """Where the machine works (spindle turns, axis feeds, power flows); None where no channel tells or none works."""
     working = np.zeros(len(test.t_s), bool)
     known = False
-    for name, info in test.channels.items():
-        if info.quantity in _ACTIVITY and name in test.values:
-            values = np.abs(np.nan_to_num(test.values[name]))
-            top = float(values.max(initial=0.0))
-            if top > 0:
-                working |= values > 0.02 * top
-                known = True
+    for name in activity_channels(test):
+        values = np.abs(np.nan_to_num(test.values[name]))
+        top = float(values.max(initial=0.0))
+        if top > 0:
+            working |= values > 0.02 * top
+            known = True
     if not known or not working.any():
         return None
     # a pause for a measurement is no cooling phase
@@ -62,7 +61,12 @@ def activity(test: TestData) -> Bool1D | None:
 
 def activity_is_known(test: TestData) -> bool:
     """Whether a channel tells when the machine works, even if it never does."""
-    return any(info.quantity in _ACTIVITY and name in test.values for name, info in test.channels.items())
+    return bool(activity_channels(test))
+
+
+def activity_channels(test: TestData) -> list[str]:
+    """The channels that tell when the machine works."""
+    return [name for name, info in test.channels.items() if info.quantity in _ACTIVITY and name in test.values]
 
 
 def runs(mask: Bool1D) -> list[tuple[int, int]]:

@@ -21,7 +21,7 @@ FitResponse = Callable[..., FittedResponse]
 
 def together(bounds: Sequence[BoundResponse]) -> bool:
     """Whether the responses share anything."""
-    return len(bounds) > 1 and any("place" in term.spec.gains_by for term in bounds[0].terms)
+    return len(bounds) > 1 and any("place" in term.spec.gains_by for bound in bounds for term in bound.terms)
 
 
 def fit_together(
@@ -32,6 +32,12 @@ def fit_together(
     fit: FitResponse,
 ) -> list[FittedResponse]:
     """tests: the usable ones of each response. The responses as fitted, without checks."""
+    if len({tuple(term.id for term in bound.terms) for bound in bounds}) > 1:
+        raise SpecError(
+            "an effect that acts on some responses only can't be in a model whose responses share time constants",
+            where="acts_on",
+            hint="leave 'gain_by: place' away, or fit these responses in another model",
+        )
     for term in bounds[0].terms:
         if term.seen_at is not None:
             raise SpecError(

@@ -27,6 +27,7 @@ _OWNED = {
     "file": prediction.NAME,
     "name": nested.NAME,
     "gain": nested.NAME,
+    "parts": nested.NAME,
 }
 
 
@@ -42,6 +43,7 @@ def resolve(
     roles = resolve_roles(spec, data)
     by_campaign = {c: _channels(data, c) for c in dict.fromkeys(t.campaign for t in data.tests)}
     known_weights(spec, data)
+    _known_responses(spec, by_campaign)
     responses = []
     for response in spec.responses:
         names = _response_by_campaign(response, by_campaign)
@@ -57,6 +59,25 @@ def resolve(
             )
         )
     return roles, tuple(responses)
+
+
+def _known_responses(spec: Model, by_campaign: Mapping[str, Mapping[str, ChannelInfo]]) -> None:
+    """SpecError where an effect acts on what is no response of the model, or on nothing."""
+    modelled = _first_names(spec.responses, by_campaign)
+    for name, effect in zip(term_ids(spec.effects), spec.effects, strict=True):
+        acted_on = modelled if effect.acts_on is None else _first_names(effect.acts_on, by_campaign)
+        if not acted_on or set(acted_on) - set(modelled):
+            raise SpecError(
+                "an effect acts on responses of its model",
+                where=f"effect '{name}': acts_on",
+                expected=f"some of {', '.join(modelled)}",
+                got=", ".join(acted_on) or "none",
+            )
+
+
+def _first_names(responses: Sequence[Response], by_campaign: Mapping[str, Mapping[str, ChannelInfo]]) -> list[str]:
+    """The channel that each response is in the first campaign that has it."""
+    return [next(iter(_response_by_campaign(r, by_campaign).values())) for r in responses]
 
 
 def _response_by_campaign(response: Response, by_campaign: Mapping[str, Mapping[str, ChannelInfo]]) -> dict[str, str]:
@@ -122,6 +143,8 @@ def bind_terms(
     ids = term_ids(effects)
     terms = []
     for name, given in zip(ids, effects, strict=True):
+        if given.acts_on is not None and channel not in _first_names(given.acts_on, by_campaign):
+            continue
         spec = as_it_was_made(given)
         if spec.effect == nested.NAME:
             effect: Effect = cast(
@@ -146,7 +169,8 @@ def bind_terms(
             else frozenset(find_tests(spec.calibrate_on, data, f"effect '{name}': calibrate_on"))
         )
         known = [p.name for p in effect.params] + [g.name for g in effect.gains]
-        for key in [*spec.fixed, *spec.start, *spec.bounds, *spec.shared]:
+        shared = [] if spec.shared == "none" else spec.shared
+        for key in [*spec.fixed, *spec.start, *spec.bounds, *shared]:
             if key not in known and not (spec.effect == transfer.NAME and transfer.is_coefficient(key)):
                 raise unknown_name("parameter", key, known, where=f"effect '{name}'")
         family = family_of(effect, bound_by[first], by_campaign[first])

@@ -14,7 +14,7 @@ from thermodata.view.dataset import Dataset
 
 ID_LENGTH = 12
 # keys of an effect that ids of models without them do not know
-_LATER = frozenset({"response", "phases", "also", "groups", "one_gain", "name", "gain", "inside"})
+_LATER = frozenset({"response", "phases", "also", "groups", "one_gain", "name", "gain", "inside", "parts", "acts_on"})
 
 
 def model_id(spec: Model, data_version: str, base: Path | None = None) -> str:

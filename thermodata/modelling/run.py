@@ -10,14 +10,16 @@ from typing import TYPE_CHECKING
 from thermodata.errors import UsageError
 from thermodata.modelling import nested
 from thermodata.modelling.beside import Beside, beside
-from thermodata.modelling.candidate import candidate_spec, with_effect
+from thermodata.modelling.candidate import with_candidate, with_effect
 from thermodata.modelling.differences import TestDifference, differences
 from thermodata.modelling.fit import fit_model
 from thermodata.modelling.fitted import FittedModel
 from thermodata.modelling.orders import Tried
 from thermodata.modelling.portability import Portability, portability
+from thermodata.modelling.profiles import Profiles, profiles_of
 from thermodata.modelling.resolve import term_ids
 from thermodata.modelling.result import make_result, model_id
+from thermodata.modelling.roles import find_tests
 from thermodata.modelling.second_lag import is_lag_of, with_second_lags
 from thermodata.modelling.table import prediction_tables
 from thermodata.modelling.transfer import NAME
@@ -100,9 +102,9 @@ def differences_of(store: Store, refs: Sequence[str]) -> list[TestDifference]:
     return differences([(m.identity, m.fitted, m.data) for m in loaded])
 
 
-def compare_against(store: Store, refs: Sequence[str], reference: str) -> list[Beside]:
-    """The models beside each other on every open test, each against the reference. UsageError where one of them was
-    fitted to another version of the data: their differences would be those of the data."""
+def compare_against(store: Store, refs: Sequence[str], reference: str, tests: Sequence[str] = ()) -> list[Beside]:
+    """The models beside each other on every open test (or on those named), each against the reference. UsageError
+    where one of them was fitted to another version of the data: their differences would be those of the data."""
     from thermodata.store.catalogue.models import find_model
 
     found = {stored.model: stored for stored in (find_model(store, ref) for ref in (*refs, reference))}
@@ -114,27 +116,30 @@ def compare_against(store: Store, refs: Sequence[str], reference: str) -> list[B
             hint="; ".join(f"thermodata fit {stored.model}" for stored in found.values() if stored.stale),
         )
     loaded = [load(store, identity) for identity in found]
-    return beside([(m.identity, m.fitted, m.data) for m in loaded], find_model(store, reference).model)
+    return beside([(m.identity, m.fitted, m.data) for m in loaded], find_model(store, reference).model, tests)
 
 
 def add(store: Store, ref: str, candidate: str | int | EffectSpec, *, plain: bool = False) -> FitResult:
-    """A new version with one effect more: a rank or id of the stored diagnosis, or any 'effect:channels'; and with
-    second lags where left-out tests want them (`second_lag`). plain: that one effect and no more.
+    """A new version with one effect more: a rank or id of the stored diagnosis, or any 'effect:channels'; or with
+    one that it has changed, 'gain_by:effect,condition' or 'phases:effect,heating,cooling'; and with second lags where
+    left-out tests want them (`second_lag`). plain: no second lags.
     `before` has the parent's scores, `added` the ids of what is new, `notes` why."""
     from thermodata.store.catalogue.models import find_model
 
     parent = find_model(store, ref)
-    effect = (
-        candidate if isinstance(candidate, EffectSpec) else chosen_effect(store, parent.model, parent.spec, candidate)
-    )
     old = load(store, parent.model)
+    if isinstance(candidate, EffectSpec):
+        grown = with_effect(parent.spec, candidate)
+    else:
+        grown = with_candidate(parent.spec, chosen_id(store, parent.model, candidate), old.data.channels)
     before = make_result(old.fitted, old.data, parent.model).scores
-    spec, notes = with_effect(parent.spec, effect), list[str]()
+    notes = list[str]()
     if not plain:
-        refined = with_second_lags(spec, old.data)
-        spec, notes = refined.spec, refined.notes
-    added = term_ids(spec.effects)[len(parent.spec.effects) :]
-    return fit(store, spec, parent=parent.model, before=before, added=added, notes=notes)
+        refined = with_second_lags(grown, old.data)
+        grown, notes = refined.spec, refined.notes
+    had = term_ids(parent.spec.effects)
+    added = [i for i in term_ids(grown.effects) if i not in had]
+    return fit(store, grown, parent=parent.model, before=before, added=added, notes=notes)
 
 
 def remove(store: Store, ref: str, effect: str) -> FitResult:
@@ -165,14 +170,16 @@ def remove(store: Store, ref: str, effect: str) -> FitResult:
     return fit(store, spec, parent=parent.model, before=before, notes=[f"removed: {', '.join(gone)}"])
 
 
-def transfer(store: Store, ref: str) -> list[Portability]:
-    """How far the model carries over to each test and machine of its campaigns; kept as findings of the model."""
+def transfer(store: Store, ref: str, tests: Sequence[str] = ()) -> list[Portability]:
+    """How far the model carries over to each test and machine of its campaigns (or to those named); all are kept as
+    findings of the model. UsageError for an unknown test."""
     from thermodata.store.catalogue.models import save_findings
 
     model = load(store, ref)
     rows = portability(model.fitted, model.data)
     save_findings(store, model.identity, "portability", [(r.campaign, r.test, r.to_json()) for r in rows])
-    return rows
+    wanted = find_tests(tests, model.data, "--test")
+    return [r for r in rows if not tests or (r.campaign, r.test) in wanted]
 
 
 def orders(store: Store, spec: Model, *, method: str | None = None, base: Path | None = None) -> list[Tried]:
@@ -197,8 +204,15 @@ def _with_open_orders(effect: EffectSpec, method: str | None) -> EffectSpec:
     return effect.model_copy(update={"orders": None, "method": method or effect.method})
 
 
-def chosen_effect(store: Store, model: str, spec: Model, candidate: str | int) -> EffectSpec:
-    """What a user names: the rank of the stored diagnosis, an id, or any 'effect:channels'; UsageError for none."""
+def profiles(store: Store, ref: str) -> Profiles:
+    """The interval of every time constant of a stored model by its profile, and what the tests can't tell apart."""
+    model = load(store, ref)
+    return profiles_of(model.fitted, model.data)
+
+
+def chosen_id(store: Store, model: str, candidate: str | int) -> str:
+    """What a user names: the id of a rank of the stored diagnosis, or the name as it is; UsageError for no such
+    rank."""
     from thermodata.store.catalogue.models import load_diagnosis
 
     name = str(candidate)
@@ -214,7 +228,7 @@ def chosen_effect(store: Store, model: str, spec: Model, candidate: str | int) -
                 got=name,
             )
         name = ranks[int(name)]
-    return candidate_spec(name, load_data(store, spec).channels)
+    return name
 
 
 def self_contained(store: Store, spec: Model, base: Path | None = None) -> Model:

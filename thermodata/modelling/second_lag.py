@@ -111,8 +111,8 @@ def with_second_lags(spec: Model, data: Dataset) -> Refined:
 def _tried(left_out: LeftOut, spec: Model, whole: FittedModel, place: int, now: Errors) -> _Trial | None:
     """None where a second lag of the effect at a place is not worth it."""
     ids = term_ids(spec.effects)
-    response = whole.responses[0]
-    second = second_of(spec.effects[place], response.terms[place], ids, (spec.step, left_out.longest_s))
+    response = next(r for r in whole.responses if any(t.id == ids[place] for t in r.terms))
+    second = second_of(spec.effects[place], whole.term(ids[place]), ids, (spec.step, left_out.longest_s))
     more = spec.model_copy(update={"effects": [*spec.effects, second]})
     try:
         errors = left_out.errors(more)
@@ -121,9 +121,9 @@ def _tried(left_out: LeftOut, spec: Model, whole: FittedModel, place: int, now: 
     share, better = max(errors.over(now), errors.typical(now)), errors.better(now)
     if share > 1 - FALL or better < BETTER * len(errors.squares):
         return None
-    param, terms = time_constant(spec.effects[place]), left_out.fitted(more).responses[0].terms
+    param, fitted = time_constant(spec.effects[place]), left_out.fitted(more)
     assert param is not None
-    tau = terms[place].params[param.name], terms[-1].params[param.name]
+    tau = fitted.term(ids[place]).params[param.name], fitted.term(str(second.id)).params[param.name]
     if max(tau) < APART * min(tau):
         return None  # a lag and its derivative: two huge gains that take each other away
     figures = now.rmse(response.name), errors.rmse(response.name), response.unit, better, len(errors.squares)
@@ -140,7 +140,7 @@ def is_single_lag(spec: EffectSpec, among: Sequence[EffectSpec]) -> bool:
     it on tests of its own, nor where it stands twice already (a third lag is nothing that tests can tell)."""
 
     def same(other: EffectSpec) -> bool:
-        keys = ("effect", "drivers", "tests", "gain_by")
+        keys = ("effect", "drivers", "tests", "gain_by", "phases")
         return all(getattr(spec, key) == getattr(other, key) for key in keys)
 
     held = bool(spec.fixed) or spec.calibrate_on is not None

@@ -12,6 +12,7 @@ from thermodata.effect.law_run import evaluate
 from thermodata.effect.law_text import written
 from thermodata.effect.linear import Filter, Mode
 from thermodata.errors import UsageError
+from thermodata.modelling.checks import at_bounds
 from thermodata.modelling.fitted import FittedModel
 from thermodata.modelling.fitted_response import FittedResponse, FittedTerm
 from thermodata.modelling.laws import TermLaw, laws
@@ -20,6 +21,7 @@ from thermodata.modelling.of_tests import OfTests
 from thermodata.modelling.residual_tests import Against, LjungBox, against, autocorrelation, ljung_box
 from thermodata.modelling.state_space import System, system_of
 from thermodata.plugin import Float1D
+from thermodata.schema.result import Check
 from thermodata.view.dataset import Dataset, TestData
 
 POINTS = 240  # of a curve
@@ -68,6 +70,7 @@ class Seen:
     count: int
     ljung_box: tuple[LjungBox, ...]
     states: tuple[Against, ...]
+    at_bounds: tuple[Check, ...] = ()  # what a bound holds, and whose it is
 
 
 def see(fitted: FittedModel, data: Dataset) -> list[Seen]:
@@ -107,6 +110,7 @@ def _see(response: FittedResponse, data: Dataset) -> Seen:
         count,
         tuple(ljung_box(correlation, count, k) for k in LJUNG_BOX if k <= most),
         _states(response, shown, tests, residuals, data.step_s),
+        tuple(at_bounds(response)),
     )
 
 

@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from thermodata.modelling.bound import BoundResponse
+from thermodata.modelling.bound import PLACE, BoundResponse
 from thermodata.modelling.fitted_response import FittedResponse, FittedTerm
 from thermodata.modelling.joint import fit_jointly
 from thermodata.modelling.roles import Key
@@ -61,12 +61,12 @@ def refined(
     """All terms together, from where each was found. Held stay effects seen on another response, effects whose own
     tests lack a driver of another term, and all where the model counts some phases only (an idle test has none)."""
     own = [s for s in stages if s.bound.name == bound.name]
-    joined = {t.key: t for t in tests}
+    joined = {_at_its_place(t): t for t in tests}
     free = {i for i in fitted if not any(i in s.members for s in stages)}
     for stage in own:
         usable, lacking = usable_tests(bound, stage.tests)
         if usable and not lacking and wanted is None:
-            joined |= {t.key: t for t in usable}
+            joined |= {_at_its_place(t): t for t in usable}
             free |= set(stage.members)
     parts = [set(s.members) & free for s in own] + [free - {i for s in own for i in s.members}]
     if not any(parts[:-1]) or sum(bool(part) for part in parts) < 2:
@@ -75,6 +75,11 @@ def refined(
     found = fit_jointly(bound, sorted(free), held, list(joined.values()), wanted, uncertainty, near=fitted)
     alone = {i: fitted[i].groups for s in own for i in s.members if i in free}
     return {**held, **{i: replace(term, alone=alone.get(i)) for i, term in found.items()}}
+
+
+def _at_its_place(test: TestData) -> tuple[Key, object]:
+    """A test stands once for each response, where several are fitted together."""
+    return test.key, test.conditions.get(PLACE)
 
 
 def moved_as_well(response: FittedResponse, stages: Sequence[Stage]) -> Iterator[Check]:

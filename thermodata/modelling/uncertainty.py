@@ -2,66 +2,154 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass, field
 
 import numpy as np
 
-from thermodata.modelling.search import Problem
+from thermodata.modelling.design import MOMENTS
+from thermodata.modelling.fitted_response import Z95, Ends
+from thermodata.modelling.profile import Profile
+from thermodata.modelling.search import Problem, search
+from thermodata.modelling.slow_noise import scatter
+from thermodata.modelling.start_unknown import disturbances
 from thermodata.plugin import Float1D, Float2D
 
+Rough = Callable[[], Problem | None]
+UNKNOWN = 3.0  # half an interval, in units of the search (a factor of 20): of what nobody knows no profile is asked
+STEP = 1e-4  # of a parameter's range, for its slope
 _LONGEST = 0.25  # of a test; a longer memory cannot be told from a trend
+
+
+@dataclass(frozen=True)
+class Spread:
+    """Of a slot's parameters and gains, by name. sd: standard deviation; half: half of the interval of 95 %, both of
+    log(value) where that is searched; ends: of the interval by profile, where it is not as wide up as down. Parameters
+    at a bound have ends alone, held gains nothing."""
+
+    sd: dict[str, float] = field(default_factory=dict)
+    half: dict[str, float] = field(default_factory=dict)
+    ends: dict[str, Ends] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class Owner:
+    """Of a column of the Jacobian: its slots and name, and its place among the searched parameters (None: a gain)."""
+
+    slots: tuple[int, ...]
+    name: str
+    place: int | None = None
 
 
 @dataclass(frozen=True)
 class Cover:
     """How the parameters of a fit spread together. owners: (slots, name), shape k; matrix: covariance, shape (k, k), of
-    log(value) for names that are searched as logarithms."""
+    log(value) for names that are searched as logarithms, as wide as their intervals of 95 % are over 1.96."""
 
     owners: tuple[tuple[tuple[int, ...], str], ...]
     matrix: Float2D
 
 
-def deviations(
-    problem: Problem, x: Float1D, gains: Float1D
-) -> tuple[list[dict[str, float]], frozenset[str], Cover | None]:
-    """Standard deviations a slot by name, the names that are searched as logarithms (theirs is of log(value)), and all
-    of them with their correlations; None where there is none.
+def spreads(
+    problem: Problem, x: Float1D, gains: Float1D, rough: Rough | None = None
+) -> tuple[list[Spread], frozenset[str], Cover | None]:
+    """One a slot, the names that are searched as logarithms, and all of them with their correlations (None where these
+    are not known). rough: makes the same problem on fewer samples, for profiles; None: without profiles."""
+    by_slot = [Spread() for _ in problem.design.slots]
+    logs = frozenset(f.param.name for f in problem.free if f.log)
+    inside = _Estimate(problem, x, gains, _inside(problem, x))
+    for owner, sd, half in zip(inside.owners, inside.scatter.sd, inside.scatter.half, strict=True):
+        if np.isfinite(sd) and np.isfinite(half):
+            for s in owner.slots:
+                by_slot[s].sd[owner.name], by_slot[s].half[owner.name] = float(sd), float(half)
+    cover = _cover(inside)
+    if rough is None or not problem.free:
+        return by_slot, logs, cover
+    whole = len(_inside(problem, x)) == len(problem.free)
+    for i, profile, half in _profiles(inside if whole else _Estimate(problem, x, gains), rough()):
+        if half < UNKNOWN and not profile.is_quadratic(half):
+            ends = profile.ends(half)
+            for s in problem.free[i].slots:
+                by_slot[s].ends[problem.free[i].param.name] = ends
+    return by_slot, logs, cover
 
-    [newey1987] with a Bartlett window as long as twice the residual's own memory, a test by itself.
-    Parameters at a bound and held gains have none.
-    """
-    design = problem.design
-    matrix = problem.matrix(x)
-    residual = design.y - matrix @ gains
-    columns: list[Float1D] = []
-    owners: list[tuple[tuple[int, ...], str]] = []
+
+def _cover(estimate: _Estimate) -> Cover | None:
+    found = estimate.scatter
+    known = np.isfinite(found.sd) & np.isfinite(found.half) & (found.sd > 0)
+    if not known.any():
+        return None
+    # an interval is wider than the deviation says where few samples are independent
+    wider = found.half[known] / (Z95 * found.sd[known])
+    owners = tuple((o.slots, o.name) for o, good in zip(estimate.owners, known, strict=True) if good)
+    return Cover(owners, found.cover[np.ix_(known, known)] * np.outer(wider, wider))
+
+
+def profiles(
+    problem: Problem, x: Float1D, gains: Float1D, rough: Problem | None = None
+) -> Iterator[tuple[int, Profile, float]]:
+    """(place, profile, half of the quadratic interval in the units of the search) of every searched parameter but
+    moments, whose error has no slope; those at a bound as well."""
+    return _profiles(_Estimate(problem, x, gains), rough)
+
+
+class _Estimate:
+    """The Jacobian of the prediction to some searched parameters (all) and all free gains, and how they scatter."""
+
+    def __init__(self, problem: Problem, x: Float1D, gains: Float1D, places: Iterable[int] | None = None) -> None:
+        self.problem, self.x = problem, x
+        design = problem.design
+        matrix = problem.matrix(x)
+        columns: list[Float1D] = []
+        self.owners: list[Owner] = []
+        for i in range(len(problem.free)) if places is None else places:
+            nonlinear = problem.free[i]
+            low, high = nonlinear.outside(nonlinear.lower), nonlinear.outside(nonlinear.upper)
+            delta = STEP * (high - low) * (1.0 if x[i] + STEP * (high - low) < high else -1.0)
+            trial = x.copy()
+            trial[i] += delta
+            columns.append((problem.matrix(trial) - matrix) @ gains / delta)
+            self.owners.append(Owner(nonlinear.slots, nonlinear.param.name, i))
+        for s, slot in enumerate(design.slots):
+            for j, gain in enumerate(design.terms[slot.term].effect.gains):
+                k = problem.starts[s] + j
+                if problem.low[k] < gains[k] < problem.high[k]:
+                    columns.append(matrix[:, k])
+                    self.owners.append(Owner((s,), gain.name))
+        self.jacobian = np.column_stack(columns) if columns else np.zeros((design.n, 0))
+        unknown = disturbances(design, problem.params(x), gains, problem.starts)
+        self.scatter = scatter(self.jacobian, design.y - matrix @ gains, design.parts, unknown)
+
+
+def _profiles(estimate: _Estimate, rough: Problem | None) -> Iterator[tuple[int, Profile, float]]:
+    problem, x, jacobian = estimate.problem, estimate.x, estimate.jacobian
+    size = np.sqrt(np.sum(jacobian**2, axis=0))
+    moves = size > 0
+    size[~moves] = 1.0
+    inverse = np.linalg.pinv((jacobian / size).T @ (jacobian / size), rcond=1e-12) / np.outer(size, size)
+    # on other samples the optimum is a little elsewhere, and from beside it an error is no parabola
+    small, near = (problem, x) if rough is None else (rough, search(rough, x))
+    free_to_move = _inside(problem, x)
+    places = {owner.place: k for k, owner in enumerate(estimate.owners) if owner.place is not None}
+    for i, free in enumerate(problem.free):
+        k = places[i]
+        half = float(estimate.scatter.half[k])
+        if free.points == MOMENTS or not moves[k] or not np.isfinite(half) or inverse[k, k] <= 0 or half <= 0:
+            continue
+        allowed = half**2 / inverse[k, k] * small.design.n / problem.design.n
+        along = np.array([inverse[places[o], k] / inverse[k, k] if o in free_to_move else 0.0 for o in places])
+        along[i] = 1.0
+        yield i, Profile(small, near, i, allowed, along, float(x[i] - near[i])), half
+
+
+def _inside(problem: Problem, x: Float1D) -> list[int]:
+    """Searched parameters that do not stand at a bound."""
+    found = []
     for i, nonlinear in enumerate(problem.free):
         low, high = nonlinear.outside(nonlinear.lower), nonlinear.outside(nonlinear.upper)
-        delta = 1e-4 * (high - low)
-        if not low + 10 * delta < x[i] < high - 10 * delta:
-            continue
-        trial = x.copy()
-        trial[i] += delta
-        columns.append((problem.matrix(trial) - matrix) @ gains / delta)
-        owners.append((nonlinear.slots, nonlinear.param.name))
-    for s, slot in enumerate(design.slots):
-        for j, gain in enumerate(design.terms[slot.term].effect.gains):
-            k = problem.starts[s] + j
-            if problem.low[k] < gains[k] < problem.high[k]:
-                columns.append(matrix[:, k])
-                owners.append(((s,), gain.name))
-    by_slot: list[dict[str, float]] = [{} for _ in design.slots]
-    logs = frozenset(f.param.name for f in problem.free if f.log)
-    if not columns or design.n <= len(columns):
-        return by_slot, logs, None
-    cover = _robust(np.column_stack(columns), residual, design.parts)
-    sds = np.sqrt(np.maximum(np.diag(cover), 0.0))
-    for (slots, name), sd in zip(owners, sds, strict=True):
-        if np.isfinite(sd):
-            for s in slots:
-                by_slot[s][name] = float(sd)
-    known = bool(np.isfinite(cover).all())
-    return by_slot, logs, Cover(tuple(owners), cover) if known else None
+        if low + 10 * STEP * (high - low) < x[i] < high - 10 * STEP * (high - low):
+            found.append(i)
+    return found
 
 
 def memory(residual: Float1D, parts: list[slice]) -> float:
@@ -88,31 +176,3 @@ def _correlations(residual: Float1D, parts: list[slice]) -> Float1D:
     rho = cover[1:] / cover[0]
     below = np.flatnonzero(rho < 0.05)
     return np.asarray(rho[: below[0]] if len(below) else rho)
-
-
-def _robust(jacobian: Float2D, residual: Float1D, parts: list[slice]) -> Float2D:
-    size = np.sqrt(np.sum(jacobian**2, axis=0))
-    size[size == 0] = 1.0
-    unit = jacobian / size
-    bread = np.linalg.pinv(unit.T @ unit, rcond=1e-12)
-    scores = unit * residual[:, None]
-    span_of_memory = memory(residual, parts)
-    width = int(np.ceil(2 * span_of_memory))
-    meat = np.zeros((len(size), len(size)))
-    for part in parts:
-        own = scores[part]
-        if len(own):
-            # the Bartlett-weighted sum of lagged products is the mean product of moving sums
-            span = max(1, min(width, len(own)))
-            total = np.cumsum(
-                np.concatenate([np.zeros((span, own.shape[1])), own, np.zeros((span - 1, own.shape[1]))]), axis=0
-            )
-            moving = total[span:] - total[:-span]
-            meat += moving.T @ moving / span
-    n, k = jacobian.shape
-    # what the window cuts off (a quarter, were the correlation exponential), and what k parameters and a free mean
-    # a test take out of n / memory independent samples; without these, 95 % intervals hold the truth in 80 %
-    free = n / span_of_memory
-    lost = 1.0 - span_of_memory / (2 * max(width, 1)) if span_of_memory > 1.5 else 1.0
-    cover = bread @ meat @ bread / lost * free / max(0.25 * free, free - k - len(parts))
-    return np.asarray(cover / np.outer(size, size), dtype=np.float64)

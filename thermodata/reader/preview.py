@@ -66,12 +66,13 @@ def preview(
     most_s: float = MOST_S,
     watch: Callable[[Block], None] | None = None,
     recording: Recording | None = None,
+    beginning: bool = False,
 ) -> dict[str, Any]:
     """A file as plain data, ready for JSON. reader: which one (default: the one that claims the file).
 
     rows: first rows a stream; most_rows, most_s: where reading ends in a large file ('whole' is False then, and what is
     said of rows, gaps and losses holds for the part that was read); watch: sees every block that is read; recording:
-    what describe() said, where the caller has it already.
+    what describe() said, where the caller has it already; beginning: whether the reader reads the first rows alone.
 
     Keys: file, size_bytes, reader, reason, clock, timezone, start, complete, whole, rows_read, notes, losses, and
     streams, each with stream, rows, start, end, duration_s, step_s, rate_hz, gaps, largest_step_s, backward, repeated,
@@ -80,7 +81,9 @@ def preview(
     """
     path = Path(path)
     source = source or Source()
-    chosen = reader if reader is not None else sniff(path)
+    chosen, whole = reader if reader is not None else sniff(path), not beginning
+    if recording is None:
+        chosen, whole = beginning_of(chosen, path, source)
     said = described(chosen, path, source) if recording is None else recording
     absolute = said.clock == "absolute"
     streams: dict[str, _Stream] = {s.stream: _Stream() for s in said.signals}
@@ -88,7 +91,7 @@ def preview(
     for signal in said.signals:
         signals[signal.stream].append(signal)
     losses: list[Loss] = []
-    began, read, whole = time.monotonic(), 0, True
+    began, read = time.monotonic(), 0
     for item in guarded(chosen, path, source, said):
         if isinstance(item, Loss):
             losses.append(item)
@@ -124,6 +127,14 @@ def preview(
         ],
         "streams": [_shown(name, stream, signals[name], absolute) for name, stream in streams.items()],
     }
+
+
+def beginning_of(reader: Reader, path: Path, source: Source) -> tuple[Reader, bool]:
+    """(who reads a file for a look at it, whether that is all of it): the first rows alone where the reader can do that
+    and the file is large."""
+    begin = getattr(reader, "beginning", None)
+    first: Reader | None = None if begin is None else begin(path, source)
+    return (reader, True) if first is None else (first, False)
 
 
 def _shown(name: str, stream: _Stream, signals: list[Signal], absolute: bool) -> dict[str, Any]:

@@ -118,11 +118,16 @@ def versions(chain: Sequence[StoredModel], scored: Sequence[list[Score]] | None 
     those that were kept with it where None."""
     from thermodata.modelling.resolve import term_ids
 
-    made, known = [], set[str]()
+    made: list[Version] = []
+    known: dict[str, str] = {}
     for i, m in enumerate(chain):
         ids = term_ids(m.spec.effects)
         fresh = (
-            [_in_words(spec, name) for spec, name in zip(m.spec.effects, ids, strict=True) if name not in known]
+            [
+                _in_words(spec, name) if name not in known else f"{name} by {_parted_by(spec)}"
+                for spec, name in zip(m.spec.effects, ids, strict=True)
+                if name not in known or known[name] != _parted_by(spec)
+            ]
             if i
             else []
         )
@@ -138,7 +143,7 @@ def versions(chain: Sequence[StoredModel], scored: Sequence[list[Score]] | None 
                 m.stale,
             )
         )
-        known = set(ids)
+        known = {name: _parted_by(spec) for name, spec in zip(ids, m.spec.effects, strict=True)}
     return tuple(made)
 
 
@@ -170,11 +175,17 @@ def test_parts(loaded: Loaded) -> list[TestPart]:
 test_parts.__test__ = False  # type: ignore[attr-defined]
 
 
+def _parted_by(spec: EffectSpec) -> str:
+    """What its gain belongs to, as the model file has it; '' where one gain serves all."""
+    return " and ".join([spec.gain_by] if isinstance(spec.gain_by, str) else spec.gain_by or [])
+
+
 def _in_words(spec: EffectSpec, term: str) -> str:
     """An effect's name says what it is; a plain lag is told by its channel."""
     if spec.effect not in ("lag", "static"):
         return term
-    return f"{spec.effect}({', '.join(d if isinstance(d, str) else d.at for d in spec.drivers.values())})"
+    acts = f" in {' and '.join(spec.phases)}" if spec.phases else ""
+    return f"{spec.effect}({', '.join(d if isinstance(d, str) else d.at for d in spec.drivers.values())}){acts}"
 
 
 def _tests(

@@ -8,7 +8,7 @@ import numpy as np
 
 from thermodata.chart import Axis, Band, Chart, HeatMap, Limit, Panel, Series, Span, Strip
 from thermodata.chart.decimate import MOST_POINTS, block_mean, block_size
-from thermodata.modelling.parameters import Z95
+from thermodata.modelling.fitted_response import Z95
 from thermodata.plugin import Float1D
 from thermodata.report.data import Curve, TestPart
 from thermodata.report.words import duration, number, typeset

@@ -50,9 +50,10 @@ def fit_text(result: FitResult, *, scores: bool = True) -> str:
 
 
 def span(parameter: Parameter) -> str:
-    """'0.9 … 1.2', or '-' where the uncertainty is not known."""
+    """'0.9 … 1.2', '0.9 …' where these tests set no upper end, or '-' where the uncertainty is not known."""
     low, high = parameter.low, parameter.high
-    return "-" if low is None or high is None else f"{number(low)} … {number(high)}"
+    ends = ["" if end is None else number(end) for end in (low, high)]
+    return "-" if low is None and high is None else " … ".join(ends).strip()
 
 
 def scores_text(scores: list[Score], phases: bool = False) -> str:

@@ -37,14 +37,18 @@ def refinements_of(found: Diagnosis) -> list[Candidate]:
 
 
 def told(found: Diagnosis) -> list[Candidate]:
-    """The candidates whose evidence is told in full: all claims, else the first of the others; and all refinements."""
-    others = [c for c in found.candidates if not c.refinement]
-    return [*(claims_of(found) or others[:1]), *refinements_of(found)]
+    """The candidates whose evidence is told in full: all claims, else the first of the others; and all refinements.
+    What the verdict names comes first."""
+    causes = claims_of(found) or [c for c in found.candidates if not c.refinement][:1]
+    refined = refinements_of(found)
+    return [*refined, *causes] if found.verdict == "refine" else [*causes, *refined]
 
 
 def named(one: Candidate) -> str:
-    """'feed_screw (T_nut_Z)'."""
-    return f"{one.effect} ({', '.join(one.drivers)})" if one.drivers else one.effect
+    """'feed_screw (T_nut_Z)', and how it acts otherwise than the model has it."""
+    name = f"{one.effect} ({', '.join(one.drivers)})" if one.drivers else one.effect
+    by_phase = f" with a function of its own in {listed(one.phases)}" if one.phases else ""
+    return f"{name}{by_phase}{f' with a gain for each {one.gain_by}' if one.gain_by else ''}"
 
 
 def verdict_sentence(found: Diagnosis) -> str:

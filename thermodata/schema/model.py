@@ -52,6 +52,7 @@ class EffectSpec(Strict):
     drivers: role -> channel, difference of channels (T_a - T_b), or {at: place}; found by place where left out
     calibrate_on: tests that identify this effect first, before the others; all of their phases count
     response: the effect is identified on this response first, and used as found
+    acts_on: the responses that it acts on; by default all
     phases: the effect acts in these phases only, and is identified from them; between them it keeps what it had
         reached. heating is all the time that the machine works, unless the tests declare phases
     tests: the tests that it exists in (a slip); by default all
@@ -62,13 +63,14 @@ class EffectSpec(Strict):
         place (of the response: time constants are then shared by the places); or a list of them
     groups: values of gain_by that have one gain: {[D25, D63]: k1, D100: k2}
     one_gain: one factor g for each value of gain_by, over all gains of the effect
-    shared: parameters that all groups of gain_by share; by default all
+    shared: parameters that all groups of gain_by share; by default all; none: a function of its own for each
     fixed: parameter or gain -> value, in the effect's unit
     start: parameter -> where its search starts
     bounds: parameter -> [lower, upper], in the effect's unit
     file: of a prediction: CSV with the columns test, t_s [s], predicted
     name: of a model: its name or id in the store, or its file; what it predicts is the driver
     gain: of a model: a number holds the factor on its output; a word, or nothing, leaves it free (under that name)
+    parts: of a model: ids of the effects whose sum is taken; by default all
     inside: set by fit: the model that `name` was, as it was then
     """
 
@@ -77,6 +79,7 @@ class EffectSpec(Strict):
     drivers: dict[str, Driver] = {}
     calibrate_on: list[str] | None = None
     response: Response | None = None
+    acts_on: list[Response] | None = None
     phases: list[str] | None = None
     tests: list[str] | None = None
     method: Literal["oe", "arx", "varpro"] | None = None
@@ -85,13 +88,14 @@ class EffectSpec(Strict):
     gain_by: str | list[str] | None = None
     groups: dict[str, str] = {}
     one_gain: bool = False
-    shared: list[str] = []
+    shared: list[str] | Literal["none"] = []
     fixed: dict[str, PrintedNumber] = {}
     start: dict[str, float] = {}
     bounds: dict[str, tuple[float, float]] = {}
     file: str | None = None
     name: str | None = None
     gain: float | str | None = None
+    parts: list[str] | None = None
     inside: dict[str, Any] | None = None
 
     @field_validator("groups", mode="before")
@@ -113,6 +117,10 @@ class EffectSpec(Strict):
         if self.gain_by is None and (self.groups or self.one_gain):
             raise ValueError(f"'{'groups' if self.groups else 'one_gain'}' needs 'gain_by'")
         return self
+
+    def shares(self, parameter: str) -> bool:
+        """Whether all groups of gain_by have one value of a parameter."""
+        return not self.shared or (self.shared != "none" and parameter in self.shared)
 
     @property
     def gains_by(self) -> tuple[str, ...]:

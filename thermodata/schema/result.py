@@ -18,8 +18,8 @@ class Parameter(Result):
 
     value: in `unit`
     unit: as the effect states it
-    low: lower end; null at a bound or where held
-    high: upper end
+    low: lower end; null at a bound, where held, or where these tests set none
+    high: upper end; likewise
     """
 
     value: float
@@ -188,10 +188,12 @@ class Candidate(Result):
     """An effect, bound to channels, that may be missing; with its evidence on left-out tests.
 
     rank: 1 is the head
-    id: effect:channels
+    id: effect:channels; gain_by:effect,condition; or phases:effect,phase,phase
     effect: its name
     family: effects of one cause share it
     drivers: channels, in the order of the effect's roles
+    gain_by: the effect is in the model, and would have a gain for each value of this condition; null for all others
+    phases: the effect is in the model, and would have a function for each of these phases; empty for all others
     claimed: whether the evidence suffices for a missing cause
     refinement: whether it refines an effect that the model has (a second mode, a switch, a lead), which is never a
         missing cause
@@ -217,6 +219,8 @@ class Candidate(Result):
     effect: str
     family: str
     drivers: list[str]
+    gain_by: str | None = None
+    phases: list[str] = []
     claimed: bool
     refinement: bool = False
     probability: float | None = None

@@ -25,6 +25,16 @@ from thermodata.schema.quantity import QUANTITIES
 STEP_S = 60.0
 _BINARY = frozenset({"state"})
 _TOP = {"rotational_speed": 9000.0, "feed": 15.0, "power": 8.0, "position": 500.0, "temperature": 15.0}
+FINER = 6  # samples of the finer grid in one of the coarse one: 10 s
+# of a column's rms: what switches is a ramp of one sample on either grid
+GRID_TOLERANCE = 0.1
+# quantities, and the part of a gain's unit by which it is linear in them
+_PER_UNIT = (
+    (frozenset({"temperature", "temperature_difference"}), "/K"),
+    (frozenset({"power"}), "/kW"),
+    (frozenset({"position"}), "/m/"),
+    (frozenset({"*"}), "/u"),
+)
 Rule = Callable[[Effect], Iterator[str]]
 
 
@@ -183,6 +193,57 @@ def its_law_is_its_basis(effect: Effect) -> Iterator[str]:
                     yield f"the law of '{gain.name}' gives something else than the basis, by {_most(told - column):.3g}"
 
 
+def it_says_the_same_on_any_grid(effect: Effect) -> Iterator[str]:
+    for coarse in _variants(effect):
+        fine = _on_finer_grid(coarse)
+        for gain, slow, fast in zip(effect.gains, *_columns_at_start(effect, coarse, fine), strict=True):
+            there = fast[::FINER]
+            size = float(np.sqrt(np.mean(slow**2)))
+            if size > 0 and float(np.sqrt(np.mean((slow - there) ** 2))) > GRID_TOLERANCE * size:
+                yield f"the column of '{gain.name}' is another one at {STEP_S / FINER:g} s than at {STEP_S:g} s"
+
+
+def _columns_at_start(effect: Effect, *many: Drivers) -> list[Iterator[Float1D]]:
+    return [iter(effect.basis(drivers, _start(effect)).T) for drivers in many]
+
+
+def a_gap_that_was_filled_right_changes_nothing(effect: Effect) -> Iterator[str]:
+    for drivers in _variants(effect):
+        n = len(drivers.t_s)
+        seen = np.ones(n, bool)
+        seen[n // 3 : n // 2] = False
+        whole = effect.basis(drivers, _start(effect))
+        holed = effect.basis(replace(drivers, valid=dict.fromkeys(drivers.values, seen)), _start(effect))
+        if not np.allclose(whole, holed, rtol=1e-9, atol=1e-12):
+            yield "it looks at which samples are valid: filling them is done before, and what is filled does not count"
+
+
+def its_gains_have_the_units_of_what_drives_them(effect: Effect) -> Iterator[str]:
+    for drivers in _variants(effect):
+        for quantities, mark in _PER_UNIT:
+            roles = [n.role for n in effect.needs if n.quantity in quantities and n.role in drivers.values]
+            others = [n for n in effect.needs if n.role in drivers.values and n.role not in roles]
+            more = {r: v * (2.0 if r in roles else 1.0) for r, v in drivers.values.items()}
+            once, twice = (effect.basis(d, _start(effect)) for d in (drivers, replace(drivers, values=more)))
+            for gain, before, after in zip(effect.gains, once.T, twice.T, strict=True):
+                if roles and mark in gain.unit and not np.allclose(after, 2.0 * before, rtol=1e-6, atol=1e-9):
+                    yield f"'{gain.name}' is in {gain.unit}, and its column does not double with {', '.join(roles)}"
+                if roles and not others and gain.unit == "um" and mark == "/K":
+                    yield f"'{gain.name}' is in um, and nothing but a temperature drives it: it is um/K"
+
+
+def _on_finer_grid(drivers: Drivers) -> Drivers:
+    """The same course, straight between samples; what switches does so at the sample."""
+    n = len(drivers.t_s)
+    rows = np.arange((n - 1) * FINER + 1) / FINER
+    t = drivers.t_s[0] + rows * STEP_S
+    values = {
+        role: v[np.floor(rows + 1e-9).astype(int)] if len(np.unique(v)) <= 2 else np.interp(rows, np.arange(n), v)
+        for role, v in drivers.values.items()
+    }
+    return Drivers(t, values, {r: np.ones(len(t), bool) for r in values}, drivers.conditions)
+
+
 def _most(values: Float1D) -> float:
     return float(np.abs(values).max())
 
@@ -201,6 +262,9 @@ RULES: tuple[Rule, ...] = (
     it_says_the_same_twice,
     every_parameter_changes_something,
     its_law_is_its_basis,
+    it_says_the_same_on_any_grid,
+    a_gap_that_was_filled_right_changes_nothing,
+    its_gains_have_the_units_of_what_drives_them,
 )
 
 

@@ -9,8 +9,12 @@ import pytest
 from thermodata_effects_machine_tool.ambient import AmbientSkin
 from thermodata_effects_machine_tool.axis import FeedScrew, ScrewGrowth
 from thermodata_effects_machine_tool.generic import Step, WarmStart
+from thermodata_effects_machine_tool.measuring import RunoutAlias, SensorDrift
+from thermodata_effects_machine_tool.moments import Homing, Lubrication, ToolChange, rises
+from thermodata_effects_machine_tool.positioned import Overhang, ScaleGrowth
 from thermodata_effects_machine_tool.spindle import CentrifugalShift, SpindleFriction, SpindleHeatingCooling
 
+from thermodata.effect import all_effects, effects
 from thermodata.effect.lag import lag
 from thermodata.plugin import Drivers
 from thermodata.testing.effect import check_effect
@@ -81,3 +85,71 @@ def test_a_step_stands_and_a_warm_start_fades() -> None:
     assert (step[99], step[100], step[-1]) == (0.0, 1.0, 1.0)
     warm = WarmStart().basis(_drivers(), {"tau": 60.0})[:, 0]
     assert (warm[0], warm[60]) == (1.0, pytest.approx(np.exp(-1)))
+
+
+def test_a_scale_and_an_overhang_grow_with_position() -> None:
+    warm = np.full(len(T), 2.0)
+    for effect, roles in ((ScaleGrowth(), ("temperature", "position")), (Overhang(), ("temperature", "position"))):
+        near, far = (
+            effect.basis(_drivers(**dict(zip(roles, (warm, np.full(len(T), x)), strict=True))), {"tau": 1.0})[-1, 0]
+            for x in (100.0, 600.0)
+        )
+        assert (near, far) == pytest.approx((0.2, 1.2))
+
+
+def test_a_tool_starts_cold_at_each_change() -> None:
+    change = np.isin(T, [12000.0, 12060.0, 24000.0]).astype(float)
+    column = ToolChange().basis(_drivers(temperature=np.full(len(T), 5.0), change=change), {"tau": 20.0})[:, 0]
+    first = 5 * (1 - np.exp(-T / 1200.0))
+    assert column[:200] == pytest.approx(first[:200])
+    assert column[200] == 0.0
+    assert column[200:400] == pytest.approx(first[:200])
+    assert column[400:600] == pytest.approx(first[:200])
+
+
+def test_each_pulse_of_oil_adds_one_course_that_fades_however_long_the_pump_runs() -> None:
+    short, long = (np.isin(T, 6000.0 + 60.0 * np.arange(k)).astype(float) for k in (1, 5))
+    a, b = (Lubrication().basis(_drivers(pump=p), {"tau": 10.0})[:, 0] for p in (short, long))
+    assert np.array_equal(a, b)
+    assert (a[99], a[100], a[110]) == (0.0, 1.0, pytest.approx(np.exp(-1.0)))
+
+
+def test_homings_are_counted_and_stay() -> None:
+    command = np.isin(T, [6000.0, 6060.0, 12000.0]).astype(float)
+    column = Homing().basis(_drivers(command=command), {})[:, 0]
+    assert (column[99], column[101], column[150], column[-1]) == (0.0, 1.0, 1.0, 2.0)
+
+
+def test_a_flag_that_is_up_from_the_start_has_not_risen() -> None:
+    assert not rises(np.ones(5)).any()
+    assert list(rises(np.array([0.0, 1.0, 1.0, 0.0, 1.0]))) == [0.0, 1.0, 0.0, 0.0, 1.0]
+
+
+def test_run_out_is_an_offset_at_multiples_of_the_sampling_rate_only() -> None:
+    speed = np.repeat([0.0, 6000.0, 6060.0, 300.0, -600.0], 120)
+    column = RunoutAlias().basis(_drivers(speed=speed), {"rate": 10.0})[:, 0]
+    at = column[60::120]
+    assert (at[0], at[1], at[4]) == pytest.approx((0.0, 1.0, 1.0))
+    assert max(at[2], at[3]) < 1e-9  # 1 % of speed, and half the rate, turn round in a second
+
+
+def test_a_sensor_that_drifts_takes_its_effect_along() -> None:
+    column = SensorDrift().basis(_drivers(), {"tau": 60.0})[:, 0]
+    assert column[0] == 0.0
+    # the lag is one hour behind in the end
+    assert column[-1] == pytest.approx(T[-1] / 3600 - 1, abs=0.01)
+
+
+def test_diagnosis_does_not_ask_for_them_by_itself() -> None:
+    quiet = {e.name for e in OURS if getattr(e.load(), "asked", True) is False}
+    assert quiet == {
+        "homing",
+        "lubrication",
+        "overhang",
+        "runout_alias",
+        "scale_growth",
+        "sensor_drift",
+        "tool_change",
+    }
+    assert not quiet & set(effects())
+    assert quiet <= set(all_effects())

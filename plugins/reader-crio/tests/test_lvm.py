@@ -328,3 +328,18 @@ def test_every_row_carries_its_line(tmp_path: Path) -> None:
     assert block.at.tolist() == [21, 24]
     assert Reader().locate(path, PRAGUE, "data", 1) == "line 24"
     assert Reader().locate(path, PRAGUE, "data", 2) == "row 3"
+
+
+def test_a_block_of_zeros_over_the_names_and_the_first_rows_is_told(tmp_path: Path) -> None:
+    whole = head("No") + packet(["a", "b"], x="X_Value\ta\tb") + "\t1,5\t-2\n\t1,25\t3\n\t1\t4\n"
+    at = whole.index("\tComment")
+    data = read(tmp_path, whole[:at] + "\0" * (len("\tComment\n\t1,5\t-2")) + "\n" + whole.split("\t1,5\t-2\n")[1])
+    assert any("NUL bytes in the line of names" in loss.reason for loss in data.losses)
+    np.testing.assert_array_equal(data.values["data", "a"], [1.25, 1.0])
+
+
+def test_a_heading_that_counts_its_channels_with_nothing_is_noted(tmp_path: Path) -> None:
+    text = head("No") + packet(["a", "b"], x="X_Value\ta\tb").replace("Channels\t2", "Channels")
+    data = read(tmp_path, text + "\t1,5\t-2\n\t1,25\t3\n\t1\t4\n")
+    assert any("announces no number of channels and names 2" in n for n in data.recording.notes)
+    np.testing.assert_array_equal(data.values["data", "b"], [-2, 3, 4])

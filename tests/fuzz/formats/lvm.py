@@ -116,10 +116,11 @@ def mutate(seed: Seed, rng: random.Random) -> Mutation:
     )[0]
     if kind == "cut":
         data = cut(seed.data, rng)
-        # whole rows of a file that announces no number of rows are an honest file; so is a last line without its end
-        return Mutation(
-            data, kind, seed.name not in ("no.lvm", "crlf.lvm", "multi.lvm", "several.lvm", "old.lvm"), False
-        )
+        # whole rows of a file that announces no number of rows are an honest file; so is a last line without its end,
+        # and one that ends behind a packet
+        counted = seed.name in ("no.lvm", "crlf.lvm", "multi.lvm", "several.lvm", "old.lvm")
+        between = seed.name == "several.lvm" and seed.data[len(data) :].lstrip().startswith(b"Channels")
+        return Mutation(data, kind, not counted or between, False)
     if kind == "row":
         return _row(seed, lines, rows, rng)
     if kind in ("header line", "header value"):
@@ -208,7 +209,7 @@ def _cell(seed: Seed, lines: list[bytes], at: int, rng: random.Random) -> Mutati
         cells[i] = rng.choice(JUNK).encode()
     # the free text behind the numbers may be anything, and so may a number that is one; a row of which the text
     # says that nothing was measured is flagged already
-    blank = what == "emptied" or (what == "junk" and not cells[i].strip())
+    blank = what == "emptied" or (what == "junk" and cells[i].strip() in (b"", b"--"))
     anything = (b"LOST" in lines[at] and (blank or i == len(lines[at].split(separator)) - 1)) or (
         what == "junk" and cells[i] in (b"1,5", b"NaN")
     )

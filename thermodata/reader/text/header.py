@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
+from functools import lru_cache
 
 from thermodata.reader.text.cell import Cell, is_number, is_stamp
 from thermodata.reader.text.number import clean
@@ -21,6 +22,7 @@ _TRAILING = re.compile(
 )
 
 
+@lru_cache(maxsize=4096)
 def looks_like_unit(text: str) -> bool:
     """Whether a text reads as a unit: an alias (U/min, Grd C, °C) or SI symbols with / * and powers."""
     bare = re.sub(r"\s+", "", text).strip("[]()")
@@ -29,6 +31,7 @@ def looks_like_unit(text: str) -> bool:
     return bare.casefold() in UNIT_SPELLING or _UNIT.match(text.strip()) is not None
 
 
+@lru_cache(maxsize=4096)
 def split_unit(header: str) -> tuple[str, str | None]:
     """(name, unit or None): 'ch3(um)' -> ('ch3', 'um'), 'Temp [degC]' -> ('Temp', 'degC').
 
@@ -87,9 +90,19 @@ def _spanning(rows: Sequence[Sequence[Cell]], width: int) -> list[int]:
         and len(filled[last]) > 1
         and not any(is_number(c) or is_stamp(c) for c in filled[last])
         and not _are_units(filled[found[-1]])
+        and not _ends_early(rows[last], rows[found[-1]], width)
     ):
         found.append(last)
     return found
+
+
+def _ends_early(row: Sequence[Cell], above: Sequence[Cell], width: int) -> bool:
+    """Whether a row of few cells is cut off or foreign, and leaves nothing out that is merged with the row above it:
+    that names every column, and the row's cells are its first."""
+    named = [c not in ("", None) for c in above[:width]]
+    said = [c not in ("", None) for c in row[:width]]
+    few = said.index(False) if False in said else len(said)
+    return len(named) == width and all(named) and few < width and not any(said[few:])
 
 
 def lines_between(rows: Sequence[Sequence[Cell]], width: int, skip: int) -> list[str]:

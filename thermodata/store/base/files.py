@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import errno
 import hashlib
 import os
@@ -15,9 +16,22 @@ from thermodata.errors import StoreError
 TEMPORARY = re.compile(r"^\..*\.tmp(\.wal)?$")  # DuckDB puts a .wal beside a database in the making
 
 
+_unfinished: set[Path] = set()
+
+
 def temporary(target: Path) -> Path:
     """A name beside the target that nobody reads."""
-    return target.with_name(f".{target.name}.{secrets.token_hex(4)}.tmp")
+    part = target.with_name(f".{target.name}.{secrets.token_hex(4)}.tmp")
+    _unfinished.add(part)
+    return part
+
+
+def drop_unfinished() -> None:
+    """Deletes what this process began under a temporary name and did not publish: for one that must end now, whatever
+    its other threads are at."""
+    for part in tuple(_unfinished):
+        with contextlib.suppress(OSError):
+            part.unlink()
 
 
 DISK_FULL = "the disk is full"
@@ -87,6 +101,7 @@ def publish(part: Path, target: Path) -> None:
         finally:
             os.close(fd)
         part.replace(target)
+        _unfinished.discard(part)
         fsync_folder(target.parent)
     except OSError as error:
         raise write_error(target, error) from error

@@ -80,7 +80,8 @@ def _source_row(plan: TestPlan, source: SourcePlan, stream: str, raws: Sequence[
     complete = [r.complete for r in raws]
     notes = json.loads(clock_to_json(clock)) + list(dict.fromkeys(n for r in raws for n in r.notes))
     first = min(r.first_ns + (r.start_ns or 0 if r.clock == "relative" else 0) for r in raws)
-    steps = [r.step_ns for r in raws if r.step_ns > 0]
+    steps = sorted(r.step_ns for r in raws if r.step_ns > 0)
+    middle = steps[(len(steps) - 1) // 2 : len(steps) // 2 + 1]
     return {
         "campaign": plan.campaign.id,
         "test": plan.test.id,
@@ -91,7 +92,7 @@ def _source_row(plan: TestPlan, source: SourcePlan, stream: str, raws: Sequence[
         "clock": "relative" if is_relative(source) else "absolute",
         "start_ns": first + clock.offset_ns + clock.base_ns,
         "rows": sum(r.rows for r in raws),
-        "step_s": float(np.median(steps)) / 1e9 if steps else None,
+        "step_s": sum(middle) / len(middle) / 1e9 if steps else None,
         "offset_ns": clock.offset_ns,
         "complete": False if False in complete else (None if None in complete else True),
         "notes": _json(notes),

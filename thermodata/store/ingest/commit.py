@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import json
+import os
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from datetime import datetime
+from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -21,7 +23,7 @@ if TYPE_CHECKING:
 _WORDS = ("notes", "repeat_of", "added_at", "start", "sensor", "raw_unit")
 
 
-@dataclass(slots=True)
+@dataclass
 class Planned:
     """The whole state of a campaign, as it is to be. rows: table -> test -> rows ('' for jump tests)."""
 
@@ -31,7 +33,7 @@ class Planned:
     calibrations: list[Row]
     extra: dict[str, Any] = field(default_factory=dict)
 
-    @property
+    @cached_property
     def spec(self) -> str:
         return self.campaign.model_dump_json(by_alias=True)
 
@@ -81,7 +83,10 @@ def nothing_new(planned: Planned, inventory: Inventory, changed: Mapping[str, se
     """Whether the catalogue says already what the plan says. changed: their `changes`."""
     return (
         inventory.campaign is not None
-        and json.loads(inventory.campaign["spec"]) == json.loads(planned.spec)
+        and (
+            inventory.campaign["spec"] == planned.spec
+            or json.loads(inventory.campaign["spec"]) == json.loads(planned.spec)
+        )
         and same(planned.calibrations, inventory.calibrations)
         and not any(changed.values())
     )
@@ -100,7 +105,7 @@ def commit(
     inventory: the state within this same transaction; differing: its `changes`.
     Raises VanishedError where a planned file isn't there.
     """
-    missing = [p for p in planned.paths() if not (store / p).exists()]
+    missing = [p for p in planned.paths() if not os.path.exists(os.path.join(store, p))]
     if missing:
         raise VanishedError(missing[0])
     campaign = planned.campaign.id

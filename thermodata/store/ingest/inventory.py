@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Mapping
 from dataclasses import dataclass, field
+from functools import lru_cache
 from pathlib import Path
+from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
 from thermodata.store.base.connection import fetch
@@ -49,7 +52,7 @@ class Inventory:
         return [
             r
             for r in self.rows["file"].get(test, [])
-            if r["layer"] == "tidy" and (r["key"] == base or json.loads(r["columns"]).get("base") == base)
+            if r["layer"] == "tidy" and (r["key"] == base or meta_of(r).get("base") == base)
         ]
 
 
@@ -79,6 +82,16 @@ def read_inventory(con: duckdb.DuckDBPyConnection, store: Path | None, campaign:
             if clock is not None:
                 inventory.clocks[clock.key] = clock
     return inventory
+
+
+def meta_of(row: Row) -> Mapping[str, Any]:
+    """What a row of `file` tells of its columns, to be read only: each is asked for in several places."""
+    return _parsed(row["columns"])
+
+
+@lru_cache(maxsize=4096)
+def _parsed(text: str) -> Mapping[str, Any]:
+    return MappingProxyType(json.loads(text))
 
 
 def generation_of(con: duckdb.DuckDBPyConnection) -> int:

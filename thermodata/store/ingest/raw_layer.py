@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
@@ -152,6 +152,10 @@ class RawIngest:
             for path in files.paths:
                 if path not in self.campaign.versions:
                     yield path, source, self.campaign.sources[source].of_test(test)
+
+    def hashed(self, files: Mapping[str, SourceFile]) -> None:
+        """Files whose hash is known: they need not be read for it."""
+        self._settled.update(files)
 
     def hashes(self) -> dict[str, str]:
         """Source path -> SHA-256, of all files that were looked at."""

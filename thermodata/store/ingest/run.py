@@ -22,7 +22,7 @@ from thermodata.store.ingest.raw_layer import RawIngest, loss_row
 from thermodata.store.ingest.spec_lines import with_lines
 from thermodata.store.ingest.tidy_layer import tidy_tests
 from thermodata.store.ingest.unanswered import unanswered
-from thermodata.store.ingest.unchanged import answer, keep
+from thermodata.store.ingest.unchanged import answer, keep, known_files, noted
 from thermodata.store.tidy.calibrations import evaluate
 from thermodata.store.tidy.plan import bind
 
@@ -92,9 +92,11 @@ def _ingest(store: Store, path: Path, watch: Progress, given: Campaign | None) -
     raw_layer = RawIngest(store.path, path.absolute().parent, campaign, Inventory(), watch)
     raw_layer.survey()
     here = raw_layer.seen(path.absolute())
-    known = answer(here, store.mark()) if given is None else None
+    kept = noted(here)
+    known = answer(here, kept, store.mark()) if given is None else None
     if known is not None:
         return replace(IngestSummary(**known), seconds=time.monotonic() - began)
+    raw_layer.hashed(known_files(here, kept))
     with store.marked_reader() as (con, mark):
         inventory = raw_layer.inventory = read_inventory(con, store.path, campaign.id)
     raw_layer.read_ahead()

@@ -19,12 +19,12 @@ from thermodata.errors import SpecError, StoreError, ThermodataError
 from thermodata.plugin import Loss
 from thermodata.store.base.files import is_whole, key_of
 from thermodata.store.ingest import catalogue_rows
-from thermodata.store.ingest.inventory import BY_TEST, Inventory, Row
+from thermodata.store.ingest.inventory import BY_TEST, Inventory, Row, meta_of
 from thermodata.store.ingest.raw_layer import loss_row
 from thermodata.store.tidy.between import Verdict, levels_of, verdicts
 from thermodata.store.tidy.clock_offsets import clocks_of
 from thermodata.store.tidy.event import event_of
-from thermodata.store.tidy.keys import member_key
+from thermodata.store.tidy.keys import ChannelTexts, member_key
 from thermodata.store.tidy.overrule import idle
 from thermodata.store.tidy.plan import SCHEDULE, TestPlan
 from thermodata.store.tidy.series import Member, TestSeries
@@ -74,7 +74,7 @@ def tidy_tests(
     spoil are made again.
     """
     layer = TidyLayer()
-    tidier = _Tidier(store, _columns(plans), calibrations, inventory, now, say, layer)
+    tidier = _Tidier(store, _columns(plans), calibrations, inventory, now, say, layer, ChannelTexts(calibrations))
     tidied: dict[str, _Tidied] = {}
     for plan in plans:
         with _loss_where_it_fails(layer, plan):
@@ -87,7 +87,7 @@ def tidy_tests(
                 t.plan.test.id,
                 None if t.where.relative else t.where.zero_ns / 1e9,
                 {name: b.channel.quantity for name, b in t.plan.bound.items()},
-                [r for rows in t.files.values() for r in rows],
+                [(r["part"], meta_of(r)) for rows in t.files.values() for r in rows],
             )
         )
         is not None
@@ -136,6 +136,7 @@ class _Tidier:
     now: datetime
     say: Callable[[str], None]
     layer: TidyLayer
+    texts: ChannelTexts
 
     def tidy(self, plan: TestPlan) -> _Tidied:
         """Every stream of a test, kept where the store has it already."""
@@ -162,7 +163,7 @@ class _Tidier:
         """Makes those streams again whose files were made with another verdict in mind."""
         series = None
         for member, rows in test.files.items():
-            meta = [json.loads(r["columns"]) for r in rows]
+            meta = [meta_of(r) for r in rows]
             wanted = verdict.of(c for m in meta for c in m["channels"])
             if wanted.to_json() != next((m["verdict"] for m in meta if "verdict" in m), {}):
                 series = series or self._series(test)
@@ -172,7 +173,7 @@ class _Tidier:
         return TestSeries(self.store, test.plan, test.clocks, test.where, self.calibrations)
 
     def _base(self, test: _Tidied, member: Member) -> str:
-        return member_key(test.plan, member, self.columns[member], test.clocks, test.where, self.calibrations)
+        return member_key(test.plan, member, self.columns[member], test.clocks, test.where, self.texts)
 
     def _write(self, test: _Tidied, series: TestSeries, member: Member, base: str, verdict: Verdict) -> None:
         name, campaign = test.plan.test.id, test.plan.campaign.id
@@ -223,9 +224,7 @@ def _kept_alive(path: Path, size_bytes: int) -> bool:
 
 def _duration(plan: TestPlan, files: Sequence[Row]) -> float | None:
     """How long the recording is [s]: that of its reference sources, as far as they were tidied."""
-    ends = {
-        r["source"]: json.loads(r["columns"])["to_s"] for r in files if r["layer"] == "tidy" and r["part"] == "test"
-    }
+    ends = {r["source"]: meta_of(r)["to_s"] for r in files if r["layer"] == "tidy" and r["part"] == "test"}
     if plan.test.window is not None and ends:
         a, b = plan.test.window
         return float(min(b - a, max(ends.values())))
@@ -277,7 +276,7 @@ def _tidy_rows(
 
 def _count(layer: TidyLayer, files: Sequence[Row], test: str) -> None:
     for row in files:
-        meta = json.loads(row["columns"])
+        meta = meta_of(row)
         layer.samples += meta.get("samples", 0)
         layer.flags.update(meta.get("flags", {}))
         layer.losses += [loss_row(p, test=test) for p in meta.get("problems", [])]

@@ -18,7 +18,7 @@ from pathlib import Path
 from typing import Any
 
 from thermodata.store.base.files import is_whole, key_of
-from thermodata.store.raw.source_file import mark_of, settled
+from thermodata.store.raw.source_file import SourceFile, mark_of, settled
 
 FOLDER = "known"
 # a file that was written just before its hash was made may differ and look the same: clocks of disks are coarse
@@ -54,15 +54,34 @@ def seen(store: Path, campaign: Path, files: Mapping[str, Path], *words: str) ->
     return Seen(store, campaign, _digest("\0".join(words)), files)
 
 
-def answer(here: Seen, mark: str) -> dict[str, Any] | None:
-    """The summary that was given when all stood as it stands now; None where anything differs, or may differ.
-
-    mark: of the store's last commit."""
+def noted(here: Seen) -> Mapping[str, Any]:
+    """What the last ingest of this campaign file noted; nothing where it can't be told."""
     try:
         digest, _, text = here.note.read_text(encoding="utf-8").partition("\n")
         if digest != _digest(text):  # torn: nothing waits until a note is on the disk
-            return None
-        kept = json.loads(text)
+            return {}
+        kept: dict[str, Any] = json.loads(text)
+    except (OSError, ValueError):
+        return {}
+    return kept
+
+
+def known_files(here: Seen, kept: Mapping[str, Any]) -> dict[str, SourceFile]:
+    """Source path -> the file with the hash that was noted of it, of those that were left alone since."""
+    found = {}
+    with suppress(ValueError, TypeError, AttributeError):  # a note of another version
+        for path, (was, young, sha256) in kept.get("sources", {}).items():
+            mark = here.marks.get(path)
+            if mark == tuple(was) and not young:
+                found[path] = SourceFile(here.files[path], str(sha256), mark[2], mark)
+    return found
+
+
+def answer(here: Seen, kept: Mapping[str, Any], mark: str) -> dict[str, Any] | None:
+    """The summary that was given when all stood as it stands now; None where anything differs, or may differ.
+
+    kept: what was `noted`. mark: of the store's last commit."""
+    try:
         if not mark or kept["mark"] != mark or kept["says"] != here.says or len(here.marks) != len(here.files):
             return None
         if kept["catalogue"] != _catalogue(here.store) or kept["sources"].keys() != here.marks.keys():

@@ -21,6 +21,7 @@ from typing import Any, BinaryIO
 
 from thermodata.errors import FormatError, PluginError, UsageError
 from thermodata.plugin import Reader, Source
+from thermodata.store.base.files import drop_unfinished
 from thermodata.store.ingest.progress import TextProgress, counted
 from thermodata.store.raw.source_file import ChangedError, SourceFile
 from thermodata.store.raw.streams import RawStream, find_reader, raw_key, read_raw
@@ -125,6 +126,7 @@ def main() -> None:
     try:
         _work()
     finally:
+        drop_unfinished()
         # without the interpreter's own end, which waits in vain for the thread that listens
         os._exit(0)
 
@@ -150,7 +152,8 @@ def _listen(incoming: BinaryIO, tasks: SimpleQueue[Task | None]) -> None:
         tasks.put(None)
         if hasattr(signal, "pthread_kill"):
             signal.pthread_kill(threading.main_thread().ident or 0, signal.SIGTERM)
-            time.sleep(_ENDING_S)  # for a half-made file to go; a library that hears of nothing meanwhile leaves it
+            time.sleep(_ENDING_S)  # for the file in hand to be given up; a library may hear of nothing meanwhile
+        drop_unfinished()
         os._exit(1)
 
 

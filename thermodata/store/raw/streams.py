@@ -6,6 +6,7 @@ import dataclasses
 import json
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
+from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
@@ -53,10 +54,12 @@ class RawStream:
     ordered: bool | None = None
     newest_first: bool = False
     unordered: bool = False
+    # as it was read; a copy that was changed has none
+    _told: str | None = field(default=None, init=False, repr=False, compare=False)
 
     def to_json(self) -> str:
         """Everything but what the table `file` has columns for."""
-        return json.dumps(
+        return self._told or json.dumps(
             {
                 "stream": self.stream,
                 "first_ns": self.first_ns,
@@ -94,6 +97,10 @@ class RawStream:
     @classmethod
     def from_row(cls, row: Mapping[str, Any]) -> RawStream:
         """From a row of the table `file`."""
+        return _stream_of(*(row[name] for name in (*_OF_ROW, "columns", "losses")))
+
+    @classmethod
+    def _from(cls, row: Mapping[str, Any]) -> RawStream:
         meta = json.loads(row["columns"])
         signals = tuple(
             Signal(
@@ -106,7 +113,7 @@ class RawStream:
             )
             for s in meta["signals"]
         )
-        return cls(
+        raw = cls(
             row["key"],
             row["path"],
             meta["stream"],
@@ -131,9 +138,21 @@ class RawStream:
             meta.get("newest_first", False),
             meta.get("unordered", False),
         )
+        if "superseded_at" not in meta:
+            object.__setattr__(raw, "_told", row["columns"])
+        return raw
 
     def losses_json(self) -> str:
         return json.dumps([dataclasses.asdict(loss) for loss in self.losses], default=_plain)
+
+
+_OF_ROW = ("key", "path", "source_path", "sha256", "bytes", "rows")
+
+
+@lru_cache(maxsize=4096)
+def _stream_of(*row: Any) -> RawStream:
+    """An ingest meets each row twice: among all that the store holds, and as what a test was made of."""
+    return RawStream._from(dict(zip((*_OF_ROW, "columns", "losses"), row, strict=True)))
 
 
 def _plain(value: Any) -> Any:
@@ -167,9 +186,9 @@ def version_of(reader: Reader) -> str:
 
 def raw_key(sha256: str, reader: Reader, source: Source) -> str:
     """The same bytes, read by the same reader as declared in the same way, are the same raw data."""
+    said = {f.name: getattr(source, f.name) for f in dataclasses.fields(source) if f.name != "name"}
     descriptor = json.dumps(
-        {k: v for k, v in dataclasses.asdict(dataclasses.replace(source, options={})).items() if k != "name"}
-        | {"options": dict(source.options)},
+        said | {"options": dict(source.options)},
         sort_keys=True,
         default=str,
     )
@@ -244,7 +263,7 @@ def read_raw(
 
 def _as_kept(raw: RawStream) -> RawStream:
     """As the catalogue will give it back: keys made from either must be the same."""
-    row = {name: getattr(raw, name) for name in ("key", "path", "source_path", "sha256", "bytes", "rows")}
+    row = {name: getattr(raw, name) for name in _OF_ROW}
     return RawStream.from_row(row | {"columns": raw.to_json(), "losses": raw.losses_json()})
 
 

@@ -52,6 +52,8 @@ class Verdict:
 
     def to_json(self) -> dict[str, Any]:
         """Plain data; empty where there is nothing to say."""
+        if not (self.offsets or self.foreign or self.readings):
+            return {}
         return json.loads(json.dumps({k: v for k, v in asdict(self).items() if v}))  # type: ignore[no-any-return]
 
     def reading(self, channel: str) -> Reading | None:
@@ -145,20 +147,20 @@ def _more(known: Reading | None, column: Column, t_s: Float1D) -> Reading:
 
 
 def levels_of(
-    test: str, start_s: float | None, quantities: Mapping[str, str], rows: Sequence[Mapping[str, Any]]
+    test: str, start_s: float | None, quantities: Mapping[str, str], files: Sequence[tuple[str, Mapping[str, Any]]]
 ) -> tuple[Levels, dict[str, Reading]] | None:
-    """What a test's channels were like, and how they read, from the rows of its tidy files; None where nothing is kept.
+    """What a test's channels were like, and how they read, as its tidy files tell; None where nothing is kept.
 
-    start_s: on the absolute clock; None where the test has none. quantities: of its channels.
+    start_s: on the absolute clock; None where the test has none. quantities: of its channels. files: the part of the
+    test that each holds, and what is noted of it.
     """
     series: dict[str, Course] = {}
     pauses: list[tuple[float, float]] = []
     readings: dict[str, Reading] = {}
     end = 0.0
-    for row in rows:
-        if row["layer"] != "tidy" or row["part"] != "test":
+    for part, meta in files:
+        if part != "test":
             continue
-        meta = json.loads(row["columns"])
         end = max(end, meta["to_s"])
         levels = meta.get("levels")
         if not levels:

@@ -8,6 +8,7 @@ from collections.abc import Mapping, Sequence
 
 from thermodata.calibration.measuring import measuring_names
 from thermodata.calibration.result import CalibrationResult
+from thermodata.schema.campaign import Channel
 from thermodata.store.base.files import key_of
 from thermodata.store.tidy import derive
 from thermodata.store.tidy.overrule import rules_of
@@ -26,7 +27,7 @@ def member_key(
     columns: Sequence[tuple[str, bool]],
     clocks: Mapping[str, Clock],
     span: Span,
-    calibrations: Mapping[str, CalibrationResult],
+    texts: ChannelTexts,
 ) -> str:
     """The key of the tidy files of one stream of a test. Everything that its bytes depend on, and nothing else."""
     # `repr` writes the names of Span, Clock and their fields into the keys: to rename one makes every tidy file anew
@@ -45,7 +46,7 @@ def member_key(
     if rules:
         parts.append(repr([r.model_dump(mode="json", exclude={"tests"}) for r in rules]))
     for name in sorted(used):
-        parts.append(channel_text(used[name], calibrations))
+        parts.append(texts.of(used[name]))
     for source, stream in sorted(members):
         if source in plan.sources:
             source_plan = plan.sources[source]
@@ -84,6 +85,26 @@ def _collect(plan: TestPlan, bound: Bound, into: dict[str, Bound]) -> None:
         for name in derive.names(bound.channel.derive):
             if name in plan.bound:
                 _collect(plan, plan.bound[name], into)
+
+
+class ChannelTexts:
+    """The texts of the channels of many tests, most of which are the same: told for each as by `channel_text`."""
+
+    def __init__(self, calibrations: Mapping[str, CalibrationResult]) -> None:
+        self._calibrations = calibrations
+        # with its channel, so that no other comes to have its identity
+        self._known: dict[tuple[object, ...], tuple[Channel, str]] = {}
+
+    def of(self, bound: Bound) -> str:
+        """The text of one channel of a test."""
+        signal = bound.signal
+        if signal is not None and signal.scaling is not None:
+            return channel_text(bound, self._calibrations)
+        told = None if signal is None else (signal.name, signal.stream, signal.unit, signal.dtype)
+        key = (id(bound.channel), bound.name, bound.unit, told)
+        if key not in self._known:
+            self._known[key] = bound.channel, channel_text(bound, self._calibrations)
+        return self._known[key][1]
 
 
 def channel_text(bound: Bound, calibrations: Mapping[str, CalibrationResult]) -> str:

@@ -26,7 +26,7 @@ def refinements_of(found: Diagnosis) -> list[Candidate]:
 
 def head_of(found: Diagnosis) -> Candidate | None:
     """The cause that the answer thinks likeliest: by its probability where any is stated, else by its rank."""
-    causes = [c for c in found.candidates if not c.refinement]
+    causes = [c for c in found.candidates if not c.refinement and not c.gain_by and not c.phases]
     return min(causes, key=lambda c: (-(c.probability or 0.0), c.rank), default=None)
 
 

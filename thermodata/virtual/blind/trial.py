@@ -10,10 +10,10 @@ from typing import Any
 from thermodata.diagnosis.answer import answer
 from thermodata.diagnosis.confirm import on_all_open, rmse
 from thermodata.effect import effects
-from thermodata.modelling.candidate import candidate_spec
+from thermodata.modelling.candidate import with_candidate, with_effect
 from thermodata.modelling.fit import fit_model
 from thermodata.modelling.fitted_response import FittedResponse
-from thermodata.schema.model import EffectSpec, Model
+from thermodata.schema.model import Model
 from thermodata.schema.result import Candidate, Diagnosis
 from thermodata.view.dataset import Dataset
 from thermodata.virtual.blind.marking import best, claims_of, head_of, marks_of, outcome_of, refinements_of
@@ -106,7 +106,7 @@ def judge(stratum: str, seed: int, *, rivals: bool = True, hours: float = 9.0) -
     fits = _Fits(data)
     head, refined = head_of(found), refinements_of(found)
     before, after = fits.locked(spec), fits.locked(last)
-    named = None if nothing else fits.locked(_with(spec, _right(world)))
+    named = None if nothing else fits.locked(_with_truth(spec, world))
     fell = None if named is None or before is None or named > (1 - LEAST_FALL) * before else before - named
     return Trial(
         stratum=stratum,
@@ -131,7 +131,7 @@ def judge(stratum: str, seed: int, *, rivals: bool = True, hours: float = 9.0) -
         broken_first=head is not None and broken in head.drivers,
         rmse_um=before,
         rmse_um_claimed=after,
-        rmse_um_refined=fits.locked(_with(spec, _specs(refined[:1], data))) if refined else None,
+        rmse_um_refined=fits.locked(_with(spec, refined[:1], data)) if refined else None,
         rmse_um_named=named,
         rmse_um_truth=_without_truth(world, data, spec) if world.hidden else before,
         share=None if fell is None or before is None or after is None else (before - after) / fell,
@@ -151,10 +151,10 @@ def _all_claims(found: Diagnosis, spec: Model, data: Dataset, hidden: int) -> tu
     """(claims, the model with them, how often was asked). An answer that claims less than is hidden is followed: its
     claims are added, and the better model is asked again, as a user would."""
     new = claims_of(found)
-    claims, last, rounds = list(new), _with(spec, _specs(new, data)), 1
+    claims, last, rounds = list(new), _with(spec, new, data), 1
     while new and len(claims) < hidden:
         new = claims_of(_ask(last, data))
-        claims, last, rounds = [*claims, *new], _with(last, _specs(new, data)), rounds + 1
+        claims, last, rounds = [*claims, *new], _with(last, new, data), rounds + 1
     return claims, last, rounds
 
 
@@ -167,17 +167,17 @@ def _stated(
     return (*([] if head is None else [stated("first", head)]), *(stated("claim", c) for c in claims))
 
 
-def _with(spec: Model, more: Sequence[EffectSpec]) -> Model:
-    return spec.model_copy(update={"effects": [*spec.effects, *more]})
+def _with(spec: Model, some: Sequence[Candidate], data: Dataset) -> Model:
+    for one in some:
+        spec = with_candidate(spec, one.id, data.channels)
+    return spec
 
 
-def _specs(some: Sequence[Candidate], data: Dataset) -> list[EffectSpec]:
-    return [candidate_spec(c.id, data.channels) for c in some]
-
-
-def _right(world: World) -> list[EffectSpec]:
+def _with_truth(spec: Model, world: World) -> Model:
     channels = channels_of(world)
-    return [right_effect(world, c, channels) for c in world.hidden]
+    for cause in world.hidden:
+        spec = with_effect(spec, right_effect(world, cause, channels))
+    return spec
 
 
 class _Fits:

@@ -47,12 +47,48 @@ class Reader:
         found: Iterator[Block | Loss] = _format(path).blocks(path, source)
         return found
 
+    def beginning(self, path: Path, source: Source) -> Reader | None:
+        """A reader of the first rows of a workbook that holds more than a look needs; None for all other files."""
+        if not _is_zip(path):
+            return None
+        import tempfile
+
+        from thermodata_reader_table.workbook_beginning import beginning
+
+        folder = tempfile.TemporaryDirectory(prefix="thermodata-")
+        small = beginning(path, Path(folder.name))
+        return None if small is None else _Beginning(path, small, folder)
+
     def locate(self, path: Path, source: Source, stream: str, row: int) -> str:
         """Where a row (counted from 0) of a stream stands: line, row of a sheet, index of an array, record."""
         where: str | None = _format(path).locate(path, source, stream, row)
         return where or f"row {row + 1}"
 
     place = locate
+
+
+class _Beginning(Reader):
+    """Reads a file in place of another, whose beginning it is. folder: where it stands, gone when nobody needs it."""
+
+    def __init__(self, whole: Path, small: Path, folder: object) -> None:
+        self._whole, self._small, self._folder = whole, small, folder
+
+    def describe(self, path: Path, source: Source) -> Recording:
+        return super().describe(self._of(path), source)
+
+    def blocks(self, path: Path, source: Source) -> Iterator[Block | Loss]:
+        return super().blocks(self._of(path), source)
+
+    def locate(self, path: Path, source: Source, stream: str, row: int) -> str:
+        return super().locate(self._of(path), source, stream, row)
+
+    def _of(self, path: Path) -> Path:
+        return self._small if path == self._whole else path
+
+
+def _is_zip(path: Path) -> bool:
+    with path.open("rb") as file:
+        return file.read(4) == b"PK\x03\x04"
 
 
 def mat_is_hdf5(start: bytes) -> bool:

@@ -53,7 +53,7 @@ def check_size(path: Path) -> dict[str, int]:
         for member in members:
             sheet = _Extent() if member.filename.startswith("xl/worksheets/") else None
             rest = b""
-            for part in _inflate(file, member, path):
+            for part in inflate(file, member, path):
                 unpacked += len(part)
                 if unpacked > MAX_UNPACKED:
                     raise FormatError(
@@ -78,7 +78,7 @@ def _check_rows(file: Any, members: list[zipfile.ZipInfo], path: Path) -> None:
     rows = unpacked = 0
     for member in members:
         rest = b""
-        for part in _inflate(file, member, path) if member.filename.startswith("xl/worksheets/") else ():
+        for part in inflate(file, member, path) if member.filename.startswith("xl/worksheets/") else ():
             text = rest + part
             rows += text.count(b"<row") + text.count(b":row") // 2  # a row with a prefix: begun and ended
             rest = part[-3:]
@@ -130,7 +130,8 @@ class _Extent:
             )
 
 
-def _inflate(file: Any, member: zipfile.ZipInfo, path: Path) -> Iterator[bytes]:
+def inflate(file: Any, member: zipfile.ZipInfo, path: Path) -> Iterator[bytes]:
+    """A part of a workbook, unpacked in pieces of at most 1 MiB. FormatError where it is damaged."""
     if member.header_offset < 0:  # what stands before the archive moves all of its places
         raise FormatError("damaged workbook", where=f"{path.name} {member.filename}", expected="a ZIP entry")
     file.seek(member.header_offset)

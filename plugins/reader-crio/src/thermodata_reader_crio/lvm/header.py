@@ -147,7 +147,7 @@ def read_packet(lines: list[str], names_line: str, header: Header, path: Path, n
             f"{'an X column for each channel' if multi else 'one X column'}"
         )
     x: list[int | None] = [c - 1 if multi else 0 if said != "No" else None for c in columns]
-    count = keys.get("Channels", [""])[0]
+    count = next(iter(keys.get("Channels", [])), "")
     if count != str(len(columns)):
         notes.append(
             f"line {number}: the heading announces {count or 'no number of'} channels and names {len(columns)}"

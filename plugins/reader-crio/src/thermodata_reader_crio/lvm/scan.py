@@ -174,6 +174,12 @@ class _Scan:
     def _names(self, text: str, line: int) -> Iterator[Item]:
         assert self.header is not None
         lines, self.lines, self.state, self.lost = self.lines, [], "rows", False
+        if "\0" in text:
+            yield Loss(
+                f"{self.path.name} line {line}",
+                reason=f"{text.count(chr(0))} NUL bytes in the line of names: what stood there, and rows, are lost",
+            )
+            text = text.replace("\0", "")
         try:
             packet = read_packet(lines, text, self.header, self.path, line)
         except FormatError as error:

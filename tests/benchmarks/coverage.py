@@ -1,0 +1,238 @@
+"""How often the interval of 95 % of a fitted parameter holds the truth, over simulated machines.
+
+    uv run --no-sync python tests/benchmarks/coverage.py --seeds 0:200
+    uv run --no-sync python tests/benchmarks/coverage.py --seeds 0:12 --only lag --check 0.85:1.0
+
+The machines are heat balances integrated in steps of 10 s by Heun's rule, with noise drawn sample by sample: nothing of
+the library's lags or of its simulated machines takes part. What is fitted is the model that the machine has; so what is
+measured are the intervals, not the choice of a model. `width`: half of the interval as a share of the truth, median
+(of a time constant: of its logarithm). `none`: parameters without an interval, which count as misses; of an interval
+that is open at one end the other counts.
+"""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+from time import process_time
+
+import numpy as np
+
+from thermodata.modelling.fit import fit_model
+from thermodata.plugin import Float1D
+from thermodata.schema.model import Model
+from thermodata.view.dataset import ChannelInfo, Dataset, TestData
+
+FINE_S, STEP_S = 10.0, 60.0
+NOISES = ("white", "slow", "both", "uneven")
+INFOS = {
+    c.name: c
+    for c in (
+        ChannelInfo("dZ", "displacement", "um", "tcp", "Z"),
+        ChannelInfo("T_spindle", "temperature", "degC", "spindle.bearing.front"),
+        ChannelInfo("T_hall", "temperature", "degC", "hall"),
+    )
+}
+LAG = {"effect": "transfer_function", "id": "spindle", "drivers": {"u": "T_spindle"}}
+CASES: Mapping[str, Sequence[Mapping[str, object]]] = {
+    "lag": [LAG | {"orders": [1, 1]}],
+    "direct + lag": [LAG | {"orders": [2, 1]}],
+    "two lags": [LAG | {"orders": [2, 2]}],
+    "two effects": [
+        LAG | {"orders": [1, 1]},
+        {"effect": "transfer_function", "id": "hall", "orders": [1, 1], "drivers": {"u": "T_hall"}},
+    ],
+}
+
+
+@dataclass(frozen=True)
+class Machine:
+    """truth: parameter as the fit names it -> value [um/K, min]. tests: as recorded."""
+
+    truth: Mapping[str, float]
+    tests: tuple[TestData, ...]
+
+
+def make_machine(case: str, noise: str, seed: int) -> Machine:
+    """2 to 6 tests of 6 to 12 h of one machine; the same seed has the same tests for every noise."""
+    rng = np.random.default_rng([seed, list(CASES).index(case)])
+    fast, slow = rng.uniform(10, 40), rng.uniform(60, 150)
+    sign = rng.choice([-1.0, 1.0])
+    truth: dict[str, float] = {
+        "lag": {"spindle.tau": rng.uniform(15, 120), "spindle.gain": sign * rng.uniform(1, 5)},
+        "direct + lag": {
+            "spindle.tau": slow,
+            "spindle.gain": sign * rng.uniform(1, 5),
+            "spindle.direct": rng.uniform(-2, 2),
+        },
+        "two lags": {
+            "spindle.tau_1": fast,
+            "spindle.tau_2": slow + 60,
+            "spindle.gain_1": sign * rng.uniform(1, 4),
+            "spindle.gain_2": rng.choice([-1.0, 1.0]) * rng.uniform(1, 4),
+        },
+        "two effects": {
+            "spindle.tau": fast,
+            "spindle.gain": sign * rng.uniform(1, 4),
+            "hall.tau": slow,
+            "hall.gain": -rng.uniform(1, 4),
+        },
+    }[case]
+    count, hours = int(rng.integers(2, 7)), float(rng.uniform(6, 12))
+    drawn = np.random.default_rng([seed, list(CASES).index(case), NOISES.index(noise)])
+    tests = tuple(_test(truth, noise, hours, k, rng, drawn) for k in range(count))
+    return Machine(truth, tests)
+
+
+def _test(
+    truth: Mapping[str, float], noise: str, hours: float, k: int, rng: np.random.Generator, drawn: np.random.Generator
+) -> TestData:
+    steps = int(hours * 3600 / STEP_S) * int(STEP_S / FINE_S)
+    minutes = np.arange(steps) * FINE_S / 60.0
+    speed = np.zeros(steps)  # share of the highest
+    at = int(rng.integers(60, 120))
+    while at < steps:
+        stay = int(rng.uniform(20, 150) * 60 / FINE_S)
+        speed[at : at + stay] = rng.choice([0.0, 0.0, 0.3, 0.6, 1.0])
+        at += stay
+    hall = rng.uniform(0.5, 2) * np.sin(2 * np.pi * (minutes / 1440 + rng.uniform())) + _wandering(steps, 90, 0.6, rng)
+    hall -= hall[0]
+    spindle = _heated(14 * speed**1.4, hall, 25.0)
+    y = np.zeros(steps)
+    for name, drive in (("spindle", spindle), ("hall", hall)):
+        y += truth.get(f"{name}.direct", 0.0) * drive
+        for end in ("", "_1", "_2"):
+            if f"{name}.tau{end}" in truth:
+                y += truth[f"{name}.gain{end}"] * _heated(np.zeros(steps), drive, truth[f"{name}.tau{end}"])
+    inside = int(STEP_S / FINE_S)
+    n = steps // inside
+    y_60, spindle_60, hall_60 = (v.reshape(n, inside).mean(axis=1) for v in (y, spindle, hall))
+    t = np.arange(n) * STEP_S
+    values = {
+        "dZ": y_60 + 40 * drawn.normal() + _noise(noise, n, k, drawn),
+        "T_spindle": 25 + spindle_60 + drawn.normal(0, 0.02, n),
+        "T_hall": 21 + hall_60 + drawn.normal(0, 0.02, n),
+    }
+    known = {name: np.ones(n, bool) for name in values}
+    return TestData("c", f"t{k}", "other", "calibration", t, values, known, np.ones(n, bool), channels=INFOS)
+
+
+def _heated(power: Float1D, around: Float1D, tau_min: float) -> Float1D:
+    """tau dx/dt = power + around - x from balance, by Heun's rule in steps of FINE_S; shape (n,)."""
+    target = (power + around).tolist()
+    h, x, out = FINE_S / 60.0 / tau_min, 0.0, [0.0]
+    for now, then in pairwise(target):
+        first = h * (now - x)
+        second = h * (then - x - first)
+        x += (first + second) / 2
+        out.append(x)
+    return np.array(out)
+
+
+def _noise(kind: str, n: int, k: int, rng: np.random.Generator) -> Float1D:
+    """[um]. uneven: slow, and twice as large in every other test."""
+    size = {"white": 0.0, "slow": 0.6, "both": 0.5, "uneven": 0.4 * (1 + k % 2)}[kind]
+    white = {"white": 0.5, "slow": 0.02, "both": 0.3, "uneven": 0.1}[kind]
+    memory = rng.uniform(10, 60)  # [min]
+    return rng.normal(0, white, n) + (_wandering(n, memory * 60 / STEP_S, size, rng) if size else 0.0)
+
+
+def _wandering(n: int, memory: float, size: float, rng: np.random.Generator) -> Float1D:
+    """A stationary Ornstein-Uhlenbeck process. memory: in samples; size: its standard deviation."""
+    keep = float(np.exp(-1.0 / memory))
+    x, out = float(rng.normal()), []
+    for step in rng.normal(0, np.sqrt(1 - keep**2), n).tolist():
+        out.append(x)
+        x = keep * x + step
+    return size * np.array(out)
+
+
+@dataclass(frozen=True)
+class Seen:
+    """One parameter of one machine. width: half the interval as a share of the truth, inf where it is open, None where
+    there is none."""
+
+    case: str
+    noise: str
+    tests: int
+    parameter: str
+    inside: bool
+    width: float | None
+    seconds: float
+
+
+def intervals(case: str, noise: str, seed: int) -> Iterator[Seen]:
+    machine = make_machine(case, noise, seed)
+    data = Dataset(STEP_S, machine.tests, INFOS)
+    spec = {"schema": "thermodata/model/1", "name": "m", "campaign": "c", "step": "60 s"}
+    model = Model.model_validate(spec | {"response": {"axis": "Z"}, "effects": CASES[case]})
+    began = process_time()
+    found = fit_model(model, data).parameters()
+    seconds = process_time() - began
+    for name, true in machine.truth.items():
+        p = found[name]
+        kind = name.partition(".")[2].partition("_")[0]
+        inside = (p.low is None or p.low <= true) and (p.high is None or true <= p.high)
+        if p.low is None or p.high is None:
+            known = p.low is not None or p.high is not None
+            yield Seen(case, noise, len(machine.tests), kind, known and inside, np.inf if known else None, seconds)
+            continue
+        half = np.log(p.high / p.low) / 2 if kind == "tau" else (p.high - p.low) / 2 / abs(true)
+        yield Seen(case, noise, len(machine.tests), kind, inside, float(half), seconds)
+
+
+def table(seen: Sequence[Seen]) -> list[str]:
+    lines = [
+        "| case | noise | parameter | machines | in the interval [%] | none [%] | width | ms a fit |",
+        "|---" * 8 + "|",
+    ]
+    keys = dict.fromkeys((s.case, s.noise, s.parameter) for s in seen)
+    rows = [(key, [s for s in seen if (s.case, s.noise, s.parameter) == key]) for key in keys]
+    rows += [
+        ((case, "all", "all"), [s for s in seen if s.case == case]) for case in dict.fromkeys(s.case for s in seen)
+    ]
+    few = [s for s in seen if s.tests <= 3]
+    rows += [(("all", "all", "all"), list(seen)), (("all", "2 or 3 tests", "all"), few)]
+    for (case, noise, parameter), own in rows:
+        if not own:
+            continue
+        widths = [s.width for s in own if s.width is not None]
+        lines.append(
+            f"| {case} | {noise} | {parameter} | {len(own)} | {100 * _share(own):.1f} "
+            f"| {100 * (1 - len(widths) / len(own)):.1f} | {np.median(widths) if widths else float('nan'):.3f} "
+            f"| {1000 * float(np.median([s.seconds for s in own])):.0f} |"
+        )
+    return lines
+
+
+def _share(seen: Sequence[Seen]) -> float:
+    return sum(s.inside for s in seen) / max(1, len(seen))
+
+
+def main(words: Sequence[str] | None = None) -> int:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--seeds", default="0:200", help="FROM:TO, one machine each")
+    parser.add_argument("--only", choices=list(CASES), action="append")
+    parser.add_argument("--noise", choices=NOISES, action="append")
+    parser.add_argument("--check", help="LOW:HIGH, shares that the truth must lie in the intervals, else exit code 1")
+    given = parser.parse_args(words)
+    first, last = map(int, given.seeds.split(":"))
+    seen = [
+        one
+        for case in given.only or CASES
+        for noise in given.noise or NOISES
+        for seed in range(first, last)
+        for one in intervals(case, noise, seed)
+    ]
+    print("\n".join(table(seen)))
+    if given.check is None:
+        return 0
+    low, high = map(float, given.check.split(":"))
+    return 0 if low <= _share(seen) <= high else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,147 @@
+"""Profiles of time constants, and tests that can't tell two of them apart."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+import pytest
+
+from thermodata.effect.lag import lag
+from thermodata.modelling import fit_model
+from thermodata.modelling.apart import cooled
+from thermodata.modelling.fitted import FittedModel
+from thermodata.modelling.profiles import profiles_of
+from thermodata.schema.result import Check
+from thermodata.view.dataset import ChannelInfo, Dataset, TestData
+
+from .conftest import Spec
+
+CHANNELS = {
+    c.name: c
+    for c in (
+        ChannelInfo("y", "displacement", "um", "tcp", "Z"),
+        ChannelInfo("T", "temperature", "degC", "spindle"),
+        ChannelInfo("T_far", "temperature", "degC", "hall"),
+        ChannelInfo("speed", "rotational_speed", "rpm", "spindle"),
+    )
+}
+TWO_LAGS = {"effect": "transfer_function", "id": "f", "orders": [2, 2], "drivers": {"u": "T"}}
+
+
+def _test(seed: int, heat_h: float, cool_h: float, noise: float, lags: dict[float, float]) -> TestData:
+    """Ten minutes of rest, heating, and cooling; the sensor has a lag of 20 min. lags: min -> um/K."""
+    rng = np.random.default_rng(seed)
+    n = int((heat_h + cool_h) * 60) + 1
+    on = np.zeros(n)
+    on[10 : int(heat_h * 60)] = 1.0
+    u = lag(12 * on, 1200, 60)
+    y = np.sum([gain * lag(u, tau * 60, 60) for tau, gain in lags.items()], axis=0)
+    values = {
+        "y": y + rng.normal(0, noise, n) + 4 * noise * lag(rng.normal(0, 1, n), 1200, 60),
+        "T": 20 + u + rng.normal(0, 0.01, n),
+        "T_far": 20 + rng.normal(0, 0.01, n),
+        "speed": 5000 * on,
+    }
+    t = np.arange(n) * 60.0
+    known = {name: np.ones(n, bool) for name in values}
+    return TestData("c", f"t{seed}", "other", "calibration", t, values, known, np.ones(n, bool), channels=CHANNELS)
+
+
+def _fit(spec: Spec, tests: Sequence[TestData], *effects: dict[str, Any]) -> FittedModel:
+    return fit_model(spec(*effects, response={"channel": "y"}), Dataset(60.0, tuple(tests), CHANNELS))
+
+
+def _told_apart(fitted: FittedModel) -> list[Check]:
+    return [c for c in fitted.checks() if c.name.startswith("told_apart")]
+
+
+def _hours(check: Check) -> float:
+    return float(check.advice.split("about ")[1].split(" h of cooling")[0])
+
+
+def _near_lags(cool_h: float) -> list[TestData]:
+    return [_test(seed, 1.5, cool_h, 0.3, {60.0: 2.0, 150.0: 3.0}) for seed in (2, 3)]
+
+
+def test_two_lags_that_the_tests_cannot_tell_apart_are_said_with_the_hours_that_are_missing(spec: Spec) -> None:
+    check = _told_apart(_fit(spec, _near_lags(2.0), TWO_LAGS))[0]
+    assert not check.passed
+    assert check.value is not None
+    assert check.value <= 1.0
+    assert check.advice.startswith("these tests can't tell the two time constants apart")
+    assert 1.0 <= _hours(check) <= 10.0
+
+
+def test_with_the_hours_that_were_missing_they_are_apart(spec: Spec) -> None:
+    missing = _hours(_told_apart(_fit(spec, _near_lags(2.0), TWO_LAGS))[0])
+    fitted = _fit(spec, _near_lags(2.0 + missing), TWO_LAGS)
+    check = _told_apart(fitted)[0]
+    assert check.passed
+    assert "are apart" in check.advice
+    found = fitted.parameters()
+    taus = sorted(found[f"f.tau_{i}"].value for i in (1, 2))
+    assert taus == pytest.approx([60.0, 150.0], rel=0.25)
+
+
+def test_two_effects_of_one_driver_are_asked_as_well(spec: Spec) -> None:
+    two = [{"effect": "lag", "id": f"l{i}", "drivers": {"u": "T"}, "start": {"tau": 30.0 * i}} for i in (1, 3)]
+    assert [c.passed for c in _told_apart(_fit(spec, _near_lags(2.0), *two))] == [False]
+    assert [c.passed for c in _told_apart(_fit(spec, _near_lags(10.0), *two))] == [True]
+
+
+def test_effects_of_two_drivers_or_with_held_lags_are_not_asked(spec: Spec) -> None:
+    other = {"effect": "lag", "id": "far", "drivers": {"u": "T_far"}}
+    held = {"effect": "lag", "id": "held", "drivers": {"u": "T"}, "fixed": {"tau": 30.0}}
+    lone = {"effect": "lag", "id": "near", "drivers": {"u": "T"}}
+    assert not _told_apart(_fit(spec, _near_lags(2.0), lone, other))
+    assert not _told_apart(_fit(spec, _near_lags(2.0), lone, held))
+
+
+def test_a_test_is_cooled_as_its_driver_cooled_before() -> None:
+    test = _test(1, 2.0, 1.0, 0.01, {60.0: 1.0})
+    longer = cooled(test, "T", 3.0)
+    rows = len(test.t_s)
+    assert len(longer.t_s) == rows + 180
+    assert np.all(longer.values["speed"][rows:] == 0)
+    assert np.ptp(longer.values["T_far"][rows:]) == 0
+    left = longer.values["T"][rows:] - 20.0
+    assert left[0] < test.values["T"][-1] - 20.0 + 0.05
+    # the sensor's own lag is 20 min
+    assert left[20] / left[0] == pytest.approx(np.exp(-1), rel=0.1)
+
+
+def test_where_a_test_ends_hot_the_interval_reaches_further_up(spec: Spec) -> None:
+    """A lag of 4 h heated for one: below it the error rises steeply, above hardly."""
+    one = {"effect": "lag", "id": "l", "drivers": {"u": "T"}}
+    tests = [_test(seed, 1.5, 0.0, 0.3, {240.0: 8.0}) for seed in (5, 6)]
+    found = _fit(spec, tests, one).parameters()["l.tau"]
+    assert found.low is not None
+    assert found.low < 240.0
+    assert found.high is None or found.high / found.value > 1.3 * found.value / found.low
+    curve = profiles_of(_fit(spec, tests, one), Dataset(60.0, tuple(tests), CHANNELS)).curves[0]
+    assert not curve.quadratic
+
+
+def test_on_long_tests_the_profile_is_the_quadratic_interval(spec: Spec) -> None:
+    one = {"effect": "lag", "id": "l", "drivers": {"u": "T"}}
+    tests = [_test(seed, 3.0, 6.0, 0.3, {60.0: 3.0}) for seed in (5, 6)]
+    fitted = _fit(spec, tests, one)
+    curve = profiles_of(fitted, Dataset(60.0, tuple(tests), CHANNELS)).curves[0]
+    assert curve.quadratic
+    found = fitted.parameters()["l.tau"]
+    assert (found.low, found.high) == pytest.approx((curve.low, curve.high), rel=1e-3)
+    assert found.low is not None
+    assert found.high is not None
+    assert found.low * found.high == pytest.approx(found.value**2, rel=1e-6)
+
+
+def test_the_curve_has_its_least_error_at_the_fitted_value(spec: Spec) -> None:
+    tests = [_test(seed, 3.0, 6.0, 0.3, {60.0: 3.0}) for seed in (5, 6)]
+    data = Dataset(60.0, tuple(tests), CHANNELS)
+    curve = profiles_of(_fit(spec, tests, {"effect": "lag", "drivers": {"u": "T"}}), data).curves[0]
+    values, errors = zip(*curve.curve, strict=True)
+    assert list(values) == sorted(values)
+    assert values[int(np.argmin(errors))] == pytest.approx(curve.value)
+    assert errors[0] > min(errors) < errors[-1]
