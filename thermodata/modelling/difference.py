@@ -1,8 +1,8 @@
 """Whether one model's error differs from another's, by an interval: samples of a thermal test hang together.
 
 The difference of two root mean squares is, near where it stands, a mean over samples (the delta method); that mean is
-worth as many samples as the memory of what is averaged leaves [bartlett1946], and over several tests it is how the tests
-differ that spreads it.
+worth as many samples as the memory of what is averaged leaves [bartlett1946], and over several tests it is how the
+tests differ that spreads it.
 """
 
 from __future__ import annotations
