@@ -29,6 +29,7 @@ _FLAGS = (
     "--disable-component-update",
     "--disable-sync",
     "--hide-scrollbars",
+    "--lang=en-US",
     "--remote-debugging-pipe",
 )
 
@@ -58,6 +59,7 @@ class Chromium:
         self._process = subprocess.Popen(
             [program, *_FLAGS, f"--user-data-dir={self._profile}"],
             close_fds=False,
+            env={**os.environ, "LANG": "en_US.UTF-8", "LC_ALL": "en_US.UTF-8"},  # of C, pages get no language
             preexec_fn=place,
             stdout=subprocess.DEVNULL,
             stderr=subprocess.DEVNULL,
@@ -242,6 +244,12 @@ class Page:
             }
         shot = self.call("Page.captureScreenshot", format="png", **clip)
         Path(path).write_bytes(base64.b64decode(shot["data"]))
+
+    def paper(self, on: bool = True) -> None:
+        """Shows the page as it goes to A4 within margins of 10 mm, charts redrawn for it; or as on the screen again."""
+        self.call("Emulation.setEmulatedMedia", media="print" if on else "")
+        self.look(680, 1000) if on else self.look(1280, 900)
+        self.js(f"dispatchEvent(new Event('{'beforeprint' if on else 'afterprint'}'))")
 
     def pdf(self, path: Path | str) -> None:
         """The page as it prints on A4."""

@@ -9,13 +9,16 @@ from thermodata.version import __version__
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from thermodata.view import StoreView
+    from thermodata.notebook.opened import OpenStore
 
 __all__ = ["__version__", "open"]
 
 
-def open(path: str | Path = "thermodata.store") -> StoreView:
-    """Open a store for reading and querying: `thermodata.open("store").sql("select * from test")`."""
-    from thermodata.view import StoreView
+def open(path: str | Path = "thermodata.store") -> OpenStore:
+    """Open a store, to query it and to work on it; docs/python.md shows all of it.
 
-    return StoreView(path)
+    `store.sql("select * from test")`; `store.fit("model.yaml").diagnose().add(1).plot()`.
+    """
+    from thermodata.notebook.opened import OpenStore
+
+    return OpenStore(path)

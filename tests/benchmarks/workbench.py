@@ -3,7 +3,8 @@
     nice -n 19 uv run --no-sync python tests/benchmarks/workbench.py FOLDER --tests 10 --hours 24 --channels 8
 
 Writes its own store of that size under FOLDER (once), and asks a real server over a socket. Times are wall clock of
-this machine; the last line is JSON. The issue's size is --tests 100 --hours 24 --channels 40 at 1 Hz.
+this machine, and beside them processor time of the server, which a busy machine leaves alone; the last line is JSON.
+The issue's size is --tests 100 --hours 24 --channels 40 at 1 Hz; the plot has 12 channels, a million samples.
 """
 
 from __future__ import annotations
@@ -11,6 +12,7 @@ from __future__ import annotations
 import argparse
 import http.client
 import json
+import os
 import subprocess
 import sys
 import time
@@ -26,6 +28,7 @@ from thermodata.chart.assets import script
 from thermodata.store import Store
 from thermodata.store.base.connection import insert
 
+_CURVES = 12
 START_NS = 1_772_000_000_000_000_000
 
 
@@ -132,6 +135,11 @@ def main() -> None:
     address = urlsplit(json.loads(text)["address"])
     link = http.client.HTTPConnection(address.netloc, timeout=60)
 
+    def processor_s() -> float:
+        """Of the server since it began, its threads included."""
+        fields = Path(f"/proc/{server.pid}/stat").read_text().rpartition(")")[2].split()
+        return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
+
     def get(url: str, cookie: str = "") -> tuple[float, http.client.HTTPResponse, bytes]:
         at = time.perf_counter()
         link.request("GET", url, headers={"cookie": cookie} if cookie else {})
@@ -144,15 +152,17 @@ def main() -> None:
         _, opened, _ = get(f"{address.path}?{address.query}")
         cookie = (opened.getheader("set-cookie") or "").split(";")[0]
         get("/", cookie)
-        first_page_s = time.perf_counter() - began
-        show = ",".join(f"T_{i:02}" for i in range(min(8, given.channels)))
+        first_page_s, first_page_cpu_s = time.perf_counter() - began, processor_s()
+        show = ",".join(f"T_{i:02}" for i in range(min(_CURVES, given.channels)))
         base = f"campaign=big&test=t000&show={show}"
         first_plot_s, _, body = get(f"/test?{base}", cookie)
+        first_plot_cpu_s = processor_s() - first_page_cpu_s
         rng, zooms = np.random.default_rng(0), []
         for _ in range(given.zooms):
             width = given.hours * 3600 * float(rng.uniform(0.01, 0.6))
             low = float(rng.uniform(0, given.hours * 3600 - width))
             zooms.append(get(f"/test/data?{base}&from={low:.1f}&to={low + width:.1f}", cookie)[0])
+        zoom_cpu_s = (processor_s() - first_page_cpu_s - first_plot_cpu_s) / given.zooms
         status = Path(f"/proc/{server.pid}/status").read_text()
         peak_mib = int(next(line for line in status.splitlines() if line.startswith("VmHWM")).split()[1]) / 1024
     finally:
@@ -163,12 +173,15 @@ def main() -> None:
         "tests": given.tests,
         "hours": given.hours,
         "channels": given.channels,
-        "samples_of_the_plot": given.hours * 3600 * min(8, given.channels),
+        "samples_of_the_plot": given.hours * 3600 * min(_CURVES, given.channels),
         "first_page_s": round(first_page_s, 3),
+        "first_page_processor_s": round(first_page_cpu_s, 2),
         "first_plot_s": round(first_plot_s, 3),
+        "first_plot_processor_s": round(first_plot_cpu_s, 2),
         "page_kb": round(len(body) / 1000),
         "zoom_p50_ms": round(1000 * float(np.median(zooms)), 1),
         "zoom_p95_ms": round(1000 * float(np.quantile(zooms, 0.95)), 1),
+        "zoom_processor_ms": round(1000 * zoom_cpu_s, 1),
         "peak_mib": round(peak_mib),
         "script_kb": round(
             (len(script()) + sum((web / f).stat().st_size for f in ("htmx/htmx.min.js", "workbench.js"))) / 1000

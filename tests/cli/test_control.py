@@ -225,7 +225,8 @@ def test_what_can_not_run_in_a_control_is_refused_with_reason_and_way_out(
 # ---- show
 
 
-def test_show_says_what_the_fit_found(ask: Say) -> None:
+def test_show_says_what_the_fit_found(ask: Say, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("COLUMNS", "160")  # headings in one line
     fitted = json.loads(ask("fit", "baseline", "--json").out)["parameters"]
     shown = json.loads(ask("show", "baseline", "--json").out)["responses"][0]
     (path,) = shown["paths"]

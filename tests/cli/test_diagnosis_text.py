@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from thermodata.cli.diagnosing import diagnosis_text
+from thermodata.report.diagnosis_text import diagnosis_text
 from thermodata.schema.result import Candidate, Diagnosis
 
 

@@ -205,7 +205,10 @@ def test_a_model_of_the_store_is_an_effect_of_another(data: Callable[..., Any], 
     assert data("fit", path)["parameters"]["model.gain"]["value"] == 1.5
 
 
-def test_orders_are_shown_with_what_they_foretell(data: Callable[..., Any], ask: Say, say: Say, campaign: Path) -> None:
+def test_orders_are_shown_with_what_they_foretell(
+    data: Callable[..., Any], ask: Say, say: Say, campaign: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("COLUMNS", "160")  # headings in one line
     model = (campaign / "baseline.yaml").read_text(encoding="utf-8").split("effects:")[0]
     path = campaign / "function.yaml"
     path.write_text(model + "effects: [{effect: transfer_function, drivers: {u: T_bearing}, orders: [1, 1]}]\n")

@@ -8,7 +8,7 @@ import pytest
 
 from thermodata.cli.common import plain
 from thermodata.cli.layout import markdown
-from thermodata.cli.table import table
+from thermodata.report.table import table
 from thermodata.report.words import change, duration, number, typeset
 
 
@@ -74,3 +74,34 @@ def test_json_knows_no_nan_and_takes_anything() -> None:
 def test_a_bar_in_a_heading_does_not_end_a_column_of_markdown() -> None:
     found = markdown([{"a": 1.0, "b": "x|y"}], [("a", "|max|+|min| [um]"), ("b", "b")]).splitlines()
     assert found == [r"| \|max\|+\|min\| [um] | b |", "| ---: | --- |", r"| 1.00 | x\|y |"]
+
+
+WIDE = [
+    {"campaign": "gantry-2026-03", "test": "sp9000", "role": "verification (in-sample)", "fit": 90.1, "left": 5.0},
+    {"campaign": "gantry-2026-03", "test": "sp2000", "role": "calibration", "fit": -3.25, "left": 12.5},
+]
+HEADS = [("campaign", "campaign"), ("test", "test"), ("role", "role"), ("fit", "FIT [%]"), ("left", "PTP left [um]")]
+
+
+def test_a_table_is_folded_to_the_screen_and_says_once_what_all_rows_share() -> None:
+    assert table(WIDE, HEADS, width=44).splitlines() == [
+        "campaign gantry-2026-03",
+        "",
+        "test    role          FIT [%]  PTP left [um]",
+        "──────  ────────────  ───────  ─────────────",
+        "sp9000  verification     90.1           5.00",
+        "        (in-sample)",
+        "sp2000  calibration     -3.25           12.5",
+    ]
+
+
+def test_numbers_are_never_folded_and_columns_without_room_stand_below() -> None:
+    text = table(WIDE, HEADS, width=30)
+    first, second = text.split("\n\n")[1:]
+    assert [line.split()[-1] for line in first.splitlines() if line[:2] == "sp"] == ["90.1", "-3.25"]
+    assert [line.split()[-1] for line in second.splitlines() if line[:2] == "sp"] == ["5.00", "12.5"]
+    assert max(map(len, text.splitlines())) <= 30
+
+
+def test_a_table_that_fits_is_left_alone() -> None:
+    assert "campaign        test" in table(WIDE, HEADS, width=100)

@@ -10,8 +10,8 @@ import h5py
 import numpy as np
 import pytest
 
-from thermodata.cli.fitting import made_worse
 from thermodata.errors import UsageError
+from thermodata.report.fit_text import made_worse
 from thermodata.schema.result import FitResult, Score
 from thermodata.view import StoreView
 

@@ -10,8 +10,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from thermodata.cli.diagnosing import diagnosis_text
 from thermodata.report.data import ReportData
+from thermodata.report.diagnosis_text import diagnosis_text
 from thermodata.report.heat_charts import heat_charts
 from thermodata.report.page import render
 from thermodata.report.words import heat_lines

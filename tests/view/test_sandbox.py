@@ -69,6 +69,16 @@ REFUSED = {
     "explain analyze": "explain analyze copy (select 1) to '{out}'",
     "settings": "select current_setting('home_directory')",
     "secrets": "select * from duckdb_secrets()",
+    "settings as a table": "select * from pg_catalog.pg_settings",
+    "settings in a corner": "select * from test where exists (select name from pg_settings)",
+    "the environment": "select system.main.getenv('HOME')",
+    "the environment in a lambda": "select list_transform(['HOME'], x -> getenv(x))",
+    "sleep": "select sleep_ms(3600000)",
+    "read_text in a subquery": "select (select content from read_text('/etc/hostname'))",
+    "a table by its name": "from query_table('test')",
+    "a log": "select write_log('x')",
+    "call": "call pragma_version()",
+    "pivot": "select * from (pivot test on role using count(*))",
 }
 
 
@@ -112,6 +122,28 @@ def test_the_connection_alone_keeps_its_configuration(small_store: Path, query: 
 
     with pytest.raises(duckdb.Error):
         enclosed(Store(small_store), 256).execute(query)
+
+
+@pytest.mark.parametrize("name", ["request", "con", "relation", "head", "sink"])
+def test_variables_of_the_program_are_no_tables(small_store: Path, name: str) -> None:
+    with pytest.raises(UsageError, match="does not exist"):
+        ask(small_store, f"select * from {name}", Limits(60))
+
+
+def test_a_recursion_without_an_end_is_ended(small_store: Path) -> None:
+    query = "with recursive t as (select 1 a union all select a from t) select count(*) from t"
+    with pytest.raises(ThermodataError, match=r"too long|memory"):
+        ask(small_store, query, Limits(seconds=4, memory_mb=128))
+
+
+def test_no_module_of_the_working_folder_is_imported(
+    small_store: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    for name in ("json", "duckdb", "numpy", "thermodata"):
+        (tmp_path / f"{name}.py").write_text(f"open({str(tmp_path / 'run')!r}, 'w').write('{name}')\n")
+    monkeypatch.chdir(tmp_path)
+    assert ask(small_store, "select count(*) from test", Limits(60)).rows == ((2,),)
+    assert not (tmp_path / "run").exists()
 
 
 def test_rows_are_limited_and_it_is_said(small_store: Path) -> None:

@@ -123,6 +123,25 @@ def _without(headers: list[Header], name: str, *others: str) -> list[list[Header
     return [rest, *([*rest, (name, other)] for other in others)]
 
 
+@pytest.mark.parametrize("path", ["/", "/sql?q=select+1", "/static/workbench.js"])
+@pytest.mark.parametrize("sent", ["cross-site", "same-site"])
+def test_what_another_page_makes_a_browser_send_is_refused_though_it_carries_the_cookie(
+    reader: Client, path: str, sent: str
+) -> None:
+    # another port of 127.0.0.1 is the same site: SameSite=Strict lets its requests carry the cookie
+    assert reader.get(path, [("sec-fetch-site", sent)]).status == 403
+    assert reader.get(path, [("sec-fetch-site", "same-origin")]).status == 200
+    assert reader.get(path, [("sec-fetch-site", "none")]).status == 200
+    assert reader.get(path).status == 200  # a program that says nothing must hold the cookie
+
+
+def test_a_ticket_opens_from_anywhere(bare: tuple[Client, Desk]) -> None:
+    client, desk = bare
+    answer = client.get(f"/open?ticket={desk.keys.ticket}", [("host", desk.host), ("sec-fetch-site", "cross-site")])
+    assert answer.status == 200
+    assert "samesite=strict" in (answer.header("set-cookie") or "").lower()
+
+
 @pytest.mark.parametrize("name", ["origin", "x-thermodata-token", "cookie"])
 def test_a_write_needs_origin_token_and_cookie(made_lab: Path, name: str) -> None:
     client, desk = client_of(made_lab, write=True)

@@ -95,6 +95,74 @@ def test_every_page_wide_narrow_light_and_dark(served: Served) -> None:
     assert looks(served.lab) == before
 
 
+# pairs of texts or charts that lie over each other, and what stands out of the paper; none is good
+OVERLAPS = """(() => {
+  const found = [], boxes = [];
+  const walk = document.createTreeWalker(document.body, NodeFilter.SHOW_TEXT);
+  while (walk.nextNode()) {
+    const text = walk.currentNode.textContent.trim(), own = walk.currentNode.parentElement;
+    if (!text || !own.checkVisibility() || own.closest('svg, script, [data-chart], option, .skip')) continue;
+    const range = document.createRange(); range.selectNodeContents(walk.currentNode);
+    for (const r of range.getClientRects()) if (r.width > 1 && r.height > 1) boxes.push([text.slice(0, 40), r]);
+  }
+  for (const e of document.querySelectorAll('[data-chart]'))
+    if (e.checkVisibility()) boxes.push(['chart ' + e.dataset.chart, e.getBoundingClientRect()]);
+  boxes.sort((a, b) => a[1].top - b[1].top);
+  for (let i = 0; i < boxes.length; i++) {
+    const [name, a] = boxes[i];
+    if (a.right > innerWidth + 1) found.push(name + ' stands out of the paper');
+    for (let k = i + 1; k < boxes.length && boxes[k][1].top < a.bottom - 3; k++) {
+      const b = boxes[k][1];
+      if (Math.min(a.right, b.right) - Math.max(a.left, b.left) > 3 && Math.min(a.bottom, b.bottom) - b.top > 3)
+        found.push(name + ' over ' + boxes[k][0]);
+    }
+  }
+  return found;
+})()"""
+
+
+def test_pages_print_without_overlaps(served: Served, tmp_path: Path) -> None:
+    for i, path in enumerate(("/", "/test?campaign=small&test=heat1", "/missing", "/compare")):
+        served.go(path)
+        served.page.wait("document.readyState === 'complete'")
+        served.page.paper()
+        assert served.page.js(OVERLAPS) == [], path
+        served.page.paper(False)
+        served.page.pdf(tmp_path / f"{i}.pdf")
+        assert (tmp_path / f"{i}.pdf").read_bytes().startswith(b"%PDF")
+    assert served.page.complaints() == []
+
+
+def test_the_search_for_overlaps_finds_one(chromium: Chromium) -> None:
+    page = chromium.open("data:text/html,<p>one</p><p style='margin-top:-2.2em'>two</p><p>three</p>")
+    try:
+        assert page.js(OVERLAPS) == ["one over two"]
+    finally:
+        page.close()
+
+
+def test_two_tabs_at_once(served: Served, chromium: Chromium) -> None:
+    """Each has its own state in its address; what one adds the other sees at its next look, and a second add waits."""
+    other = chromium.open(served.origin + "/missing")
+    try:
+        other.wait("document.querySelector('h1')")
+        served.go("/add?model=baseline&candidate=1")
+        other.go(served.origin + "/add?model=baseline&candidate=1")
+        served.press("form[hx-post='/task/add'] button")
+        served.page.wait("document.querySelector('.task') || location.pathname === '/compare'")
+        other.js("document.querySelector(\"form[hx-post='/task/add'] button\").click()")
+        other.wait("document.querySelector('.task, [role=alert]') || location.pathname === '/compare'", timeout_s=240)
+        served.page.wait("location.pathname === '/compare'", timeout_s=240)
+        models = model_rows(Store(served.lab / "thermodata.store"))
+        assert [m.version for m in models] == [2, 1]  # the same addition twice is one version
+        other.go(served.origin + "/compare")
+        assert "beside" in other.wait("document.querySelector('h1').textContent")
+        served.go("/test?campaign=small&test=heat1&from=3600&to=7200")
+        assert other.js("location.pathname") == "/compare"
+    finally:
+        other.close()
+
+
 def test_axe_finds_no_violation(served: Served) -> None:
     named = os.environ.get("THERMODATA_AXE")
     if not named:
@@ -149,6 +217,39 @@ def test_a_zoom_in_the_address_is_shown_again(served: Served) -> None:
     served.go("/test?campaign=small&test=heat1&from=3600&to=7200")
     served.page.wait("ThermoChart.of(document.getElementById('plot')).lo === 1")
     assert served.page.js("ThermoChart.of(document.getElementById('plot')).hi") == 2
+
+
+def test_a_jump_test_is_drawn_in_the_form(served: Served) -> None:
+    folder, t = served.lab, [i / 10 for i in range(600)]
+    rows = "".join(f"{x},{5 + (10 <= x < 30) + 0.5 * (20 <= x < 40)}\n" for x in t)
+    (folder / "raw" / "jump_Z.csv").write_text(f"time [s],Eddy Z [V]\n{rows}")
+    path = folder / "campaign.yaml"
+    line = '  jump_Z: {kind: jump, axis: Z, source: log, file: raw/jump_Z.csv, signal: "Eddy Z", moves: unknown}'
+    path.write_text(path.read_text().replace("calibrations:\n", f"calibrations:\n{line}\n"))
+    served.go("/start")
+    served.page.wait("document.querySelectorAll('.steps input').length === 4")
+    served.page.wait("document.querySelector('.question.wide [data-chart] canvas')")
+    for i, move in enumerate(("100 um", "50 um", "-100 um", "-50 um")):
+        served.page.js(f"document.querySelectorAll('.steps input')[{i}].value = {json.dumps(move)}")
+    served.press("#answers button[type=submit]")
+    served.page.wait("document.querySelector('#diff .diff').textContent.includes('-100 um')")
+    assert served.page.complaints() == []
+
+
+def test_a_dragged_stretch_is_told(served: Served) -> None:
+    served.go("/test?campaign=small&test=heat1")
+    served.page.wait("document.querySelector('#plot canvas')")
+    served.press("#choose")
+    x, y, width = served.page.js(
+        "(() => { const r = document.querySelector('#plot .u-over').getBoundingClientRect(); "
+        "return [r.left, r.top + 20, r.width]; })()"
+    )
+    served.page.drag(x + 0.2 * width, x + 0.4 * width, y)
+    served.page.wait("document.querySelector('#stretch')")
+    told = served.page.js("document.querySelector('#stretch').textContent")
+    assert "samples that count" in told
+    assert "window: [" in told
+    assert served.page.complaints() == []
 
 
 def test_searching_narrows_the_list_without_a_reload(served: Served) -> None:

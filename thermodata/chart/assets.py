@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import re
 from importlib.resources import files
 
 from thermodata.errors import unknown_name
 
 SCRIPTS = ("uplot/uPlot.iife.min.js", "data.js", "paint.js", "readout.js", "chart.js", "heatmap.js", "mount.js")
 """In the order in which a page has to load them."""
+# a comment behind code stands far to the right of it, and no text holds two slashes after spaces
+_TAIL = re.compile(r"\s{2,}//\s.*$")
 STYLES = ("uplot/uPlot.min.css", "palette.css", "chart.css")
 
 
@@ -20,8 +23,16 @@ def asset(name: str) -> str:
 
 
 def script() -> str:
-    """All scripts as one; needs no other, no eval, no network, and adds only `ThermoChart` and `uPlot` to a page."""
-    return "\n".join(asset(name) for name in SCRIPTS)
+    """All scripts as one; needs no other, no eval, no network, and adds only `ThermoChart` and `uPlot` to a page.
+
+    Our own without comments and indentation, which every saved page would carry: none has a text of several lines.
+    """
+    return "\n".join(asset(name) if "/" in name else _bare(asset(name)) for name in SCRIPTS)
+
+
+def _bare(text: str) -> str:
+    lines = (_TAIL.sub("", line).strip() for line in text.splitlines())
+    return "\n".join(line for line in lines if line and not line.startswith("//"))
 
 
 def style() -> str:

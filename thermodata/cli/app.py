@@ -97,6 +97,7 @@ def cli(ctx: click.Context, store: str) -> None:
     Results go to stdout, talk to stderr; every command takes --json. Try: thermodata demo
     """
     ctx.obj = store
+    ctx.color = _colour()
 
 
 def run(argv: Sequence[str] | None = None) -> int:
@@ -149,9 +150,14 @@ def run(argv: Sequence[str] | None = None) -> int:
 def _warn(message: Warning | str, category: type[Warning], *where: object, **more: object) -> None:
     """A warning as one line of talk; what third parties deprecate is none of the user's business."""
     if category is UserWarning:
-        click.echo(click.style("warning: ", fg="yellow") + str(message), err=True)
+        click.echo(click.style("warning: ", fg="yellow") + str(message), err=True, color=_colour())
 
 
 def _fail(message: str, code: int) -> int:
-    click.echo(click.style("error: ", fg="red", bold=True) + message, err=True)
+    click.echo(click.style("error: ", fg="red", bold=True) + message, err=True, color=_colour())
     return code
+
+
+def _colour() -> bool | None:
+    """None: as the terminal is; NO_COLOR (no-color.org) says no."""
+    return False if os.environ.get("NO_COLOR") else None

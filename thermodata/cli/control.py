@@ -6,10 +6,11 @@ from pathlib import Path
 
 import click
 
+from thermodata.cli import completing
 from thermodata.cli.common import Session, command
 from thermodata.cli.fitting import resolve
-from thermodata.cli.table import fields
 from thermodata.errors import UsageError
+from thermodata.report.table import fields
 
 _TARGETS = ("st", "scl", "c", "python", "json", "mat")
 
@@ -23,7 +24,7 @@ def _seconds(ctx: click.Context, param: click.Parameter, value: str) -> float:
 
 @command("model")
 @click.argument("action", type=click.Choice(["export"]))
-@click.argument("model")
+@click.argument("model", shell_complete=completing.models)
 @click.option(
     "--to", "target", type=click.Choice(_TARGETS), required=True, help="Structured text, Siemens SCL, C99, and so on."
 )

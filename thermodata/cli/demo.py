@@ -10,8 +10,8 @@ from typing import Any
 import click
 
 from thermodata.cli.common import Session, command, plain
-from thermodata.cli.table import fields
 from thermodata.errors import UsageError
+from thermodata.report.table import fields
 from thermodata.report.verdict import claims_of, listed, refinements_of, verdict_sentence
 from thermodata.report.words import change, duration, number, pooled
 

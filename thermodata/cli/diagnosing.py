@@ -2,38 +2,30 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import click
 
+from thermodata.cli import completing
 from thermodata.cli.common import Session, command, in_units_of
-from thermodata.cli.fitting import resolve, spots_text
-from thermodata.cli.table import table
-from thermodata.report.glossary import explained
-from thermodata.report.verdict import explainable, noise_words, probability, told, verdict_sentence
-from thermodata.report.words import duration, heat_lines, number
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from thermodata.schema.result import Candidate, Confirmed, Diagnosis
+from thermodata.cli.fitting import resolve
+from thermodata.report.diagnosis_text import confirmed_text, diagnosis_text
 
 
 @command("diagnose")
-@click.argument("model")
+@click.argument("model", required=False, shell_complete=completing.models)
 @click.option("--top", default=8, show_default=True, type=click.IntRange(1), help="Most candidates of the table.")
-def diagnose_command(session: Session, model: str, top: int) -> None:
+def diagnose_command(session: Session, model: str | None, top: int) -> None:
     """Say which physical effect MODEL misses.
 
     Or that none is missing, that what MODEL has can be refined, or that these tests can't tell.
 
-    A candidate is claimed only if all evidence holds; locked tests are opened for claims only, and counted.
+    A candidate is claimed only if all evidence holds; locked tests are opened for claims only, and counted. Of the
+    newest model where none is named.
     """
     from thermodata.cli.progress import counting_line
     from thermodata.diagnosis.run import diagnose, kept_diagnosis
 
     store = session.store()
-    ref = resolve(store, model)
+    ref = resolve(store, model, session)
     found = kept_diagnosis(store, ref)
     if found is not None:
         click.echo("from the store: model, data, effects and rules are as they were", err=True)
@@ -44,8 +36,8 @@ def diagnose_command(session: Session, model: str, top: int) -> None:
 
 
 @command("confirm")
-@click.argument("model")
-@click.argument("candidate")
+@click.argument("model", shell_complete=completing.models)
+@click.argument("candidate", shell_complete=completing.candidates)
 def confirm_command(session: Session, model: str, candidate: str) -> None:
     """Open the locked tests for an effect of your own choice.
 
@@ -59,93 +51,3 @@ def confirm_command(session: Session, model: str, candidate: str) -> None:
     if known:
         click.echo("from the store: this was looked at before, and nothing has changed since", err=True)
     session.answer(result, lambda: in_units_of(session, result.response, confirmed_text(result)))
-
-
-def confirmed_text(result: Confirmed) -> str:
-    """A confirmation for a person."""
-    said = "holds" if result.holds else "does not hold"
-    head = f"{result.candidate} {said} on the locked tests"
-    if result.locked_rmse_um_before is not None and result.locked_rmse_um_after is not None:
-        head += f": {number(result.locked_rmse_um_before)} -> {number(result.locked_rmse_um_after)} um"
-    rows = [t.model_dump() for t in result.tests]
-    columns = [
-        ("campaign", "campaign"),
-        ("test", "test"),
-        ("rmse_um_before", "before [um]"),
-        ("rmse_um_after", "after [um]"),
-    ]
-    return f"{head}\n\n{table(rows, columns)}\n\nthe locked tests have been opened {times(result.looks)} so far"
-
-
-def times(n: int) -> str:
-    """'once', '3 times'."""
-    return "once" if n == 1 else f"{n} times"
-
-
-def diagnosis_text(found: Diagnosis, top: int = 8) -> str:
-    """A diagnosis for a person."""
-    left = f"error on left-out tests {number(found.rmse_um)} um"
-    figures = [left, noise_words(found), explainable(found)]
-    parts = [f"{verdict_sentence(found)}\n{', '.join(filter(None, figures))}"]
-    if found.candidates:
-        parts.append(_candidates_text(found.candidates[:top]))
-        parts += [f"why {c.id}: {c.why}" for c in told(found) if c.why]
-    if found.weak_spots:
-        parts.append(spots_text(found.weak_spots, most=top))
-    if found.artefacts:
-        parts.append(
-            "artefacts\n"
-            + "\n".join(
-                f"  ! {a.kind} in {a.campaign}/{a.test}"
-                + ("" if a.size_um is None else f" at {duration(a.at_s)}: {number(a.size_um)} um")
-                + f". {a.why}"
-                for a in found.artefacts
-            )
-        )
-    if found.unknown:
-        hints = found.unknown.model_dump()
-        parts.append(
-            "what is left behaves like\n"
-            + "\n".join(
-                f"  {name}: {', '.join(number(v) if isinstance(v, float) else str(v) for v in hints[key])}"
-                for name, key in (
-                    ("time constants [h]", "time_constants_h"),
-                    ("hours of the day", "hours_of_day"),
-                    ("states", "states"),
-                )
-                if hints[key]
-            )
-        )
-    if found.unknown and found.unknown.heat:
-        heat = found.unknown.heat
-        parts.append(
-            f"the missing heat, estimated\n  {heat.where}\n"
-            + "\n".join(f"  {what}: {text}" for what, text in heat_lines(heat))
-        )
-    if found.next_test:
-        parts.append(f"next test: {found.next_test}")
-    parts.append(explained("left-out", *(["locked"] if any(c.locked_rmse_um_after for c in found.candidates) else [])))
-    return "\n\n".join(parts)
-
-
-def _candidates_text(candidates: Sequence[Candidate]) -> str:
-    rows = [
-        {
-            **c.model_dump(),
-            "claimed": "yes" if c.claimed else "refines" if c.refinement else "",
-            "probability": probability(c.probability),
-        }
-        for c in candidates
-    ]
-    columns = [
-        ("rank", "#"),
-        ("id", "candidate"),
-        ("family", "family"),
-        ("claimed", "claimed"),
-        ("probability", "probability"),
-        ("p_value", "p"),
-        ("rmse_um_before", "before [um]"),
-        ("rmse_um_after", "after [um]"),
-        ("equivalent", "can't be told from"),
-    ]
-    return table(rows, columns, widest=44)

@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from thermodata.cli.common import Session, command, plain
-from thermodata.cli.table import table
 from thermodata.errors import UsageError
+from thermodata.report.table import table
 
 if TYPE_CHECKING:
     from thermodata.draft.make import Drafted

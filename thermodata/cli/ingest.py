@@ -8,8 +8,8 @@ from typing import Any
 import click
 
 from thermodata.cli.common import Session, command, plain
-from thermodata.cli.table import fields, table
 from thermodata.report.causes import losses_in_words, notes_in_words
+from thermodata.report.table import fields, table
 
 
 @command("ingest")

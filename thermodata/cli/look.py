@@ -7,15 +7,16 @@ from typing import Any
 
 import click
 
+from thermodata.cli import completing
 from thermodata.cli.common import Session, command, plain
 from thermodata.cli.ingest import calibrations_text
-from thermodata.cli.table import table
 from thermodata.errors import UsageError, unknown_name
 from thermodata.report.records import records, written_conditions
+from thermodata.report.table import table
 from thermodata.report.words import duration
 from thermodata.view.overview import Asked, find_tests
 
-campaign_option = click.option("--campaign", "-c", help="Only this campaign.")
+campaign_option = click.option("--campaign", "-c", help="Only this campaign.", shell_complete=completing.campaigns)
 
 
 def rows_of(session: Session, query: str, campaign: str | None, order: str) -> list[dict[str, Any]]:
@@ -87,7 +88,9 @@ def tests_command(session: Session, campaign: str | None, role: str | None, kind
 
 @command("channels")
 @campaign_option
-@click.option("--test", "-t", help="As they are in this test (default: each channel once).")
+@click.option(
+    "--test", "-t", shell_complete=completing.tests, help="As they are in this test (default: each channel once)."
+)
 def channels_command(session: Session, campaign: str | None, test: str | None) -> None:
     """List the channels: quantity, unit, place, sign, origin."""
     rows = rows_of(session, "select * from channel", campaign, "campaign, test, source, channel")
@@ -131,9 +134,9 @@ def calibrations_command(session: Session, campaign: str | None) -> None:
 
 
 @command("trace")
-@click.argument("what", metavar="CAMPAIGN|MODEL")
-@click.argument("test", required=False)
-@click.argument("channel", required=False)
+@click.argument("what", metavar="CAMPAIGN|MODEL", shell_complete=completing.campaigns_and_models)
+@click.argument("test", required=False, shell_complete=completing.tests)
+@click.argument("channel", required=False, shell_complete=completing.channels)
 @click.option("--at", metavar="TIME", help="One sample, for example '2.5 h' from the start of the test.")
 @click.option("--verify", is_flag=True, help="Hash the source files again, and read the sample in its file again.")
 def trace_command(

@@ -6,12 +6,13 @@ from pathlib import Path
 
 import click
 
+from thermodata.cli import completing
 from thermodata.cli.common import Session, command, plain
-from thermodata.cli.table import table
+from thermodata.report.table import table
 
 
 @command("orders")
-@click.argument("model")
+@click.argument("model", shell_complete=completing.models)
 @click.option("--method", type=click.Choice(["varpro", "oe", "arx"]), help="In place of the model file's.")
 def orders_command(session: Session, model: str, method: str | None) -> None:
     """Try the orders of MODEL's transfer functions.

@@ -7,13 +7,14 @@ from typing import Any
 
 import click
 
+from thermodata.cli import completing
 from thermodata.cli.common import Session, command
-from thermodata.cli.table import table
+from thermodata.report.table import table
 
 
 @command("plugins")
 @click.argument("action", required=False, type=click.Choice(["show", "new"]))
-@click.argument("name", required=False)
+@click.argument("name", required=False, shell_complete=completing.plugins)
 def plugins_command(session: Session, action: str | None, name: str | None) -> None:
     """List the installed readers and effects; 'show' one, or write a 'new' one.
 

@@ -3,30 +3,26 @@
 from __future__ import annotations
 
 import sys
-import tempfile
-from collections.abc import Iterator
-from contextlib import contextmanager
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
 
+from thermodata.cli import completing
 from thermodata.cli.common import Session, command
 from thermodata.cli.fitting import resolve
-from thermodata.cli.table import table
 from thermodata.errors import UsageError
+from thermodata.report.table import table
 from thermodata.report.words import duration
 
 if TYPE_CHECKING:
-    from thermodata.modelling.fitted import FittedModel
     from thermodata.modelling.predict import Predicted
-    from thermodata.store import Store
     from thermodata.view.dataset import Dataset
 
 
 @command("predict")
-@click.argument("model")
+@click.argument("model", shell_complete=completing.models)
 @click.argument("target", metavar="FOLDER|CAMPAIGN")
 @click.option("--test", "tests", multiple=True, metavar="TEST", help="Only this test; may be repeated.")
 @click.option(
@@ -61,6 +57,8 @@ def predict_command(
     campaign of the store. The model starts in balance at the start of each test. Exit code 3 says that tests were
     left out.
     """
+    from thermodata.cli.progress import progress_line
+    from thermodata.draft.to_predict import data_of
     from thermodata.export.series import as_table, check_out, write_table
     from thermodata.modelling.predict import predict
     from thermodata.modelling.run import load
@@ -68,7 +66,7 @@ def predict_command(
     kind = None if out is None else check_out(out, force)
     store = session.store()
     loaded = load(store, resolve(store, model))
-    with _data(session, store, loaded.fitted, target) as (data, empty):
+    with progress_line() as line, data_of(store, loaded.fitted, target, session.say, line) as (data, empty):
         chosen = _chosen(data, tests, dict(_pair(c) for c in conditions))
         made, left_out = predict(loaded.fitted, chosen)
     left_out += [f"{name}: nothing in its logs is read by the model" for name in empty if not tests]
@@ -156,76 +154,3 @@ def _chosen(data: Dataset, tests: tuple[str, ...], conditions: dict[str, str | f
         if not tests or t.test in tests
     )
     return replace(data, tests=kept)
-
-
-@contextmanager
-def _data(session: Session, store: Store, fitted: FittedModel, target: str) -> Iterator[tuple[Dataset, list[str]]]:
-    """The tests of a campaign of the store; of a campaign file or a folder, through a store that goes again. And tests
-    without data."""
-
-    path = Path(target)
-    with store.reader() as con:
-        known = [str(row[0]) for row in con.execute("select campaign from campaign order by 1").fetchall()]
-    if path.exists() and target in known:
-        raise UsageError(f"'{target}' is a campaign of the store and a path", hint=f"./{target} is the path alone")
-    if target in known:
-        yield _loaded(store, target, fitted.spec.step)
-        return
-    if not path.exists():
-        raise UsageError(
-            f"no folder, campaign file or campaign '{target}'",
-            expected="a path, or a campaign of the store: " + ", ".join(known),
-            got=target,
-        )
-    with tempfile.TemporaryDirectory(prefix="thermodata-predict-") as folder:
-        passing, campaign = _ingested(session, store, fitted, path, Path(folder))
-        yield _loaded(passing, campaign, fitted.spec.step)
-
-
-def _loaded(store: Store, campaign: str, step_s: float) -> tuple[Dataset, list[str]]:
-    from thermodata.view.load import load_dataset
-
-    data = load_dataset(store, campaign, step_s)
-    with store.reader() as con:
-        rows = con.execute("select test from test where campaign = ? order by rowid", [campaign]).fetchall()
-    there = {t.test for t in data.tests}
-    return data, [f"{campaign}/{row[0]}" for row in rows if row[0] not in there]
-
-
-def _ingested(session: Session, store: Store, fitted: FittedModel, path: Path, folder: Path) -> tuple[Store, str]:
-    from thermodata.cli.progress import progress_line
-    from thermodata.draft.of_logs import campaign_of_logs
-    from thermodata.modelling.drivers import names_of
-    from thermodata.store import Store
-    from thermodata.store.ingest.run import ingest
-    from thermodata.store.trace.replan import read_campaign
-
-    passing = Store(folder / "store", create=True)
-    file = path if path.is_file() else _campaign_file(path)
-    with progress_line() as line:
-        if file is not None:
-            summary = ingest(passing, file, progress=line)
-        else:
-            first = fitted.spec.campaign_ids[0]
-            terms = [t for r in fitted.responses for t in r.terms]
-            needed = {n for t in terms for text in t.binding.values() for n in names_of(text)}
-            with store.reader() as con:
-                known = read_campaign(con, first)
-            made = campaign_of_logs(known, path, needed)
-            summary = ingest(passing, path / "campaign.yaml", progress=line, campaign=made)
-    for loss in summary.losses:
-        session.say(f"loss: {loss.get('reason', loss)}")
-    return passing, summary.campaign
-
-
-def _campaign_file(folder: Path) -> Path | None:
-    found = [
-        p
-        for p in sorted(folder.glob("*.y*ml"))
-        if p.suffix in (".yaml", ".yml") and "thermodata/campaign/" in p.read_text("utf-8", "replace")[:2000]
-    ]
-    if len(found) > 1:
-        raise UsageError(
-            "several campaign files in the folder", where=str(folder), got=", ".join(p.name for p in found)
-        )
-    return found[0] if found else None

@@ -10,7 +10,7 @@ import click
 
 from thermodata.cli.common import Session, command
 from thermodata.cli.look import campaign_option, rows_of
-from thermodata.cli.table import table
+from thermodata.report.table import table
 from thermodata.report.words import duration
 
 

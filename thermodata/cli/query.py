@@ -13,8 +13,8 @@ from typing import Any
 import click
 
 from thermodata.cli.common import Session, command, plain
-from thermodata.cli.table import table
 from thermodata.errors import UsageError
+from thermodata.report.table import table
 
 _CHUNK = 10_000
 

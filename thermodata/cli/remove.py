@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import click
 
+from thermodata.cli import completing
 from thermodata.cli.common import Session, command, plain
-from thermodata.cli.table import fields
+from thermodata.report.table import fields
 
 
 @command("forget")
-@click.argument("campaign")
-@click.argument("test", required=False)
+@click.argument("campaign", shell_complete=completing.campaigns)
+@click.argument("test", required=False, shell_complete=completing.tests)
 @click.option("--earlier", is_flag=True, help="Only the earlier versions of files that changed.")
 def forget_command(session: Session, campaign: str, test: str | None, earlier: bool) -> None:
     """Remove a campaign or one TEST from the store.

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 import click
 
+from thermodata.cli import completing
 from thermodata.cli.common import Session, command
 from thermodata.cli.fitting import resolve
 
@@ -17,7 +18,7 @@ if TYPE_CHECKING:
 
 
 @command("report")
-@click.argument("model")
+@click.argument("model", required=False, shell_complete=completing.models)
 @click.option(
     "--out",
     "-o",
@@ -25,16 +26,17 @@ if TYPE_CHECKING:
     metavar="FILE",
     help="The page to write (default: report-MODEL.html).",
 )
-def report_command(session: Session, model: str, out: Path | None) -> None:
+def report_command(session: Session, model: str | None, out: Path | None) -> None:
     """Write one self-contained HTML page about MODEL.
 
-    Fit, residuals, weak spots, diagnosis, history. It needs no network and can be mailed.
+    Fit, residuals, weak spots, diagnosis, history. It needs no network and can be mailed. Of the newest model where
+    none is named.
     """
     from thermodata.report import build_report
     from thermodata.store.catalogue.models import find_model
 
     store = session.store()
-    found = find_model(store, resolve(store, model))
+    found = find_model(store, resolve(store, model, session))
     page = build_report(store, found.model, out or Path(f"report-{found.name}-{found.model[:8]}.html"))
     session.answer({"model": found.model, "report": str(page), "bytes": page.stat().st_size}, lambda: str(page))
 

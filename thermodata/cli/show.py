@@ -7,10 +7,11 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from thermodata.cli import completing
 from thermodata.cli.common import Session, command
 from thermodata.cli.fitting import resolve
-from thermodata.cli.table import table
 from thermodata.errors import UsageError
+from thermodata.report.table import table
 from thermodata.report.words import duration, number
 
 if TYPE_CHECKING:
@@ -20,7 +21,7 @@ DIGITS = 12  # of coefficients: a pole at 0.99998 needs nine
 
 
 @command("show")
-@click.argument("model")
+@click.argument("model", shell_complete=completing.models)
 @click.option("--effect", "effects", multiple=True, metavar="EFFECT", help="Only this one; may be repeated.")
 @click.option(
     "--png", type=click.Path(path_type=Path, dir_okay=False), metavar="FILE", help="Draw it all into a picture."

@@ -7,8 +7,8 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from thermodata.cli.common import Session
-from thermodata.cli.table import table
 from thermodata.errors import UsageError, unknown_name
+from thermodata.report.table import table
 
 # an effect's own account; null for a reader
 _OF_EFFECTS = (

@@ -9,8 +9,8 @@ from typing import Any
 import click
 
 from thermodata.cli.common import Session, command, plain
-from thermodata.cli.table import fields, table
 from thermodata.errors import UsageError, unknown_name
+from thermodata.report.table import fields, table
 
 MACHINES = ("gantry", "lathe")
 

@@ -6,9 +6,10 @@ from pathlib import Path
 
 import click
 
+from thermodata.cli import completing
 from thermodata.cli.common import Session, command, plain
-from thermodata.cli.table import fields
 from thermodata.errors import UsageError
+from thermodata.report.table import fields
 
 
 @command("snapshot")
@@ -28,8 +29,8 @@ def snapshot_command(session: Session, out: Path) -> None:
 
 
 @command("export")
-@click.argument("campaign")
-@click.argument("test")
+@click.argument("campaign", shell_complete=completing.campaigns)
+@click.argument("test", shell_complete=completing.tests)
 @click.argument("out", type=click.Path(path_type=Path, dir_okay=False))
 @click.option(
     "--step",

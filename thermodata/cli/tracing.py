@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from thermodata.cli.table import cell, fields, table
+from thermodata.report.table import cell, fields, table
 
 Found = dict[str, Any]
 

@@ -49,7 +49,7 @@ def jump_of(file: RawFile) -> JumpTest | None:
     stirred = _others_move(file, set(probes))
     for key, _ in probes.items():
         course = file.sample.courses.get(key)
-        found = _staircase(course) if course is not None else None
+        found = staircase(course) if course is not None else None
         if found is None or (stirred and not named):
             continue
         steps, dwell = found
@@ -78,7 +78,7 @@ def _others_move(file: RawFile, probes: set[tuple[str, str]]) -> bool:
     return False
 
 
-def _staircase(course: Course) -> tuple[tuple[Step, ...], float] | None:
+def staircase(course: Course) -> tuple[tuple[Step, ...], float] | None:
     """(steps, dwell [s]) where a signal stands on plateaus and little else; the dwell is searched: nobody says it."""
     fine = np.isfinite(course.values)
     t: Float1D = (course.t_ns[fine] - course.t_ns[0]) / 1e9

@@ -169,6 +169,18 @@ def scan(folder: Path, progress: Progress | None = None) -> Scan:
     )
 
 
+def sampled_file(folder: Path, path: PurePosixPath) -> RawFile | None:
+    """One file of a folder with a sample of its values; None where no reader, or more than one, claims it.
+
+    ThermodataError where it cannot be read at all.
+    """
+    who, _ = _claimant(folder / path)
+    if who is None:
+        return None
+    file = described_files(who, folder / path, path)[0]
+    return replace(file, sample=_sample(folder / path, file))
+
+
 def described_files(who: Reader, full: Path, path: PurePosixPath) -> list[RawFile]:
     """A file as its reader describes it, with what it leaves open; a workbook whose sheets are alike sheet by sheet.
 

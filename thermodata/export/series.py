@@ -12,6 +12,7 @@ import numpy as np
 
 from thermodata.errors import UsageError
 from thermodata.modelling.predict import Predicted
+from thermodata.view.rows import with_units
 
 _SUFFIXES = {".parquet": "parquet", ".pq": "parquet", ".csv": "csv"}
 
@@ -39,10 +40,13 @@ def as_table(predictions: Sequence[Predicted], unit_in_names: bool = False) -> A
         parts.append(pa.table(columns))
     table = pa.concat_tables(parts)
     units = sorted({p.unit for p in predictions})
+    # rows of several units have none in common
+    of = dict.fromkeys((n for n in table.column_names if n[:3] in ("pre", "mea", "c__")), units[0])
+    named = {"t_s": "s", **(of if len(units) == 1 else {})}
     if not unit_in_names or len(units) != 1:
-        return table.replace_schema_metadata({b"thermodata.unit": json.dumps(units).encode()})
-    ends = {"t_s": "[s]", **{n: f"[{units[0]}]" for n in table.column_names if n[:3] in ("pre", "mea", "c__")}}
-    return table.rename_columns([f"{n} {ends[n]}" if n in ends else n for n in table.column_names])
+        table = table.replace_schema_metadata({b"thermodata.unit": json.dumps(units).encode()})
+        return with_units(table, named)
+    return table.rename_columns([f"{n} [{named[n]}]" if n in named else n for n in table.column_names])
 
 
 def check_out(out: Path, force: bool) -> str:

@@ -16,6 +16,8 @@ from thermodata.schema.result import Check
 from thermodata.view.dataset import TestData
 
 FACTOR = "g"
+Z95 = 1.96
+"""Half of an interval of 95 %, in standard deviations."""
 Ends = tuple[float | None, float | None]
 """Of an interval, as values; None: these tests set no end within the parameter's bounds."""
 
@@ -36,14 +38,26 @@ class Values:
     factor: float = 1.0  # that the gains hold, where the groups differ by one factor
 
 
+@dataclass(frozen=True, eq=False)
+class Together:
+    """How parameters that were fitted together spread together. owners: ((term's id, group), ...) that share one, and
+    its name; matrix: covariance, of log(value) for names in `logs`."""
+
+    owners: tuple[tuple[tuple[tuple[str, str], ...], str], ...]
+    matrix: Float2D
+    logs: frozenset[str]
+
+
 @dataclass(frozen=True)
 class FittedTerm:
-    """groups: value of gain_by -> Values; one group '' where one gain serves all tests."""
+    """groups: value of gain_by -> Values; one group '' where one gain serves all tests. spread: of all that was fitted
+    with it; None where that is not known."""
 
     bound: BoundTerm
     groups: Mapping[str, Values]
     held: bool = False  # identified first, then held
     alone: Mapping[str, Values] | None = None  # groups as found on its own tests, before all were refined together
+    spread: Together | None = field(default=None, repr=False, compare=False)
 
     @property
     def id(self) -> str:
@@ -162,6 +176,11 @@ class FittedResponse:
             how or ("free" if test.key in self.calibrate else "zero"),
         )
 
+    def offset_from(self, test: TestData) -> Bool1D:
+        """The samples whose mean is the offset."""
+        gap = self.measured(test) - self.predict(test)
+        return _counted(gap, self.mask(test), test, "free" if test.key in self.calibrate else "zero")
+
     def residual(self, test: TestData) -> Float1D:
         """Measured minus predicted minus offset; NaN where there is no measurement."""
         gap = self.measured(test) - self.predict(test)
@@ -193,10 +212,13 @@ def fit_mask(bound: BoundResponse, terms: list[BoundTerm], wanted: tuple[str, ..
 
 
 def _offset(gap: Float1D, mask: Bool1D, test: TestData, how: str) -> float:
+    counted = _counted(gap, mask, test, how)
+    return float(gap[counted].mean()) if counted.any() else 0.0
+
+
+def _counted(gap: Float1D, mask: Bool1D, test: TestData, how: str) -> Bool1D:
     counted = mask & np.isfinite(gap)
-    if not counted.any():
-        return 0.0
-    if how == "zero":
+    if how == "zero" and counted.any():
         first = test.t_s[np.argmax(counted)]
         counted &= test.t_s < first + max(test.zero_s, 1e-9)
-    return float(gap[counted].mean())
+    return counted

@@ -10,9 +10,9 @@ from thermodata.errors import UsageError
 from thermodata.modelling.bound import BoundResponse, BoundTerm, each_group_its_own
 from thermodata.modelling.coarse import rough, search_from_coarse
 from thermodata.modelling.design import GRID, MOMENTS, Design, Nonlinear, factor
-from thermodata.modelling.fitted_response import FACTOR, FittedResponse, FittedTerm, Values
+from thermodata.modelling.fitted_response import FACTOR, FittedResponse, FittedTerm, Together, Values
 from thermodata.modelling.search import Problem, search
-from thermodata.modelling.uncertainty import Spread, spreads
+from thermodata.modelling.uncertainty import Cover, Spread, spreads
 from thermodata.plugin import Float1D, Param
 from thermodata.view.dataset import TestData
 
@@ -58,8 +58,9 @@ def fit_jointly(
         start = None if near is None else _near(problem, {order.index(i): near[i] for i in members if i in near})
         x = search(problem, start, loose)
     gains = problem.gains(problem.matrix(x))
-    none = [Spread() for _ in design.slots], frozenset[str]()
-    spread, logs = spreads(problem, x, gains, look if profiled else None) if uncertainty else none
+    none: tuple[list[Spread], frozenset[str], Cover | None] = ([Spread() for _ in design.slots], frozenset(), None)
+    spread, logs, cover = spreads(problem, x, gains, look if profiled else None) if uncertainty else none
+    together = None if cover is None else _together(design, cover, logs)
     by_member: dict[int, dict[str, Values]] = {i: {} for i in members}
     for s, (slot, params) in enumerate(zip(design.slots, problem.params(x), strict=True)):
         if order[slot.term] in by_member:
@@ -68,7 +69,21 @@ def fit_jointly(
             known = dict(zip(names, map(float, values), strict=True))
             found = Values(params, known, spread[s].sd, spread[s].half, spread[s].ends, logs, problem.silent[s])
             by_member[order[slot.term]] |= _by_group(design, s, found)
-    return {i: FittedTerm(bound.terms[i], groups or {"": _at_start(bound.terms[i])}) for i, groups in by_member.items()}
+    return {
+        i: FittedTerm(bound.terms[i], groups or {"": _at_start(bound.terms[i])}, spread=together if groups else None)
+        for i, groups in by_member.items()
+    }
+
+
+def _together(design: Design, cover: Cover, logs: frozenset[str]) -> Together | None:
+    """None where groups differ by a factor: what spreads then is a product."""
+    if any(slot.factors for slot in design.slots):
+        return None
+    owners = tuple(
+        (tuple((design.terms[design.slots[s].term].id, design.slots[s].group) for s in slots), name)
+        for slots, name in cover.owners
+    )
+    return Together(owners, cover.matrix, logs)
 
 
 def fitted_problem(response: FittedResponse, tests: Sequence[TestData]) -> tuple[Problem, Float1D, Problem | None]:

@@ -11,6 +11,7 @@ from thermodata.errors import UsageError
 from thermodata.modelling import nested
 from thermodata.modelling.beside import Beside, beside
 from thermodata.modelling.candidate import with_candidate, with_effect
+from thermodata.modelling.differences import TestDifference, differences
 from thermodata.modelling.fit import fit_model
 from thermodata.modelling.fitted import FittedModel
 from thermodata.modelling.orders import Tried
@@ -100,6 +101,14 @@ def compare(store: Store, refs: Sequence[str]) -> list[FitResult]:
         model = load(store, ref, uncertainty=True)
         results.append(make_result(model.fitted, model.data, model.identity, parent=model.parent))
     return results
+
+
+def differences_of(store: Store, refs: Sequence[str]) -> list[TestDifference]:
+    """Each model's error less that of the first, test by test on the data as they are now; none for one model."""
+    if len(refs) < 2:
+        return []
+    loaded = [load(store, ref) for ref in refs]
+    return differences([(m.identity, m.fitted, m.data) for m in loaded])
 
 
 def compare_against(store: Store, refs: Sequence[str], reference: str, tests: Sequence[str] = ()) -> list[Beside]:

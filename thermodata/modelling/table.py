@@ -6,16 +6,21 @@ from typing import Any
 
 import numpy as np
 
+from thermodata.modelling.bands import bands
 from thermodata.modelling.fitted import FittedModel
 from thermodata.modelling.fitted_response import FittedResponse
 from thermodata.plugin import Array
 from thermodata.view.dataset import Dataset, TestData
 
 CONTRIBUTION = "c__"
+DEVIATION = "sd__"
+"""Of what follows: 'predicted', or an effect's contribution."""
 
 
 def prediction_columns(response: FittedResponse, test: TestData) -> dict[str, Array]:
     """t_s, measured, predicted (with the offset), residual, valid, and c__<effect> (without); shapes (n,).
+
+    Where the fit knows its uncertainty, sd__predicted and sd__<effect>: standard deviations by that of the parameters.
 
     Only the test's window: the history before it is there for the lags.
     """
@@ -30,8 +35,16 @@ def prediction_columns(response: FittedResponse, test: TestData) -> dict[str, Ar
         "residual": measured - predicted,
         "valid": response.mask(test),
         **parts,
+        **_deviations(response, test),
     }
     return {name: values[test.in_window] for name, values in columns.items()}
+
+
+def _deviations(response: FittedResponse, test: TestData) -> dict[str, Array]:
+    found = bands(response, test)
+    named = {} if found.predicted is None else {"predicted": found.predicted}
+    # half the digits do for a band
+    return {f"{DEVIATION}{name}": sd.astype(np.float32) for name, sd in (named | dict(found.contributions)).items()}
 
 
 def prediction_tables(fitted: FittedModel, data: Dataset) -> dict[tuple[str, str, str], Any]:

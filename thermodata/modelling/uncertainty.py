@@ -8,12 +8,12 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from thermodata.modelling.design import MOMENTS
-from thermodata.modelling.fitted_response import Ends
+from thermodata.modelling.fitted_response import Z95, Ends
 from thermodata.modelling.profile import Profile
 from thermodata.modelling.search import Problem, search
 from thermodata.modelling.slow_noise import scatter
 from thermodata.modelling.start_unknown import disturbances
-from thermodata.plugin import Float1D
+from thermodata.plugin import Float1D, Float2D
 
 Rough = Callable[[], Problem | None]
 UNKNOWN = 3.0  # half an interval, in units of the search (a factor of 20): of what nobody knows no profile is asked
@@ -41,11 +41,20 @@ class Owner:
     place: int | None = None
 
 
+@dataclass(frozen=True)
+class Cover:
+    """How the parameters of a fit spread together. owners: (slots, name), shape k; matrix: covariance, shape (k, k), of
+    log(value) for names that are searched as logarithms, as wide as their intervals of 95 % are over 1.96."""
+
+    owners: tuple[tuple[tuple[int, ...], str], ...]
+    matrix: Float2D
+
+
 def spreads(
     problem: Problem, x: Float1D, gains: Float1D, rough: Rough | None = None
-) -> tuple[list[Spread], frozenset[str]]:
-    """One a slot, and the names that are searched as logarithms. rough: makes the same problem on fewer samples, for
-    profiles; None: without profiles."""
+) -> tuple[list[Spread], frozenset[str], Cover | None]:
+    """One a slot, the names that are searched as logarithms, and all of them with their correlations (None where these
+    are not known). rough: makes the same problem on fewer samples, for profiles; None: without profiles."""
     by_slot = [Spread() for _ in problem.design.slots]
     logs = frozenset(f.param.name for f in problem.free if f.log)
     inside = _Estimate(problem, x, gains, _inside(problem, x))
@@ -53,8 +62,9 @@ def spreads(
         if np.isfinite(sd) and np.isfinite(half):
             for s in owner.slots:
                 by_slot[s].sd[owner.name], by_slot[s].half[owner.name] = float(sd), float(half)
+    cover = _cover(inside)
     if rough is None or not problem.free:
-        return by_slot, logs
+        return by_slot, logs, cover
     known = _inside(problem, x)
     whole = len(known) == len(problem.free)
     for i, profile, half in _profiles(inside if whole else _Estimate(problem, x, gains), rough()):
@@ -63,7 +73,18 @@ def spreads(
             ends = profile.ends(half)
             for s in problem.free[i].slots:
                 by_slot[s].ends[problem.free[i].param.name] = ends
-    return by_slot, logs
+    return by_slot, logs, cover
+
+
+def _cover(estimate: _Estimate) -> Cover | None:
+    found = estimate.scatter
+    known = np.isfinite(found.sd) & np.isfinite(found.half) & (found.sd > 0)
+    if not known.any():
+        return None
+    # an interval is wider than the deviation says where few samples are independent
+    wider = found.half[known] / (Z95 * found.sd[known])
+    owners = tuple((o.slots, o.name) for o, good in zip(estimate.owners, known, strict=True) if good)
+    return Cover(owners, found.cover[np.ix_(known, known)] * np.outer(wider, wider))
 
 
 def profiles(

@@ -147,6 +147,34 @@ def versions(chain: Sequence[StoredModel], scored: Sequence[list[Score]] | None 
     return tuple(made)
 
 
+def history_rows(store: Store, ref: str) -> list[dict[str, Any]]:
+    """The versions that led to a model, oldest first, as `thermodata history --json` prints them."""
+    from thermodata.store.catalogue.models import model_chain
+
+    chain = model_chain(store, ref)
+    return [
+        {
+            "model": v.model,
+            "name": v.name,
+            "parent": m.parent,
+            "added": v.added,
+            "rmse_um": v.all_um,
+            "calibration_rmse_um": v.calibration_um,
+            "verification_rmse_um": v.verification_um,
+            "stale": v.stale,
+        }
+        for v, m in zip(versions(chain), chain, strict=True)
+    ]
+
+
+def test_parts(loaded: Loaded) -> list[TestPart]:
+    """Every open test of a model and response, by role."""
+    return _by_role(_tests(loaded.fitted, loaded.data, {}))
+
+
+test_parts.__test__ = False  # type: ignore[attr-defined]
+
+
 def _parted_by(spec: EffectSpec) -> str:
     """What its gain belongs to, as the model file has it; '' where one gain serves all."""
     return " and ".join([spec.gain_by] if isinstance(spec.gain_by, str) else spec.gain_by or [])
@@ -196,6 +224,10 @@ def _part(
         full[index] = values
         return full
 
+    def deviation(name: str) -> Float1D | None:
+        known = columns.get(f"sd__{name}")
+        return None if known is None else spread(known)
+
     valid = columns["valid"] > 0
     prefix = "c__"
     inside = (test.t_s >= start - step / 2) & (test.t_s < start + (n - 0.5) * step)
@@ -211,7 +243,7 @@ def _part(
         predicted=spread(columns["predicted"]),
         residual=spread(np.where(valid, columns["residual"], np.nan)),
         contributions=tuple(
-            Curve(name.removeprefix(prefix), "", spread(values))
+            Curve(name.removeprefix(prefix), "", spread(values), deviation(name.removeprefix(prefix)))
             for name, values in columns.items()
             if name.startswith(prefix)
         ),
@@ -219,6 +251,7 @@ def _part(
         lanes=_curves(test, _lane_names(test), inside)[:_MOST_LANES],
         conditions=conditions,
         phases=dict(test.phases),
+        predicted_sd=deviation("predicted"),
     )
 
 

@@ -12,11 +12,13 @@ from thermodata.schema.result import Check, Diagnosis, Parameter, Score, WeakSpo
 
 @dataclass(frozen=True, slots=True)
 class Curve:
-    """One channel of a test on a uniform grid. values: shape (n,), NaN where nothing was measured."""
+    """One channel of a test on a uniform grid. values: shape (n,), NaN where nothing was measured. sd: its standard
+    deviation, None where it has none."""
 
     name: str
     unit: str
     values: Float1D
+    sd: Float1D | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,6 +44,7 @@ class TestPart:
     lanes: tuple[Curve, ...] = ()
     conditions: dict[str, Any] = field(default_factory=dict)
     phases: dict[str, tuple[float, float]] = field(default_factory=dict)
+    predicted_sd: Float1D | None = None  # by the uncertainty of the parameters
 
 
 @dataclass(frozen=True, slots=True)

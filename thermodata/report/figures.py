@@ -6,13 +6,17 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from thermodata.chart import Axis, Chart, HeatMap, Limit, Panel, Series, Span, Strip
+from thermodata.chart import Axis, Band, Chart, HeatMap, Limit, Panel, Series, Span, Strip
 from thermodata.chart.decimate import MOST_POINTS, block_mean, block_size
+from thermodata.modelling.fitted_response import Z95
 from thermodata.plugin import Float1D
 from thermodata.report.data import Curve, TestPart
 from thermodata.report.words import duration, number, typeset
 from thermodata.schema.result import WeakSpot
 
+BAND_LABEL = "95 %"
+SHADED = "shaded: 95 % by the parameters"
+"""What a band is, where there is room to say it."""
 TIME = "time from the start of the test"
 PANEL_EXTRA = 48  # [px] of a panel beside its plot: title, keys, margins
 _TALL, _LOW, _MIDDLE = 230, 140, 170  # [px]
@@ -44,8 +48,10 @@ def part_chart(
     # a machine that is measured now and then gives points; a line would hide where it was not measured
     sparse = bool(np.mean(np.isfinite(part.residual)) < 0.9)
 
-    def series(name: str, values: Float1D, colour: str, **more: object) -> Series:
-        return Series(name, unit, block_mean(values, size), colour, **more)  # type: ignore[arg-type]
+    def series(name: str, values: Float1D, colour: str, sd: Float1D | None = None, **more: object) -> Series:
+        shown = block_mean(values, size)
+        band = None if sd is None else band_95(shown, block_mean(sd, size))
+        return Series(name, unit, shown, colour, band=band, **more)  # type: ignore[arg-type]
 
     panels: list[Panel | Strip] = [
         Panel(
@@ -53,7 +59,7 @@ def part_chart(
             unit,
             [
                 series("measured", part.measured, "measured", style="points" if sparse else "line", width=1.4),
-                series("model", part.predicted, "model", width=2.0),
+                series("model", part.predicted, "model", part.predicted_sd, width=2.0),
             ],
             height=_TALL,
         ),
@@ -69,11 +75,18 @@ def part_chart(
     if part.contributions:
         curves = [
             series(
-                c.name, c.values, styles.get(c.name, ("muted", "solid"))[0], dash=styles.get(c.name, ("", "solid"))[1]
+                c.name,
+                c.values,
+                styles.get(c.name, ("muted", "solid"))[0],
+                c.sd,
+                dash=styles.get(c.name, ("", "solid"))[1],
             )
             for c in part.contributions
         ]
-        panels.append(Panel("contributions of the effects", unit, curves, height=_by_labels(_MIDDLE, curves)))
+        title = (
+            f"contributions of the effects{f', {SHADED}' if any(c.sd is not None for c in part.contributions) else ''}"
+        )
+        panels.append(Panel(title, unit, curves, height=_by_labels(_MIDDLE, curves)))
     if part.drivers:
         panels.append(_drivers(part.drivers, size))
     panels += [_lane(c, hours, size) for c in part.lanes]
@@ -84,6 +97,11 @@ def part_chart(
         panels,
         spans=[*_weak_spans(weak, unit), *_phase_spans(part)],
     )
+
+
+def band_95(y: Float1D, sd: Float1D) -> Band:
+    """Where a curve lies with 95 % by the uncertainty of the fitted parameters. sd: its standard deviation."""
+    return Band(y - Z95 * sd, y + Z95 * sd, BAND_LABEL)
 
 
 def _hours(part: TestPart, size: int) -> Float1D:

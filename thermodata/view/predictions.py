@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -19,13 +19,14 @@ if TYPE_CHECKING:
     from thermodata.store import Store
 
 Key = tuple[str, str]
-_CONTRIBUTION = "c__"
+_CONTRIBUTION, _DEVIATION = "c__", "sd__"
 
 
 @dataclass(frozen=True, slots=True)
 class Prediction:
     """A model in a test, as it was stored with its fit; arrays have shape (n,). residual is measured - predicted, and
-    counts where valid. contributions: of each effect, in the response's unit."""
+    counts where valid. contributions: of each effect, in the response's unit. deviations: standard deviations of
+    'predicted' and of contributions, by the uncertainty of the parameters; of those that were known at the fit."""
 
     campaign: str
     test: str
@@ -36,6 +37,7 @@ class Prediction:
     residual: Float1D
     valid: Bool1D
     contributions: Mapping[str, Float1D]
+    deviations: Mapping[str, Float1D] = field(default_factory=dict)
 
 
 def predictions(store: Store, model: str, campaign: str, test: str) -> list[Prediction]:
@@ -55,10 +57,15 @@ def predictions(store: Store, model: str, campaign: str, test: str) -> list[Pred
                     columns["predicted"],
                     columns["residual"],
                     np.asarray(got["valid"], dtype=bool),
-                    {n.removeprefix(_CONTRIBUTION): v for n, v in columns.items() if n.startswith(_CONTRIBUTION)},
+                    _of(columns, _CONTRIBUTION),
+                    _of(columns, _DEVIATION),
                 )
             )
     return found
+
+
+def _of(columns: Mapping[str, Float1D], begun: str) -> dict[str, Float1D]:
+    return {n.removeprefix(begun): v for n, v in columns.items() if n.startswith(begun)}
 
 
 def residual_strips(
@@ -89,6 +96,21 @@ def residual_strips(
         if value is not None:
             strips[names[i]][k] = value
     return strips
+
+
+def residual_courses(store: Store, model: str, keys: Sequence[Key]) -> dict[tuple[str, str, str], Float1D]:
+    """(campaign, test, response) -> the residual over the prediction's own grid, shape (n,); NaN where none counts."""
+    with store.reader() as con:
+        listed = [(*key, r, p) for key, found in _paths(con, store.path, model, keys).items() for r, p in found]
+        if not listed:
+            return {}
+        got = con.execute(
+            "select file_index as i, case when valid then residual end as residual "
+            f"from read_parquet({file_list(p for *_, p in listed)}) order by file_index, t_s"
+        ).fetchnumpy()
+    values, which = _numbers(got["residual"]), np.asarray(got["i"])
+    edges = np.searchsorted(which, np.arange(len(listed) + 1))
+    return {(c, t, r): values[edges[i] : edges[i + 1]] for i, (c, t, r, _) in enumerate(listed)}
 
 
 def _paths(

@@ -9,7 +9,9 @@ from typing import TYPE_CHECKING, Any
 from thermodata.errors import StoreError, UsageError, unknown_name
 from thermodata.store import Store
 from thermodata.store.base.connection import damaged_data, literal
+from thermodata.view.rows import Rows
 from thermodata.view.statements import check_statement
+from thermodata.view.units import Known, column_units, known_units
 
 if TYPE_CHECKING:
     import duckdb
@@ -18,14 +20,15 @@ if TYPE_CHECKING:
 
 
 class StoreView:
-    """Read-only. Relations see the store as of their making, hold no lock, and give .df(), .to_arrow_table(), .pl()
-    and .fetchall().
+    """Read-only. Answers see the store as of their making, hold no lock, and give .df(), .to_arrow_table() with units,
+    .pl() and .fetchall().
 
     store: its folder, or a Store. UsageError where there is none.
     """
 
     def __init__(self, store: Store | str | Path = "thermodata.store") -> None:
         self.store = store if isinstance(store, Store) else Store(Path(store))
+        self._known: tuple[duckdb.DuckDBPyConnection, Known] | None = None
 
     def __repr__(self) -> str:
         return f"StoreView({str(self.store.path)!r})"
@@ -35,7 +38,7 @@ class StoreView:
         """The store's folder."""
         return self.store.path
 
-    def sql(self, query: str, params: Sequence[Any] | dict[str, Any] | None = None) -> duckdb.DuckDBPyRelation:
+    def sql(self, query: str, params: Sequence[Any] | dict[str, Any] | None = None) -> Rows:
         """The relation of a query over the store's tables, views and macros (docs/architecture.md#tables-and-views).
 
         params: values of `?` or `$name`. UsageError where DuckDB refuses the query, with its reason;
@@ -64,7 +67,12 @@ class StoreView:
             raise UsageError("the query fails", got=str(error).strip()) from error
         if relation is None:
             raise UsageError("the query gives no table", expected="SELECT, FROM, DESCRIBE or SHOW", got=query)
-        return relation
+        return Rows(relation, lambda: column_units(con, self._known_units(con), query, relation))
+
+    def _known_units(self, con: duckdb.DuckDBPyConnection) -> Known:
+        if self._known is None or self._known[0] is not con:  # a commit gives another copy
+            self._known = (con, known_units(con))
+        return self._known[1]
 
     def verify(self, query: str) -> str | None:
         """Looks at the checksums of the files that a query reads; see `verify.verify_pages`. A sentence where not all
@@ -77,21 +85,21 @@ class StoreView:
             return None if not statements else "the pages of what it read were not verified: thermodata check does"
         return verify_pages(con, self.path, query)
 
-    def signal(self, campaign: str, test: str, channel: str) -> duckdb.DuckDBPyRelation:
+    def signal(self, campaign: str, test: str, channel: str) -> Rows:
         """One channel of one test: campaign, test, source, channel, t, t_s, value, flag."""
         return self._macro("signal", campaign, test, channel)
 
-    def binned(self, campaign: str, test: str, step: str | float = "30 s") -> duckdb.DuckDBPyRelation:
+    def binned(self, campaign: str, test: str, step: str | float = "30 s") -> Rows:
         """One row a bin: means of the valid samples, states held. step: '30 s' or seconds."""
         return self._macro("binned", campaign, test, str(step))
 
-    def aligned(self, campaign: str, test: str, step: str | float = "30 s") -> duckdb.DuckDBPyRelation:
+    def aligned(self, campaign: str, test: str, step: str | float = "30 s") -> Rows:
         """One row a point: each channel's last sample and its flag. step: '30 s' or seconds."""
         return self._macro("aligned", campaign, test, str(step))
 
     def residual(
         self, model: str, campaign: str | None = None, test: str | None = None, response: str | None = None
-    ) -> duckdb.DuckDBPyRelation:
+    ) -> Rows:
         """Measured and predicted of a model. model: its id, a unique prefix of it, or a name (the newest version).
 
         UsageError names the nearest campaign, test or response where the model was not predicted on the given one.
@@ -124,11 +132,11 @@ class StoreView:
             raise unknown_name("model", ref, [*dict.fromkeys(str(name) for _, name in rows), *ids])
         return begun[0]
 
-    def tests(self, campaign: str | None = None) -> duckdb.DuckDBPyRelation:
+    def tests(self, campaign: str | None = None) -> Rows:
         """The table `test`."""
         return self.sql(f"select * from test{_where(campaign)}")
 
-    def channels(self, campaign: str | None = None) -> duckdb.DuckDBPyRelation:
+    def channels(self, campaign: str | None = None) -> Rows:
         """The table `channel`: one row a test and channel, with unit, place, axis and sign."""
         return self.sql(f"select * from channel{_where(campaign)}")
 
@@ -140,7 +148,7 @@ class StoreView:
 
         return load_dataset(self.store, campaigns, step_s, channels)
 
-    def _macro(self, name: str, *arguments: str) -> duckdb.DuckDBPyRelation:
+    def _macro(self, name: str, *arguments: str) -> Rows:
         return self.sql(f"select * from {name}({', '.join(map(literal, arguments))})")
 
 

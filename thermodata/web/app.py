@@ -16,7 +16,7 @@ from thermodata.errors import StoreError, ThermodataError
 from thermodata.web import assets
 from thermodata.web.desk import Desk
 from thermodata.web.guard import Guard
-from thermodata.web.pages import adding, campaign_map, compare, missing, report, sql, start, test, working
+from thermodata.web.pages import adding, campaign_map, compare, jump, missing, report, sql, start, test, working
 from thermodata.web.render import page
 from thermodata.web.work import Work
 
@@ -45,6 +45,7 @@ def application(desk: Desk) -> Starlette:
             Route("/report", report.show, methods=["GET"]),
             Route("/report/file", report.take, methods=["GET"]),
             Route("/start", start.show, methods=["GET"]),
+            Route("/start/jump", jump.show, methods=["GET"]),
             Route("/start/preview", start.preview, methods=["POST"]),
             Route("/start/write", start.write, methods=["POST"]),
             Route("/missing", missing.show, methods=["GET"]),

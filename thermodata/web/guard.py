@@ -20,6 +20,7 @@ from thermodata.web.desk import Desk, same
 TOKEN_HEADER = "x-thermodata-token"
 TICKET_PATH = "/open"
 _READING = ("GET", "HEAD")
+_OWN_FETCHES = ("same-origin", "none")  # our own pages; an address that was typed, a bookmark
 _HEADERS = {
     "content-security-policy": "default-src 'self'; base-uri 'none'; form-action 'self'; frame-ancestors 'none'; "
     "object-src 'none'",
@@ -64,6 +65,10 @@ class Guard:
         if headers.getlist("host") != [self.desk.host]:
             return _refusal(421, "This is not the address of this workbench", f"It is {self.desk.address}.")
         method = scope["method"]
+        # a browser says where a request comes from; SameSite knows no ports, so a page that another program of this
+        # machine serves is of our site, and its requests carry our cookie
+        if scope["path"] != TICKET_PATH and any(f not in _OWN_FETCHES for f in headers.getlist("sec-fetch-site")):
+            return _refusal(403, "This was not sent by a page of this workbench", "A page of another address sent it.")
         if scope["path"] == TICKET_PATH and method == "GET":
             return self._open(scope, headers)
         if not self._has_cookie(headers):

@@ -40,6 +40,7 @@ def environment() -> jinja2.Environment:
     )
     made.filters.update(
         number=lambda value, digits=3: typeset(number(value, digits)),
+        signed=lambda value: f"{'+' if value > 0 else ''}{number(value)}",
         duration=duration,
         typeset=typeset,
         probability=probability,

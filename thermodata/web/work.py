@@ -60,7 +60,8 @@ class Work:
                     hint="wait for it, or cancel it",
                 )
             process = subprocess.Popen(
-                [sys.executable, "-m", "thermodata.web.child"],
+                # -P: a module that lies in the working folder, which may be one of somebody's data, is not imported
+                [sys.executable, "-P", "-m", "thermodata.web.child"],
                 stdin=subprocess.PIPE,
                 stdout=subprocess.PIPE,
                 stderr=subprocess.DEVNULL,

@@ -19,6 +19,7 @@ from thermodata.store.ingest.file_versions import keep_earlier
 from thermodata.store.ingest.inventory import BY_TEST, Inventory, Row, generation_of, read_inventory
 from thermodata.store.ingest.progress import Progress, TextProgress
 from thermodata.store.ingest.raw_layer import RawIngest, loss_row
+from thermodata.store.ingest.spec_lines import with_lines
 from thermodata.store.ingest.tidy_layer import tidy_tests
 from thermodata.store.ingest.unanswered import unanswered
 from thermodata.store.ingest.unchanged import answer, keep, known_files, noted
@@ -124,7 +125,7 @@ def _ingest(store: Store, path: Path, watch: Progress, given: Campaign | None) -
         read=raw_layer.read,
         made=tidy_layer.new_streams,
         calibrations=[{**r.row(campaign.id), "name": r.name} for r in results.values()],
-        losses=raw_layer.losses + tidy_layer.losses + [loss_row(p) for p in problems],
+        losses=with_lines(raw_layer.losses + tidy_layer.losses + [loss_row(p) for p in problems], path),
         notes=list(dict.fromkeys(unanswered(campaign) + raw_layer.notes + tidy_layer.notes)),
     )
     again = replace(summary, read=0, made=0, notes=[*summary.notes, NOTHING])

@@ -64,7 +64,8 @@ def _running(store: Path | str, query: str, form: Form, limits: Limits) -> Itera
         "cpu_s": int(limits.seconds) + 2,
     }
     process = subprocess.Popen(
-        [sys.executable, "-m", "thermodata.view.sandbox.child"],
+        # -P: a module that lies in the working folder, which may be one of somebody's data, is not imported
+        [sys.executable, "-P", "-m", "thermodata.view.sandbox.child"],
         stdin=subprocess.PIPE,
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,

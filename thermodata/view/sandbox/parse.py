@@ -25,7 +25,9 @@ _FOREIGN = (
     "nextval",
     "sniff_",
     "parquet_",
+    "sleep",
 )
+_SETTINGS = frozenset({"pg_settings", "duckdb_settings", "duckdb_secrets"})  # as tables; as functions they are foreign
 
 
 def check_select(con: duckdb.DuckDBPyConnection, query: str) -> None:
@@ -56,6 +58,8 @@ def check_select(con: duckdb.DuckDBPyConnection, query: str) -> None:
             called = str(node["function"].get("function_name", "")).lower()
             if called not in _MAKE_ROWS and called not in own:
                 raise _refused(query, "tables, views and macros of the store", f"{called}(...)")
+        elif kind == "BASE_TABLE" and str(node.get("table_name", "")).lower() in _SETTINGS:
+            raise _refused(query, "tables, views and macros of the store", str(node["table_name"]))
         elif name.startswith(_FOREIGN):
             raise _refused(query, "functions of values", f"{name}(...)")
 

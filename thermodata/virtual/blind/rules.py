@@ -8,7 +8,6 @@ import inspect
 from functools import cache
 from pathlib import Path
 
-import thermodata
 from thermodata.effect import effects
 
 JUDGING = ("diagnosis", "modelling", "effect", "virtual/lathe", "virtual/blind")
@@ -17,7 +16,7 @@ JUDGING = ("diagnosis", "modelling", "effect", "virtual/lathe", "virtual/blind")
 @cache
 def fingerprint() -> str:
     """Of the code that a verdict and its mark hang on; comments and layout do not count."""
-    root = Path(thermodata.__file__).parent
+    root = Path(__file__).parents[2]
     files = {file for part in JUDGING for file in (root / part).rglob("*.py")}
     files |= {Path(inspect.getfile(type(e))) for e in effects().values()}
     whole = hashlib.sha256()

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -12,6 +13,8 @@ from starlette.responses import Response
 from thermodata.chart.colour import EFFECTS
 from thermodata.chart.pack import script_json
 from thermodata.chart.spec import Axis, Chart, HeatMap, Limit, Panel, Series
+from thermodata.modelling.difference import Difference
+from thermodata.modelling.differences import Course, between, over_tests
 from thermodata.plugin import Float1D
 from thermodata.report.collect import versions
 from thermodata.report.data import Version
@@ -20,7 +23,7 @@ from thermodata.schema.result import Score
 from thermodata.store import Store
 from thermodata.store.catalogue.models import find_model, model_chain
 from thermodata.view.models import ModelRow, model_rows
-from thermodata.view.predictions import residual_strips
+from thermodata.view.predictions import residual_courses, residual_strips
 from thermodata.view.residuals import against, autocorrelation, predicted_tests, residuals
 from thermodata.web.command import command
 from thermodata.web.pages.drawn import pair
@@ -41,6 +44,7 @@ class Line:
     response: str
     phase: str
     errors: tuple[float | None, ...]
+    differences: tuple[Difference | None, ...] = ()  # of each but the pinned one to it
 
     @property
     def differs(self) -> bool:
@@ -58,7 +62,8 @@ def show(request: Request) -> Response:
     chosen = _chosen(models, [m for m in given.getlist("model") if m], given.get("pin", ""))
     pinned = chosen[0]
     results = [find_model(store, m.model).result for m in chosen]
-    lines = _lines([r.scores for r in results])
+    courses = [residual_courses(store, m.model, predicted_tests(store, m.model)) for m in chosen]
+    lines = _with_differences(_lines([r.scores for r in results]), courses)
     only = given.get("differs") == "1"
     response = given.get("response") if given.get("response") in pinned.responses else pinned.responses[0]
     keys = predicted_tests(store, pinned.model)
@@ -81,6 +86,7 @@ def show(request: Request) -> Response:
         only=only,
         most=max((e for line in lines for e in line.errors if e is not None), default=1.0),
         roles=_roles([r.scores for r in results]),
+        over_roles=_over_roles(lines, courses),
         parameters=_parameters([r.parameters for r in results]),
         heat=[(m, script_json(heat.as_json())) for m, heat in _maps(store, chosen, keys, str(response))],
         chain=chain,
@@ -116,6 +122,26 @@ def _lines(scores: list[list[Score]]) -> list[Line]:
     }
     known = [{(s.campaign, s.test, s.response, s.phase): s.rmse_um for s in each} for each in scores]
     return [Line(k[0], k[1], role, k[2], k[3], tuple(e.get(k) for e in known)) for k, role in keys.items()]
+
+
+def _with_differences(lines: list[Line], courses: Sequence[Mapping[Course, Float1D]]) -> list[Line]:
+    found = [between(courses[0], other) for other in courses[1:]]
+    return [
+        replace(line, differences=tuple(f.get((line.campaign, line.test, line.response)) for f in found))
+        for line in lines
+    ]
+
+
+def _over_roles(
+    lines: list[Line], courses: Sequence[Mapping[Course, Float1D]]
+) -> list[tuple[str, list[Difference | None]]]:
+    """(role, the difference of each but the pinned one to it over the role's tests)."""
+    tests: dict[str, dict[tuple[str, str], None]] = {}
+    for line in lines:
+        tests.setdefault(line.role, {})[line.campaign, line.test] = None
+    return [
+        (role, [over_tests(courses[0], other, list(keys)) for other in courses[1:]]) for role, keys in tests.items()
+    ]
 
 
 def _roles(scores: list[list[Score]]) -> list[tuple[str, list[float | None]]]:

@@ -4,18 +4,16 @@ from __future__ import annotations
 
 from typing import Any
 
-import numpy as np
 from starlette.requests import Request
 from starlette.responses import Response
 
-from thermodata.chart.colour import EFFECTS
 from thermodata.chart.pack import script_json
-from thermodata.chart.spec import Axis, Chart, Panel, Series
 from thermodata.effect import effects
 from thermodata.effect.unbound import unbound
+from thermodata.report.course_chart import course_chart
 from thermodata.report.verdict import claims_of, explainable, listed, told, verdict_sentence
 from thermodata.report.words import number
-from thermodata.schema.result import Candidate, Diagnosis
+from thermodata.schema.result import Diagnosis
 from thermodata.store import Store
 from thermodata.store.base.connection import fetch
 from thermodata.store.catalogue.models import load_diagnosis
@@ -75,7 +73,7 @@ def show(request: Request) -> Response:
         about=_about(found, model) if found else "",
         told=shown,
         nothing={"title": nothing[0], "text": nothing[1]},
-        charts={c.rank: script_json(_course(c, model.unit).as_json()) for c in shown if c.courses},
+        charts={c.rank: script_json(course_chart(c, model.unit).as_json()) for c in shown if c.courses},
         most={c.rank: max((r.rmse_um_before for r in c.left_out), default=1.0) for c in shown},
         rivals=[c for c in (found.candidates if found else []) if c not in shown],
         rung_target=RUNG_TARGET,
@@ -103,28 +101,6 @@ def _about(found: Diagnosis, model: ModelRow) -> str:
     parts = [f"{model.label} leaves {number(found.rmse_um)} {model.unit} on left-out tests"] if found.rmse_um else []
     parts += [f"short-term noise {number(found.noise_um)} {model.unit}"] if found.noise_um else []
     return "; ".join(filter(None, [*parts, explainable(found)]))
-
-
-def _course(c: Candidate, unit: str) -> Chart:
-    length = max((run.t_s[-1] / 3600 for run in c.courses if run.t_s), default=1.0)
-    return Chart(
-        f"What the model leaves over in each test, and what {c.id} would take of it",
-        Axis("time", "h", range=(0.0, length)),
-        np.empty(0),
-        [
-            Panel(
-                run.test,
-                unit,
-                [
-                    Series("residual", unit, np.asarray(run.residual_um), "residual", x=np.asarray(run.t_s) / 3600),
-                    Series(c.effect, unit, np.asarray(run.contribution_um), EFFECTS[0], x=np.asarray(run.t_s) / 3600),
-                ],
-                height=110,
-                zero=True,
-            )
-            for run in c.courses
-        ],
-    )
 
 
 def _looks(store: Store, model: ModelRow) -> list[dict[str, Any]]:

@@ -15,7 +15,7 @@ from thermodata.web.command import command
 from thermodata.web.form import form_of
 from thermodata.web.render import desk_of, page
 
-_ANSWER = "answer."
+_ANSWER, _STEP = "answer.", "step."
 _MOST_BYTES = 4 << 20
 # (title, which questions, what they decide)
 GROUPS = (
@@ -87,7 +87,31 @@ def _answers(form: dict[str, str], asked: list[Question]) -> dict[str, str]:
     """Only what differs from what stands there; a name that is no question is refused by `filled_in`."""
     stands = {q.name: q.value for q in asked}
     given = {k.removeprefix(_ANSWER): v.strip() for k, v in form.items() if k.startswith(_ANSWER)}
+    given |= _moves(form)
     return {name: value for name, value in given.items() if value != stands.get(name)}
+
+
+def _moves(form: dict[str, str]) -> dict[str, str]:
+    """The moves of each jump test from the fields of its steps; UsageError where only some are filled in."""
+    steps: dict[str, dict[int, str]] = {}
+    for field, value in form.items():
+        if field.startswith(_STEP):
+            name, _, number = field.removeprefix(_STEP).rpartition(".")
+            if not number.isdecimal() or "," in value:
+                raise UsageError("a step has one move", where=field, expected="such as 100 um", got=value)
+            steps.setdefault(name, {})[int(number)] = value.strip()
+    moves = {}
+    for name, each in steps.items():
+        ordered = [each[k] for k in sorted(each)]
+        if not any(ordered):
+            continue
+        if not all(ordered):
+            lacking = [str(k + 1) for k in sorted(each) if not each[k]]
+            raise UsageError(
+                "a jump test needs the move of every step", where=name, got=f"none at step {', '.join(lacking)}"
+            )
+        moves[name] = ", ".join(ordered)
+    return moves
 
 
 def _read(path: Path) -> str:

@@ -15,6 +15,7 @@ from thermodata.store.trace.lineage import trace
 from thermodata.view.events import About, about_test
 from thermodata.view.models import ModelRow, model_rows
 from thermodata.view.predictions import Prediction, predictions, range_figures
+from thermodata.view.rule_for import rules_for
 from thermodata.view.window import Channel, channels_of, read_window
 from thermodata.web.command import command
 from thermodata.web.pages.test_chart import drawn_as_curve, test_chart
@@ -47,6 +48,7 @@ def show(request: Request) -> Response:
         models=models,
         model=model,
         predicted=predicted,
+        banded=any(p.deviations for p in predicted),
         chart=script_json(chart.as_json()),
         span=None if from_s is None or to_s is None else (from_s / 3600, to_s / 3600),
         neighbours=_neighbours(store, campaign, test),
@@ -68,7 +70,7 @@ def stretch(request: Request) -> Response:
     """GET /test/range: what a stretch (from, to) does to the error, and the lines that would keep or name it."""
     store, given = desk_of(request).store(), request.query_params
     campaign, test = _named(given)
-    channels_of(store, campaign, test)
+    channels = channels_of(store, campaign, test)
     from_s, to_s = seconds_in(given, "from"), seconds_in(given, "to")
     if from_s is None or to_s is None or not from_s < to_s:
         raise UsageError("a stretch has a beginning and an end", expected="from < to, in seconds")
@@ -83,6 +85,9 @@ def stretch(request: Request) -> Response:
         to_s=to_s,
         test=test,
         figures=[(p.response, range_figures(p, from_s, to_s)) for p in found],
+        rules=[
+            (p.response, range_figures(p, from_s, to_s), rules_for(store, p, channels, from_s, to_s)) for p in found
+        ],
         unit=models[0].unit if models else "um",
     )
 

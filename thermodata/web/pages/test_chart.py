@@ -7,8 +7,9 @@ from collections.abc import Sequence
 import numpy as np
 
 from thermodata.chart.colour import EFFECTS, effect_styles
-from thermodata.chart.spec import Axis, Chart, Panel, Row, Series, Span, Strip, Style
+from thermodata.chart.spec import Axis, Band, Chart, Panel, Row, Series, Span, Strip, Style
 from thermodata.plugin import Float1D
+from thermodata.report.figures import SHADED, band_95
 from thermodata.view.events import About
 from thermodata.view.predictions import Prediction
 from thermodata.view.window import Channel, Window
@@ -60,7 +61,7 @@ def _of_model(predicted: Sequence[Prediction]) -> list[Panel]:
                 "um",
                 [
                     Series("measured", "um", measured, "measured", x=x),
-                    Series("model", "um", p.predicted, "model", x=x),
+                    Series("model", "um", p.predicted, "model", x=x, band=_band(p, "predicted", p.predicted)),
                 ],
             ),
             Panel(
@@ -75,16 +76,21 @@ def _of_model(predicted: Sequence[Prediction]) -> list[Panel]:
             styles = effect_styles(p.contributions)
             panels.append(
                 Panel(
-                    f"{p.response}, contributions",
+                    f"{p.response}, contributions{f', {SHADED}' if p.deviations else ''}",
                     "um",
                     [
-                        Series(name, "um", y, styles[name][0], x=x, dash=styles[name][1])
+                        Series(name, "um", y, styles[name][0], x=x, dash=styles[name][1], band=_band(p, name, y))
                         for name, y in p.contributions.items()
                     ],
                     zero=True,
                 )
             )
     return panels
+
+
+def _band(p: Prediction, name: str, y: Float1D) -> Band | None:
+    sd = p.deviations.get(name)
+    return None if sd is None else band_95(y, sd)
 
 
 def _of_channels(channels: Sequence[Channel], values: dict[str, tuple[Float1D, Float1D]]) -> list[Panel | Strip]:

@@ -1,0 +1,126 @@
+"""What a person meets at a terminal: names after a Tab, no colour where none is wanted, the newest model, lines."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+from click.shell_completion import ShellComplete
+
+from thermodata.cli import main
+from thermodata.cli.app import cli
+from thermodata.view import StoreView
+
+from .conftest import Said, write_campaign
+
+
+@pytest.fixture(scope="session")
+def fitted(once: Callable[[str, Callable[[Path], object]], Path]) -> Path:
+    """Four tests of 6 h, a baseline that lacks the nut's growth, its diagnosis, and a second version; read only."""
+
+    def make(folder: Path) -> None:
+        path = write_campaign(folder)
+        store = str(folder / "thermodata.store")
+        for words in (["ingest", path], ["fit", folder / "baseline.yaml"], ["diagnose"], ["add", "baseline", 1]):
+            assert main(["--store", store, *map(str, words), "--json"]) == 0
+
+    return once("terminal", make)
+
+
+def offered(store: Path, *words: str, begun: str = "") -> list[str]:
+    complete = ShellComplete(cli, {}, "thermodata", "_THERMODATA_COMPLETE")
+    return [item.value for item in complete.get_completions(["--store", str(store), *words], begun)]
+
+
+def test_a_tab_offers_what_the_store_holds(fitted: Path) -> None:
+    store = fitted / "thermodata.store"
+    assert "baseline" in offered(store, "compare", begun="base")
+    assert offered(store, "export", begun="s") == ["small"]
+    assert set(offered(store, "export", "small")) == {"heat1", "heat2", "day1", "day2"}
+    assert "T_nut_Z" in offered(store, "trace", "small", "day1", begun="T_n")
+    first = StoreView(store).sql("select model from model order by created_at").fetchall()[0][0]
+    assert "1" in offered(store, "add", first)
+    assert offered(store, "remove", "baseline", begun="spindle_b") == ["spindle_bearing"]
+    assert "spindle_bearing" in offered(store, "plugins", "show", begun="spindle_b")
+    assert "day1" in offered(store, "channels", "--test", begun="d")
+
+
+def test_a_tab_without_a_store_offers_nothing_and_says_nothing(
+    tmp_path: Path, capfd: pytest.CaptureFixture[str]
+) -> None:
+    assert offered(tmp_path / "none", "export") == []
+    (tmp_path / "broken").mkdir()
+    (tmp_path / "broken" / "catalog.duckdb").write_bytes(b"no database")
+    assert offered(tmp_path / "broken", "export") == []
+    assert capfd.readouterr() == ("", "")
+
+
+def test_no_color_means_none(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp_path: Path
+) -> None:
+    import click
+
+    monkeypatch.setattr(click.utils, "should_strip_ansi", lambda stream=None, color=None: color is False)
+    monkeypatch.delenv("NO_COLOR", raising=False)
+    assert main(["--store", str(tmp_path / "none"), "tests"]) == 2
+    assert "\x1b[" in capsys.readouterr().err
+    monkeypatch.setenv("NO_COLOR", "1")
+    assert main(["--store", str(tmp_path / "none"), "tests"]) == 2
+    assert "\x1b[" not in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("words", [["history"], ["compare"], ["diagnose"]])
+def test_without_a_model_the_newest_is_taken(fitted: Path, say: Callable[..., Said], words: list[str]) -> None:
+    store = fitted / "thermodata.store"
+    found = json.loads(say("--store", store, *words, "--json").out)
+    models = [m["model"] for m in json.loads(say("--store", store, "history", "baseline", "--json").out)]
+    assert len(models) == 2
+    assert (found[-1] if words == ["history"] else found)["model"] == models[-1]
+    assert models[-1] in say("--store", store, *words).err
+
+
+def test_the_report_of_the_newest_model(fitted: Path, say: Callable[..., Said], tmp_path: Path) -> None:
+    done = say("--store", fitted / "thermodata.store", "report", "-o", tmp_path / "r.html")
+    assert done.code == 0, done.err
+    assert "<title>" in (tmp_path / "r.html").read_text("utf-8")
+
+
+@pytest.mark.parametrize(
+    ("right", "wrong", "line", "place"),
+    [
+        ("T_bearing}", "T_baering}", 8, "effects[0].drivers.temperature"),
+        ("temperature:", "temprature:", 8, "effects[0].drivers.temprature"),
+        ("spindle_bearing,", "spindle_baering,", 8, "effects[0].effect"),
+        ("campaign: small", "campaign: smal", 4, "campaign"),
+        ("step: 60 s", "step: 60 s\nverify_on: [dayX]", 7, "verify_on[0]"),
+    ],
+)
+def test_what_only_the_data_show_to_be_wrong_has_its_line(
+    fitted: Path, say: Callable[..., Said], tmp_path: Path, right: str, wrong: str, line: int, place: str
+) -> None:
+    text = (fitted / "baseline.yaml").read_text().lstrip("\n")
+    assert right in text
+    (tmp_path / "m.yaml").write_text("\n" + text.replace(right, wrong))
+    said = say("--store", fitted / "thermodata.store", "fit", tmp_path / "m.yaml")
+    assert said.code == 2
+    assert f"m.yaml:{line} ({place})" in said.err
+    assert "did you mean" in said.err
+
+
+def test_an_unknown_signal_has_its_line(say: Callable[..., Said], tmp_path: Path) -> None:
+    path = write_campaign(tmp_path)
+    path.write_text(path.read_text().replace("signal: T_hall", "signal: T_hal"))
+    line = next(i for i, text in enumerate(path.read_text().splitlines(), 1) if text.strip().startswith("T_hall:"))
+    said = say("--store", tmp_path / "s", "ingest", path)
+    assert said.code == 3
+    assert f"{path.name}, line {line}" in said.out
+
+
+@pytest.mark.parametrize("command", ["tests", "channels", "compare", "history", "diagnose", "portability baseline"])
+def test_tables_fit_80_columns(fitted: Path, say: Callable[..., Said], command: str) -> None:
+    out = say("--store", fitted / "thermodata.store", *command.split()).out
+    tables = [line for line in out.splitlines() if "  " in line.strip()]
+    assert tables
+    assert [line for line in tables if len(line) > 80 and not line.startswith(("why", "  "))] == []

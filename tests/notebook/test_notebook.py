@@ -1,0 +1,163 @@
+"""`thermodata.open(...)`: the commands' work as methods, and how each answer shows itself."""
+
+from __future__ import annotations
+
+import html
+import json
+import re
+import shutil
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import thermodata
+from thermodata.cli import main
+from thermodata.errors import UsageError
+from thermodata.notebook.fitted import Fit
+from thermodata.notebook.opened import OpenStore
+
+from ..cli.conftest import write_campaign
+
+
+@pytest.fixture(scope="session")
+def made(once: Callable[[str, Callable[[Path], object]], Path]) -> Path:
+    def make(folder: Path) -> None:
+        store = str(folder / "thermodata.store")
+        assert main(["--store", store, "ingest", str(write_campaign(folder)), "--json"]) == 0
+        thermodata.open(store).fit(folder / "baseline.yaml").diagnose().add(1)
+
+    return once("notebook", make)
+
+
+@pytest.fixture
+def store(made: Path) -> OpenStore:
+    """Read only."""
+    return thermodata.open(made / "thermodata.store")
+
+
+@pytest.fixture
+def better(store: OpenStore) -> Fit:
+    return store.model()
+
+
+def test_the_newest_version_is_the_one_that_was_added(store: OpenStore, better: Fit) -> None:
+    first = better.parent
+    assert first is not None
+    assert first.parent is None
+    assert [m["model"] for m in store.models()] == [better.id, first.id]
+    assert better.result.added == ["feed_screw"]
+    assert store.model(first.id[:6]).id == first.id
+    assert first.diagnose().sentence.startswith("missing: feed_screw")
+    with pytest.raises(UsageError, match="did you mean 'baseline'"):
+        store.model("basline")
+
+
+def test_answers_are_those_of_the_commands(
+    made: Path, store: OpenStore, better: Fit, capsys: pytest.CaptureFixture[str]
+) -> None:
+    def said(*words: str) -> str:
+        capsys.readouterr()
+        assert main(["--store", str(made / "thermodata.store"), *words]) == 0
+        return capsys.readouterr().out
+
+    assert json.loads(said("history", "--json")) == list(better.history())
+    assert json.loads(said("compare", better.id, "--json"))["scores"] == list(store.compare().scores)
+    assert store.compare(better).summary() in said("compare", better.id)
+    first = better.parent
+    assert first is not None
+    assert first.diagnose().summary() == said("diagnose", first.id).rstrip("\n")
+
+
+def test_contributions_add_up_and_carry_units(store: OpenStore, better: Fit) -> None:
+    found = better.contributions("day1")
+    table = found.to_arrow_table()
+    total = sum(found[effect] for effect in found)
+    offset = table["predicted"].to_numpy() - total
+    assert np.ptp(offset) < 1e-9
+    assert {f.name: f.metadata[b"unit"].decode() for f in table.schema if f.metadata} == {
+        "t_s": "s",
+        **dict.fromkeys(["measured", "predicted", "residual", "spindle_bearing", "feed_screw"], "um"),
+    }
+    assert store.contributions("small/day1").test == "day1"
+    with pytest.raises(UsageError, match="did you mean 'day1'"):
+        better.contributions("day")
+
+
+def test_a_locked_test_stays_closed(store: OpenStore, better: Fit) -> None:
+    looks = "select count(*) from locked_look"
+    before = store.sql(looks).fetchall()
+    with pytest.raises(UsageError, match="no test in the predictions"):
+        better.contributions("day2")
+    with pytest.raises(UsageError):
+        better.plot("day2")
+    better.plot(), better.compare(), better.residual_tests(), better.diagnose(), better.history()
+    assert "day2" not in better.plot().page()
+    # what a diagnosis opened for its claim is all
+    assert store.sql(looks).fetchall() == before
+
+
+def test_predictions_of_a_campaign(better: Fit) -> None:
+    made = better.predict("small")
+    assert [p.test for p in made] == ["heat1", "heat2", "day1", "day2"]
+    assert made[3].measured is None  # locked
+    assert made.to_arrow_table().schema.field("predicted").metadata == {b"unit": b"um"}
+    assert "RMSE" in made.summary()
+    with pytest.raises(UsageError, match="no folder, campaign file or campaign"):
+        better.predict("nothing")
+
+
+def test_residual_tests(better: Fit) -> None:
+    found = better.residual_tests()
+    assert found.autocorrelation[0] == 1.0
+    assert [b.lags for b in found.ljung_box] == [10, 20, 50]
+    assert {s.state.partition(":")[0] for s in found.states} == {"spindle_bearing", "feed_screw"}
+    assert "Ljung-Box" in found.summary()
+
+
+def test_each_answer_shows_itself_and_escapes_names(store: OpenStore, better: Fit) -> None:
+    first = better.parent
+    assert first is not None
+    verdict = first.diagnose()
+    shown = [store, better, first, verdict, better.scores, better.history(), store.compare(first, better)]
+    shown += [
+        better.contributions(),
+        better.predict("small"),
+        better.residual_tests(),
+        store.models(),
+        verdict.candidates,
+    ]
+    for one in shown:
+        page = one._repr_html_()
+        assert "<table>" in page
+        assert "NaN" not in page
+        assert "Traceback" not in repr(one)
+    assert "before" in better._repr_html_()
+    assert "before" not in first._repr_html_()
+    rows = thermodata.notebook.shown.Listed([{"a": "<script>"}], [("a", "a")])  # type: ignore[attr-defined]
+    assert "<script>" not in rows._repr_html_()
+
+
+def test_a_plot_is_a_frame_that_reaches_nothing(better: Fit, tmp_path: Path) -> None:
+    plot = better.plot("day1")
+    frame = plot._repr_html_()
+    assert 'sandbox="allow-scripts"' in frame
+    page = html.unescape(re.search(r'srcdoc="(.*?)" sandbox', frame, re.DOTALL)[1])  # type: ignore[index]
+    assert page == plot.page() == plot.save(tmp_path / "p.html").read_text("utf-8")
+    assert "default-src 'none'" in page
+    assert not re.search(r"(src|href)=", page.split("<script>")[0])
+    limits = [json.loads(text)["limit"] for text in re.findall(r'json" id="c[01]">(.*?)</script>', page)]
+    assert limits[0] == limits[1]  # the fall is seen on one scale
+    assert len(frame) < 400_000
+
+
+def test_a_model_object_and_a_file_fit_alike(made: Path, tmp_path: Path) -> None:
+    from thermodata.schema.load import load_model
+
+    shutil.copytree(made, tmp_path / "lab")
+    store = thermodata.open(tmp_path / "lab" / "thermodata.store")
+    a, b = store.fit(tmp_path / "lab" / "baseline.yaml"), store.fit(load_model(tmp_path / "lab" / "baseline.yaml"))
+    assert a.id == b.id
+    version = store.add("feed_screw:T_nut_Z", a.id, plain=True)
+    assert version.remove("feed_screw").parameters.keys() == a.parameters.keys()

@@ -1,0 +1,66 @@
+"""What a user names a model by: nothing for the newest one, an id, a prefix or a name, or the path of a model file."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from thermodata.errors import ThermodataError, UsageError
+from thermodata.modelling.result import model_id
+from thermodata.modelling.run import fit, load_data
+from thermodata.schema.load import load_model
+from thermodata.schema.locate import located
+
+if TYPE_CHECKING:
+    from thermodata.schema.result import FitResult
+    from thermodata.store import Store
+
+
+def is_file(ref: str) -> bool:
+    """Whether a model is named by its file."""
+    return ref.endswith((".yaml", ".yml")) or Path(ref).is_file()
+
+
+def fit_file(store: Store, path: Path) -> FitResult:
+    """Fit and save the model of a file. Errors name its line, those too that only the data show."""
+    spec = load_model(path)
+    try:
+        return fit(store, spec, base=path.parent)
+    except ThermodataError as error:
+        raise located(error, path) from error
+
+
+def fit_named(store: Store, ref: str) -> FitResult:
+    """Fit and save: a model file, or a model of the store again after its data changed."""
+    from thermodata.store.catalogue.models import find_model
+
+    if is_file(ref):
+        return fit_file(store, Path(ref))
+    stored = find_model(store, ref)
+    return fit(store, stored.spec, parent=stored.parent)
+
+
+def model_named(store: Store, ref: str) -> str:
+    """As the store knows it: a path is fitted (or found, where that fit exists), a name stays one."""
+    from thermodata.store.catalogue.models import find_model
+
+    if not is_file(ref):
+        return ref
+    path = Path(ref)
+    spec = load_model(path)
+    if not any(e.file or e.name for e in spec.effects):  # what these are now is known to the fit only
+        try:
+            return find_model(store, model_id(spec, load_data(store, spec).data_version)).model
+        except UsageError:
+            pass
+    return fit_file(store, path).model
+
+
+def newest_model(store: Store) -> str:
+    """The id of the version that was made last; UsageError where the store holds none."""
+    from thermodata.view.models import model_rows
+
+    rows = model_rows(store)
+    if not rows:
+        raise UsageError("no model was fitted yet", where=str(store.path), hint="thermodata fit MODEL.yaml")
+    return rows[0].model

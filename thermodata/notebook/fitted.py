@@ -1,0 +1,270 @@
+"""A version of a model in a store, as `fit` and `add` give it."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Sequence
+from html import escape
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from thermodata.errors import UsageError, unknown_name
+from thermodata.notebook.courses import Contributions, Predictions
+from thermodata.notebook.figure import Plot
+from thermodata.notebook.residuals import ResidualTests
+from thermodata.notebook.shown import Listed, Shown, html_table
+from thermodata.notebook.verdict import Confirmation, Verdict
+from thermodata.report.fit_text import before_after_text, compare_text, fit_text, span
+from thermodata.report.words import change
+
+if TYPE_CHECKING:
+    from thermodata.schema.result import Check, FitResult, Parameter
+    from thermodata.store import Store
+
+_SCORES = (
+    ("campaign", "campaign"),
+    ("test", "test"),
+    ("role", "role"),
+    ("response", "response"),
+    ("fit", "FIT [%]"),
+    ("rmse_um", "RMSE [um]"),
+    ("max_um", "max [um]"),
+    ("n", "n"),
+)
+
+
+class Fit(Shown):
+    """Frozen: what changes a model gives another one. result: what the command's --json prints."""
+
+    def __init__(self, store: Store, result: FitResult) -> None:
+        self.store, self.result = store, result
+
+    @property
+    def id(self) -> str:
+        return self.result.model
+
+    @property
+    def name(self) -> str:
+        return self.result.name
+
+    @property
+    def parent(self) -> Fit | None:
+        """The version before; None where there is none."""
+        return None if self.result.parent is None else stored_fit(self.store, self.result.parent)
+
+    @property
+    def responses(self) -> list[str]:
+        named = self.result.response
+        return [named] if isinstance(named, str) else list(named)
+
+    @property
+    def unit(self) -> str:
+        """Of the response and its errors."""
+        from thermodata.view.models import model_rows
+
+        return next((m.unit for m in model_rows(self.store) if m.model == self.id), "um")
+
+    @property
+    def parameters(self) -> dict[str, Parameter]:
+        """'effect.parameter' -> value, unit and 95 % interval."""
+        return self.result.parameters
+
+    @property
+    def checks(self) -> list[Check]:
+        """What the fit says of itself."""
+        return self.result.checks
+
+    @property
+    def scores(self) -> Listed:
+        """A row a test, response and phase, by free-run simulation."""
+        return Listed((s.model_dump() for s in self.result.scores), _SCORES)
+
+    def diagnose(self) -> Verdict[Fit]:
+        """Which effect is missing; from the store where that was asked before, and nothing has changed since."""
+        from thermodata.diagnosis.run import diagnose
+
+        return Verdict(self, diagnose(self.store, self.id))
+
+    def confirm(self, candidate: str | int) -> Confirmation:
+        """Opens the locked tests for an effect of your choice, by rank or id; the look is counted."""
+        from thermodata.diagnosis.run import confirm_choice
+
+        return Confirmation(confirm_choice(self.store, self.id, candidate)[0])
+
+    def add(self, candidate: str | int, *, plain: bool = False) -> Fit:
+        """A new version with an effect more: a rank or id of the diagnosis, or any 'effect:channels'."""
+        from thermodata.modelling.run import add
+
+        return Fit(self.store, add(self.store, self.id, candidate, plain=plain))
+
+    def remove(self, effect: str) -> Fit:
+        """A new version without an effect."""
+        from thermodata.modelling.run import remove
+
+        return Fit(self.store, remove(self.store, self.id, effect))
+
+    def compare(self, *others: Fit | str) -> Comparison:
+        """This model and others on the data as they are now."""
+        return compared(self.store, [self.id, *(o.id if isinstance(o, Fit) else o for o in others)])
+
+    def predict(self, target: Path | str) -> Predictions:
+        """On a campaign of the store, a campaign file, or a folder of logs like the model's own, without displacement.
+        UsageError where none of its tests can be predicted."""
+        from thermodata.draft.to_predict import data_of
+        from thermodata.modelling.predict import predict
+        from thermodata.modelling.run import load
+
+        lost = list[str]()
+        fitted = load(self.store, self.id).fitted
+        with data_of(self.store, fitted, os.fspath(target), lost.append) as (data, empty):
+            made, left_out = predict(fitted, data)
+        left_out += [f"{name}: nothing in its logs is read by the model" for name in empty]
+        if not made:
+            raise UsageError("no test can be predicted", where=str(target), got="; ".join(left_out) or "no test")
+        return Predictions(self.id, made, [*left_out, *lost])
+
+    def contributions(self, test: str | None = None, response: str | None = None) -> Contributions:
+        """What each effect gives in a test; in the one with the largest error where none is named. UsageError with the
+        nearest name where the model was not predicted there: locked tests stay closed."""
+        from thermodata.view.predictions import predictions
+
+        response = self._response(response)
+        campaign, name = self._test(test, response)
+        found = [p for p in predictions(self.store, self.id, campaign, name) if p.response == response]
+        if not found:
+            raise UsageError(f"the store holds no prediction of {name}", hint=f"thermodata fit {self.id}")
+        return Contributions(self.id, found[0], self.unit)
+
+    def residual_tests(self) -> ResidualTests:
+        """Autocorrelation with Ljung-Box, and the residual against each state, over the calibration tests."""
+        from thermodata.modelling.run import load
+        from thermodata.modelling.seen import see
+
+        loaded = load(self.store, self.id)
+        return ResidualTests(self.id, see(loaded.fitted, loaded.data))
+
+    def history(self) -> Listed:
+        """The versions that led here, oldest first, with their errors."""
+        return history_of(self.store, self.id)
+
+    def report(self, path: Path | str) -> Path:
+        """Write the page of `thermodata report`."""
+        from thermodata.report import build_report
+
+        return build_report(self.store, self.id, path)
+
+    def plot(self, test: str | None = None, response: str | None = None) -> Plot:
+        """The residual of every test, on the scale of the version before where there is one; and one test with model,
+        residual, contributions and drivers: the one with the largest error where none is named."""
+        from thermodata.notebook.pictures import pictures
+
+        response = self._response(response)
+        return Plot(f"{self.name} {self.id}", pictures(self.store, self.id, self._test(test, response), response))
+
+    def summary(self) -> str:
+        if self.result.before is None:
+            return fit_text(self.result)
+        return "\n\n".join([before_after_text(self.result), fit_text(self.result, scores=False)])
+
+    def html(self) -> str:
+        before = {(s.campaign, s.test, s.response): s.rmse_um for s in self.result.before or [] if s.phase == "all"}
+        rows = [s.model_dump() for s in self.result.scores if s.phase == "all"]
+        for row in rows:
+            row["before"] = before.get((row["campaign"], row["test"], row["response"]))
+            row["change"] = change(row["before"], row["rmse_um"])
+        heads: Sequence[tuple[str, str]] = _SCORES
+        if before:
+            heads = [*_SCORES[:4], ("before", "before [um]"), ("rmse_um", "after [um]"), ("change", "change")]
+        heads = [(key, text.replace("[um]", f"[{self.unit}]")) for key, text in heads]
+        fitted = [
+            {"parameter": k, "value": p.value, "unit": p.unit, "range": span(p)}
+            for k, p in self.result.parameters.items()
+        ]
+        columns = [("parameter", "parameter"), ("value", "value"), ("unit", "unit"), ("range", "95 %")]
+        notes = "".join(f"<li>{escape(c.name)}: {escape(c.advice)}</li>" for c in self.result.checks if not c.passed)
+        return (
+            html_table(rows, heads, f"{self.name} {self.id}")
+            + html_table(fitted, columns)
+            + (f"<p>worth a look</p><ul>{notes}</ul>" if notes else "")
+        )
+
+    def _response(self, named: str | None) -> str:
+        if named is not None and named not in self.responses:
+            raise unknown_name("response", named, self.responses)
+        return named or self.responses[0]
+
+    def _test(self, named: str | None, response: str) -> tuple[str, str]:
+        """'test' or 'campaign/test' -> (campaign, test)."""
+        rows = [s for s in self.result.scores if s.phase == "all" and s.response == response]
+        if named is None:
+            worst = max(rows, key=lambda s: s.rmse_um or 0.0, default=None)
+            if worst is None:
+                raise UsageError("the model has no open test", where=f"{self.name} {self.id}")
+            return worst.campaign, worst.test
+        for s in rows:
+            if named in (s.test, f"{s.campaign}/{s.test}"):
+                return s.campaign, s.test
+        raise unknown_name("test in the predictions of the model", named, [s.test for s in rows])
+
+
+class Comparison(Shown):
+    """Models on the data as they are now. results: one each, in the order that was asked."""
+
+    def __init__(self, store: Store, results: Sequence[FitResult]) -> None:
+        self.store, self.results = store, list(results)
+
+    @property
+    def scores(self) -> Listed:
+        """All scores, with the model of each."""
+        return Listed((s.model_dump() for r in self.results for s in r.scores), (("model", "model"), *_SCORES))
+
+    @property
+    def differences(self) -> Listed:
+        """Each model's error less that of the first, by test, with its interval of 95 %."""
+        from thermodata.modelling.run import differences_of
+
+        found = differences_of(self.store, [r.model for r in self.results])
+        heads = [("test", "test"), ("response", "response"), ("model", "model"), ("difference_um", "difference")]
+        return Listed((d.to_json() for d in found), [*heads, ("low", "low"), ("high", "high")])
+
+    def summary(self) -> str:
+        return compare_text(self.results)
+
+    def html(self) -> str:
+        rows: dict[tuple[str, str, str], dict[str, Any]] = {}
+        for r in self.results:
+            for s in (s for s in r.scores if s.phase == "all"):
+                key = (s.campaign, s.test, s.response)
+                rows.setdefault(key, {"test": f"{s.campaign}/{s.test}", "response": s.response})[r.model] = s.rmse_um
+        heads = [("test", "test"), ("response", "response")]
+        heads += [(r.model, f"{r.name} {r.model[:6]}") for r in self.results]
+        return html_table(list(rows.values()), heads, "RMSE")
+
+    def plot(self) -> Plot:
+        """The residual of every test by each model, on the scale of the first."""
+        from thermodata.notebook.pictures import overviews
+
+        found = overviews(self.store, [r.model for r in self.results])
+        return Plot("residual of every test", found)
+
+
+def stored_fit(store: Store, ref: str) -> Fit:
+    """A version of the store: an id, a unique prefix, or a name (its newest)."""
+    from thermodata.store.catalogue.models import find_model
+
+    return Fit(store, find_model(store, ref).result)
+
+
+def compared(store: Store, refs: Sequence[str]) -> Comparison:
+    """Models of the store beside each other."""
+    from thermodata.modelling.run import compare
+
+    return Comparison(store, compare(store, refs))
+
+
+def history_of(store: Store, ref: str) -> Listed:
+    """The versions that led to a model, as `thermodata history` lists them."""
+    from thermodata.report.collect import history_rows
+    from thermodata.report.fit_text import HISTORY
+
+    return Listed(history_rows(store, ref), HISTORY)

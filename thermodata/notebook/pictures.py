@@ -1,0 +1,65 @@
+"""The charts of a model: the residual of all tests, and one test as a whole."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+from thermodata.chart import Chart, HeatMap, effect_styles
+from thermodata.chart.decimate import MOST_POINTS
+from thermodata.report.collect import test_parts
+from thermodata.report.figures import overview_map, part_chart, residual_scale
+from thermodata.report.spots import weak_spots_of
+
+if TYPE_CHECKING:
+    from thermodata.modelling.run import Loaded
+    from thermodata.report.data import TestPart
+    from thermodata.store import Store
+
+
+def pictures(store: Store, model: str, key: tuple[str, str], response: str) -> dict[str, Chart | HeatMap]:
+    """Title -> chart. key: (campaign, test) of the one that is shown as a whole."""
+    from thermodata.modelling.run import load
+    from thermodata.store.catalogue.models import find_model, load_diagnosis
+
+    stored = find_model(store, model)
+    chain = [m for m in (stored.parent, stored.model) if m is not None]
+    made: dict[str, Chart | HeatMap] = dict(overviews(store, chain, response))
+    loaded = load(store, model, uncertainty=True)
+    part = next(p for p in test_parts(loaded) if (p.campaign, p.test) == key and p.response == response)
+    found = next((d for m in reversed(chain) if (d := load_diagnosis(store, m)) is not None), None)
+    spots = [w for w in weak_spots_of(loaded, (found,)).get(response, []) if (w.campaign, w.test) == key]
+    styles = effect_styles(c.name for c in part.contributions)
+    noise = found.noise_um if found is not None and found.response == response else None
+    made[f"{part.campaign}/{part.test}"] = part_chart(
+        part, list(enumerate(spots, 1)), styles, noise, _unit(loaded, response), MOST_POINTS
+    )
+    return made
+
+
+def overviews(store: Store, models: Sequence[str], response: str | None = None) -> dict[str, HeatMap]:
+    """The residual of every open test by each model, on the scale of the first."""
+    from thermodata.modelling.run import load
+
+    made: dict[str, HeatMap] = {}
+    limit: float | None = None
+    for model in models:
+        loaded = load(store, model)
+        parts = _of(test_parts(loaded), response)
+        if not parts:
+            continue
+        limit = limit or residual_scale([p.residual for p in parts])
+        name = f"{loaded.fitted.spec.name} {loaded.identity}"
+        about = f"Residual of every test by {name}"
+        made[f"residual by {name}"] = overview_map(
+            parts, _unit(loaded, parts[0].response), limit, [""] * len(parts), about, ""
+        )
+    return made
+
+
+def _of(parts: Sequence[TestPart], response: str | None) -> list[TestPart]:
+    return [p for p in parts if response in (None, p.response)]
+
+
+def _unit(loaded: Loaded, response: str) -> str:
+    return next((r.unit for r in loaded.fitted.responses if r.name == response), "um")

@@ -1,0 +1,115 @@
+"""A diagnosis that can be acted on."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, Generic, Protocol, TypeVar
+
+from thermodata.errors import UsageError
+from thermodata.notebook.figure import Plot
+from thermodata.notebook.shown import Listed, Shown, html_table
+from thermodata.report.course_chart import course_chart
+from thermodata.report.diagnosis_text import confirmed_text, diagnosis_text
+from thermodata.report.headline import capital
+from thermodata.report.verdict import claims_of, told, verdict_sentence
+
+if TYPE_CHECKING:
+    from thermodata.schema.result import Candidate, Confirmed, Diagnosis
+
+_COLUMNS = (
+    ("rank", "#"),
+    ("id", "candidate"),
+    ("claimed", "claimed"),
+    ("probability", "probability"),
+    ("p_value", "p"),
+    ("rmse_um_before", "before"),
+    ("rmse_um_after", "after"),
+    ("equivalent", "can't be told from"),
+)
+
+
+F = TypeVar("F")
+F_co = TypeVar("F_co", covariant=True)
+
+
+class Diagnosed(Protocol[F_co]):
+    """The model that a verdict is about; F: what a new version of it is."""
+
+    @property
+    def name(self) -> str: ...
+    @property
+    def unit(self) -> str: ...
+    def add(self, candidate: str | int, *, plain: bool = False) -> F_co: ...
+    def confirm(self, candidate: str | int) -> Confirmation: ...
+
+
+class Verdict(Shown, Generic[F]):
+    """Which effect a model misses, or that none is missing, or that these tests can't tell. result: all of it."""
+
+    def __init__(self, of: Diagnosed[F], result: Diagnosis) -> None:
+        self.of, self.result = of, result
+
+    @property
+    def verdict(self) -> str:
+        """effect, refine, none, unknown or not_testable."""
+        return self.result.verdict
+
+    @property
+    def sentence(self) -> str:
+        """The verdict with its figures."""
+        return verdict_sentence(self.result)
+
+    @property
+    def claims(self) -> list[Candidate]:
+        """The missing causes that are claimed, the first one first."""
+        return claims_of(self.result)
+
+    @property
+    def candidates(self) -> Listed:
+        """All that were weighed, by rank."""
+        return Listed((c.model_dump() for c in self.result.candidates), _COLUMNS)
+
+    def add(self, candidate: str | int = 1, *, plain: bool = False) -> F:
+        """A new version with a candidate: its rank or id."""
+        return self.of.add(candidate, plain=plain)
+
+    def confirm(self, candidate: str | int = 1) -> Confirmation:
+        """Opens the locked tests for an effect of your choice; the look is counted."""
+        return self.of.confirm(candidate)
+
+    def summary(self) -> str:
+        return diagnosis_text(self.result)
+
+    def html(self) -> str:
+        from html import escape
+
+        rows = [c.model_dump() for c in self.result.candidates[:8]]
+        more = f"<p>Next test: {escape(self.result.next_test)}</p>" if self.result.next_test else ""
+        return f"<p><b>{escape(capital(self.sentence))}</b></p>{html_table(rows, _COLUMNS) if rows else ''}{more}"
+
+    def plot(self) -> Plot:
+        """What the model leaves over in each test, and what each candidate that is told of would take of it.
+        UsageError where none was weighed."""
+        shown = [c for c in told(self.result) if c.courses]
+        if not shown:
+            raise UsageError("there is no candidate to draw", where=f"diagnosis of {self.result.model}")
+        charts = {f"{c.rank}. {c.id}": course_chart(c, self.of.unit) for c in shown}
+        return Plot(f"what {self.of.name} misses", charts)
+
+
+class Confirmation(Shown):
+    """What the locked tests say of one effect."""
+
+    def __init__(self, result: Confirmed) -> None:
+        self.result = result
+
+    @property
+    def holds(self) -> bool:
+        return self.result.holds
+
+    def summary(self) -> str:
+        return confirmed_text(self.result)
+
+    def html(self) -> str:
+        rows: list[dict[str, Any]] = [t.model_dump() for t in self.result.tests]
+        heads = [("test", "test"), ("rmse_um_before", "before"), ("rmse_um_after", "after")]
+        return html_table(rows, heads, confirmed_text(self.result).splitlines()[0])

@@ -1,0 +1,157 @@
+"""A fit, a comparison and what an effect did, as text for a person: in the terminal and in a notebook."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from thermodata.report.glossary import explained
+from thermodata.report.table import table
+from thermodata.report.words import base_role, change, duration, number, pooled
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from thermodata.modelling.differences import TestDifference
+    from thermodata.schema.result import FitResult, Parameter, Score, WeakSpot
+
+HISTORY = (
+    ("name", "name"),
+    ("model", "model"),
+    ("added", "added"),
+    ("rmse_um", "RMSE [um]"),
+    ("calibration_rmse_um", "calibration [um]"),
+    ("verification_rmse_um", "verification [um]"),
+    ("stale", "stale"),
+)
+"""The columns of `report.collect.history_rows`."""
+_RISES = 1.005  # an error that rises by less is the same
+
+
+def fit_text(result: FitResult, *, scores: bool = True) -> str:
+    """A fit for a person: id, scores of whole tests, parameters, checks that failed."""
+    parent = f", from {result.parent}" if result.parent else ""
+    parts = [f"{result.name}  {result.model}{parent}"]
+    if scores:
+        parts.append(scores_text(result.scores))
+    parameters = [
+        {"parameter": k, "value": p.value, "unit": p.unit, "range": span(p)} for k, p in result.parameters.items()
+    ]
+    if parameters:
+        parts.append(
+            table(parameters, [("parameter", "parameter"), ("value", "value"), ("unit", "unit"), ("range", "95 %")])
+        )
+    failed = [c for c in result.checks if not c.passed]
+    if failed:
+        parts.append(
+            "worth a look\n"
+            + "\n".join(f"  ! {c.name}: {number(c.value)} (limit {number(c.threshold)}). {c.advice}" for c in failed)
+        )
+    return "\n\n".join(parts)
+
+
+def span(parameter: Parameter) -> str:
+    """'0.9 … 1.2', '0.9 …' where these tests set no upper end, or '-' where the uncertainty is not known."""
+    low, high = parameter.low, parameter.high
+    ends = ["" if end is None else number(end) for end in (low, high)]
+    return "-" if low is None and high is None else " … ".join(ends).strip()
+
+
+def scores_text(scores: list[Score], phases: bool = False) -> str:
+    """Scores as a table, whole tests only unless phases are asked for."""
+    shown = [s for s in scores if phases or s.phase == "all"]
+    many = len({s.response for s in shown}) > 1
+    columns = [("campaign", "campaign"), ("test", "test"), ("role", "role")]
+    columns += [("response", "response")] if many else []
+    columns += [("phase", "phase")] if phases else []
+    columns += [
+        ("fit", "FIT [%]"),
+        ("rmse_um", "RMSE [um]"),
+        ("max_um", "max [um]"),
+        ("ptp_um", "PTP measured [um]"),
+        ("ptp_residual_um", "PTP left [um]"),
+        ("n", "n"),
+    ]
+    return table([s.model_dump() for s in shown], columns)
+
+
+def compare_text(results: list[FitResult]) -> str:
+    """One model: its scores by test and phase. Several: RMSE and FIT beside each other, a row a test."""
+    if len(results) == 1:
+        head = f"{results[0].name}  {results[0].model}"
+        return "\n\n".join([head, scores_text(results[0].scores, phases=True)])
+    rows: dict[tuple[str, ...], dict[str, Any]] = {}
+    columns = [("campaign", "campaign"), ("test", "test"), ("role", "role"), ("phase", "phase")]
+    for result in results:
+        label = f"{result.name} {result.model[:6]}"
+        columns += [(f"rmse {result.model}", f"{label} RMSE [um]"), (f"fit {result.model}", "FIT [%]")]
+        for s in result.scores:
+            key = (s.campaign, s.test, s.response, s.phase)
+            row = rows.setdefault(key, {"campaign": s.campaign, "test": s.test, "role": s.role, "phase": s.phase})
+            row[f"rmse {result.model}"], row[f"fit {result.model}"] = s.rmse_um, s.fit
+    return table(list(rows.values()), columns)
+
+
+def differences_text(found: Sequence[TestDifference], results: Sequence[FitResult]) -> str:
+    """Each model's error less that of the first; what is sure has a mark."""
+    names = {r.model: f"{r.name} {r.model[:6]}" for r in results}
+    many = len({d.response for d in found}) > 1
+    rows = [
+        {
+            **d.to_json(),
+            "model": names[d.model],
+            "range": "too short to say" if d.low is None else f"{number(d.low)} … {number(d.high)}",
+            "sure": "yes" if d.low is not None and d.high is not None and (d.low > 0 or d.high < 0) else "",
+        }
+        for d in found
+    ]
+    columns = [("campaign", "campaign"), ("test", "test"), *([("response", "response")] if many else [])]
+    columns += [("model", "model"), ("difference_um", "difference [um]"), ("range", "95 %"), ("sure", "sure")]
+    return f"difference to {names[found[0].against]}\n{table(rows, columns)}"
+
+
+def spots_text(spots: list[WeakSpot], response: str = "", most: int = 8) -> str:
+    """Weak spots as a table: where, when, how much, and what the machine did."""
+    rows = [{**w.model_dump(), "span": f"{duration(w.from_s)} – {duration(w.to_s)}"} for w in spots[:most]]
+    title = f"where the model of {response} fails" if response else "where the model fails"
+    return f"{title}\n" + table(
+        rows,
+        [("campaign", "campaign"), ("test", "test"), ("span", "when"), ("rmse_um", "RMSE [um]"), ("state", "state")],
+        widest=80,
+    )
+
+
+def before_after_text(result: FitResult) -> str:
+    """What an added effect did, a row a test; roles pooled below."""
+    before = {(s.campaign, s.test, s.response, s.phase): s for s in result.before or []}
+    rows: list[dict[str, Any]] = []
+    for s in result.scores:
+        old = before.get((s.campaign, s.test, s.response, s.phase))
+        if s.phase == "all" and old:
+            rows.append({**s.model_dump(), "before": old.rmse_um, "change": change(old.rmse_um, s.rmse_um)})
+    for role in dict.fromkeys(base_role(row["role"]) for row in rows):
+        a, b = pooled(result.before or [], role), pooled(result.scores, role)
+        rows.append({"test": "all", "role": role, "before": a, "rmse_um": b, "change": change(a, b)})
+    columns = [
+        ("campaign", "campaign"),
+        ("test", "test"),
+        ("role", "role"),
+        ("before", "before [um]"),
+        ("rmse_um", "after [um]"),
+        ("change", "change"),
+    ]
+    return f"{table(rows, columns)}\n\n{explained('verification', 'fitted')}"
+
+
+def made_worse(result: FitResult) -> str | None:
+    """A warning where an added effect raised the error of a role; None where it did not."""
+    found = []
+    for role in ("verification", "calibration"):
+        before, after = pooled(result.before or [], role), pooled(result.scores, role)
+        if before is not None and after is not None and after > before * _RISES:
+            found.append(f"{role} {before:.3g} -> {after:.3g} um")
+    if not found:
+        return None
+    return (
+        f"warning: the model is worse with it: {', '.join(found)}; thermodata diagnose says whether the effect is "
+        "claimed, and the version before is still there"
+    )

@@ -1,0 +1,167 @@
+"""Neat text tables: numbers to the right, units in the heading, folded to the screen."""
+
+from __future__ import annotations
+
+import re
+import shutil
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from thermodata.report.words import number
+
+Column = tuple[str, str]  # (key of the row, heading)
+
+
+def cell(value: Any) -> str:
+    """One value as a cell: '-' for nothing, lists joined."""
+    if isinstance(value, bool):
+        return "yes" if value else "no"
+    if isinstance(value, float | int) or value is None:
+        return number(value)
+    if isinstance(value, Mapping):
+        return ", ".join(f"{k} {cell(v)}" for k, v in value.items()) or "-"
+    if isinstance(value, list | tuple):
+        return ", ".join(cell(v) for v in value) or "-"
+    text = str(value)
+    return " ".join(text.split()) or "-"
+
+
+def table(
+    rows: Sequence[Mapping[str, Any]], columns: Iterable[Column], *, widest: int = 60, width: int | None = None
+) -> str:
+    """Aligned text; columns of numbers to the right, texts longer than `widest` cut with '…'.
+
+    width: of the screen; `screen_width()` where None. Where the columns are wider, what all rows share is said once
+    above them, and headings and texts are folded at their spaces, numbers never; columns that still have no room stand
+    in a table below, beside the row's name again.
+    """
+    columns = list(columns)
+    lines = [[cell(row.get(key)) for key, _ in columns] for row in rows]
+    lines = [[c if len(c) <= widest else c[: widest - 1] + "…" for c in line] for line in lines]
+    right = [_numbers(rows, key) for key, _ in columns]
+    made = [
+        _Column(heading, [line[i] for line in lines], is_number)
+        for i, ((_, heading), is_number) in enumerate(zip(columns, right, strict=True))
+    ]
+    room = screen_width() if width is None else width
+    said, made = _said_once(made, room)
+    return "\n\n".join([*said, *(_drawn(part, room) for part in _parts(made, room))])
+
+
+def screen_width() -> int:
+    """Columns of the terminal, or COLUMNS; 80 where the answer goes elsewhere."""
+    return max(40, shutil.get_terminal_size((80, 24)).columns)
+
+
+@dataclass(frozen=True)
+class _Column:
+    heading: str
+    cells: Sequence[str]
+    right: bool
+
+    @property
+    def widest(self) -> int:
+        return max([len(self.heading), *map(len, self.cells)])
+
+    @property
+    def least(self) -> int:
+        """Below this a word would be broken, or a number."""
+        whole = self.cells if self.right else [max(_words(c), key=len) for c in self.cells]
+        return max([max(map(len, _words(self.heading))), *map(len, whole)])
+
+
+def _said_once(columns: Sequence[_Column], room: int) -> tuple[list[str], list[_Column]]:
+    """What all rows share stands above them, where the columns have no room beside each other."""
+    if sum(c.widest for c in columns) + 2 * (len(columns) - 1) <= room:
+        return [], list(columns)
+    same = [c for c in columns if not c.right and len(c.cells) > 1 and len(set(c.cells)) == 1]
+    if not same or len(same) == len(columns):
+        return [], list(columns)
+    said = ", ".join(f"{c.heading} {c.cells[0]}" for c in same if c.cells[0] != "-")
+    return ["\n".join(_fold(said, room))] if said else [], [c for c in columns if c not in same]
+
+
+def _parts(columns: Sequence[_Column], room: int) -> list[list[_Column]]:
+    """The columns in as many tables as have room for them; those before the first number begin each."""
+    names = next((i for i, c in enumerate(columns) if c.right), 1) or 1
+    if sum(c.least for c in columns) + 2 * (len(columns) - 1) <= room:
+        return [list(columns)]
+    head, parts = list(columns[:names]), list[list[_Column]]()
+    taken = sum(c.least + 2 for c in head)
+    left = taken
+    now: list[_Column] = []
+    for column in columns[names:]:
+        if now and left + column.least > room:
+            parts.append([*head, *now])
+            now, left = [], taken
+        now.append(column)
+        left += column.least + 2
+    return [*parts, [*head, *now]]
+
+
+def _drawn(columns: Sequence[_Column], room: int) -> str:
+    widths = _widths(columns, room - 2 * (len(columns) - 1))
+    lines = _folded([c.heading for c in columns], columns, widths)
+    lines.append(_line(["─" * w for w in widths], columns, widths))
+    for i in range(len(columns[0].cells) if columns else 0):
+        lines += _folded([c.cells[i] for c in columns], columns, widths)
+    return "\n".join(lines)
+
+
+def _widths(columns: Sequence[_Column], room: int) -> list[int]:
+    """As wide as the longest cell; where there is no room for that, the widest gives first."""
+    widths, least = [c.widest for c in columns], [c.least for c in columns]
+    while sum(widths) > room:
+        can = [i for i, w in enumerate(widths) if w > least[i]]
+        if not can:
+            break
+        widest = max(can, key=lambda i: widths[i])
+        widths[widest] -= 1
+    return widths
+
+
+def _folded(texts: Sequence[str], columns: Sequence[_Column], widths: Sequence[int]) -> list[str]:
+    parts = [_fold(text, width) for text, width in zip(texts, widths, strict=True)]
+    return [
+        _line([p[k] if k < len(p) else "" for p in parts], columns, widths)
+        for k in range(max((len(p) for p in parts), default=0))
+    ]
+
+
+def _line(parts: Sequence[str], columns: Sequence[_Column], widths: Sequence[int]) -> str:
+    placed = zip(parts, widths, columns, strict=True)
+    return "  ".join(p.rjust(w) if c.right else p.ljust(w) for p, w, c in placed).rstrip()
+
+
+def _fold(text: str, width: int) -> list[str]:
+    """A text in lines of at most `width`, broken where its words end; a longer word stands out."""
+    if len(text) <= width:
+        return [text]
+    lines, line = list[str](), ""
+    for word in _words(text):
+        joined = f"{line}{word}" if line.endswith(":") else f"{line} {word}".strip()
+        if line and len(joined) > width:
+            lines.append(line)
+            joined = word
+        line = joined
+    return [*lines, line]
+
+
+def _words(text: str) -> list[str]:
+    """Where a text may be folded: at spaces, and between an effect and its channels."""
+    return re.findall(r"[^\s:]+:(?=[A-Za-z])|\S+", text) or [text]
+
+
+def _numbers(rows: Sequence[Mapping[str, Any]], key: str) -> bool:
+    values = [row.get(key) for row in rows]
+    return all(isinstance(v, int | float) or v is None for v in values) and any(
+        v is not None and not isinstance(v, bool) for v in values
+    )
+
+
+def fields(pairs: Iterable[tuple[str, Any]]) -> str:
+    """Names and values, one a line, values aligned."""
+    shown = [(name, cell(value)) for name, value in pairs]
+    width = max((len(name) for name, _ in shown), default=0)
+    return "\n".join(f"{name.ljust(width)}  {value}" for name, value in shown)

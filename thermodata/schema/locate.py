@@ -1,0 +1,55 @@
+"""Where in a file the word stands that was refused once the file was read: a name that only the data know is wrong."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+from thermodata.errors import ThermodataError
+from thermodata.schema.lines import Document, Place, at_place, read_document
+
+_EFFECT = re.compile(r"effect '([^']+)'")
+
+
+def located(error: ThermodataError, path: Path) -> ThermodataError:
+    """The same error with file and line in its `where`, if the refused word (`got`) stands in the file once read; the
+    error as it is where it doesn't, or names a file already."""
+    if not error.got or path.name in (error.where or ""):
+        return error
+    try:
+        document = read_document(path)
+    except (ThermodataError, OSError):
+        return error
+    place = _place(document, error.got.strip("'"), _EFFECT.search(error.where or ""))
+    if place is None:
+        return error
+    where = document.where(place) + (f", {error.where}" if error.where else "")
+    return type(error)(error.what, where=where, expected=error.expected, got=error.got, hint=error.hint)
+
+
+def _place(document: Document, word: str, effect: re.Match[str] | None) -> Place | None:
+    """The first place that holds the word as its key or value, else within its text; in the named effect first."""
+    places = [p for p in document.line if p]
+    if effect is not None:
+        own = [p for p in places if p[0] == "effects" and len(p) > 1 and _is_effect(document, p[:2], effect[1])]
+        places = [*own, *(p for p in places if p not in set(own))]
+    texts = {p: str(at_place(document.data, p)) for p in places if _plain(at_place(document.data, p))}
+    inside = re.compile(rf"(?<!\w){re.escape(word)}(?!\w)")
+    return next(
+        (
+            place
+            for fits in (lambda p: p[-1] == word or texts.get(p) == word, lambda p: inside.search(texts.get(p, "")))
+            for place in places
+            if fits(place)
+        ),
+        None,
+    )
+
+
+def _is_effect(document: Document, place: Place, name: str) -> bool:
+    one = at_place(document.data, place)
+    return isinstance(one, dict) and name in (one.get("id"), one.get("effect"))
+
+
+def _plain(value: object) -> bool:
+    return not isinstance(value, dict | list)

@@ -1,0 +1,107 @@
+"""A `measuring` rule for a stretch of a test: which state of the machine tells it from the rest.
+
+A stretch that is masked by its times is masked in one test; a rule over what the machine did holds in all of them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from thermodata.plugin import Bool1D, Float1D
+from thermodata.view.predictions import Prediction
+from thermodata.view.store_view import StoreView
+from thermodata.view.window import Channel
+
+if TYPE_CHECKING:
+    from thermodata.store import Store
+
+STATES = ("position", "feed", "rotational_speed", "state", "power", "load", "flow")
+TAKES, KEEPS = 0.9, 0.9  # of the samples inside, and of those outside
+_MOST = 4
+_FEWEST = 5  # samples on either side
+
+
+@dataclass(frozen=True, slots=True)
+class Rule:
+    """text: as `measuring` takes it. n: samples that count with it; taken: of those in the stretch, lost: of those
+    outside of it, that count no more. rmse: of what is left [of the response], None where nothing is."""
+
+    text: str
+    n: int
+    taken: int
+    lost: int
+    rmse: float | None
+
+
+def rules_for(store: Store, found: Prediction, channels: list[Channel], from_s: float, to_s: float) -> list[Rule]:
+    """Rules under which a stretch does not count, the one first that leaves the rest most alone; empty where no logged
+    state tells it from the rest."""
+    names = [c.name for c in channels if c.quantity in STATES]
+    if not names or len(found.t_s) < 2:
+        return []
+    step = float(np.median(np.diff(found.t_s)))
+    binned = StoreView(store).binned(found.campaign, found.test, step).df()
+    states = {n: _at(found.t_s, binned["t_s"].to_numpy(), binned[n].to_numpy(), step) for n in names if n in binned}
+    return rules(found, states, from_s, to_s)
+
+
+def rules(found: Prediction, states: Mapping[str, Float1D], from_s: float, to_s: float) -> list[Rule]:
+    """The same from states on the prediction's own grid: shape (n,) each, NaN where nothing was logged."""
+    counts = found.valid & np.isfinite(found.residual)
+    stretch = (found.t_s >= from_s) & (found.t_s <= to_s)
+    inside, outside = counts & stretch, counts & ~stretch
+    made = []
+    for name, values in states.items():
+        for text, keeps in _conditions(name, values, inside, outside):
+            kept = counts & keeps
+            taken, lost = int((inside & ~keeps).sum()), int((outside & ~keeps).sum())
+            if taken < TAKES * inside.sum() or lost > (1 - KEEPS) * outside.sum():
+                continue
+            rmse = float(np.sqrt(np.mean(found.residual[kept] ** 2))) if kept.any() else None
+            made.append(Rule(text, int(kept.sum()), taken, lost, rmse))
+    return sorted(made, key=lambda r: (r.lost - r.taken, len(r.text)))[:_MOST]
+
+
+def _conditions(name: str, values: Float1D, inside: Bool1D, outside: Bool1D) -> Iterator[tuple[str, Bool1D]]:
+    """(the condition, where it holds): not where the state was not logged, as in `measuring`."""
+    there = np.isfinite(values)
+    a, b = values[inside & there], values[outside & there]
+    if len(a) < _FEWEST or len(b) < _FEWEST:
+        return
+    usual = float(np.median(b))
+    if np.mean(b == usual) >= KEEPS:
+        yield f"{name} == {usual:g}", values == float(f"{usual:g}")
+    for text, x in ((name, values), (f"abs({name})", np.abs(values))):
+        low_in, high_in = np.quantile(x[inside & there], [1 - TAKES, TAKES])
+        low_out, high_out = np.quantile(x[outside & there], [1 - KEEPS, KEEPS])
+        if high_out < low_in:
+            limit = _round(high_out, low_in)
+            yield f"{text} < {limit:g}", x < limit
+        if high_in < low_out:
+            limit = _round(high_in, low_out)
+            yield f"{text} > {limit:g}", x > limit
+        if np.all(values[there] >= 0):
+            break  # its size is itself
+
+
+def _round(low: float, high: float) -> float:
+    """The shortest number between two."""
+    middle = 0.5 * (low + high)
+    for digits in range(1, 12):
+        value = float(f"{middle:.{digits}g}")
+        if low < value < high:
+            return value
+    return middle
+
+
+def _at(t_s: Float1D, bins_s: Float1D, values: Float1D, step: float) -> Float1D:
+    """The bin that a time lies in; NaN where there is none."""
+    place = np.searchsorted(bins_s, t_s + step / 2) - 1
+    inside = (place >= 0) & (place < len(bins_s))
+    place = np.clip(place, 0, len(bins_s) - 1)
+    near = inside & (np.abs(bins_s[place] - t_s) < step)
+    return np.where(near, values[place].astype(np.float64), np.nan)

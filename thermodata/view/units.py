@@ -1,0 +1,138 @@
+"""The units of a query's columns, where they are certain: columns that the query takes as they are from the store.
+
+A column is a channel, or its view says its unit in a comment ('[s] from the start of the test'; 'in channel.unit' is
+the unit of the channels that the rows are of). What is computed has none: half of a displacement may be a radius.
+"""
+
+from __future__ import annotations
+
+import json
+import re
+from collections import Counter
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    import duckdb
+
+_IN_BRACKETS = re.compile(r"\[([^\]]+)\]")
+_OF_CHANNEL = "in channel.unit"
+_NAMES = ("channel", "response")  # columns that say which channel a row is of
+
+
+@dataclass(frozen=True)
+class Known:
+    """What a copy of the catalogue says. channels: channel -> its unit, None where it has several. comments: table ->
+    column -> comment."""
+
+    channels: Mapping[str, str | None]
+    comments: Mapping[str, Mapping[str, str]]
+
+
+def known_units(con: duckdb.DuckDBPyConnection) -> Known:
+    """Asked once a copy: it takes as long as a small query."""
+    channels = con.execute(
+        "select channel, case when count(distinct unit) = 1 then any_value(unit) end from channel group by channel"
+    ).fetchall()
+    comments: dict[str, dict[str, str]] = {}
+    for table, column, comment in con.execute(
+        "select table_name, column_name, comment from duckdb_columns() where comment is not null"
+    ).fetchall():
+        comments.setdefault(str(table), {})[str(column)] = str(comment)
+    return Known({str(channel): unit for channel, unit in channels}, comments)
+
+
+def column_units(
+    con: duckdb.DuckDBPyConnection, known: Known, query: str, relation: duckdb.DuckDBPyRelation
+) -> dict[str, str]:
+    """column of the relation -> unit. con: of the connection that made it."""
+    sources = _sources(con, query)
+    if sources is None:
+        return {}
+    columns, tables = sources
+    said = _comments(known, tables)
+    units: dict[str, str] = {}
+    for name in relation.columns:
+        source = name if columns is None else columns.get(name)
+        if source is None:
+            continue
+        comment = said.get(source)
+        if comment is None and source in known.channels:
+            unit = known.channels[source]
+        elif comment is not None and _OF_CHANNEL in comment:
+            unit = _of_rows(relation, known.channels)
+        else:
+            found = _IN_BRACKETS.match(comment or "")
+            unit = found[1] if found else None
+        if unit and unit != "1":
+            units[name] = unit
+    return units
+
+
+def _sources(con: duckdb.DuckDBPyConnection, query: str) -> tuple[dict[str, str] | None, list[str]] | None:
+    """(column -> the one it is, None where all are as they are; tables and macros named), of one plain SELECT over
+    them; None for anything else."""
+    tree = json.loads(con.execute("select json_serialize_sql(?)", [query]).fetchall()[0][0])  # drained
+    if tree.get("error") or len(tree["statements"]) != 1:
+        return None
+    node = tree["statements"][0]["node"]
+    if node.get("type") != "SELECT_NODE" or node.get("group_expressions"):
+        return None
+    if (node.get("cte_map") or {}).get("map"):
+        return None
+    tables = list(_tables(node.get("from_table") or {}))
+    if not tables or "" in tables:
+        return None
+    columns: dict[str, str] = {}
+    whole = False
+    for item in node["select_list"]:
+        if item.get("class") == "STAR":
+            whole = whole or not (item.get("replace_list") or item.get("expr"))
+        elif item.get("class") == "COLUMN_REF":
+            source = str(item["column_names"][-1])
+            columns[item.get("alias") or source] = source
+        elif item.get("alias"):
+            columns[item["alias"]] = ""
+    if not whole:
+        return columns, tables
+    # '*' gives all as they are, but for what stands beside it under a name of its own
+    return (None if not columns else _All(columns)), tables
+
+
+class _All(dict[str, str]):
+    """The columns beside a '*', which gives all others as they are."""
+
+    def get(self, name: str, default: Any = None) -> Any:
+        return dict.get(self, name, name)
+
+
+def _tables(node: Mapping[str, Any]) -> Iterable[str]:
+    """Names of tables and table macros; '' for what is neither."""
+    kind = node.get("type")
+    if kind == "BASE_TABLE":
+        yield str(node["table_name"])
+    elif kind == "TABLE_FUNCTION":
+        yield str(node["function"].get("function_name", ""))
+    elif kind == "JOIN":
+        yield from _tables(node["left"])
+        yield from _tables(node["right"])
+    else:
+        yield ""
+
+
+def _comments(known: Known, tables: list[str]) -> dict[str, str]:
+    """column -> comment, of the columns that one of the tables alone has."""
+    # what the macro of one channel gives has the columns of the view over all
+    found = [known.comments.get("sample" if t == "signal" else t, {}) for t in tables]
+    once = Counter(name for each in found for name in each)
+    return {"t_s": "[s]", **{n: text for each in found for n, text in each.items() if once[n] == 1}}
+
+
+def _of_rows(relation: duckdb.DuckDBPyRelation, known: Mapping[str, str | None]) -> str | None:
+    """The one unit of the channels that the rows are of."""
+    name = next((n for n in _NAMES if n in relation.columns), None)
+    if name is None:
+        return None
+    units = {known.get(str(c)) for (c,) in relation.project(f'"{name}"').distinct().fetchall()}
+    return units.pop() if len(units) == 1 else None
