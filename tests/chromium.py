@@ -247,8 +247,8 @@ class Page:
 
     def paper(self, on: bool = True) -> None:
         """Shows the page as it goes to A4 within margins of 10 mm, charts redrawn for it; or as on the screen again."""
-        self.call("Emulation.setEmulatedMedia", media="print" if on else "")
         self.look(680, 1000) if on else self.look(1280, 900)
+        self.call("Emulation.setEmulatedMedia", media="print" if on else "")  # `look` sets it too
         self.js(f"dispatchEvent(new Event('{'beforeprint' if on else 'afterprint'}'))")
 
     def pdf(self, path: Path | str) -> None:
