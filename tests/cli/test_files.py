@@ -45,9 +45,11 @@ def test_init_never_overwrites(say: Say, tmp_path: Path) -> None:
 def test_init_of_a_folder_without_logs_says_what_it_saw(say: Say, tmp_path: Path) -> None:
     (tmp_path / "notes.txt").write_text("nothing\n")
     said = say("init", tmp_path)
-    assert said.code == 2
-    assert "notes.txt" in said.err
-    assert not (tmp_path / "campaign.yaml").exists()
+    assert said.code == 0
+    assert "no reader claims any file" in said.err
+    draft = (tmp_path / "campaign.yaml").read_text()
+    assert "notes.txt" in draft
+    assert "# ?" in draft
 
 
 def test_init_talks_on_stderr_and_shows_no_progress_when_piped(say: Say, tmp_path: Path) -> None:

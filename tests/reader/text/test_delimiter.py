@@ -26,6 +26,11 @@ from thermodata.reader.text.delimiter import declared, fields, find_delimiter
         # a preamble that agrees on something else
         ([*["name,value"] * 4, *["1;2;3"] * 8], ";"),
         ([*["name;value"] * 6, *["1,2,3"] * 6], ","),
+        # blanks part numbers with decimal commas; a date, a time of day and what a comma parts from it they do not
+        (["t  T", *["0  1,5", "10  2,5"] * 3], " "),
+        (["2025-10-25 22:00:00 1,5", "2025-10-25 22:00:10 2,5"], " "),
+        (["time,T", *["2025-10-25 22:00:00,0", "2025-10-25 22:00:10,1"] * 3], ","),
+        (["time,T", *["2025-10-25 22:00:00.5,0.25", "2025-10-25 22:00:10.5,1.5"] * 3], ","),
     ],
 )
 def test_the_delimiter_of_most_lines(lines: list[str], delimiter: str | None) -> None:

@@ -73,5 +73,8 @@ def _blanks_part(body: Sequence[str], commas: bool) -> bool:
     if common < 2 or many < _ALIKE * len(rows):
         return False
     cells = [c for row in rows if len(row) == common for c in row]
+    # '2025-10-25 22:00:00,0': a comma after a time of day parts it from a value, more often than it begins a fraction
+    if commas and not all(is_number(c) for c in cells if "," in c):
+        return False
     told = sum(is_number(c) or is_stamp(c) for c in cells)
     return told >= (1.0 if commas else _NUMBERS) * len(cells)
