@@ -167,10 +167,11 @@ class Page:
         return answer["result"].get("value")
 
     def wait(self, expression: str, timeout_s: float = 60.0) -> Any:
-        """The expression's value as soon as it is true."""
+        """The expression's value as soon as it is true; True for an element, which has no value of its own here."""
         until = time.monotonic() + timeout_s
+        told = f"Promise.resolve({expression}).then(v => v instanceof Node ? true : v)"
         while True:
-            value = self.js(expression)
+            value = self.js(told)
             if value:
                 return value
             if time.monotonic() > until:

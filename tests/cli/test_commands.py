@@ -107,7 +107,7 @@ def test_an_unknown_command_names_the_nearest(say: Say) -> None:
     assert "did you mean 'diagnose'?" in said.err
 
 
-@pytest.mark.parametrize("words", [["fit"], ["fit", "a", "b", "c"], ["tests", "--nope"], ["report"]])
+@pytest.mark.parametrize("words", [["fit"], ["fit", "a", "b", "c"], ["tests", "--nope"], ["report", "--nope"]])
 def test_wrong_usage_is_2_and_says_where_help_is(say: Say, words: list[str]) -> None:
     said = say(*words)
     assert (said.code, said.out) == (2, "")
