@@ -7,6 +7,8 @@ from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
+import pyarrow as pa
+import pyarrow.parquet as pq
 import pytest
 
 from thermodata.schema.load import load_campaign
@@ -97,7 +99,6 @@ def test_an_empty_folder_is_refused(tmp_path: Path, say: Say) -> None:
 
 
 def test_several_columns_of_times_in_parquet_are_asked(tmp_path: Path, say: Say) -> None:
-    pa, pq = pytest.importorskip("pyarrow"), pytest.importorskip("pyarrow.parquet")
     t = np.datetime64("2026-03-02T08:00:00", "us") + np.arange(60) * np.timedelta64(10, "s")
     later = t + np.timedelta64(7, "s")
     table = {"logged_at": pa.array(t), "sent_at": pa.array(later), "T1": 20 + np.arange(60) / 8}
@@ -117,7 +118,6 @@ def test_several_columns_of_times_in_parquet_are_asked(tmp_path: Path, say: Say)
 
 
 def test_of_several_columns_of_times_the_one_that_is_called_time_counts(tmp_path: Path, say: Say) -> None:
-    pa, pq = pytest.importorskip("pyarrow"), pytest.importorskip("pyarrow.parquet")
     t = np.datetime64("2026-03-02T08:00:00", "us") + np.arange(60) * np.timedelta64(10, "s")
     table = {"logged_at": pa.array(t + np.timedelta64(7, "s")), "time": pa.array(t), "T1": 20 + np.arange(60) / 8}
     pq.write_table(pa.table(table), tmp_path / "a.parquet")

@@ -128,8 +128,7 @@ def test_a_process_that_was_stopped_while_it_waited_did_not_wait(
     monkeypatch.setattr(lock, "_try_lock", busy_twice)
     monkeypatch.setattr(lock.time, "monotonic", lambda: now[0])
     with lock.catalogue_lock(filled.path, exclusive=True, timeout_s=60.0):
-        pass
-    assert looks[0] == 4  # the turnstile at the third look, and the catalogue at once
+        assert looks[0] == 4  # the turnstile at the third look, and the catalogue at once
 
 
 def test_a_busy_store_says_so_after_its_timeout(filled: Store) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from collections.abc import Mapping
 from dataclasses import dataclass
 
@@ -58,7 +59,7 @@ class EffectOfModel:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class ChangedEffect(CandidateEffect):
+class ChangedEffect(CandidateEffect, ABC):
     """An effect of the model, otherwise than it is: always a refinement, never a missing cause."""
 
     term: FittedTerm
@@ -72,9 +73,9 @@ class ChangedEffect(CandidateEffect):
     def within(self) -> str:
         return self.term.id
 
+    @abstractmethod
     def in_words(self, scored: Scored, fitted: FittedResponse, problem: Problem, noise: Noise) -> str:
         """How it acts otherwise, as found beside all that was chosen."""
-        raise NotImplementedError
 
 
 def is_free(term: FittedTerm) -> bool:

@@ -49,10 +49,8 @@ def model_named(store: Store, ref: str) -> str:
     path = Path(ref)
     spec = load_model(path)
     if not any(e.file or e.name for e in spec.effects):  # what these are now is known to the fit only
-        try:
+        with suppress(UsageError):  # this fit was not made yet
             return find_model(store, model_id(spec, load_data(store, spec).data_version)).model
-        except UsageError:
-            pass
     return fit_file(store, path).model
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from collections.abc import Iterable, Mapping, Sequence
 from html import escape
 from typing import TYPE_CHECKING, Any
@@ -13,12 +14,12 @@ if TYPE_CHECKING:
     import pandas as pd
 
 
-class Shown:
+class Shown(ABC):
     """Its `repr` is `summary()`; in a notebook the same stands in tables."""
 
+    @abstractmethod
     def summary(self) -> str:
         """For a person, in plain text."""
-        raise NotImplementedError
 
     def html(self) -> str:
         """For a notebook."""

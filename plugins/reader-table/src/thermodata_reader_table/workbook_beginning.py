@@ -48,6 +48,7 @@ def beginning(path: Path, folder: Path) -> Path | None:
                         if left < 0:
                             return None
                         out.write(part)
+    # NotImplementedError: zipfile's word for a compression that it lacks
     except (FormatError, zipfile.BadZipFile, OSError, ValueError, NotImplementedError):
         return None
     return target
