@@ -23,8 +23,9 @@ from thermodata.diagnosis.invariance import spread_of_gain
 from thermodata.diagnosis.known import Known, known, likeliest
 from thermodata.diagnosis.null import best_of_chance, p_value
 from thermodata.diagnosis.problem import Problem
+from thermodata.diagnosis.ranking import rank_in
 from thermodata.diagnosis.scored import Scored
-from thermodata.diagnosis.selection import _likeliest_beside, beside, rank_in
+from thermodata.diagnosis.selection import _likeliest_beside, beside
 from thermodata.diagnosis.side_by_side import SideBySide, log_evidence
 from thermodata.plugin import Float1D, Float2D, Gain, Param
 

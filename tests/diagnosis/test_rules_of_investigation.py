@@ -16,8 +16,9 @@ from thermodata.diagnosis.investigate import Investigation, investigate
 from thermodata.diagnosis.known_effects import base_columns, otherwise, owners
 from thermodata.diagnosis.locked import Foretold
 from thermodata.diagnosis.problem import Problem
+from thermodata.diagnosis.ranking import Ranked
 from thermodata.diagnosis.scored import Scored
-from thermodata.diagnosis.selection import Member, Ranked, Selection
+from thermodata.diagnosis.selection import Member, Selection
 from thermodata.effect import effects
 from thermodata.modelling.fit import fit_model
 from thermodata.modelling.fitted import FittedModel, FittedResponse

@@ -15,16 +15,9 @@ from thermodata.diagnosis.candidates import CandidateEffect
 from thermodata.diagnosis.discrepancy import Noise
 from thermodata.diagnosis.evidence import Columns, columns
 from thermodata.diagnosis.problem import Problem
+from thermodata.diagnosis.ranking import Ranked, rank_in
 from thermodata.diagnosis.scored import Scored
-from thermodata.diagnosis.selection import (
-    Ranked,
-    Selection,
-    extended,
-    first_ranking,
-    preferred,
-    rank_in,
-    select,
-)
+from thermodata.diagnosis.selection import Selection, extended, first_ranking, preferred, select
 from thermodata.plugin import Param
 
 from .hand_made import Parts, PlainEffect, of_tests, problem, scored
@@ -118,7 +111,7 @@ class Worlds:
         )
         monkeypatch.setattr(selecting, "known", lambda problem, noise: self._known(problem))
         monkeypatch.setattr(selecting, "moments", lambda known, columns: None)
-        monkeypatch.setattr(selecting, "_scored", lambda problem, known, one, *of: self._scored(problem, one))
+        monkeypatch.setattr(selecting, "score", lambda problem, known, one, *of: self._scored(problem, one))
 
     def _beside(self, problem: Problem, chosen: Sequence[Scored]) -> Problem:
         known = filter(None, problem.response.split(","))
@@ -337,6 +330,14 @@ def test_beside_what_is_far_behind_no_noise_is_estimated(
     monkeypatch.setattr(selecting, "likeliest", lambda problem, noise: [noise, beside.append(problem.response)][0])
     world.select("ab")
     assert ("b" in beside) is asked
+
+
+def test_a_change_of_an_effect_is_tried_beside_a_lag_on_its_channels() -> None:
+    lag, change = scored("lag"), scored("changed")
+    within = SimpleNamespace(channels=lag.candidate.channels, within="term")
+    changed = replace(change, candidate=within)  # type: ignore[arg-type]
+    twin = scored("twin")
+    assert selecting._different([lag, twin, changed, changed]) == [lag, changed]
 
 
 def test_what_two_explain_alike_is_the_likelier_ones(monkeypatch: pytest.MonkeyPatch) -> None:

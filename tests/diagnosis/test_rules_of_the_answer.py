@@ -16,8 +16,9 @@ from thermodata.diagnosis.discrepancy import Noise
 from thermodata.diagnosis.investigate import Investigation
 from thermodata.diagnosis.judge import Judged, Judgement, Verdict
 from thermodata.diagnosis.locked import Foretold
+from thermodata.diagnosis.ranking import Ranked
 from thermodata.diagnosis.scored import Scored
-from thermodata.diagnosis.selection import Ranked, Selection
+from thermodata.diagnosis.selection import Selection
 from thermodata.schema.model import Model
 from thermodata.schema.result import Diagnosis, Parameter, WeakSpot
 from thermodata.view.dataset import Dataset

@@ -18,8 +18,8 @@ from thermodata.diagnosis.evidence import columns
 from thermodata.diagnosis.judge import Judged, Judgement
 from thermodata.diagnosis.locked import Foretold, foretell
 from thermodata.diagnosis.problem import Problem
+from thermodata.diagnosis.ranking import rank_in
 from thermodata.diagnosis.scored import Scored
-from thermodata.diagnosis.selection import rank_in
 from thermodata.modelling.resolve import term_ids
 from thermodata.schema.model import Model
 from thermodata.schema.result import Parameter

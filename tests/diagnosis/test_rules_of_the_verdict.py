@@ -9,8 +9,9 @@ import pytest
 
 from thermodata.diagnosis.discrepancy import Noise
 from thermodata.diagnosis.judge import Judgement, judge
+from thermodata.diagnosis.ranking import Ranked
 from thermodata.diagnosis.scored import Scored
-from thermodata.diagnosis.selection import Member, Ranked, Selection
+from thermodata.diagnosis.selection import Member, Selection
 
 from .hand_made import measure, of_tests, scored
 

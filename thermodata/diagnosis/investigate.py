@@ -27,8 +27,9 @@ from thermodata.diagnosis.logging_faults import (
 from thermodata.diagnosis.null import best_of_chance
 from thermodata.diagnosis.present import present
 from thermodata.diagnosis.problem import TARGET_ROWS, Base, Problem, build_problem
+from thermodata.diagnosis.ranking import rank_in
 from thermodata.diagnosis.refinement import Refinement
-from thermodata.diagnosis.selection import Selection, first_ranking, rank_in, select
+from thermodata.diagnosis.selection import Selection, first_ranking, select
 from thermodata.diagnosis.weak import weak_spots
 from thermodata.modelling.fitted_response import FittedResponse
 from thermodata.plugin import Effect

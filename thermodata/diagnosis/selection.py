@@ -13,18 +13,17 @@ import numpy as np
 
 from thermodata.diagnosis.candidates import CandidateEffect
 from thermodata.diagnosis.discrepancy import Noise
-from thermodata.diagnosis.evidence import Columns, Moments, Weighed, columns, moments, weigh
-from thermodata.diagnosis.invariance import spread_of_gain
-from thermodata.diagnosis.known import FloatND, Known, known, likeliest, likeliest_of, solved
+from thermodata.diagnosis.evidence import Columns, Weighed, columns, moments
+from thermodata.diagnosis.known import Known, known, likeliest, likeliest_of
 from thermodata.diagnosis.present import CONTROL, GENERIC
-from thermodata.diagnosis.problem import Block, Problem
+from thermodata.diagnosis.problem import Problem
+from thermodata.diagnosis.ranking import Ranked, rank_in, score
 from thermodata.diagnosis.scored import Scored
-from thermodata.plugin import Float1D, Float2D, Int1D
+from thermodata.plugin import Int1D
 from thermodata.store.base.counting import counted
 
 MOST = 5  # effects that one diagnosis adds
 PASSES = 3
-SCORED = 15  # candidates whose left-out tests are computed
 WORTH = 10.0  # log evidence that a further effect must bring
 # a name, or fewer channels, is worth this share of the evidence: what a lag explains as well is not the lag's own
 NAMED_SHARE = 0.95
@@ -35,15 +34,6 @@ STANDS = 0.15  # of the first one's evidence: less, and no noise brings a candid
 TRIED = 5  # candidates beside which the noise is estimated
 CAUSE_SHARE = 0.8  # and a cause, beside an effect of the model that acts otherwise: tests differ in much else
 UNNAMED = (GENERIC, CONTROL)
-
-
-@dataclass(frozen=True, slots=True)
-class Ranked:
-    """All candidates beside some known effects, the most likely first. ranked: with left-out tests for the first
-    `SCORED`."""
-
-    known: Known
-    ranked: tuple[Scored, ...]
 
 
 @dataclass(frozen=True, slots=True)
@@ -117,7 +107,7 @@ def _forward(
             return
         base = found.known
         if not len(best.rows):
-            best = _scored(base.problem, base, best.columns, moments(base, best.columns), best.weighed)
+            best = score(base.problem, base, best.columns, moments(base, best.columns), best.weighed)
         chosen.append(best)
         full, rest = beside(problem, chosen), without(pool, [*chosen, *dropped])
         noise = base.space.noise
@@ -174,10 +164,11 @@ def _likeliest_beside(problem: Problem, some: Sequence[Scored], start: Noise) ->
 
 
 def _different(ranked: Sequence[Scored]) -> list[Scored]:
-    """The first on each set of channels."""
-    found: dict[tuple[str, ...], Scored] = {}
+    """The first on each set of channels, and the first that changes each effect of the model: a lag on its channels
+    says something else."""
+    found: dict[tuple[str | None, ...], Scored] = {}
     for one in ranked:
-        found.setdefault(one.candidate.channels, one)
+        found.setdefault((one.candidate.within, *one.candidate.channels), one)
     return list(found.values())
 
 
@@ -242,22 +233,6 @@ def rank(problem: Problem, pool: Sequence[Columns], start: Noise | None, *, left
     return rank_in(problem, pool, likeliest(problem, start), left_out=left_out)
 
 
-def rank_in(problem: Problem, pool: Sequence[Columns], noise: Noise, *, left_out: bool = True) -> Ranked:
-    """The same in a given noise."""
-    base = known(problem, noise)
-    weighed = []
-    for one in pool:
-        products = moments(base, one)
-        weighed.append((weigh(base, one, products, base.every), products, one))
-    weighed.sort(key=lambda item: -item[0].total)
-    ranked = [
-        _scored(problem, base, one, products, w) if left_out else _seen(base, one, w)
-        for w, products, one in weighed[:SCORED]
-    ]
-    ranked += [_unscored(one, w) for w, _, one in weighed[SCORED:]]
-    return Ranked(base, tuple(ranked))
-
-
 def preferred(ranked: Sequence[Scored]) -> Scored | None:
     """The most likely, unless one that shares a channel with it has a name, or needs fewer channels, and is nearly as
     likely."""
@@ -298,68 +273,3 @@ def extended(problem: Problem, made: Columns, weighed: Weighed) -> Problem:
             spare += [(full[:, p, :gains] @ coefficients[:gains] - own.sum(axis=1))[:, None] for p in neighbours]
         blocks.append(replace(block, base=np.hstack([block.base, own]), slack=np.hstack([block.slack, *spare])))
     return replace(problem, blocks=tuple(blocks))
-
-
-def _scored(problem: Problem, base: Known, one: Columns, products: Moments, w: Weighed) -> Scored:
-    tests = base.every
-    before, after, own_before, own_after, gained = np.zeros((5, len(tests)))
-    of_all = base.mean(tests), base.factor(tests), products.known.sum(axis=0)
-    for i, block in enumerate(problem.blocks):
-        others = np.delete(tests, i)
-        seen = weigh(base, one, products, others)
-        gained[i] = w.total - seen.total
-        of_others = base.mean(others), base.factor(others), products.known[others].sum(axis=0)
-        before[i], after[i] = _errors(block, one.blocks[i], seen, *of_others)
-        own_before[i], own_after[i] = _errors(block, one.blocks[i], seen, *of_all)
-    contribution = [b[:, w.best[0]] @ w.coefficients for b in one.blocks]
-    rows = np.array([len(c) for c in contribution])
-    size = np.sqrt([np.mean(c**2) for c in contribution])
-    return Scored(
-        candidate=one.candidate,
-        columns=one,
-        weighed=w,
-        evidence=w.total - one.candidate.log_prior,
-        gained=gained,
-        rows=rows,
-        sse_before=before,
-        sse_after=after,
-        own_before=own_before,
-        own_after=own_after,
-        size=size,
-        spread=spread_of_gain(base, contribution),
-        shape=_shape(base, contribution),
-    )
-
-
-def _errors(
-    block: Block, columns: FloatND, seen: Weighed, theta: Float1D, factor: Float2D, toward: FloatND
-) -> tuple[float, float]:
-    """Squared error of a test without and with the candidate of the others. theta, factor, toward: of the tests that
-    the known effects are fitted to: their coefficients and posterior, and their products with the candidate."""
-    point, _ = seen.best
-    held = np.hstack([block.base, block.slack])
-    without = block.response - held @ theta
-    pulled = solved(factor, (toward[point].T @ seen.coefficients)[:, None])[:, 0]
-    among = without + held @ pulled - columns[:, point] @ seen.coefficients
-    return float(without @ without), float(among @ among)
-
-
-def _seen(base: Known, one: Columns, w: Weighed) -> Scored:
-    """What it looks like, without the left-out tests."""
-    return replace(_unscored(one, w), shape=_shape(base, [b[:, w.best[0]] @ w.coefficients for b in one.blocks]))
-
-
-def _unscored(one: Columns, w: Weighed) -> Scored:
-    no = np.zeros(0)
-    evidence = w.total - one.candidate.log_prior
-    return Scored(one.candidate, one, w, evidence, no, no, no, no, no, no, no, spread=1.0, shape=no)
-
-
-def _shape(base: Known, contribution: Sequence[np.ndarray]) -> np.ndarray:
-    """The whitened contribution without what the known effects can do, unit length."""
-    white = [base.space.of(i, c[:, None])[:, 0] for i, c in enumerate(contribution)]
-    cross = np.sum([x.T @ w for x, w in zip(base.white, white, strict=True)], axis=0)
-    theta = solved(base.factor(base.every), cross[:, None])[:, 0]
-    whole = np.concatenate([w - x @ theta for x, w in zip(base.white, white, strict=True)])
-    length = float(np.linalg.norm(whole))
-    return np.asarray(whole / length if length > 0 else whole)
