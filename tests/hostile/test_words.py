@@ -217,3 +217,33 @@ def test_row_numbers_without_a_name_shift_no_column(lab: Lab) -> None:
     assert lab("ingest", lab.folder / "campaign.yaml").code == 0
     np.testing.assert_allclose(lab.values("T_spindle", "a")[1], 20 + np.arange(40) / 8)
     np.testing.assert_allclose(lab.values("X", "a")[1], np.arange(40) + 0.5)
+
+
+@pytest.mark.parametrize("name", ["2026_03_02", "1_2", "010", "1.50", "0x1F", "12:30", "1e3", "no", "on", "+5"])
+def test_an_id_is_what_stands_there_and_no_number_of_yaml(lab: Lab, name: str) -> None:
+    lab.write(f"raw/{name}.csv", "time;T\n" + rows(stamps("2026-03-02 08:00:00", 10, 40)))
+    lab.write(
+        "campaign.yaml",
+        "schema: thermodata/campaign/1\nid: odd\nsources: {log: {reader: table, files: 'raw/{test}.csv'}}\n"
+        "channels: {T1: {source: log, signal: T, quantity: temperature, unit: degC}}\n"
+        f"tests:\n  - {{id: {name}}}\n",
+    )
+    said = lab("ingest", lab.folder / "campaign.yaml")
+    assert said.code == 0, said.out + said.err
+    assert lab.values("T1", name)[1].size == 40
+
+
+@pytest.mark.parametrize(
+    "key", ["clock: {offset: 1e300 s}", "clock: {offset: -300 year}", "table: {time: {period: 1e12 s}}"]
+)
+def test_a_time_of_centuries_is_refused_with_its_line(lab: Lab, key: str) -> None:
+    lab.write("raw/a.csv", "time;T\n" + rows(stamps("2026-03-02 08:00:00", 10, 40)))
+    lab.write(
+        "campaign.yaml",
+        f"schema: thermodata/campaign/1\nid: odd\nsources: {{log: {{reader: table, files: 'raw/*', {key}}}}}\n"
+        "channels: {T1: {source: log, signal: T, quantity: temperature, unit: degC}}\ntests: [{id: a}]\n",
+    )
+    said = lab("ingest", lab.folder / "campaign.yaml")
+    assert said.code == 2
+    assert "292 years" in said.err
+    assert "campaign.yaml:3" in said.err
