@@ -293,3 +293,18 @@ def test_days_since_1900_under_a_word_for_time_are_asked_for(lab: Lab) -> None:
     drafted.write_text(text.replace("unit: unknown", "unit: excel"), encoding="utf-8")
     assert lab("ingest", drafted).code == 0
     np.testing.assert_allclose(lab.values("T_spindle", "a")[0], np.arange(60) * 60.0, atol=1e-3)
+
+
+def test_a_declared_format_finds_its_column_by_the_name(read: Any) -> None:
+    first = datetime(2026, 3, 2, 8)
+    odd = [f"{first + timedelta(seconds=10 * i):%d-%b-%Y %H:%M:%S}" for i in range(60)]
+    lines = "".join(f"{i};{t};{20 + i / 8}\n" for i, t in enumerate(odd))
+    data = read("no;time;T\n" + lines, by="table", table={"time": {"format": "%d-%b-%Y %H:%M:%S"}})
+    (t_ns,) = data.t_ns.values()
+    np.testing.assert_array_equal(t_ns - t_ns[0], np.arange(60) * 10 * 10**9)
+
+
+def test_a_column_that_is_called_by_a_unit_of_time_is_asked_for_in_that_unit(lab: Lab) -> None:
+    lab.write("raw/a.csv", "hours;T;X\n" + "".join(f"{i / 360:.5f};{20 + i / 8};{i}.5\n" for i in range(60)))
+    assert lab("init", lab.folder).code == 0
+    assert "is 'hours' the time? then time: {column: 1, unit: hours}" in (lab.folder / "campaign.yaml").read_text()

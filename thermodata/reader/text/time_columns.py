@@ -84,11 +84,13 @@ def time_of(
             columns = find_time(names, units, data, where, likely)
         except FormatError:
             # of one of several times the columns count from its own first
-            question = None if likely else _stamp_question(names, data, where)
-            question = question or _time_question(names, data, where)
-            if question is None:
-                raise
-            raise question from None
+            worded = None if likely else _worded_time(names, data)
+            if worded is None or form in (None, UNKNOWN):
+                question = _time_question(names, data, where) if worded is None else _spelling_question(worded, where)
+                if question is None:
+                    raise
+                raise question from None
+            columns = (worded[0],)
         asked = _joined_question(columns, names, data, where) if form is None and unit is None and not likely else None
         if asked is not None:
             raise asked
@@ -178,17 +180,22 @@ def find_time(
     )
 
 
-def _stamp_question(names: list[str], data: list[list[Cell]], where: str) -> QuestionError | None:
-    """What to ask of a column that is called a time and holds text that is none as it stands, in a table of numbers;
+def _worded_time(names: list[str], data: list[list[Cell]]) -> tuple[int, list[str]] | None:
+    """(place, cells) of a column that is called a time and holds text that is none as it stands, in a table of numbers;
     None where there is no such column."""
     if not any(sum(is_number(r[i]) for r in data) > 0.6 * len(data) for i in range(len(names))):
         return None
     for i, name in enumerate(names):
         cells = [r[i] for r in data if r[i] not in ("", None)]
-        words = [c for c in cells if isinstance(c, str) and not is_number(c) and re.search(r"\d", c)]
+        words = [c.strip() for c in cells if isinstance(c, str) and not is_number(c) and re.search(r"\d", c)]
         if is_time_header(name) and cells and len(words) > 0.8 * len(cells):
-            return _format_question((i,), guess_format(words), words[0].strip(), where)
+            return i, words
     return None
+
+
+def _spelling_question(worded: tuple[int, list[str]], where: str) -> QuestionError:
+    place, words = worded
+    return _format_question((place,), guess_format(words), words[0], where)
 
 
 def _joined_question(
@@ -245,7 +252,8 @@ def _time_question(names: list[str], data: list[list[Cell]], where: str) -> Ques
     rising = _rising(data)
     if rising is not None and all(name == f"column {i + 1}" for i, name in enumerate(names)):
         return unit_question(names[0], rising, where, 1)
-    other = f"; or is '{names[0]}' the time? then time: {{column: 1, unit: s}}" if rising is not None else ""
+    unit = low if (low := names[0].strip().lower()) in SECONDS else "s"
+    other = f"; or is '{names[0]}' the time? then time: {{column: 1, unit: {unit}}}" if rising is not None else ""
     return QuestionError(
         "no time column found",
         where=where,
