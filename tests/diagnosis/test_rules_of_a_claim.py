@@ -8,16 +8,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from thermodata.diagnosis.judge import (
-    Measure,
-    acting_size,
-    blunt,
-    equivalents,
-    explained,
-    failed_rules,
-    probability,
-    sharpness,
-)
+from thermodata.diagnosis.judge import equivalents
+from thermodata.diagnosis.rules import Measure, acting_size, blunt, explained, failed_rules, probability, sharpness
 
 from .hand_made import measure, scored
 

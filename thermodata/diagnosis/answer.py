@@ -11,19 +11,11 @@ from thermodata.diagnosis import ladder, next_test
 from thermodata.diagnosis.artefact import noise_with_treads
 from thermodata.diagnosis.confirm import Confirmation, confirm, on_all_open
 from thermodata.diagnosis.investigate import BorneOut, Investigation, investigate
-from thermodata.diagnosis.judge import (
-    Judged,
-    Judgement,
-    blunt,
-    claimable,
-    equivalents,
-    explained,
-    failed_rules,
-    probability,
-)
+from thermodata.diagnosis.judge import Judged, Judgement, equivalents
 from thermodata.diagnosis.locked import Foretold
 from thermodata.diagnosis.null import p_value
 from thermodata.diagnosis.problem import Problem
+from thermodata.diagnosis.rules import blunt, claimable, explained, failed_rules, probability
 from thermodata.diagnosis.scored import Scored
 from thermodata.diagnosis.unexplained import characterise
 from thermodata.modelling.fit import fit_model
