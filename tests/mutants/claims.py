@@ -88,13 +88,16 @@ MUTANTS = [
     diagnosis("judge.py", "if len(problem.blocks) < 2:", "if len(problem.blocks) < 1:", "one test makes a claim"),
     diagnosis("judge.py", "MOST_CLAIMS = 3", "MOST_CLAIMS = 9", "everything is claimed at once"),
     diagnosis("judge.py", "BESIDE_SHARP_LIMIT = 0.3", "BESIDE_SHARP_LIMIT = 0.1", "what the first leaves is claimed"),
-    diagnosis("judge.py", "if left <= measure.floor:", "if left < 0:", "'none' is never said"),
+    diagnosis("judge.py", "if left <= measure.floor and not halved:", "if left < 0:", "'none' is never said"),
     diagnosis("judge.py", "if j.refines is None and blunt(j.scored) is None", "if j.refines is None", "proxies"),
     diagnosis("judge.py", "if j.refines is None and blunt", "if blunt", "a refinement is claimed as a cause"),
     diagnosis("judge.py", "if kept and not standing:", "if kept:", "a refinement hides that something is missing"),
     diagnosis("rules.py", "GOOD_SHARE = 0.25", "GOOD_SHARE = 0.9", "much is left and nothing is said to be missing"),
     diagnosis("rules.py", "GOOD_SHARE = 0.25", "GOOD_SHARE = 0.05", "a distributed machine is never complete"),
     diagnosis("rules.py", "STRONG = 0.4", "STRONG = 0.04", "left-out tests that hardly gain are not heard"),
+    diagnosis("rules.py", "HALVES = 0.5", "HALVES = 0.1", "a test at rest that is all wrong lacks nothing"),
+    diagnosis("rules.py", "HALVES = 0.5", "HALVES = 0.9", "what helps a little contradicts that nothing is missing"),
+    diagnosis("judge.py", "left > measure.noises and any", "any", "noise is to be explained"),
     diagnosis("judge.py", "if left <= measure.good and not standing:", "if left <= measure.good:", "a cause is hidden"),
     # ---- refinement
     diagnosis("refinement.py", "GOOD = 0.4", "GOOD = 0.9", "what a poor model lacks is a refinement"),
@@ -264,6 +267,7 @@ MUTANTS = [
     diagnosis(
         "logging_faults.py", "        tests.mend(i, factor)\n", "        pass\n", "sound tests are blamed for one"
     ),
+    diagnosis("logging_faults.py", "fit = min(fit,", "fit = max(fit,", "a test that turned does not fit is turned"),
     diagnosis("logging_faults.py", "GAIN_OFF = 0.15", "GAIN_OFF = 0.01", "sound gains are suspected"),
     diagnosis(
         "logging_faults.py", "    0.9  # a factor must", "    0.2  # a factor must", "missing effects pass as gains"

@@ -9,7 +9,7 @@ from typing import Literal
 import numpy as np
 
 from thermodata.diagnosis.problem import Problem
-from thermodata.diagnosis.rules import FLOOR_SHARE, GOOD_SHARE, Measure, blunt, failed_rules, sharpness
+from thermodata.diagnosis.rules import FLOOR_SHARE, GOOD_SHARE, Measure, blunt, failed_rules, halves, sharpness
 from thermodata.diagnosis.scored import Scored
 from thermodata.diagnosis.selection import Selection
 
@@ -67,7 +67,8 @@ def judge(
         return Judgement("effect", claims, kept, judged, "")
     left = selection.left
     standing = [j.scored for j in judged if j.refines is None]
-    if left <= measure.floor:
+    halved = left > measure.noises and any(halves(j.alone, left) for j in judged)
+    if left <= measure.floor and not halved:
         why = (
             f"the error on left-out tests, {left:.2g} {problem.unit}, is at the floor of "
             f"{measure.floor:.2g} {problem.unit} (noise, and {FLOOR_SHARE:.0%} of the response)"
@@ -87,10 +88,16 @@ def judge(
     failed = failed_rules(best, measure, problem.unit) or [why for why in [blunt(best)] if why]
     because = f": the best, {best.candidate.id}, fails because {failed[0]}" if failed else ""
     why = (
-        f"{left:.2g} {problem.unit} remain on left-out tests, above the floor of {measure.floor:.2g}, and nothing "
+        f"{left:.2g} {problem.unit} remain on left-out tests, {_against(left, measure.floor)}, and nothing "
         f"logged explains them{because}"
     )
     return Judgement("unknown", (), (), judged, why)
+
+
+def _against(left: float, floor: float) -> str:
+    if left <= floor:
+        return f"no more than the floor of {floor:.2g}, but half of them goes with what is logged"
+    return f"above the floor of {floor:.2g}"
 
 
 def _nothing(verdict: Verdict, reason: str) -> Judgement:

@@ -36,6 +36,7 @@ FLOOR_SHARE = 0.1  # a residual under this share of the response (FIT 90) is lef
 # leave where a cause is missing is more (docs/method.md#verdicts)
 GOOD_SHARE = 0.25
 NOISE_TIMES = 5.0
+HALVES = 0.5  # what leaves no more than this share of the error contradicts that nothing is missing
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,9 +49,14 @@ class Measure:
     chance: Float1D
 
     @property
+    def noises(self) -> float:
+        """An error that is nothing but noise."""
+        return NOISE_TIMES * self.noise if np.isfinite(self.noise) else 0.0
+
+    @property
     def floor(self) -> float:
         """An error that is left alone: noise, and what a sum of lags leaves of a distributed machine."""
-        return max(NOISE_TIMES * self.noise if np.isfinite(self.noise) else 0.0, FLOOR_SHARE * self.spread)
+        return max(self.noises, FLOOR_SHARE * self.spread)
 
     @property
     def good(self) -> float:
@@ -169,6 +175,11 @@ def blunt(scored: Scored) -> str | None:
     """Why a sound candidate is still no cause; None where it may be claimed."""
     rule = surely(scored)
     return None if rule.holds else rule.fails
+
+
+def halves(scored: Scored, left: float) -> bool:
+    """Whether it leaves half of the error of left-out tests, each alike. left: that error without it."""
+    return bool(len(scored.rows)) and scored.error_of_all <= HALVES * left
 
 
 def claimable(scored: Scored, measure: Measure, unit: str) -> bool:
