@@ -77,6 +77,8 @@ MUTANTS = [
     diagnosis("rules.py", "FLOOR_SHARE = 0.1 ", "FLOOR_SHARE = 0.3 ", "a real error is left alone"),
     diagnosis("rules.py", "NOISE_TIMES = 5.0", "NOISE_TIMES = 2.0", "noise is to be explained"),
     diagnosis("judge.py", "\nALIKE = 0.9 ", "\nALIKE = 0.99 ", "twins are said to be told apart"),
+    diagnosis("judge.py", "APART = 2.0", "APART = 99.0", "what leaves far more passes as a twin"),
+    diagnosis("judge.py", "APART = 2.0", "APART = 1.2", "the cause is not named beside its twin"),
     diagnosis("judge.py", "ALIKE_AT_ALL = 0.5", "ALIKE_AT_ALL = 0.2", "strangers are said to be twins"),
     diagnosis("judge.py", "NEARLY = 1.2", "NEARLY = 1.0", "twins are said to be told apart"),
     diagnosis("judge.py", "\nSURE = 2.0", "\nSURE = 9.0", "what the tests tell apart passes as twins"),
@@ -146,6 +148,18 @@ MUTANTS = [
         "answer.py", "return int(np.argmax(left))", "return int(np.argmin(left))", "the best response is diagnosed"
     ),
     diagnosis("answer.py", "if heads else None", "", "a share that nobody measured is told"),
+    diagnosis(
+        "answer.py",
+        "investigation.judgement.judged) == 1",
+        "investigation.judgement.judged) == 9",
+        "the model's own error is another twice",
+    ),
+    diagnosis(
+        "answer.py",
+        "investigation.judgement.judged) == 1",
+        "investigation.judgement.judged) > 0",
+        "what stands beside a claim is forgotten",
+    ),
     # ---- selection
     diagnosis("selection.py", "\nTRIED = 5", "\nTRIED = 1", "what is missing hides the right one as noise"),
     diagnosis("selection.py", "STANDS = 0.15", "STANDS = 0.95", "what is missing hides the right one as noise"),

@@ -17,7 +17,8 @@ Verdict = Literal["effect", "refine", "none", "unknown", "not_testable"]
 
 BESIDE_SHARP_LIMIT = 0.3  # log evidence a sample of a further claim: what is small may be what the first leaves
 MOST_CLAIMS = 3
-ALIKE = 0.9  # cosine of contributions that can't be told apart
+ALIKE = 0.9  # cosine of contributions that can't be told apart,
+APART = 2.0  # unless the tests surely speak for one, and the other leaves this many times its error;
 # nor can those that act alike at all and leave nearly the same error, where the tests that one wins are not more than
 # chance would give it: the difference of their log probabilities against its standard error [vehtari2017]
 ALIKE_AT_ALL = 0.5
@@ -118,11 +119,13 @@ def equivalents(chosen: Scored, ranked: Sequence[Scored]) -> list[Scored]:
 def _alike(a: Scored, b: Scored) -> bool:
     """Whether they act alike, or tests would have to be drawn again to tell which predicts left-out ones better."""
     cosine = abs(float(a.shape @ b.shape))
-    if cosine > ALIKE:
-        return True
+    if cosine <= ALIKE_AT_ALL:
+        return False
     difference = a.gained - b.gained
     sure = abs(difference.sum()) > SURE * np.sqrt(len(difference)) * difference.std(ddof=1)
-    return bool(cosine > ALIKE_AT_ALL and not sure and _error(b) <= NEARLY * _error(a))
+    if cosine > ALIKE:
+        return bool(not sure or _error(b) <= APART * _error(a))
+    return bool(not sure and _error(b) <= NEARLY * _error(a))
 
 
 def _error(scored: Scored) -> float:
