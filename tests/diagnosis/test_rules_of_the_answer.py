@@ -228,6 +228,14 @@ class TestAnswer:
         first = next(c for c in found.candidates if c.effect == "first")
         assert (first.rmse_um_before, first.rmse_um_after) == pytest.approx((before, 0.2))
 
+    def test_what_was_dropped_fell_from_the_error_beside_what_it_was_judged_beside(
+        self, monkeypatch: pytest.MonkeyPatch, spec: Model
+    ) -> None:
+        dropped = replace(OTHER, sse_before=9.0 * OTHER.rows, sse_after=0.04 * OTHER.rows)
+        found = self.answered(monkeypatch, spec, claim(FIRST), dropped=[dropped])
+        other = next(c for c in found.candidates if c.effect == "other")
+        assert (other.rmse_um_before, other.rmse_um_after) == pytest.approx((3.0, 0.2))
+
     def test_at_most_fifteen_candidates_are_shown(self, monkeypatch: pytest.MonkeyPatch, spec: Model) -> None:
         ranked = [scored(f"e{i}") for i in range(16)]
         found = self.answered(monkeypatch, spec, nothing("none"), ranked=ranked)

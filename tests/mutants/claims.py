@@ -148,18 +148,9 @@ MUTANTS = [
         "answer.py", "return int(np.argmax(left))", "return int(np.argmin(left))", "the best response is diagnosed"
     ),
     diagnosis("answer.py", "if heads else None", "", "a share that nobody measured is told"),
-    diagnosis(
-        "answer.py",
-        "investigation.judgement.judged) == 1",
-        "investigation.judgement.judged) == 9",
-        "the model's own error is another twice",
-    ),
-    diagnosis(
-        "answer.py",
-        "investigation.judgement.judged) == 1",
-        "investigation.judgement.judged) > 0",
-        "what stands beside a claim is forgotten",
-    ),
+    diagnosis("answer.py", "len(judged) == 1 and", "False and", "the model's own error is another twice"),
+    diagnosis("answer.py", "len(judged) == 1 and", "judged and", "what stands beside a claim is forgotten"),
+    diagnosis("answer.py", "== 1 and judged[0].scored is s", "== 1", "what was dropped falls from the wrong error"),
     # ---- selection
     diagnosis("selection.py", "\nTRIED = 5", "\nTRIED = 1", "what is missing hides the right one as noise"),
     diagnosis("selection.py", "STANDS = 0.15", "STANDS = 0.95", "what is missing hides the right one as noise"),

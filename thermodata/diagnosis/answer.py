@@ -257,7 +257,8 @@ def _beside_the_model(s: Scored, investigation: Investigation) -> Scored:
         return alone
     # with nothing beside it, what falls is the model's own error; in the little noise that is left the known effects
     # are pulled further towards what is missing, and foretell other tests worse than the model does
-    if len(investigation.judgement.judged) == 1:
+    judged = investigation.judgement.judged
+    if len(judged) == 1 and judged[0].scored is s:
         return replace(s, sse_before=alone.sse_before)
     return s
 
