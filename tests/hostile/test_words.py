@@ -161,3 +161,25 @@ def test_an_hdf5_file_that_reads_others_is_refused(lab: Lab, kind: str) -> None:
     assert "another file" in found.out + found.err, (found.code, found.out[-800:], found.err)
     assert "T1  " not in found.out
     shutil.rmtree(lab.folder / "raw")
+
+
+def test_a_file_whose_name_is_no_utf8_is_named_and_the_others_are_drafted(lab: Lab) -> None:
+    rows = "".join(f"2026-03-02 08:{i:02d}:00,{20 + i / 10}\n" for i in range(40))
+    lab.write("raw/b.csv", "time,T_spindle [degC]\n" + rows)
+    with open(os.fsencode(lab.folder) + b"/raw/caf\xe9.csv", "wb") as file:
+        file.write(b"time,T_spindle [degC]\n" + rows.encode())
+    assert lab("init", lab.folder).code == 0
+    drafted = (lab.folder / "campaign.yaml").read_text(encoding="utf-8")
+    assert "# not used: raw/caf .csv: its name is no UTF-8" in drafted
+    assert "another name" in drafted
+    assert lab("ingest", lab.folder / "campaign.yaml").code == 0
+    assert lab.values("T_spindle", "b")[1].size == 40
+
+
+@pytest.mark.parametrize("line", ['- {id: "caf\\udce9"}', '- {id: a, conditions: {"\\udce9": 1}}'])
+def test_half_a_letter_in_a_campaign_file_is_refused_with_its_line(lab: Lab, line: str) -> None:
+    lab.write("campaign.yaml", "schema: thermodata/campaign/1\nid: odd\nsources: {}\nchannels: {}\ntests:\n  " + line)
+    said = lab("ingest", lab.folder / "campaign.yaml")
+    assert said.code == 2
+    assert "a text that is no UTF-8" in said.err
+    assert "campaign.yaml:6" in said.err

@@ -11,6 +11,7 @@ from pathlib import Path, PurePosixPath
 
 from thermodata.errors import SpecError
 from thermodata.schema.campaign import Campaign, Test
+from thermodata.schema.lines import is_text
 from thermodata.store.raw.source_file import kind_of
 
 
@@ -55,7 +56,7 @@ def resolve(folder: Path, campaign: Campaign, test: Test, source: str, root: Pat
         named = not glob.has_magic(pattern)
         for name in sorted(_fitting(root, pattern, named), key=natural):
             relative = PurePosixPath(Path(name)).as_posix()
-            if not _is_text(relative):
+            if not is_text(relative):
                 odd[text := os.fsencode(relative).decode("utf-8", "backslashreplace")] = relative
                 relative = text
             if relative not in paths and not relative.endswith(".tdms_index"):
@@ -77,14 +78,6 @@ def _fitting(root: Path, pattern: str, named: bool) -> list[str]:
     if not named:
         return glob.glob(pattern, root_dir=root, recursive=True)
     return [pattern] if pattern and os.path.lexists(os.path.join(root, pattern)) else []
-
-
-def _is_text(name: str) -> bool:
-    try:
-        name.encode()
-    except UnicodeEncodeError:
-        return False
-    return True
 
 
 def _refusal(root: Path, name: str, named: bool) -> str | None:
