@@ -10,7 +10,8 @@ from thermodata.errors import UsageError
 from thermodata.modelling.bound import BoundResponse, BoundTerm, each_group_its_own
 from thermodata.modelling.coarse import rough, search_from_coarse
 from thermodata.modelling.design import GRID, MOMENTS, Design, Nonlinear, factor
-from thermodata.modelling.fitted_response import FACTOR, FittedResponse, FittedTerm, Together, Values
+from thermodata.modelling.fitted_response import FACTOR, Ends, FittedResponse, FittedTerm, Together, Values
+from thermodata.modelling.labels import fastest_first
 from thermodata.modelling.search import Problem, search
 from thermodata.modelling.uncertainty import Cover, Spread, spreads
 from thermodata.plugin import Float1D, Param
@@ -57,6 +58,7 @@ def fit_jointly(
     else:
         start = None if near is None else _near(problem, {order.index(i): near[i] for i in members if i in near})
         x = search(problem, start, loose)
+    x = fastest_first(problem, x)
     gains = problem.gains(problem.matrix(x))
     none: tuple[list[Spread], frozenset[str], Cover | None] = ([Spread() for _ in design.slots], frozenset(), None)
     spread, logs, cover = spreads(problem, x, gains, look if profiled else None) if uncertainty else none
@@ -113,7 +115,7 @@ def _by_group(design: Design, s: int, found: Values) -> dict[str, Values]:
     for group in dict.fromkeys(slot.factors):
         g = found.params.get(factor(group), 1.0)
         sd, half = (_of_group(spread, group, g, own) for spread in (found.sd, found.half))
-        ends = {n: e for n, e in found.ends.items() if n in own}
+        ends = {n: e if n in own else _times(e, g) for n, e in found.ends.items() if not n.startswith("g[")}
         logs = found.log_names | {FACTOR}
         gains = {n: g * v for n, v in found.gains.items()}
         groups[group] = Values(params, gains, sd, half, ends, logs, found.silent, g)
@@ -124,6 +126,11 @@ def _of_group(spread: Mapping[str, float], group: str, g: float, own: set[str]) 
     """Deviations of gains grow with the group's factor, whose own stands beside them."""
     found = {n: value * (1.0 if n in own else g) for n, value in spread.items() if not n.startswith("g[")}
     return found | ({FACTOR: spread[factor(group)]} if factor(group) in spread else {})
+
+
+def _times(ends: Ends, g: float) -> Ends:
+    low, high = (None if end is None else g * end for end in ends)
+    return low, high
 
 
 def _near(problem: Problem, known: Mapping[int, FittedTerm]) -> Float1D:
