@@ -2,15 +2,19 @@
 
 A deviation makes an interval that reaches as far up as down. Where a test is too short for a lag, the error falls
 steeply on one side and hardly rises on the other, and only the profile tells where the data end. A gain is linear, but
-what it says hangs on its time constants: where these are ill known it is no more quadratic than they are. The error may
-rise as much as a quadratic one would up to the ends of its own interval, correlated residuals and all, so that both
-intervals are the same where the error is quadratic. Source: [bates1988]
+what it says hangs on its time constants: where these are ill known it is no more quadratic than they are.
+
+The error may rise by what the noise does along the way that the prediction has gone, d: in white noise of size s by
+(1.96 s)^2 whatever d is, in noise that hangs together by 1.96^2 d'Nd / d'd, N its covariance, which is more where d is
+slow. Where the prediction is linear this is what the quadratic interval allows, and both intervals are the same.
+Source: [bates1988]
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
+from itertools import pairwise
 from typing import Protocol
 
 import numpy as np
@@ -25,6 +29,8 @@ ALIKE = (0.7, 1.4)  # of the allowed rise, at the ends of the quadratic interval
 CLOSE = 0.025  # of the way to an end, or of a gain: how closely it is found
 FLAT = 0.25  # of the allowed rise: below it the next step out is twice as long
 FAR = 1000.0  # of the response over the driver; a gain beyond is of two columns that undo each other
+MOVES = 4  # of the border between two like lags, while one of them lies at it
+TOUCH = 1e-3  # of log(value): so near to the border a lag lies at it
 THIN = 1e-6  # of its range is left at least to a lag that another one bounds
 POINTS = 9  # of the curve, on each side
 
@@ -45,8 +51,8 @@ class Coordinate(Protocol):
     def range(self, problem: Problem, x: Float1D) -> tuple[float, float]:
         """Within which it is looked at."""
 
-    def held(self, problem: Problem, at: float) -> Problem:
-        """The same problem with it held."""
+    def held(self, problem: Problem, at: float, near: Float1D) -> Problem:
+        """The same problem with it held, and like lags kept in order. near: a point of that problem."""
 
     def others(self, x: Float1D) -> Float1D:
         """What is searched beside it; shape (free parameters of the held problem,)."""
@@ -54,8 +60,8 @@ class Coordinate(Protocol):
     def value(self, at: float) -> float:
         """In its own unit."""
 
-    def out_of_order(self, x: Float1D) -> bool:
-        """Whether like lags changed places at a point of the held problem: then another gain is held than was meant."""
+    def pressed(self, x: Float1D, near: Float1D) -> bool:
+        """Whether a point of the held problem is where it is only since like lags were kept in order about `near`."""
 
     def in_one(self, problem: Problem) -> float:
         """The least squared error where two like lags are one: the border between both orders."""
@@ -87,7 +93,7 @@ class Searched:
     def range(self, problem: Problem, x: Float1D) -> tuple[float, float]:
         return self.free.outside(self.free.lower), self.free.outside(self.free.upper)
 
-    def held(self, problem: Problem, at: float) -> Problem:
+    def held(self, problem: Problem, at: float, near: Float1D) -> Problem:
         held = [dict(h) for h in problem.held]
         for slot in self.free.slots:
             held[slot][self.free.param.name] = self.free.inside(at)
@@ -97,11 +103,7 @@ class Searched:
     def _in_order(self, k: int, other: Nonlinear, at: float) -> Nonlinear:
         if not any(k in found.places and self.place in found.places for found in self.like):
             return other
-        low, high = other.outside(other.lower), other.outside(other.upper)
-        room = THIN * (high - low)
-        if k < self.place:
-            return replace(other, upper=other.inside(max(min(high, at), low + room)))
-        return replace(other, lower=other.inside(min(max(low, at), high - room)))
+        return _below(other, at) if k < self.place else _above(other, at)
 
     def others(self, x: Float1D) -> Float1D:
         return np.delete(x, self.place)
@@ -109,8 +111,8 @@ class Searched:
     def value(self, at: float) -> float:
         return self.free.inside(at)
 
-    def out_of_order(self, x: Float1D) -> bool:
-        return False  # the others are bounded by it
+    def pressed(self, x: Float1D, near: Float1D) -> bool:
+        return False  # its own value is the border, wherever it is looked at
 
     def in_one(self, problem: Problem) -> float:
         raise NotImplementedError
@@ -138,10 +140,19 @@ class Solved:
         far = FAR * float(np.linalg.norm(problem.design.y)) / size if size > 0 else np.inf
         return max(float(problem.low[self.column]), -far), min(float(problem.high[self.column]), far)
 
-    def held(self, problem: Problem, at: float) -> Problem:
+    def held(self, problem: Problem, at: float, near: Float1D) -> Problem:
         low, high = problem.low.copy(), problem.high.copy()
         low[self.column] = high[self.column] = at
-        return replace(problem, low=low, high=high)
+        free = list(problem.free)
+        for a, b, border in self._borders(near):
+            free[a], free[b] = _below(free[a], border), _above(free[b], border)
+        return replace(problem, free=free, low=low, high=high)
+
+    def _borders(self, near: Float1D) -> Iterator[tuple[int, int, float]]:
+        """Half way between two neighbours, of lags that have a gain each."""
+        for found in self.like:
+            for a, b in pairwise(found.places) if found.columns else ():
+                yield a, b, float(near[a] + near[b]) / 2
 
     def others(self, x: Float1D) -> Float1D:
         return x
@@ -149,8 +160,8 @@ class Solved:
     def value(self, at: float) -> float:
         return at
 
-    def out_of_order(self, x: Float1D) -> bool:
-        return any(found.columns and np.any(np.diff(x[list(found.places)]) < 0) for found in self.like)
+    def pressed(self, x: Float1D, near: Float1D) -> bool:
+        return any(min(border - x[a], x[b] - border) < TOUCH for a, b, border in self._borders(near))
 
     def in_one(self, problem: Problem) -> float:
         least = np.inf
@@ -163,17 +174,28 @@ class Solved:
         return least
 
 
+def _below(free: Nonlinear, at: float) -> Nonlinear:
+    low, high = free.outside(free.lower), free.outside(free.upper)
+    return replace(free, upper=free.inside(max(min(high, at), low + THIN * (high - low))))
+
+
+def _above(free: Nonlinear, at: float) -> Nonlinear:
+    low, high = free.outside(free.lower), free.outside(free.upper)
+    return replace(free, lower=free.inside(min(max(low, at), high - THIN * (high - low))))
+
+
 class Profile:
-    """Of one coordinate. allowed: rise of the squared error at an end of the interval of 95 %; along: how the searched
-    parameters move with it where the error is quadratic, shape (free parameters,), None where too little is known to
-    say; x: the optimum of this problem; moved: of the coordinate to the optimum of the problem that it stands for."""
+    """Of one coordinate. allowed: rise of the squared error at an end of the interval of 95 %, by how the prediction
+    has moved, shape (n,); along: how the searched parameters move with it where the error is quadratic, shape (free
+    parameters,), None where too little is known to say; x: the optimum of this problem; moved: of the coordinate to the
+    optimum of the problem that it stands for."""
 
     def __init__(
         self,
         problem: Problem,
         x: Float1D,
         of: Coordinate,
-        allowed: float,
+        allowed: Callable[[Float1D], float],
         along: Float1D | None,
         moved: float = 0.0,
     ) -> None:
@@ -181,29 +203,40 @@ class Profile:
         self.moved = moved
         self.centre = of.at(problem, x)
         self.low, self.high = of.range(problem, x)
-        residual = problem.residual(x)
-        self.least = float(residual @ residual)
+        self.residual = problem.residual(x)
+        self.least = float(self.residual @ self.residual)
         self._near: dict[float, Float1D] = {self.centre: of.others(x)}
         self._rises: dict[float, float] = {}
+        self._squares: dict[float, float] = {self.centre: self.least}
         self._in_one: float | None = None
 
     def rise(self, at: float) -> float:
         """Of the squared error where it is held at a value, as a share of what is allowed."""
         if at in self._rises:  # another search from another start would end a little elsewhere
             return self._rises[at]
-        part = self.of.held(self.problem, at)
-        nearest = min(self._near, key=lambda known: abs(known - at))
-        found = search(part, self._near[nearest], loose=True)
+        # from the optimum outwards: a point further out may lie in another valley
+        inner = [known for known in self._near if min(self.centre, at) <= known <= max(self.centre, at)]
+        found = self._near[min(inner, key=lambda known: abs(known - at))]
+        for _ in range(MOVES):
+            near = found
+            part = self.of.held(self.problem, at, near)
+            found = search(part, near, loose=True)
+            pressed = self.of.pressed(found, near)
+            if not pressed:
+                break
         self._near[at] = found
         residual = part.residual(found)
         square = float(residual @ residual)
-        if self.of.out_of_order(found):
-            # what lies on this side of the border is not better than the border
+        if pressed:
+            # two lags in one lie on the border, whatever their gains
             if self._in_one is None:
                 self._in_one = self.of.in_one(self.problem)
-            square = max(square, self._in_one)
-        self._rises[at] = (square - self.least) / self.allowed
+            square = min(square, self._in_one)
+        self._squares[at], self._rises[at] = square, self._share(square, residual)
         return self._rises[at]
+
+    def _share(self, square: float, residual: Float1D) -> float:
+        return (square - self.least) / self.allowed(self.residual - residual)
 
     def is_quadratic(self, half: float) -> bool:
         """Whether an interval of that half width, in the units of the search, has the profile's ends."""
@@ -232,17 +265,17 @@ class Profile:
             for step in np.linspace(0, 2 * half, POINTS + 1)[1:]:
                 point = self.centre + side * float(step)
                 if self.low <= point <= self.high:
-                    square = self.least + self.rise(point) * self.allowed
-                    rows.append((self._value(point), float(np.sqrt(max(0.0, square) / count))))
+                    self.rise(point)
+                    rows.append((self._value(point), float(np.sqrt(self._squares[point] / count))))
         return sorted(rows)
 
     def _straight(self, step: float, along: Float1D) -> float:
         low = np.array([f.outside(f.lower) for f in self.problem.free])
         high = np.array([f.outside(f.upper) for f in self.problem.free])
         there = np.clip(self.x + step * along, low, high)
-        part = self.of.held(self.problem, self.centre + step)
-        residual = part.residual(self.of.others(there))
-        return (float(residual @ residual) - self.least) / self.allowed
+        others = self.of.others(there)
+        residual = self.of.held(self.problem, self.centre + step, others).residual(others)
+        return self._share(float(residual @ residual), residual)
 
     def _end(self, half: float) -> float | None:
         """Where the rise is what is allowed; None where it is not before the end of the range."""

@@ -30,12 +30,11 @@ OUTSIDE = 0.05  # of an interval of 95 %
 
 @dataclass(frozen=True)
 class Scatter:
-    """sd: standard deviation of each estimate. half: half of its interval of 95 %. plain: its variance in white noise
-    of size 1. Shapes (k,). cover: how they scatter together, shape (k, k), with sd squared on its diagonal."""
+    """sd: standard deviation of each estimate. half: half of its interval of 95 %. Shapes (k,). cover: how they scatter
+    together, shape (k, k), with sd squared on its diagonal."""
 
     sd: Float1D
     half: Float1D
-    plain: Float1D
     cover: Float2D
 
 
@@ -53,8 +52,7 @@ def scatter(
 
 def nothing(count: int) -> Scatter:
     """Where nothing can be told."""
-    none = np.full(count, np.nan)
-    return Scatter(none, none, none, np.full((count, count), np.nan))
+    return Scatter(np.full(count, np.nan), np.full(count, np.nan), np.full((count, count), np.nan))
 
 
 @dataclass(frozen=True)
@@ -88,7 +86,7 @@ class Noise:
         sd = np.sqrt(np.maximum(self.share @ variance, 0.0))
         half = np.array([_half(self.share, np.sqrt(np.maximum(v, 0.0)), self.left) for v in variance.T])
         cover = plain @ np.einsum("g,gij->ij", self.share, meat) @ plain + pulls @ pulls.T
-        return Scatter(sd / size, half / size, np.diag(plain) / size**2, cover / np.outer(size, size))
+        return Scatter(sd / size, half / size, cover / np.outer(size, size))
 
 
 def make_noise(jacobian: Float2D, residual: Float1D, parts: Sequence[slice]) -> Noise | None:

@@ -9,10 +9,10 @@ import numpy as np
 
 from thermodata.modelling.design import MOMENTS
 from thermodata.modelling.fitted_response import Z95, Ends
-from thermodata.modelling.labels import alike
+from thermodata.modelling.labels import alike, fastest_first
 from thermodata.modelling.profile import Coordinate, Profile, Searched, Solved
 from thermodata.modelling.search import Problem, search
-from thermodata.modelling.slow_noise import scatter
+from thermodata.modelling.slow_noise import Scatter, make_noise, nothing
 from thermodata.modelling.start_unknown import disturbances
 from thermodata.plugin import Float1D, Float2D
 
@@ -138,8 +138,9 @@ class _Estimate:
                     columns.append(matrix[:, k])
                     self.owners.append(Owner((s,), gain.name, Solved(int(k), s, gain.name, gain.unit, like)))
         self.jacobian = np.column_stack(columns) if columns else np.zeros((design.n, 0))
-        unknown = disturbances(design, problem.params(x), gains, problem.starts)
-        self.scatter = scatter(self.jacobian, design.y - matrix @ gains, design.parts, unknown)
+        self.unknown = disturbances(design, problem.params(x), gains, problem.starts)
+        self.noise = make_noise(self.jacobian, design.y - matrix @ gains, design.parts)
+        self.scatter = self._scatter(self.jacobian)
 
         size = np.sqrt(np.sum(self.jacobian**2, axis=0))
         self.moves = size > 0
@@ -154,6 +155,16 @@ class _Estimate:
         inverse = (directions[:, spans] / power[spans]) @ directions[:, spans].T
         self.inverse = inverse / np.outer(size, size)
         self.places = {owner.of.place: k for k, owner in enumerate(self.owners) if isinstance(owner.of, Searched)}
+
+    def _scatter(self, columns: Float2D) -> Scatter:
+        if self.noise is None:
+            return nothing(columns.shape[1])
+        return self.noise.scatter(columns, self.problem.design.parts, self.unknown)
+
+    def allowed(self, moved: Float1D) -> float:
+        """Rise of the squared error at the ends of an interval of 95 %, where that moves the prediction so."""
+        half = float(self._scatter(moved[:, None]).half[0])
+        return half**2 * float(moved @ moved) if np.isfinite(half) else np.inf
 
     def along(self, k: int, movable: Collection[int]) -> Float1D:
         """How the searched parameters move with the estimate k where the error is quadratic; shape (searched,)."""
@@ -180,20 +191,22 @@ def _profiles(
 ) -> Iterator[tuple[Profile, float]]:
     problem, x = estimate.problem, estimate.x
     # on other samples the optimum is a little elsewhere, and from beside it an error is no parabola
-    small, near = (problem, x) if rough is None else (rough, search(rough, x))
+    small, near, there = problem, x, estimate
+    if rough is not None:
+        small, near = rough, fastest_first(rough, search(rough, x))
+        there = _Estimate(small, near, small.gains(small.matrix(near)), estimate.places)
     free_to_move = _inside(problem, x)
     for k, owner in enumerate(estimate.owners):
         of, half = owner.of, float(estimate.scatter.half[k])
         if isinstance(of, Searched) and of.free.points == MOMENTS:
             continue
-        if not estimate.moves[k] or not np.isfinite(half) or estimate.scatter.plain[k] <= 0 or half <= 0:
+        if not estimate.moves[k] or not np.isfinite(half) or half <= 0 or there.noise is None:
             continue
         if not asked(k, of, half):
             continue
-        allowed = half**2 / estimate.scatter.plain[k] * small.design.n / problem.design.n
         along = estimate.along(k, free_to_move) if estimate.known[k] else None
         moved = of.at(problem, x) - of.at(small, near)
-        yield Profile(small, near, of, float(allowed), along, moved), half
+        yield Profile(small, near, of, there.allowed, along, moved), half
 
 
 def _inside(problem: Problem, x: Float1D) -> list[int]:
