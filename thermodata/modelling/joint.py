@@ -12,7 +12,7 @@ from thermodata.modelling.coarse import rough, search_from_coarse
 from thermodata.modelling.design import GRID, MOMENTS, Design, Nonlinear, factor
 from thermodata.modelling.fitted_response import FACTOR, Ends, FittedResponse, FittedTerm, Together, Values
 from thermodata.modelling.labels import fastest_first
-from thermodata.modelling.search import Problem, search
+from thermodata.modelling.search import Problem, along_whole_range, search
 from thermodata.modelling.uncertainty import Cover, Spread, spreads
 from thermodata.plugin import Float1D, Param
 from thermodata.view.dataset import TestData
@@ -56,7 +56,12 @@ def fit_jointly(
     if near is None and not loose:
         x = search_from_coarse(problem, tests, on)
     else:
-        start = None if near is None else _near(problem, {order.index(i): near[i] for i in members if i in near})
+        start = None
+        if near is not None:
+            found_there = {order.index(i): near[i] for i in members if i in near}
+            start = _near(problem, found_there)
+            for place in _new(problem, found_there):
+                start = along_whole_range(problem, start, place)
         x = search(problem, start, loose)
     x = fastest_first(problem, x)
     gains = problem.gains(problem.matrix(x))
@@ -146,6 +151,17 @@ def _near(problem: Problem, known: Mapping[int, FittedTerm]) -> Float1D:
             factors = {factor(group): found.factor for group, found in term.groups.items()}
             x[i] = free.outside(factors.get(free.param.name, free.start))
     return x
+
+
+def _new(problem: Problem, known: Mapping[int, FittedTerm]) -> list[int]:
+    """Searched parameters of a known term that it did not have where it was found."""
+    found = []
+    for i, free in enumerate(problem.free):
+        slot = problem.design.slots[free.slots[0]]
+        term = known.get(slot.term)
+        if term is not None and free.param.name not in {*term.params, *map(factor, term.groups)}:
+            found.append(i)
+    return found
 
 
 def _at_start(term: BoundTerm) -> Values:
