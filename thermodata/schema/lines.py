@@ -188,6 +188,8 @@ class _Builder:
                 got=str(node.value)[:80],
                 hint="put it in quotes",
             ) from None
+        if place[-1:] == ("id",) and isinstance(value, bool | int | float):
+            value = str(node.value)  # a name as it stands: 1_2 is no 12, 010 no 8, 1:30 no 90, and no is no False
         if isinstance(value, float):
             self.document.digits[place] = node.value
         if isinstance(value, str):
