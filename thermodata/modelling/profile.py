@@ -27,6 +27,7 @@ from thermodata.plugin import Float1D
 
 ALIKE = (0.7, 1.4)  # of the allowed rise, at the ends of the quadratic interval, that make it the profile's
 CLOSE = 0.025  # of the way to an end, or of a gain: how closely it is found
+CLOSER = 4  # times at most
 FLAT = 0.25  # of the allowed rise: below it the next step out is twice as long
 FAR = 1000.0  # of the response over the driver; a gain beyond is of two columns that undo each other
 ONWARD = 2.0  # times the last step: so far others are thought to go on as they did
@@ -305,15 +306,23 @@ class Profile:
                 return None
         if self.rise(inner) >= 1.0:
             return inner
-        close = CLOSE * abs(outer - self.centre)
-        end = self._root(inner, outer, close)
-        # a gain of two lags that undo each other may be a hundred times as large as its end
-        if isinstance(self.of, Solved) and CLOSE * abs(end) < close / 2:
-            inside = [k for k, rise in self._rises.items() if (k - self.centre) * half > 0 and rise < 1.0]
-            inner = max(inside, key=lambda k: abs(k - self.centre), default=inner)
-            beyond = [k for k, rise in self._rises.items() if (k - inner) * half > 0 and rise >= 1.0]
-            end = self._root(inner, min(beyond, key=lambda k: abs(k - inner)), max(CLOSE * abs(end), CLOSE * close))
+        for _ in range(CLOSER):
+            size = max(abs(inner), abs(outer)) if isinstance(self.of, Solved) else np.inf
+            end = self._root(inner, outer, CLOSE * min(size, abs(outer - self.centre)))
+            if not isinstance(self.of, Solved):
+                break
+            # a gain of two lags that undo each other may be a hundred times as large as its end
+            inner, outer = self._bracket(inner, outer)
+            if abs(outer - inner) <= 2 * CLOSE * max(abs(inner), abs(outer)):
+                break
         return end
+
+    def _bracket(self, inner: float, outer: float) -> tuple[float, float]:
+        """The nearest points looked at, of which the inner one is inside of the interval, and the outer is not."""
+        between = [(k, r) for k, r in self._rises.items() if min(inner, outer) <= k <= max(inner, outer)]
+        inner = max((k for k, r in between if r < 1.0), key=lambda k: abs(k - self.centre), default=inner)
+        beyond = [k for k, r in between if r >= 1.0 and abs(k - self.centre) > abs(inner - self.centre)]
+        return inner, min(beyond, key=lambda k: abs(k - self.centre), default=outer)
 
     def _root(self, inner: float, outer: float, close: float) -> float:
         from scipy.optimize import brentq
