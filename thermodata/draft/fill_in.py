@@ -60,7 +60,8 @@ def filled_in(text: str, answers: Mapping[str, str]) -> str:
         place, key = known[name]
         at = document.line[place] - 1
         if answer != _value(document, place, key):
-            lines[at] = _with(lines[at], key, _written(key, answer), place)
+            # what is answered is no question any more
+            lines[at] = set_in_line(lines[at], key, _written(key, answer), place).replace("# ? ", "# answered: ", 1)
     filled = "\n".join(lines) + "\n"
     parse_campaign(filled, "campaign.yaml")
     return filled
@@ -122,8 +123,8 @@ def _written(key: str, answer: str) -> str:
     return "[" + ", ".join(scalar(part.strip()) for part in answer.strip("[] ").split(",") if part.strip()) + "]"
 
 
-def _with(line: str, key: str, value: str, place: Place) -> str:
-    """The line with one key of its flow mapping (or its own plain value) set, and its question mark taken away."""
+def set_in_line(line: str, key: str, value: str, place: Place) -> str:
+    """The line of a place with one key of its flow mapping (or its own plain value) set. value: as YAML."""
     start = line.find("{")
     comment = line.find("#")
     if start < 0 or (0 <= comment < start):
@@ -139,7 +140,7 @@ def _with(line: str, key: str, value: str, place: Place) -> str:
         else:
             entries[at] = f"{key}: {value}"
         made = line[: start + 1] + ", ".join(entries) + line[stop:]
-    return made.replace("# ? ", "# answered: ", 1)
+    return made
 
 
 def _closing(line: str, start: int) -> int:
