@@ -10,6 +10,7 @@ from starlette.responses import Response
 
 from thermodata.draft.fill_in import Question, filled_in, questions
 from thermodata.draft.make import write_answered
+from thermodata.draft.unread import WHAT
 from thermodata.errors import UsageError
 from thermodata.web.command import command
 from thermodata.web.form import form_of
@@ -21,6 +22,11 @@ _MOST_BYTES = 4 << 20
 GROUPS = (
     ("The machine and its clocks", ("text", "zone"), "A log in local time needs its zone, or nothing lines up."),
     ("Jump tests", ("moves",), "The commanded moves, signed, in machine coordinates: 100 um, 50 um, -200 um"),
+    (
+        "What was logged",
+        ("what",),
+        "A signal whose quantity nobody says is left out. The unit stands in brackets: feed [m/min].",
+    ),
     (
         "Where the sensors are",
         ("place",),
@@ -65,6 +71,7 @@ def show(request: Request) -> Response:
         bodies={body: sum(q.value.startswith(body) for q in asked if q.kind == "place") for body in BODIES},
         models=_models(path.parent),
         roles=ROLES,
+        what=WHAT,
         answer=_ANSWER,
     )
 
