@@ -27,8 +27,11 @@ from thermodata.plugin import Float1D
 
 ALIKE = (0.7, 1.4)  # of the allowed rise, at the ends of the quadratic interval, that make it the profile's
 CLOSE = 0.025  # of the way to an end, or of a gain: how closely it is found
+CLOSER = 4  # times at most
 FLAT = 0.25  # of the allowed rise: below it the next step out is twice as long
 FAR = 1000.0  # of the response over the driver; a gain beyond is of two columns that undo each other
+ONWARD = 2.0  # times the last step: so far others are thought to go on as they did
+NEAR = 0.02  # of the allowed rise: to that an error is searched
 MOVES = 4  # of the border between two like lags, while one of them lies at it
 TOUCH = 1e-3  # of log(value): so near to the border a lag lies at it
 THIN = 1e-6  # of its range is left at least to a lag that another one bounds
@@ -209,18 +212,17 @@ class Profile:
         self._rises: dict[float, float] = {}
         self._squares: dict[float, float] = {self.centre: self.least}
         self._in_one: float | None = None
+        self._enough: float | None = None
 
     def rise(self, at: float) -> float:
         """Of the squared error where it is held at a value, as a share of what is allowed."""
         if at in self._rises:  # another search from another start would end a little elsewhere
             return self._rises[at]
-        # from the optimum outwards: a point further out may lie in another valley
-        inner = [known for known in self._near if min(self.centre, at) <= known <= max(self.centre, at)]
-        found = self._near[min(inner, key=lambda known: abs(known - at))]
+        found = self._start(at)
         for _ in range(MOVES):
             near = found
             part = self.of.held(self.problem, at, near)
-            found = search(part, near, loose=True)
+            found = search(part, near, loose=True, enough=self._enough)
             pressed = self.of.pressed(found, near)
             if not pressed:
                 break
@@ -233,7 +235,23 @@ class Profile:
                 self._in_one = self.of.in_one(self.problem)
             square = min(square, self._in_one)
         self._squares[at], self._rises[at] = square, self._share(square, residual)
+        if self._enough is None and self._rises[at] > 0 and self.least > 0:
+            self._enough = NEAR * (square - self.least) / self._rises[at] / self.least
         return self._rises[at]
+
+    def _start(self, at: float) -> Float1D:
+        """Where the others stand further in, or where they would if they went on as they did."""
+        # from the optimum outwards: a point further out may lie in another valley
+        inner = [known for known in self._near if min(self.centre, at) <= known <= max(self.centre, at)]
+        inner.sort(key=lambda known: abs(known - at))
+        last = self._near[inner[0]]
+        if len(inner) < 2 or abs(at - inner[0]) > ONWARD * abs(inner[0] - inner[1]):
+            return last
+        onward = last + (at - inner[0]) / (inner[0] - inner[1]) * (last - self._near[inner[1]])
+        part = self.of.held(self.problem, at, last)
+        onward = np.clip(onward, *part.box())
+        squares = [float(r @ r) for r in (part.residual(last), part.residual(onward))]
+        return onward if squares[1] < squares[0] else last
 
     def _share(self, square: float, residual: Float1D) -> float:
         return (square - self.least) / self.allowed(self.residual - residual)
@@ -270,17 +288,13 @@ class Profile:
         return sorted(rows)
 
     def _straight(self, step: float, along: Float1D) -> float:
-        low = np.array([f.outside(f.lower) for f in self.problem.free])
-        high = np.array([f.outside(f.upper) for f in self.problem.free])
-        there = np.clip(self.x + step * along, low, high)
+        there = np.clip(self.x + step * along, *self.problem.box())
         others = self.of.others(there)
         residual = self.of.held(self.problem, self.centre + step, others).residual(others)
         return self._share(float(residual @ residual), residual)
 
     def _end(self, half: float) -> float | None:
         """Where the rise is what is allowed; None where it is not before the end of the range."""
-        from scipy.optimize import brentq
-
         bound = self.high if half > 0 else self.low
         inner, outer = self.centre, self.centre + half
         while (bound - outer) * half > 0 and self.rise(outer) < 1.0:
@@ -292,7 +306,26 @@ class Profile:
                 return None
         if self.rise(inner) >= 1.0:
             return inner
-        # a gain of two lags that undo each other may be a hundred times as large as its end
-        near = abs(half) if isinstance(self.of, Solved) else abs(outer - self.centre)
-        close = CLOSE if isinstance(self.of, Solved) else 1e-9
-        return float(brentq(lambda p: self.rise(float(p)) - 1.0, inner, outer, xtol=CLOSE * near, rtol=close))
+        for _ in range(CLOSER):
+            size = max(abs(inner), abs(outer)) if isinstance(self.of, Solved) else np.inf
+            end = self._root(inner, outer, CLOSE * min(size, abs(outer - self.centre)))
+            if not isinstance(self.of, Solved):
+                break
+            # a gain of two lags that undo each other may be a hundred times as large as its end
+            inner, outer = self._bracket(inner, outer)
+            if abs(outer - inner) <= 2 * CLOSE * max(abs(inner), abs(outer)):
+                break
+        return end
+
+    def _bracket(self, inner: float, outer: float) -> tuple[float, float]:
+        """The nearest points looked at, of which the inner one is inside of the interval, and the outer is not."""
+        between = [(k, r) for k, r in self._rises.items() if min(inner, outer) <= k <= max(inner, outer)]
+        inner = max((k for k, r in between if r < 1.0), key=lambda k: abs(k - self.centre), default=inner)
+        beyond = [k for k, r in between if r >= 1.0 and abs(k - self.centre) > abs(inner - self.centre)]
+        return inner, min(beyond, key=lambda k: abs(k - self.centre), default=outer)
+
+    def _root(self, inner: float, outer: float, close: float) -> float:
+        from scipy.optimize import brentq
+
+        # the root of the rise is straight where the rise is quadratic
+        return float(brentq(lambda p: np.sqrt(max(0.0, self.rise(float(p)))) - 1.0, inner, outer, xtol=close))

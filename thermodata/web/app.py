@@ -48,6 +48,8 @@ def application(desk: Desk) -> Starlette:
             Route("/start/jump", later("jump.show"), methods=["GET"]),
             Route("/start/preview", later("start.preview"), methods=["POST"]),
             Route("/start/write", later("start.write"), methods=["POST"]),
+            Route("/rule/preview", later("rule.preview"), methods=["POST"]),
+            Route("/rule/write", later("rule.write"), methods=["POST"]),
             Route("/missing", later("missing.show"), methods=["GET"]),
             Route("/task/{task}", later("working.start"), methods=["POST"]),
             Route("/task/{task}", later("working.watch"), methods=["GET"]),

@@ -82,6 +82,7 @@ def stretch(request: Request) -> Response:
         command="",
         from_s=from_s,
         to_s=to_s,
+        campaign=campaign,
         test=test,
         figures=[(p.response, range_figures(p, from_s, to_s)) for p in found],
         rules=[
