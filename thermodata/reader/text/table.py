@@ -18,7 +18,7 @@ from thermodata.reader.text import timestamp
 from thermodata.reader.text.columns import dtype_of, find_decimal
 from thermodata.reader.text.grid import TIME, Grid
 from thermodata.reader.text.layout import STREAM, Group, Layout, find
-from thermodata.reader.text.lines import Sample, last_line_is_whole, sample
+from thermodata.reader.text.lines import WHOLE, Sample, last_line_is_whole, sample
 from thermodata.reader.text.long_rows import refuse_long
 from thermodata.reader.text.number import clean
 from thermodata.reader.text.quality_columns import Pairs, quality_pairs, worded
@@ -149,6 +149,14 @@ def _kept(asked: _Asked) -> Table:
     first = sample(path, source.encoding)
     # a last line without its end may be half a row: it decides nothing
     head = first.head[:-1] if first.whole and not first.ends_with_newline and len(first.head) > 2 else first.head
+    if not first.head and not first.whole:
+        raise FormatError(
+            "its first line is too long to be looked at",
+            where=path.name,
+            expected=f"a header and rows within the first {WHOLE // 4096} KiB",
+            got=f"no line end in them, in a file of {path.stat().st_size} bytes",
+            hint="export fewer columns a file",
+        )
     if not any(line.strip() for line in head):
         raise FormatError(
             "no whole line" if first.head else "an empty file",
