@@ -81,7 +81,7 @@ def day(k: int) -> TestData:
 
 
 def short(k: int) -> TestData:
-    """6 h of a lathe: a lag at the bearing, two of the hall's air, readings in steps, half a day's drift of the zero."""
+    """6 h of a lathe: a lag at the bearing, two of the hall's air, readings in steps, and slow noise."""
     rng = np.random.default_rng(10_000 + k)
     n = 6 * 60 + 1
     t = np.arange(n) * STEP_S
@@ -112,8 +112,10 @@ def _hall(rng: np.random.Generator, t_s: Float1D) -> Float1D:
 
 def _test(name: str, t_s: Float1D, values: Mapping[str, Float1D], logged: Bool1D) -> TestData:
     channels = {c: INFOS[c] for c in values}
-    valid = {c: logged for c in values}
-    return TestData("c", name, "other", "calibration", t_s, dict(values), valid, np.ones(len(t_s), bool), {}, "m1", channels)
+    valid = dict.fromkeys(values, logged)
+    return TestData(
+        "c", name, "other", "calibration", t_s, dict(values), valid, np.ones(len(t_s), bool), {}, "m1", channels
+    )
 
 
 def measured(what: str, effects: Sequence[object], tests: Sequence[TestData], runs: int) -> Row:

@@ -15,7 +15,6 @@ import numpy as np
 
 from thermodata.plugin import Drivers, Float1D
 
-
 FEW = 2  # lags that one after the other cost less than the preparation of all at once; the same to the last bit
 
 
