@@ -45,12 +45,7 @@ class Served:
         self.page.go(self.origin + path)
 
     def press(self, selector: str) -> None:
-        x, y = self.page.wait(
-            f"(() => {{ const e = document.querySelector({json.dumps(selector)}); if (!e) return null; "
-            "e.scrollIntoView({block: 'center'}); const r = e.getBoundingClientRect(); "
-            "return [r.left + r.width / 2, r.top + r.height / 2]; })()"
-        )
-        self.page.click(x, y)
+        self.page.press(selector)
 
 
 @pytest.fixture
@@ -66,7 +61,7 @@ def served(lab: Path, chromium: Chromium) -> Iterator[Served]:
         text += process.stdout.readline()
     address = json.loads(text)["address"]
     page = chromium.open(address)
-    page.wait("location.pathname === '/' && document.readyState === 'complete'", timeout_s=60)
+    page.wait("location.pathname === '/' && document.readyState === 'complete'")
     try:
         yield Served(page, f"http://{urlsplit(address).netloc}", lab, process)
     finally:
@@ -151,8 +146,8 @@ def test_two_tabs_at_once(served: Served, chromium: Chromium) -> None:
         served.press("form[hx-post='/task/add'] button")
         served.page.wait("document.querySelector('.task') || location.pathname === '/compare'")
         other.js("document.querySelector(\"form[hx-post='/task/add'] button\").click()")
-        other.wait("document.querySelector('.task, [role=alert]') || location.pathname === '/compare'", timeout_s=240)
-        served.page.wait("location.pathname === '/compare'", timeout_s=240)
+        other.wait("document.querySelector('.task, [role=alert]') || location.pathname === '/compare'")
+        served.page.wait("location.pathname === '/compare'")
         models = model_rows(Store(served.lab / "thermodata.store"))
         assert [m.version for m in models] == [2, 1]  # the same addition twice is one version
         other.go(served.origin + "/compare")
@@ -186,7 +181,7 @@ def test_the_story_by_mouse(served: Served) -> None:
     served.press("a[href^='/add']")
     served.page.wait("location.pathname === '/add'")
     served.press("form[hx-post='/task/add'] button")
-    served.page.wait("location.pathname === '/compare'", timeout_s=240)
+    served.page.wait("location.pathname === '/compare'")
     models = model_rows(Store(served.lab / "thermodata.store"))
     assert [m.version for m in models] == [2, 1]
     assert "beside" in served.page.wait("document.querySelector('h1').textContent")

@@ -10,7 +10,7 @@ from typing import Any, Literal
 from thermodata.errors import FormatError, UsageError
 from thermodata.reader.open_questions import UNKNOWN, unanswered
 from thermodata.reader.text.cell import WORDS, Cell, is_dated, is_empty, is_number, is_stamp, mostly
-from thermodata.reader.text.header import are_numbers, lines_between, names_and_units, unique
+from thermodata.reader.text.header import are_numbers, lines_between, names_and_units, numbered_rows, unique
 from thermodata.reader.text.time_columns import column, time_of
 from thermodata.reader.text.time_formats import Stamps
 from thermodata.reader.text.time_groups import Span, spans
@@ -102,6 +102,9 @@ def find(rows: Sequence[Sequence[Cell]], declared: Mapping[str, Any] | None, whe
     if not data:
         raise FormatError("a table without data rows", where=where, expected=f"data after row {first}")
     lost = lines_between(rows[skip:first], width, skip) if header is None else []
+    if header is None and first > skip and numbered_rows(rows[first - 1], heads, data):
+        names, units = unique(["", *heads[:-1]]), [None, *units[:-1]]
+        lost = [*lost, "the header names one column fewer than there are: the first holds the numbers of the rows"]
     groups, notes = _groups(said.get("time") or {}, names, units, data, where)
     return Layout(first, tuple(names), tuple(units), tuple(groups), (*notes, *lost))
 
