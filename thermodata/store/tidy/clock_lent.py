@@ -21,7 +21,10 @@ def lent(plans: Sequence[TestPlan], clocks: Mapping[str, Mapping[str, Clock]]) -
     """
     found = {test: dict(own) for test, own in clocks.items()}
     dated = {
-        (p.test.id, name) for p in plans for name, source in p.sources.items() if source.raws and not is_relative(source)
+        (p.test.id, name)
+        for p in plans
+        for name, source in p.sources.items()
+        if source.raws and not is_relative(source)
     }
     for source in {name for own in clocks.values() for name in own}:
         told = [c for t, own in clocks.items() if (c := own.get(source)) and (t, source) in dated and _told(c)]
