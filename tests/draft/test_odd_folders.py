@@ -186,3 +186,12 @@ def test_a_speed_in_hz_is_compared_with_a_name_in_rpm(tmp_path: Path, say: Say) 
     path = tmp_path / "campaign.yaml"
     assert load_campaign(path).tests[0].conditions == {"speed": "6000 rpm"}
     assert "speed sure: name and data" in path.read_text("utf-8")
+
+
+def test_a_first_model_says_which_other_axes_were_measured(tmp_path: Path, say: Say) -> None:
+    rows = [f"{10 * i},{0.1 * i:.2f},{0.05 * i:.2f},{20 + 0.02 * i:.2f}" for i in range(100)]
+    header = "Time [s],Displ. Y [um],Displ. Z [um],Front bearing [degC]"
+    (tmp_path / "warm.csv").write_text("\n".join([header, *rows]) + "\n")
+    assert say("init", tmp_path).code == 0
+    text = (tmp_path / "model.yaml").read_text("utf-8")
+    assert "response: {axis: Z, at: tcp}   # measured too: Y\n" in text

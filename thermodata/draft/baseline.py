@@ -25,7 +25,8 @@ class _Driver:
 
 def model_text(draft: Draft) -> str | None:
     """The text of model.yaml; None where no displacement with an axis is there, or no sensor drives a plain effect."""
-    axis = _axis(draft.channels)
+    axes = _axes(draft.channels)
+    axis, others = (axes[0], axes[1:]) if axes else (None, [])
     drivers = {
         c.name: _Driver(c.said.quantity, c.said.at)
         for c in draft.channels
@@ -54,7 +55,7 @@ def model_text(draft: Draft) -> str | None:
             "schema: thermodata/model/1",
             "name: baseline",
             f"campaign: {scalar(draft.campaign)}",
-            f"response: {{axis: {axis}, at: tcp}}",
+            f"response: {{axis: {axis}, at: tcp}}" + (f"   # measured too: {', '.join(others)}" if others else ""),
             "step: 60 s",
             "effects:",
             *lines,
@@ -69,10 +70,10 @@ def model_text(draft: Draft) -> str | None:
     )
 
 
-def _axis(channels: Sequence[DraftChannel]) -> str | None:
-    """The axis that is modelled first: of the displacements of the tool, Z before Y before X."""
+def _axes(channels: Sequence[DraftChannel]) -> list[str]:
+    """The axes of the tool's displacements, the one that is modelled first before the others: Z before Y before X."""
     there = {c.said.axis for c in channels if c.said.quantity == "displacement" and c.said.at == "tcp"}
-    return next((a for a in _AXES if a in there), None)
+    return [a for a in _AXES if a in there]
 
 
 def _on_axis(found: list[dict[str, str]], drivers: dict[str, _Driver], axis: str) -> list[dict[str, str]]:
