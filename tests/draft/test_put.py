@@ -9,7 +9,7 @@ import pytest
 from thermodata.draft.baseline import model_text_of
 from thermodata.draft.fill_in import filled_in, questions
 from thermodata.draft.make import write_answered
-from thermodata.draft.put import put
+from thermodata.draft.put import EVERY, put
 from thermodata.errors import UsageError
 from thermodata.schema.load import load_campaign, parse_campaign
 
@@ -45,6 +45,15 @@ def test_a_rule_stands_beside_the_one_that_was_there() -> None:
     assert put(twice, "day", 'measuring: "T1 > 5"') == twice
     bracketed = put(TEXT, "warm", 'measuring: "T2 == 3"')
     assert by_id(bracketed)["warm"].measuring == "(T1 < 30 or T2 < 30) and T2 == 3"  # type: ignore[attr-defined]
+
+
+def test_a_rule_of_the_machine_goes_into_every_test_also_those_that_are_locked() -> None:
+    text = TEXT.replace('  - {id: own, kind: mixed, role: none, measuring: {when: "T1 < 30", settle: 10 s}}\n', "")
+    found = by_id(put(text, EVERY, 'measuring: "T2 == 3"'))
+    assert found["day"].measuring == "T2 == 3"  # type: ignore[attr-defined]
+    assert found["warm"].measuring == "(T1 < 30 or T2 < 30) and T2 == 3"  # type: ignore[attr-defined]
+    with pytest.raises(UsageError, match="belongs to one test"):
+        put(text, EVERY, "window: [0 s, 60 s]")
 
 
 def test_a_window_is_replaced_and_a_phase_added() -> None:

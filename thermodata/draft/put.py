@@ -12,29 +12,38 @@ from thermodata.errors import UsageError
 from thermodata.schema.lines import Document, parse_document
 from thermodata.schema.load import parse_campaign
 
+EVERY = "*"  # no name of a test
+
 
 def put(text: str, test: str, proposed: str) -> str:
-    """The text with a line such as `measuring: "feed_Z == 0"` in this test. What the test has already stays: a second
-    rule must hold beside the first, a phase stands beside the others; a window is replaced. SpecError where the file
-    would not load then; UsageError for a test that has no line of its own, or a rule that can't be joined."""
+    """The text with a line such as `measuring: "feed_Z == 0"` in this test, or in EVERY one that has a line of its own.
+    What a test has already stays: a second rule must hold beside the first, a phase stands beside the others; a window
+    is replaced. SpecError where the file would not load then; UsageError for a test that has no line of its own, a rule
+    that can't be joined, or stretches of time for every test."""
     document = parse_document(text, Path("campaign.yaml"))
-    at = _place(document, test)
     given = parse_document(proposed, Path("proposed")).data
     key = next(iter(given), None) if isinstance(given, dict) and len(given) == 1 else None
     if key not in _JOINED:
         raise UsageError("this is put into no test", got=proposed[:200], expected=" or ".join(_JOINED))
-    value = _JOINED[key](document.data["tests"][at].get(key), given[key])
+    if test == EVERY and key != "measuring":
+        raise UsageError("a stretch of time belongs to one test", got=proposed[:200], expected="measuring for all")
     lines = text.splitlines()
-    number = document.line["tests", at] - 1
-    lines[number] = set_in_line(lines[number], key, value, ("tests", at))
+    for at in _listed(document) if test == EVERY else [_place(document, test)]:
+        value = _JOINED[key](document.data["tests"][at].get(key), given[key])
+        number = document.line["tests", at] - 1
+        lines[number] = set_in_line(lines[number], key, value, ("tests", at))
     made = "\n".join(lines) + "\n"
     parse_campaign(made, "campaign.yaml")
     return made
 
 
+def _listed(document: Document) -> list[int]:
+    """Places of the tests that have a line of their own."""
+    return [i for i, test in enumerate(document.data.get("tests") or []) if isinstance(test, dict)]
+
+
 def _place(document: Document, test: str) -> int:
-    listed = document.data.get("tests") or []
-    at = next((i for i, t in enumerate(listed) if isinstance(t, dict) and str(t.get("id")) == test), None)
+    at = next((i for i in _listed(document) if str(document.data["tests"][i].get("id")) == test), None)
     if at is None:
         raise UsageError(
             f"'{test}' has no line of its own in the campaign file",

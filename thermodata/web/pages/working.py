@@ -57,6 +57,7 @@ def work_of(request: Request) -> Work:
 
 
 def _shown(request: Request, job: Job) -> Response:
-    leaves = job.state == "done" and job.onward and "told" not in job.result
-    headers = {"HX-Redirect": job.onward} if leaves else {}
-    return page(request, "task.html.j2", title="", command="", headers=headers, job=job)
+    # of what told something that is to be read, nobody is led away; a part that is shown asks no more, so the browser
+    # is sent on once, however long the next page takes
+    onward = job.onward if job.state == "done" and "told" not in job.result else ""
+    return page(request, "task.html.j2", title="", command="", job=job, onward=onward)

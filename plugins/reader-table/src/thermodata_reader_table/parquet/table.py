@@ -67,8 +67,10 @@ class Table:
             raise FormatError("no column of numbers, text or times", where=path.name)
         period = one_time(source.table, path.name).get("period")
         self.period = None if period is None else period_s(period, path.name)
-        found: tuple[int | None, str | None] = (None, None) if self.period is not None else self._find()
-        self.time, self.unit = found
+        self.time: int | None = None
+        self.unit: str | None = None
+        if self.period is None:
+            self.time, self.unit = self._find()
 
     def batches(self, rows: int, columns: list[str] | None = None) -> Iterator[Any]:
         """Tables with one column a signal, structs taken apart; FormatError where a damaged part is met."""
