@@ -13,6 +13,7 @@ from pathlib import Path, PurePosixPath
 
 from thermodata.errors import SpecError
 from thermodata.schema.campaign import Campaign, Test
+from thermodata.schema.lines import is_text
 from thermodata.store.raw.source_file import kind_of
 
 
@@ -66,7 +67,7 @@ def resolve(
         fitting = _fitting(root, pattern, named)
         for name in sorted(fitting, key=natural) if len(fitting) > 1 else fitting:
             relative = PurePosixPath(Path(name)).as_posix()
-            if not _is_text(relative):
+            if not is_text(relative):
                 odd[text := os.fsencode(relative).decode("utf-8", "backslashreplace")] = relative
                 relative = text
             if relative not in paths and not relative.endswith(".tdms_index"):
@@ -88,14 +89,6 @@ def _fitting(root: Path, pattern: str, named: bool) -> list[str]:
     if not named:
         return glob.glob(pattern, root_dir=root, recursive=True)
     return [pattern] if pattern and os.path.lexists(os.path.join(root, pattern)) else []
-
-
-def _is_text(name: str) -> bool:
-    try:
-        name.encode()
-    except UnicodeEncodeError:
-        return False
-    return True
 
 
 def _refusal(root: Path, name: str, named: bool, folders: dict[str, str]) -> str | None:
