@@ -34,6 +34,25 @@ _FLAGS = (
 )
 
 
+# the middle of an element that rests on top of the page [px], or null; its next click is told in `window.pressed`
+_RESTING = """async selector => {
+  const element = document.querySelector(selector);
+  if (!element) return null;
+  element.scrollIntoView({block: 'center'});
+  const place = () => {
+    const r = element.getBoundingClientRect();
+    return [r.left + r.width / 2, r.top + r.height / 2];
+  };
+  const before = place();
+  await new Promise(done => setTimeout(done, 50)); // no frame is drawn in a tab behind another
+  const now = place(), top = document.elementFromPoint(...now);
+  if (before[0] !== now[0] || before[1] !== now[1] || !top || !element.contains(top)) return null;
+  window.pressed = false;
+  element.addEventListener('click', () => { window.pressed = true; }, {capture: true, once: true});
+  return now;
+}"""
+
+
 def find() -> str | None:
     """The browser's path, or None."""
     named = os.environ.get("THERMODATA_CHROMIUM")
@@ -166,7 +185,7 @@ class Page:
             raise RuntimeError(json.dumps(answer["exceptionDetails"])[:2000])
         return answer["result"].get("value")
 
-    def wait(self, expression: str, timeout_s: float = 60.0) -> Any:
+    def wait(self, expression: str, timeout_s: float = 300.0) -> Any:
         """The expression's value as soon as it is true; True for an element, which has no value of its own here."""
         until = time.monotonic() + timeout_s
         told = f"Promise.resolve({expression}).then(v => v instanceof Node ? true : v)"
@@ -188,6 +207,20 @@ class Page:
         self.mouse("mouseMoved", x, y)
         self.mouse("mousePressed", x, y)
         self.mouse("mouseReleased", x, y)
+
+    def press(self, selector: str, timeout_s: float = 300.0) -> None:
+        """Clicks on the first element of a CSS selector, and again where the click did not reach it.
+
+        A page that still loads moves what stands below a chart: the element is pressed where it rests and
+        lies on top, and asked whether it was hit. A page that is gone has been left by the click.
+        """
+        until = time.monotonic() + timeout_s
+        while time.monotonic() < until:
+            place = self.wait(f"({_RESTING})({json.dumps(selector)})", timeout_s)
+            self.click(*place)
+            if self.js("new Promise(r => setTimeout(() => r(window.pressed !== false), 50))"):
+                return
+        raise TimeoutError(f"no click reached {selector} within {timeout_s:g} s")
 
     def drag(self, x0: float, x1: float, y: float) -> None:
         self.mouse("mouseMoved", x0, y)

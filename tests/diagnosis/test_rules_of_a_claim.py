@@ -8,16 +8,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from thermodata.diagnosis.judge import (
-    Measure,
-    acting_size,
-    blunt,
-    equivalents,
-    explained,
-    failed_rules,
-    probability,
-    sharpness,
-)
+from thermodata.diagnosis.judge import equivalents
+from thermodata.diagnosis.rules import Measure, acting_size, blunt, explained, failed_rules, probability, sharpness
 
 from .hand_made import measure, scored
 
@@ -194,10 +186,22 @@ def cosine(c: float) -> tuple[float, float]:
 
 @pytest.mark.parametrize(("alike", "found"), [(0.901, True), (0.899, False), (-0.901, True)])
 def test_contributions_this_alike_are_twins(alike: float, found: bool) -> None:
-    """Whatever the tests say: the other loses each one by the same."""
-    chosen = scored("a", gained=50.0)
+    """Though the tests speak for one: the other loses each one by the same."""
+    chosen = scored("a", gained=50.0, after=0.5)
     other = scored("b", gained=40.0, after=0.9, shape=cosine(alike))
     assert equivalents(chosen, [chosen, other]) == ([other] if found else [])
+
+
+@pytest.mark.parametrize(
+    ("times", "lost", "found"), [(1.99, 2.1, True), (2.01, 2.1, False), (2.01, 1.9, True), (9.0, -2.1, False)]
+)
+def test_what_acts_alike_and_surely_leaves_twice_as_much_is_no_twin(times: float, lost: float, found: bool) -> None:
+    """times: the error that the other leaves. lost: log probability that it loses, in standard errors."""
+    wave = np.array([1.0, -1.0] * 5)
+    wave /= wave.std(ddof=1)
+    chosen = scored("a", gained=(50.0 + wave + lost / np.sqrt(10)).tolist(), after=0.1)
+    other = scored("b", gained=50.0, after=0.1 * times, shape=cosine(0.99))
+    assert equivalents(chosen, [other]) == ([other] if found else [])
 
 
 @pytest.mark.parametrize(

@@ -158,6 +158,20 @@ def test_of_a_poor_model_no_sign_is_said_to_be_wrong(lacking: float, named: bool
     assert [(a.kind, a.test) for a in found] == ([("sign", "t3")] if named else [])
 
 
+@pytest.mark.parametrize(("lacking", "named"), [(0.42, True), (0.45, False)])
+def test_a_test_that_turned_fits_no_better_is_not_turned(lacking: float, named: bool) -> None:
+    """FIT 60 of that test alone. The others are all right, as where one test at rest shows what the model lacks."""
+    turns = np.arange(2000) * 2 * np.pi / 200
+    base = np.sin(turns)[:, None]
+
+    def one(sign: float, lacking: float) -> Parts:
+        y: Float1D = sign * (base[:, 0] + lacking * np.cos(turns))
+        return Parts(y, response=y, base=base)
+
+    found = turned_probes(problem(*(one(1.0, 0.0) for _ in range(4)), one(-1.0, lacking), noise=0.01))
+    assert [(a.kind, a.test) for a in found] == ([("sign", "t4")] if named else [])
+
+
 @pytest.mark.parametrize(("factors", "expected"), [([1, 1, -1, 1], ["t2"]), ([1, 1, -1], [])])
 def test_a_turned_probe_is_named_where_there_are_four_tests(factors: list[float], expected: list[str]) -> None:
     """Of three nobody can say which one is turned."""

@@ -218,6 +218,24 @@ class TestAnswer:
         found = self.answered(monkeypatch, spec, claim(claimed))
         assert found.candidates[0].rmse_um_after == pytest.approx(shown)
 
+    @pytest.mark.parametrize(("others", "before"), [((), 1.0), ((OTHER,), 3.0)])
+    def test_what_falls_is_the_models_own_error_where_nothing_stands_beside_the_claim(
+        self, monkeypatch: pytest.MonkeyPatch, spec: Model, others: tuple[Scored, ...], before: float
+    ) -> None:
+        """An error of 1 beside the model alone, and of 3 beside what else was selected, in the noise that is left."""
+        claimed = replace(FIRST, sse_before=9.0 * FIRST.rows, sse_after=0.04 * FIRST.rows)
+        found = self.answered(monkeypatch, spec, claim(claimed, *others))
+        first = next(c for c in found.candidates if c.effect == "first")
+        assert (first.rmse_um_before, first.rmse_um_after) == pytest.approx((before, 0.2))
+
+    def test_what_was_dropped_fell_from_the_error_beside_what_it_was_judged_beside(
+        self, monkeypatch: pytest.MonkeyPatch, spec: Model
+    ) -> None:
+        dropped = replace(OTHER, sse_before=9.0 * OTHER.rows, sse_after=0.04 * OTHER.rows)
+        found = self.answered(monkeypatch, spec, claim(FIRST), dropped=[dropped])
+        other = next(c for c in found.candidates if c.effect == "other")
+        assert (other.rmse_um_before, other.rmse_um_after) == pytest.approx((3.0, 0.2))
+
     def test_at_most_fifteen_candidates_are_shown(self, monkeypatch: pytest.MonkeyPatch, spec: Model) -> None:
         ranked = [scored(f"e{i}") for i in range(16)]
         found = self.answered(monkeypatch, spec, nothing("none"), ranked=ranked)

@@ -90,7 +90,7 @@ def test_what_refines_is_no_claim_and_is_told_beside_one() -> None:
 @pytest.mark.parametrize(("floor", "expected"), [(0.99, "refine"), (1.01, "none")])
 def test_where_all_refines_nothing_is_missing_and_at_the_floor_nothing_is_refined(floor: float, expected: str) -> None:
     """Of an error of 1."""
-    found = verdict(scored("mode"), refined=["mode"], floor=floor)
+    found = verdict(scored("mode", after=0.6), refined=["mode"], floor=floor)
     assert (found.verdict, found.claims) == (expected, ())
     assert names(found.refinements) == (["mode"] if expected == "refine" else [])
 
@@ -128,6 +128,27 @@ def test_a_good_model_may_be_refined_and_may_still_lack_what_is_not_sure() -> No
     assert verdict(mode, first=first, refined=["mode"]).verdict == "refine"
     assert verdict(dull, first=first).verdict == "unknown"
     assert verdict(first=first).verdict == "none"
+
+
+@pytest.mark.parametrize(("after", "expected"), [(0.49, "refine"), (0.51, "none")])
+def test_what_halves_the_error_is_told_though_that_is_at_the_floor(after: float, expected: str) -> None:
+    """A test at rest may be all wrong beside others in which much moves."""
+    assert verdict(scored("mode", after=after), refined=["mode"], floor=1.01).verdict == expected
+
+
+def test_what_halves_the_error_and_is_not_sure_is_unknown_and_the_reason_says_where_the_floor_is() -> None:
+    dull = verdict(scored("dull", after=0.4, evidence=50.0), floor=1.01)
+    assert dull.verdict == "unknown"
+    assert "1 um remain on left-out tests, no more than the floor of 1, but half of them goes with" in dull.reason
+
+
+@pytest.mark.parametrize(("noise", "expected"), [(0.19, "refine"), (0.21, "none")])
+def test_noise_is_halved_by_nothing(noise: float, expected: str) -> None:
+    """Five times the noise, of an error of 1."""
+    found = judge(
+        of_tests(5), selection(scored("mode", after=0.4)), measure(floor=1.01, noise=noise), lambda s: "it is kin"
+    )
+    assert found.verdict == expected
 
 
 def test_a_claim_is_made_though_the_error_is_at_the_floor() -> None:

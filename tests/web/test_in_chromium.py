@@ -45,12 +45,7 @@ class Served:
         self.page.go(self.origin + path)
 
     def press(self, selector: str) -> None:
-        x, y = self.page.wait(
-            f"(() => {{ const e = document.querySelector({json.dumps(selector)}); if (!e) return null; "
-            "e.scrollIntoView({block: 'center'}); const r = e.getBoundingClientRect(); "
-            "return [r.left + r.width / 2, r.top + r.height / 2]; })()"
-        )
-        self.page.click(x, y)
+        self.page.press(selector)
 
 
 @pytest.fixture
@@ -66,7 +61,7 @@ def served(lab: Path, chromium: Chromium) -> Iterator[Served]:
         text += process.stdout.readline()
     address = json.loads(text)["address"]
     page = chromium.open(address)
-    page.wait("location.pathname === '/' && document.readyState === 'complete'", timeout_s=60)
+    page.wait("location.pathname === '/' && document.readyState === 'complete'")
     try:
         yield Served(page, f"http://{urlsplit(address).netloc}", lab, process)
     finally:
@@ -151,8 +146,8 @@ def test_two_tabs_at_once(served: Served, chromium: Chromium) -> None:
         served.press("form[hx-post='/task/add'] button")
         served.page.wait("document.querySelector('.task') || location.pathname === '/compare'")
         other.js("document.querySelector(\"form[hx-post='/task/add'] button\").click()")
-        other.wait("document.querySelector('.task, [role=alert]') || location.pathname === '/compare'", timeout_s=240)
-        served.page.wait("location.pathname === '/compare'", timeout_s=240)
+        other.wait("document.querySelector('.task, [role=alert]') || location.pathname === '/compare'")
+        served.page.wait("location.pathname === '/compare'")
         models = model_rows(Store(served.lab / "thermodata.store"))
         assert [m.version for m in models] == [2, 1]  # the same addition twice is one version
         other.go(served.origin + "/compare")
@@ -186,7 +181,7 @@ def test_the_story_by_mouse(served: Served) -> None:
     served.press("a[href^='/add']")
     served.page.wait("location.pathname === '/add'")
     served.press("form[hx-post='/task/add'] button")
-    served.page.wait("location.pathname === '/compare'", timeout_s=240)
+    served.page.wait("location.pathname === '/compare'")
     models = model_rows(Store(served.lab / "thermodata.store"))
     assert [m.version for m in models] == [2, 1]
     assert "beside" in served.page.wait("document.querySelector('h1').textContent")
@@ -288,3 +283,31 @@ def test_the_server_killed_during_an_add_leaves_the_store_whole(served: Served) 
     store = Store(served.lab / "thermodata.store")
     assert not check_store(store).damaged
     assert len(model_rows(store)) in (1, 2)
+
+
+def test_a_line_that_a_stretch_proposes_is_put_into_the_campaign_file(served: Served) -> None:
+    served.go("/test?campaign=small&test=heat1")
+    served.page.wait("document.querySelector('#plot canvas')")
+    served.press("#choose")
+    x, y, width = served.page.js(
+        "(() => { const r = document.querySelector('#plot .u-over').getBoundingClientRect(); "
+        "return [r.left, r.top + 20, r.width]; })()"
+    )
+    served.page.drag(x + 0.2 * width, x + 0.4 * width, y)
+    served.press("#range button[aria-label*='window:']")
+    served.page.wait("document.querySelector('#diff .diff')?.textContent.includes('window:')")
+    served.press("#diff form[hx-post='/rule/write'] button")
+    served.page.wait("document.querySelector('#diff h2')?.textContent.includes('is written')")
+    assert "window:" in (served.lab / "campaign.yaml").read_text()
+    assert served.page.complaints() == []
+
+
+def test_work_that_is_done_leads_to_its_result_once(served: Served) -> None:
+    """A page that is slow to come is not asked for again and again meanwhile."""
+    served.go("/missing")
+    before = len(served.page.requests())
+    served.go("/add?model=baseline&candidate=1")
+    served.press("form[hx-post='/task/add'] button")
+    served.page.wait("location.pathname === '/compare' && document.readyState === 'complete'", timeout_s=240)
+    asked = [u for u in served.page.requests()[before:] if urlsplit(u).path == "/compare"]
+    assert len(asked) == 1

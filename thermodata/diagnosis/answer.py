@@ -11,19 +11,11 @@ from thermodata.diagnosis import ladder, next_test
 from thermodata.diagnosis.artefact import noise_with_treads
 from thermodata.diagnosis.confirm import Confirmation, confirm, on_all_open
 from thermodata.diagnosis.investigate import BorneOut, Investigation, investigate
-from thermodata.diagnosis.judge import (
-    Judged,
-    Judgement,
-    blunt,
-    claimable,
-    equivalents,
-    explained,
-    failed_rules,
-    probability,
-)
+from thermodata.diagnosis.judge import Judged, Judgement, equivalents
 from thermodata.diagnosis.locked import Foretold
 from thermodata.diagnosis.null import p_value
 from thermodata.diagnosis.problem import Problem
+from thermodata.diagnosis.rules import blunt, claimable, explained, failed_rules, probability
 from thermodata.diagnosis.scored import Scored
 from thermodata.diagnosis.unexplained import characterise
 from thermodata.modelling.fit import fit_model
@@ -261,7 +253,14 @@ def _beside_the_model(s: Scored, investigation: Investigation) -> Scored:
     """The candidate beside the user's own model, where it shows there what it does; else beside what hides it."""
     ranked = investigation.selection.first.ranked if investigation.selection is not None else ()
     alone = next((f for f in ranked if f.columns is s.columns and len(f.rows)), s)
-    return alone if _fall(alone) >= _fall(s) or not len(s.rows) else s
+    if not len(s.rows):
+        return alone
+    # with nothing beside it, what falls is the model's own error; in the little noise that is left the known effects
+    # are pulled further towards what is missing, and foretell other tests worse than the model does
+    judged = investigation.judgement.judged
+    if len(judged) == 1 and judged[0].scored is s:
+        s = replace(s, sse_before=alone.sse_before)
+    return alone if _fall(alone) >= _fall(s) else s
 
 
 def _rmse(sse: np.ndarray, s: Scored) -> float | None:

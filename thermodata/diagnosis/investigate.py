@@ -13,7 +13,7 @@ from thermodata.diagnosis.by_phase import heating_and_cooling_apart
 from thermodata.diagnosis.candidates import CandidateEffect, candidates
 from thermodata.diagnosis.evidence import columns
 from thermodata.diagnosis.gain_by import gains_by_condition
-from thermodata.diagnosis.judge import Judged, Judgement, Measure, failed_rules, judge
+from thermodata.diagnosis.judge import Judged, Judgement, judge
 from thermodata.diagnosis.known import rms
 from thermodata.diagnosis.known_effects import otherwise, remembered
 from thermodata.diagnosis.locked import Foretold, foretell
@@ -29,6 +29,7 @@ from thermodata.diagnosis.present import present
 from thermodata.diagnosis.problem import TARGET_ROWS, Base, Problem, build_problem
 from thermodata.diagnosis.ranking import rank_in
 from thermodata.diagnosis.refinement import Refinement
+from thermodata.diagnosis.rules import Measure, failed_rules
 from thermodata.diagnosis.selection import Selection, first_ranking, select
 from thermodata.diagnosis.weak import weak_spots
 from thermodata.modelling.fitted_response import FittedResponse

@@ -1,12 +1,12 @@
 """The evidence of one candidate rung by rung, for who doubts it: each rule of a claim with its value and its limit,
-each left-out test before and after, and the residual with the contribution over it. What decides stands in `judge`."""
+each left-out test before and after, and the residual with the contribution over it. What decides stands in `rules`."""
 
 from __future__ import annotations
 
 import numpy as np
 
-from thermodata.diagnosis.judge import Measure, rules, surely
 from thermodata.diagnosis.problem import Problem
+from thermodata.diagnosis.rules import Measure, rules, surely
 from thermodata.diagnosis.scored import Scored
 from thermodata.plugin import Float1D
 from thermodata.schema.result import CandidateCourse, LeftOut, Rung

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -21,7 +21,9 @@ ALL_DROP = 0.5  # mending a test must take away this share of the squared error 
 GAIN_DROP = (
     0.9  # a factor must take away nearly all of a test's error: a missing effect also makes a test larger or smaller
 )
-LEAST_FIT = 60.0  # [%] of the model with the fault mended: what a poor model says of a log is worse than silence
+# [%] of the model with the fault mended, in all tests and in that one as the others foretell it: what a poor model says
+# of a log is worse than silence
+LEAST_FIT = 60.0
 LEAST_TESTS = 4  # of fewer nobody can say which one is wrong
 NOISES = 5.0  # a test with a smaller error than this many times the noise has no wrong gain
 
@@ -128,14 +130,30 @@ class _Tests:
         left = energy - float(cross @ np.linalg.lstsq(self.gram.sum(axis=0), cross, rcond=1e-9)[0])
         return left, fit_percent(left, energy)
 
-    def by_the_others(self, i: int) -> tuple[float, float, float]:
-        """(g, squared error at 1, at g) of test i = g times what a model of the others says."""
+    def by_the_others(self, i: int) -> Foretold:
+        """What a model of the others says of test i."""
         others = np.arange(len(self.energy)) != i
         theta = np.linalg.lstsq(self.gram[others].sum(axis=0), self.cross[others].sum(axis=0), rcond=1e-9)[0]
-        along, power = float(theta @ self.cross[i]), float(theta @ self.gram[i] @ theta)
-        factor = along / power if power > 0 else 1.0
-        before = float(self.energy[i]) - 2 * along + power
-        return factor, before, float(self.energy[i]) - 2 * factor * along + factor**2 * power
+        return Foretold(float(self.energy[i]), float(theta @ self.cross[i]), float(theta @ self.gram[i] @ theta))
+
+
+@dataclass(frozen=True, slots=True)
+class Foretold:
+    """A test and what a model of the others says of it: sums of squares and products. energy: of the response. along:
+    of both. power: of what is said."""
+
+    energy: float
+    along: float
+    power: float
+
+    @property
+    def factor(self) -> float:
+        """How many times what is said the response is."""
+        return self.along / self.power if self.power > 0 else 1.0
+
+    def error(self, factor: float = 1.0) -> float:
+        """Squared error where the response is so many times what is said."""
+        return self.energy - 2 * factor * self.along + factor**2 * self.power
 
 
 def fit_percent(left: float, energy: float) -> float:
@@ -148,11 +166,13 @@ def _worst(tests: _Tests, problem: Problem, mended: set[int]) -> tuple[int, floa
     as_it_is, _ = tests.error()
     best, least = None, np.inf
     for i in sorted(set(range(len(problem.blocks))) - mended):
-        factor, before, after = tests.by_the_others(i)
+        said = tests.by_the_others(i)
+        factor, before = said.factor, said.error()
         rms = float(np.sqrt(max(before, 0.0) / tests.rows[i]))
-        tried = [-1.0, factor] if gain_is_wrong(factor, before, after, rms, problem.noise) else [-1.0]
+        tried = [-1.0, factor] if gain_is_wrong(factor, before, said.error(factor), rms, problem.noise) else [-1.0]
         for one in tried:
             left, fit = tests.error(i, one)
+            fit = min(fit, fit_percent(said.error(one), said.energy))
             if a_fault_explains(as_it_is, left, fit) and left < least:
                 best, least = (i, one, before), left
     return best
@@ -177,7 +197,8 @@ def _wrong_factor(block: Block, factor: float, squared: float) -> Artefact:
 
 
 def a_fault_explains(as_it_is: float, mended: float, fit: float) -> bool:
-    """Squared errors of all tests: as they are, and with one test mended; fit [%]: of the model then."""
+    """Squared errors of all tests: as they are, and with one test mended; fit [%]: of the model then, the poorer of
+    all tests and of that test as the others foretell it."""
     return mended < (1 - ALL_DROP) * as_it_is and fit >= LEAST_FIT
 
 

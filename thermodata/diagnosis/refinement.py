@@ -13,11 +13,11 @@ import numpy as np
 from thermodata.diagnosis.candidates import refines
 from thermodata.diagnosis.changed import ChangedEffect
 from thermodata.diagnosis.discrepancy import Noise
-from thermodata.diagnosis.judge import acting_size, blunt
 from thermodata.diagnosis.known import known, rms
 from thermodata.diagnosis.known_effects import from_other_zero, is_warm, owners
 from thermodata.diagnosis.present import GENERIC
 from thermodata.diagnosis.problem import Block, Problem
+from thermodata.diagnosis.rules import acting_size, blunt
 from thermodata.diagnosis.scored import Scored
 from thermodata.diagnosis.selection import beside
 from thermodata.modelling.fitted_response import FittedResponse

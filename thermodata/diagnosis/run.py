@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     from thermodata.store.base.counting import Tell
 
 # raise it where a rule of the diagnosis changes: answers of older rules are then given anew
-RULES_VERSION = 12
+RULES_VERSION = 13
 
 
 def _key(model: Loaded) -> str:
@@ -103,6 +103,8 @@ def confirm_choice(store: Store, ref: str, candidate: str | int) -> tuple[Confir
         holds=confirmation.holds,
         locked_rmse_um_before=confirmation.before,
         locked_rmse_um_after=confirmation.after,
+        locked_shape_um_before=confirmation.shape_before,
+        locked_shape_um_after=confirmation.shape_after,
         parameters=confirmation.parameters[chosen.id],
         tests=[
             TestConfirmed(campaign=c, test=t, rmse_um_before=b, rmse_um_after=a) for (c, t), b, a in confirmation.each

@@ -56,6 +56,11 @@ class Scored:
         return self._error(self.own_after)
 
     @property
+    def error_of_all(self) -> float:
+        """RMS of all tests with it, each left out whole, each alike."""
+        return float(np.sqrt(np.mean(self.sse_after / self.rows)))
+
+    @property
     def drop(self) -> float:
         """Fall of that error, as a share."""
         return 1.0 - self.error_after / self.error_before if self.error_before > 0 else 0.0

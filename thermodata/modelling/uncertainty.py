@@ -8,13 +8,14 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from thermodata.modelling.design import MOMENTS
-from thermodata.modelling.fitted_response import Z95, Ends
+from thermodata.modelling.fitted_response import Ends
 from thermodata.modelling.labels import alike, fastest_first
 from thermodata.modelling.profile import Coordinate, Profile, Searched, Solved
 from thermodata.modelling.search import Problem, search
 from thermodata.modelling.slow_noise import Scatter, make_noise, nothing
 from thermodata.modelling.start_unknown import disturbances
 from thermodata.plugin import Float1D, Float2D
+from thermodata.schema.certainty import Z95
 
 Rough = Callable[[], Problem | None]
 UNKNOWN = 3.0  # half an interval, in units of the search (a factor of 20): of what nobody knows no profile is asked

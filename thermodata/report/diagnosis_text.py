@@ -18,10 +18,7 @@ if TYPE_CHECKING:
 
 def confirmed_text(result: Confirmed) -> str:
     """A confirmation for a person."""
-    said = "holds" if result.holds else "does not hold"
-    head = f"{result.candidate} {said} on the locked tests"
-    if result.locked_rmse_um_before is not None and result.locked_rmse_um_after is not None:
-        head += f": {number(result.locked_rmse_um_before)} -> {number(result.locked_rmse_um_after)} um"
+    head = _confirmed_sentence(result)
     rows = [t.model_dump() for t in result.tests]
     columns = [
         ("campaign", "campaign"),
@@ -30,6 +27,24 @@ def confirmed_text(result: Confirmed) -> str:
         ("rmse_um_after", "after [um]"),
     ]
     return f"{head}\n\n{table(rows, columns)}\n\nthe locked tests have been opened {times(result.looks)} so far"
+
+
+def _confirmed_sentence(result: Confirmed) -> str:
+    """It holds by its shape, with a free offset a test; where the error as scored says otherwise both are told."""
+    said = "holds" if result.holds else "does not hold"
+    head = f"{result.candidate} {said} on the locked tests"
+    before, after = result.locked_rmse_um_before, result.locked_rmse_um_after
+    if before is None or after is None:
+        return head
+    scored = f"{number(before)} -> {number(after)} um"
+    if result.holds == (after < before) or result.locked_shape_um_before is None:
+        return f"{head}: {scored}"
+    shape = (
+        f"{number(result.locked_shape_um_before)} -> {number(result.locked_shape_um_after)} um about each test's mean"
+    )
+    if result.holds:
+        return f"{head} by its shape, {shape}; from their first samples on the error rises, {scored}"
+    return f"{head}: {scored}, and {shape}, less than half of what a cause of its size takes away"
 
 
 def times(n: int) -> str:

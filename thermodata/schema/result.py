@@ -406,6 +406,8 @@ class Confirmed(Result):
     holds: whether the locked error falls by the share that a claim of the diagnosis must show
     locked_rmse_um_before: error over all locked tests without the effect, in the response's unit
     locked_rmse_um_after: with it
+    locked_shape_um_before: the same with a free offset for each test, which is what `holds` goes by
+    locked_shape_um_after: with it
     parameters: of the effect, fitted to all open tests
     tests: each locked test
     looks: how often the locked tests have been opened so far, this look included; the most of any test
@@ -417,6 +419,8 @@ class Confirmed(Result):
     holds: bool
     locked_rmse_um_before: float | None
     locked_rmse_um_after: float | None
+    locked_shape_um_before: float | None = None
+    locked_shape_um_after: float | None = None
     parameters: dict[str, Parameter]
     tests: list[TestConfirmed]
     looks: int

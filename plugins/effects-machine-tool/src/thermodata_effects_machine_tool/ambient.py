@@ -29,7 +29,7 @@ class AmbientFrame(Lagged):
     telltale = "a daily swing that goes on while the machine rests; told apart by a test at rest of 24 h or more (ETVE)"
     source = "[straka2021] Z_amb; [iso230-3] ETVE test; bounds: docs/method.md#bounds-of-the-effects"
     needs = _HALL
-    params = (tau(240, 60, 720),)
+    params = (tau(240, 5, 1440),)
     gains = (gain("um/K", 0.1, 15, "displacement at rest a kelvin of the hall"),)
 
 

@@ -46,7 +46,7 @@ class CuttingPower(Lagged):
     source = "[mares2017] eq. 8, gamma1; bounds: docs/method.md#bounds-of-the-effects"
     needs = (Need("power", "power", ("spindle",)),)
     params = (tau(30, 1, 240),)
-    gains = (gain("um/kW", 5, 60, "displacement at rest a kilowatt"),)
+    gains = (gain("um/kW", 5, 300, "displacement at rest a kilowatt"),)
 
 
 class Coolant(Lagged):

@@ -1,0 +1,51 @@
+"""What a person reads of a choice that was put to the locked tests."""
+
+from __future__ import annotations
+
+import pytest
+
+from thermodata.report.diagnosis_text import confirmed_text
+from thermodata.schema import result as results
+
+
+@pytest.mark.parametrize(
+    ("holds", "scored", "shape", "said"),
+    [
+        (True, (14.2, 10.9), (11.0, 8.0), "lag:t4 holds on the locked tests: 14.2 -> 10.9 um"),
+        (
+            True,
+            (14.2, 17.2),
+            (11.0, 8.0),
+            "lag:t4 holds on the locked tests by its shape, 11.0 -> 8.00 um about each test's mean; from their first "
+            "samples on the error rises, 14.2 -> 17.2 um",
+        ),
+        (False, (14.2, 17.2), (11.0, 12.0), "lag:t4 does not hold on the locked tests: 14.2 -> 17.2 um"),
+        (
+            False,
+            (14.2, 13.9),
+            (11.0, 10.9),
+            "lag:t4 does not hold on the locked tests: 14.2 -> 13.9 um, and 11.0 -> 10.9 um about each test's mean, "
+            "less than half of what a cause of its size takes away",
+        ),
+        (True, (None, None), (None, None), "lag:t4 holds on the locked tests"),
+    ],
+)
+def test_words_and_figures_agree(
+    holds: bool, scored: tuple[float | None, float | None], shape: tuple[float | None, float | None], said: str
+) -> None:
+    result = results.Confirmed(
+        model="m",
+        response="dX",
+        candidate="lag:t4",
+        holds=holds,
+        locked_rmse_um_before=scored[0],
+        locked_rmse_um_after=scored[1],
+        locked_shape_um_before=shape[0],
+        locked_shape_um_after=shape[1],
+        parameters={},
+        tests=[results.TestConfirmed(campaign="c", test="last", rmse_um_before=14.2, rmse_um_after=17.2)],
+        looks=2,
+    )
+    text = confirmed_text(result)
+    assert text.splitlines()[0] == said
+    assert text.endswith("opened 2 times so far")

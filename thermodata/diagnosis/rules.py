@@ -1,0 +1,218 @@
+"""The rules of a claim: what is measured of a candidate, its limit, and why who breaks a rule is no cause."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+
+from thermodata.diagnosis.null import p_value
+from thermodata.diagnosis.present import CONTROL, GENERIC
+from thermodata.diagnosis.scored import Scored
+from thermodata.plugin import Float1D
+
+P_LIMIT = 0.01
+# that a sound candidate is the cause: a logistic curve over the logarithm of its evidence a sample, and the spread of
+# its gain between tests (docs/method.md#probability)
+PROBABILITY = (3.13, 2.43, -0.97)
+USUAL_SPREAD = 0.15
+CLAIMED = 0.7  # a claim is this probable at least;
+# where nobody declared any place it names a channel, not physics, and there is nothing that it could be taken for
+PLACELESS_CLAIMED = 0.5
+# so much evidence a sample outweighs what left-out tests say: how far their error falls, for the known effects take
+# part of what is missing; and even how many they are, and that the gain differs between them
+STRONG = 0.4
+OVERWHELMING = 0.5
+DROP_LIMIT = 0.15  # fall of the error on left-out tests in which it acts,
+UNNAMED_DROP_LIMIT = 0.3  # and of what names no physics: any slow temperature steadies a misfit a little
+LEAST_TESTS = 2  # in which it acts: no other foretells what acts in one only
+BETTER_LIMIT = 0.6  # share of these tests that it makes more probable
+SPREAD_LIMIT = 0.5  # of its gain between tests, as a share,
+FORETOLD = 0.5  # unless left-out tests are foretold to this share of their error: few tests can't tell a spread
+WORTH_SHARE = 0.1  # of the response: less is not worth a name
+FLOOR_SHARE = 0.1  # a residual under this share of the response (FIT 90) is left alone
+# what lags leave of a distributed machine that lacks nothing is under this share of its response (FIT 75); what they
+# leave where a cause is missing is more (docs/method.md#verdicts)
+GOOD_SHARE = 0.25
+NOISE_TIMES = 5.0
+HALVES = 0.5  # what leaves no more than this share of the error contradicts that nothing is missing
+
+
+@dataclass(frozen=True, slots=True)
+class Measure:
+    """What claims are measured against. spread: RMS of the response about its offsets. noise: its short-term noise.
+    chance: the best evidence of chance, shape (draws,)."""
+
+    spread: float
+    noise: float
+    chance: Float1D
+
+    @property
+    def noises(self) -> float:
+        """An error that is nothing but noise."""
+        return NOISE_TIMES * self.noise if np.isfinite(self.noise) else 0.0
+
+    @property
+    def floor(self) -> float:
+        """An error that is left alone: noise, and what a sum of lags leaves of a distributed machine."""
+        return max(self.noises, FLOOR_SHARE * self.spread)
+
+    @property
+    def good(self) -> float:
+        """An error that a good model has, though something may refine it."""
+        return max(self.floor, GOOD_SHARE * self.spread)
+
+
+@dataclass(frozen=True, slots=True)
+class Rule:
+    """One rule of a claim, asked of a candidate. value: held against the limit, at the `least` or at the `most`; beyond
+    it the rule may hold, where it is not asked. asks: what it asks, in words. fails: why who breaks it is no cause."""
+
+    name: str
+    asks: str
+    value: float
+    limit: float
+    at: Literal["least", "most"]
+    holds: bool
+    fails: str
+    unit: str = "1"
+
+
+def rules(scored: Scored, measure: Measure, unit: str) -> list[Rule]:
+    """Every rule that a sound candidate keeps, in the order in which they are asked."""
+    p, count = p_value(scored.evidence, measure.chance), int(scored.acts.sum())
+    fall = UNNAMED_DROP_LIMIT if _unnamed(scored) else DROP_LIMIT
+    told, worth = explained(scored), WORTH_SHARE * measure.spread
+    strong, overwhelming = sharpness(scored) >= STRONG, sharpness(scored) >= OVERWHELMING
+    unasked = "; not asked where the evidence is {:g} a sample"
+    return [
+        Rule(
+            "chance",
+            "share of responses without a missing effect on which chance does as well",
+            p,
+            P_LIMIT,
+            "most",
+            p <= P_LIMIT,
+            f"chance does as well in {p:.1%} of responses in which nothing is missing (limit {P_LIMIT:.0%})",
+        ),
+        Rule(
+            "fall",
+            f"fall of the error where it acts, its size from the other tests{unasked.format(STRONG)}",
+            scored.drop,
+            fall,
+            "least",
+            strong or scored.drop >= fall,
+            f"in the {count} tests in which it acts the error falls by {max(scored.drop, 0):.0%} only, its size from "
+            f"the others (limit {fall:.0%})",
+        ),
+        Rule(
+            "tests",
+            "share of these tests that it makes more probable",
+            scored.better,
+            BETTER_LIMIT,
+            "least",
+            scored.better >= BETTER_LIMIT,
+            f"it makes {round(scored.better * count)} of the {count} tests in which it acts more probable (limit "
+            f"{BETTER_LIMIT:.0%})",
+        ),
+        Rule(
+            "gain",
+            f"how much its gain differs between tests; not asked where the error falls by {FORETOLD:.0%}, or the "
+            f"evidence is {OVERWHELMING:g} a sample",
+            scored.spread,
+            SPREAD_LIMIT,
+            "most",
+            overwhelming or scored.spread <= SPREAD_LIMIT or scored.drop >= FORETOLD,
+            f"its gain differs between tests by {scored.spread:.0%} (limit {SPREAD_LIMIT:.0%}): a cause acts alike "
+            "everywhere",
+        ),
+        Rule(
+            "others",
+            f"tests in which it acts{unasked.format(OVERWHELMING)}",
+            count,
+            LEAST_TESTS,
+            "least",
+            overwhelming or count >= LEAST_TESTS,
+            "it acts in one test only: no other foretells it",
+        ),
+        Rule(
+            "worth",
+            f"what it explains where it acts{unasked.format(STRONG)}",
+            told,
+            worth,
+            "least",
+            strong or told >= worth,
+            f"it explains {told:.2g} {unit} where it acts, of {measure.spread:.2g} {unit} (limit {WORTH_SHARE:.0%})",
+            unit,
+        ),
+    ]
+
+
+def surely(scored: Scored) -> Rule:
+    """Whether a sound candidate is a cause: it has the timing of what is missing and leaves little noise, in every test
+    alike; what stands in for it has its slow shape alone."""
+    sure, limit = probability(scored), PLACELESS_CLAIMED if scored.candidate.placeless else CLAIMED
+    return Rule(
+        "probability",
+        "that it is what is missing, by its log evidence a sample and the spread of its gain",
+        sure,
+        limit,
+        "least",
+        sure >= limit,
+        f"causes like it were right in {sure:.0%} of cases only (limit {limit:.0%}): its evidence is "
+        f"{sharpness(scored):.2f} a sample, and its gain differs between tests by {scored.spread:.0%}",
+    )
+
+
+def failed_rules(scored: Scored, measure: Measure, unit: str) -> list[str]:
+    """The rules that a candidate fails, as sentences; none where it is sound."""
+    failed = [rule.fails for rule in rules(scored, measure, unit) if not rule.holds]
+    return [why for why in [scored.candidate.unforetold] if why] + failed
+
+
+def blunt(scored: Scored) -> str | None:
+    """Why a sound candidate is still no cause; None where it may be claimed."""
+    rule = surely(scored)
+    return None if rule.holds else rule.fails
+
+
+def halves(scored: Scored, left: float) -> bool:
+    """Whether it leaves half of the error of left-out tests, each alike. left: that error without it."""
+    return bool(len(scored.rows)) and scored.error_of_all <= HALVES * left
+
+
+def claimable(scored: Scored, measure: Measure, unit: str) -> bool:
+    """Whether it keeps every rule of a claim; what it refines is another question."""
+    return not failed_rules(scored, measure, unit) and blunt(scored) is None
+
+
+def _unnamed(scored: Scored) -> bool:
+    """Whether its place is known, and still no effect has a name for it; where no place is declared, nothing could."""
+    return scored.candidate.family in (GENERIC, CONTROL) and not scored.candidate.placeless
+
+
+def probability(scored: Scored) -> float:
+    """That a sound candidate is what is missing: the share that was right among those with its sharpness and spread, on
+    simulated machines (development seeds)."""
+    level, sharp, spread = PROBABILITY
+    # one test tells no spread: the usual one is taken
+    between = scored.spread if scored.acts.sum() > 1 else USUAL_SPREAD
+    odds = level + sharp * np.log10(max(sharpness(scored), 1e-4)) + spread * between
+    return float(1 / (1 + np.exp(-odds)))
+
+
+def sharpness(scored: Scored) -> float:
+    """Log evidence a sample."""
+    return (scored.evidence if scored.credit is None else scored.credit) / max(float(scored.rows.sum()), 1.0)
+
+
+def explained(scored: Scored) -> float:
+    """RMS of what it takes away in tests in which it acts, its size from the others."""
+    return float(np.sqrt(max(0.0, scored.error_before**2 - scored.error_after**2)))
+
+
+def acting_size(scored: Scored) -> float:
+    """RMS of its contribution in the tests in which it acts."""
+    acts = scored.acts
+    return float(np.sqrt(np.mean(scored.size[acts] ** 2))) if acts.any() else 0.0
