@@ -71,7 +71,6 @@ def test_from_a_folder_of_raw_logs_to_a_store(made_lab: Path, tmp_path: Path) ->
     text, onward = finished(client, client.post("/task/ingest", {"campaign": path}).text)
     assert onward is None  # what was lost and noted is read first
     assert "is in the store:</b>" in text
-    assert "What to know" in text
     assert 'href="/start?after=ingest#model">Fit a first model' in text
     listed = client.get(re.search(r'href="(/\?campaign=[^"]+)">Look at the tests', text)[1])
     assert listed.status == 200
