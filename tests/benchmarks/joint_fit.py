@@ -81,7 +81,7 @@ def day(k: int) -> TestData:
 
 
 def short(k: int) -> TestData:
-    """6 h of a lathe: a lag at the bearing, two of the air, readings in steps, half a day's drift of the zero."""
+    """6 h of a lathe: a lag at the bearing, two of the hall's air, readings in steps, and slow noise."""
     rng = np.random.default_rng(10_000 + k)
     n = 6 * 60 + 1
     t = np.arange(n) * STEP_S

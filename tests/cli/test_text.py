@@ -11,9 +11,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from thermodata.cli.besides import as_table
 from thermodata.cli.common import plain
 from thermodata.cli.json_text import json_text
-from thermodata.cli.layout import markdown
+from thermodata.cli.layout import LAYOUTS, latex, markdown
+from thermodata.modelling.beside import Beside
 from thermodata.report.table import table
 from thermodata.report.words import change, duration, number, typeset
 
@@ -156,3 +158,25 @@ def test_json_of_a_large_answer_comes_in_pieces() -> None:
         "unit": None,
         "values": {"low": 19999.0, "high": None},
     }
+
+
+def _beside(model: str, name: str, residual: float) -> dict[str, object]:
+    return Beside("c", "t_1", "verification", "dZ", model, name, residual=residual).to_json()
+
+
+@pytest.mark.parametrize("layout", list(LAYOUTS))
+def test_versions_of_one_model_are_told_apart_in_every_layout(layout: str) -> None:
+    """`compare NEW --against OLD`, of a model that an effect was added to."""
+    versions = as_table([_beside("0a57485b55b0", "baseline", 3.0), _beside("047fafc90cb0", "baseline", 1.0)], layout)
+    assert "baseline 0a5748" in versions
+    assert "baseline 047faf" in versions
+    others = as_table([_beside("0a57485b55b0", "baseline", 3.0), _beside("047fafc90cb0", "linear", 1.0)], layout)
+    assert "baseline" in others
+    assert "0a5748" not in others
+
+
+def test_latex_has_no_character_that_is_a_command_or_another_sign() -> None:
+    text = latex([{"a": "T_x & 5 %|", "b": "a < b > c"}], [("a", "|max| [um]"), ("b", "$b$")])
+    body = text.replace(r"\_", "").replace(r"\&", "").replace(r"\%", "").replace(r"\$", "").replace(" & ", " ")
+    assert not set("_%$|<>&") & set(body)
+    assert r"\textbar{}max\textbar{} [um]" in text

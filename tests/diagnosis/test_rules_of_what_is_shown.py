@@ -91,13 +91,40 @@ def after(level: float) -> Float1D:
         ("feed", 0.009, "idle"),
         ("state", 0.51, "u on"),
         ("state", 0.49, "idle"),
-        ("rotational_speed", 0.5, "spindle at rest, u 0.5 x"),
+        ("rotational_speed", 0.5, "spindle at rest"),
         ("rotational_speed", 0.0, "spindle at rest"),
         ("temperature", 5.0, "idle"),
     ],
 )
 def test_a_state_is_said_in_words(quantity: str, level: float, said: str) -> None:
     assert state(quantity, after(level)) == said
+
+
+@pytest.mark.parametrize(
+    ("level", "at", "said"),
+    [
+        (5.1, "spindle", "u 5.1 rpm"),
+        (4.9, "spindle", "spindle at rest"),  # noise of an analogue speed
+        (4.9, None, "spindle at rest"),
+        (4.9, "table", "u 4.9 rpm"),
+        (0.0, "table", "idle"),
+    ],
+)
+def test_a_spindle_turns_from_five_rpm_on_and_a_table_is_none(level: float, at: str | None, said: str) -> None:
+    assert state("rotational_speed", np.where(np.arange(100) < 50, 60.0, level), at, "rpm") == said
+
+
+def test_a_table_that_turns_does_not_hide_that_the_spindle_rests() -> None:
+    values = {"S_speed": after(0.0) * 900, "C_speed": np.full(100, 60.0)}
+    places = {"S_speed": "spindle", "C_speed": "table"}
+    channels = {n: ChannelInfo(n, "rotational_speed", "rpm", at=at) for n, at in places.items()}
+    test: TestData = a_test(n=100, values=values, channels=channels)
+    assert describe_state(test, 50, 100) == "spindle at rest, C_speed 60 rpm"
+
+
+@pytest.mark.parametrize(("low", "said"), [(23.4, "u 24 V"), (23.6, "idle")])
+def test_a_supply_that_stays_as_it_is_says_nothing(low: float, said: str) -> None:
+    assert state("voltage", np.where(np.arange(100) < 50, low, 24.0), unit="V") == said
 
 
 @pytest.mark.parametrize(("rise", "said"), [(0.31, "u rising"), (-0.31, "u falling"), (0.29, "idle"), (-0.29, "idle")])

@@ -67,3 +67,17 @@ def test_a_position_that_goes_its_own_way_is_no_rule(tmp_path: Path, say: Say) -
     cycles(tmp_path, state=False, shift=5)
     say("init", tmp_path)
     assert load_campaign(tmp_path / "campaign.yaml").tests[0].measuring is None
+
+
+def test_a_machine_at_rest_beside_a_rail_has_its_rule(tmp_path: Path, say: Say) -> None:
+    """Growth of 3 um beside a rail of 2500 um: both ends are one reading, the rail the exact one."""
+    n = 720
+    t = np.arange(n) * 10.0
+    here = (np.arange(n) // 6) % 10 == 0
+    growth = 3 * np.sin(t / 2000) + np.random.default_rng(2).normal(0, 0.2, n)
+    shown = [f"{g:.2f}" if h else "2500.00" for g, h in zip(growth, here, strict=True)]
+    where = np.where(here, 0.0, 500.0)
+    columns = [numbers(t, 0), shown, numbers(where, 1), numbers(20 + t / 3000, 2)]
+    text(tmp_path / "ETVE.csv", ["t [s]", "Z [um]", "pos Z [mm]", "T nut Z [degC]"], columns, mark=",")
+    say("init", tmp_path)
+    assert str(load_campaign(tmp_path / "campaign.yaml").tests[0].measuring).startswith("abs(pos_Z - 0) < ")

@@ -14,6 +14,7 @@ import pytest
 from thermodata.schema.load import load_campaign
 
 from .conftest import Said
+from .labs import workbook
 
 Say = Callable[..., Said]
 ROWS = [(10 * i, 20 + 0.05 * i, 3000 if i < 60 else 0) for i in range(120)]
@@ -123,3 +124,74 @@ def test_of_several_columns_of_times_the_one_that_is_called_time_counts(tmp_path
     pq.write_table(pa.table(table), tmp_path / "a.parquet")
     found = json.loads(say("preview", tmp_path / "a.parquet", "--json").out)
     assert found["start"].startswith("2026-03-02T08:00:00")
+
+
+def test_an_overview_beside_sheets_that_are_tests_is_left_out_and_said(tmp_path: Path, say: Say) -> None:
+    header, units = ["Time", "Displ. Z", "Spindle bearing", "Speed"], ["min", "µm", "°C", "rpm"]
+    book: dict[str, list[list[object]]] = {"Overview": [["Test", "Date", "What"]]}
+    for k, test in enumerate(("V1_Warm", "V2_Steps", "V3_Idle")):
+        rows = [[float(i), round(0.3 * i * (k < 2), 2), round(21 + 0.1 * i * (k < 2), 2), 4000.0] for i in range(61)]
+        book["Overview"].append([test, "2021-06-0" + str(k + 1), "spindle"])
+        book[test] = [header, units, *rows]
+    workbook(tmp_path / "VMC.xlsx", book)
+    assert say("init", tmp_path).code == 0
+    path = tmp_path / "campaign.yaml"
+    campaign = load_campaign(path)
+    assert [t.id for t in campaign.tests] == ["V1_Warm", "V2_Steps", "V3_Idle"]
+    assert list(campaign.channels) == ["Displ_Z", "Spindle_bearing", "Speed"]
+    assert campaign.tests[0].conditions["date"] == "2021-06-01"
+    assert "conditions from VMC.xlsx, column 'Test'" in path.read_text("utf-8")
+
+
+def test_a_sheet_that_is_no_test_and_no_list_of_them_is_said(tmp_path: Path, say: Say) -> None:
+    rows: list[list[object]] = [
+        ["t [s]", "Displ. Z [um]", "Bearing [degC]"],
+        *([float(i), 0.1 * i, 20 + 0.1 * i] for i in range(40)),
+    ]
+    probes: list[list[object]] = [["t [s]", "Level [mm]"], *([float(i), 1.0 * i] for i in range(40))]
+    workbook(tmp_path / "day.xlsx", {**dict.fromkeys(("warm", "steps", "idle"), rows), "Level": probes})
+    assert say("init", tmp_path).code == 0
+    path = tmp_path / "campaign.yaml"
+    assert len(load_campaign(path).tests) == 3
+    assert "its sheet 'Level' is not like the 3 others" in path.read_text("utf-8")
+
+
+def test_two_sheets_of_different_loggers_are_not_taken_for_tests(tmp_path: Path, say: Say) -> None:
+    rows = [[float(i), 20 + 0.1 * i] for i in range(40)]
+    workbook(
+        tmp_path / "day.xlsx",
+        {"Temps": [["Time [s]", "Bearing [degC]"], *rows], "Probes": [["Time [s]", "Displ. Z [um]"], *rows]},
+    )
+    assert say("init", tmp_path).code == 0
+    assert [t.id for t in load_campaign(tmp_path / "campaign.yaml").tests] == ["day"]
+
+
+def test_a_rate_at_the_end_of_a_name_is_its_unit_and_no_path(tmp_path: Path, say: Say) -> None:
+    lines = ["Time [s]\tX feed m/min\tY feed mm/s\tBearing [degC]"]
+    lines += [f"{10 * i}\t{3 if i < 60 else 0}\t{50 if i > 60 else 0}\t{20 + 0.05 * i:.2f}" for i in range(120)]
+    (tmp_path / "feed.txt").write_text("\n".join(lines) + "\n")
+    assert say("init", tmp_path).code == 0
+    channels = load_campaign(tmp_path / "campaign.yaml").channels
+    assert {n: (c.quantity, c.unit, c.at) for n, c in channels.items() if c.quantity == "feed"} == {
+        "X_feed": ("feed", "m/min", "axis.x"),
+        "Y_feed": ("feed", "mm/s", "axis.y"),
+    }
+
+
+def test_a_speed_in_hz_is_compared_with_a_name_in_rpm(tmp_path: Path, say: Say) -> None:
+    rows = [f"{10 * i},{100 if i < 300 else 0},{20 + 0.02 * i:.2f}" for i in range(400)]
+    header = "Time [s],Main spindle rotational speed [Hz],Bearing [degC]"
+    (tmp_path / "Spindle6000.csv").write_text("\n".join([header, *rows]) + "\n")
+    assert say("init", tmp_path).code == 0
+    path = tmp_path / "campaign.yaml"
+    assert load_campaign(path).tests[0].conditions == {"speed": "6000 rpm"}
+    assert "speed sure: name and data" in path.read_text("utf-8")
+
+
+def test_a_first_model_says_which_other_axes_were_measured(tmp_path: Path, say: Say) -> None:
+    rows = [f"{10 * i},{0.1 * i:.2f},{0.05 * i:.2f},{20 + 0.02 * i:.2f}" for i in range(100)]
+    header = "Time [s],Displ. Y [um],Displ. Z [um],Front bearing [degC]"
+    (tmp_path / "warm.csv").write_text("\n".join([header, *rows]) + "\n")
+    assert say("init", tmp_path).code == 0
+    text = (tmp_path / "model.yaml").read_text("utf-8")
+    assert "response: {axis: Z, at: tcp}   # measured too: Y\n" in text

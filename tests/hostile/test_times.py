@@ -308,3 +308,29 @@ def test_a_column_that_is_called_by_a_unit_of_time_is_asked_for_in_that_unit(lab
     lab.write("raw/a.csv", "hours;T;X\n" + "".join(f"{i / 360:.5f};{20 + i / 8};{i}.5\n" for i in range(60)))
     assert lab("init", lab.folder).code == 0
     assert "is 'hours' the time? then time: {column: 1, unit: hours}" in (lab.folder / "campaign.yaml").read_text()
+
+
+def test_parquet_without_a_time_is_asked_for_its_period_and_read_by_it(lab: Lab) -> None:
+    lab.write("raw/a.parquet", parquet(A=np.sin(N), T_spindle=20 + N / 8))
+    assert lab("init", lab.folder).code == 0
+    drafted = lab.folder / "campaign.yaml"
+    text = drafted.read_text(encoding="utf-8")
+    assert "period: unknown" in text
+    assert lab("ingest", drafted).code == 3
+    drafted.write_text(text.replace("period: unknown", "period: 10 s"), encoding="utf-8")
+    assert lab("ingest", drafted).code == 0
+    t_s, values = lab.values("T_spindle", "a")
+    np.testing.assert_allclose(t_s, N * 10.0)
+    np.testing.assert_array_equal(values, 20 + N / 8)
+    traced = lab("trace", "odd" if "id: odd" in text else "lab", "a", "T_spindle", "--at", "30 s", "--verify")
+    assert traced.code == 0, traced.err
+    assert "row 4 of the file" in traced.out
+
+
+def test_times_in_an_odd_spelling_are_asked_for_in_parquet_too(lab: Lab) -> None:
+    first = datetime(2026, 3, 2, 8)
+    odd = [f"{first + timedelta(seconds=10 * int(i)):%d-%b-%Y %H:%M:%S}" for i in N]
+    lab.write("raw/a.parquet", parquet(time=odd, T_spindle=20 + N / 8))
+    assert lab("init", lab.folder).code == 0
+    assert lab("ingest", lab.folder / "campaign.yaml").code == 0
+    np.testing.assert_allclose(lab.values("T_spindle", "a")[0], N * 10.0)

@@ -25,15 +25,15 @@ def steps(t_s: np.ndarray) -> np.ndarray:
     return np.array([0.0, 4000, 9000, 2000, 6000, 0, 7000, 3000, 9000, 1000])[np.searchsorted(edges, t_s, "right") - 1]
 
 
-def lab(folder: Path, text: str, *, off_s: float, constant: bool = False) -> Path:
+def lab(folder: Path, text: str, *, off_s: float, constant: bool = False, test: str = "one") -> Path:
     path = write_campaign(folder, text, logs=False)
     n = 3600
     log = daq(n)
     log["main"]["n"] = np.zeros(n) if constant else steps(np.arange(n, dtype=float))
-    write_log(path.parent / "raw/one_a.npz", log)
+    write_log(path.parent / f"raw/{test}_a.npz", log)
     t = np.arange(0, 3500, 2.0)
     write_log(
-        path.parent / "raw/one.nc.npz",
+        path.parent / f"raw/{test}.nc.npz",
         {
             "nc": {
                 "t_ns": START_NS + np.rint((t - off_s) * 1e9).astype(np.int64),
@@ -64,6 +64,26 @@ def test_a_clock_that_cannot_be_aligned_is_suspect_and_told(store: Store, tmp_pa
     with store.reader() as con:
         flags = con.execute("select distinct flag & 64 from driver where channel = 'speed'").fetchall()
     assert flags == [(int(Flag.CLOCK_SUSPECT),)]
+
+
+@pytest.mark.parametrize(("apart_s", "lent"), [(4.0, True), (300.0, False)])
+def test_an_idle_test_has_its_clock_by_the_others_where_they_agree(
+    store: Store, tmp_path: Path, apart_s: float, lent: bool
+) -> None:
+    text = ALIGNED + "  - {id: idle, kind: etve, role: none}\n"
+    for test, off_s in (("one", 250.0), ("two", 250.0 + apart_s), ("idle", 0.0)):
+        path = lab(tmp_path / "lab", text, off_s=off_s, constant=test == "idle", test=test)
+    summary = ingest(store, path)
+    with store.reader() as con:
+        (offset,) = con.execute("select offset_ns from source where source = 'nc' and test = 'idle'").fetchone() or (0,)
+        flags = con.execute(
+            "select distinct flag & 64 from driver where channel = 'speed' and test = 'idle'"
+        ).fetchall()
+    assert flags == [(0 if lent else int(Flag.CLOCK_SUSPECT),)]
+    assert offset == (pytest.approx(252e9, abs=3e9) if lent else 0)
+    assert any("by 2 other tests" in note for note in summary.notes) == lent
+    assert any("not aligned" in loss["reason"] for loss in summary.losses) != lent
+    assert not ingest(store, path).changed
 
 
 def test_clocks_in_a_circle_are_refused(store: Store, tmp_path: Path) -> None:

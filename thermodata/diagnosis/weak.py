@@ -16,6 +16,8 @@ WINDOW_S = 1800.0
 WINDOWS_A_TEST = 12
 STANDS_OUT = 1.3
 SHOWN = 12
+_AT_REST_RPM = 5.0  # what an analogue speed still shows
+_STEADY = 0.02  # of its size: a supply that stays so all test long says nothing of a window
 
 
 @dataclass(frozen=True, slots=True)
@@ -84,6 +86,7 @@ def _windows(test: TestData, residual: Float1D, mask: Bool1D, floor: float) -> l
 def describe_state(test: TestData, start: int, stop: int) -> str:
     """What the machine did in rows start:stop, in words: speeds, feeds, what was on, which way the air went."""
     words: list[str] = []
+    turning, spindles = False, False
     for name, info in test.channels.items():
         values = test.values.get(name)
         if values is None:
@@ -93,8 +96,18 @@ def describe_state(test: TestData, start: int, stop: int) -> str:
         if not len(part):
             continue
         if info.quantity in ("rotational_speed", "feed", "power", "load", "current", "voltage", "flow"):
-            level = float(np.median(np.abs(part)))
-            if level > 0.01 * float(np.nanmax(np.abs(values))):
+            level, largest = float(np.median(np.abs(part))), float(np.nanmax(np.abs(values)))
+            of_spindle = info.quantity == "rotational_speed" and not (info.at or "").startswith(("table", "rotary"))
+            spindles = spindles or of_spindle
+            if of_spindle and level < _AT_REST_RPM:
+                continue
+            if (
+                info.quantity in ("current", "voltage")
+                and largest - float(np.nanmin(np.abs(values))) < _STEADY * largest
+            ):
+                continue
+            if level > 0.01 * largest:
+                turning = turning or of_spindle
                 words.append(f"{name} {level:.0f} {info.unit}" if level >= 100 else f"{name} {level:.2g} {info.unit}")
         elif info.quantity == "state" and float(part.mean()) > 0.5:
             words.append(f"{name} on")
@@ -102,8 +115,6 @@ def describe_state(test: TestData, start: int, stop: int) -> str:
             rise = float(part[-1] - part[0])
             if abs(rise) > 0.3:
                 words.append(f"{name} {'rising' if rise > 0 else 'falling'}")
-    if not any("speed" in w or "rpm" in w for w in words) and any(
-        c.quantity == "rotational_speed" for c in test.channels.values()
-    ):
+    if spindles and not turning:
         words.insert(0, "spindle at rest")
     return ", ".join(words) if words else "idle"

@@ -39,7 +39,8 @@ def model_text_of(campaign: Campaign) -> str | None:
 
 
 def _text(campaign: str, channels: Mapping[str, _Known]) -> str | None:
-    axis = _axis(channels)
+    axes = _axes(channels)
+    axis, others = (axes[0], axes[1:]) if axes else (None, [])
     drivers = {n: c for n, c in channels.items() if c.quantity not in ("displacement", "label")}
     known = effects()
     lines, missing = [], []
@@ -64,7 +65,7 @@ def _text(campaign: str, channels: Mapping[str, _Known]) -> str | None:
             "schema: thermodata/model/1",
             "name: baseline",
             f"campaign: {scalar(campaign)}",
-            f"response: {{axis: {axis}, at: tcp}}",
+            f"response: {{axis: {axis}, at: tcp}}" + (f"   # measured too: {', '.join(others)}" if others else ""),
             "step: 60 s",
             "effects:",
             *lines,
@@ -79,10 +80,10 @@ def _text(campaign: str, channels: Mapping[str, _Known]) -> str | None:
     )
 
 
-def _axis(channels: Mapping[str, _Known]) -> str | None:
-    """The axis that is modelled first: of the displacements of the tool, Z before Y before X."""
+def _axes(channels: Mapping[str, _Known]) -> list[str]:
+    """The axes of the tool's displacements, the one that is modelled first before the others: Z before Y before X."""
     there = {c.axis for c in channels.values() if c.quantity == "displacement" and c.at == "tcp"}
-    return next((a for a in _AXES if a in there), None)
+    return [a for a in _AXES if a in there]
 
 
 def _on_axis(found: list[dict[str, str]], drivers: Mapping[str, _Known], axis: str) -> list[dict[str, str]]:

@@ -61,9 +61,9 @@ def guess(name: str, unit: str | None, dtype: str = "float64", values: Values | 
     """Quantity, unit, place and axis of a signal. unit: as the file writes it; values: of a sample, if there is one."""
     if _NUMBERED.fullmatch(name.rsplit("/", 1)[-1]):
         name = ""  # the reader's own name for a column that has none says nothing: 'column 7' is no machine's column
-    bare = split_unit(name)[0]  # the 'min' of 'n [1/min]' is no limit
+    bare, rate = units.rate_at_end(split_unit(name)[0])  # the 'min' of 'n [1/min]' is no limit
     own, text = words(_last(bare)), words(bare)
-    written = (units.from_name(_last(bare)) or units.from_name(_field(bare))) if not unit else None
+    written = (rate or units.from_name(_last(bare)) or units.from_name(_field(bare))) if not unit else None
     field = words(_field(bare))
     # the field of a message says what it is, its topic only where it comes from: '/thermo.speed'
     what = field if quantities_in(field) else own

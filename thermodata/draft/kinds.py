@@ -15,7 +15,9 @@ from thermodata.draft.place import axis_of
 from thermodata.draft.said_by_names import Said, said_by
 from thermodata.draft.scan import RawFile
 from thermodata.draft.vocabulary import says
+from thermodata.errors import UsageError
 from thermodata.plugin import Float1D
+from thermodata.schema.quantity import canonical, linear_conversion
 
 _KINDS: tuple[tuple[str, str], ...] = (
     (
@@ -166,22 +168,30 @@ def _moved(files: Sequence[RawFile]) -> _Moved:
             if seen is None:
                 continue
             said = guess(signal.name, signal.unit, signal.dtype, seen)
-            largest = max(abs(seen.low), abs(seen.high))
+            factor = _factor(said.quantity, said.unit)
             _add(
                 found,
                 said.quantity,
                 said.at or "",
-                said.unit,
-                largest,
-                seen.high - seen.low,
-                None if course is None else course.values,
+                factor * max(abs(seen.low), abs(seen.high)),
+                factor * (seen.high - seen.low),
+                None if course is None else factor * course.values,
             )
     return found
 
 
-def _add(
-    found: _Moved, quantity: str | None, at: str, unit: str | None, largest: float, span: float, course: Float1D | None
-) -> None:
+def _factor(quantity: str | None, unit: str | None) -> float:
+    """From a signal's unit to that of its quantity, rpm, m/min or mm; 1 where it is not known or does not convert."""
+    if quantity not in ("rotational_speed", "feed", "position") or unit is None:
+        return 1.0
+    try:
+        return linear_conversion(unit, canonical(quantity))[0]
+    except UsageError:
+        return 1.0
+
+
+def _add(found: _Moved, quantity: str | None, at: str, largest: float, span: float, course: Float1D | None) -> None:
+    """largest, span, course: in rpm, m/min or mm where the signal's unit is known."""
     axis = at.split(".")[1] if at.startswith("axis.") and at.count(".") == 1 else None
     if quantity == "rotational_speed":
         found.seen = True
@@ -193,7 +203,7 @@ def _add(
             found.rotary = True
     elif quantity == "feed" and axis:
         found.seen = True
-        if largest > (50 if (unit or "").startswith("mm") else 0.05):
+        if largest > 0.05:
             found.axes.add(axis)
     elif quantity == "position" and axis:
         found.seen = True

@@ -44,12 +44,19 @@ def _out_of_range(x: Float1D) -> Bool1D | None:
     if x.size < _FEWEST or not fine.size:
         return None
     span = float(np.ptp(fine))
+    rails: list[tuple[float, Bool1D]] = []
     for end in (float(fine.min()), float(fine.max())):
         at_end = ~none & (np.abs(x - end) <= 1e-3 * span)
         rest = fine[np.abs(fine - end) > 1e-3 * span]
         # a rail is one reading again and again, and far from all others
         if rest.size and at_end.mean() > _LEAST and np.abs(rest - end).min() > 0.2 * span:
-            out |= at_end
+            rails.append((np.unique(x[at_end]).size / at_end.sum(), at_end))
+    # a machine at rest stays near one reading too, beside a rail: the rail is the end that repeats it more exactly
+    rails.sort(key=lambda rail: rail[0])
+    if len(rails) == 2 and rails[0][1].sum() + rails[1][1].sum() == fine.size and rails[0][0] < rails[1][0]:
+        rails.pop()
+    for _, at_end in rails:
+        out |= at_end
     return out if _LEAST < out.mean() < 1 - _LEAST else None
 
 

@@ -21,6 +21,7 @@ from thermodata.draft.quantity import Guess
 from thermodata.draft.scan import RawFile, Scan
 from thermodata.draft.sources import Group, sources_of
 from thermodata.draft.table import TestTable, closed_workbooks, find_table, is_called_table
+from thermodata.draft.units import rate_at_end
 from thermodata.draft.values import joined
 from thermodata.plugin import Signal
 from thermodata.reader.text import split_unit
@@ -249,7 +250,7 @@ def _said(signal: Signal, files: Sequence[RawFile]) -> tuple[Guess, str | None]:
 
 def _wished(signal: str, said: Guess) -> str:
     """A name for a channel: the last part of the signal's, or what is known of it where that is in another script."""
-    bare = split_unit(signal)[0]
+    bare = rate_at_end(split_unit(signal)[0])[0]
     parts = [p for p in bare.replace("\\", "/").split("/") if p.strip()] or [bare]
     last = parts[-1]
     if len(last.strip()) <= 2 and len(parts) > 1:  # Eddy/Z says more than Z

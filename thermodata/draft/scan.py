@@ -72,7 +72,8 @@ class Asked:
 class RawFile:
     """A file that one reader claims, or a sheet of it. path: relative to the folder. like: the file of the same kind
     whose header was taken for this one's, where there was no time to read it; asked: what it does not say; table: the
-    answers by which it was looked at meanwhile; sheet: of a workbook whose sheets are tests."""
+    answers by which it was looked at meanwhile; sheet: of a workbook whose sheets are tests; besides: why others of
+    its sheets are none."""
 
     path: PurePosixPath
     reader: str
@@ -83,6 +84,7 @@ class RawFile:
     asked: tuple[Asked, ...] = ()
     table: Mapping[str, Any] | None = None
     sheet: str | None = None
+    besides: tuple[str, ...] = ()
 
     @property
     def source(self) -> Source:
@@ -148,7 +150,9 @@ def scan(folder: Path, progress: Progress | None = None) -> Scan:
             if who is None:
                 ignored.append((str(path), why))
                 continue
-            for made in described_files(who, full, path):
+            found = described_files(who, full, path)
+            ignored += [(str(path), why) for why in found[0].besides]
+            for made in found:
                 if made.size < _SMALL and spent < _SAMPLES_S:  # now, for its reader has just looked at it
                     before = time.monotonic()
                     made = replace(made, sample=_sample(full, made))
@@ -169,7 +173,7 @@ def scan(folder: Path, progress: Progress | None = None) -> Scan:
         tuple(sorted(sampled, key=lambda f: position[str(f.path)])),
         tuple(ignored),
         tuple(damaged),
-        tuple(p for p, _ in ignored),
+        tuple(dict.fromkeys(p for p, _ in ignored)),
     )
 
 
@@ -192,12 +196,14 @@ def described_files(who: Reader, full: Path, path: PurePosixPath) -> list[RawFil
     """
     size = full.stat().st_size
     whole = _asking(who, full, RawFile(path, who.name, Recording((), "relative"), size))
-    names = _sheets(whole.recording)
+    names, besides = _sheets(whole.recording)
     if not names:
         return [whole]
     found = []
+    left = [f"its sheet '{n}' is not like the {len(names)} others: a list of tests, or notes?" for n in besides]
+    left += [f"its {note}" for note in whole.recording.notes if re.match(r"sheet '.*' is not read", note)]
     for name in names:
-        one = replace(whole, sheet=name, table={**(whole.table or {}), "sheet": name}, asked=())
+        one = replace(whole, sheet=name, besides=tuple(left), table={**(whole.table or {}), "sheet": name}, asked=())
         found.append(_asking(who, full, one))
     return found
 
@@ -231,13 +237,22 @@ def merged(one: Mapping[str, Any], other: Mapping[str, Any]) -> dict[str, Any]:
     return out
 
 
-def _sheets(recording: Recording) -> list[str]:
-    """The sheets of a workbook that are tests of one kind: each a stream, and with mostly the same signals."""
+def _sheets(recording: Recording) -> tuple[list[str], list[str]]:
+    """(the sheets of a workbook that are tests of one kind, the others): each a stream, and with mostly the same
+    signals. No sheets where fewer than two are alike, or fewer than three beside one that is unlike them."""
     streams = list(dict.fromkeys(s.stream for s in recording.signals))
     if len(streams) < 2 or not all(s.name.startswith(f"{s.stream}/") for s in recording.signals):
-        return []
-    own = [{s.name.removeprefix(f"{name}/") for s in recording.signals if s.stream == name} for name in streams]
-    return streams if all(len(own[0] & other) >= 0.5 * max(len(own[0]), len(other)) for other in own[1:]) else []
+        return [], []
+    own = {n: {s.name.removeprefix(f"{n}/") for s in recording.signals if s.stream == n} for n in streams}
+
+    def like(one: str) -> list[str]:
+        return [n for n in streams if len(own[one] & own[n]) >= 0.5 * max(len(own[one]), len(own[n]))]
+
+    alike = max((like(n) for n in streams), key=len)
+    others = [n for n in streams if n not in alike]
+    # an overview or notes beside the tests; half of the sheets of another kind are two loggers of the same tests
+    enough = len(alike) >= 2 and (not others or len(alike) >= max(3, 2 * len(others)))
+    return (alike, others) if enough else ([], [])
 
 
 def _files(folder: Path) -> Iterator[PurePosixPath]:

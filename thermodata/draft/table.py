@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import csv
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence, Set
 from dataclasses import dataclass
 from pathlib import Path, PurePath
 from typing import Any
@@ -56,7 +56,7 @@ def find_table(
         path = folder / candidate
         if path.stat().st_size > _LARGEST:
             continue
-        for rows in _grids(path, most):
+        for rows in _grids(path, most, {normal(t) for t in tests}):
             found = _read(candidate, rows, tests, by_number)
             if found is not None:
                 return found
@@ -88,14 +88,14 @@ def _opens_workbooks() -> bool:
     return True
 
 
-def _grids(path: Path, most: int) -> Iterator[list[list[str]]]:
-    """The rows of a table as text, where it has at most so many; of a workbook, of each sheet."""
+def _grids(path: Path, most: int, tests: Set[str]) -> Iterator[list[list[str]]]:
+    """The rows of a table as text, where it has at most so many; of a workbook, of each sheet that is no test."""
     if path.suffix.lower() in _WORKBOOKS:
         try:
             from python_calamine import load_workbook
 
             book = load_workbook(str(path))
-            for name in book.sheet_names[:5]:
+            for name in [n for n in book.sheet_names if normal(n) not in tests][:5]:
                 rows = book.get_sheet_by_name(name).to_python()
                 if len(rows) <= most:
                     yield [[_text(c) for c in row] for row in rows]

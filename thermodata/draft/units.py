@@ -44,6 +44,15 @@ _IN_NAME = re.compile(
     r"(?:mm|m|l|1|U)[_/](?:min))$"
 )
 
+_RATE_AT_END = re.compile(r"(?<=[^\s_])[_\s]+((?:mm|m|l)/(?:min|s)|U/min)$")  # not 1/min: 'T 1/min' is a smallest value
+
+
+def rate_at_end(name: str) -> tuple[str, str | None]:
+    """(the name without it, a unit with a stroke at its end or None): 'X feed m/min' -> ('X feed', 'm/min'), whose
+    stroke parts no path of names."""
+    match = _RATE_AT_END.search(name.strip())
+    return (name.strip()[: match.start()], match[1]) if match else (name, None)
+
 
 def from_name(name: str) -> str | None:
     """The unit that a name ends with: 'x_mm' -> 'mm', 'level.mm' -> 'mm', 'F_mm_min' -> 'mm/min'; None where none."""

@@ -120,6 +120,13 @@ def test_sheets_of_dates_and_of_seconds_are_asked(tmp_path: Path) -> None:
         read(tmp_path, {"a": sheet(dates, (1,)), "b": sheet(seconds(4))})
 
 
+def test_a_list_of_tests_with_days_beside_sheets_of_seconds_is_left_out_and_said(tmp_path: Path) -> None:
+    days: list[list[object]] = [["test", "date"], *([f"V{i}", 46082 + i] for i in range(4))]
+    data = read(tmp_path, {"list": sheet(days, (0, 1)), **{f"V{i}": sheet(seconds(4)) for i in range(3)}})
+    assert list(data.t_ns) == ["V0", "V1", "V2"]
+    assert any(n.startswith("sheet 'list' is not read: its times are of another kind") for n in data.recording.notes)
+
+
 def test_merged_headers_name_what_is_below_them(tmp_path: Path) -> None:
     rows: list[list[object]] = [
         ["time [s]", "spindle", None, "column", None, "air"],

@@ -229,13 +229,18 @@ def _group(stream: str, time: tuple[int, ...], unit: str | None, form: str | Non
 
 def _counted(period: Any, width: int, where: str) -> Group:
     """All columns, in rows that follow each other at a declared period [s]."""
+    return Group(STREAM, (), period_s(period, where), None, None, tuple(range(width)), True)
+
+
+def period_s(period: Any, where: str) -> float:
+    """A declared `time.period` [s]; FormatError where it is not answered yet."""
     if period == UNKNOWN:
         raise unanswered("time.period", "the time from row to row: 10 s, 1 min", where)
     if isinstance(period, str):
         from thermodata.schema.quantity import value_in
 
         period = value_in(period, "s")
-    return Group(STREAM, (), float(period), None, None, tuple(range(width)), True)
+    return float(period)
 
 
 def one_clock(

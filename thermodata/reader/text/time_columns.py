@@ -86,7 +86,7 @@ def time_of(
             # of one of several times the columns count from its own first
             worded = None if likely else _worded_time(names, data)
             if worded is None or form in (None, UNKNOWN):
-                question = _time_question(names, data, where) if worded is None else _spelling_question(worded, where)
+                question = _time_question(names, data, where) if likely else no_time(names, data, where)
                 if question is None:
                     raise
                 raise question from None
@@ -193,7 +193,12 @@ def _worded_time(names: list[str], data: list[list[Cell]]) -> tuple[int, list[st
     return None
 
 
-def _spelling_question(worded: tuple[int, list[str]], where: str) -> QuestionError:
+def no_time(names: list[str], data: list[list[Cell]], where: str) -> QuestionError | None:
+    """What to ask of a table in which `find_time` finds none: how the times are written in a column that is called so,
+    else the time from row to row. None where it is no table of numbers."""
+    worded = _worded_time(names, data)
+    if worded is None:
+        return _time_question(names, data, where)
     place, words = worded
     return _format_question((place,), guess_format(words), words[0], where)
 

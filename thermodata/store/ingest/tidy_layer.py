@@ -22,6 +22,7 @@ from thermodata.store.ingest import catalogue_rows
 from thermodata.store.ingest.inventory import BY_TEST, Inventory, Row, meta_of
 from thermodata.store.ingest.raw_layer import loss_row
 from thermodata.store.tidy.between import Verdict, levels_of, verdicts
+from thermodata.store.tidy.clock_lent import lent
 from thermodata.store.tidy.clock_offsets import clocks_of
 from thermodata.store.tidy.event import event_of
 from thermodata.store.tidy.keys import ChannelTexts, member_key
@@ -75,10 +76,16 @@ def tidy_tests(
     """
     layer = TidyLayer()
     tidier = _Tidier(store, _columns(plans), calibrations, inventory, now, say, layer, ChannelTexts(calibrations))
-    tidied: dict[str, _Tidied] = {}
+    clocks: dict[str, dict[str, Clock]] = {}
     for plan in plans:
         with _loss_where_it_fails(layer, plan):
-            tidied[plan.test.id] = tidier.tidy(plan)
+            clocks[plan.test.id] = clocks_of(store, plan, calibrations, inventory.clocks)
+    clocks = lent(plans, clocks)
+    tidied: dict[str, _Tidied] = {}
+    for plan in plans:
+        if plan.test.id in clocks:
+            with _loss_where_it_fails(layer, plan):
+                tidied[plan.test.id] = tidier.tidy(plan, clocks[plan.test.id])
     levels = [
         x
         for t in tidied.values()
@@ -138,9 +145,8 @@ class _Tidier:
     layer: TidyLayer
     texts: ChannelTexts
 
-    def tidy(self, plan: TestPlan) -> _Tidied:
-        """Every stream of a test, kept where the store has it already."""
-        clocks = clocks_of(self.store, plan, self.calibrations, self.inventory.clocks)
+    def tidy(self, plan: TestPlan, clocks: dict[str, Clock]) -> _Tidied:
+        """Every stream of a test, kept where the store has it already. clocks: of its sources."""
         test = _Tidied(plan, clocks, span(plan, clocks))
         series = self._series(test)
         for member in plan.members():

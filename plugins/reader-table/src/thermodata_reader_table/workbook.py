@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import datetime as dt
 from collections import Counter
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
@@ -302,8 +302,7 @@ def read(path: Path, source: Source) -> Read:
             "declare table: {sheet: ...}: " + ", ".join(tables)
         )
     losses: list[Loss] = []
-    streams: list[Stream] = []
-    groups: list[Group] = []
+    found: dict[str, list[Stream]] = {}
     for sheet, layout in tables.items():
         table = Table(
             sheet,
@@ -313,10 +312,14 @@ def read(path: Path, source: Source) -> Read:
             source,
             book.percent.get(sheet, {}),
         )
-        streams += list(table.streams(sheet if several else None))
+        found[sheet] = list(table.streams(sheet if several else None))
         notes += [f"sheet '{sheet}': {note}" for note in table.notes] if several else table.notes
         losses += table.losses
-        groups += layout.groups
+    for sheet in _of_another_clock(found):
+        notes.append(f"sheet '{sheet}' is not read: its times are of another kind than those of the other sheets")
+        del found[sheet]
+    streams = [s for made in found.values() for s in made]
+    groups = [g for sheet in found for g in tables[sheet].groups]
     for kind, count in book.odd.items():
         if count and kind == "hidden":
             notes.append(f"{count} hidden rows: they are read like the others")
@@ -326,6 +329,14 @@ def read(path: Path, source: Source) -> Read:
             )
     clock, start_ns = one_clock([s.times for s in streams], groups, path.name)
     return Read(streams, list(dict.fromkeys(notes)), losses, clock, start_ns)
+
+
+def _of_another_clock(found: Mapping[str, Sequence[Stream]]) -> list[str]:
+    """The few sheets with dates beside many that count from a start, or the other way: a list of tests with their days
+    is no recording. None where they are no small minority: then nobody can tell which are meant."""
+    kinds = {sheet: {s.times.absolute for s in streams if s.times.t_ns.size} for sheet, streams in found.items()}
+    few, many = sorted(([s for s, kind in kinds.items() if kind == {dated}] for dated in (True, False)), key=len)
+    return few if len(few) + len(many) == len(kinds) and len(many) >= max(3, 2 * len(few)) else []
 
 
 def describe(path: Path, source: Source) -> Recording:
