@@ -117,8 +117,8 @@ def wide_tdms(path: Path, channels: int = 100_000, rows: int = 10) -> None:
         )
 
 
-def wide_csv(path: Path, channels: int = 100_000, rows: int = 10) -> None:
-    """So many columns beside a time in seconds."""
+def wide_csv(path: Path, channels: int = 2500, rows: int = 200) -> None:
+    """So many columns beside a time in seconds: the most of which header and first rows are seen at first sight."""
     with path.open("w", encoding="utf-8") as out:
         out.write("Time [s]," + ",".join(f"c{i} [degC]" for i in range(channels)) + "\n")
         for row in range(rows):

@@ -7,7 +7,6 @@ import os
 import subprocess
 import sys
 import tempfile
-import time
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -32,22 +31,31 @@ class Run:
         return json.loads(self.out)
 
 
+# what a process takes at most is counted from the size of the one that began it: so a small one begins it
+_WATCH = """
+import json, os, subprocess, sys, time
+begin = time.perf_counter()
+child = subprocess.Popen(sys.argv[2:])
+_, status, usage = os.wait4(child.pid, 0)
+with open(sys.argv[1], "w") as said:
+    json.dump([time.perf_counter() - begin, status, usage.ru_maxrss, usage.ru_utime + usage.ru_stime], said)
+"""
+
+
 def run(words: Sequence[object], cwd: Path | None = None, ok: Sequence[int] = (0,)) -> Run:
     """One process. CalledProcessError with its stderr where it ends with another code than those of `ok`."""
-    with tempfile.TemporaryFile("w+") as said:  # a file: a pipe could fill while the other is read
-        begin = time.perf_counter()
-        child = subprocess.Popen([str(w) for w in words], cwd=cwd, stdout=subprocess.PIPE, stderr=said, text=True)
-        assert child.stdout is not None
-        out = child.stdout.read()
-        _, status, usage = os.wait4(child.pid, 0)
-        seconds = time.perf_counter() - begin
-        child.returncode = os.waitstatus_to_exitcode(status)
-        child.stdout.close()
-        said.seek(0)
-        err = said.read()
-    if child.returncode not in ok:
-        raise subprocess.CalledProcessError(child.returncode, list(map(str, words)), out, err)
-    return Run(seconds, usage.ru_maxrss / 1024, out, usage.ru_utime + usage.ru_stime)
+    told = [str(w) for w in words]
+    with tempfile.TemporaryDirectory() as folder:
+        used = Path(folder, "used")
+        watch = [sys.executable, "-I", "-S", "-c", _WATCH, str(used), *told]
+        done = subprocess.run(watch, cwd=cwd, capture_output=True, text=True, check=False)
+        if not used.exists():
+            raise subprocess.CalledProcessError(done.returncode, told, done.stdout, done.stderr)
+        seconds, status, peak_kib, cpu_seconds = json.loads(used.read_text())
+    code = os.waitstatus_to_exitcode(status)
+    if code not in ok:
+        raise subprocess.CalledProcessError(code, told, done.stdout, done.stderr)
+    return Run(seconds, peak_kib / 1024, done.stdout, cpu_seconds)
 
 
 def python(script: Path, *words: object) -> Run:

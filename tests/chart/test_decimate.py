@@ -2,7 +2,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from thermodata.chart import columns_in, min_max, shortened
@@ -23,6 +23,7 @@ def test_no_peak_is_lost_and_the_order_follows_the_samples() -> None:
     assert list(falling[:4]) == [0.0, -99.0, -100.0, -199.0]
 
 
+@settings(deadline=None, suppress_health_check=[HealthCheck.too_slow])
 @given(
     st.lists(st.floats(0, 100), min_size=1, max_size=200),
     st.integers(1, 30),

@@ -138,3 +138,25 @@ def test_preview_of_a_part_says_so(tmp_path: Path) -> None:
     assert "all 200 rows" in preview_text(shown)
     shown["whole"] = False
     assert "the first 200 rows only: the file is large" in preview_text(shown)
+
+
+def test_preview_looks_closely_at_a_share_of_very_many_signals_and_says_so(tmp_path: Path) -> None:
+    from nptdms import ChannelObject, TdmsWriter
+
+    from thermodata.cli.preview import previewed
+
+    wave = {"wf_start_time": np.datetime64("2026-03-02T06:00:00", "us"), "wf_increment": 1.0, "unit_string": "degC"}
+    t = 20.0 + np.arange(3)
+    with TdmsWriter(str(tmp_path / "wide.tdms")) as writer:
+        writer.write_segment([ChannelObject(f"g{i // 60}", f"c{i}", t + i, wave) for i in range(2400)])
+    found = previewed(tmp_path / "wide.tdms", None, None, 2, None)
+    assert found["notes"] == [
+        "2000 of 2400 signals were looked at, the first of each stream: quantities, ranges, flags and courses of the "
+        "others are left open"
+    ]
+    for i, stream in enumerate(found["streams"]):
+        assert [s["values"] is not None for s in stream["signals"]] == [True] * 50 + [False] * 10
+        assert stream["signals"][49]["values"]["high"] == 22.0 + 60 * i + 49
+        assert stream["first_rows"][1][f"g{i}/c{60 * i + 59}"] == 21.0 + 60 * i + 59
+    few = previewed(csv(tmp_path / "a.csv"), None, None, 2, None)
+    assert not any("looked at" in note for note in few["notes"])

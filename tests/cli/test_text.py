@@ -1,13 +1,21 @@
 from __future__ import annotations
 
+import json
 import math
+import random
 from dataclasses import dataclass
+from datetime import date
+from decimal import Decimal
+from pathlib import Path
 
 import numpy as np
 import pytest
 
+from thermodata.cli.besides import as_table
 from thermodata.cli.common import plain
-from thermodata.cli.layout import markdown
+from thermodata.cli.json_text import json_text
+from thermodata.cli.layout import LAYOUTS, latex, markdown
+from thermodata.modelling.beside import Beside
 from thermodata.report.table import table
 from thermodata.report.words import change, duration, number, typeset
 
@@ -105,3 +113,70 @@ def test_numbers_are_never_folded_and_columns_without_room_stand_below() -> None
 
 def test_a_table_that_fits_is_left_alone() -> None:
     assert "campaign        test" in table(WIDE, HEADS, width=100)
+
+
+def _anything(rng: random.Random, depth: int = 0) -> object:
+    """A value such as commands answer with, nested at random."""
+    leaves = (
+        1,
+        True,
+        None,
+        'a\n"\u00e9\u2028',
+        1.5,
+        float("nan"),
+        np.float64(2.5),
+        np.array([1.0, np.inf]),
+        date(2026, 1, 1),
+        Decimal("1.5"),
+        Path("a/b"),
+        {},
+        [],
+    )
+    kind = rng.randrange(16 if depth < 5 else 12)
+    if kind < 12:
+        return rng.choice(leaves)
+    if kind < 14:
+        return {rng.choice(("a", "b", 1, None, 2.5, "ü\n")): _anything(rng, depth + 1) for _ in range(rng.randrange(5))}
+    return [_anything(rng, depth + 1) for _ in range(rng.randrange(5))]
+
+
+def test_json_in_pieces_is_what_json_dumps_writes() -> None:
+    rng = random.Random(9)
+    for _ in range(2000):
+        value = _anything(rng)
+        whole = json.dumps(plain(value), indent=2, ensure_ascii=False, allow_nan=False)
+        assert "".join(json_text(value)) == whole
+
+
+def test_json_of_a_large_answer_comes_in_pieces() -> None:
+    signals = [{"name": f"c{i}", "unit": None, "values": {"low": float(i), "high": math.nan}} for i in range(20_000)]
+    pieces = list(json_text({"signals": signals}))
+    assert len(pieces) > 5
+    assert max(map(len, pieces)) < 1_000_000
+    assert json.loads("".join(pieces))["signals"][19_999] == {
+        "name": "c19999",
+        "unit": None,
+        "values": {"low": 19999.0, "high": None},
+    }
+
+
+def _beside(model: str, name: str, residual: float) -> dict[str, object]:
+    return Beside("c", "t_1", "verification", "dZ", model, name, residual=residual).to_json()
+
+
+@pytest.mark.parametrize("layout", list(LAYOUTS))
+def test_versions_of_one_model_are_told_apart_in_every_layout(layout: str) -> None:
+    """`compare NEW --against OLD`, of a model that an effect was added to."""
+    versions = as_table([_beside("0a57485b55b0", "baseline", 3.0), _beside("047fafc90cb0", "baseline", 1.0)], layout)
+    assert "baseline 0a5748" in versions
+    assert "baseline 047faf" in versions
+    others = as_table([_beside("0a57485b55b0", "baseline", 3.0), _beside("047fafc90cb0", "linear", 1.0)], layout)
+    assert "baseline" in others
+    assert "0a5748" not in others
+
+
+def test_latex_has_no_character_that_is_a_command_or_another_sign() -> None:
+    text = latex([{"a": "T_x & 5 %|", "b": "a < b > c"}], [("a", "|max| [um]"), ("b", "$b$")])
+    body = text.replace(r"\_", "").replace(r"\&", "").replace(r"\%", "").replace(r"\$", "").replace(" & ", " ")
+    assert not set("_%$|<>&") & set(body)
+    assert r"\textbar{}max\textbar{} [um]" in text

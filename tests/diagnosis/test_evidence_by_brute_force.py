@@ -21,6 +21,7 @@ from thermodata.diagnosis.discrepancy import Noise
 from thermodata.diagnosis.evidence import Columns, columns, moments, of_each_series, weigh
 from thermodata.diagnosis.invariance import spread_of_gain
 from thermodata.diagnosis.known import Known, known, likeliest
+from thermodata.diagnosis.locked import _with, foretell
 from thermodata.diagnosis.null import best_of_chance, p_value
 from thermodata.diagnosis.problem import Problem
 from thermodata.diagnosis.ranking import rank_in
@@ -123,6 +124,22 @@ def test_the_log_evidence_is_that_of_a_normal_density_without_offsets() -> None:
     bare = known(without, NOISE)
     assert bare.log_evidence == pytest.approx(log_density(without, range(4), bare), abs=1e-6)
     assert base.log_evidence > bare.log_evidence
+
+
+def test_locked_tests_are_made_more_probable_by_the_difference_of_two_conditional_densities() -> None:
+    """Those of the fourth test, given the first three, without and with a cause."""
+    one, opened = small(), np.arange(3)
+    open_tests = replace(one, blocks=one.blocks[:3], kept={})
+    claim = rank_in(open_tests, [made(open_tests)], NOISE).ranked[0]
+    found = foretell(one, 3, NOISE, [], [claim])
+    without, among = known(one, NOISE), known(_with(one, opened, NOISE, [claim]), NOISE)
+
+    def conditional(base: Known) -> float:
+        return log_density(base.problem, range(4), base) - log_density(base.problem, range(3), base)
+
+    rows = len(one.blocks[3].response)
+    assert found.gained * rows == pytest.approx(conditional(among) - conditional(without), abs=1e-6)
+    assert found.gained > 0
 
 
 @pytest.mark.parametrize("tests", [(0, 1, 2, 3), (0, 2, 3), (1,)])

@@ -347,3 +347,26 @@ def test_what_two_explain_alike_is_the_likelier_ones(monkeypatch: pytest.MonkeyP
     assert members(found) == ["a", "c", "b"]
     assert [m.scored.evidence for m in found.members] == [20.0, 40.0, 15.0], "beside all others"
     assert [m.scored.credit for m in found.members] == [100.0, 40.0, 15.0]
+
+
+def test_what_takes_a_members_place_keeps_its_credit(monkeypatch: pytest.MonkeyPatch) -> None:
+    """And adds to it what it does better beside the others."""
+    alone, beside_c = {"a": 100.0, "b": 90.0, "c": 40.0}, {"a": 20.0, "b": 25.0, "c": 0.0}
+
+    def evidence(n: str, known: Any) -> float:
+        if {"a", "b"} & known:
+            return 15.0 if n == "c" else 0.0
+        return beside_c[n] if "c" in known else alone[n]
+
+    world = Worlds(monkeypatch, evidence)
+    original = world._scored
+
+    def as_left_out(problem: Problem, one: Columns) -> Scored:
+        made = original(problem, one)
+        return replace(made, own_after=0.09 * made.rows) if name(made) == "b" else made
+
+    monkeypatch.setattr(world, "_scored", as_left_out)
+    found = world.select("abc")
+    assert members(found) == ["b", "c"]
+    assert [m.scored.evidence for m in found.members] == [25.0, 15.0]
+    assert [m.scored.credit for m in found.members] == [105.0, 15.0]

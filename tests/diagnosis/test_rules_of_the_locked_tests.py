@@ -49,6 +49,16 @@ def test_the_squared_error_falls_by_half_of_what_is_added(after: float, changed:
     assert Confirmation(after, 1.0, 1.0, after, changed, {}).holds is holds, "by shape; the first samples may oppose"
 
 
+@pytest.mark.parametrize(
+    ("after", "gained", "holds"), [(0.95, 0.501, True), (0.95, 0.499, False), (0.9801, 9.0, False)]
+)
+def test_locked_tests_that_become_much_more_probable_hold_a_claim_if_their_error_falls(
+    after: float, gained: float, holds: bool
+) -> None:
+    """Where the squared error falls by a tenth of what is added."""
+    assert Foretold(1.0, after, 1.0, gained).holds is holds
+
+
 def test_without_locked_tests_a_claim_stands() -> None:
     assert Confirmation(None, None, None, None, 0.0, {}).holds
 

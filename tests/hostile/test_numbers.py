@@ -87,3 +87,48 @@ def test_a_declared_mark_holds_in_a_file_of_both(read: Any, mark: str, lost: str
     data = read(text, table={"decimal": mark})
     assert all(f"column '{lost}'" in x.where or "more" in x.reason for x in data.losses)
     assert data.losses
+
+
+def test_the_minus_of_typography_and_an_exponent_of_fortran_are_numbers(lab: Lab) -> None:
+    cells = ["\u2212" * (i % 2) + f"{i / 8}" for i in range(40)]
+    fortran = [f"{2 + i / 8:.4E}".replace("E", "D") for i in range(40)]
+    lines = "".join(f"{t},{a},{b}\n" for t, a, b in zip(TIMES, cells, fortran, strict=True))
+    lab.write("raw/a.csv", "time,X [um],T_spindle [degC]\n" + lines)
+    assert lab("init", lab.folder).code == 0
+    assert lab("ingest", lab.folder / "campaign.yaml").code == 0
+    np.testing.assert_allclose(lab.values("X", "a")[1], [(-1) ** i * i / 8 for i in range(40)])
+    np.testing.assert_allclose(lab.values("T_spindle", "a")[1], [2 + i / 8 for i in range(40)])
+
+
+@pytest.mark.parametrize("word", ["1D3", "12D+3", "D+03", "5−", "1−2", "−"])
+def test_words_with_a_d_or_a_minus_stay_words(read: Any, word: str) -> None:
+    data = read(csv(["1.5"] * 30 + [word] + ["1.5"] * 9))
+    assert np.isnan(next(iter(data.values.values()))[30])
+
+
+def test_a_unit_of_numbers_over_words_is_asked_about_and_kept_as_no_label(lab: Lab) -> None:
+    lab.write(
+        "raw/a.csv",
+        csv(
+            [f"{20 + i / 8}".translate({48 + k: 0xFF10 + k for k in range(10)}) for i in range(40)],
+            head="T_spindle [degC]",
+        ),
+    )
+    assert lab("init", lab.folder).code == 0
+    drafted = (lab.folder / "campaign.yaml").read_text(encoding="utf-8")
+    assert "quantity: label" not in drafted
+    assert "text, though degC is a unit of numbers" in drafted
+
+
+def test_a_file_of_both_decimal_marks_is_drafted_with_the_question(lab: Lab) -> None:
+    lines = "".join(f"{t};{20 + i / 8};{i},5\n" for i, t in enumerate(TIMES))
+    lab.write("raw/a.csv", "time;T_spindle [degC];X [um]\n" + lines)
+    assert lab("init", lab.folder).code == 0
+    drafted = lab.folder / "campaign.yaml"
+    text = drafted.read_text(encoding="utf-8")
+    assert "decimal: unknown" in text
+    assert "40 with a comma" in text
+    assert lab("ingest", drafted).code == 3
+    drafted.write_text(text.replace("decimal: unknown", 'decimal: "."'), encoding="utf-8")
+    lab("ingest", drafted)
+    np.testing.assert_allclose(lab.values("T_spindle", "a")[1], [20 + i / 8 for i in range(40)])

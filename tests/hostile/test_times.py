@@ -204,3 +204,133 @@ def test_the_unit_of_a_time_may_stand_beside_it_in_a_mat_file(read: Any, said: d
 def test_times_of_day_go_over_midnight(read: Any, by: str) -> None:
     data = read("time;T\n" + rows([t[11:] for t in stamps("2026-03-02 23:55:00", 10, 200)]), by=by)
     np.testing.assert_array_equal(next(iter(data.t_ns.values())), np.arange(200) * 10_000_000_000)
+
+
+ODD = (
+    "%d-%b-%Y %H:%M:%S",  # MATLAB
+    "%d. %B %Y %H:%M:%S",
+    "%b %d, %Y %I:%M:%S %p",
+    "%a %b %d %H:%M:%S %Y",  # ctime
+    "%a %d.%m.%Y %H:%M:%S",
+    "%Y%m%dT%H%M%S",
+    "%Y%m%d%H%M%S",
+    "%Y_%m_%d_%H_%M_%S",
+    "%d.%m.%Y %H.%M.%S",
+)
+
+
+@pytest.mark.parametrize("between", [";", ","])
+@pytest.mark.parametrize("form", [f for f in ODD if "," not in f])
+def test_stamps_in_an_odd_spelling_are_drafted_with_their_format(lab: Lab, form: str, between: str) -> None:
+    first = datetime(2026, 3, 30, 23, 50)
+    stamped = [f"{first + timedelta(minutes=10 * i):{form}}" for i in range(60)]
+    lab.write("raw/a.csv", between.join(("time", "T_spindle [degC]")) + "\n" + rows(stamped, between))
+    assert lab("init", lab.folder).code == 0
+    drafted = (lab.folder / "campaign.yaml").read_text(encoding="utf-8")
+    assert form in drafted
+    assert f"is '{stamped[0]}' {form}?" in drafted
+    assert lab("ingest", lab.folder / "campaign.yaml").code == 0
+    t_s, _ = lab.values("T_spindle", "a")
+    np.testing.assert_allclose(t_s, np.arange(60) * 600.0)
+    assert "2026-03-30 23:50:00" in lab("sql", "select min(t) from sample").out
+
+
+@pytest.mark.parametrize(
+    "form", ["%Y-%m-%d %H:%M:%S CEST", "%d. März %Y %H:%M:%S", "%Y-%j %H:%M:%S", "%d/%m/%y %H-%M-%S"]
+)
+def test_a_format_that_is_not_sure_is_asked_for(lab: Lab, form: str) -> None:
+    """A zone by its letters, a month in another language, a day of the year, day and month either way round."""
+    first = datetime(2026, 3, 2, 8)
+    lab.write("raw/a.csv", "time;T\n" + rows([f"{first + timedelta(seconds=10 * i):{form}}" for i in range(60)]))
+    assert lab("init", lab.folder).code == 0
+    assert "format: unknown" in (lab.folder / "campaign.yaml").read_text(encoding="utf-8")
+    said = lab("ingest", lab.folder / "campaign.yaml")
+    assert said.code == 3
+    assert "'time.format' of the table is not answered yet" in said.out
+
+
+@pytest.mark.parametrize("form", ["%d.%m. %H:%M:%S", "%Y %H:%M:%S", "%d %b %H:%M"])
+def test_a_declared_format_without_a_year_or_a_month_is_refused(read: Any, form: str) -> None:
+    with pytest.raises(FormatError, match="cannot be used"):
+        read("time;T\n" + rows(["02.03. 08:00:00"] * 20), by="table", table={"time": {"column": 1, "format": form}})
+
+
+def test_a_date_that_is_one_number_dates_the_times_of_day_beside_it(lab: Lab) -> None:
+    first = datetime(2026, 3, 2, 8)
+    moments = [first + timedelta(hours=5 * i) for i in range(40)]  # whole days pass without a row at midnight
+    lab.write("raw/a.csv", "date;time;T_spindle [degC]\n" + rows([f"{m:%Y%m%d;%H:%M:%S}" for m in moments]))
+    assert lab("init", lab.folder).code == 0
+    assert lab("ingest", lab.folder / "campaign.yaml").code == 0
+    np.testing.assert_allclose(lab.values("T_spindle", "a")[0], np.arange(40) * 5 * 3600.0)
+    assert "2026-03-02 08:00:00" in lab("sql", "select min(t) from sample").out
+
+
+@pytest.mark.parametrize("start_h", [0, 30, 99])
+def test_durations_go_on_behind_a_day(read: Any, start_h: int) -> None:
+    seconds = [start_h * 3600 + 600 * i for i in range(300)]
+    data = read("time,T\n" + rows([f"{s // 3600:02d}:{s // 60 % 60:02d}:{s % 60:02d}" for s in seconds], ","))
+    assert not data.losses
+    (t_ns,) = data.t_ns.values()
+    np.testing.assert_array_equal(t_ns, np.arange(300) * 600 * 10**9)
+
+
+def test_a_damaged_time_of_day_is_no_duration(read: Any) -> None:
+    times = [s[11:] for s in stamps("2026-03-02 08:00:00", 10, 200)]
+    times[50] = "28" + times[50][2:]
+    data = read("time,T\n" + rows(times, ","))
+    assert [loss.where for loss in data.losses] == ["a.csv line 52"]
+    (t_ns,) = data.t_ns.values()
+    np.testing.assert_array_equal(t_ns, np.delete(np.arange(200), 50) * 10 * 10**9)
+
+
+def test_days_since_1900_under_a_word_for_time_are_asked_for(lab: Lab) -> None:
+    lab.write("raw/a.csv", "time,T_spindle [degC]\n" + rows([f"{46083.25 + i / 1440:.8f}" for i in range(60)], ","))
+    assert lab("init", lab.folder).code == 0
+    drafted = lab.folder / "campaign.yaml"
+    text = drafted.read_text(encoding="utf-8")
+    assert "excel (days since 1900) or s?" in text
+    assert lab("ingest", drafted).code == 3
+    drafted.write_text(text.replace("unit: unknown", "unit: excel"), encoding="utf-8")
+    assert lab("ingest", drafted).code == 0
+    np.testing.assert_allclose(lab.values("T_spindle", "a")[0], np.arange(60) * 60.0, atol=1e-3)
+
+
+def test_a_declared_format_finds_its_column_by_the_name(read: Any) -> None:
+    first = datetime(2026, 3, 2, 8)
+    odd = [f"{first + timedelta(seconds=10 * i):%d-%b-%Y %H:%M:%S}" for i in range(60)]
+    lines = "".join(f"{i};{t};{20 + i / 8}\n" for i, t in enumerate(odd))
+    data = read("no;time;T\n" + lines, by="table", table={"time": {"format": "%d-%b-%Y %H:%M:%S"}})
+    (t_ns,) = data.t_ns.values()
+    np.testing.assert_array_equal(t_ns - t_ns[0], np.arange(60) * 10 * 10**9)
+
+
+def test_a_column_that_is_called_by_a_unit_of_time_is_asked_for_in_that_unit(lab: Lab) -> None:
+    lab.write("raw/a.csv", "hours;T;X\n" + "".join(f"{i / 360:.5f};{20 + i / 8};{i}.5\n" for i in range(60)))
+    assert lab("init", lab.folder).code == 0
+    assert "is 'hours' the time? then time: {column: 1, unit: hours}" in (lab.folder / "campaign.yaml").read_text()
+
+
+def test_parquet_without_a_time_is_asked_for_its_period_and_read_by_it(lab: Lab) -> None:
+    lab.write("raw/a.parquet", parquet(A=np.sin(N), T_spindle=20 + N / 8))
+    assert lab("init", lab.folder).code == 0
+    drafted = lab.folder / "campaign.yaml"
+    text = drafted.read_text(encoding="utf-8")
+    assert "period: unknown" in text
+    assert lab("ingest", drafted).code == 3
+    drafted.write_text(text.replace("period: unknown", "period: 10 s"), encoding="utf-8")
+    assert lab("ingest", drafted).code == 0
+    t_s, values = lab.values("T_spindle", "a")
+    np.testing.assert_allclose(t_s, N * 10.0)
+    np.testing.assert_array_equal(values, 20 + N / 8)
+    traced = lab("trace", "odd" if "id: odd" in text else "lab", "a", "T_spindle", "--at", "30 s", "--verify")
+    assert traced.code == 0, traced.err
+    assert "row 4 of the file" in traced.out
+
+
+def test_times_in_an_odd_spelling_are_asked_for_in_parquet_too(lab: Lab) -> None:
+    first = datetime(2026, 3, 2, 8)
+    odd = [f"{first + timedelta(seconds=10 * int(i)):%d-%b-%Y %H:%M:%S}" for i in N]
+    lab.write("raw/a.parquet", parquet(time=odd, T_spindle=20 + N / 8))
+    assert lab("init", lab.folder).code == 0
+    assert lab("ingest", lab.folder / "campaign.yaml").code == 0
+    np.testing.assert_allclose(lab.values("T_spindle", "a")[0], N * 10.0)

@@ -161,3 +161,89 @@ def test_an_hdf5_file_that_reads_others_is_refused(lab: Lab, kind: str) -> None:
     assert "another file" in found.out + found.err, (found.code, found.out[-800:], found.err)
     assert "T1  " not in found.out
     shutil.rmtree(lab.folder / "raw")
+
+
+def test_a_file_whose_name_is_no_utf8_is_named_and_the_others_are_drafted(lab: Lab) -> None:
+    rows = "".join(f"2026-03-02 08:{i:02d}:00,{20 + i / 10}\n" for i in range(40))
+    lab.write("raw/b.csv", "time,T_spindle [degC]\n" + rows)
+    with open(os.fsencode(lab.folder) + b"/raw/caf\xe9.csv", "wb") as file:
+        file.write(b"time,T_spindle [degC]\n" + rows.encode())
+    assert lab("init", lab.folder).code == 0
+    drafted = (lab.folder / "campaign.yaml").read_text(encoding="utf-8")
+    assert "# not used: raw/caf .csv: its name is no UTF-8" in drafted
+    assert "another name" in drafted
+    assert lab("ingest", lab.folder / "campaign.yaml").code == 0
+    assert lab.values("T_spindle", "b")[1].size == 40
+
+
+@pytest.mark.parametrize("line", ['- {id: "caf\\udce9"}', '- {id: a, conditions: {"\\udce9": 1}}'])
+def test_half_a_letter_in_a_campaign_file_is_refused_with_its_line(lab: Lab, line: str) -> None:
+    lab.write("campaign.yaml", "schema: thermodata/campaign/1\nid: odd\nsources: {}\nchannels: {}\ntests:\n  " + line)
+    said = lab("ingest", lab.folder / "campaign.yaml")
+    assert said.code == 2
+    assert "a text that is no UTF-8" in said.err
+    assert "campaign.yaml:6" in said.err
+
+
+@pytest.mark.parametrize(
+    ("content", "name", "what"),
+    [
+        (b'{"time": "2026-03-02 08:00:00", "T": 20.5}\n' * 40, "a.jsonl", "JSON: export it as CSV"),
+        (b'[{"time": 0, "T": 20.5},\n {"time": 1, "T": 20.6}]\n', "a.json", "JSON: export it as CSV"),
+        (b"<html><table><tr><td>time</td><td>T</td></tr></table></html>", "a.xls", "save it as XLSX"),
+        ("time,T\n0,20.5\n1,20.6\n".encode("utf-32"), "a.csv", "save it as UTF-8"),
+    ],
+)
+def test_what_no_declaration_would_read_gets_no_such_advice(lab: Lab, content: bytes, name: str, what: str) -> None:
+    said = lab("sniff", lab.write(f"raw/{name}", content))
+    assert said.code == 2
+    assert what in said.out
+    assert "declare" not in said.out.split("  try ")[-1] or "  try " not in said.out
+
+
+def test_a_line_of_json_above_a_table_does_not_hide_it(lab: Lab) -> None:
+    path = lab.write("raw/a.csv", '{"machine": "M"}\ntime;T\n' + rows(stamps("2026-03-02 08:00:00", 10, 40)))
+    said = lab("sniff", path)
+    assert said.code == 0
+    assert "export it as CSV" not in said.out
+
+
+def test_row_numbers_without_a_name_shift_no_column(lab: Lab) -> None:
+    """As R writes a table: its header has a cell less than the rows."""
+    times = stamps("2026-03-02 08:00:00", 10, 40)
+    lines = "".join(f'"{i + 1}","{t}",{20 + i / 8},{i}.5\n' for i, t in enumerate(times))
+    lab.write("raw/a.csv", '"time","T_spindle [degC]","X [um]"\n' + lines)
+    assert lab("init", lab.folder).code == 0
+    assert lab("ingest", lab.folder / "campaign.yaml").code == 0
+    np.testing.assert_allclose(lab.values("T_spindle", "a")[1], 20 + np.arange(40) / 8)
+    np.testing.assert_allclose(lab.values("X", "a")[1], np.arange(40) + 0.5)
+
+
+@pytest.mark.parametrize("name", ["2026_03_02", "1_2", "010", "1.50", "0x1F", "12:30", "1e3", "no", "on", "+5"])
+def test_an_id_is_what_stands_there_and_no_number_of_yaml(lab: Lab, name: str) -> None:
+    lab.write(f"raw/{name}.csv", "time;T\n" + rows(stamps("2026-03-02 08:00:00", 10, 40)))
+    lab.write(
+        "campaign.yaml",
+        "schema: thermodata/campaign/1\nid: odd\nsources: {log: {reader: table, files: 'raw/{test}.csv'}}\n"
+        "channels: {T1: {source: log, signal: T, quantity: temperature, unit: degC}}\n"
+        f"tests:\n  - {{id: {name}}}\n",
+    )
+    said = lab("ingest", lab.folder / "campaign.yaml")
+    assert said.code == 0, said.out + said.err
+    assert lab.values("T1", name)[1].size == 40
+
+
+@pytest.mark.parametrize(
+    "key", ["clock: {offset: 1e300 s}", "clock: {offset: -300 year}", "table: {time: {period: 1e12 s}}"]
+)
+def test_a_time_of_centuries_is_refused_with_its_line(lab: Lab, key: str) -> None:
+    lab.write("raw/a.csv", "time;T\n" + rows(stamps("2026-03-02 08:00:00", 10, 40)))
+    lab.write(
+        "campaign.yaml",
+        f"schema: thermodata/campaign/1\nid: odd\nsources: {{log: {{reader: table, files: 'raw/*', {key}}}}}\n"
+        "channels: {T1: {source: log, signal: T, quantity: temperature, unit: degC}}\ntests: [{id: a}]\n",
+    )
+    said = lab("ingest", lab.folder / "campaign.yaml")
+    assert said.code == 2
+    assert "292 years" in said.err
+    assert "campaign.yaml:3" in said.err

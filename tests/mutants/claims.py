@@ -118,6 +118,9 @@ MUTANTS = [
     diagnosis("locked.py", "KEPT = 0.5", "KEPT = 0.0", "a proxy survives the locked tests"),
     diagnosis("locked.py", "LEAST = 0.02", "LEAST = -9.0", "locked tests never withdraw a claim"),
     diagnosis("locked.py", "MUCH = 0.25", "MUCH = 0.9", "a large fall does not bear a claim out"),
+    diagnosis("locked.py", "PROBABLE = 0.5", "PROBABLE = 0.0", "a proxy survives the locked tests"),
+    diagnosis("locked.py", "PROBABLE = 0.5", "PROBABLE = 9.0", "one slow test withdraws a cause"),
+    products("locked.py", "base.every) - base.log_probability(tests)", "base.every)", "open tests speak twice"),
     diagnosis(
         "locked.py",
         "tests, locked = np.arange(opened)",

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import pytest
 
 from thermodata.errors import UsageError
 from thermodata.schema.quantity import (
+    AT_HAND,
     CANONICAL_UNIT,
     QUANTITIES,
     canonical,
@@ -13,6 +16,7 @@ from thermodata.schema.quantity import (
     delta_factor,
     is_unit,
     linear_conversion,
+    normal_unit,
     split_value,
     value_in,
 )
@@ -136,3 +140,14 @@ def test_a_value_needs_its_unit_unless_it_is_zero() -> None:
     assert value_in(0, "s") == 0.0
     with pytest.raises(UsageError, match="without a unit"):
         value_in(10, "s")
+
+
+def test_units_at_hand_are_units_of_pint() -> None:
+    import pint
+
+    registry: Any = pint.UnitRegistry()
+    for unit in sorted(AT_HAND):
+        assert normal_unit(unit) in AT_HAND
+        registry.parse_units(unit)
+        assert is_unit(unit)
+    assert not any(is_unit(word) for word in ("", "  ", "x", "hour12", "speed"))

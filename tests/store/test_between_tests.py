@@ -84,6 +84,36 @@ def test_without_dates_a_drift_is_flagged_where_it_starts_and_in_every_later_tes
     assert ingest(store, path).changed is False
 
 
+def told(store: Store) -> tuple[list[Any], list[Any]]:
+    """Samples with their flags, and the events."""
+    with store.reader() as con:
+        samples = con.execute("select test, channel, t_s, value, flag from sample order by all").fetchall()
+        return samples, con.execute("select test, channel, flag, from_s, n from quality order by all").fetchall()
+
+
+def test_an_edit_of_one_test_changes_the_verdict_on_others_as_a_first_ingest_would(
+    store: Store, tmp_path: Path
+) -> None:
+    drift = 30 * np.clip((np.arange(N) - 400) / 60, 0, 1)
+    logs = [day(1, dated=False), day(2, dated=False), day(3, dated=False, T1=drift), day(4, dated=False, T1=30.0)]
+    path = lab(tmp_path, logs)
+    ingest(store, path)
+    # the sensor was off on the first day too: then nothing failed between the tests, and nobody is judged
+    log, meta = day(1, dated=False, T1=30.0)
+    write_log(path.parent / "raw/day1.npz", log, **meta)
+    summary = ingest(store, path)
+    assert summary.read == 1
+    assert "day4" not in flagged(store, "T_1", Flag.OFFSET)
+    anew = Store(tmp_path / "anew", create=True)
+    ingest(anew, path)
+    assert told(store) == told(anew)
+    # and back
+    log, meta = day(1, dated=False)
+    write_log(path.parent / "raw/day1.npz", log, **meta)
+    assert ingest(store, path).made >= 2
+    assert flagged(store, "T_1", Flag.OFFSET)["day4"] == list(range(N))
+
+
 def test_a_part_of_another_recording_is_told_once_and_does_not_count(store: Store, tmp_path: Path) -> None:
     log, meta = day(2)
     main = log["main"]

@@ -301,7 +301,7 @@ def test_a_full_disk_in_a_worker_is_an_error_with_what_is_needed(
     assert whole.check(store.path)["sample"] == 0
 
 
-SLOW = "import time; print('begun', flush=True); time.sleep(60)"
+SLOW = "import time; print('begun', flush=True); time.sleep(3600)"
 # a disk that takes its time while a finished file is written to it, and hears of no signal
 STUCK = "import thermodata.store.raw.writer as w; w.publish = lambda *_: stuck()"
 STUCK_FOR = """
@@ -309,7 +309,7 @@ def stuck():
     import time
     signal.signal(signal.SIGTERM, signal.SIG_IGN)
     print('begun', flush=True)
-    time.sleep(60)
+    time.sleep(3600)
 """
 
 
@@ -340,8 +340,8 @@ def test_an_ingest_that_is_ended_ends_its_workers_and_leaves_the_store_as_it_was
     mine = workers_of(child.pid)
     assert len(mine) == 2
     child.send_signal(kind)
-    child.wait(30)
-    deadline = time.monotonic() + 30
+    child.wait(300)
+    deadline = time.monotonic() + 300
     while (left := [pid for pid in mine if alive(pid)]) and time.monotonic() < deadline:
         time.sleep(0.05)
     assert left == []

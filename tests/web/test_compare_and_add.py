@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import html
 import json
 import re
 import subprocess
@@ -29,11 +30,12 @@ def finished(client: Client, text: str, seconds: float = 300.0) -> tuple[str, st
     while time.monotonic() < end:
         at = re.search(r'hx-get="(/task/[^"]+)"', text)
         if at is None:
-            return text, None
+            onward = re.search(r'data-onward="([^"]+)"', text)
+            return text, html.unescape(onward[1]) if onward else None
         answer = client.get(at[1])
         text = answer.text
-        if answer.header("hx-redirect"):
-            return text, answer.header("hx-redirect")
+        # a header would send the browser on again at every look, and away from a page that is slow to come
+        assert answer.header("hx-redirect") is None
         time.sleep(0.1)
     raise AssertionError(f"still at work: {text}")
 

@@ -283,3 +283,31 @@ def test_the_server_killed_during_an_add_leaves_the_store_whole(served: Served) 
     store = Store(served.lab / "thermodata.store")
     assert not check_store(store).damaged
     assert len(model_rows(store)) in (1, 2)
+
+
+def test_a_line_that_a_stretch_proposes_is_put_into_the_campaign_file(served: Served) -> None:
+    served.go("/test?campaign=small&test=heat1")
+    served.page.wait("document.querySelector('#plot canvas')")
+    served.press("#choose")
+    x, y, width = served.page.js(
+        "(() => { const r = document.querySelector('#plot .u-over').getBoundingClientRect(); "
+        "return [r.left, r.top + 20, r.width]; })()"
+    )
+    served.page.drag(x + 0.2 * width, x + 0.4 * width, y)
+    served.press("#range button[aria-label*='window:']")
+    served.page.wait("document.querySelector('#diff .diff')?.textContent.includes('window:')")
+    served.press("#diff form[hx-post='/rule/write'] button")
+    served.page.wait("document.querySelector('#diff h2')?.textContent.includes('is written')")
+    assert "window:" in (served.lab / "campaign.yaml").read_text()
+    assert served.page.complaints() == []
+
+
+def test_work_that_is_done_leads_to_its_result_once(served: Served) -> None:
+    """A page that is slow to come is not asked for again and again meanwhile."""
+    served.go("/missing")
+    before = len(served.page.requests())
+    served.go("/add?model=baseline&candidate=1")
+    served.press("form[hx-post='/task/add'] button")
+    served.page.wait("location.pathname === '/compare' && document.readyState === 'complete'", timeout_s=240)
+    asked = [u for u in served.page.requests()[before:] if urlsplit(u).path == "/compare"]
+    assert len(asked) == 1

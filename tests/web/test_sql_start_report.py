@@ -49,6 +49,8 @@ def test_from_a_folder_of_raw_logs_to_a_store(made_lab: Path, tmp_path: Path) ->
     import shutil
 
     shutil.copytree(made_lab / "raw", tmp_path / "new" / "raw")
+    with (tmp_path / "new" / "raw" / "day1.csv").open("a") as file:
+        file.write("99999,odd,row\n")  # something to say after the ingest
     client, desk = client_of(tmp_path / "new", write=True)
     client = Client(client.app, [*client.headers, *write_headers(desk)])
     assert "Draft campaign.yaml" in client.get("/start").text
@@ -68,9 +70,14 @@ def test_from_a_folder_of_raw_logs_to_a_store(made_lab: Path, tmp_path: Path) ->
     assert "is written" in client.post("/start/write", form).text
     assert "role: calibration" in Path(path).read_text()
     assert (tmp_path / "new" / "campaign.1.yaml").read_text() == before
-    _, onward = finished(client, client.post("/task/ingest", {"campaign": path}).text)
-    assert onward is not None
-    assert client.get(onward).status == 200
+    text, onward = finished(client, client.post("/task/ingest", {"campaign": path}).text)
+    assert onward is None  # what was lost and noted is read first
+    assert "is in the store:</b>" in text
+    assert "What could not be read" in text
+    assert 'href="/start?after=ingest#model">Fit a first model' in text
+    listed = client.get(re.search(r'href="(/\?campaign=[^"]+)">Look at the tests', text)[1])
+    assert listed.status == 200
+    assert "Fit a first model" in listed.text
     assert Store(tmp_path / "new" / "thermodata.store").generation > 0
 
 

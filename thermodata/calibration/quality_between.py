@@ -158,7 +158,7 @@ def _stacks(i: int, test: Levels) -> list[_Stack]:
         at = next((k for k, t in enumerate(grids) if t_s is t or np.array_equal(t_s, t)), len(grids))
         grids += [t_s] if at == len(grids) else []
         on[name] = at
-    apart = [float(np.median(np.diff(t))) if len(grids) > 1 and len(t) > 1 else np.inf for t in grids]
+    apart = [_median(np.diff(t)) if len(grids) > 1 and len(t) > 1 else np.inf for t in grids]
     return [
         _Stack(
             i,
@@ -168,6 +168,14 @@ def _stacks(i: int, test: Levels) -> list[_Stack]:
         )
         for k, t_s in enumerate(grids)
     ]
+
+
+def _median(x: Float1D) -> float:
+    """As numpy's, which takes ten times as long for a few numbers."""
+    ordered, half = np.sort(x).tolist(), len(x) // 2
+    if ordered[-1] != ordered[-1]:
+        return float("nan")
+    return float(ordered[half] if len(ordered) % 2 else (ordered[half - 1] + ordered[half]) / 2)
 
 
 def _median_of_others(x: Float2D) -> Float2D:

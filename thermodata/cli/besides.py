@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from thermodata.cli.common import Session, in_units_of, plain
@@ -32,10 +32,15 @@ def answer_against(
 
     rows = [plain(row) for row in compare_against(store, models, against, tests)]
     names = [str(row["response"]) for row in rows]
-    session.answer(rows, lambda: in_units_of(session, list(dict.fromkeys(names)), _text(rows, layout)))
+    session.answer(rows, lambda: in_units_of(session, list(dict.fromkeys(names)), as_table(rows, layout)))
 
 
-def _text(rows: list[dict[str, Any]], layout: str) -> str:
+def as_table(rows: Sequence[Mapping[str, Any]], layout: str) -> str:
+    """Rows of `compare_against` in one of LAYOUTS. Versions of one model have their ids beside the name."""
+    ids = dict.fromkeys((str(row["name"]), str(row["model"])) for row in rows)
+    names = [name for name, _ in ids]
+    label = {m: f"{name} {m[:6]}" if names.count(name) > 1 else name for name, m in ids}
+    rows = [{**row, "name": label[str(row["model"])]} for row in rows]
     head = [("test", "test"), ("name", "model")]
     head = [("campaign", "campaign"), *head] if len({r["campaign"] for r in rows} - {""}) > 1 else head
     head = [("response", "response"), *head] if len({r["response"] for r in rows}) > 1 else head

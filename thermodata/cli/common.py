@@ -2,20 +2,18 @@
 
 from __future__ import annotations
 
-import dataclasses
 import errno
 import functools
-import json
-import math
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from dataclasses import dataclass
-from decimal import Decimal
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, cast
 
 import click
 
+from thermodata.cli.json_text import json_text
+from thermodata.cli.json_text import plain as plain
 from thermodata.errors import StoreError, ThermodataError, UsageError
 
 if TYPE_CHECKING:
@@ -48,9 +46,9 @@ class Session:
 
     def answer(self, payload: Any, text: Callable[[], str]) -> None:
         """Data, on stdout: the payload as JSON, or its text."""
-        click.echo(
-            json.dumps(plain(payload), indent=2, ensure_ascii=False, allow_nan=False) if self.as_json else text()
-        )
+        for piece in json_text(payload) if self.as_json else (text(),):
+            click.echo(piece, nl=False)
+        click.echo()
 
 
 def known_failure(error: Exception) -> ThermodataError | None:
@@ -84,27 +82,6 @@ def in_units_of(session: Session, response: str | list[str], text: str) -> str:
     unit = "K" if units[0] == "degC" else units[0]
     # headings keep their width, or the columns below would not stand under them
     return re.sub(r"(?<=\d )um\b", unit, text.replace("[um]", f"[{unit}]".ljust(4)))
-
-
-def plain(value: Any) -> Any:
-    """Any result as JSON can hold it: models and dataclasses as mappings, NaN and infinity as null."""
-    if isinstance(value, float | Decimal):
-        return float(value) if math.isfinite(value) else None
-    if value is None or isinstance(value, str | int | bool):
-        return value
-    if hasattr(value, "model_dump"):
-        return plain(value.model_dump(mode="json", by_alias=True))
-    if dataclasses.is_dataclass(value) and not isinstance(value, type):
-        return {f.name: plain(getattr(value, f.name)) for f in dataclasses.fields(value)}
-    if isinstance(value, Mapping):
-        return {str(k): plain(v) for k, v in value.items()}
-    if hasattr(value, "tolist"):  # numpy scalars and arrays
-        return plain(value.tolist())
-    if isinstance(value, list | tuple | set | frozenset):
-        return [plain(v) for v in value]
-    if hasattr(value, "isoformat"):  # times; what is no time (NaT) differs from itself
-        return value.isoformat() if value == value else None
-    return str(value)
 
 
 def command(name: str, **more: Any) -> Callable[[Callable[..., Any]], click.Command]:

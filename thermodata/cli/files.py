@@ -161,5 +161,5 @@ def preview_command(
     """
     from thermodata.cli.preview import preview_text, previewed
 
-    found = plain(previewed(file, name, timezone, rows, campaign))
-    session.answer(found, lambda: preview_text(found))
+    found = previewed(file, name, timezone, rows, campaign)
+    session.answer(found, lambda: preview_text(plain(found)))

@@ -8,7 +8,7 @@ from typing import Any
 import click
 
 from thermodata.cli.common import Session, command, plain
-from thermodata.report.causes import losses_in_words, notes_in_words
+from thermodata.report.causes import said_at_ingest
 from thermodata.report.table import fields, table
 
 
@@ -53,20 +53,10 @@ def ingest_text(summary: dict[str, Any]) -> str:
     ]
     if summary["calibrations"]:
         parts.append(calibrations_text(summary["calibrations"]))
-    names = {str(x[k]) for x in summary["losses"] for k in ("test", "source") if x.get(k)}
-    for title, lines in (
-        ("losses", losses_in_words(summary["losses"], names)),
-        ("notes", notes_in_words(summary["notes"], names | _heads(summary["notes"]))),
-    ):
+    for title, lines in said_at_ingest(summary).items():
         if lines:
             parts.append(title + "\n" + "\n".join(f"  - {line}" for line in lines))
     return "\n\n".join(parts)
-
-
-def _heads(notes: list[str]) -> set[str]:
-    """Names of tests and sources that notes begin with: 'day1, daq: ...'."""
-    heads = [n.partition(": ")[0] for n in notes if ": " in n]
-    return {part for head in heads if head.count(",") < 3 for part in head.split(", ") if " " not in part}
 
 
 def calibrations_text(rows: list[dict[str, Any]]) -> str:

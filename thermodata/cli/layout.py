@@ -20,6 +20,9 @@ _LATEX = {
     "}": r"\}",
     "~": r"\textasciitilde{}",
     "^": r"\textasciicircum{}",
+    "|": r"\textbar{}",  # a dash in the oldest and commonest encoding of fonts
+    "<": r"\textless{}",
+    ">": r"\textgreater{}",
 }
 
 

@@ -25,9 +25,9 @@ def previewed(file: Path, name: str | None, timezone: str | None, rows: int, cam
     chosen = reader(name) if name else chosen
     if timezone is not None:
         source = Source(source.name, timezone, source.encoding, source.table, source.topics, source.options)
-    watch = Watch()
     chosen, whole = beginning_of(chosen or sniff(file), file, source)
     recording = described(chosen, file, source)
+    watch = Watch(len({s.stream for s in recording.signals}) or 1)
     found = preview(file, source, chosen, rows=rows, watch=watch, recording=recording, beginning=not whole)
     absolute = found["clock"] == "absolute"
     by_stream: dict[str, list[Signal]] = {}
@@ -44,6 +44,11 @@ def previewed(file: Path, name: str | None, timezone: str | None, rows: int, cam
                 )
             )
         stream["events"] = events
+    if watch.watched < watch.seen:
+        found["notes"].append(
+            f"{watch.watched} of {watch.seen} signals were looked at, the first of each stream: quantities, ranges, "
+            "flags and courses of the others are left open"
+        )
     found["file"] = str(file)
     found["campaign"] = (
         None if meant is None else {"file": str(meant.campaign), "source": meant.source, "test": meant.test}

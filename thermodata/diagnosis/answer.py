@@ -253,14 +253,14 @@ def _beside_the_model(s: Scored, investigation: Investigation) -> Scored:
     """The candidate beside the user's own model, where it shows there what it does; else beside what hides it."""
     ranked = investigation.selection.first.ranked if investigation.selection is not None else ()
     alone = next((f for f in ranked if f.columns is s.columns and len(f.rows)), s)
-    if _fall(alone) >= _fall(s) or not len(s.rows):
+    if not len(s.rows):
         return alone
     # with nothing beside it, what falls is the model's own error; in the little noise that is left the known effects
     # are pulled further towards what is missing, and foretell other tests worse than the model does
     judged = investigation.judgement.judged
     if len(judged) == 1 and judged[0].scored is s:
-        return replace(s, sse_before=alone.sse_before)
-    return s
+        s = replace(s, sse_before=alone.sse_before)
+    return alone if _fall(alone) >= _fall(s) else s
 
 
 def _rmse(sse: np.ndarray, s: Scored) -> float | None:

@@ -56,6 +56,13 @@ class Known:
             squares.append(np.mean((block.response - np.hstack([block.base, block.slack]) @ theta) ** 2))
         return float(np.sqrt(np.mean(squares)))
 
+    def log_probability(self, tests: Int1D) -> float:
+        """Of some tests, but for terms of the noise and the prior: for differences between sets of known effects that
+        share the noise, or between tests."""
+        factor = self.factor(tests)
+        half = halved(factor, self.cross[tests].sum(axis=0)[:, None])[:, 0]
+        return float(0.5 * half @ half - np.log(np.diag(factor)).sum() - 0.5 * self.energy[tests].sum())
+
     @property
     def log_evidence(self) -> float:
         """Of the response, offsets integrated out."""

@@ -21,32 +21,43 @@ from thermodata.plugin import Float1D, Int1D
 
 KEPT = 0.5  # share of what is added that must take away as much of the squared error as it is itself,
 LEAST = 0.02  # and the least fall of the error: it never rises;
-MUCH = 0.25  # a fall of the error that is enough by itself
+MUCH = 0.25  # a fall of the error that is enough by itself,
+PROBABLE = 0.5  # and so much log probability a sample: few slow tests can't tell a fall from half of it
 
 
 @dataclass(frozen=True, slots=True)
 class Foretold:
-    """RMS on the locked tests, a free offset a test, in the response's unit. changed: of what the claims change."""
+    """RMS on the locked tests, a free offset a test, in the response's unit. changed: of what the claims change.
+    gained: log probability a sample that the claims add to the locked tests, given the open ones, in their noise."""
 
     before: float
     after: float
     changed: float
+    gained: float = 0.0
 
     @property
     def holds(self) -> bool:
         """Whether the error falls by what a cause would take away. What a cause adds is not to be found in what is left
         afterwards, so the squared error falls by the square of what is added; a proxy's falls by less."""
         keeps = self.before**2 - self.after**2 >= KEPT * self.changed**2
-        return self.after < (1 - LEAST) * self.before and (keeps or self.after < (1 - MUCH) * self.before)
+        enough = keeps or self.after < (1 - MUCH) * self.before or self.gained >= PROBABLE
+        return self.after < (1 - LEAST) * self.before and enough
 
 
 def foretell(problem: Problem, opened: int, noise: Noise, kept: Sequence[Scored], claims: Sequence[Scored]) -> Foretold:
     """problem: the first `opened` blocks are of open tests, the others of locked ones. kept: what is selected beside
     the claims."""
     tests, locked = np.arange(opened), range(opened, len(problem.blocks))
-    without = _left(_with(problem, tests, noise, kept), tests, noise, locked)
-    among = _left(_with(problem, tests, noise, [*kept, *claims]), tests, noise, locked)
-    return Foretold(_rms(without), _rms(among), _rms([a - b for a, b in zip(without, among, strict=True)]))
+    without = known(_with(problem, tests, noise, kept), noise)
+    among = known(_with(problem, tests, noise, [*kept, *claims]), noise)
+    before, after = _left(without, tests, locked), _left(among, tests, locked)
+    gained = _log_probability(among, tests) - _log_probability(without, tests)
+    return Foretold(
+        _rms(before),
+        _rms(after),
+        _rms([a - b for a, b in zip(before, after, strict=True)]),
+        gained / sum(len(r) for r in before),
+    )
 
 
 def _with(problem: Problem, tests: Int1D, noise: Noise, chosen: Sequence[Scored]) -> Problem:
@@ -61,15 +72,20 @@ def _with(problem: Problem, tests: Int1D, noise: Noise, chosen: Sequence[Scored]
     return problem
 
 
-def _left(problem: Problem, tests: Int1D, noise: Noise, locked: Sequence[int]) -> list[Float1D]:
-    base: Known = known(problem, noise)
+def _left(base: Known, tests: Int1D, locked: Sequence[int]) -> list[Float1D]:
+    """Of each locked test, what the coefficients of the open ones leave."""
     theta = base.mean(tests)
-    return [_one(problem, i, theta) for i in locked]
+    return [_one(base.problem, i, theta) for i in locked]
 
 
 def _one(problem: Problem, test: int, theta: Float1D) -> Float1D:
     block = problem.blocks[test]
     return np.asarray(block.response - np.hstack([block.base, block.slack]) @ theta)
+
+
+def _log_probability(base: Known, tests: Int1D) -> float:
+    """Of the other tests, given these, but for what the noise alone makes of it: of all less that of these."""
+    return base.log_probability(base.every) - base.log_probability(tests)
 
 
 def _rms(parts: Sequence[Float1D]) -> float:

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Literal, get_args
 
+from thermodata.draft.unread import GUESSED, WHAT, come_to_life, quantity_and_unit, unread
 from thermodata.draft.write import scalar
 from thermodata.errors import UsageError
 from thermodata.schema.campaign import Role, TestKind
@@ -15,9 +16,10 @@ from thermodata.schema.lines import Document, Place, parse_document
 from thermodata.schema.load import parse_campaign
 from thermodata.schema.places import PLACES
 
-Kind = Literal["place", "role", "kind", "zone", "moves", "text"]
+Kind = Literal["place", "what", "role", "kind", "zone", "moves", "text"]
 ROLES: tuple[str, ...] = get_args(Role)
 KINDS: tuple[str, ...] = get_args(TestKind)
+_UNREAD = "unread."
 _PLACED = ("temperature", "state", "rotational_speed", "feed", "power", "load", "current", "flow", "position")
 
 
@@ -40,7 +42,11 @@ def questions(text: str) -> list[Question]:
     """What only the lab knows, in the order of the file. SpecError where the text is no campaign file."""
     document = parse_document(text, Path("campaign.yaml"))
     lines = text.splitlines()
-    return [_question(lines, document, place, key) for place, key in _asked(document, lines)]
+    left_out = [
+        Question(f"{_UNREAD}{name}", name, "quantity", "what", "", hint, WHAT)
+        for name, (_, hint) in unread(lines).items()
+    ]
+    return [*left_out, *(_question(lines, document, place, key) for place, key in _asked(document, lines))]
 
 
 def filled_in(text: str, answers: Mapping[str, str]) -> str:
@@ -49,21 +55,37 @@ def filled_in(text: str, answers: Mapping[str, str]) -> str:
     document = parse_document(text, Path("campaign.yaml"))
     lines = text.splitlines()
     known = {_name(place, key): (place, key) for place, key in _asked(document, lines)}
+    left_out = unread(lines)
     for name, answer in answers.items():
-        if name not in known:
+        channel = name.removeprefix(_UNREAD)
+        if name not in known and not (name.startswith(_UNREAD) and channel in left_out):
             raise UsageError(f"no question '{name}'", expected=", ".join(known)[:500])
         answer = answer.strip()
         if not answer:
             continue
         if not answer.isprintable() or len(answer) > 2000:
             raise UsageError("an answer is one line", where=name)
+        if name not in known:
+            at = left_out[channel][0]
+            lines[at] = _said(come_to_life(lines[at]), answer, ("channels", channel))
+            continue
         place, key = known[name]
         at = document.line[place] - 1
+        if key == "quantity":
+            if answer != _value(document, place, key):
+                lines[at] = _said(lines[at], answer, place).replace("# ? ", "# answered: ", 1)
+            continue
         if answer != _value(document, place, key):
-            lines[at] = _with(lines[at], key, _written(key, answer), place)
+            # what is answered is no question any more
+            lines[at] = set_in_line(lines[at], key, _written(key, answer), place).replace("# ? ", "# answered: ", 1)
     filled = "\n".join(lines) + "\n"
     parse_campaign(filled, "campaign.yaml")
     return filled
+
+
+def _said(line: str, answer: str, place: Place) -> str:
+    quantity, unit = quantity_and_unit(answer, str(place[-1]))
+    return set_in_line(set_in_line(line, "quantity", quantity, place), "unit", scalar(unit), place)
 
 
 def _asked(document: Document, lines: list[str]) -> Iterator[tuple[Place, str]]:
@@ -74,6 +96,8 @@ def _asked(document: Document, lines: list[str]) -> Iterator[tuple[Place, str]]:
         if "timezone?" in lines[document.line["sources", name] - 1] or "timezone" in data["sources"][name]:
             yield ("sources", name), "timezone"
     for name, channel in _mapping(data, "channels").items():
+        if isinstance(channel, dict) and GUESSED in lines[document.line["channels", name] - 1]:
+            yield ("channels", name), "quantity"
         if isinstance(channel, dict) and channel.get("quantity") in _PLACED:
             yield ("channels", name), "at"
     for name, calibration in _mapping(data, "calibrations").items():
@@ -96,8 +120,15 @@ def _mapping(data: Mapping[str, Any], key: str) -> Mapping[str, Any]:
 def _question(lines: list[str], document: Document, place: Place, key: str) -> Question:
     value, line = _value(document, place, key), lines[document.line[place] - 1]
     hint = line.partition("# ")[2].removeprefix("? ")
-    kind: Kind = {"at": "place", "role": "role", "kind": "kind", "timezone": "zone", "moves": "moves"}.get(key, "text")  # type: ignore[assignment]
-    choices = {"place": tuple(PLACES), "role": ROLES, "kind": KINDS}.get(kind, ())
+    kind: Kind = {
+        "at": "place",
+        "quantity": "what",
+        "role": "role",
+        "kind": "kind",
+        "timezone": "zone",
+        "moves": "moves",
+    }.get(key, "text")  # type: ignore[assignment]
+    choices = {"place": tuple(PLACES), "what": WHAT, "role": ROLES, "kind": KINDS}.get(kind, ())
     about = str(document.data["tests"][place[1]].get("id", place[1])) if place[0] == "tests" else str(place[-1])
     opened = value in ("", "unknown") or (key == "role" and value == "none")
     return Question(_name(place, key), about, key, kind, "" if value == "unknown" else value, hint, choices, opened)
@@ -111,6 +142,8 @@ def _value(document: Document, place: Place, key: str) -> str:
     found: Any = document.data
     for part in place:
         found = found[part]
+    if key == "quantity":
+        return f"{found['quantity']} [{found.get('unit', '')}]"
     if isinstance(found, dict):
         found = found.get(key, "")
     return ", ".join(map(str, found)) if isinstance(found, list) else str(found)
@@ -122,8 +155,8 @@ def _written(key: str, answer: str) -> str:
     return "[" + ", ".join(scalar(part.strip()) for part in answer.strip("[] ").split(",") if part.strip()) + "]"
 
 
-def _with(line: str, key: str, value: str, place: Place) -> str:
-    """The line with one key of its flow mapping (or its own plain value) set, and its question mark taken away."""
+def set_in_line(line: str, key: str, value: str, place: Place) -> str:
+    """The line of a place with one key of its flow mapping (or its own plain value) set. value: as YAML."""
     start = line.find("{")
     comment = line.find("#")
     if start < 0 or (0 <= comment < start):
@@ -139,7 +172,7 @@ def _with(line: str, key: str, value: str, place: Place) -> str:
         else:
             entries[at] = f"{key}: {value}"
         made = line[: start + 1] + ", ".join(entries) + line[stop:]
-    return made.replace("# ? ", "# answered: ", 1)
+    return made
 
 
 def _closing(line: str, start: int) -> int:

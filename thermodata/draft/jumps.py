@@ -56,9 +56,15 @@ def jump_of(file: RawFile) -> JumpTest | None:
         height = max(abs(s.size) for s in steps)
         if best is None or height > max(abs(s.size) for s in best.steps):
             best = JumpTest(file, key, steps, dwell, named)
-    if best is None and named and probes and not stirred:
+    if best is None and named and probes and not stirred and _is_short(file):
         return JumpTest(file, None, (), 10.0, True)
     return best
+
+
+def _is_short(file: RawFile) -> bool:
+    """Whether it lasts no longer than a jump test: a 'step' of the spindle's speed takes a day."""
+    courses = [c for c in file.sample.courses.values() if c.t_ns.size]
+    return not courses or max(int(c.t_ns[-1]) - int(c.t_ns[0]) for c in courses) / 1e9 <= _LONGEST_S
 
 
 def _others_move(file: RawFile, probes: set[tuple[str, str]]) -> bool:

@@ -14,24 +14,29 @@ from thermodata.calibration.quality_concise import concise
 from thermodata.draft.guess import guess
 from thermodata.draft.values import values_of
 from thermodata.errors import UsageError
-from thermodata.plugin import Array, Block, Int1D, Signal
+from thermodata.plugin import Array, Block, Float1D, Int1D, Signal
 from thermodata.reader.preview import when
 from thermodata.schema.campaign import Campaign
 from thermodata.schema.flag import Flag
 from thermodata.schema.quantity import canonical, linear_conversion
 
-_MOST_ROWS, _MOST_COLUMNS = 300_000, 200
+_MOST_ROWS, _MOST_COLUMNS = 300_000, 200  # of a stream
+_MOST_IN_ALL = 2000  # columns of a file: nobody looks at more, and each takes half a millisecond
 _BARS = "▁▂▃▄▅▆▇█"
 
 
 @dataclass(slots=True)
 class Watch:
-    """Keeps a bounded part of the columns that pass, for flags and pictures."""
+    """Keeps a bounded part of the columns that pass, for flags and pictures. streams: how many the file has, which
+    share what is kept; seen, watched: columns that passed, and those of them that are kept."""
 
+    streams: int = 1
     times: dict[str, list[Int1D]] = field(default_factory=dict)
     columns: dict[str, dict[str, list[Array]]] = field(default_factory=dict)
     flags: dict[str, dict[str, list[Array]]] = field(default_factory=dict)
     kept: dict[str, int] = field(default_factory=dict)
+    seen: int = 0
+    watched: int = 0
 
     def __call__(self, block: Block) -> None:
         room = _MOST_ROWS - self.kept.get(block.stream, 0)
@@ -39,12 +44,21 @@ class Watch:
             return
         n = min(room, block.t_ns.size)
         self.kept[block.stream] = self.kept.get(block.stream, 0) + n
+        if block.stream not in self.columns:
+            names = list(block.values)[: self._room()]
+            self.seen += len(block.values)
+            self.watched += len(names)
+            self.columns[block.stream], self.flags[block.stream] = {k: [] for k in names}, {k: [] for k in names}
         self.times.setdefault(block.stream, []).append(block.t_ns[:n])
-        for name in list(block.values)[:_MOST_COLUMNS]:
-            self.columns.setdefault(block.stream, {}).setdefault(name, []).append(block.values[name][:n])
+        for name, parts in self.columns[block.stream].items():
+            parts.append(block.values[name][:n])
             own = (block.flags or {}).get(name)
             part = np.zeros(n, np.uint16) if own is None else own[:n].astype(np.uint16)
-            self.flags.setdefault(block.stream, {}).setdefault(name, []).append(part)
+            self.flags[block.stream][name].append(part)
+
+    def _room(self) -> int:
+        """How many columns of the next stream are kept: a share of all, so that each stream shows its first ones."""
+        return min(_MOST_IN_ALL - self.watched, _MOST_COLUMNS, max(1, _MOST_IN_ALL // self.streams))
 
     def stream(self, name: str) -> tuple[Int1D, dict[str, Array], dict[str, Array]]:
         """(times, columns, the reader's own flags) of what was kept of a stream; shapes (n,)."""
@@ -125,7 +139,8 @@ def flagged(
         column = columns.get(signal.name)
         if column is None:
             continue
-        guessed = guess(signal.name, signal.unit, signal.dtype, None if signal.scaling else values_of(column))
+        seen = values_of(column)
+        guessed = guess(signal.name, signal.unit, signal.dtype, None if signal.scaling else seen)
         quantity, unit, channel = said.get(signal.name) or (guessed.quantity or "voltage", guessed.unit, None)
         told[signal.name] = {
             "quantity": quantity if channel or guessed.quantity else None,
@@ -135,7 +150,6 @@ def flagged(
             "values": None,
             "sparkline": sparkline(column),
         }
-        seen = values_of(column)
         if seen is not None:
             told[signal.name]["values"] = {"low": seen.low, "high": seen.high, "median": seen.median}
             inputs[signal.name] = ColumnInput(_canonical(column, quantity, unit), quantity, own[signal.name])
@@ -176,9 +190,15 @@ def sparkline(column: Array, width: int = 32) -> str | None:
     x = column.astype(np.float64)
     x[~np.isfinite(x)] = np.nan
     edges = np.linspace(0, x.size, min(width, x.size) + 1).astype(int)
-    means = np.array([np.nan if np.isnan(x[a:b]).all() else np.nanmean(x[a:b]) for a, b in pairwise(edges)])
+    means = x if x.size <= width else np.array([_mean(x[a:b]) for a, b in pairwise(edges)])
     if np.isnan(means).all():
         return " " * means.size
     low, span = float(np.nanmin(means)), float(np.nanmax(means) - np.nanmin(means))
     scale = (means - low) / span if span > 1e-12 * max(1.0, abs(low)) else np.zeros_like(means)
     return "".join(" " if np.isnan(v) else _BARS[min(7, int(v * 8))] for v in scale)
+
+
+def _mean(x: Float1D) -> float:
+    """The mean of what is there; NaN where nothing is."""
+    gone = np.isnan(x)
+    return float(x.mean() if not gone.any() else np.nan if gone.all() else np.nanmean(x))

@@ -6,13 +6,14 @@ import re
 from dataclasses import dataclass
 from pathlib import Path
 
-from thermodata.draft.baseline import model_text
+from thermodata.draft.baseline import model_text, model_text_of
 from thermodata.draft.naming import plain
 from thermodata.draft.plan import Draft, plan
 from thermodata.draft.scan import Progress, scan
 from thermodata.draft.write import questions_in, text_of
 from thermodata.errors import UsageError
-from thermodata.schema.load import load_campaign, load_model
+from thermodata.schema.load import load_campaign, load_model, parse_campaign
+from thermodata.store.base.files import write_text
 
 
 @dataclass(frozen=True, slots=True)
@@ -73,6 +74,24 @@ def draft_files(folder: Path, *, force: bool = False, progress: Progress | None 
 def plain_name(text: str) -> str:
     """A folder's name in plain letters, in any script."""
     return text if text.isascii() else plain(text)
+
+
+def write_answered(path: Path, text: str) -> tuple[Path | None, bool]:
+    """A campaign file with other text; the one before is kept as campaign.N.yaml. A first model beside it that nobody
+    has changed since it was drafted follows the answers. (where the one before is, whether the model followed).
+    SpecError where the text does not load."""
+    after = parse_campaign(text, path.name)
+    before = load_campaign(path)
+    model = path.with_name("model.yaml")
+    untouched = model.is_file() and model.read_text(encoding="utf-8") == model_text_of(before)
+    anew = model_text_of(after)
+    kept = keep(path)
+    write_new(path, text)
+    follows = anew is not None and (untouched or not model.exists())
+    if follows and anew is not None and (not model.exists() or model.read_text(encoding="utf-8") != anew):
+        write_text(model, anew)
+        return (kept[1] if kept else None), True
+    return (kept[1] if kept else None), False
 
 
 def keep(path: Path) -> tuple[Path, Path] | None:

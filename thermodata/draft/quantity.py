@@ -43,11 +43,14 @@ class Guess:
 
 
 def quantity_of(own: str, text: str, unit: str | None, dtype: str, values: Values | None) -> Guess:
+    bare = unit is None or normal_unit(unit) == "dimensionless"
     if dtype == "str":
-        return Guess("label", sure=True, basis=("text",))
+        if bare:
+            return Guess("label", sure=True, basis=("text",))
+        # numbers in a spelling that is none would be kept as words, and be missed in every view of values
+        return Guess(None, unit, why_not=f"text, though {unit} is a unit of numbers: thermodata preview shows it")
     named = quantities_in(own) or quantities_in(text)
     foreign = foreign_in(own)
-    bare = unit is None or normal_unit(unit) == "dimensionless"
     if dtype == "bool":
         return Guess("state", sure=True, basis=("type",))
     if bare and not foreign and _on_off(own, named, values):

@@ -24,6 +24,7 @@ from thermodata.reader.explain import kind_of
 from thermodata.reader.guard import described, guarded
 from thermodata.reader.open_questions import UNKNOWN
 from thermodata.reader.registry import claims, reader
+from thermodata.schema.lines import is_text
 
 _SAMPLE_ROWS, _SAMPLE_S = 400_000, 1.0  # of one file
 _SMALL = 4_000_000  # bytes; smaller files are read whole
@@ -129,6 +130,9 @@ def scan(folder: Path, progress: Progress | None = None) -> Scan:
     for done, path in enumerate(_spread(paths)):
         tell(done, len(paths), str(path))
         full = folder / path
+        if not is_text(str(path)):
+            ignored.append((str(path), "its name is no UTF-8: no campaign file can say it; give it another name"))
+            continue
         try:
             like = shapes.get(_shape(path)) if time.monotonic() - began > _HEADERS_S else None
             if like is not None and like.sheet is None:

@@ -15,6 +15,8 @@ import numpy as np
 
 from thermodata.plugin import Drivers, Float1D
 
+FEW = 2  # lags that one after the other cost less than the preparation of all at once; the same to the last bit
+
 
 def step_of(drivers: Drivers) -> float:
     """The grid's step [s]; 1 where there is only one sample."""
@@ -49,6 +51,11 @@ def lags(u: Float1D, taus_s: Sequence[float], step_s: float) -> Float1D:
     """F_tau1{F_tau2{...u}}, each as `lag` from 0, in one pass: shape (n,) like u. All taus_s [s] above 0."""
     if len(u) == 0 or not len(taus_s):
         return np.array(u, dtype=np.float64)
+    if len(taus_s) <= FEW:
+        x = u
+        for tau_s in taus_s:
+            x = lag(x, tau_s, step_s)
+        return x
     from scipy.signal import sosfilt
 
     sections, state = np.zeros((len(taus_s), 6)), np.zeros((len(taus_s), 2))

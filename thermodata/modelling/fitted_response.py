@@ -16,8 +16,6 @@ from thermodata.schema.result import Check
 from thermodata.view.dataset import TestData
 
 FACTOR = "g"
-Z95 = 1.96
-"""Half of an interval of 95 %, in standard deviations."""
 Ends = tuple[float | None, float | None]
 """Of an interval, as values; None: these tests set no end within the parameter's bounds."""
 

@@ -10,8 +10,9 @@ from thermodata.errors import UsageError
 from thermodata.modelling.bound import BoundResponse, BoundTerm, each_group_its_own
 from thermodata.modelling.coarse import rough, search_from_coarse
 from thermodata.modelling.design import GRID, MOMENTS, Design, Nonlinear, factor
-from thermodata.modelling.fitted_response import FACTOR, FittedResponse, FittedTerm, Together, Values
-from thermodata.modelling.search import Problem, search
+from thermodata.modelling.fitted_response import FACTOR, Ends, FittedResponse, FittedTerm, Together, Values
+from thermodata.modelling.labels import fastest_first
+from thermodata.modelling.search import Problem, along_whole_range, search
 from thermodata.modelling.uncertainty import Cover, Spread, spreads
 from thermodata.plugin import Float1D, Param
 from thermodata.view.dataset import TestData
@@ -55,8 +56,14 @@ def fit_jointly(
     if near is None and not loose:
         x = search_from_coarse(problem, tests, on)
     else:
-        start = None if near is None else _near(problem, {order.index(i): near[i] for i in members if i in near})
+        start = None
+        if near is not None:
+            found_there = {order.index(i): near[i] for i in members if i in near}
+            start = _near(problem, found_there)
+            for place in _new(problem, found_there):
+                start = along_whole_range(problem, start, place)
         x = search(problem, start, loose)
+    x = fastest_first(problem, x)
     gains = problem.gains(problem.matrix(x))
     none: tuple[list[Spread], frozenset[str], Cover | None] = ([Spread() for _ in design.slots], frozenset(), None)
     spread, logs, cover = spreads(problem, x, gains, look if profiled else None) if uncertainty else none
@@ -113,7 +120,7 @@ def _by_group(design: Design, s: int, found: Values) -> dict[str, Values]:
     for group in dict.fromkeys(slot.factors):
         g = found.params.get(factor(group), 1.0)
         sd, half = (_of_group(spread, group, g, own) for spread in (found.sd, found.half))
-        ends = {n: e for n, e in found.ends.items() if n in own}
+        ends = {n: e if n in own else _times(e, g) for n, e in found.ends.items() if not n.startswith("g[")}
         logs = found.log_names | {FACTOR}
         gains = {n: g * v for n, v in found.gains.items()}
         groups[group] = Values(params, gains, sd, half, ends, logs, found.silent, g)
@@ -124,6 +131,11 @@ def _of_group(spread: Mapping[str, float], group: str, g: float, own: set[str]) 
     """Deviations of gains grow with the group's factor, whose own stands beside them."""
     found = {n: value * (1.0 if n in own else g) for n, value in spread.items() if not n.startswith("g[")}
     return found | ({FACTOR: spread[factor(group)]} if factor(group) in spread else {})
+
+
+def _times(ends: Ends, g: float) -> Ends:
+    low, high = (None if end is None else g * end for end in ends)
+    return low, high
 
 
 def _near(problem: Problem, known: Mapping[int, FittedTerm]) -> Float1D:
@@ -139,6 +151,17 @@ def _near(problem: Problem, known: Mapping[int, FittedTerm]) -> Float1D:
             factors = {factor(group): found.factor for group, found in term.groups.items()}
             x[i] = free.outside(factors.get(free.param.name, free.start))
     return x
+
+
+def _new(problem: Problem, known: Mapping[int, FittedTerm]) -> list[int]:
+    """Searched parameters of a known term that it did not have where it was found."""
+    found = []
+    for i, free in enumerate(problem.free):
+        slot = problem.design.slots[free.slots[0]]
+        term = known.get(slot.term)
+        if term is not None and free.param.name not in {*term.params, *map(factor, term.groups)}:
+            found.append(i)
+    return found
 
 
 def _at_start(term: BoundTerm) -> Values:

@@ -87,15 +87,15 @@ def choose_orders(
     found = folds(some, channel_of, lambda t: fit_mask(bound, list(bound.terms), wanted, t))
     rows: list[tuple[Tried, BoundResponse, FittedResponse | None]] = []
     reasons: list[UsageError] = []
-    last: FittedResponse | None = None
+    found_at: dict[tuple[int, int], FittedResponse] = {}
     for orders in _pairs(method):
         trial = with_orders(bound, i, orders)
         row = Tried(bound.name, term.id, method, *orders, None, None, None)
         try:
-            # one coefficient over a lag is a lag, two are a lag with a direct term: their time constants lie apart
-            same_lags = last is not None and orders[0] > 2 and method == "oe"
-            full = identify(trial, some, _near(bound, last) if same_lags else None, method == "varpro")
-            last = full
+            full = identify(
+                trial, some, _start(bound, i, orders, found_at) if method == "oe" else None, method == "varpro"
+            )
+            found_at[orders] = full
             start = None if method == "arx" else _near(trial, full)
             total, worst = left_out_fit(
                 found,
@@ -112,7 +112,6 @@ def choose_orders(
         except (UsageError, SpecError) as error:
             reasons.append(error if isinstance(error, UsageError) else UsageError(error.what, where=term.id))
             rows.append((replace(row, why=error.what), trial, None))
-            last = None
         if method == "varpro" and orders[0] > orders[1] and rows[-1][0].why and rows[-2][0].why:
             break
     good = [r for r in rows if r[0].why is None]
@@ -156,6 +155,24 @@ def _pairs(method: str) -> Iterator[tuple[int, int]]:
     for denominator in range(1, MOST + 1):
         for numerator in range(1, MOST + 1) if method != "varpro" else (denominator, denominator + 1):
             yield numerator, denominator
+
+
+def _start(
+    bound: BoundResponse, i: int, orders: tuple[int, int], found_at: Mapping[tuple[int, int], FittedResponse]
+) -> Near:
+    """The lags that one coefficient less was found with; or those of one lag less, and one more that is looked for over
+    its whole range. One coefficient over a lag is a lag, two are a lag with a direct term: their time constants lie
+    apart, so that none starts from the other."""
+    numerator, denominator = orders
+    if numerator > 2:
+        return _near(bound, found_at.get((numerator - 1, denominator)))
+    fewer = found_at.get((numerator, denominator - 1))
+    near = _near(bound, fewer)
+    if near is None or denominator != 2:
+        return near
+    # the only lag has no number
+    groups = {g: replace(v, params={"tau_1": v.params["tau"]}) for g, v in near[i].groups.items()}
+    return {**near, i: replace(near[i], groups=groups)}
 
 
 def _near(bound: BoundResponse, full: FittedResponse | None) -> Near:

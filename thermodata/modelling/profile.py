@@ -1,68 +1,271 @@
-"""The error over the whole range of one time constant, all else fitted anew at each value: its profile.
+"""The error over the whole range of one time constant or gain, all else fitted anew at each value: its profile.
 
 A deviation makes an interval that reaches as far up as down. Where a test is too short for a lag, the error falls
-steeply on one side and hardly rises on the other, and only the profile tells where the data end. The error may rise as
-much as a quadratic one would up to the ends of its own interval, correlated residuals and all, so that both intervals
-are the same where the error is quadratic. Source: [bates1988]
+steeply on one side and hardly rises on the other, and only the profile tells where the data end. A gain is linear, but
+what it says hangs on its time constants: where these are ill known it is no more quadratic than they are.
+
+The error may rise by what the noise does along the way that the prediction has gone, d: in white noise of size s by
+(1.96 s)^2 whatever d is, in noise that hangs together by 1.96^2 d'Nd / d'd, N its covariance, which is more where d is
+slow. Where the prediction is linear this is what the quadratic interval allows, and both intervals are the same.
+Source: [bates1988]
 """
 
 from __future__ import annotations
 
-from dataclasses import replace
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from itertools import pairwise
+from typing import Protocol
 
 import numpy as np
 
+from thermodata.modelling.design import Nonlinear
 from thermodata.modelling.fitted_response import Ends
+from thermodata.modelling.labels import Alike
 from thermodata.modelling.search import Problem, search
 from thermodata.plugin import Float1D
 
 ALIKE = (0.7, 1.4)  # of the allowed rise, at the ends of the quadratic interval, that make it the profile's
-CLOSE = 0.05  # of half the quadratic interval: how closely an end is found
+CLOSE = 0.025  # of the way to an end, or of a gain: how closely it is found
+CLOSER = 4  # times at most
+FLAT = 0.25  # of the allowed rise: below it the next step out is twice as long
+FAR = 1000.0  # of the response over the driver; a gain beyond is of two columns that undo each other
+ONWARD = 2.0  # times the last step: so far others are thought to go on as they did
+NEAR = 0.02  # of the allowed rise: to that an error is searched
+MOVES = 4  # of the border between two like lags, while one of them lies at it
+TOUCH = 1e-3  # of log(value): so near to the border a lag lies at it
+THIN = 1e-6  # of its range is left at least to a lag that another one bounds
 POINTS = 9  # of the curve, on each side
 
 
-class Profile:
-    """Of a searched parameter (place i). allowed: rise of the squared error at an end of the interval of 95 %;
-    along: how the searched parameters move with this one where the error is quadratic, shape (free parameters,); x: the
-    optimum of this problem; moved: of this parameter to the optimum of the problem that it stands for."""
+class Coordinate(Protocol):
+    """What is held at one value after another."""
 
-    def __init__(
-        self, problem: Problem, x: Float1D, i: int, allowed: float, along: Float1D, moved: float = 0.0
-    ) -> None:
-        self.problem, self.x, self.i, self.allowed, self.along = problem, x, i, allowed, along
-        self.moved = moved
-        self.free = problem.free[i]
-        self.low, self.high = self.free.outside(self.free.lower), self.free.outside(self.free.upper)
-        residual = problem.residual(x)
-        self.least = float(residual @ residual)
-        self._near: dict[float, Float1D] = {float(x[i]): np.delete(x, i)}
-        self._rises: dict[float, float] = {}
+    @property
+    def slots(self) -> tuple[int, ...]: ...
+    @property
+    def name(self) -> str: ...
+    @property
+    def unit(self) -> str: ...
 
-    def rise(self, at: float) -> float:
-        """Of the squared error where the parameter is held at a point of the search, as a share of what is allowed."""
-        if at in self._rises:  # another search from another start would end a little elsewhere
-            return self._rises[at]
-        rest = [f for k, f in enumerate(self.problem.free) if k != self.i]
-        held = [dict(h) for h in self.problem.held]
+    def at(self, problem: Problem, x: Float1D) -> float:
+        """Where it stands at a point of the search."""
+
+    def range(self, problem: Problem, x: Float1D) -> tuple[float, float]:
+        """Within which it is looked at."""
+
+    def held(self, problem: Problem, at: float, near: Float1D) -> Problem:
+        """The same problem with it held, and like lags kept in order. near: a point of that problem."""
+
+    def others(self, x: Float1D) -> Float1D:
+        """What is searched beside it; shape (free parameters of the held problem,)."""
+
+    def value(self, at: float) -> float:
+        """In its own unit."""
+
+    def pressed(self, x: Float1D, near: Float1D) -> bool:
+        """Whether a point of the held problem is where it is only since like lags were kept in order about `near`."""
+
+    def in_one(self, problem: Problem) -> float:
+        """The least squared error where two like lags are one: the border between both orders."""
+
+
+@dataclass(frozen=True)
+class Searched:
+    """A time constant or exponent: the free parameter of that place."""
+
+    place: int
+    free: Nonlinear
+    like: Sequence[Alike] = ()
+
+    @property
+    def slots(self) -> tuple[int, ...]:
+        return self.free.slots
+
+    @property
+    def name(self) -> str:
+        return self.free.param.name
+
+    @property
+    def unit(self) -> str:
+        return self.free.param.unit
+
+    def at(self, problem: Problem, x: Float1D) -> float:
+        return float(x[self.place])
+
+    def range(self, problem: Problem, x: Float1D) -> tuple[float, float]:
+        return self.free.outside(self.free.lower), self.free.outside(self.free.upper)
+
+    def held(self, problem: Problem, at: float, near: Float1D) -> Problem:
+        held = [dict(h) for h in problem.held]
         for slot in self.free.slots:
             held[slot][self.free.param.name] = self.free.inside(at)
-        part = replace(self.problem, free=rest, held=held)
-        nearest = min(self._near, key=lambda known: abs(known - at))
-        found = search(part, self._near[nearest], loose=True)
+        free = [self._in_order(k, f, at) for k, f in enumerate(problem.free) if k != self.place]
+        return replace(problem, free=free, held=held)
+
+    def _in_order(self, k: int, other: Nonlinear, at: float) -> Nonlinear:
+        if not any(k in found.places and self.place in found.places for found in self.like):
+            return other
+        return _below(other, at) if k < self.place else _above(other, at)
+
+    def others(self, x: Float1D) -> Float1D:
+        return np.delete(x, self.place)
+
+    def value(self, at: float) -> float:
+        return self.free.inside(at)
+
+    def pressed(self, x: Float1D, near: Float1D) -> bool:
+        return False  # its own value is the border, wherever it is looked at
+
+    def in_one(self, problem: Problem) -> float:
+        raise NotImplementedError
+
+
+@dataclass(frozen=True)
+class Solved:
+    """A gain: a column of the problem, of one slot."""
+
+    column: int
+    slot: int
+    name: str
+    unit: str
+    like: Sequence[Alike] = ()
+
+    @property
+    def slots(self) -> tuple[int, ...]:
+        return (self.slot,)
+
+    def at(self, problem: Problem, x: Float1D) -> float:
+        return float(problem.gains(problem.matrix(x))[self.column])
+
+    def range(self, problem: Problem, x: Float1D) -> tuple[float, float]:
+        size = float(np.linalg.norm(problem.matrix(x)[:, self.column]))
+        far = FAR * float(np.linalg.norm(problem.design.y)) / size if size > 0 else np.inf
+        return max(float(problem.low[self.column]), -far), min(float(problem.high[self.column]), far)
+
+    def held(self, problem: Problem, at: float, near: Float1D) -> Problem:
+        low, high = problem.low.copy(), problem.high.copy()
+        low[self.column] = high[self.column] = at
+        free = list(problem.free)
+        for a, b, border in self._borders(near):
+            free[a], free[b] = _below(free[a], border), _above(free[b], border)
+        return replace(problem, free=free, low=low, high=high)
+
+    def _borders(self, near: Float1D) -> Iterator[tuple[int, int, float]]:
+        """Half way between two neighbours, of lags that have a gain each."""
+        for found in self.like:
+            for a, b in pairwise(found.places) if found.columns else ():
+                yield a, b, float(near[a] + near[b]) / 2
+
+    def others(self, x: Float1D) -> Float1D:
+        return x
+
+    def value(self, at: float) -> float:
+        return at
+
+    def pressed(self, x: Float1D, near: Float1D) -> bool:
+        return any(min(border - x[a], x[b] - border) < TOUCH for a, b, border in self._borders(near))
+
+    def in_one(self, problem: Problem) -> float:
+        least = np.inf
+        for columns in (list(found.columns) for found in self.like if found.columns):
+            low, high = problem.low.copy(), problem.high.copy()
+            low[columns] = high[columns] = 0.0
+            part = replace(problem, low=low, high=high)
+            residual = part.residual(search(part, loose=True))
+            least = min(least, float(residual @ residual))
+        return least
+
+
+def _below(free: Nonlinear, at: float) -> Nonlinear:
+    low, high = free.outside(free.lower), free.outside(free.upper)
+    return replace(free, upper=free.inside(max(min(high, at), low + THIN * (high - low))))
+
+
+def _above(free: Nonlinear, at: float) -> Nonlinear:
+    low, high = free.outside(free.lower), free.outside(free.upper)
+    return replace(free, lower=free.inside(min(max(low, at), high - THIN * (high - low))))
+
+
+class Profile:
+    """Of one coordinate. allowed: rise of the squared error at an end of the interval of 95 %, by how the prediction
+    has moved, shape (n,); along: how the searched parameters move with it where the error is quadratic, shape (free
+    parameters,), None where too little is known to say; x: the optimum of this problem; moved: of the coordinate to the
+    optimum of the problem that it stands for."""
+
+    def __init__(
+        self,
+        problem: Problem,
+        x: Float1D,
+        of: Coordinate,
+        allowed: Callable[[Float1D], float],
+        along: Float1D | None,
+        moved: float = 0.0,
+    ) -> None:
+        self.problem, self.x, self.of, self.allowed, self.along = problem, x, of, allowed, along
+        self.moved = moved
+        self.centre = of.at(problem, x)
+        self.low, self.high = of.range(problem, x)
+        self.residual = problem.residual(x)
+        self.least = float(self.residual @ self.residual)
+        self._near: dict[float, Float1D] = {self.centre: of.others(x)}
+        self._rises: dict[float, float] = {}
+        self._squares: dict[float, float] = {self.centre: self.least}
+        self._in_one: float | None = None
+        self._enough: float | None = None
+
+    def rise(self, at: float) -> float:
+        """Of the squared error where it is held at a value, as a share of what is allowed."""
+        if at in self._rises:  # another search from another start would end a little elsewhere
+            return self._rises[at]
+        found = self._start(at)
+        for _ in range(MOVES):
+            near = found
+            part = self.of.held(self.problem, at, near)
+            found = search(part, near, loose=True, enough=self._enough)
+            pressed = self.of.pressed(found, near)
+            if not pressed:
+                break
         self._near[at] = found
         residual = part.residual(found)
-        self._rises[at] = (float(residual @ residual) - self.least) / self.allowed
+        square = float(residual @ residual)
+        if pressed:
+            # two lags in one lie on the border, whatever their gains
+            if self._in_one is None:
+                self._in_one = self.of.in_one(self.problem)
+            square = min(square, self._in_one)
+        self._squares[at], self._rises[at] = square, self._share(square, residual)
+        if self._enough is None and self._rises[at] > 0 and self.least > 0:
+            self._enough = NEAR * (square - self.least) / self._rises[at] / self.least
         return self._rises[at]
+
+    def _start(self, at: float) -> Float1D:
+        """Where the others stand further in, or where they would if they went on as they did."""
+        # from the optimum outwards: a point further out may lie in another valley
+        inner = [known for known in self._near if min(self.centre, at) <= known <= max(self.centre, at)]
+        inner.sort(key=lambda known: abs(known - at))
+        last = self._near[inner[0]]
+        if len(inner) < 2 or abs(at - inner[0]) > ONWARD * abs(inner[0] - inner[1]):
+            return last
+        onward = last + (at - inner[0]) / (inner[0] - inner[1]) * (last - self._near[inner[1]])
+        part = self.of.held(self.problem, at, last)
+        onward = np.clip(onward, *part.box())
+        squares = [float(r @ r) for r in (part.residual(last), part.residual(onward))]
+        return onward if squares[1] < squares[0] else last
+
+    def _share(self, square: float, residual: Float1D) -> float:
+        return (square - self.least) / self.allowed(self.residual - residual)
 
     def is_quadratic(self, half: float) -> bool:
         """Whether an interval of that half width, in the units of the search, has the profile's ends."""
-        ends = (self.x[self.i] - half, self.x[self.i] + half)
+        ends = (self.centre - half, self.centre + half)
         if ends[0] <= self.low or ends[1] >= self.high:
             return False
         # the path that a quadratic error would take costs one look; only where it errs are all others fitted anew
-        straight = [self._straight(side * half) for side in (-1.0, 1.0)]
-        if all(ALIKE[0] <= rise <= ALIKE[1] for rise in straight):
-            return True
+        if self.along is not None:
+            straight = [self._straight(side * half, self.along) for side in (-1.0, 1.0)]
+            if all(ALIKE[0] <= rise <= ALIKE[1] for rise in straight):
+                return True
         return all(ALIKE[0] <= self.rise(float(end)) <= ALIKE[1] for end in ends)
 
     def ends(self, half: float) -> Ends:
@@ -70,40 +273,59 @@ class Profile:
         return (None if low is None else self._value(low), None if high is None else self._value(high))
 
     def _value(self, at: float) -> float:
-        return self.free.inside(at + self.moved)
+        return self.of.value(at + self.moved)
 
     def curve(self, half: float) -> list[tuple[float, float]]:
         """(value, root mean square of the residual) from twice the half width below to twice above."""
-        at = float(self.x[self.i])
         count = max(1, self.problem.design.n)
-        rows = [(self._value(at), float(np.sqrt(self.least / count)))]
+        rows = [(self._value(self.centre), float(np.sqrt(self.least / count)))]
         for side in (-1.0, 1.0):
             for step in np.linspace(0, 2 * half, POINTS + 1)[1:]:
-                point = at + side * float(step)
+                point = self.centre + side * float(step)
                 if self.low <= point <= self.high:
-                    square = self.least + self.rise(point) * self.allowed
-                    rows.append((self._value(point), float(np.sqrt(max(0.0, square) / count))))
+                    self.rise(point)
+                    rows.append((self._value(point), float(np.sqrt(self._squares[point] / count))))
         return sorted(rows)
 
-    def _straight(self, step: float) -> float:
-        low = np.array([f.outside(f.lower) for f in self.problem.free])
-        high = np.array([f.outside(f.upper) for f in self.problem.free])
-        residual = self.problem.residual(np.clip(self.x + step * self.along, low, high))
-        return (float(residual @ residual) - self.least) / self.allowed
+    def _straight(self, step: float, along: Float1D) -> float:
+        there = np.clip(self.x + step * along, *self.problem.box())
+        others = self.of.others(there)
+        residual = self.of.held(self.problem, self.centre + step, others).residual(others)
+        return self._share(float(residual @ residual), residual)
 
     def _end(self, half: float) -> float | None:
-        """Where the rise is what is allowed; None where it is not before the bound."""
-        from scipy.optimize import brentq
-
-        at = float(self.x[self.i])
+        """Where the rise is what is allowed; None where it is not before the end of the range."""
         bound = self.high if half > 0 else self.low
-        inner, outer = at, at + half
+        inner, outer = self.centre, self.centre + half
         while (bound - outer) * half > 0 and self.rise(outer) < 1.0:
-            inner, outer = outer, at + 2 * (outer - at)
+            further = 2.0 if self.rise(outer) > FLAT else 4.0
+            inner, outer = outer, self.centre + further * (outer - self.centre)
         if (bound - outer) * half <= 0:
             outer = bound
-            if abs(outer - inner) < 1e-12 or self.rise(outer) < 1.0:
+            if not np.isfinite(bound) or abs(outer - inner) < 1e-12 or self.rise(outer) < 1.0:
                 return None
         if self.rise(inner) >= 1.0:
             return inner
-        return float(brentq(lambda p: self.rise(float(p)) - 1.0, inner, outer, xtol=CLOSE * abs(half)))
+        for _ in range(CLOSER):
+            size = max(abs(inner), abs(outer)) if isinstance(self.of, Solved) else np.inf
+            end = self._root(inner, outer, CLOSE * min(size, abs(outer - self.centre)))
+            if not isinstance(self.of, Solved):
+                break
+            # a gain of two lags that undo each other may be a hundred times as large as its end
+            inner, outer = self._bracket(inner, outer)
+            if abs(outer - inner) <= 2 * CLOSE * max(abs(inner), abs(outer)):
+                break
+        return end
+
+    def _bracket(self, inner: float, outer: float) -> tuple[float, float]:
+        """The nearest points looked at, of which the inner one is inside of the interval, and the outer is not."""
+        between = [(k, r) for k, r in self._rises.items() if min(inner, outer) <= k <= max(inner, outer)]
+        inner = max((k for k, r in between if r < 1.0), key=lambda k: abs(k - self.centre), default=inner)
+        beyond = [k for k, r in between if r >= 1.0 and abs(k - self.centre) > abs(inner - self.centre)]
+        return inner, min(beyond, key=lambda k: abs(k - self.centre), default=outer)
+
+    def _root(self, inner: float, outer: float, close: float) -> float:
+        from scipy.optimize import brentq
+
+        # the root of the rise is straight where the rise is quadratic
+        return float(brentq(lambda p: np.sqrt(max(0.0, self.rise(float(p)))) - 1.0, inner, outer, xtol=close))

@@ -62,8 +62,8 @@ def _curves(response: FittedResponse, tests: Sequence[TestData]) -> list[Curve]:
     problem, x, rough = fitted_problem(response, tests)
     gains = problem.gains(problem.matrix(x))
     rows = []
-    for i, profile, half in profiles(problem, x, gains, rough):
-        free = problem.free[i]
+    for profile, of, half in profiles(problem, x, gains, rough):
+        i, free = of.place, of.free
         slot = problem.design.slots[free.slots[0]]
         tag = f"[{slot.group}]" if slot.group and len(free.slots) == 1 and not free.param.name.startswith("g[") else ""
         quadratic = profile.is_quadratic(half)

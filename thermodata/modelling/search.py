@@ -57,17 +57,23 @@ class Problem:
         matrix = self.matrix(x)
         return self.design.y - matrix @ self.gains(matrix)
 
+    def box(self) -> tuple[Float1D, Float1D]:
+        """The bounds of the search; shapes (free parameters,)."""
+        low = np.array([f.outside(f.lower) for f in self.free], dtype=np.float64)
+        return low, np.array([f.outside(f.upper) for f in self.free], dtype=np.float64)
+
     def start(self) -> Float1D:
         return np.array([f.outside(f.start) for f in self.free], dtype=np.float64)
 
 
-def search(problem: Problem, start: Float1D | None = None, loose: bool = False) -> Float1D:
+def search(problem: Problem, start: Float1D | None = None, loose: bool = False, enough: float | None = None) -> Float1D:
     """The point with the least squared error; shape (free parameters,). start: a point near it, in place of a look
-    over the whole range. loose: near enough to say how good the model is, not what its parameters are."""
+    over the whole range. loose: near enough to say how good the model is, not what its parameters are. enough: change
+    of the squared error, as a share of it, at which a loose search ends."""
     x = problem.start() if start is None else start
     if not len(x) or not problem.design.n:
         return x
-    return _refine(problem, _sweeps(problem, x) if start is None else x, loose)
+    return _refine(problem, _sweeps(problem, x) if start is None else x, loose, enough)
 
 
 def along_whole_range(problem: Problem, x: Float1D, i: int) -> Float1D:
@@ -79,8 +85,7 @@ def along_whole_range(problem: Problem, x: Float1D, i: int) -> Float1D:
 
 def _sweeps(problem: Problem, x: Float1D) -> Float1D:
     """Coordinate descent over the whole range until nothing moves, then over ever smaller neighbourhoods."""
-    low = np.array([f.outside(f.lower) for f in problem.free])
-    high = np.array([f.outside(f.upper) for f in problem.free])
+    low, high = problem.box()
     best = np.inf
     for _ in range(SWEEPS):
         before = x
@@ -124,11 +129,10 @@ def _along(problem: Problem, x: Float1D, i: int, points: Float1D, best: float) -
     return out, best
 
 
-def _refine(problem: Problem, x: Float1D, loose: bool) -> Float1D:
+def _refine(problem: Problem, x: Float1D, loose: bool, enough: float | None) -> Float1D:
     from scipy.optimize import least_squares
 
-    low = np.array([f.outside(f.lower) for f in problem.free])
-    high = np.array([f.outside(f.upper) for f in problem.free])
+    low, high = problem.box()
     margin = 1e-6 * (high - low)
     inside = np.clip(x, low + margin, high - margin)
     optimum = least_squares(
@@ -139,7 +143,7 @@ def _refine(problem: Problem, x: Float1D, loose: bool) -> Float1D:
         diff_step=1e-5,
         x_scale=high - low,
         xtol=1e-4 if loose else 1e-7,
-        ftol=1e-5 if loose else 1e-9,
+        ftol=(enough or 1e-5) if loose else 1e-9,
         gtol=1e-12,
         max_nfev=12 if loose else 60,
     )

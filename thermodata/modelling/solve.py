@@ -12,16 +12,20 @@ RIDGE = 1e-10  # relative; keeps equal columns from giving gains of 1e9 and thei
 def solve_gains(gram: Float2D, cross: Float1D, lower: Float1D, upper: Float1D) -> Float1D:
     """Minimises g'Gg - 2c'g within [lower, upper]; lower == upper holds a gain. Shapes (m, m), (m,), (m,)."""
     gains = np.where(lower == upper, lower, 0.0)
-    free = (lower != upper) & (np.diag(gram) > 0)
+    free = (lower != upper) & (gram.diagonal() > 0)
     if not free.any():
         return gains
-    scale = 1.0 / np.sqrt(np.diag(gram)[free])
-    inner = gram[np.ix_(free, free)] * np.outer(scale, scale)
-    inner[np.diag_indices_from(inner)] += RIDGE
-    right = (cross[free] - gram[np.ix_(free, ~free)] @ gains[~free]) * scale
+    if free.all():  # nearly always, and asked some thousand times a fit
+        own, right, low, high = gram, cross, lower, upper
+    else:
+        own, right = gram[np.ix_(free, free)], cross[free] - gram[np.ix_(free, ~free)] @ gains[~free]
+        low, high = lower[free], upper[free]
+    scale = 1.0 / np.sqrt(own.diagonal())
+    inner = own * (scale[:, None] * scale)
+    inner.flat[:: len(inner) + 1] += RIDGE
+    right = right * scale
     solved = np.linalg.solve(inner, right) * scale
-    low, high = lower[free], upper[free]
-    if np.any(solved < low) or np.any(solved > high):
+    if (solved < low).any() or (solved > high).any():
         from scipy.optimize import lsq_linear
 
         root = np.linalg.cholesky(inner + RIDGE * np.eye(len(inner))).T

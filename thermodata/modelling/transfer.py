@@ -55,9 +55,11 @@ class FreeFunction:
         )
         if method == "varpro":
             gains = [f"gain_{i + 1}" for i in range(orders[1])] if orders[1] > 1 else ["gain"]
+            self.interchangeable = dict(zip(names, gains, strict=True))  # like lags, each with the gain that is its own
             gains += [DIRECT] if orders[0] > orders[1] else []
         else:
             gains = ["gain"] + [f"lead_{j}" for j in range(1, orders[0])]
+            self.interchangeable = dict.fromkeys(names, "")
         self.gains = tuple(
             Gain(n, "um/u", (0.0, _INF), "any", "gain at rest" if n == "gain" else "gain") for n in gains
         )

@@ -2,21 +2,28 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Collection, Iterable, Iterator
 from dataclasses import dataclass, field
 
 import numpy as np
 
 from thermodata.modelling.design import MOMENTS
-from thermodata.modelling.fitted_response import Z95, Ends
-from thermodata.modelling.profile import Profile
+from thermodata.modelling.fitted_response import Ends
+from thermodata.modelling.labels import alike, fastest_first
+from thermodata.modelling.profile import Coordinate, Profile, Searched, Solved
 from thermodata.modelling.search import Problem, search
-from thermodata.modelling.slow_noise import scatter
+from thermodata.modelling.slow_noise import Scatter, make_noise, nothing
 from thermodata.modelling.start_unknown import disturbances
 from thermodata.plugin import Float1D, Float2D
+from thermodata.schema.certainty import Z95
 
 Rough = Callable[[], Problem | None]
 UNKNOWN = 3.0  # half an interval, in units of the search (a factor of 20): of what nobody knows no profile is asked
+HELD = 1.1  # times as wide is a gain's interval once a time constant at its bound is let go: they hang together
+CARRIED = 0.1  # of log(value), or of the range: further than that no slope is straight
+SPANNED = 1e-8  # of the most power of a direction: below, columns undo each other to four digits
+LEAST = 1e-12  # likewise: below, they are one
+ROUNDING = 1e-15  # likewise: below, nothing is told of it
 STEP = 1e-4  # of a parameter's range, for its slope
 _LONGEST = 0.25  # of a test; a longer memory cannot be told from a trend
 
@@ -34,11 +41,11 @@ class Spread:
 
 @dataclass(frozen=True)
 class Owner:
-    """Of a column of the Jacobian: its slots and name, and its place among the searched parameters (None: a gain)."""
+    """Of a column of the Jacobian: its slots and name, and what it is in the problem."""
 
     slots: tuple[int, ...]
     name: str
-    place: int | None = None
+    of: Coordinate
 
 
 @dataclass(frozen=True)
@@ -57,7 +64,8 @@ def spreads(
     are not known). rough: makes the same problem on fewer samples, for profiles; None: without profiles."""
     by_slot = [Spread() for _ in problem.design.slots]
     logs = frozenset(f.param.name for f in problem.free if f.log)
-    inside = _Estimate(problem, x, gains, _inside(problem, x))
+    known = _inside(problem, x)
+    inside = _Estimate(problem, x, gains, known)
     for owner, sd, half in zip(inside.owners, inside.scatter.sd, inside.scatter.half, strict=True):
         if np.isfinite(sd) and np.isfinite(half):
             for s in owner.slots:
@@ -65,14 +73,23 @@ def spreads(
     cover = _cover(inside)
     if rough is None or not problem.free:
         return by_slot, logs, cover
-    known = _inside(problem, x)
-    whole = len(known) == len(problem.free)
-    for i, profile, half in _profiles(inside if whole else _Estimate(problem, x, gains), rough()):
-        # at a bound the half width says nothing, and the profile has one side only
-        if (half < UNKNOWN or i not in known) and not profile.is_quadratic(half):
-            ends = profile.ends(half)
-            for s in problem.free[i].slots:
-                by_slot[s].ends[problem.free[i].param.name] = ends
+    free = inside if len(known) == len(problem.free) else _Estimate(problem, x, gains)
+
+    def asked(k: int, of: Coordinate, half: float) -> bool:
+        if isinstance(of, Searched):
+            # at a bound the half width says nothing, and the profile has one side only
+            return half < UNKNOWN or of.place not in known
+        held = by_slot[of.slots[0]].half.get(of.name, 0.0)
+        return free.carries(k, half) or half > HELD * held
+
+    for profile, half in _profiles(free, rough(), asked):
+        of = profile.of
+        quadratic = profile.is_quadratic(half)
+        for s in of.slots:
+            if not quadratic:
+                by_slot[s].ends[of.name] = profile.ends(half)
+            elif isinstance(of, Solved):
+                by_slot[s].half[of.name] = half
     return by_slot, logs, cover
 
 
@@ -89,21 +106,24 @@ def _cover(estimate: _Estimate) -> Cover | None:
 
 def profiles(
     problem: Problem, x: Float1D, gains: Float1D, rough: Problem | None = None
-) -> Iterator[tuple[int, Profile, float]]:
-    """(place, profile, half of the quadratic interval in the units of the search) of every searched parameter but
+) -> Iterator[tuple[Profile, Searched, float]]:
+    """(profile, of what, half of the quadratic interval in the units of the search) of every searched parameter but
     moments, whose error has no slope; those at a bound as well."""
-    return _profiles(_Estimate(problem, x, gains), rough)
+    for profile, half in _profiles(_Estimate(problem, x, gains), rough, lambda k, of, half: isinstance(of, Searched)):
+        if isinstance(profile.of, Searched):
+            yield profile, profile.of, half
 
 
 class _Estimate:
     """The Jacobian of the prediction to some searched parameters (all) and all free gains, and how they scatter."""
 
     def __init__(self, problem: Problem, x: Float1D, gains: Float1D, places: Iterable[int] | None = None) -> None:
-        self.problem, self.x = problem, x
+        self.problem, self.x, self.gains = problem, x, gains
         design = problem.design
         matrix = problem.matrix(x)
         columns: list[Float1D] = []
         self.owners: list[Owner] = []
+        like = alike(problem)
         for i in range(len(problem.free)) if places is None else places:
             nonlinear = problem.free[i]
             low, high = nonlinear.outside(nonlinear.lower), nonlinear.outside(nonlinear.upper)
@@ -111,37 +131,83 @@ class _Estimate:
             trial = x.copy()
             trial[i] += delta
             columns.append((problem.matrix(trial) - matrix) @ gains / delta)
-            self.owners.append(Owner(nonlinear.slots, nonlinear.param.name, i))
+            self.owners.append(Owner(nonlinear.slots, nonlinear.param.name, Searched(i, nonlinear, like)))
         for s, slot in enumerate(design.slots):
             for j, gain in enumerate(design.terms[slot.term].effect.gains):
                 k = problem.starts[s] + j
                 if problem.low[k] < gains[k] < problem.high[k]:
                     columns.append(matrix[:, k])
-                    self.owners.append(Owner((s,), gain.name))
+                    self.owners.append(Owner((s,), gain.name, Solved(int(k), s, gain.name, gain.unit, like)))
         self.jacobian = np.column_stack(columns) if columns else np.zeros((design.n, 0))
-        unknown = disturbances(design, problem.params(x), gains, problem.starts)
-        self.scatter = scatter(self.jacobian, design.y - matrix @ gains, design.parts, unknown)
+        self.unknown = disturbances(design, problem.params(x), gains, problem.starts)
+        self.noise = make_noise(self.jacobian, design.y - matrix @ gains, design.parts)
+        self.scatter = self._scatter(self.jacobian)
+
+        size = np.sqrt(np.sum(self.jacobian**2, axis=0))
+        self.moves = size > 0
+        size[~self.moves] = 1.0
+        # columns that undo each other leave a direction that nobody knows: where it is most of what an interval is
+        # wide by, slopes say nothing of it
+        power, directions = np.linalg.eigh((self.jacobian / size).T @ (self.jacobian / size))
+        top = float(power.max(initial=0.0))
+        wide = directions**2 / np.maximum(power, ROUNDING * top) if top > 0 else directions
+        self.known = wide[:, power < SPANNED * top].sum(axis=1) < 0.5 * wide.sum(axis=1)
+        spans = power > LEAST * top
+        inverse = (directions[:, spans] / power[spans]) @ directions[:, spans].T
+        self.inverse = inverse / np.outer(size, size)
+        self.places = {owner.of.place: k for k, owner in enumerate(self.owners) if isinstance(owner.of, Searched)}
+
+    def _scatter(self, columns: Float2D) -> Scatter:
+        if self.noise is None:
+            return nothing(columns.shape[1])
+        return self.noise.scatter(columns, self.problem.design.parts, self.unknown)
+
+    def allowed(self, moved: Float1D) -> float:
+        """Rise of the squared error at the ends of an interval of 95 %, where that moves the prediction so."""
+        half = float(self._scatter(moved[:, None]).half[0])
+        return half**2 * float(moved @ moved) if np.isfinite(half) else np.inf
+
+    def along(self, k: int, movable: Collection[int]) -> Float1D:
+        """How the searched parameters move with the estimate k where the error is quadratic; shape (searched,)."""
+        moved = np.zeros(len(self.problem.free))
+        for place, column in self.places.items():
+            if place in movable:
+                moved[place] = self.inverse[column, k] / self.inverse[k, k]
+        return moved
+
+    def carries(self, k: int, half: float) -> bool:
+        """Whether an estimate that moves as far as its interval takes searched parameters along, so that what is
+        linear in it alone is not so any more; or whether slopes say nothing of it."""
+        if not self.known[k] or self.inverse[k, k] <= 0:
+            return True
+        far = half * self.along(k, self.places)
+        return any(
+            abs(by) > CARRIED * (1.0 if f.log else f.outside(f.upper) - f.outside(f.lower))
+            for by, f in zip(far, self.problem.free, strict=True)
+        )
 
 
-def _profiles(estimate: _Estimate, rough: Problem | None) -> Iterator[tuple[int, Profile, float]]:
-    problem, x, jacobian = estimate.problem, estimate.x, estimate.jacobian
-    size = np.sqrt(np.sum(jacobian**2, axis=0))
-    moves = size > 0
-    size[~moves] = 1.0
-    inverse = np.linalg.pinv((jacobian / size).T @ (jacobian / size), rcond=1e-12) / np.outer(size, size)
+def _profiles(
+    estimate: _Estimate, rough: Problem | None, asked: Callable[[int, Coordinate, float], bool]
+) -> Iterator[tuple[Profile, float]]:
+    problem, x = estimate.problem, estimate.x
     # on other samples the optimum is a little elsewhere, and from beside it an error is no parabola
-    small, near = (problem, x) if rough is None else (rough, search(rough, x))
+    small, near, there = problem, x, estimate
+    if rough is not None:
+        small, near = rough, fastest_first(rough, search(rough, x))
+        there = _Estimate(small, near, small.gains(small.matrix(near)), estimate.places)
     free_to_move = _inside(problem, x)
-    places = {owner.place: k for k, owner in enumerate(estimate.owners) if owner.place is not None}
-    for i, free in enumerate(problem.free):
-        k = places[i]
-        half = float(estimate.scatter.half[k])
-        if free.points == MOMENTS or not moves[k] or not np.isfinite(half) or inverse[k, k] <= 0 or half <= 0:
+    for k, owner in enumerate(estimate.owners):
+        of, half = owner.of, float(estimate.scatter.half[k])
+        if isinstance(of, Searched) and of.free.points == MOMENTS:
             continue
-        allowed = half**2 / inverse[k, k] * small.design.n / problem.design.n
-        along = np.array([inverse[places[o], k] / inverse[k, k] if o in free_to_move else 0.0 for o in places])
-        along[i] = 1.0
-        yield i, Profile(small, near, i, allowed, along, float(x[i] - near[i])), half
+        if not estimate.moves[k] or not np.isfinite(half) or half <= 0 or there.noise is None:
+            continue
+        if not asked(k, of, half):
+            continue
+        along = estimate.along(k, free_to_move) if estimate.known[k] else None
+        moved = of.at(problem, x) - of.at(small, near)
+        yield Profile(small, near, of, there.allowed, along, moved), half
 
 
 def _inside(problem: Problem, x: Float1D) -> list[int]:

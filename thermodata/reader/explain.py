@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import inspect
+import re
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -35,6 +36,13 @@ _MAGIC: tuple[tuple[bytes, str], ...] = (
     (b"\x7fELF", "a program"),
     (b"MZ", "a program"),
     (b"#ROSBAG", "a ROS 1 bag: convert it to MCAP"),
+    (b"\xff\xfe\0\0", "text in UTF-32: save it as UTF-8"),
+    (b"\0\0\xfe\xff", "text in UTF-32: save it as UTF-8"),
+)
+# The first lines of what is text, and no table whatever is declared
+_TEXTS: tuple[tuple[re.Pattern[str], str], ...] = (
+    (re.compile(r"(?i)\s*<(?:!doctype\s+html|html|table)\b"), "an HTML page, whatever it is called: save it as XLSX"),
+    (re.compile(r"\s*(?:\{\s*\"|\[\s*[\[{])"), "JSON: export it as CSV"),
 )
 
 
@@ -100,11 +108,20 @@ def _kind(start: Head) -> str:
         return f"binary; it starts with {start.start[:8].hex(' ')}"
     if not text.strip():
         return "blanks only"
+    if (known := _no_table(text)) is not None:
+        return known
     first = next(line for line in text.splitlines() if line.strip()).strip()
     marks = {"';'": text.count(";"), "','": text.count(","), "tabs": text.count("\t")}
     most = max(marks, key=lambda m: marks[m])
     between = f", most often {most} between cells" if marks[most] >= 3 else ""
     return f"text{between}; it starts with '{first[:50]}{'...' if len(first) > 50 else ''}'"
+
+
+def _no_table(text: str) -> str | None:
+    """What a text is that holds no table of cells. A line of JSON may stand above one that does."""
+    known = next((what for start, what in _TEXTS if start.match(text)), None)
+    last = next((line for line in reversed(text.splitlines()[-20:]) if line.strip()), "").strip()
+    return known if last.startswith(tuple('<{}[]"')) else None
 
 
 def _why_not(name: str, path: Path, start: Head, asked: bool) -> str:
@@ -130,6 +147,8 @@ def _advice(start: Head, found: dict[str, str], others: dict[str, str]) -> str |
         return f"declare one of them: sources: {{log: {{reader: {first}, files: ...}}}}"
     if not others:
         return "no reader is installed"
+    if _kind(start).startswith(tuple(what for _, what in (*_MAGIC, *_TEXTS) if ": " in what)):
+        return None  # it says already what to do
     able = next((name for name, why in others.items() if "can read it" in why), None)
     if able:
         return f"declare it: sources: {{log: {{reader: {able}, files: ...}}}}"

@@ -32,6 +32,9 @@ def match_signal(wanted: str, signals: Sequence[Signal]) -> Signal:
 
     UsageError: no such signal (with the nearest names), or several that the same spelling fits.
     """
+    exact = [s for s in signals if s.name == wanted]
+    if len(exact) == 1:
+        return exact[0]
     for fold in (str, str.casefold):
         for spell in _SPELLINGS:
             found = [s for s in signals if fold(spell(s.name)) == fold(wanted)]

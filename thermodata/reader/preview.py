@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import time
 from collections.abc import Callable
 from dataclasses import dataclass, field
@@ -10,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from thermodata.plugin import Block, Loss, Reader, Recording, Signal, Source
+from thermodata.plugin import Array, Block, Loss, Reader, Recording, Signal, Source
 from thermodata.reader.guard import described, guarded
 from thermodata.reader.newest_first import NOTE, Steps
 from thermodata.reader.registry import claims, sniff
@@ -50,9 +51,11 @@ class _Stream:
         if self.step_ns is not None and ahead.size:
             self.gaps += int((ahead > _GAP_FACTOR * self.step_ns).sum())
             self.largest = max(self.largest, int(ahead.max()))
-        for i in range(min(t.size, first_rows - len(self.head))):
-            values = {name: _plain(column[i]) for name, column in block.values.items()}
-            self.head.append({"t": when(int(t[i]), absolute), **values})
+        n = min(t.size, first_rows - len(self.head))
+        columns = [_plain(column[:n]) for column in block.values.values()] if n > 0 else []
+        for i in range(n):
+            values = zip(block.values, [column[i] for column in columns], strict=True)
+            self.head.append({"t": when(int(t[i]), absolute), **dict(values)})
         self.rows += t.size
         self.last = int(t[-1])
 
@@ -172,11 +175,12 @@ def when(t_ns: int, absolute: bool) -> str | float:
     )
 
 
-def _plain(value: Any) -> Any:
-    """A value that JSON knows; NaN is None."""
-    if isinstance(value, np.generic):
-        value = value.item()
-    return None if isinstance(value, float) and not np.isfinite(value) else value
+def _plain(values: Array) -> list[Any]:
+    """Values that JSON knows; NaN is None."""
+    found: list[Any] = values.tolist()
+    if values.dtype.kind in "fO" and any(isinstance(v, float) and not math.isfinite(v) for v in found):
+        return [None if isinstance(v, float) and not math.isfinite(v) else v for v in found]
+    return found
 
 
 __all__ = ["FIRST_ROWS", "MOST_ROWS", "MOST_S", "preview", "when"]

@@ -68,6 +68,21 @@ def notes_in_words(notes: Sequence[str], names: Collection[str] = ()) -> list[st
     return said
 
 
+def said_at_ingest(summary: Mapping[str, Any]) -> dict[str, list[str]]:
+    """'losses' and 'notes' of an ingest's summary, a line a cause."""
+    names = {str(x[k]) for x in summary["losses"] for k in ("test", "source") if x.get(k)}
+    return {
+        "losses": losses_in_words(summary["losses"], names),
+        "notes": notes_in_words(summary["notes"], names | _heads(summary["notes"])),
+    }
+
+
+def _heads(notes: Sequence[str]) -> set[str]:
+    """Names of tests and sources that notes begin with: 'day1, daq: ...'."""
+    heads = [n.partition(": ")[0] for n in notes if ": " in n]
+    return {part for head in heads if head.count(",") < 3 for part in head.split(", ") if " " not in part}
+
+
 def _place(loss: Mapping[str, Any]) -> str:
     parts = [str(loss[k]) for k in ("test", "source", "file", "where") if loss.get(k) is not None]
     share = f", {100 * loss['fraction']:.2g} % of the file" if loss.get("fraction") else ""

@@ -6,17 +6,14 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from thermodata.chart import Axis, Band, Chart, HeatMap, Limit, Panel, Series, Span, Strip
+from thermodata.chart import Axis, Chart, HeatMap, Limit, Panel, Series, Span, Strip
+from thermodata.chart.band import SHADED, band_95
 from thermodata.chart.decimate import MOST_POINTS, block_mean, block_size
-from thermodata.modelling.fitted_response import Z95
 from thermodata.plugin import Float1D
 from thermodata.report.data import Curve, TestPart
 from thermodata.report.words import duration, number, typeset
 from thermodata.schema.result import WeakSpot
 
-BAND_LABEL = "95 %"
-SHADED = "shaded: 95 % by the parameters"
-"""What a band is, where there is room to say it."""
 TIME = "time from the start of the test"
 PANEL_EXTRA = 48  # [px] of a panel beside its plot: title, keys, margins
 _TALL, _LOW, _MIDDLE = 230, 140, 170  # [px]
@@ -97,11 +94,6 @@ def part_chart(
         panels,
         spans=[*_weak_spans(weak, unit), *_phase_spans(part)],
     )
-
-
-def band_95(y: Float1D, sd: Float1D) -> Band:
-    """Where a curve lies with 95 % by the uncertainty of the fitted parameters. sd: its standard deviation."""
-    return Band(y - Z95 * sd, y + Z95 * sd, BAND_LABEL)
 
 
 def _hours(part: TestPart, size: int) -> Float1D:

@@ -6,7 +6,16 @@ import re
 from datetime import datetime
 from typing import Annotated, Any, Literal
 
-from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationInfo, field_validator, model_validator
+from pydantic import (
+    AfterValidator,
+    BaseModel,
+    BeforeValidator,
+    ConfigDict,
+    Field,
+    ValidationInfo,
+    field_validator,
+    model_validator,
+)
 
 from thermodata.errors import ThermodataError
 from thermodata.schema.quantity import QUANTITIES, Quantity, value_in
@@ -34,7 +43,14 @@ def _in(unit: str) -> BeforeValidator:
     return BeforeValidator(convert, json_schema_input_type=str | float)
 
 
-Seconds = Annotated[float, _in("s")]
+def _in_nanoseconds(seconds: float) -> float:
+    """A time that clocks can count: of at most 292 years."""
+    if not abs(seconds) < 2**63 / 1e9:
+        raise ValueError("a time of centuries: clocks count 292 years at most")
+    return seconds
+
+
+Seconds = Annotated[float, _in("s"), AfterValidator(_in_nanoseconds)]
 Um = Annotated[float, _in("um")]
 # YAML makes a date of what looks like one
 Moment = Annotated[Value, BeforeValidator(lambda x: x.isoformat(" ") if isinstance(x, datetime) else x)]

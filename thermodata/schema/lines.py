@@ -188,8 +188,12 @@ class _Builder:
                 got=str(node.value)[:80],
                 hint="put it in quotes",
             ) from None
+        if place[-1:] == ("id",) and isinstance(value, bool | int | float):
+            value = str(node.value)  # a name as it stands: 1_2 is no 12, 010 no 8, 1:30 no 90, and no is no False
         if isinstance(value, float):
             self.document.digits[place] = node.value
+        if isinstance(value, str):
+            _whole_letters(value, f"{name}:{line}")
         return value
 
     def _mapping(self, node: yaml.MappingNode, place: Place, depth: int) -> dict[str, Any]:
@@ -210,10 +214,32 @@ class _Builder:
         return result
 
 
+def is_text(name: str) -> bool:
+    """Whether a name can be written down: one of a disk may hold bytes that are no UTF-8."""
+    try:
+        name.encode()
+    except UnicodeEncodeError:
+        return False
+    return True
+
+
+def _whole_letters(text: str, where: str) -> str:
+    """The text; SpecError where it holds half a letter, which nothing can write down again: "\\udce9"."""
+    if is_text(text):
+        return text
+    raise SpecError(
+        "a text that is no UTF-8",
+        where=where,
+        got=ascii(text)[1:-1],
+        expected="whole letters",
+        hint="where it names a file, give the file another name",
+    )
+
+
 def _key(node: yaml.Node, where: str) -> str:
     """A word, or a list of words as it is written: `[D25, D63]: k1` names what several keys have in common."""
     if isinstance(node, yaml.ScalarNode):
-        return str(node.value)
+        return _whole_letters(str(node.value), where)
     if isinstance(node, yaml.SequenceNode) and all(isinstance(part, yaml.ScalarNode) for part in node.value):
         return f"[{', '.join(str(part.value) for part in node.value)}]"
     raise SpecError("a key must be a word, or a list of words", where=where)

@@ -84,6 +84,15 @@ QUANTITY_MEANING: dict[str, str] = {
     "label": "text, such as a program's or a tool's name; held, never averaged",
 }
 
+# units in pint's spelling that need not be looked up: to begin, pint reads its definitions for half a second
+AT_HAND = frozenset(
+    {
+        *UNIT_SPELLING.values(),
+        *(u for u in CANONICAL_UNIT.values() if u not in ("1", "%", "Ohm", "N m", "W/m2")),
+        *("nm", "mm", "cm", "m", "mm/min", "m/s", "mm/s", "mrad", "rad", "degF", "s", "ms", "min", "h"),
+        *("mV", "mA", "W", "N", "kN", "Pa", "kPa", "MPa", "mbar", "l/h", "kg"),
+    }
+)
 _QUANTITY_TEXT = re.compile(r"^\s*([+-]?(?:\d+(?:[.,]\d*)?|[.,]\d+)(?:[eE][+-]?\d+)?)\s*(.*?)\s*$")
 
 
@@ -140,11 +149,16 @@ def delta_factor(unit: str, target: str) -> float:
 @lru_cache(maxsize=4096)
 def is_unit(text: str) -> bool:
     """Whether the text is a unit at all (a lab's or pint's spelling)."""
+    if not text.strip():
+        return False
+    normal = normal_unit(text)
+    if normal in AT_HAND:
+        return True
     try:
-        _registry().parse_units(normal_unit(text))
+        _registry().parse_units(normal)
     except Exception:
         return False
-    return bool(text.strip())
+    return True
 
 
 def compound_unit(left: str, operator: Literal["*", "/"], right: str) -> str:

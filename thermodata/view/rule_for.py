@@ -21,6 +21,9 @@ if TYPE_CHECKING:
 
 STATES = ("position", "feed", "rotational_speed", "state", "power", "load", "flow")
 TAKES, KEEPS = 0.9, 0.9  # of the samples inside, and of those outside
+# a stretch that comes again in the test is told from half of it; then the rule must leave a smaller error than the
+# test without the stretch
+KEEPS_WHERE_IT_COMES_AGAIN, _SMALLER = 0.5, 0.95
 _MOST = 4
 _FEWEST = 5  # samples on either side
 
@@ -54,30 +57,44 @@ def rules(found: Prediction, states: Mapping[str, Float1D], from_s: float, to_s:
     counts = found.valid & np.isfinite(found.residual)
     stretch = (found.t_s >= from_s) & (found.t_s <= to_s)
     inside, outside = counts & stretch, counts & ~stretch
-    made = []
-    for name, values in states.items():
-        for text, keeps in _conditions(name, values, inside, outside):
-            kept = counts & keeps
-            taken, lost = int((inside & ~keeps).sum()), int((outside & ~keeps).sum())
-            if taken < TAKES * inside.sum() or lost > (1 - KEEPS) * outside.sum():
-                continue
-            rmse = float(np.sqrt(np.mean(found.residual[kept] ** 2))) if kept.any() else None
-            made.append(Rule(text, int(kept.sum()), taken, lost, rmse))
-    return sorted(made, key=lambda r: (r.lost - r.taken, len(r.text)))[:_MOST]
+    residual = found.residual
+    without = _rms(residual[outside])
+    for keeps_outside in (KEEPS, KEEPS_WHERE_IT_COMES_AGAIN):
+        made = []
+        for name, values in states.items():
+            for text, keeps in _conditions(name, values, inside, outside, keeps_outside):
+                kept = counts & keeps
+                taken, lost = int((inside & ~keeps).sum()), int((outside & ~keeps).sum())
+                if taken < TAKES * inside.sum() or lost > (1 - keeps_outside) * outside.sum():
+                    continue
+                rmse = _rms(residual[kept])
+                again = keeps_outside < KEEPS
+                if again and (rmse is None or without is None or rmse > _SMALLER * without):
+                    continue
+                made.append(Rule(text, int(kept.sum()), taken, lost, rmse))
+        if made:
+            return sorted(made, key=lambda r: (r.lost - r.taken, len(r.text)))[:_MOST]
+    return []
 
 
-def _conditions(name: str, values: Float1D, inside: Bool1D, outside: Bool1D) -> Iterator[tuple[str, Bool1D]]:
+def _rms(x: Float1D) -> float | None:
+    return float(np.sqrt(np.mean(x**2))) if len(x) else None
+
+
+def _conditions(
+    name: str, values: Float1D, inside: Bool1D, outside: Bool1D, keeps: float
+) -> Iterator[tuple[str, Bool1D]]:
     """(the condition, where it holds): not where the state was not logged, as in `measuring`."""
     there = np.isfinite(values)
     a, b = values[inside & there], values[outside & there]
     if len(a) < _FEWEST or len(b) < _FEWEST:
         return
     usual = float(np.median(b))
-    if np.mean(b == usual) >= KEEPS:
+    if np.mean(b == usual) >= keeps:
         yield f"{name} == {usual:g}", values == float(f"{usual:g}")
     for text, x in ((name, values), (f"abs({name})", np.abs(values))):
         low_in, high_in = np.quantile(x[inside & there], [1 - TAKES, TAKES])
-        low_out, high_out = np.quantile(x[outside & there], [1 - KEEPS, KEEPS])
+        low_out, high_out = np.quantile(x[outside & there], [1 - keeps, keeps])
         if high_out < low_in:
             limit = _round(high_out, low_in)
             yield f"{text} < {limit:g}", x < limit

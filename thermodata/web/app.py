@@ -16,7 +16,7 @@ from thermodata.errors import StoreError, ThermodataError
 from thermodata.web import assets
 from thermodata.web.desk import Desk
 from thermodata.web.guard import Guard
-from thermodata.web.pages import adding, campaign_map, compare, jump, missing, report, sql, start, test, working
+from thermodata.web.later import later
 from thermodata.web.render import page
 from thermodata.web.work import Work
 
@@ -34,25 +34,27 @@ def application(desk: Desk) -> Starlette:
         lifespan=life,
         routes=[
             Route("/static/{name:path}", assets.serve, methods=["GET"]),
-            Route("/", campaign_map.show, methods=["GET"]),
-            Route("/test", test.show, methods=["GET"]),
-            Route("/test/data", test.data, methods=["GET"]),
-            Route("/test/range", test.stretch, methods=["GET"]),
-            Route("/compare", compare.show, methods=["GET"]),
-            Route("/add", adding.show, methods=["GET"]),
-            Route("/sql", sql.show, methods=["GET"]),
-            Route("/sql/{form}", sql.take, methods=["GET"]),
-            Route("/report", report.show, methods=["GET"]),
-            Route("/report/file", report.take, methods=["GET"]),
-            Route("/start", start.show, methods=["GET"]),
-            Route("/start/jump", jump.show, methods=["GET"]),
-            Route("/start/preview", start.preview, methods=["POST"]),
-            Route("/start/write", start.write, methods=["POST"]),
-            Route("/missing", missing.show, methods=["GET"]),
-            Route("/task/{task}", working.start, methods=["POST"]),
-            Route("/task/{task}", working.watch, methods=["GET"]),
-            Route("/task/{task}/cancel", working.cancel, methods=["POST"]),
-            Route("/trace", test.way_back, methods=["GET"]),
+            Route("/", later("campaign_map.show"), methods=["GET"]),
+            Route("/test", later("test.show"), methods=["GET"]),
+            Route("/test/data", later("test.data"), methods=["GET"]),
+            Route("/test/range", later("test.stretch"), methods=["GET"]),
+            Route("/compare", later("compare.show"), methods=["GET"]),
+            Route("/add", later("adding.show"), methods=["GET"]),
+            Route("/sql", later("sql.show"), methods=["GET"]),
+            Route("/sql/{form}", later("sql.take"), methods=["GET"]),
+            Route("/report", later("report.show"), methods=["GET"]),
+            Route("/report/file", later("report.take"), methods=["GET"]),
+            Route("/start", later("start.show"), methods=["GET"]),
+            Route("/start/jump", later("jump.show"), methods=["GET"]),
+            Route("/start/preview", later("start.preview"), methods=["POST"]),
+            Route("/start/write", later("start.write"), methods=["POST"]),
+            Route("/rule/preview", later("rule.preview"), methods=["POST"]),
+            Route("/rule/write", later("rule.write"), methods=["POST"]),
+            Route("/missing", later("missing.show"), methods=["GET"]),
+            Route("/task/{task}", later("working.start"), methods=["POST"]),
+            Route("/task/{task}", later("working.watch"), methods=["GET"]),
+            Route("/task/{task}/cancel", later("working.cancel"), methods=["POST"]),
+            Route("/trace", later("trace.show"), methods=["GET"]),
         ],
         middleware=[Middleware(Guard, desk=desk)],
         exception_handlers={ThermodataError: _refused, HTTPException: _no_page},

@@ -49,6 +49,7 @@ class Desk:
     write: bool
     port: int
     keys: Keys = field(default_factory=Keys, repr=False)
+    _opened: list[Store] = field(default_factory=list, repr=False)  # at most one
 
     @property
     def host(self) -> str:
@@ -64,8 +65,11 @@ class Desk:
         return (self.store_path / CATALOGUE).exists()
 
     def store(self) -> Store:
-        """UsageError where there is none yet."""
-        return Store(self.store_path)
+        """One for all pages: its copy of the catalogue is made anew after a commit only. UsageError where there is
+        none yet, or none any more."""
+        if not (self._opened and self.has_store):
+            self._opened[:] = [Store(self.store_path)]
+        return self._opened[0]
 
     def inside(self, name: str | Path) -> Path:
         """A path of the user's, resolved: relative ones from the first folder, links followed. UsageError where it

@@ -50,10 +50,14 @@ def draft(store: Path, tell: Tell, folder: str) -> dict[str, Any]:
 
 def ingest(store: Path, tell: Tell, campaign: str) -> dict[str, Any]:
     """`thermodata ingest CAMPAIGN.yaml`."""
+    from thermodata.report.causes import said_at_ingest
     from thermodata.store.ingest.run import ingest as run
 
     found = run(Store(store, create=True), campaign, _Told(tell))
-    return {"tests": found.tests, "losses": len(found.losses), "onward": _to("/", campaign=found.campaign)}
+    summary = found.to_json()
+    kept = {k: summary[k] for k in ("campaign", "tests", "files", "samples", "calibrations", "stale")}
+    # what was lost, and what the engine wondered at, is read before anybody goes on
+    return {"told": {**kept, **said_at_ingest(summary)}, "onward": _to("/", campaign=found.campaign)}
 
 
 def report(store: Path, tell: Tell, model: str, out: str) -> dict[str, Any]:
@@ -94,7 +98,7 @@ class _Told:
 
     def say(self, text: str) -> None:
         if self._done >= self._files:
-            self._tell(text, 0, 0)
+            self._tell(f"on one clock: {text}", 0, 0)
 
 
 def _to(path: str, **state: str) -> str:

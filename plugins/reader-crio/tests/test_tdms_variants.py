@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import shutil
+import tracemalloc
 from pathlib import Path
 from typing import Any
 
@@ -145,3 +147,48 @@ def test_a_channel_that_changes_its_meaning_within_the_file_is_left_out(  # type
     same = made("b.tdms", segments[0], segments[0])
     assert [s.name for s in same.recording.signals] == ["Eddy/Z", "Eddy/Y"]
     assert same.losses == ()
+
+
+def test_channels_that_begin_alike_part_where_one_is_written_anew(tmp_path: Path, tdms) -> None:  # type: ignore[no-untyped-def]
+    # equal properties are parsed once and shared: what is said anew of one must not be said of the others
+    waves = [tdms.channel("g", f"c{i}", "float64", 2, tdms.wave(unit_string="V", note="same")) for i in range(5)]
+    waves[3] = tdms.channel("g", "c3", "float64", 2, tdms.wave(unit_string="degC", note="same"))
+    anew = [tdms.channel("g", "c1", "float64", 2, {"note": "other"})]
+    path = tmp_path / "x.tdms"
+    path.write_bytes(
+        tdms.segment(waves, np.arange(10.0).tobytes()) + tdms.segment(anew, np.arange(2.0).tobytes(), new_list=True)
+    )
+    said = {s.name: s for s in Reader().describe(path, Source()).signals}
+    assert [said[f"g/c{i}"].unit for i in range(5)] == ["V", "V", "V", "degC", "V"]
+    assert [said[f"g/c{i}"].properties["note"] for i in range(5)] == ["same", "other", "same", "same", "same"]
+    values = load(Reader(), path, Source()).values
+    assert [values[said[f"g/c{i}"].stream, f"g/c{i}"].size for i in range(2)] == [2, 4]
+
+
+def test_a_property_that_is_named_twice_counts_as_it_stands_last(tmp_path: Path, tdms) -> None:  # type: ignore[no-untyped-def]
+    twice = tdms.channel("g", "a", "float64", 1, {"note": "1", "nota": "2"})
+    path = tmp_path / "x.tdms"
+    path.write_bytes(
+        tdms.segment([twice.replace(b"nota", b"note"), tdms.channel("g", "b", "float64", 1, {"note": "1"})], bytes(16))
+    )
+    assert [s.properties["note"] for s in Reader().describe(path, Source()).signals] == ["2", "1"]
+
+
+def test_many_channels_take_little_memory_each(tmp_path: Path) -> None:
+    from nptdms import ChannelObject, TdmsWriter
+
+    n = 3000
+    wave = {"wf_start_time": np.datetime64("2026-03-02T06:00:00", "us"), "wf_increment": 1.0, "unit_string": "degC"}
+    with TdmsWriter(str(tmp_path / "wide.tdms")) as writer:
+        writer.write_segment([ChannelObject(f"g{i // 1000}", f"c{i}", np.arange(3.0) + i, wave) for i in range(n)])
+    Reader().describe(Path(shutil.copy(tmp_path / "wide.tdms", tmp_path / "other.tdms")), Source())  # imports
+    tracemalloc.start()
+    try:
+        said = Reader().describe(tmp_path / "wide.tdms", Source())
+        most = tracemalloc.get_traced_memory()[1]
+    finally:
+        tracemalloc.stop()
+    assert len(said.signals) == n
+    assert most / n < 1800  # bytes
+    data = load(Reader(), tmp_path / "wide.tdms", Source())
+    assert all(data.values[s.stream, s.name][2] == 2 + i for i, s in enumerate(said.signals))

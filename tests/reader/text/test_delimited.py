@@ -312,3 +312,22 @@ def test_a_row_of_words_and_relative_times_above_a_repeated_header_is_data(tmp_p
     assert [s.name for s in signals(table)] == ["T", "mode"]
     read = [item for item in blocks(path, table, source) if isinstance(item, Block)]
     assert np.concatenate([b.values["T"] for b in read]).tolist() == [20 + i / 8 for i in range(20)]
+
+
+def test_a_header_that_is_longer_than_a_look_is_said_to_be_so(tmp_path: Path) -> None:
+    names = ",".join(f"c{i} [degC]" for i in range(20_000))
+    path = tmp_path / "wide.csv"
+    path.write_text(f"Time [s],{names}\n" + 3 * ("0.0" + 20_000 * ",20.0" + "\n"))
+    with pytest.raises(FormatError, match="first line is too long") as found:
+        describe(open_table(path, Source()), Source())
+    assert "128 KiB" in str(found.value)
+
+
+def test_rows_whose_time_is_torn_decide_nothing_however_many_rows_there_are(tmp_path: Path) -> None:
+    rows = [f"2026-03-01 08:{k // 60:02d}:{k % 60:02d};{20 + k / 100:.2f};1" for k in range(1200)]
+    for k in (150, 700, 1100):
+        rows[k] = f"2026-03-01 08:;half;{rows[k][-1]}"
+    for n in (300, 1200):
+        got = read(tmp_path, HEAD + "\n".join(rows[:n]) + "\n")
+        assert got.values["a"].dtype == np.float64
+        assert len(got.t_ns) == n - sum(k < n for k in (150, 700, 1100))

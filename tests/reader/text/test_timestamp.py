@@ -225,7 +225,7 @@ def test_counts_of_milliseconds() -> None:
         ("%H:%M:%S.%f", "00:00:01.5", "time", 1_500_000_000),
         ("%d.%m.%y", "01.03.26", "date", ns(2026, 3, 1)),
         ("%d.%m.%y", "01/03/26", "date", NAT),
-        ("100%% %Y", "100% 2026", "date", 0),
+        ("100%% %Y-%m", "100% 2026-03", "date", ns(2026, 3, 1)),
     ],
 )
 def test_declared_formats(text: str, cell: str, role: str, wanted: int) -> None:

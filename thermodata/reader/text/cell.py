@@ -6,7 +6,7 @@ import re
 from collections.abc import Callable, Iterable
 from typing import Any
 
-from thermodata.reader.text.number import EMPTY, OVERLOAD
+from thermodata.reader.text.number import EMPTY, OVERLOAD, spelled
 from thermodata.reader.text.timestamp import is_date_text, is_time_of_day
 
 Cell = Any  # text, or what a workbook holds: numbers, bool, datetime, date, time, timedelta
@@ -22,13 +22,14 @@ _NUMBER = re.compile(r"^[+-]? *(\d+([.,]\d*)?|[.,]\d+)([eE][+-]?\d+)?$", re.ASCI
 
 def is_number(cell: Cell) -> bool:
     if isinstance(cell, str):
-        return _NUMBER.match(cell.strip()) is not None
+        text = cell.strip()
+        return _NUMBER.match(text) is not None or _NUMBER.match(spelled(text)) is not None
     return isinstance(cell, int | float)
 
 
 def number_of(cell: Cell) -> float | None:
     try:
-        return float(cell.replace(",", ".").replace(" ", "") if isinstance(cell, str) else cell)
+        return float(spelled(cell.strip()).replace(",", ".").replace(" ", "") if isinstance(cell, str) else cell)
     except (ValueError, TypeError):
         return None
 

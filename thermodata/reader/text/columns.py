@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Sequence
 
-from thermodata.errors import QuestionError
+from thermodata.errors import FormatError, QuestionError
 from thermodata.reader.open_questions import UNKNOWN
 from thermodata.reader.text.number import (
     EMPTY,
@@ -55,13 +55,25 @@ def dtype_of(cells: Sequence[str], name: str = "", unit: str | None = None) -> s
 def find_decimal(columns: Iterable[Sequence[str]], delimiter: str, where: str) -> str | None:
     """The decimal mark of the number cells of some columns; None where none has a fraction.
 
-    FormatError: both marks occur. QuestionError: commas stand in quotes between commas, or points between semicolons
-    (which part cells where the comma is the decimal mark), and each of them may part thousands or begin a fraction.
+    QuestionError: both marks occur; commas stand in quotes between commas, or points between semicolons (which part
+    cells where the comma is the decimal mark), and each of them may part thousands or begin a fraction.
     """
     columns = list(columns)
     cells = [c for column in columns for c in [c for c in column if "," in c or "." in c][:_FRACTIONS]]
     if delimiter != ",":
-        mark = decimal_mark(cells)
+        try:
+            mark = decimal_mark(cells)
+        except FormatError as error:
+            raise QuestionError(
+                error.what,
+                where=where,
+                expected=error.expected,
+                got=error.got,
+                hint=error.hint,
+                ask=f"decimal: '.' or ','? {error.got}; the other then parts thousands",
+                declare={"decimal": UNKNOWN},
+                meanwhile={"decimal": "."},
+            ) from None
         points = [c for c in map(clean, cells) if "." in c and is_number(c)]
         doubtful = delimiter == ";" and mark == "." and all(_ONE_GROUP.fullmatch(c) for c in points)
         # a thousand that is not parted proves that points don't part thousands here

@@ -5,8 +5,9 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 from functools import lru_cache
+from itertools import pairwise
 
-from thermodata.reader.text.cell import Cell, is_number, is_stamp
+from thermodata.reader.text.cell import TIME_WORD, Cell, is_number, is_stamp
 from thermodata.reader.text.number import clean
 from thermodata.schema.unit_spelling import UNIT_SPELLING
 
@@ -157,6 +158,20 @@ def _under(above: list[str], names: list[str]) -> list[str]:
         carried.append(group)
     apart = [f"{g}/{n}" if g and n and g != n else n or a for g, n, a in zip(carried, names, above, strict=True)]
     return apart if sum(map(bool, above)) > 1 and len(set(apart)) >= len(set(filled)) else filled
+
+
+def numbered_rows(header: Sequence[Cell], heads: Sequence[str], data: Sequence[Sequence[Cell]]) -> bool:
+    """Whether rows begin with their number, which the header leaves out (R writes so): it has a cell less than they,
+    they count from row to row, and dates stand one column behind the word for them."""
+    if len(header) != len(heads) - 1:
+        return False
+    firsts = [str(r[0]) for r in data]
+    counted = all(f.isdecimal() for f in firsts) and all(int(b) - int(a) == 1 for a, b in pairwise(firsts))
+    stamped = [bool(data) and all(is_stamp(r[i]) for r in data) for i in range(len(heads))]
+    return counted and any(
+        TIME_WORD.match(split_unit(heads[i])[0]) is not None and stamped[i + 1] and not stamped[i]
+        for i in range(len(heads) - 1)
+    )
 
 
 def unique(names: Sequence[str]) -> list[str]:

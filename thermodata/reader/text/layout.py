@@ -10,7 +10,7 @@ from typing import Any, Literal
 from thermodata.errors import FormatError, UsageError
 from thermodata.reader.open_questions import UNKNOWN, unanswered
 from thermodata.reader.text.cell import WORDS, Cell, is_dated, is_empty, is_number, is_stamp, mostly
-from thermodata.reader.text.header import are_numbers, lines_between, names_and_units, unique
+from thermodata.reader.text.header import are_numbers, lines_between, names_and_units, numbered_rows, unique
 from thermodata.reader.text.time_columns import column, time_of
 from thermodata.reader.text.time_formats import Stamps
 from thermodata.reader.text.time_groups import Span, spans
@@ -102,6 +102,9 @@ def find(rows: Sequence[Sequence[Cell]], declared: Mapping[str, Any] | None, whe
     if not data:
         raise FormatError("a table without data rows", where=where, expected=f"data after row {first}")
     lost = lines_between(rows[skip:first], width, skip) if header is None else []
+    if header is None and first > skip and numbered_rows(rows[first - 1], heads, data):
+        names, units = unique(["", *heads[:-1]]), [None, *units[:-1]]
+        lost = [*lost, "the header names one column fewer than there are: the first holds the numbers of the rows"]
     groups, notes = _groups(said.get("time") or {}, names, units, data, where)
     return Layout(first, tuple(names), tuple(units), tuple(groups), (*notes, *lost))
 
@@ -226,13 +229,18 @@ def _group(stream: str, time: tuple[int, ...], unit: str | None, form: str | Non
 
 def _counted(period: Any, width: int, where: str) -> Group:
     """All columns, in rows that follow each other at a declared period [s]."""
+    return Group(STREAM, (), period_s(period, where), None, None, tuple(range(width)), True)
+
+
+def period_s(period: Any, where: str) -> float:
+    """A declared `time.period` [s]; FormatError where it is not answered yet."""
     if period == UNKNOWN:
         raise unanswered("time.period", "the time from row to row: 10 s, 1 min", where)
     if isinstance(period, str):
         from thermodata.schema.quantity import value_in
 
         period = value_in(period, "s")
-    return Group(STREAM, (), float(period), None, None, tuple(range(width)), True)
+    return float(period)
 
 
 def one_clock(

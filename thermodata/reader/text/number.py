@@ -6,6 +6,7 @@ The policy, a cell at a time (`docs/formats.md` states it for users; `to_float` 
 - **Decimal mark**: one a file, declared or found; a number with the other mark is none.
 - **Thousands**: blanks and apostrophes part them; so does the other mark, where a fraction, a second group or a
   declared decimal mark proves it. `1.500` beside decimal commas could be either, so it is refused.
+- **Signs**: the minus of typography (U+2212) is one. **Exponents** are an e, or Fortran's `D+03` in full.
 - **Integers** that a float64 would change (beyond 2**53) are kept exactly in a column of int64, else refused.
 - **Too large** for a float64 (`1e999`): refused. `inf` is a value. `1_000`, `0x1F` and `12 %` are no numbers.
 - **Truth values** (`TRUE`, `wahr`) make a column of bool; between numbers they are 1 and 0.
@@ -60,8 +61,18 @@ _ONE_GROUP = {
 }
 _PADDED_SIGN = re.compile(r"^([+-]) +")
 _INTEGER = re.compile(r"[+-]?\d{1,40}", re.ASCII)
+_FORTRAN = re.compile(r"([+-]?(?:\d+[.,]\d*|[.,]\d+))[dD]([+-]\d{2,3})", re.ASCII)  # it always writes all of these
 _POINT = re.compile(r"^[+-]?\d*\.\d+(?:[eE][+-]?\d+)?$|^[+-]?\d+\.\d*(?:[eE][+-]?\d+)?$")
 _COMMA = re.compile(r"^[+-]?\d*,\d+(?:[eE][+-]?\d+)?$|^[+-]?\d+,\d*(?:[eE][+-]?\d+)?$")
+
+
+def spelled(text: str) -> str:
+    """A number as others write it: with a keyboard's sign for the minus of typography (some locales write it), and
+    Fortran's exponent (1.5D+03) by an e."""
+    if not text.isascii():
+        text = text.replace("\u2212", "-")
+    found = _FORTRAN.fullmatch(text)
+    return f"{found[1]}e{found[2]}" if found else text
 
 
 def clean(cell: str) -> str:
@@ -90,7 +101,7 @@ def to_bool(cell: str) -> bool | None:
 
 def to_int(cell: str, decimal: str = ".", dtype: str = "int64") -> int | None:
     """A whole number that its dtype holds, exactly; None for what is none, or has a fraction."""
-    text = _PADDED_SIGN.sub(r"\1", cell.strip())
+    text = _PADDED_SIGN.sub(r"\1", spelled(cell.strip()))
     if _INTEGER.fullmatch(text):
         whole, limits = int(text), np.iinfo(dtype)
         return whole if limits.min <= whole <= limits.max else None
@@ -102,6 +113,9 @@ def to_float(cell: str, decimal: str = ".", declared: bool = False) -> float | N
     """The number in a cell that is not empty; None where it is none. declared: the decimal mark is (see the policy)."""
     text = cell.strip()
     plain = _PLAIN[decimal].fullmatch(text)
+    if plain is None:
+        text = spelled(text)
+        plain = _PLAIN[decimal].fullmatch(text)
     if plain is None and text.startswith(("+ ", "- ")):
         text = _PADDED_SIGN.sub(r"\1", text)
         plain = _PLAIN[decimal].fullmatch(text)
@@ -137,7 +151,7 @@ def why_none(cell: str, kind: str, decimal: str = ".") -> str:
 
 def is_number(cell: str) -> bool:
     """Whether a cell is a number with either decimal mark."""
-    text = _PADDED_SIGN.sub(r"\1", clean(cell))
+    text = _PADDED_SIGN.sub(r"\1", spelled(clean(cell)))
     if any(pattern.fullmatch(text) for pattern in (*_PLAIN.values(), _INFINITE)):
         return True
     return any(p.fullmatch(text) for patterns in (_PARTED, _GROUPED) for p in patterns.values())
@@ -148,7 +162,7 @@ def decimal_mark(cells: Iterable[str]) -> str | None:
     FormatError where both occur, for then no choice is right."""
     points = commas = 0
     for cell in cells:
-        text = clean(cell)
+        text = spelled(clean(cell))
         points += _POINT.match(text) is not None
         commas += _COMMA.match(text) is not None
     if points and commas:

@@ -8,6 +8,8 @@ from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from thermodata.errors import FormatError
 from thermodata.plugin import Source
 from thermodata.reader.open_questions import UNKNOWN, unanswered
@@ -16,7 +18,7 @@ from thermodata.reader.text import timestamp
 from thermodata.reader.text.columns import dtype_of, find_decimal
 from thermodata.reader.text.grid import TIME, Grid
 from thermodata.reader.text.layout import STREAM, Group, Layout, find
-from thermodata.reader.text.lines import Sample, last_line_is_whole, sample
+from thermodata.reader.text.lines import WHOLE, Sample, last_line_is_whole, sample
 from thermodata.reader.text.long_rows import refuse_long
 from thermodata.reader.text.number import clean
 from thermodata.reader.text.quality_columns import Pairs, quality_pairs, worded
@@ -28,6 +30,7 @@ from thermodata.reader.zone import NAT
 _HEAD_LINES = 500  # in which the layout shows
 _HEADER_LINES, _CELL_LINES = 60, 16  # in which cells over several lines are headers, and of how many lines
 _TYPED_ROWS = 2000  # of the head, by which columns are typed
+_FEW_ROWS = 400  # whose times are read one by one, for Arrow takes longer to load
 
 
 @dataclass(frozen=True, slots=True)
@@ -146,6 +149,14 @@ def _kept(asked: _Asked) -> Table:
     first = sample(path, source.encoding)
     # a last line without its end may be half a row: it decides nothing
     head = first.head[:-1] if first.whole and not first.ends_with_newline and len(first.head) > 2 else first.head
+    if not first.head and not first.whole:
+        raise FormatError(
+            "its first line is too long to be looked at",
+            where=path.name,
+            expected=f"a header and rows within the first {WHOLE // 4096} KiB",
+            got=f"no line end in them, in a file of {path.stat().st_size} bytes",
+            hint="export fewer columns a file",
+        )
     if not any(line.strip() for line in head):
         raise FormatError(
             "no whole line" if first.head else "an empty file",
@@ -184,7 +195,10 @@ def find_table(head: Sequence[str], first: Sample, source: Source, where: str, s
     quoted = any('"' in line for line in (*head, *first.rest))
 
     def cells(line: str) -> list[str]:
-        return [clean(c) for c in delimiters.fields(line, delimiter, quoted)]
+        found = delimiters.fields(line, delimiter, quoted)
+        if line.isascii():  # as `clean` begins, which nearly all cells are left alone by
+            return [c if c and c[0] > '"' < c[-1] else clean(c) for c in found]
+        return [clean(c) for c in found]
 
     rows = [cells(line) for line in (_records(top) if quoted else top)]
     if head[0].lower().startswith("sep=") and len(rows[0]) <= 2:
@@ -197,7 +211,7 @@ def find_table(head: Sequence[str], first: Sample, source: Source, where: str, s
     body = [r for r in (*top_rows, *later) if len(r) == width]
     refuse_long(layout.names, body, where)
     groups = tuple(_timed(g, layout, body, head, cells, first, stream, where) for g in layout.groups)
-    dated = [r for r in body if all(_reads(r, g) for g in groups[:1])]
+    dated = _dated(body, groups[0]) if groups else body
     cells_of = {name: [r[i] for r in dated] for i, name in enumerate(layout.names)}
     quality = quality_pairs({layout.names[i]: cells_of[layout.names[i]] for g in groups for i in g.group.columns})
     forced = {*(source.options.get("text") or ()), *worded(cells_of, quality)}
@@ -283,10 +297,15 @@ def _timed(
     return TimedGroup(name, group, find_formats(names, columns, group.form, where, more))
 
 
-def _reads(row: Sequence[str], timed: TimedGroup) -> bool:
-    return all(
-        timestamp.parse_one(row[i], form) != NAT for i, form in zip(timed.group.time, timed.formats, strict=False)
-    )
+def _dated(body: Sequence[list[str]], timed: TimedGroup) -> list[list[str]]:
+    """The rows whose times can be read."""
+    times = list(zip(timed.group.time, timed.formats, strict=False))
+    if len(body) < _FEW_ROWS:
+        return [r for r in body if all(timestamp.parse_one(r[i], form) != NAT for i, form in times)]
+    read = np.ones(len(body), dtype=bool)
+    for i, form in times:
+        read &= timestamp.parse([r[i] for r in body], form) != NAT
+    return [r for r, good in zip(body, read.tolist(), strict=True) if good]
 
 
 def _notes(layout: Layout, kinds: Sequence[str | None], groups: Sequence[TimedGroup]) -> Iterator[str]:

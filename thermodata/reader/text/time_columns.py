@@ -13,6 +13,7 @@ from thermodata.plugin import Array
 from thermodata.reader.open_questions import UNKNOWN, unit_question
 from thermodata.reader.text.cell import TIME_WORD, Cell, is_clocked, is_dated, is_number, is_stamp, mostly, number_of
 from thermodata.reader.text.header import split_unit
+from thermodata.reader.text.odd_stamps import guess_format
 from thermodata.reader.text.time_formats import MILLISECONDS
 from thermodata.reader.time_units import EPOCHS, SECONDS, check_unit, found_epoch
 
@@ -82,10 +83,17 @@ def time_of(
         try:
             columns = find_time(names, units, data, where, likely)
         except FormatError:
-            question = _time_question(names, data, where)
-            if question is None:
-                raise
-            raise question from None
+            # of one of several times the columns count from its own first
+            worded = None if likely else _worded_time(names, data)
+            if worded is None or form in (None, UNKNOWN):
+                question = _time_question(names, data, where) if likely else no_time(names, data, where)
+                if question is None:
+                    raise
+                raise question from None
+            columns = (worded[0],)
+        asked = _joined_question(columns, names, data, where) if form is None and unit is None and not likely else None
+        if asked is not None:
+            raise asked
     cells = [row[columns[0]] for row in data]
     numeric = sum(map(is_number, cells)) * 2 > len(cells)
     notes: list[str] = []
@@ -104,7 +112,7 @@ def time_of(
 
 def _size_of_clock(name: str, cells: Sequence[Cell], where: str) -> str:
     """The unit of a time that names none, where its size leaves one sense only: a count from a date.
-    FormatError where it may be days or seconds; else QuestionError."""
+    QuestionError where it does not."""
     values = np.array([v for c in cells if (v := number_of(c)) is not None], np.float64)
     epoch = found_epoch(values) if values.size else None
     if epoch is not None:
@@ -113,12 +121,15 @@ def _size_of_clock(name: str, cells: Sequence[Cell], where: str) -> str:
     if days and bool((np.abs(np.diff(values)) < 0.2).all()) and bool((values != np.floor(values)).any()):
         if re.search(r"(?i)dat", name):
             return "excel"
-        raise FormatError(
+        raise QuestionError(
             "times that may be Excel's days or seconds",
             where=where,
-            got=f"{name}: {values[0]!r} ...",
+            got=f"{name}: {values[0]:.12g} ...",
             expected="a unit",
             hint="declare table: {time: {unit: excel}} or {time: {unit: s}}",
+            ask=f"unit of the time: excel (days since 1900) or s? '{name}' begins with {values[0]:.12g}",
+            declare={"time": {"unit": UNKNOWN}},
+            meanwhile={"time": {"unit": "excel"}},
         )
     raise unit_question(name, values, where)
 
@@ -169,6 +180,74 @@ def find_time(
     )
 
 
+def _worded_time(names: list[str], data: list[list[Cell]]) -> tuple[int, list[str]] | None:
+    """(place, cells) of a column that is called a time and holds text that is none as it stands, in a table of numbers;
+    None where there is no such column."""
+    if not any(sum(is_number(r[i]) for r in data) > 0.6 * len(data) for i in range(len(names))):
+        return None
+    for i, name in enumerate(names):
+        cells = [r[i] for r in data if r[i] not in ("", None)]
+        words = [c.strip() for c in cells if isinstance(c, str) and not is_number(c) and re.search(r"\d", c)]
+        if is_time_header(name) and cells and len(words) > 0.8 * len(cells):
+            return i, words
+    return None
+
+
+def no_time(names: list[str], data: list[list[Cell]], where: str) -> QuestionError | None:
+    """What to ask of a table in which `find_time` finds none: how the times are written in a column that is called so,
+    else the time from row to row. None where it is no table of numbers."""
+    worded = _worded_time(names, data)
+    if worded is None:
+        return _time_question(names, data, where)
+    place, words = worded
+    return _format_question((place,), guess_format(words), words[0], where)
+
+
+def _joined_question(
+    columns: tuple[int, ...], names: list[str], data: list[list[Cell]], where: str
+) -> QuestionError | None:
+    """What to ask where dates are written as one number: 20260302080000 in the column that was found, or 20260302 in
+    one that is called a date, beside times of day. None where none are."""
+    if len(columns) != 1:
+        return None
+    (place,) = columns
+
+    def stamps(i: int) -> tuple[str | None, str]:
+        cells = [str(r[i]).strip() for r in data if r[i] not in ("", None)]
+        joined = bool(cells) and all(c.isdecimal() and len(c) in (8, 12, 14) for c in cells)
+        return (guess_format(cells), cells[0]) if joined else (None, "")
+
+    form, first = stamps(place)
+    if form is not None and "%H" in form:
+        return _format_question((place,), form, first, where)
+    if not mostly([r[place] for r in data], is_clocked, 0.8, len(data)):
+        return None
+    for i in (i for i, name in enumerate(names) if i != place and is_time_header(name)):
+        form, first = stamps(i)
+        if form is not None and "%H" not in form:
+            return _format_question((i, place), form, first, where)
+    return None
+
+
+def _format_question(columns: tuple[int, ...], form: str | None, got: str, where: str) -> QuestionError:
+    """Asks for the format of times in strptime's letters; with one that fits, it is only to be confirmed."""
+    column: Any = columns[0] + 1 if len(columns) == 1 else [c + 1 for c in columns]
+    asked = (
+        f"format of the times, in strptime's letters ('%d-%b-%Y %H:%M:%S'), or period: 10 s? they begin with '{got}'"
+    )
+    said = {"time": {"column": column, "format": form or UNKNOWN}}
+    return QuestionError(
+        "times that are written in no way that is read by itself",
+        where=where,
+        expected="a date and a time of day: 2026-03-01 08:00:00, 1.3.2026 8:00, ...",
+        got=got,
+        hint=f"declare table: {{time: {{column: {column}, format: '{form or '%d-%b-%Y %H:%M:%S'}'}}}}",
+        ask=f"format of the times: is '{got}' {form}?" if form else asked,
+        declare=said,
+        meanwhile=said if form else {"time": {"period": 1.0}},
+    )
+
+
 def _time_question(names: list[str], data: list[list[Cell]], where: str) -> QuestionError | None:
     """What to ask of a table of numbers without a time; None where it is no such table."""
     width = len(names)
@@ -178,7 +257,8 @@ def _time_question(names: list[str], data: list[list[Cell]], where: str) -> Ques
     rising = _rising(data)
     if rising is not None and all(name == f"column {i + 1}" for i, name in enumerate(names)):
         return unit_question(names[0], rising, where, 1)
-    other = f"; or is '{names[0]}' the time? then time: {{column: 1, unit: s}}" if rising is not None else ""
+    unit = low if (low := names[0].strip().lower()) in SECONDS else "s"
+    other = f"; or is '{names[0]}' the time? then time: {{column: 1, unit: {unit}}}" if rising is not None else ""
     return QuestionError(
         "no time column found",
         where=where,

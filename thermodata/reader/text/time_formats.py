@@ -19,12 +19,13 @@ from thermodata.plugin import Array, Int1D
 from thermodata.reader.open_questions import UNKNOWN, unanswered
 from thermodata.reader.text import timestamp
 from thermodata.reader.text.local_clock import DayCount
-from thermodata.reader.text.timestamp import DATE, DATETIME, MILLISECOND, TIME_OF_DAY, TimeFormat
+from thermodata.reader.text.timestamp import DATE, DATETIME, ELAPSED, MILLISECOND, TIME_OF_DAY, TimeFormat
 from thermodata.reader.time_units import EPOCHS, SECONDS, to_ns
 from thermodata.reader.zone import NAT, local_to_utc_ns
 
 MILLISECONDS = re.compile(r"(?i)^(ms|msec|millise[ck]\w*|millis|毫秒)\b")
 _FEW, _MANY = 40, 4000
+_DAY_NS = 86_400 * 10**9
 _HINT = "declare table: {time: {format: dmy}} or mdy, or strptime's letters: '%d/%m/%Y %H:%M:%S'"
 _ORDERS = ("dmy", "mdy", "ymd")  # what may be declared in place of letters
 
@@ -99,6 +100,8 @@ def find_format(
     """The format of cells of one column, whether they name an offset from UTC or not; errors as above. order: the
     declared one of day and month."""
     few = _spread(cells, _FEW)
+    if share(few, ELAPSED) > 0.8 and _goes_on(more() or cells):
+        return ELAPSED
     for least in (0.8, 0.3):
         for forms, enough in (({"": TIME_OF_DAY}, least), (DATE, max(least, 0.9)), (DATETIME, least)):
             known = {o: form for o, form in forms.items() if order is None or o in ("", order)}
@@ -113,6 +116,13 @@ def find_format(
         got=full[0] if full else "nothing",
         hint="declare table: {time: {column: ..., unit: s}} for numbers, or a format: '%d.%m.%Y %H:%M:%S'",
     )
+
+
+def _goes_on(cells: Sequence[str]) -> bool:
+    """Whether durations reach beyond a day, and never fall: a damaged time of day is none."""
+    ns = timestamp.parse(list(cells), ELAPSED)
+    ns = ns[ns != NAT]
+    return bool(ns.size and ns.max() >= _DAY_NS and (np.diff(ns) >= 0).all())
 
 
 def _order(

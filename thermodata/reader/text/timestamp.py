@@ -80,6 +80,10 @@ def _format(role: str, body: str, text: str, zone: bool = True) -> TimeFormat:
 
 
 TIME_OF_DAY = _format("time", _TIME, "HH:MM:SS")
+# a duration, which goes on behind 23:59:59: 100:30:00
+ELAPSED = _format(
+    "time", r"(?P<E>\d{1,5}):(?P<M>\d{2}):(?P<S>\d{2})(?:[.,](?P<f>\d{1,9})\d*)?", "HHH:MM:SS", zone=False
+)
 OFFSET_MS = _format("offset", r"(?P<oms>\d{1,12})(?:\.(?P<of>\d{1,6})\d*|\.)?", "milliseconds", zone=False)
 MILLISECOND = _format("millisecond", r"(?P<ms>\d{1,3})", "0...999", zone=False)
 _TEXTS = {"ymd": "YYYY-MM-DD", "dmy": "DD.MM.YYYY", "mdy": "MM/DD/YYYY", "cjk": "YYYY年MM月DD日"}
@@ -109,6 +113,9 @@ def is_zoned(cell: str, form: TimeFormat) -> bool:
 def declared_format(text: str) -> TimeFormat:
     """The format that a campaign file declares in strptime's letters; FormatError for a letter that is none."""
     letters = set(re.findall(r"%(.)", text))
+    for needed, what in (("YyGcx", "a year: %Y or %y"), ("mbBjUWVcx", "a month: %m or %b")):
+        if letters & (_CALENDAR | set("cx")) and not letters & set(needed):
+            raise FormatError(f"time format '{text}' cannot be used", expected=what, got="a day without it")
     if letters - _STRPTIME.keys() and letters <= _STRPTIME.keys() | _OTHERS:
         role = "datetime" if letters & set("HIcX") else "date"
         return TimeFormat(role, None, text, zoned="z" in letters or None, strptime=text)
@@ -145,9 +152,8 @@ def is_date_text(cell: str) -> bool:
 
 
 def is_time_of_day(cell: str) -> bool:
-    """Whether a text is a time of day without a date."""
-    assert TIME_OF_DAY.pattern is not None
-    return TIME_OF_DAY.pattern.fullmatch(cell) is not None
+    """Whether a text is a time of day without a date, or a duration that is written like one."""
+    return any(form.pattern is not None and form.pattern.fullmatch(cell) for form in (TIME_OF_DAY, ELAPSED))
 
 
 def parse(cells: Any, form: TimeFormat) -> Int1D:
@@ -270,6 +276,10 @@ def parse_one(cell: str, form: TimeFormat) -> int:
         if hour > 23 or minute > 59 or second > 59:
             return NAT
         total += (hour * 3600 + minute * 60 + second) * _S
+    if g.get("E") is not None:
+        if int(g["M"]) > 59 or int(g["S"]) > 59:
+            return NAT
+        total += (int(g["E"]) * 3600 + int(g["M"]) * 60 + int(g["S"])) * _S
     if g.get("f"):
         total += int(g["f"].ljust(9, "0"))
     return total - offset_ns(g["z"]) if g.get("z") else total
@@ -322,6 +332,9 @@ def _assemble(fields: dict[str, npt.NDArray[np.int64]], match: re.Match[str]) ->
             hour = hour % 12 + (12 if groups["p"][0] in "pP" else 0)
         bad |= (hour > 23) | (minute > 59) | (second > 59)
         total += (hour * 3600 + minute * 60 + second) * _S
+    if "E" in fields:
+        bad |= (fields["M"] > 59) | (fields["S"] > 59)
+        total += (fields["E"] * 3600 + fields["M"] * 60 + fields["S"]) * _S
     if "f" in fields:
         total += fields["f"]
     if groups.get("z"):

@@ -70,7 +70,7 @@ def _free(path: Path, text: str) -> str:
         return text
 
 
-def is_whole(path: Path, size_bytes: int | None = None) -> bool:
+def is_whole(path: Path | str, size_bytes: int | None = None) -> bool:
     """Whether a Parquet file is there with its beginning and its end, and as long as it was: not whether a byte in
     it was changed."""
     try:
@@ -138,12 +138,8 @@ def sha256_of(path: Path) -> str:
 
 def key_of(*parts: str) -> str:
     """A content key of texts: 32 hexadecimal digits."""
-    digest = hashlib.sha256()
-    for part in parts:
-        data = part.encode()
-        digest.update(f"{len(data)}:".encode())
-        digest.update(data)
-    return digest.hexdigest()[:32]
+    told = [x for data in map(str.encode, parts) for x in (b"%d:" % len(data), data)]
+    return hashlib.sha256(b"".join(told)).hexdigest()[:32]
 
 
 def safe_name(text: str, limit: int = 60) -> str:

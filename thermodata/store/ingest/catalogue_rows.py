@@ -78,7 +78,8 @@ def source_rows(plan: TestPlan, clocks: Mapping[str, Clock]) -> list[Row]:
 
 def _source_row(plan: TestPlan, source: SourcePlan, stream: str, raws: Sequence[RawStream], clock: Clock) -> Row:
     complete = [r.complete for r in raws]
-    notes = json.loads(clock_to_json(clock)) + list(dict.fromkeys(n for r in raws for n in r.notes))
+    told = json.loads(clock_to_json(clock)) if clock.notes or clock.key else []
+    notes = told + list(dict.fromkeys(n for r in raws for n in r.notes))
     first = min(r.first_ns + (r.start_ns or 0 if r.clock == "relative" else 0) for r in raws)
     steps = sorted(r.step_ns for r in raws if r.step_ns > 0)
     middle = steps[(len(steps) - 1) // 2 : len(steps) // 2 + 1]
@@ -95,7 +96,7 @@ def _source_row(plan: TestPlan, source: SourcePlan, stream: str, raws: Sequence[
         "step_s": sum(middle) / len(middle) / 1e9 if steps else None,
         "offset_ns": clock.offset_ns,
         "complete": False if False in complete else (None if None in complete else True),
-        "notes": _json(notes),
+        "notes": _json(notes) if notes else "[]",
     }
 
 

@@ -7,7 +7,7 @@ import os
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from datetime import datetime
-from functools import cached_property
+from functools import cached_property, lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -59,12 +59,17 @@ class VanishedError(Exception):
     """A file that the plan relies on was removed meanwhile."""
 
 
+@lru_cache(maxsize=64)
+def _read_by_a_fit(columns: tuple[str, ...]) -> tuple[str, ...]:
+    return tuple(sorted(c for c in columns if c not in _WORDS))
+
+
 def version_of(rows: Mapping[str, Mapping[str, list[Row]]], test: str) -> str:
     """A digest of everything about a test that a fit depends on."""
     parts = []
     for table in ("test", "machine", "channel"):
         for row in rows[table].get(test, []):
-            parts.append(repr([(k, v) for k, v in sorted(row.items()) if k not in _WORDS]))
+            parts.append(repr([(k, row[k]) for k in _read_by_a_fit(tuple(row))]))
     parts += sorted({r["key"] for r in rows["file"].get(test, []) if r["layer"] == "tidy"})
     return key_of(*sorted(parts))
 

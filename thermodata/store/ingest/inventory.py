@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import lru_cache
@@ -62,16 +63,22 @@ def read_inventory(con: duckdb.DuckDBPyConnection, store: Path | None, campaign:
     store: the folder; None where the raw files don't matter, which each are opened to see whether they are whole."""
     inventory = Inventory(campaign, generation_of(con))
     seen: set[str] = set()
-    for row in fetch(con, "select * from file where layer in ('raw', 'superseded')") if store else ():
-        if row["path"] not in seen and store and is_whole(store / row["path"]):
+    folder = str(store)
+    elsewhere = "layer in ('raw', 'superseded')" if store else "false"
+    files = fetch(con, f"select * from file where campaign = ? or {elsewhere}", [campaign])
+    for row in files if store else ():
+        wanted = row["layer"] in ("raw", "superseded") and row["path"] not in seen
+        if wanted and is_whole(os.path.join(folder, row["path"])):
             seen.add(row["path"])
             inventory.raws.setdefault(row["key"], []).append(RawStream.from_row(row))
     for table in BY_TEST:
         grouped: dict[str, list[Row]] = {}
         # `start` would come as a Python datetime, which is optional and says what start_ns says
         columns = "* exclude (start)" if table == "test" else "*"
-        for row in fetch(con, f"select {columns} from {table} where campaign = ?", [campaign]):
-            grouped.setdefault(row["test"], []).append(row)
+        own = [] if table == "file" else fetch(con, f"select {columns} from {table} where campaign = ?", [campaign])
+        for row in own if table != "file" else files:
+            if row["campaign"] == campaign:
+                grouped.setdefault(row["test"], []).append(row)
         inventory.rows[table] = grouped
     campaigns = fetch(con, "select * from campaign where campaign = ?", [campaign])
     inventory.campaign = campaigns[0] if campaigns else None
@@ -102,7 +109,7 @@ def generation_of(con: duckdb.DuckDBPyConnection) -> int:
 
 def same(one: list[Row], other: list[Row]) -> bool:
     """Whether rows say the same, in whatever order and whenever they were written."""
-    return _told(one) == _told(other) or comparable(one) == comparable(other)
+    return one == other or _told(one) == _told(other) or comparable(one) == comparable(other)
 
 
 def _told(rows: list[Row]) -> list[Row]:

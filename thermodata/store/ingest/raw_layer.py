@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
@@ -74,10 +75,10 @@ class RawIngest:
 
     def survey(self) -> None:
         """Finds all files, and says how many and how much that is."""
-        root = self.folder.resolve()
+        root, folders = self.folder.resolve(), dict[str, str]()
         for test in self.campaign.tests:
             for name in self.campaign.sources:
-                self._source_files[test.id, name] = resolve(self.folder, self.campaign, test, name, root)
+                self._source_files[test.id, name] = resolve(self.folder, self.campaign, test, name, root, folders)
                 self._odd.update(self._source_files[test.id, name].odd)
         paths = {p for files in self._source_files.values() for p in files.paths}
         paths |= {c.file for c in self.campaign.calibrations.values() if isinstance(c, JumpCalibration)}
@@ -163,7 +164,7 @@ class RawIngest:
 
     def _size(self, path: str) -> int | None:
         try:
-            return self._full(path).stat().st_size
+            return os.stat(os.path.join(self.folder, self._odd.get(path, path))).st_size
         except (OSError, ValueError):
             return None
 

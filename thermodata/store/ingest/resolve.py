@@ -5,12 +5,15 @@ from __future__ import annotations
 import glob
 import os
 import re
+import stat
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from functools import lru_cache
 from pathlib import Path, PurePosixPath
 
 from thermodata.errors import SpecError
 from thermodata.schema.campaign import Campaign, Test
+from thermodata.schema.lines import is_text
 from thermodata.store.raw.source_file import kind_of
 
 
@@ -43,23 +46,32 @@ def patterns_of(campaign: Campaign, test: Test, source: str) -> tuple[tuple[str,
     return tuple(_checked(p, test.id) for p in listed), shared, own is not None
 
 
-def resolve(folder: Path, campaign: Campaign, test: Test, source: str, root: Path | None = None) -> SourceFiles:
+def resolve(
+    folder: Path,
+    campaign: Campaign,
+    test: Test,
+    source: str,
+    root: Path | None = None,
+    folders: dict[str, str] | None = None,
+) -> SourceFiles:
     """The files of a source in a test, as they stand in the campaign's folder now. root: the folder without links,
-    where the caller has it."""
+    where the caller has it; folders: takes those of the files, without links, for the next call."""
     patterns, shared, explicit = patterns_of(campaign, test, source)
     root = root or folder.resolve()
+    folders = {} if folders is None else folders
     paths: dict[str, str | None] = {}
     odd: dict[str, str] = {}
     for pattern in patterns:
         # a folder or a pipe that a pattern happens to fit is nobody's log; one that is named is a mistake
         named = not glob.has_magic(pattern)
-        for name in sorted(_fitting(root, pattern, named), key=natural):
+        fitting = _fitting(root, pattern, named)
+        for name in sorted(fitting, key=natural) if len(fitting) > 1 else fitting:
             relative = PurePosixPath(Path(name)).as_posix()
-            if not _is_text(relative):
+            if not is_text(relative):
                 odd[text := os.fsencode(relative).decode("utf-8", "backslashreplace")] = relative
                 relative = text
             if relative not in paths and not relative.endswith(".tdms_index"):
-                why = _refusal(root, name, named)
+                why = _refusal(root, name, named, folders)
                 if why != "":
                     paths[relative] = why
     return SourceFiles(
@@ -79,21 +91,13 @@ def _fitting(root: Path, pattern: str, named: bool) -> list[str]:
     return [pattern] if pattern and os.path.lexists(os.path.join(root, pattern)) else []
 
 
-def _is_text(name: str) -> bool:
-    try:
-        name.encode()
-    except UnicodeEncodeError:
-        return False
-    return True
-
-
-def _refusal(root: Path, name: str, named: bool) -> str | None:
+def _refusal(root: Path, name: str, named: bool, folders: dict[str, str]) -> str | None:
     """Why a path isn't read: None where it is a file inside the folder, '' where it need not be mentioned."""
     try:
-        real = os.path.realpath(os.path.join(root, name))
+        real, status = _real(os.path.join(root, name), folders)
         if real != str(root) and not real.startswith(os.path.join(root, "")):
             return "leads outside the campaign's folder"
-        kind = kind_of(os.stat(real))
+        kind = kind_of(status or os.stat(real))
     except FileNotFoundError:
         return "a link to nothing"
     except (OSError, RuntimeError, ValueError) as error:
@@ -101,6 +105,22 @@ def _refusal(root: Path, name: str, named: bool) -> str | None:
     if kind is None:
         return None
     return "" if kind == "a folder" and not named else f"this is {kind}, not a file"
+
+
+def _real(path: str, folders: dict[str, str]) -> tuple[str, os.stat_result | None]:
+    """(a path without links, what the system says of it where it is none itself). Thousands of files lie in a few
+    folders, which are looked through once."""
+    folder, name = os.path.split(path)
+    if os.name != "posix" or name in ("", ".", ".."):  # elsewhere there are links that look like none
+        return os.path.realpath(path), None
+    if folder not in folders:
+        folders[folder] = os.path.realpath(folder)
+    real = os.path.join(folders[folder], name)
+    try:
+        status = os.lstat(real)
+    except OSError:
+        return os.path.realpath(path), None
+    return (os.path.realpath(real), None) if stat.S_ISLNK(status.st_mode) else (real, status)
 
 
 def file_inside(folder: Path, name: str, where: str) -> Path:
@@ -127,6 +147,12 @@ def natural(text: str) -> list[tuple[int, int, str]]:
 
 
 def _checked(pattern: str, test: str, where: str = "files") -> str:
+    _check(pattern, where)
+    return pattern.replace("{test}", glob.escape(test))
+
+
+@lru_cache(maxsize=1024)
+def _check(pattern: str, where: str) -> None:
     if (
         PurePosixPath(pattern).is_absolute()
         or Path(pattern).is_absolute()
@@ -140,7 +166,6 @@ def _checked(pattern: str, test: str, where: str = "files") -> str:
             expected="a path relative to the campaign file, without '..'",
             hint="put the files into the campaign's folder, or the campaign file above them",
         )
-    return pattern.replace("{test}", glob.escape(test))
 
 
 def _regex(pattern: str) -> str:

@@ -154,7 +154,7 @@ class _Tidier:
                 continue
             base = self._base(test, member)
             kept = self.inventory.tidy(plan.test.id, base)
-            if kept and all(_kept_alive(self.store / row["path"], row["bytes"]) for row in kept):
+            if kept and all(_kept_alive(os.path.join(self.store, row["path"]), row["bytes"]) for row in kept):
                 test.files[member] = kept
                 test.events[member] = [
                     r
@@ -217,7 +217,7 @@ def _add_rows(layer: TidyLayer, tidied: _Tidied, calibrations: Mapping[str, Cali
     ]
 
 
-def _kept_alive(path: Path, size_bytes: int) -> bool:
+def _kept_alive(path: str, size_bytes: int) -> bool:
     if not is_whole(path, size_bytes):
         return False
     try:
@@ -287,7 +287,7 @@ def _count(layer: TidyLayer, files: Sequence[Row], test: str) -> None:
         layer.flags.update(meta.get("flags", {}))
         layer.losses += [loss_row(p, test=test) for p in meta.get("problems", [])]
         layer.notes += [f"{test}, {row['source']}: {n}" for n in meta.get("notes", [])]
-        for item in json.loads(row["losses"] or "[]"):
+        for item in json.loads(row["losses"]) if row["losses"] not in (None, "", "[]") else ():
             layer.losses.append(loss_row(item["reason"], test=test, source=row["source"], loss=Loss(**item)))
 
 

@@ -91,7 +91,7 @@ def answer(here: Seen, kept: Mapping[str, Any], mark: str) -> dict[str, Any] | N
                 return None
             if young and settled(here.files[path]).sha256 != sha256:
                 return None
-        if not all(is_whole(here.store / path, size) for path, size in kept["parts"].items()):
+        if not all(is_whole(os.path.join(here.store, path), size) for path, size in kept["parts"].items()):
             return None
         summary: dict[str, Any] = kept["summary"]
     except (OSError, ValueError, KeyError, TypeError):  # none, or one of another version

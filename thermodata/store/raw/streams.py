@@ -133,7 +133,7 @@ class RawStream:
             {s["name"]: s["column"] for s in meta["signals"]},
             tuple(meta["flagged"]),
             tuple(meta["notes"]),
-            tuple(Loss(**loss) for loss in json.loads(row["losses"] or "[]")),
+            () if row["losses"] in (None, "", "[]") else tuple(Loss(**loss) for loss in json.loads(row["losses"])),
             meta.get("ordered"),
             meta.get("newest_first", False),
             meta.get("unordered", False),
@@ -143,7 +143,7 @@ class RawStream:
         return raw
 
     def losses_json(self) -> str:
-        return json.dumps([dataclasses.asdict(loss) for loss in self.losses], default=_plain)
+        return json.dumps([dataclasses.asdict(loss) for loss in self.losses], default=_plain) if self.losses else "[]"
 
 
 _OF_ROW = ("key", "path", "source_path", "sha256", "bytes", "rows")

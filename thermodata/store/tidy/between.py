@@ -167,7 +167,8 @@ def levels_of(
             continue
         t_s = _numbers(levels["t_s"])
         for name, values in levels["values"].items():
-            off = np.isin(np.arange(len(t_s)), levels["off"].get(name, []))
+            off = np.zeros(len(t_s), dtype=bool)
+            off[levels["off"].get(name, [])] = True
             series[name] = Course(t_s, _numbers(values), quantities.get(name, ""), off)
         pauses += [(a, b) for a, b in levels["pauses"]]
         readings |= {n: Reading(**r) for n, r in levels["readings"].items()}
@@ -177,7 +178,7 @@ def levels_of(
 
 
 def _numbers(values: Sequence[float | None]) -> Float1D:
-    return np.array([np.nan if v is None else v for v in values], dtype=np.float64)
+    return np.array(values, dtype=np.float64)  # None is NaN
 
 
 def verdicts(tests: Sequence[tuple[Levels, Mapping[str, Reading]]]) -> dict[str, Verdict]:

@@ -7,9 +7,9 @@ from typing import Any, cast
 from starlette.requests import Request
 from starlette.responses import Response
 
+from thermodata.store import Store
 from thermodata.view.models import ModelRow, model_rows
 from thermodata.view.overview import Asked, Sort, find_tests
-from thermodata.view.predictions import residual_strips
 from thermodata.web.command import command
 from thermodata.web.pages.strip import strip_svg
 from thermodata.web.query import number_in
@@ -37,7 +37,7 @@ def show(request: Request) -> Response:
         per_page=PER_PAGE,
     )
     found = find_tests(store, asked)
-    strips = residual_strips(store, asked.model, [(r.campaign, r.test) for r in found.rows]) if chosen else {}
+    strips = _strips(store, chosen.model, [(r.campaign, r.test) for r in found.rows]) if chosen else {}
     limit = _limit(strips)
     return page(
         request,
@@ -54,11 +54,19 @@ def show(request: Request) -> Response:
     )
 
 
+def _strips(store: Store, model: str, keys: list[tuple[str, str]]) -> dict[Any, Any]:
+    from thermodata.view.predictions import residual_strips  # numpy: a store without a model is shown without it
+
+    return residual_strips(store, model, keys)
+
+
 def _limit(strips: dict[Any, Any]) -> float:
     """One scale for all strips of a page, or a small residual would look as bad as a large one."""
+    if not strips:
+        return 1.0
     import numpy as np
 
-    everything = np.concatenate(list(strips.values())) if strips else np.empty(0)
+    everything = np.concatenate(list(strips.values()))
     there = np.abs(everything[np.isfinite(everything)])
     return float(np.quantile(there, 0.98)) if len(there) else 1.0
 

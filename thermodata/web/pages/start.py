@@ -9,7 +9,8 @@ from starlette.requests import Request
 from starlette.responses import Response
 
 from thermodata.draft.fill_in import Question, filled_in, questions
-from thermodata.draft.make import keep, write_new
+from thermodata.draft.make import write_answered
+from thermodata.draft.unread import WHAT
 from thermodata.errors import UsageError
 from thermodata.web.command import command
 from thermodata.web.form import form_of
@@ -21,9 +22,31 @@ _MOST_BYTES = 4 << 20
 GROUPS = (
     ("The machine and its clocks", ("text", "zone"), "A log in local time needs its zone, or nothing lines up."),
     ("Jump tests", ("moves",), "The commanded moves, signed, in machine coordinates: 100 um, 50 um, -200 um"),
-    ("Where the sensors are", ("place",), "An effect is tried only where a sensor sits at its place."),
-    ("The tests", ("kind", "role"), "Fitted, checked, locked for the last word, or kept only."),
+    (
+        "What was logged",
+        ("what",),
+        "A signal whose quantity nobody says is left out. The unit stands in brackets: feed [m/min].",
+    ),
+    (
+        "Where the sensors are",
+        ("place",),
+        "An effect is tried only where a sensor sits at its place. Leave empty what nobody knows: it drives nothing.",
+    ),
+    (
+        "The tests",
+        ("kind", "role"),
+        "What heats one part alone is fitted (calibration); a working day checks it (verification); one that nobody "
+        "has looked at is kept for the last word (locked).",
+    ),
 )
+# role -> what it is for
+ROLES = {
+    "calibration": "calibration: fitted",
+    "verification": "verification: checked",
+    "locked": "locked: kept for the last word",
+    "none": "none: kept only",
+}
+_MOST_MODELS = 5
 # of the machine, for the schematic: the first parts of places that are drawn
 BODIES = ("column", "headstock", "spindle", "ram", "axis", "table", "bed", "hall", "coolant")
 
@@ -33,7 +56,7 @@ def show(request: Request) -> Response:
     desk = desk_of(request)
     folder = desk.folders[0]
     path = desk.inside(request.query_params.get("file") or "campaign.yaml")
-    text = _read(path) if path.is_file() else None
+    text = campaign_text(path) if path.is_file() else None
     asked = questions(text) if text is not None else []
     return page(
         request,
@@ -43,20 +66,48 @@ def show(request: Request) -> Response:
         folder=folder,
         path=path,
         there=text is not None,
-        groups=[(title, [q for q in asked if q.kind in kinds], why) for title, kinds, why in GROUPS],
+        groups=[(title, _open_first(asked, kinds), why) for title, kinds, why in GROUPS],
         open_ones=sum(q.open for q in asked),
         bodies={body: sum(q.value.startswith(body) for q in asked if q.kind == "place") for body in BODIES},
-        models=sorted(p.name for p in path.parent.glob("*.yaml") if p.name.startswith("model"))[:5],
+        models=_models(path.parent),
+        roles=ROLES,
+        what=WHAT,
         answer=_ANSWER,
     )
+
+
+def _open_first(asked: list[Question], kinds: tuple[str, ...]) -> list[Question]:
+    """Of sensors, what nobody has answered before what was guessed; all else in the order of the file."""
+    own = [q for q in asked if q.kind in kinds]
+    return sorted(own, key=lambda q: not q.open) if "place" in kinds else own
+
+
+def _models(folder: Path) -> list[tuple[str, str]]:
+    """(name, text) of the model files beside the campaign file."""
+    found = sorted(p for p in folder.glob("model*.yaml") if p.stat().st_size <= _MOST_BYTES)
+    return [(p.name, p.read_text(encoding="utf-8", errors="replace")) for p in found[:_MOST_MODELS]]
 
 
 async def preview(request: Request) -> Response:
     """POST /start/preview: the lines that the answers change; nothing is written."""
     desk, form = desk_of(request), await form_of(request)
     path = desk.inside(form.get("file", ""))
-    before = _read(path)
+    before = campaign_text(path)
     after = filled_in(before, _answers(form, questions(before)))
+    return changes(request, path, before, after, form, "/start/write")
+
+
+async def write(request: Request) -> Response:
+    """POST /start/write: the answers go into the file; the one before is kept as campaign.N.yaml."""
+    desk, form = desk_of(request), await form_of(request)
+    path = desk.inside(form.get("file", ""))
+    before = campaign_text(path)
+    after = filled_in(before, _answers(form, questions(before)))
+    return written(request, path, before, after)
+
+
+def changes(request: Request, path: Path, before: str, after: str, form: dict[str, str], onward: str) -> Response:
+    """What would be written, as the lines that change. onward: where the form goes when they are wanted."""
     lines = list(difflib.unified_diff(before.splitlines(), after.splitlines(), "before", "after", lineterm="", n=0))
     return page(
         request,
@@ -67,20 +118,14 @@ async def preview(request: Request) -> Response:
         lines=lines[2:],
         form=form,
         changed=before != after,
+        onward=onward,
     )
 
 
-async def write(request: Request) -> Response:
-    """POST /start/write: the answers go into the file; the one before is kept as campaign.N.yaml."""
-    desk, form = desk_of(request), await form_of(request)
-    path = desk.inside(form.get("file", ""))
-    before = _read(path)
-    after = filled_in(before, _answers(form, questions(before)))
-    kept = None
-    if after != before:
-        kept = keep(path)
-        write_new(path, after)
-    return page(request, "start_written.html.j2", title="", command="", path=path, kept=kept[1] if kept else None)
+def written(request: Request, path: Path, before: str, after: str) -> Response:
+    """Writes it, and says what comes next."""
+    kept, followed = write_answered(path, after) if after != before else (None, False)
+    return page(request, "start_written.html.j2", title="", command="", path=path, kept=kept, followed=followed)
 
 
 def _answers(form: dict[str, str], asked: list[Question]) -> dict[str, str]:
@@ -114,7 +159,8 @@ def _moves(form: dict[str, str]) -> dict[str, str]:
     return moves
 
 
-def _read(path: Path) -> str:
+def campaign_text(path: Path) -> str:
+    """UsageError for what is no campaign file, or too long a one."""
     if not path.is_file() or path.suffix not in (".yaml", ".yml"):
         raise UsageError(
             "there is no such campaign file", where=str(path), hint="draft one first: thermodata init FOLDER"

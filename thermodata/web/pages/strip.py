@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import math
+from typing import TYPE_CHECKING
 
 from markupsafe import Markup
 
-from thermodata.plugin import Float1D
+if TYPE_CHECKING:
+    from thermodata.plugin import Float1D
 
 _STEPS = 6  # tints either side of zero; the style sheet has a class for each
 

@@ -11,7 +11,6 @@ from thermodata.chart.pack import script_json
 from thermodata.chart.spec import Chart
 from thermodata.errors import UsageError
 from thermodata.store import Store
-from thermodata.store.trace.lineage import trace
 from thermodata.view.events import About, about_test
 from thermodata.view.models import ModelRow, model_rows
 from thermodata.view.predictions import Prediction, predictions, range_figures
@@ -83,34 +82,13 @@ def stretch(request: Request) -> Response:
         command="",
         from_s=from_s,
         to_s=to_s,
+        campaign=campaign,
         test=test,
         figures=[(p.response, range_figures(p, from_s, to_s)) for p in found],
         rules=[
             (p.response, range_figures(p, from_s, to_s), rules_for(store, p, channels, from_s, to_s)) for p in found
         ],
         unit=models[0].unit if models else "um",
-    )
-
-
-def way_back(request: Request) -> Response:
-    """GET /trace: one sample of a channel, back to the row of the file that it came from."""
-    desk, given = desk_of(request), request.query_params
-    campaign, test = _named(given)
-    channel, at_s = given.get("channel", ""), seconds_in(given, "at")
-    found = trace(desk.store(), campaign, test, channel or None, t_s=at_s)
-    words = ["trace", campaign, test, *([channel] if channel else [])]
-    words += ["--at", f"{at_s:.6g} s"] if at_s is not None else []
-    return page(
-        request,
-        "trace.html.j2",
-        title=f"Where {channel or test} comes from",
-        section="/",
-        command=command(desk.store_path, *words, "--verify"),
-        found=found,
-        campaign=campaign,
-        test=test,
-        channel=channel,
-        at_s=at_s,
     )
 
 

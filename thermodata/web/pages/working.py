@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 from starlette.requests import Request
 from starlette.responses import Response
 
@@ -35,11 +37,12 @@ async def start(request: Request) -> Response:
             raise UsageError(f"'{name}' is missing", where=task)
     desk = desk_of(request)
     arguments = {n: str(desk.inside(v)) if n in _PATHS else v for n, v in given.items()}
-    return _shown(request, work_of(request).start(task, what.format(**given), desk.store_path, arguments))
+    told = {n: Path(v).name or v if n in _PATHS else v for n, v in given.items()}
+    return _shown(request, work_of(request).start(task, what.format(**told), desk.store_path, arguments))
 
 
 async def watch(request: Request) -> Response:
-    """GET /task/ID: how far it is; when it is done, the browser goes on to the result."""
+    """GET /task/ID: how far it is; when it is done, the browser goes on to the result, or what it told is shown."""
     return _shown(request, work_of(request).job(request.path_params["task"]))
 
 
@@ -54,5 +57,7 @@ def work_of(request: Request) -> Work:
 
 
 def _shown(request: Request, job: Job) -> Response:
-    headers = {"HX-Redirect": job.onward} if job.state == "done" and job.onward else {}
-    return page(request, "task.html.j2", title="", command="", headers=headers, job=job)
+    # of what told something that is to be read, nobody is led away; a part that is shown asks no more, so the browser
+    # is sent on once, however long the next page takes
+    onward = job.onward if job.state == "done" and "told" not in job.result else ""
+    return page(request, "task.html.j2", title="", command="", job=job, onward=onward)

@@ -14,6 +14,11 @@
 
   // parts that came later may hold charts
   document.addEventListener("htmx:afterSettle", (event) => ThermoChart.scan(event.target));
+  // work that is done leads on to its result, once
+  document.addEventListener("htmx:afterSettle", () => {
+    const done = document.querySelector("[data-onward]");
+    if (done) { const onward = done.dataset.onward; done.removeAttribute("data-onward"); location.assign(onward); }
+  });
   // what is refused is shown where it was asked for
   document.addEventListener("htmx:beforeSwap", (event) => { if (event.detail.xhr.status >= 400) event.detail.shouldSwap = true; });
 

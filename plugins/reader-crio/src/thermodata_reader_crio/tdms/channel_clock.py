@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
@@ -39,7 +40,7 @@ class _ClockPieces:
         return self.base[-1] + self.sample(row) * self.waves[-1].step.numerator // self.waves[-1].step.denominator
 
 
-def clock_of(index: Index, column: Column, own: dict[str, Any], known: dict[Any, Clock | None]) -> Clock | None:
+def clock_of(index: Index, column: Column, own: Mapping[str, Any], known: dict[Any, Clock | None]) -> Clock | None:
     """The clock that a channel's waveform properties give it; None where it has no increment. known: those of other
     channels, for a file may have 100,000 with the same."""
     if "wf_increment" not in own:
@@ -47,10 +48,14 @@ def clock_of(index: Index, column: Column, own: dict[str, Any], known: dict[Any,
     changes = index.clock_changes.get(column.path, [])
     if len(changes) > 8:
         return _clock(index, column)
-    key = (id(column.runs), column.n.tobytes(), tuple((c.piece, *c.properties.items()) for c in changes))
-    if key not in known:
-        known[key] = _clock(index, column)
-    return known[key]
+    # columns share their runs and equal counts, and objects of the index their changes: mostly these are the same ones
+    same = id(column.runs), id(column.n), *map(id, changes)
+    if same not in known:
+        key = (id(column.runs), column.n.tobytes(), tuple((c.piece, *c.properties.items()) for c in changes))
+        if key not in known:
+            known[key] = _clock(index, column)
+        known[same] = known[key]
+    return known[same]
 
 
 def _clock(index: Index, column: Column) -> Clock | None:

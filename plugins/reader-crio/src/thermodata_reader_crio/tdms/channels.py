@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -30,10 +31,11 @@ KNOWN_SCALES = (
     "AdvancedAPI",
 )
 _SCALE_TYPE = re.compile(r"^NI_Scale\[(\d+)\]_Scale_Type$")
+_NONE: Mapping[str, Any] = {}
 _PATH = re.compile(r"/'((?:[^']|'')*)'")
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, slots=True)
 class Channel:
     """One signal: its columns (several: a DAQmx channel whose scaling joins several raw numbers)."""
 
@@ -43,15 +45,21 @@ class Channel:
     clock: Clock | None
     joined_by: Scaling | None = None
 
+    def in_stream(self, name: str) -> Channel:
+        """The same channel, of a stream."""
+        s = self.signal
+        signal = Signal(s.name, name, s.unit, s.dtype, s.scaling, s.properties)
+        return Channel(signal, self.short, self.columns, self.clock, self.joined_by)
+
     @property
     def length(self) -> int:
         """Values that are there."""
-        return min(c.length for c in self.columns)
+        return min([c.length for c in self.columns])
 
     @property
     def planned(self) -> int:
         """Values that the file announced: more than there are where it was cut."""
-        return max(c.planned for c in self.columns)
+        return max([c.planned for c in self.columns])
 
     @property
     def is_timestamp(self) -> bool:
@@ -102,81 +110,99 @@ def channels(
     """Group -> its channels, in the file's order. partly: takes a sentence for each that is left out."""
     types = {path: found.type for layout in index.layouts for path, found in layout.objects}
     groups: dict[str, list[Channel]] = {}
-    clocks: dict[Any, Clock | None] = {}
-    ended: dict[tuple[int, int], bool] = {}
+    maker = _Maker(index, file, unscaled, notes)
     for path, found in cols.items():
         group, name = names(path)
         full = f"{group}/{name}" if group or not name.startswith("/") else name
-        if (change := _new_meaning(index, path, full in unscaled or name in unscaled)) is not None:
+        if (change := _new_meaning(index, path, group, full in unscaled or name in unscaled)) is not None:
             partly.append(f"{full} is left out: within the file it changes its {change}; split the file there")
             continue
         if not group and name == path:
             notes.append(f"{path[:80]}: not the path of a channel in a group")
-        made = _made(index, path, found, types[path], file, full, unscaled, notes, clocks, ended)
-        groups.setdefault(group, []).extend(made)
+        groups.setdefault(group, []).extend(maker.channels(group, name, full, found, types[path]))
     return groups
 
 
-def _new_meaning(index: Index, path: str, unscaled: bool) -> str | None:
+def _new_meaning(index: Index, path: str, group: str, unscaled: bool) -> str | None:
     """How a channel's unit or scaling, or those of its group or of the file, change within the file; None: they don't,
     or raw numbers are wanted."""
-    group = "/'" + names(path)[0].replace("'", "''") + "'"
-    changes = [index.meanings[p] for p in (path, group, "/") if p in index.meanings]
+    if not index.meanings:
+        return None
+    changes = [index.meanings[p] for p in (path, _path_of(group), "/") if p in index.meanings]
     return next((c for c in changes if not (unscaled and c.startswith("NI_Scal"))), None)
 
 
-def _made(
-    index: Index,
-    path: str,
-    found: list[Column],
-    kind: int,
-    file: str,
-    full: str,
-    unscaled: set[str],
-    notes: list[str],
-    clocks: dict[Any, Clock | None],
-    ended: dict[tuple[int, int], bool],
-) -> list[Channel]:
-    own = index.properties.get(path, {})
-    clock = clock_of(index, found[0], own, clocks)
-    if clock is not None and not _ends(clock, max(found[0].length, found[0].planned), ended):
-        notes.append(f"{full}: its wf_increment of {own['wf_increment']} s ends beyond any date; not used as its time")
-        clock = None
-    unit = own.get("unit_string") or own.get("NI_UnitDescription") or None
-    unit = str(unit) if unit else None
-    group, short = names(path)
-    scale = (
-        None
-        if full in unscaled or short in unscaled
-        else scaling(
-            [own, index.properties.get("/'" + group.replace("'", "''") + "'", {}), index.properties.get("/", {})],
-            f"{file} {full}",
-        )
-    )
-    properties = {k: str(v) for k, v in own.items()}
-    if found[0].part in ("re", "im"):
-        notes.append(f"{full}: complex numbers, delivered as two signals")
-        return [_channel(f"{full} ({c.part})", short, [c], scale, unit, properties, clock) for c in found]
-    if len({k.dtype for c in found for k in c.kinds}) > len(found):
-        notes.append(f"{full}: its type changes within the file; delivered as {found[0].dtype}")
-    if len(found) > 1:
-        if scale is None:
-            raise FormatError(
-                "a DAQmx channel of several raw numbers without a scaling that joins them",
-                where=f"{file} {full}",
-                hint="leave it out, or read its raw numbers with NI's tools",
+def _path_of(group: str) -> str:
+    return "/'" + group.replace("'", "''") + "'"
+
+
+class _Maker:
+    """Makes channels. What equal properties make of a channel is made once: a file may have 100,000."""
+
+    def __init__(self, index: Index, file: str, unscaled: set[str], notes: list[str]) -> None:
+        self._index, self._file, self._unscaled, self._notes = index, file, unscaled, notes
+        self._clocks: dict[Any, Clock | None] = {}
+        self._ended: dict[tuple[int, int], bool] = {}
+        self._texts: dict[int, dict[str, str]] = {}
+        self._scalings: dict[tuple[int, int, int], Scaling | None] = {}
+        self._layers: dict[str, tuple[Mapping[str, Any], Mapping[str, Any]]] = {}
+
+    def channels(self, group: str, short: str, full: str, found: list[Column], kind: int) -> list[Channel]:
+        """The channels of one object of the file: one, or the two parts of complex numbers."""
+        notes = self._notes
+        own = self._index.properties.get(found[0].path, _NONE)
+        clock = clock_of(self._index, found[0], own, self._clocks)
+        if clock is not None and not _ends(clock, max(found[0].length, found[0].planned), self._ended):
+            notes.append(
+                f"{full}: its wf_increment of {own['wf_increment']} s ends beyond any date; not used as its time"
             )
-        properties["scaled_by_reader"] = f"{len(found)} raw inputs"
-        notes.append(
-            f"{full}: its scaling joins {len(found)} raw numbers (a thermocouple and its cold junction, "
-            "say), so it is delivered scaled by the file's own formula"
-        )
-        return [_channel(full, short, found, None, unit, properties, clock, "float64", scale)]
-    if found[0].dtype == "V16":
-        properties["kind"] = "timestamp"
-        return [_channel(full, short, found, None, unit or "ns", properties, clock, "int64")]
-    dtype = "bool" if kind == BOOL and found[0].dtype == "u1" else None
-    return [_channel(full, short, found, scale, unit, properties, clock, dtype)]
+            clock = None
+        unit = own.get("unit_string") or own.get("NI_UnitDescription") or None
+        unit = str(unit) if unit else None
+        scale = None if full in self._unscaled or short in self._unscaled else self._scaling(group, full, own)
+        properties = self._text(own)
+        if found[0].part in ("re", "im"):
+            notes.append(f"{full}: complex numbers, delivered as two signals")
+            return [_channel(f"{full} ({c.part})", short, [c], scale, unit, properties, clock) for c in found]
+        if len(found[0].kinds) > 1 and len({k.dtype for c in found for k in c.kinds}) > len(found):
+            notes.append(f"{full}: its type changes within the file; delivered as {found[0].dtype}")
+        if len(found) > 1:
+            if scale is None:
+                raise FormatError(
+                    "a DAQmx channel of several raw numbers without a scaling that joins them",
+                    where=f"{self._file} {full}",
+                    hint="leave it out, or read its raw numbers with NI's tools",
+                )
+            notes.append(
+                f"{full}: its scaling joins {len(found)} raw numbers (a thermocouple and its cold junction, "
+                "say), so it is delivered scaled by the file's own formula"
+            )
+            scaled = {**properties, "scaled_by_reader": f"{len(found)} raw inputs"}
+            return [_channel(full, short, found, None, unit, scaled, clock, "float64", scale)]
+        if found[0].dtype == "V16":
+            stamped = {**properties, "kind": "timestamp"}
+            return [_channel(full, short, found, None, unit or "ns", stamped, clock, "int64")]
+        dtype = "bool" if kind == BOOL and found[0].dtype == "u1" else None
+        return [_channel(full, short, found, scale, unit, properties, clock, dtype)]
+
+    def _text(self, own: Mapping[str, Any]) -> dict[str, str]:
+        """Properties as a signal has them. The index keeps what it is asked by, so that its id stays its own."""
+        known = self._texts.get(id(own))
+        if known is None:
+            known = self._texts[id(own)] = {k: str(v) for k, v in own.items()}
+        return known
+
+    def _scaling(self, group: str, full: str, own: Mapping[str, Any]) -> Scaling | None:
+        above = self._layers.get(group)
+        if above is None:
+            properties = self._index.properties
+            above = properties.get(_path_of(group), _NONE), properties.get("/", _NONE)
+            self._layers[group] = above
+        layers = own, *above
+        key = id(own), id(above[0]), id(above[1])
+        if key not in self._scalings:
+            self._scalings[key] = scaling(layers, f"{self._file} {full}")
+        return self._scalings[key]
 
 
 def _ends(clock: Clock, rows: int, ended: dict[tuple[int, int], bool]) -> bool:
@@ -200,5 +226,10 @@ def _channel(
     joined_by: Scaling | None = None,
 ) -> Channel:
     if dtype is None:
-        dtype = "str" if found[0].dtype == TEXT else np.dtype(found[0].dtype).name
+        dtype = "str" if found[0].dtype == TEXT else _name(found[0].dtype)
     return Channel(Signal(full, "", unit, dtype, scale, properties), short, tuple(found), clock, joined_by)
+
+
+@lru_cache(maxsize=64)
+def _name(dtype: str) -> str:
+    return np.dtype(dtype).name

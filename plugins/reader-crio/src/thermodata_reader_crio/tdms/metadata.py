@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import struct
+import sys
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import Any, Generic, NamedTuple, TypeVar
 
 from thermodata_reader_crio.tdms.chunk_layout import (
     DAQMX_NUMPY,
@@ -21,6 +23,8 @@ NO_DATA, SAME_DATA = 0xFFFFFFFF, 0
 # the documentation names the second one 0x1369; files hold 0x126A
 FORMAT_CHANGING, DIGITAL_LINES = 0x1269, (0x126A, 0x1369)
 _VOID, _BOOL = 0, 0x21
+_MOST_ALIKE = 4096  # different lists that are remembered
+T = TypeVar("T")
 _UNSIZED = {
     0x0B: "extended floating point numbers",
     0x1B: "extended floating point numbers with unit",
@@ -47,12 +51,15 @@ class Timestamp:
         return f"{np.datetime64(self.ns, 'ns')}Z" if -(2**63) < self.ns < 2**63 else f"{self.seconds} s since 1904"
 
 
+Properties = tuple[tuple[str, Any], ...]
+
+
 class Object(NamedTuple):
     """One object of a segment's list. held: its values in a chunk; None: none here; SAME: as before."""
 
     path: str
     held: RawIndex | int | None
-    properties: list[tuple[str, Any]]
+    properties: Properties
 
 
 SAME = SAME_DATA
@@ -61,21 +68,37 @@ SAME = SAME_DATA
 def parse(data: bytes, order: str) -> tuple[list[Object], int]:
     """The objects of a metadata block, and how many of its bytes they take. order: '<' or '>'."""
     read = Cursor(data, order)
+    held, properties = _Alike(read, read.held), _Alike(read, read.properties)
     found = []
     for _ in range(read.u32()):
-        path = read.text()
-        header = read.u32()
-        held: RawIndex | int | None
-        if header == NO_DATA:
-            held = None
-        elif header == SAME_DATA:
-            held = SAME
-        elif header == FORMAT_CHANGING or header in DIGITAL_LINES:
-            held = read.daqmx(header)
-        else:
-            held = read.raw_index(path)
-        found.append(Object(path, held, [read.property() for _ in range(read.u32())]))
+        read.path = read.text()
+        found.append(Object(read.path, held.next(), properties.next()))
     return found, read.at
+
+
+class _Alike(Generic[T]):
+    """What stands at one place of each object in turn. Equal bytes say the same: of 100,000 channels most are like
+    another one, so they are parsed once and share one value."""
+
+    def __init__(self, cursor: Cursor, parse: Callable[[], T]) -> None:
+        self._cursor, self._parse = cursor, parse
+        self._known: dict[bytes, T] = {}
+        self._last: tuple[bytes, T] | None = None
+
+    def next(self) -> T:
+        """The next one, and the cursor behind it."""
+        cursor = self._cursor
+        # a parse depends on the bytes that it takes alone, so those of the last one say where this one ends
+        if self._last is not None and cursor.data.startswith(self._last[0], cursor.at):
+            cursor.at += len(self._last[0])
+            return self._last[1]
+        start = cursor.at
+        value = self._parse()
+        if len(self._known) >= _MOST_ALIKE:
+            self._known.clear()
+        taken = cursor.data[start : cursor.at]
+        self._last = taken, self._known.setdefault(taken, value)
+        return self._last[1]
 
 
 class Cursor:
@@ -83,6 +106,7 @@ class Cursor:
 
     def __init__(self, data: bytes, order: str) -> None:
         self.data, self.order, self.at = data, order, 0
+        self.path = ""  # of the object in hand, for what is said of damage
         self._u32 = struct.Struct(order + "I").unpack_from
         self._index = struct.Struct(order + "IIQ").unpack_from
 
@@ -123,7 +147,7 @@ class Cursor:
 
     def property(self) -> tuple[str, Any]:
         """The next property: its name and its value."""
-        name, kind = self.text(), self.u32()
+        name, kind = sys.intern(self.text()), self.u32()
         if kind == STRING:
             return name, self.text()
         if kind in _CODES:
@@ -138,20 +162,35 @@ class Cursor:
             return name, ""
         raise DamageError(f"property '{name[:80]}' has the unknown type 0x{kind:X}")
 
-    def raw_index(self, path: str) -> RawIndex:
+    def properties(self) -> Properties:
+        """The next list of properties, behind their number."""
+        return tuple([self.property() for _ in range(self.u32())])
+
+    def held(self) -> RawIndex | int | None:
+        """What the next object has in a chunk: its index; None: nothing; SAME: what it had before."""
+        header = self.u32()
+        if header == NO_DATA:
+            return None
+        if header == SAME_DATA:
+            return SAME
+        if header == FORMAT_CHANGING or header in DIGITAL_LINES:
+            return self.daqmx(header)
+        return self.raw_index()
+
+    def raw_index(self) -> RawIndex:
         """How a channel of plain values lies in a chunk."""
         if self.at + 16 > len(self.data):
             self.take(16)
         kind, dimension, n = self._index(self.data, self.at)
         self.at += 16
         if dimension != 1:
-            raise DamageError(f"{path[:80]} has a raw data index of dimension {dimension}")
+            raise DamageError(f"{self.path[:80]} has a raw data index of dimension {dimension}")
         nbytes = int(self.number("Q")) if kind == STRING else 0
         if max(n, nbytes) > MOST:
-            raise DamageError(f"{path[:80]} declares a chunk of {max(n, nbytes)} values")
+            raise DamageError(f"{self.path[:80]} declares a chunk of {max(n, nbytes)} values")
         if kind == STRING:
             if 4 * n > nbytes:
-                raise DamageError(f"{path[:80]} declares {n} texts in {nbytes} bytes")
+                raise DamageError(f"{self.path[:80]} declares {n} texts in {nbytes} bytes")
             return RawIndex(kind, n, nbytes)
         if kind in NUMPY:
             return RawIndex(kind, n, n * int(NUMPY[kind][1:]))
@@ -159,10 +198,10 @@ class Cursor:
             return RawIndex(5, 0, 0)
         if kind in _UNSIZED:
             raise DamageError(
-                f"{path[:80]} holds {_UNSIZED[kind]} (type 0x{kind:X}), whose size the format leaves to "
+                f"{self.path[:80]} holds {_UNSIZED[kind]} (type 0x{kind:X}), whose size the format leaves to "
                 "the computer that wrote them: convert them to DBL in LabVIEW"
             )
-        raise DamageError(f"{path[:80]} has the unknown data type 0x{kind:X}")
+        raise DamageError(f"{self.path[:80]} has the unknown data type 0x{kind:X}")
 
     def daqmx(self, header: int) -> RawIndex:
         """How a channel of DAQmx lies in the raw buffers of a chunk. header: which of its two kinds."""

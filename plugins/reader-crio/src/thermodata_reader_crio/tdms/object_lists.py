@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from typing import BinaryIO, NamedTuple
+from typing import Any, BinaryIO, NamedTuple
 
 from thermodata_reader_crio.tdms.chunk_layout import DamageError, Layout, RawIndex, check
 from thermodata_reader_crio.tdms.lead_in import BIG_ENDIAN, INTERLEAVED, META, NEW_LIST, LeadIn, read_metadata
-from thermodata_reader_crio.tdms.metadata import SAME, Object, parse
+from thermodata_reader_crio.tdms.metadata import SAME, Object, Properties, parse
 from thermodata_reader_crio.tdms.segment_index import CLOCK, ClockChange, Index
 
 # what says which values the numbers stand for
@@ -43,6 +43,9 @@ class ObjectLists:
         self._active_id = self._next_id = self._ids_size = 0
         self._memo: dict[tuple[int, int, int, bytes], Plan] = {}
         self._memo_bytes = 0
+        # the last list of properties that a new object had, and what came of it: the next one has mostly the same
+        self._first: tuple[Properties, dict[str, Any], list[ClockChange]] = (), {}, []
+        self._own: set[str] = set()  # objects whose properties no other shares
 
     def forget(self) -> None:
         """After a loss: only what the next segment names itself is known."""
@@ -125,12 +128,18 @@ class ObjectLists:
         if plan.key is not None and plan.found and self._generation == before:
             self._remember(plan, plan.key)
 
-    def _set(self, path: str, properties: list[tuple[str, object]]) -> None:
-        known = self.index.properties.setdefault(path, {})
+    def _set(self, path: str, properties: Properties) -> None:
+        known = self.index.properties.get(path)
+        if known is None:
+            self._set_first(path, properties)
+            return
         changed = {}
         for name, value in properties:
             if name not in known or known[name] != value:
                 self._generation += 1
+                if path not in self._own:
+                    self._own.add(path)
+                    known = self.index.properties[path] = dict(known)
                 if name in known and len(self.index.pieces) and name.startswith(_MEANING):
                     self.index.meanings.setdefault(path, f"{name}, '{known[name]}' and then '{value}'"[:200])
                 known[name] = value
@@ -138,6 +147,26 @@ class ObjectLists:
                     changed[name] = value
         if changed:
             self.index.clock_changes.setdefault(path, []).append(ClockChange(len(self.index.pieces), changed))
+
+    def _set_first(self, path: str, properties: Properties) -> None:
+        """The first properties of an object: shared with those before it that had the same, until one changes."""
+        piece = len(self.index.pieces)
+        before, known, changes = self._first
+        if properties is not before or (changes and changes[0].piece != piece):
+            known = dict(properties)
+            if len(known) < len(properties):
+                # one that is named twice changes within the list
+                self.index.properties[path] = {}
+                self._own.add(path)
+                self._set(path, properties)
+                return
+            clock = {name: value for name, value in properties if name in CLOCK}
+            changes = [ClockChange(piece, clock)] if clock else []
+            self._first = properties, known, changes
+        self._generation += len(known)
+        self.index.properties[path] = known
+        if changes:
+            self.index.clock_changes[path] = changes.copy()
 
     def _remember(self, plan: Plan, key: tuple[int, int, int, bytes]) -> None:
         size = len(key[3])

@@ -44,6 +44,7 @@ class Runs:
     which: Int1D
     piece: Int1D
     pitch: Int1D
+    shapes: tuple[int, ...] = ()
     _rows: dict[bytes, Int1D] = field(default_factory=dict)
 
     def rows(self, n: Int1D) -> Int1D:
@@ -54,10 +55,11 @@ class Runs:
         return self._rows[key]
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, slots=True)
 class Column:
     """n, start, stride, kinds: for each place (values a chunk; first byte in it; bytes from value to value, for text
-    the bytes of all of them). planned: values that the file announced, more than there are where it was cut."""
+    the bytes of all of them). length: values that are there; planned: those that the file announced, more where it was
+    cut."""
 
     path: str
     part: int | str | None
@@ -67,6 +69,7 @@ class Column:
     stride: Int1D
     kinds: tuple[Kind, ...]
     shapes: tuple[int, ...]
+    length: int
     planned: int
 
     @property
@@ -75,13 +78,10 @@ class Column:
         return self.runs.rows(self.n)
 
     @property
-    def length(self) -> int:
-        """Values that are there."""
-        return int(self.row[-1])
-
-    @property
     def dtype(self) -> str:
         """The type that holds all of its kinds."""
+        if len(self.kinds) == 1:
+            return self.kinds[0].dtype
         names = {k.dtype for k in self.kinds}
         return names.pop() if len(names) == 1 else np.result_type(*names).str[1:]
 
@@ -100,43 +100,28 @@ class _Slot(NamedTuple):
     full: int
 
 
-@dataclass(slots=True)
-class _Places:
-    """A column's places in the making, flat: shapes, and start, n, stride and full of each."""
-
-    kinds: list[Kind] = field(default_factory=list)
-    shapes: array[int] = field(default_factory=lambda: array("i"))
-    numbers: array[int] = field(default_factory=lambda: array("q"))
-
-
 def columns(index: Index) -> tuple[dict[str, list[Column]], list[str]]:
     """Each channel's columns (several for a DAQmx channel with several scalers), in the file's order; and the
     channels that change between numbers and text, of which the first sort is kept, as sentences."""
-    places: dict[tuple[str, int | str | None], _Places] = {}
+    # a channel's places in the making, flat: numbers of kind and shape, and start, n, stride and full of each
+    places: dict[tuple[str, int | str | None], array[int]] = {}
+    kinds: dict[Kind, int] = {}
     wrong: dict[str, str] = {}
     for number, shape in enumerate(index.shapes):
-        for slot in _slots(index.layouts[shape.layout], shape):
-            key = slot.path, slot.part
-            found = places[key] if key in places else places.setdefault(key, _Places())
-            if found.kinds and not _join(found.kinds[0].dtype, slot.kind.dtype):
-                wrong[slot.path] = (
-                    f"it changes from {_name(found.kinds[0])} to {_name(slot.kind)}; only the first sort is read"
-                )
+        for path, part, kind, *where in _slots(index.layouts[shape.layout], shape):
+            of_kind = kinds.setdefault(kind, len(kinds))
+            found = places.get((path, part))
+            if found is None:
+                places[path, part] = array("q", (of_kind, number, *where))
                 continue
-            found.kinds.append(slot.kind)
-            found.shapes.append(number)
-            found.numbers.extend(slot[3:])
-    runs = _RunsOf(index)
+            if found[0] != of_kind and not _join((first := list(kinds)[found[0]]).dtype, kind.dtype):
+                wrong[path] = f"it changes from {_name(first)} to {_name(kind)}; only the first sort is read"
+                continue
+            found.extend((of_kind, number, *where))
+    maker = _Maker(index, tuple(kinds))
     made: dict[str, list[Column]] = {}
     for (path, part), found in places.items():
-        shapes = tuple(found.shapes)
-        shared = runs.of(shapes)
-        start, n, stride, full = np.frombuffer(found.numbers, np.int64).reshape(-1, 4).T.copy()
-        held = int((shared.chunks * n[shared.which]).sum())
-        cut = int((full - n).sum()) if any(index.shapes[number].cut for number in shapes) else 0
-        made.setdefault(path, []).append(
-            Column(path, part, shared, n, start, stride, tuple(found.kinds), shapes, held + cut)
-        )
+        made.setdefault(path, []).append(maker.column(path, part, found))
     return made, [f"{path}: {text}" for path, text in wrong.items()]
 
 
@@ -147,6 +132,54 @@ def _join(a: str, b: str) -> bool:
 
 def _name(kind: Kind) -> str:
     return {TEXT: "text", "V16": "timestamps"}.get(kind.dtype) or np.dtype(kind.dtype).name
+
+
+class _Maker:
+    """Makes columns that share what is equal in them: all but the first byte, in most."""
+
+    def __init__(self, index: Index, kinds: tuple[Kind, ...]) -> None:
+        self.index, self.kinds = index, kinds
+        self.runs = _RunsOf(index)
+        self._numbers: dict[tuple[int, ...], Int1D] = {}
+        self._kinds: dict[tuple[int, ...], tuple[Kind, ...]] = {}
+        self._lengths: dict[tuple[tuple[int, ...], tuple[int, ...], tuple[int, ...]], tuple[int, int]] = {}
+
+    def column(self, path: str, part: int | str | None, places: array[int]) -> Column:
+        """places: of the column, flat."""
+        of_kind, shapes, start, n, stride, full = (tuple(places[i::6]) for i in range(6))
+        runs = self.runs.of(shapes)
+        if of_kind not in self._kinds:
+            self._kinds[of_kind] = tuple([self.kinds[i] for i in of_kind])
+        length, planned = self._length(runs, shapes, n, full)
+        return Column(
+            path,
+            part,
+            runs,
+            self._shared(n),
+            np.array(start, np.int64),
+            self._shared(stride),
+            self._kinds[of_kind],
+            runs.shapes,
+            length,
+            planned,
+        )
+
+    def _shared(self, numbers: tuple[int, ...]) -> Int1D:
+        found = self._numbers.get(numbers)
+        if found is None:
+            found = self._numbers[numbers] = np.array(numbers, np.int64)
+        return found
+
+    def _length(
+        self, runs: Runs, shapes: tuple[int, ...], n: tuple[int, ...], full: tuple[int, ...]
+    ) -> tuple[int, int]:
+        """(values that are there, values that the file announced)."""
+        known = self._lengths.get((shapes, n, full))
+        if known is None:
+            held = int((runs.chunks * self._shared(n)[runs.which]).sum())
+            cut = any(self.index.shapes[number].cut for number in shapes)
+            known = self._lengths[shapes, n, full] = held, held + (sum(full) - sum(n) if cut else 0)
+        return known
 
 
 class _RunsOf:
@@ -175,6 +208,7 @@ class _RunsOf:
                 which,
                 piece,
                 np.array([layout.chunk_bytes for layout in layouts], np.int64),
+                shapes,
             )
         return self.made[shapes]
 

@@ -191,6 +191,8 @@ def _values(buffer: Array, place: Int1D, cut: _Cut, kind: Kind) -> Array:
 
 def _bytes(buffer: Array, place: Int1D, n: Int1D, stride: Int1D, item: int) -> Array:
     """The bytes of all values, one behind the other."""
+    if place.size == 1 and stride[0] == item:
+        return buffer[place[0] : place[0] + n[0] * item]
     ranges = _even(place, n, stride)
     total = int(n.sum())
     if len(ranges) > _MANY_RANGES:

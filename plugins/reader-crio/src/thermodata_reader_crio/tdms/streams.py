@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any, BinaryIO
 
 import numpy as np
@@ -77,7 +77,7 @@ def streams_of(
     for part in _parts([c for c in filled if id(c) not in apart], index):
         time = None if part[0].clock is not None else next((c for c in clocks if _same_rows(c, part[0], index)), None)
         name = _name(group, taken)
-        own = tuple(replace(c, signal=replace(c.signal, stream=name)) for c in part)
+        own = tuple([c.in_stream(name) for c in part])
         if time is not None:
             used.add(id(time))
             yield Stream(name, own, None, time_channel(time, file, notes))
@@ -90,7 +90,7 @@ def streams_of(
                     f"stream '{name}' has no time: its rows are counted as 1 s each; declare "
                     "options: {increment: 0.1 s}, or {time: CHANNEL}"
                 )
-        elif any(not np.array_equal(c.clock.base_ns, clock.base_ns) for c in part if c.clock is not None):
+        elif any(not np.array_equal(c.clock.base_ns, clock.base_ns) for c in part if c.clock not in (None, clock)):
             notes.append(
                 f"stream '{name}': its channels start up to 1 ms apart (one scan of a multiplexed converter); "
                 "rows carry the time of the first; each channel's own start stands in its wf_start_time"
@@ -102,7 +102,7 @@ def streams_of(
         # a time channel beside waveforms is a signal like any other
         if id(c) not in used:
             name = _name(group, taken)
-            yield Stream(name, (replace(c, signal=replace(c.signal, stream=name)),), None, time_channel(c, file, notes))
+            yield Stream(name, (c.in_stream(name),), None, time_channel(c, file, notes))
 
 
 def _name(group: str, taken: dict[str, int]) -> str:

@@ -8,18 +8,11 @@ from thermodata.plugin import Source
 from thermodata_reader_table.parquet.table import Table
 from thermodata_reader_table.timed_rows import nth_timed_row
 
-_ROWS = 1_000_000  # whose times are read at once
-
 
 def locate(path: Path, source: Source, stream: str, row: int) -> str | None:
     """`row group 3, row 812` (of the file: row 100812)."""
-    import pyarrow as pa
-
     table = Table(path, source)
-    top = table.places[table.time].split(".")[0]
-    kept = [b.column(str(table.time)) for b in table.batches(_ROWS, [top])]
-    column = pa.chunked_array([c for k in kept for c in k.chunks], table.schema.field(table.time).type)
-    at = nth_timed_row([table.times(column).t_ns], row)
+    at = nth_timed_row([table.stamps().t_ns], row)
     if at is None:
         return None
     first = 0

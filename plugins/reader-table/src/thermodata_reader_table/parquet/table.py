@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterator
 from contextlib import contextmanager
+from itertools import islice
 from pathlib import Path
 from typing import Any
 
@@ -15,13 +16,16 @@ from thermodata.plugin import Source
 from thermodata.reader.open_questions import UNKNOWN, unanswered, unit_question
 from thermodata.reader.text import split_unit, time_formats
 from thermodata.reader.text.header import unique
+from thermodata.reader.text.layout import period_s
 from thermodata.reader.text.time_columns import column as find_column
-from thermodata.reader.text.time_columns import find_time, is_time_header, unit_of_time
+from thermodata.reader.text.time_columns import find_time, is_time_header, no_time, unit_of_time
 from thermodata.reader.text.time_formats import times_of_numbers
 from thermodata.reader.text.time_groups import one_time
-from thermodata.reader.time_units import check_unit, found_epoch
+from thermodata.reader.time_units import check_unit, found_epoch, to_ns
 from thermodata_reader_table.parquet.columns import nanoseconds, numbers
 from thermodata_reader_table.parquet.schema import check_types, column_at, flat, left_out, value_type
+
+_ROWS = 1_000_000  # whose times are read at once
 
 
 @contextmanager
@@ -61,7 +65,12 @@ class Table:
         self.notes = left_out(self.file.schema_arrow)
         if not self.names:
             raise FormatError("no column of numbers, text or times", where=path.name)
-        self.time, self.unit = self._find()
+        period = one_time(source.table, path.name).get("period")
+        self.period = None if period is None else period_s(period, path.name)
+        self.time: int | None = None
+        self.unit: str | None = None
+        if self.period is None:
+            self.time, self.unit = self._find()
 
     def batches(self, rows: int, columns: list[str] | None = None) -> Iterator[Any]:
         """Tables with one column a signal, structs taken apart; FormatError where a damaged part is met."""
@@ -76,7 +85,7 @@ class Table:
                 )
 
     def _find(self) -> tuple[int, str | None]:
-        """The time column and its unit: None for timestamps, dates and text."""
+        """The time column and its unit: None for timestamps, dates and text. QuestionError where nothing tells it."""
         import pyarrow.types as pt
 
         said = one_time(self.source.table, self.path.name)
@@ -99,7 +108,12 @@ class Table:
                 with damage_as_format_error(self.path):
                     head = next(self.batches(100), None)
                     rows = [list(r) for r in zip(*(c.to_pylist() for c in head.columns), strict=True)] if head else []
-                column = find_time(self.names, units, rows, self.path.name)[0]
+                try:
+                    column = find_time(self.names, units, rows, self.path.name)[0]
+                except FormatError:
+                    if (question := no_time(self.names, rows, self.path.name)) is None:
+                        raise
+                    raise question from None
         if pt.is_timestamp(self.schema.field(column).type):
             return column, None
         kind = self.schema.field(column).type
@@ -141,13 +155,29 @@ class Table:
             meanwhile={"time": {"column": names[0]}},
         )
 
-    def times(self, column: Any) -> time_formats.Stamps:
+    def stamps(self, rows: int | None = None) -> time_formats.Stamps:
+        """The times of all rows, or of the first some: by the time column, or counted at the declared period."""
+        import pyarrow as pa
+
+        top = self.places[self.time or 0].split(".")[0]
+        batches = self.batches(_ROWS, [top]) if rows is None else islice(self.batches(rows, [top]), 1)
+        kept = [b.column(str(self.time or 0)) for b in batches]
+        if self.time is None:
+            steps = np.arange(sum(map(len, kept)))
+            return time_formats.Stamps(to_ns(steps, self.period or 0.0), False, ())
+        if not kept:
+            return time_formats.Stamps(np.zeros(0, np.int64), False, ())
+        with damage_as_format_error(self.path):
+            column = pa.chunked_array([c for k in kept for c in k.chunks], self.schema.field(self.time).type)
+            return self._times(column)
+
+    def _times(self, column: Any) -> time_formats.Stamps:
         """Times of the time column, or of a part of it. Local times want the whole column: the order of all its
         rows tells the hour that repeats."""
         import pyarrow as pa
         import pyarrow.types as pt
 
-        kind = self.schema.field(self.time).type
+        kind = column.type
         if self.unit == "duration":
             return time_formats.Stamps(nanoseconds(column.cast(pa.duration("ns"))), False, ())
         if self.unit is not None:

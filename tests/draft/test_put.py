@@ -1,0 +1,116 @@
+"""What a page proposes goes into a test's own line, and what stood there stays."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from thermodata.draft.baseline import model_text_of
+from thermodata.draft.fill_in import filled_in, questions
+from thermodata.draft.make import write_answered
+from thermodata.draft.put import EVERY, put
+from thermodata.errors import UsageError
+from thermodata.schema.load import load_campaign, parse_campaign
+
+TEXT = """\
+schema: thermodata/campaign/1
+id: lab
+machine: {id: M1}
+sources:
+  log: {reader: table, files: "{test}.csv"}
+channels:
+  dZ: {source: log, signal: dZ, quantity: displacement, unit: um, axis: Z, at: tcp, relative_to: table}
+  T1: {source: log, signal: T1, quantity: temperature, unit: degC}   # ? at: where on the machine? (name)
+  T2: {source: log, signal: T2, quantity: temperature, unit: degC, at: axis.z.nut}
+  p: {source: log, signal: p, quantity: temperature, unit: degC}   # ? quantity: 3 to 5: a temperature in degC? (values)
+  # v_Z: {source: log, signal: v_Z, quantity: ?, unit: ?}   # ? quantity and unit? (values 0 to 20)
+tests:
+  - {id: day, kind: mixed, role: verification}   # ? kind?
+  - {id: warm, kind: mixed, role: none, measuring: "T1 < 30 or T2 < 30", phases: {idle: [0 s, 60 s]}}
+  - {id: own, kind: mixed, role: none, measuring: {when: "T1 < 30", settle: 10 s}}
+"""
+
+
+def by_id(text: str) -> dict[str, object]:
+    return {t.id: t for t in parse_campaign(text).tests}
+
+
+def test_a_rule_stands_beside_the_one_that_was_there() -> None:
+    text = put(TEXT, "day", 'measuring: "T2 == 3"')
+    assert by_id(text)["day"].measuring == "T2 == 3"  # type: ignore[attr-defined]
+    assert "# ? kind?" in text  # another question of the line is still open
+    twice = put(text, "day", 'measuring: "T1 > 5"')
+    assert by_id(twice)["day"].measuring == "T2 == 3 and T1 > 5"  # type: ignore[attr-defined]
+    assert put(twice, "day", 'measuring: "T1 > 5"') == twice
+    bracketed = put(TEXT, "warm", 'measuring: "T2 == 3"')
+    assert by_id(bracketed)["warm"].measuring == "(T1 < 30 or T2 < 30) and T2 == 3"  # type: ignore[attr-defined]
+
+
+def test_a_rule_of_the_machine_goes_into_every_test_also_those_that_are_locked() -> None:
+    text = TEXT.replace('  - {id: own, kind: mixed, role: none, measuring: {when: "T1 < 30", settle: 10 s}}\n', "")
+    found = by_id(put(text, EVERY, 'measuring: "T2 == 3"'))
+    assert found["day"].measuring == "T2 == 3"  # type: ignore[attr-defined]
+    assert found["warm"].measuring == "(T1 < 30 or T2 < 30) and T2 == 3"  # type: ignore[attr-defined]
+    with pytest.raises(UsageError, match="belongs to one test"):
+        put(text, EVERY, "window: [0 s, 60 s]")
+
+
+def test_a_window_is_replaced_and_a_phase_added() -> None:
+    text = put(put(TEXT, "warm", "window: [0 s, 500 s]"), "warm", "window: [0 s, 400 s]")
+    assert by_id(text)["warm"].window == (0.0, 400.0)  # type: ignore[attr-defined]
+    text = put(put(text, "warm", "phases: {stretch: [5 s, 6 s]}"), "warm", "phases: {stretch: [7 s, 8 s]}")
+    phases = by_id(text)["warm"].phases  # type: ignore[attr-defined]
+    assert phases == {"idle": (0.0, 60.0), "stretch": (5.0, 6.0), "stretch2": (7.0, 8.0)}
+
+
+@pytest.mark.parametrize(
+    ("test", "line", "told"),
+    [
+        ("nobody", 'measuring: "T1 < 3"', "no line of its own"),
+        ("own", 'measuring: "T2 < 3"', "another form"),
+        ("day", "role: locked", "put into no test"),
+        ("day", "a: 1\nb: 2", "put into no test"),
+    ],
+)
+def test_what_cannot_be_put_is_said(test: str, line: str, told: str) -> None:
+    with pytest.raises(UsageError, match=told):
+        put(TEXT, test, line)
+
+
+def test_a_signal_without_a_quantity_comes_to_life_with_one() -> None:
+    asked = {q.name: q for q in questions(TEXT)}
+    assert asked["unread.v_Z"].open
+    assert asked["channels.p.quantity"].value == "temperature [degC]"
+    text = filled_in(TEXT, {"unread.v_Z": "feed [m/min]", "channels.p.quantity": "pressure [bar]"})
+    channels = parse_campaign(text).channels
+    assert (channels["v_Z"].quantity, channels["v_Z"].unit) == ("feed", "m/min")
+    assert (channels["p"].quantity, channels["p"].unit) == ("pressure", "bar")
+    after = {q.name: q for q in questions(text)}
+    assert after["channels.v_Z.at"].open  # its place is the next question
+    assert "unread.v_Z" not in after
+
+
+@pytest.mark.parametrize("answer", ["feed", "[m/min]", "fead [m/min]", "feed [degC]", "feed [m/min], at: x"])
+def test_an_answer_that_is_no_quantity_with_its_unit_is_refused(answer: str) -> None:
+    with pytest.raises(UsageError):
+        filled_in(TEXT, {"unread.v_Z": answer})
+
+
+def test_a_first_model_follows_the_answers_until_somebody_changes_it(tmp_path: Path) -> None:
+    path, model = tmp_path / "campaign.yaml", tmp_path / "model.yaml"
+    path.write_text(TEXT)
+    drafted = model_text_of(load_campaign(path))
+    assert drafted is not None
+    assert "feed_screw" in drafted
+    model.write_text(drafted)
+    answered = filled_in(TEXT, {"channels.T1.at": "spindle.bearing.front"})
+    kept, followed = write_answered(path, answered)
+    assert kept is not None
+    assert kept.read_text() == TEXT
+    assert followed
+    assert "spindle_bearing, drivers: {temperature: T1}" in model.read_text()
+    model.write_text(own := model.read_text().replace("60 s", "30 s"))
+    assert write_answered(path, put(answered, "day", "window: [1 s, 2 s]"))[1] is False
+    assert write_answered(path, TEXT)[1] is False
+    assert model.read_text() == own

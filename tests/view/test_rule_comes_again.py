@@ -1,0 +1,39 @@
+"""A state that comes again in a test tells a stretch of it only where all of it is as bad."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from thermodata.view.predictions import Prediction
+from thermodata.view.rule_for import rules
+
+N = 720
+MOVES = np.zeros(N)
+MOVES[320:400] = MOVES[500:600] = 12.0  # the axis cuts twice; the probe is out of its range then
+
+
+def predicted(residual: np.ndarray) -> Prediction:
+    t_s = np.arange(N) * 60.0
+    return Prediction("c", "day", "dZ", t_s, residual, np.zeros(N), residual, np.ones(N, bool), {}, {})
+
+
+def test_a_rule_takes_the_other_times_too_where_they_are_as_bad() -> None:
+    residual = np.where(MOVES > 0, 200.0, 2.0)
+    found = rules(predicted(residual), {"feed_X": MOVES}, 320 * 60.0, 399 * 60.0)
+    assert {r.text for r in found} == {"feed_X == 0", "feed_X < 6"}
+    assert (found[0].taken, found[0].lost) == (80, 100)
+    assert found[0].rmse == 2.0
+
+
+def test_it_takes_none_where_the_other_times_are_good() -> None:
+    residual = np.full(N, 2.0)
+    residual[320:400] = 200.0
+    assert rules(predicted(residual), {"feed_X": MOVES}, 320 * 60.0, 399 * 60.0) == []
+
+
+def test_a_state_that_is_the_stretch_alone_comes_first() -> None:
+    alone = np.zeros(N)
+    alone[320:400] = 1.0
+    residual = np.where(MOVES > 0, 200.0, 2.0)
+    found = rules(predicted(residual), {"feed_X": MOVES, "door": alone}, 320 * 60.0, 399 * 60.0)
+    assert {r.text.split()[0] for r in found} == {"door"}

@@ -1,0 +1,43 @@
+"""What a signal is, where its draft could not tell: 'feed [m/min]' as one answer. A channel that stood there as a
+comment comes to life with it; one whose quantity was a guess gets another."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+
+from thermodata.errors import UsageError, unknown_name
+from thermodata.schema.quantity import CANONICAL_UNIT, QUANTITIES, linear_conversion
+
+WHAT: tuple[str, ...] = tuple(f"{q} [{CANONICAL_UNIT[q]}]" for q in QUANTITIES if q != "label")
+GUESSED = "# ? quantity:"
+_LINE = re.compile(r"^  # (?P<name>[^:#]+): (?P<body>\{.*\bquantity: \?.*\})\s+# \? (?P<hint>.*)$")
+_ANSWER = re.compile(r"^(?P<quantity>[a-z_ ]+?)\s*\[(?P<unit>[^\[\]{},]*)\]$")
+
+
+def unread(lines: Sequence[str]) -> dict[str, tuple[int, str]]:
+    """Name of a channel that is left out for want of its quantity -> (index of its line, what the draft says of it)."""
+    found = ((i, _LINE.match(line)) for i, line in enumerate(lines))
+    return {m["name"].strip(): (i, m["hint"]) for i, m in found if m}
+
+
+def quantity_and_unit(answer: str, where: str) -> tuple[str, str]:
+    """('feed', 'm/min') of 'feed [m/min]'. UsageError for another form, a quantity that there is not, or a unit that
+    is none of it."""
+    said = _ANSWER.match(answer.strip())
+    if said is None:
+        raise UsageError("what a signal is has its unit in brackets", where=where, expected="feed [m/min]", got=answer)
+    quantity = said["quantity"].strip().replace(" ", "_")
+    if quantity not in QUANTITIES:
+        raise unknown_name("quantity", quantity, QUANTITIES)
+    unit = said["unit"].strip() or CANONICAL_UNIT[quantity]
+    if quantity != "displacement":  # a probe's volts become one by its calibration
+        linear_conversion(unit, CANONICAL_UNIT[quantity])
+    return quantity, unit
+
+
+def come_to_life(line: str) -> str:
+    """A line that was left out, as one of the channels; its place is what is asked next."""
+    found = _LINE.match(line)
+    assert found is not None
+    return f"  {found['name']}: {found['body']}   # ? at: where on the machine? ({found['hint'].strip()})"

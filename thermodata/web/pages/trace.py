@@ -1,0 +1,33 @@
+"""From a point of a curve back to the row of the file that it came from."""
+
+from __future__ import annotations
+
+from starlette.requests import Request
+from starlette.responses import Response
+
+from thermodata.store.trace.lineage import trace
+from thermodata.web.command import command
+from thermodata.web.query import seconds_in
+from thermodata.web.render import desk_of, page
+
+
+def show(request: Request) -> Response:
+    """GET /trace: one sample of a channel, back to the row of the file that it came from."""
+    desk, given = desk_of(request), request.query_params
+    campaign, test = given.get("campaign", ""), given.get("test", "")
+    channel, at_s = given.get("channel", ""), seconds_in(given, "at")
+    found = trace(desk.store(), campaign, test, channel or None, t_s=at_s)
+    words = ["trace", campaign, test, *([channel] if channel else [])]
+    words += ["--at", f"{at_s:.6g} s"] if at_s is not None else []
+    return page(
+        request,
+        "trace.html.j2",
+        title=f"Where {channel or test} comes from",
+        section="/",
+        command=command(desk.store_path, *words, "--verify"),
+        found=found,
+        campaign=campaign,
+        test=test,
+        channel=channel,
+        at_s=at_s,
+    )
