@@ -29,6 +29,7 @@ tests:
   - {id: day, kind: mixed, role: verification}   # ? kind?
   - {id: warm, kind: mixed, role: none, measuring: "T1 < 30 or T2 < 30", phases: {idle: [0 s, 60 s]}}
   - {id: own, kind: mixed, role: none, measuring: {when: "T1 < 30", settle: 10 s}}
+  - {id: range, kind: mixed, role: none, measuring: in_range}
 """
 
 
@@ -45,6 +46,15 @@ def test_a_rule_stands_beside_the_one_that_was_there() -> None:
     assert put(twice, "day", 'measuring: "T1 > 5"') == twice
     bracketed = put(TEXT, "warm", 'measuring: "T2 == 3"')
     assert by_id(bracketed)["warm"].measuring == "(T1 < 30 or T2 < 30) and T2 == 3"  # type: ignore[attr-defined]
+
+
+def test_a_range_stands_beside_an_expression() -> None:
+    text = put(put(TEXT, "day", 'measuring: "T2 == 3"'), "day", "measuring: {in_range: {dZ: [-50 um, 90 um]}}")
+    rule = by_id(text)["day"].measuring  # type: ignore[attr-defined]
+    assert rule.when == "T2 == 3"
+    assert rule.in_range == {"dZ": ("-50 um", "90 um")}
+    own = by_id(put(TEXT, "own", 'measuring: "T2 == 3"'))["own"].measuring  # type: ignore[attr-defined]
+    assert (own.when, own.settle) == ("T1 < 30 and T2 == 3", 10.0)
 
 
 def test_a_rule_of_the_machine_goes_into_every_test_also_those_that_are_locked() -> None:
@@ -68,7 +78,7 @@ def test_a_window_is_replaced_and_a_phase_added() -> None:
     ("test", "line", "told"),
     [
         ("nobody", 'measuring: "T1 < 3"', "no line of its own"),
-        ("own", 'measuring: "T2 < 3"', "another form"),
+        ("range", "measuring: {in_range: {T1: [0 degC, 3 degC]}}", "another form"),
         ("day", "role: locked", "put into no test"),
         ("day", "a: 1\nb: 2", "put into no test"),
     ],

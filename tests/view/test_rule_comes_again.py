@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from thermodata.view.predictions import Prediction
-from thermodata.view.rule_for import rules
+from thermodata.view.rule_for import range_rule, rules
 
 N = 720
 MOVES = np.zeros(N)
@@ -37,3 +37,21 @@ def test_a_state_that_is_the_stretch_alone_comes_first() -> None:
     residual = np.where(MOVES > 0, 200.0, 2.0)
     found = rules(predicted(residual), {"feed_X": MOVES, "door": alone}, 320 * 60.0, 399 * 60.0)
     assert {r.text.split()[0] for r in found} == {"door"}
+
+
+def test_a_probe_at_the_end_of_its_range_gives_the_range() -> None:
+    measured = 5 * np.sin(np.arange(N) / 90)
+    measured[320:400] = measured[500:600] = 235.0
+    measured[320] = 120.0  # half of it out
+    found = range_rule(predicted(measured), "um", 320 * 60.0, 399 * 60.0)
+    assert found is not None
+    assert found.text.startswith("{in_range: {dZ: [-")
+    assert (found.taken, found.lost) == (79, 100)
+    turned = range_rule(predicted(-measured), "um", 320 * 60.0, 399 * 60.0)
+    assert turned is not None
+    assert (turned.taken, turned.lost) == (79, 100)
+
+
+def test_a_probe_that_creeps_is_at_no_end() -> None:
+    assert range_rule(predicted(np.linspace(0, 50, N)), "um", 320 * 60.0, 399 * 60.0) is None
+    assert range_rule(predicted(5 * np.sin(np.arange(N) / 90)), "um", 320 * 60.0, 399 * 60.0) is None

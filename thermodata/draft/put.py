@@ -54,15 +54,30 @@ def _place(document: Document, test: str) -> int:
 
 
 def _rule(before: Any, rule: Any) -> str:
-    if before is None:
-        return scalar(str(rule))
-    if not isinstance(before, str) or before == "in_range":
-        raise UsageError(
-            "the test has a measuring rule of another form",
-            got=str(before)[:200],
-            hint=f"add 'and {rule}' to it by hand",
-        )
-    return scalar(before if str(rule) in before else f"{_bracketed(before)} and {_bracketed(str(rule))}")
+    """Both hold: expressions are joined, ranges stand beside each other."""
+    one, two = _long(before), _long(rule)
+    made = {**one, **two}
+    if "when" in one and "when" in two:
+        first, second = str(one["when"]), str(two["when"])
+        made["when"] = first if second in first else f"{_bracketed(first)} and {_bracketed(second)}"
+    if "in_range" in one and "in_range" in two:
+        if not (isinstance(one["in_range"], Mapping) and isinstance(two["in_range"], Mapping)):
+            raise UsageError(
+                "the test has a measuring rule of another form",
+                got=str(before)[:200],
+                hint=f"add '{rule}' to it by hand",
+            )
+        made["in_range"] = {**one["in_range"], **two["in_range"]}
+    return scalar(made["when"]) if set(made) == {"when"} else f"{{{flow(made)}}}"
+
+
+def _long(rule: Any) -> dict[str, Any]:
+    """`measuring` in its long form."""
+    if rule is None:
+        return {}
+    if isinstance(rule, Mapping):
+        return dict(rule)
+    return {"in_range": rule} if rule == "in_range" else {"when": str(rule)}
 
 
 def _bracketed(rule: str) -> str:

@@ -24,14 +24,17 @@ TAKES, KEEPS = 0.9, 0.9  # of the samples inside, and of those outside
 # a stretch that comes again in the test is told from half of it; then the rule must leave a smaller error than the
 # test without the stretch
 KEEPS_WHERE_IT_COMES_AGAIN, _SMALLER = 0.5, 0.95
+# of the range of a probe: as good as its end, and apart from it; of a stretch: the least share at that end
+_SAME, _APART, _STANDS = 0.02, 0.5, 0.2
 _MOST = 4
 _FEWEST = 5  # samples on either side
 
 
 @dataclass(frozen=True, slots=True)
 class Rule:
-    """text: as `measuring` takes it. n: samples that count with it; taken: of those in the stretch, lost: of those
-    outside of it, that count no more. rmse: of what is left [of the response], None where nothing is."""
+    """text: as `measuring` takes it, an expression or, in braces, its long form. n: samples that count with it; taken:
+    of those in the stretch, lost: of those outside of it, that count no more. rmse: of what is left [of the response],
+    None where nothing is."""
 
     text: str
     n: int
@@ -48,8 +51,10 @@ def rules_for(store: Store, found: Prediction, channels: list[Channel], from_s: 
         return []
     step = float(np.median(np.diff(found.t_s)))
     binned = StoreView(store).binned(found.campaign, found.test, step).df()
+    unit = next((c.unit for c in channels if c.name == found.response), "um")
+    ranged = range_rule(found, unit, from_s, to_s)
     states = {n: _at(found.t_s, binned["t_s"].to_numpy(), binned[n].to_numpy(), step) for n in names if n in binned}
-    return rules(found, states, from_s, to_s)
+    return [*([ranged] if ranged else []), *rules(found, states, from_s, to_s)]
 
 
 def rules(found: Prediction, states: Mapping[str, Float1D], from_s: float, to_s: float) -> list[Rule]:
@@ -75,6 +80,36 @@ def rules(found: Prediction, states: Mapping[str, Float1D], from_s: float, to_s:
         if made:
             return sorted(made, key=lambda r: (r.lost - r.taken, len(r.text)))[:_MOST]
     return []
+
+
+def range_rule(found: Prediction, unit: str, from_s: float, to_s: float) -> Rule | None:
+    """The range that a probe measures in, where it stands at an end of what it can say in the stretch; None where it
+    does not. No clock is needed for it: the probe itself knows when it was out."""
+    counts = found.valid & np.isfinite(found.measured) & np.isfinite(found.residual)
+    inside = counts & (found.t_s >= from_s) & (found.t_s <= to_s)
+    if inside.sum() < _FEWEST:
+        return None
+    x = found.measured
+    span = float(np.ptp(x[counts]))
+    for end in (float(x[inside].max()), float(x[inside].min())):
+        at_end = counts & (np.abs(x - end) <= _SAME * span)
+        # what is on its way between the range and its end is an average of both
+        usual = x[counts & ~inside & (np.abs(x - end) > _APART * span)]
+        if span <= 0 or (at_end & inside).sum() < _STANDS * inside.sum() or len(usual) < 0.5 * (counts & ~inside).sum():
+            continue
+        near = float(usual.max() if end > float(np.median(usual)) else usual.min())
+        far = float(usual.min() if end > near else usual.max())
+        limits = sorted((_short(0.5 * (near + end)), _short(far - 0.5 * (end - far))))
+        kept = counts & (x >= limits[0]) & (x <= limits[1])
+        taken, lost = int((inside & ~kept).sum()), int((counts & ~inside & ~kept).sum())
+        low, high = (f"{limit:g} {unit}" for limit in limits)
+        text = f"{{in_range: {{{found.response}: [{low}, {high}]}}}}"
+        return Rule(text, int(kept.sum()), taken, lost, _rms(found.residual[kept]))
+    return None
+
+
+def _short(x: float) -> float:
+    return float(f"{x:.2g}")
 
 
 def _rms(x: Float1D) -> float | None:
