@@ -11,6 +11,7 @@ import jinja2
 from starlette.requests import Request
 from starlette.responses import HTMLResponse
 
+from thermodata.report.fit_text import span
 from thermodata.report.verdict import probability
 from thermodata.report.words import base_role, change, duration, number, percent, typeset
 from thermodata.version import __version__
@@ -40,6 +41,7 @@ def environment() -> jinja2.Environment:
     )
     made.filters.update(
         number=lambda value, digits=3: typeset(number(value, digits)),
+        span=lambda parameter: typeset(span(parameter)),
         signed=lambda value: f"{'+' if value > 0 else ''}{number(value)}",
         duration=duration,
         typeset=typeset,
