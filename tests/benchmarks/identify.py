@@ -1,6 +1,7 @@
 """Identification beside peers, on the same data, in one run: FIT of a free run on a test that no fit has seen.
 
     uv run --with sippy-unipi --with sysidentpy --with pastas --with statsmodels python tests/benchmarks/identify.py
+    uv run --no-sync python tests/benchmarks/identify.py --joint 10 100     # how long joint fits take
 
 Two true lags, 20 min and 3 h, 24 h at 1 Hz, 0.3 um of white noise, the temperature logged in steps of 0.1 K. A peer
 that is not installed is left out, and the table says so. Each has the same columns, relative to the start;
@@ -18,6 +19,7 @@ from collections.abc import Callable
 from dataclasses import asdict, dataclass
 from pathlib import Path
 
+import joint_fit
 import numpy as np
 import peers
 
@@ -142,8 +144,16 @@ def main() -> None:
     parser.add_argument("--steps", type=float, nargs="+", default=[60.0, 1.0], help="[s]")
     parser.add_argument("--seeds", type=int, default=3)
     parser.add_argument("--only", help="of one of: " + ", ".join(dict.fromkeys(who for who, *_ in METHODS)))
+    parser.add_argument("--joint", type=int, nargs="+", metavar="TESTS", help="joint fits of so many days instead")
     parser.add_argument("--json", action="store_true")
     given = parser.parse_args()
+    if given.joint:
+        found = joint_fit.rows(
+            given.joint, 1, lambda row: None if given.json else print(joint_fit.line(row), flush=True)
+        )
+        if given.json:
+            print(json.dumps([asdict(row) for row in found]))
+        return
     rows = []
     for who, method, run in METHODS:  # imports, and what compiles at its first use
         if given.only in (None, who):

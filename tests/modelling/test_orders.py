@@ -229,6 +229,15 @@ def test_sixteen_orders_of_a_record_of_28800_samples_are_quick(spec: Spec, step:
     assert time.process_time() - start < 2 * limit
 
 
+def test_a_lag_more_fits_no_worse(spec: Spec) -> None:
+    """The fewer lags are among the more: one of them may be of no time at all."""
+    table = _tried(_data(_test(1, "calibration")), spec, method="oe")
+    fit = {(r.numerator, r.denominator): r.fit_calibration for r in table}
+    for numerator in (1, 2):
+        for denominator in (2, 3, 4):
+            assert fit[numerator, denominator] > fit[numerator, denominator - 1] - 1.0, (numerator, denominator)
+
+
 def test_the_model_says_what_was_chosen(noisy: Dataset, spec: Spec) -> None:
     fitted = fit_model(spec(FUNCTION), noisy)
     (check,) = [c for c in fitted.checks() if c.name == "orders:transfer_function"]

@@ -12,8 +12,10 @@ from thermodata.effect.lag import lag
 from thermodata.modelling import fit_model
 from thermodata.modelling.apart import cooled
 from thermodata.modelling.fitted import FittedModel
+from thermodata.modelling.joint import fitted_problem
+from thermodata.modelling.labels import fastest_first
 from thermodata.modelling.profiles import profiles_of
-from thermodata.schema.result import Check
+from thermodata.schema.result import Check, Parameter
 from thermodata.view.dataset import ChannelInfo, Dataset, TestData
 
 from .conftest import Spec
@@ -156,3 +158,56 @@ def test_at_a_bound_the_profile_tells_the_other_end(spec: Spec) -> None:
     assert found.low is None
     assert found.high is not None
     assert 5.0 < found.high < 8.0
+
+
+def test_the_faster_of_two_like_lags_is_the_first_wherever_the_search_ended(spec: Spec) -> None:
+    """Started from the slow one as the first: their sum is the same, and what is said of each must not depend on it."""
+    tests = [_test(seed, 3.0, 8.0, 0.1, {20.0: 2.0, 150.0: 3.0}) for seed in (5, 6)]
+    fitted = _fit(spec, tests, TWO_LAGS)
+    problem, x, _ = fitted_problem(fitted.responses[0], tests)
+    swapped = x[::-1].copy()
+    assert x[0] < x[1]
+    assert fastest_first(problem, swapped) == pytest.approx(x)
+    assert problem.residual(swapped) == pytest.approx(problem.residual(x), abs=1e-9)
+    told = _fit(spec, tests, TWO_LAGS | {"start": {"tau_1": 150.0, "tau_2": 20.0}})
+    problem, x, _ = fitted_problem(told.responses[0], tests)
+    assert fastest_first(problem, x[::-1].copy()) == pytest.approx(x[::-1]), "the model file has told them apart"
+
+
+def test_gains_of_lags_that_undo_each_other_keep_their_signs(spec: Spec) -> None:
+    """Too short to tell two lags of 40 and 90 min apart: the gains may be many times as large, but of no other sign."""
+    tests = [_test(seed, 1.5, 0.5, 0.2, {40.0: -2.0, 90.0: 4.0}) for seed in (2, 3)]
+    found = _fit(spec, tests, TWO_LAGS).parameters()
+    first, second = found["f.gain_1"], found["f.gain_2"]
+    assert first.low is None
+    assert first.high is not None
+    assert second.low is not None
+    assert second.high is None or second.high > 5 * second.value
+    assert -2.0 < first.high < 0.0
+    assert 0.0 < second.low < 4.0
+    assert _is_inside(40.0, found["f.tau_1"]), found["f.tau_1"]
+    assert _is_inside(90.0, found["f.tau_2"]), found["f.tau_2"]
+
+
+def test_a_gain_whose_time_constant_stands_at_its_bound_is_not_known_by_that_bound(spec: Spec) -> None:
+    """Half an hour of heating of a lag of 40 h: the gain goes with the time constant, which the tests do not tell."""
+    one = {"effect": "lag", "id": "l", "drivers": {"u": "T"}, "bounds": {"tau": [5.0, 2880.0]}}
+    tests = [_test(seed, 1.5, 0.5, 0.3, {2400.0: 60.0}) for seed in (7, 8)]
+    fitted = _fit(spec, tests, one)
+    tau, gain = fitted.parameters()["l.tau"], fitted.parameters()["l.gain"]
+    assert _is_inside(2400.0, tau)
+    assert _is_inside(60.0, gain)
+    assert gain.low is not None
+    assert gain.low < 0.6 * gain.value, "the shortest time constant allowed has a smaller gain"
+
+
+def test_where_the_error_is_quadratic_a_gain_has_its_quadratic_interval(spec: Spec) -> None:
+    tests = [_test(seed, 3.0, 6.0, 0.3, {60.0: 3.0}) for seed in (5, 6)]
+    gain = _fit(spec, tests, {"effect": "lag", "id": "l", "drivers": {"u": "T"}}).parameters()["l.gain"]
+    assert gain.low is not None
+    assert gain.high is not None
+    assert gain.high - gain.value == pytest.approx(gain.value - gain.low, rel=1e-6)
+
+
+def _is_inside(true: float, found: Parameter) -> bool:
+    return (found.low is None or found.low <= true) and (found.high is None or true <= found.high)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from types import SimpleNamespace
 from typing import Any
 
@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 
 from thermodata.modelling import checks
+from thermodata.modelling.parameters import gain_unit
 from thermodata.plugin import Drivers, Float2D, Gain, Need, Param
 from thermodata.schema.result import Check
 from thermodata.view.dataset import ChannelInfo, TestData
@@ -69,12 +70,12 @@ def term(
     return SimpleNamespace(
         id="straight",
         effect=effect,
+        binding={n.role: "T" for n in effect.needs},
         bound=bound,
         groups={"": values},
         params=values.params,
         gains=values.gains,
         sd=values.sd,
-        binding={"u": "T"},
         held=held,
     )
 
@@ -164,6 +165,15 @@ def test_a_time_constant_longer_than_the_longest_test(tau: float, long: bool) ->
 def test_a_gain_larger_than_anything_known(gain: float, named: bool) -> None:
     assert names(checks._plausible(term(gain=gain))) == (["implausible:straight.gain"] if named else [])
     assert checks._plausible(term(gain=gain, fixed=["gain"])) == []
+
+
+@pytest.mark.parametrize(("quantity", "named", "unit"), [("temperature", True, "um/K"), ("feed", False, "um")])
+def test_a_gain_a_kelvin_is_one_where_a_temperature_drives_it(quantity: str, named: bool, unit: str) -> None:
+    """A screw that is driven by its feed grows by 20 um at 10 m/min, which is no 20 um/K."""
+    kelvin = replace(GAIN, unit="um/K", magnitude=(0.5, 5.0))
+    found = term(Straight(needs=(Need("u", quantity),), gains=(kelvin,)), gain=20.0)
+    assert bool(checks._plausible(found)) == named
+    assert gain_unit(SimpleNamespace(unit="um"), found, "um/K") == unit  # type: ignore[arg-type]
 
 
 @pytest.mark.parametrize("largest", [float("inf"), 0.0])

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import copy
 import json
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -217,6 +218,35 @@ def test_a_continuous_function_is_read_with_its_constant_first() -> None:
     assert function.gain_at_rest == pytest.approx(7.72, abs=0.01)
     t = np.arange(0.0, 36000.0, 60.0)
     assert function.simulate(t, np.minimum(t / 60.0, 1.0))[-1] == pytest.approx(7.72, abs=0.01)
+
+
+@pytest.mark.parametrize(("method", "orders"), [("oe", [4, 4]), ("varpro", [4, 4])])
+def test_a_continuous_function_of_order_4_is_identified_by_real_poles(
+    fine: Dataset, spec: Spec, method: str, orders: list[int]
+) -> None:
+    """K(s)/T(s) of [horejs2010]'s ambient function: not its four time constants, which nobody can tell, but what it
+    does in a test that the fit has not seen, and poles left of zero on the real axis."""
+    lags = (3.0, 14.0, 60.0, 300.0)  # min
+    den = np.array([1.0])  # rising powers of s
+    for tau in lags:
+        den = np.convolve(den, [1.0, tau * 60.0])
+    num = 2.5 * np.convolve([1.0, 90 * 60.0], [1.0, 25 * 60.0])
+    truth = GivenFunction(num.tolist(), den.tolist(), None)
+    assert truth.gain_at_rest == pytest.approx(2.5)
+    rng = np.random.default_rng(4)
+    tests = []
+    for test in fine.tests:
+        y = truth.simulate(test.t_s, test.values["T"] - 22.0) + rng.normal(0, 0.05, len(test.t_s))
+        tests.append(replace(test, values={**test.values, "dZ": y}))
+    effect = {"effect": "transfer_function", "id": "f", "drivers": {"u": "T"}, "method": method, "orders": orders}
+    data = replace(fine, tests=tuple(tests))
+    fitted = fit_model(spec(effect, calibrate_on=["s1"], verify_on=["s2"]), data)
+    (unseen,) = [s for s in scores(fitted, data, "m") if s.test == "s2" and s.phase == "all"]
+    assert unseen.fit is not None
+    assert unseen.fit > 99.0
+    taus = [fitted.parameters()[f"f.tau_{i}"].value for i in (1, 2, 3, 4)]
+    assert taus == sorted(taus)
+    assert taus[0] > 0
 
 
 def test_a_continuous_lag_is_the_lag() -> None:

@@ -1,9 +1,13 @@
 from __future__ import annotations
 
+from types import SimpleNamespace
+from typing import Any
+
 import numpy as np
 
 from thermodata.calibration.quality import QualityEvent
-from thermodata.store.tidy.not_measuring import Activity, join_while_not_measuring
+from thermodata.store.tidy.not_measuring import ONLY, Activity, join_while_not_measuring
+from thermodata.store.tidy.standing import join_while_standing
 
 
 def activity(*phases: tuple[int, int], n: int = 1000, piece: int = 37) -> Activity:
@@ -46,3 +50,18 @@ def test_the_pieces_in_which_the_mask_comes_do_not_matter() -> None:
         assert (made.during(at, at) == activity(*phases, piece=1000).during(at, at)).all()
         assert (made.during(at, at) == [any(a <= t < b for a, b in phases) for t in at]).all()
     assert not activity().during(np.array([0]), np.array([999])).any()
+
+
+def test_what_was_held_only_while_not_measuring_stays_so_though_the_spindle_stands() -> None:
+    """Its detail is what says that nothing of the channel is lost by it."""
+    bound = {
+        "dZ": SimpleNamespace(channel=SimpleNamespace(quantity="displacement")),
+        "n": SimpleNamespace(channel=SimpleNamespace(quantity="rotational_speed")),
+    }
+    series: Any = SimpleNamespace(
+        plan=SimpleNamespace(bound=bound), sampled=lambda name, t_ns: (np.zeros(len(t_ns)), None)
+    )
+    between = QualityEvent("dZ", "held", 0, 499, 341, ONLY)
+    assert join_while_standing([between], series) == [between]
+    (other,) = join_while_standing([QualityEvent("dZ", "held", 0, 499, 500, "exactly 3.2 um")], series)
+    assert other.detail == "while the spindle stands: exactly 3.2 um"

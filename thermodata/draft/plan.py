@@ -23,6 +23,7 @@ from thermodata.draft.sources import Group, sources_of
 from thermodata.draft.table import TestTable, closed_workbooks, find_table, is_called_table
 from thermodata.draft.units import rate_at_end
 from thermodata.draft.values import joined
+from thermodata.draft.warm import warm_starts
 from thermodata.plugin import Signal
 from thermodata.reader.text import split_unit
 from thermodata.schema.quantity import CANONICAL_UNIT, normal_unit
@@ -137,7 +138,8 @@ def plan(campaign: str, folder: Path, found: Scan) -> Draft:
     table = find_table(folder, found.others, ids)
     notes += closed_workbooks(found.others)
     named = {id(f): keyed[g.source] for g in groups for f in g.files}
-    tests = tuple(_test(t, groups, table, named) for t in ids)
+    warm = warm_starts({t: [f for g in groups for f in g.tests.get(t, ())] for t in ids}, named)
+    tests = tuple(_test(t, groups, table, named, warm.get(t)) for t in ids)
     left_out = tuple(x for x in found.ignored if table is None or x[0] != table.file)
     used = {j.file for j in calibrations}
     idle = [str(j.file.path) for j in jumps if str(j.file.path) not in used]
@@ -329,10 +331,12 @@ def _calibration(
     return (f"jump_{name}" if axis else None), said
 
 
-def _test(test: str, groups: Sequence[Group], table: TestTable | None, named: Mapping[int, Named]) -> DraftTest:
+def _test(
+    test: str, groups: Sequence[Group], table: TestTable | None, named: Mapping[int, Named], warm: str | None
+) -> DraftTest:
     files = [f for g in groups for f in g.tests.get(test, ())]
     kind = kind_of(test, files)
-    conditions, doubts = dict(kind.conditions), list(kind.doubts)
+    conditions, doubts = dict(kind.conditions), [*kind.doubts, *([warm] if warm else [])]
     for key, value in (table.rows.get(test, {}) if table else {}).items():
         if key in conditions and conditions[key].split()[0] != value.split()[0]:
             doubts.append(f"{key}: the name says {conditions[key]}, the table {value}")

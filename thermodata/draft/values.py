@@ -14,7 +14,8 @@ _FEW = 8
 @dataclass(frozen=True, slots=True)
 class Values:
     """Of a sample of a signal. n: finite values; low and high: its range; step: the median of its changes from row to
-    row; moves: the share of rows that differ from the one before; distinct: at most 9; whole: integers only."""
+    row; moves: the share of rows that differ from the one before; distinct: at most 9; whole: integers only; first:
+    the first of them."""
 
     n: int
     low: float
@@ -24,6 +25,7 @@ class Values:
     moves: float
     distinct: int
     whole: bool
+    first: float
 
     @property
     def constant(self) -> bool:
@@ -63,11 +65,12 @@ def values_of(column: Array) -> Values | None:
         float((change > 0).mean()) if change.size else 0.0,
         min(int(few.size), _FEW + 1),
         bool((x == np.round(x)).all()),
+        float(x[0]),
     )
 
 
 def joined(one: Values | None, other: Values | None) -> Values | None:
-    """Of both samples together; of the longer one what cannot be added."""
+    """Of both samples together, the earlier one first; of the longer one what cannot be added."""
     if one is None or other is None:
         return one or other
     main = one if one.n >= other.n else other
@@ -83,4 +86,5 @@ def joined(one: Values | None, other: Values | None) -> Values | None:
         (one.moves * one.n + other.moves * other.n) / (one.n + other.n),
         max(levels, one.distinct, other.distinct),
         one.whole and other.whole,
+        one.first,
     )

@@ -13,6 +13,7 @@ from thermodata.modelling.bound import each_group_its_own
 from thermodata.modelling.design import Design
 from thermodata.modelling.drivers import names_of
 from thermodata.modelling.fitted_response import FittedResponse, FittedTerm
+from thermodata.modelling.parameters import by_kelvin
 from thermodata.modelling.uncertainty import effective_count
 from thermodata.plugin import Float1D, Float2D
 from thermodata.schema.result import Check
@@ -261,6 +262,8 @@ def _long(term: FittedTerm, tests: Sequence[TestData]) -> list[Check]:
 def _plausible(term: FittedTerm) -> list[Check]:
     rows = []
     for gain in term.effect.gains:
+        if gain.unit.endswith("/K") and not by_kelvin(term):
+            continue  # what is known is a size a kelvin, and nothing here is a kelvin
         for group, values in term.groups.items():
             value, top = values.gains[gain.name], gain.magnitude[1]
             if np.isfinite(top) and top > 0 and abs(value) > top and gain.name not in term.bound.spec.fixed:

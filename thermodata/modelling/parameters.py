@@ -46,9 +46,18 @@ def gain_unit(response: FittedResponse, term: FittedTerm, unit: str) -> str:
     """um/u -> the response's unit over the driver's; um -> the response's unit (a response may be no displacement)."""
     if unit.endswith("/u"):
         unit = f"um/{driver_unit(response, term)}"
+    elif unit.endswith("/K") and not by_kelvin(term):
+        unit = unit.removesuffix("/K")
     if unit == "um" or unit.startswith("um/"):
         unit = response.unit + unit[2:]
     return unit
+
+
+def by_kelvin(term: FittedTerm) -> bool:
+    """Whether a temperature drives a term. An effect with a gain a kelvin may be driven by a speed, a feed or a switch
+    where no sensor is: its gain is then a displacement at that effect's own reference."""
+    quantities = {need.role: need.quantity for need in term.effect.needs}
+    return any(quantities.get(role, "").startswith("temperature") for role in term.binding)
 
 
 def driver_unit(response: FittedResponse, term: FittedTerm) -> str:

@@ -156,8 +156,9 @@ def mutate(seed: Seed, rng: random.Random) -> Mutation:
     if what == "short":
         whole = parts[row]
         parts[row] = whole[: rng.randrange(len(whole))] + b"\n"
-        # all cells are there: a value that is shorter is a value
-        full = all(parts[row].count(d) == whole.count(d) for d in (b";", b",", b"\t", b" "))
+        # all cells are there: a value that is shorter is a value; blanks behind the last cell part nothing
+        full = len(parts[row].split()) == len(whole.split())
+        full = full and all(parts[row].count(d) == whole.count(d) for d in (b";", b",", b"\t"))
         return Mutation(b"".join(parts), "line too short", full or not parts[row].strip(), full)
     if what == "end":
         mark = rng.choice((b"\r\n", b"\r", b"\n\n", b"\n\r"))

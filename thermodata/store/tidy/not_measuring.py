@@ -37,6 +37,9 @@ class Activity:
         return np.asarray((before % 2 == 1) | (after > before))
 
 
+ONLY = "only while not measuring"  # detail of an event that says nothing against its channel
+
+
 def join_while_not_measuring(events: Sequence[QualityEvent], activity: dict[str, Activity]) -> list[QualityEvent]:
     """Events of values, of channels that are measured at times only: those that fall wholly between the measuring
     phases become one event a channel and flag, which says so. The others are left as they are."""
@@ -61,7 +64,7 @@ def join_while_not_measuring(events: Sequence[QualityEvent], activity: dict[str,
                 min(e.from_ns for e in some),
                 max(e.to_ns for e in some),
                 sum(e.n for e in some),
-                "only while not measuring",
+                ONLY,
             )
         )
     return sorted(kept, key=lambda e: (e.from_ns, e.channel or ""))

@@ -9,6 +9,7 @@ import numpy as np
 from thermodata.calibration.quality import QualityEvent
 from thermodata.errors import ThermodataError
 from thermodata.plugin import Array
+from thermodata.store.tidy.not_measuring import ONLY
 from thermodata.store.tidy.series import TestSeries
 
 _POINTS = 20  # of an event, at which the speed is asked
@@ -23,7 +24,10 @@ def join_while_standing(events: Sequence[QualityEvent], series: TestSeries) -> l
     held = [
         e
         for e in events
-        if e.flag in ("held", "stuck") and e.channel in bound and bound[e.channel].channel.quantity in _QUANTITIES
+        if e.flag in ("held", "stuck")
+        and e.channel in bound
+        and bound[e.channel].channel.quantity in _QUANTITIES
+        and e.detail != ONLY  # it does not count against the channel, whatever stands meanwhile
     ]
     if not held:
         return list(events)

@@ -1,0 +1,48 @@
+"""A test that began before the machine had cooled is asked about: its free run would begin at balance."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from thermodata.schema.load import load_campaign
+
+from .conftest import Said
+from .labs import numbers, text
+
+Say = Callable[..., Said]
+
+
+def lab(folder: Path, third_k: float, *, air: bool = True) -> Path:
+    """Three tests on days of 20, 26 and 23 degC; the bearing's sensor reads 1.5 K too much. third_k: by how much it is
+    warmer when the third begins."""
+    n = 200
+    t = np.arange(n) * 30.0
+    for day, (hall, above) in enumerate(((20.0, 0.0), (26.0, 0.4), (23.0, third_k)), 1):
+        bearing = hall + 1.5 + above + 8 * (1 - np.exp(-t / 1500))
+        columns = [numbers(t, 0), numbers(bearing, 2), numbers(hall + t / 9000, 2), numbers(t / 300, 2)]
+        header = ["t [s]", "Front bearing [degC]", "Hall air [degC]" if air else "T7 [degC]", "Displ. Z [um]"]
+        text(folder / f"warm_{day}.csv", header, columns, mark=",")
+    return folder
+
+
+@pytest.mark.parametrize(("third_k", "asked"), [(8.0, True), (2.9, False)])
+def test_a_bearing_that_begins_far_above_the_air_is_asked_about(
+    tmp_path: Path, say: Say, third_k: float, asked: bool
+) -> None:
+    say("init", lab(tmp_path, third_k))
+    written = (tmp_path / "campaign.yaml").read_text("utf-8")
+    lines = [x for x in written.splitlines() if "start_state: warm?" in x]
+    assert len(lines) == asked
+    if asked:
+        assert "id: warm_3" in lines[0]
+        assert "Front_bearing begins 8.0 K further above the air than in the coolest test" in lines[0]
+    assert all(t.start_state == "balance" for t in load_campaign(tmp_path / "campaign.yaml").tests)  # never made up
+
+
+def test_without_the_air_a_warm_day_is_no_warm_start(tmp_path: Path, say: Say) -> None:
+    say("init", lab(tmp_path, 8.0, air=False))
+    assert "start_state" not in (tmp_path / "campaign.yaml").read_text("utf-8")

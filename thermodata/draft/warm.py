@@ -1,0 +1,57 @@
+"""Tests that began before the machine had cooled: what is warm at their first row, against the air and other tests."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+from thermodata.draft.measuring import Named
+from thermodata.draft.scan import RawFile
+from thermodata.errors import UsageError
+from thermodata.schema.quantity import linear_conversion
+
+_WARMER_K = 3.0
+_FEWEST = 3  # tests, of which the coolest tells what the machine at rest reads
+_HEATED = ("spindle", "axis.", "table", "rotary")
+
+
+def warm_starts(tests: Mapping[str, Sequence[RawFile]], named: Mapping[int, Named]) -> dict[str, str]:
+    """test -> what to ask of its start, where a part that the machine heats begins far above the air of the hall.
+
+    tests: test -> its files. named: id of a file -> (stream, signal) -> (quantity, place, channel). Sensors have
+    offsets, so the coolest start of all tests counts as at rest; without the air's temperature nothing is said.
+    """
+    above = {test: _above_air(files, named) for test, files in tests.items()}
+    found: dict[str, tuple[float, str]] = {}
+    for part in {p for parts in above.values() for p in parts}:
+        starts = {test: parts[part] for test, parts in above.items() if part in parts}
+        rest = min(starts.values())
+        for test, kelvin in starts.items() if len(starts) >= _FEWEST else ():
+            if kelvin - rest > max(_WARMER_K, found.get(test, (0.0, ""))[0]):
+                found[test] = (kelvin - rest, part)
+    return {
+        test: f"start_state: warm? {part} begins {kelvin:.1f} K further above the air than in the coolest test"
+        for test, (kelvin, part) in found.items()
+    }
+
+
+def _above_air(files: Sequence[RawFile], named: Mapping[int, Named]) -> dict[str, float]:
+    """Channel -> its first reading above that of the air [K], of the parts that the machine heats."""
+    first: dict[str, float] = {}
+    air: list[float] = []
+    for file in files:
+        names = named.get(id(file), {})
+        for signal in file.signals:
+            quantity, at, channel = names.get((signal.stream, signal.name), ("", None, ""))
+            seen = file.sample.values.get((signal.stream, signal.name))
+            if quantity != "temperature" or not at or seen is None or signal.scaling:
+                continue
+            try:
+                factor, offset = linear_conversion(signal.unit or "degC", "degC")
+            except UsageError:
+                continue
+            degrees = factor * seen.first + offset
+            if at.startswith("hall"):
+                air.append(degrees)
+            elif at.startswith(_HEATED):
+                first[channel] = degrees
+    return {channel: degrees - air[0] for channel, degrees in first.items()} if air else {}
