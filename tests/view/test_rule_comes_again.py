@@ -53,5 +53,8 @@ def test_a_probe_at_the_end_of_its_range_gives_the_range() -> None:
 
 
 def test_a_probe_that_creeps_is_at_no_end() -> None:
+    warm = np.where(np.arange(N) < 300, 0.0, 40 * (1 - np.exp(-(np.arange(N) - 300) / 8)))
+    warm[450:] = 40 * np.exp(-(np.arange(450, N) - 450) / 8)  # it stands at its warmest, and cools again
+    assert range_rule(predicted(warm), "um", 330 * 60.0, 449 * 60.0) is None
     assert range_rule(predicted(np.linspace(0, 50, N)), "um", 320 * 60.0, 399 * 60.0) is None
     assert range_rule(predicted(5 * np.sin(np.arange(N) / 90)), "um", 320 * 60.0, 399 * 60.0) is None

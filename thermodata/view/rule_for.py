@@ -26,6 +26,7 @@ TAKES, KEEPS = 0.9, 0.9  # of the samples inside, and of those outside
 KEEPS_WHERE_IT_COMES_AGAIN, _SMALLER = 0.5, 0.95
 # of the range of a probe: as good as its end, and apart from it; of a stretch: the least share at that end
 _SAME, _APART, _STANDS = 0.02, 0.5, 0.2
+_LEAPS = 0.2  # of the way to the end, from one sample to the next: heat takes its time, a probe that is left does not
 _MOST = 4
 _FEWEST = 5  # samples on either side
 
@@ -98,6 +99,9 @@ def range_rule(found: Prediction, unit: str, from_s: float, to_s: float) -> Rule
         if span <= 0 or (at_end & inside).sum() < _STANDS * inside.sum() or len(usual) < 0.5 * (counts & ~inside).sum():
             continue
         near = float(usual.max() if end > float(np.median(usual)) else usual.min())
+        arrives = np.flatnonzero(at_end[1:] & ~at_end[:-1])
+        if not len(arrives) or np.median(np.abs(np.diff(x)[arrives])) < _LEAPS * abs(end - near):
+            continue
         far = float(usual.min() if end > near else usual.max())
         limits = sorted((_short(0.5 * (near + end)), _short(far - 0.5 * (end - far))))
         kept = counts & (x >= limits[0]) & (x <= limits[1])
