@@ -134,7 +134,7 @@ class Worlds:
         known = frozenset(filter(None, problem.response.split(",")))
         return replace(self.made[id(one)], columns=one, evidence=self.evidence(one.candidate.effect.name, known))
 
-    def select(self, names: str, sound: Callable[[Scored], bool] = lambda s: True, **of: Any) -> Selection:
+    def select(self, names: Sequence[str], sound: Callable[[Scored], bool] = lambda s: True, **of: Any) -> Selection:
         pool = []
         for i, n in enumerate(names):
             one = scored(n, channels=(f"T_{i}",), shape=np.eye(len(names))[i].tolist(), **of)
@@ -234,6 +234,30 @@ def test_a_member_is_swapped_for_what_does_clearly_better_beside_the_others(
     assert members(found) == [taken, "c"]
     assert name(found.members[0].alone) == "a"
     assert members(world.select("abc", lambda s: name(s) != "b")) == ["a", "c"], "never for an unsound one"
+
+
+@pytest.mark.parametrize("sound_alone", [True, False])
+def test_a_lag_that_drove_out_the_name_that_is_preferred_to_it_gives_way_to_it(
+    monkeypatch: pytest.MonkeyPatch, sound_alone: bool
+) -> None:
+    """Chosen first by its name, the name explains little beside the lag that was added to it, and is dropped."""
+
+    def evidence(n: str, known: frozenset[str]) -> float:
+        return {"named": 1.0, "lag": 40.0}[n] if known else {"named": 90.0, "lag": 100.0}[n]
+
+    def preferring(ranked: Sequence[Scored]) -> Scored | None:
+        return next((s for s in ranked if name(s) == "named" and s.evidence > 80.0), ranked[0] if ranked else None)
+
+    world = Worlds(monkeypatch, evidence)
+    monkeypatch.setattr(selecting, "preferred", preferring)
+    found = world.select(
+        ["named", "lag"], lambda s: name(s) == "lag" or (s.evidence > 80.0 and (sound_alone or not len(s.rows)))
+    )
+    assert members(found) == ["named" if sound_alone else "lag"]
+    assert [name(s) for s in found.dropped] == ["named"]
+    if sound_alone:
+        assert name(found.members[0].alone) == "lag"
+        assert found.members[0].scored.credit == 90.0
 
 
 # ---- rankings

@@ -195,3 +195,18 @@ def test_a_first_model_says_which_other_axes_were_measured(tmp_path: Path, say: 
     assert say("init", tmp_path).code == 0
     text = (tmp_path / "model.yaml").read_text("utf-8")
     assert "response: {axis: Z, at: tcp}   # measured too: Y\n" in text
+
+
+def test_files_whose_values_nobody_had_time_for_are_said(
+    tmp_path: Path, say: Say, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """What a test was is then guessed from its name alone; an answer must not depend on a busy machine unsaid."""
+    for day in ("heat1", "heat2"):
+        lines = [f"{10 * i},{20 + i / 8:.3f}" for i in range(40)]
+        (tmp_path / f"{day}.csv").write_text("Time [s],T_front [degC]\n" + "\n".join(lines) + "\n")
+    said = "2 files were opened, and none of their values looked at"
+    assert said not in say("init", tmp_path).out + (tmp_path / "campaign.yaml").read_text()
+    (tmp_path / "campaign.yaml").unlink()
+    monkeypatch.setattr("thermodata.draft.scan._SAMPLES_S", -1.0)
+    found = say("init", tmp_path)
+    assert said in found.out + found.err + (tmp_path / "campaign.yaml").read_text()

@@ -150,6 +150,12 @@ def plan(campaign: str, folder: Path, found: Scan) -> Draft:
             f"{len(like)} files were not opened (too many): taken to be like others of their name, "
             f"e.g. {like[0].path} like {like[0].like}"
         )
+    unseen = [f for f in found.logs if not (f.like or f.sample.whole or f.sample.rows or f.sample.losses)]
+    if unseen:
+        notes.append(
+            f"{len(unseen)} files were opened, and none of their values looked at (the folder's time was up): their "
+            f"tests are drafted from their names alone, e.g. {unseen[0].path}; check these lines"
+        )
     return Draft(
         campaign, sources, tuple(channels), tuple(calibrations), tests, table, left_out, found.damaged, tuple(notes)
     )
