@@ -331,6 +331,8 @@ def test_an_ingest_that_is_ended_ends_its_workers_and_leaves_the_store_as_it_was
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
         start_new_session=True,
+        # who starts a test in the background of a shell hands it an ignored SIGINT
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
         text=True,
     )
     assert child.stderr is not None
