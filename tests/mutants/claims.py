@@ -179,8 +179,10 @@ MUTANTS = [
     diagnosis("selection.py", "chosen.pop(worst)", "chosen.pop()", "a sound effect goes for an unsound one"),
     diagnosis("selection.py", "worst = min(unsound", "worst = max(unsound", "the most likely one goes first"),
     diagnosis("selection.py", " and best.drop > own.drop", "", "a member is swapped for what foretells less"),
-    diagnosis("selection.py", "(given_way or (", "(False or (", "a lag that drove out a name takes its place"),
-    diagnosis("selection.py", "_clearly(best, own) and ", "", "members are swapped by a hair"),
+    diagnosis(
+        "selection.py", "(given_way or _clearly", "(False or _clearly", "a lag that drove out a name takes its place"
+    ),
+    diagnosis("selection.py", "_clearly(best, own)) and ", "True) and ", "members are swapped by a hair"),
     # ---- products
     products("null.py", "DRAWS = 199", "DRAWS = 99", "p cannot fall below its limit"),
     products("null.py", "1 + np.sum(chance >= evidence)", "np.sum(chance >= evidence)", "chance has no chance"),

@@ -209,12 +209,13 @@ def _member(
     sound: Callable[[Scored], bool],
 ) -> Member:
     """One that a sound candidate does clearly better, beside the others, is swapped for it; or one that is preferred to
-    it, as when it was chosen: a lag that was added beside a name, and then dropped it, is still not the lag's own."""
+    it, as in the choice: a lag that was added beside a name, and then drove it out, is still not the lag's own, where
+    the name foretells left-out tests better."""
     others = [c for i, c in enumerate(chosen) if i != number]
     ranking = rank_in(beside(problem, others), without(pool, others), noise)
     best = preferred(ranking.ranked)
     given_way = best is not None and ranking.ranked[0].columns is own.columns and best.columns is not own.columns
-    if best is not None and (given_way or (_clearly(best, own) and best.drop > own.drop)) and sound(best):
+    if best is not None and (given_way or _clearly(best, own)) and best.drop > own.drop and sound(best):
         # what it replaces leaves it the credit for what likelier and less likely members explain alike
         gained = best.evidence - own.evidence
         return Member(chosen[number], replace(best, credit=(own.credit or own.evidence) + gained), ranking.ranked)
