@@ -68,6 +68,15 @@ def test_a_square_wave_through_a_lag_is_found_again(tau_s: float, sign: int) -> 
     assert heat.predicted > 0.98
 
 
+def test_what_was_left_out_does_not_count_as_predicted() -> None:
+    """A source that turns on and off within the parts that are left out is explained where it is seen alone."""
+    rng = np.random.default_rng(3)
+    source = [np.repeat(rng.choice([0.0, 9.0], ROWS // 12), 12) for _ in range(6)]
+    heat = found_in(left_by(source, 1200.0))
+    assert heat.explained > 0.99
+    assert 0.6 < heat.predicted < 0.9
+
+
 @pytest.mark.parametrize("seed", [2, 3, 4])
 def test_a_source_is_never_negative(seed: int) -> None:
     heat = found_in(left_by(sources(seed), 2400.0, noise=0.5))

@@ -311,7 +311,7 @@ MUTANTS = [
         "_BACK = 0.3",
         "_BACK = 0.0",
         "what comes back by itself is an offset",
-        ("tests/calibration/test_quality_step.py",),
+        ("tests/calibration/test_quality.py",),
     ),
     # ---- what is shown
     diagnosis("weak.py", "STANDS_OUT = 1.3", "STANDS_OUT = 1.0", "every second window is weak"),
