@@ -258,8 +258,13 @@ def test_a_lag_that_drove_out_the_name_that_is_preferred_to_it_gives_way_to_it(
 
     monkeypatch.setattr(world, "_scored", as_left_out)
     monkeypatch.setattr(selecting, "preferred", preferring)
-    found = world.select(["named", "lag"], lambda s: name(s) == "lag" or s.evidence > 80.0)
+
+    def sound(one: Scored) -> bool:
+        return name(one) == "lag" or one.evidence > 80.0
+
+    found = world.select(["named", "lag"], sound, family="generic")
     assert members(found) == [taken]
+    assert members(world.select(["named", "lag"], sound, family="feed_x")) == ["lag"], "between names evidence decides"
     assert [name(s) for s in found.dropped] == ["named"]
     assert name(found.members[0].alone) == "lag"
     assert found.members[0].scored.credit == (90.0 if taken == "named" else 100.0)

@@ -180,9 +180,12 @@ MUTANTS = [
     diagnosis("selection.py", "worst = min(unsound", "worst = max(unsound", "the most likely one goes first"),
     diagnosis("selection.py", " and best.drop > own.drop", "", "a member is swapped for what foretells less"),
     diagnosis(
-        "selection.py", "(given_way or _clearly", "(False or _clearly", "a lag that drove out a name takes its place"
+        "selection.py",
+        "(_drove_out(own, best, ranking) or _clearly",
+        "(_clearly",
+        "a lag that drove out a name takes its place",
     ),
-    diagnosis("selection.py", "_clearly(best, own)) and ", "True) and ", "members are swapped by a hair"),
+    diagnosis("selection.py", " or _clearly(best, own))", " or True)", "members are swapped by a hair"),
     # ---- products
     products("null.py", "DRAWS = 199", "DRAWS = 99", "p cannot fall below its limit"),
     products("null.py", "1 + np.sum(chance >= evidence)", "np.sum(chance >= evidence)", "chance has no chance"),

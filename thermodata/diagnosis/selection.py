@@ -214,12 +214,22 @@ def _member(
     others = [c for i, c in enumerate(chosen) if i != number]
     ranking = rank_in(beside(problem, others), without(pool, others), noise)
     best = preferred(ranking.ranked)
-    given_way = best is not None and ranking.ranked[0].columns is own.columns and best.columns is not own.columns
-    if best is not None and (given_way or _clearly(best, own)) and best.drop > own.drop and sound(best):
+    if (
+        best is not None
+        and (_drove_out(own, best, ranking) or _clearly(best, own))
+        and best.drop > own.drop
+        and sound(best)
+    ):
         # what it replaces leaves it the credit for what likelier and less likely members explain alike
         gained = best.evidence - own.evidence
         return Member(chosen[number], replace(best, credit=(own.credit or own.evidence) + gained), ranking.ranked)
     return Member(chosen[number], own, ranking.ranked)
+
+
+def _drove_out(own: Scored, best: Scored, ranking: Ranked) -> bool:
+    """Whether a lag is the likeliest, and a name is preferred to it."""
+    lag = own.candidate.family in UNNAMED and not own.candidate.within
+    return lag and ranking.ranked[0].columns is own.columns and best.columns is not own.columns
 
 
 def _clearly(best: Scored, own: Scored) -> bool:
