@@ -48,6 +48,19 @@ def test_a_rule_stands_beside_the_one_that_was_there() -> None:
     assert by_id(bracketed)["warm"].measuring == "(T1 < 30 or T2 < 30) and T2 == 3"  # type: ignore[attr-defined]
 
 
+@pytest.mark.parametrize(
+    ("before", "rule", "after"),
+    [
+        ("T2 == 3.5", "T2 == 3", "T2 == 3.5 and T2 == 3"),
+        ("T1 > 5 or T2 == 3", "T2 == 3", "(T1 > 5 or T2 == 3) and T2 == 3"),
+        ("T1 > 5 and T2 == 3", "T2 == 3", "T1 > 5 and T2 == 3"),
+    ],
+)
+def test_a_rule_is_there_already_only_as_a_whole_condition(before: str, rule: str, after: str) -> None:
+    text = put(put(TEXT, "day", f'measuring: "{before}"'), "day", f'measuring: "{rule}"')
+    assert by_id(text)["day"].measuring == after  # type: ignore[attr-defined]
+
+
 def test_a_range_stands_beside_an_expression() -> None:
     text = put(put(TEXT, "day", 'measuring: "T2 == 3"'), "day", "measuring: {in_range: {dZ: [-50 um, 90 um]}}")
     rule = by_id(text)["day"].measuring  # type: ignore[attr-defined]

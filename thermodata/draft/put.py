@@ -59,7 +59,7 @@ def _rule(before: Any, rule: Any) -> str:
     made = {**one, **two}
     if "when" in one and "when" in two:
         first, second = str(one["when"]), str(two["when"])
-        made["when"] = first if second in first else f"{_bracketed(first)} and {_bracketed(second)}"
+        made["when"] = first if _says(first, second) else f"{_bracketed(first)} and {_bracketed(second)}"
     if "in_range" in one and "in_range" in two:
         if not (isinstance(one["in_range"], Mapping) and isinstance(two["in_range"], Mapping)):
             raise UsageError(
@@ -78,6 +78,12 @@ def _long(rule: Any) -> dict[str, Any]:
     if isinstance(rule, Mapping):
         return dict(rule)
     return {"in_range": rule} if rule == "in_range" else {"when": str(rule)}
+
+
+def _says(rule: str, part: str) -> bool:
+    """Whether a part stands in a rule as one of the conditions that all must hold: '== 0' begins '== 0.5', and what
+    stands before an 'or' need not hold."""
+    return part == rule or (" or " not in rule and part in rule.split(" and "))
 
 
 def _bracketed(rule: str) -> str:
