@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -12,6 +14,8 @@ from thermodata.errors import SpecError
 from thermodata.schema.flag import Flag
 from thermodata.store import Store
 from thermodata.store.ingest.run import ingest
+from thermodata.store.tidy.clock_lent import lent
+from thermodata.store.tidy.source_clock import Clock
 
 ALIGNED = CAMPAIGN.replace(
     'files: "raw/{test}.nc.npz"}',
@@ -66,9 +70,9 @@ def test_a_clock_that_cannot_be_aligned_is_suspect_and_told(store: Store, tmp_pa
     assert flags == [(int(Flag.CLOCK_SUSPECT),)]
 
 
-@pytest.mark.parametrize(("apart_s", "lent"), [(4.0, True), (300.0, False)])
+@pytest.mark.parametrize(("apart_s", "alike"), [(4.0, True), (300.0, False)])
 def test_an_idle_test_has_its_clock_by_the_others_where_they_agree(
-    store: Store, tmp_path: Path, apart_s: float, lent: bool
+    store: Store, tmp_path: Path, apart_s: float, alike: bool
 ) -> None:
     text = ALIGNED + "  - {id: idle, kind: etve, role: none}\n"
     for test, off_s in (("one", 250.0), ("two", 250.0 + apart_s), ("idle", 0.0)):
@@ -79,11 +83,22 @@ def test_an_idle_test_has_its_clock_by_the_others_where_they_agree(
         flags = con.execute(
             "select distinct flag & 64 from driver where channel = 'speed' and test = 'idle'"
         ).fetchall()
-    assert flags == [(0 if lent else int(Flag.CLOCK_SUSPECT),)]
-    assert offset == (pytest.approx(252e9, abs=3e9) if lent else 0)
-    assert any("by 2 other tests" in note for note in summary.notes) == lent
-    assert any("not aligned" in loss["reason"] for loss in summary.losses) != lent
+    assert flags == [(0 if alike else int(Flag.CLOCK_SUSPECT),)]
+    assert offset == (pytest.approx(252e9, abs=3e9) if alike else 0)
+    assert any("by 2 other tests" in note for note in summary.notes) == alike
+    assert any("not aligned" in loss["reason"] for loss in summary.losses) != alike
     assert not ingest(store, path).changed
+
+
+@pytest.mark.parametrize(("events", "moved"), [((), True), (("seen by a person",), False)])
+def test_events_that_a_person_declared_are_not_overruled_by_other_tests(events: tuple[str, ...], moved: bool) -> None:
+    dated = SimpleNamespace(raws=[SimpleNamespace(clock="absolute", start_ns=None)])
+    dated.spec = SimpleNamespace(clock=SimpleNamespace(events=events))
+    plans: list[Any] = [SimpleNamespace(test=SimpleNamespace(id=t), sources={"nc": dated}) for t in "abc"]
+    told = Clock(250_000_000_000, 0.0, 0, key="k")
+    clocks = {"a": {"nc": told}, "b": {"nc": told}, "c": {"nc": Clock(0, 0.0, 0, True, "k", ("they contradict",))}}
+    found = lent(plans, clocks)["c"]["nc"]
+    assert (found.offset_ns, found.suspect) == ((250_000_000_000, False) if moved else (0, True))
 
 
 def test_clocks_in_a_circle_are_refused(store: Store, tmp_path: Path) -> None:

@@ -17,14 +17,15 @@ def lent(plans: Sequence[TestPlan], clocks: Mapping[str, Mapping[str, Clock]]) -
     """The clocks of all tests, those that their own test leaves open (an idle spindle tells nothing) by the others.
 
     clocks: test -> source -> clock. A logger that counts from its own start is left alone: each start is another. So
-    is one whose tests disagree by more than a minute: its clock runs away, or was set between them.
+    is one whose tests disagree by more than a minute: its clock runs away, or was set between them. Events that a
+    person declared are not overruled: where they contradict each other, they are to be mended.
     """
     found = {test: dict(own) for test, own in clocks.items()}
     dated = {
         (p.test.id, name)
         for p in plans
         for name, source in p.sources.items()
-        if source.raws and not is_relative(source)
+        if source.raws and not is_relative(source) and not source.spec.clock.events
     }
     for source in {name for own in clocks.values() for name in own}:
         told = [c for t, own in clocks.items() if (c := own.get(source)) and (t, source) in dated and _told(c)]
