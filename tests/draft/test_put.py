@@ -129,7 +129,6 @@ def test_a_first_model_follows_the_answers_until_somebody_changes_it(tmp_path: P
     model.write_text(drafted)
     answered = filled_in(TEXT, {"channels.T1.at": "spindle.bearing.front"})
     kept, followed = write_answered(path, answered)
-    assert kept is not None
     assert kept.read_text() == TEXT
     assert followed
     assert "spindle_bearing, drivers: {temperature: T1}" in model.read_text()
@@ -137,3 +136,22 @@ def test_a_first_model_follows_the_answers_until_somebody_changes_it(tmp_path: P
     assert write_answered(path, put(answered, "day", "window: [1 s, 2 s]"))[1] is False
     assert write_answered(path, TEXT)[1] is False
     assert model.read_text() == own
+
+
+def test_a_write_that_dies_leaves_the_campaign_file_whole(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    path = tmp_path / "campaign.yaml"
+    path.write_text(TEXT)
+    answered = filled_in(TEXT, {"channels.T1.at": "spindle.bearing.front"})
+
+    def die(*_: object) -> None:
+        raise KeyboardInterrupt
+
+    with monkeypatch.context() as change:
+        change.setattr("thermodata.store.base.files.publish", die)
+        with pytest.raises(KeyboardInterrupt):
+            write_answered(path, answered)
+    assert path.read_text() == TEXT
+    assert [p.name for p in tmp_path.iterdir() if p.suffix != ".yaml"] == [], "nothing half-written stays"
+    kept, _ = write_answered(path, answered)
+    assert path.read_text() == answered
+    assert kept.name == "campaign.2.yaml", "an earlier copy is not written over"

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -13,7 +14,7 @@ from thermodata.draft.scan import Progress, scan
 from thermodata.draft.write import questions_in, text_of
 from thermodata.errors import UsageError
 from thermodata.schema.load import load_campaign, load_model, parse_campaign
-from thermodata.store.base.files import write_text
+from thermodata.store.base.files import write_error, write_text
 
 
 @dataclass(frozen=True, slots=True)
@@ -76,32 +77,51 @@ def plain_name(text: str) -> str:
     return text if text.isascii() else plain(text)
 
 
-def write_answered(path: Path, text: str) -> tuple[Path | None, bool]:
+def write_answered(path: Path, text: str) -> tuple[Path, bool]:
     """A campaign file with other text; the one before is kept as campaign.N.yaml. A first model beside it that nobody
     has changed since it was drafted follows the answers. (where the one before is, whether the model followed).
-    SpecError where the text does not load."""
+    SpecError where the text does not load; StoreError where a file can't be written."""
     after = parse_campaign(text, path.name)
     before = load_campaign(path)
     model = path.with_name("model.yaml")
     untouched = model.is_file() and model.read_text(encoding="utf-8") == model_text_of(before)
     anew = model_text_of(after)
-    kept = keep(path)
-    write_new(path, text)
+    # at no moment is there no campaign file, or half of one
+    kept = _copied(path)
+    write_text(path, text)
     follows = anew is not None and (untouched or not model.exists())
     if follows and anew is not None and (not model.exists() or model.read_text(encoding="utf-8") != anew):
         write_text(model, anew)
-        return (kept[1] if kept else None), True
-    return (kept[1] if kept else None), False
+        return kept, True
+    return kept, False
 
 
 def keep(path: Path) -> tuple[Path, Path] | None:
     """Moves a file that is there out of the way: campaign.yaml to campaign.1.yaml. (before, after), or None."""
     if not path.exists():
         return None
-    names = (path.with_name(f"{path.stem}.{n}{path.suffix}") for n in range(1, 10_000))
-    kept = next(p for p in names if not p.exists())
+    kept = next(p for p in _names_of_kept(path) if not p.exists())
     path.rename(kept)
     return path, kept
+
+
+def _copied(path: Path) -> Path:
+    """The copy of a file as campaign.1.yaml, or the next number that nobody takes meanwhile."""
+    before = path.read_bytes()
+    for name in _names_of_kept(path):
+        try:
+            with name.open("xb") as file:
+                file.write(before)
+        except FileExistsError:
+            continue
+        except OSError as error:
+            raise write_error(name, error) from error
+        return name
+    raise UsageError("too many earlier files are kept beside it", where=str(path), hint="move some away")
+
+
+def _names_of_kept(path: Path) -> Iterator[Path]:
+    return (path.with_name(f"{path.stem}.{n}{path.suffix}") for n in range(1, 10_000))
 
 
 def write_new(out: Path, text: str) -> None:
