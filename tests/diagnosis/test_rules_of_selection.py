@@ -211,6 +211,37 @@ def test_it_is_asked_again_twice(monkeypatch: pytest.MonkeyPatch) -> None:
     assert members(world.select("abe", lambda s: s.candidate.effect.name == "e")) == ["e"]
 
 
+@pytest.mark.parametrize(("beside_c", "kept"), [(10.1, ["c", "a"]), (9.9, ["c"])])
+def test_what_went_beside_one_that_went_later_is_asked_again(
+    monkeypatch: pytest.MonkeyPatch, beside_c: float, kept: list[str]
+) -> None:
+    """a is unsound beside b only, and the least likely of both."""
+
+    def evidence(n: str, known: frozenset[str]) -> float:
+        if n == "a":
+            return 90.0 if not known else 20.0 if "b" in known else beside_c
+        return {"b": 40.0, "c": 100.0}[n]
+
+    def sound(s: Scored) -> bool:
+        return name(s) == "c" or (name(s) == "a" and s.evidence != 20.0)
+
+    world = Worlds(monkeypatch, evidence)
+    found = world.select("abc", sound)
+    assert sorted(str(n) for n in members(found)) == sorted(kept)
+    assert {name(s) for s in found.dropped} == set("abc") - set(kept)
+
+
+def test_it_comes_back_only_where_all_are_sound_with_it(monkeypatch: pytest.MonkeyPatch) -> None:
+    """c is sound while a is out."""
+
+    def evidence(n: str, known: frozenset[str]) -> float:
+        return {"a": 31.0 if known else 30.0, "c": 50.0 if "a" in known else 100.0}[n]
+
+    world = Worlds(monkeypatch, evidence)
+    found = world.select("ac", lambda s: s.evidence not in (50.0, 30.0))
+    assert (members(found), [name(s) for s in found.dropped]) == (["c"], ["a"])
+
+
 @pytest.mark.parametrize(("other", "after", "taken"), [(106.0, 0.3, "b"), (105.0, 0.3, "a"), (106.0, 0.5, "a")])
 def test_a_member_is_swapped_for_what_does_clearly_better_beside_the_others(
     monkeypatch: pytest.MonkeyPatch, other: float, after: float, taken: str

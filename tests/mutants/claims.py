@@ -59,11 +59,18 @@ def calibration(file: str, old: str, new: str, why: str) -> Mutant:
 MUTANTS = [
     # ---- a claim
     diagnosis("rules.py", "P_LIMIT = 0.01", "P_LIMIT = 0.9", "chance is claimed as a cause"),
-    diagnosis("rules.py", "(3.13, 2.43, -0.97)", "(5.13, 2.43, -0.97)", "an answer is too sure of itself"),
-    diagnosis("rules.py", "2.43, -0.97)", "2.43, 0.0)", "an answer is sure of a proxy of another gain a test"),
-    diagnosis("rules.py", "\nCLAIMED = 0.7", "\nCLAIMED = 0.6", "what is slow stands in for a cause"),
+    diagnosis("rules.py", "(2.6, 2.15, ", "(4.6, 2.15, ", "an answer is too sure of itself"),
+    diagnosis("rules.py", "2.15, 0.9, ", "2.15, 0.0, ", "an answer is sure of what hardly lowers the error"),
+    diagnosis("rules.py", "-1.1, -2.65)", "0.0, -2.65)", "what a sharper cause leaves is claimed"),
+    diagnosis("rules.py", "-1.1, -2.65)", "-1.1, 0.0)", "a casting that follows the cause is claimed"),
+    diagnosis(
+        "rules.py", "FALLS = (-0.2, 1.0)", "FALLS = (-9.0, 1.0)", "a misfit of the known effects refutes a cause"
+    ),
+    diagnosis("rules.py", "\nCLAIMED = 0.65", "\nCLAIMED = 0.55", "what is slow stands in for a cause"),
     diagnosis("rules.py", "PLACELESS_CLAIMED = 0.5", "PLACELESS_CLAIMED = 0.7", "nothing is ever claimed"),
-    diagnosis("rules.py", "USUAL_SPREAD = 0.15", "USUAL_SPREAD = 1.0", "what acts in one test is never claimed"),
+    diagnosis("candidates.py", "passive = placed and family", "passive = family", "without places nothing is claimed"),
+    diagnosis("candidates.py", "channel.at is None or is_casting", "is_casting", "a sensor of no place is a cause"),
+    diagnosis("candidates.py", " or is_casting(channel.at))", ")", "a casting that follows the cause is claimed"),
     diagnosis(
         "rules.py", "OVERWHELMING = 0.5", "OVERWHELMING = 0.3", "left-out tests that speak against it are not heard"
     ),
@@ -89,7 +96,10 @@ MUTANTS = [
     # ---- verdict
     diagnosis("judge.py", "if len(problem.blocks) < 2:", "if len(problem.blocks) < 1:", "one test makes a claim"),
     diagnosis("judge.py", "MOST_CLAIMS = 3", "MOST_CLAIMS = 9", "everything is claimed at once"),
-    diagnosis("judge.py", "BESIDE_SHARP_LIMIT = 0.3", "BESIDE_SHARP_LIMIT = 0.1", "what the first leaves is claimed"),
+    diagnosis("judge.py", "beaten=True", "beaten=False", "what a sharper cause leaves is claimed"),
+    diagnosis(
+        "judge.py", "for j in members if j.refines is None), default", "for j in members), default", "a mode hides"
+    ),
     diagnosis("judge.py", "if left <= measure.floor and not halved:", "if left < 0:", "'none' is never said"),
     diagnosis("judge.py", "if j.refines is None and blunt(j.scored) is None", "if j.refines is None", "proxies"),
     diagnosis("judge.py", "if j.refines is None and blunt", "if blunt", "a refinement is claimed as a cause"),
@@ -107,6 +117,7 @@ MUTANTS = [
     diagnosis("refinement.py", "REPLACED = 0.1", "REPLACED = 0.5", "a cause that overlaps takes a place"),
     diagnosis("refinement.py", "WORTH = 20.0", "WORTH = 0.0", "an effect that was never there is replaced"),
     diagnosis("refinement.py", "LIKE = 0.9 ", "LIKE = 0.1 ", "a cause takes the place of a stranger"),
+    diagnosis("refinement.py", "EVIDENT = 1.0", "EVIDENT = 9.0", "what is evident is told a zero of another"),
     diagnosis("refinement.py", "SMALL = 0.6 ", "SMALL = 0.1 ", "a small mode is claimed as a cause"),
     diagnosis("refinement.py", "not most and blunt(scored) and", "not most and", "a sure cause passes as another mode"),
     diagnosis("refinement.py", "OPPOSITE = -0.8", "OPPOSITE = 0.9", "heat is said to count from another zero"),
@@ -176,6 +187,14 @@ MUTANTS = [
     diagnosis("selection.py", "ALIKE_SHARE = 0.8", "ALIKE_SHARE = 0.2", "a name elsewhere is taken for physics"),
     diagnosis("selection.py", "\nALIKE = 0.8", "\nALIKE = 0.1", "a name elsewhere is taken for physics"),
     diagnosis("selection.py", "FEWER_SHARE = 0.8", "FEWER_SHARE = 0.2", "half of a cause is preferred"),
+    diagnosis("selection.py", "noise = _second_chance(problem, chosen, dropped, noise, sound)", "", "twins drop both"),
+    diagnosis("selection.py", "if worth >= WORTH and all(", "if all(", "trifles come back"),
+    diagnosis(
+        "selection.py",
+        "if worth >= WORTH and all(sound(s) for s in _each_beside_others(problem, tried, quieter)):",
+        "if worth >= WORTH:",
+        "what is unsound comes back",
+    ),
     diagnosis("selection.py", "chosen.pop(worst)", "chosen.pop()", "a sound effect goes for an unsound one"),
     diagnosis("selection.py", "worst = min(unsound", "worst = max(unsound", "the most likely one goes first"),
     diagnosis("selection.py", " and best.drop > own.drop", "", "a member is swapped for what foretells less"),

@@ -17,7 +17,7 @@ from thermodata.diagnosis.known import known, rms
 from thermodata.diagnosis.known_effects import from_other_zero, is_warm, owners
 from thermodata.diagnosis.present import GENERIC
 from thermodata.diagnosis.problem import Block, Problem
-from thermodata.diagnosis.rules import acting_size, blunt
+from thermodata.diagnosis.rules import acting_size, blunt, sharpness
 from thermodata.diagnosis.scored import Scored
 from thermodata.diagnosis.selection import beside
 from thermodata.modelling.fitted_response import FittedResponse
@@ -36,6 +36,7 @@ LIKE = 0.9  # and both act alike (cosine)
 SMALL = 0.6  # of the known effect's size: kin that does less is another mode of it
 OPPOSITE = -0.8  # cosine with the known effect driven by the candidate's temperature,
 SHARE = (0.2, 1.5)  # and how much of it that takes away
+EVIDENT = 1.0  # log evidence a sample: another zero changes little, and leaves no such trace
 
 
 class Refinement:
@@ -65,7 +66,7 @@ class Refinement:
         for number, term in enumerate(self.fitted.terms):
             if may_replace and self._replaces(scored, number):
                 return f"it takes the place of {term.id}"
-            if not good:
+            if not good or sharpness(scored) >= EVIDENT:
                 continue
             channel = self._other_zero(scored, number)
             if channel is not None:

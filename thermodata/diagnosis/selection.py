@@ -69,7 +69,8 @@ def first_ranking(problem: Problem, candidates: Sequence[CandidateEffect]) -> Ra
 
 def select(problem: Problem, first: Ranked, sound: Callable[[Scored], bool]) -> Selection:
     """Forward by evidence, then what is not sound beside the others goes, the least likely first; and again, for what
-    it stood in the way of. sound: whether a candidate keeps the rules of a claim."""
+    it stood in the way of; at last what was dropped beside others that went later is asked again. sound: whether a
+    candidate keeps the rules of a claim."""
     pool, noise = [s.columns for s in first.ranked], first.known.space.noise
     chosen: list[Scored] = []
     current: list[Scored] = []
@@ -89,6 +90,8 @@ def select(problem: Problem, first: Ranked, sound: Callable[[Scored], bool]) -> 
             current = _each_beside_others(problem, chosen, noise)
         if len(dropped) == before:
             break
+    noise = _second_chance(problem, chosen, dropped, noise, sound)
+    current = _each_beside_others(problem, chosen, noise)
     credits = _credits(problem, current, noise)
     current = [replace(s, credit=c) for s, c in zip(current, credits, strict=True)]
     members = tuple(_member(problem, pool, chosen, i, current[i], noise, sound) for i in range(len(chosen)))
@@ -114,6 +117,32 @@ def _forward(
         if best.columns is not found.best:
             noise = likeliest(full, noise)
         last = rank_in(full, rest, noise, left_out=False)
+
+
+def _second_chance(
+    problem: Problem, chosen: list[Scored], dropped: list[Scored], noise: Noise, sound: Callable[[Scored], bool]
+) -> Noise:
+    """Moves from the dropped to the chosen, likeliest first, what is worth it and leaves the whole set sound. The noise
+    beside what is chosen then."""
+    left = list(dropped)
+    for _ in range(TRIED):
+        if not left or len(chosen) >= MOST:
+            break
+        base = beside(problem, chosen)
+        ranked = rank_in(base, [s.columns for s in left], noise).ranked
+        best = preferred(ranked)
+        if best is None:
+            break
+        left = [s for s in left if s.columns is not best.columns]
+        tried = [*chosen, best]
+        full = beside(base, [best])
+        quieter = likeliest(full, noise)
+        worth = known(full, quieter).log_evidence - known(base, quieter).log_evidence
+        if worth >= WORTH and all(sound(s) for s in _each_beside_others(problem, tried, quieter)):
+            chosen.append(best)
+            dropped[:] = [s for s in dropped if s.columns is not best.columns]
+            noise = quieter
+    return noise
 
 
 @dataclass(frozen=True, slots=True)
