@@ -83,6 +83,26 @@ def test_what_is_dull_beside_a_sharper_cause_is_no_claim_whatever_its_name(
     assert names(verdict(scored("b", evidence=68.0), scored("mode"), refined=["mode"]).claims) == ["b"]
 
 
+@pytest.mark.parametrize(
+    ("second", "claimed"),
+    [
+        ({"family": "feed_x", "channels": ("T_a", "T_b")}, ["a"]),
+        ({"family": "feed_x", "channels": ("T_b",)}, ["a", "b"]),
+        ({"family": "feed_y", "channels": ("T_a",)}, ["a", "b"]),
+    ],
+)
+def test_a_family_on_the_same_channels_is_one_cause(second: dict[str, Any], claimed: list[str]) -> None:
+    sharper, duller = scored("a", evidence=900.0, family="feed_x"), scored("b", evidence=800.0, **second)
+    for order in ((sharper, duller), (duller, sharper)):
+        assert sorted(names(verdict(*order).claims)) == claimed
+
+
+@pytest.mark.parametrize("family", ["generic", "control"])
+def test_what_has_no_name_is_of_no_family(family: str) -> None:
+    both = scored("a", evidence=900.0, family=family), scored("b", evidence=800.0, family=family)
+    assert names(verdict(*both).claims) == ["a", "b"]
+
+
 def test_three_are_claimed_at_once() -> None:
     assert names(verdict(*(scored(n) for n in "abcd")).claims) == ["a", "b", "c"]
 

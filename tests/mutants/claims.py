@@ -96,6 +96,10 @@ MUTANTS = [
     # ---- verdict
     diagnosis("judge.py", "if len(problem.blocks) < 2:", "if len(problem.blocks) < 1:", "one test makes a claim"),
     diagnosis("judge.py", "MOST_CLAIMS = 3", "MOST_CLAIMS = 9", "everything is claimed at once"),
+    diagnosis("judge.py", "named and shared and", "named and", "a second axis of a family is never claimed"),
+    diagnosis("judge.py", "named and shared and", "shared and", "two causes at one channel are one"),
+    diagnosis("judge.py", " and mine.family not in (GENERIC, CONTROL)", "", "two lags are one"),
+    diagnosis("judge.py", "if not any(again(j, other) for other in claims)", "", "one cause is claimed twice"),
     diagnosis("judge.py", "beaten=True", "beaten=False", "what a sharper cause leaves is claimed"),
     diagnosis(
         "judge.py", "for j in members if j.refines is None), default", "for j in members), default", "a mode hides"

@@ -8,6 +8,7 @@ from typing import Literal
 
 import numpy as np
 
+from thermodata.diagnosis.present import CONTROL, GENERIC
 from thermodata.diagnosis.problem import Problem
 from thermodata.diagnosis.rules import FLOOR_SHARE, GOOD_SHARE, Measure, blunt, failed_rules, halves, sharpness
 from thermodata.diagnosis.scored import Scored
@@ -61,7 +62,7 @@ def judge(
     if selection is None:
         return _nothing("not_testable", "no effect of the library fits the channels that were logged")
     judged = _beside_each_other([Judged(m.scored, m.alone, refines(m.scored), m.beside) for m in selection.members])
-    claims = tuple(j for j in judged if j.refines is None and blunt(j.scored) is None)[:MOST_CLAIMS]
+    claims = _causes([j for j in judged if j.refines is None and blunt(j.scored) is None])[:MOST_CLAIMS]
     kept = tuple(j for j in judged if j.refines is not None)
     if claims:
         return Judgement("effect", claims, kept, judged, "")
@@ -113,6 +114,18 @@ def _beside_each_other(members: Sequence[Judged]) -> tuple[Judged, ...]:
         return replace(j, scored=replace(j.scored, beaten=True)) if beaten else j
 
     return tuple(told(j) for j in members)
+
+
+def _causes(claims: Sequence[Judged]) -> tuple[Judged, ...]:
+    """Without what a sharper one of the same family says of the same channels: it is one cause, in two modes."""
+
+    def again(j: Judged, other: Judged) -> bool:
+        mine, theirs = j.scored.candidate, other.scored.candidate
+        named = mine.family == theirs.family and mine.family not in (GENERIC, CONTROL)
+        shared = not set(mine.channels).isdisjoint(theirs.channels)
+        return named and shared and sharpness(j.scored) < sharpness(other.scored)
+
+    return tuple(j for j in claims if not any(again(j, other) for other in claims))
 
 
 def equivalents(chosen: Scored, ranked: Sequence[Scored]) -> list[Scored]:
