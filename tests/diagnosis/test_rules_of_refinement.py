@@ -217,7 +217,9 @@ ZERO = "it acts as term0 would if its temperature counted from T_a"
 
 def test_what_acts_as_minus_a_known_effect_counts_from_another_zero(monkeypatch: pytest.MonkeyPatch) -> None:
     assert counted(monkeypatch) == ZERO
-    assert counted(monkeypatch, family="generic") == ZERO
+    assert counted(monkeypatch, family="generic", passive=True) == ZERO
+    assert counted(monkeypatch, family="generic", placeless=True) == ZERO
+    assert counted(monkeypatch, family="generic") is None, "a source of heat surrounds nothing"
     assert counted(monkeypatch, family="feed_y") is None, "what names a heat means it"
     assert counted(monkeypatch, families="ambient") is None, "the air counts from nothing"
     assert counted(monkeypatch, channels=("T_a", "T_b")) is None

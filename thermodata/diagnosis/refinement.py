@@ -10,7 +10,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from thermodata.diagnosis.candidates import refines
+from thermodata.diagnosis.candidates import CandidateEffect, refines
 from thermodata.diagnosis.changed import ChangedEffect
 from thermodata.diagnosis.discrepancy import Noise
 from thermodata.diagnosis.known import known, rms
@@ -119,7 +119,7 @@ class Refinement:
 
     def _other_zero(self, scored: Scored, term: int) -> str | None:
         channels = scored.candidate.channels
-        if self.fitted.terms[term].family == AIR or scored.candidate.family not in (AIR, GENERIC):
+        if self.fitted.terms[term].family == AIR or not _surrounds(scored.candidate):
             return None
         if len(channels) != 1 or not is_warm(self.problem.blocks[0].test, channels[0]):
             return None
@@ -133,6 +133,12 @@ class Refinement:
             alike.append((columns[:, point] @ scored.weighed.coefficients, block.compress(other[:, None])[:, 0]))
         own, theirs = (np.concatenate(side) for side in zip(*alike, strict=True))
         return channels[0] if _takes_away(own, theirs) else None
+
+
+def _surrounds(candidate: CandidateEffect) -> bool:
+    """Whether it reads what a warm part may count from: the air, a casting, or what nobody declared a place of."""
+    body = candidate.passive or candidate.placeless
+    return candidate.family == AIR or (candidate.family == GENERIC and body)
 
 
 def _takes_away(own: Float1D, theirs: Float1D) -> bool:
