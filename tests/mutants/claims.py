@@ -203,7 +203,14 @@ MUTANTS = [
     ),
     diagnosis("selection.py", "chosen.pop(worst)", "chosen.pop()", "a sound effect goes for an unsound one"),
     diagnosis("selection.py", "worst = min(unsound", "worst = max(unsound", "the most likely one goes first"),
-    diagnosis("selection.py", " and best.drop > own.drop", "", "a member is swapped for what foretells less"),
+    diagnosis(
+        "selection.py", "        and _foretells_more(best, own)\n", "", "a member is swapped for what foretells less"
+    ),
+    diagnosis(
+        "selection.py", " or (own.candidate.passive and best.drop >= NAMED_SHARE * own.drop)", "", "a casting stands"
+    ),
+    diagnosis("selection.py", "own.candidate.passive and best.drop", "best.drop", "a name takes a cause's place"),
+    diagnosis("selection.py", "(best.candidate.passive or len(other", "(len(other", "a casting hides what bends it"),
     diagnosis(
         "selection.py",
         "(_drove_out(own, best, ranking) or _clearly",

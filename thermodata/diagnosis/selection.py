@@ -27,7 +27,7 @@ PASSES = 3
 WORTH = 10.0  # log evidence that a further effect must bring
 # a name, or fewer channels, is worth this share of the evidence: what a lag explains as well is not the lag's own
 NAMED_SHARE = 0.95
-ALIKE_SHARE = 0.8  # the same for a name on another channel that acts alike (cosine)
+ALIKE_SHARE = 0.8  # the same for a name on another channel, or beside a passive lag, that acts alike (cosine)
 ALIKE = 0.8
 FEWER_SHARE = 0.8
 STANDS = 0.15  # of the first one's evidence: less, and no noise brings a candidate to the front
@@ -246,7 +246,7 @@ def _member(
     if (
         best is not None
         and (_drove_out(own, best, ranking) or _clearly(best, own))
-        and best.drop > own.drop
+        and _foretells_more(best, own)
         and sound(best)
     ):
         # what it replaces leaves it the credit for what likelier and less likely members explain alike
@@ -259,6 +259,11 @@ def _drove_out(own: Scored, best: Scored, ranking: Ranked) -> bool:
     """Whether a lag is the likeliest, and a name is preferred to it."""
     lag = own.candidate.family in UNNAMED and not own.candidate.within
     return lag and ranking.ranked[0].columns is own.columns and best.columns is not own.columns
+
+
+def _foretells_more(best: Scored, own: Scored) -> bool:
+    """Left-out tests, or nearly as much where its rival could be no cause."""
+    return best.drop > own.drop or (own.candidate.passive and best.drop >= NAMED_SHARE * own.drop)
 
 
 def _clearly(best: Scored, own: Scored) -> bool:
@@ -289,7 +294,7 @@ def preferred(ranked: Sequence[Scored]) -> Scored | None:
         elsewhere = (
             best.candidate.family in UNNAMED
             and other.candidate.family not in UNNAMED
-            and len(other.candidate.channels) == 1
+            and (best.candidate.passive or len(other.candidate.channels) == 1)
             and abs(float(best.shape @ other.shape)) > ALIKE
         )
         if (
