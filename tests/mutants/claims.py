@@ -76,7 +76,9 @@ MUTANTS = [
     ),
     diagnosis("rules.py", "LEAST_TESTS = 2 ", "LEAST_TESTS = 1 ", "one test makes a cause"),
     diagnosis("rules.py", "\nDROP_LIMIT = 0.15", "\nDROP_LIMIT = 0.05", "a claim hardly lowers the error"),
-    diagnosis("rules.py", "UNNAMED_DROP_LIMIT = 0.3", "UNNAMED_DROP_LIMIT = 0.15", "what steadies a misfit is claimed"),
+    diagnosis(
+        "rules.py", "STEADYING_DROP_LIMIT = 0.3", "STEADYING_DROP_LIMIT = 0.15", "what steadies a misfit is claimed"
+    ),
     diagnosis("rules.py", "BETTER_LIMIT = 0.6", "BETTER_LIMIT = 0.4", "a few tests carry a claim"),
     diagnosis("rules.py", "SPREAD_LIMIT = 0.5", "SPREAD_LIMIT = 0.9", "a proxy of another gain a test is claimed"),
     diagnosis("rules.py", "FORETOLD = 0.5", "FORETOLD = 0.3", "a proxy of another gain a test is claimed"),
@@ -91,6 +93,9 @@ MUTANTS = [
     diagnosis("judge.py", "\nSURE = 2.0", "\nSURE = 9.0", "what the tests tell apart passes as twins"),
     diagnosis("judge.py", "difference.std(ddof=1)", "difference.std()", "chance tells twins apart"),
     diagnosis("rules.py", "and not scored.candidate.placeless", "", "a sensor without a place is never claimed"),
+    diagnosis(
+        "rules.py", "return scored.candidate.passive or (", "return (", "a casting that steadies a misfit is claimed"
+    ),
     diagnosis("scored.py", "ACTS = 0.2", "ACTS = 0.0", "tests in which nothing acts decide"),
     diagnosis("scored.py", "self.gained[self.acts] > 0", "self.gained[self.acts] >= 0", "no change counts as better"),
     # ---- verdict

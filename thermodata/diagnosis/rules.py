@@ -8,7 +8,7 @@ from typing import Literal
 import numpy as np
 
 from thermodata.diagnosis.null import p_value
-from thermodata.diagnosis.present import CONTROL, GENERIC
+from thermodata.diagnosis.present import CONTROL
 from thermodata.diagnosis.scored import Scored
 from thermodata.plugin import Float1D
 
@@ -25,7 +25,7 @@ PLACELESS_CLAIMED = 0.5
 STRONG = 0.4
 OVERWHELMING = 0.5
 DROP_LIMIT = 0.15  # fall of the error on left-out tests in which it acts,
-UNNAMED_DROP_LIMIT = 0.3  # and of what names no physics: any slow temperature steadies a misfit a little
+STEADYING_DROP_LIMIT = 0.3  # and of any casting, or two temperatures: what is slow steadies a misfit a little
 LEAST_TESTS = 2  # in which it acts: no other foretells what acts in one only
 BETTER_LIMIT = 0.6  # share of these tests that it makes more probable
 SPREAD_LIMIT = 0.5  # of its gain between tests, as a share,
@@ -82,7 +82,7 @@ class Rule:
 def rules(scored: Scored, measure: Measure, unit: str) -> list[Rule]:
     """Every rule that a sound candidate keeps, in the order in which they are asked."""
     p, count = p_value(scored.evidence, measure.chance), int(scored.acts.sum())
-    fall = UNNAMED_DROP_LIMIT if _unnamed(scored) else DROP_LIMIT
+    fall = STEADYING_DROP_LIMIT if _steadies(scored) else DROP_LIMIT
     told, worth = explained(scored), WORTH_SHARE * measure.spread
     strong, overwhelming = sharpness(scored) >= STRONG, sharpness(scored) >= OVERWHELMING
     unasked = "; not asked where the evidence is {:g} a sample"
@@ -196,9 +196,9 @@ def claimable(scored: Scored, measure: Measure, unit: str) -> bool:
     return not failed_rules(scored, measure, unit) and blunt(scored) is None
 
 
-def _unnamed(scored: Scored) -> bool:
-    """Whether its place is known, and still no effect has a name for it; where no place is declared, nothing could."""
-    return scored.candidate.family in (GENERIC, CONTROL) and not scored.candidate.placeless
+def _steadies(scored: Scored) -> bool:
+    """Whether it may follow anything slow: a casting, or a difference of any two temperatures."""
+    return scored.candidate.passive or (scored.candidate.family == CONTROL and not scored.candidate.placeless)
 
 
 def probability(scored: Scored) -> float:
