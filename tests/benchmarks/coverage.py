@@ -8,7 +8,7 @@ The machines are heat balances integrated in steps of 10 s by Heun's rule, with 
 the library's lags or of its simulated machines takes part. What is fitted is the model that the machine has; so what is
 measured are the intervals, not the choice of a model. `width`: half of the interval as a share of the truth, median
 (of a time constant: of its logarithm). `none`: parameters without an interval, which count as misses; of an interval
-that is open at one end the other counts.
+that is open at one end the other counts. `where told`: without those that have none, for which the tests say nothing.
 """
 
 from __future__ import annotations
@@ -187,8 +187,8 @@ def intervals(case: str, noise: str, seed: int, tests: int | None = None, hours:
 
 def table(seen: Sequence[Seen]) -> list[str]:
     lines = [
-        "| case | noise | parameter | machines | in the interval [%] | none [%] | width | ms a fit |",
-        "|---" * 8 + "|",
+        "| case | noise | parameter | machines | in the interval [%] | none [%] | where told [%] | width | ms a fit |",
+        "|---" * 9 + "|",
     ]
     keys = dict.fromkeys((s.case, s.noise, s.parameter) for s in seen)
     rows = [(key, [s for s in seen if (s.case, s.noise, s.parameter) == key]) for key in keys]
@@ -203,7 +203,7 @@ def table(seen: Sequence[Seen]) -> list[str]:
         widths = [s.width for s in own if s.width is not None]
         lines.append(
             f"| {case} | {noise} | {parameter} | {len(own)} | {100 * _share(own):.1f} "
-            f"| {100 * (1 - len(widths) / len(own)):.1f} | {np.median(widths) if widths else float('nan'):.3f} "
+            f"| {100 * (1 - len(widths) / len(own)):.1f} | {100 * _share([s for s in own if s.width is not None]):.1f} | {np.median(widths) if widths else float('nan'):.3f} "
             f"| {1000 * float(np.median([s.seconds for s in own])):.0f} |"
         )
     return lines
