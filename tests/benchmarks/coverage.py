@@ -203,7 +203,8 @@ def table(seen: Sequence[Seen]) -> list[str]:
         widths = [s.width for s in own if s.width is not None]
         lines.append(
             f"| {case} | {noise} | {parameter} | {len(own)} | {100 * _share(own):.1f} "
-            f"| {100 * (1 - len(widths) / len(own)):.1f} | {100 * _share([s for s in own if s.width is not None]):.1f} | {np.median(widths) if widths else float('nan'):.3f} "
+            f"| {100 * (1 - len(widths) / len(own)):.1f} | {100 * _share([s for s in own if s.width is not None]):.1f} "
+            f"| {np.median(widths) if widths else float('nan'):.3f} "
             f"| {1000 * float(np.median([s.seconds for s in own])):.0f} |"
         )
     return lines
