@@ -69,7 +69,7 @@ def _step(axes: Any, seen: Seen, colours: dict[str, str]) -> None:
         ylabel=f"[{seen.unit} a unit]",
     )
     if seen.paths:
-        axes.legend(fontsize="small", loc="center right")
+        axes.legend(fontsize="small", loc="best")
 
 
 def _bode(axes: Any, seen: Seen, colours: dict[str, str], phase: bool) -> None:
