@@ -1,4 +1,6 @@
-"""How long joint fits of many tests take: processor time of `fit_model` with intervals and checks, beside the truth.
+"""How long joint fits of many tests take: processor time with intervals and checks, beside the truth.
+
+On one core, as the commands fit: with two, threads that wait for each other count as well, up to four times as much.
 
     uv run --no-sync python tests/benchmarks/joint_fit.py                      # ten and a hundred days, 43 short tests
     uv run --no-sync python tests/benchmarks/joint_fit.py --days 10 100 1000   # 1,000: 3 GB of memory
@@ -20,7 +22,7 @@ from dataclasses import asdict, dataclass
 import numpy as np
 
 from thermodata.effect.lag import lag
-from thermodata.modelling import fit_model
+from thermodata.modelling.run import fit_alone
 from thermodata.plugin import Bool1D, Float1D
 from thermodata.schema.model import Model
 from thermodata.view.dataset import ChannelInfo, Dataset, TestData
@@ -129,7 +131,7 @@ def measured(
     seconds = []
     for _ in range(runs):
         began = time.process_time()
-        found = fit_model(model, data).parameters()
+        found = fit_alone(model, data).parameters()
         seconds.append(time.process_time() - began)
     wrong = [abs(found[name].value / true - 1) for name, true in (truth or {}).items()]
     most = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss // 1024

@@ -14,6 +14,7 @@ from thermodata.modelling.apart import cooled
 from thermodata.modelling.fitted import FittedModel
 from thermodata.modelling.joint import fitted_problem
 from thermodata.modelling.labels import fastest_first
+from thermodata.modelling.profile import Profile
 from thermodata.modelling.profiles import profiles_of
 from thermodata.schema.result import Check, Parameter
 from thermodata.view.dataset import ChannelInfo, Dataset, TestData
@@ -211,3 +212,63 @@ def test_where_the_error_is_quadratic_a_gain_has_its_quadratic_interval(spec: Sp
 
 def _is_inside(true: float, found: Parameter) -> bool:
     return (found.low is None or found.low <= true) and (found.high is None or true <= found.high)
+
+
+def _days(count: int) -> list[TestData]:
+    """Many days of a part that follows within 3 min, beside one that takes 2 h."""
+    found = []
+    for seed in range(count):
+        rng = np.random.default_rng(100 + seed)
+        on = np.repeat(rng.integers(0, 2, 72), 20).astype(float)
+        on[:10] = 0.0
+        tool, hall = lag(15 * on, 120, 60), lag(np.repeat(rng.normal(0, 2, 12), 120), 3600, 60)
+        hall -= hall[0]
+        y = 2.0 * lag(tool, 180, 60) + 3.0 * lag(hall, 7200, 60) + rng.normal(0, 0.3, len(on))
+        values = {"y": y, "T": 20 + tool, "T_far": 20 + hall, "speed": 5000 * on}
+        known = {name: np.ones(len(on), bool) for name in values}
+        t = np.arange(len(on)) * 60.0
+        window = np.ones(len(on), bool)
+        found.append(TestData("c", f"d{seed}", "other", "calibration", t, values, known, window, channels=CHANNELS))
+    return found
+
+
+def test_the_interval_of_a_lag_of_minutes_is_that_of_all_samples(spec: Spec, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Means over ten minutes err by more than the noise; they may stand for the samples only where they do not."""
+    effects = [
+        {"effect": "lag", "id": name, "drivers": {"u": channel}} for name, channel in (("tool", "T"), ("hall", "T_far"))
+    ]
+    days = _days(25)
+    found = _fit(spec, days, *effects).parameters()
+    monkeypatch.setattr("thermodata.modelling.joint.rough", lambda *_: None)
+    whole = _fit(spec, days, *effects).parameters()
+    for name in ("tool.tau", "tool.gain", "hall.tau", "hall.gain"):
+        assert (found[name].low, found[name].high) == pytest.approx((whole[name].low, whole[name].high), rel=1e-6)
+    low, high = found["tool.tau"].low, found["tool.tau"].high
+    assert low is not None
+    assert high is not None
+    assert high / low < 1.01
+    assert _is_inside(3.0, found["tool.tau"])
+
+
+def test_where_few_samples_show_the_same_they_are_searched_instead_of_all(
+    spec: Spec, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A lag too long for 8 h in coarse noise: its interval reaches further up, on all samples and on means of some."""
+    one = {"effect": "lag", "id": "l", "drivers": {"u": "T"}}
+    tests = [_test(seed, 8.0, 0.0, 5.0, {600.0: 5.0}) for seed in range(20)]
+    sizes = list[int]()
+    searched = Profile.rise
+
+    def rise(profile: Profile, at: float) -> float:
+        sizes.append(profile.problem.design.n)
+        return searched(profile, at)
+
+    monkeypatch.setattr(Profile, "rise", rise)
+    found = _fit(spec, tests, one).parameters()["l.tau"]
+    few, sizes[:] = list(sizes), []
+    monkeypatch.setattr("thermodata.modelling.joint.rough", lambda *_: None)
+    whole = _fit(spec, tests, one).parameters()["l.tau"]
+    assert few
+    assert sizes
+    assert max(few) < min(sizes) / 2
+    assert found.low == pytest.approx(whole.low, rel=0.1)

@@ -35,11 +35,13 @@ def orders_command(session: Session, model: str, method: str | None) -> None:
     shown = [{**row, "chosen": "<-" if row["chosen"] else ""} for row in rows]
     many = len({row["response"] for row in rows}) > 1
     columns = [("response", "response")] if many else []
+    late = any(row["delay"] for row in rows)
     columns += [
         ("effect", "effect"),
         ("method", "method"),
         ("numerator", "numerator"),
         ("denominator", "denominator"),
+        *([("delay", "delay")] if late else []),
         ("fit_left_out", "FIT left out [%]"),
         ("fit_worst", "worst [%]"),
         ("fit_calibration", "FIT calibration [%]"),

@@ -36,12 +36,13 @@ def identify_arx(
 ) -> BoundResponse:
     """The response with term i as an ARX function of what the other effects leave. orders: numerator, denominator.
 
-    y(k) = -b1 y(k-1) - ... + a0 u(k) + a1 u(k-1) + ...; least squares over all tests, y from the first samples of each.
-    A constant would take what the slow poles should say; only a test that began warm has one. UsageError where the
-    function is not stable.
+    y(k) = -b1 y(k-1) - ... + a0 u(k-d) + a1 u(k-d-1) + ..., d the delay; least squares over all tests, y from the
+    first samples of each. A constant would take what the slow poles should say; only a test that began warm has one.
+    UsageError where the function is not stable.
     """
     term = bound.terms[i]
     na, nb = term.spec.orders or (2, 2)
+    delay = term.spec.delay or 0
     rows, targets = [], []
     warm = [m for m, test in enumerate(tests) if test.start_state == "warm"]
     for j, test in enumerate(tests):
@@ -52,9 +53,9 @@ def identify_arx(
             if k != i:
                 rest = rest - other.contribution(test)
         mask = fit_mask(bound, list(bound.terms), wanted, test)
-        u, span = term.drivers(test).values["u"], max(na - 1, nb)
+        u, span = term.drivers(test).values["u"], max(delay + na - 1, nb)
         rest = rest - _at_rest(rest, test, bound.channel_of(test))
-        past = [np.roll(rest, k) for k in range(1, nb + 1)] + [np.roll(u, k) for k in range(na)]
+        past = [np.roll(rest, k) for k in range(1, nb + 1)] + [np.roll(u, k) for k in range(delay, delay + na)]
         constants = [np.full(len(u), float(j == m)) for m in warm]
         good = np.logical_and.reduce([np.roll(mask, k) for k in range(nb + 1)]) & np.isfinite(rest)
         good[:span] = False
@@ -73,7 +74,7 @@ def identify_arx(
     coefficients = np.linalg.lstsq(x, y, rcond=None)[0]
     try:
         function = GivenFunction(
-            coefficients[nb : nb + na], [1.0, *-coefficients[:nb]], step_s(tests[0]), where=term.id
+            [*np.zeros(delay), *coefficients[nb : nb + na]], [1.0, *-coefficients[:nb]], step_s(tests[0]), where=term.id
         )
     except SpecError as error:
         raise UsageError(

@@ -162,12 +162,16 @@ def _orders(response: FittedResponse) -> list[Check]:
             value=row.fit_left_out,
             threshold=None,
             passed=True,
-            advice=f"{row.numerator} over {row.denominator} chosen by FIT on what was left out, of "
+            advice=f"{row.numerator} over {row.denominator}{_late(row.delay)} chosen by FIT on what was left out, of "
             f"{sum(other.effect == row.effect for other in response.tried)}; thermodata orders shows them all",
         )
         for row in response.tried
         if row.chosen
     ]
+
+
+def _late(delay: int) -> str:
+    return f", {delay} step{'s' if delay > 1 else ''} late," if delay else ""
 
 
 def _bounds(term: FittedTerm) -> list[Check]:

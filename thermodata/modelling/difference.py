@@ -82,9 +82,9 @@ def _course(a: Float1D, b: Float1D, size_a: float, size_b: float) -> Float1D:
 
 
 def _interval(value: float, sd: float, worth: float) -> Difference:
-    from scipy.stats import t
+    from scipy.special import stdtrit
 
-    reach = float(t.ppf(0.5 + LEVEL / 2, worth - 1)) * sd
+    reach = float(stdtrit(worth - 1, 0.5 + LEVEL / 2)) * sd
     return Difference(value, value - reach, value + reach, worth)
 
 

@@ -13,7 +13,7 @@ from thermodata.modelling.design import GRID, MOMENTS, Design, Nonlinear, factor
 from thermodata.modelling.fitted_response import FACTOR, Ends, FittedResponse, FittedTerm, Together, Values
 from thermodata.modelling.labels import fastest_first
 from thermodata.modelling.search import Problem, along_whole_range, search
-from thermodata.modelling.uncertainty import Cover, Spread, spreads
+from thermodata.modelling.uncertainty import Cover, Rough, Spread, spreads
 from thermodata.plugin import Float1D, Param
 from thermodata.view.dataset import TestData
 
@@ -93,9 +93,9 @@ def _together(design: Design, cover: Cover, logs: frozenset[str]) -> Together | 
     return Together(owners, cover.matrix, logs)
 
 
-def fitted_problem(response: FittedResponse, tests: Sequence[TestData]) -> tuple[Problem, Float1D, Problem | None]:
-    """What was fitted, as a problem at its point: all terms that were not held, the same on fewer samples (None where
-    there are few)."""
+def fitted_problem(response: FittedResponse, tests: Sequence[TestData]) -> tuple[Problem, Float1D, Rough]:
+    """What was fitted, as a problem at its point: all terms that were not held; what makes the same on fewer samples
+    (None where there are few)."""
     held = {i: term for i, term in enumerate(response.terms) if term.held}
     order = [*(i for i in range(len(response.terms)) if i not in held), *held]
     terms = [each_group_its_own(t.bound) if t.held else t.bound for t in (response.terms[i] for i in order)]
@@ -106,7 +106,7 @@ def fitted_problem(response: FittedResponse, tests: Sequence[TestData]) -> tuple
 
     problem = on(tests)
     x = _near(problem, {k: response.terms[i] for k, i in enumerate(order)})
-    return problem, x, rough(problem, tests, response.phases, on)
+    return problem, x, lambda: rough(problem, tests, response.phases, on)
 
 
 def _by_group(design: Design, s: int, found: Values) -> dict[str, Values]:

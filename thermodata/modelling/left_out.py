@@ -39,9 +39,14 @@ def folds(tests: Sequence[TestData], channel_of: Callable[[TestData], str], mask
     found = []
     for test in usable:
         rows = np.flatnonzero(mask(test))
+        # what a method counts the response from is no part of what it has to foretell
+        first = test.t_s < test.t_s[rows[0]] + test.zero_s
         for part in np.array_split(rows, PARTS) if len(rows) >= 5 * PARTS else []:
             inside = np.zeros(len(test.t_s), bool)
             inside[part[0] : part[-1] + 1] = True
+            inside &= ~first
+            if not inside.any():
+                continue
             rest = _only(test, channel_of(test), ~inside)
             found.append(Fold((rest,), (_only(test, channel_of(test), inside),), rest))
     return found

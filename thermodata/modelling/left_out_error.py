@@ -90,11 +90,15 @@ class LeftOut:
 
     def _with_orders(self, spec: Model) -> Model:
         """Orders that the file leaves open as all tests chose them: a choice anew in each fold costs sixteen fits."""
-        chosen = {t.id: t.bound.spec.orders for response in reversed(self.whole.responses) for t in response.terms}
+        chosen = {
+            t.id: {"orders": t.bound.spec.orders, "delay": t.bound.spec.delay}
+            for response in reversed(self.whole.responses)
+            for t in response.terms
+        }
         effects: list[EffectSpec] = []
         for name, effect in zip(term_ids(spec.effects), spec.effects, strict=True):
             is_open = effect.effect == TRANSFER and effect.orders is None and name in chosen
-            effects.append(effect.model_copy(update={"orders": chosen[name]}) if is_open else effect)
+            effects.append(effect.model_copy(update=chosen[name]) if is_open else effect)
         return spec.model_copy(update={"effects": effects})
 
 

@@ -23,6 +23,7 @@ from thermodata.plugin import Effect
 from thermodata.view.dataset import TestData
 
 AS_GOOD = 0.5  # points of FIT
+DELAY = 2  # steps of an ARX: what a grid shifts; a longer one is a part's own, and `also: [dead_time]` searches it
 APART = 1.5  # ratio of two time constants
 SURE = 0.7  # standard deviation of log(tau)
 Near = Mapping[int, FittedTerm] | None
@@ -32,7 +33,8 @@ Identify = Callable[[BoundResponse, Sequence[TestData], Near, bool], FittedRespo
 @dataclass(frozen=True)
 class Tried:
     """Orders that were tried. fit_left_out, fit_worst: FIT [%] on tests (or parts of the one test) left out, all
-    together and the worst; fit_calibration: on those that were fitted. why: what speaks against them, or None."""
+    together and the worst; fit_calibration: on those that were fitted. why: what speaks against them, or None. delay:
+    of an ARX's driver, in steps."""
 
     response: str
     effect: str
@@ -44,6 +46,7 @@ class Tried:
     fit_calibration: float | None
     chosen: bool = False
     why: str | None = None
+    delay: int = 0
 
     def to_json(self) -> dict[str, Any]:
         return asdict(self)
@@ -77,60 +80,81 @@ def choose_orders(
     """Set the orders of term i. identify: fits a response to some tests (near a point, with uncertainty or without).
 
     varpro: 1 to 4 lags, alone and with a direct term, as long as all are apart, inside their bounds and known (a third
-    lag that the data can't identify is refused). oe and arx: 1-4 x 1-4, unstable functions left out. Lags need no
-    sample after sample, so that oe and varpro are tried on means of neighbours where there are many samples.
+    lag that the data can't identify is refused). oe and arx: 1-4 x 1-4, unstable functions left out; for the chosen
+    orders of an arx the driver is tried a step or two late as well. Lags need no sample after sample, so that oe and
+    varpro are tried on means of neighbours where there are many samples.
     """
     term = bound.terms[i]
     method = term.spec.method or "varpro"
     some = list(tests) if method == "arx" else coarse_tests(tests, wanted)
     channel_of = bound.channel_of
     found = folds(some, channel_of, lambda t: fit_mask(bound, list(bound.terms), wanted, t))
-    rows: list[tuple[Tried, BoundResponse, FittedResponse | None]] = []
+    rows: list[_Trial] = []
     reasons: list[UsageError] = []
     found_at: dict[tuple[int, int], FittedResponse] = {}
-    for orders in _pairs(method):
-        trial = with_orders(bound, i, orders)
-        row = Tried(bound.name, term.id, method, *orders, None, None, None)
+
+    def tried(orders: tuple[int, int], delay: int | None) -> _Trial:
+        trial = with_orders(bound, i, orders, delay)
+        row = Tried(bound.name, term.id, method, *orders, None, None, None, delay=delay or 0)
         try:
             full = identify(
                 trial, some, _start(bound, i, orders, found_at) if method == "oe" else None, method == "varpro"
             )
             found_at[orders] = full
             start = None if method == "arx" else _near(trial, full)
-            total, worst = left_out_fit(
-                found,
-                lambda train, b=trial, near=start: identify(b, train, near, False),  # type: ignore[misc]
-            )
-            row = replace(
-                row,
-                fit_left_out=_finite(total),
-                fit_worst=_finite(worst),
-                fit_calibration=_finite(free_run_fit(full, some)),
-                why=_unidentified(full, term.id) if method == "varpro" and orders != (1, 1) else None,
-            )
-            rows.append((row, trial, full))
+            total, worst = left_out_fit(found, lambda train: identify(trial, train, start, False))
         except (UsageError, SpecError) as error:
             reasons.append(error if isinstance(error, UsageError) else UsageError(error.what, where=term.id))
-            rows.append((replace(row, why=error.what), trial, None))
-        if method == "varpro" and orders[0] > orders[1] and rows[-1][0].why and rows[-2][0].why:
+            return _Trial(replace(row, why=error.what), trial, None)
+        row = replace(
+            row,
+            fit_left_out=_finite(total),
+            fit_worst=_finite(worst),
+            fit_calibration=_finite(free_run_fit(full, some)),
+            why=_unidentified(full, term.id) if method == "varpro" and orders != (1, 1) else None,
+        )
+        return _Trial(row, trial, full)
+
+    for orders in _pairs(method):
+        rows.append(tried(orders, term.spec.delay))
+        if method == "varpro" and orders[0] > orders[1] and rows[-1].row.why and rows[-2].row.why:
             break
-    good = [r for r in rows if r[0].why is None]
+    good = [r for r in rows if r.row.why is None]
     if not good:
         raise reasons[0]
-    scored = [r for r in good if r[0].fit_left_out is not None] or good[:1]
-    top = max(_number(r[0].fit_left_out) for r in scored)
-    best = min(
-        (r for r in scored if _number(r[0].fit_left_out) >= top - AS_GOOD),
-        key=lambda r: (r[0].numerator + r[0].denominator, -_number(r[0].fit_left_out)),
+    best = _fewest(good)
+    if method == "arx" and term.spec.delay is None:
+        late = [tried((best.row.numerator, best.row.denominator), delay) for delay in range(1, DELAY + 1)]
+        rows += late
+        # a delay costs no coefficient
+        best = max([best, *(r for r in late if r.row.why is None)], key=lambda r: _number(r.row.fit_left_out))
+    table = tuple(replace(r.row, chosen=r is best) for r in rows)
+    full = cast(FittedResponse, best.full)
+    return Choice(best.bound, None if method == "arx" else _near(best.bound, full), table)
+
+
+@dataclass(frozen=True)
+class _Trial:
+    """full: fitted to all tests; None where it could not be."""
+
+    row: Tried
+    bound: BoundResponse
+    full: FittedResponse | None
+
+
+def _fewest(good: Sequence[_Trial]) -> _Trial:
+    """The fewest coefficients of those that do as well as the best."""
+    scored = [r for r in good if r.row.fit_left_out is not None] or list(good[:1])
+    top = max(_number(r.row.fit_left_out) for r in scored)
+    return min(
+        (r for r in scored if _number(r.row.fit_left_out) >= top - AS_GOOD),
+        key=lambda r: (r.row.numerator + r.row.denominator, -_number(r.row.fit_left_out)),
     )
-    table = tuple(replace(r[0], chosen=r is best) for r in rows)
-    full = cast(FittedResponse, best[2])
-    return Choice(best[1], None if method == "arx" else _near(best[1], full), table)
 
 
-def with_orders(bound: BoundResponse, i: int, orders: tuple[int, int]) -> BoundResponse:
+def with_orders(bound: BoundResponse, i: int, orders: tuple[int, int], delay: int | None = None) -> BoundResponse:
     term = bound.terms[i]
-    spec = term.spec.model_copy(update={"orders": orders})
+    spec = term.spec.model_copy(update={"orders": orders, "delay": delay})
     effect = cast(Effect, FreeFunction(term.spec.method or "varpro", orders))
     made: BoundTerm = replace(term, spec=spec, effect=effect)
     return replace(bound, terms=tuple(made if k == i else t for k, t in enumerate(bound.terms)))

@@ -93,4 +93,6 @@ def _of_place(fitted: FittedResponse, bound: BoundResponse, pool: Dataset) -> Fi
 
 
 def _with_orders(own: BoundTerm, found: FittedTerm) -> EffectSpec:
-    return own.spec.model_copy(update={"orders": found.bound.spec.orders, "fixed": found.bound.spec.fixed})
+    return own.spec.model_copy(
+        update={"orders": found.bound.spec.orders, "delay": found.bound.spec.delay, "fixed": found.bound.spec.fixed}
+    )

@@ -256,17 +256,21 @@ class Profile:
     def _share(self, square: float, residual: Float1D) -> float:
         return (square - self.least) / self.allowed(self.residual - residual)
 
-    def is_quadratic(self, half: float) -> bool:
-        """Whether an interval of that half width, in the units of the search, has the profile's ends."""
-        ends = (self.centre - half, self.centre + half)
-        if ends[0] <= self.low or ends[1] >= self.high:
+    def is_straight(self, half: float) -> bool:
+        """Whether the path that a quadratic error would take has the allowed rise at both ends of an interval of that
+        half width, in the units of the search: it costs a look at each, and nothing is fitted anew."""
+        if not self._reaches(half) or self.along is None:
             return False
-        # the path that a quadratic error would take costs one look; only where it errs are all others fitted anew
-        if self.along is not None:
-            straight = [self._straight(side * half, self.along) for side in (-1.0, 1.0)]
-            if all(ALIKE[0] <= rise <= ALIKE[1] for rise in straight):
-                return True
-        return all(ALIKE[0] <= self.rise(float(end)) <= ALIKE[1] for end in ends)
+        return all(ALIKE[0] <= self._straight(side * half, self.along) <= ALIKE[1] for side in (-1.0, 1.0))
+
+    def is_quadratic(self, half: float) -> bool:
+        """Whether an interval of that half width has the profile's ends, all others fitted anew."""
+        return self._reaches(half) and all(
+            ALIKE[0] <= self.rise(float(end)) <= ALIKE[1] for end in (self.centre - half, self.centre + half)
+        )
+
+    def _reaches(self, half: float) -> bool:
+        return self.low < self.centre - half and self.centre + half < self.high
 
     def ends(self, half: float) -> Ends:
         low, high = self._end(-half), self._end(half)

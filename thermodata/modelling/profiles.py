@@ -62,11 +62,10 @@ def _curves(response: FittedResponse, tests: Sequence[TestData]) -> list[Curve]:
     problem, x, rough = fitted_problem(response, tests)
     gains = problem.gains(problem.matrix(x))
     rows = []
-    for profile, of, half in profiles(problem, x, gains, rough):
-        i, free = of.place, of.free
+    for seen in profiles(problem, x, gains, rough):
+        profile, half, quadratic, i, free = seen.profile, seen.half, seen.quadratic, seen.of.place, seen.of.free
         slot = problem.design.slots[free.slots[0]]
         tag = f"[{slot.group}]" if slot.group and len(free.slots) == 1 and not free.param.name.startswith("g[") else ""
-        quadratic = profile.is_quadratic(half)
         low, high = (free.inside(float(x[i]) + side * half) for side in (-1.0, 1.0))
         ends = (low, high) if quadratic else profile.ends(half)
         name = f"{problem.design.terms[slot.term].id}.{free.param.name}{tag}"

@@ -24,6 +24,7 @@ Found = TypeVar("Found")
 _OWNED = {
     "method": transfer.NAME,
     "orders": transfer.NAME,
+    "delay": transfer.NAME,
     "file": prediction.NAME,
     "name": nested.NAME,
     "gain": nested.NAME,
@@ -211,6 +212,10 @@ def make_effect(spec: EffectSpec, where: str, base: Path | None) -> Effect:
         function = transfer.given(spec.fixed, where)
         if function is not None:
             return cast(Effect, function)
+        if spec.delay is not None and spec.method != "arx":
+            raise SpecError(
+                "'delay' belongs to method arx", where=f"effect '{where}'", hint="also: [dead_time], in seconds"
+            )
         return cast(Effect, transfer.FreeFunction(spec.method or "varpro", spec.orders or (2, 2)))
     if spec.effect == prediction.NAME:
         if spec.file is None:

@@ -210,7 +210,7 @@ def orders(store: Store, spec: Model, *, method: str | None = None, base: Path |
 def _with_open_orders(effect: EffectSpec, method: str | None) -> EffectSpec:
     if effect.effect != NAME:
         return effect
-    return effect.model_copy(update={"orders": None, "method": method or effect.method})
+    return effect.model_copy(update={"orders": None, "delay": None, "method": method or effect.method})
 
 
 def profiles(store: Store, ref: str) -> Profiles:

@@ -10,6 +10,7 @@ from thermodata.modelling.bands import bands
 from thermodata.modelling.fitted import FittedModel
 from thermodata.modelling.fitted_response import FittedResponse
 from thermodata.plugin import Array
+from thermodata.store.base.arrow import to_arrow
 from thermodata.view.dataset import Dataset, TestData
 
 CONTRIBUTION = "c__"
@@ -51,8 +52,11 @@ def prediction_tables(fitted: FittedModel, data: Dataset) -> dict[tuple[str, str
     """(campaign, test, response) -> pyarrow table; locked tests stay closed."""
     import pyarrow as pa
 
+    def table(columns: dict[str, Array]) -> pa.Table:
+        return pa.table({name: to_arrow(values) for name, values in columns.items()})
+
     return {
-        (test.campaign, test.test, response.name): pa.table(prediction_columns(response, test))
+        (test.campaign, test.test, response.name): table(prediction_columns(response, test))
         for test in fitted.tests(data)
         for response in fitted.responses
         if response.can_predict(test)

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterable, Iterator
 from dataclasses import dataclass, field
+from functools import cached_property
 
 import numpy as np
 
 from thermodata.modelling.design import MOMENTS
 from thermodata.modelling.fitted_response import Ends
 from thermodata.modelling.labels import alike, fastest_first
-from thermodata.modelling.profile import Coordinate, Profile, Searched, Solved
+from thermodata.modelling.profile import ALIKE, Coordinate, Profile, Searched, Solved
 from thermodata.modelling.search import Problem, search
 from thermodata.modelling.slow_noise import Scatter, make_noise, nothing
 from thermodata.modelling.start_unknown import disturbances
@@ -82,9 +83,13 @@ def spreads(
         held = by_slot[of.slots[0]].half.get(of.name, 0.0)
         return free.carries(k, half) or half > HELD * held
 
-    for profile, half in _profiles(free, rough(), asked):
-        of = profile.of
-        quadratic = profile.is_quadratic(half)
+    small = _Small(free, rough)
+    for k, whole, half in _profiles(free, asked):
+        of = whole.of
+        # all samples say whether a path is straight; only where it is not, is there something to search for
+        quadratic = whole.is_straight(half)
+        profile = whole if quadratic else small.instead_of(k, whole)
+        quadratic = quadratic or profile.is_quadratic(half)
         for s in of.slots:
             if not quadratic:
                 by_slot[s].ends[of.name] = profile.ends(half)
@@ -104,14 +109,25 @@ def _cover(estimate: _Estimate) -> Cover | None:
     return Cover(owners, found.cover[np.ix_(known, known)] * np.outer(wider, wider))
 
 
-def profiles(
-    problem: Problem, x: Float1D, gains: Float1D, rough: Problem | None = None
-) -> Iterator[tuple[Profile, Searched, float]]:
-    """(profile, of what, half of the quadratic interval in the units of the search) of every searched parameter but
-    moments, whose error has no slope; those at a bound as well."""
-    for profile, half in _profiles(_Estimate(problem, x, gains), rough, lambda k, of, half: isinstance(of, Searched)):
-        if isinstance(profile.of, Searched):
-            yield profile, profile.of, half
+@dataclass(frozen=True)
+class Seen:
+    """The profile of a searched parameter. half: of the quadratic interval, in the units of the search; quadratic:
+    whether the profile's is the same."""
+
+    profile: Profile
+    of: Searched
+    half: float
+    quadratic: bool
+
+
+def profiles(problem: Problem, x: Float1D, gains: Float1D, rough: Rough) -> Iterator[Seen]:
+    """Of every searched parameter but moments, whose error has no slope; those at a bound as well."""
+    estimate = _Estimate(problem, x, gains)
+    small = _Small(estimate, rough)
+    for k, whole, half in _profiles(estimate, lambda k, of, half: isinstance(of, Searched)):
+        if isinstance(whole.of, Searched):
+            profile = small.instead_of(k, whole)
+            yield Seen(profile, whole.of, half, whole.is_straight(half) or profile.is_quadratic(half))
 
 
 class _Estimate:
@@ -188,26 +204,49 @@ class _Estimate:
 
 
 def _profiles(
-    estimate: _Estimate, rough: Problem | None, asked: Callable[[int, Coordinate, float], bool]
-) -> Iterator[tuple[Profile, float]]:
-    problem, x = estimate.problem, estimate.x
-    # on other samples the optimum is a little elsewhere, and from beside it an error is no parabola
-    small, near, there = problem, x, estimate
-    if rough is not None:
-        small, near = rough, fastest_first(rough, search(rough, x))
-        there = _Estimate(small, near, small.gains(small.matrix(near)), estimate.places)
-    free_to_move = _inside(problem, x)
+    estimate: _Estimate, asked: Callable[[int, Coordinate, float], bool]
+) -> Iterator[tuple[int, Profile, float]]:
+    """(place of the estimate, its profile on all samples, half of its quadratic interval)."""
+    free_to_move = _inside(estimate.problem, estimate.x)
     for k, owner in enumerate(estimate.owners):
         of, half = owner.of, float(estimate.scatter.half[k])
         if isinstance(of, Searched) and of.free.points == MOMENTS:
             continue
-        if not estimate.moves[k] or not np.isfinite(half) or half <= 0 or there.noise is None:
-            continue
-        if not asked(k, of, half):
+        if not estimate.moves[k] or not np.isfinite(half) or half <= 0 or not asked(k, of, half):
             continue
         along = estimate.along(k, free_to_move) if estimate.known[k] else None
-        moved = of.at(problem, x) - of.at(small, near)
-        yield Profile(small, near, of, there.allowed, along, moved), half
+        yield k, Profile(estimate.problem, estimate.x, of, estimate.allowed, along), half
+
+
+class _Small:
+    """Profiles on fewer samples in place of those on all, where they show the same; made when first asked for."""
+
+    def __init__(self, estimate: _Estimate, make: Rough) -> None:
+        self._whole, self._make = estimate, make
+
+    @cached_property
+    def _estimate(self) -> _Estimate | None:
+        small = self._make()
+        if small is None:
+            return None
+        # on other samples the optimum is a little elsewhere, and from beside it an error is no parabola
+        near = fastest_first(small, search(small, self._whole.x))
+        found = _Estimate(small, near, small.gains(small.matrix(near)), self._whole.places)
+        names = [[(owner.slots, owner.name) for owner in e.owners] for e in (found, self._whole)]
+        return found if names[0] == names[1] and found.noise is not None else None
+
+    def instead_of(self, k: int, whole: Profile) -> Profile:
+        """Of the same estimate. Where means over many minutes err by more than the noise, as they do for a lag of
+        minutes, they would allow a rise that the samples do not."""
+        there = self._estimate
+        if there is None:
+            return whole
+        if self._whole.known[k]:
+            as_wide = float(there.scatter.half[k] / self._whole.scatter.half[k])
+            if not ALIKE[0] <= as_wide <= ALIKE[1]:
+                return whole
+        moved = whole.centre - whole.of.at(there.problem, there.x)
+        return Profile(there.problem, there.x, whole.of, there.allowed, whole.along, moved)
 
 
 def _inside(problem: Problem, x: Float1D) -> list[int]:

@@ -16,6 +16,7 @@ from thermodata.modelling.seen import Seen
 
 DPI = 110
 ROW_IN, WIDE_IN = 3.1, 13.0  # [inch]
+PERIODS_MIN = {"1 min": 1.0, "10 min": 10.0, "1 h": 60.0, "6 h": 360.0, "1 d": 1440.0, "1 week": 10080.0}
 BAND = 1.96
 
 
@@ -68,7 +69,7 @@ def _step(axes: Any, seen: Seen, colours: dict[str, str]) -> None:
         ylabel=f"[{seen.unit} a unit]",
     )
     if seen.paths:
-        axes.legend(fontsize="small", loc="center right")
+        axes.legend(fontsize="small", loc="best")
 
 
 def _bode(axes: Any, seen: Seen, colours: dict[str, str], phase: bool) -> None:
@@ -76,10 +77,13 @@ def _bode(axes: Any, seen: Seen, colours: dict[str, str], phase: bool) -> None:
         hertz, size, angle = p.bode
         minutes = 1.0 / hertz / 60.0
         (axes.semilogx if phase else axes.loglog)(minutes, angle if phase else size, color=colours[p.name])
+    low, high = axes.get_xlim()
     axes.invert_xaxis()
+    shown = {name: at for name, at in PERIODS_MIN.items() if low <= at <= high}
+    axes.set_xticks(list(shown.values()), list(shown))
     axes.grid(True, which="major", color="0.9")
     what = "phase [deg]" if phase else f"magnitude [{seen.unit} a unit]"
-    axes.set(title=f"Bode: {what}", xlabel="period [min]", ylabel=what)
+    axes.set(title=f"Bode: {what}", xlabel="period", ylabel=what)
 
 
 def _correlation(axes: Any, seen: Seen) -> None:
