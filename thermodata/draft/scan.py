@@ -29,6 +29,7 @@ from thermodata.schema.lines import is_text
 _SAMPLE_ROWS, _SAMPLE_S = 400_000, 1.0  # of one file
 _SMALL = 4_000_000  # bytes; smaller files are read whole
 _SAMPLES_S, _HEADERS_S = 15.0, 40.0  # of the whole folder
+_PATIENCE = 4.0  # times as long on the wall, for others may keep the machine busy
 _KEPT_ROWS = 3000  # of a signal whose course tells what a test is
 _COURSE = ("rotational_speed", "feed", "displacement", "voltage", "position", "state")
 _MOST_COURSES = 40
@@ -37,6 +38,18 @@ _ASSUMED = "counted as 1 s each|taken as seconds from a start"
 _UNIT: Mapping[str, Any] = {"time": {"unit": UNKNOWN}}
 _NOT_LOGS = frozenset((".yaml", ".yml", ".md", ".tdms_index"))
 Progress = Callable[[int, int, str], None]
+
+
+class Watch:
+    """Counts the processor's time, and a share of that on the wall: what is looked at must not hang on what else the
+    machine does, and nobody waits for ever for a slow disk."""
+
+    def __init__(self) -> None:
+        self._cpu, self._wall = time.process_time(), time.monotonic()
+
+    @property
+    def spent_s(self) -> float:
+        return max(time.process_time() - self._cpu, (time.monotonic() - self._wall) / _PATIENCE)
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,11 +62,13 @@ class Course:
 
 @dataclass(frozen=True, slots=True)
 class Sample:
-    """Of a file's values. whole: to its end; first_ns, last_ns: of what was read."""
+    """Of a file's values. whole: to its end; hurried: for want of time fewer of them than there would have been rows
+    for; first_ns, last_ns: of what was read."""
 
     values: Mapping[tuple[str, str], Values] = field(default_factory=dict)
     courses: Mapping[tuple[str, str], Course] = field(default_factory=dict)
     whole: bool = False
+    hurried: bool = False
     first_ns: int | None = None
     last_ns: int | None = None
     losses: int = 0
@@ -123,7 +138,7 @@ def scan(folder: Path, progress: Progress | None = None) -> Scan:
     """All files below the folder; hidden ones, stores and links are left out. progress: (done, of, path)."""
     paths = list(_files(folder))
     tell = progress or (lambda done, of, path: None)
-    began, spent = time.monotonic(), 0.0
+    watch, spent = Watch(), 0.0
     logs: dict[str, RawFile] = {}
     ignored: list[tuple[str, str]] = []
     shapes: dict[str, RawFile] = {}
@@ -134,7 +149,7 @@ def scan(folder: Path, progress: Progress | None = None) -> Scan:
             ignored.append((str(path), "its name is no UTF-8: no campaign file can say it; give it another name"))
             continue
         try:
-            like = shapes.get(_shape(path)) if time.monotonic() - began > _HEADERS_S else None
+            like = shapes.get(_shape(path)) if watch.spent_s > _HEADERS_S else None
             if like is not None and like.sheet is None:
                 logs[str(path)] = RawFile(
                     path,
@@ -154,9 +169,9 @@ def scan(folder: Path, progress: Progress | None = None) -> Scan:
             ignored += [(str(path), why) for why in found[0].besides]
             for made in found:
                 if made.size < _SMALL and spent < _SAMPLES_S:  # now, for its reader has just looked at it
-                    before = time.monotonic()
+                    own = Watch()
                     made = replace(made, sample=_sample(full, made))
-                    spent += time.monotonic() - before
+                    spent += own.spent_s
                 key = str(path) if made.sheet is None else f"{path}/{made.sheet}"
                 logs[key] = shapes[_shape(path)] = made
             if str(path) in logs and not logs[str(path)].signals:
@@ -164,7 +179,7 @@ def scan(folder: Path, progress: Progress | None = None) -> Scan:
                 ignored.append((str(path), f"{who.name}: it holds no signal"))
         except (ThermodataError, OSError) as error:
             ignored.append((str(path), _short(error)))
-    sampled = _sampled(folder, logs, began, tell)
+    sampled = _sampled(folder, logs, tell)
     ordered = [str(p) for p in paths]
     damaged = list(dict.fromkeys((str(f.path), _damage(f)) for f in sampled if _damage(f)))
     position = {p: i for i, p in enumerate(ordered)}
@@ -313,14 +328,14 @@ def _damage(file: RawFile) -> str:
     return f"{file.sample.losses} losses in what was read of it" if file.sample.losses else ""
 
 
-def _sampled(folder: Path, logs: Mapping[str, RawFile], began: float, tell: Progress) -> list[RawFile]:
+def _sampled(folder: Path, logs: Mapping[str, RawFile], tell: Progress) -> list[RawFile]:
     """The logs with samples of their values, small files first: jump tests are small."""
     found = dict(logs)
     order = _spread([PurePosixPath(key) for key in sorted(logs, key=lambda key: logs[key].size)])
-    until = max(time.monotonic(), began) + _SAMPLES_S
+    watch = Watch()
     for done, path in enumerate(order):
         file = found[str(path)]
-        if time.monotonic() > until or file.like or file.sample.rows:
+        if watch.spent_s > _SAMPLES_S or file.like or file.sample.rows:
             continue
         tell(done, len(order), str(path))
         found[str(path)] = replace(file, sample=_sample(folder / file.path, file))
@@ -328,7 +343,7 @@ def _sampled(folder: Path, logs: Mapping[str, RawFile], began: float, tell: Prog
 
 
 def _sample(path: Path, file: RawFile) -> Sample:
-    began, rows, losses, whole = time.monotonic(), 0, 0, True
+    watch, rows, losses, whole, hurried = Watch(), 0, 0, True, False
     values: dict[tuple[str, str], Values] = {}
     parts: dict[tuple[str, str], list[tuple[Int1D, Array]]] = {}
     wanted = _courses(file.recording.signals)
@@ -346,17 +361,17 @@ def _sample(path: Path, file: RawFile) -> Sample:
             first = min(x for x in (first, int(item.t_ns[0])) if x is not None)
             last = max(x for x in (last, int(item.t_ns[-1])) if x is not None)
             rows += item.t_ns.size
-            spent = time.monotonic() - began
+            spent = watch.spent_s
             if file.size < _SMALL and spent < 10 * _SAMPLE_S:
                 continue
             if spent > 2 * _SAMPLE_S or (not unseen and (rows >= _SAMPLE_ROWS or spent > _SAMPLE_S)):
-                whole = False
+                whole, hurried = False, rows < _SAMPLE_ROWS
                 break
     except (ThermodataError, OSError):
         losses, whole = losses + 1, False
     finally:
         items.close()  # type: ignore[attr-defined]
-    return Sample(values, {k: _thinned(v) for k, v in parts.items()}, whole, first, last, losses, rows)
+    return Sample(values, {k: _thinned(v) for k, v in parts.items()}, whole, hurried, first, last, losses, rows)
 
 
 def _courses(signals: Sequence[Signal]) -> set[tuple[str, str]]:
