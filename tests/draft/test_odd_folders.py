@@ -224,7 +224,7 @@ def test_a_file_whose_time_was_up_before_its_end_is_said(
     whole = (tmp_path / "campaign.yaml").read_text()
     assert "kind: spindle" in whole
     (tmp_path / "campaign.yaml").unlink()
-    monkeypatch.setattr("thermodata.draft.scan._SAMPLE_S", -1.0)
+    monkeypatch.setattr("thermodata.draft.sample._SAMPLE_S", -1.0)
     monkeypatch.setattr("thermodata.reader.text.table_rows._BLOCK_VALUES", 3000)
     say("init", tmp_path)
     hurried = (tmp_path / "campaign.yaml").read_text()
@@ -234,7 +234,7 @@ def test_a_file_whose_time_was_up_before_its_end_is_said(
 
 def test_a_busy_machine_drafts_the_same(tmp_path: Path, say: Say, monkeypatch: pytest.MonkeyPatch) -> None:
     """Time that others take is not counted as time for the folder."""
-    from thermodata.draft import scan
+    from thermodata.draft import sample
 
     for day in range(8):
         lines = [f"{10 * i},{20 + i / 8:.3f}" for i in range(40)]
@@ -248,6 +248,6 @@ def test_a_busy_machine_drafts_the_same(tmp_path: Path, say: Say, monkeypatch: p
         moment[0] += 2.0  # passes whenever anybody looks
         return clock() + moment[0]
 
-    monkeypatch.setattr(scan.time, "monotonic", slow)
+    monkeypatch.setattr(sample.time, "monotonic", slow)
     say("init", tmp_path)
     assert (tmp_path / "campaign.yaml").read_text() == quiet
