@@ -176,3 +176,11 @@ def test_a_row_that_lost_a_delimiter_is_told_the_first_one_too(tmp_path: Path, a
     line = HEADER.count("\n") + at + 1
     assert [loss.where for loss in data.losses][:1] == [f"scope.csv line {line}"]
     assert len(next(iter(data.t_ns.values()))) == 19
+
+
+def test_a_row_of_names_with_cells_beyond_all_data_is_refused(tmp_path: Path) -> None:
+    """Room was made for each of them in each row: a gigabyte for a file of 100 kB."""
+    text = export().replace("Name\tfast\tName", "Name\tfast" + "\t" * 100_000 + "Name")
+    with pytest.raises(FormatError, match="the row of names is longer than any row of data") as error:
+        Reader().describe(written(tmp_path, text), Source())
+    assert error.value.got == "100005 cells"

@@ -20,6 +20,7 @@ START = re.compile(r"^Start\s?(?:time of (?:export|record)|Record)\s*([\t;,|])\s
 _END = re.compile(r"^End\s?(?:time of (?:export|record)|Record)\s*[\t;,|]\s*\"?(\d{15,19})\b", re.IGNORECASE)
 _NAME = re.compile(r"^\"?Name\"?([\t;,|])")
 _MOST_LINES = 5000
+_MOST_BESIDE = 1000  # cells that rows may lack because groups ended: each is room in every row
 _DIGIT = re.compile(r"^[+-]?\d")
 _LATEST_NS = 8_955_526_400 * 10**9  # 2253
 _TICKS = EPOCHS["filetime"]
@@ -133,6 +134,13 @@ def read_header(lines: Sequence[str], where: str) -> Header:
             expected=f"{len(names)} cells between '{delimiter}'",
             got=str(max(widths)),
             hint="export with tabs or ';' between the cells",
+        )
+    if len(names) > width + _MOST_BESIDE:
+        raise FormatError(
+            "the row of names is longer than any row of data",
+            where=where,
+            expected=f"about {width} cells, as the first {len(body)} rows have",
+            got=f"{len(names)} cells",
         )
     decimal = "," if delimiter != "," and any("," in line for line in body) else "."
     ticks = sum(len(line.split(delimiter, 1)[0].strip().lstrip("-")) >= 17 for line in body) > len(body) / 2
