@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import time
 from collections.abc import Callable
 from pathlib import Path
 
@@ -210,3 +211,43 @@ def test_files_whose_values_nobody_had_time_for_are_said(
     monkeypatch.setattr("thermodata.draft.scan._SAMPLES_S", -1.0)
     found = say("init", tmp_path)
     assert said in found.out + found.err + (tmp_path / "campaign.yaml").read_text()
+
+
+def test_a_file_whose_time_was_up_before_its_end_is_said(
+    tmp_path: Path, say: Say, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A spindle that starts late in a file is not seen then: which files that may be in must stand in the draft."""
+    lines = [f"{10 * i},{0 if i < 9000 else 4000},{20 + i / 8000:.3f}" for i in range(12_000)]
+    (tmp_path / "run1.csv").write_text("Time [s],nActSpeed [rpm],T_front [degC]\n" + "\n".join(lines) + "\n")
+    said = "1 files were looked at in their first rows only"
+    assert said not in say("init", tmp_path).out + (tmp_path / "campaign.yaml").read_text()
+    whole = (tmp_path / "campaign.yaml").read_text()
+    assert "kind: spindle" in whole
+    (tmp_path / "campaign.yaml").unlink()
+    monkeypatch.setattr("thermodata.draft.sample._SAMPLE_S", -1.0)
+    monkeypatch.setattr("thermodata.reader.text.table_rows._BLOCK_VALUES", 3000)
+    say("init", tmp_path)
+    hurried = (tmp_path / "campaign.yaml").read_text()
+    assert said in hurried
+    assert "kind: spindle" not in hurried
+
+
+def test_a_busy_machine_drafts_the_same(tmp_path: Path, say: Say, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Time that others take is not counted as time for the folder."""
+    from thermodata.draft import sample
+
+    for day in range(8):
+        lines = [f"{10 * i},{20 + i / 8:.3f}" for i in range(40)]
+        (tmp_path / f"heat{day}.csv").write_text("Time [s],T_front [degC]\n" + "\n".join(lines) + "\n")
+    say("init", tmp_path)
+    quiet = (tmp_path / "campaign.yaml").read_text()
+    (tmp_path / "campaign.yaml").unlink()
+    clock, moment = time.monotonic, [0.0]
+
+    def slow() -> float:
+        moment[0] += 2.0  # passes whenever anybody looks
+        return clock() + moment[0]
+
+    monkeypatch.setattr(sample.time, "monotonic", slow)
+    say("init", tmp_path)
+    assert (tmp_path / "campaign.yaml").read_text() == quiet

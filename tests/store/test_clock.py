@@ -14,7 +14,7 @@ from thermodata.errors import SpecError
 from thermodata.schema.flag import Flag
 from thermodata.store import Store
 from thermodata.store.ingest.run import ingest
-from thermodata.store.tidy.clock_lent import lent
+from thermodata.store.tidy.clock_lent import dated_sources, lent
 from thermodata.store.tidy.source_clock import Clock
 
 ALIGNED = CAMPAIGN.replace(
@@ -94,10 +94,10 @@ def test_an_idle_test_has_its_clock_by_the_others_where_they_agree(
 def test_events_that_a_person_declared_are_not_overruled_by_other_tests(events: tuple[str, ...], moved: bool) -> None:
     dated = SimpleNamespace(raws=[SimpleNamespace(clock="absolute", start_ns=None)])
     dated.spec = SimpleNamespace(clock=SimpleNamespace(events=events))
-    plans: list[Any] = [SimpleNamespace(test=SimpleNamespace(id=t), sources={"nc": dated}) for t in "abc"]
+    plan: Any = SimpleNamespace(sources={"nc": dated})
     told = Clock(250_000_000_000, 0.0, 0, key="k")
     clocks = {"a": {"nc": told}, "b": {"nc": told}, "c": {"nc": Clock(0, 0.0, 0, True, "k", ("they contradict",))}}
-    found = lent(plans, clocks)["c"]["nc"]
+    found = lent(clocks, {t: dated_sources(plan) for t in "abc"})["c"]["nc"]
     assert (found.offset_ns, found.suspect) == ((250_000_000_000, False) if moved else (0, True))
 
 

@@ -147,7 +147,7 @@ def plan(campaign: str, folder: Path, found: Scan) -> Draft:
     like = [f for f in found.logs if f.like]
     if like:
         notes.append(
-            f"{len(like)} files were not opened (too many): taken to be like others of their name, "
+            f"{len(like)} files were not opened (the folder's time was up): taken to be like others of their name, "
             f"e.g. {like[0].path} like {like[0].like}"
         )
     unseen = [f for f in found.logs if not (f.like or f.sample.whole or f.sample.rows or f.sample.losses)]
@@ -155,6 +155,13 @@ def plan(campaign: str, folder: Path, found: Scan) -> Draft:
         notes.append(
             f"{len(unseen)} files were opened, and none of their values looked at (the folder's time was up): their "
             f"tests are drafted from their names alone, e.g. {unseen[0].path}; check these lines"
+        )
+    hurried = [f for f in found.logs if f.sample.hurried]
+    if hurried:
+        notes.append(
+            f"{len(hurried)} files were looked at in their first rows only (the time for each was up): what their "
+            f"tests did later is not in this draft, e.g. {hurried[0].path} after {hurried[0].sample.rows} rows; check "
+            "these lines"
         )
     return Draft(
         campaign, sources, tuple(channels), tuple(calibrations), tests, table, left_out, found.damaged, tuple(notes)

@@ -7,57 +7,39 @@ of each kind once the time for it is used up.
 from __future__ import annotations
 
 import re
-import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path, PurePosixPath
 from typing import Any
 
-import numpy as np
-
-from thermodata.draft.guess import guess
-from thermodata.draft.quantity import Guess
-from thermodata.draft.values import Values, joined, values_of
+from thermodata.draft.sample import SMALL, Course, Sample, Watch, sample_of
 from thermodata.errors import QuestionError, ThermodataError
-from thermodata.plugin import Array, Block, Float1D, Int1D, Loss, Reader, Recording, Signal, Source
+from thermodata.plugin import Reader, Recording, Signal, Source
 from thermodata.reader.explain import kind_of
-from thermodata.reader.guard import described, guarded
+from thermodata.reader.guard import described
 from thermodata.reader.open_questions import UNKNOWN
 from thermodata.reader.registry import claims, reader
 from thermodata.schema.lines import is_text
 
-_SAMPLE_ROWS, _SAMPLE_S = 400_000, 1.0  # of one file
-_SMALL = 4_000_000  # bytes; smaller files are read whole
 _SAMPLES_S, _HEADERS_S = 15.0, 40.0  # of the whole folder
-_KEPT_ROWS = 3000  # of a signal whose course tells what a test is
-_COURSE = ("rotational_speed", "feed", "displacement", "voltage", "position", "state")
-_MOST_COURSES = 40
 _MOST_QUESTIONS = 4
 _ASSUMED = "counted as 1 s each|taken as seconds from a start"
 _UNIT: Mapping[str, Any] = {"time": {"unit": UNKNOWN}}
 _NOT_LOGS = frozenset((".yaml", ".yml", ".md", ".tdms_index"))
+__all__ = [
+    "Asked",
+    "Course",
+    "Progress",
+    "RawFile",
+    "Sample",
+    "Scan",
+    "described_files",
+    "merged",
+    "natural",
+    "sampled_file",
+    "scan",
+]
 Progress = Callable[[int, int, str], None]
-
-
-@dataclass(frozen=True, slots=True)
-class Course:
-    """How a signal went, thinned out. t_ns, values: shape (n,), n <= 3000."""
-
-    t_ns: Int1D
-    values: Float1D
-
-
-@dataclass(frozen=True, slots=True)
-class Sample:
-    """Of a file's values. whole: to its end; first_ns, last_ns: of what was read."""
-
-    values: Mapping[tuple[str, str], Values] = field(default_factory=dict)
-    courses: Mapping[tuple[str, str], Course] = field(default_factory=dict)
-    whole: bool = False
-    first_ns: int | None = None
-    last_ns: int | None = None
-    losses: int = 0
-    rows: int = 0
 
 
 @dataclass(frozen=True, slots=True)
@@ -123,7 +105,7 @@ def scan(folder: Path, progress: Progress | None = None) -> Scan:
     """All files below the folder; hidden ones, stores and links are left out. progress: (done, of, path)."""
     paths = list(_files(folder))
     tell = progress or (lambda done, of, path: None)
-    began, spent = time.monotonic(), 0.0
+    watch, spent = Watch(), 0.0
     logs: dict[str, RawFile] = {}
     ignored: list[tuple[str, str]] = []
     shapes: dict[str, RawFile] = {}
@@ -134,7 +116,7 @@ def scan(folder: Path, progress: Progress | None = None) -> Scan:
             ignored.append((str(path), "its name is no UTF-8: no campaign file can say it; give it another name"))
             continue
         try:
-            like = shapes.get(_shape(path)) if time.monotonic() - began > _HEADERS_S else None
+            like = shapes.get(_shape(path)) if watch.spent_s > _HEADERS_S else None
             if like is not None and like.sheet is None:
                 logs[str(path)] = RawFile(
                     path,
@@ -153,10 +135,10 @@ def scan(folder: Path, progress: Progress | None = None) -> Scan:
             found = described_files(who, full, path)
             ignored += [(str(path), why) for why in found[0].besides]
             for made in found:
-                if made.size < _SMALL and spent < _SAMPLES_S:  # now, for its reader has just looked at it
-                    before = time.monotonic()
+                if made.size < SMALL and spent < _SAMPLES_S:  # now, for its reader has just looked at it
+                    own = Watch()
                     made = replace(made, sample=_sample(full, made))
-                    spent += time.monotonic() - before
+                    spent += own.spent_s
                 key = str(path) if made.sheet is None else f"{path}/{made.sheet}"
                 logs[key] = shapes[_shape(path)] = made
             if str(path) in logs and not logs[str(path)].signals:
@@ -164,7 +146,7 @@ def scan(folder: Path, progress: Progress | None = None) -> Scan:
                 ignored.append((str(path), f"{who.name}: it holds no signal"))
         except (ThermodataError, OSError) as error:
             ignored.append((str(path), _short(error)))
-    sampled = _sampled(folder, logs, began, tell)
+    sampled = _sampled(folder, logs, tell)
     ordered = [str(p) for p in paths]
     damaged = list(dict.fromkeys((str(f.path), _damage(f)) for f in sampled if _damage(f)))
     position = {p: i for i, p in enumerate(ordered)}
@@ -313,14 +295,14 @@ def _damage(file: RawFile) -> str:
     return f"{file.sample.losses} losses in what was read of it" if file.sample.losses else ""
 
 
-def _sampled(folder: Path, logs: Mapping[str, RawFile], began: float, tell: Progress) -> list[RawFile]:
+def _sampled(folder: Path, logs: Mapping[str, RawFile], tell: Progress) -> list[RawFile]:
     """The logs with samples of their values, small files first: jump tests are small."""
     found = dict(logs)
     order = _spread([PurePosixPath(key) for key in sorted(logs, key=lambda key: logs[key].size)])
-    until = max(time.monotonic(), began) + _SAMPLES_S
+    watch = Watch()
     for done, path in enumerate(order):
         file = found[str(path)]
-        if time.monotonic() > until or file.like or file.sample.rows:
+        if watch.spent_s > _SAMPLES_S or file.like or file.sample.rows:
             continue
         tell(done, len(order), str(path))
         found[str(path)] = replace(file, sample=_sample(folder / file.path, file))
@@ -328,65 +310,4 @@ def _sampled(folder: Path, logs: Mapping[str, RawFile], began: float, tell: Prog
 
 
 def _sample(path: Path, file: RawFile) -> Sample:
-    began, rows, losses, whole = time.monotonic(), 0, 0, True
-    values: dict[tuple[str, str], Values] = {}
-    parts: dict[tuple[str, str], list[tuple[Int1D, Array]]] = {}
-    wanted = _courses(file.recording.signals)
-    first: int | None = None
-    last: int | None = None
-    unseen = {s.stream for s in file.recording.signals}
-    items = guarded(reader(file.reader), path, file.source, file.recording)
-    try:
-        for item in items:
-            if isinstance(item, Loss):
-                losses += 1
-                continue
-            _take(item, values, parts, wanted)
-            unseen.discard(item.stream)
-            first = min(x for x in (first, int(item.t_ns[0])) if x is not None)
-            last = max(x for x in (last, int(item.t_ns[-1])) if x is not None)
-            rows += item.t_ns.size
-            spent = time.monotonic() - began
-            if file.size < _SMALL and spent < 10 * _SAMPLE_S:
-                continue
-            if spent > 2 * _SAMPLE_S or (not unseen and (rows >= _SAMPLE_ROWS or spent > _SAMPLE_S)):
-                whole = False
-                break
-    except (ThermodataError, OSError):
-        losses, whole = losses + 1, False
-    finally:
-        items.close()  # type: ignore[attr-defined]
-    return Sample(values, {k: _thinned(v) for k, v in parts.items()}, whole, first, last, losses, rows)
-
-
-def _courses(signals: Sequence[Signal]) -> set[tuple[str, str]]:
-    """The signals whose course is kept: what tells the kind of a test, a jump, or a clock."""
-    found: list[tuple[str, str]] = []
-    for signal in signals:
-        said: Guess = guess(signal.name, signal.unit, signal.dtype)
-        if said.quantity in _COURSE and signal.dtype != "str":
-            found.append((signal.stream, signal.name))
-    return set(found[:_MOST_COURSES])
-
-
-def _take(
-    block: Block,
-    values: dict[tuple[str, str], Values],
-    parts: dict[tuple[str, str], list[tuple[Int1D, Array]]],
-    wanted: set[tuple[str, str]],
-) -> None:
-    for name, column in block.values.items():
-        key = (block.stream, name)
-        seen = values_of(column)
-        both = joined(values.get(key), seen)
-        if both is not None:
-            values[key] = both
-        if key in wanted and column.dtype.kind in "biuf":
-            step = max(1, column.size // _KEPT_ROWS)
-            parts.setdefault(key, []).append((block.t_ns[::step], column[::step].astype(np.float64)))
-
-
-def _thinned(parts: Sequence[tuple[Int1D, Array]]) -> Course:
-    t_ns, x = (np.concatenate(p) for p in zip(*parts, strict=True))
-    step = max(1, -(-t_ns.size // _KEPT_ROWS))
-    return Course(t_ns[::step], x[::step])
+    return sample_of(path, reader(file.reader), file.source, file.recording, file.size)

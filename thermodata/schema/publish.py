@@ -14,7 +14,7 @@ from typing import Any
 
 from pydantic import BaseModel
 
-from thermodata.schema import campaign, model, result
+from thermodata.schema import campaign, campaign_channels, campaign_sources, campaign_tests, model, result
 from thermodata.schema.campaign import Campaign
 from thermodata.schema.model import Model
 from thermodata.schema.result import Diagnosis, FitResult
@@ -36,7 +36,7 @@ def models() -> dict[str, type[BaseModel]]:
     """Every model of the published files, by the name of its class."""
     return {
         name: kind
-        for module in (campaign, model, result)
+        for module in (campaign, campaign_channels, campaign_sources, campaign_tests, model, result)
         for name, kind in vars(module).items()
         if isinstance(kind, type) and issubclass(kind, BaseModel) and kind.__module__ == module.__name__
     }

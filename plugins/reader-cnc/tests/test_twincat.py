@@ -166,3 +166,21 @@ def kit_file(tmp_path_factory: pytest.TempPathFactory) -> Path:
 @pytest.mark.parametrize("number", range(len(reader_checks(Reader, [(Path("x"), Source())]))))
 def test_it_keeps_the_rules_of_readers(kit_file: Path, number: int) -> None:
     reader_checks(Reader, [(kit_file, Source())])[number]()
+
+
+@pytest.mark.parametrize("at", [0, 5])
+def test_a_row_that_lost_a_delimiter_is_told_the_first_one_too(tmp_path: Path, at: int) -> None:
+    lines = export(",").removeprefix(HEADER).splitlines()
+    lines[at] = lines[at].replace("\t", "", 1)
+    data = load(Reader(), written(tmp_path, HEADER + "\n".join(lines) + "\n"), Source())
+    line = HEADER.count("\n") + at + 1
+    assert [loss.where for loss in data.losses][:1] == [f"scope.csv line {line}"]
+    assert len(next(iter(data.t_ns.values()))) == 19
+
+
+def test_a_row_of_names_with_cells_beyond_all_data_is_refused(tmp_path: Path) -> None:
+    """Room was made for each of them in each row: a gigabyte for a file of 100 kB."""
+    text = export().replace("Name\tfast\tName", "Name\tfast" + "\t" * 100_000 + "Name")
+    with pytest.raises(FormatError, match="the row of names is longer than any row of data") as error:
+        Reader().describe(written(tmp_path, text), Source())
+    assert error.value.got == "100005 cells"

@@ -207,6 +207,32 @@ def test_a_chunk_that_a_search_misses_is_a_loss_and_no_zeros(tmp_path: Path, pac
         np.testing.assert_array_equal(column(data, "T2"), -WAVE)
 
 
+@pytest.mark.parametrize("shuffled", [False, True])
+def test_a_chunk_that_is_not_packed_is_as_long_as_its_values(tmp_path: Path, shuffled: bool) -> None:
+    """HDF5 leaves a filter out that makes nothing smaller. Of a chunk that is shorter it would read its own memory."""
+    path = tmp_path / "x.mat"
+    raw = -WAVE[:16]
+
+    def write(size: int) -> Data:
+        with h5py.File(path, "w", userblock_size=512) as file:
+            for name, values in (("t", T), ("T1", WAVE), ("T2", -WAVE)):
+                item = file.create_dataset(
+                    name, data=values[None, :], chunks=(1, 16), compression="gzip", shuffle=shuffled
+                )
+                item.attrs["MATLAB_class"] = np.bytes_("double")
+            # every filter of the chunk is left out
+            file["T2"].id.write_direct_chunk((0, 0), raw.tobytes()[:size], filter_mask=0b11 if shuffled else 0b1)
+        return load(Reader(), path, Source())
+
+    data = write(raw.nbytes)
+    assert data.losses == ()
+    np.testing.assert_array_equal(column(data, "T2"), -WAVE)
+    data = write(raw.nbytes - 40)
+    assert [x.where for x in data.losses] == ["x.mat variable 'T2'"]
+    assert "a chunk of 88 bytes, not 128" in data.losses[0].reason
+    np.testing.assert_array_equal(column(data, "T1"), WAVE)
+
+
 def test_a_cut_or_flipped_file_keeps_its_whole_variables(tmp_path: Path) -> None:
     path = tmp_path / "x.mat"
     scipy.io.savemat(path, {"t": col(T), "a": col(WAVE), "b": col(WAVE * 2)}, do_compression=True)

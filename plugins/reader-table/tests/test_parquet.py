@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import subprocess
+import sys
+from contextlib import suppress
 from pathlib import Path
 
 import numpy as np
@@ -9,6 +12,7 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 import pytest
 from thermodata_reader_table import Reader
+from thermodata_reader_table.parquet.footer_check import check_size_statistics
 
 from thermodata.errors import FormatError, UsageError
 from thermodata.plugin import Source
@@ -45,3 +49,45 @@ def test_several_declared_times_are_refused(tmp_path: Path) -> None:
     with pytest.raises(UsageError, match="several times"):
         Reader().describe(path, Source(table={"time": [{"column": 1}, {"column": 2}]}))
     assert load(Reader(), path, Source(table={"time": [{"column": 1}]})).t_ns["table"].size == 5
+
+
+ALONE = "import pyarrow.parquet as pq, sys; pq.ParquetFile(sys.argv[1]).metadata.row_group(0).column(1)"
+
+
+def _with_footer(path: Path, data: bytes, change: tuple[bytes, bytes]) -> None:
+    """The file with a piece of its footer replaced, which stands there once."""
+    begin = len(data) - 8 - int.from_bytes(data[-8:-4], "little")
+    body, footer = data[:begin], data[begin:-8]
+    assert footer.count(change[0]) == 1
+    footer = footer.replace(*change)
+    path.write_bytes(body + footer + len(footer).to_bytes(4, "little") + b"PAR1")
+
+
+def test_a_histogram_with_a_level_too_few_is_refused_before_arrow_ends_the_process(tmp_path: Path) -> None:
+    path = tmp_path / "x.parquet"
+    schema = pa.schema([pa.field("t [s]", pa.float64(), nullable=False), pa.field("T", pa.float64())])
+    pq.write_table(pa.table({"t [s]": np.arange(5.0), "T": [1.0, None, 2.0, 3.0, None]}, schema=schema), path)
+    data = path.read_bytes()
+    assert load(Reader(), path, Source()).losses == ()
+    check_size_statistics(path, pq.ParquetFile(path).schema)  # a sound file has nothing to say
+    # of the column T: an empty list of repetition levels, and how many rows stand at the definition levels 0 and 1
+    _with_footer(path, data, (b"\x29\x06\x19\x26\x04\x06", b"\x29\x06\x19\x16\x04"))
+    alone = subprocess.run([sys.executable, "-c", ALONE, str(path)], capture_output=True, text=True, check=False)
+    if alone.returncode == 0:
+        pytest.skip("this Arrow does not look at the histograms")
+    with pytest.raises(FormatError, match="not a readable Parquet file") as error:
+        Reader().describe(path, Source())
+    assert error.value.got == "column 1 counts 1 definition levels, its schema has 2"
+
+
+def test_a_footer_of_any_bytes_is_walked_through_or_left(tmp_path: Path) -> None:
+    path = tmp_path / "x.parquet"
+    pq.write_table(pa.table({"t [s]": np.arange(5.0), "n": ["a", "b", None, "c", "d"]}), path)
+    data, schema = path.read_bytes(), pq.ParquetFile(path).schema
+    begin = len(data) - 8 - int.from_bytes(data[-8:-4], "little")
+    rng = np.random.default_rng(0)
+    for _ in range(2000):
+        at, value = int(rng.integers(begin, len(data) - 8)), int(rng.integers(256))
+        path.write_bytes(data[:at] + bytes((value,)) + data[at + 1 :])
+        with suppress(ValueError):  # what it says of a damaged file; anything else is a fault of ours
+            check_size_statistics(path, schema)

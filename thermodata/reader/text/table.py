@@ -8,14 +8,12 @@ from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
 from thermodata.errors import FormatError
 from thermodata.plugin import Source
 from thermodata.reader.open_questions import UNKNOWN, unanswered
 from thermodata.reader.text import delimiter as delimiters
-from thermodata.reader.text import timestamp
 from thermodata.reader.text.columns import dtype_of, find_decimal
+from thermodata.reader.text.date_parts import PART, column_times, row_time
 from thermodata.reader.text.grid import TIME, Grid
 from thermodata.reader.text.layout import STREAM, Group, Layout, find
 from thermodata.reader.text.lines import WHOLE, Sample, last_line_is_whole, sample
@@ -60,7 +58,7 @@ class TimedGroup:
         if self.group.counted:
             return f"counted, {self.group.seconds:g} s from row to row"
         if self.formats:
-            return " and ".join(form.text for form in self.formats)
+            return " and ".join(form.text for form in self.formats if form.role != PART.role)
         unit = next((u for u, seconds in SECONDS.items() if seconds == self.group.seconds), "")
         return f"as a number [{self.group.epoch or unit}]"
 
@@ -299,12 +297,11 @@ def _timed(
 
 def _dated(body: Sequence[list[str]], timed: TimedGroup) -> list[list[str]]:
     """The rows whose times can be read."""
-    times = list(zip(timed.group.time, timed.formats, strict=False))
+    if not timed.formats:
+        return list(body)
     if len(body) < _FEW_ROWS:
-        return [r for r in body if all(timestamp.parse_one(r[i], form) != NAT for i, form in times)]
-    read = np.ones(len(body), dtype=bool)
-    for i, form in times:
-        read &= timestamp.parse([r[i] for r in body], form) != NAT
+        return [r for r in body if row_time([r[i] for i in timed.group.time], timed.formats) != NAT]
+    read = column_times([[r[i] for r in body] for i in timed.group.time], timed.formats) != NAT
     return [r for r, good in zip(body, read.tolist(), strict=True) if good]
 
 
@@ -314,6 +311,6 @@ def _notes(layout: Layout, kinds: Sequence[str | None], groups: Sequence[TimedGr
         yield "columns without a name are called by their place"
     if any("#" in n and n.rsplit("#", 1)[-1].isdigit() for n in names):
         yield "names that repeat are numbered: #2, #3, ..."
-    for text in dict.fromkeys(form.text for g in groups for form in g.formats):
+    for text in dict.fromkeys(form.text for g in groups for form in g.formats if form.role != PART.role):
         if "DD/MM" in text or "MM/DD" in text:
             yield f"dates read as {text}"

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from thermodata.plugin import Array, Block, Bool1D, Int1D, Loss, Source
-from thermodata.reader.text import timestamp
+from thermodata.reader.text.date_parts import column_times
 from thermodata.reader.text.delimiter import fields
 from thermodata.reader.text.grid import Rows
 from thermodata.reader.text.lines import ODD, Chunk, last_line_is_whole
@@ -243,10 +243,4 @@ class _Clock:
             if self.epoch is not None:
                 return to_ns(values, self.epoch.seconds, self.epoch.zero_s)
             return to_ns(values, group.seconds or 1.0)
-        total = np.zeros(rows.n, np.int64)
-        bad = np.zeros(rows.n, bool)
-        for i, form in zip(group.time, self.timed.formats, strict=True):
-            part = timestamp.parse(rows.times[i], form)
-            bad |= part == NAT
-            total += np.where(bad, 0, part)
-        return np.where(bad, NAT, total)
+        return column_times([rows.times[i] for i in group.time], self.timed.formats)

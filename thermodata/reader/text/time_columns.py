@@ -12,12 +12,15 @@ from thermodata.errors import FormatError, QuestionError, UsageError, nearest
 from thermodata.plugin import Array
 from thermodata.reader.open_questions import UNKNOWN, unit_question
 from thermodata.reader.text.cell import TIME_WORD, Cell, is_clocked, is_dated, is_number, is_stamp, mostly, number_of
+from thermodata.reader.text.date_parts import find_parts
 from thermodata.reader.text.header import split_unit
 from thermodata.reader.text.odd_stamps import guess_format
 from thermodata.reader.text.time_formats import MILLISECONDS
+from thermodata.reader.text.zone_words import HOURS, SEVERAL, word_behind
 from thermodata.reader.time_units import EPOCHS, SECONDS, check_unit, found_epoch
 
 _FEWEST_ROWS = 10  # of a table whose period is asked for: less is a list of anything
+_ZONED_ROWS = 40  # of its beginning and its end, for the zone may be another one then
 _UNIT_BEHIND = re.compile(
     r"^(?P<word>[^\W\d_]+(?: [^\W\d_]+)??)(?P<between>\s+in\s+|\s*[/,:]\s*|[ _.]+)(?P<unit>[^\W\d_]{1,8})\.?$"
 )
@@ -77,8 +80,19 @@ def time_of(
 ) -> tuple[tuple[int, ...], str | None, str | None, list[str]]:
     """(time columns, unit or None for dates, format, notes). likely: columns that are called times in other words."""
     wanted, unit, form = said.get("column"), said.get("unit"), said.get("format")
+    if form is None and unit is None:
+        asked = zone_question(names, data, where)
+        if asked is not None:
+            raise asked
     if wanted is not None:
         columns = tuple(column(w, names, where) for w in (wanted if isinstance(wanted, list | tuple) else [wanted]))
+        parts = find_parts([names[i] for i in columns], [[r[i] for i in columns] for r in data])
+        if form is None and unit is None and parts is not None and len(parts[0]) == len(columns):
+            return tuple(columns[i] for i in parts[0]), None, parts[1], []
+    elif form is None and unit is None and (parts := find_parts(names, data)) is not None:
+        columns, form = parts
+        shown = ", ".join(f"'{names[i]}'" for i in columns)
+        return columns, None, form, [f"the time stands in {len(columns)} columns: {shown}"]
     else:
         try:
             columns = find_time(names, units, data, where, likely)
@@ -226,6 +240,37 @@ def _joined_question(
         form, first = stamps(i)
         if form is not None and "%H" not in form:
             return _format_question((i, place), form, first, where)
+    return None
+
+
+def zone_question(names: list[str], data: list[list[Cell]], where: str) -> QuestionError | None:
+    """What to ask of times behind which a word stands that is no zone, or several: 2026-03-02 08:00:00 CST. None where
+    none stands there."""
+    for i in range(len(names)):
+        cells = [r[i].strip() for r in (*data[:_ZONED_ROWS], *data[-_ZONED_ROWS:]) if isinstance(r[i], str) and r[i]]
+        if not cells or ":" not in cells[0]:
+            continue
+        words = {c: w for c in cells if (w := word_behind(c)) is not None}
+        bare = {c: c.removesuffix(")").removesuffix(w).rstrip(" (") for c, w in words.items()}
+        if len(words) <= 0.3 * len(set(cells)) or not mostly(bare.values(), is_stamp, 0.8, len(bare)):
+            continue
+        cell, word = next(iter(words.items()))
+        spelled = guess_format(list(bare.values())) if len(set(words.values())) == 1 else None
+        form = spelled + cell[len(bare[cell]) :] if spelled else UNKNOWN
+        zones = SEVERAL.get(word, ())
+        shown = " or ".join(zones) if zones else "Europe/Prague"
+        said = {"time": {"column": i + 1, "format": form}}
+        return QuestionError(
+            f"times in a zone that has several meanings: '{word}'" if len(zones) > 1 else f"an unknown zone '{word}'",
+            where=f"{where} column '{names[i]}'",
+            expected=f"an offset such as +01:00, or one of {', '.join(HOURS)}",
+            got=cell,
+            hint=f"declare what it is in the source: timezone: {shown}; and table: {{time: {{column: {i + 1}, "
+            f"format: '{form if spelled else '%Y-%m-%d %H:%M:%S ' + word}'}}}}",
+            ask=f"zone of the times: what is '{word}'? write timezone: {shown} into this source",
+            declare=said,
+            meanwhile=said if spelled else {"time": {"period": 1.0}},
+        )
     return None
 
 

@@ -18,6 +18,7 @@ from thermodata.errors import FormatError, QuestionError
 from thermodata.plugin import Array, Int1D
 from thermodata.reader.open_questions import UNKNOWN, unanswered
 from thermodata.reader.text import timestamp
+from thermodata.reader.text.date_parts import declared_parts
 from thermodata.reader.text.local_clock import DayCount
 from thermodata.reader.text.timestamp import DATE, DATETIME, ELAPSED, MILLISECOND, TIME_OF_DAY, TimeFormat
 from thermodata.reader.time_units import EPOCHS, SECONDS, to_ns
@@ -67,11 +68,13 @@ def find_formats(
     if declared == UNKNOWN:
         raise unanswered("time.format", f"{', '.join(_ORDERS)}, or strptime's letters", where)
     order = declared if declared in _ORDERS else None
+    forms: list[TimeFormat] = list(declared_parts(declared, len(columns)))
+    if forms:
+        declared = None  # what stands beside a date in parts tells its own format
     wanted: Sequence[str] = () if declared is None or order else [declared]
     if declared is not None and len(columns) > 1 and len(declared.split()) == len(columns):
         wanted = declared.split()
-    forms: list[TimeFormat] = []
-    for k, (name, cells) in enumerate(zip(names, columns, strict=True)):
+    for k, (name, cells) in list(enumerate(zip(names, columns, strict=True)))[len(forms) :]:
         if k and MILLISECONDS.match(name):
             forms.append(MILLISECOND)
             continue

@@ -19,6 +19,7 @@ import numpy.typing as npt
 from thermodata.errors import FormatError
 from thermodata.plugin import Int1D
 from thermodata.reader.text.number import text_array
+from thermodata.reader.text.zone_words import ZONE, offset_ns
 from thermodata.reader.zone import NAT
 
 CENTURY = 69  # years of two digits below it are of this one: 1969 to 2068, as strptime's %y
@@ -37,7 +38,6 @@ _DATES = {
     "mdy": rf"(?P<m>\d{{1,2}})(?P<s>[-/.]) ?(?P<d>\d{{1,2}})(?P=s) ?{_YEAR}",
 }
 _BETWEEN = r"(?:,?\s*[T_-]?\s*)"
-_ZONE = r"(?P<z>\s*(?:Z|UTC|GMT|[+-]\d{2}(?::?\d{2})?))"
 _STRPTIME = {
     "Y": r"(?P<Y>\d{4})",
     "y": r"(?P<y>\d{2})",
@@ -49,19 +49,21 @@ _STRPTIME = {
     "S": r"(?P<S>\d{1,2})",
     "f": r"(?P<f>\d{1,9})",
     "p": r"(?P<p>[AaPp]\.?[Mm]\.?)",
-    "z": r"(?P<z>Z|UTC|[+-]\d{2}(?::?\d{2})?)",
+    "z": ZONE,
+    "Z": ZONE,
     "%": "%",
 }
 _ISO = re.compile(r"^\d{4}-\d\d-\d\d[T ]\d\d:\d\d(:\d\d(\.\d{1,9})?)?$", re.ASCII)
 _FIRST_NS, _LAST_NS = ((date(year, 1, 1) - _EPOCH).days * _DAY for year in (1900, 2201))
 _CALENDAR = frozenset("YymdbBjGVUWu")  # letters of a declared format that Python reads, cell by cell
-_OTHERS = frozenset("bBaAjGVUWuwZcxX")
+_OTHERS = frozenset("bBaAjGVUWuwcxX")
 
 
 @dataclass(frozen=True, slots=True)
 class TimeFormat:
     """How the cells of one time column read. role: datetime, date, time, millisecond, offset (milliseconds since a
-    start), or relative (numbers). zoned: whether the cells name their offset from UTC: None where either may come."""
+    start), relative (numbers), or part (of the time of a column before it). zoned: whether the cells name their offset
+    from UTC: None where either may come."""
 
     role: str
     pattern: re.Pattern[str] | None
@@ -69,6 +71,7 @@ class TimeFormat:
     body: str = ""  # the pattern without a zone
     zoned: bool | None = None
     strptime: str | None = None  # a declared format with names of months and the like
+    columns: int = 1  # that hold its parts, from its own on
 
 
 def _compile(body: str) -> re.Pattern[str]:
@@ -76,7 +79,7 @@ def _compile(body: str) -> re.Pattern[str]:
 
 
 def _format(role: str, body: str, text: str, zone: bool = True) -> TimeFormat:
-    return TimeFormat(role, _compile(body + (f"{_ZONE}?" if zone else "")), text, body)
+    return TimeFormat(role, _compile(body + (f"{ZONE}?" if zone else "")), text, body)
 
 
 TIME_OF_DAY = _format("time", _TIME, "HH:MM:SS")
@@ -101,7 +104,7 @@ def with_zone(form: TimeFormat, zoned: bool) -> TimeFormat:
     if form.role not in ("datetime", "time") or not form.body:
         return form
     text = form.text + (" and an offset from UTC" if zoned else "")
-    return replace(form, pattern=_compile(form.body + (_ZONE if zoned else "")), zoned=zoned, text=text)
+    return replace(form, pattern=_compile(form.body + (ZONE if zoned else "")), zoned=zoned, text=text)
 
 
 def is_zoned(cell: str, form: TimeFormat) -> bool:
@@ -135,10 +138,11 @@ def declared_format(text: str) -> TimeFormat:
         pattern = _compile(body)
     except re.error as error:
         raise FormatError(f"time format '{text}' cannot be used", got=str(error)) from None
-    return TimeFormat("datetime" if day and clock else "date" if day else "time", pattern, text)
+    role = "datetime" if day and clock else "date" if day else "time"
+    return TimeFormat(role, pattern, text, zoned=bool(used & {"z", "Z"}) or None)
 
 
-_CLOCK_TEXT = re.sub(r"\?P<\w+>", "?:", _TIME + _ZONE + "?")
+_CLOCK_TEXT = re.sub(r"\?P<\w+>", "?:", _TIME + ZONE + "?")
 _DATE_TEXT = (
     r"(?:\d{4}([-/.]) ?\d{1,2}\1 ?\d{1,2}|\d{1,2}([-/.]) ?\d{1,2}\2 ?(?:\d{4}|\d{2})|"
     r"\d{4}[年년] ?\d{1,2}[月월] ?\d{1,2}[日일])"
@@ -340,15 +344,6 @@ def _assemble(fields: dict[str, npt.NDArray[np.int64]], match: re.Match[str]) ->
     if groups.get("z"):
         total -= offset_ns(groups["z"])
     return np.where(bad, NAT, total)
-
-
-def offset_ns(text: str) -> int:
-    """Nanoseconds east of Greenwich: 'Z', '+01:00', '-0430'."""
-    text = text.strip()
-    if text[0] not in "+-":
-        return 0
-    digits = text[1:].replace(":", "")
-    return (-1 if text[0] == "-" else 1) * (int(digits[:2]) * 3600 + int(digits[2:] or 0) * 60) * _S
 
 
 def _days(year: Int1D, month: Int1D, day: Int1D) -> Int1D:

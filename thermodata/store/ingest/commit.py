@@ -5,11 +5,11 @@ from __future__ import annotations
 import json
 import os
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from datetime import datetime
 from functools import cached_property, lru_cache
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from thermodata.schema.campaign import Campaign
 from thermodata.store.base.connection import fetch, insert
@@ -25,34 +25,24 @@ _WORDS = ("notes", "repeat_of", "added_at", "start", "sensor", "raw_unit")
 
 @dataclass
 class Planned:
-    """The whole state of a campaign, as it is to be. rows: table -> test -> rows ('' for jump tests)."""
+    """The whole state of a campaign, as it is to be. rows: table -> test -> rows ('' for jump tests), all of them of
+    the table `test`, of the others those of the tests that were looked at. versions: of the tests, by `version_of`."""
 
     campaign: Campaign
     path: Path
     rows: dict[str, dict[str, list[Row]]]
     calibrations: list[Row]
-    extra: dict[str, Any] = field(default_factory=dict)
+    versions: Mapping[str, str]
 
     @cached_property
     def spec(self) -> str:
         return self.campaign.model_dump_json(by_alias=True)
 
-    def tests(self) -> set[str]:
-        return {test for table in self.rows.values() for test, rows in table.items() if rows}
-
     def paths(self) -> set[str]:
         return {row["path"] for rows in self.rows["file"].values() for row in rows}
 
-    def parts(self) -> dict[str, int | None]:
-        """The store's files, and their sizes where the catalogue tells them."""
-        return {
-            row["path"]: row["bytes"] if row["layer"] == "tidy" else None
-            for rows in self.rows["file"].values()
-            for row in rows
-        }
-
     def data_version(self) -> str:
-        return key_of(*(f"{t}:{version_of(self.rows, t)}" for t in sorted(self.rows["test"])))
+        return key_of(*(f"{t}:{self.versions[t]}" for t in sorted(self.rows["test"])))
 
 
 class VanishedError(Exception):
@@ -72,6 +62,11 @@ def version_of(rows: Mapping[str, Mapping[str, list[Row]]], test: str) -> str:
             parts.append(repr([(k, row[k]) for k in _read_by_a_fit(tuple(row))]))
     parts += sorted({r["key"] for r in rows["file"].get(test, []) if r["layer"] == "tidy"})
     return key_of(*sorted(parts))
+
+
+def parts_of(rows: Mapping[str, Mapping[str, list[Row]]], test: str) -> dict[str, int | None]:
+    """The store's files of a test, and their sizes where the catalogue tells them."""
+    return {row["path"]: row["bytes"] if row["layer"] == "tidy" else None for row in rows["file"].get(test, [])}
 
 
 def changes(planned: Planned, inventory: Inventory) -> dict[str, set[str]]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass, field
 from functools import lru_cache
 from pathlib import Path
@@ -57,15 +57,30 @@ class Inventory:
         ]
 
 
-def read_inventory(con: duckdb.DuckDBPyConnection, store: Path | None, campaign: str) -> Inventory:
+def read_inventory(
+    con: duckdb.DuckDBPyConnection,
+    store: Path | None,
+    campaign: str,
+    tests: Collection[str] | None = None,
+    keys: Collection[str] = (),
+) -> Inventory:
     """The catalogue's rows about a campaign. Raw files that are gone or cut are left out.
 
-    store: the folder; None where the raw files don't matter, which each are opened to see whether they are whole."""
+    store: the folder; None where the raw files don't matter, which each are opened to see whether they are whole.
+    tests: only the rows of these, but for the table `test`, and the raw data of these keys; None: all."""
     inventory = Inventory(campaign, generation_of(con))
     seen: set[str] = set()
     folder = str(store)
+    some, named = "", []
     elsewhere = "layer in ('raw', 'superseded')" if store else "false"
-    files = fetch(con, f"select * from file where campaign = ? or {elsewhere}", [campaign])
+    if tests is not None:
+        some, named = " and list_contains(?, test)", [sorted({*tests, ""})]
+        elsewhere += " and list_contains(?, key)"
+    files = fetch(
+        con,
+        f"select * from file where (campaign = ?{some}) or ({elsewhere})",
+        [campaign, *named, *([sorted(keys)] if tests is not None else [])],
+    )
     for row in files if store else ():
         wanted = row["layer"] in ("raw", "superseded") and row["path"] not in seen
         if wanted and is_whole(os.path.join(folder, row["path"])):
@@ -75,8 +90,13 @@ def read_inventory(con: duckdb.DuckDBPyConnection, store: Path | None, campaign:
         grouped: dict[str, list[Row]] = {}
         # `start` would come as a Python datetime, which is optional and says what start_ns says
         columns = "* exclude (start)" if table == "test" else "*"
-        own = [] if table == "file" else fetch(con, f"select {columns} from {table} where campaign = ?", [campaign])
-        for row in own if table != "file" else files:
+        if table == "file":
+            own = files if tests is None else [r for r in files if r["test"] in tests or r["test"] == ""]
+        elif table == "test":
+            own = fetch(con, f"select {columns} from {table} where campaign = ?", [campaign])
+        else:
+            own = fetch(con, f"select {columns} from {table} where campaign = ?{some}", [campaign, *named])
+        for row in own:
             if row["campaign"] == campaign:
                 grouped.setdefault(row["test"], []).append(row)
         inventory.rows[table] = grouped

@@ -3,21 +3,22 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import Any
 
 from thermodata.errors import FormatError, StoreError, ThermodataError, UsageError, nearest
-from thermodata.plugin import Loss, Reader, Source
+from thermodata.plugin import Reader, Source
 from thermodata.reader import registry
 from thermodata.schema.campaign import Campaign, JumpCalibration, SourceSpec, Test
 from thermodata.store.base.files import DISK_FULL, is_whole, write_error
 from thermodata.store.ingest.file_versions import pinned, read_otherwise, twins
 from thermodata.store.ingest.inventory import Inventory
+from thermodata.store.ingest.losses import Losses, Said, loss_row
 from thermodata.store.ingest.progress import Progress, counted
 from thermodata.store.ingest.resolve import SourceFiles, file_inside, natural, resolve
 from thermodata.store.ingest.side_by_side import read_side_by_side, workers_for
+from thermodata.store.ingest.test_note import TestNote
 from thermodata.store.ingest.unchanged import Seen, seen
 from thermodata.store.ingest.worker import Task
 from thermodata.store.raw.source_file import ChangedError, SourceFile, frozen, settled
@@ -25,29 +26,6 @@ from thermodata.store.raw.streams import RAW_VERSION, RawStream, declared, find_
 from thermodata.store.tidy.keys import TIDY_VERSION
 from thermodata.store.tidy.plan import SourcePlan, TestPlan
 from thermodata.version import __version__
-
-Losses = list[dict[str, Any]]
-
-
-def loss_row(
-    reason: str,
-    *,
-    test: str | None = None,
-    source: str | None = None,
-    file: str | None = None,
-    loss: Loss | None = None,
-) -> dict[str, Any]:
-    """A loss as the summary tells it; times in seconds of the file's own clock."""
-    return {
-        "test": test,
-        "source": source,
-        "file": file,
-        "where": loss.where if loss else None,
-        "from_ns": loss.from_ns if loss else None,
-        "to_ns": loss.to_ns if loss else None,
-        "fraction": loss.fraction if loss else None,
-        "reason": reason,
-    }
 
 
 @dataclass(slots=True)
@@ -59,10 +37,11 @@ class RawIngest:
     campaign: Campaign
     inventory: Inventory
     watch: Progress
-    losses: Losses = field(default_factory=list)
-    notes: list[str] = field(default_factory=list)
+    # test -> what is said of it ('': of what belongs to none)
+    said: dict[str, Said] = field(default_factory=lambda: {"": Said()})
     files: set[str] = field(default_factory=set)
     read: int = 0
+    _test: str = ""
     # what was said of this time only, and not when the same is ingested again
     passing: bool = False
     _told: set[str] = field(default_factory=set)
@@ -72,6 +51,16 @@ class RawIngest:
     _sizes: dict[str, int] = field(default_factory=dict)
     _streams: dict[str, list[RawStream] | ThermodataError | OSError] = field(default_factory=dict)
     _readers: dict[str, Reader] = field(default_factory=dict)
+
+    @property
+    def losses(self) -> Losses:
+        """Those of the test that is being planned."""
+        return self.said[self._test].losses
+
+    @property
+    def notes(self) -> list[str]:
+        """Those of the test that is being planned."""
+        return self.said[self._test].notes
 
     def survey(self) -> None:
         """Finds all files, and says how many and how much that is."""
@@ -105,6 +94,23 @@ class RawIngest:
             f"{__version__} {RAW_VERSION} {TIDY_VERSION}",
         )
 
+    def narrow(self, tests: Collection[str]) -> None:
+        """Leaves the files of all other tests alone."""
+        self._source_files = {key: files for key, files in self._source_files.items() if key[0] in tests}
+        wanted = {path for path, _, _ in self._listed()}
+        for path in [p for p in self._sizes if p not in wanted]:
+            self._done(path)
+
+    def tests_with(self, paths: Collection[str]) -> set[str] | None:
+        """The tests that have any of the files; None where a calibration has, which every test may need."""
+        if any(isinstance(c, JumpCalibration) and c.file in paths for c in self.campaign.calibrations.values()):
+            return None
+        return {test for (test, _), files in self._source_files.items() if not files.isdisjoint(paths)}
+
+    def keys(self) -> set[str]:
+        """The keys of the raw data of all listed files, as they stand now."""
+        return {task.key for task in self._listed_tasks()}
+
     def read_ahead(self) -> None:
         """Reads what the store doesn't hold yet, several files side by side where that pays. What can't be read so is
         left to whoever asks for it."""
@@ -132,17 +138,24 @@ class RawIngest:
     def _tasks(self) -> Iterator[Task]:
         """Each file once that an installed reader is to read, in the order in which it will be asked for."""
         asked: set[str] = set()
+        for task in self._listed_tasks():
+            if (
+                task.key in asked
+                or task.key in self.inventory.raws
+                or registry.readers().get(task.reader) is not self._readers[task.reader]
+            ):
+                continue
+            asked.add(task.key)
+            yield task
+
+    def _listed_tasks(self) -> Iterator[Task]:
         for path, source, spec in self._listed():
             try:
                 reader, file = self._reader(spec.reader, source), self._settle(path)
             except (ThermodataError, OSError):
                 continue  # told where the file is read
             declaration = declared(source, spec)
-            key = raw_key(file.sha256, reader, declaration)
-            if key in asked or key in self.inventory.raws or registry.readers().get(spec.reader) is not reader:
-                continue
-            asked.add(key)
-            yield Task(key, self.store, path, file, spec.reader, declaration)
+            yield Task(raw_key(file.sha256, reader, declaration), self.store, path, file, spec.reader, declaration)
 
     def _listed(self) -> Iterator[tuple[str, str, SourceSpec]]:
         """(path, source, what is declared of it) of the files whose present content is wanted."""
@@ -170,6 +183,7 @@ class RawIngest:
 
     def plan(self, test: Test) -> TestPlan:
         """A test with the raw streams of all its sources."""
+        self._test, self.said[test.id] = test.id, Said()
         plan = TestPlan(self.campaign, test)
         for name, spec in self.campaign.sources.items():
             plan.sources[name] = self._source(test, name, spec.of_test(test.id))
@@ -210,22 +224,24 @@ class RawIngest:
                 self.notes.append(text)
         return plan
 
-    def empty_sources(self, plans: list[TestPlan]) -> None:
+    def empty_sources(self, tests: Collection[TestNote]) -> Losses:
         """A loss for each source that channels need and that has no file in any test: a pattern is wrong then."""
+        found: Losses = []
         needed = {c.source for c in self.campaign.channels.values()}
+        told = {row["source"] for losses in (self.said[""].losses, *(t.losses for t in tests)) for row in losses}
         for name, spec in self.campaign.sources.items():
-            if name in needed and plans and not any(p.sources[name].raws for p in plans):
-                if any(row["source"] == name for row in self.losses):
-                    continue
+            if name in needed - told and tests and not any(name in t.sources for t in tests):
                 patterns = [spec.files] if isinstance(spec.files, str) else spec.files or ["no 'files'"]
-                self.losses.append(
+                found.append(
                     loss_row(
                         f"no file in any test ({', '.join(patterns)}); try: correct 'files' of the source", source=name
                     )
                 )
+        return found
 
     def jump_files(self) -> dict[str, list[RawStream]]:
         """Calibration -> the raw streams of its jump test."""
+        self._test = ""
         streams: dict[str, list[RawStream]] = {}
         for name, spec in self.campaign.calibrations.items():
             if not isinstance(spec, JumpCalibration):

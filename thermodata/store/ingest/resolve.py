@@ -6,7 +6,7 @@ import glob
 import os
 import re
 import stat
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass, field
 from functools import lru_cache
 from pathlib import Path, PurePosixPath
@@ -29,6 +29,10 @@ class SourceFiles:
     shared: bool
     explicit: bool
     odd: Mapping[str, str] = field(default_factory=dict)
+
+    def isdisjoint(self, paths: Collection[str]) -> bool:
+        """Whether it has none of the files."""
+        return not any(path in paths for path in self.paths)
 
     def claims(self, path: str) -> bool:
         """Whether a path that is no longer there would still belong."""

@@ -3,28 +3,34 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
+from collections import Counter
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import asdict, dataclass, field, replace
 from datetime import UTC, datetime
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from thermodata.errors import StoreError
 from thermodata.schema.campaign import Campaign
 from thermodata.schema.load import load_campaign
 from thermodata.store.catalogue.store import Store, new_mark
 from thermodata.store.ingest.catalogue_rows import calibration_row, raw_row
-from thermodata.store.ingest.commit import Planned, VanishedError, changes, commit, nothing_new
+from thermodata.store.ingest.commit import Planned, VanishedError, changes, commit, nothing_new, parts_of, version_of
 from thermodata.store.ingest.file_versions import keep_earlier
 from thermodata.store.ingest.inventory import BY_TEST, Inventory, Row, generation_of, read_inventory
+from thermodata.store.ingest.losses import loss_row
 from thermodata.store.ingest.progress import Progress, TextProgress
-from thermodata.store.ingest.raw_layer import RawIngest, loss_row
+from thermodata.store.ingest.raw_layer import RawIngest
 from thermodata.store.ingest.spec_lines import with_lines
-from thermodata.store.ingest.tidy_layer import tidy_tests
+from thermodata.store.ingest.test_note import LeftAlone, OtherwiseError, TestNote, left_alone
+from thermodata.store.ingest.tidy_layer import TidyLayer, tidy_tests
 from thermodata.store.ingest.unanswered import unanswered
-from thermodata.store.ingest.unchanged import answer, keep, known_files, noted
+from thermodata.store.ingest.unchanged import differing, keep, known_files, noted, of_tests, summary_of
 from thermodata.store.tidy.calibrations import evaluate
 from thermodata.store.tidy.plan import bind
+
+if TYPE_CHECKING:
+    import duckdb
 
 _ATTEMPTS = 3
 NOTHING = "nothing changed: the store holds these files and this campaign file already"
@@ -72,9 +78,12 @@ def ingest(
     campaign: in place of a file's content; the path then says where its logs are.
     """
     watch = TextProgress(progress or (lambda _: None)) if progress is None or callable(progress) else progress
+    every_test = False
     for attempt in range(_ATTEMPTS):
         try:
-            return _ingest(store, Path(campaign_path), watch, campaign)
+            return _ingest(store, Path(campaign_path), watch, campaign, every_test)
+        except OtherwiseError:
+            every_test = True  # which raises it no more
         except VanishedError as error:
             if attempt == _ATTEMPTS - 1:
                 raise StoreError(
@@ -86,47 +95,67 @@ def ingest(
     raise AssertionError("unreachable")
 
 
-def _ingest(store: Store, path: Path, watch: Progress, given: Campaign | None) -> IngestSummary:
+def _ingest(store: Store, path: Path, watch: Progress, given: Campaign | None, every_test: bool) -> IngestSummary:
+    """every_test: looks at all of them, whatever an earlier ingest noted; else OtherwiseError may ask for that."""
     began, now = time.monotonic(), datetime.now(UTC).replace(tzinfo=None)
     campaign = load_campaign(path) if given is None else given
     raw_layer = RawIngest(store.path, path.absolute().parent, campaign, Inventory(), watch)
     raw_layer.survey()
     here = raw_layer.seen(path.absolute())
     kept = noted(here)
-    known = answer(here, kept, store.mark()) if given is None else None
-    if known is not None:
-        return replace(IngestSummary(**known), seconds=time.monotonic() - began)
-    raw_layer.hashed(known_files(here, kept))
+    files = known_files(here, kept)
+    differs = differing(here, kept, store.mark(), files) if given is None else None
+    if differs is not None and not differs:
+        return replace(IngestSummary(**summary_of(kept)), seconds=time.monotonic() - began)
+    raw_layer.hashed(files)
+    lines = of_tests(here, kept, [t.id for t in campaign.tests]) if differs is not None and not every_test else {}
+    left = left_alone(lines, raw_layer.tests_with(differs or ()))
     with store.marked_reader() as (con, mark):
-        inventory = raw_layer.inventory = read_inventory(con, store.path, campaign.id)
+        inventory = raw_layer.inventory = _inventory(con, store, raw_layer, left, mark == kept.get("mark"))
     raw_layer.read_ahead()
     jumps = raw_layer.jump_files()
     results, problems = evaluate(store.path, campaign, jumps)
-    plans = []
-    for test in campaign.tests:
-        plan = raw_layer.plan(test)
+    plans = [raw_layer.plan(test) for test in campaign.tests if test.id not in left.tests]
+    for plan in plans:
         bind(plan)
-        plans.append(plan)
-    raw_layer.empty_sources(plans)
-    tidy_layer = tidy_tests(store.path, plans, results, inventory, now, watch.say)
+    tidy_layer = tidy_tests(store.path, campaign, plans, results, inventory, now, watch.say, left)
     rows: dict[str, dict[str, list[Row]]] = {t: dict(tidy_layer.rows[t]) for t in BY_TEST}
     rows["file"][""] = [
         raw_row(campaign.id, "", name, raw, "calibration", now) for name, raws in jumps.items() for raw in raws
     ]
     keep_earlier(rows["file"], inventory, now)
+    if left.tests:
+        # its rows stand in the order of the campaign file, so a commit may write all of them
+        rows["test"] = {
+            t.id: r
+            for t in campaign.tests
+            if (r := (rows if t.id not in left.tests else inventory.rows)["test"].get(t.id))
+        }
+    notes = _notes_of_tests(campaign, raw_layer, tidy_layer, rows, left)
     calibration_rows = [calibration_row(campaign.id, r) for r in results.values()]
-    planned = Planned(campaign, path.absolute(), rows, calibration_rows)
+    versions = {name: note.version for name, note in notes.items() if note.version is not None}
+    planned = Planned(campaign, path.absolute(), rows, calibration_rows, versions)
+    losses = [
+        *raw_layer.said[""].losses,
+        *(dict(row) for note in notes.values() for row in note.losses),  # lines are of this campaign file
+        *raw_layer.empty_sources(list(notes.values())),
+        *(loss_row(p) for p in problems),
+    ]
+    said = [*raw_layer.said[""].notes, *(n for note in notes.values() for n in note.notes), *tidy_layer.notes]
+    parts = {
+        path: size for own in (parts_of(rows, ""), *(n.parts for n in notes.values())) for path, size in own.items()
+    }
     summary = IngestSummary(
         campaign.id,
-        tests=len(plans),
-        files=len(raw_layer.files),
-        samples=tidy_layer.samples,
-        flags=dict(sorted(tidy_layer.flags.items())),
+        tests=len(campaign.tests),
+        files=len({r["source_path"] for r in rows["file"][""]}.union(*(n.files for n in notes.values()))),
+        samples=sum(n.samples for n in notes.values()),
+        flags=_summed(n.flags for n in notes.values()),
         read=raw_layer.read,
         made=tidy_layer.new_streams,
         calibrations=[{**r.row(campaign.id), "name": r.name} for r in results.values()],
-        losses=with_lines(raw_layer.losses + tidy_layer.losses + [loss_row(p) for p in problems], path),
-        notes=list(dict.fromkeys(unanswered(campaign) + raw_layer.notes + tidy_layer.notes)),
+        losses=with_lines(losses, path),
+        notes=list(dict.fromkeys(unanswered(campaign) + said)),
     )
     again = replace(summary, read=0, made=0, notes=[*summary.notes, NOTHING])
     # what was damaged and is made anew has the same rows: the views must see it all the same
@@ -137,6 +166,8 @@ def _ingest(store: Store, path: Path, watch: Progress, given: Campaign | None) -
         mark = new_mark()
         with store.write(mark=mark) as con:
             if generation_of(con) != inventory.generation:
+                if left.tests:
+                    raise OtherwiseError("another commit")
                 inventory = read_inventory(con, None, campaign.id)
                 changed = changes(planned, inventory)
             summary.stale = commit(con, store.path, planned, inventory, changed, now)
@@ -144,9 +175,47 @@ def _ingest(store: Store, path: Path, watch: Progress, given: Campaign | None) -
         if summary.stale:
             summary.notes.append(f"{len(summary.stale)} fitted models are stale now: fit them again")
     if not raw_layer.passing and given is None:
-        keep(here, mark, raw_layer.hashes(), planned.parts(), again.to_json())
+        of_each = (lines[name] if name in left.tests else note.to_text() for name, note in notes.items())
+        keep(here, mark, raw_layer.hashes(), parts, again.to_json(), of_each)
     summary.seconds = time.monotonic() - began
     return summary
+
+
+def _inventory(
+    con: duckdb.DuckDBPyConnection, store: Store, raw_layer: RawIngest, left: LeftAlone, noted_now: bool
+) -> Inventory:
+    """What the store holds of the tests that are looked at. noted_now: whether no commit came since the note."""
+    campaign = raw_layer.campaign
+    if not left.tests:
+        return read_inventory(con, store.path, campaign.id)
+    if not noted_now:
+        raise OtherwiseError("another commit")
+    looked_at = {t.id for t in campaign.tests if t.id not in left.tests}
+    raw_layer.narrow(looked_at)
+    return read_inventory(con, store.path, campaign.id, looked_at, raw_layer.keys())
+
+
+def _notes_of_tests(
+    campaign: Campaign,
+    raw_layer: RawIngest,
+    tidy_layer: TidyLayer,
+    rows: Mapping[str, Mapping[str, list[Row]]],
+    left: LeftAlone,
+) -> dict[str, TestNote]:
+    """What is told of each test, in the order of the campaign file."""
+    for name, note in tidy_layer.tests.items():
+        note.losses[:0], note.notes[:0] = raw_layer.said[name].losses, raw_layer.said[name].notes
+        note.parts = parts_of(rows, name)
+        note.version = version_of(rows, name) if name in rows["test"] else None
+    return {t.id: left.tests.get(t.id) or tidy_layer.tests[t.id] for t in campaign.tests}
+
+
+def _summed(counts: Iterable[Mapping[str, int]]) -> dict[str, int]:
+    """Flag -> how many samples, in the order of their names."""
+    total: Counter[str] = Counter()
+    for some in counts:
+        total.update(some)
+    return dict(sorted(total.items()))
 
 
 __all__ = ["IngestSummary", "ingest"]

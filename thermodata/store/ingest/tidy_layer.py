@@ -6,7 +6,6 @@ import dataclasses
 import errno
 import json
 import os
-from collections import Counter
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
@@ -17,16 +16,18 @@ from typing import Any
 from thermodata.calibration.result import CalibrationResult
 from thermodata.errors import SpecError, StoreError, ThermodataError
 from thermodata.plugin import Loss
+from thermodata.schema.campaign import Campaign
 from thermodata.store.base.files import is_whole, key_of
 from thermodata.store.ingest import catalogue_rows
 from thermodata.store.ingest.inventory import BY_TEST, Inventory, Row, meta_of
-from thermodata.store.ingest.raw_layer import loss_row
-from thermodata.store.tidy.between import Verdict, levels_of, verdicts
-from thermodata.store.tidy.clock_lent import lent
+from thermodata.store.ingest.losses import loss_row
+from thermodata.store.ingest.test_note import LeftAlone, TestNote, columns_of, estimated
+from thermodata.store.tidy.between import Verdict, verdicts
+from thermodata.store.tidy.clock_lent import dated_sources, lent
 from thermodata.store.tidy.clock_offsets import clocks_of
 from thermodata.store.tidy.event import event_of
 from thermodata.store.tidy.keys import ChannelTexts, member_key
-from thermodata.store.tidy.overrule import idle
+from thermodata.store.tidy.overrule import idle, met
 from thermodata.store.tidy.plan import SCHEDULE, TestPlan
 from thermodata.store.tidy.series import Member, TestSeries
 from thermodata.store.tidy.source_clock import Clock, Span, span
@@ -37,15 +38,12 @@ Columns = list[tuple[str, bool]]
 
 @dataclass(slots=True)
 class TidyLayer:
-    """What a campaign's tidy layer is and lost. rows: table -> test -> the catalogue's rows.
-
-    samples and flags count the whole campaign, kept streams included; new_streams: those that were made now.
+    """What a campaign's tidy layer is and lost. rows: table -> test -> the catalogue's rows; tests: what is told of
+    each; both of the tests that were looked at. notes: what concerns no one test. new_streams: made now.
     """
 
     rows: dict[str, dict[str, list[Row]]] = field(default_factory=lambda: {t: {} for t in BY_TEST})
-    samples: int = 0
-    flags: Counter[str] = field(default_factory=Counter)
-    losses: list[dict[str, Any]] = field(default_factory=list)
+    tests: dict[str, TestNote] = field(default_factory=dict)
     notes: list[str] = field(default_factory=list)
     new_streams: int = 0
 
@@ -63,54 +61,85 @@ class _Tidied:
 
 def tidy_tests(
     store: Path,
+    campaign: Campaign,
     plans: Sequence[TestPlan],
     calibrations: Mapping[str, CalibrationResult],
     inventory: Inventory,
     now: datetime,
     say: Callable[[str], None],
+    left: LeftAlone,
 ) -> TidyLayer:
-    """Tidies every stream of every test that isn't there under its content key.
+    """Tidies every stream of every planned test that isn't there under its content key.
 
     A sensor that failed between two tests, and a foreign part, show only once all are tidied; the streams that they
-    spoil are made again.
+    spoil are made again. left: the tests that are not planned; OtherwiseError where what comes of the others changes
+    any of them.
     """
-    layer = TidyLayer()
-    tidier = _Tidier(store, _columns(plans), calibrations, inventory, now, say, layer, ChannelTexts(calibrations))
-    clocks: dict[str, dict[str, Clock]] = {}
+    layer = TidyLayer(tests={p.test.id: _begun(p) for p in plans})
+    known = {t.id: layer.tests.get(t.id) or left.tests[t.id] for t in campaign.tests}
+    left.hold_beside(layer.tests)
+    tidier = _Tidier(
+        store, _columns(campaign, known), calibrations, inventory, now, say, layer, ChannelTexts(calibrations)
+    )
+    clocks = {name: note.own_clocks() for name, note in left.tests.items()}
     for plan in plans:
         with _loss_where_it_fails(layer, plan):
-            clocks[plan.test.id] = clocks_of(store, plan, calibrations, inventory.clocks)
-    clocks = lent(plans, clocks)
+            own = clocks[plan.test.id] = clocks_of(store, plan, calibrations, inventory.clocks)
+            layer.tests[plan.test.id].clocks = estimated(own)
+    clocks = lent(clocks, {name: note.dated for name, note in known.items()})
     tidied: dict[str, _Tidied] = {}
     for plan in plans:
         if plan.test.id in clocks:
             with _loss_where_it_fails(layer, plan):
                 tidied[plan.test.id] = tidier.tidy(plan, clocks[plan.test.id])
-    levels = [
-        x
-        for t in tidied.values()
-        if (
-            x := levels_of(
-                t.plan.test.id,
-                None if t.where.relative else t.where.zero_ns / 1e9,
-                {name: b.channel.quantity for name, b in t.plan.bound.items()},
-                [(r["part"], meta_of(r)) for rows in t.files.values() for r in rows],
-            )
-        )
-        is not None
-    ]
-    known = verdicts(levels)
+                _note_courses(layer.tests[plan.test.id], tidied[plan.test.id])
+    levels = [x for name, note in known.items() if (x := note.levels(name)) is not None]
+    found = verdicts(levels)
+    left.stand(clocks, found)
     for plan in plans:
-        test = tidied.get(plan.test.id)
+        test, note = tidied.get(plan.test.id), layer.tests[plan.test.id]
         if test is not None:
             with _loss_where_it_fails(layer, plan):
-                tidier.mark(test, known.get(plan.test.id, Verdict()))
+                tidier.mark(test, found.get(plan.test.id, Verdict()))
                 _add_rows(layer, test, calibrations, now)
-        layer.losses += [loss_row(p, test=plan.test.id) for p in plan.problems]
-        layer.notes += plan.notes
-    events = {name: [event_of(r) for rows in t.events.values() for r in rows] for name, t in tidied.items()}
-    layer.notes += idle(plans[0].campaign.overrule if plans else [], events)
+                _note_courses(note, test)
+                _note_verdicts(note, test)
+            note.overruled = met(campaign.overrule, [event_of(r) for rows in test.events.values() for r in rows])
+        note.losses += [loss_row(p, test=plan.test.id) for p in plan.problems]
+        note.notes += plan.notes
+    layer.notes += idle(campaign.overrule, {name: note.overruled for name, note in known.items() if note.tidied})
     return layer
+
+
+def _begun(plan: TestPlan) -> TestNote:
+    """What is told of a test before it is tidied."""
+    sources = [s for s in plan.sources.values() if s.raws]
+    return TestNote(
+        files=list(dict.fromkeys(r.source_path for s in sources for r in s.raws)),
+        sources=[s.name for s in sources],
+        lossy=list(dict.fromkeys(r.key for s in sources for r in s.raws if r.losses)),
+        channels=[[b.source, b.stream, b.name, b.is_text] for b in plan.bound.values()],
+        dated=dated_sources(plan),
+    )
+
+
+def _note_courses(note: TestNote, test: _Tidied) -> None:
+    """What the other tests want to know of a test's channels."""
+    note.tidied = True
+    note.lent = estimated(test.clocks)
+    note.start_s = None if test.where.relative else test.where.zero_ns / 1e9
+    files = [(r["part"], meta_of(r)) for rows in test.files.values() for r in rows]
+    note.courses = [[meta["to_s"], meta.get("levels")] for part, meta in files if part == "test"]
+    named = {name for _, levels in note.courses if levels for name in levels["values"]}
+    note.quantities = {name: b.channel.quantity for name, b in test.plan.bound.items() if name in named}
+
+
+def _note_verdicts(note: TestNote, test: _Tidied) -> None:
+    """What was made with which verdict in mind."""
+    for rows in test.files.values():
+        meta = [meta_of(r) for r in rows]
+        channels = [c for m in meta for c in m["channels"]]
+        note.verdicts.append([channels, next((m["verdict"] for m in meta if "verdict" in m), {})])
 
 
 @contextmanager
@@ -121,17 +150,14 @@ def _loss_where_it_fails(layer: TidyLayer, plan: TestPlan) -> Iterator[None]:
     except (StoreError, SpecError):
         raise
     except ThermodataError as error:
-        layer.losses.append(loss_row("; ".join(str(error).splitlines()), test=plan.test.id))
+        layer.tests[plan.test.id].losses.append(loss_row("; ".join(str(error).splitlines()), test=plan.test.id))
 
 
-def _columns(plans: Sequence[TestPlan]) -> dict[Member, Columns]:
+def _columns(campaign: Campaign, tests: Mapping[str, TestNote]) -> dict[Member, Columns]:
     """The channels of each (source, stream) over all tests, in the campaign's order."""
-    channels: dict[Member, dict[str, bool]] = {}
-    for plan in plans:
-        for bound in plan.bound.values():
-            channels.setdefault((bound.source, bound.stream), {})[bound.name] = bound.is_text
-    order = {name: i for plan in plans[:1] for i, name in enumerate(plan.campaign.channels)}
-    return {m: sorted(c.items(), key=lambda item: order[item[0]]) for m, c in channels.items()}
+    order = {name: i for i, name in enumerate(campaign.channels)}
+    found = columns_of(note.channels for note in tests.values())
+    return {m: sorted(c.items(), key=lambda item: order[item[0]]) for m, c in found.items()}
 
 
 @dataclass(frozen=True, slots=True)
@@ -199,8 +225,9 @@ def _add_rows(layer: TidyLayer, tidied: _Tidied, calibrations: Mapping[str, Cali
     """The catalogue's rows of a test."""
     plan, clocks, test = tidied.plan, tidied.clocks, tidied.plan.test.id
     files = [*catalogue_rows.raw_rows(plan, now), *(r for rows in tidied.files.values() for r in rows)]
+    note = layer.tests[test]
     for rows in tidied.files.values():
-        _count(layer, rows, test)
+        _count(note, rows, test)
     for row in files:
         # the same clock for all of one ingest, and for a kept file the moment at which it was made
         row.setdefault("added_at", now)
@@ -210,9 +237,9 @@ def _add_rows(layer: TidyLayer, tidied: _Tidied, calibrations: Mapping[str, Cali
     _add(layer, test, "machine", [catalogue_rows.machine_row(plan.campaign, plan)])
     _add(layer, test, "source", catalogue_rows.source_rows(plan, clocks))
     _add(layer, test, "channel", catalogue_rows.channel_rows(plan, calibrations))
-    layer.notes += [f"{test}, {name}: {n}" for name, clock in clocks.items() for n in clock.notes]
-    layer.notes += [f"{r.source_path}: {n}" for s in plan.sources.values() for r in s.raws for n in r.notes]
-    layer.losses += [
+    note.notes += [f"{test}, {name}: {n}" for name, clock in clocks.items() for n in clock.notes]
+    note.notes += [f"{r.source_path}: {n}" for s in plan.sources.values() for r in s.raws for n in r.notes]
+    note.losses += [
         loss_row(n, test=test, source=name) for name, clock in clocks.items() for n in clock.notes if clock.suspect
     ]
 
@@ -280,15 +307,16 @@ def _tidy_rows(
     return rows
 
 
-def _count(layer: TidyLayer, files: Sequence[Row], test: str) -> None:
+def _count(note: TestNote, files: Sequence[Row], test: str) -> None:
     for row in files:
         meta = meta_of(row)
-        layer.samples += meta.get("samples", 0)
-        layer.flags.update(meta.get("flags", {}))
-        layer.losses += [loss_row(p, test=test) for p in meta.get("problems", [])]
-        layer.notes += [f"{test}, {row['source']}: {n}" for n in meta.get("notes", [])]
+        note.samples += meta.get("samples", 0)
+        for flag, count in meta.get("flags", {}).items():
+            note.flags[flag] = note.flags.get(flag, 0) + count
+        note.losses += [loss_row(p, test=test) for p in meta.get("problems", [])]
+        note.notes += [f"{test}, {row['source']}: {n}" for n in meta.get("notes", [])]
         for item in json.loads(row["losses"]) if row["losses"] not in (None, "", "[]") else ():
-            layer.losses.append(loss_row(item["reason"], test=test, source=row["source"], loss=Loss(**item)))
+            note.losses.append(loss_row(item["reason"], test=test, source=row["source"], loss=Loss(**item)))
 
 
 def _add(layer: TidyLayer, test: str, table: str, rows: list[Row]) -> None:

@@ -1,8 +1,9 @@
-"""The short way of an ingest that changes nothing: what was found the last time stands still, so its answer does too.
+"""The short ways of an ingest: what was found the last time stands still, so its answer does too; where some files
+differ, so does the answer of the tests that have none of them.
 
 A note beside the catalogue says from which state of the campaign file, of the source files, of the readers and of the
-store the last answer was given. Any difference, and any doubt, and the long way is gone; the note may be deleted at
-any time.
+store the last answer was given; a second one holds a line for each test. Any other difference, and any doubt, and the
+long way is gone; the notes may be deleted at any time.
 """
 
 from __future__ import annotations
@@ -11,12 +12,13 @@ import hashlib
 import json
 import os
 import time
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+from thermodata.errors import ThermodataError
 from thermodata.store.base.files import is_whole, key_of
 from thermodata.store.raw.source_file import SourceFile, mark_of, settled
 
@@ -48,6 +50,11 @@ class Seen:
         """Where the answer to this campaign file is kept."""
         return self.store / FOLDER / f"{key_of(str(self.campaign))}.json"
 
+    @property
+    def test_notes(self) -> Path:
+        """Where a line for each test is kept."""
+        return self.note.with_suffix(".tests")
+
 
 def seen(store: Path, campaign: Path, files: Mapping[str, Path], *words: str) -> Seen:
     """words: everything besides the files' content that an answer depends on."""
@@ -77,10 +84,13 @@ def known_files(here: Seen, kept: Mapping[str, Any]) -> dict[str, SourceFile]:
     return found
 
 
-def answer(here: Seen, kept: Mapping[str, Any], mark: str) -> dict[str, Any] | None:
-    """The summary that was given when all stood as it stands now; None where anything differs, or may differ.
+def differing(here: Seen, kept: Mapping[str, Any], mark: str, known: dict[str, SourceFile]) -> set[str] | None:
+    """The source files that are, or may be, other ones than when the last answer was given; None where anything else
+    differs, or may differ.
 
-    kept: what was `noted`. mark: of the store's last commit."""
+    kept: what was `noted`. mark: of the store's last commit. known: the `known_files`; those that were young when they
+    were hashed, and are the same, are added."""
+    found = set()
     try:
         if not mark or kept["mark"] != mark or kept["says"] != here.says or len(here.marks) != len(here.files):
             return None
@@ -88,26 +98,53 @@ def answer(here: Seen, kept: Mapping[str, Any], mark: str) -> dict[str, Any] | N
             return None
         for path, (was, young, sha256) in kept["sources"].items():
             if tuple(was) != here.marks[path]:
-                return None
-            if young and settled(here.files[path]).sha256 != sha256:
-                return None
+                found.add(path)
+            elif young:
+                file = settled(here.files[path])
+                if file.sha256 == sha256:
+                    known[path] = file
+                else:
+                    found.add(path)
         if not all(is_whole(os.path.join(here.store, path), size) for path, size in kept["parts"].items()):
             return None
-        summary: dict[str, Any] = kept["summary"]
-    except (OSError, ValueError, KeyError, TypeError):  # none, or one of another version
+    except (OSError, ValueError, KeyError, TypeError, ThermodataError):  # none, or one of another version
         return None
-    return summary
+    return found
+
+
+def summary_of(kept: Mapping[str, Any]) -> dict[str, Any]:
+    """The answer that was given, of a note from which nothing is `differing`."""
+    return dict(kept["summary"])
+
+
+def of_tests(here: Seen, kept: Mapping[str, Any], tests: Sequence[str]) -> dict[str, str]:
+    """Test -> its line of the second note, of a note of which at most source files are `differing`; none where it is
+    torn. tests: of the campaign file, in its order."""
+    try:
+        text = here.test_notes.read_text(encoding="utf-8")
+    except (OSError, ValueError):
+        return {}
+    lines = text.splitlines()
+    return (
+        dict(zip(tests, lines, strict=True)) if kept.get("tests") == _digest(text) and len(lines) == len(tests) else {}
+    )
 
 
 def keep(
-    here: Seen, mark: str, hashes: Mapping[str, str], parts: Mapping[str, int | None], summary: Mapping[str, Any]
+    here: Seen,
+    mark: str,
+    hashes: Mapping[str, str],
+    parts: Mapping[str, int | None],
+    summary: Mapping[str, Any],
+    tests: Iterable[str],
 ) -> None:
     """Notes an answer, where it is one that the same ingest would give again. hashes: source path -> SHA-256;
-    parts: the store's files, and their sizes where these are known."""
+    parts: the store's files, and their sizes where these are known; tests: a line for each."""
     if not mark or hashes.keys() != here.marks.keys() or len(here.marks) != len(here.files):
         return
     sources = {p: [m, max(m[3:]) > here.began_ns - _YOUNG_NS, hashes[p]] for p, m in here.marks.items()}
     with suppress(OSError, TypeError):  # a store that may only be read, or is full
+        lines = "".join(f"{line}\n" for line in tests)
         text = json.dumps(
             {
                 "mark": mark,
@@ -116,9 +153,11 @@ def keep(
                 "sources": sources,
                 "parts": parts,
                 "summary": summary,
+                "tests": _digest(lines),
             }
         )
         here.note.parent.mkdir(exist_ok=True)
+        here.test_notes.write_text(lines, encoding="utf-8")
         here.note.write_text(f"{_digest(text)}\n{text}", encoding="utf-8")
 
 

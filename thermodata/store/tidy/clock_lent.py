@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping
 from dataclasses import replace
 from statistics import median
 
@@ -13,20 +13,27 @@ _FEWEST = 2  # tests that tell
 _ALIKE_NS = 60_000_000_000  # between the largest and the smallest: the step that models are fitted at
 
 
-def lent(plans: Sequence[TestPlan], clocks: Mapping[str, Mapping[str, Clock]]) -> dict[str, dict[str, Clock]]:
+def dated_sources(plan: TestPlan) -> list[str]:
+    """The sources of a test whose clock others can tell: dated ones, of which nobody declared events."""
+    return [
+        name
+        for name, source in plan.sources.items()
+        if source.raws and not is_relative(source) and not source.spec.clock.events
+    ]
+
+
+def lent(
+    clocks: Mapping[str, Mapping[str, Clock]], dated_in: Mapping[str, Collection[str]]
+) -> dict[str, dict[str, Clock]]:
     """The clocks of all tests, those that their own test leaves open (an idle spindle tells nothing) by the others.
 
-    clocks: test -> source -> clock. A logger that counts from its own start is left alone: each start is another. So
-    is one whose tests disagree by more than a minute: its clock runs away, or was set between them. Events that a
-    person declared are not overruled: where they contradict each other, they are to be mended.
+    clocks: test -> source -> clock, at least of those that were estimated. dated_in: test -> its `dated_sources`. A
+    logger that counts from its own start is left alone: each start is another. So is one whose tests disagree by more
+    than a minute: its clock runs away, or was set between them. Events that a person declared are not overruled: where
+    they contradict each other, they are to be mended.
     """
     found = {test: dict(own) for test, own in clocks.items()}
-    dated = {
-        (p.test.id, name)
-        for p in plans
-        for name, source in p.sources.items()
-        if source.raws and not is_relative(source) and not source.spec.clock.events
-    }
+    dated = {(test, name) for test, names in dated_in.items() for name in names}
     for source in {name for own in clocks.values() for name in own}:
         told = [c for t, own in clocks.items() if (c := own.get(source)) and (t, source) in dated and _told(c)]
         offsets = [c.offset_ns for c in told]

@@ -40,12 +40,17 @@ def overruled(rules: Sequence[Overrule], events: Sequence[Event]) -> list[Event]
     return [_with_reason(rules, event) for event in events]
 
 
-def idle(rules: Sequence[Overrule], events: Mapping[str, Sequence[Event]]) -> list[str]:
-    """What rules find nothing to overrule, in words. events: test -> its events."""
+def met(rules: Sequence[Overrule], events: Sequence[Event]) -> list[int]:
+    """Which rules, counted from 0, find something among the events of a test."""
+    return [i for i, rule in enumerate(rules) if any(_covers(rule, e) is not None for e in events)]
+
+
+def idle(rules: Sequence[Overrule], found: Mapping[str, Sequence[int]]) -> list[str]:
+    """What rules find nothing to overrule, in words. found: test -> the rules that are `met` there."""
     said = []
-    for rule in rules:
-        tests = rule.tests or list(events)
-        if not any(_covers(rule, e) is not None for t in tests for e in events.get(t, ())):
+    for i, rule in enumerate(rules):
+        tests = rule.tests or list(found)
+        if not any(i in found.get(t, ()) for t in tests):
             where = f"test {', '.join(rule.tests)} has no" if rule.tests else "no test has a"
             on = f" on {rule.channel}" if rule.channel else ""
             said.append(f"overrule: {where} flag '{rule.flag}'{on} ({rule.because})")

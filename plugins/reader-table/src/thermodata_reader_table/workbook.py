@@ -20,10 +20,12 @@ import numpy as np
 from thermodata.errors import FormatError, QuestionError, ThermodataError, UsageError
 from thermodata.plugin import Array, Block, Bool1D, Int1D, Loss, Recording, Scaling, Signal, Source
 from thermodata.reader.text.cell import is_empty
+from thermodata.reader.text.date_parts import column_times, declared_parts
 from thermodata.reader.text.layout import STREAM, Group, Layout, find, one_clock
 from thermodata.reader.text.number import clean, decimal_mark, values_of
 from thermodata.reader.text.time_formats import (
     Stamps,
+    find_formats,
     times_of_dates,
     times_of_day,
     times_of_numbers,
@@ -197,6 +199,10 @@ class Table:
         if not group.dated:
             unit = group.epoch or next(u for u, seconds in SECONDS.items() if seconds == group.seconds)
             return times_of_numbers(self._numbers(columns[0])[0], unit, self.source.timezone)
+        if declared_parts(group.form, len(columns)):
+            parts = [[_part(cell) for cell in cells] for cells in columns]
+            forms = find_formats([self.layout.names[i] for i in group.time], parts, group.form, self.where)
+            return times_of_dates(column_times(parts, forms).view("datetime64[ns]"), self.source.timezone)
         joined = [_joined(cells) for cells in zip(*columns, strict=True)]
         if any(isinstance(j, str) and j for j in joined):
             texts = [j if isinstance(j, str) else str(j).replace(" 00:00:00", " 0:00:00") for j in joined]
@@ -249,6 +255,13 @@ def _seconds(cell: Any) -> Any:
     if isinstance(cell, dt.time):
         return (dt.datetime.combine(dt.date.min, cell) - dt.datetime.min).total_seconds()
     return cell.total_seconds() if isinstance(cell, dt.timedelta) else cell
+
+
+def _part(cell: Any) -> str:
+    """The text of a number that is part of a date: a workbook keeps all of them as floats."""
+    if cell in ("", None):
+        return ""
+    return str(int(cell)) if isinstance(cell, float) and cell.is_integer() else str(cell).strip()
 
 
 def _joined(cells: tuple[Any, ...]) -> Any:

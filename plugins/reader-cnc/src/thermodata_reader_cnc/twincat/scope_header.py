@@ -20,6 +20,8 @@ START = re.compile(r"^Start\s?(?:time of (?:export|record)|Record)\s*([\t;,|])\s
 _END = re.compile(r"^End\s?(?:time of (?:export|record)|Record)\s*[\t;,|]\s*\"?(\d{15,19})\b", re.IGNORECASE)
 _NAME = re.compile(r"^\"?Name\"?([\t;,|])")
 _MOST_LINES = 5000
+_MOST_BESIDE = 1000  # cells that rows may lack because groups ended: each is room in every row
+_DIGIT = re.compile(r"^[+-]?\d")
 _LATEST_NS = 8_955_526_400 * 10**9  # 2253
 _TICKS = EPOCHS["filetime"]
 _KEYS = frozenset(
@@ -133,6 +135,13 @@ def read_header(lines: Sequence[str], where: str) -> Header:
             got=str(max(widths)),
             hint="export with tabs or ';' between the cells",
         )
+    if len(names) > width + _MOST_BESIDE:
+        raise FormatError(
+            "the row of names is longer than any row of data",
+            where=where,
+            expected=f"about {width} cells, as the first {len(body)} rows have",
+            got=f"{len(names)} cells",
+        )
     decimal = "," if delimiter != "," and any("," in line for line in body) else "."
     ticks = sum(len(line.split(delimiter, 1)[0].strip().lstrip("-")) >= 17 for line in body) > len(body) / 2
     groups = _groups(names, rows)
@@ -152,19 +161,21 @@ def read_header(lines: Sequence[str], where: str) -> Header:
 def _rows(lines: Sequence[str], names_at: int, delimiter: str) -> tuple[dict[str, list[str]], int]:
     """(key -> the row's cells, the first line of data). A row whose cells hold line ends goes on over lines."""
     rows: dict[str, list[str]] = {}
-    key = ""
+    key, damaged = "", None
     for number in range(names_at, min(len(lines), names_at + _MOST_LINES)):
         line = lines[number]
         cells = [cell.strip().strip('"') for cell in line.split(delimiter)]
         word = cells[0].casefold()
         if word in _KEYS or number == names_at:
-            key = "name" if number == names_at else word
+            key, damaged = "name" if number == names_at else word, None
             rows[key] = cells
         elif _is_data(line, delimiter) and not (key == "symbolcomment" and len(rows[key]) < len(rows["name"])):
-            return rows, number
+            return rows, number if damaged is None else damaged
         elif key == "symbolcomment" and line.strip():
             rows[key][-1] += " " + cells[0]
             rows[key] += cells[1:]
+        elif damaged is None and _DIGIT.match(cells[0]):
+            damaged = number  # a first row that lost a delimiter is told as a loss, not passed over
     return rows, min(len(lines), names_at + _MOST_LINES)
 
 

@@ -114,9 +114,11 @@ def _check_chunks(item: Any, size: int, declared: int, taken: Spans) -> None:
     places: set[tuple[int, ...]] = set()
 
     def look(chunk: Any) -> None:
-        if chunk.filter_mask & ~1 and packs:
+        # a filter that made nothing smaller is left out of a chunk, and its bit says so
+        left_out = {code for i, (code, *_) in enumerate(filters) if chunk.filter_mask >> i & 1}
+        if chunk.filter_mask >> len(filters) or _FLETCHER in left_out:
             raise ValueError(f"a chunk with filter mask {chunk.filter_mask}")
-        if not packs and chunk.size != whole + spare:
+        if (not packs or _DEFLATE in left_out) and chunk.size != whole + spare:
             raise ValueError(f"a chunk of {chunk.size} bytes, not {whole}")
         spans.append((int(chunk.byte_offset), int(chunk.size)))
         places.add(tuple(int(o) for o in chunk.chunk_offset))

@@ -1,0 +1,208 @@
+"""Dates in columns of their own, and times with the zone's abbreviation behind them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from datetime import datetime, timedelta
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from tests.draft.labs import workbook
+from thermodata.errors import FormatError, QuestionError
+
+from .conftest import Lab
+
+FIRST = datetime(2026, 2, 28, 23, 40)  # over the end of a month, with no leap day
+MOMENTS = [FIRST + timedelta(seconds=15 * i) for i in range(200)]
+WANTED = np.arange(200) * 15_000_000_000 + np.datetime64(FIRST, "ns").astype(np.int64)
+T1 = {"T1": {"signal": "T", "quantity": "temperature", "unit": "degC"}}
+
+
+def times(data: Any) -> Any:
+    """Of the one stream."""
+    (t_ns,) = data.t_ns.values()
+    return t_ns
+
+
+def table(header: str, cells: Callable[[datetime], Sequence[Any]], between: str = ";") -> str:
+    lines = [between.join([*map(str, cells(t)), f"{20 + i / 8}"]) for i, t in enumerate(MOMENTS)]
+    return "\n".join([header, *lines]) + "\n"
+
+
+def in_six(t: datetime) -> list[int]:
+    return [t.year, t.month, t.day, t.hour, t.minute, t.second]
+
+
+WAYS = {
+    "Year;Month;Day;Hour;Minute;Second;T": (in_six, ";"),
+    "Jahr;Monat;Tag;Stunde;Minute;Sekunde;T": (in_six, ";"),
+    "Rok;Měsíc;Den;Hodina;Minuta;Sekunda;T": (in_six, ";"),
+    "Année,Mois,Jour,Heure,Minute,Seconde,T": (in_six, ","),
+    "YYYY,MM,DD,hh,mm,ss,T": (lambda t: [f"{x:.6f}" for x in in_six(t)], ","),
+    "#YY MM DD hh mm ss T": (lambda t: [f"{x % 100:02d}" for x in in_six(t)], "\t"),
+    "year\tmonth\tday\ttime\tT": (lambda t: [t.year, t.month, t.day, f"{t:%H:%M:%S}"], "\t"),
+    "Jahr;Monat;Tag;Uhrzeit;T": (lambda t: [t.year, f"{t.month:02d}", f"{t.day:02d}", f"{t:%H:%M:%S}"], ";"),
+    "Day,Month,Year,Hour,Min,Sec,T": (lambda t: [t.day, t.month, t.year, t.hour, t.minute, t.second], ","),
+}
+
+
+@pytest.mark.parametrize("header", WAYS)
+def test_a_date_in_columns_is_one_time(read: Any, header: str) -> None:
+    cells, between = WAYS[header]
+    data = read(table(header.replace(" ", "\t"), cells, between))
+    assert data.recording.clock == "absolute"
+    assert [s.name for s in data.recording.signals] == ["T"]
+    np.testing.assert_array_equal(times(data), WANTED)
+    np.testing.assert_array_equal(next(iter(data.values.values())), 20 + np.arange(200) / 8)
+    assert not data.losses
+    assert any("the time stands in" in note for note in data.recording.notes)
+
+
+def test_seconds_in_a_column_may_have_a_fraction_and_comma(read: Any) -> None:
+    data = read(
+        "\n".join(
+            ["Jahr;Monat;Tag;Stunde;Minute;Sekunde;T"]
+            + [f"2026;3;2;8;{i // 4};{i % 4 * 15},25;20,{i:03d}" for i in range(100)]
+        )
+        + "\n"
+    )
+    np.testing.assert_array_equal(np.diff(times(data)), 15_000_000_000)
+    assert times(data)[0] % 1_000_000_000 == 250_000_000
+
+
+def test_a_day_that_is_none_is_a_loss_and_the_others_are_read(read: Any) -> None:
+    lines = table("Year;Month;Day;Hour;Minute;Second;T", in_six).splitlines()
+    lines[50] = "2026;2;31;23;52;0;21"
+    lines[60] = "2026;;28;23;54;30;21"
+    data = read("\n".join(lines) + "\n")
+    assert times(data).size == 198
+    assert len(data.losses) == 2
+    assert "line 51" in str(data.losses[0].where)
+
+
+def test_columns_of_other_names_are_declared(read: Any) -> None:
+    text = table("a;b;c;d;e;f;T", in_six)
+    with pytest.raises((QuestionError, FormatError)):
+        read(text, by="table")
+    form = "%Y %m %d %H %M %S"
+    data = read(text, by="table", table={"time": {"column": [1, 2, 3, 4, 5, 6], "format": form}})
+    np.testing.assert_array_equal(times(data), WANTED)
+    named = table("Day;Month;Year;Hour;Minute;Second;T", lambda t: [t.day, t.month, t.year, *in_six(t)[3:]])
+    data = read(named, table={"time": {"column": ["Year", "Month", "Day", "Hour", "Minute", "Second"]}})
+    np.testing.assert_array_equal(times(data), WANTED)
+
+
+@pytest.mark.parametrize(
+    "header",
+    ["Year;Month;Day;Hour;Minute;Second;T", "Pressure;Month;Day;Hour;Minute;Second;T"],
+)
+def test_numbers_that_are_no_date_are_none(read: Any, header: str) -> None:
+    """Operating hours beside a year of build, or parts without a year."""
+    text = table(header, lambda t: [7000.5, t.month, t.day, t.hour, t.minute, t.second])
+    with pytest.raises(FormatError):
+        read(text)
+
+
+def test_local_times_in_columns_know_the_hour_that_comes_twice(read: Any) -> None:
+    first = datetime(2026, 10, 25, 0, 30)  # UTC: 02:30 CEST
+    local = [first + timedelta(minutes=10 * i) + timedelta(hours=2 if i < 3 else 1) for i in range(60)]
+    rows = "\n".join(f"{t.year};{t.month};{t.day};{t.hour};{t.minute};{i}" for i, t in enumerate(local))
+    data = read(f"Year;Month;Day;Hour;Minute;T\n{rows}\n", timezone="Europe/Prague")
+    np.testing.assert_array_equal(np.diff(times(data)), 600_000_000_000)
+
+
+def test_a_new_user_gets_a_draft_and_a_trace_of_a_date_in_columns(lab: Lab) -> None:
+    lab.write("raw/a.csv", table("Year;Month;Day;Hour;Minute;Second;T_spindle [degC]", in_six))
+    assert lab("init", lab.folder).code == 0
+    drafted = (lab.folder / "campaign.yaml").read_text(encoding="utf-8")
+    assert "Month" not in drafted, "parts of a date are no channels"
+    assert lab("ingest", lab.folder / "campaign.yaml").code == 0
+    t_s, _ = lab.values("T_spindle", "a")
+    np.testing.assert_allclose(t_s, np.arange(200) * 15.0)
+    assert "2026-02-28 23:40:00" in lab("sql", "select min(t) from sample").out
+    campaign = next(line for line in drafted.splitlines() if line.startswith("id:")).split()[1]
+    traced = lab("trace", campaign, "a", "T_spindle", "--at", "150 s", "--verify")
+    assert (traced.code, "line 12" in traced.out) == (0, True), traced.out + traced.err
+
+
+@pytest.mark.parametrize("sheet", ["four", "six"])
+def test_a_workbook_with_a_date_in_columns(read: Any, tmp_path: Path, sheet: str) -> None:
+    four = [[t.year, t.month, t.day, f"{t:%H:%M:%S}", 20 + i / 8] for i, t in enumerate(MOMENTS)]
+    six = [[*map(float, in_six(t)), 20 + i / 8] for i, t in enumerate(MOMENTS)]
+    book = {
+        "four": [["Year", "Month", "Day", "Time", "T"], *four],
+        "six": [["Year", "Month", "Day", "Hour", "Minute", "Second", "T"], *six],
+    }
+    workbook(tmp_path / "made.xlsx", book)
+    data = read((tmp_path / "made.xlsx").read_bytes(), "a.xlsx", by="table", table={"sheet": sheet})
+    np.testing.assert_array_equal(times(data), WANTED)
+
+
+# ---- zones ---------------------------------------------------------------------------------------
+
+
+def stamped(word: Callable[[datetime], str], between: str = " ", form: str = "%Y-%m-%d %H:%M:%S") -> str:
+    return "time;T\n" + "".join(f"{t:{form}}{between}{word(t)};{20 + i / 8}\n" for i, t in enumerate(MOMENTS))
+
+
+@pytest.mark.parametrize(
+    ("word", "hours"),
+    [
+        *[("UTC", 0), ("GMT", 0), ("CET", 1), ("MEZ", 1), ("SEČ", 1), ("CEST", 2), ("SELČ", 2), ("EEST", 3)],
+        *[("EST", -5), ("EDT", -4), ("PDT", -7), ("(CEST)", 2), ("UTC+2", 2), ("GMT-03:30", -3.5)],
+    ],
+)
+@pytest.mark.parametrize("between", [" ", ""])
+@pytest.mark.parametrize("form", ["%Y-%m-%d %H:%M:%S", "%d.%m.%Y %H:%M:%S"])
+def test_a_zone_that_is_known_by_its_letters_is_heeded(
+    read: Any, word: str, hours: float, between: str, form: str
+) -> None:
+    data = read(stamped(lambda t: word, between, form), timezone="Asia/Tokyo")  # the file's own counts
+    np.testing.assert_array_equal(times(data), WANTED - round(hours * 3600) * 1_000_000_000)
+
+
+def test_the_zone_may_change_within_a_file(read: Any) -> None:
+    first = datetime(2026, 10, 25, 0, 30)
+    zones = [(2, "CEST")] * 3 + [(1, "CET")] * 57
+    rows = "".join(
+        f"{first + timedelta(minutes=10 * i, hours=hours):%d.%m.%Y %H:%M:%S} {word};{i}\n"
+        for i, (hours, word) in enumerate(zones)
+    )
+    data = read(f"time;T\n{rows}")
+    np.testing.assert_array_equal(np.diff(times(data)), 600_000_000_000)
+    assert not data.losses
+
+
+@pytest.mark.parametrize(
+    ("word", "zone"), [("CST", "Asia/Shanghai"), ("BST", "Europe/London"), ("XYZ", "Europe/Prague")]
+)
+def test_a_zone_of_several_meanings_is_asked_for(read: Any, lab: Lab, word: str, zone: str) -> None:
+    text = stamped(lambda t: word)
+    with pytest.raises(QuestionError, match=f"'{word}'") as asked:
+        read(text)
+    assert zone in str(asked.value.hint)
+    assert "CEST" in str(asked.value.expected)
+    lab.write("raw/a.csv", text)
+    assert lab("init", lab.folder).code == 0
+    campaign = lab.folder / "campaign.yaml"
+    drafted = campaign.read_text(encoding="utf-8")
+    assert f"what is '{word}'? write timezone: " in drafted
+    assert f'format: "%Y-%m-%d %H:%M:%S {word}"' in drafted
+    campaign.write_text(drafted.replace(", files:", f", timezone: {zone}, files:"), encoding="utf-8")
+    said = lab("ingest", campaign)
+    assert said.code == 0, said.out + said.err
+    begins = lab("sql", "select epoch_ns(min(t)) as t from sample", "--csv").out.split()[-1]
+    # in winter none of them has daylight saving
+    assert int(begins) == WANTED[0] - {"CST": 8, "BST": 0, "XYZ": 1}[word] * 3600 * 1_000_000_000
+
+
+def test_a_declared_zone_letter_reads_abbreviations(read: Any) -> None:
+    data = read(
+        stamped(lambda t: "CEST", form="%d.%m.%Y %H:%M:%S"),
+        timezone="Asia/Tokyo",
+        table={"time": {"column": 1, "format": "%d.%m.%Y %H:%M:%S %Z"}},
+    )
+    np.testing.assert_array_equal(times(data), WANTED - 2 * 3600 * 1_000_000_000)

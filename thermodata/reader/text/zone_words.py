@@ -1,0 +1,59 @@
+"""What stands behind a time for the zone that it is in: an offset, or an abbreviation that names one zone only.
+
+CST may be Chicago, Shanghai or Havana: such a word is asked about, never taken for one of them.
+"""
+
+from __future__ import annotations
+
+import re
+
+_HOUR_NS = 3600 * 1_000_000_000
+# hours east of Greenwich; those of Europe in English, German and Czech, those of the United States by RFC 5322
+HOURS = {
+    **dict.fromkeys(("Z", "UTC", "GMT", "UT", "WET", "WEZ"), 0),
+    **dict.fromkeys(("WEST", "WESZ", "CET", "MEZ", "SEČ"), 1),
+    **dict.fromkeys(("CEST", "MESZ", "SELČ", "EET", "OEZ"), 2),
+    **dict.fromkeys(("EEST", "OESZ", "MSK"), 3),
+    "EDT": -4,
+    **dict.fromkeys(("EST", "CDT"), -5),
+    "MDT": -6,
+    **dict.fromkeys(("MST", "PDT"), -7),
+    **dict.fromkeys(("PST", "AKDT"), -8),
+    "AKST": -9,
+    "HST": -10,
+}
+# abbreviations of several zones, with what may be declared
+SEVERAL = {
+    "CST": ("America/Chicago", "Asia/Shanghai", "America/Havana"),
+    "BST": ("Europe/London", "Asia/Dhaka"),
+    "IST": ("Asia/Kolkata", "Europe/Dublin", "Asia/Jerusalem"),
+    "AST": ("America/Halifax", "Asia/Riyadh"),
+    "SST": ("Pacific/Pago_Pago", "Asia/Singapore"),
+    "JST": ("Asia/Tokyo",),
+    "KST": ("Asia/Seoul",),
+}
+OFFSET = r"[+-]\d{2}(?::?\d{2})?"
+# longer words first, or CEST would be read as CE and a rest
+WORDS = "|".join(sorted(HOURS, key=len, reverse=True))
+ZONE = rf"(?P<z>\s*(?:(?:UTC|GMT)[+-]\d{{1,2}}(?::?\d{{2}})?|{OFFSET}|\(?(?:{WORDS})\)?(?!\w)))"
+_BEHIND = re.compile(r"\d\s*(?:[AaPp]\.?[Mm]\.?)?\s*(?P<word>\(?[^\W\d_]{2,5}\)?)$")
+
+
+def offset_ns(text: str) -> int:
+    """Nanoseconds east of Greenwich: 'Z', '+01:00', '-0430', 'UTC+2', 'CEST'."""
+    text = text.strip().strip("()")
+    word = re.match(r"[^\W\d_]*", text)
+    named = word[0] if word else ""
+    rest = text[len(named) :]
+    if not rest:
+        return HOURS[named] * _HOUR_NS
+    digits = rest[1:].replace(":", "")
+    hours, minutes = (digits[:2], digits[2:]) if len(digits) != 3 else (digits[:1], digits[1:])
+    return (-1 if rest[0] == "-" else 1) * (int(hours) * 3600 + int(minutes or 0) * 60) * 1_000_000_000
+
+
+def word_behind(cell: str) -> str | None:
+    """The word behind a time that may be a zone and is none of those above: 'CST' of '2026-03-02 08:00:00 CST'."""
+    match = _BEHIND.search(cell.strip())
+    word = match["word"].strip("()") if match else ""
+    return word if word and word.isupper() and word not in HOURS and word not in ("AM", "PM") else None

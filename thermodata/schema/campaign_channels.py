@@ -1,0 +1,139 @@
+"""`channels` and `calibrations` of a campaign file: what was measured, and how raw values become calibrated ones."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+from pydantic import ConfigDict, Field, model_validator
+
+from thermodata.schema.declared import Direction, Seconds, Strict, Um, Value
+from thermodata.schema.quantity import Quantity
+
+
+class Sensor(Strict):
+    """`channels.*.sensor`: the sensor behind a channel. Free attributes are kept.
+
+    serial: its number
+    range: lowest and highest reading, in the unit of the raw signal or with units; outside of it a sample is
+        flagged
+    resolution: its smallest step; shows as ripple in a prediction
+    """
+
+    model_config = ConfigDict(extra="allow", frozen=True)
+    serial: str | None = None
+    range: tuple[Value, Value] | None = None
+    resolution: Value | None = None
+
+
+class Channel(Strict):
+    """`channels.*`: one measured quantity: where it comes from, and what it is. Exactly one of signal (with
+    source), derive and schedule.
+
+    source: key of `sources`
+    signal: its name in the file; a unit in brackets behind the name may be left out
+    derive: an expression over other channels: (dY_high - dY_low) / 100 mm
+    schedule: [[time, value], ...] for what nobody logged but everybody knows; held between
+    quantity: what it is; its canonical unit follows
+    unit: of the raw values, where the file does not say it
+    instead_of: the unit that the file states, where that is wrong and `unit` is right
+    axis: of a displacement: the machine's axis
+    at: dotted place on the machine: spindle.bearing.front
+    relative_to: place that a displacement is measured against
+    calibration: key of `calibrations`, or a list applied in order
+    sensor: what measured it
+    notes: free text
+    """
+
+    source: str | None = None
+    signal: str | None = None
+    derive: str | None = None
+    schedule: list[tuple[Value, Value]] | None = None
+    quantity: Quantity
+    unit: str | None = None
+    instead_of: str | None = None
+    axis: Literal["X", "Y", "Z", "A", "B", "C"] | None = None
+    at: str | None = None
+    relative_to: str | None = None
+    calibration: str | list[str] | None = None
+    sensor: Sensor | None = None
+    notes: str = ""
+
+    @model_validator(mode="after")
+    def _one_origin(self) -> Channel:
+        origins = [k for k in ("signal", "derive", "schedule") if getattr(self, k) is not None]
+        if len(origins) != 1:
+            raise ValueError(f"a channel has exactly one of 'signal', 'derive' and 'schedule'; got {origins or 'none'}")
+        if self.signal is not None and self.source is None:
+            raise ValueError("a channel with 'signal' needs 'source'")
+        if self.instead_of is not None and self.unit is None:
+            raise ValueError("'instead_of' names the file's unit that 'unit' replaces: write both")
+        return self
+
+
+class JumpCalibration(Strict):
+    """`calibrations.*` of kind jump: the axis moves a probe by known steps, which gives a signed sensitivity.
+    Refused where `facing` contradicts its sign.
+
+    kind: jump
+    axis: the axis that moved
+    source: key of `sources`
+    file: path of the log of the jump test, below this file
+    signal: the probe's name in it
+    moves: commanded moves [um], in machine coordinates and with units: [100 um, -100 um]; unknown: nothing is
+        calibrated until they are written
+    dwell: time at each position [s]
+    move_uncertainty: of one commanded move [um]; goes into the sensitivity's uncertainty
+    facing: the way the probe looks, for a check of the sign
+    increases_with: what makes the reading grow: gap (eddy current) or approach (many contact probes)
+    gain: of the data sheet, for a check: 250 um/V
+    """
+
+    kind: Literal["jump"]
+    axis: Literal["X", "Y", "Z", "A", "B", "C"]
+    source: str
+    file: str
+    signal: str
+    moves: list[Um] | Literal["unknown"]
+    dwell: Seconds = 10.0
+    move_uncertainty: Um = 1.0
+    facing: Direction | None = None
+    increases_with: Literal["gap", "approach"] | None = None
+    gain: Value | None = None
+
+
+class ScaleCalibration(Strict):
+    """`calibrations.*` of kind scale: a data sheet's gain and the way the probe looks, where there is no jump
+    test.
+
+    kind: scale
+    axis: the axis that it measures
+    gain: with a unit: 250 um/V
+    offset: added after the gain, in the unit of the result
+    facing: the way the probe looks; gives the sign
+    increases_with: what makes the reading grow: gap or approach
+    uncertainty: of the gain: 2 %
+    """
+
+    kind: Literal["scale"]
+    axis: Literal["X", "Y", "Z", "A", "B", "C"] | None = None
+    gain: Value
+    offset: Value = 0
+    facing: Direction | None = None
+    increases_with: Literal["gap", "approach"] = "gap"
+    uncertainty: Value | None = None
+
+
+class LinearCalibration(Strict):
+    """`calibrations.*` of kind linear: value = gain * raw + offset, with units.
+
+    kind: linear
+    gain: factor, with a unit where it changes the unit
+    offset: added after the gain: -0.12 K
+    """
+
+    kind: Literal["linear"]
+    gain: Value = 1
+    offset: Value = 0
+
+
+Calibration = Annotated[JumpCalibration | ScaleCalibration | LinearCalibration, Field(discriminator="kind")]
