@@ -12,7 +12,7 @@ from thermodata.chart.spec import Chart
 from thermodata.errors import UsageError
 from thermodata.store import Store
 from thermodata.view.events import About, about_test
-from thermodata.view.models import ModelRow, model_rows
+from thermodata.view.models import ModelRow, model_rows, term_order
 from thermodata.view.predictions import Prediction, predictions, range_figures
 from thermodata.view.rule_for import rules_for
 from thermodata.view.window import Channel, channels_of, read_window
@@ -33,7 +33,7 @@ def show(request: Request) -> Response:
     models = [m for m in model_rows(store) if campaign in m.campaigns]
     model = _model(models, given)
     about, predicted = about_test(store, campaign, test), _predicted(store, model, given)
-    chart = _chart(store, about, chosen, predicted, given)
+    chart = _chart(store, about, chosen, predicted, _order(models, model), given)
     from_s, to_s = seconds_in(given, "from"), seconds_in(given, "to")
     return page(
         request,
@@ -60,8 +60,10 @@ def data(request: Request) -> Response:
     store, given = desk_of(request).store(), request.query_params
     campaign, test = _named(given)
     _, chosen = _channels(store, given)
-    model = _model([m for m in model_rows(store) if campaign in m.campaigns], given)
-    chart = _chart(store, about_test(store, campaign, test), chosen, _predicted(store, model, given), given)
+    models = [m for m in model_rows(store) if campaign in m.campaigns]
+    model = _model(models, given)
+    predicted, order = _predicted(store, model, given), _order(models, model)
+    chart = _chart(store, about_test(store, campaign, test), chosen, predicted, order, given)
     return JSONResponse(chart.as_json())
 
 
@@ -115,19 +117,28 @@ def _model(models: list[ModelRow], given: Mapping[str, str]) -> ModelRow | None:
     return next((m for m in models if m.model == named), models[0] if models and named != "none" else None)
 
 
+def _order(models: list[ModelRow], model: ModelRow | None) -> list[str]:
+    return term_order(models, [model.model]) if model else []
+
+
 def _predicted(store: Store, model: ModelRow | None, given: Mapping[str, str]) -> list[Prediction]:
     return predictions(store, model.model, *_named(given)) if model else []
 
 
 def _chart(
-    store: Store, about: About, chosen: list[Channel], predicted: list[Prediction], given: Mapping[str, str]
+    store: Store,
+    about: About,
+    chosen: list[Channel],
+    predicted: list[Prediction],
+    order: list[str],
+    given: Mapping[str, str],
 ) -> Chart:
     from_s, to_s = seconds_in(given, "from"), seconds_in(given, "to")
     span = None if from_s is None or to_s is None else (from_s, to_s)
     windows = read_window(
         store, about.row["campaign"], about.row["test"], chosen, span, flagged=given.get("flagged") == "1"
     )
-    return test_chart(about, chosen, windows, predicted)
+    return test_chart(about, chosen, windows, predicted, order)
 
 
 def _neighbours(store: Store, campaign: str, test: str) -> tuple[str | None, str | None]:

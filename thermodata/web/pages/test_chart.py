@@ -25,14 +25,16 @@ def test_chart(
     channels: Sequence[Channel],
     windows: Sequence[Window],
     predicted: Sequence[Prediction],
+    order: Sequence[str],
 ) -> Chart:
-    """x: hours from the test's start, over the whole test; windows may hold a part of it in finer steps."""
+    """order: of the effects, for their colours. x: hours from the test's start, over the whole test; windows may hold a
+    part of it in finer steps."""
     length = (about.row["duration_s"] or 0.0) / _HOUR
     if not length:
         length = max((float(w.t_s[-1]) / _HOUR for w in windows if len(w.t_s)), default=1.0)
     values = {name: (w.t_s / _HOUR, y) for w in windows for name, y in w.values.items()}
     known = [c for c in channels if c.name in values]
-    panels: list[Panel | Strip] = [*_of_model(predicted), *_of_channels(known, values)]
+    panels: list[Panel | Strip] = [*_of_model(predicted, order), *_of_channels(known, values)]
     return Chart(
         f"Test {about.row['test']} over {length:.3g} hours: {len(known)} channels"
         + (", with the model's prediction and what it leaves over" if predicted else ""),
@@ -50,7 +52,7 @@ def drawn_as_curve(channel: Channel) -> bool:
     return channel.quantity in _RESPONSES or channel.quantity.startswith("temperature")
 
 
-def _of_model(predicted: Sequence[Prediction]) -> list[Panel]:
+def _of_model(predicted: Sequence[Prediction], order: Sequence[str]) -> list[Panel]:
     panels = []
     for p in predicted:
         x = p.t_s / _HOUR
@@ -73,7 +75,7 @@ def _of_model(predicted: Sequence[Prediction]) -> list[Panel]:
             ),
         ]
         if p.contributions:
-            styles = effect_styles(p.contributions)
+            styles = effect_styles([*order, *p.contributions])
             panels.append(
                 Panel(
                     f"{p.response}, contributions{f', {SHADED}' if p.deviations else ''}",
