@@ -8,7 +8,7 @@ from starlette.requests import Request
 from starlette.responses import JSONResponse, Response
 
 from thermodata.chart.pack import script_json
-from thermodata.chart.spec import Chart
+from thermodata.chart.spec import Chart, Strip
 from thermodata.errors import UsageError
 from thermodata.store import Store
 from thermodata.view.events import About, about_test
@@ -22,6 +22,7 @@ from thermodata.web.query import seconds_in
 from thermodata.web.render import desk_of, page
 
 _MOST_CURVES, _MOST_STRIPS = 24, 10  # that are drawn unasked: more are chosen by name
+_MOST_ADDRESS = 8_000  # [letters] of names
 
 
 def show(request: Request) -> Response:
@@ -43,6 +44,7 @@ def show(request: Request) -> Response:
         command=command(desk.store_path, "trace", campaign, test),
         about=about,
         channels=channels,
+        drawn=_drawn(chart, chosen) or given.get("show", ""),
         chosen={c.name for c in chosen},
         models=models,
         model=model,
@@ -138,7 +140,15 @@ def _chart(
     windows = read_window(
         store, about.row["campaign"], about.row["test"], chosen, span, flagged=given.get("flagged") == "1"
     )
-    return test_chart(about, chosen, windows, predicted, order)
+    named = given.get("show", "") not in ("", "all")
+    return test_chart(about, chosen, windows, predicted, order, named=named)
+
+
+def _drawn(chart: Chart, chosen: list[Channel]) -> str:
+    """The channels that have a curve, as a zoom asks for them again; '' where these are too many for an address."""
+    curves = {s.name for p in chart.panels for s in ([p.series] if isinstance(p, Strip) else p.series)}
+    names = ",".join(c.name for c in chosen if c.name in curves)
+    return names if len(names) < _MOST_ADDRESS else ""
 
 
 def _neighbours(store: Store, campaign: str, test: str) -> tuple[str | None, str | None]:
