@@ -30,8 +30,8 @@ def test_chart(
     named: bool,
 ) -> Chart:
     """order: of the effects, for their colours. named: the channels were asked for by name, and are drawn though one
-    never moves in these windows: a zoom must not lose a strip. x: hours from the test's start, over the whole test; windows may hold a
-    part of it in finer steps."""
+    never moves in these windows: a zoom must not lose a strip. x: hours from the test's start, over the whole test;
+    windows may hold a part of it in finer steps."""
     length = (about.row["duration_s"] or 0.0) / _HOUR
     if not length:
         length = max((float(w.t_s[-1]) / _HOUR for w in windows if len(w.t_s)), default=1.0)
