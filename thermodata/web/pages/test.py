@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import lru_cache
 
 from starlette.requests import Request
 from starlette.responses import JSONResponse, Response
@@ -30,10 +32,11 @@ def show(request: Request) -> Response:
     desk, given = desk_of(request), request.query_params
     store = desk.store()
     campaign, test = _named(given)
-    channels, chosen = _channels(store, given)
-    models = [m for m in model_rows(store) if campaign in m.campaigns]
+    known = _known(store, campaign, test)
+    channels, chosen = _channels(known, given)
+    models, about = known.models, known.about
     model = _model(models, given)
-    about, predicted = about_test(store, campaign, test), _predicted(store, model, given)
+    predicted = _predicted(store, model, given)
     chart = _chart(store, about, chosen, predicted, _order(models, model), given)
     from_s, to_s = seconds_in(given, "from"), seconds_in(given, "to")
     return page(
@@ -60,12 +63,11 @@ def show(request: Request) -> Response:
 def data(request: Request) -> Response:
     """GET /test/data: the chart of a window in as many points as a screen has."""
     store, given = desk_of(request).store(), request.query_params
-    campaign, test = _named(given)
-    _, chosen = _channels(store, given)
-    models = [m for m in model_rows(store) if campaign in m.campaigns]
-    model = _model(models, given)
-    predicted, order = _predicted(store, model, given), _order(models, model)
-    chart = _chart(store, about_test(store, campaign, test), chosen, predicted, order, given)
+    known = _known(store, *_named(given))
+    _, chosen = _channels(known, given)
+    model = _model(known.models, given)
+    predicted, order = _predicted(store, model, given), _order(known.models, model)
+    chart = _chart(store, known.about, chosen, predicted, order, given)
     return JSONResponse(chart.as_json())
 
 
@@ -100,9 +102,31 @@ def _named(given: Mapping[str, str]) -> tuple[str, str]:
     return given.get("campaign", ""), given.get("test", "")
 
 
-def _channels(store: Store, given: Mapping[str, str]) -> tuple[list[Channel], list[Channel]]:
+@dataclass(frozen=True, slots=True)
+class _Known:
+    """What a commit may change, and a zoom does not. models: those of the test's campaign."""
+
+    channels: list[Channel]
+    models: list[ModelRow]
+    about: About
+
+
+def _known(store: Store, campaign: str, test: str) -> _Known:
+    mark = store.mark()
+    return _known_at(store, campaign, test, mark) if mark else _known_at.__wrapped__(store, campaign, test, mark)
+
+
+@lru_cache(maxsize=16)
+def _known_at(store: Store, campaign: str, test: str, mark: str) -> _Known:
+    """mark: of the commit; read before what it stands for, so that nothing newer is taken for older."""
+    channels = channels_of(store, campaign, test)
+    models = [m for m in model_rows(store) if campaign in m.campaigns]
+    return _Known(channels, models, about_test(store, campaign, test))
+
+
+def _channels(found: _Known, given: Mapping[str, str]) -> tuple[list[Channel], list[Channel]]:
     """(all, those to draw)."""
-    known = channels_of(store, *_named(given))
+    known = found.channels
     names = given.get("show", "")
     if names == "all":
         return known, known
