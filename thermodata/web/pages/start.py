@@ -35,14 +35,15 @@ GROUPS = (
     ),
     (
         "Where the sensors are",
-        ("place",),
-        "An effect is tried only where a sensor sits at its place. Leave empty what nobody knows: it drives nothing.",
+        ("axis", "place"),
+        "An effect is tried only where a sensor sits at its place. Leave empty what nobody knows: it drives nothing. The "
+        "axis of a displacement says which screw moves it.",
     ),
     (
         "The tests",
-        ("kind", "role"),
+        ("kind", "start", "role"),
         "What heats one part alone is fitted (calibration); a working day checks it (verification); one that nobody "
-        "has looked at is kept for the last word (locked).",
+        "has looked at is kept for the last word (locked). One that began before the machine had cooled starts warm.",
     ),
 )
 # role -> what it is for
