@@ -21,6 +21,7 @@ ROLES: tuple[str, ...] = get_args(Role)
 KINDS: tuple[str, ...] = get_args(TestKind)
 AXES = ("X", "Y", "Z", "A", "B", "C")
 STARTS = ("balance", "warm")
+_CHOICES = {"place": tuple(PLACES), "what": WHAT, "role": ROLES, "kind": KINDS, "axis": AXES, "start": STARTS}
 _UNREAD = "unread."
 _PLACED = ("temperature", "state", "rotational_speed", "feed", "power", "load", "current", "flow", "position")
 
@@ -136,9 +137,7 @@ def _question(lines: list[str], document: Document, place: Place, key: str) -> Q
         "timezone": "zone",
         "moves": "moves",
     }.get(key, "text")  # type: ignore[assignment]
-    choices = {"place": tuple(PLACES), "what": WHAT, "role": ROLES, "kind": KINDS, "axis": AXES, "start": STARTS}.get(
-        kind, ()
-    )
+    choices = _CHOICES.get(kind, ())
     about = str(document.data["tests"][place[1]].get("id", place[1])) if place[0] == "tests" else str(place[-1])
     opened = value in ("", "unknown") or (key == "role" and value == "none")
     return Question(_name(place, key), about, key, kind, "" if value == "unknown" else value, hint, choices, opened)

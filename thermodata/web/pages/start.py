@@ -36,8 +36,8 @@ GROUPS = (
     (
         "Where the sensors are",
         ("axis", "place"),
-        "An effect is tried only where a sensor sits at its place. Leave empty what nobody knows: it drives nothing. The "
-        "axis of a displacement says which screw moves it.",
+        "An effect is tried only where a sensor sits at its place. Leave empty what nobody knows: it drives nothing. "
+        "The axis of a displacement says which screw moves it.",
     ),
     (
         "The tests",
