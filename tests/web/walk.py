@@ -15,7 +15,9 @@ from __future__ import annotations
 import argparse
 import contextlib
 import json
+import os
 import re
+import resource
 import shutil
 import subprocess
 import sys
@@ -214,16 +216,22 @@ def main() -> None:
     with tempfile.TemporaryDirectory() as kept:
         folder = Path(kept) / given.folder.name
         shutil.copytree(given.folder, folder)
-        with served(folder) as address, browser(program) as one:
-            page = one.open(address, 1280, 900)
-            page.wait("document.readyState === 'complete' && location.pathname === '/'")
-            person = Person(page)
-            print("| clock | step | the program | the person |\n|---|---|---|---|")
-            said = way(person, json.loads(given.answers.read_text()))
-            took = time.monotonic() - person.began
-            print(f"\n{said}\n\n{_clock(took)} in all, {took - person.pauses_s:.0f} s of them the program's")
-            for complaint in page.complaints():
-                print(f"the page complains: {complaint}", file=sys.stderr)
+        with browser(program) as one:
+            with served(folder) as address:
+                page = one.open(address, 1280, 900)
+                page.wait("document.readyState === 'complete' && location.pathname === '/'")
+                person = Person(page)
+                print("| clock | step | the program | the person |\n|---|---|---|---|")
+                said = way(person, json.loads(given.answers.read_text()))
+                took = time.monotonic() - person.began
+                for complaint in page.complaints():
+                    print(f"the page complains: {complaint}", file=sys.stderr)
+            used = resource.getrusage(resource.RUSAGE_CHILDREN)  # of the server and its work: the browser still runs
+        program_s = took - person.pauses_s
+        print(
+            f"\n{said}\n\n{_clock(took)} in all, {program_s:.0f} s of them the program's, which used "
+            f"{used.ru_utime + used.ru_stime:.0f} s of processor time; load {os.getloadavg()[0]:.1f}"
+        )
     raise SystemExit(0 if took <= given.most_s else f"longer than {given.most_s:g} s")
 
 
