@@ -47,11 +47,12 @@ def candidate(
     family: str = "feed_x",
     channels: Sequence[str] = ("T_a",),
     placeless: bool = False,
+    passive: bool = False,
     refines: tuple[str, ...] = (),
     kin: Kin = None,
 ) -> CandidateEffect:
     binding = {f"u{i or ''}": channel for i, channel in enumerate(channels)}
-    return CandidateEffect(PlainEffect(name, family, refines=refines), binding, family, placeless, kin=kin)
+    return CandidateEffect(PlainEffect(name, family, refines=refines), binding, family, placeless, passive, kin=kin)
 
 
 def columns_of(candidate: CandidateEffect, contribution: Sequence[Float1D]) -> Columns:
@@ -66,6 +67,7 @@ def scored(
     family: str = "feed_x",
     channels: Sequence[str] = ("T_a",),
     placeless: bool = False,
+    passive: bool = False,
     refines: tuple[str, ...] = (),
     kin: Kin = None,
     evidence: float = 390.0,
@@ -77,10 +79,13 @@ def scored(
     shape: Sequence[float] = (1.0, 0.0),
     contribution: Sequence[Float1D] = (),
     coefficient: float = 1.0,
+    beaten: bool = False,
 ) -> Scored:
     """Ten equal tests with ROWS rows in all. before, after: the error (RMS) of all tests, or of each. contribution: at
     a coefficient of 1."""
-    asked = candidate(name, family=family, channels=channels, placeless=placeless, refines=refines, kin=kin)
+    asked = candidate(
+        name, family=family, channels=channels, placeless=placeless, passive=passive, refines=refines, kin=kin
+    )
     rows = np.full(TESTS, ROWS / TESTS)
     return Scored(
         asked,
@@ -93,6 +98,7 @@ def scored(
         _of_each(size),
         spread,
         np.asarray(shape, dtype=np.float64),
+        beaten=beaten,
     )
 
 

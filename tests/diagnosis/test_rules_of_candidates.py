@@ -92,6 +92,27 @@ def test_a_lag_is_placeless_where_no_temperature_has_a_place(at: str | None, pla
     }
 
 
+def test_a_lag_of_a_body_that_makes_no_heat_is_passive() -> None:
+    """Castings, and what nobody declared where it sits, while something else has a place."""
+    at = {"T_bed": "bed.feet", "T_head": "headstock", "T_nut": "axis.x.nut", "T_rib": "rear_wall", "T_free": None}
+    channels = {n: ChannelInfo(n, "temperature", "degC", at=place) for n, place in at.items()}
+    channels |= {"n": ChannelInfo("n", "rotational_speed", "rpm")}
+    library = {e.name: e for e in (LAG, replace(NUT, name="anywhere", needs=(Need("u", "temperature"),)))}
+    found = {c.id for c in candidates(library, channels, (), "dZ") if c.passive}
+    assert found == {"lag:T_bed", "lag:T_head", "lag:T_free"}, "no speed, no name, no place of which nothing is known"
+    nowhere = {n: replace(c, at=None) for n, c in channels.items()}
+    assert not any(c.passive for c in candidates(library, nowhere, (), "dZ")), "then all are alike"
+
+
+@pytest.mark.parametrize(("other", "passive"), [("T_bed", True), ("T_nut", False)])
+def test_a_difference_is_passive_where_it_reads_such_a_body(other: str, passive: bool) -> None:
+    at = {"T_bed": "bed", "T_nut": "axis.x.nut", "T_oil": "hydraulics"}
+    channels = {n: ChannelInfo(n, "temperature", "degC", at=place) for n, place in at.items() if n in ("T_oil", other)}
+    two = PlainEffect("both", "control", needs=(Need("u", "temperature"), Need("v", "temperature")))
+    found = candidates({"both": two}, channels, (), "dZ")
+    assert {c.passive for c in found} == {passive}
+
+
 def kin(effect: PlainEffect, channel: str, *present: Present) -> object:
     at = {
         "T_nut": "axis.x.nut",

@@ -33,8 +33,9 @@ OTHER = np.sqrt(2) * np.cos(2 * np.pi * np.arange(ROWS) / 50)  # at a right angl
 NOISE = Noise(0.1, 0.1, 600.0, 0.5)
 WARM = ChannelInfo("T_a", "temperature", "degC")
 TAU = Param("tau", "min", 30, 1, 360, "")
-# evidence a sample at which a spread of 10 % makes a cause of it
-SURELY = 10 ** ((np.log(CLAIMED / (1 - CLAIMED)) - PROBABILITY[0] - 0.1 * PROBABILITY[2]) / PROBABILITY[1])
+FALL = 0.5  # of the cause made by hand
+# evidence a sample that makes a cause of it
+SURELY = 10 ** ((np.log(CLAIMED / (1 - CLAIMED)) - PROBABILITY[0] - FALL * PROBABILITY[2]) / PROBABILITY[1])
 MODE = "it is another mode of what the model has"
 
 
@@ -216,7 +217,9 @@ ZERO = "it acts as term0 would if its temperature counted from T_a"
 
 def test_what_acts_as_minus_a_known_effect_counts_from_another_zero(monkeypatch: pytest.MonkeyPatch) -> None:
     assert counted(monkeypatch) == ZERO
-    assert counted(monkeypatch, family="generic") == ZERO
+    assert counted(monkeypatch, family="generic", passive=True) == ZERO
+    assert counted(monkeypatch, family="generic", placeless=True) == ZERO
+    assert counted(monkeypatch, family="generic") is None, "a source of heat surrounds nothing"
     assert counted(monkeypatch, family="feed_y") is None, "what names a heat means it"
     assert counted(monkeypatch, families="ambient") is None, "the air counts from nothing"
     assert counted(monkeypatch, channels=("T_a", "T_b")) is None
@@ -242,6 +245,13 @@ def test_it_is_smaller_than_the_known_effect(
     monkeypatch: pytest.MonkeyPatch, size: float, expected: str | None
 ) -> None:
     assert counted(monkeypatch, size=size) == expected
+
+
+@pytest.mark.parametrize(("evidence", "expected"), [(999.0, ZERO), (1001.0, None)])
+def test_what_is_as_evident_as_one_a_sample_is_no_other_zero(
+    monkeypatch: pytest.MonkeyPatch, evidence: float, expected: str | None
+) -> None:
+    assert counted(monkeypatch, evidence=evidence) == expected
 
 
 def test_what_does_nothing_counts_from_nothing(monkeypatch: pytest.MonkeyPatch) -> None:

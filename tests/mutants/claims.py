@@ -59,17 +59,26 @@ def calibration(file: str, old: str, new: str, why: str) -> Mutant:
 MUTANTS = [
     # ---- a claim
     diagnosis("rules.py", "P_LIMIT = 0.01", "P_LIMIT = 0.9", "chance is claimed as a cause"),
-    diagnosis("rules.py", "(3.13, 2.43, -0.97)", "(5.13, 2.43, -0.97)", "an answer is too sure of itself"),
-    diagnosis("rules.py", "2.43, -0.97)", "2.43, 0.0)", "an answer is sure of a proxy of another gain a test"),
-    diagnosis("rules.py", "\nCLAIMED = 0.7", "\nCLAIMED = 0.6", "what is slow stands in for a cause"),
+    diagnosis("rules.py", "(2.6, 2.15, ", "(4.6, 2.15, ", "an answer is too sure of itself"),
+    diagnosis("rules.py", "2.15, 0.9, ", "2.15, 0.0, ", "an answer is sure of what hardly lowers the error"),
+    diagnosis("rules.py", "-1.1, -2.65)", "0.0, -2.65)", "what a sharper cause leaves is claimed"),
+    diagnosis("rules.py", "-1.1, -2.65)", "-1.1, 0.0)", "a casting that follows the cause is claimed"),
+    diagnosis(
+        "rules.py", "FALLS = (-0.2, 1.0)", "FALLS = (-9.0, 1.0)", "a misfit of the known effects refutes a cause"
+    ),
+    diagnosis("rules.py", "\nCLAIMED = 0.65", "\nCLAIMED = 0.55", "what is slow stands in for a cause"),
     diagnosis("rules.py", "PLACELESS_CLAIMED = 0.5", "PLACELESS_CLAIMED = 0.7", "nothing is ever claimed"),
-    diagnosis("rules.py", "USUAL_SPREAD = 0.15", "USUAL_SPREAD = 1.0", "what acts in one test is never claimed"),
+    diagnosis("candidates.py", "passive = placed and family", "passive = family", "without places nothing is claimed"),
+    diagnosis("candidates.py", "channel.at is None or is_casting", "is_casting", "a sensor of no place is a cause"),
+    diagnosis("candidates.py", " or is_casting(channel.at))", ")", "a casting that follows the cause is claimed"),
     diagnosis(
         "rules.py", "OVERWHELMING = 0.5", "OVERWHELMING = 0.3", "left-out tests that speak against it are not heard"
     ),
     diagnosis("rules.py", "LEAST_TESTS = 2 ", "LEAST_TESTS = 1 ", "one test makes a cause"),
     diagnosis("rules.py", "\nDROP_LIMIT = 0.15", "\nDROP_LIMIT = 0.05", "a claim hardly lowers the error"),
-    diagnosis("rules.py", "UNNAMED_DROP_LIMIT = 0.3", "UNNAMED_DROP_LIMIT = 0.15", "what steadies a misfit is claimed"),
+    diagnosis(
+        "rules.py", "STEADYING_DROP_LIMIT = 0.3", "STEADYING_DROP_LIMIT = 0.15", "what steadies a misfit is claimed"
+    ),
     diagnosis("rules.py", "BETTER_LIMIT = 0.6", "BETTER_LIMIT = 0.4", "a few tests carry a claim"),
     diagnosis("rules.py", "SPREAD_LIMIT = 0.5", "SPREAD_LIMIT = 0.9", "a proxy of another gain a test is claimed"),
     diagnosis("rules.py", "FORETOLD = 0.5", "FORETOLD = 0.3", "a proxy of another gain a test is claimed"),
@@ -84,12 +93,22 @@ MUTANTS = [
     diagnosis("judge.py", "\nSURE = 2.0", "\nSURE = 9.0", "what the tests tell apart passes as twins"),
     diagnosis("judge.py", "difference.std(ddof=1)", "difference.std()", "chance tells twins apart"),
     diagnosis("rules.py", "and not scored.candidate.placeless", "", "a sensor without a place is never claimed"),
+    diagnosis(
+        "rules.py", "return scored.candidate.passive or (", "return (", "a casting that steadies a misfit is claimed"
+    ),
     diagnosis("scored.py", "ACTS = 0.2", "ACTS = 0.0", "tests in which nothing acts decide"),
     diagnosis("scored.py", "self.gained[self.acts] > 0", "self.gained[self.acts] >= 0", "no change counts as better"),
     # ---- verdict
     diagnosis("judge.py", "if len(problem.blocks) < 2:", "if len(problem.blocks) < 1:", "one test makes a claim"),
     diagnosis("judge.py", "MOST_CLAIMS = 3", "MOST_CLAIMS = 9", "everything is claimed at once"),
-    diagnosis("judge.py", "BESIDE_SHARP_LIMIT = 0.3", "BESIDE_SHARP_LIMIT = 0.1", "what the first leaves is claimed"),
+    diagnosis("judge.py", "named and shared and", "named and", "a second axis of a family is never claimed"),
+    diagnosis("judge.py", "named and shared and", "shared and", "two causes at one channel are one"),
+    diagnosis("judge.py", " and mine.family not in (GENERIC, CONTROL)", "", "two lags are one"),
+    diagnosis("judge.py", "if not any(again(j, other) for other in claims)", "", "one cause is claimed twice"),
+    diagnosis("judge.py", "beaten=True", "beaten=False", "what a sharper cause leaves is claimed"),
+    diagnosis(
+        "judge.py", "for j in members if j.refines is None), default", "for j in members), default", "a mode hides"
+    ),
     diagnosis("judge.py", "if left <= measure.floor and not halved:", "if left < 0:", "'none' is never said"),
     diagnosis("judge.py", "if j.refines is None and blunt(j.scored) is None", "if j.refines is None", "proxies"),
     diagnosis("judge.py", "if j.refines is None and blunt", "if blunt", "a refinement is claimed as a cause"),
@@ -107,11 +126,14 @@ MUTANTS = [
     diagnosis("refinement.py", "REPLACED = 0.1", "REPLACED = 0.5", "a cause that overlaps takes a place"),
     diagnosis("refinement.py", "WORTH = 20.0", "WORTH = 0.0", "an effect that was never there is replaced"),
     diagnosis("refinement.py", "LIKE = 0.9 ", "LIKE = 0.1 ", "a cause takes the place of a stranger"),
+    diagnosis("refinement.py", "== GENERIC and body)", "== GENERIC)", "a cause is told a zero of another"),
+    diagnosis("refinement.py", "candidate.passive or candidate.placeless", "candidate.passive", "without places"),
+    diagnosis("refinement.py", "EVIDENT = 1.0", "EVIDENT = 9.0", "what is evident is told a zero of another"),
     diagnosis("refinement.py", "SMALL = 0.6 ", "SMALL = 0.1 ", "a small mode is claimed as a cause"),
     diagnosis("refinement.py", "not most and blunt(scored) and", "not most and", "a sure cause passes as another mode"),
     diagnosis("refinement.py", "OPPOSITE = -0.8", "OPPOSITE = 0.9", "heat is said to count from another zero"),
     diagnosis("refinement.py", "SHARE = (0.2, 1.5)", "SHARE = (0.0, 9.0)", "any heat counts from another zero"),
-    diagnosis("refinement.py", "family == AIR or", "family == 'x' or", "the air counts from another zero"),
+    diagnosis("refinement.py", "family == AIR or not", "family == 'x' or not", "the air counts from another zero"),
     diagnosis("refinement.py", 'or kin == "same"', "", "the same effect is missing again"),
     diagnosis("refinement.py", 'kin == "near" or (good', "(good", "what sits at its place is missing"),
     # ---- locked tests
@@ -176,9 +198,24 @@ MUTANTS = [
     diagnosis("selection.py", "ALIKE_SHARE = 0.8", "ALIKE_SHARE = 0.2", "a name elsewhere is taken for physics"),
     diagnosis("selection.py", "\nALIKE = 0.8", "\nALIKE = 0.1", "a name elsewhere is taken for physics"),
     diagnosis("selection.py", "FEWER_SHARE = 0.8", "FEWER_SHARE = 0.2", "half of a cause is preferred"),
+    diagnosis("selection.py", "noise = _second_chance(problem, chosen, dropped, noise, sound)", "", "twins drop both"),
+    diagnosis("selection.py", "if worth >= WORTH and all(", "if all(", "trifles come back"),
+    diagnosis(
+        "selection.py",
+        "if worth >= WORTH and all(sound(s) for s in _each_beside_others(problem, tried, quieter)):",
+        "if worth >= WORTH:",
+        "what is unsound comes back",
+    ),
     diagnosis("selection.py", "chosen.pop(worst)", "chosen.pop()", "a sound effect goes for an unsound one"),
     diagnosis("selection.py", "worst = min(unsound", "worst = max(unsound", "the most likely one goes first"),
-    diagnosis("selection.py", " and best.drop > own.drop", "", "a member is swapped for what foretells less"),
+    diagnosis(
+        "selection.py", "        and _foretells_more(best, own)\n", "", "a member is swapped for what foretells less"
+    ),
+    diagnosis(
+        "selection.py", " or (own.candidate.passive and best.drop >= NAMED_SHARE * own.drop)", "", "a casting stands"
+    ),
+    diagnosis("selection.py", "own.candidate.passive and best.drop", "best.drop", "a name takes a cause's place"),
+    diagnosis("selection.py", "(best.candidate.passive or len(other", "(len(other", "a casting hides what bends it"),
     diagnosis(
         "selection.py",
         "(_drove_out(own, best, ranking) or _clearly",

@@ -26,6 +26,7 @@ from thermodata.modelling.drivers import has_drivers, make_drivers
 from thermodata.modelling.lead import columns, with_lead
 from thermodata.plugin import Effect, Float2D, Param
 from thermodata.schema.model import EffectSpec, Model
+from thermodata.schema.places import is_casting
 from thermodata.view.dataset import ChannelInfo, TestData
 
 InTest = Callable[[Mapping[str, float]], Float2D]  # parameters -> columns of a test, shape (n, gains)
@@ -44,7 +45,9 @@ UNNAMED = -3.0
 @dataclass(frozen=True, slots=True)
 class CandidateEffect:
     """An effect and the channels it would be driven by. family: with the axis that its channels sit on.
-    placeless: nobody declared where any temperature sits, so it can only be a plain lag. log_prior: how much less
+    placeless: nobody declared where any temperature sits, so it can only be a plain lag. passive: no effect has a name
+    for it, and it reads the temperature of a casting, or one of which nobody declared where it sits, while others have
+    a place. log_prior: how much less
     probable than others before any data. kin: how near it is to what the model has already (`Kin`). unforetold: why
     left-out tests can't be asked of it; None where they can."""
 
@@ -52,6 +55,7 @@ class CandidateEffect:
     binding: Mapping[str, str]
     family: str
     placeless: bool = False
+    passive: bool = False
     log_prior: float = 0.0
     kin: Kin = None
     unforetold: str | None = None
@@ -141,7 +145,8 @@ def candidates(
             if refines(effect) and not model.has_one_of(refines(effect), names):
                 continue
             kin = _kin(effect, family, names, model, library, usable)
-            found.append(CandidateEffect(effect, binding, family, nowhere, kin=kin))
+            passive = placed and family in (GENERIC, CONTROL) and any(_follows(usable[n]) for n in names)
+            found.append(CandidateEffect(effect, binding, family, nowhere, passive, kin=kin))
     named = {c.channels for c in found if c.family not in (GENERIC, CONTROL)}
     return [replace(c, log_prior=UNNAMED) if _says_little(c, named) else c for c in found]
 
@@ -161,6 +166,11 @@ class _Model:
     def has_one_of(self, effects: Container[str], names: frozenset[str]) -> bool:
         """Whether one of the effects acts in all phases, by one of the channels."""
         return any(p.effect in effects and p.whole and p.channels & names for p in self.acting)
+
+
+def _follows(channel: ChannelInfo) -> bool:
+    """Whether it is warm for what is warm elsewhere, for all that is known of its place."""
+    return channel.quantity == "temperature" and (channel.at is None or is_casting(channel.at))
 
 
 def _says_little(candidate: CandidateEffect, named: Container[tuple[str, ...]]) -> bool:

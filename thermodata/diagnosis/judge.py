@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal
 
 import numpy as np
 
+from thermodata.diagnosis.present import CONTROL, GENERIC
 from thermodata.diagnosis.problem import Problem
 from thermodata.diagnosis.rules import FLOOR_SHARE, GOOD_SHARE, Measure, blunt, failed_rules, halves, sharpness
 from thermodata.diagnosis.scored import Scored
@@ -15,7 +16,6 @@ from thermodata.diagnosis.selection import Selection
 
 Verdict = Literal["effect", "refine", "none", "unknown", "not_testable"]
 
-BESIDE_SHARP_LIMIT = 0.3  # log evidence a sample of a further claim: what is small may be what the first leaves
 MOST_CLAIMS = 3
 ALIKE = 0.9  # cosine of contributions that can't be told apart,
 APART = 2.0  # unless the tests surely speak for one, and the other leaves this many times its error;
@@ -61,8 +61,8 @@ def judge(
         )
     if selection is None:
         return _nothing("not_testable", "no effect of the library fits the channels that were logged")
-    judged = tuple(Judged(m.scored, m.alone, refines(m.scored), m.beside) for m in selection.members)
-    claims = _claims([j for j in judged if j.refines is None and blunt(j.scored) is None])
+    judged = _beside_each_other([Judged(m.scored, m.alone, refines(m.scored), m.beside) for m in selection.members])
+    claims = _causes([j for j in judged if j.refines is None and blunt(j.scored) is None])[:MOST_CLAIMS]
     kept = tuple(j for j in judged if j.refines is not None)
     if claims:
         return Judgement("effect", claims, kept, judged, "")
@@ -105,10 +105,27 @@ def _nothing(verdict: Verdict, reason: str) -> Judgement:
     return Judgement(verdict, (), (), (), reason)
 
 
-def _claims(own: Sequence[Judged]) -> tuple[Judged, ...]:
-    """The first that was chosen, and others that are sharp: what is dull beside it may be what the first leaves; once
-    that is added, it is asked again."""
-    return (*own[:1], *(j for j in own[1:] if sharpness(j.scored) >= BESIDE_SHARP_LIMIT))[:MOST_CLAIMS]
+def _beside_each_other(members: Sequence[Judged]) -> tuple[Judged, ...]:
+    """Which causes a sharper one stands beside: what is dull may be what that one leaves."""
+    sharpest = max((sharpness(j.scored) for j in members if j.refines is None), default=0.0)
+
+    def told(j: Judged) -> Judged:
+        beaten = j.refines is None and sharpness(j.scored) < sharpest
+        return replace(j, scored=replace(j.scored, beaten=True)) if beaten else j
+
+    return tuple(told(j) for j in members)
+
+
+def _causes(claims: Sequence[Judged]) -> tuple[Judged, ...]:
+    """Without what a sharper one of the same family says of the same channels: it is one cause, in two modes."""
+
+    def again(j: Judged, other: Judged) -> bool:
+        mine, theirs = j.scored.candidate, other.scored.candidate
+        named = mine.family == theirs.family and mine.family not in (GENERIC, CONTROL)
+        shared = not set(mine.channels).isdisjoint(theirs.channels)
+        return named and shared and sharpness(j.scored) < sharpness(other.scored)
+
+    return tuple(j for j in claims if not any(again(j, other) for other in claims))
 
 
 def equivalents(chosen: Scored, ranked: Sequence[Scored]) -> list[Scored]:

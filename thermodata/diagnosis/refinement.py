@@ -10,14 +10,14 @@ from dataclasses import replace
 
 import numpy as np
 
-from thermodata.diagnosis.candidates import refines
+from thermodata.diagnosis.candidates import CandidateEffect, refines
 from thermodata.diagnosis.changed import ChangedEffect
 from thermodata.diagnosis.discrepancy import Noise
 from thermodata.diagnosis.known import known, rms
 from thermodata.diagnosis.known_effects import from_other_zero, is_warm, owners
 from thermodata.diagnosis.present import GENERIC
 from thermodata.diagnosis.problem import Block, Problem
-from thermodata.diagnosis.rules import acting_size, blunt
+from thermodata.diagnosis.rules import acting_size, blunt, sharpness
 from thermodata.diagnosis.scored import Scored
 from thermodata.diagnosis.selection import beside
 from thermodata.modelling.fitted_response import FittedResponse
@@ -36,6 +36,7 @@ LIKE = 0.9  # and both act alike (cosine)
 SMALL = 0.6  # of the known effect's size: kin that does less is another mode of it
 OPPOSITE = -0.8  # cosine with the known effect driven by the candidate's temperature,
 SHARE = (0.2, 1.5)  # and how much of it that takes away
+EVIDENT = 1.0  # log evidence a sample: another zero changes little, and leaves no such trace
 
 
 class Refinement:
@@ -65,7 +66,7 @@ class Refinement:
         for number, term in enumerate(self.fitted.terms):
             if may_replace and self._replaces(scored, number):
                 return f"it takes the place of {term.id}"
-            if not good:
+            if not good or sharpness(scored) >= EVIDENT:
                 continue
             channel = self._other_zero(scored, number)
             if channel is not None:
@@ -118,7 +119,7 @@ class Refinement:
 
     def _other_zero(self, scored: Scored, term: int) -> str | None:
         channels = scored.candidate.channels
-        if self.fitted.terms[term].family == AIR or scored.candidate.family not in (AIR, GENERIC):
+        if self.fitted.terms[term].family == AIR or not _surrounds(scored.candidate):
             return None
         if len(channels) != 1 or not is_warm(self.problem.blocks[0].test, channels[0]):
             return None
@@ -132,6 +133,12 @@ class Refinement:
             alike.append((columns[:, point] @ scored.weighed.coefficients, block.compress(other[:, None])[:, 0]))
         own, theirs = (np.concatenate(side) for side in zip(*alike, strict=True))
         return channels[0] if _takes_away(own, theirs) else None
+
+
+def _surrounds(candidate: CandidateEffect) -> bool:
+    """Whether it reads what a warm part may count from: the air, a casting, or what nobody declared a place of."""
+    body = candidate.passive or candidate.placeless
+    return candidate.family == AIR or (candidate.family == GENERIC and body)
 
 
 def _takes_away(own: Float1D, theirs: Float1D) -> bool:

@@ -8,16 +8,16 @@ from typing import Literal
 import numpy as np
 
 from thermodata.diagnosis.null import p_value
-from thermodata.diagnosis.present import CONTROL, GENERIC
+from thermodata.diagnosis.present import CONTROL
 from thermodata.diagnosis.scored import Scored
 from thermodata.plugin import Float1D
 
 P_LIMIT = 0.01
-# that a sound candidate is the cause: a logistic curve over the logarithm of its evidence a sample, and the spread of
-# its gain between tests (docs/method.md#probability)
-PROBABILITY = (3.13, 2.43, -0.97)
-USUAL_SPREAD = 0.15
-CLAIMED = 0.7  # a claim is this probable at least;
+# that a sound candidate is the cause: a logistic curve over the logarithm of its evidence a sample, the fall of the
+# error where it acts, whether another member is sharper, and whether it is passive (docs/method.md#probability)
+PROBABILITY = (2.6, 2.15, 0.9, -1.1, -2.65)
+FALLS = (-0.2, 1.0)  # further, and a fall says nothing more
+CLAIMED = 0.65  # a claim is this probable at least;
 # where nobody declared any place it names a channel, not physics, and there is nothing that it could be taken for
 PLACELESS_CLAIMED = 0.5
 # so much evidence a sample outweighs what left-out tests say: how far their error falls, for the known effects take
@@ -25,7 +25,7 @@ PLACELESS_CLAIMED = 0.5
 STRONG = 0.4
 OVERWHELMING = 0.5
 DROP_LIMIT = 0.15  # fall of the error on left-out tests in which it acts,
-UNNAMED_DROP_LIMIT = 0.3  # and of what names no physics: any slow temperature steadies a misfit a little
+STEADYING_DROP_LIMIT = 0.3  # and of any casting, or two temperatures: what is slow steadies a misfit a little
 LEAST_TESTS = 2  # in which it acts: no other foretells what acts in one only
 BETTER_LIMIT = 0.6  # share of these tests that it makes more probable
 SPREAD_LIMIT = 0.5  # of its gain between tests, as a share,
@@ -82,7 +82,7 @@ class Rule:
 def rules(scored: Scored, measure: Measure, unit: str) -> list[Rule]:
     """Every rule that a sound candidate keeps, in the order in which they are asked."""
     p, count = p_value(scored.evidence, measure.chance), int(scored.acts.sum())
-    fall = UNNAMED_DROP_LIMIT if _unnamed(scored) else DROP_LIMIT
+    fall = STEADYING_DROP_LIMIT if _steadies(scored) else DROP_LIMIT
     told, worth = explained(scored), WORTH_SHARE * measure.spread
     strong, overwhelming = sharpness(scored) >= STRONG, sharpness(scored) >= OVERWHELMING
     unasked = "; not asked where the evidence is {:g} a sample"
@@ -150,19 +150,28 @@ def rules(scored: Scored, measure: Measure, unit: str) -> list[Rule]:
 
 
 def surely(scored: Scored) -> Rule:
-    """Whether a sound candidate is a cause: it has the timing of what is missing and leaves little noise, in every test
-    alike; what stands in for it has its slow shape alone."""
+    """Whether a sound candidate is a cause: it has the timing of what is missing and leaves little noise; what stands
+    in for it has its slow shape alone."""
     sure, limit = probability(scored), PLACELESS_CLAIMED if scored.candidate.placeless else CLAIMED
     return Rule(
         "probability",
-        "that it is what is missing, by its log evidence a sample and the spread of its gain",
+        "that it is what is missing, by its log evidence a sample, the fall of the error, whether an effect beside it "
+        "is sharper, and whether it reads a body that makes no heat",
         sure,
         limit,
         "least",
         sure >= limit,
-        f"causes like it were right in {sure:.0%} of cases only (limit {limit:.0%}): its evidence is "
-        f"{sharpness(scored):.2f} a sample, and its gain differs between tests by {scored.spread:.0%}",
+        f"causes like it were right in {sure:.0%} of cases only (limit {limit:.0%}): {_in_short(scored)}",
     )
+
+
+def _in_short(scored: Scored) -> str:
+    """What its probability hangs on."""
+    falls = f"where it acts the error falls by {max(scored.drop, 0):.0%}"
+    more = ["an effect beside it is sharper"] if scored.beaten else []
+    if scored.candidate.passive:
+        more.append("it reads a body that makes no heat, or one whose place nobody declared")
+    return "; ".join([f"its evidence is {sharpness(scored):.2f} a sample, and {falls}", *more])
 
 
 def failed_rules(scored: Scored, measure: Measure, unit: str) -> list[str]:
@@ -187,18 +196,17 @@ def claimable(scored: Scored, measure: Measure, unit: str) -> bool:
     return not failed_rules(scored, measure, unit) and blunt(scored) is None
 
 
-def _unnamed(scored: Scored) -> bool:
-    """Whether its place is known, and still no effect has a name for it; where no place is declared, nothing could."""
-    return scored.candidate.family in (GENERIC, CONTROL) and not scored.candidate.placeless
+def _steadies(scored: Scored) -> bool:
+    """Whether it may follow anything slow: a casting, or a difference of any two temperatures."""
+    return scored.candidate.passive or (scored.candidate.family == CONTROL and not scored.candidate.placeless)
 
 
 def probability(scored: Scored) -> float:
-    """That a sound candidate is what is missing: the share that was right among those with its sharpness and spread, on
-    simulated machines (development seeds)."""
-    level, sharp, spread = PROBABILITY
-    # one test tells no spread: the usual one is taken
-    between = scored.spread if scored.acts.sum() > 1 else USUAL_SPREAD
-    odds = level + sharp * np.log10(max(sharpness(scored), 1e-4)) + spread * between
+    """That a sound candidate is what is missing: the share that was right among those like it, on simulated machines
+    (development seeds)."""
+    level, sharp, fall, beaten, passive = PROBABILITY
+    odds = level + sharp * np.log10(max(sharpness(scored), 1e-4)) + fall * float(np.clip(scored.drop, *FALLS))
+    odds += beaten * scored.beaten + passive * scored.candidate.passive
     return float(1 / (1 + np.exp(-odds)))
 
 

@@ -23,7 +23,8 @@ class Scored:
     squared error of each test, left out whole. own_before, own_after: the same with only the candidate left out: its
     size and times from the other tests, what is known fitted beside it to all. size: RMS of the contribution in each
     test. spread: of its gain between tests. shape: whitened contribution without what the known effects can do, unit
-    length. credit: of a member, its log evidence beside the likelier members alone; None for all else."""
+    length. credit: of a member, its log evidence beside the likelier members alone; None for all else. beaten: whether
+    another cause that was selected has more evidence a sample."""
 
     candidate: CandidateEffect
     columns: Columns
@@ -39,6 +40,7 @@ class Scored:
     spread: float
     shape: Float1D
     credit: float | None = None
+    beaten: bool = False
 
     @property
     def acts(self) -> Bool1D:

@@ -27,7 +27,7 @@ PASSES = 3
 WORTH = 10.0  # log evidence that a further effect must bring
 # a name, or fewer channels, is worth this share of the evidence: what a lag explains as well is not the lag's own
 NAMED_SHARE = 0.95
-ALIKE_SHARE = 0.8  # the same for a name on another channel that acts alike (cosine)
+ALIKE_SHARE = 0.8  # the same for a name on another channel, or beside a passive lag, that acts alike (cosine)
 ALIKE = 0.8
 FEWER_SHARE = 0.8
 STANDS = 0.15  # of the first one's evidence: less, and no noise brings a candidate to the front
@@ -69,7 +69,8 @@ def first_ranking(problem: Problem, candidates: Sequence[CandidateEffect]) -> Ra
 
 def select(problem: Problem, first: Ranked, sound: Callable[[Scored], bool]) -> Selection:
     """Forward by evidence, then what is not sound beside the others goes, the least likely first; and again, for what
-    it stood in the way of. sound: whether a candidate keeps the rules of a claim."""
+    it stood in the way of; at last what was dropped beside others that went later is asked again. sound: whether a
+    candidate keeps the rules of a claim."""
     pool, noise = [s.columns for s in first.ranked], first.known.space.noise
     chosen: list[Scored] = []
     current: list[Scored] = []
@@ -89,6 +90,8 @@ def select(problem: Problem, first: Ranked, sound: Callable[[Scored], bool]) -> 
             current = _each_beside_others(problem, chosen, noise)
         if len(dropped) == before:
             break
+    noise = _second_chance(problem, chosen, dropped, noise, sound)
+    current = _each_beside_others(problem, chosen, noise)
     credits = _credits(problem, current, noise)
     current = [replace(s, credit=c) for s, c in zip(current, credits, strict=True)]
     members = tuple(_member(problem, pool, chosen, i, current[i], noise, sound) for i in range(len(chosen)))
@@ -114,6 +117,32 @@ def _forward(
         if best.columns is not found.best:
             noise = likeliest(full, noise)
         last = rank_in(full, rest, noise, left_out=False)
+
+
+def _second_chance(
+    problem: Problem, chosen: list[Scored], dropped: list[Scored], noise: Noise, sound: Callable[[Scored], bool]
+) -> Noise:
+    """Moves from the dropped to the chosen, likeliest first, what is worth it and leaves the whole set sound. The noise
+    beside what is chosen then."""
+    left = list(dropped)
+    for _ in range(TRIED):
+        if not left or len(chosen) >= MOST:
+            break
+        base = beside(problem, chosen)
+        ranked = rank_in(base, [s.columns for s in left], noise).ranked
+        best = preferred(ranked)
+        if best is None:
+            break
+        left = [s for s in left if s.columns is not best.columns]
+        tried = [*chosen, best]
+        full = beside(base, [best])
+        quieter = likeliest(full, noise)
+        worth = known(full, quieter).log_evidence - known(base, quieter).log_evidence
+        if worth >= WORTH and all(sound(s) for s in _each_beside_others(problem, tried, quieter)):
+            chosen.append(best)
+            dropped[:] = [s for s in dropped if s.columns is not best.columns]
+            noise = quieter
+    return noise
 
 
 @dataclass(frozen=True, slots=True)
@@ -217,7 +246,7 @@ def _member(
     if (
         best is not None
         and (_drove_out(own, best, ranking) or _clearly(best, own))
-        and best.drop > own.drop
+        and _foretells_more(best, own)
         and sound(best)
     ):
         # what it replaces leaves it the credit for what likelier and less likely members explain alike
@@ -230,6 +259,11 @@ def _drove_out(own: Scored, best: Scored, ranking: Ranked) -> bool:
     """Whether a lag is the likeliest, and a name is preferred to it."""
     lag = own.candidate.family in UNNAMED and not own.candidate.within
     return lag and ranking.ranked[0].columns is own.columns and best.columns is not own.columns
+
+
+def _foretells_more(best: Scored, own: Scored) -> bool:
+    """Left-out tests, or nearly as much where its rival could be no cause."""
+    return best.drop > own.drop or (own.candidate.passive and best.drop >= NAMED_SHARE * own.drop)
 
 
 def _clearly(best: Scored, own: Scored) -> bool:
@@ -260,7 +294,7 @@ def preferred(ranked: Sequence[Scored]) -> Scored | None:
         elsewhere = (
             best.candidate.family in UNNAMED
             and other.candidate.family not in UNNAMED
-            and len(other.candidate.channels) == 1
+            and (best.candidate.passive or len(other.candidate.channels) == 1)
             and abs(float(best.shape @ other.shape)) > ALIKE
         )
         if (

@@ -77,11 +77,18 @@ PLACES: dict[str, str] = {
 _DIAMETER = "table.d"
 # a tool change, a cut or the coolant makes any reading there jump, and no mass holds it
 _AT_TOOL = ("tcp", "tool", "stator", "probe")
+# castings: heat passes through them, and none begins there
+_CASTINGS = ("headstock", "ram", "saddle", "crossbeam", "column", "bed")
 
 
 def is_at_tool(place: str | None) -> bool:
     """Whether a dotted place is at the tool or at a probe, where a reading may jump without a fault."""
     return place is not None and place.lower().partition(".")[0] in _AT_TOOL
+
+
+def is_casting(place: str | None) -> bool:
+    """Whether a dotted place is on a body that makes no heat of its own: what is read there came from elsewhere."""
+    return place is not None and place.lower().partition(".")[0] in _CASTINGS
 
 
 def is_known(place: str) -> bool:
