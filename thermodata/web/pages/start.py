@@ -46,12 +46,14 @@ GROUPS = (
         "has looked at is kept for the last word (locked). One that began before the machine had cooled starts warm.",
     ),
 )
-# role -> what it is for
-ROLES = {
+# role, or start of a test -> what it means
+WORDS = {
     "calibration": "calibration: fitted",
     "verification": "verification: checked",
     "locked": "locked: kept for the last word",
     "none": "none: kept only",
+    "balance": "balance: it was at rest",
+    "warm": "warm: it had not cooled",
 }
 _MOST_MODELS = 5
 # of the machine, for the schematic: the first parts of places that are drawn
@@ -77,7 +79,7 @@ def show(request: Request) -> Response:
         open_ones=sum(q.open for q in asked),
         bodies={body: sum(q.value.startswith(body) for q in asked if q.kind == "place") for body in BODIES},
         **_first_model(desk, path, text),
-        roles=ROLES,
+        words=WORDS,
         what=WHAT,
         answer=_ANSWER,
     )
