@@ -12,6 +12,7 @@ import pytest
 from thermodata.diagnosis import investigate as investigating
 from thermodata.diagnosis.candidates import CandidateEffect
 from thermodata.diagnosis.discrepancy import Noise
+from thermodata.diagnosis.evidence import Columns
 from thermodata.diagnosis.investigate import Investigation, investigate
 from thermodata.diagnosis.known_effects import base_columns, otherwise, owners
 from thermodata.diagnosis.locked import Foretold
@@ -118,8 +119,9 @@ class TestJudged:
         refined: Sequence[str] = (),
         **more: Any,
     ) -> Investigation:
-        """members: that were selected; None where nothing can be asked."""
+        """members: that are selected, the passive ones where they may be; None where nothing can be asked."""
         self.rows: list[int] = []
+        self.among: list[list[str]] = []
         known: Any = None
         first = Ranked(known, tuple(ranked))
         build = investigating.build_problem
@@ -128,11 +130,14 @@ class TestJudged:
             self.asked = [c.id for c in candidates]
             return None if members is None else first
 
-        def select(problem: Problem, given: Ranked, sound: Any) -> Selection:
+        def select(problem: Problem, given: Ranked, sound: Any, *, among: Sequence[Columns]) -> Selection:
             assert given is first
             self.sound = sound
+            self.among.append([c.candidate.effect.name for c in among])
+            passive = any(c.candidate.passive for c in among)
+            chosen = [m for m in members or () if passive or not m.candidate.passive]
             return Selection(
-                first, tuple(Member(m, m, tuple(ranked)) for m in members or ()), (), NOISE, ranked[0].error_before
+                first, tuple(Member(m, m, tuple(ranked)) for m in chosen), (), NOISE, ranked[0].error_before
             )
 
         def built(*of: Any, **named: Any) -> Problem:
@@ -177,6 +182,27 @@ class TestJudged:
         assert self.sound(cause)
         assert not self.sound(replace(cause, evidence=99.0))
         assert [c.scored for c in found.judgement.claims] == [cause]
+
+    @pytest.mark.parametrize(
+        ("evidence", "verdict", "asked"),
+        [(500.0, "effect", [["cause"]]), (30.0, "unknown", [["cause"], ["cause", "bed"]])],
+    )
+    def test_what_is_passive_is_chosen_only_where_nothing_else_may_be_claimed(
+        self,
+        monkeypatch: pytest.MonkeyPatch,
+        data: Dataset,
+        fitted: FittedModel,
+        evidence: float,
+        verdict: str,
+        asked: list[list[str]],
+    ) -> None:
+        cause = scored("cause", before=3.0, after=0.3, size=3.0, evidence=evidence)
+        bed = scored("bed", before=3.0, after=0.3, size=3.0, evidence=700.0, passive=True, family="generic")
+        found = self.investigated(monkeypatch, data, fitted.responses[0], [cause, bed], ranked=[cause, bed])
+        assert (found.judgement.verdict, self.among) == (verdict, asked)
+        assert [j.scored.candidate.effect.name for j in found.judgement.judged] == asked[-1]
+        self.investigated(monkeypatch, data, fitted.responses[0], [FAR])
+        assert self.among == [["far"]], "no second look where nothing is passive"
 
     def test_locked_tests_are_asked_beside_all_that_was_selected_and_then_beside_refinements_alone(
         self, monkeypatch: pytest.MonkeyPatch, data: Dataset, fitted: FittedModel

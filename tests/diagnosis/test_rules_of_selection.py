@@ -136,14 +136,18 @@ class Worlds:
         known = frozenset(filter(None, problem.response.split(",")))
         return replace(self.made[id(one)], columns=one, evidence=self.evidence(one.candidate.effect.name, known))
 
-    def select(self, names: Sequence[str], sound: Callable[[Scored], bool] = lambda s: True, **of: Any) -> Selection:
+    def select(
+        self, names: Sequence[str], sound: Callable[[Scored], bool] = lambda s: True, among: str = "", **of: Any
+    ) -> Selection:
+        """among: the names that may be chosen, all by default."""
         pool = []
         for i, n in enumerate(names):
             one = scored(n, channels=(f"T_{i}",), shape=np.eye(len(names))[i].tolist(), **of)
             self.made[id(one.columns)] = one
             pool.append(one.columns)
         start = replace(of_tests(4), response="")
-        return select(start, self._rank(start, pool), sound)
+        some = [c for c in pool if not among or c.candidate.effect.name in among]
+        return select(start, self._rank(start, pool), sound, among=some)
 
 
 def members(found: Selection) -> list[str | None]:
@@ -154,6 +158,15 @@ def members(found: Selection) -> list[str | None]:
 def test_a_further_effect_brings_ten(monkeypatch: pytest.MonkeyPatch, evidence: float, chosen: list[str]) -> None:
     world = Worlds(monkeypatch, lambda n, known: {"a": 100.0, "b": evidence}[n])
     assert members(world.select("ab")) == chosen
+
+
+def test_what_may_not_be_chosen_is_ranked_and_takes_no_place(monkeypatch: pytest.MonkeyPatch) -> None:
+    """a does better than b, and would be swapped for it."""
+    world = Worlds(monkeypatch, lambda n, known: {"a": 200.0, "b": 100.0, "c": 50.0}[n])
+    found = world.select("abc", among="bc")
+    assert members(found) == ["b", "c"]
+    assert [name(s) for s in found.first.ranked] == ["a", "b", "c"]
+    assert [name(s) for s in found.members[0].beside] == ["a", "b"]
 
 
 def test_five_are_added_at_most(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -80,6 +80,8 @@ def test_what_is_dull_beside_a_sharper_cause_is_no_claim_whatever_its_name(
         assert sorted(names(found.claims)) == claimed
         assert {j.scored.candidate.effect.name: j.scored.beaten for j in found.judged} == {"a": False, "b": True}
     assert names(verdict(scored("b", evidence=68.0)).claims) == ["b"]
+    bed = scored("bed", family="generic", passive=True)
+    assert names(verdict(scored("b", evidence=68.0), bed).claims) == ["b"], "what makes no heat is no rival"
     assert names(verdict(scored("b", evidence=68.0), scored("mode"), refined=["mode"]).claims) == ["b"]
 
 

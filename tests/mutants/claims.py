@@ -105,9 +105,10 @@ MUTANTS = [
     diagnosis("judge.py", "named and shared and", "shared and", "two causes at one channel are one"),
     diagnosis("judge.py", " and mine.family not in (GENERIC, CONTROL)", "", "two lags are one"),
     diagnosis("judge.py", "if not any(again(j, other) for other in claims)", "", "one cause is claimed twice"),
+    diagnosis("judge.py", " and not j.scored.candidate.passive", "", "a casting makes a cause less sure"),
     diagnosis("judge.py", "beaten=True", "beaten=False", "what a sharper cause leaves is claimed"),
     diagnosis(
-        "judge.py", "for j in members if j.refines is None), default", "for j in members), default", "a mode hides"
+        "judge.py", "for j in members if j.refines is None and", "for j in members if", "a mode makes a cause less sure"
     ),
     diagnosis("judge.py", "if left <= measure.floor and not halved:", "if left < 0:", "'none' is never said"),
     diagnosis("judge.py", "if j.refines is None and blunt(j.scored) is None", "if j.refines is None", "proxies"),
@@ -199,6 +200,18 @@ MUTANTS = [
     diagnosis("selection.py", "\nALIKE = 0.8", "\nALIKE = 0.1", "a name elsewhere is taken for physics"),
     diagnosis("selection.py", "FEWER_SHARE = 0.8", "FEWER_SHARE = 0.2", "half of a cause is preferred"),
     diagnosis("selection.py", "noise = _second_chance(problem, chosen, dropped, noise, sound)", "", "twins drop both"),
+    diagnosis(
+        "investigate.py",
+        "selection, judgement = judged(active)",
+        "selection, judgement = judged(everything)",
+        "proxies",
+    ),
+    diagnosis(
+        "investigate.py", "if not judgement.claims and len(active)", "if len(active)", "a casting drives out the cause"
+    ),
+    diagnosis(
+        "selection.py", "best = preferred(eligible.ranked)", "best = preferred(ranking.ranked)", "a casting swaps in"
+    ),
     diagnosis("selection.py", "if worth >= WORTH and all(", "if all(", "trifles come back"),
     diagnosis(
         "selection.py",
@@ -218,7 +231,7 @@ MUTANTS = [
     diagnosis("selection.py", "(best.candidate.passive or len(other", "(len(other", "a casting hides what bends it"),
     diagnosis(
         "selection.py",
-        "(_drove_out(own, best, ranking) or _clearly",
+        "(_drove_out(own, best, eligible) or _clearly",
         "(_clearly",
         "a lag that drove out a name takes its place",
     ),

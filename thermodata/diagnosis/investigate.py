@@ -11,7 +11,7 @@ from threadpoolctl import threadpool_limits
 from thermodata.diagnosis.artefact import as_artefacts, find_steps
 from thermodata.diagnosis.by_phase import heating_and_cooling_apart
 from thermodata.diagnosis.candidates import CandidateEffect, candidates
-from thermodata.diagnosis.evidence import columns
+from thermodata.diagnosis.evidence import Columns, columns
 from thermodata.diagnosis.gain_by import gains_by_condition
 from thermodata.diagnosis.judge import Judged, Judgement, judge
 from thermodata.diagnosis.known import rms
@@ -143,9 +143,18 @@ def _judged(
         return None, judge(problem, None, measure, lambda scored: None), measure
     chance = best_of_chance(first.known, [s.columns for s in first.ranked], seed)
     measure = Measure(spread, problem.noise, chance)
-    selection = select(problem, first, lambda scored: not failed_rules(scored, measure, problem.unit))
-    refines = Refinement(fitted, problem, selection.noise)
-    return selection, judge(problem, selection, measure, refines), measure
+
+    def judged(among: Sequence[Columns]) -> tuple[Selection, Judgement]:
+        found = select(problem, first, lambda scored: not failed_rules(scored, measure, problem.unit), among=among)
+        return found, judge(problem, found, measure, Refinement(fitted, problem, found.noise))
+
+    everything = [s.columns for s in first.ranked]
+    # what is passive can hardly be claimed, and drives out what it follows: so it is asked where nothing else is
+    active = [c for c in everything if not c.candidate.passive]
+    selection, judgement = judged(active)
+    if not judgement.claims and len(active) < len(everything):
+        selection, judgement = judged(everything)
+    return selection, judgement, measure
 
 
 def _with_unforetold(

@@ -107,7 +107,8 @@ def _nothing(verdict: Verdict, reason: str) -> Judgement:
 
 def _beside_each_other(members: Sequence[Judged]) -> tuple[Judged, ...]:
     """Which causes a sharper one stands beside: what is dull may be what that one leaves."""
-    sharpest = max((sharpness(j.scored) for j in members if j.refines is None), default=0.0)
+    causes = [j.scored for j in members if j.refines is None and not j.scored.candidate.passive]
+    sharpest = max(map(sharpness, causes), default=0.0)
 
     def told(j: Judged) -> Judged:
         beaten = j.refines is None and sharpness(j.scored) < sharpest

@@ -67,19 +67,19 @@ def first_ranking(problem: Problem, candidates: Sequence[CandidateEffect]) -> Ra
     return rank(problem, pool, None) if pool else None
 
 
-def select(problem: Problem, first: Ranked, sound: Callable[[Scored], bool]) -> Selection:
+def select(problem: Problem, first: Ranked, sound: Callable[[Scored], bool], *, among: Sequence[Columns]) -> Selection:
     """Forward by evidence, then what is not sound beside the others goes, the least likely first; and again, for what
     it stood in the way of; at last what was dropped beside others that went later is asked again. sound: whether a
-    candidate keeps the rules of a claim."""
-    pool, noise = [s.columns for s in first.ranked], first.known.space.noise
+    candidate keeps the rules of a claim. among: what may be chosen, of all that was ranked."""
+    noise = first.known.space.noise
     chosen: list[Scored] = []
     current: list[Scored] = []
     dropped: list[Scored] = []
     for number in range(PASSES):
-        rest = without(pool, [*chosen, *dropped])
-        last = first if number == 0 else rank(beside(problem, chosen), rest, noise, left_out=False)
+        rest = without(among, [*chosen, *dropped])
+        last = _only(first, among) if number == 0 else rank(beside(problem, chosen), rest, noise, left_out=False)
         before = len(dropped)
-        _forward(problem, pool, chosen, dropped, last)
+        _forward(problem, among, chosen, dropped, last)
         noise = likeliest(beside(problem, chosen), noise)
         current = _each_beside_others(problem, chosen, noise)
         while unsound := [i for i, s in enumerate(current) if not sound(s)]:
@@ -94,7 +94,7 @@ def select(problem: Problem, first: Ranked, sound: Callable[[Scored], bool]) -> 
     current = _each_beside_others(problem, chosen, noise)
     credits = _credits(problem, current, noise)
     current = [replace(s, credit=c) for s, c in zip(current, credits, strict=True)]
-    members = tuple(_member(problem, pool, chosen, i, current[i], noise, sound) for i in range(len(chosen)))
+    members = tuple(_member(problem, first, among, chosen, i, current[i], noise, sound) for i in range(len(chosen)))
     return Selection(first, members, tuple(dropped), noise, first.known.left_out)
 
 
@@ -228,9 +228,15 @@ def _credits(problem: Problem, members: Sequence[Scored], noise: Noise) -> list[
     return [found[id(one)] for one in members]
 
 
+def _only(ranked: Ranked, some: Sequence[Columns]) -> Ranked:
+    kept = {id(c) for c in some}
+    return replace(ranked, ranked=tuple(s for s in ranked.ranked if id(s.columns) in kept))
+
+
 def _member(
     problem: Problem,
-    pool: Sequence[Columns],
+    first: Ranked,
+    among: Sequence[Columns],
     chosen: Sequence[Scored],
     number: int,
     own: Scored,
@@ -241,11 +247,12 @@ def _member(
     it, as in the choice: a lag that was added beside a name, and then drove it out, is still not the lag's own, where
     the name foretells left-out tests better."""
     others = [c for i, c in enumerate(chosen) if i != number]
-    ranking = rank_in(beside(problem, others), without(pool, others), noise)
-    best = preferred(ranking.ranked)
+    ranking = rank_in(beside(problem, others), without([s.columns for s in first.ranked], others), noise)
+    eligible = _only(ranking, among)
+    best = preferred(eligible.ranked)
     if (
         best is not None
-        and (_drove_out(own, best, ranking) or _clearly(best, own))
+        and (_drove_out(own, best, eligible) or _clearly(best, own))
         and _foretells_more(best, own)
         and sound(best)
     ):
