@@ -10,10 +10,11 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pyarrow.parquet as pq
 import pytest
 
-from .conftest import TESTS, Said, write_campaign
+from .conftest import TESTS, Said, lag, write_campaign
 
 Say = Callable[..., Said]
 SCORE = {
@@ -175,6 +176,19 @@ def test_fit_add_and_history(data: Callable[..., Any], ask: Say, campaign: Path)
     both = data("compare", base["model"], better["model"])
     assert {s["model"] for s in both["scores"]} == {base["model"], better["model"]}
     assert [m["model"] for m in both["models"]] == [base["model"], better["model"]]
+    shares = data("compare", base["model"], better["model"], "--contributions", "heat1")
+    nut = {row["model"]: row for row in shares if row["effect"] == "feed_screw"}
+    assert nut[base["model"]]["largest"] is None
+    assert nut[better["model"]]["differs"]
+    gives = nut[better["model"]]["difference"]
+    assert gives["low"] < gives["value"] < gives["high"]
+    # the truth of heat1: 3 um/K on the nut, lagged by 45 min
+    rows = np.loadtxt(campaign / "raw" / "heat1.csv", delimiter=",", skiprows=1)
+    truth = float((3.0 * lag(rows[:, 3] - 21, 2700.0)).max())
+    assert gives["value"] == pytest.approx(truth, rel=0.05)
+    told = ask("compare", base["model"], better["model"], "--contributions", "heat1").out
+    assert "not in it" in told
+    assert "what each effect gives to dZ in heat1" in told
     for words in (
         ["compare", base["model"]],
         ["compare", base["model"], better["model"]],

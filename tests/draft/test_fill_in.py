@@ -6,6 +6,7 @@ import pytest
 
 from thermodata.draft.fill_in import filled_in, questions
 from thermodata.errors import SpecError, UsageError
+from thermodata.schema.load import parse_campaign
 
 TEXT = """\
 # a head that stays
@@ -75,3 +76,26 @@ def test_what_was_not_asked_and_what_does_not_load_is_refused() -> None:
         filled_in(TEXT, {"tests.0.role": "favourite"})
     with pytest.raises(SpecError):
         filled_in(TEXT, {"calibrations.jump_Z.moves": "a lot"})
+
+
+def test_the_axis_of_a_probe_and_a_warm_start_are_answered() -> None:
+    probe = "  ch1: {source: nc, signal: c1, quantity: displacement, unit: um, at: tcp}   # ? axis? (name and unit)\n"
+    text = TEXT.replace("  dZ: {", f"{probe}  dZ: {{")
+    text += "  - {id: day2, kind: mixed, role: none}   # ? start_state: warm? T06 begins 19.0 K further above the air\n"
+    asked = {q.name: q for q in questions(text)}
+    assert (asked["channels.ch1.axis"].kind, asked["channels.ch1.axis"].value) == ("axis", "")
+    assert asked["channels.ch1.axis"].choices == ("X", "Y", "Z", "A", "B", "C")
+    assert "channels.dZ.axis" not in asked
+    assert asked["tests.1.start_state"].choices == ("balance", "warm")
+    assert asked["tests.1.start_state"].open
+    assert "tests.0.start_state" not in asked
+    after = filled_in(text, {"channels.ch1.axis": "Y", "tests.1.start_state": "warm", "tests.1.role": "verification"})
+    campaign = parse_campaign(after)
+    assert campaign.channels["ch1"].axis == "Y"
+    assert (campaign.tests[1].start_state, campaign.tests[1].role) == ("warm", "verification")
+    # answered, they can be answered otherwise
+    again = {q.name: q for q in questions(after)}
+    assert (again["channels.ch1.axis"].value, again["channels.ch1.axis"].open) == ("Y", False)
+    assert (again["tests.1.start_state"].value, again["tests.1.start_state"].open) == ("warm", False)
+    with pytest.raises(SpecError):
+        filled_in(text, {"channels.ch1.axis": "Q"})

@@ -8,10 +8,10 @@ import pytest
 
 from thermodata.draft.baseline import model_text_of
 from thermodata.draft.fill_in import filled_in, questions
-from thermodata.draft.make import write_answered
+from thermodata.draft.make import first_model, modelled, write_answered
 from thermodata.draft.put import EVERY, put
 from thermodata.errors import UsageError
-from thermodata.schema.load import load_campaign, parse_campaign
+from thermodata.schema.load import load_campaign, load_model, parse_campaign
 
 TEXT = """\
 schema: thermodata/campaign/1
@@ -155,3 +155,73 @@ def test_a_write_that_dies_leaves_the_campaign_file_whole(tmp_path: Path, monkey
     kept, _ = write_answered(path, answered)
     assert path.read_text() == answered
     assert kept.name == "campaign.2.yaml", "an earlier copy is not written over"
+
+
+SEVERAL = """schema: thermodata/campaign/1
+id: two
+machine: {id: "1"}
+sources: {log: {reader: table, files: "{test}.csv"}}
+channels:
+  dX: {source: log, signal: x, quantity: displacement, unit: um, axis: X, at: tcp}
+  dZ: {source: log, signal: z, quantity: displacement, unit: um, axis: Z, at: tcp}
+  dX_low: {source: log, signal: x2, quantity: displacement, unit: um, axis: X, at: tcp}
+  p5: {source: log, signal: p5, quantity: displacement, unit: um, at: tcp}
+  T_nut_X: {source: log, signal: a, quantity: temperature, unit: degC, at: axis.x.nut}
+  T_nut_Z: {source: log, signal: b, quantity: temperature, unit: degC, at: axis.z.nut}
+  T_front: {source: log, signal: c, quantity: temperature, unit: degC}
+tests:
+  - {id: day, kind: mixed, role: calibration}
+"""
+
+
+def test_a_first_model_is_of_the_displacement_that_was_chosen(tmp_path: Path) -> None:
+    path, model = tmp_path / "campaign.yaml", tmp_path / "model.yaml"
+    path.write_text(SEVERAL)
+    assert modelled(path) is None
+    made = first_model(path)
+    assert (made.response, made.responses, made.kept) == ("dZ", ("dZ", "dX", "dX_low", "p5"), None)
+    assert load_model(model).name == "baseline"
+    assert "T_nut_Z" in model.read_text()
+    # two probes along X: the axis alone would not say which; the screw of Z moves nothing there
+    assert first_model(path, "dX_low").kept is None  # what is as drafted can be had again
+    spec = load_model(model)
+    assert (spec.name, spec.responses[0].channel) == ("baseline_dX_low", "dX_low")
+    assert "T_nut_X" in model.read_text()
+    assert "T_nut_Z" not in model.read_text()
+    assert modelled(path) == "dX_low"
+    # it follows the answers, and stays the model of what was chosen
+    _, followed = write_answered(path, filled_in(SEVERAL, {"channels.T_front.at": "spindle.bearing.front"}))
+    assert followed
+    assert modelled(path) == "dX_low"
+    assert "T_front" in model.read_text()
+
+
+def test_a_first_model_that_somebody_changed_is_kept(tmp_path: Path) -> None:
+    path, model = tmp_path / "campaign.yaml", tmp_path / "model.yaml"
+    path.write_text(SEVERAL)
+    first_model(path)
+    model.write_text(own := model.read_text().replace("60 s", "30 s"))
+    assert modelled(path) is None
+    made = first_model(path, "dX")
+    assert made.kept == tmp_path / "model.1.yaml"
+    assert made.kept.read_text() == own
+    with pytest.raises(UsageError, match="dY"):
+        first_model(path, "dY")
+    path.write_text("".join(line for line in SEVERAL.splitlines(keepends=True) if "T_" not in line))
+    with pytest.raises(UsageError, match="no sensor"):
+        first_model(path, "dX")
+
+
+def test_a_displacement_without_an_axis_is_modelled_by_its_name(tmp_path: Path) -> None:
+    path = tmp_path / "campaign.yaml"
+    path.write_text(
+        SEVERAL.replace(
+            "T_front: {source: log, signal: c, quantity: temperature, unit: degC}",
+            "T_front: {source: log, signal: c, quantity: temperature, unit: degC, at: spindle.bearing.front}",
+        )
+    )
+    first_model(path, "p5")
+    spec = load_model(path.with_name("model.yaml"))
+    assert spec.responses[0].channel == "p5"
+    # which screw moves it nobody knows: only what acts whatever the axis is drafted
+    assert [e.effect for e in spec.effects] == ["spindle_bearing"]

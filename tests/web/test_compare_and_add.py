@@ -157,3 +157,34 @@ def test_noise_forgets_and_a_slow_residual_remembers() -> None:
     assert c[lag == 9000.0] == pytest.approx(0.0, abs=0.1)
     assert c[lag == 18000.0] == pytest.approx(-1.0, abs=0.1)
     assert len(autocorrelation([], 60.0)[0]) == 0
+
+
+def test_contributions_stand_beside_each_other_on_one_scale(writer: Client, lab: Path) -> None:
+    store = Store(lab / "thermodata.store")
+    alone = writer.get("/compare").text
+    assert "What each effect gives in" in alone  # one model: its own
+    assert "bands apart for" not in alone
+    _, onward = finished(writer, writer.post("/task/add", {"model": "baseline", "candidate": "1"}).text)
+    before = store.connect().execute("select count(*) from locked_look").fetchall()
+    text = writer.get(f"{onward}&test=small%2Fheat1").text
+    spec = json.loads(re.search(r'id="shares1">(.*?)</script>', text)[1])
+    old, new, apart = spec["panels"]
+    assert old["range"] == new["range"]
+    assert apart["title"].endswith("on its own scale")
+    added = set(model_rows(store)[0].terms) - set(model_rows(store)[1].terms)
+    assert added == {s["name"] for s in new["series"]} - {s["name"] for s in old["series"]}
+    assert added <= {s["name"] for s in apart["series"]}
+    # an effect has one colour here and on the page of the test
+    chart = writer.get("/test?campaign=small&test=heat1").text
+    shares = json.loads(re.search(r'id="chart">(.*?)</script>', chart)[1])["panels"][2]
+    assert "contributions" in shares["title"]
+    assert {s["name"]: s["colour"] for s in new["series"]} == {s["name"]: s["colour"] for s in shares["series"]}
+    assert all(s["band"] for s in new["series"])
+    assert "not in it" in text
+    assert "--contributions heat1" in text
+    only = json.loads(re.search(r'id="shares1">(.*?)</script>', writer.get(f"{onward}&differs=1").text)[1])
+    assert {s["name"] for s in only["panels"][1]["series"]} == {s["name"] for s in only["panels"][2]["series"]}
+    # a locked test has no stored prediction: it is refused, and no look is counted
+    assert writer.get(f"{onward}&test=small%2Fday2").status == 400
+    assert 'value="small/day2"' not in text
+    assert store.connect().execute("select count(*) from locked_look").fetchall() == before

@@ -185,6 +185,9 @@ def test_the_story_by_mouse(served: Served) -> None:
     models = model_rows(Store(served.lab / "thermodata.store"))
     assert [m.version for m in models] == [2, 1]
     assert "beside" in served.page.wait("document.querySelector('h1').textContent")
+    served.page.look(390, 900)
+    assert served.page.js("document.documentElement.scrollWidth <= innerWidth")  # two versions beside each other
+    served.page.look(1200, 900)
     # undo: the version before, and both are still there
     served.press("a.quiet[href*='model=" + first.model + "']")
     served.page.wait(f"location.search.includes('{first.model}')")
@@ -311,3 +314,78 @@ def test_work_that_is_done_leads_to_its_result_once(served: Served) -> None:
     served.page.wait("location.pathname === '/compare' && document.readyState === 'complete'", timeout_s=240)
     asked = [u for u in served.page.requests()[before:] if urlsplit(u).path == "/compare"]
     assert len(asked) == 1
+
+
+# counts what is asked of the server, and how much of it at once; DELAY [ms] holds each answer back
+COUNTED = """(() => {
+  const own = window.fetch;
+  window.asked = []; window.atOnce = 0; window.most = 0;
+  window.fetch = async (...given) => {
+    window.asked.push(String(given[0])); window.most = Math.max(window.most, ++window.atOnce);
+    try {
+      const answer = await own(...given);
+      await new Promise(done => setTimeout(done, DELAY));
+      return answer;
+    } finally { window.atOnce--; }
+  };
+  window.chart = ThermoChart.of(document.getElementById('plot'));
+  // the window [h] that the points of the displacement span; a model's are always sent whole
+  window.drawn = () => { const x = chart.panels.find(p => p.title === 'dZ').data[0]; return [x[0], x[x.length - 1]]; };
+})()"""
+
+
+def counted(served: Served, delay_ms: int) -> None:
+    served.go("/test?campaign=small&test=heat1")
+    served.page.wait("document.querySelector('#plot canvas')")
+    served.page.js(COUNTED.replace("DELAY", str(delay_ms)))
+
+
+def test_a_zoom_is_asked_for_at_once_and_the_newest_wins(served: Served) -> None:
+    counted(served, 150)
+    page = served.page
+    assert page.js("(chart.zoom(1, 2), asked.length)") == 1  # no waiting time before the first
+    page.js("for (let i = 1; i <= 20; i++) chart.zoom(1 + i / 50, 3 + i / 50)")
+    page.wait("document.getElementById('plot').dataset.refined && atOnce === 0")
+    page.wait("asked.length === 2", 30)  # the first and the newest: none between
+    assert page.js("asked[1]").endswith("from=5040&to=12240")
+    assert page.js("most") == 1
+    low, high = page.wait("drawn()[1] < 4 && drawn()", 30)
+    assert 1.3 < low < 1.5
+    assert 3.3 < high < 3.5
+    assert page.complaints() == []
+
+
+def test_keys_zoom_without_waiting_too(served: Served) -> None:
+    counted(served, 100)
+    page = served.page
+    page.js("document.getElementById('plot').focus()")
+    for key in "+++.,":
+        page.key(key)
+    page.wait("document.getElementById('plot').dataset.refined && atOnce === 0")
+    assert page.js("most") == 1
+    assert page.js("asked.length") <= 5
+    from_h, to_h = page.js("['from', 'to'].map(k => Number(new URLSearchParams(location.search).get(k)) / 3600)")
+    assert page.js("[chart.lo, chart.hi]") == pytest.approx([from_h, to_h], abs=1e-3)
+    page.wait("drawn()[0] >= chart.lo - 0.02 && drawn()[1] <= chart.hi + 0.02", 30)
+
+
+def test_what_was_not_loaded_yet_is_never_blank(served: Served) -> None:
+    counted(served, 300)
+    page = served.page
+    page.js("chart.zoom(2, 2.5)")
+    page.wait("drawn()[0] > 1.9", 30)
+    low, high = page.js("(chart.whole(), drawn())")  # before any answer
+    assert low == 0
+    assert high > 5.5
+    page.wait("asked.length === 2 && atOnce === 0")
+
+
+def test_a_zoom_that_failed_is_asked_again_by_the_next(served: Served) -> None:
+    counted(served, 0)
+    page = served.page
+    page.js("window.kept = window.fetch; window.fetch = () => Promise.reject(new TypeError('gone'))")
+    page.js("chart.zoom(1, 2)")
+    page.js("new Promise(done => setTimeout(done, 50))")
+    page.js("window.fetch = window.kept; chart.zoom(1.2, 1.8)")
+    page.wait("document.getElementById('plot').dataset.refined")
+    assert page.js("asked.length") == 1

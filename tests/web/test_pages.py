@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import html
 import json
 import re
 from pathlib import Path
@@ -116,3 +117,13 @@ def test_a_point_leads_back_to_the_row_of_its_file(reader: Client) -> None:
 def test_a_strip_tints_by_size_and_sign() -> None:
     text = str(strip_svg([0.0, 1.0, -0.5, float("nan")], 1.0))  # type: ignore[arg-type]
     assert re.findall(r'class="(hot s6|cold s3|none)"', text) == ["hot s6", "cold s3", "none"]
+
+
+def test_a_zoom_draws_the_strips_of_the_whole_test(reader: Client) -> None:
+    """A speed that stands still in the window stays: another number of panels would be another chart."""
+    text = reader.get("/test?campaign=small&test=heat1").text
+    whole = [p["title"] for p in json.loads(re.search(r'id="chart">(.*?)</script>', text)[1])["panels"]]
+    assert "spindle_speed" in whole
+    source = html.unescape(re.search(r'data-source="([^"]+)"', text)[1])
+    still = json.loads(reader.get(f"{source}&from=0&to=600").text)  # the spindle rests in the first 20 min
+    assert [p["title"] for p in still["panels"]] == whole

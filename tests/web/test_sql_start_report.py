@@ -100,3 +100,19 @@ def test_a_report_is_written_into_the_folder_and_taken_as_a_file(writer: Client,
     assert (answer.header("content-disposition") or "").startswith("attachment")
     assert writer.get("/report/file?name=campaign.yaml").status == 400
     assert writer.get("/report/file?name=../../etc/passwd").status == 400
+
+
+def test_the_displacement_of_the_first_model_is_chosen(writer: Client, lab: Path) -> None:
+    path = lab / "campaign.yaml"
+    dx = "  dX: {source: log, signal: dX, quantity: displacement, unit: um, axis: X, at: tcp}"
+    path.write_text(path.read_text().replace("channels:\n", f"channels:\n{dx}\n", 1))
+    text = writer.get("/start").text
+    assert re.search(r'<option value="dZ"[^>]*>dZ: axis Z, at tcp</option>', text)
+    assert "first-model" in text
+    answer = writer.post("/start/model", {"file": str(path), "response": "dX"})
+    assert "drafted for dX" in answer.text
+    assert '<option value="dX" selected>' in answer.text
+    assert f"first-model {path} --response dX" in answer.text
+    assert "axis: X" in (lab / "model.yaml").read_text()
+    assert writer.post("/start/model", {"file": str(path), "response": "nothing"}).status == 400
+    assert writer.post("/start/model", {"file": "../elsewhere.yaml", "response": "dX"}).status == 400

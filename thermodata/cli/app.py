@@ -17,7 +17,14 @@ from thermodata.version import __version__
 
 # Section of the help -> command -> module. The order is the order of the work.
 SECTIONS: dict[str, dict[str, str]] = {
-    "Start": {"demo": "demo", "init": "files", "sniff": "files", "preview": "files", "ingest": "ingest"},
+    "Start": {
+        "demo": "demo",
+        "init": "files",
+        "first-model": "files",
+        "sniff": "files",
+        "preview": "files",
+        "ingest": "ingest",
+    },
     "Look": {
         "tests": "look",
         "channels": "look",

@@ -1,4 +1,4 @@
-"""Models beside each other, as papers print them."""
+"""Models beside each other, as papers print them, and effect by effect."""
 
 from __future__ import annotations
 
@@ -33,6 +33,22 @@ def answer_against(
     rows = [plain(row) for row in compare_against(store, models, against, tests)]
     names = [str(row["response"]) for row in rows]
     session.answer(rows, lambda: in_units_of(session, list(dict.fromkeys(names)), as_table(rows, layout)))
+
+
+def answer_contributions(session: Session, store: Store, models: Sequence[str], test: str) -> None:
+    """Print what each effect gives in a test. models: as the store knows them."""
+    from thermodata.report.fit_text import contributions_text
+    from thermodata.view.contributions import contributions, open_test
+    from thermodata.view.models import model_rows
+
+    found = contributions(store, models, *open_test(store, models[0], test))
+    names = {row.model: row.label for row in model_rows(store)}
+    for model in models:
+        if not any(model in part.models for part in found):
+            session.say(f"{names[model]} was not predicted in {test}: a channel that it needs is missing")
+    rows = [row for part in found for row in part.to_json()]
+    text = "\n\n".join(contributions_text(part, names) for part in found)
+    session.answer(rows, lambda: in_units_of(session, [part.response for part in found], text))
 
 
 def as_table(rows: Sequence[Mapping[str, Any]], layout: str) -> str:

@@ -49,6 +49,33 @@ def init_command(session: Session, folder: Path, force: bool) -> None:
     session.answer(answer, lambda: str(made.campaign))
 
 
+@command("first-model")
+@click.argument("campaign", type=_FILE)
+@click.option("--response", metavar="CHANNEL", help="The displacement that it explains; by default the tool's along Z.")
+def first_model_command(session: Session, campaign: Path, response: str | None) -> None:
+    """Draft model.yaml of CAMPAIGN, for a displacement of your choice.
+
+    From the campaign file as it stands, with the places that were answered since its draft: one plain effect for each
+    sensor that stands where it acts. A model.yaml that somebody changed is kept as model.1.yaml.
+    """
+    from thermodata.draft.make import first_model
+
+    made = first_model(campaign, response)
+    others = ", ".join(r for r in made.responses if r != made.response)
+    session.say(f"a first model of {made.response}" + (f"; --response takes {others} too" if others else ""))
+    if made.kept is not None:
+        session.say(f"the model.yaml that was there is now {made.kept}")
+    session.answer(
+        {
+            "model": str(made.model),
+            "response": made.response,
+            "responses": list(made.responses),
+            "kept": None if made.kept is None else str(made.kept),
+        },
+        lambda: str(made.model),
+    )
+
+
 def _first_model(made: Drafted) -> Path | None:
     """The model file that is there now, drafted or older; None where the sensors allow none."""
     from thermodata.draft.baseline import model_text

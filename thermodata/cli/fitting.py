@@ -68,8 +68,20 @@ def fit_command(session: Session, model: str) -> None:
     help="Of the table that --against prints.",
 )
 @click.option("--test", "tests", multiple=True, metavar="TEST", help="With --against: only this test; may be repeated.")
+@click.option(
+    "--contributions",
+    "test_shown",
+    metavar="TEST",
+    shell_complete=completing.tests,
+    help="Print what each effect gives in this test, in each MODEL, and how far that is from the first.",
+)
 def compare_command(
-    session: Session, models: tuple[str, ...], against: str | None, layout: str, tests: tuple[str, ...]
+    session: Session,
+    models: tuple[str, ...],
+    against: str | None,
+    layout: str,
+    tests: tuple[str, ...],
+    test_shown: str | None,
 ) -> None:
     """Score models against the measurements.
 
@@ -82,11 +94,23 @@ def compare_command(
     With --against: peak to valley at first and left, both ways (max - min, |max| + |min|), range, how many times less,
     percent less than the reference, and the mean row (over the tests that all of them predict, or over each --test);
     the JSON is a list of these rows.
+
+    With --contributions: where each effect gives most, the largest difference to the first MODEL, both with 95 %, and
+    for how long the two bands are apart; a difference has the sum of both half widths. From what the fits stored; the
+    JSON is a row an effect and model.
     """
 
     def named(store: Store) -> list[str]:
         return [resolve(store, ref, session) for ref in models or (None,)]
 
+    if against is not None and test_shown is not None:
+        raise UsageError("--against and --contributions print two tables", hint="ask for one of them")
+    if test_shown is not None:
+        from thermodata.cli.besides import answer_contributions
+
+        store = session.store()
+        answer_contributions(session, store, list(dict.fromkeys(named(store))), test_shown)
+        return
     if against is not None:
         from thermodata.cli.besides import answer_against
 

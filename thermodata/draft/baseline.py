@@ -33,21 +33,44 @@ def model_text(draft: Draft) -> str | None:
     return _text(draft.campaign, {n: _Known(s.quantity, s.at, s.axis) for n, s in said.items() if s.quantity})
 
 
-def model_text_of(campaign: Campaign) -> str | None:
-    """The same of a campaign file as it stands, with the places that were answered since its draft."""
-    return _text(campaign.id, {n: _Known(c.quantity, c.at, c.axis) for n, c in campaign.channels.items()})
+def model_text_of(campaign: Campaign, response: str | None = None) -> str | None:
+    """The same of a campaign file as it stands, with the places that were answered since its draft. response: one of
+    `responses_of`, the first where None."""
+    return _text(campaign.id, _known(campaign), response)
 
 
-def _text(campaign: str, channels: Mapping[str, _Known]) -> str | None:
+def responses_of(campaign: Campaign) -> list[str]:
+    """The displacements that a first model may be of: the tool's before others, Z before Y before X before the rest."""
+    channels = _known(campaign)
+
+    def late(name: str) -> tuple[bool, int]:
+        axis = channels[name].axis
+        return channels[name].at != "tcp", _AXES.index(axis) if axis in _AXES else len(_AXES)
+
+    return sorted((n for n, c in channels.items() if c.quantity == "displacement"), key=late)
+
+
+def _known(campaign: Campaign) -> dict[str, _Known]:
+    return {n: _Known(c.quantity, c.at, c.axis) for n, c in campaign.channels.items()}
+
+
+def _text(campaign: str, channels: Mapping[str, _Known], chosen: str | None = None) -> str | None:
     axes = _axes(channels)
-    axis, others = (axes[0], axes[1:]) if axes else (None, [])
+    first = next((n for n, c in channels.items() if axes and _is_tools(c) and c.axis == axes[0]), None)
+    chosen = chosen or first
+    if chosen is None:
+        return None
+    axis = channels[chosen].axis
+    alone = _is_tools(channels[chosen]) and sum(_is_tools(c) and c.axis == axis for c in channels.values()) == 1
+    wanted = f"{{axis: {axis}, at: tcp}}" if alone else f"{{{flow({'channel': chosen})}}}"
+    others = [a for a in axes if a != axis]
     drivers = {n: c for n, c in channels.items() if c.quantity not in ("displacement", "label")}
     known = effects()
     lines, missing = [], []
-    for name in _PLAIN if axis else ():
+    for name in _PLAIN:
         for tried in filter(None, (name, _WITHOUT_SENSOR.get(name))):
             effect = known.get(tried)
-            fits = _on_axis(bindings(effect, drivers), drivers, axis or "") if effect is not None else []
+            fits = _on_axis(bindings(effect, drivers), drivers, axis or "none") if effect is not None else []
             if effect is not None and fits:
                 rest = f"; or by {one_line(', '.join(fits[1].values()))}" if len(fits) > 1 else ""
                 spec = flow({"effect": tried, "drivers": fits[0]})
@@ -55,7 +78,7 @@ def _text(campaign: str, channels: Mapping[str, _Known]) -> str | None:
                 break
         else:
             missing.append(name)
-    if axis is None or not lines:
+    if not lines:
         return None
     nowhere = [name for name, c in channels.items() if c.quantity in _ASKED and c.at is None]
     return "\n".join(
@@ -63,9 +86,9 @@ def _text(campaign: str, channels: Mapping[str, _Known]) -> str | None:
             "# Drafted by thermodata init: a first model, one plain effect for each sensor that stands where it acts.",
             "# Next: thermodata fit model.yaml, then thermodata diagnose baseline says which effect is missing.",
             "schema: thermodata/model/1",
-            "name: baseline",
+            f"name: {'baseline' if chosen == first else scalar(f'baseline_{chosen}')}",
             f"campaign: {scalar(campaign)}",
-            f"response: {{axis: {axis}, at: tcp}}" + (f"   # measured too: {', '.join(others)}" if others else ""),
+            f"response: {wanted}" + (f"   # measured too: {', '.join(others)}" if others else ""),
             "step: 60 s",
             "effects:",
             *lines,
@@ -82,8 +105,12 @@ def _text(campaign: str, channels: Mapping[str, _Known]) -> str | None:
 
 def _axes(channels: Mapping[str, _Known]) -> list[str]:
     """The axes of the tool's displacements, the one that is modelled first before the others: Z before Y before X."""
-    there = {c.axis for c in channels.values() if c.quantity == "displacement" and c.at == "tcp"}
+    there = {c.axis for c in channels.values() if _is_tools(c)}
     return [a for a in _AXES if a in there]
+
+
+def _is_tools(channel: _Known) -> bool:
+    return channel.quantity == "displacement" and channel.at == "tcp" and channel.axis is not None
 
 
 def _on_axis(found: list[dict[str, str]], drivers: Mapping[str, _Known], axis: str) -> list[dict[str, str]]:

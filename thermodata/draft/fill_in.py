@@ -16,9 +16,12 @@ from thermodata.schema.lines import Document, Place, parse_document
 from thermodata.schema.load import parse_campaign
 from thermodata.schema.places import PLACES
 
-Kind = Literal["place", "what", "role", "kind", "zone", "moves", "text"]
+Kind = Literal["place", "axis", "what", "role", "kind", "start", "zone", "moves", "text"]
 ROLES: tuple[str, ...] = get_args(Role)
 KINDS: tuple[str, ...] = get_args(TestKind)
+AXES = ("X", "Y", "Z", "A", "B", "C")
+STARTS = ("balance", "warm")
+_CHOICES = {"place": tuple(PLACES), "what": WHAT, "role": ROLES, "kind": KINDS, "axis": AXES, "start": STARTS}
 _UNREAD = "unread."
 _PLACED = ("temperature", "state", "rotational_speed", "feed", "power", "load", "current", "flow", "position")
 
@@ -98,6 +101,8 @@ def _asked(document: Document, lines: list[str]) -> Iterator[tuple[Place, str]]:
     for name, channel in _mapping(data, "channels").items():
         if isinstance(channel, dict) and GUESSED in lines[document.line["channels", name] - 1]:
             yield ("channels", name), "quantity"
+        if isinstance(channel, dict) and "axis?" in lines[document.line["channels", name] - 1].partition("#")[2]:
+            yield ("channels", name), "axis"
         if isinstance(channel, dict) and channel.get("quantity") in _PLACED:
             yield ("channels", name), "at"
     for name, calibration in _mapping(data, "calibrations").items():
@@ -107,6 +112,8 @@ def _asked(document: Document, lines: list[str]) -> Iterator[tuple[Place, str]]:
         if isinstance(test, dict):
             if "# ? kind" in lines[document.line["tests", i] - 1]:
                 yield ("tests", i), "kind"
+            if "start_state:" in lines[document.line["tests", i] - 1].partition("#")[2]:
+                yield ("tests", i), "start_state"
             yield ("tests", i), "role"
     if isinstance(data.get("tests_from"), dict) and isinstance(data["tests_from"].get("set"), dict):
         yield ("tests_from", "set"), "role"
@@ -125,10 +132,12 @@ def _question(lines: list[str], document: Document, place: Place, key: str) -> Q
         "quantity": "what",
         "role": "role",
         "kind": "kind",
+        "axis": "axis",
+        "start_state": "start",
         "timezone": "zone",
         "moves": "moves",
     }.get(key, "text")  # type: ignore[assignment]
-    choices = {"place": tuple(PLACES), "what": WHAT, "role": ROLES, "kind": KINDS}.get(kind, ())
+    choices = _CHOICES.get(kind, ())
     about = str(document.data["tests"][place[1]].get("id", place[1])) if place[0] == "tests" else str(place[-1])
     opened = value in ("", "unknown") or (key == "role" and value == "none")
     return Question(_name(place, key), about, key, kind, "" if value == "unknown" else value, hint, choices, opened)

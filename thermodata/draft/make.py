@@ -7,12 +7,13 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
-from thermodata.draft.baseline import model_text, model_text_of
+from thermodata.draft.baseline import model_text, model_text_of, responses_of
 from thermodata.draft.naming import plain
 from thermodata.draft.plan import Draft, plan
 from thermodata.draft.scan import Progress, scan
 from thermodata.draft.write import questions_in, text_of
-from thermodata.errors import UsageError
+from thermodata.errors import UsageError, unknown_name
+from thermodata.schema.campaign import Campaign
 from thermodata.schema.load import load_campaign, load_model, parse_campaign
 from thermodata.store.base.files import write_error, write_text
 
@@ -84,16 +85,68 @@ def write_answered(path: Path, text: str) -> tuple[Path, bool]:
     after = parse_campaign(text, path.name)
     before = load_campaign(path)
     model = path.with_name("model.yaml")
-    untouched = model.is_file() and model.read_text(encoding="utf-8") == model_text_of(before)
-    anew = model_text_of(after)
+    there = model.read_text(encoding="utf-8") if model.is_file() else None
+    untouched, chosen = _as_drafted(there, before)
+    anew = model_text_of(after, chosen if chosen in responses_of(after) else None)
     # at no moment is there no campaign file, or half of one
     kept = _copied(path)
     write_text(path, text)
-    follows = anew is not None and (untouched or not model.exists())
-    if follows and anew is not None and (not model.exists() or model.read_text(encoding="utf-8") != anew):
+    if anew is not None and anew != there and (untouched or there is None):
         write_text(model, anew)
         return kept, True
     return kept, False
+
+
+@dataclass(frozen=True, slots=True)
+class FirstModel:
+    """response: the displacement that it is of. responses: all that it may be of. kept: where a model file that
+    somebody had changed is now; None where there was none."""
+
+    model: Path
+    response: str
+    responses: tuple[str, ...]
+    kept: Path | None
+
+
+def first_model(path: Path, response: str | None = None) -> FirstModel:
+    """model.yaml beside a campaign file, drafted from it as it stands. response: the channel of a displacement; the
+    first of `responses_of` where None. UsageError for what is no displacement, or where
+    no sensor drives a plain effect."""
+    campaign = load_campaign(path)
+    known = responses_of(campaign)
+    if response is not None and response not in known:
+        raise unknown_name("displacement", response, known, where=path.name)
+    if not known:
+        raise UsageError("a model needs a displacement", where=str(path), got="none in channels")
+    text = model_text_of(campaign, response or known[0])
+    if text is None:
+        raise UsageError(
+            "no sensor drives a plain effect here",
+            where=str(path),
+            expected="a temperature or a speed with its place",
+            hint="answer where the sensors are ('at'), or write a model file by hand",
+        )
+    model = path.with_name("model.yaml")
+    there = model.read_text(encoding="utf-8") if model.is_file() else None
+    # one that is as drafted can be had again; what somebody wrote can't
+    kept = _copied(model) if there is not None and there != text and not _as_drafted(there, campaign)[0] else None
+    write_text(model, text)
+    load_model(model)
+    return FirstModel(model, response or known[0], tuple(known), kept)
+
+
+def modelled(path: Path) -> str | None:
+    """The displacement that the model.yaml beside a campaign file was drafted for; None where somebody changed it, or
+    where there is none."""
+    model = path.with_name("model.yaml")
+    campaign = load_campaign(path)
+    return _as_drafted(model.read_text(encoding="utf-8"), campaign)[1] if model.is_file() else None
+
+
+def _as_drafted(text: str | None, campaign: Campaign) -> tuple[bool, str | None]:
+    """(whether a model file is one that is drafted from this campaign file, for which displacement)."""
+    found = [r for r in responses_of(campaign) if text is not None and model_text_of(campaign, r) == text]
+    return bool(found), found[0] if found else None
 
 
 def keep(path: Path) -> tuple[Path, Path] | None:

@@ -18,6 +18,7 @@ from thermodata.modelling.nuisance import known_weights
 from thermodata.modelling.roles import Roles, find_tests, resolve_roles
 from thermodata.plugin import Effect
 from thermodata.schema.model import Driver, EffectSpec, Model, Place, Response
+from thermodata.schema.terms import ids_of
 from thermodata.view.dataset import ChannelInfo, Dataset
 
 Found = TypeVar("Found")
@@ -181,17 +182,7 @@ def bind_terms(
 
 def term_ids(effects: Sequence[EffectSpec]) -> list[str]:
     """The given id, else the effect's name, numbered from the second on."""
-    ids: list[str] = []
-    taken = {s.id for s in effects if s.id}
-    for spec in effects:
-        name, k = spec.id or spec.effect, 1
-        if spec.id and name in ids:
-            raise SpecError(f"two effects have the id '{name}'", hint="give each its own id")
-        while not spec.id and (name in ids or name in taken):
-            k += 1
-            name = f"{spec.effect}_{k}"
-        ids.append(name)
-    return ids
+    return ids_of((spec.effect, spec.id) for spec in effects)
 
 
 def as_it_was_made(spec: EffectSpec) -> EffectSpec:

@@ -9,10 +9,11 @@ from thermodata.report.table import table
 from thermodata.report.words import base_role, change, duration, number, pooled
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Mapping, Sequence
 
     from thermodata.modelling.differences import TestDifference
     from thermodata.schema.result import FitResult, Parameter, Score, WeakSpot
+    from thermodata.view.contributions import Contributions, Peak
 
 HISTORY = (
     ("name", "name"),
@@ -107,6 +108,30 @@ def differences_text(found: Sequence[TestDifference], results: Sequence[FitResul
     columns = [("campaign", "campaign"), ("test", "test"), *([("response", "response")] if many else [])]
     columns += [("model", "model"), ("difference_um", "difference [um]"), ("range", "95 %"), ("sure", "sure")]
     return f"difference to {names[found[0].against]}\n{table(rows, columns)}"
+
+
+def contributions_text(found: Contributions, names: Mapping[str, str]) -> str:
+    """What each effect gives at most in each model, and how far that is from the first. names: model -> its label."""
+
+    def told(peak: Peak | None) -> str:
+        if peak is None:
+            return "not in it"
+        return number(peak.value) + ("" if peak.low is None else f" ({number(peak.low)} … {number(peak.high)})")
+
+    rows = []
+    for e in found.effects:
+        row: dict[str, Any] = {"effect": e.effect, "differs": "yes" if e.differs else ""}
+        row |= {f"at most {m}": told(peak) for m, peak in zip(found.models, e.peaks, strict=True)}
+        for m, apart in zip(found.models[1:], e.apart, strict=True):
+            row[f"apart {m}"] = told(apart.peak)
+            row[f"for {m}"] = None if apart.apart_s is None else duration(apart.apart_s) if apart.apart_s else ""
+        rows.append(row)
+    columns = [("effect", "effect"), *((f"at most {m}", f"{names[m]} at most [um] (95 %)") for m in found.models)]
+    for m in found.models[1:]:
+        columns += [(f"apart {m}", f"{names[m]} less the first [um]"), (f"for {m}", "bands apart for")]
+    columns += [("differs", "differs")] if len(found.models) > 1 else []
+    title = f"what each effect gives to {found.response} in {found.test}"
+    return f"{title}\n{table(rows, columns)}"
 
 
 def spots_text(spots: list[WeakSpot], response: str = "", most: int = 8) -> str:

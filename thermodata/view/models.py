@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from datetime import datetime
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
+from thermodata.schema.terms import ids_of
 from thermodata.store.base.connection import fetch
 
 if TYPE_CHECKING:
@@ -15,7 +17,8 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class ModelRow:
-    """version: its place in the chain of versions, 1 is the first. effects: names in the order of the model file.
+    """version: its place in the chain of versions, 1 is the first. effects: names in the order of the model file,
+    terms: their ids there, as predictions name them.
     calibration_um, verification_um: RMSE over tests of the role, in `unit`. verdict: of its diagnosis, None where it
     has none."""
 
@@ -29,6 +32,7 @@ class ModelRow:
     responses: tuple[str, ...]
     unit: str
     effects: tuple[str, ...]
+    terms: tuple[str, ...]
     calibration_um: float | None
     verification_um: float | None
     verdict: str | None
@@ -55,21 +59,36 @@ def model_rows(store: Store) -> list[ModelRow]:
     """All models of the store."""
     with store.reader() as con:
         rows = fetch(con, _MODELS)
-    return [
-        ModelRow(
-            r["model"],
-            r["name"],
-            int(r["version"]),
-            r["parent"],
-            r["created_at"],
-            bool(r["stale"]),
-            tuple(r["campaigns"]),
-            tuple(r["response"].split(", ")),
-            "K" if r["unit"] == "degC" else r["unit"],  # of an error
-            tuple(e["effect"] for e in json.loads(r["spec"]).get("effects", [])),
-            r["calibration"],
-            r["verification"],
-            r["verdict"],
-        )
-        for r in rows
-    ]
+    return [_row(r, json.loads(r["spec"]).get("effects", [])) for r in rows]
+
+
+def _row(r: dict[str, Any], effects: list[dict[str, Any]]) -> ModelRow:
+    return ModelRow(
+        r["model"],
+        r["name"],
+        int(r["version"]),
+        r["parent"],
+        r["created_at"],
+        bool(r["stale"]),
+        tuple(r["campaigns"]),
+        tuple(r["response"].split(", ")),
+        "K" if r["unit"] == "degC" else r["unit"],  # of an error
+        tuple(e["effect"] for e in effects),
+        tuple(ids_of((e["effect"], e.get("id")) for e in effects)),
+        r["calibration"],
+        r["verification"],
+        r["verdict"],
+    )
+
+
+def term_order(models: Sequence[ModelRow], chosen: Iterable[str]) -> list[str]:
+    """The effects of the chosen models (ids) and of the versions that they came from, the oldest version's first: what
+    is coloured in this order keeps its colour when an effect is added or taken out."""
+    by_id, met = {m.model: m for m in models}, dict[str, ModelRow]()
+    for identity in chosen:
+        row = by_id.get(identity)
+        while row is not None and row.model not in met:
+            met[row.model] = row
+            row = by_id.get(row.parent or "")
+    chain = sorted(met.values(), key=lambda m: (m.version, m.created_at))
+    return list(dict.fromkeys(term for m in chain for term in m.terms))

@@ -48,6 +48,7 @@ def application(desk: Desk) -> Starlette:
             Route("/start/jump", later("jump.show"), methods=["GET"]),
             Route("/start/preview", later("start.preview"), methods=["POST"]),
             Route("/start/write", later("start.write"), methods=["POST"]),
+            Route("/start/model", later("start.model"), methods=["POST"]),
             Route("/rule/preview", later("rule.preview"), methods=["POST"]),
             Route("/rule/write", later("rule.write"), methods=["POST"]),
             Route("/missing", later("missing.show"), methods=["GET"]),

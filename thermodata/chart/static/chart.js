@@ -435,7 +435,10 @@
       const old = this.panels, whole = this.full;
       this._read(spec);
       if (!spec.axis.range) this.full = whole;
-      if (!same) { this.lo = this.full[0]; this.hi = this.full[1]; old.forEach(p => p.plot.destroy()); this._build(); return; }
+      if (!same) {
+        if (this.full[0] !== whole[0] || this.full[1] !== whole[1]) { this.lo = this.full[0]; this.hi = this.full[1]; }
+        old.forEach(p => p.plot.destroy()); this._anew(); return;
+      }
       this.panels.forEach((p, i) => {
         ["plot", "holder", "values", "note", "rowvalue", "last"].forEach(k => { p[k] = old[i][k]; });
         Object.assign(old[i], p); this.panels[i] = old[i];
@@ -454,6 +457,9 @@
     }
     _rebuild() {
       this.panels.forEach(p => p.plot.destroy());
+      this._anew();
+    }
+    _anew() {
       this.stop.splice(2).forEach(f => f());        // the listeners on what goes; look and size stay watched
       this._build(); this._difference();
     }

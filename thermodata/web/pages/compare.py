@@ -22,10 +22,12 @@ from thermodata.report.words import base_role, pooled
 from thermodata.schema.result import Score
 from thermodata.store import Store
 from thermodata.store.catalogue.models import find_model, model_chain
-from thermodata.view.models import ModelRow, model_rows
+from thermodata.view.contributions import Contributions, contributions, open_test
+from thermodata.view.models import ModelRow, model_rows, term_order
 from thermodata.view.predictions import residual_courses, residual_strips
 from thermodata.view.residuals import against, autocorrelation, predicted_tests, residuals
 from thermodata.web.command import command
+from thermodata.web.pages.contributions import contribution_chart
 from thermodata.web.pages.drawn import pair
 from thermodata.web.render import desk_of, page
 
@@ -53,7 +55,7 @@ class Line:
 
 
 def show(request: Request) -> Response:
-    """GET /compare: model (several), pin, response, over (a channel), differs."""
+    """GET /compare: model (several), pin, response, test (of the contributions), over (a channel), differs."""
     desk, given = desk_of(request), request.query_params
     store = desk.store()
     models = model_rows(store)
@@ -71,6 +73,10 @@ def show(request: Request) -> Response:
     parts = residuals(store, newest.model, predicted_tests(store, newest.model), str(response))
     over = given.get("over", "")
     chain = versions(model_chain(store, newest.model))
+    shown = _shown_test(store, pinned.model, given.get("test", ""), lines, keys)
+    beside = contributions(store, [m.model for m in chosen], *shown) if shown else []
+    labels = {m.model: m.label for m in chosen}
+    order = term_order(models, labels)
     return page(
         request,
         "compare.html.j2",
@@ -98,7 +104,38 @@ def show(request: Request) -> Response:
         channels=_channels(store, pinned),
         response=response,
         pair=pair,
+        tests=keys,
+        shown_test=shown,
+        labels=labels,
+        beside=beside,
+        beside_charts=[_drawn(part, only, labels, pinned.unit, order) for part in beside],
+        alike=sum(not e.differs for part in beside for e in part.effects) if only else 0,
+        banded=any(sd is not None for part in beside for e in part.effects for sd in e.deviations),
+        unpredicted=[labels[m] for m in labels if beside and m not in beside[0].models],
+        beside_command=command(desk.store_path, "compare", *labels, "--contributions", shown[1] if shown else ""),
     )
+
+
+def _shown_test(
+    store: Store, model: str, named: str, lines: list[Line], keys: list[tuple[str, str]]
+) -> tuple[str, str] | None:
+    """The named one; unasked, the one in which the errors differ most, else the first; None where none is predicted."""
+    if named:
+        return open_test(store, model, named)
+
+    def apart(key: tuple[str, str]) -> float:
+        known = [e for line in lines if (line.campaign, line.test) == key for e in line.errors if e is not None]
+        return max(known) - min(known) if known else 0.0
+
+    return max(keys, key=apart, default=None)
+
+
+def _drawn(
+    part: Contributions, only: bool, labels: dict[str, str], unit: str, order: list[str]
+) -> tuple[Contributions, str]:
+    """What is listed of it, and its chart."""
+    listed = replace(part, effects=tuple(e for e in part.effects if e.differs)) if only else part
+    return listed, script_json(contribution_chart(listed, labels, unit, order).as_json())
 
 
 def _chosen(models: list[ModelRow], named: list[str], pin: str) -> list[ModelRow]:

@@ -2,17 +2,23 @@
 
 from __future__ import annotations
 
+import contextlib
 import difflib
 from pathlib import Path
+from typing import Any
 
 from starlette.requests import Request
 from starlette.responses import Response
 
+from thermodata.draft.baseline import responses_of
 from thermodata.draft.fill_in import Question, filled_in, questions
-from thermodata.draft.make import write_answered
+from thermodata.draft.make import first_model, modelled, write_answered
 from thermodata.draft.unread import WHAT
-from thermodata.errors import UsageError
+from thermodata.errors import SpecError, UsageError
+from thermodata.schema.campaign import Channel
+from thermodata.schema.load import parse_campaign
 from thermodata.web.command import command
+from thermodata.web.desk import Desk
 from thermodata.web.form import form_of
 from thermodata.web.render import desk_of, page
 
@@ -29,22 +35,25 @@ GROUPS = (
     ),
     (
         "Where the sensors are",
-        ("place",),
-        "An effect is tried only where a sensor sits at its place. Leave empty what nobody knows: it drives nothing.",
+        ("axis", "place"),
+        "An effect is tried only where a sensor sits at its place. Leave empty what nobody knows: it drives nothing. "
+        "The axis of a displacement says which screw moves it.",
     ),
     (
         "The tests",
-        ("kind", "role"),
+        ("kind", "start", "role"),
         "What heats one part alone is fitted (calibration); a working day checks it (verification); one that nobody "
-        "has looked at is kept for the last word (locked).",
+        "has looked at is kept for the last word (locked). One that began before the machine had cooled starts warm.",
     ),
 )
-# role -> what it is for
-ROLES = {
+# role, or start of a test -> what it means
+WORDS = {
     "calibration": "calibration: fitted",
     "verification": "verification: checked",
     "locked": "locked: kept for the last word",
     "none": "none: kept only",
+    "balance": "balance: it was at rest",
+    "warm": "warm: it had not cooled",
 }
 _MOST_MODELS = 5
 # of the machine, for the schematic: the first parts of places that are drawn
@@ -69,8 +78,8 @@ def show(request: Request) -> Response:
         groups=[(title, _open_first(asked, kinds), why) for title, kinds, why in GROUPS],
         open_ones=sum(q.open for q in asked),
         bodies={body: sum(q.value.startswith(body) for q in asked if q.kind == "place") for body in BODIES},
-        models=_models(path.parent),
-        roles=ROLES,
+        **_first_model(desk, path, text),
+        words=WORDS,
         what=WHAT,
         answer=_ANSWER,
     )
@@ -80,6 +89,43 @@ def _open_first(asked: list[Question], kinds: tuple[str, ...]) -> list[Question]
     """Of sensors, what nobody has answered before what was guessed; all else in the order of the file."""
     own = [q for q in asked if q.kind in kinds]
     return sorted(own, key=lambda q: not q.open) if "place" in kinds else own
+
+
+async def model(request: Request) -> Response:
+    """POST /start/model: drafts model.yaml for a displacement of the user's choice."""
+    desk, form = desk_of(request), await form_of(request)
+    path = desk.inside(form.get("file", ""))
+    text = campaign_text(path)
+    made = first_model(path, form.get("response") or None)
+    told = f"{made.model.name} is drafted for {made.response}."
+    if made.kept is not None:
+        told += f" The one that was there is kept as {made.kept.name}."
+    state = _first_model(desk, path, text)
+    return page(request, "start_model.html.j2", title="", command="", path=path, **{**state, "told": told})
+
+
+def _first_model(desk: Desk, path: Path, text: str | None) -> dict[str, Any]:
+    """What the section of the first model shows. A campaign file that does not load offers no displacement: what is
+    wrong with it is said where its questions are answered."""
+    responses: list[tuple[str, str]] = []
+    chosen = None
+    with contextlib.suppress(SpecError):
+        if text is not None:
+            campaign = parse_campaign(text, path.name)
+            responses = [(name, _where(campaign.channels[name])) for name in responses_of(campaign)]
+            chosen = modelled(path)
+    return {
+        "models": _models(path.parent),
+        "responses": responses,
+        "modelled": chosen,
+        "model_command": command(desk.store_path, "first-model", path, "--response", chosen or "CHANNEL"),
+        "told": "",
+    }
+
+
+def _where(channel: Channel) -> str:
+    """'axis Y, at tcp'."""
+    return ", ".join(filter(None, (channel.axis and f"axis {channel.axis}", channel.at and f"at {channel.at}")))
 
 
 def _models(folder: Path) -> list[tuple[str, str]]:

@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import lru_cache
 
 from starlette.requests import Request
 from starlette.responses import JSONResponse, Response
 
 from thermodata.chart.pack import script_json
-from thermodata.chart.spec import Chart
+from thermodata.chart.spec import Chart, Strip
 from thermodata.errors import UsageError
 from thermodata.store import Store
 from thermodata.view.events import About, about_test
-from thermodata.view.models import ModelRow, model_rows
+from thermodata.view.models import ModelRow, model_rows, term_order
 from thermodata.view.predictions import Prediction, predictions, range_figures
 from thermodata.view.rule_for import rules_for
 from thermodata.view.window import Channel, channels_of, read_window
@@ -22,6 +24,7 @@ from thermodata.web.query import seconds_in
 from thermodata.web.render import desk_of, page
 
 _MOST_CURVES, _MOST_STRIPS = 24, 10  # that are drawn unasked: more are chosen by name
+_MOST_ADDRESS = 8_000  # [letters] of names
 
 
 def show(request: Request) -> Response:
@@ -29,11 +32,12 @@ def show(request: Request) -> Response:
     desk, given = desk_of(request), request.query_params
     store = desk.store()
     campaign, test = _named(given)
-    channels, chosen = _channels(store, given)
-    models = [m for m in model_rows(store) if campaign in m.campaigns]
+    known = _known(store, campaign, test)
+    channels, chosen = _channels(known, given)
+    models, about = known.models, known.about
     model = _model(models, given)
-    about, predicted = about_test(store, campaign, test), _predicted(store, model, given)
-    chart = _chart(store, about, chosen, predicted, given)
+    predicted = _predicted(store, model, given)
+    chart = _chart(store, about, chosen, predicted, _order(models, model), given)
     from_s, to_s = seconds_in(given, "from"), seconds_in(given, "to")
     return page(
         request,
@@ -43,6 +47,7 @@ def show(request: Request) -> Response:
         command=command(desk.store_path, "trace", campaign, test),
         about=about,
         channels=channels,
+        drawn=_drawn(chart, chosen) or given.get("show", ""),
         chosen={c.name for c in chosen},
         models=models,
         model=model,
@@ -58,10 +63,11 @@ def show(request: Request) -> Response:
 def data(request: Request) -> Response:
     """GET /test/data: the chart of a window in as many points as a screen has."""
     store, given = desk_of(request).store(), request.query_params
-    campaign, test = _named(given)
-    _, chosen = _channels(store, given)
-    model = _model([m for m in model_rows(store) if campaign in m.campaigns], given)
-    chart = _chart(store, about_test(store, campaign, test), chosen, _predicted(store, model, given), given)
+    known = _known(store, *_named(given))
+    _, chosen = _channels(known, given)
+    model = _model(known.models, given)
+    predicted, order = _predicted(store, model, given), _order(known.models, model)
+    chart = _chart(store, known.about, chosen, predicted, order, given)
     return JSONResponse(chart.as_json())
 
 
@@ -96,9 +102,31 @@ def _named(given: Mapping[str, str]) -> tuple[str, str]:
     return given.get("campaign", ""), given.get("test", "")
 
 
-def _channels(store: Store, given: Mapping[str, str]) -> tuple[list[Channel], list[Channel]]:
+@dataclass(frozen=True, slots=True)
+class _Known:
+    """What a commit may change, and a zoom does not. models: those of the test's campaign."""
+
+    channels: list[Channel]
+    models: list[ModelRow]
+    about: About
+
+
+def _known(store: Store, campaign: str, test: str) -> _Known:
+    mark = store.mark()
+    return _known_at(store, campaign, test, mark) if mark else _known_at.__wrapped__(store, campaign, test, mark)
+
+
+@lru_cache(maxsize=16)
+def _known_at(store: Store, campaign: str, test: str, mark: str) -> _Known:
+    """mark: of the commit; read before what it stands for, so that nothing newer is taken for older."""
+    channels = channels_of(store, campaign, test)
+    models = [m for m in model_rows(store) if campaign in m.campaigns]
+    return _Known(channels, models, about_test(store, campaign, test))
+
+
+def _channels(found: _Known, given: Mapping[str, str]) -> tuple[list[Channel], list[Channel]]:
     """(all, those to draw)."""
-    known = channels_of(store, *_named(given))
+    known = found.channels
     names = given.get("show", "")
     if names == "all":
         return known, known
@@ -115,19 +143,36 @@ def _model(models: list[ModelRow], given: Mapping[str, str]) -> ModelRow | None:
     return next((m for m in models if m.model == named), models[0] if models and named != "none" else None)
 
 
+def _order(models: list[ModelRow], model: ModelRow | None) -> list[str]:
+    return term_order(models, [model.model]) if model else []
+
+
 def _predicted(store: Store, model: ModelRow | None, given: Mapping[str, str]) -> list[Prediction]:
     return predictions(store, model.model, *_named(given)) if model else []
 
 
 def _chart(
-    store: Store, about: About, chosen: list[Channel], predicted: list[Prediction], given: Mapping[str, str]
+    store: Store,
+    about: About,
+    chosen: list[Channel],
+    predicted: list[Prediction],
+    order: list[str],
+    given: Mapping[str, str],
 ) -> Chart:
     from_s, to_s = seconds_in(given, "from"), seconds_in(given, "to")
     span = None if from_s is None or to_s is None else (from_s, to_s)
     windows = read_window(
         store, about.row["campaign"], about.row["test"], chosen, span, flagged=given.get("flagged") == "1"
     )
-    return test_chart(about, chosen, windows, predicted)
+    named = given.get("show", "") not in ("", "all")
+    return test_chart(about, chosen, windows, predicted, order, named=named)
+
+
+def _drawn(chart: Chart, chosen: list[Channel]) -> str:
+    """The channels that have a curve, as a zoom asks for them again; '' where these are too many for an address."""
+    curves = {s.name for p in chart.panels for s in ([p.series] if isinstance(p, Strip) else p.series)}
+    names = ",".join(c.name for c in chosen if c.name in curves)
+    return names if len(names) < _MOST_ADDRESS else ""
 
 
 def _neighbours(store: Store, campaign: str, test: str) -> tuple[str | None, str | None]:

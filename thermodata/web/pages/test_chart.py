@@ -25,14 +25,19 @@ def test_chart(
     channels: Sequence[Channel],
     windows: Sequence[Window],
     predicted: Sequence[Prediction],
+    order: Sequence[str],
+    *,
+    named: bool,
 ) -> Chart:
-    """x: hours from the test's start, over the whole test; windows may hold a part of it in finer steps."""
+    """order: of the effects, for their colours. named: the channels were asked for by name, and are drawn though one
+    never moves in these windows: a zoom must not lose a strip. x: hours from the test's start, over the whole test;
+    windows may hold a part of it in finer steps."""
     length = (about.row["duration_s"] or 0.0) / _HOUR
     if not length:
         length = max((float(w.t_s[-1]) / _HOUR for w in windows if len(w.t_s)), default=1.0)
     values = {name: (w.t_s / _HOUR, y) for w in windows for name, y in w.values.items()}
     known = [c for c in channels if c.name in values]
-    panels: list[Panel | Strip] = [*_of_model(predicted), *_of_channels(known, values)]
+    panels: list[Panel | Strip] = [*_of_model(predicted, order), *_of_channels(known, values, named)]
     return Chart(
         f"Test {about.row['test']} over {length:.3g} hours: {len(known)} channels"
         + (", with the model's prediction and what it leaves over" if predicted else ""),
@@ -50,7 +55,7 @@ def drawn_as_curve(channel: Channel) -> bool:
     return channel.quantity in _RESPONSES or channel.quantity.startswith("temperature")
 
 
-def _of_model(predicted: Sequence[Prediction]) -> list[Panel]:
+def _of_model(predicted: Sequence[Prediction], order: Sequence[str]) -> list[Panel]:
     panels = []
     for p in predicted:
         x = p.t_s / _HOUR
@@ -73,7 +78,7 @@ def _of_model(predicted: Sequence[Prediction]) -> list[Panel]:
             ),
         ]
         if p.contributions:
-            styles = effect_styles(p.contributions)
+            styles = effect_styles([*order, *p.contributions])
             panels.append(
                 Panel(
                     f"{p.response}, contributions{f', {SHADED}' if p.deviations else ''}",
@@ -93,7 +98,9 @@ def _band(p: Prediction, name: str, y: Float1D) -> Band | None:
     return None if sd is None else band_95(y, sd)
 
 
-def _of_channels(channels: Sequence[Channel], values: dict[str, tuple[Float1D, Float1D]]) -> list[Panel | Strip]:
+def _of_channels(
+    channels: Sequence[Channel], values: dict[str, tuple[Float1D, Float1D]], named: bool
+) -> list[Panel | Strip]:
     groups: dict[tuple[str, str], list[Channel]] = {}
     strips: list[Panel | Strip] = []
     for channel in channels:
@@ -102,7 +109,7 @@ def _of_channels(channels: Sequence[Channel], values: dict[str, tuple[Float1D, F
             groups.setdefault((channel.quantity + body, channel.unit), []).append(channel)
         else:
             x, y = values[channel.name]
-            if np.isfinite(y).any() and np.nanmax(y) > np.nanmin(y):  # what never moved says nothing
+            if named or (np.isfinite(y).any() and np.nanmax(y) > np.nanmin(y)):  # what never moved says nothing
                 style: Style = "steps" if channel.held else "line"
                 strips.append(Strip(Series(channel.name, channel.unit, y, "lane", x=x, style=style), channel.name))
     # a place with one sensor needs no panel of its own

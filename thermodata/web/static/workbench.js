@@ -25,27 +25,40 @@
   const plot = document.getElementById("plot");
   if (!plot) return;
   const HOUR = 3600, state = new URLSearchParams(location.search);
-  let asked = 0, timer;
+  let busy = false, again = false, coarse = null, loaded = null;
 
   const shown = () => ["from", "to"].map((k) => Number(state.get(k)));
   const keep = (from, to) => {
     state.set("from", from.toFixed(1)); state.set("to", to.toFixed(1));
     history.replaceState(history.state, "", location.pathname + "?" + state);
   };
-  // finer points for the window; an answer that comes after a later question is dropped
+  // finer points for the window, asked for at once. While an answer is on its way nothing else is asked; then the newest
+  // window is, and what came for an older one is dropped: no answer overtakes a newer one
   const refine = async () => {
-    const mine = ++asked, [from, to] = shown(), began = performance.now();
-    const answer = await fetch(`${plot.dataset.source}&from=${from}&to=${to}`);
-    if (!answer.ok || mine !== asked) return;
-    const spec = await answer.json();
-    if (mine !== asked) return;
-    ThermoChart.of(plot).update(spec);
-    plot.dataset.refined = (performance.now() - began).toFixed(1);
+    again = busy;
+    if (busy) return;
+    busy = true;
+    try {
+      do {
+        again = false;
+        const [from, to] = shown(), began = performance.now();
+        const answer = await fetch(`${plot.dataset.source}&from=${from}&to=${to}`);
+        const spec = answer.ok ? await answer.json() : null;
+        if (!spec || again) continue;
+        draw(spec, [from, to]);
+        plot.dataset.refined = (performance.now() - began).toFixed(1);
+      } while (again);
+    } catch { /* the server is gone: what was drawn stays, and the next zoom asks again */ } finally { busy = false; }
   };
+  const draw = (spec, window) => { loaded = window; ThermoChart.of(plot).update(spec); };
   plot.addEventListener("tc:zoom", (event) => {
-    keep(event.detail.from * HOUR, event.detail.to * HOUR);
-    clearTimeout(timer);
-    timer = setTimeout(refine, 40);
+    const from = event.detail.from * HOUR, to = event.detail.to * HOUR;
+    keep(from, to);
+    refine();
+    // beyond what was loaded stand the coarse points of the page until the finer ones come, never nothing
+    if (loaded === null) coarse = plot.dataset.from ? null : ThermoChart.of(plot).spec;
+    if (coarse && loaded && (from < loaded[0] - 1 || to > loaded[1] + 1)) draw(coarse, [-Infinity, Infinity]);
+    loaded = loaded || [-Infinity, Infinity];
   });
 
   // a drag zooms, or chooses a stretch
