@@ -19,6 +19,7 @@ from thermodata.diagnosis.judge import Judged, Judgement
 from thermodata.diagnosis.locked import Foretold, foretell
 from thermodata.diagnosis.problem import Problem
 from thermodata.diagnosis.ranking import rank_in
+from thermodata.diagnosis.rules import blunt
 from thermodata.diagnosis.scored import Scored
 from thermodata.modelling.resolve import term_ids
 from thermodata.schema.model import Model
@@ -183,6 +184,17 @@ def test_the_smallest_claim_goes_before_all_go() -> None:
 def test_a_twin_keeps_the_rules_of_a_claim_itself() -> None:
     _, seen, names = kept(judged("a", twins="tu"), lambda n: n in "tu", unsound="t")
     assert (seen, names) == (["a", "u"], "u")
+
+
+def test_a_twin_stands_beside_the_same_sharper_cause() -> None:
+    """What could be claimed alone may not be in the place of a claim that another one beats."""
+    one, twin = scored("a", evidence=400.0, beaten=True), scored("t", evidence=150.0)
+    own = Judged(one, one, None, (one, twin))
+    judgement = Judgement("effect", (own,), (), (own,), "")
+    seen, ask = asked(lambda n: n == "t")
+    found = kept_where_they_hold(judgement, ask, lambda t: blunt(t) is None, "um")
+    assert (found.verdict, seen) == ("unknown", ["a"])
+    assert blunt(twin) is None
 
 
 def test_a_twin_of_what_the_model_has_is_no_cause() -> None:

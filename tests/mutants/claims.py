@@ -92,9 +92,11 @@ MUTANTS = [
     diagnosis("judge.py", "NEARLY = 1.2", "NEARLY = 1.0", "twins are said to be told apart"),
     diagnosis("judge.py", "\nSURE = 2.0", "\nSURE = 9.0", "what the tests tell apart passes as twins"),
     diagnosis("judge.py", "difference.std(ddof=1)", "difference.std()", "chance tells twins apart"),
-    diagnosis("rules.py", "and not scored.candidate.placeless", "", "a sensor without a place is never claimed"),
     diagnosis(
-        "rules.py", "return scored.candidate.passive or (", "return (", "a casting that steadies a misfit is claimed"
+        "rules.py",
+        "scored.candidate.passive or scored.candidate.family ==",
+        "scored.candidate.family ==",
+        "a casting that steadies a misfit is claimed",
     ),
     diagnosis("scored.py", "ACTS = 0.2", "ACTS = 0.0", "tests in which nothing acts decide"),
     diagnosis("scored.py", "self.gained[self.acts] > 0", "self.gained[self.acts] >= 0", "no change counts as better"),
@@ -106,6 +108,9 @@ MUTANTS = [
     diagnosis("judge.py", " and mine.family not in (GENERIC, CONTROL)", "", "two lags are one"),
     diagnosis("judge.py", "if not any(again(j, other) for other in claims)", "", "one cause is claimed twice"),
     diagnosis("judge.py", " and not j.scored.candidate.passive", "", "a casting makes a cause less sure"),
+    diagnosis(
+        "answer.py", "replace(t, beaten=largest.scored.beaten)", "t", "a dull twin is claimed in a claim's place"
+    ),
     diagnosis("judge.py", "beaten=True", "beaten=False", "what a sharper cause leaves is claimed"),
     diagnosis(
         "judge.py", "for j in members if j.refines is None and", "for j in members if", "a mode makes a cause less sure"

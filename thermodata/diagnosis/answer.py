@@ -92,7 +92,10 @@ def _with_twins(claims: Sequence[Judged], claimable: Callable[[Scored], bool]) -
     largest = claims[0]
     # a twin of the model's own effects refines them: it is no cause, however it does on the locked tests
     kin = (None, largest.scored.candidate.kin)
-    twins = [t for t in equivalents(largest.scored, largest.beside) if t.candidate.kin in kin and claimable(t)]
+    alike = equivalents(largest.scored, largest.beside)
+    # in its place, the same sharper cause stands beside the twin
+    placed = [replace(t, beaten=largest.scored.beaten) for t in alike if t.candidate.kin in kin]
+    twins = [t for t in placed if claimable(t)]
     return [(replace(largest, scored=twin), *claims[1:]) for twin in twins[:TWINS_TRIED]]
 
 

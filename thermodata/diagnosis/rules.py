@@ -198,7 +198,7 @@ def claimable(scored: Scored, measure: Measure, unit: str) -> bool:
 
 def _steadies(scored: Scored) -> bool:
     """Whether it may follow anything slow: a casting, or a difference of any two temperatures."""
-    return scored.candidate.passive or (scored.candidate.family == CONTROL and not scored.candidate.placeless)
+    return scored.candidate.passive or scored.candidate.family == CONTROL
 
 
 def probability(scored: Scored) -> float:
