@@ -206,3 +206,102 @@ def test_a_declared_zone_letter_reads_abbreviations(read: Any) -> None:
         table={"time": {"column": 1, "format": "%d.%m.%Y %H:%M:%S %Z"}},
     )
     np.testing.assert_array_equal(times(data), WANTED - 2 * 3600 * 1_000_000_000)
+
+
+# ---- parts beside a time, and words beside one ---------------------------------------------------
+
+
+SECONDS = [FIRST + timedelta(seconds=i) for i in range(60)]
+
+
+def parts_beside(header: str, cells: Callable[[int, datetime], Sequence[Any]]) -> str:
+    rows = [";".join(map(str, (*cells(i, t), 20 + i / 8))) for i, t in enumerate(SECONDS)]
+    return "\n".join([header, *rows]) + "\n"
+
+
+def in_five(t: datetime) -> list[int]:
+    return in_six(t)[:5]
+
+
+@pytest.mark.parametrize("form", ["%Y-%m-%d %H:%M:%S", "%d.%m.%Y %H:%M:%S"])
+def test_a_time_of_its_own_comes_before_parts(read: Any, form: str) -> None:
+    data = read(
+        parts_beside("Timestamp;Year;Month;Day;Hour;Minute;T1", lambda i, t: [f"{t:{form}}", *in_five(t)]), by="table"
+    )
+    np.testing.assert_array_equal(np.diff(times(data)), 1_000_000_000)
+    assert "Timestamp" not in {s.name for s in data.recording.signals}
+
+
+def test_relative_seconds_come_before_parts(read: Any) -> None:
+    data = read(parts_beside("Time [s];Year;Month;Day;Hour;Minute;T1", lambda i, t: [i * 1.0, *in_five(t)]), by="table")
+    np.testing.assert_array_equal(times(data), np.arange(60) * 1_000_000_000)
+    assert not {s.name for s in data.recording.signals} & {"Time", "Time [s]"}
+
+
+def test_parts_come_before_a_date_that_tells_no_time_of_day(read: Any) -> None:
+    data = read(
+        parts_beside("Date;Year;Month;Day;Hour;Minute;Second;T1", lambda i, t: [f"{t:%Y-%m-%d}", *in_six(t)]),
+        by="table",
+    )
+    np.testing.assert_array_equal(np.diff(times(data)), 1_000_000_000)
+
+
+@pytest.mark.parametrize("cell", ["{}", "{:03d}", "{}.000"])
+def test_milliseconds_are_a_part(read: Any, cell: str) -> None:
+    rows = [[*in_six(FIRST + timedelta(seconds=i // 2)), cell.format(i % 2 * 500), 20 + i / 8] for i in range(60)]
+    text = "\n".join(["Year;Month;Day;Hour;Minute;Second;Millisecond;T1", *(";".join(map(str, r)) for r in rows)])
+    data = read(text + "\n", by="table")
+    np.testing.assert_array_equal(times(data), WANTED[0] + np.arange(60) * 500_000_000)
+    assert [s.name for s in data.recording.signals] == ["T1"]
+
+
+def test_milliseconds_are_a_part_in_a_workbook(read: Any, tmp_path: Path) -> None:
+    rows = [[*in_six(FIRST + timedelta(seconds=i // 2)), i % 2 * 500, 20 + i / 8] for i in range(60)]
+    workbook(
+        tmp_path / "made.xlsx", {"a": [["Year", "Month", "Day", "Hour", "Minute", "Second", "Millisecond", "T"], *rows]}
+    )
+    data = read((tmp_path / "made.xlsx").read_bytes(), "a.xlsx", by="table")
+    np.testing.assert_array_equal(times(data), WANTED[0] + np.arange(60) * 500_000_000)
+
+
+HOURLY = [datetime(2026, 2, 28) + timedelta(hours=i) for i in range(60)]
+HOURS_NS = np.arange(60) * 3_600_000_000_000 + np.datetime64(HOURLY[0], "ns").astype(np.int64)
+
+
+def test_hours_need_no_minutes(read: Any, lab: Lab, tmp_path: Path) -> None:
+    rows = [[t.year, t.month, t.day, t.hour, 20 + i / 8] for i, t in enumerate(HOURLY)]
+    head = ["Year", "Month", "Day", "Hour", "T1"]
+    text = "\n".join(";".join(map(str, r)) for r in (head, *rows)) + "\n"
+    np.testing.assert_array_equal(times(read(text, by="table")), HOURS_NS)
+    workbook(tmp_path / "made.xlsx", {"a": [head, *rows]})
+    data = read((tmp_path / "made.xlsx").read_bytes(), "a.xlsx", by="table")
+    np.testing.assert_array_equal(times(data), HOURS_NS)
+    told = {"time": {"column": [1, 2, 3, 4], "format": "%Y %m %d %H"}}
+    np.testing.assert_array_equal(times(read(text.replace("Year", "a"), by="table", table=told)), HOURS_NS)
+    one = "t;T1\n" + "".join(f"{t:%Y-%m-%d %H};{i}\n" for i, t in enumerate(HOURLY))
+    data = read(one, by="table", table={"time": {"column": 1, "format": "%Y-%m-%d %H"}})
+    np.testing.assert_array_equal(times(data), HOURS_NS)
+    lab.write("raw/a.csv", text)
+    said = lab.ingest(T1 | {"T1": {**T1["T1"], "signal": "T1"}})
+    assert said.code == 0, said.out + said.err
+    np.testing.assert_allclose(lab.values("T1")[0], np.arange(60) * 3600.0)
+
+
+@pytest.mark.parametrize("declared", [None, {"time": {"column": 1}}])
+def test_a_word_behind_another_column_is_not_asked_for(read: Any, declared: Any) -> None:
+    rows = "".join(f"{t:%Y-%m-%d %H:%M:%S};{i};{t:%H:%M:%S} OK\n" for i, t in enumerate(SECONDS))
+    data = read("Time;T1;checked\n" + rows, by="table", **({"table": declared} if declared else {}))
+    np.testing.assert_array_equal(np.diff(times(data)), 1_000_000_000)
+
+
+def test_a_word_beside_relative_seconds_is_not_asked_for(read: Any) -> None:
+    rows = "".join(f"{i};{20 + i};{t:%H:%M:%S} UHR\n" for i, t in enumerate(SECONDS))
+    data = read("Time [s];T1;Uhrzeit\n" + rows, by="table")
+    np.testing.assert_array_equal(times(data), np.arange(60) * 1_000_000_000)
+
+
+@pytest.mark.parametrize("beside", ["Time [s];Timestamp", "Year;Timestamp", "checked;Timestamp"])
+def test_a_word_behind_what_would_be_the_time_is_asked_for(read: Any, beside: str) -> None:
+    rows = "".join(f"{i};{t:%Y-%m-%d %H:%M:%S} CST;{20 + i}\n" for i, t in enumerate(SECONDS))
+    with pytest.raises(QuestionError, match="'CST'"):
+        read(f"{beside};T1\n{rows}", by="table")

@@ -437,3 +437,38 @@ def test_models_of_the_edited_test_only_go_stale(store: Store, lab: Path, looked
     tests, summary = looked(store, lab)
     assert tests == ["t3"]
     assert summary.stale == ["of_t3"]
+
+
+def test_a_note_that_lacks_a_field_is_of_another_version() -> None:
+    from thermodata.store.ingest.test_note import TestNote
+
+    line = TestNote(samples=3).to_text()
+    assert TestNote.from_text(line).samples == 3
+    for other in (line.replace('"samples": 3, ', ""), line.replace("{", '{"more": 1, ', 1), "[]"):
+        assert other != line
+        with pytest.raises(ValueError, match="another version"):
+            TestNote.from_text(other)
+
+
+@pytest.mark.parametrize("raised", ["VVO", "OVV", "VOV", "VVV", "OVVV"])
+def test_looking_at_every_test_is_no_attempt(
+    store: Store, lab: Path, raised: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    from thermodata.errors import StoreError
+    from thermodata.store.ingest.commit import VanishedError
+    from thermodata.store.ingest.test_note import OtherwiseError
+
+    left, whole = list(raised), run._ingest
+
+    def other_program(*args: Any) -> Any:
+        if left:
+            raise {"V": VanishedError, "O": OtherwiseError}[left.pop(0)]("x")
+        return whole(*args)
+
+    monkeypatch.setattr(run, "_ingest", other_program)
+    if raised.count("V") == 3:
+        with pytest.raises(StoreError, match="vanish"):
+            ingest(store, lab)
+    else:
+        assert ingest(store, lab).tests == TESTS
+    assert not left

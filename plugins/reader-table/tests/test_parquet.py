@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import subprocess
 import sys
+from collections.abc import Callable
 from contextlib import suppress
 from pathlib import Path
 
@@ -12,7 +13,7 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 import pytest
 from thermodata_reader_table import Reader
-from thermodata_reader_table.parquet.footer_check import check_size_statistics
+from thermodata_reader_table.parquet.footer_check import _Footer, check_size_statistics
 
 from thermodata.errors import FormatError, UsageError
 from thermodata.plugin import Source
@@ -91,3 +92,42 @@ def test_a_footer_of_any_bytes_is_walked_through_or_left(tmp_path: Path) -> None
         path.write_bytes(data[:at] + bytes((value,)) + data[at + 1 :])
         with suppress(ValueError):  # what it says of a damaged file; anything else is a fault of ours
             check_size_statistics(path, schema)
+
+
+def test_a_map_of_truth_values_hides_nothing_that_stands_behind_it(tmp_path: Path) -> None:
+    """Arrow takes a byte for each of them in a map, though a field of a struct has its value in the head."""
+    path = tmp_path / "x.parquet"
+    schema = pa.schema([pa.field("t [s]", pa.float64(), nullable=False), pa.field("T", pa.float64())])
+    pq.write_table(pa.table({"t [s]": np.arange(5.0), "T": [1.0, None, 2.0, 3.0, None]}, schema=schema), path)
+    data, known = path.read_bytes(), pq.ParquetFile(path).schema
+    begin = len(data) - 8 - int.from_bytes(data[-8:-4], "little")
+    assert data[begin] == 0x15  # the first field is an integer: the version
+    # a field 100 that is a map of one false to another, and then the field 1 again
+    hidden = data[:begin] + b"\x0b\xc8\x01\x01\x11\x00\x00\x05\x02" + data[begin + 1 : -8]
+    path.write_bytes(hidden + (len(hidden) - begin).to_bytes(4, "little") + b"PAR1")
+    assert pq.ParquetFile(path).metadata.num_rows == 5, "Arrow walks past the map"
+    _with_footer(path, path.read_bytes(), (b"\x29\x06\x19\x26\x04\x06", b"\x29\x06\x19\x16\x04"))
+    with pytest.raises(ValueError, match="column 1 counts 1 definition levels"):
+        check_size_statistics(path, known)
+
+
+def test_no_footer_takes_more_steps_than_it_has_bytes(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Maps that say of themselves that they are long, with no bytes behind."""
+    maps = b"\xff\x7f\x11" * 33_000  # 16383 pairs of truth values each
+    footer = b"\x19\xfb\xe8\x81\x02" + maps  # a list of 33000 maps
+    path = tmp_path / "x.parquet"
+    path.write_bytes(b"PAR1" + footer + len(footer).to_bytes(4, "little") + b"PAR1")
+    taken = [0]
+
+    def counted(method: Callable[..., None]) -> Callable[..., None]:
+        def call(*args: object) -> None:
+            taken[0] += 1
+            assert taken[0] <= 2 * len(footer)
+            method(*args)
+
+        return call
+
+    for name in ("_skip", "_past"):
+        monkeypatch.setattr(_Footer, name, counted(getattr(_Footer, name)))
+    check_size_statistics(path, ())
+    assert taken[0] > 1000

@@ -18,7 +18,7 @@ from thermodata.reader.text import timestamp
 from thermodata.reader.text.cell import Cell, is_clocked, mostly, number_of
 from thermodata.reader.text.header import split_unit
 from thermodata.reader.text.number import text_array
-from thermodata.reader.text.timestamp import TimeFormat
+from thermodata.reader.text.timestamp import MILLISECONDS, TimeFormat
 from thermodata.reader.zone import NAT
 
 _WORDS = {
@@ -31,6 +31,7 @@ _WORDS = {
 }
 _LETTERS = {letter: set(words.split()) for letter, words in _WORDS.items()}
 _RANGE = {"Y": (1900, 2200), "y": (0, 99), "m": (1, 12), "d": (1, 31), "H": (0, 23), "M": (0, 59), "S": (0, 61)}
+_RANGE |= {"whole S": _RANGE["S"], "ms": (0, 999)}
 _WHOLE = r"(?:[.,]0*)?"  # a program that keeps all numbers as floats writes 2026.000
 _PIECES = {
     "Y": rf"(?P<Y>\d{{4}}){_WHOLE}",
@@ -45,7 +46,8 @@ PART = TimeFormat("part", None, "")  # of a time whose first column has the form
 
 def find_parts(names: Sequence[str], data: Sequence[Sequence[Cell]]) -> tuple[tuple[int, ...], str] | None:
     """(columns, format) of a date in columns that are named for its parts, with hours or a time of day beside them;
-    None where there is none. A time of day is not part of the format."""
+    None where there is none. A time of day and a column of milliseconds behind whole seconds are not part of the
+    format."""
     found: dict[str, int] = {}
     for i, name in enumerate(names):
         word = split_unit(re.sub(r"#\d+$", "", name))[0].strip(" #.:_").casefold()
@@ -68,6 +70,10 @@ def find_parts(names: Sequence[str], data: Sequence[Sequence[Cell]]) -> tuple[tu
         if not clocks:
             return None
         columns = (*columns, clocks[0])
+    if "S" in parts and columns[-1] + 1 < len(names) and MILLISECONDS.match(names[columns[-1] + 1]):
+        thousandths = [r[columns[-1] + 1] for r in data]
+        if _fits([r[columns[-1]] for r in data], "whole S") and _fits(thousandths, "ms"):
+            columns = (*columns, columns[-1] + 1)
     return columns, " ".join(f"%{letter}" for letter in letters)
 
 

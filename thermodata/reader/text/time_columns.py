@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -15,7 +15,7 @@ from thermodata.reader.text.cell import TIME_WORD, Cell, is_clocked, is_dated, i
 from thermodata.reader.text.date_parts import find_parts
 from thermodata.reader.text.header import split_unit
 from thermodata.reader.text.odd_stamps import guess_format
-from thermodata.reader.text.time_formats import MILLISECONDS
+from thermodata.reader.text.timestamp import MILLISECONDS
 from thermodata.reader.text.zone_words import HOURS, SEVERAL, word_behind
 from thermodata.reader.time_units import EPOCHS, SECONDS, check_unit, found_epoch
 
@@ -80,20 +80,22 @@ def time_of(
 ) -> tuple[tuple[int, ...], str | None, str | None, list[str]]:
     """(time columns, unit or None for dates, format, notes). likely: columns that are called times in other words."""
     wanted, unit, form = said.get("column"), said.get("unit"), said.get("format")
-    if form is None and unit is None:
-        asked = zone_question(names, data, where)
-        if asked is not None:
-            raise asked
+    told = form is not None or unit is not None
     if wanted is not None:
         columns = tuple(column(w, names, where) for w in (wanted if isinstance(wanted, list | tuple) else [wanted]))
+        if not told and (asked := zone_question(names, data, where, columns)) is not None:
+            raise asked
         parts = find_parts([names[i] for i in columns], [[r[i] for i in columns] for r in data])
-        if form is None and unit is None and parts is not None and len(parts[0]) == len(columns):
+        if not told and parts is not None and len(parts[0]) == len(columns):
             return tuple(columns[i] for i in parts[0]), None, parts[1], []
-    elif form is None and unit is None and (parts := find_parts(names, data)) is not None:
-        columns, form = parts
-        shown = ", ".join(f"'{names[i]}'" for i in columns)
-        return columns, None, form, [f"the time stands in {len(columns)} columns: {shown}"]
     else:
+        if not told:
+            parts, asked = _parts_or_question(names, units, data, where, likely)
+            if asked is not None:
+                raise asked
+            if parts is not None:
+                shown = ", ".join(f"'{names[i]}'" for i in parts[0])
+                return parts[0], None, parts[1], [f"the time stands in {len(parts[0])} columns: {shown}"]
         try:
             columns = find_time(names, units, data, where, likely)
         except FormatError:
@@ -105,7 +107,7 @@ def time_of(
                     raise
                 raise question from None
             columns = (worded[0],)
-        asked = _joined_question(columns, names, data, where) if form is None and unit is None and not likely else None
+        asked = _joined_question(columns, names, data, where) if not told and not likely else None
         if asked is not None:
             raise asked
     cells = [row[columns[0]] for row in data]
@@ -194,6 +196,45 @@ def find_time(
     )
 
 
+def _parts_or_question(
+    names: list[str], units: list[str | None], data: list[list[Cell]], where: str, likely: tuple[int, ...]
+) -> tuple[tuple[tuple[int, ...], str] | None, QuestionError | None]:
+    """(columns and format of a date in parts where no other column tells the whole time, the question of its zone)."""
+
+    def found(rows: list[list[Cell]]) -> tuple[int, ...]:
+        try:
+            return find_time(names, units, rows, where, likely)
+        except FormatError:
+            return ()
+
+    columns = found(data)
+    bare = [[_without_word(c) for c in r] for r in (*data[:_ZONED_ROWS], *data[-_ZONED_ROWS:])]
+    # dates that only a word behind them keeps from being the time
+    would = tuple(i for i in found(bare) if is_time_header(names[i]) and any(is_dated(r[i]) for r in bare))
+    parts = find_parts(names, data)
+    if parts is not None and not any(_tells_all(c, parts[0], rows) for c, rows in ((columns, data), (would, bare))):
+        return parts, None
+    return None, zone_question(names, data, where, {*columns, *would} or range(len(names)))
+
+
+def _without_word(cell: Cell) -> Cell:
+    word = word_behind(cell) if isinstance(cell, str) and ":" in cell else None
+    return cell if word is None else cell.strip().removesuffix(")").removesuffix(word).rstrip(" (")
+
+
+def _tells_all(columns: tuple[int, ...], parts: tuple[int, ...], data: list[list[Cell]]) -> bool:
+    """Whether time columns, none of which is a part of a date, hold more than a day or a time of day: dates with a time
+    of day, or numbers."""
+    if not columns or not parts or set(columns) & set(parts):
+        return False
+    cells = [r[columns[0]] for r in data if r[columns[0]] not in ("", None)]
+    if not any(map(is_dated, cells)):
+        return not any(map(is_clocked, cells))
+    return len(columns) > 1 or any(
+        ":" in c if isinstance(c, str) else bool(hasattr(c, "hour") and (c.hour or c.minute or c.second)) for c in cells
+    )
+
+
 def _worded_time(names: list[str], data: list[list[Cell]]) -> tuple[int, list[str]] | None:
     """(place, cells) of a column that is called a time and holds text that is none as it stands, in a table of numbers;
     None where there is no such column."""
@@ -243,10 +284,10 @@ def _joined_question(
     return None
 
 
-def zone_question(names: list[str], data: list[list[Cell]], where: str) -> QuestionError | None:
+def zone_question(names: list[str], data: list[list[Cell]], where: str, columns: Iterable[int]) -> QuestionError | None:
     """What to ask of times behind which a word stands that is no zone, or several: 2026-03-02 08:00:00 CST. None where
-    none stands there."""
-    for i in range(len(names)):
+    none stands there. columns: that may hold the time."""
+    for i in sorted(columns):
         cells = [r[i].strip() for r in (*data[:_ZONED_ROWS], *data[-_ZONED_ROWS:]) if isinstance(r[i], str) and r[i]]
         if not cells or ":" not in cells[0]:
             continue

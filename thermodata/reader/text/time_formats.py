@@ -20,11 +20,10 @@ from thermodata.reader.open_questions import UNKNOWN, unanswered
 from thermodata.reader.text import timestamp
 from thermodata.reader.text.date_parts import declared_parts
 from thermodata.reader.text.local_clock import DayCount
-from thermodata.reader.text.timestamp import DATE, DATETIME, ELAPSED, MILLISECOND, TIME_OF_DAY, TimeFormat
+from thermodata.reader.text.timestamp import DATE, DATETIME, ELAPSED, MILLISECOND, MILLISECONDS, TIME_OF_DAY, TimeFormat
 from thermodata.reader.time_units import EPOCHS, SECONDS, to_ns
 from thermodata.reader.zone import NAT, local_to_utc_ns
 
-MILLISECONDS = re.compile(r"(?i)^(ms|msec|millise[ck]\w*|millis|毫秒)\b")
 _FEW, _MANY = 40, 4000
 _DAY_NS = 86_400 * 10**9
 _HINT = "declare table: {time: {format: dmy}} or mdy, or strptime's letters: '%d/%m/%Y %H:%M:%S'"

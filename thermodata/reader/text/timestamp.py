@@ -88,7 +88,8 @@ ELAPSED = _format(
     "time", r"(?P<E>\d{1,5}):(?P<M>\d{2}):(?P<S>\d{2})(?:[.,](?P<f>\d{1,9})\d*)?", "HHH:MM:SS", zone=False
 )
 OFFSET_MS = _format("offset", r"(?P<oms>\d{1,12})(?:\.(?P<of>\d{1,6})\d*|\.)?", "milliseconds", zone=False)
-MILLISECOND = _format("millisecond", r"(?P<ms>\d{1,3})", "0...999", zone=False)
+MILLISECOND = _format("millisecond", r"(?P<ms>\d{1,3})(?:[.,]0*)?", "0...999", zone=False)
+MILLISECONDS = re.compile(r"(?i)^(ms|msec|millise[ck]\w*|millis|毫秒)\b")  # the name of such a column
 _TEXTS = {"ymd": "YYYY-MM-DD", "dmy": "DD.MM.YYYY", "mdy": "MM/DD/YYYY", "cjk": "YYYY年MM月DD日"}
 DATE = {order: _format("date", body, _TEXTS[order], zone=False) for order, body in _DATES.items()}
 DATETIME = {
@@ -272,7 +273,7 @@ def parse_one(cell: str, form: TimeFormat) -> int:
         except ValueError:
             return NAT
     if g.get("H") is not None:
-        hour, minute, second = int(g["H"]), int(g["M"]), int(g.get("S") or 0)
+        hour, minute, second = int(g["H"]), int(g.get("M") or 0), int(g.get("S") or 0)
         if g.get("p"):
             if not 1 <= hour <= 12:
                 return NAT
@@ -281,9 +282,10 @@ def parse_one(cell: str, form: TimeFormat) -> int:
             return NAT
         total += (hour * 3600 + minute * 60 + second) * _S
     if g.get("E") is not None:
-        if int(g["M"]) > 59 or int(g["S"]) > 59:
+        minute, second = int(g.get("M") or 0), int(g.get("S") or 0)
+        if minute > 59 or second > 59:
             return NAT
-        total += (int(g["E"]) * 3600 + int(g["M"]) * 60 + int(g["S"])) * _S
+        total += (int(g["E"]) * 3600 + minute * 60 + second) * _S
     if g.get("f"):
         total += int(g["f"].ljust(9, "0"))
     return total - offset_ns(g["z"]) if g.get("z") else total
@@ -319,6 +321,7 @@ def _assemble(fields: dict[str, npt.NDArray[np.int64]], match: re.Match[str]) ->
         return fields["oms"] * 1_000_000 + fields.get("of", np.zeros_like(fields["oms"]))
     size = next(iter(fields.values())).shape
     total, bad = np.zeros(size, np.int64), np.zeros(size, bool)
+    minute, second = (fields.get(x, np.zeros(size, np.int64)) for x in "MS")
     if "m" in fields:
         year = fields.get("Y")
         if year is None:
@@ -330,15 +333,15 @@ def _assemble(fields: dict[str, npt.NDArray[np.int64]], match: re.Match[str]) ->
         bad |= day > _DAYS_IN_MONTH[safe] - ((safe == 2) & ~leap)
         total += _days(year, safe, day) * _DAY
     if "H" in fields:
-        hour, minute, second = fields["H"], fields["M"], fields.get("S", np.zeros(size, np.int64))
+        hour = fields["H"]
         if groups.get("p"):
             bad |= (hour < 1) | (hour > 12)
             hour = hour % 12 + (12 if groups["p"][0] in "pP" else 0)
         bad |= (hour > 23) | (minute > 59) | (second > 59)
         total += (hour * 3600 + minute * 60 + second) * _S
     if "E" in fields:
-        bad |= (fields["M"] > 59) | (fields["S"] > 59)
-        total += (fields["E"] * 3600 + fields["M"] * 60 + fields["S"]) * _S
+        bad |= (minute > 59) | (second > 59)
+        total += (fields["E"] * 3600 + minute * 60 + second) * _S
     if "f" in fields:
         total += fields["f"]
     if groups.get("z"):

@@ -39,7 +39,6 @@ class RawIngest:
     watch: Progress
     # test -> what is said of it ('': of what belongs to none)
     said: dict[str, Said] = field(default_factory=lambda: {"": Said()})
-    files: set[str] = field(default_factory=set)
     read: int = 0
     _test: str = ""
     # what was said of this time only, and not when the same is ingested again
@@ -306,7 +305,6 @@ class RawIngest:
         if fresh:
             for loss in (x for r in raws for x in r.losses):
                 self.losses.append(loss_row(loss.reason, test=test, source=source, file=path, loss=loss))
-        self.files.add(path)
         return raws
 
     def _copy(self, path: str, before: list[RawStream], reader: Reader, declaration: Source) -> list[RawStream]:

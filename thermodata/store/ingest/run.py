@@ -78,21 +78,21 @@ def ingest(
     campaign: in place of a file's content; the path then says where its logs are.
     """
     watch = TextProgress(progress or (lambda _: None)) if progress is None or callable(progress) else progress
-    every_test = False
-    for attempt in range(_ATTEMPTS):
+    every_test, attempts = False, _ATTEMPTS
+    while True:
         try:
             return _ingest(store, Path(campaign_path), watch, campaign, every_test)
         except OtherwiseError:
-            every_test = True  # which raises it no more
+            every_test = True  # which raises it no more, and is no attempt
         except VanishedError as error:
-            if attempt == _ATTEMPTS - 1:
+            attempts -= 1
+            if not attempts:
                 raise StoreError(
                     "files of the store vanish while they are being made",
                     where=str(store.path),
                     got=str(error),
                     hint="end the other program that cleans this store",
                 ) from error
-    raise AssertionError("unreachable")
 
 
 def _ingest(store: Store, path: Path, watch: Progress, given: Campaign | None, every_test: bool) -> IngestSummary:

@@ -65,8 +65,11 @@ class TestNote:
 
     @classmethod
     def from_text(cls, line: str) -> TestNote:
-        """TypeError or ValueError for a line of another version."""
-        return cls(**json.loads(line))
+        """ValueError for a line of another version: one that lacks a field, or has another."""
+        kept = json.loads(line)
+        if not isinstance(kept, dict) or kept.keys() != {f.name for f in fields(cls)}:
+            raise ValueError("a note of another version")
+        return cls(**kept)
 
     def own_clocks(self) -> dict[str, Clock]:
         """Source -> its clock as the test alone tells it, of those that were estimated."""
@@ -115,7 +118,7 @@ def left_alone(lines: Mapping[str, str], looked_at: Collection[str] | None) -> L
         return LeftAlone()
     try:
         known = {name: TestNote.from_text(line) for name, line in lines.items()}
-    except (TypeError, ValueError):  # of another version
+    except ValueError:  # of another version
         return LeftAlone()
     return LeftAlone(
         {name: note for name, note in known.items() if name not in looked_at},

@@ -146,19 +146,26 @@ class _Footer:
                 if head & 15 not in (_TRUE, _FALSE):  # the value stands in the head
                     self._skip(head & 15, depth + 1)
         elif kind in (_LIST, _SET):
-            self._each(lambda item, _: self._skip(item, depth + 1) if item not in (_TRUE, _FALSE) else self._past(1))
+            self._each(lambda item, _: self._item(item, depth))
         elif kind == _MAP:
             size = self._varint()
             kinds = self._byte() if size else 0
-            for _ in range(min(size, len(self._data))):
-                self._skip(kinds >> 4, depth + 1)
-                self._skip(kinds & 15, depth + 1)
+            for _ in range(size):  # each takes a byte at least, so the bytes end first
+                for item in (kinds >> 4, kinds & 15):
+                    self._item(item, depth)
         elif kind == _BYTE:
             self._past(1)
         elif kind == _DOUBLE:
             self._past(8)
         elif kind not in (_TRUE, _FALSE):
             raise ValueError(f"no type {kind}")
+
+    def _item(self, kind: int, depth: int) -> None:
+        """Past an item of a list or map: there a truth value takes a byte."""
+        if kind in (_TRUE, _FALSE):
+            self._past(1)
+        else:
+            self._skip(kind, depth + 1)
 
     def _past(self, size: int) -> None:
         self._at += size
