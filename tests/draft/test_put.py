@@ -225,3 +225,17 @@ def test_a_displacement_without_an_axis_is_modelled_by_its_name(tmp_path: Path) 
     assert spec.responses[0].channel == "p5"
     # which screw moves it nobody knows: only what acts whatever the axis is drafted
     assert [e.effect for e in spec.effects] == ["spindle_bearing"]
+
+
+def test_a_model_file_in_another_encoding_is_one_that_somebody_wrote(tmp_path: Path) -> None:
+    path, model = tmp_path / "campaign.yaml", tmp_path / "model.yaml"
+    path.write_text(TEXT)
+    first_model(path)
+    model.write_bytes(own := model.read_bytes() + "# für die Spindel\n".encode("latin-1"))
+    assert modelled(path) is None
+    answered = filled_in(TEXT, {"channels.T1.at": "spindle.bearing.front"})
+    assert write_answered(path, answered)[1] is False
+    assert model.read_bytes() == own
+    kept = first_model(path).kept
+    assert kept is not None
+    assert kept.read_bytes() == own, "the copy keeps its bytes"

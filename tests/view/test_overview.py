@@ -9,8 +9,9 @@ from typing import Any
 import numpy as np
 import pytest
 
-from thermodata.errors import UsageError
+from thermodata.errors import StoreError, UsageError
 from thermodata.store import Store
+from thermodata.view import window as of_windows
 from thermodata.view.models import model_rows
 from thermodata.view.overview import Asked, find_tests
 from thermodata.view.predictions import predictions, residual_strips
@@ -144,6 +145,55 @@ def test_samples_that_do_not_count_are_shown_on_request_only(store: Store) -> No
 def test_a_window_beside_the_test_is_empty(store: Store) -> None:
     (window,) = read_window(store, "lab", "heat1", channels_of(store, "lab", "heat1"), (9e5, 9e6))
     assert len(window.t_s) == 0
+
+
+def test_a_window_of_a_logger_that_became_slow_is_its_samples(build: Callable[[], Any]) -> None:
+    """1 h at 10 Hz, 2 h of nothing, then 6 h at one a minute: a share of the whole would promise 18,000 in 5 h."""
+    t_s = np.concatenate([np.arange(36_000) / 10, 10_800 + np.arange(360) * 60.0])
+    b = build()
+    b.test("lab", "slow")
+    b.channel("lab", "slow", "dZ")
+    b.tidy("lab", "slow", t_s, {"dZ": np.sin(t_s / 3000)})
+    store = b.store()
+    channels = channels_of(store, "lab", "slow")
+    (late,) = read_window(store, "lab", "slow", channels, (14_400.0, 40_000.0))
+    assert late.each
+    assert late.t_s.tolist() == t_s[t_s >= 14_400].tolist()
+    assert late.values["dZ"] == pytest.approx(np.sin(late.t_s / 3000))
+    (none,) = read_window(store, "lab", "slow", channels, (3_600.0, 10_799.0))
+    assert none.each
+    assert len(none.t_s) == len(none.values["dZ"]) == 0
+    (early,) = read_window(store, "lab", "slow", channels, (0.0, 3_600.0))
+    assert not early.each
+    assert np.isfinite(early.values["dZ"]).all()
+
+
+def test_a_window_outlives_what_another_thread_forgets(store: Store, monkeypatch: pytest.MonkeyPatch) -> None:
+    class Cleared(dict[Any, Any]):
+        """Emptied by another thread after each look and each entry."""
+
+        def __contains__(self, key: object) -> bool:
+            return True
+
+        def __setitem__(self, key: object, value: object) -> None:
+            pass
+
+    monkeypatch.setattr(of_windows, "_FACTS", Cleared())
+    (window,) = read_window(store, "lab", "heat1", channels_of(store, "lab", "heat1"))
+    assert len(window.t_s) == len(T_S)
+
+
+def test_a_file_that_is_gone_is_the_stores_own_error(build: Callable[[], Any]) -> None:
+    b = build()
+    b.test("lab", "a")
+    b.channel("lab", "a", "dZ")
+    path = b.tidy("lab", "a", T_S, {"dZ": T_S})
+    store = b.store()
+    channels = channels_of(store, "lab", "a")
+    path.unlink()
+    with pytest.raises(StoreError, match="damaged") as told:
+        read_window(store, "lab", "a", channels)
+    assert told.value.where == str(path)
 
 
 def test_models_come_with_their_effects_and_units(store: Store) -> None:

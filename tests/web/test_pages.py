@@ -127,3 +127,23 @@ def test_a_zoom_draws_the_strips_of_the_whole_test(reader: Client) -> None:
     source = html.unescape(re.search(r'data-source="([^"]+)"', text)[1])
     still = json.loads(reader.get(f"{source}&from=0&to=600").text)  # the spindle rests in the first 20 min
     assert [p["title"] for p in still["panels"]] == whole
+
+
+@pytest.mark.parametrize("show", ["", "&show=all"])
+def test_a_page_that_is_loaded_with_a_window_keeps_the_strips_of_the_whole_test(reader: Client, show: str) -> None:
+    url = f"/test?campaign=small&test=heat1{show}"
+
+    def titles(text: str) -> list[str]:
+        return [p["title"] for p in json.loads(text)["panels"]]
+
+    def loaded(text: str) -> tuple[list[str], str]:
+        chart, source = re.search(r'id="chart">(.*?)</script>', text), re.search(r'data-source="([^"]+)"', text)
+        assert chart
+        assert source
+        return titles(chart[1]), html.unescape(source[1])
+
+    whole, source = loaded(reader.get(url).text)
+    assert "spindle_speed" in whole
+    # the spindle rests in the first 20 min: reloaded there, and zoomed out again
+    assert loaded(reader.get(f"{url}&from=0&to=600").text) == (whole, source)
+    assert titles(reader.get(f"{source}&from=0&to=20000").text) == whole

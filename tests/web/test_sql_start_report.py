@@ -116,3 +116,15 @@ def test_the_displacement_of_the_first_model_is_chosen(writer: Client, lab: Path
     assert "axis: X" in (lab / "model.yaml").read_text()
     assert writer.post("/start/model", {"file": str(path), "response": "nothing"}).status == 400
     assert writer.post("/start/model", {"file": "../elsewhere.yaml", "response": "dX"}).status == 400
+
+
+def test_a_model_file_in_another_encoding_is_shown(writer: Client, lab: Path) -> None:
+    (lab / "model.yaml").write_bytes("# für die Spindel\n".encode("latin-1"))
+    answer = writer.get("/start")
+    assert answer.status == 200
+    assert "die Spindel" in answer.text
+    path = lab / "campaign.yaml"
+    path.write_bytes(path.read_bytes() + "# für die Spindel\n".encode("latin-1"))
+    refused = writer.get("/start")
+    assert refused.status == 400
+    assert "not in UTF-8" in refused.text

@@ -85,7 +85,7 @@ def write_answered(path: Path, text: str) -> tuple[Path, bool]:
     after = parse_campaign(text, path.name)
     before = load_campaign(path)
     model = path.with_name("model.yaml")
-    there = model.read_text(encoding="utf-8") if model.is_file() else None
+    there = _to_compare(model)
     untouched, chosen = _as_drafted(there, before)
     anew = model_text_of(after, chosen if chosen in responses_of(after) else None)
     # at no moment is there no campaign file, or half of one
@@ -127,7 +127,7 @@ def first_model(path: Path, response: str | None = None) -> FirstModel:
             hint="answer where the sensors are ('at'), or write a model file by hand",
         )
     model = path.with_name("model.yaml")
-    there = model.read_text(encoding="utf-8") if model.is_file() else None
+    there = _to_compare(model)
     # one that is as drafted can be had again; what somebody wrote can't
     kept = _copied(model) if there is not None and there != text and not _as_drafted(there, campaign)[0] else None
     write_text(model, text)
@@ -138,9 +138,13 @@ def first_model(path: Path, response: str | None = None) -> FirstModel:
 def modelled(path: Path) -> str | None:
     """The displacement that the model.yaml beside a campaign file was drafted for; None where somebody changed it, or
     where there is none."""
-    model = path.with_name("model.yaml")
-    campaign = load_campaign(path)
-    return _as_drafted(model.read_text(encoding="utf-8"), campaign)[1] if model.is_file() else None
+    return _as_drafted(_to_compare(path.with_name("model.yaml")), load_campaign(path))[1]
+
+
+def _to_compare(path: Path) -> str | None:
+    """The text of a file that somebody may have written in another encoding; never to be written back. None where it is
+    not there."""
+    return path.read_text(encoding="utf-8", errors="replace") if path.is_file() else None
 
 
 def _as_drafted(text: str | None, campaign: Campaign) -> tuple[bool, str | None]:

@@ -7,6 +7,7 @@ bands that are drawn are apart.
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass
 from typing import TYPE_CHECKING, Any
@@ -17,7 +18,7 @@ from thermodata.errors import UsageError, unknown_name
 from thermodata.plugin import Float1D
 from thermodata.schema.certainty import Z95
 from thermodata.view.predictions import Prediction, predictions
-from thermodata.view.residuals import predicted_tests
+from thermodata.view.residuals import Key, predicted_tests
 
 if TYPE_CHECKING:
     from thermodata.store import Store
@@ -104,6 +105,12 @@ def open_test(store: Store, model: str, name: str) -> tuple[str, str]:
         told = ", ".join(f"{c}/{t}" for c, t in found)
         raise UsageError(f"several campaigns have a test '{name}'", expected=told, got=name)
     return found[0]
+
+
+def test_names(keys: Sequence[Key]) -> dict[Key, str]:
+    """The name by which `open_test` finds each: TEST, or CAMPAIGN/TEST where two campaigns have it."""
+    often = Counter(name for c, t in keys for name in (t, f"{c}/{t}"))
+    return {(c, t): t if often[t] == 1 else f"{c}/{t}" for c, t in keys}
 
 
 def contributions(store: Store, models: Sequence[str], campaign: str, test: str) -> list[Contributions]:

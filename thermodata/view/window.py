@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from thermodata.errors import unknown_name
+from thermodata.errors import StoreError, unknown_name
 from thermodata.plugin import Float1D
 from thermodata.schema.flag import INVALID
 from thermodata.store.base.connection import fetch, quoted
@@ -113,14 +113,25 @@ def read_window(
 
 def _facts(con: duckdb.DuckDBPyConnection, table: str, files: Sequence[Path]) -> tuple[set[str], Extent]:
     """Columns and extent of a stream's files, asked once: a tidy file is final, under the name of its content."""
-    key = tuple((str(p), p.stat().st_mtime_ns, p.stat().st_size) for p in files)
-    if key not in _FACTS:
+    try:
+        key = tuple((str(p), at.st_mtime_ns, at.st_size) for p in files for at in [p.stat()])
+    except OSError as error:
+        raise StoreError(
+            "a file of the store is damaged",
+            where=str(error.filename),
+            got=error.strerror or str(error),
+            hint="ingest the campaign again: what can be made anew is made anew; "
+            "'thermodata check' lists what is damaged",
+        ) from error
+    known = _FACTS.get(key)  # held here: another thread may clear the store of facts at any moment
+    if known is None:
         there = {row[0] for row in con.execute(f"describe select * from {table}").fetchall()}
         row = con.execute(f"select min(t_s), max(t_s), count(*) from {table}").fetchone()
         if len(_FACTS) >= _MOST_FACTS:
             _FACTS.clear()
-        _FACTS[key] = there, (row[0], row[1], row[2]) if row and row[2] else (0.0, 0.0, 0)
-    return _FACTS[key]
+        known = there, (row[0], row[1], row[2]) if row and row[2] else (0.0, 0.0, 0)
+        _FACTS[key] = known
+    return known
 
 
 def _window(
@@ -142,34 +153,55 @@ def _window(
             inside = con.execute(f"select count(*) from {table} where t_s between ? and ?", [low, high]).fetchone()
             count = inside[0] if inside else 0
     if not names or not count:
-        return Window(np.empty(0), {n: np.empty(0) for n in names}, True)
+        return _nothing(names)
     values = {
         n: quoted(n) if flagged else f"case when {quoted(n + '__flag')} & {int(INVALID)} = 0 then {quoted(n)} end"
         for n in names
     }
     where = f"t_s between {low!r} and {high!r}"
-    if count <= most:
-        columns = ", ".join(f"cast({v} as double) as {quoted(n)}" for n, v in values.items())
-        got = con.execute(f"select t_s as t__s, {columns} from {table} where {where} order by t_s").fetchnumpy()
-        return Window(_filled(got["t__s"]), {n: _filled(got[n]) for n in names}, True)
-    bins = most // 2
+    if count > most:
+        window, count = _binned(con, table, where, values, low, high, most // 2)
+        if count > most:
+            return window
+        if not count:
+            return _nothing(names)
+    # few samples, also where a logger that was fast elsewhere promised many: these themselves
+    columns = ", ".join(f"cast({v} as double) as {quoted(n)}" for n, v in values.items())
+    got = con.execute(f"select t_s as t__s, {columns} from {table} where {where} order by t_s").fetchnumpy()
+    return Window(_filled(got["t__s"]), {n: _filled(got[n]) for n in names}, True)
+
+
+def _binned(
+    con: duckdb.DuckDBPyConnection,
+    table: str,
+    where: str,
+    values: dict[str, str],
+    low: float,
+    high: float,
+    bins: int,
+) -> tuple[Window, int]:
+    """The lowest and the highest of each bin, and how many samples there are in all: one pass tells both."""
     width = (high - low) / bins or 1.0
     columns = ", ".join(
         f"min(cast({v} as double)) as {quoted(n + '__low')}, max(cast({v} as double)) as {quoted(n + '__high')}"
         for n, v in values.items()
     )
     got = con.execute(
-        f"select least(cast(floor((t_s - {low!r}) / {width!r}) as integer), {bins - 1}) as bin__k, {columns} "
-        f"from {table} where {where} group by 1 order by 1"
+        f"select least(cast(floor((t_s - {low!r}) / {width!r}) as integer), {bins - 1}) as bin__k, "
+        f"count(*) as bin__n, {columns} from {table} where {where} group by 1 order by 1"
     ).fetchnumpy()
     at = np.asarray(got["bin__k"], dtype=np.int64)
     t_s = low + (np.repeat(np.arange(bins), 2) + np.tile([0.25, 0.75], bins)) * width
     out = {}
-    for n in names:
+    for n in values:
         both = np.full((bins, 2), np.nan)
         both[at, 0], both[at, 1] = _filled(got[n + "__low"]), _filled(got[n + "__high"])
         out[n] = both.ravel()
-    return Window(t_s, out, False)
+    return Window(t_s, out, False), int(np.sum(got["bin__n"]))
+
+
+def _nothing(names: Sequence[str]) -> Window:
+    return Window(np.empty(0), {n: np.empty(0) for n in names}, True)
 
 
 def _filled(column: np.ndarray) -> Float1D:

@@ -22,10 +22,10 @@ from thermodata.report.words import base_role, pooled
 from thermodata.schema.result import Score
 from thermodata.store import Store
 from thermodata.store.catalogue.models import find_model, model_chain
-from thermodata.view.contributions import Contributions, contributions, open_test
+from thermodata.view.contributions import Contributions, contributions, open_test, test_names
 from thermodata.view.models import ModelRow, model_rows, term_order
 from thermodata.view.predictions import residual_courses, residual_strips
-from thermodata.view.residuals import against, autocorrelation, predicted_tests, residuals
+from thermodata.view.residuals import Key, against, autocorrelation, predicted_tests, residuals
 from thermodata.web.command import command
 from thermodata.web.pages.contributions import contribution_chart
 from thermodata.web.pages.drawn import pair
@@ -73,7 +73,8 @@ def show(request: Request) -> Response:
     parts = residuals(store, newest.model, predicted_tests(store, newest.model), str(response))
     over = given.get("over", "")
     chain = versions(model_chain(store, newest.model))
-    shown = _shown_test(store, pinned.model, given.get("test", ""), lines, keys)
+    names = test_names(keys)
+    shown = _shown_test(store, models, pinned.model, given.get("test", ""), lines, keys)
     beside = contributions(store, [m.model for m in chosen], *shown) if shown else []
     labels = {m.model: m.label for m in chosen}
     order = term_order(models, labels)
@@ -104,7 +105,7 @@ def show(request: Request) -> Response:
         channels=_channels(store, pinned),
         response=response,
         pair=pair,
-        tests=keys,
+        tests=names,
         shown_test=shown,
         labels=labels,
         beside=beside,
@@ -112,22 +113,28 @@ def show(request: Request) -> Response:
         alike=sum(not e.differs for part in beside for e in part.effects) if only else 0,
         banded=any(sd is not None for part in beside for e in part.effects for sd in e.deviations),
         unpredicted=[labels[m] for m in labels if beside and m not in beside[0].models],
-        beside_command=command(desk.store_path, "compare", *labels, "--contributions", shown[1] if shown else ""),
+        beside_command=command(desk.store_path, "compare", *labels, "--contributions", names[shown] if shown else ""),
     )
 
 
 def _shown_test(
-    store: Store, model: str, named: str, lines: list[Line], keys: list[tuple[str, str]]
-) -> tuple[str, str] | None:
-    """The named one; unasked, the one in which the errors differ most, else the first; None where none is predicted."""
-    if named:
-        return open_test(store, model, named)
+    store: Store, models: Sequence[ModelRow], pinned: str, named: str, lines: list[Line], keys: list[Key]
+) -> Key | None:
+    """The named one; unasked, or where the pinned model does not predict it but another does, the one in which the
+    errors differ most, else the first; None where none is predicted. UsageError for one that no model predicts."""
+    others = (predicted_tests(store, m.model) for m in models if m.model != pinned)
+    if named and (_has(keys, named) or not any(_has(theirs, named) for theirs in others)):
+        return open_test(store, pinned, named)
 
-    def apart(key: tuple[str, str]) -> float:
+    def apart(key: Key) -> float:
         known = [e for line in lines if (line.campaign, line.test) == key for e in line.errors if e is not None]
         return max(known) - min(known) if known else 0.0
 
     return max(keys, key=apart, default=None)
+
+
+def _has(keys: Sequence[Key], named: str) -> bool:
+    return any(named in (t, f"{c}/{t}") for c, t in keys)
 
 
 def _drawn(

@@ -206,11 +206,19 @@ def _moves(form: dict[str, str]) -> dict[str, str]:
 
 
 def campaign_text(path: Path) -> str:
-    """UsageError for what is no campaign file, or too long a one."""
+    """UsageError for what is no campaign file, too long a one, or one in another encoding: it is written back."""
     if not path.is_file() or path.suffix not in (".yaml", ".yml"):
         raise UsageError(
             "there is no such campaign file", where=str(path), hint="draft one first: thermodata init FOLDER"
         )
     if path.stat().st_size > _MOST_BYTES:
         raise UsageError("this campaign file is too long for a form", where=str(path), hint="edit it by hand")
-    return path.read_text(encoding="utf-8")
+    try:
+        return path.read_text(encoding="utf-8")
+    except UnicodeDecodeError as error:
+        raise UsageError(
+            "this campaign file is not in UTF-8",
+            where=str(path),
+            got=f"byte 0x{error.object[error.start]:02x} at place {error.start}",
+            hint="save it as UTF-8",
+        ) from error

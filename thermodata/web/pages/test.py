@@ -17,7 +17,7 @@ from thermodata.view.events import About, about_test
 from thermodata.view.models import ModelRow, model_rows, term_order
 from thermodata.view.predictions import Prediction, predictions, range_figures
 from thermodata.view.rule_for import rules_for
-from thermodata.view.window import Channel, channels_of, read_window
+from thermodata.view.window import Channel, Window, channels_of, read_window
 from thermodata.web.command import command
 from thermodata.web.pages.test_chart import drawn_as_curve, test_chart
 from thermodata.web.query import seconds_in
@@ -37,8 +37,10 @@ def show(request: Request) -> Response:
     models, about = known.models, known.about
     model = _model(models, given)
     predicted = _predicted(store, model, given)
-    chart = _chart(store, about, chosen, predicted, _order(models, model), given)
-    from_s, to_s = seconds_in(given, "from"), seconds_in(given, "to")
+    span = _span(given)
+    moving = _moving(store, about, chosen, given) if span else chosen
+    order, named = _order(models, model), moving is not chosen
+    chart = _chart(store, about, moving, predicted, order, given, named=named)
     return page(
         request,
         "test.html.j2",
@@ -47,14 +49,14 @@ def show(request: Request) -> Response:
         command=command(desk.store_path, "trace", campaign, test),
         about=about,
         channels=channels,
-        drawn=_drawn(chart, chosen) or given.get("show", ""),
+        drawn=_drawn(chart, moving) or given.get("show", ""),
         chosen={c.name for c in chosen},
         models=models,
         model=model,
         predicted=predicted,
         banded=any(p.deviations for p in predicted),
         chart=script_json(chart.as_json()),
-        span=None if from_s is None or to_s is None else (from_s / 3600, to_s / 3600),
+        span=span and (span[0] / 3600, span[1] / 3600),
         neighbours=_neighbours(store, campaign, test),
         flagged=given.get("flagged") == "1",
     )
@@ -158,14 +160,38 @@ def _chart(
     predicted: list[Prediction],
     order: list[str],
     given: Mapping[str, str],
+    *,
+    named: bool = False,
 ) -> Chart:
+    windows = _windows(store, about, chosen, _span(given), given)
+    return test_chart(about, chosen, windows, predicted, order, named=named or _by_name(given))
+
+
+def _moving(store: Store, about: About, chosen: list[Channel], given: Mapping[str, str]) -> list[Channel]:
+    """Those that the whole test draws: a page that is loaded with a window has the strips of one that is not."""
+    strips = [c for c in chosen if not drawn_as_curve(c)]
+    if not strips or _by_name(given):
+        return chosen
+    whole = test_chart(about, strips, _windows(store, about, strips, None, given), [], [], named=False)
+    there = {p.series.name for p in whole.panels if isinstance(p, Strip)}
+    return [c for c in chosen if drawn_as_curve(c) or c.name in there]
+
+
+def _windows(
+    store: Store, about: About, chosen: list[Channel], span: tuple[float, float] | None, given: Mapping[str, str]
+) -> list[Window]:
+    flagged = given.get("flagged") == "1"
+    return read_window(store, about.row["campaign"], about.row["test"], chosen, span, flagged=flagged)
+
+
+def _span(given: Mapping[str, str]) -> tuple[float, float] | None:
+    """[s], None for the whole test."""
     from_s, to_s = seconds_in(given, "from"), seconds_in(given, "to")
-    span = None if from_s is None or to_s is None else (from_s, to_s)
-    windows = read_window(
-        store, about.row["campaign"], about.row["test"], chosen, span, flagged=given.get("flagged") == "1"
-    )
-    named = given.get("show", "") not in ("", "all")
-    return test_chart(about, chosen, windows, predicted, order, named=named)
+    return None if from_s is None or to_s is None else (from_s, to_s)
+
+
+def _by_name(given: Mapping[str, str]) -> bool:
+    return given.get("show", "") not in ("", "all")
 
 
 def _drawn(chart: Chart, chosen: list[Channel]) -> str:
