@@ -343,3 +343,15 @@ def test_a_heading_that_counts_its_channels_with_nothing_is_noted(tmp_path: Path
     data = read(tmp_path, text + "\t1,5\t-2\n\t1,25\t3\n\t1\t4\n")
     assert any("announces no number of channels and names 2" in n for n in data.recording.notes)
     np.testing.assert_array_equal(data.values["data", "b"], [-2, 3, 4])
+
+
+@pytest.mark.parametrize("key", ["Samples", "Date", "Time", "X0", "Delta_X"])
+def test_a_heading_that_tells_a_key_of_some_channels_only_is_noted(tmp_path: Path, key: str) -> None:
+    """The last one would silently count from another start, or by another step."""
+    heading = packet(["a", "b"], x="X_Value\ta\tb")
+    (line,) = [t for t in heading.split("\n") if t.startswith(f"{key}\t")]
+    fewer = line.rstrip("\t").rpartition("\t")[0] + "\t"
+    data = read(tmp_path, head("No") + heading.replace(line, fewer) + "\t1,5\t-2\n\t1,25\t3\n\t1\t4\n")
+    assert any(f"{key} stands for 1 of 2 channels" in n for n in data.recording.notes)
+    whole = read(tmp_path, head("No") + heading + "\t1,5\t-2\n\t1,25\t3\n\t1\t4\n")
+    assert not any("stands for" in n for n in whole.recording.notes)

@@ -157,6 +157,11 @@ def read_packet(lines: list[str], names_line: str, header: Header, path: Path, n
         for key in ("Samples", "Date", "Time", "X0", "Delta_X")
         if key not in keys
     ]
+    notes += [
+        f"line {number}: {key} stands for {told} of {len(columns)} channels"
+        for key in ("Samples", "Date", "Time", "X0", "Delta_X")
+        if 0 < (told := sum(map(bool, keys.get(key, ())))) < len(columns)
+    ]
     return Packet(
         keys,
         _unique([row[c] or f"column {c + 1}" for c in columns]),
