@@ -47,9 +47,8 @@ class CandidateEffect:
     """An effect and the channels it would be driven by. family: with the axis that its channels sit on.
     placeless: nobody declared where any temperature sits, so it can only be a plain lag. passive: no effect has a name
     for it, and it reads the temperature of a casting, or one of which nobody declared where it sits, while others have
-    a place. log_prior: how much less
-    probable than others before any data. kin: how near it is to what the model has already (`Kin`). unforetold: why
-    left-out tests can't be asked of it; None where they can."""
+    a place. log_prior: how much less probable than others before any data. kin: how near it is to what the model has
+    already (`Kin`). unforetold: why left-out tests can't be asked of it; None where they can."""
 
     effect: Effect
     binding: Mapping[str, str]

@@ -90,8 +90,10 @@ def select(problem: Problem, first: Ranked, sound: Callable[[Scored], bool], *, 
             current = _each_beside_others(problem, chosen, noise)
         if len(dropped) == before:
             break
+    before = len(chosen)
     noise = _second_chance(problem, chosen, dropped, noise, sound)
-    current = _each_beside_others(problem, chosen, noise)
+    if len(chosen) > before:
+        current = _each_beside_others(problem, chosen, noise)
     credits = _credits(problem, current, noise)
     current = [replace(s, credit=c) for s, c in zip(current, credits, strict=True)]
     members = tuple(_member(problem, first, among, chosen, i, current[i], noise, sound) for i in range(len(chosen)))
@@ -124,16 +126,13 @@ def _second_chance(
 ) -> Noise:
     """Moves from the dropped to the chosen, likeliest first, what is worth it and leaves the whole set sound. The noise
     beside what is chosen then."""
-    left = list(dropped)
+    base = beside(problem, chosen)
+    left = rank_in(base, [s.columns for s in dropped], noise).ranked if dropped else ()
     for _ in range(TRIED):
-        if not left or len(chosen) >= MOST:
+        best = preferred(left)
+        if best is None or len(chosen) >= MOST:
             break
-        base = beside(problem, chosen)
-        ranked = rank_in(base, [s.columns for s in left], noise).ranked
-        best = preferred(ranked)
-        if best is None:
-            break
-        left = [s for s in left if s.columns is not best.columns]
+        left = tuple(s for s in left if s.columns is not best.columns)
         tried = [*chosen, best]
         full = beside(base, [best])
         quieter = likeliest(full, noise)
@@ -141,7 +140,8 @@ def _second_chance(
         if worth >= WORTH and all(sound(s) for s in _each_beside_others(problem, tried, quieter)):
             chosen.append(best)
             dropped[:] = [s for s in dropped if s.columns is not best.columns]
-            noise = quieter
+            base, noise = full, quieter
+            left = rank_in(base, [s.columns for s in left], noise).ranked
     return noise
 
 
