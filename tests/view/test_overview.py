@@ -176,7 +176,7 @@ def test_a_window_outlives_what_another_thread_forgets(store: Store, monkeypatch
             return True
 
         def __setitem__(self, key: object, value: object) -> None:
-            pass
+            """Gone before it is read again."""
 
     monkeypatch.setattr(of_windows, "_FACTS", Cleared())
     (window,) = read_window(store, "lab", "heat1", channels_of(store, "lab", "heat1"))
