@@ -320,7 +320,7 @@ def test_a_clock_that_tests_lend_each_other_is_asked_of_all(
 def test_without_the_notes_of_the_tests_all_are_looked_at(
     store: Store, lab: Path, looked: Looked, tmp_path: Path, what: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    from thermodata.store.ingest import test_note
+    from thermodata.store.ingest import left_alone
 
     ingest(store, lab)
     (notes,) = (store.path / "known").glob("*.tests")
@@ -329,8 +329,8 @@ def test_without_the_notes_of_the_tests_all_are_looked_at(
     elif what == "torn":
         notes.write_text(notes.read_text().replace("spindle", "spindel", 1)[:-40])
     else:
-        right = test_note.TestNote.from_text
-        monkeypatch.setattr(test_note.TestNote, "from_text", lambda line: right(line.replace("samples", "values")))
+        right = left_alone.TestNote.from_text
+        monkeypatch.setattr(left_alone.TestNote, "from_text", lambda line: right(line.replace("samples", "values")))
     longer(lab.parent / "raw")
     tests, _ = both_ways(store, lab, looked, tmp_path)
     assert tests == [f"t{test}" for test in range(TESTS)]
@@ -440,7 +440,7 @@ def test_models_of_the_edited_test_only_go_stale(store: Store, lab: Path, looked
 
 
 def test_a_note_that_lacks_a_field_is_of_another_version() -> None:
-    from thermodata.store.ingest.test_note import TestNote
+    from thermodata.store.ingest.left_alone import TestNote
 
     line = TestNote(samples=3).to_text()
     assert TestNote.from_text(line).samples == 3
@@ -456,7 +456,7 @@ def test_looking_at_every_test_is_no_attempt(
 ) -> None:
     from thermodata.errors import StoreError
     from thermodata.store.ingest.commit import VanishedError
-    from thermodata.store.ingest.test_note import OtherwiseError
+    from thermodata.store.ingest.left_alone import OtherwiseError
 
     left, whole = list(raised), run._ingest
 

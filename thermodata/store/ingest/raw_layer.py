@@ -14,11 +14,11 @@ from thermodata.schema.campaign import Campaign, JumpCalibration, SourceSpec, Te
 from thermodata.store.base.files import DISK_FULL, is_whole, write_error
 from thermodata.store.ingest.file_versions import pinned, read_otherwise, twins
 from thermodata.store.ingest.inventory import Inventory
+from thermodata.store.ingest.left_alone import TestNote
 from thermodata.store.ingest.losses import Losses, Said, loss_row
 from thermodata.store.ingest.progress import Progress, counted
 from thermodata.store.ingest.resolve import SourceFiles, file_inside, natural, resolve
 from thermodata.store.ingest.side_by_side import read_side_by_side, workers_for
-from thermodata.store.ingest.test_note import TestNote
 from thermodata.store.ingest.unchanged import Seen, seen
 from thermodata.store.ingest.worker import Task
 from thermodata.store.raw.source_file import ChangedError, SourceFile, frozen, settled

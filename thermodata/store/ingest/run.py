@@ -18,11 +18,11 @@ from thermodata.store.ingest.catalogue_rows import calibration_row, raw_row
 from thermodata.store.ingest.commit import Planned, VanishedError, changes, commit, nothing_new, parts_of, version_of
 from thermodata.store.ingest.file_versions import keep_earlier
 from thermodata.store.ingest.inventory import BY_TEST, Inventory, Row, generation_of, read_inventory
+from thermodata.store.ingest.left_alone import LeftAlone, OtherwiseError, TestNote, left_alone
 from thermodata.store.ingest.losses import loss_row
 from thermodata.store.ingest.progress import Progress, TextProgress
 from thermodata.store.ingest.raw_layer import RawIngest
 from thermodata.store.ingest.spec_lines import with_lines
-from thermodata.store.ingest.test_note import LeftAlone, OtherwiseError, TestNote, left_alone
 from thermodata.store.ingest.tidy_layer import TidyLayer, tidy_tests
 from thermodata.store.ingest.unanswered import unanswered
 from thermodata.store.ingest.unchanged import differing, keep, known_files, noted, of_tests, summary_of

@@ -20,8 +20,8 @@ from thermodata.schema.campaign import Campaign
 from thermodata.store.base.files import is_whole, key_of
 from thermodata.store.ingest import catalogue_rows
 from thermodata.store.ingest.inventory import BY_TEST, Inventory, Row, meta_of
+from thermodata.store.ingest.left_alone import LeftAlone, TestNote, columns_of, estimated
 from thermodata.store.ingest.losses import loss_row
-from thermodata.store.ingest.test_note import LeftAlone, TestNote, columns_of, estimated
 from thermodata.store.tidy.between import Verdict, verdicts
 from thermodata.store.tidy.clock_lent import dated_sources, lent
 from thermodata.store.tidy.clock_offsets import clocks_of
