@@ -14,10 +14,11 @@ from thermodata.diagnosis import selection as selecting
 from thermodata.diagnosis.candidates import CandidateEffect
 from thermodata.diagnosis.discrepancy import Noise
 from thermodata.diagnosis.evidence import Columns, columns
+from thermodata.diagnosis.preference import preferred
 from thermodata.diagnosis.problem import Problem
 from thermodata.diagnosis.ranking import Ranked, rank_in
 from thermodata.diagnosis.scored import Scored
-from thermodata.diagnosis.selection import Selection, extended, first_ranking, preferred, select
+from thermodata.diagnosis.selection import Selection, extended, first_ranking, select
 from thermodata.plugin import Param
 
 from .hand_made import Parts, PlainEffect, of_tests, problem, scored

@@ -20,6 +20,7 @@ BESIDE = {
     "locked.py": ("the_locked_tests",),
     "logging_faults.py": ("logging_faults",),
     "next_test.py": ("what_is_shown",),
+    "preference.py": ("selection",),
     "problem.py": ("compression",),
     "ranking.py": ("selection",),
     "refinement.py": ("refinement",),
@@ -200,10 +201,10 @@ MUTANTS = [
     diagnosis("selection.py", "PASSES = 3", "PASSES = 1", "what a proxy stood in the way of stays unseen"),
     diagnosis("ranking.py", "SCORED = 15", "SCORED = 3", "few candidates are shown"),
     diagnosis("selection.py", "\nWORTH = 10.0", "\nWORTH = 1.0", "trifles are selected"),
-    diagnosis("selection.py", "NAMED_SHARE = 0.95", "NAMED_SHARE = 0.5", "a name is taken for physics"),
-    diagnosis("selection.py", "ALIKE_SHARE = 0.8", "ALIKE_SHARE = 0.2", "a name elsewhere is taken for physics"),
-    diagnosis("selection.py", "\nALIKE = 0.8", "\nALIKE = 0.1", "a name elsewhere is taken for physics"),
-    diagnosis("selection.py", "FEWER_SHARE = 0.8", "FEWER_SHARE = 0.2", "half of a cause is preferred"),
+    diagnosis("preference.py", "NAMED_SHARE = 0.95", "NAMED_SHARE = 0.5", "a name is taken for physics"),
+    diagnosis("preference.py", "ALIKE_SHARE = 0.8", "ALIKE_SHARE = 0.2", "a name elsewhere is taken for physics"),
+    diagnosis("preference.py", "\nALIKE = 0.8", "\nALIKE = 0.1", "a name elsewhere is taken for physics"),
+    diagnosis("preference.py", "FEWER_SHARE = 0.8", "FEWER_SHARE = 0.2", "half of a cause is preferred"),
     diagnosis("selection.py", "noise = _second_chance(problem, chosen, dropped, noise, sound)", "", "twins drop both"),
     diagnosis(
         "investigate.py",
@@ -226,21 +227,19 @@ MUTANTS = [
     ),
     diagnosis("selection.py", "chosen.pop(worst)", "chosen.pop()", "a sound effect goes for an unsound one"),
     diagnosis("selection.py", "worst = min(unsound", "worst = max(unsound", "the most likely one goes first"),
+    diagnosis("preference.py", " and _foretells_more(best, own)", "", "a member is swapped for what foretells less"),
     diagnosis(
-        "selection.py", "        and _foretells_more(best, own)\n", "", "a member is swapped for what foretells less"
+        "preference.py", " or (own.candidate.passive and best.drop >= NAMED_SHARE * own.drop)", "", "a casting stands"
     ),
+    diagnosis("preference.py", "own.candidate.passive and best.drop", "best.drop", "a name takes a cause's place"),
+    diagnosis("preference.py", "(best.candidate.passive or len(other", "(len(other", "a casting hides what bends it"),
     diagnosis(
-        "selection.py", " or (own.candidate.passive and best.drop >= NAMED_SHARE * own.drop)", "", "a casting stands"
-    ),
-    diagnosis("selection.py", "own.candidate.passive and best.drop", "best.drop", "a name takes a cause's place"),
-    diagnosis("selection.py", "(best.candidate.passive or len(other", "(len(other", "a casting hides what bends it"),
-    diagnosis(
-        "selection.py",
-        "(_drove_out(own, best, eligible) or _clearly",
+        "preference.py",
+        "(_drove_out(own, best, ranking) or _clearly",
         "(_clearly",
         "a lag that drove out a name takes its place",
     ),
-    diagnosis("selection.py", " or _clearly(best, own))", " or True)", "members are swapped by a hair"),
+    diagnosis("preference.py", " or _clearly(best, own))", " or True)", "members are swapped by a hair"),
     # ---- products
     products("null.py", "DRAWS = 199", "DRAWS = 99", "p cannot fall below its limit"),
     products("null.py", "1 + np.sum(chance >= evidence)", "np.sum(chance >= evidence)", "chance has no chance"),

@@ -15,7 +15,7 @@ from thermodata.diagnosis.candidates import CandidateEffect
 from thermodata.diagnosis.discrepancy import Noise
 from thermodata.diagnosis.evidence import Columns, Weighed, columns, moments
 from thermodata.diagnosis.known import Known, known, likeliest, likeliest_of
-from thermodata.diagnosis.present import CONTROL, GENERIC
+from thermodata.diagnosis.preference import gives_way, preferred
 from thermodata.diagnosis.problem import Problem
 from thermodata.diagnosis.ranking import Ranked, rank_in, score
 from thermodata.diagnosis.scored import Scored
@@ -25,15 +25,8 @@ from thermodata.store.base.counting import counted
 MOST = 5  # effects that one diagnosis adds
 PASSES = 3
 WORTH = 10.0  # log evidence that a further effect must bring
-# a name, or fewer channels, is worth this share of the evidence: what a lag explains as well is not the lag's own
-NAMED_SHARE = 0.95
-ALIKE_SHARE = 0.8  # the same for a name on another channel, or beside a passive lag, that acts alike (cosine)
-ALIKE = 0.8
-FEWER_SHARE = 0.8
 STANDS = 0.15  # of the first one's evidence: less, and no noise brings a candidate to the front
 TRIED = 5  # candidates beside which the noise is estimated
-CAUSE_SHARE = 0.8  # and a cause, beside an effect of the model that acts otherwise: tests differ in much else
-UNNAMED = (GENERIC, CONTROL)
 
 
 @dataclass(frozen=True, slots=True)
@@ -250,31 +243,11 @@ def _member(
     ranking = rank_in(beside(problem, others), without([s.columns for s in first.ranked], others), noise)
     eligible = _only(ranking, among)
     best = preferred(eligible.ranked)
-    if (
-        best is not None
-        and (_drove_out(own, best, eligible) or _clearly(best, own))
-        and _foretells_more(best, own)
-        and sound(best)
-    ):
+    if best is not None and gives_way(own, best, eligible) and sound(best):
         # what it replaces leaves it the credit for what likelier and less likely members explain alike
         gained = best.evidence - own.evidence
         return Member(chosen[number], replace(best, credit=(own.credit or own.evidence) + gained), ranking.ranked)
     return Member(chosen[number], own, ranking.ranked)
-
-
-def _drove_out(own: Scored, best: Scored, ranking: Ranked) -> bool:
-    """Whether a lag is the likeliest, and a name is preferred to it."""
-    lag = own.candidate.family in UNNAMED and not own.candidate.within
-    return lag and ranking.ranked[0].columns is own.columns and best.columns is not own.columns
-
-
-def _foretells_more(best: Scored, own: Scored) -> bool:
-    """Left-out tests, or nearly as much where its rival could be no cause."""
-    return best.drop > own.drop or (own.candidate.passive and best.drop >= NAMED_SHARE * own.drop)
-
-
-def _clearly(best: Scored, own: Scored) -> bool:
-    return best.columns is not own.columns and own.evidence < NAMED_SHARE * best.evidence
 
 
 def without(pool: Sequence[Columns], chosen: Sequence[Scored]) -> list[Columns]:
@@ -285,33 +258,6 @@ def rank(problem: Problem, pool: Sequence[Columns], start: Noise | None, *, left
     """By evidence. start: where the search of the noise begins. left_out: whether the first `SCORED` are asked for the
     tests that are left out; who chooses by evidence alone needs only what they look like."""
     return rank_in(problem, pool, likeliest(problem, start), left_out=left_out)
-
-
-def preferred(ranked: Sequence[Scored]) -> Scored | None:
-    """The most likely, unless one that shares a channel with it has a name, or needs fewer channels, and is nearly as
-    likely."""
-    if not ranked:
-        return None
-    best = ranked[0]
-    own = set(best.candidate.channels)
-    for other in (s for s in ranked[1:] if len(s.shape) and not s.candidate.within):
-        theirs = set(other.candidate.channels)
-        fewer = theirs < own and best.candidate.family in UNNAMED
-        named = best.candidate.family in UNNAMED and other.candidate.family not in UNNAMED and own & theirs
-        elsewhere = (
-            best.candidate.family in UNNAMED
-            and other.candidate.family not in UNNAMED
-            and (best.candidate.passive or len(other.candidate.channels) == 1)
-            and abs(float(best.shape @ other.shape)) > ALIKE
-        )
-        if (
-            (fewer and other.evidence >= FEWER_SHARE * best.evidence)
-            or (best.candidate.within and other.evidence >= CAUSE_SHARE * best.evidence)
-            or (named and other.evidence >= NAMED_SHARE * best.evidence)
-            or (elsewhere and other.evidence >= ALIKE_SHARE * best.evidence)
-        ):
-            return other if not fewer else preferred([other, *(s for s in ranked if s is not other and s is not best)])
-    return best
 
 
 def extended(problem: Problem, made: Columns, weighed: Weighed) -> Problem:

@@ -1,0 +1,65 @@
+"""Which of two that explain nearly the same is taken: a name over a lag, fewer channels over more, and what makes heat
+over what follows it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from thermodata.diagnosis.present import CONTROL, GENERIC
+from thermodata.diagnosis.ranking import Ranked
+from thermodata.diagnosis.scored import Scored
+
+# a name, or fewer channels, is worth this share of the evidence: what a lag explains as well is not the lag's own
+NAMED_SHARE = 0.95
+ALIKE_SHARE = 0.8  # the same for a name on another channel, or beside a passive lag, that acts alike (cosine)
+ALIKE = 0.8
+FEWER_SHARE = 0.8
+CAUSE_SHARE = 0.8  # and a cause, beside an effect of the model that acts otherwise: tests differ in much else
+UNNAMED = (GENERIC, CONTROL)
+
+
+def preferred(ranked: Sequence[Scored]) -> Scored | None:
+    """The most likely, unless one that shares a channel with it has a name, or needs fewer channels, and is nearly as
+    likely."""
+    if not ranked:
+        return None
+    best = ranked[0]
+    own = set(best.candidate.channels)
+    for other in (s for s in ranked[1:] if len(s.shape) and not s.candidate.within):
+        theirs = set(other.candidate.channels)
+        fewer = theirs < own and best.candidate.family in UNNAMED
+        named = best.candidate.family in UNNAMED and other.candidate.family not in UNNAMED and own & theirs
+        elsewhere = (
+            best.candidate.family in UNNAMED
+            and other.candidate.family not in UNNAMED
+            and (best.candidate.passive or len(other.candidate.channels) == 1)
+            and abs(float(best.shape @ other.shape)) > ALIKE
+        )
+        if (
+            (fewer and other.evidence >= FEWER_SHARE * best.evidence)
+            or (best.candidate.within and other.evidence >= CAUSE_SHARE * best.evidence)
+            or (named and other.evidence >= NAMED_SHARE * best.evidence)
+            or (elsewhere and other.evidence >= ALIKE_SHARE * best.evidence)
+        ):
+            return other if not fewer else preferred([other, *(s for s in ranked if s is not other and s is not best)])
+    return best
+
+
+def gives_way(own: Scored, best: Scored, ranking: Ranked) -> bool:
+    """Whether a member is swapped for the preferred of those ranked beside the others."""
+    return (_drove_out(own, best, ranking) or _clearly(best, own)) and _foretells_more(best, own)
+
+
+def _drove_out(own: Scored, best: Scored, ranking: Ranked) -> bool:
+    """Whether a lag is the likeliest, and a name is preferred to it."""
+    lag = own.candidate.family in UNNAMED and not own.candidate.within
+    return lag and ranking.ranked[0].columns is own.columns and best.columns is not own.columns
+
+
+def _foretells_more(best: Scored, own: Scored) -> bool:
+    """Left-out tests, or nearly as much where its rival could be no cause."""
+    return best.drop > own.drop or (own.candidate.passive and best.drop >= NAMED_SHARE * own.drop)
+
+
+def _clearly(best: Scored, own: Scored) -> bool:
+    return best.columns is not own.columns and own.evidence < NAMED_SHARE * best.evidence
