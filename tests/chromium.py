@@ -53,6 +53,14 @@ _RESTING = """async selector => {
 }"""
 
 
+# how the browser says that a page was left while it was asked; a closed tab says otherwise
+_LEFT = ("navigated or closed", "context was destroyed", "Cannot find context", "Promise was collected")
+
+
+class PageLeftError(RuntimeError):
+    """The page was left for another before it answered."""
+
+
 def find() -> str | None:
     """The browser's path, or None."""
     named = os.environ.get("THERMODATA_CHROMIUM")
@@ -104,7 +112,9 @@ class Chromium:
             for answer in self._messages(until):
                 if answer.get("id") == number:
                     if "error" in answer:
-                        raise RuntimeError(f"{method}: {answer['error']['message']}")
+                        said = answer["error"]["message"]
+                        left = any(words in said for words in _LEFT)
+                        raise (PageLeftError if left else RuntimeError)(f"{method}: {said}")
                     return dict(answer["result"])
                 self.events.append(answer)
         raise TimeoutError(f"{method}: no answer within {timeout_s:g} s")
@@ -166,8 +176,9 @@ class Page:
                 raise ConnectionError(f"{url}: {failed}")
             again = time.monotonic() + timeout_s / 6  # a tab that was just made sometimes forgets where it was sent
             while time.monotonic() < again:
-                if self.js("document.readyState === 'complete' && location.href !== 'about:blank'"):
-                    return
+                with contextlib.suppress(PageLeftError):  # the one before it
+                    if self.js("document.readyState === 'complete' && location.href !== 'about:blank'"):
+                        return
                 time.sleep(0.02)
             if time.monotonic() > until:
                 raise TimeoutError(f"{url}: not loaded within {timeout_s:g} s")
@@ -179,20 +190,29 @@ class Page:
         self.call("Emulation.setEmulatedMedia", features=[scheme])
 
     def js(self, expression: str) -> Any:
-        """The value of an expression (of what it promises); an error of the page is one here."""
+        """The value of an expression (of what it promises); an error of the page is one here.
+
+        Raises:
+            PageLeftError: the page was left for another meanwhile.
+            RuntimeError: the page's error.
+        """
         answer = self.call("Runtime.evaluate", expression=expression, returnByValue=True, awaitPromise=True)
         if "exceptionDetails" in answer:
             raise RuntimeError(json.dumps(answer["exceptionDetails"])[:2000])
         return answer["result"].get("value")
 
     def wait(self, expression: str, timeout_s: float = 300.0) -> Any:
-        """The expression's value as soon as it is true; True for an element, which has no value of its own here."""
+        """The expression's value as soon as it is true; True for an element, which has no value of its own here.
+
+        A page that is left for another meanwhile is waited for: the next one is asked.
+        """
         until = time.monotonic() + timeout_s
         told = f"Promise.resolve({expression}).then(v => v instanceof Node ? true : v)"
         while True:
-            value = self.js(told)
-            if value:
-                return value
+            with contextlib.suppress(PageLeftError):
+                value = self.js(told)
+                if value:
+                    return value
             if time.monotonic() > until:
                 raise TimeoutError(f"not true within {timeout_s:g} s: {expression}")
             time.sleep(0.03)
@@ -218,7 +238,10 @@ class Page:
         while time.monotonic() < until:
             place = self.wait(f"({_RESTING})({json.dumps(selector)})", timeout_s)
             self.click(*place)
-            if self.js("new Promise(r => setTimeout(() => r(window.pressed !== false), 50))"):
+            try:
+                if self.js("new Promise(r => setTimeout(() => r(window.pressed !== false), 50))"):
+                    return
+            except PageLeftError:
                 return
         raise TimeoutError(f"no click reached {selector} within {timeout_s:g} s")
 

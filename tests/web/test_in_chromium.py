@@ -16,7 +16,7 @@ import pytest
 from thermodata.store import Store
 from thermodata.view.models import model_rows
 
-from ..chromium import Chromium, Page
+from ..chromium import Chromium, Page, PageLeftError
 
 PAGES = (
     "/",
@@ -30,6 +30,10 @@ PAGES = (
     "/start",
     "/report",
 )
+
+
+# nothing is wider than the window; charts follow a window that narrows a moment later
+FITS = "document.readyState === 'complete' && document.documentElement.scrollWidth <= innerWidth"
 
 
 @dataclass(frozen=True)
@@ -84,7 +88,7 @@ def test_every_page_wide_narrow_light_and_dark(served: Served) -> None:
             served.page.look(width, 900, dark)
             served.go(path)
             served.page.js("document.querySelectorAll('[data-chart]').forEach(b => ThermoChart.of(b))")
-            assert served.page.js("document.documentElement.scrollWidth <= innerWidth"), (path, width)
+            served.page.wait(FITS, timeout_s=60)
     assert served.page.complaints() == []
     assert {urlsplit(u).netloc for u in served.page.requests()} == {urlsplit(served.origin).netloc}
     assert looks(served.lab) == before
@@ -132,6 +136,23 @@ def test_the_search_for_overlaps_finds_one(chromium: Chromium) -> None:
     page = chromium.open("data:text/html,<p>one</p><p style='margin-top:-1.7em'>two</p><p>three</p>")
     try:
         assert page.js(OVERLAPS) == ["one over two"]
+    finally:
+        page.close()
+
+
+@pytest.mark.parametrize("after_ms", [0, 20, 40, 60, 100])
+def test_a_page_that_is_left_while_it_is_asked(chromium: Chromium, tmp_path: Path, after_ms: int) -> None:
+    """A click has reached the page that it leaves, and who waits waits for the next one; who asks is told."""
+    (tmp_path / "there.html").write_text("<p id=there>there</p>")
+    leave = f"setTimeout(() => location.assign('there.html?' + Math.random()), {after_ms})"
+    (tmp_path / "here.html").write_text(f'<button onclick="{leave}">go</button>')
+    page = chromium.open((tmp_path / "here.html").as_uri())
+    try:
+        page.press("button")
+        page.wait("document.querySelector('#there')")
+        page.js(f"{leave}; 0")
+        with pytest.raises(PageLeftError):
+            page.js("new Promise(() => 0)")
     finally:
         page.close()
 
@@ -186,7 +207,7 @@ def test_the_story_by_mouse(served: Served) -> None:
     assert [m.version for m in models] == [2, 1]
     assert "beside" in served.page.wait("document.querySelector('h1').textContent")
     served.page.look(390, 900)
-    assert served.page.js("document.documentElement.scrollWidth <= innerWidth")  # two versions beside each other
+    served.page.wait(FITS, timeout_s=60)  # two versions beside each other
     served.page.look(1200, 900)
     # undo: the version before, and both are still there
     served.press("a.quiet[href*='model=" + first.model + "']")
@@ -280,7 +301,7 @@ def test_the_server_killed_during_an_add_leaves_the_store_whole(served: Served) 
 
     served.go("/add?model=baseline&candidate=1")
     served.press("form[hx-post='/task/add'] button")
-    served.page.wait("document.querySelector('.task')")
+    served.page.wait("document.querySelector('.task') || location.pathname === '/compare'")
     served.process.kill()
     served.process.wait()
     store = Store(served.lab / "thermodata.store")
