@@ -341,3 +341,27 @@ def test_a_packed_variable_with_bytes_behind_its_end_is_a_loss(tmp_path: Path) -
     found = load(Reader(), path, Source())
     assert [s.name for s in found.recording.signals] == ["T2"]
     assert any("bytes behind its end" in loss.reason for loss in found.losses)
+
+
+@pytest.mark.parametrize("version", ["5", "7.3"])
+def test_zeros_in_text_are_the_blanks_that_matlab_shows(tmp_path: Path, version: str) -> None:
+    log = np.stack([np.arange(9.0)] * 3, 1)
+    path = tmp_path / "x.mat"
+    if version == "5":
+        scipy.io.savemat(path, {"log": log, "names": cell("time [s]", "dZ~[um]", "n [rpm]~~")})
+        assert path.read_bytes().count(b"~") == 3
+        path.write_bytes(path.read_bytes().replace(b"~", b"\0"))
+    else:
+        with h5py.File(path, "w", userblock_size=512) as file:
+            file.create_dataset("log", data=log.T).attrs["MATLAB_class"] = np.bytes_("double")
+            cells = []
+            for k, title in enumerate(("time [s]", "dZ\0[um]", "n [rpm]\0\0")):
+                codes = np.array([ord(c) for c in title], np.uint16)[:, None]
+                item = file.create_dataset(f"#refs#/r{k}", data=codes)
+                item.attrs["MATLAB_class"] = np.bytes_("char")
+                cells.append([item.ref])
+            named = file.create_dataset("names", data=np.array(cells, h5py.ref_dtype))
+            named.attrs["MATLAB_class"] = np.bytes_("cell")
+        head = b"MATLAB 7.3 MAT-file".ljust(116) + b"\0" * 8 + b"\x00\x02IM"
+        path.write_bytes(head.ljust(512, b"\0") + path.read_bytes()[512:])
+    assert names(load(Reader(), path, Source())) == [("dZ [um]", "um"), ("n [rpm]", "rpm")]

@@ -24,6 +24,7 @@ from thermodata_reader_table.mat.tree import (
     Structs,
     Text,
     Tree,
+    line,
 )
 
 _NUMBERS = {"double": "float64", "single": "float32", "logical": "bool"}
@@ -199,7 +200,7 @@ def _lines(item: Any) -> Text:
     if codes.dtype.kind not in "iu":
         raise ValueError(f"text of type {codes.dtype}")
     table = codes.T if codes.ndim == 2 else codes.reshape(1, -1)
-    return Text(tuple(row.astype("<u2").tobytes().decode("utf-16-le", "replace").rstrip() for row in table))
+    return Text(tuple(line(row.astype("<u2").tobytes().decode("utf-16-le", "replace")) for row in table))
 
 
 def _numbers(item: Any, kind: str, where: str, spans: Spans) -> Node:
