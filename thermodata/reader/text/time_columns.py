@@ -165,15 +165,17 @@ def find_time(
     words = [i for i in range(width) if i in likely or is_time_header(names[i])]
     dates = [i for i in range(width) if share(i, is_dated, 0.8)]
     clocks = [i for i in range(width) if share(i, is_clocked, 0.8)]
+    standing = _standing(
+        {i: [c for c in filled[i] if is_dated(c)] for i in dates},
+        [[c for c in filled[i] if is_clocked(c)] for i in clocks],
+    )
+    if standing and len(standing) == len(dates) and not _parts_go_on(names, data):
+        standing = set()
+    dates = [i for i in dates if i not in standing]
     if dates:
         first = next((i for i in dates if i in words), dates[0])
-        sample = next(r[first] for r in data if r[first] not in ("", None))
-        has_clock = (
-            ":" in sample
-            if isinstance(sample, str)
-            else hasattr(sample, "hour")
-            and (not clocks or any(r[first] and r[first].hour + r[first].minute + r[first].second for r in data))
-        )
+        sample = filled[first][0]
+        has_clock = ":" in sample if isinstance(sample, str) else not clocks or _tell_the_hour(filled[first])
         found = (first,) if has_clock or not clocks else (first, clocks[0])
         return (*found, *_milliseconds(found[-1] + 1, names, [r[found[-1]] for r in data], data))
     if clocks:
@@ -184,7 +186,7 @@ def find_time(
         return (min(numbers, key=lambda i: split_unit(names[i])[0].strip(" .:") == "t"),)
     if (units[0] or "").strip().lower() in SECONDS and share(0, is_number, 0.6):
         return (0,)
-    damaged = [i for i in range(width) if share(i, is_dated, 0.3)]
+    damaged = [i for i in range(width) if i not in standing and share(i, is_dated, 0.3)]
     if damaged:
         return (damaged[0],)
     raise FormatError(
@@ -194,6 +196,26 @@ def find_time(
         expected="a column of dates, or one called time or with s, min or h as its unit",
         hint="declare table: {time: {column: 1, unit: s}}, or time: {period: 60 s} for rows that nothing dates",
     )
+
+
+def _tell_the_hour(cells: Sequence[Cell]) -> bool:
+    """Whether dates hold a time of day; those of a workbook, one that is not midnight in all of them."""
+    return any(
+        ":" in c if isinstance(c, str) else bool(hasattr(c, "hour") and (c.hour or c.minute or c.second)) for c in cells
+    )
+
+
+def _standing(dates: Mapping[int, Sequence[Cell]], clocks: Sequence[Sequence[Cell]]) -> set[int]:
+    """Columns of dates that are one and the same in all rows: of when something was calibrated, not of when rows were
+    measured. A day stands beside a time of day that goes on."""
+    running = any(len(set(cells)) > 1 for cells in clocks)
+    return {i for i, cells in dates.items() if len(set(cells)) == 1 and not (running and not _tell_the_hour(cells))}
+
+
+def _parts_go_on(names: list[str], data: list[list[Cell]]) -> bool:
+    """Whether a date in columns of its own differs from row to row."""
+    parts = find_parts(names, data)
+    return parts is not None and len({tuple(r[i] for i in parts[0]) for r in data}) > 1
 
 
 def _parts_or_question(
@@ -230,9 +252,7 @@ def _tells_all(columns: tuple[int, ...], parts: tuple[int, ...], data: list[list
     cells = [r[columns[0]] for r in data if r[columns[0]] not in ("", None)]
     if not any(map(is_dated, cells)):
         return not any(map(is_clocked, cells))
-    return len(columns) > 1 or any(
-        ":" in c if isinstance(c, str) else bool(hasattr(c, "hour") and (c.hour or c.minute or c.second)) for c in cells
-    )
+    return len(columns) > 1 or _tell_the_hour(cells)
 
 
 def _worded_time(names: list[str], data: list[list[Cell]]) -> tuple[int, list[str]] | None:
