@@ -89,7 +89,8 @@ class DraftTest:
 
 @dataclass(frozen=True, slots=True)
 class Draft:
-    """A campaign file to be. not_used: (path, reason); damaged: (path, what); table: of tests, where one is there."""
+    """A campaign file to be. not_used: (path, reason); failed: (path, reader) of those among them that a reader claims
+    and could not read; damaged: (path, what); table: of tests, where one is there."""
 
     campaign: str
     sources: tuple[DraftSource, ...]
@@ -100,6 +101,7 @@ class Draft:
     not_used: tuple[tuple[str, str], ...] = ()
     damaged: tuple[tuple[str, str], ...] = ()
     notes: tuple[str, ...] = field(default_factory=tuple)
+    failed: tuple[tuple[str, str], ...] = ()
 
 
 def plan(campaign: str, folder: Path, found: Scan) -> Draft:
@@ -164,7 +166,16 @@ def plan(campaign: str, folder: Path, found: Scan) -> Draft:
             "these lines"
         )
     return Draft(
-        campaign, sources, tuple(channels), tuple(calibrations), tests, table, left_out, found.damaged, tuple(notes)
+        campaign,
+        sources,
+        tuple(channels),
+        tuple(calibrations),
+        tests,
+        table,
+        left_out,
+        found.damaged,
+        tuple(notes),
+        tuple(x for x in found.failed if table is None or x[0] != table.file),
     )
 
 

@@ -12,7 +12,7 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path, PurePosixPath
 from typing import Any
 
-from thermodata.draft.sample import SMALL, Course, Sample, Watch, sample_of
+from thermodata.draft.sample import SMALL, Course, Sample, Watch, sample_of, short
 from thermodata.errors import QuestionError, ThermodataError
 from thermodata.plugin import Reader, Recording, Signal, Source
 from thermodata.reader.explain import kind_of
@@ -25,6 +25,7 @@ _SAMPLES_S, _HEADERS_S = 15.0, 40.0  # of the whole folder
 _MOST_QUESTIONS = 4
 _ASSUMED = "counted as 1 s each|taken as seconds from a start"
 _UNIT: Mapping[str, Any] = {"time": {"unit": UNKNOWN}}
+_UNREAD = (ThermodataError, OSError, MemoryError)  # of one file: the others are drafted all the same
 _NOT_LOGS = frozenset((".yaml", ".yml", ".md", ".tdms_index"))
 __all__ = [
     "Asked",
@@ -92,13 +93,15 @@ class RawFile:
 
 @dataclass(frozen=True, slots=True)
 class Scan:
-    """logs: files to draft from; ignored: (path, reason) of the others; damaged: (path, what) of logs with a defect;
-    others: files that no reader claims but that may be tables of tests."""
+    """logs: files to draft from; ignored: (path, reason) of the others; failed: (path, reader) of those among them that
+    a reader claims and could not read; damaged: (path, what) of logs with a defect; others: files that are no logs but
+    may be tables of tests."""
 
     logs: tuple[RawFile, ...]
     ignored: tuple[tuple[str, str], ...] = ()
     damaged: tuple[tuple[str, str], ...] = ()
     others: tuple[str, ...] = ()
+    failed: tuple[tuple[str, str], ...] = ()
 
 
 def scan(folder: Path, progress: Progress | None = None) -> Scan:
@@ -108,6 +111,7 @@ def scan(folder: Path, progress: Progress | None = None) -> Scan:
     watch, spent = Watch(), 0.0
     logs: dict[str, RawFile] = {}
     ignored: list[tuple[str, str]] = []
+    failed: list[tuple[str, str]] = []
     shapes: dict[str, RawFile] = {}
     for done, path in enumerate(_spread(paths)):
         tell(done, len(paths), str(path))
@@ -132,7 +136,12 @@ def scan(folder: Path, progress: Progress | None = None) -> Scan:
             if who is None:
                 ignored.append((str(path), why))
                 continue
-            found = described_files(who, full, path)
+            try:
+                found = described_files(who, full, path)
+            except _UNREAD as error:
+                failed.append((str(path), who.name))
+                ignored.append((str(path), f"reader '{who.name}' claims it and can't read it: {short(error)}"))
+                continue
             ignored += [(str(path), why) for why in found[0].besides]
             for made in found:
                 if made.size < SMALL and spent < _SAMPLES_S:  # now, for its reader has just looked at it
@@ -144,8 +153,8 @@ def scan(folder: Path, progress: Progress | None = None) -> Scan:
             if str(path) in logs and not logs[str(path)].signals:
                 del logs[str(path)]
                 ignored.append((str(path), f"{who.name}: it holds no signal"))
-        except (ThermodataError, OSError) as error:
-            ignored.append((str(path), _short(error)))
+        except _UNREAD as error:
+            ignored.append((str(path), short(error)))
     sampled = _sampled(folder, logs, tell)
     ordered = [str(p) for p in paths]
     damaged = list(dict.fromkeys((str(f.path), _damage(f)) for f in sampled if _damage(f)))
@@ -156,6 +165,7 @@ def scan(folder: Path, progress: Progress | None = None) -> Scan:
         tuple(ignored),
         tuple(damaged),
         tuple(dict.fromkeys(p for p, _ in ignored)),
+        tuple(failed),
     )
 
 
@@ -282,13 +292,9 @@ def _without_start(recording: Recording) -> Recording:
     return Recording(recording.signals, recording.clock, None, None, ())
 
 
-def _short(error: Exception) -> str:
-    got = getattr(error, "got", None)
-    what = getattr(error, "what", None) or str(error)
-    return "; ".join(str(what).splitlines()) + (f" ({got})" if got else "")
-
-
 def _damage(file: RawFile) -> str:
+    if file.sample.failed:
+        return f"reader '{file.reader}' stopped in it: {file.sample.failed}"
     if file.recording.complete is False:
         wrong = [n for n in file.recording.notes if re.search(r"cut|damag|end|incomplete|lost|truncat|missing|past", n)]
         return wrong[0] if wrong else "it does not end as it should"
