@@ -18,9 +18,11 @@ from thermodata.reader.text import split_unit, time_formats
 from thermodata.reader.text.header import unique
 from thermodata.reader.text.layout import period_s
 from thermodata.reader.text.time_columns import column as find_column
-from thermodata.reader.text.time_columns import find_time, is_time_header, no_time, unit_of_time
+from thermodata.reader.text.time_columns import find_time
 from thermodata.reader.text.time_formats import times_of_numbers
 from thermodata.reader.text.time_groups import one_time
+from thermodata.reader.text.time_header import is_time_header, unit_of_time
+from thermodata.reader.text.time_questions import no_time
 from thermodata.reader.time_units import check_unit, found_epoch, to_ns
 from thermodata_reader_table.parquet.columns import nanoseconds, numbers
 from thermodata_reader_table.parquet.footer_check import check_footer
