@@ -11,7 +11,7 @@ import numpy as np
 
 from thermodata.errors import FormatError
 from thermodata.plugin import Array, Loss
-from thermodata_reader_table.mat.hdf5_check import Spans, check_found, check_stored
+from thermodata_reader_table.mat.hdf5_check import Spans, check_found, check_size, check_stored
 from thermodata_reader_table.mat.tree import (
     MAX_DEPTH,
     MAX_NODES,
@@ -157,6 +157,7 @@ class _Walk:
     def _cells(self, item: Any, depth: int) -> Cells:
         if item.size > MAX_NODES:
             raise ValueError(f"{item.size} parts")
+        check_size(item)
         check_found(item)
         shape = item.shape
         references = np.asarray(item[()]).ravel()  # C order of the turned shape is MATLAB's column by column
@@ -195,6 +196,7 @@ def _no_numbers() -> Numbers:
 def _lines(item: Any) -> Text:
     if item.size > MAX_TEXT:
         raise ValueError(f"{item.size} characters")
+    check_size(item)
     check_found(item)
     codes = np.atleast_2d(np.asarray(item[()]))
     if codes.dtype.kind not in "iu":
