@@ -384,6 +384,7 @@ def test_a_data_set_that_declares_less_than_it_holds_is_a_loss(tmp_path: Path, s
                 return item
 
             put("t", np.arange(9.0)[None, :], "double")
+            put("speed", np.arange(9.0)[None, :] + 1, "double")
             put("log", log.T, "double", "rows", chunks=(1, 9), compression="gzip")
             cells = [[put(f"#refs#/r{k}", title + k, "char", "name" if k else None).ref] for k in range(3)]
             put("names", np.array(cells, h5py.ref_dtype), "cell", "names")
