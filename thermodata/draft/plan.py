@@ -18,7 +18,8 @@ from thermodata.draft.measuring import Named, rule_of
 from thermodata.draft.naming import channel_name, words
 from thermodata.draft.place import axis_of
 from thermodata.draft.quantity import Guess
-from thermodata.draft.scan import RawFile, Scan
+from thermodata.draft.raw_file import RawFile
+from thermodata.draft.scan import Scan
 from thermodata.draft.sources import Group, sources_of
 from thermodata.draft.table import TestTable, closed_workbooks, find_table, is_called_table
 from thermodata.draft.units import rate_at_end
