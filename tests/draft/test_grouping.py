@@ -9,7 +9,8 @@ import numpy as np
 import pytest
 
 from thermodata.draft.filenames import matches, normal
-from thermodata.draft.plan import Draft, plan
+from thermodata.draft.parts import Draft
+from thermodata.draft.plan import plan
 from thermodata.draft.scan import scan
 from thermodata.draft.write import text_of
 from thermodata.schema.campaign import Campaign

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
-from thermodata.draft.plan import Draft, DraftChannel
+from thermodata.draft.parts import Draft, DraftChannel
 
 
 def as_json(draft: Draft, out: Path, files: int, questions: int, model: Path | None) -> dict[str, Any]:

@@ -7,7 +7,7 @@ import re
 from collections.abc import Mapping, Sequence
 from pathlib import PurePosixPath
 
-from thermodata.draft.plan import Draft, DraftChannel, DraftJump, DraftSource, DraftTest
+from thermodata.draft.parts import Draft, DraftChannel, DraftJump, DraftSource, DraftTest
 from thermodata.draft.testsfrom import Pattern, pattern_of
 
 _PLACES = "at: where on the machine, e.g. spindle.bearing.front, axis.z.nut, column.rear, hall.top, floor"
