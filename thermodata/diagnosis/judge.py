@@ -105,8 +105,8 @@ def judge(
 def _enough(rest: float, limit: float, unit: str, measure: Measure) -> str:
     """Why no cause is missing. rest: the error of left-out tests, with what refines the model where something does."""
     return (
-        f"the error on left-out tests, {rest:.2g} {unit}, is {rest / measure.spread:.0%} of the response, as lags leave "
-        f"of a machine that lacks nothing (limit {limit / measure.spread:.0%}), and nothing logged explains it"
+        f"the error on left-out tests, {rest:.2g} {unit}, is {rest / measure.spread:.0%} of the response, as lags "
+        f"leave of a machine that lacks nothing (limit {limit / measure.spread:.0%}), and nothing logged explains it"
     )
 
 
