@@ -35,7 +35,7 @@ from thermodata.diagnosis.selection import Selection, any_stands_out, first_rank
 from thermodata.diagnosis.weak import weak_spots
 from thermodata.modelling.fitted_response import FittedResponse
 from thermodata.plugin import Effect
-from thermodata.schema.result import Artefact, WeakSpot
+from thermodata.schema.diagnosis import Artefact, WeakSpot
 from thermodata.view.dataset import ChannelInfo, Dataset, TestData
 
 # rows of all tests in which candidates are weighed: the covariance of a test costs the cube of its rows

@@ -20,7 +20,7 @@ from thermodata.errors import UsageError
 from thermodata.modelling.candidate import candidate_spec, changed, gain_by_of, phases_of
 from thermodata.modelling.fitted_response import FittedResponse
 from thermodata.modelling.run import Loaded, chosen_id, load
-from thermodata.schema.result import Confirmed, Diagnosis, TestConfirmed
+from thermodata.schema.diagnosis import Confirmed, Diagnosis, TestConfirmed
 from thermodata.store.base.counting import watched
 from thermodata.version import __version__
 

@@ -15,8 +15,9 @@ from thermodata.report.records import written_conditions
 from thermodata.report.spots import weak_spots_of
 from thermodata.report.verdict import claims_of
 from thermodata.report.words import base_role, pooled
+from thermodata.schema.diagnosis import Diagnosis
 from thermodata.schema.model import EffectSpec
-from thermodata.schema.result import Diagnosis, Score
+from thermodata.schema.result import Score
 
 if TYPE_CHECKING:
     from thermodata.modelling.fitted import FittedModel
