@@ -9,7 +9,16 @@ import numpy as np
 import pytest
 
 from thermodata.diagnosis.judge import equivalents
-from thermodata.diagnosis.rules import Measure, acting_size, blunt, explained, failed_rules, probability, sharpness
+from thermodata.diagnosis.rules import (
+    Measure,
+    acting_size,
+    at_best,
+    blunt,
+    explained,
+    failed_rules,
+    probability,
+    sharpness,
+)
 
 from .hand_made import measure, scored
 
@@ -165,6 +174,13 @@ def test_the_probability_is_that_of_its_sharpness_and_of_what_it_is(
     """1 / (1 + exp(-2.6 - 2.15 log10(sharpness) - 0.9 fall + 1.1 if beaten + 2.65 if passive)); the least sharpness is
     1e-4, and an error that rises by more than a fifth says no more."""
     assert probability(scored(evidence=evidence, after=after, **kind)) == pytest.approx(share, rel=1e-3)
+
+
+@pytest.mark.parametrize(("samples", "share"), [(1000, 0.97069), (10000, 0.79413), (0, 0.99995)])
+def test_at_best_left_out_tests_are_foretold_and_nothing_is_sharper(samples: int, share: float) -> None:
+    """Whatever it was found to foretell: 1 / (1 + exp(-2.6 - 2.15 log10(1000 / samples) - 0.9))."""
+    one = scored(evidence=1000.0, after=1.4, beaten=True)
+    assert at_best(one, samples) == pytest.approx(share, rel=1e-3)
 
 
 @pytest.mark.parametrize(

@@ -162,8 +162,15 @@ def test_a_further_effect_brings_ten(monkeypatch: pytest.MonkeyPatch, evidence: 
 
 
 def test_what_may_not_be_chosen_is_ranked_and_takes_no_place(monkeypatch: pytest.MonkeyPatch) -> None:
-    """a does better than b, and would be swapped for it."""
+    """a does better than b, in left-out tests too, and would be swapped for it."""
     world = Worlds(monkeypatch, lambda n, known: {"a": 200.0, "b": 100.0, "c": 50.0}[n])
+    original = world._scored
+
+    def as_left_out(problem: Problem, one: Columns) -> Scored:
+        made = original(problem, one)
+        return replace(made, own_after=0.1**2 * made.rows) if name(made) == "a" else made
+
+    monkeypatch.setattr(world, "_scored", as_left_out)
     found = world.select("abc", among="bc")
     assert members(found) == ["b", "c"]
     assert [name(s) for s in found.first.ranked] == ["a", "b", "c"]

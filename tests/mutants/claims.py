@@ -226,9 +226,7 @@ MUTANTS = [
         "selection, judgement = judged(everything)",
         "proxies",
     ),
-    diagnosis(
-        "investigate.py", "if not judgement.claims and len(active)", "if len(active)", "a casting drives out the cause"
-    ),
+    diagnosis("investigate.py", "if not judgement.claims and any_", "if any_", "a casting drives out the cause"),
     diagnosis(
         "selection.py", "best = preferred(eligible.ranked)", "best = preferred(ranking.ranked)", "a casting swaps in"
     ),
