@@ -9,7 +9,8 @@ import numpy as np
 import pytest
 
 from thermodata.draft.filenames import matches, normal
-from thermodata.draft.plan import Draft, plan
+from thermodata.draft.parts import Draft
+from thermodata.draft.plan import plan
 from thermodata.draft.scan import scan
 from thermodata.draft.write import text_of
 from thermodata.schema.campaign import Campaign
@@ -210,7 +211,7 @@ def test_a_file_that_two_readers_claim_is_said_with_both_reasons(
     (tmp_path / "b.dat").write_text("x\n")
     real = __import__("thermodata.reader.registry", fromlist=["claims"]).claims
     monkeypatch.setattr(
-        "thermodata.draft.scan.claims",
+        "thermodata.draft.raw_file.claims",
         lambda path: {"crio": "one reason", "table": "another"} if Path(path).name == "b.dat" else real(path),
     )
     drafted(tmp_path)

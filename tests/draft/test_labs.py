@@ -10,7 +10,8 @@ from typing import Any
 import pytest
 import yaml
 
-from thermodata.draft.plan import Draft, plan
+from thermodata.draft.parts import Draft
+from thermodata.draft.plan import plan
 from thermodata.draft.scan import scan
 from thermodata.draft.write import text_of
 from thermodata.schema.load import load_campaign

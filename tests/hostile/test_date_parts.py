@@ -287,6 +287,97 @@ def test_hours_need_no_minutes(read: Any, lab: Lab, tmp_path: Path) -> None:
     np.testing.assert_allclose(lab.values("T1")[0], np.arange(60) * 3600.0)
 
 
+@pytest.mark.parametrize("form", ["%H:%M:%S", "%H:%M:%S.%f", "%I:%M:%S %p"])
+@pytest.mark.parametrize("parts", [4, 5])
+def test_a_time_of_day_beside_parts_without_seconds_tells_them(
+    read: Any, tmp_path: Path, parts: int, form: str
+) -> None:
+    head = ["Year", "Month", "Day", "Hour", "Minute"][:parts]
+    rows = [[*in_six(t)[:parts], f"{t:{form}}", 20 + i / 8] for i, t in enumerate(SECONDS)]
+    text = "\n".join(";".join(map(str, r)) for r in ([*head, "Clock", "T1"], *rows)) + "\n"
+    data = read(text, by="table")
+    np.testing.assert_array_equal(times(data), WANTED[0] + np.arange(60) * 1_000_000_000)
+    assert any("'Day', 'Clock'" in note for note in data.recording.notes)
+    named = [s.name for s in data.recording.signals]
+    assert named == [*head[3:], "T1"], "hours and minutes stay what they are, signals"
+    workbook(
+        tmp_path / "made.xlsx",
+        {"a": [[*head, "Clock", "T1"], *([*r[:-2], t.time(), r[-1]] for r, t in zip(rows, SECONDS, strict=True))]},
+    )
+    data = read((tmp_path / "made.xlsx").read_bytes(), "a.xlsx", by="table")
+    np.testing.assert_array_equal(times(data), WANTED[0] + np.arange(60) * 1_000_000_000)
+
+
+def test_a_time_of_day_that_disagrees_with_parts_is_none_of_them(read: Any) -> None:
+    """How long a test has lasted, beside the minute in which the row was written."""
+    text = parts_beside("Year;Month;Day;Hour;Minute;Elapsed;T1", lambda i, t: [*in_five(t), f"0:00:{i:02d}"])
+    data = read(text, by="table")
+    np.testing.assert_array_equal(times(data), np.full(60, WANTED[0]))
+    assert [s.name for s in data.recording.signals] == ["Elapsed", "T1"]
+
+
+@pytest.mark.parametrize("clock", ["%H:%M:%S", "%I:%M:%S %p"])
+def test_milliseconds_behind_a_time_of_day_beside_parts_are_joined(read: Any, tmp_path: Path, clock: str) -> None:
+    moments = [FIRST + timedelta(milliseconds=500 * i) for i in range(60)]
+    head = ["Year", "Month", "Day", "Time", "ms", "T1"]
+    rows = [[*in_six(t)[:3], f"{t:{clock}}", t.microsecond // 1000, 20 + i / 8] for i, t in enumerate(moments)]
+    data = read("\n".join(";".join(map(str, r)) for r in (head, *rows)) + "\n", by="table")
+    np.testing.assert_array_equal(times(data), WANTED[0] + np.arange(60) * 500_000_000)
+    assert [s.name for s in data.recording.signals] == ["T1"]
+    workbook(
+        tmp_path / "made.xlsx",
+        {"a": [head, *([*r[:3], t.time().replace(microsecond=0), *r[4:]] for r, t in zip(rows, moments, strict=True))]},
+    )
+    data = read((tmp_path / "made.xlsx").read_bytes(), "a.xlsx", by="table")
+    np.testing.assert_array_equal(times(data), WANTED[0] + np.arange(60) * 500_000_000)
+
+
+@pytest.mark.parametrize(
+    ("clock", "thousandths"),
+    [("%H:%M:%S.%f", lambda i: 500), ("%H:%M", lambda i: i), ("%H:%M:%S", lambda i: i * 40)],
+)
+def test_numbers_that_are_no_milliseconds_of_the_time_stay_a_signal(
+    read: Any, clock: str, thousandths: Callable[[int], int]
+) -> None:
+    """Of a time with fractions, of one without seconds, and beyond a second."""
+    text = parts_beside("Year;Month;Day;Time;ms;T1", lambda i, t: [*in_six(t)[:3], f"{t:{clock}}", thousandths(i)])
+    data = read(text, by="table")
+    assert [s.name for s in data.recording.signals] == ["ms", "T1"]
+    assert times(data)[0] == WANTED[0]
+
+
+CALIBRATED = ["2025-11-03 10:00:00", "03.11.2025 10:00", "2025-11-03"]
+
+
+GOING_ON: dict[str, Callable[[int, datetime], Sequence[Any]]] = {
+    "Year;Month;Day;Hour;Minute;Second": lambda i, t: in_six(t),
+    "Year;Month;Day;Time": lambda i, t: [*in_six(t)[:3], f"{t:%H:%M:%S}"],
+    "Measured at": lambda i, t: [f"{t:%Y-%m-%d %H:%M:%S}"],
+    "Tag;Messung um": lambda i, t: [f"{t:%Y-%m-%d}", f"{t:%H:%M:%S}"],
+}
+
+
+@pytest.mark.parametrize(
+    ("stamp", "header"),
+    # of two days beside a time of day the first counts
+    [(s, h) for s in CALIBRATED for h in GOING_ON if ":" in s or not h.startswith("Tag")],
+)
+def test_a_date_that_is_the_same_in_all_rows_is_not_their_time(read: Any, stamp: str, header: str) -> None:
+    cells = GOING_ON[header]
+    data = read(parts_beside(f"Calibrated;{header};T1", lambda i, t: [stamp, *cells(i, t)]), by="table")
+    np.testing.assert_array_equal(times(data), WANTED[0] + np.arange(60) * 1_000_000_000)
+    assert [s.name for s in data.recording.signals] == ["Calibrated", "T1"]
+
+
+def test_a_date_that_is_the_same_in_all_rows_is_the_time_where_nothing_else_is(read: Any) -> None:
+    rows = "".join(f"2026-02-28 23:40:00;{i}\n" for i in range(60))
+    data = read("Measured;T1\n" + rows, by="table")
+    np.testing.assert_array_equal(times(data), np.full(60, WANTED[0]))
+    standing = "".join(f"2026;2;28;23;40;2026-02-28 23:40:00;{i}\n" for i in range(60))
+    data = read("Year;Month;Day;Hour;Minute;Measured;T1\n" + standing, by="table")
+    np.testing.assert_array_equal(times(data), np.full(60, WANTED[0]))
+
+
 @pytest.mark.parametrize("declared", [None, {"time": {"column": 1}}])
 def test_a_word_behind_another_column_is_not_asked_for(read: Any, declared: Any) -> None:
     rows = "".join(f"{t:%Y-%m-%d %H:%M:%S};{i};{t:%H:%M:%S} OK\n" for i, t in enumerate(SECONDS))

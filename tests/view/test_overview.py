@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
+from pathlib import Path
 from typing import Any
 
+import duckdb
 import numpy as np
 import pytest
 
@@ -183,17 +185,63 @@ def test_a_window_outlives_what_another_thread_forgets(store: Store, monkeypatch
     assert len(window.t_s) == len(T_S)
 
 
-def test_a_file_that_is_gone_is_the_stores_own_error(build: Callable[[], Any]) -> None:
+def _half(path: Path) -> None:
+    path.write_bytes(path.read_bytes()[: path.stat().st_size // 2])
+
+
+def _without_schema(path: Path) -> None:
+    data = bytearray(path.read_bytes())
+    footer = len(data) - 8 - int.from_bytes(data[-8:-4], "little")
+    data[footer : footer + 60] = b"\xff" * 60
+    path.write_bytes(data)
+
+
+def _without_pages(path: Path) -> None:
+    data = bytearray(path.read_bytes())
+    footer = len(data) - 8 - int.from_bytes(data[-8:-4], "little")
+    data[4:footer] = b"\xff" * (footer - 4)
+    path.write_bytes(data)
+
+
+@pytest.mark.parametrize("spoil", [Path.unlink, _half, _without_schema, _without_pages])
+@pytest.mark.parametrize("looked", [False, True])
+def test_a_file_that_is_gone_cut_or_altered_is_the_stores_own_error(
+    build: Callable[[], Any], spoil: Callable[[Path], None], looked: bool
+) -> None:
+    b = build()
+    b.test("lab", "a")
+    for channel in ("dZ", "dY"):
+        b.channel("lab", "a", channel)
+    path = b.tidy("lab", "a", T_S, {"dZ": T_S, "dY": T_S})
+    store = b.store()
+    channels = channels_of(store, "lab", "a")
+    if looked:
+        (window,) = read_window(store, "lab", "a", channels)
+        assert len(window.t_s) == len(T_S)
+    spoil(path)
+    with pytest.raises(StoreError, match="a file of the store is damaged") as told:
+        read_window(store, "lab", "a", channels)
+    assert told.value.where == str(path)
+    assert "check" in str(told.value.hint)
+
+
+@pytest.mark.parametrize("spoil", [Path.unlink, _half, _without_pages])
+def test_whoever_reads_a_damaged_file_of_the_store_is_told_so(
+    build: Callable[[], Any], spoil: Callable[[Path], None]
+) -> None:
     b = build()
     b.test("lab", "a")
     b.channel("lab", "a", "dZ")
     path = b.tidy("lab", "a", T_S, {"dZ": T_S})
-    store = b.store()
-    channels = channels_of(store, "lab", "a")
-    path.unlink()
-    with pytest.raises(StoreError, match="damaged") as told:
-        read_window(store, "lab", "a", channels)
-    assert told.value.where == str(path)
+    store, query = b.store(), f"select sum(dZ), sum(t_s) from read_parquet('{path}')"
+    with store.reader() as con:
+        assert con.execute(query).fetchall()
+    spoil(path)
+    with pytest.raises(StoreError, match="a file of the store is damaged") as told, store.reader() as con:
+        con.execute(query).fetchall()
+    assert told.value.got == "a header within a Parquet file can't be read" or path.name in str(told.value.got)
+    with pytest.raises(duckdb.Error, match="no_such_table"), store.reader() as con:
+        con.execute("select * from no_such_table")
 
 
 def test_models_come_with_their_effects_and_units(store: Store) -> None:

@@ -16,6 +16,7 @@ from thermodata.report.table import table
 if TYPE_CHECKING:
     from thermodata.draft.make import Drafted
 
+_SAID = 5  # files that can't be read, each with its reason
 _FILE = click.Path(path_type=Path, exists=True, dir_okay=False)
 
 
@@ -38,8 +39,14 @@ def init_command(session: Session, folder: Path, force: bool) -> None:
     if made.model is not None:
         session.say(f"a first model of what the sensors explain: {made.model}")
     draft = made.draft
+    reasons = dict(draft.not_used)
+    for path, _ in draft.failed[:_SAID]:
+        session.say(f"{path}: {reasons[path]}")
+    if len(draft.failed) > _SAID:
+        session.say(f"{len(draft.failed) - _SAID} more files that a reader claims and can't read: the draft names them")
     if not draft.sources:
-        session.say(f"no reader claims any file of {folder}: the draft names them, and what would help")
+        whose = "no file of {} could be read" if draft.failed else "no reader claims any file of {}"
+        session.say(f"{whose.format(folder)}: the draft names them, and what would help")
     session.say(
         f"{made.files} files, {len(draft.tests)} tests, {len(draft.sources)} sources, "
         f"{sum(c.said.quantity is not None for c in draft.channels)} channels; {made.questions} lines hold a question: "

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
-from thermodata.draft.plan import Draft, DraftChannel
+from thermodata.draft.parts import Draft, DraftChannel
 
 
 def as_json(draft: Draft, out: Path, files: int, questions: int, model: Path | None) -> dict[str, Any]:
@@ -71,6 +71,7 @@ def as_json(draft: Draft, out: Path, files: int, questions: int, model: Path | N
         ],
         "table": None if draft.table is None else {"file": draft.table.file, "key": draft.table.key},
         "ignored": [{"file": p, "why": w} for p, w in draft.not_used],
+        "failed": [{"file": p, "reader": r} for p, r in draft.failed],
         "damaged": [{"file": p, "what": w} for p, w in draft.damaged],
         "notes": list(draft.notes),
     }

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from thermodata.draft.plan import Draft
+from thermodata.draft.parts import Draft
 from thermodata.draft.write import flow, one_line, scalar
 from thermodata.effect.binding import bindings
 from thermodata.effect.registry import effects

@@ -9,7 +9,7 @@ from datetime import UTC, datetime
 from zoneinfo import ZoneInfo
 
 from thermodata.calibration.clock import estimate_offset
-from thermodata.draft.scan import RawFile
+from thermodata.draft.raw_file import RawFile
 from thermodata.draft.sources import Group
 from thermodata.errors import ThermodataError
 

@@ -8,7 +8,7 @@ from dataclasses import replace
 from itertools import pairwise
 
 from thermodata.draft.filenames import Naming, matches, namings, normal
-from thermodata.draft.scan import RawFile
+from thermodata.draft.raw_file import RawFile
 from thermodata.draft.sources import Group
 
 _NEAR_NS = 15 * 60 * 1_000_000_000

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections import Counter
 
-from thermodata.draft.scan import RawFile
+from thermodata.draft.raw_file import RawFile
 from thermodata.draft.sources import Group
 
 _SAID = re.compile(

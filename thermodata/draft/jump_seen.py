@@ -8,7 +8,7 @@ from pathlib import Path, PurePosixPath
 
 from thermodata.calibration.plateaus import Step
 from thermodata.draft.jumps import staircase
-from thermodata.draft.scan import sampled_file
+from thermodata.draft.raw_file import sampled_file
 from thermodata.errors import ThermodataError, UsageError, unknown_name
 from thermodata.plugin import Float1D
 from thermodata.reader.match import match_signal

@@ -13,7 +13,8 @@ import numpy as np
 from thermodata.calibration.plateaus import Step, find_steps
 from thermodata.draft.guess import guess
 from thermodata.draft.naming import words
-from thermodata.draft.scan import Course, RawFile
+from thermodata.draft.raw_file import RawFile
+from thermodata.draft.sample import Course
 from thermodata.draft.vocabulary import says
 from thermodata.plugin import Float1D
 

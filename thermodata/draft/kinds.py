@@ -12,8 +12,8 @@ import numpy as np
 from thermodata.draft.guess import guess
 from thermodata.draft.naming import words
 from thermodata.draft.place import axis_of
+from thermodata.draft.raw_file import RawFile
 from thermodata.draft.said_by_names import Said, said_by
-from thermodata.draft.scan import RawFile
 from thermodata.draft.vocabulary import says
 from thermodata.errors import UsageError
 from thermodata.plugin import Float1D

@@ -9,7 +9,8 @@ from pathlib import Path
 
 from thermodata.draft.baseline import model_text, model_text_of, responses_of
 from thermodata.draft.naming import plain
-from thermodata.draft.plan import Draft, plan
+from thermodata.draft.parts import Draft
+from thermodata.draft.plan import plan
 from thermodata.draft.scan import Progress, scan
 from thermodata.draft.write import questions_in, text_of
 from thermodata.errors import UsageError, unknown_name

@@ -7,7 +7,8 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from thermodata.draft.scan import Course, RawFile
+from thermodata.draft.raw_file import RawFile
+from thermodata.draft.sample import Course
 from thermodata.plugin import Bool1D, Float1D
 
 _LEAST = 0.02  # of the samples out of range, and in it

@@ -1,24 +1,25 @@
-"""The draft of a campaign as plain data: what `init --json` prints and draft/write.py writes as YAML."""
+"""The draft of a campaign from what its folder holds: sources, channels, calibrations, tests, and what is asked."""
 
 from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 from pathlib import Path
-from typing import Any
 
-from thermodata.draft.clocks import Alignment, alignments, zone_question
+from thermodata.draft.clocks import alignments, zone_question
 from thermodata.draft.group import files_of, tests_of
 from thermodata.draft.guess import guess
 from thermodata.draft.hints import hinted
 from thermodata.draft.jumps import JumpTest, jump_of
-from thermodata.draft.kinds import Kind, kind_of
+from thermodata.draft.kinds import kind_of
 from thermodata.draft.measuring import Named, rule_of
 from thermodata.draft.naming import channel_name, words
+from thermodata.draft.parts import Draft, DraftChannel, DraftJump, DraftSource, DraftTest
 from thermodata.draft.place import axis_of
 from thermodata.draft.quantity import Guess
-from thermodata.draft.scan import RawFile, Scan
+from thermodata.draft.raw_file import RawFile
+from thermodata.draft.scan import Scan
 from thermodata.draft.sources import Group, sources_of
 from thermodata.draft.table import TestTable, closed_workbooks, find_table, is_called_table
 from thermodata.draft.units import rate_at_end
@@ -30,76 +31,6 @@ from thermodata.schema.quantity import CANONICAL_UNIT, normal_unit
 
 _MOST_SIGNALS = 2000
 _SHORT = {"temperature": "T", "temperature_difference": "dT", "rotational_speed": "speed", "displacement": "d"}
-
-
-@dataclass(frozen=True, slots=True)
-class DraftSource:
-    """sources.<name>. files: a glob with {test}, a shared one, or None where each test names its files; table: what has
-    to be declared of its layout, with 'unknown' where a question asks for it."""
-
-    name: str
-    reader: str
-    files: str | None
-    questions: tuple[str, ...] = ()
-    table: Mapping[str, Any] = field(default_factory=dict)
-    align: Alignment | None = None
-
-
-@dataclass(frozen=True, slots=True)
-class DraftChannel:
-    """channels.<name>, or a signal that no quantity fits (said.quantity None). signal: as it stands in the file; stream
-    where the file has several; only_in: the tests that have it, where not all of the source's do."""
-
-    name: str
-    source: str
-    signal: str
-    stream: str | None
-    said: Guess
-    calibration: str | None = None
-    only_in: tuple[str, ...] = ()
-    note: str | None = None
-
-
-@dataclass(frozen=True, slots=True)
-class DraftJump:
-    """calibrations.<name>: a jump test whose moves nobody but the lab knows. seen: its steps as they were logged."""
-
-    name: str
-    source: str
-    file: str
-    signal: str | None
-    axis: str | None
-    dwell_s: float
-    seen: tuple[float, ...]
-    unit: str | None
-    question: str
-
-
-@dataclass(frozen=True, slots=True)
-class DraftTest:
-    """tests[]: files: source -> path or paths, where the source's pattern does not find them."""
-
-    id: str
-    kind: Kind
-    conditions: dict[str, str]
-    files: dict[str, str | list[str]]
-    doubts: tuple[str, ...] = ()
-    measuring: str | None = None
-
-
-@dataclass(frozen=True, slots=True)
-class Draft:
-    """A campaign file to be. not_used: (path, reason); damaged: (path, what); table: of tests, where one is there."""
-
-    campaign: str
-    sources: tuple[DraftSource, ...]
-    channels: tuple[DraftChannel, ...]
-    jumps: tuple[DraftJump, ...]
-    tests: tuple[DraftTest, ...]
-    table: TestTable | None = None
-    not_used: tuple[tuple[str, str], ...] = ()
-    damaged: tuple[tuple[str, str], ...] = ()
-    notes: tuple[str, ...] = field(default_factory=tuple)
 
 
 def plan(campaign: str, folder: Path, found: Scan) -> Draft:
@@ -164,7 +95,16 @@ def plan(campaign: str, folder: Path, found: Scan) -> Draft:
             "these lines"
         )
     return Draft(
-        campaign, sources, tuple(channels), tuple(calibrations), tests, table, left_out, found.damaged, tuple(notes)
+        campaign,
+        sources,
+        tuple(channels),
+        tuple(calibrations),
+        tests,
+        table,
+        left_out,
+        found.damaged,
+        tuple(notes),
+        tuple(x for x in found.failed if table is None or x[0] != table.file),
     )
 
 

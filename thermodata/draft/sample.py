@@ -47,7 +47,7 @@ class Course:
 @dataclass(frozen=True, slots=True)
 class Sample:
     """Of a file's values. whole: to its end; hurried: for want of time fewer of them than there would have been rows
-    for; first_ns, last_ns: of what was read."""
+    for; first_ns, last_ns: of what was read; failed: what ended the reading of it."""
 
     values: Mapping[tuple[str, str], Values] = field(default_factory=dict)
     courses: Mapping[tuple[str, str], Course] = field(default_factory=dict)
@@ -57,12 +57,13 @@ class Sample:
     last_ns: int | None = None
     losses: int = 0
     rows: int = 0
+    failed: str = ""
 
 
 def sample_of(path: Path, who: Reader, source: Source, recording: Recording, size: int) -> Sample:
     """A file's values: of a small one all, of others the first rows. recording: as its reader describes it; size: in
     bytes."""
-    watch, rows, losses, whole, hurried = Watch(), 0, 0, True, False
+    watch, rows, losses, whole, hurried, failed = Watch(), 0, 0, True, False, ""
     values: dict[tuple[str, str], Values] = {}
     parts: dict[tuple[str, str], list[tuple[Int1D, Array]]] = {}
     wanted = _courses(recording.signals)
@@ -86,11 +87,18 @@ def sample_of(path: Path, who: Reader, source: Source, recording: Recording, siz
             if spent > 2 * _SAMPLE_S or (not unseen and (rows >= _SAMPLE_ROWS or spent > _SAMPLE_S)):
                 whole, hurried = False, rows < _SAMPLE_ROWS
                 break
-    except (ThermodataError, OSError):
-        losses, whole = losses + 1, False
+    except (ThermodataError, OSError, MemoryError) as error:
+        losses, whole, failed = losses + 1, False, short(error)
     finally:
         items.close()  # type: ignore[attr-defined]
-    return Sample(values, {k: _thinned(v) for k, v in parts.items()}, whole, hurried, first, last, losses, rows)
+    return Sample(values, {k: _thinned(v) for k, v in parts.items()}, whole, hurried, first, last, losses, rows, failed)
+
+
+def short(error: Exception) -> str:
+    """What an error says and what it got, in one line."""
+    got = getattr(error, "got", None)
+    what = getattr(error, "what", None) or str(error) or type(error).__name__
+    return "; ".join(str(what).splitlines()) + (f" ({got})" if got else "")
 
 
 def _courses(signals: Sequence[Signal]) -> set[tuple[str, str]]:

@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from thermodata.draft.naming import plain, words
-from thermodata.draft.scan import Asked, RawFile, merged
+from thermodata.draft.raw_file import Asked, RawFile, merged
 from thermodata.plugin import Signal
 from thermodata.reader.text import split_unit
 

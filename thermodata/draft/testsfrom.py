@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import PurePosixPath
 
-from thermodata.draft.plan import Draft
+from thermodata.draft.parts import Draft
 from thermodata.draft.said_by_names import speed_in
 
 _LEAST = 3

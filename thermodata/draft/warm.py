@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 from thermodata.draft.measuring import Named
-from thermodata.draft.scan import RawFile
+from thermodata.draft.raw_file import RawFile
 from thermodata.errors import UsageError
 from thermodata.schema.quantity import linear_conversion
 

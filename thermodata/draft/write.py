@@ -7,7 +7,7 @@ import re
 from collections.abc import Mapping, Sequence
 from pathlib import PurePosixPath
 
-from thermodata.draft.plan import Draft, DraftChannel, DraftJump, DraftSource, DraftTest
+from thermodata.draft.parts import Draft, DraftChannel, DraftJump, DraftSource, DraftTest
 from thermodata.draft.testsfrom import Pattern, pattern_of
 
 _PLACES = "at: where on the machine, e.g. spindle.bearing.front, axis.z.nut, column.rear, hall.top, floor"
@@ -19,6 +19,7 @@ _NOBODY = (
     "? no reader claims any file here: export the logs as CSV (a line of names, a column called time, numbers), or say "
     "below what reads them; thermodata sniff FILE tells why, thermodata plugins what can be read"
 )
+_NOBODY_COULD = "? no file here could be read: '# not used' below says what stopped its reader"
 _HEAD = """\
 # Drafted by thermodata init. '# ?' marks what nobody but you knows: answer it in the line, then delete the mark.
 # 'guess' is what names, units or values suggest; 'sure' is what they agree on. Where 'unknown' stands, nothing is read
@@ -33,7 +34,9 @@ def text_of(draft: Draft) -> str:
         f"id: {scalar(draft.campaign)}",
         "machine:",
         "  id: unknown                      # ? the machine's number",
-        "sources:" if draft.sources else f"sources: {{}}                        # {_NOBODY}",
+        "sources:"
+        if draft.sources
+        else f"sources: {{}}                        # {_NOBODY_COULD if draft.failed else _NOBODY}",
     ]
     lines += [_source(s) for s in draft.sources] or _sources_of_nobody(draft)
     lines.append(
@@ -82,14 +85,16 @@ def _source(s: DraftSource) -> str:
 def _sources_of_nobody(draft: Draft) -> list[str]:
     """A line for each kind of file, to be filled in by who knows what reads it."""
     kinds: dict[str, str] = {}
-    for path, _ in draft.not_used:
+    failed = dict(draft.failed)
+    for path in (*failed, *(path for path, _ in draft.not_used)):
         kinds.setdefault(PurePosixPath(path).suffix.lower() or PurePosixPath(path).name, path)
-    return [
-        f"  # {f'log{i}' if i > 1 else 'log'}: {{{flow({'reader': _OPEN, 'files': '{test}' + kind})}}}"
-        f"   # ? what wrote {one_line(path)}?"
-        for i, (kind, path) in enumerate(list(kinds.items())[:_MOST_KINDS], 1)
-        if kind.startswith(".")
-    ]
+    lines = []
+    for i, (kind, path) in enumerate(list(kinds.items())[:_MOST_KINDS], 1):
+        if kind.startswith("."):
+            asked = "what is wrong with" if path in failed else "what wrote"
+            body = flow({"reader": failed.get(path, _OPEN), "files": "{test}" + kind})
+            lines.append(f"  # {f'log{i}' if i > 1 else 'log'}: {{{body}}}   # ? {asked} {one_line(path)}?")
+    return lines
 
 
 def _channel(c: DraftChannel) -> str:

@@ -3,7 +3,8 @@ are many."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -93,7 +94,8 @@ def read_window(
     most: int = MOST_SAMPLES,
 ) -> list[Window]:
     """One window a stream that has any of the channels. span: (from, to) [s], all where None. flagged: samples that do
-    not count are shown too. Reads the columns that are asked for, and no more of the file than the span."""
+    not count are shown too. Reads the columns that are asked for, and no more of the file than the span. StoreError
+    where a file is gone, cut or altered."""
     streams: dict[tuple[str, str], list[str]] = {}
     for channel in channels:
         streams.setdefault((channel.source, channel.stream), []).append(channel.name)
@@ -107,22 +109,39 @@ def read_window(
                 [campaign, test, source, stream],
             )
             if files:
-                found.append(_window(con, store.path, [f["path"] for f in files], names, span, flagged, most))
+                paths = [f["path"] for f in files]
+                with _damage_named([store.path / p for p in paths]):
+                    found.append(_window(con, store.path, paths, names, span, flagged, most))
     return found
+
+
+@contextmanager
+def _damage_named(files: Sequence[Path]) -> Iterator[None]:
+    """StoreError with the file's name where one of these is gone, cut or altered."""
+    import duckdb
+
+    from thermodata.store.keep.check import altered
+
+    try:
+        yield
+    except (duckdb.Error, OSError) as error:
+        # DuckDB does not name the file in all of its errors
+        found = ((p, "gone" if not p.exists() else altered(p)) for p in files)
+        damaged = next(((p, problem) for p, problem in found if problem), None)
+        if damaged is None:
+            raise
+        raise StoreError(
+            "a file of the store is damaged",
+            where=str(damaged[0]),
+            got=damaged[1],
+            hint="ingest the campaign again: what can be made anew is made anew; "
+            "'thermodata check' lists what is damaged",
+        ) from error
 
 
 def _facts(con: duckdb.DuckDBPyConnection, table: str, files: Sequence[Path]) -> tuple[set[str], Extent]:
     """Columns and extent of a stream's files, asked once: a tidy file is final, under the name of its content."""
-    try:
-        key = tuple((str(p), at.st_mtime_ns, at.st_size) for p in files for at in [p.stat()])
-    except OSError as error:
-        raise StoreError(
-            "a file of the store is damaged",
-            where=str(error.filename),
-            got=error.strerror or str(error),
-            hint="ingest the campaign again: what can be made anew is made anew; "
-            "'thermodata check' lists what is damaged",
-        ) from error
+    key = tuple((str(p), at.st_mtime_ns, at.st_size) for p in files for at in [p.stat()])
     known = _FACTS.get(key)  # held here: another thread may clear the store of facts at any moment
     if known is None:
         there = {row[0] for row in con.execute(f"describe select * from {table}").fetchall()}

@@ -143,6 +143,30 @@ def test_rows_that_do_not_reach_the_announced_end_are_a_loss(tmp_path: Path) -> 
         load(Reader(), written(tmp_path, small("0,0\t1,5\n", "Name\ta").replace("\t", ",")), Source())
 
 
+@pytest.mark.parametrize("ticks", [False, True])
+@pytest.mark.parametrize(("rows", "whole"), [(7, True), (6, False), (3, False), (1, False)])
+def test_without_a_sample_time_the_rows_say_how_near_the_end_they_come(
+    tmp_path: Path, ticks: bool, rows: int, whole: bool
+) -> None:
+    """The end is announced 6 ms behind the start, and a row comes every millisecond."""
+    times = [133_238_090_039_920_000 + k * 10_000 if ticks else k for k in range(rows)]
+    data = load(
+        Reader(), written(tmp_path, small("".join(f"{t}\t{k}\n" for k, t in enumerate(times)), "Name\ta")), Source()
+    )
+    assert data.t_ns["scope1"].size == rows
+    assert data.recording.complete is (None if whole else False)
+    assert [loss.reason for loss in data.losses] == (
+        [] if whole else ["the header announces a later end of the export than its rows reach"]
+    )
+
+
+def test_a_last_row_nearly_a_step_before_the_end_and_copies_of_rows_are_whole(tmp_path: Path) -> None:
+    rows = "".join(f"{t}\t{k}\t{k // 2 * 2}\t{k // 2}\n" for k, t in enumerate((0, 1.1, 1.9, 3.0, 4.1, 5.2)))
+    data = load(Reader(), written(tmp_path, small(rows, "Name\ta\tName\tb")), Source())
+    assert data.recording.complete is None
+    assert not data.losses
+
+
 @pytest.mark.parametrize("junk", ["\t" * 100_000, "x" * 300_000, "\n" * 100_000, "1\t" * 50_000])
 def test_huge_lines_are_lost_alone(tmp_path: Path, junk: str) -> None:
     rows = [f"{k}\t{k}\n" for k in range(7)]

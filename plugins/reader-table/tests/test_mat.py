@@ -341,3 +341,65 @@ def test_a_packed_variable_with_bytes_behind_its_end_is_a_loss(tmp_path: Path) -
     found = load(Reader(), path, Source())
     assert [s.name for s in found.recording.signals] == ["T2"]
     assert any("bytes behind its end" in loss.reason for loss in found.losses)
+
+
+@pytest.mark.parametrize("version", ["5", "7.3"])
+def test_zeros_in_text_are_the_blanks_that_matlab_shows(tmp_path: Path, version: str) -> None:
+    log = np.stack([np.arange(9.0)] * 3, 1)
+    path = tmp_path / "x.mat"
+    if version == "5":
+        scipy.io.savemat(path, {"log": log, "names": cell("time [s]", "dZ~[um]", "n [rpm]~~")})
+        assert path.read_bytes().count(b"~") == 3
+        path.write_bytes(path.read_bytes().replace(b"~", b"\0"))
+    else:
+        with h5py.File(path, "w", userblock_size=512) as file:
+            file.create_dataset("log", data=log.T).attrs["MATLAB_class"] = np.bytes_("double")
+            cells = []
+            for k, title in enumerate(("time [s]", "dZ\0[um]", "n [rpm]\0\0")):
+                codes = np.array([ord(c) for c in title], np.uint16)[:, None]
+                item = file.create_dataset(f"#refs#/r{k}", data=codes)
+                item.attrs["MATLAB_class"] = np.bytes_("char")
+                cells.append([item.ref])
+            named = file.create_dataset("names", data=np.array(cells, h5py.ref_dtype))
+            named.attrs["MATLAB_class"] = np.bytes_("cell")
+        head = b"MATLAB 7.3 MAT-file".ljust(116) + b"\0" * 8 + b"\x00\x02IM"
+        path.write_bytes(head.ljust(512, b"\0") + path.read_bytes()[512:])
+    assert names(load(Reader(), path, Source())) == [("dZ [um]", "um"), ("n [rpm]", "rpm")]
+
+
+@pytest.mark.parametrize("spoilt", ["name", "names", "rows"])
+def test_a_data_set_that_declares_less_than_it_holds_is_a_loss(tmp_path: Path, spoilt: str) -> None:
+    """Its count of rows is a number of the file like another, and nothing but what is stored contradicts it."""
+    path = tmp_path / "x.mat"
+    log, title = np.stack([np.arange(9.0)] * 3, 1), np.array([[ord(c)] for c in "T_front"], np.uint16)
+
+    def write(less: str | None) -> list[str]:
+        with h5py.File(path, "w", userblock_size=512) as file:
+            places = {}
+
+            def put(name: str, values: Any, kind: str, key: str | None = None, **more: Any) -> Any:
+                item = file.create_dataset(name, data=values, **more)
+                item.attrs["MATLAB_class"] = np.bytes_(kind)
+                places[key] = (h5py.h5o.get_info(item.id).addr, values.shape)
+                return item
+
+            put("t", np.arange(9.0)[None, :], "double")
+            put("speed", np.arange(9.0)[None, :] + 1, "double")
+            put("log", log.T, "double", "rows", chunks=(1, 9), compression="gzip")
+            cells = [[put(f"#refs#/r{k}", title + k, "char", "name" if k else None).ref] for k in range(3)]
+            put("names", np.array(cells, h5py.ref_dtype), "cell", "names")
+        data = bytearray(path.read_bytes())
+        if less is not None:
+            at, shape = places[less]
+            old = b"".join(int(n).to_bytes(8, "little") for n in shape)
+            found = data.index(old, 512 + at)  # in its header, the first that it tells
+            data[found : found + 8] = (0 if less == "rows" else shape[0] - 1).to_bytes(8, "little")
+        data[:128] = b"MATLAB 7.3 MAT-file".ljust(116) + b"\0" * 8 + b"\x00\x02IM"
+        path.write_bytes(bytes(data))
+        read = load(Reader(), path, Source(timezone="Europe/Prague"))
+        return [f"{loss.where}: {loss.reason}" for loss in read.losses]
+
+    assert write(None) == []
+    (loss,) = write(spoilt)
+    assert ("log" if spoilt == "rows" else "names") in loss
+    assert "bytes and holds" in loss

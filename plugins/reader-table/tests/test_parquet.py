@@ -4,14 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from contextlib import suppress
+from decimal import Decimal
+from functools import partial
 from pathlib import Path
+from typing import Any
 
+import duckdb
 import numpy as np
 import pyarrow as pa
 import pyarrow.parquet as pq
 import pytest
 from thermodata_reader_table import Reader
-from thermodata_reader_table.parquet.footer_check import _Footer, check_size_statistics
+from thermodata_reader_table.parquet.footer_check import _Walk, check_footer
 
 from thermodata.errors import FormatError, UsageError
 from thermodata.plugin import Source
@@ -65,12 +69,76 @@ def test_a_histogram_with_a_level_too_few_is_refused_before_arrow_ends_the_proce
     pq.write_table(pa.table({"t [s]": np.arange(5.0), "T": [1.0, None, 2.0, 3.0, None]}, schema=schema), path)
     data = path.read_bytes()
     assert load(Reader(), path, Source()).losses == ()
-    check_size_statistics(path, pq.ParquetFile(path).schema)  # a sound file has nothing to say
+    check_footer(path, pq.ParquetFile(path).schema)  # a sound file has nothing to say
     # of the column T: an empty list of repetition levels, and how many rows stand at the definition levels 0 and 1
     _with_footer(path, data, (b"\x29\x06\x19\x26\x04\x06", b"\x29\x06\x19\x16\x04"))
     with pytest.raises(FormatError, match="not a readable Parquet file") as error:
         Reader().describe(path, Source())
     assert error.value.got == "column 1 counts 1 definition levels, its schema has 2"
+
+
+def test_a_list_that_lies_about_its_items_is_refused_before_arrow_reads_them_its_own_way(tmp_path: Path) -> None:
+    """Arrow reads four counts where the list says four doubles of 32 bytes, so a walk that believes it is lost."""
+    path = tmp_path / "x.parquet"
+    schema = pa.schema([pa.field("t [s]", pa.float64(), nullable=False), pa.field("T", pa.float64())])
+    pq.write_table(pa.table({"t [s]": np.arange(5.0), "T": [1.0, None, 2.0, 3.0, None]}, schema=schema), path)
+    _with_footer(path, path.read_bytes(), (b"\x29\x06\x19\x26\x04\x06", b"\x29\x47\x19\x26\x04\x06"))
+    with pytest.raises(FormatError, match="not a readable Parquet file") as error:
+        Reader().describe(path, Source())
+    assert error.value.got == "the list in field 4.1.3.16.2 of its footer has items of type 7"
+
+
+def _of_arrow(path: Path, **options: Any) -> None:
+    n = 50
+    table = pa.table(
+        {
+            "t [s]": np.arange(float(n)),
+            "T": [None, 1.5] * (n // 2),
+            "word": pa.array(["a", "b"] * (n // 2)).dictionary_encode(),
+            "point": pa.array([{"x": 1.0, "inner": {"y": None}}] * n),
+            "list": pa.array([[1, 2], None] * (n // 2)),
+            "map": pa.array([[("k", 1)]] * n, pa.map_(pa.string(), pa.int64())),
+            "sum": pa.array([Decimal("1.25")] * n),
+        }
+    )
+    pq.write_table(table.replace_schema_metadata({"rig": "X" * 300}), path, row_group_size=20, **options)
+
+
+def _of_duckdb(path: Path) -> None:
+    duckdb.sql(
+        "copy (select i::double as \"t [s]\", i % 3 as n, [i, i] as l, {x: i} as s, 'w' || i as word "
+        f"from range(50) r(i)) to '{path}' (format parquet, row_group_size 20, kv_metadata {{rig: 'X'}})"
+    )
+
+
+@pytest.mark.parametrize(
+    "write",
+    [
+        _of_arrow,
+        partial(_of_arrow, write_page_index=True, write_page_checksum=True, data_page_version="2.0"),
+        partial(_of_arrow, sorting_columns=[pq.SortingColumn(0)], store_schema=False, version="1.0"),
+        partial(_of_arrow, compression="none", use_dictionary=False, write_statistics=False),
+        _of_duckdb,
+    ],
+)
+def test_a_footer_of_any_writer_is_walked_through(tmp_path: Path, write: Callable[[Path], None]) -> None:
+    path = tmp_path / "x.parquet"
+    write(path)
+    check_footer(path, pq.ParquetFile(path).schema)
+    assert load(Reader(), path, Source()).t_ns["table"].size == 50
+
+
+def test_a_page_is_held_against_its_checksum(tmp_path: Path) -> None:
+    path = tmp_path / "x.parquet"
+    table = pa.table({"t [s]": np.arange(50.0), "T": np.arange(50.0) + 20})
+    pq.write_table(table, path, compression="none", use_dictionary=False, write_page_checksum=True)
+    data = path.read_bytes()
+    assert load(Reader(), path, Source()).values["table", "T"][30] == 50.0
+    at = data.index(np.float64(50.0).tobytes(), data.index(np.float64(69.0).tobytes()) - 30 * 8)
+    path.write_bytes(data[:at] + np.float64(51.0).tobytes() + data[at + 8 :])
+    with pytest.raises(FormatError, match="not a readable Parquet file") as error:
+        list(Reader().blocks(path, Source()))
+    assert "CRC" in str(error.value.got)
 
 
 def test_a_footer_of_any_bytes_is_walked_through_or_left(tmp_path: Path) -> None:
@@ -83,7 +151,7 @@ def test_a_footer_of_any_bytes_is_walked_through_or_left(tmp_path: Path) -> None
         at, value = int(rng.integers(begin, len(data) - 8)), int(rng.integers(256))
         path.write_bytes(data[:at] + bytes((value,)) + data[at + 1 :])
         with suppress(ValueError):  # what it says of a damaged file; anything else is a fault of ours
-            check_size_statistics(path, schema)
+            check_footer(path, schema)
 
 
 def test_a_map_of_truth_values_hides_nothing_that_stands_behind_it(tmp_path: Path) -> None:
@@ -100,7 +168,7 @@ def test_a_map_of_truth_values_hides_nothing_that_stands_behind_it(tmp_path: Pat
     assert pq.ParquetFile(path).metadata.num_rows == 5, "Arrow walks past the map"
     _with_footer(path, path.read_bytes(), (b"\x29\x06\x19\x26\x04\x06", b"\x29\x06\x19\x16\x04"))
     with pytest.raises(ValueError, match="column 1 counts 1 definition levels"):
-        check_size_statistics(path, known)
+        check_footer(path, known)
 
 
 def test_no_footer_takes_more_steps_than_it_has_bytes(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -119,7 +187,8 @@ def test_no_footer_takes_more_steps_than_it_has_bytes(tmp_path: Path, monkeypatc
 
         return call
 
-    for name in ("_skip", "_past"):
-        monkeypatch.setattr(_Footer, name, counted(getattr(_Footer, name)))
-    check_size_statistics(path, ())
+    for name in ("_value", "_past"):
+        monkeypatch.setattr(_Walk, name, counted(getattr(_Walk, name)))
+    with pytest.raises(ValueError, match="ends within a field"):
+        check_footer(path, ())
     assert taken[0] > 1000

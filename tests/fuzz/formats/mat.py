@@ -271,20 +271,19 @@ def _mutate73(seed: Seed, rng: random.Random) -> Mutation:
         return Mutation(insert(data, rng), "7.3 junk", False, True)
     values, words = _values73(data)
     at = rng.randrange(512, len(data) - 8)
-    changed = bytearray(data)
+    changed, width = bytearray(data), 1 if what == "flip" else 8
+    touched = [at - at % width]
     if what == "huge":
-        at -= at % 8
-        changed[at : at + 8] = struct.pack("<Q", rng.choice((0, 2**63, 2**64 - 1, 2**32, len(data), 1)))
+        changed[touched[0] : touched[0] + 8] = struct.pack("<Q", rng.choice((0, 2**63, 2**64 - 1, 2**32, len(data), 1)))
     elif what == "swap":
-        other = rng.randrange(64, len(data) // 8 - 1) * 8
-        at -= at % 8
-        changed[at : at + 8], changed[other : other + 8] = data[other : other + 8], data[at : at + 8]
-        values = [*values, (other, other + 8)] if any(a < other + 8 and other < b for a, b in values) else values
-        at = other if any(a < other + 8 and other < b for a, b in values) else at
+        touched.append(rng.randrange(64, len(data) // 8 - 1) * 8)
+        for to, of in (touched, reversed(touched)):
+            changed[to : to + 8] = data[of : of + 8]
     else:
         changed[at] = rng.randrange(256)
-    width = 1 if what == "flip" else 8
-    in_values = any(a < at + width and at < b for a, b in values)
-    in_words = any(a < at + width and at < b for a, b in words)
-    where = "values" if in_values else "text" if in_words else "structure"
-    return Mutation(bytes(changed), f"7.3 {what} in {where}", in_words, in_values)
+
+    def reaches(parts: list[tuple[int, int]]) -> bool:
+        return any(a < spot + width and spot < b for a, b in parts for spot in touched)
+
+    where = "values" if reaches(values) else "text" if reaches(words) else "structure"
+    return Mutation(bytes(changed), f"7.3 {what} in {where}", reaches(words), reaches(values))

@@ -48,7 +48,10 @@ def _seeds() -> tuple[Seed, ...]:
         {"time": times["utc"], "probe": pa.StructArray.from_arrays([pa.array(wave), pa.array(wave * 2)], ["X", "Y"])}
     )
     pq.write_table(nested, out)
-    return (*made, Seed("nested.parquet", out.getvalue(), _PRAGUE))
+    made.append(Seed("nested.parquet", out.getvalue(), _PRAGUE))
+    out = io.BytesIO()
+    pq.write_table(pa.table({"time": times["utc"], **columns}), out, row_group_size=25, write_page_checksum=True)
+    return (*made, Seed("checked.parquet", out.getvalue(), _PRAGUE))
 
 
 def seeds() -> list[Seed]:

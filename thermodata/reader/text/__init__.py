@@ -2,7 +2,8 @@
 
 - what a file is made of: `encoding`, `lines` (whole lines in UTF-8, in bounded memory), `delimiter`;
 - what a cell is: `number` (the one policy a cell), `timestamp`, `cell` (what a cell looks like), `status`;
-- where things stand: `header` (names and units), `time_columns`, `time_groups`, `time_formats`, `layout`, `columns`;
+- where things stand: `header` (names and units), `time_header`, `time_columns`, `time_groups`, `time_formats`,
+  `time_questions` (what to ask where they are not said), `layout`, `columns`;
 - rows: `grid` (how they lie, what they give), `rows` (typed columns, each row with its line), `arrow`;
 - a whole table: `table` (the first look), `table_rows`, `quality_columns`, `local_clock`, `losses`, `delimited`
   (described and read), `claim` (is it one?), `locate` (where a row stands).

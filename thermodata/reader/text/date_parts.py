@@ -18,7 +18,7 @@ from thermodata.reader.text import timestamp
 from thermodata.reader.text.cell import Cell, is_clocked, mostly, number_of
 from thermodata.reader.text.header import split_unit
 from thermodata.reader.text.number import text_array
-from thermodata.reader.text.timestamp import MILLISECONDS, TimeFormat
+from thermodata.reader.text.timestamp import MILLISECONDS, TIME_OF_DAY, TimeFormat
 from thermodata.reader.zone import NAT
 
 _WORDS = {
@@ -41,13 +41,15 @@ _PIECES = {
 }
 _TEXTS = {"Y": "year", "y": "year", "m": "month", "d": "day", "H": "hour", "M": "minute", "S": "second"}
 _ORDER = "YmdHMS"
+_MINUTE, _HOUR = 60_000_000_000, 3_600_000_000_000  # ns
+_WHOLE_CLOCK = re.compile(r"^\s*\d{1,2}:\d\d:\d\d\s*([AaPp]\.?[Mm]\.?)?\s*$", re.ASCII)
 PART = TimeFormat("part", None, "")  # of a time whose first column has the format of all of them
 
 
 def find_parts(names: Sequence[str], data: Sequence[Sequence[Cell]]) -> tuple[tuple[int, ...], str] | None:
     """(columns, format) of a date in columns that are named for its parts, with hours or a time of day beside them;
-    None where there is none. A time of day and a column of milliseconds behind whole seconds are not part of the
-    format."""
+    None where there is none. Of parts without seconds, a time of day beside them that says the same hours and minutes
+    comes before these. It and a column of milliseconds behind whole seconds are not part of the format."""
     found: dict[str, int] = {}
     for i, name in enumerate(names):
         word = split_unit(re.sub(r"#\d+$", "", name))[0].strip(" #.:_").casefold()
@@ -65,16 +67,44 @@ def find_parts(names: Sequence[str], data: Sequence[Sequence[Cell]]) -> tuple[tu
     if not all(_fits([r[found[x]] for r in data], letter) for x, letter in zip(parts, letters, strict=True)):
         return None
     columns = tuple(found[x] for x in parts)
-    if "H" not in parts:
-        clocks = [i for i in range(len(names)) if i not in columns and _share(data, i, is_clocked)]
-        if not clocks:
+    if "S" not in parts:
+        others = [i for i in range(len(names)) if i not in columns and _share(data, i, is_clocked)]
+        clocks = [i for i in others if _agree(i, columns[3:], data)]
+        if clocks:
+            columns, letters = (*columns[:3], clocks[0]), letters[:3]
+        elif "H" not in parts:
             return None
-        columns = (*columns, clocks[0])
-    if "S" in parts and columns[-1] + 1 < len(names) and MILLISECONDS.match(names[columns[-1] + 1]):
-        thousandths = [r[columns[-1] + 1] for r in data]
-        if _fits([r[columns[-1]] for r in data], "whole S") and _fits(thousandths, "ms"):
-            columns = (*columns, columns[-1] + 1)
+    if _whole_seconds(columns[-1], "S" in parts, data) and columns[-1] + 1 < len(names):
+        behind = columns[-1] + 1
+        if MILLISECONDS.match(names[behind]) and _fits([r[behind] for r in data], "ms"):
+            columns = (*columns, behind)
     return columns, " ".join(f"%{letter}" for letter in letters)
+
+
+def _agree(clock: int, parts: Sequence[int], data: Sequence[Sequence[Cell]]) -> bool:
+    """Whether a time of day says of nearly all rows what the columns of hours and minutes say; of none, always."""
+    rows = [r for r in data if all(r[i] not in ("", None) for i in (clock, *parts))]
+
+    def agrees(row: Sequence[Cell]) -> bool:
+        ns = _clock_ns(row[clock])
+        said = () if ns is None else (ns // _HOUR, ns // _MINUTE % 60)[: len(parts)]
+        return ns is not None and all(number_of(row[i]) == own for i, own in zip(parts, said, strict=True))
+
+    return not parts or mostly(rows, agrees, 0.8, len(rows))
+
+
+def _clock_ns(cell: Cell) -> int | None:
+    """The time of day of a cell [ns]; None where it holds none."""
+    ns = timestamp.parse_one(str(cell).strip(), TIME_OF_DAY)
+    return None if ns == NAT else ns
+
+
+def _whole_seconds(column: int, number: bool, data: Sequence[Sequence[Cell]]) -> bool:
+    """Whether a column of seconds (number), or of times of day with seconds, has no fractions of them."""
+    if number:
+        return _fits([r[column] for r in data], "whole S")
+    cells = [str(r[column]) for r in data if r[column] not in ("", None)]
+    return bool(cells) and mostly(cells, lambda c: _WHOLE_CLOCK.match(c) is not None, 0.8, len(cells))
 
 
 def _fits(cells: Sequence[Cell], letter: str) -> bool:

@@ -105,13 +105,16 @@ def damaged(path: Path, error: Exception) -> StoreError:
     )
 
 
+_HEADERS = ("don't know what type", "TProtocolException")  # of Parquet's headers, said without the file
 _DAMAGE = ("damaged store:", "No magic bytes", "Parquet", ".parquet")
 
 
 def damaged_data(folder: Path, error: Exception) -> StoreError | None:
     """The refusal of a query over a Parquet file that is gone, cut or altered; None for any other error."""
     text = str(error).strip().splitlines()[0]
-    if not any(word in text for word in _DAMAGE) or ".parquet" not in text:
+    if text.startswith(_HEADERS):
+        text = "a header within a Parquet file can't be read"
+    elif not any(word in text for word in _DAMAGE) or ".parquet" not in text:
         return None
     problem, _, todo = text.partition("damaged store: ")[2].partition("; try: ")
     return StoreError(

@@ -68,11 +68,19 @@ class Store:
 
     @contextmanager
     def marked_reader(self) -> Iterator[tuple[duckdb.DuckDBPyConnection, str]]:
-        """As `reader`, with the mark of that commit; '' where the store has none."""
+        """As `reader`, with the mark of that commit; '' where the store has none. StoreError where a query meets a
+        Parquet file that is gone, cut or altered."""
+        import duckdb
+
         mark, con = self._fresh()
         cursor = connection.cursor_of(con)
         try:
             yield cursor, mark
+        except duckdb.Error as error:
+            damage = connection.damaged_data(self.path, error)
+            if damage is None:
+                raise
+            raise damage from error
         finally:
             cursor.close()
 

@@ -6,36 +6,23 @@ signals are `sheet/name`.
 
 from __future__ import annotations
 
-import datetime as dt
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
-from types import MappingProxyType
 from typing import Any, Literal
 
 import numpy as np
 
 from thermodata.errors import FormatError, QuestionError, ThermodataError, UsageError
-from thermodata.plugin import Array, Block, Bool1D, Int1D, Loss, Recording, Scaling, Signal, Source
-from thermodata.reader.text.cell import is_empty
-from thermodata.reader.text.date_parts import column_times, declared_parts
-from thermodata.reader.text.layout import STREAM, Group, Layout, find, one_clock
-from thermodata.reader.text.number import clean, decimal_mark, values_of
-from thermodata.reader.text.time_formats import (
-    Stamps,
-    find_formats,
-    times_of_dates,
-    times_of_day,
-    times_of_numbers,
-    times_of_texts,
-)
-from thermodata.reader.time_units import SECONDS, to_ns
+from thermodata.plugin import Block, Loss, Recording, Scaling, Signal, Source
+from thermodata.reader.text.layout import Layout, find, one_clock
 from thermodata.reader.zone import NAT
 from thermodata.schema.flag import Flag
 from thermodata_reader_table.workbook_check import check_size
 from thermodata_reader_table.workbook_percent import percent_columns
+from thermodata_reader_table.workbook_sheet import Stream, Table
 
 _BLOCK_VALUES = 1_000_000
 _SMALL = 8_000_000
@@ -102,184 +89,6 @@ def _load(name: str, mtime_ns: int, size: int, wanted: int | str | None) -> Book
 
 
 _kept = lru_cache(maxsize=1)(_load)
-
-
-@dataclass
-class Stream:
-    """Columns with one time, in memory. names: as the recording has them; at: the sheet's row of each, shape (n,);
-    over: rows of a column whose cells say overload; sheet: where it stands; percent: columns that hold a fraction and
-    show it in per cent."""
-
-    name: str
-    times: Stamps
-    values: dict[str, Array]
-    units: dict[str, str | None]
-    at: Int1D
-    over: dict[str, Bool1D]
-    sheet: str
-    percent: frozenset[str]
-
-
-class Table:
-    """A sheet, column by column. decimal: of numbers that stand as text. percent: column -> numbers in per cent."""
-
-    def __init__(
-        self,
-        sheet: str,
-        rows: list[list[Any]],
-        layout: Layout,
-        where: str,
-        source: Source,
-        percent: Mapping[int, int] = MappingProxyType({}),
-    ) -> None:
-        self.percent = percent
-        self.sheet, self.layout, self.where, self.source = sheet, layout, where, source
-        self.notes = list(layout.notes)
-        self.losses: list[Loss] = []
-        self.columns = list(zip(*rows[layout.first :], strict=False))
-        said = (source.table or {}).get("decimal")
-        self.decimal_declared = said is not None
-        columns = [c for i, c in enumerate(self.columns) if i not in layout.time]
-        self.decimal = said or decimal_mark(c for col in columns for c in col[:200] if c and isinstance(c, str)) or "."
-
-    def streams(self, sheet: str | None) -> Iterator[Stream]:
-        """sheet: its name where there are several."""
-        for group in self.layout.groups:
-            own = group.stream != STREAM
-            name = group.stream if sheet is None else f"{sheet}/{group.stream}" if own else sheet
-            before = "" if sheet is None else f"{sheet}/"
-            times = self._times(group)
-            self.notes += times.notes
-            keep = np.ones(times.t_ns.size, bool)
-            if len(self.layout.groups) > 1:  # a group that has ended is empty beside longer ones
-                keep = ~np.array(
-                    [
-                        all(is_empty(c) for c in row)
-                        for row in zip(*(self.columns[i] for i in (*group.time, *group.columns)), strict=True)
-                    ],
-                    bool,
-                )
-            values, units, over = dict[str, Array](), dict[str, str | None](), dict[str, Bool1D]()
-            percent: set[str] = set()
-            for i in group.columns:
-                column, unit, beyond = self._values(self.layout.names[i], self.columns[i])
-                values[before + self.layout.names[i]] = column[keep]
-                units[before + self.layout.names[i]] = self.layout.units[i] or unit
-                if self._in_percent(i):
-                    units[before + self.layout.names[i]] = "%"
-                    percent.add(before + self.layout.names[i])
-                if beyond.any():
-                    over[before + self.layout.names[i]] = beyond[keep]
-            at = np.flatnonzero(keep).astype(np.int64) + self.layout.first + 1
-            stamps = Stamps(times.t_ns[keep], times.absolute, ())
-            yield Stream(name, stamps, values, units, at, over, self.sheet, frozenset(percent))
-
-    def _in_percent(self, column: int) -> bool:
-        """Whether a column is shown in per cent, and its header does not say that it is a fraction. FormatError where
-        some of its numbers are and others are not."""
-        shown = self.percent.get(column, 0)
-        if not shown or self.layout.units[column] not in (None, "%"):
-            return False
-        numbers = sum(isinstance(c, int | float) and not isinstance(c, bool) for c in self.columns[column])
-        if shown < numbers:
-            raise FormatError(
-                f"column '{self.layout.names[column]}' mixes numbers in per cent with others",
-                where=self.where,
-                expected="one format of its cells",
-                got=f"{shown} of {numbers} in per cent",
-                hint="give all of its cells one format in the workbook",
-            )
-        return True
-
-    def _times(self, group: Group) -> Stamps:
-        if group.counted:
-            rows = len(self.columns[0]) if self.columns else 0
-            return Stamps(to_ns(np.arange(rows) * float(group.seconds or 1.0), 1.0), False, ())
-        columns = [self.columns[i] for i in group.time]
-        if not group.dated:
-            unit = group.epoch or next(u for u, seconds in SECONDS.items() if seconds == group.seconds)
-            return times_of_numbers(self._numbers(columns[0])[0], unit, self.source.timezone)
-        if declared_parts(group.form, len(columns)):
-            parts = [[_part(cell) for cell in cells] for cells in columns]
-            forms = find_formats([self.layout.names[i] for i in group.time], parts, group.form, self.where)
-            return times_of_dates(column_times(parts, forms).view("datetime64[ns]"), self.source.timezone)
-        joined = [_joined(cells) for cells in zip(*columns, strict=True)]
-        if any(isinstance(j, str) and j for j in joined):
-            texts = [j if isinstance(j, str) else str(j).replace(" 00:00:00", " 0:00:00") for j in joined]
-            return times_of_texts(texts, self.source.timezone, group.form, self.where)
-        if any(isinstance(j, dt.timedelta) for j in joined):
-            micro = dt.timedelta(microseconds=1)
-            t = np.array([(j // micro) * 1000 if isinstance(j, dt.timedelta) else NAT for j in joined], np.int64)
-            if any(isinstance(c, dt.time) for c in columns[0]):
-                return times_of_day(t)
-            return Stamps(t, False, ("durations: counted as the cells say",))
-        naive = np.array([j.isoformat() if isinstance(j, dt.datetime) else "NaT" for j in joined], "datetime64[ns]")
-        return times_of_dates(naive, self.source.timezone)
-
-    def _numbers(self, cells: tuple[Any, ...]) -> tuple[Array, list[str], Bool1D]:
-        """(values, cells that are no numbers, which say overload): texts by the policy of all texts."""
-        out, odd, over = np.full(len(cells), np.nan), list[str](), np.zeros(len(cells), bool)
-        texts: list[int] = []
-        for i, cell in enumerate(cells):
-            if isinstance(cell, int | float):
-                out[i] = cell
-            elif isinstance(cell, str):
-                if cell:
-                    texts.append(i)
-            elif cell is not None:
-                odd.append(str(cell))
-        if texts:
-            found = values_of([cells[i] for i in texts], "float64", self.decimal, self.decimal_declared)
-            out[texts], over[texts] = found.values, found.over
-            odd += [cell for _, cell in found.odd]
-        return out, odd, over
-
-    def _values(self, name: str, cells: tuple[Any, ...]) -> tuple[Array, str | None, Bool1D]:
-        """(values, unit that the cells themselves tell: seconds of durations, which say overload)."""
-        filled = [c for c in cells if c not in ("", None)]
-        unit = None
-        if filled and sum(isinstance(c, dt.timedelta | dt.time) for c in filled) * 2 > len(filled):
-            self.notes.append(f"column '{name}' holds durations or times of day: they are read as seconds")
-            cells, unit = tuple(_seconds(c) for c in cells), "s"
-        numbers, odd, over = self._numbers(cells)
-        if odd and len(odd) * 2 > len(filled):
-            texts = np.array([None if c is None else clean(str(c)) or None for c in cells], object)
-            return texts, None, np.zeros(len(cells), bool)
-        if odd:
-            reason = f"{len(odd)} cells are no numbers, such as '{odd[0]}'"
-            self.losses.append(Loss(f"{self.where} column '{name}'", None, None, len(odd) / len(cells), reason))
-        return numbers, unit, over
-
-
-def _seconds(cell: Any) -> Any:
-    if isinstance(cell, dt.time):
-        return (dt.datetime.combine(dt.date.min, cell) - dt.datetime.min).total_seconds()
-    return cell.total_seconds() if isinstance(cell, dt.timedelta) else cell
-
-
-def _part(cell: Any) -> str:
-    """The text of a number that is part of a date: a workbook keeps all of them as floats."""
-    if cell in ("", None):
-        return ""
-    return str(int(cell)) if isinstance(cell, float) and cell.is_integer() else str(cell).strip()
-
-
-def _joined(cells: tuple[Any, ...]) -> Any:
-    """One date and time of a row's time cells."""
-    if len(cells) == 1:
-        cell = cells[0]
-        if isinstance(cell, dt.time):
-            return dt.datetime.combine(dt.date.min, cell) - dt.datetime.min
-        if isinstance(cell, dt.date) and not isinstance(cell, dt.datetime):
-            return dt.datetime.combine(cell, dt.time())
-        return cell
-    day, clock = cells[0], cells[1]
-    if isinstance(day, dt.date) and isinstance(clock, dt.time | dt.timedelta | dt.datetime):
-        midnight = dt.datetime(day.year, day.month, day.day)
-        if isinstance(clock, dt.timedelta):
-            return midnight + clock
-        return dt.datetime.combine(midnight.date(), clock.time() if isinstance(clock, dt.datetime) else clock)
-    return " ".join(str(c).strip() for c in cells)
 
 
 @dataclass

@@ -26,6 +26,7 @@ _STARTS = re.compile(r"^Start\s?(?:time of (?:export|record)|Record)\b", re.IGNO
 _TICKS = EPOCHS["filetime"]
 _FAR_NS = 3_000_000_000 * 10**9  # 95 years of a recording
 _SOME = 5
+_SAMPLED = 100  # rows of either end, by which a step is told
 _END = (b"", b"EOF")
 EXAMPLE = (
     b"Name\tProject\r\nFile\tC:\\scope.svdx\r\nStartTime of export\t131000000000000000\r\n\r\nName\tx\r\n"
@@ -56,13 +57,13 @@ def _header(path: Path, source: Source) -> tuple[Header, Sample]:
 
 def _complete(header: Header, first: Sample) -> bool | None:
     """True behind an EOF row; False without a line end, or where the last rows do not reach the announced end."""
-    last = (first.rest or first.head)[-100:]
+    last = (first.rest or first.head)[-_SAMPLED:]
     if "EOF" in (line.strip() for line in last[-3:]):
         return True
     if not first.ends_with_newline:
         return False
     times = [ns for line in last for column in header.groups if (ns := _time(header, line, column)) is not None]
-    return None if header.end_ns is None or not times or header.end_ns - max(times) <= _slack(header) else False
+    return None if header.end_ns is None or not times or header.end_ns - max(times) <= _slack(header, first) else False
 
 
 def _time(header: Header, line: str, column: int) -> int | None:
@@ -84,9 +85,22 @@ def _to_ns(times: Array, header: Header) -> Int1D:
     return np.where((ns == NAT) | (np.abs(ns) >= _FAR_NS), NAT, ns + header.start_ns)
 
 
-def _slack(header: Header) -> int:
-    """How far before the announced end the fastest group's last row may be [ns]."""
-    return round(0.9e6 * header.fastest_ms) if header.fastest_ms else 10_000_000
+def _slack(header: Header, first: Sample) -> int:
+    """How far before the announced end the fastest group's last row may be [ns]: nearly a step, which is the header's
+    or, where it names none, its rows'. Of a single row nothing tells a step, and the end itself has to be reached."""
+    if header.fastest_ms:
+        return round(0.9e6 * header.fastest_ms)
+    begin = first.head[header.first_row : header.first_row + _SAMPLED]
+    steps = [_step(header, lines, column) for lines in (begin, first.rest[-_SAMPLED:]) for column in header.groups]
+    return round(0.9 * min((step for step in steps if step), default=0))
+
+
+def _step(header: Header, lines: Sequence[str], column: int) -> float:
+    """The median step of one time column over some rows [ns]; 0 where there is none. Repeated rows are no steps."""
+    times = [ns for line in lines if (ns := _time(header, line, column)) is not None]
+    steps = np.diff(times)
+    steps = steps[steps > 0]
+    return float(np.median(steps)) if steps.size else 0.0
 
 
 def describe(path: Path, source: Source) -> Recording:
@@ -138,7 +152,7 @@ def blocks(path: Path, source: Source) -> Iterator[Block | Loss]:
             losses.add(line, reason, len(tail), longest[1].size)
         yield from losses.dated(longest[0])
     yield from losses.rest()
-    yield from groups.missing(path.name, _complete(header, first))
+    yield from groups.missing(path.name, _complete(header, first), _slack(header, first))
 
 
 def locate(path: Path, source: Source, stream: str, row: int) -> str | None:
@@ -234,10 +248,10 @@ class _Groups:
         result: Bool1D = ~same
         return result
 
-    def missing(self, name: str, complete: bool | None) -> Iterator[Loss]:
-        """What the header announces behind the last row, where no EOF says that this is all."""
+    def missing(self, name: str, complete: bool | None, slack: int) -> Iterator[Loss]:
+        """What the header announces more than `slack` [ns] behind the last row, where no EOF says that this is all."""
         end, reached = self.header.end_ns, self.reached
-        if complete is True or end is None or end - (reached or self.header.start_ns) <= _slack(self.header):
+        if complete is True or end is None or end - (reached or self.header.start_ns) <= slack:
             return
         first = self.header.start_ns if reached is None else reached
         whole = max(1, end - self.header.start_ns)

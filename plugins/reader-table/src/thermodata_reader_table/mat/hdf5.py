@@ -11,7 +11,7 @@ import numpy as np
 
 from thermodata.errors import FormatError
 from thermodata.plugin import Array, Loss
-from thermodata_reader_table.mat.hdf5_check import Spans, check_found, check_stored
+from thermodata_reader_table.mat.hdf5_check import Spans, check_found, check_size, check_stored
 from thermodata_reader_table.mat.tree import (
     MAX_DEPTH,
     MAX_NODES,
@@ -24,6 +24,7 @@ from thermodata_reader_table.mat.tree import (
     Structs,
     Text,
     Tree,
+    line,
 )
 
 _NUMBERS = {"double": "float64", "single": "float32", "logical": "bool"}
@@ -156,6 +157,7 @@ class _Walk:
     def _cells(self, item: Any, depth: int) -> Cells:
         if item.size > MAX_NODES:
             raise ValueError(f"{item.size} parts")
+        check_size(item)
         check_found(item)
         shape = item.shape
         references = np.asarray(item[()]).ravel()  # C order of the turned shape is MATLAB's column by column
@@ -194,12 +196,13 @@ def _no_numbers() -> Numbers:
 def _lines(item: Any) -> Text:
     if item.size > MAX_TEXT:
         raise ValueError(f"{item.size} characters")
+    check_size(item)
     check_found(item)
     codes = np.atleast_2d(np.asarray(item[()]))
     if codes.dtype.kind not in "iu":
         raise ValueError(f"text of type {codes.dtype}")
     table = codes.T if codes.ndim == 2 else codes.reshape(1, -1)
-    return Text(tuple(row.astype("<u2").tobytes().decode("utf-16-le", "replace").rstrip() for row in table))
+    return Text(tuple(line(row.astype("<u2").tobytes().decode("utf-16-le", "replace")) for row in table))
 
 
 def _numbers(item: Any, kind: str, where: str, spans: Spans) -> Node:

@@ -44,13 +44,11 @@ def check_stored(item: Any, kind: str, spans: Spans) -> None:
         raise ValueError(f"numbers of an unknown kind ({item.dtype})")
     if plain is not None and item.dtype.str != plain and kind not in ("char", "logical"):
         raise ValueError(f"a {kind} stored as {item.dtype}")
-    size, declared = int(item.file.id.get_filesize()), int(item.size) * item.dtype.itemsize
+    size, declared = int(item.file.id.get_filesize()), check_size(item)
     if not declared:
         return
     if item.chunks is None:
-        at, stored = item.id.get_offset(), int(item.id.get_storage_size())
-        if stored != declared:
-            raise ValueError(f"declares {declared} bytes and holds {stored}")
+        at = item.id.get_offset()
         # small values may stand inside the object's own header, which has no address
         if at is not None and not 0 < at <= size - declared:
             raise ValueError(f"{declared} bytes at {at} of {size}")
@@ -58,6 +56,15 @@ def check_stored(item: Any, kind: str, spans: Spans) -> None:
             spans.take(int(at), declared)
         return
     _check_chunks(item, size, declared, spans)
+
+
+def check_size(item: Any) -> int:
+    """The bytes that a data set declares. ValueError where it holds others: of one in pieces, any though it is
+    empty."""
+    declared, stored = int(item.size) * int(item.id.get_type().get_size()), int(item.id.get_storage_size())
+    if stored != declared and (item.chunks is None or not declared):
+        raise ValueError(f"declares {declared} bytes and holds {stored}")
+    return declared
 
 
 def check_found(item: Any) -> int:

@@ -53,6 +53,11 @@ class Text:
     lines: tuple[str, ...]
 
 
+def line(letters: str) -> str:
+    """A row of a char array as text: NUL, which MATLAB shows as a blank, is one, and none are left behind the text."""
+    return letters.replace("\0", " ").rstrip()
+
+
 @dataclass(frozen=True, slots=True)
 class Cells:
     """A cell array, column by column."""

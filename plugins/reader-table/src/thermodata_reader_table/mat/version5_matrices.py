@@ -18,6 +18,7 @@ from thermodata_reader_table.mat.tree import (
     Struct,
     Structs,
     Text,
+    line,
 )
 from thermodata_reader_table.mat.version5_elements import MATRIX, UTF8, UTF16, UTF32, DamagedError, Element, element_at
 
@@ -170,10 +171,10 @@ class MatrixParser:
             letters = raw.decode("cp1252", "backslashreplace")
         rows = dims[0]
         if rows == 1:
-            return Text((letters.rstrip(),))
+            return Text((line(letters),))
         if len(letters) != count:
             raise DamagedError(f"{len(letters)} characters for {'x'.join(map(str, dims))}")
-        return Text(tuple(letters[i::rows].rstrip() for i in range(rows)))
+        return Text(tuple(line(letters[i::rows]) for i in range(rows)))
 
     def _items(self, parts: Iterator[Element], count: int, depth: int) -> tuple[Node, ...]:
         found = []

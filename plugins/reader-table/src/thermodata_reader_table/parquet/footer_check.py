@@ -1,14 +1,15 @@
-"""Size statistics in the footer of a Parquet file, held against its schema before Arrow looks at them.
+"""The footer of a Parquet file, held against what the format says of it before Arrow looks at it.
 
-Arrow compares the lengths of their histograms with the levels of the column where it may not raise, and ends the
-process where they differ. So this walks through the footer (Thrift's compact protocol; apache/parquet-format,
-parquet.thrift) and knows no more of it than where those lists stand.
+Arrow compares the lengths of the histograms in size statistics with the levels of the column where it may not raise,
+and ends the process where they differ. So this walks through the footer (Thrift's compact protocol;
+apache/parquet-format, parquet.thrift) and knows no more of it than where lists stand and what they hold: Arrow reads
+the items of those by what the format says, whatever type the list itself tells of them, and a walk that went by the
+latter would be lost in a damaged one.
 """
 
 from __future__ import annotations
 
 import os
-from collections.abc import Callable
 from contextlib import suppress
 from pathlib import Path
 from typing import Any
@@ -16,35 +17,61 @@ from typing import Any
 _TRUE, _FALSE, _BYTE, _DOUBLE, _BINARY, _LIST, _SET, _MAP, _STRUCT = 1, 2, 3, 7, 8, 9, 10, 11, 12
 _VARINTS = frozenset((4, 5, 6))
 _DEEPEST = 32
-# fields by their numbers in parquet.thrift
-_ROW_GROUPS, _COLUMNS, _META_DATA, _SIZE_STATISTICS = 4, 1, 3, 16
-_BYTES, _REPETITION, _DEFINITION = 1, 2, 3
 # a footer of so many column chunks takes a second
 _MOST_CHUNKS = 20_000
 
-Fields = Callable[[int, int], bool]  # (number, type) -> whether the field was read
+Place = tuple[int, ...]  # numbers of fields in parquet.thrift, from the footer's own inwards; items stand at their list
+
+_COLUMNS: Place = (4, 1)
+_META_DATA: Place = (*_COLUMNS, 3)
+_SIZES: Place = (*_META_DATA, 16)
+_BYTES, _REPETITION, _DEFINITION = (*_SIZES, 1), (*_SIZES, 2), (*_SIZES, 3)
+_STRUCTS, _WORDS = frozenset((_STRUCT,)), frozenset((_BINARY,))
+_ITEMS: dict[Place, frozenset[int]] = {
+    (2,): _STRUCTS,  # schema
+    (4,): _STRUCTS,  # row groups
+    (5,): _STRUCTS,  # keys and values
+    (7,): _STRUCTS,  # orders of columns
+    (4, 4): _STRUCTS,  # sorting columns
+    _COLUMNS: _STRUCTS,
+    (*_COLUMNS, 8, 2, 1): _WORDS,  # path of an encrypted column
+    (*_META_DATA, 2): _VARINTS,  # encodings
+    (*_META_DATA, 3): _WORDS,  # path in the schema
+    (*_META_DATA, 8): _STRUCTS,  # keys and values
+    (*_META_DATA, 13): _STRUCTS,  # statistics of encodings
+    (*_META_DATA, 17, 2): _VARINTS,  # kinds of geometry
+    _REPETITION: _VARINTS,
+    _DEFINITION: _VARINTS,
+}
 
 
-def check_size_statistics(path: Path, schema: Any) -> None:
-    """ValueError where a histogram has not one count a level, or a column that holds no byte arrays tells their size.
+def check_footer(path: Path, schema: Any) -> None:
+    """ValueError where the footer is not what the format says, a histogram has not one count a level, or a column that
+    holds no byte arrays tells their size.
 
-    schema: of the open file (`pyarrow.parquet.ParquetSchema`). Of a footer that cannot be walked through to its end,
-    the chunks up to there."""
+    schema: of the open file (`pyarrow.parquet.ParquetSchema`). Beyond 20,000 column chunks nothing is looked at."""
+    walk = _Walk(_footer(path))
     try:
-        chunks = _Footer(_footer(path)).chunks()
-    except (ValueError, OSError):
-        return
-    for number, (has_bytes, repetition, definition) in chunks:
+        with suppress(_EnoughError):
+            walk.fields((), 0)
+    except IndexError:
+        raise ValueError("its footer ends within a field") from None
+    _check_sizes(walk.sizes, schema)
+
+
+def _check_sizes(sizes: list[tuple[int, dict[Place, int]]], schema: Any) -> None:
+    for number, told in sizes:
         if number >= len(schema):
             return  # `check_types` tells
         column = schema.column(number)
-        for what, size, level in (
-            ("repetition", repetition, column.max_repetition_level),
-            ("definition", definition, column.max_definition_level),
+        for what, place, level in (
+            ("repetition", _REPETITION, column.max_repetition_level),
+            ("definition", _DEFINITION, column.max_definition_level),
         ):
+            size = told.get(place)
             if size and size != level + 1:  # an empty one is allowed
                 raise ValueError(f"column {number} counts {size} {what} levels, its schema has {level + 1}")
-        if has_bytes and column.physical_type != "BYTE_ARRAY":
+        if _BYTES in told and column.physical_type != "BYTE_ARRAY":
             raise ValueError(f"column {number} tells the size of byte arrays, and is of {column.physical_type}")
 
 
@@ -60,112 +87,76 @@ def _footer(path: Path) -> bytes:
         return file.read(size)
 
 
-class _Footer:
-    """A walk through bytes in the compact protocol. IndexError where they end."""
+class _Walk:
+    """A walk through bytes in the compact protocol. IndexError where they end.
+
+    sizes: of each column chunk that has size statistics, its column, and what they tell: at the place of a histogram
+    its length."""
 
     def __init__(self, data: bytes) -> None:
         self._data, self._at = data, 0
+        self._column, self._left = 0, _MOST_CHUNKS
+        self.sizes: list[tuple[int, dict[Place, int]]] = []
 
-    def chunks(self) -> list[tuple[int, tuple[bool, int, int]]]:
-        """(column, (whether it tells the bytes of byte arrays, length of the histogram of repetition levels, of
-        definition levels)) of each column chunk that has size statistics."""
-        found: list[tuple[int, tuple[bool, int, int]]] = []
-        left = [_MOST_CHUNKS]
-
-        def size_statistics(column: int) -> None:
-            seen = {_BYTES: 0, _REPETITION: 0, _DEFINITION: 0}
-
-            def field(number: int, kind: int) -> bool:
-                if number == _BYTES:
-                    seen[_BYTES] = 1
-                elif number in seen and kind == _LIST:
-                    seen[number] = self._each(lambda item, _: self._skip(item, 0))
-                    return True
-                return False
-
-            self._struct(field)
-            found.append((column, (bool(seen[_BYTES]), seen[_REPETITION], seen[_DEFINITION])))
-
-        def inside(wanted: int, kind: int, read: Callable[[], object]) -> Fields:
-            def field(number: int, own: int) -> bool:
-                if number != wanted or own != kind:
-                    return False
-                read()
-                return True
-
-            return field
-
-        def chunk(_: int, column: int) -> None:
-            left[0] -= 1
-            meta = inside(_SIZE_STATISTICS, _STRUCT, lambda: size_statistics(column))
-            self._struct(inside(_META_DATA, _STRUCT, lambda: self._struct(meta)))
-            if not left[0]:
-                raise _EnoughError
-
-        def group(_: int, __: int) -> None:
-            self._struct(inside(_COLUMNS, _LIST, lambda: self._each(chunk)))
-
-        # Arrow may take more than this walk can, and looks at the same chunks before
-        with suppress(_EnoughError, IndexError, ValueError):
-            self._struct(inside(_ROW_GROUPS, _LIST, lambda: self._each(group)))
-        return found
-
-    def _struct(self, field: Fields) -> None:
-        """Reads a struct: each field by `field`, or past it."""
+    def fields(self, place: Place, depth: int) -> None:
+        """Past a struct."""
+        if place == _SIZES:
+            self.sizes.append((self._column, {}))
         number = 0
-        while True:
-            head = self._byte()
-            if not head:
-                return
+        while head := self._byte():
             number = number + (head >> 4) if head >> 4 else self._signed()
-            kind = head & 15
-            if not field(number, kind):
-                self._skip(kind, 0)
+            if head & 15 not in (_TRUE, _FALSE):  # the value stands in the head
+                self._value(head & 15, (*place, number), depth)
 
-    def _each(self, read: Callable[[int, int], None]) -> int:
-        """Reads a list: read(type, place) of each item; returns how many there are."""
-        head = self._byte()
-        size = head >> 4 if head >> 4 < 15 else self._varint()
-        if size > len(self._data):
-            raise IndexError
-        for place in range(size):
-            read(head & 15, place)
-        return size
-
-    def _skip(self, kind: int, depth: int) -> None:
+    def _value(self, kind: int, place: Place, depth: int) -> None:
         if depth > _DEEPEST:
-            raise ValueError("too deep")
+            raise ValueError("its footer is nested too deep")
         if kind in _VARINTS:
             self._varint()
+            if place == _BYTES:
+                self._told(place, 1)
         elif kind == _BINARY:
             self._past(self._varint())
         elif kind == _STRUCT:
-            while head := self._byte():
-                if not head >> 4:
-                    self._signed()
-                if head & 15 not in (_TRUE, _FALSE):  # the value stands in the head
-                    self._skip(head & 15, depth + 1)
+            self.fields(place, depth + 1)
         elif kind in (_LIST, _SET):
-            self._each(lambda item, _: self._item(item, depth))
+            self._list(place, depth)
         elif kind == _MAP:
             size = self._varint()
             kinds = self._byte() if size else 0
             for _ in range(size):  # each takes a byte at least, so the bytes end first
                 for item in (kinds >> 4, kinds & 15):
-                    self._item(item, depth)
-        elif kind == _BYTE:
+                    self._value(item, place, depth + 1)
+        elif kind in (_BYTE, _TRUE, _FALSE):
             self._past(1)
         elif kind == _DOUBLE:
             self._past(8)
-        elif kind not in (_TRUE, _FALSE):
-            raise ValueError(f"no type {kind}")
-
-    def _item(self, kind: int, depth: int) -> None:
-        """Past an item of a list or map: there a truth value takes a byte."""
-        if kind in (_TRUE, _FALSE):
-            self._past(1)
         else:
-            self._skip(kind, depth + 1)
+            raise ValueError(f"its footer has a field of type {kind}, which there is not")
+
+    def _list(self, place: Place, depth: int) -> None:
+        head = self._byte()
+        size = head >> 4 if head >> 4 < 15 else self._varint()
+        if size > len(self._data):
+            raise IndexError
+        expected = _ITEMS.get(place)
+        if size and expected is not None and head & 15 not in expected:
+            where = ".".join(map(str, place))
+            raise ValueError(f"the list in field {where} of its footer has items of type {head & 15}")
+        if place in (_REPETITION, _DEFINITION):
+            self._told(place, size)
+        for item in range(size):
+            if place == _COLUMNS:
+                self._column = item
+            self._value(head & 15, place, depth + 1)
+            if place == _COLUMNS:
+                self._left -= 1
+                if not self._left:
+                    raise _EnoughError
+
+    def _told(self, place: Place, size: int) -> None:
+        if self.sizes:
+            self.sizes[-1][1][place] = size
 
     def _past(self, size: int) -> None:
         self._at += size
@@ -186,7 +177,7 @@ class _Footer:
                 return value
             shift += 7
             if shift > 63:
-                raise ValueError("a number of too many bytes")
+                raise ValueError("its footer has a number of too many bytes")
 
     def _signed(self) -> int:
         value = self._varint()

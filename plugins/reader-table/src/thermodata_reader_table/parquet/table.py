@@ -18,12 +18,14 @@ from thermodata.reader.text import split_unit, time_formats
 from thermodata.reader.text.header import unique
 from thermodata.reader.text.layout import period_s
 from thermodata.reader.text.time_columns import column as find_column
-from thermodata.reader.text.time_columns import find_time, is_time_header, no_time, unit_of_time
+from thermodata.reader.text.time_columns import find_time
 from thermodata.reader.text.time_formats import times_of_numbers
 from thermodata.reader.text.time_groups import one_time
+from thermodata.reader.text.time_header import is_time_header, unit_of_time
+from thermodata.reader.text.time_questions import no_time
 from thermodata.reader.time_units import check_unit, found_epoch, to_ns
 from thermodata_reader_table.parquet.columns import nanoseconds, numbers
-from thermodata_reader_table.parquet.footer_check import check_size_statistics
+from thermodata_reader_table.parquet.footer_check import check_footer
 from thermodata_reader_table.parquet.schema import check_types, column_at, flat, left_out, value_type
 
 _ROWS = 1_000_000  # whose times are read at once
@@ -50,10 +52,11 @@ class Table:
 
         self.path, self.source = path, source
         with damage_as_format_error(path):
-            self.file = pq.ParquetFile(path)
+            # of pages that have a checksum
+            self.file = pq.ParquetFile(path, page_checksum_verification=True)
             self.schema = self.file.schema_arrow
             self.schema, self.places = flat(self.schema)
-            check_size_statistics(path, self.file.schema)
+            check_footer(path, self.file.schema)
             check_types(self.file)
         twice = [n for n, k in Counter(self.places).items() if k > 1]
         if twice:

@@ -1,0 +1,166 @@
+"""One file of a folder: who reads it, what its reader says of it, what it leaves open, and a sample of its values.
+A workbook whose sheets are tests is as many files."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from pathlib import Path, PurePosixPath
+from typing import Any
+
+from thermodata.draft.sample import Sample, sample_of
+from thermodata.errors import QuestionError
+from thermodata.plugin import Reader, Recording, Signal, Source
+from thermodata.reader.explain import kind_of
+from thermodata.reader.guard import described
+from thermodata.reader.open_questions import UNKNOWN
+from thermodata.reader.registry import claims, reader
+
+_MOST_QUESTIONS = 4
+_ASSUMED = "counted as 1 s each|taken as seconds from a start"
+_UNIT: Mapping[str, Any] = {"time": {"unit": UNKNOWN}}
+
+
+@dataclass(frozen=True, slots=True)
+class Asked:
+    """A question that a file leaves. declare: as in `sources.*.table`, 'unknown' where the answer goes."""
+
+    ask: str
+    declare: Mapping[str, Any]
+
+
+@dataclass(frozen=True, slots=True)
+class RawFile:
+    """A file that one reader claims, or a sheet of it. path: relative to the folder. like: the file of the same kind
+    whose header was taken for this one's, where there was no time to read it; asked: what it does not say; table: the
+    answers by which it was looked at meanwhile; sheet: of a workbook whose sheets are tests; besides: why others of
+    its sheets are none."""
+
+    path: PurePosixPath
+    reader: str
+    recording: Recording
+    size: int = 0
+    sample: Sample = field(default_factory=Sample)
+    like: str | None = None
+    asked: tuple[Asked, ...] = ()
+    table: Mapping[str, Any] | None = None
+    sheet: str | None = None
+    besides: tuple[str, ...] = ()
+
+    @property
+    def source(self) -> Source:
+        """What the reader is told, so that it reads the file at all."""
+        return Source(table=self.table)
+
+    @property
+    def signals(self) -> tuple[Signal, ...]:
+        return self.recording.signals
+
+    @property
+    def start_ns(self) -> int | None:
+        """Where its absolute clock starts; None on a relative clock."""
+        if self.recording.clock != "absolute":
+            return None
+        return self.sample.first_ns if self.sample.first_ns is not None else self.recording.start_ns
+
+    @property
+    def local(self) -> bool:
+        """Whether it logs local times of a zone that it does not name."""
+        return self.recording.clock == "absolute" and any("no time zone" in n for n in self.recording.notes)
+
+
+def sampled_file(folder: Path, path: PurePosixPath) -> RawFile | None:
+    """One file of a folder with a sample of its values; None where no reader, or more than one, claims it.
+
+    ThermodataError where it cannot be read at all.
+    """
+    who, _ = claimant(folder / path)
+    if who is None:
+        return None
+    file = described_files(who, folder / path, path)[0]
+    return replace(file, sample=sample_of_file(folder / path, file))
+
+
+def described_files(who: Reader, full: Path, path: PurePosixPath) -> list[RawFile]:
+    """A file as its reader describes it, with what it leaves open; a workbook whose sheets are alike sheet by sheet.
+
+    ThermodataError where it cannot be read at all.
+    """
+    size = full.stat().st_size
+    whole = _asking(who, full, RawFile(path, who.name, Recording((), "relative"), size))
+    names, besides = _sheets(whole.recording)
+    if not names:
+        return [whole]
+    found = []
+    left = [f"its sheet '{n}' is not like the {len(names)} others: a list of tests, or notes?" for n in besides]
+    left += [f"its {note}" for note in whole.recording.notes if re.match(r"sheet '.*' is not read", note)]
+    for name in names:
+        one = replace(whole, sheet=name, besides=tuple(left), table={**(whole.table or {}), "sheet": name}, asked=())
+        found.append(_asking(who, full, one))
+    return found
+
+
+def _asking(who: Reader, full: Path, file: RawFile) -> RawFile:
+    """The file described, each of its questions answered for the time being."""
+    asked: list[Asked] = []
+    table: dict[str, Any] = dict(file.table or {})
+    while True:
+        try:
+            recording = described(who, full, Source(table=table or None))
+            break
+        except QuestionError as question:
+            if len(asked) == _MOST_QUESTIONS:
+                raise
+            asked.append(Asked(question.ask, question.declare))
+            table = merged(table, question.meanwhile)
+    if not any("time" in a.declare for a in asked):  # what a reader takes by custom, MATLAB's seconds, is asked here
+        asked += [Asked("unit of the time: s, min or h?", _UNIT) for n in recording.notes if "taken as seconds;" in n]
+        asked += [Asked(f"time: {n}", {}) for n in recording.notes if re.search(_ASSUMED, n)]
+    return replace(file, recording=recording, asked=tuple(asked), table=table or None)
+
+
+def merged(one: Mapping[str, Any], other: Mapping[str, Any]) -> dict[str, Any]:
+    """Both declarations; of what is in both, the parts of both."""
+    out = dict(one)
+    for key, value in other.items():
+        out[key] = (
+            merged(out[key], value) if isinstance(out.get(key), Mapping) and isinstance(value, Mapping) else value
+        )
+    return out
+
+
+def _sheets(recording: Recording) -> tuple[list[str], list[str]]:
+    """(the sheets of a workbook that are tests of one kind, the others): each a stream, and with mostly the same
+    signals. No sheets where fewer than two are alike, or fewer than three beside one that is unlike them."""
+    streams = list(dict.fromkeys(s.stream for s in recording.signals))
+    if len(streams) < 2 or not all(s.name.startswith(f"{s.stream}/") for s in recording.signals):
+        return [], []
+    own = {n: {s.name.removeprefix(f"{n}/") for s in recording.signals if s.stream == n} for n in streams}
+
+    def like(one: str) -> list[str]:
+        return [n for n in streams if len(own[one] & own[n]) >= 0.5 * max(len(own[one]), len(own[n]))]
+
+    alike = max((like(n) for n in streams), key=len)
+    others = [n for n in streams if n not in alike]
+    # an overview or notes beside the tests; half of the sheets of another kind are two loggers of the same tests
+    enough = len(alike) >= 2 and (not others or len(alike) >= max(3, 2 * len(others)))
+    return (alike, others) if enough else ([], [])
+
+
+def claimant(path: Path) -> tuple[Reader | None, str]:
+    """The one reader that claims a file, or None and why there is none."""
+    found = claims(path)
+    if len(found) == 1:
+        return reader(next(iter(found))), ""
+    if not path.stat().st_size:
+        return None, "an empty file"
+    if not found:
+        return None, f"no reader claims it ({kind_of(path)}): thermodata sniff says why"
+    said = " and ".join(f"{name} ({why})" for name, why in found.items())
+    return None, f"two readers claim it: {said}; declare one as the reader of a source"
+
+
+def sample_of_file(path: Path, file: RawFile) -> Sample:
+    """A sample of a file's values, as it was described."""
+    return sample_of(path, reader(file.reader), file.source, file.recording, file.size)
