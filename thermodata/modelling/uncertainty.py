@@ -8,10 +8,11 @@ from functools import cached_property
 
 import numpy as np
 
+from thermodata.modelling.coordinate import Coordinate, Searched, Solved
 from thermodata.modelling.design import MOMENTS
 from thermodata.modelling.fitted_response import Ends
 from thermodata.modelling.labels import alike, fastest_first
-from thermodata.modelling.profile import ALIKE, Coordinate, Profile, Searched, Solved
+from thermodata.modelling.profile import ALIKE, Profile
 from thermodata.modelling.search import Problem, search
 from thermodata.modelling.slow_noise import Scatter, make_noise, nothing
 from thermodata.modelling.start_unknown import disturbances
