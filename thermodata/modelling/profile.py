@@ -16,15 +16,19 @@ from collections.abc import Callable
 
 import numpy as np
 
+from thermodata.modelling.anew import could_fall, fit_anew
 from thermodata.modelling.coordinate import Coordinate, Solved
 from thermodata.modelling.fitted_response import Ends
 from thermodata.modelling.search import Problem, search
-from thermodata.plugin import Float1D
+from thermodata.plugin import Float1D, Float2D
 
-ALIKE = (0.7, 1.4)  # of the allowed rise, at the ends of the quadratic interval, that make it the profile's
+ALIKE = (0.92, 1.1)  # of the allowed rise, at the ends of the quadratic interval, that make it the profile's: beyond
+# such an end lies the truth in 2 to 3 of 100 cases, in place of 2.5
 CLOSE = 0.025  # of the way to an end, or of a gain: how closely it is found
 CLOSER = 4  # times at most
-FLAT = 0.25  # of the allowed rise: below it the next step out is twice as long
+PAST = 1.15  # times as far as a parabola says: so far out is an end looked for at first, then twice as far
+MOST = 4.0  # times as far as the last look
+ROUGHLY = 1e-5  # of the squared error: to that it is searched before a rise is known
 ONWARD = 2.0  # times the last step: so far others are thought to go on as they did
 NEAR = 0.02  # of the allowed rise: to that an error is searched
 MOVES = 4  # of the border between two like lags, while one of them lies at it
@@ -34,8 +38,9 @@ POINTS = 9  # of the curve, on each side
 class Profile:
     """Of one coordinate. allowed: rise of the squared error at an end of the interval of 95 %, by how the prediction
     has moved, shape (n,); along: how the searched parameters move with it where the error is quadratic, shape (free
-    parameters,), None where too little is known to say; x: the optimum of this problem; moved: of the coordinate to the
-    optimum of the problem that it stands for."""
+    parameters,), None where too little is known to say; slopes: of the prediction to these, at the optimum, shape (n,
+    free parameters), None where one has none; x: the optimum of this problem; moved: of the coordinate to the optimum
+    of the problem that it stands for."""
 
     def __init__(
         self,
@@ -44,16 +49,19 @@ class Profile:
         of: Coordinate,
         allowed: Callable[[Float1D], float],
         along: Float1D | None,
+        slopes: Float2D | None = None,
         moved: float = 0.0,
     ) -> None:
         self.problem, self.x, self.of, self.allowed, self.along = problem, x, of, allowed, along
+        # of what is searched beside it
+        self._slopes = None if slopes is None else slopes[:, of.others(np.arange(len(x), dtype=np.float64)).astype(int)]
         self.moved = moved
         self.centre = of.at(problem, x)
         self.low, self.high = of.range(problem, x)
         self.residual = problem.residual(x)
         self.least = float(self.residual @ self.residual)
         self._near: dict[float, Float1D] = {self.centre: of.others(x)}
-        self._rises: dict[float, float] = {}
+        self._rises: dict[float, float] = {self.centre: 0.0}
         self._squares: dict[float, float] = {self.centre: self.least}
         self._in_one: float | None = None
         self._enough: float | None = None
@@ -66,12 +74,11 @@ class Profile:
         for _ in range(MOVES):
             near = found
             part = self.of.held(self.problem, at, near)
-            found = search(part, near, loose=True, enough=self._enough)
+            found, residual = self._fitted_anew(part, near)
             pressed = self.of.pressed(found, near)
             if not pressed:
                 break
         self._near[at] = found
-        residual = part.residual(found)
         square = float(residual @ residual)
         if pressed:
             # two lags in one lie on the border, whatever their gains
@@ -83,15 +90,27 @@ class Profile:
             self._enough = NEAR * (square - self.least) / self._rises[at] / self.least
         return self._rises[at]
 
+    def _fitted_anew(self, part: Problem, near: Float1D) -> tuple[Float1D, Float1D]:
+        """Where the others end, and what is left there."""
+        if self._slopes is not None:
+            refit = fit_anew(part, near, self._slopes, self._enough or ROUGHLY)
+            if refit is not None:
+                return refit.x, refit.residual
+        found = search(part, near, loose=True, enough=self._enough)
+        return found, part.residual(found)
+
     def _start(self, at: float) -> Float1D:
         """Where the others stand further in, or where they would if they went on as they did."""
         # from the optimum outwards: a point further out may lie in another valley
         inner = [known for known in self._near if min(self.centre, at) <= known <= max(self.centre, at)]
         inner.sort(key=lambda known: abs(known - at))
         last = self._near[inner[0]]
-        if len(inner) < 2 or abs(at - inner[0]) > ONWARD * abs(inner[0] - inner[1]):
+        if len(inner) < 2 and self.along is not None:
+            onward = self.of.others(self.x + (at - self.centre) * self.along)
+        elif len(inner) < 2 or abs(at - inner[0]) > ONWARD * abs(inner[0] - inner[1]):
             return last
-        onward = last + (at - inner[0]) / (inner[0] - inner[1]) * (last - self._near[inner[1]])
+        else:
+            onward = last + (at - inner[0]) / (inner[0] - inner[1]) * (last - self._near[inner[1]])
         part = self.of.held(self.problem, at, last)
         onward = np.clip(onward, *part.box())
         squares = [float(r @ r) for r in (part.residual(last), part.residual(onward))]
@@ -102,7 +121,8 @@ class Profile:
 
     def is_straight(self, half: float) -> bool:
         """Whether the path that a quadratic error would take has the allowed rise at both ends of an interval of that
-        half width, in the units of the search: it costs a look at each, and nothing is fitted anew."""
+        half width, in the units of the search: it costs a look at each. By what the others could still take from it if
+        they were fitted anew, slopes tell."""
         if not self._reaches(half) or self.along is None:
             return False
         return all(ALIKE[0] <= self._straight(side * half, self.along) <= ALIKE[1] for side in (-1.0, 1.0))
@@ -138,16 +158,21 @@ class Profile:
     def _straight(self, step: float, along: Float1D) -> float:
         there = np.clip(self.x + step * along, *self.problem.box())
         others = self.of.others(there)
-        residual = self.of.held(self.problem, self.centre + step, others).residual(others)
-        return self._share(float(residual @ residual), residual)
+        part = self.of.held(self.problem, self.centre + step, others)
+        residual = part.residual(others)
+        square = float(residual @ residual)
+        if self._slopes is not None:
+            square -= could_fall(part, others, residual, self._slopes)
+        return self._share(square, residual)
 
     def _end(self, half: float) -> float | None:
         """Where the rise is what is allowed; None where it is not before the end of the range."""
         bound = self.high if half > 0 else self.low
         inner, outer = self.centre, self.centre + half
+        least = 1.0
         while (bound - outer) * half > 0 and self.rise(outer) < 1.0:
-            further = 2.0 if self.rise(outer) > FLAT else 4.0
-            inner, outer = outer, self.centre + further * (outer - self.centre)
+            further = min(MOST, max(least, PAST / np.sqrt(max(self.rise(outer), PAST**2 / MOST**2))))
+            inner, outer, least = outer, self.centre + further * (outer - self.centre), 2.0
         if (bound - outer) * half <= 0:
             outer = bound
             if not np.isfinite(bound) or abs(outer - inner) < 1e-12 or self.rise(outer) < 1.0:

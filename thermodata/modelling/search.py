@@ -142,7 +142,7 @@ def _refine(problem: Problem, x: Float1D, loose: bool, enough: float | None) -> 
         method="trf",
         diff_step=1e-5,
         x_scale=high - low,
-        xtol=1e-4 if loose else 1e-7,
+        xtol=1e-4 if loose and enough is None else 1e-7,
         ftol=(enough or 1e-5) if loose else 1e-9,
         gtol=1e-12,
         max_nfev=12 if loose else 60,
