@@ -14,8 +14,9 @@ import numpy as np
 from thermodata.modelling.search import Problem
 from thermodata.plugin import Array, Float1D, Float2D
 
-STEPS = 6  # after which a search does better
-LEAST = 0.5  # of the fall that slopes foretell: a step that brings less is not where they hold
+STEPS = 8  # after which a search does better
+LEAST = 0.5  # of the fall that slopes foretell, where they hold
+STEP = 1e-5  # of a parameter's range, for its slope
 ONE = 1e-12  # of the most power of a direction: below, columns are one
 
 
@@ -28,25 +29,46 @@ class Refit:
 
 
 def fit_anew(problem: Problem, x: Float1D, slopes: Float2D, enough: float) -> Refit | None:
-    """From a point near the optimum of a problem; None where its slopes do not lead there. slopes: of the prediction to
+    """From a point near the optimum of a problem; None where STEPS do not lead there. slopes: of the prediction to
     what the problem searches, its gains as they are, shape (n, k); enough: fall of the squared error, as a share of it,
     that no step is taken for."""
     low, high = problem.box()
     residual = problem.residual(x)
     slopes = -_beside(_free_columns(problem, x), slopes)  # of the residual, once the gains are solved
+    as_told, own = True, False  # whether the last step brought what slopes foretold; whether these are of this point
     for _ in range(STEPS):
         square = float(residual @ residual)
         step = _step(slopes, residual, low - x, high - x)
         foretold = residual + slopes @ step
         fall = square - float(foretold @ foretold)
-        if fall <= enough * square:
+        if fall <= enough * square and (as_told or own):
             return Refit(x, residual)
+        if not as_told:
+            if own:
+                return None
+            slopes, own = _slopes(problem, x, residual), True
+            as_told = True
+            continue
         there = problem.residual(x + step)
-        if square - float(there @ there) < LEAST * fall:
-            return None
-        slopes = slopes + np.outer((there - foretold) / float(step @ step), step)
-        x, residual = x + step, there
+        fell = square - float(there @ there)
+        as_told = fell >= LEAST * fall
+        if as_told:
+            slopes = slopes + np.outer((there - foretold) / float(step @ step), step)
+        if fell > 0:
+            x, residual, own = x + step, there, False
     return None
+
+
+def _slopes(problem: Problem, x: Float1D, residual: Float1D) -> Float2D:
+    """Of the residual at a point, one difference each; shape (n, k)."""
+    low, high = problem.box()
+    columns = []
+    for i in range(len(x)):
+        delta = STEP * (high[i] - low[i]) * (1.0 if x[i] < (low[i] + high[i]) / 2 else -1.0)
+        trial = x.copy()
+        trial[i] += delta
+        columns.append((problem.residual(trial) - residual) / delta if delta else np.zeros(len(residual)))
+    return np.column_stack(columns)
 
 
 def could_fall(problem: Problem, x: Float1D, residual: Float1D, slopes: Float2D) -> float:

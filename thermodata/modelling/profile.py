@@ -86,12 +86,13 @@ class Profile:
                 self._in_one = self.of.in_one(self.problem)
             square = min(square, self._in_one)
         self._squares[at], self._rises[at] = square, self._share(square, residual)
-        if self._enough is None and self._rises[at] > 0 and self.least > 0:
-            self._enough = NEAR * (square - self.least) / self._rises[at] / self.least
         return self._rises[at]
 
     def _fitted_anew(self, part: Problem, near: Float1D) -> tuple[Float1D, Float1D]:
         """Where the others end, and what is left there."""
+        if self._enough is None and self.least > 0:
+            allowed = self.allowed(self.residual - part.residual(near))
+            self._enough = NEAR * allowed / self.least if np.isfinite(allowed) and allowed > 0 else None
         if self._slopes is not None:
             refit = fit_anew(part, near, self._slopes, self._enough or ROUGHLY)
             if refit is not None:

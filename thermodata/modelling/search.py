@@ -73,7 +73,14 @@ def search(problem: Problem, start: Float1D | None = None, loose: bool = False, 
     x = problem.start() if start is None else start
     if not len(x) or not problem.design.n:
         return x
-    return _refine(problem, _sweeps(problem, x) if start is None else x, loose, enough)
+    found = _refine(problem, _sweeps(problem, x) if start is None else x, loose, enough)
+    if start is not None or loose or len(x) == 1:
+        return found
+    # sweeps choose a valley while the others are coarse; once they are not, another one may be deeper
+    elsewhere = found
+    for i in range(len(x)):
+        elsewhere = along_whole_range(problem, elsewhere, i)
+    return found if elsewhere is found else _refine(problem, elsewhere, loose, enough)
 
 
 def along_whole_range(problem: Problem, x: Float1D, i: int) -> Float1D:
