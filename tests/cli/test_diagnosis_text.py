@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from thermodata.report.diagnosis_text import diagnosis_text
-from thermodata.schema.result import Candidate, Diagnosis
+from thermodata.schema.diagnosis import Candidate, Diagnosis
 
 
 def candidate(rank: int, effect: str, **more: Any) -> Candidate:

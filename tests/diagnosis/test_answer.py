@@ -12,8 +12,8 @@ from thermodata.diagnosis.answer import answer
 from thermodata.effect import effects
 from thermodata.effect.lag import lag
 from thermodata.modelling.fit import fit_model
+from thermodata.schema.diagnosis import Candidate, Diagnosis
 from thermodata.schema.model import EffectSpec, Model
-from thermodata.schema.result import Candidate, Diagnosis
 from thermodata.view.dataset import ChannelInfo, Dataset
 
 from .conftest import CHANNELS, STEP_S, base, make_data

@@ -18,8 +18,8 @@ from thermodata.modelling.acting import acting, moved_while
 from thermodata.modelling.candidate import phases_id, phases_of, with_candidate, with_phases
 from thermodata.modelling.fit import fit_model
 from thermodata.modelling.fitted_response import FittedResponse
+from thermodata.schema.diagnosis import Diagnosis
 from thermodata.schema.model import EffectSpec, Model
-from thermodata.schema.result import Diagnosis
 from thermodata.view.dataset import Dataset, TestData
 
 from .conftest import STEP_S, base, make_data

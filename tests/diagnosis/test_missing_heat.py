@@ -9,9 +9,10 @@ import pytest
 from scipy.optimize import lsq_linear
 
 from thermodata.diagnosis import missing_heat as module
-from thermodata.diagnosis.missing_heat import MissingHeat, box_columns, missing_heat
+from thermodata.diagnosis.missing_heat import MissingHeat, missing_heat
 from thermodata.diagnosis.one_way import Normal, solve
 from thermodata.diagnosis.problem import Problem
+from thermodata.diagnosis.source_steps import box_columns
 from thermodata.effect.lag import lag
 from thermodata.plugin import Float1D
 

@@ -106,6 +106,12 @@ NOISE = Noise(0.1, 0.1, 600.0, 0.5)
 FAR = scored("far", before=1.0, after=0.95)
 
 
+# evidence a sample of a passive one whose error falls to nothing: log10 of it is (log(0.65 / 0.35) - 0.9 + 0.05) / 2.15
+LEAST_OF_PASSIVE = 10 ** ((np.log(0.65 / 0.35) - 0.9 + 0.05) / 2.15)
+# and of one without any place: (log(0.5 / 0.5) - 0.9 - 2.6) / 2.15
+LEAST_OF_PLACELESS = 10 ** (-3.5 / 2.15)
+
+
 class TestJudged:
     """Selection is replaced by evidence made by hand: what matters is what is asked for, and against which measure."""
 
@@ -117,9 +123,11 @@ class TestJudged:
         members: Sequence[Scored] | None,
         ranked: Sequence[Scored] = (FAR,),
         refined: Sequence[str] = (),
+        stands_out: bool = True,
         **more: Any,
     ) -> Investigation:
-        """members: that are selected, the passive ones where they may be; None where nothing can be asked."""
+        """members: that are selected, the passive ones where they may be; None where nothing can be asked.
+        stands_out: whether one that is passive may be claimed at best."""
         self.rows: list[int] = []
         self.among: list[list[str]] = []
         known: Any = None
@@ -144,7 +152,15 @@ class TestJudged:
             self.rows.append(named["rows"])
             return build(*of, **named)
 
+        def any_stands_out(
+            problem: Problem, given: Ranked, found: Selection, some: Sequence[Columns], may: Any
+        ) -> bool:
+            assert given is first
+            self.may = may
+            return stands_out and bool(some)
+
         monkeypatch.setattr(investigating, "first_ranking", first_ranking)
+        monkeypatch.setattr(investigating, "any_stands_out", any_stands_out)
         monkeypatch.setattr(investigating, "select", select)
         monkeypatch.setattr(investigating, "build_problem", built)
         monkeypatch.setattr(investigating, "best_of_chance", lambda known, pool, seed: np.full(199, 100.0))
@@ -203,6 +219,21 @@ class TestJudged:
         assert [j.scored.candidate.effect.name for j in found.judgement.judged] == asked[-1]
         self.investigated(monkeypatch, data, fitted.responses[0], [FAR])
         assert self.among == [["far"]], "no second look where nothing is passive"
+
+    def test_what_is_passive_is_asked_for_only_where_it_may_be_claimed_at_best(
+        self, monkeypatch: pytest.MonkeyPatch, data: Dataset, fitted: FittedModel
+    ) -> None:
+        """At best: left-out tests foretold without any error."""
+        bed = scored("bed", before=3.0, after=0.3, size=3.0, evidence=700.0, passive=True, family="generic")
+        blunt = scored("blunt", before=3.0, after=0.3, size=3.0, evidence=30.0)
+        some = [blunt, bed]
+        found = self.investigated(monkeypatch, data, fitted.responses[0], some, ranked=some, stands_out=False)
+        assert self.among == [["blunt"]]
+        assert [j.scored.candidate.effect.name for j in found.judgement.judged] == ["blunt"]
+        rows = found.problem.rows
+        for one, enough in ((bed, LEAST_OF_PASSIVE), (scored(placeless=True), LEAST_OF_PLACELESS)):
+            assert self.may(replace(one, evidence=1.01 * enough * rows))
+            assert not self.may(replace(one, evidence=0.99 * enough * rows))
 
     def test_locked_tests_are_asked_beside_all_that_was_selected_and_then_beside_refinements_alone(
         self, monkeypatch: pytest.MonkeyPatch, data: Dataset, fitted: FittedModel

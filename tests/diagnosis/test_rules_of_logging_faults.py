@@ -19,7 +19,7 @@ from thermodata.diagnosis.logging_faults import (
 )
 from thermodata.diagnosis.problem import Problem
 from thermodata.plugin import Float1D, Float2D
-from thermodata.schema.result import Artefact
+from thermodata.schema.diagnosis import Artefact
 from thermodata.view.dataset import ChannelInfo, TestData
 
 from .hand_made import Parts, of_tests, problem

@@ -454,3 +454,23 @@ def test_what_takes_a_members_place_keeps_its_credit(monkeypatch: pytest.MonkeyP
     assert members(found) == ["b", "c"]
     assert [m.scored.evidence for m in found.members] == [25.0, 15.0]
     assert [m.scored.credit for m in found.members] == [105.0, 15.0]
+
+
+@pytest.mark.parametrize(
+    ("alone", "beside", "limit", "stands"),
+    [(50.0, 20.0, 49.0, True), (50.0, 20.0, 51.0, False), (20.0, 50.0, 49.0, True), (20.0, 50.0, 51.0, False)],
+)
+def test_one_stands_out_beside_the_model_alone_or_beside_the_members(
+    monkeypatch: pytest.MonkeyPatch, alone: float, beside: float, limit: float, stands: bool
+) -> None:
+    """a was selected; of c, which is not among those asked for, nothing is heard."""
+    world = Worlds(monkeypatch, lambda n, known: {"a": 100.0, "b": beside if "a" in known else alone, "c": 90.0}[n])
+    found = world.select("abc", among="a")
+    asked = [s.columns for s in found.first.ranked if s.candidate.effect.name == "b"]
+    start = replace(of_tests(4), response="")
+
+    def may(one: Scored) -> bool:
+        return one.evidence > limit
+
+    assert selecting.any_stands_out(start, found.first, found, asked, may) is stands
+    assert not selecting.any_stands_out(start, found.first, found, [], lambda one: True)

@@ -19,8 +19,9 @@ from thermodata.diagnosis.locked import Foretold
 from thermodata.diagnosis.ranking import Ranked
 from thermodata.diagnosis.scored import Scored
 from thermodata.diagnosis.selection import Selection
+from thermodata.schema.diagnosis import Diagnosis, WeakSpot
 from thermodata.schema.model import Model
-from thermodata.schema.result import Diagnosis, Parameter, WeakSpot
+from thermodata.schema.result import Parameter
 from thermodata.view.dataset import Dataset
 
 from .hand_made import Parts, a_test, measure, problem, scored

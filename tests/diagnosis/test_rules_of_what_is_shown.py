@@ -12,7 +12,7 @@ from thermodata.diagnosis.next_test import to_find, to_separate
 from thermodata.diagnosis.unexplained import characterise
 from thermodata.diagnosis.weak import describe_state, weak_spots
 from thermodata.plugin import Float1D
-from thermodata.schema.result import WeakSpot
+from thermodata.schema.diagnosis import WeakSpot
 from thermodata.view.dataset import ChannelInfo, TestData
 
 from .hand_made import Parts, a_test, candidate, problem, scored

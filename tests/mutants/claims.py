@@ -119,14 +119,28 @@ MUTANTS = [
     diagnosis("judge.py", "if left <= measure.floor and not halved:", "if left < 0:", "'none' is never said"),
     diagnosis("judge.py", "if j.refines is None and blunt(j.scored) is None", "if j.refines is None", "proxies"),
     diagnosis("judge.py", "if j.refines is None and blunt", "if blunt", "a refinement is claimed as a cause"),
-    diagnosis("judge.py", "if kept and not standing:", "if kept:", "a refinement hides that something is missing"),
-    diagnosis("rules.py", "GOOD_SHARE = 0.25", "GOOD_SHARE = 0.9", "much is left and nothing is said to be missing"),
-    diagnosis("rules.py", "GOOD_SHARE = 0.25", "GOOD_SHARE = 0.05", "a distributed machine is never complete"),
+    diagnosis("rules.py", "SHARE = 0.25, 0.4", "SHARE = 0.9, 0.4", "much is left and nothing is said to be missing"),
+    diagnosis("rules.py", "SHARE = 0.25, 0.4", "SHARE = 0.05, 0.4", "a distributed machine is never complete"),
+    diagnosis("rules.py", "SHARE = 0.25, 0.4", "SHARE = 0.25, 0.9", "a refinement hides that something is missing"),
+    diagnosis("rules.py", "SHARE = 0.25, 0.4", "SHARE = 0.25, 0.3", "a rough model that lacks nothing is unknown"),
+    diagnosis("rules.py", "PLAUSIBLE = 0.3", "PLAUSIBLE = 0.64", "nothing is missing beside what may be the cause"),
+    diagnosis(
+        "rules.py", "PLAUSIBLE = 0.3", "PLAUSIBLE = 0.1", "what is no cause makes that nothing is missing unsure"
+    ),
+    diagnosis("rules.py", " >= PLAUSIBLE or halves(alone, left)", " >= PLAUSIBLE", "what takes half is nothing"),
     diagnosis("rules.py", "STRONG = 0.4", "STRONG = 0.04", "left-out tests that hardly gain are not heard"),
     diagnosis("rules.py", "HALVES = 0.5", "HALVES = 0.1", "a test at rest that is all wrong lacks nothing"),
     diagnosis("rules.py", "HALVES = 0.5", "HALVES = 0.9", "what helps a little contradicts that nothing is missing"),
     diagnosis("judge.py", "left > measure.noises and any", "any", "noise is to be explained"),
-    diagnosis("judge.py", "if left <= measure.good and not standing:", "if left <= measure.good:", "a cause is hidden"),
+    diagnosis("judge.py", "[left, *(j.alone.error_of_all for j in kept)]", "[left]", "a refined model is unknown"),
+    diagnosis(
+        "rules.py", "max(samples, 1), FALLS[1], False", "max(samples, 1), 0.0, False", "a second look is not taken"
+    ),
+    diagnosis(
+        "selection.py", "(_only(first, some), beside_all))", "(beside_all,))", "what stands out alone is not seen"
+    ),
+    diagnosis("selection.py", "(_only(first, some), beside_all))", "(_only(first, some),))", "nor beside the members"),
+    diagnosis("investigate.py", " and any_stands_out(", " and not any_stands_out(", "it is looked for in vain"),
     # ---- refinement
     diagnosis("refinement.py", "GOOD = 0.4", "GOOD = 0.9", "what a poor model lacks is a refinement"),
     diagnosis("refinement.py", "MOST = 0.6", "MOST = 0.3", "another mode is claimed as a cause"),

@@ -9,19 +9,9 @@ import pytest
 
 from thermodata.plugin import Float1D
 from thermodata.report.data import Curve, ReportData, TestPart, Version
-from thermodata.schema.result import (
-    Artefact,
-    Candidate,
-    Check,
-    Diagnosis,
-    HeatCompanion,
-    HeatCourse,
-    MissingHeat,
-    Parameter,
-    Score,
-    Unknown,
-    WeakSpot,
-)
+from thermodata.schema.diagnosis import Artefact, Candidate, Diagnosis, WeakSpot
+from thermodata.schema.missing_heat import HeatCompanion, HeatCourse, MissingHeat, Unknown
+from thermodata.schema.result import Check, Parameter, Score
 
 
 def lagged(u: Float1D, tau_s: float, step_s: float = 30.0) -> Float1D:

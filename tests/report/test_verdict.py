@@ -14,7 +14,7 @@ from thermodata.report.error_rows import error_rows
 from thermodata.report.headline import headline
 from thermodata.report.page import render
 from thermodata.report.verdict import explainable, listed, named, probability, told, verdict_sentence
-from thermodata.schema.result import Candidate, Diagnosis
+from thermodata.schema.diagnosis import Candidate, Diagnosis
 
 from .conftest import diagnosis
 

@@ -9,8 +9,9 @@ import pyarrow as pa
 import pytest
 
 from thermodata.errors import StoreError, UsageError
+from thermodata.schema.diagnosis import Artefact, Candidate, Diagnosis, WeakSpot
 from thermodata.schema.model import Model
-from thermodata.schema.result import Artefact, Candidate, Diagnosis, FitResult, Parameter, Score, WeakSpot
+from thermodata.schema.result import FitResult, Parameter, Score
 from thermodata.store import Store
 from thermodata.store.catalogue.models import (
     count_locked_look,

@@ -214,7 +214,7 @@ def history_command(session: Session, model: str | None) -> None:
 
     Of the newest one where no MODEL is named.
     """
-    from thermodata.report.collect import history_rows
+    from thermodata.report.history import history_rows
 
     store = session.store()
     chain = history_rows(store, resolve(store, model, session))

@@ -21,7 +21,7 @@ from thermodata.diagnosis.unexplained import characterise
 from thermodata.modelling.fit import fit_model
 from thermodata.modelling.fitted import FittedModel
 from thermodata.plugin import Effect
-from thermodata.schema.result import Candidate, Diagnosis
+from thermodata.schema.diagnosis import Candidate, Diagnosis
 from thermodata.view.dataset import Dataset, TestData
 
 SHOWN = 15

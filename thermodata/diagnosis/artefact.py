@@ -16,7 +16,7 @@ from thermodata.calibration.tread import tread_of
 from thermodata.diagnosis.commanded import Commands, over_three
 from thermodata.diagnosis.problem import Block, Problem
 from thermodata.plugin import Float1D
-from thermodata.schema.result import Artefact
+from thermodata.schema.diagnosis import Artefact
 from thermodata.view.dataset import TestData
 
 SIDE_S = 1200.0

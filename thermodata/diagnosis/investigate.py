@@ -29,12 +29,13 @@ from thermodata.diagnosis.present import present
 from thermodata.diagnosis.problem import TARGET_ROWS, Base, Problem, build_problem
 from thermodata.diagnosis.ranking import rank_in
 from thermodata.diagnosis.refinement import Refinement
-from thermodata.diagnosis.rules import Measure, failed_rules
-from thermodata.diagnosis.selection import Selection, first_ranking, select
+from thermodata.diagnosis.rules import Measure, at_best, failed_rules, limit_of
+from thermodata.diagnosis.scored import Scored
+from thermodata.diagnosis.selection import Selection, any_stands_out, first_ranking, select
 from thermodata.diagnosis.weak import weak_spots
 from thermodata.modelling.fitted_response import FittedResponse
 from thermodata.plugin import Effect
-from thermodata.schema.result import Artefact, WeakSpot
+from thermodata.schema.diagnosis import Artefact, WeakSpot
 from thermodata.view.dataset import ChannelInfo, Dataset, TestData
 
 # rows of all tests in which candidates are weighed: the covariance of a test costs the cube of its rows
@@ -148,11 +149,15 @@ def _judged(
         found = select(problem, first, lambda scored: not failed_rules(scored, measure, problem.unit), among=among)
         return found, judge(problem, found, measure, Refinement(fitted, problem, found.noise))
 
+    def may_be(scored: Scored) -> bool:
+        return at_best(scored, problem.rows) >= limit_of(scored)
+
     everything = [s.columns for s in first.ranked]
-    # what is passive can hardly be claimed, and drives out what it follows: so it is asked where nothing else is
-    active = [c for c in everything if not c.candidate.passive]
+    # what is passive can hardly be claimed, and drives out what it follows: so it is asked where nothing else is, and
+    # only where it might be
+    active, passive = ([c for c in everything if c.candidate.passive is so] for so in (False, True))
     selection, judgement = judged(active)
-    if not judgement.claims and len(active) < len(everything):
+    if not judgement.claims and any_stands_out(problem, first, selection, passive, may_be):
         selection, judgement = judged(everything)
     return selection, judgement, measure
 

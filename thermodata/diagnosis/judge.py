@@ -10,7 +10,15 @@ import numpy as np
 
 from thermodata.diagnosis.present import CONTROL, GENERIC
 from thermodata.diagnosis.problem import Problem
-from thermodata.diagnosis.rules import FLOOR_SHARE, GOOD_SHARE, Measure, blunt, failed_rules, halves, sharpness
+from thermodata.diagnosis.rules import (
+    FLOOR_SHARE,
+    Measure,
+    blunt,
+    contradicts,
+    failed_rules,
+    halves,
+    sharpness,
+)
 from thermodata.diagnosis.scored import Scored
 from thermodata.diagnosis.selection import Selection
 
@@ -67,7 +75,6 @@ def judge(
     if claims:
         return Judgement("effect", claims, kept, judged, "")
     left = selection.left
-    standing = [j.scored for j in judged if j.refines is None]
     halved = left > measure.noises and any(halves(j.alone, left) for j in judged)
     if left <= measure.floor and not halved:
         why = (
@@ -75,17 +82,17 @@ def judge(
             f"{measure.floor:.2g} {problem.unit} (noise, and {FLOOR_SHARE:.0%} of the response)"
         )
         return Judgement("none", (), (), judged, why)
-    if kept and not standing:
-        return Judgement("refine", (), kept, judged, "no cause is missing; what the model has can be refined")
-    if left <= measure.good and not standing:
-        why = (
-            f"the error on left-out tests, {left:.2g} {problem.unit}, is {left / measure.spread:.0%} of the response, "
-            f"as lags leave of a machine that lacks nothing (limit {GOOD_SHARE:.0%}), and nothing logged explains it"
-        )
-        return Judgement("none", (), (), judged, why)
+    standing = [j for j in judged if j.refines is None]
+    more_than_noise = left if left > measure.noises else 0.0
+    if not any(contradicts(j.scored, j.alone, more_than_noise) for j in standing):
+        rest, limit = min([left, *(j.alone.error_of_all for j in kept)]), measure.good(refined=bool(kept))
+        if rest <= limit:
+            return Judgement(
+                "refine" if kept else "none", (), kept, judged, _enough(rest, limit, problem.unit, measure)
+            )
     best = selection.first.ranked[0]
     if standing:
-        best = standing[0]
+        best = standing[0].scored
     failed = failed_rules(best, measure, problem.unit) or [why for why in [blunt(best)] if why]
     because = f": the best, {best.candidate.id}, fails because {failed[0]}" if failed else ""
     why = (
@@ -93,6 +100,14 @@ def judge(
         f"logged explains them{because}"
     )
     return Judgement("unknown", (), (), judged, why)
+
+
+def _enough(rest: float, limit: float, unit: str, measure: Measure) -> str:
+    """Why no cause is missing. rest: the error of left-out tests, with what refines the model where something does."""
+    return (
+        f"the error on left-out tests, {rest:.2g} {unit}, is {rest / measure.spread:.0%} of the response, as lags "
+        f"leave of a machine that lacks nothing (limit {limit / measure.spread:.0%}), and nothing logged explains it"
+    )
 
 
 def _against(left: float, floor: float) -> str:

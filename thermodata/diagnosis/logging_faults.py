@@ -10,7 +10,7 @@ import numpy as np
 from thermodata.diagnosis.candidates import NOT_DRIVERS
 from thermodata.diagnosis.problem import Block, Problem
 from thermodata.plugin import Float2D
-from thermodata.schema.result import Artefact
+from thermodata.schema.diagnosis import Artefact
 from thermodata.view.dataset import Dataset, TestData
 
 SHIFTS_S = (-900.0, -600.0, -450.0, -300.0, -180.0, -120.0, 120.0, 180.0, 300.0, 450.0, 600.0, 900.0)

@@ -14,14 +14,19 @@ import numpy as np
 from numpy.typing import NDArray
 
 from thermodata.diagnosis.one_way import Array, Normal, Solution, solve
-from thermodata.diagnosis.problem import Block, Problem, center
-from thermodata.plugin import Bool1D, Float1D, Float2D, Int1D
+from thermodata.diagnosis.problem import Problem
+from thermodata.diagnosis.source_steps import (
+    SourceColumns,
+    SteppedTest,
+    box_columns,
+    in_steps,
+    normal_equations,
+    source_columns,
+)
+from thermodata.plugin import Float1D, Float2D
 from thermodata.view.dataset import TestData
 
 TAUS_S = tuple(300.0 * 2 ** (i / 2) for i in range(15))  # 5 min to 10.7 h
-STEPS_A_TEST = 64  # of the source, in the longest test
-SHORTEST_STEP_S = 300.0
-ROWS_A_STEP = 2
 # how much the known effects may differ from their fit: as standard deviation of a coefficient (1 doubles an effect)
 KNOWN_SPREAD = 0.3
 STRENGTHS = (0.1, 0.3, 1.0)  # of the penalty on changes; the simplest that fits is chosen
@@ -66,19 +71,6 @@ class MissingHeat:
 
 
 @dataclass(frozen=True, slots=True)
-class _Test:
-    """One test, averaged to two rows a step. t_s, residual: shape (m,); known: (m, k), what the model can still do;
-    segment: (m,), one free offset each; edges: (n + 1,), of the steps [s]."""
-
-    test: TestData
-    t_s: Float1D
-    residual: Float1D
-    known: Float2D
-    segment: Int1D
-    edges: Float1D
-
-
-@dataclass(frozen=True, slots=True)
 class _Fit:
     """One sign, time constant and strength. errors, changes: a test each, shape (tests,)."""
 
@@ -96,7 +88,7 @@ def missing_heat(problem: Problem, seed: int = 0) -> MissingHeat | None:
     Sign, time constant and strength of the penalty are chosen by the Bayesian information criterion [schwarz1978], the
     number of changes of the source counting as parameters, as in the fused lasso [tibshirani2005].
     """
-    tests = _tests(problem)
+    tests = in_steps(problem)
     rows = np.array([len(t.t_s) for t in tests], dtype=np.float64)
     energy = float(sum(np.sum(t.residual**2) for t in tests))
     if not len(tests) or energy <= max(problem.noise, 1e-9) ** 2 * rows.sum():
@@ -124,77 +116,6 @@ def missing_heat(problem: Problem, seed: int = 0) -> MissingHeat | None:
         predicted=1 - _left_out_error(tests, best, price) / energy,
         courses=tuple(_course(t, best, i) for i, t in enumerate(tests)),
     )
-
-
-def box_columns(t_s: Float1D, edges: Float1D, tau_s: float) -> Float2D:
-    """F_tau of a source of 1 in each step, shape (m, n): t_s (m,), edges (n + 1,) [s]; at rest before the first."""
-    since = t_s[:, None] - edges[None, :]
-    risen = np.where(since > 0, -np.expm1(-np.maximum(since, 0.0) / tau_s), 0.0)
-    return np.asarray(risen[:, :-1] - risen[:, 1:])
-
-
-def _tests(problem: Problem) -> list[_Test]:
-    """Parts of one test are one test here, each with its own offset: the source goes on between them."""
-    of_test: dict[tuple[str, str], list[Block]] = {}
-    for block in problem.blocks:
-        of_test.setdefault(block.test.key, []).append(block)
-    longest = max((float(b.t_s[-1] - b.test.t_s[0]) for b in problem.blocks), default=0.0)
-    step_s = max(SHORTEST_STEP_S, 2 * problem.step_s, longest / STEPS_A_TEST)
-    return [_averaged(blocks, step_s) for blocks in of_test.values()]
-
-
-def _averaged(blocks: Sequence[Block], step_s: float) -> _Test:
-    start = float(blocks[0].test.t_s[0])
-    t_s = np.concatenate([b.t_s for b in blocks])
-    first = np.cumsum([0, *(int(b.segment.max()) + 1 for b in blocks)])
-    segment = np.concatenate([b.segment + first[i] for i, b in enumerate(blocks)])
-    columns = np.vstack([np.column_stack([b.t_s, b.residual, b.base, b.slack]) for b in blocks])
-    place = np.floor((t_s - start) / (step_s / ROWS_A_STEP)).astype(np.int64)
-    names, row = np.unique(np.column_stack([segment, place]), axis=0, return_inverse=True)
-    row = row.ravel()
-    mean = np.zeros((len(names), columns.shape[1]))
-    np.add.at(mean, row, columns)
-    mean /= np.bincount(row, minlength=len(names))[:, None]
-    steps = int(np.floor((float(t_s.max()) - start) / step_s)) + 1
-    segment = names[:, 0].astype(np.int64)
-    free = center(mean[:, 1:], segment)
-    return _Test(blocks[0].test, mean[:, 0], free[:, 0], free[:, 1:], segment, start + step_s * np.arange(steps + 1.0))
-
-
-@dataclass(frozen=True, slots=True)
-class _Columns:
-    """A test's source columns (m, n), known columns (m, k) and residual (m,), each from its mean over `seen`, (m,)."""
-
-    source: Float2D
-    known: Float2D
-    residual: Float1D
-    seen: Bool1D
-
-
-def _columns(test: _Test, sign: int, tau_s: float, seen: Bool1D | None = None) -> _Columns:
-    source = (sign or 1) * box_columns(test.t_s, test.edges, tau_s)
-    if seen is None:
-        return _Columns(center(source, test.segment), test.known, test.residual, np.ones(len(test.t_s), dtype=np.bool_))
-    both = np.column_stack([test.residual, test.known, source])
-    for one in np.unique(test.segment):
-        rows = test.segment == one
-        if (rows & seen).any():
-            both[rows] -= both[rows & seen].mean(axis=0)
-    k = test.known.shape[1]
-    return _Columns(both[:, 1 + k :], both[:, 1 : 1 + k], both[:, 0], seen)
-
-
-def _normal(columns: Sequence[_Columns], price: float) -> Normal:
-    n, k = max(c.source.shape[1] for c in columns), columns[0].known.shape[1]
-    gram, cross = np.zeros((len(columns), n, n)), np.zeros((len(columns), n, k))
-    aim, there = np.zeros((len(columns), n)), np.zeros((len(columns), n), dtype=np.bool_)
-    shared, shared_aim = price * np.eye(k), np.zeros(k)
-    for i, c in enumerate(columns):
-        a, x, r = c.source[c.seen], c.known[c.seen], c.residual[c.seen]
-        own = slice(0, a.shape[1])
-        gram[i, own, own], cross[i, own], aim[i, own], there[i, own] = a.T @ a, a.T @ x, a.T @ r, True
-        shared, shared_aim = shared + x.T @ x, shared_aim + x.T @ r
-    return Normal(gram, cross, aim, shared, shared_aim, there)
 
 
 def _penalty(weight: Float2D, there: NDArray[np.bool_]) -> Array:
@@ -228,14 +149,14 @@ def _blocky(normal: Normal, scale: float, one_way: bool) -> Solution:
     return solution
 
 
-def _scale(test: _Test, tau_s: float, strength: float) -> float:
+def _scale(test: SteppedTest, tau_s: float, strength: float) -> float:
     """Of the penalty: by what one step of the source can move, so that one strength serves all time constants."""
     return strength * float(np.expm1(-(test.edges[1] - test.edges[0]) / tau_s)) ** 2
 
 
-def _fits(tests: Sequence[_Test], sign: int, tau_s: float, price: float) -> list[_Fit]:
-    columns = [_columns(t, sign, tau_s) for t in tests]
-    normal = _normal(columns, price)
+def _fits(tests: Sequence[SteppedTest], sign: int, tau_s: float, price: float) -> list[_Fit]:
+    columns = [source_columns(t, sign, tau_s) for t in tests]
+    normal = normal_equations(columns, price)
     made = []
     for strength in STRENGTHS:
         solution = _blocky(normal, _scale(tests[0], tau_s, strength), one_way=sign != 0)
@@ -246,12 +167,12 @@ def _fits(tests: Sequence[_Test], sign: int, tau_s: float, price: float) -> list
     return made
 
 
-def _left(columns: _Columns, solution: Solution, test: int) -> Float1D:
+def _left(columns: SourceColumns, solution: Solution, test: int) -> Float1D:
     own = solution.source[test, : columns.source.shape[1]]
     return np.asarray(columns.residual - columns.source @ own - columns.known @ solution.known)
 
 
-def _without(tests: Sequence[_Test], price: float) -> Float1D:
+def _without(tests: Sequence[SteppedTest], price: float) -> Float1D:
     """Squared error of each test with what the known effects can still do alone."""
     k = tests[0].known.shape[1]
     gram = sum((t.known.T @ t.known for t in tests), price * np.eye(k))
@@ -285,7 +206,7 @@ def _drawn(fits: Sequence[_Fit], judge: _Criterion, seed: int) -> list[_Fit]:
     return [judge.simplest(fits, times.astype(np.float64)) for times in draws]
 
 
-def _left_out_error(tests: Sequence[_Test], best: _Fit, price: float) -> float:
+def _left_out_error(tests: Sequence[SteppedTest], best: _Fit, price: float) -> float:
     """Squared error in parts of each test that were left out in turn, every other one at a time; the first part of a
     test is always seen, for what the source was before is not known otherwise."""
     error = 0.0
@@ -293,18 +214,18 @@ def _left_out_error(tests: Sequence[_Test], best: _Fit, price: float) -> float:
         columns = []
         for t in tests:
             part = np.floor((t.t_s - t.edges[0]) / (PART_STEPS * (t.edges[1] - t.edges[0])))
-            columns.append(_columns(t, best.sign, best.tau_s, (part % 2 != turn) | (part == 0)))
+            columns.append(source_columns(t, best.sign, best.tau_s, (part % 2 != turn) | (part == 0)))
         scale = _scale(tests[0], best.tau_s, best.strength)
-        solution = _blocky(_normal(columns, price), scale, one_way=best.sign != 0)
+        solution = _blocky(normal_equations(columns, price), scale, one_way=best.sign != 0)
         error += sum(float(np.sum(_left(c, solution, i)[~c.seen] ** 2)) for i, c in enumerate(columns))
     # the first parts, which none left out, with the error of the whole
     for i, t in enumerate(tests):
         first = t.t_s - t.edges[0] < PART_STEPS * (t.edges[1] - t.edges[0])
-        error += float(np.sum(_left(_columns(t, best.sign, best.tau_s), best.solution, i)[first] ** 2))
+        error += float(np.sum(_left(source_columns(t, best.sign, best.tau_s), best.solution, i)[first] ** 2))
     return error
 
 
-def _course(test: _Test, best: _Fit, place: int) -> Course:
+def _course(test: SteppedTest, best: _Fit, place: int) -> Course:
     n = len(test.edges) - 1
     source = best.solution.source[place, :n]
     middles = (test.edges[1:] + test.edges[:-1]) / 2

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 
 from thermodata.diagnosis.candidates import CandidateEffect
 from thermodata.diagnosis.scored import Scored
-from thermodata.schema.result import WeakSpot
+from thermodata.schema.diagnosis import WeakSpot
 from thermodata.view.dataset import ChannelInfo
 
 # machines whose one missing cause was named rightly, by number of open tests (sealed seeds; docs/benchmark.md)

@@ -32,9 +32,11 @@ SPREAD_LIMIT = 0.5  # of its gain between tests, as a share,
 FORETOLD = 0.5  # unless left-out tests are foretold to this share of their error: few tests can't tell a spread
 WORTH_SHARE = 0.1  # of the response: less is not worth a name
 FLOOR_SHARE = 0.1  # a residual under this share of the response (FIT 90) is left alone
-# what lags leave of a distributed machine that lacks nothing is under this share of its response (FIT 75); what they
-# leave where a cause is missing is more (docs/method.md#verdicts)
-GOOD_SHARE = 0.25
+# what lags leave of a distributed machine that lacks nothing is under this share of its response (FIT 75), or, where
+# modes of the model are found that refine it, what they leave under that (FIT 60); what is left where a cause is
+# missing is more (docs/method.md#verdicts)
+GOOD_SHARE, REFINED_SHARE = 0.25, 0.4
+PLAUSIBLE = 0.3  # a sound candidate of this probability contradicts that nothing is missing, though it is not claimed
 NOISE_TIMES = 5.0
 HALVES = 0.5  # what leaves no more than this share of the error contradicts that nothing is missing
 
@@ -58,10 +60,9 @@ class Measure:
         """An error that is left alone: noise, and what a sum of lags leaves of a distributed machine."""
         return max(self.noises, FLOOR_SHARE * self.spread)
 
-    @property
-    def good(self) -> float:
-        """An error that a good model has, though something may refine it."""
-        return max(self.floor, GOOD_SHARE * self.spread)
+    def good(self, *, refined: bool) -> float:
+        """An error that a good model has. refined: that it has once its effects are refined."""
+        return max(self.floor, (REFINED_SHARE if refined else GOOD_SHARE) * self.spread)
 
 
 @dataclass(frozen=True, slots=True)
@@ -152,7 +153,7 @@ def rules(scored: Scored, measure: Measure, unit: str) -> list[Rule]:
 def surely(scored: Scored) -> Rule:
     """Whether a sound candidate is a cause: it has the timing of what is missing and leaves little noise; what stands
     in for it has its slow shape alone."""
-    sure, limit = probability(scored), PLACELESS_CLAIMED if scored.candidate.placeless else CLAIMED
+    sure, limit = probability(scored), limit_of(scored)
     return Rule(
         "probability",
         "that it is what is missing, by its log evidence a sample, the fall of the error, whether an effect beside it "
@@ -191,6 +192,12 @@ def halves(scored: Scored, left: float) -> bool:
     return bool(len(scored.rows)) and scored.error_of_all <= HALVES * left
 
 
+def contradicts(scored: Scored, alone: Scored, left: float) -> bool:
+    """Whether nothing can't be said to be missing beside it. alone: as it was chosen. left: the error of left-out tests
+    without it, where that is more than noise."""
+    return probability(scored) >= PLAUSIBLE or halves(alone, left)
+
+
 def claimable(scored: Scored, measure: Measure, unit: str) -> bool:
     """Whether it keeps every rule of a claim; what it refines is another question."""
     return not failed_rules(scored, measure, unit) and blunt(scored) is None
@@ -204,10 +211,24 @@ def _steadies(scored: Scored) -> bool:
 def probability(scored: Scored) -> float:
     """That a sound candidate is what is missing: the share that was right among those like it, on simulated machines
     (development seeds)."""
+    return _probability(sharpness(scored), scored.drop, scored.beaten, scored.candidate.passive)
+
+
+def at_best(scored: Scored, samples: int) -> float:
+    """Its probability if left-out tests were foretold without any error, and nothing beside it were sharper."""
+    return _probability(scored.evidence / max(samples, 1), FALLS[1], False, scored.candidate.passive)
+
+
+def _probability(a_sample: float, drop: float, beside_sharper: bool, is_passive: bool) -> float:
     level, sharp, fall, beaten, passive = PROBABILITY
-    odds = level + sharp * np.log10(max(sharpness(scored), 1e-4)) + fall * float(np.clip(scored.drop, *FALLS))
-    odds += beaten * scored.beaten + passive * scored.candidate.passive
+    odds = level + sharp * np.log10(max(a_sample, 1e-4)) + fall * float(np.clip(drop, *FALLS))
+    odds += beaten * beside_sharper + passive * is_passive
     return float(1 / (1 + np.exp(-odds)))
+
+
+def limit_of(scored: Scored) -> float:
+    """The least probability of a claim."""
+    return PLACELESS_CLAIMED if scored.candidate.placeless else CLAIMED
 
 
 def sharpness(scored: Scored) -> float:

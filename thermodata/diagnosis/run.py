@@ -20,7 +20,7 @@ from thermodata.errors import UsageError
 from thermodata.modelling.candidate import candidate_spec, changed, gain_by_of, phases_of
 from thermodata.modelling.fitted_response import FittedResponse
 from thermodata.modelling.run import Loaded, chosen_id, load
-from thermodata.schema.result import Confirmed, Diagnosis, TestConfirmed
+from thermodata.schema.diagnosis import Confirmed, Diagnosis, TestConfirmed
 from thermodata.store.base.counting import watched
 from thermodata.version import __version__
 
@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     from thermodata.store.base.counting import Tell
 
 # raise it where a rule of the diagnosis changes: answers of older rules are then given anew
-RULES_VERSION = 14
+RULES_VERSION = 15
 
 
 def _key(model: Loaded) -> str:

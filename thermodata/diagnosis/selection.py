@@ -93,6 +93,23 @@ def select(problem: Problem, first: Ranked, sound: Callable[[Scored], bool], *, 
     return Selection(first, members, tuple(dropped), noise, first.known.left_out)
 
 
+def any_stands_out(
+    problem: Problem,
+    first: Ranked,
+    selection: Selection,
+    some: Sequence[Columns],
+    may: Callable[[Scored], bool],
+) -> bool:
+    """Whether one of some may be claimed at best, beside the model alone or beside the members, each time in the noise
+    that the best of them leaves. first: all, beside the model alone."""
+    if not some:
+        return False
+    full = beside(problem, [m.alone for m in selection.members])
+    beside_all = rank_in(full, without(some, [m.alone for m in selection.members]), selection.noise, left_out=False)
+    found = (in_noise_of_best(ranked, TRIED) for ranked in (_only(first, some), beside_all))
+    return any(may(s) for one in found if one is not None for s in one.ranked)
+
+
 def _forward(
     problem: Problem, pool: Sequence[Columns], chosen: list[Scored], dropped: Sequence[Scored], last: Ranked
 ) -> None:

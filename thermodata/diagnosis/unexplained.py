@@ -10,7 +10,8 @@ from thermodata.diagnosis import first_seen, goes_with
 from thermodata.diagnosis.missing_heat import TAUS_S, Course, missing_heat
 from thermodata.diagnosis.problem import Problem
 from thermodata.plugin import Float1D
-from thermodata.schema.result import HeatCompanion, HeatCourse, MissingHeat, Unknown, WeakSpot
+from thermodata.schema.diagnosis import WeakSpot
+from thermodata.schema.missing_heat import HeatCompanion, HeatCourse, MissingHeat, Unknown
 
 DIGITS = 4  # of a course, which is many numbers
 

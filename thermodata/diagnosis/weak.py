@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from thermodata.plugin import Bool1D, Float1D
-from thermodata.schema.result import WeakSpot
+from thermodata.schema.diagnosis import WeakSpot
 from thermodata.view.dataset import TestData
 
 WINDOW_S = 1800.0

@@ -264,7 +264,7 @@ def compared(store: Store, refs: Sequence[str]) -> Comparison:
 
 def history_of(store: Store, ref: str) -> Listed:
     """The versions that led to a model, as `thermodata history` lists them."""
-    from thermodata.report.collect import history_rows
     from thermodata.report.fit_text import HISTORY
+    from thermodata.report.history import history_rows
 
     return Listed(history_rows(store, ref), HISTORY)

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 
 from thermodata.chart import Chart, HeatMap, effect_styles
 from thermodata.chart.decimate import MOST_POINTS
-from thermodata.report.collect import test_parts
 from thermodata.report.figures import overview_map, part_chart, residual_scale
+from thermodata.report.parts import test_parts
 from thermodata.report.spots import weak_spots_of
 
 if TYPE_CHECKING:

@@ -13,7 +13,7 @@ from thermodata.report.headline import capital
 from thermodata.report.verdict import claims_of, told, verdict_sentence
 
 if TYPE_CHECKING:
-    from thermodata.schema.result import Candidate, Confirmed, Diagnosis
+    from thermodata.schema.diagnosis import Candidate, Confirmed, Diagnosis
 
 _COLUMNS = (
     ("rank", "#"),

@@ -7,7 +7,8 @@ from typing import Any
 
 from thermodata.modelling.seen import Seen
 from thermodata.plugin import Float1D
-from thermodata.schema.result import Check, Diagnosis, Parameter, Score, WeakSpot
+from thermodata.schema.diagnosis import Diagnosis, WeakSpot
+from thermodata.schema.result import Check, Parameter, Score
 
 
 @dataclass(frozen=True, slots=True)

@@ -13,7 +13,7 @@ from thermodata.report.words import duration, heat_lines, number
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from thermodata.schema.result import Candidate, Confirmed, Diagnosis
+    from thermodata.schema.diagnosis import Candidate, Confirmed, Diagnosis
 
 
 def confirmed_text(result: Confirmed) -> str:

@@ -12,7 +12,8 @@ if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
     from thermodata.modelling.differences import TestDifference
-    from thermodata.schema.result import FitResult, Parameter, Score, WeakSpot
+    from thermodata.schema.diagnosis import WeakSpot
+    from thermodata.schema.result import FitResult, Parameter, Score
     from thermodata.view.contributions import Contributions, Peak
 
 HISTORY = (

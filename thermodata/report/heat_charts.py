@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from thermodata.chart import Axis, Chart, Panel, Series
-from thermodata.schema.result import HeatCourse
+from thermodata.schema.missing_heat import HeatCourse
 
 
 def heat_charts(courses: Sequence[HeatCourse], unit: str, one_way: bool) -> list[Chart]:

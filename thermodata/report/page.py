@@ -23,7 +23,8 @@ from thermodata.report.words import base_role, change, duration, heat_lines, num
 from thermodata.report.write import page_values, write_page
 
 if TYPE_CHECKING:
-    from thermodata.schema.result import MissingHeat, WeakSpot
+    from thermodata.schema.diagnosis import WeakSpot
+    from thermodata.schema.missing_heat import MissingHeat
     from thermodata.store import Store
 
 SPOTS_SHOWN = 10

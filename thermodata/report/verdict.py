@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from thermodata.report.words import duration, number, percent
 
 if TYPE_CHECKING:
-    from thermodata.schema.result import Candidate, Diagnosis
+    from thermodata.schema.diagnosis import Candidate, Diagnosis
 
 NOISY = 1.5
 """An error up to so many times the noise is noise."""

@@ -7,7 +7,8 @@ import re
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from thermodata.schema.result import HeatCompanion, MissingHeat, Score
+    from thermodata.schema.missing_heat import HeatCompanion, MissingHeat
+    from thermodata.schema.result import Score
 
 COMPANIONS = 8  # most channels that are named beside a missing heat
 

@@ -14,11 +14,22 @@ from typing import Any
 
 from pydantic import BaseModel
 
-from thermodata.schema import campaign, campaign_channels, campaign_sources, campaign_tests, model, result
+from thermodata.schema import (
+    campaign,
+    campaign_channels,
+    campaign_sources,
+    campaign_tests,
+    diagnosis,
+    missing_heat,
+    model,
+    result,
+)
 from thermodata.schema.campaign import Campaign
+from thermodata.schema.diagnosis import Diagnosis
 from thermodata.schema.model import Model
-from thermodata.schema.result import Diagnosis, FitResult
+from thermodata.schema.result import FitResult
 
+_DOCUMENTED = (campaign, campaign_channels, campaign_sources, campaign_tests, model, result, diagnosis, missing_heat)
 _KEY = re.compile(r"^(\w+): (.+)$")
 
 
@@ -36,7 +47,7 @@ def models() -> dict[str, type[BaseModel]]:
     """Every model of the published files, by the name of its class."""
     return {
         name: kind
-        for module in (campaign, campaign_channels, campaign_sources, campaign_tests, model, result)
+        for module in _DOCUMENTED
         for name, kind in vars(module).items()
         if isinstance(kind, type) and issubclass(kind, BaseModel) and kind.__module__ == module.__name__
     }

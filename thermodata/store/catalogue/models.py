@@ -10,8 +10,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from thermodata.errors import StoreError, UsageError, nearest
+from thermodata.schema.diagnosis import Diagnosis
 from thermodata.schema.model import Model
-from thermodata.schema.result import Diagnosis, FitResult
+from thermodata.schema.result import FitResult
 from thermodata.store.base.connection import fetch, insert
 from thermodata.store.base.encoder import COMPRESSION
 from thermodata.store.base.files import publish, safe_name, temporary, write_error

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from itertools import product
 
-from thermodata.schema.result import Candidate, Diagnosis
+from thermodata.schema.diagnosis import Candidate, Diagnosis
 from thermodata.virtual.lathe.right_names import Mark, mark
 
 ORDER: tuple[Mark, ...] = ("exact", "equivalent", "family", "wrong")

@@ -16,8 +16,8 @@ from thermodata.chart.spec import Axis, Chart, HeatMap, Limit, Panel, Series
 from thermodata.modelling.difference import Difference
 from thermodata.modelling.differences import Course, between, over_tests
 from thermodata.plugin import Float1D
-from thermodata.report.collect import versions
 from thermodata.report.data import Version
+from thermodata.report.history import versions
 from thermodata.report.words import base_role, pooled
 from thermodata.schema.result import Score
 from thermodata.store import Store

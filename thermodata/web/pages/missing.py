@@ -13,7 +13,7 @@ from thermodata.effect.unbound import unbound
 from thermodata.report.course_chart import course_chart
 from thermodata.report.verdict import claims_of, explainable, listed, told, verdict_sentence
 from thermodata.report.words import number
-from thermodata.schema.result import Diagnosis
+from thermodata.schema.diagnosis import Diagnosis
 from thermodata.store import Store
 from thermodata.store.base.connection import fetch
 from thermodata.store.catalogue.models import load_diagnosis

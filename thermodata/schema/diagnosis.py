@@ -1,0 +1,240 @@
+"""What `thermodata diagnose` and `thermodata confirm` answer."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+from thermodata.schema.missing_heat import Unknown
+from thermodata.schema.result import Parameter, Result
+
+
+class WeakSpot(Result):
+    """A window in which the residual stands out of its noise.
+
+    campaign: id
+    test: id
+    from_s: from the test's start [s]
+    to_s: from the test's start [s]
+    rmse_um: error in the window, in the response's unit
+    state: what the machine did, in words
+    """
+
+    campaign: str
+    test: str
+    from_s: float
+    to_s: float
+    rmse_um: float
+    state: str
+
+
+class Rung(Result):
+    """One rule of a claim.
+
+    name: of the rule: chance, fall, tests, gain, others, worth and more
+    asks: what is measured
+    value: measured; null where it can't be
+    limit: of the rule
+    unit: of value and limit; 1 for shares
+    at: whether the value has to be at least or at most the limit
+    holds: whether the rule is met
+    """
+
+    name: str
+    asks: str
+    value: float | None
+    limit: float
+    unit: str
+    at: Literal["least", "most"]
+    holds: bool
+
+
+class LeftOut(Result):
+    """A test, or a part of one, as the others foretell it.
+
+    campaign: id
+    test: id
+    from_s: where the part begins, from the test's start [s]
+    to_s: where it ends [s]
+    acts: whether the candidate does something in it
+    rmse_um_before: error without the candidate, in the response's unit
+    rmse_um_after: with it
+    """
+
+    campaign: str
+    test: str
+    from_s: float
+    to_s: float
+    acts: bool
+    rmse_um_before: float
+    rmse_um_after: float
+
+
+class CandidateCourse(Result):
+    """What a candidate would take of the residual in one test, free offsets removed; lists have one entry a sample.
+
+    campaign: id
+    test: id
+    t_s: from the test's start [s]
+    residual_um: what the model leaves over, in the response's unit
+    contribution_um: the candidate's, with its gains as all open tests give them
+    """
+
+    campaign: str
+    test: str
+    t_s: list[float]
+    residual_um: list[float]
+    contribution_um: list[float]
+
+
+class Candidate(Result):
+    """An effect, bound to channels, that may be missing; with its evidence on left-out tests.
+
+    rank: 1 is the head
+    id: effect:channels; gain_by:effect,condition; or phases:effect,phase,phase
+    effect: its name
+    family: effects of one cause share it
+    drivers: channels, in the order of the effect's roles
+    gain_by: the effect is in the model, and would have a gain for each value of this condition; null for all others
+    phases: the effect is in the model, and would have a function for each of these phases; empty for all others
+    claimed: whether the evidence suffices for a missing cause
+    refinement: whether it refines an effect that the model has (a second mode, a switch, a lead), which is never a
+        missing cause
+    probability: posterior probability that this cause is missing, given the data; null where none is stated
+    p_value: share of responses in which nothing is missing on which the best of all candidates does as well
+    rmse_um_before: error on left-out tests without it, in the response's unit
+    rmse_um_after: with it
+    fit_before: the same as FIT [%]
+    fit_after: with it
+    locked_rmse_um_before: error on the locked tests without it; for a claimed one only
+    locked_rmse_um_after: with it
+    parameters: of the effect, fitted to all open tests; for a claimed one only
+    equivalent: ids that the data cannot tell from it
+    why: the evidence in a sentence
+    evidence: log Bayes factor of the model with it against the model without
+    rungs: every rule of a claim with its value and limit
+    left_out: each left-out test before and after; beside the user's own model, or beside all that is chosen
+    courses: the residual and the contribution; for claims, refinements and the head of the list only
+    """
+
+    rank: int
+    id: str
+    effect: str
+    family: str
+    drivers: list[str]
+    gain_by: str | None = None
+    phases: list[str] = []
+    claimed: bool
+    refinement: bool = False
+    probability: float | None = None
+    p_value: float | None
+    rmse_um_before: float | None
+    rmse_um_after: float | None
+    fit_before: float | None
+    fit_after: float | None
+    locked_rmse_um_before: float | None = None
+    locked_rmse_um_after: float | None = None
+    parameters: dict[str, Parameter] = {}
+    equivalent: list[str] = []
+    why: str = ""
+    evidence: float | None = None
+    rungs: list[Rung] = []
+    left_out: list[LeftOut] = []
+    courses: list[CandidateCourse] = []
+
+
+class Artefact(Result):
+    """A fault of the logs, beside any verdict.
+
+    kind: step, clock_offset, sign, gain, parameters or sensor
+    campaign: id
+    test: id; empty where all tests share it
+    at_s: from the test's start [s]
+    size_um: its size, in the response's unit; null for a sensor
+    why: the evidence in a sentence
+    """
+
+    kind: str
+    campaign: str
+    test: str
+    at_s: float | None
+    size_um: float | None
+    why: str
+
+
+class Diagnosis(Result):
+    """Answer of diagnose.
+
+    model: id
+    response: name
+    verdict: effect: one is missing; refine: none is missing, but an effect that is there acts otherwise than modelled;
+        none: what is left is noise; unknown: something is left that nothing logged explains; not_testable: the tests
+        cannot tell
+    noise_um: short-term noise of the response, in its unit; of a staircase at least what its treads leave
+    noise_over_s: averaging time of the samples that the noise lies between [s]; null where it was not kept
+    rmse_um: error on left-out tests without any candidate
+    explainable: largest fall of the squared error that a candidate gives, 0 to 1
+    weak_spots: where the model fails, by cost
+    candidates: best first
+    artefacts: faults of the logs
+    unknown: for the verdict unknown
+    next_test: which test to run, or which sensor to add
+    chance: quantiles (0 to 1 in even steps) of the best log evidence in responses in which nothing is missing
+    """
+
+    model: str
+    response: str
+    verdict: Literal["effect", "refine", "none", "unknown", "not_testable"]
+    noise_um: float | None
+    noise_over_s: float | None = None
+    rmse_um: float | None
+    explainable: float | None
+    weak_spots: list[WeakSpot]
+    candidates: list[Candidate]
+    artefacts: list[Artefact]
+    unknown: Unknown | None = None
+    next_test: str | None = None
+    chance: list[float] = []
+
+
+class TestConfirmed(Result):
+    """One locked test of a confirmation.
+
+    campaign: id
+    test: id
+    rmse_um_before: free-run error without the effect, in the response's unit
+    rmse_um_after: with it
+    """
+
+    campaign: str
+    test: str
+    rmse_um_before: float
+    rmse_um_after: float
+
+
+class Confirmed(Result):
+    """Answer of confirm: the locked tests, opened for a choice of the user's own.
+
+    model: id of the model that the effect was tried on
+    response: name
+    candidate: effect:channels
+    holds: whether the locked error falls by the share that a claim of the diagnosis must show
+    locked_rmse_um_before: error over all locked tests without the effect, in the response's unit
+    locked_rmse_um_after: with it
+    locked_shape_um_before: the same with a free offset for each test, which is what `holds` goes by
+    locked_shape_um_after: with it
+    parameters: of the effect, fitted to all open tests
+    tests: each locked test
+    looks: how often the locked tests have been opened so far, this look included; the most of any test
+    """
+
+    model: str
+    response: str
+    candidate: str
+    holds: bool
+    locked_rmse_um_before: float | None
+    locked_rmse_um_after: float | None
+    locked_shape_um_before: float | None = None
+    locked_shape_um_after: float | None = None
+    parameters: dict[str, Parameter]
+    tests: list[TestConfirmed]
+    looks: int
