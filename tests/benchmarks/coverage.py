@@ -7,8 +7,10 @@
 The machines are heat balances integrated in steps of 10 s by Heun's rule, with noise drawn sample by sample: nothing of
 the library's lags or of its simulated machines takes part. What is fitted is the model that the machine has; so what is
 measured are the intervals, not the choice of a model. `width`: half of the interval as a share of the truth, median
-(of a time constant: of its logarithm). `none`: parameters without an interval, which count as misses; of an interval
-that is open at one end the other counts. `where told`: without those that have none, for which the tests say nothing.
+(of a time constant: of its logarithm). `open`: intervals without an end, which leave no value out; so they hold the
+truth, and say nothing: what is `held` less what is `open` are those that hold it and say something. Of an interval
+that is open at one end the other counts. `where told`: without those that are open. In brackets: the interval of 95 %
+of the share itself, by Wilson's score. `--check` counts an open interval as one that misses.
 """
 
 from __future__ import annotations
@@ -24,6 +26,7 @@ import numpy as np
 
 from thermodata.modelling.run import fit_alone
 from thermodata.plugin import Float1D
+from thermodata.schema.certainty import Z95
 from thermodata.schema.model import Model
 from thermodata.view.dataset import ChannelInfo, Dataset, TestData
 
@@ -175,19 +178,19 @@ def intervals(case: str, noise: str, seed: int, tests: int | None = None, hours:
     seconds = process_time() - began
     for name, true in machine.truth.items():
         p = found[name]
-        kind = name.partition(".")[2].partition("_")[0]
+        kind = name.partition("_")[0]  # two lags of one driver are one kind
         inside = (p.low is None or p.low <= true) and (p.high is None or true <= p.high)
         if p.low is None or p.high is None:
             known = p.low is not None or p.high is not None
             yield Seen(case, noise, len(machine.tests), kind, known and inside, np.inf if known else None, seconds)
             continue
-        half = np.log(p.high / p.low) / 2 if kind == "tau" else (p.high - p.low) / 2 / abs(true)
+        half = np.log(p.high / p.low) / 2 if kind.endswith(".tau") else (p.high - p.low) / 2 / abs(true)
         yield Seen(case, noise, len(machine.tests), kind, inside, float(half), seconds)
 
 
 def table(seen: Sequence[Seen]) -> list[str]:
     lines = [
-        "| case | noise | parameter | machines | in the interval [%] | none [%] | where told [%] | width | ms a fit |",
+        "| case | noise | parameter | machines | held [%] | open [%] | where told [%] | width | ms a fit |",
         "|---" * 9 + "|",
     ]
     keys = dict.fromkeys((s.case, s.noise, s.parameter) for s in seen)
@@ -196,18 +199,33 @@ def table(seen: Sequence[Seen]) -> list[str]:
         ((case, "all", "all"), [s for s in seen if s.case == case]) for case in dict.fromkeys(s.case for s in seen)
     ]
     few = [s for s in seen if s.tests <= 3]
+    for case, noise in dict.fromkeys((s.case, s.noise) for s in seen):
+        rows.append(((case, noise, "all"), [s for s in seen if (s.case, s.noise) == (case, noise)]))
+    for noise in dict.fromkeys(s.noise for s in seen):
+        rows.append((("all", noise, "all"), [s for s in seen if s.noise == noise]))
     rows += [(("all", "all", "all"), list(seen)), (("all", "2 or 3 tests", "all"), few)]
     for (case, noise, parameter), own in rows:
         if not own:
             continue
         widths = [s.width for s in own if s.width is not None]
+        inside, none = sum(s.inside for s in own), len(own) - len(widths)
         lines.append(
-            f"| {case} | {noise} | {parameter} | {len(own)} | {100 * _share(own):.1f} "
-            f"| {100 * (1 - len(widths) / len(own)):.1f} | {100 * _share([s for s in own if s.width is not None]):.1f} "
+            f"| {case} | {noise} | {parameter} | {len(own)} | {_of(inside + none, len(own))} "
+            f"| {100 * none / len(own):.1f} | {_of(inside, len(widths))} "
             f"| {np.median(widths) if widths else float('nan'):.3f} "
             f"| {1000 * float(np.median([s.seconds for s in own])):.0f} |"
         )
     return lines
+
+
+def _of(hits: int, count: int) -> str:
+    """A share with Wilson's interval of 95 % [%]."""
+    if not count:
+        return "-"
+    share, z2 = hits / count, Z95**2
+    middle = (share + z2 / 2 / count) / (1 + z2 / count)
+    half = Z95 * np.sqrt(share * (1 - share) / count + z2 / 4 / count**2) / (1 + z2 / count)
+    return f"{100 * share:.1f} ({100 * (middle - half):.1f}-{100 * (middle + half):.1f})"
 
 
 def _share(seen: Sequence[Seen]) -> float:

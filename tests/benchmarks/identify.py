@@ -3,10 +3,11 @@
     uv run --with sippy-unipi --with sysidentpy --with pastas --with statsmodels python tests/benchmarks/identify.py
     uv run --no-sync python tests/benchmarks/identify.py --joint 10 100     # how long joint fits take
 
-Two true lags, 20 min and 3 h, 24 h at 1 Hz, 0.3 um of white noise, the temperature logged in steps of 0.1 K. A peer
-that is not installed is left out, and the table says so. Each has the same columns, relative to the start; the input
-of SIPPY's ARX acts a step late, and ours is run so as well. FIT is printed with both conventions of an offset: from the
-first 10 min (what a control can know), and the best one (what papers often print). Processor time is that of
+Two true lags, 20 min and 3 h, 24 h at 1 Hz, 0.3 um of white noise, the temperature logged in steps of 0.1 K; or, with
+`--machine`, others. A peer that is not installed is left out, and the table says so. Each has the same columns,
+relative to the start. The input of SIPPY's ARX acts a step late: it is run as it is and with its input a step ahead,
+ours at once and a step late, so that each stands beside its like. FIT is printed with both conventions of an offset:
+from the first 10 min (what a control can know), and the best one (what papers often print). Processor time is that of
 identification and free run, without the imports.
 """
 
@@ -35,13 +36,30 @@ from thermodata.view.dataset import ChannelInfo, Dataset, TestData
 sys.path.remove(str(Path(__file__).resolve().parent))
 
 HOURS = 24
-TRUE = ((1.2, 1200.0), (2.0, 10800.0))  # um/K, s
-NOISE_UM = 0.3
-STEP_K = 0.1
 ZERO_S = 600.0
+MEMORY_S = 2400.0  # of slow noise
 INFOS = {
     "dZ": ChannelInfo("dZ", "displacement", "um", "tcp", "Z"),
     "T": ChannelInfo("T", "temperature", "degC", "spindle.bearing"),
+}
+
+
+@dataclass(frozen=True)
+class Made:
+    """lags: (um/K, s); direct: um/K; white, slow: standard deviations of the noise [um], the slow one with a memory of
+    40 min; step_k: of the temperature's digits."""
+
+    lags: tuple[tuple[float, float], ...]
+    direct: float = 0.0
+    white: float = 0.3
+    slow: float = 0.0
+    step_k: float = 0.1
+
+
+MACHINES = {
+    "two lags": Made(((1.2, 1200.0), (2.0, 10800.0))),
+    "direct": Made(((3.5, 5400.0),), direct=-1.5, step_k=0.01),
+    "slow noise": Made(((1.5, 600.0), (2.5, 7200.0)), white=0.1, slow=0.8),
 }
 
 
@@ -68,9 +86,9 @@ class Row:
     why: str | None = None
 
 
-def record(seed: int, step_s: float) -> Record:
+def record(seed: int, step_s: float, machine: str = "two lags") -> Record:
     """A spindle spectrum: speeds of 10 min to 2 h, after 10 min of idling."""
-    rng = np.random.default_rng(seed)
+    made, rng = MACHINES[machine], np.random.default_rng(seed)
     n, at = HOURS * 3600, 600
     heat = np.zeros(n)
     while at < n:
@@ -78,8 +96,11 @@ def record(seed: int, step_s: float) -> Record:
         heat[at : at + length] = rng.choice([0.0, 6.0, 12.0])
         at += length
     warm = lag(heat, 900.0, 1.0)
-    y = sum(gain * lag(warm, tau, 1.0) for gain, tau in TRUE) + rng.normal(0, NOISE_UM, n)
-    read = np.round((22 + warm) / STEP_K) * STEP_K - 22
+    y = sum(gain * lag(warm, tau, 1.0) for gain, tau in made.lags) + made.direct * warm + rng.normal(0, made.white, n)
+    if made.slow:
+        # white noise through a lag has 1 / sqrt(2 tau / h) of its size left
+        y = y + made.slow * np.sqrt(2 * MEMORY_S) * lag(rng.normal(0, 1, n), MEMORY_S, 1.0)
+    read = np.round((22 + warm) / made.step_k) * made.step_k - 22
     width = int(step_s)
     u, y = (v[: n // width * width].reshape(-1, width).mean(axis=1) for v in (read, np.asarray(y)))
     return Record(u - u[0], y, step_s)
@@ -114,10 +135,12 @@ def _as_test(name: str, r: Record) -> TestData:
 METHODS: list[tuple[str, str, Callable[[Record, Record], Float1D]]] = [
     ("thermodata", "sum of 2 lags", ours("varpro", (2, 2))),
     ("thermodata", "OE(2,2)", ours("oe", (2, 2))),
+    ("thermodata", "ARX(2,2), at once", ours("arx", (2, 2), delay=0)),
+    ("thermodata", "ARX(2,2), a step late", ours("arx", (2, 2), delay=1)),
     ("thermodata", "ARX(2,2)", ours("arx", (2, 2))),
-    ("thermodata", "ARX(2,2), a step late", ours("arx", (2, 2), delay=1)),  # as SIPPY's
-    ("thermodata", "ARX(4,4)", ours("arx", (4, 4))),
+    ("thermodata", "ARX(4,4), at once", ours("arx", (4, 4), delay=0)),
     ("thermodata", "ARX(4,4), a step late", ours("arx", (4, 4), delay=1)),
+    ("thermodata", "ARX(4,4)", ours("arx", (4, 4))),
     ("thermodata", "ARX, orders chosen", ours("arx", None)),
     *((who, method, run) for who, method, run in peers.METHODS),
 ]
@@ -147,6 +170,8 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--steps", type=float, nargs="+", default=[60.0, 1.0], help="[s]")
     parser.add_argument("--seeds", type=int, default=3)
+    parser.add_argument("--machine", choices=list(MACHINES), default="two lags")
+    parser.add_argument("--methods", default="", help="those alone whose name begins so: ARX")
     parser.add_argument("--only", help="of one of: " + ", ".join(dict.fromkeys(who for who, *_ in METHODS)))
     parser.add_argument("--joint", type=int, nargs="+", metavar="TESTS", help="joint fits of so many days instead")
     parser.add_argument("--json", action="store_true")
@@ -163,9 +188,9 @@ def main() -> None:
         if given.only in (None, who):
             measured(who, method, run, *(_part(record(k, 60.0), 600) for k in (0, 1)))
     for step_s in given.steps:
-        pairs = [(record(2 * k, step_s), record(2 * k + 1, step_s)) for k in range(given.seeds)]
+        pairs = [tuple(record(2 * k + j, step_s, given.machine) for j in (0, 1)) for k in range(given.seeds)]
         for who, method, run in METHODS:
-            if given.only in (None, who):
+            if given.only in (None, who) and method.startswith(given.methods):
                 rows.append(_median([measured(who, method, run, *pair) for pair in pairs]))
                 if not given.json:
                     print(_line(rows[-1]), flush=True)

@@ -15,8 +15,9 @@ from thermodata.plugin import Float1D
 Run = Callable[[Any, Any], Float1D]
 
 
-def _sippy(method: str, orders: tuple[int, int]) -> Run:
-    """orders: numerator, denominator. Its functions begin one sample late; its OE is a problem with as many variables
+def _sippy(method: str, orders: tuple[int, int], ahead: int = 0) -> Run:
+    """orders: numerator, denominator. Its functions begin one sample late, and have no delay below that: ahead: samples
+    by which its input comes ahead, 1 where the function is to begin at once. Its OE is a problem with as many variables
     as samples, which is not put to it at 1 s."""
 
     def run(train: Any, unseen: Any) -> Float1D:
@@ -28,9 +29,11 @@ def _sippy(method: str, orders: tuple[int, int]) -> Run:
             raise ValueError(f"not tried: its OE has a variable for each of {len(train.y)} samples")
         nb, na = orders
         mine = {"ARX_orders": [na, nb, 0]} if method == "ARX" else {"OE_orders": [nb, na, 0]}
-        found = system_identification(train.y, train.u, method, tsample=train.step_s, **mine)
+        y, u = train.y[: len(train.y) - ahead], train.u[ahead:]
+        found = system_identification(y, u, method, tsample=train.step_s, **mine)
         (((num,),), ((den,),)) = tfdata(found.G)
-        return np.asarray(lfilter(np.concatenate([np.zeros(len(den) - len(num)), num]), den, unseen.u))
+        later = np.concatenate([np.zeros(len(den) - len(num)), num])
+        return np.asarray(lfilter(later[ahead:], den, unseen.u))
 
     return run
 
@@ -99,8 +102,10 @@ def _pastas(kind: str) -> Run:
 
 
 METHODS: list[tuple[str, str, Run]] = [
-    ("SIPPY", "ARX(2,2)", _sippy("ARX", (2, 2))),
-    ("SIPPY", "ARX(4,4)", _sippy("ARX", (4, 4))),
+    ("SIPPY", "ARX(2,2), at once", _sippy("ARX", (2, 2), ahead=1)),
+    ("SIPPY", "ARX(2,2), as it is", _sippy("ARX", (2, 2))),
+    ("SIPPY", "ARX(4,4), at once", _sippy("ARX", (4, 4), ahead=1)),
+    ("SIPPY", "ARX(4,4), as it is", _sippy("ARX", (4, 4))),
     ("SIPPY", "OE(2,2)", _sippy("OE", (2, 2))),
     ("SysIdentPy", "FROLS, 4 lags", _sysidentpy(4)),
     ("statsmodels", "ARDL(2,2)", _statsmodels(2)),

@@ -259,6 +259,16 @@ def test_a_delay_that_is_given_is_not_chosen_and_no_other_method_has_one(spec: S
     assert "dead_time" in str(refusal.value.hint)
 
 
+def test_a_delay_that_the_file_leaves_open_is_chosen_beside_given_orders(spec: Spec) -> None:
+    data = _data(*(_late(_test(k, "calibration"), 1, 0.02) for k in range(3)))
+    fitted = fit_model(spec(FUNCTION | {"method": "arx", "orders": [2, 2]}), data)
+    rows = fitted.responses[0].tried
+    assert {(r.numerator, r.denominator) for r in rows} == {(2, 2)}
+    assert [r.delay for r in rows] == [0, 1, 2]
+    best = max(rows, key=lambda r: r.fit_left_out or -np.inf)
+    assert [r.delay for r in rows if r.chosen] == [best.delay] == [1]
+
+
 def test_arx_is_refused_on_measuring_windows_with_the_reason(spec: Spec) -> None:
     """Papers measure 10 s every 20 min; FIT in free run is -57 where that is fitted all the same."""
     whole = _test(1, "calibration", hours=4, step=1)

@@ -127,11 +127,21 @@ def start_value(values: Float1D, step: float) -> float:
 
 
 def start_deviation(values: Float1D, step: float) -> float:
-    """The standard deviation of `start_value`, by the values' own noise; 0 where nothing tells it."""
+    """The standard deviation of `start_value`, by the values' own noise, and by how far they went meanwhile; 0 where
+    nothing tells it.
+
+    A mean lies from the start by half of what the values went while it lasted. A line through them says how much that
+    is, and errs in its square by its own variance.
+    """
     if len(values) < 4 or cycle_mean(values[: int(CYCLE_S / step) + 1]) is not None:
         return 0.0
-    count = _still(values, step)
-    return _noise(values) * (BACK if count < 3 else 1.0 / float(np.sqrt(count)))
+    count, noise = _still(values, step), _noise(values)
+    if count < 3:
+        return noise * BACK
+    since = np.arange(count) - (count - 1) / 2.0
+    went = float(since @ values[:count] / (since @ since)) * count / 2.0
+    of_noise = (count / 2.0) ** 2 * noise**2 / float(since @ since)
+    return float(np.sqrt(noise**2 / count + max(0.0, went**2 - of_noise)))
 
 
 def _still(values: Float1D, step: float) -> int:

@@ -62,11 +62,13 @@ class Choice:
 
 
 def open_orders(bound: BoundResponse) -> list[int]:
-    """Places of the terms whose orders the file leaves open."""
+    """Places of the terms whose orders, or whose delay, the file leaves open."""
     return [
         i
         for i, t in enumerate(bound.terms)
-        if t.spec.effect == NAME and t.spec.orders is None and isinstance(t.effect, FreeFunction)
+        if t.spec.effect == NAME
+        and isinstance(t.effect, FreeFunction)
+        and (t.spec.orders is None or (t.spec.method == "arx" and t.spec.delay is None))
     ]
 
 
@@ -115,7 +117,7 @@ def choose_orders(
         )
         return _Trial(row, trial, full)
 
-    for orders in _pairs(method):
+    for orders in _pairs(method) if term.spec.orders is None else [term.spec.orders]:
         rows.append(tried(orders, term.spec.delay))
         if method == "varpro" and orders[0] > orders[1] and rows[-1].row.why and rows[-2].row.why:
             break

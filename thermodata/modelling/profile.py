@@ -12,186 +12,36 @@ Source: [bates1988]
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, replace
-from itertools import pairwise
-from typing import Protocol
+from collections.abc import Callable
 
 import numpy as np
 
-from thermodata.modelling.design import Nonlinear
+from thermodata.modelling.anew import could_fall, fit_anew
+from thermodata.modelling.coordinate import Coordinate, Solved
 from thermodata.modelling.fitted_response import Ends
-from thermodata.modelling.labels import Alike
 from thermodata.modelling.search import Problem, search
-from thermodata.plugin import Float1D
+from thermodata.plugin import Float1D, Float2D
 
-ALIKE = (0.7, 1.4)  # of the allowed rise, at the ends of the quadratic interval, that make it the profile's
+ALIKE = (0.92, 1.1)  # of the allowed rise, at the ends of the quadratic interval, that make it the profile's: beyond
+# such an end lies the truth in 2 to 3 of 100 cases, in place of 2.5
 CLOSE = 0.025  # of the way to an end, or of a gain: how closely it is found
+SAME = 0.01  # of the way to an end: there 2.4 to 2.6 in place of 2.5 of 100 cases lie beyond
 CLOSER = 4  # times at most
-FLAT = 0.25  # of the allowed rise: below it the next step out is twice as long
-FAR = 1000.0  # of the response over the driver; a gain beyond is of two columns that undo each other
+PAST = 1.15  # times as far as a parabola says: so far out is an end looked for at first, then twice as far
+MOST = 4.0  # times as far as the last look
+ROUGHLY = 1e-5  # of the squared error: to that it is searched before a rise is known
 ONWARD = 2.0  # times the last step: so far others are thought to go on as they did
 NEAR = 0.02  # of the allowed rise: to that an error is searched
 MOVES = 4  # of the border between two like lags, while one of them lies at it
-TOUCH = 1e-3  # of log(value): so near to the border a lag lies at it
-THIN = 1e-6  # of its range is left at least to a lag that another one bounds
 POINTS = 9  # of the curve, on each side
-
-
-class Coordinate(Protocol):
-    """What is held at one value after another."""
-
-    @property
-    def slots(self) -> tuple[int, ...]: ...
-    @property
-    def name(self) -> str: ...
-    @property
-    def unit(self) -> str: ...
-
-    def at(self, problem: Problem, x: Float1D) -> float:
-        """Where it stands at a point of the search."""
-
-    def range(self, problem: Problem, x: Float1D) -> tuple[float, float]:
-        """Within which it is looked at."""
-
-    def held(self, problem: Problem, at: float, near: Float1D) -> Problem:
-        """The same problem with it held, and like lags kept in order. near: a point of that problem."""
-
-    def others(self, x: Float1D) -> Float1D:
-        """What is searched beside it; shape (free parameters of the held problem,)."""
-
-    def value(self, at: float) -> float:
-        """In its own unit."""
-
-    def pressed(self, x: Float1D, near: Float1D) -> bool:
-        """Whether a point of the held problem is where it is only since like lags were kept in order about `near`."""
-
-    def in_one(self, problem: Problem) -> float:
-        """The least squared error where two like lags are one: the border between both orders."""
-
-
-@dataclass(frozen=True)
-class Searched:
-    """A time constant or exponent: the free parameter of that place."""
-
-    place: int
-    free: Nonlinear
-    like: Sequence[Alike] = ()
-
-    @property
-    def slots(self) -> tuple[int, ...]:
-        return self.free.slots
-
-    @property
-    def name(self) -> str:
-        return self.free.param.name
-
-    @property
-    def unit(self) -> str:
-        return self.free.param.unit
-
-    def at(self, problem: Problem, x: Float1D) -> float:
-        return float(x[self.place])
-
-    def range(self, problem: Problem, x: Float1D) -> tuple[float, float]:
-        return self.free.outside(self.free.lower), self.free.outside(self.free.upper)
-
-    def held(self, problem: Problem, at: float, near: Float1D) -> Problem:
-        held = [dict(h) for h in problem.held]
-        for slot in self.free.slots:
-            held[slot][self.free.param.name] = self.free.inside(at)
-        free = [self._in_order(k, f, at) for k, f in enumerate(problem.free) if k != self.place]
-        return replace(problem, free=free, held=held)
-
-    def _in_order(self, k: int, other: Nonlinear, at: float) -> Nonlinear:
-        if not any(k in found.places and self.place in found.places for found in self.like):
-            return other
-        return _below(other, at) if k < self.place else _above(other, at)
-
-    def others(self, x: Float1D) -> Float1D:
-        return np.delete(x, self.place)
-
-    def value(self, at: float) -> float:
-        return self.free.inside(at)
-
-    def pressed(self, x: Float1D, near: Float1D) -> bool:
-        return False  # its own value is the border, wherever it is looked at
-
-    def in_one(self, problem: Problem) -> float:
-        return float("inf")  # no border presses it, so nothing on one is less than what was found
-
-
-@dataclass(frozen=True)
-class Solved:
-    """A gain: a column of the problem, of one slot."""
-
-    column: int
-    slot: int
-    name: str
-    unit: str
-    like: Sequence[Alike] = ()
-
-    @property
-    def slots(self) -> tuple[int, ...]:
-        return (self.slot,)
-
-    def at(self, problem: Problem, x: Float1D) -> float:
-        return float(problem.gains(problem.matrix(x))[self.column])
-
-    def range(self, problem: Problem, x: Float1D) -> tuple[float, float]:
-        size = float(np.linalg.norm(problem.matrix(x)[:, self.column]))
-        far = FAR * float(np.linalg.norm(problem.design.y)) / size if size > 0 else np.inf
-        return max(float(problem.low[self.column]), -far), min(float(problem.high[self.column]), far)
-
-    def held(self, problem: Problem, at: float, near: Float1D) -> Problem:
-        low, high = problem.low.copy(), problem.high.copy()
-        low[self.column] = high[self.column] = at
-        free = list(problem.free)
-        for a, b, border in self._borders(near):
-            free[a], free[b] = _below(free[a], border), _above(free[b], border)
-        return replace(problem, free=free, low=low, high=high)
-
-    def _borders(self, near: Float1D) -> Iterator[tuple[int, int, float]]:
-        """Half way between two neighbours, of lags that have a gain each."""
-        for found in self.like:
-            for a, b in pairwise(found.places) if found.columns else ():
-                yield a, b, float(near[a] + near[b]) / 2
-
-    def others(self, x: Float1D) -> Float1D:
-        return x
-
-    def value(self, at: float) -> float:
-        return at
-
-    def pressed(self, x: Float1D, near: Float1D) -> bool:
-        return any(min(border - x[a], x[b] - border) < TOUCH for a, b, border in self._borders(near))
-
-    def in_one(self, problem: Problem) -> float:
-        least = np.inf
-        for columns in (list(found.columns) for found in self.like if found.columns):
-            low, high = problem.low.copy(), problem.high.copy()
-            low[columns] = high[columns] = 0.0
-            part = replace(problem, low=low, high=high)
-            residual = part.residual(search(part, loose=True))
-            least = min(least, float(residual @ residual))
-        return least
-
-
-def _below(free: Nonlinear, at: float) -> Nonlinear:
-    low, high = free.outside(free.lower), free.outside(free.upper)
-    return replace(free, upper=free.inside(max(min(high, at), low + THIN * (high - low))))
-
-
-def _above(free: Nonlinear, at: float) -> Nonlinear:
-    low, high = free.outside(free.lower), free.outside(free.upper)
-    return replace(free, lower=free.inside(min(max(low, at), high - THIN * (high - low))))
 
 
 class Profile:
     """Of one coordinate. allowed: rise of the squared error at an end of the interval of 95 %, by how the prediction
     has moved, shape (n,); along: how the searched parameters move with it where the error is quadratic, shape (free
-    parameters,), None where too little is known to say; x: the optimum of this problem; moved: of the coordinate to the
-    optimum of the problem that it stands for."""
+    parameters,), None where too little is known to say; slopes: of the prediction to these, at the optimum, shape (n,
+    free parameters), None where one has none; x: the optimum of this problem; moved: of the coordinate to the optimum
+    of the problem that it stands for."""
 
     def __init__(
         self,
@@ -200,16 +50,19 @@ class Profile:
         of: Coordinate,
         allowed: Callable[[Float1D], float],
         along: Float1D | None,
+        slopes: Float2D | None = None,
         moved: float = 0.0,
     ) -> None:
         self.problem, self.x, self.of, self.allowed, self.along = problem, x, of, allowed, along
+        # of what is searched beside it
+        self._slopes = None if slopes is None else slopes[:, of.others(np.arange(len(x), dtype=np.float64)).astype(int)]
         self.moved = moved
         self.centre = of.at(problem, x)
         self.low, self.high = of.range(problem, x)
         self.residual = problem.residual(x)
         self.least = float(self.residual @ self.residual)
         self._near: dict[float, Float1D] = {self.centre: of.others(x)}
-        self._rises: dict[float, float] = {}
+        self._rises: dict[float, float] = {self.centre: 0.0}
         self._squares: dict[float, float] = {self.centre: self.least}
         self._in_one: float | None = None
         self._enough: float | None = None
@@ -222,12 +75,11 @@ class Profile:
         for _ in range(MOVES):
             near = found
             part = self.of.held(self.problem, at, near)
-            found = search(part, near, loose=True, enough=self._enough)
+            found, residual = self._fitted_anew(part, near)
             pressed = self.of.pressed(found, near)
             if not pressed:
                 break
         self._near[at] = found
-        residual = part.residual(found)
         square = float(residual @ residual)
         if pressed:
             # two lags in one lie on the border, whatever their gains
@@ -235,9 +87,19 @@ class Profile:
                 self._in_one = self.of.in_one(self.problem)
             square = min(square, self._in_one)
         self._squares[at], self._rises[at] = square, self._share(square, residual)
-        if self._enough is None and self._rises[at] > 0 and self.least > 0:
-            self._enough = NEAR * (square - self.least) / self._rises[at] / self.least
         return self._rises[at]
+
+    def _fitted_anew(self, part: Problem, near: Float1D) -> tuple[Float1D, Float1D]:
+        """Where the others end, and what is left there."""
+        if self._enough is None and self.least > 0:
+            allowed = self.allowed(self.residual - part.residual(near))
+            self._enough = NEAR * allowed / self.least if np.isfinite(allowed) and allowed > 0 else None
+        if self._slopes is not None:
+            refit = fit_anew(part, near, self._slopes, self._enough or ROUGHLY)
+            if refit is not None:
+                return refit.x, refit.residual
+        found = search(part, near, loose=True, enough=self._enough)
+        return found, part.residual(found)
 
     def _start(self, at: float) -> Float1D:
         """Where the others stand further in, or where they would if they went on as they did."""
@@ -245,9 +107,12 @@ class Profile:
         inner = [known for known in self._near if min(self.centre, at) <= known <= max(self.centre, at)]
         inner.sort(key=lambda known: abs(known - at))
         last = self._near[inner[0]]
-        if len(inner) < 2 or abs(at - inner[0]) > ONWARD * abs(inner[0] - inner[1]):
+        if len(inner) < 2 and self.along is not None:
+            onward = self.of.others(self.x + (at - self.centre) * self.along)
+        elif len(inner) < 2 or abs(at - inner[0]) > ONWARD * abs(inner[0] - inner[1]):
             return last
-        onward = last + (at - inner[0]) / (inner[0] - inner[1]) * (last - self._near[inner[1]])
+        else:
+            onward = last + (at - inner[0]) / (inner[0] - inner[1]) * (last - self._near[inner[1]])
         part = self.of.held(self.problem, at, last)
         onward = np.clip(onward, *part.box())
         squares = [float(r @ r) for r in (part.residual(last), part.residual(onward))]
@@ -258,7 +123,8 @@ class Profile:
 
     def is_straight(self, half: float) -> bool:
         """Whether the path that a quadratic error would take has the allowed rise at both ends of an interval of that
-        half width, in the units of the search: it costs a look at each, and nothing is fitted anew."""
+        half width, in the units of the search: it costs a look at each. By what the others could still take from it if
+        they were fitted anew, slopes tell."""
         if not self._reaches(half) or self.along is None:
             return False
         return all(ALIKE[0] <= self._straight(side * half, self.along) <= ALIKE[1] for side in (-1.0, 1.0))
@@ -294,16 +160,21 @@ class Profile:
     def _straight(self, step: float, along: Float1D) -> float:
         there = np.clip(self.x + step * along, *self.problem.box())
         others = self.of.others(there)
-        residual = self.of.held(self.problem, self.centre + step, others).residual(others)
-        return self._share(float(residual @ residual), residual)
+        part = self.of.held(self.problem, self.centre + step, others)
+        residual = part.residual(others)
+        square = float(residual @ residual)
+        if self._slopes is not None:
+            square -= could_fall(part, others, residual, self._slopes)
+        return self._share(square, residual)
 
     def _end(self, half: float) -> float | None:
         """Where the rise is what is allowed; None where it is not before the end of the range."""
         bound = self.high if half > 0 else self.low
         inner, outer = self.centre, self.centre + half
+        least = 1.0
         while (bound - outer) * half > 0 and self.rise(outer) < 1.0:
-            further = 2.0 if self.rise(outer) > FLAT else 4.0
-            inner, outer = outer, self.centre + further * (outer - self.centre)
+            further = min(MOST, max(least, PAST / np.sqrt(max(self.rise(outer), PAST**2 / MOST**2))))
+            inner, outer, least = outer, self.centre + further * (outer - self.centre), 2.0
         if (bound - outer) * half <= 0:
             outer = bound
             if not np.isfinite(bound) or abs(outer - inner) < 1e-12 or self.rise(outer) < 1.0:
@@ -313,7 +184,7 @@ class Profile:
         for _ in range(CLOSER):
             size = max(abs(inner), abs(outer)) if isinstance(self.of, Solved) else np.inf
             end = self._root(inner, outer, CLOSE * min(size, abs(outer - self.centre)))
-            if not isinstance(self.of, Solved):
+            if not isinstance(self.of, Solved) or not self._beyond(end):
                 break
             # a gain of two lags that undo each other may be a hundred times as large as its end
             inner, outer = self._bracket(inner, outer)
@@ -331,5 +202,11 @@ class Profile:
     def _root(self, inner: float, outer: float, close: float) -> float:
         from scipy.optimize import brentq
 
+        return float(brentq(lambda p: self._beyond(float(p)), inner, outer, xtol=close))
+
+    def _beyond(self, at: float) -> float:
+        """How far a value lies outside of the interval, as a share of the way to its end where the rise is quadratic;
+        0 where that is as good as the end."""
         # the root of the rise is straight where the rise is quadratic
-        return float(brentq(lambda p: np.sqrt(max(0.0, self.rise(float(p)))) - 1.0, inner, outer, xtol=close))
+        beyond = float(np.sqrt(max(0.0, self.rise(at)))) - 1.0
+        return 0.0 if abs(beyond) < SAME else beyond

@@ -73,7 +73,14 @@ def search(problem: Problem, start: Float1D | None = None, loose: bool = False, 
     x = problem.start() if start is None else start
     if not len(x) or not problem.design.n:
         return x
-    return _refine(problem, _sweeps(problem, x) if start is None else x, loose, enough)
+    found = _refine(problem, _sweeps(problem, x) if start is None else x, loose, enough)
+    if start is not None or loose or len(x) == 1:
+        return found
+    # sweeps choose a valley while the others are coarse; once they are not, another one may be deeper
+    elsewhere = found
+    for i in range(len(x)):
+        elsewhere = along_whole_range(problem, elsewhere, i)
+    return found if elsewhere is found else _refine(problem, elsewhere, loose, enough)
 
 
 def along_whole_range(problem: Problem, x: Float1D, i: int) -> Float1D:
@@ -142,7 +149,7 @@ def _refine(problem: Problem, x: Float1D, loose: bool, enough: float | None) -> 
         method="trf",
         diff_step=1e-5,
         x_scale=high - low,
-        xtol=1e-4 if loose else 1e-7,
+        xtol=1e-4 if loose and enough is None else 1e-7,
         ftol=(enough or 1e-5) if loose else 1e-9,
         gtol=1e-12,
         max_nfev=12 if loose else 60,

@@ -8,10 +8,11 @@ from functools import cached_property
 
 import numpy as np
 
+from thermodata.modelling.coordinate import Coordinate, Searched, Solved
 from thermodata.modelling.design import MOMENTS
 from thermodata.modelling.fitted_response import Ends
 from thermodata.modelling.labels import alike, fastest_first
-from thermodata.modelling.profile import ALIKE, Coordinate, Profile, Searched, Solved
+from thermodata.modelling.profile import Profile
 from thermodata.modelling.search import Problem, search
 from thermodata.modelling.slow_noise import Scatter, make_noise, nothing
 from thermodata.modelling.start_unknown import disturbances
@@ -26,6 +27,7 @@ SPANNED = 1e-8  # of the most power of a direction: below, columns undo each oth
 LEAST = 1e-12  # likewise: below, they are one
 ROUNDING = 1e-15  # likewise: below, nothing is told of it
 STEP = 1e-4  # of a parameter's range, for its slope
+AS_SURE = (0.7, 1.4)  # times as wide is the quadratic interval of fewer samples that may stand for all
 _LONGEST = 0.25  # of a test; a longer memory cannot be told from a trend
 
 
@@ -183,6 +185,13 @@ class _Estimate:
         half = float(self._scatter(moved[:, None]).half[0])
         return half**2 * float(moved @ moved) if np.isfinite(half) else np.inf
 
+    def slopes(self) -> Float2D | None:
+        """Of the prediction to everything that is searched, shape (n, searched); None where something has none."""
+        free = self.problem.free
+        if len(self.places) < len(free) or any(f.points == MOMENTS for f in free):
+            return None
+        return self.jacobian[:, [self.places[i] for i in range(len(free))]]
+
     def along(self, k: int, movable: Collection[int]) -> Float1D:
         """How the searched parameters move with the estimate k where the error is quadratic; shape (searched,)."""
         moved = np.zeros(len(self.problem.free))
@@ -207,7 +216,7 @@ def _profiles(
     estimate: _Estimate, asked: Callable[[int, Coordinate, float], bool]
 ) -> Iterator[tuple[int, Profile, float]]:
     """(place of the estimate, its profile on all samples, half of its quadratic interval)."""
-    free_to_move = _inside(estimate.problem, estimate.x)
+    free_to_move, slopes = _inside(estimate.problem, estimate.x), estimate.slopes()
     for k, owner in enumerate(estimate.owners):
         of, half = owner.of, float(estimate.scatter.half[k])
         if isinstance(of, Searched) and of.free.points == MOMENTS:
@@ -215,7 +224,7 @@ def _profiles(
         if not estimate.moves[k] or not np.isfinite(half) or half <= 0 or not asked(k, of, half):
             continue
         along = estimate.along(k, free_to_move) if estimate.known[k] else None
-        yield k, Profile(estimate.problem, estimate.x, of, estimate.allowed, along), half
+        yield k, Profile(estimate.problem, estimate.x, of, estimate.allowed, along, slopes), half
 
 
 class _Small:
@@ -241,12 +250,18 @@ class _Small:
         there = self._estimate
         if there is None:
             return whole
+        as_wide = 1.0
         if self._whole.known[k]:
             as_wide = float(there.scatter.half[k] / self._whole.scatter.half[k])
-            if not ALIKE[0] <= as_wide <= ALIKE[1]:
+            if not AS_SURE[0] <= as_wide <= AS_SURE[1]:
                 return whole
         moved = whole.centre - whole.of.at(there.problem, there.x)
-        return Profile(there.problem, there.x, whole.of, there.allowed, whole.along, moved)
+
+        def allowed(way: Float1D) -> float:
+            # the shape is that of fewer samples, and how wide it is all samples say
+            return there.allowed(way) / as_wide**2
+
+        return Profile(there.problem, there.x, whole.of, allowed, whole.along, there.slopes(), moved)
 
 
 def _inside(problem: Problem, x: Float1D) -> list[int]:

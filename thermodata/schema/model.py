@@ -58,7 +58,7 @@ class EffectSpec(Strict):
     tests: the tests that it exists in (a slip); by default all
     method: of a transfer function: oe, arx, or varpro (a sum of lags)
     orders: of a transfer function: numbers of numerator and denominator coefficients; chosen where left out
-    delay: of method arx: steps of the model by which its driver comes late; chosen with the orders, else 0
+    delay: of method arx: steps of the model by which its driver comes late; chosen on left-out data where left out
     also: what its drivers go through first, as parameters beside its own: dead_time [s], sensor_lag [s]
     gain_by: one gain for each value of a condition: conditions.spindle, or D; or test, machine, campaign, tool, or
         place (of the response: time constants are then shared by the places); or a list of them
