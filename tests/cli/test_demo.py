@@ -104,6 +104,20 @@ def test_refinements_are_offered_and_not_added(say: Say, tmp_path: Path, monkeyp
     assert f"refined by           {ids[0]} and {ids[1]}".split() == summary_text(result).split("\n")[3].split()
 
 
+@pytest.mark.usefixtures("small")
+@pytest.mark.parametrize("before", [False, True])
+def test_a_store_that_is_named_is_the_one_that_is_used(
+    say: Say, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, before: bool
+) -> None:
+    answers_with(monkeypatch, "none")
+    own, words = ["--store", tmp_path / "own"], ["demo", tmp_path / "demo", "--hide", "none"]
+    said = say(*own, *words, "--json") if before else say(*words, *own, "--json")
+    assert said.code == 0, said.err
+    assert json.loads(said.out)["store"] == str(tmp_path / "own")
+    assert (tmp_path / "own" / "catalog.duckdb").exists()
+    assert not (tmp_path / "demo" / "thermodata.store").exists()
+
+
 def test_a_folder_with_other_things_is_refused_untouched(tmp_path: Path) -> None:
     (tmp_path / "campaign.yaml").write_text("measured for months")
     with pytest.raises(UsageError, match="not made by a demo"):

@@ -23,10 +23,12 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class Session:
-    """One call of the program: where the store is and how the answer is written."""
+    """One call of the program: where the store is and how the answer is written. store_named: by an option, and not by
+    default or by the environment."""
 
     store_path: Path
     as_json: bool
+    store_named: bool = False
 
     def store(self, *, create: bool = False) -> Store:
         """The store; a UsageError names `ingest` where there is none yet."""
@@ -90,8 +92,10 @@ def command(name: str, **more: Any) -> Callable[[Callable[..., Any]], click.Comm
     def decorate(function: Callable[..., Any]) -> click.Command:
         @functools.wraps(function)
         def call(ctx: click.Context, /, *args: Any, **options: Any) -> Any:
-            store = options.pop("store_after") or ctx.find_root().obj or "thermodata.store"
-            return function(Session(Path(store), options.pop("as_json")), *args, **options)
+            after, root = options.pop("store_after"), ctx.find_root()
+            named = bool(after) or root.get_parameter_source("store") is click.core.ParameterSource.COMMANDLINE
+            store = Path(after or root.obj or "thermodata.store")
+            return function(Session(store, options.pop("as_json"), named), *args, **options)
 
         made: Any = click.pass_context(call)
         made = click.option("--json", "as_json", is_flag=True, help="Print JSON.")(made)

@@ -44,6 +44,7 @@ def demo_command(session: Session, folder: Path, hide: str | None, seed: int) ->
 
     A thermal effect is hidden from the model; the machine logs TDMS, CNC and MCAP files into DIR (default
     ./thermodata-demo); then: store, model, where it fails, what is missing, add it, the error afterwards, report.
+    The store stands in DIR, too, unless --store names another.
     """
     began = time.monotonic()
     hide = prepare(folder, hide, seed)
@@ -99,7 +100,7 @@ def story(step: Step, folder: Path, hide: str, seed: int) -> dict[str, Any]:
     from thermodata.store import Store
     from thermodata.store.ingest.run import ingest
 
-    store = Store(folder / "thermodata.store", create=True)
+    store = Store(step.session.store_path if step.session.store_named else folder / "thermodata.store", create=True)
     summary = plain(ingest(store, folder / "campaign.yaml").to_json())
     flags = (
         ", ".join(
@@ -167,7 +168,7 @@ def story(step: Step, folder: Path, hide: str, seed: int) -> dict[str, Any]:
     elif found.verdict in ("none", "refine"):
         step.title(6, "add: no cause is missing, so nothing is added")
         for offered in refinements_of(found):
-            step.line(f"offered: thermodata --store {folder / 'thermodata.store'} add {base.model[:12]} {offered.id}")
+            step.line(f"offered: thermodata --store {store.path} add {base.model[:12]} {offered.id}")
     else:
         step.title(6, "add: nothing is added where the evidence does not suffice")
 
@@ -191,7 +192,7 @@ def story(step: Step, folder: Path, hide: str, seed: int) -> dict[str, Any]:
         "locked_rmse_um_before": claimed.locked_rmse_um_before if claimed else None,
         "locked_rmse_um_after": claimed.locked_rmse_um_after if claimed else None,
         "model": model,
-        "store": str(folder / "thermodata.store"),
+        "store": str(store.path),
         "report": str(page),
     }
 
