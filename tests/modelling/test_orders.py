@@ -15,6 +15,7 @@ from thermodata.effect.lag import lag
 from thermodata.errors import SpecError, UsageError
 from thermodata.modelling import fit_model
 from thermodata.modelling.left_out import folds, left_out_fit
+from thermodata.modelling.left_out_error import LeftOut
 from thermodata.modelling.orders import free_run_fit
 from thermodata.modelling.transfer import GivenFunction
 from thermodata.plugin import Float1D
@@ -267,6 +268,23 @@ def test_a_delay_that_the_file_leaves_open_is_chosen_beside_given_orders(spec: S
     assert [r.delay for r in rows] == [0, 1, 2]
     best = max(rows, key=lambda r: r.fit_left_out or -np.inf)
     assert [r.delay for r in rows if r.chosen] == [best.delay] == [1]
+
+
+@pytest.mark.parametrize("steps", [0, 1])
+def test_a_delay_that_all_tests_chose_is_not_chosen_again_in_each_fold(
+    spec: Spec, steps: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    data = _data(*(_late(_test(k, "calibration"), steps, 0.02) for k in range(3)))
+    model = spec(FUNCTION | {"method": "arx", "orders": [2, 2]})
+    left = LeftOut(model, data)
+    assert left.whole.responses[0].terms[0].bound.spec.delay == steps
+
+    def again(*_: object) -> None:
+        raise AssertionError("chosen again")
+
+    monkeypatch.setattr("thermodata.modelling.fit.choose_orders", again)
+    said = spec(FUNCTION | {"method": "arx", "orders": [2, 2], "delay": steps})
+    assert left.errors(model) == left.errors(said)
 
 
 def test_arx_is_refused_on_measuring_windows_with_the_reason(spec: Spec) -> None:

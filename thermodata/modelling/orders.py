@@ -20,6 +20,7 @@ from thermodata.modelling.left_out import folds, left_out_fit
 from thermodata.modelling.score import fit_percent
 from thermodata.modelling.transfer import MOST, NAME, FreeFunction
 from thermodata.plugin import Effect
+from thermodata.schema.model import EffectSpec
 from thermodata.view.dataset import TestData
 
 AS_GOOD = 0.5  # points of FIT
@@ -63,13 +64,12 @@ class Choice:
 
 def open_orders(bound: BoundResponse) -> list[int]:
     """Places of the terms whose orders, or whose delay, the file leaves open."""
-    return [
-        i
-        for i, t in enumerate(bound.terms)
-        if t.spec.effect == NAME
-        and isinstance(t.effect, FreeFunction)
-        and (t.spec.orders is None or (t.spec.method == "arx" and t.spec.delay is None))
-    ]
+    return [i for i, t in enumerate(bound.terms) if isinstance(t.effect, FreeFunction) and leaves_open(t.spec)]
+
+
+def leaves_open(spec: EffectSpec) -> bool:
+    """Whether an effect is a transfer function of which the file does not say all orders, or the delay of an ARX."""
+    return spec.effect == NAME and (spec.orders is None or (spec.method == "arx" and spec.delay is None))
 
 
 def choose_orders(
@@ -96,7 +96,8 @@ def choose_orders(
     found_at: dict[tuple[int, int], FittedResponse] = {}
 
     def tried(orders: tuple[int, int], delay: int | None) -> _Trial:
-        trial = with_orders(bound, i, orders, delay)
+        # a delay of none is chosen as well: what chose it does not ask again
+        trial = with_orders(bound, i, orders, delay or 0 if method == "arx" else None)
         row = Tried(bound.name, term.id, method, *orders, None, None, None, delay=delay or 0)
         try:
             full = identify(
