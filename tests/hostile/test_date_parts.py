@@ -369,6 +369,18 @@ def test_a_date_that_is_the_same_in_all_rows_is_not_their_time(read: Any, stamp:
     assert [s.name for s in data.recording.signals] == ["Calibrated", "T1"]
 
 
+@pytest.mark.parametrize("stamp", ["2025-11-03", "2025-11-03 07:00:00"])
+def test_a_date_that_is_the_same_in_all_rows_is_not_their_time_beside_seconds_from_a_start(
+    read: Any, stamp: str
+) -> None:
+    data = read("Calibrated;Time [s];T1\n" + "".join(f"{stamp};{i};{20 + i}\n" for i in range(60)), by="table")
+    assert data.recording.clock == "relative"
+    np.testing.assert_array_equal(times(data), np.arange(60) * 1_000_000_000)
+    # numbers under such a name that do not go on either are no better
+    data = read("Measured;Time [s];T1\n" + "".join(f"{stamp};5;{20 + i}\n" for i in range(60)), by="table")
+    assert data.recording.clock == "absolute"
+
+
 def test_a_date_that_is_the_same_in_all_rows_is_the_time_where_nothing_else_is(read: Any) -> None:
     rows = "".join(f"2026-02-28 23:40:00;{i}\n" for i in range(60))
     data = read("Measured;T1\n" + rows, by="table")
