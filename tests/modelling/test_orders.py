@@ -270,6 +270,18 @@ def test_a_delay_that_the_file_leaves_open_is_chosen_beside_given_orders(spec: S
     assert [r.delay for r in rows if r.chosen] == [best.delay] == [1]
 
 
+def test_given_orders_of_an_arx_are_fitted_where_too_little_is_left_to_choose_its_delay(spec: Spec) -> None:
+    data = _data(_test(1, "calibration", hours=2), _test(2, "calibration", hours=0.4))
+    given = FUNCTION | {"method": "arx", "orders": [4, 4]}
+    fitted, said = (fit_model(spec(given | more), data).responses[0] for more in ({}, {"delay": 0}))
+    assert [(r.delay, r.chosen) for r in fitted.tried] == [(0, False), (1, False), (2, False)]
+    assert all("too few" in r.why for r in fitted.tried)
+    assert fitted.terms[0].bound.spec.delay == 0
+    np.testing.assert_array_equal(fitted.predict(data.tests[0]), said.predict(data.tests[0]))
+    with pytest.raises(UsageError, match="too few"):
+        fit_model(spec(given), _data(data.tests[1]))
+
+
 @pytest.mark.parametrize("steps", [0, 1])
 def test_a_delay_that_all_tests_chose_is_not_chosen_again_in_each_fold(
     spec: Spec, steps: int, monkeypatch: pytest.MonkeyPatch

@@ -123,17 +123,18 @@ def choose_orders(
         if method == "varpro" and orders[0] > orders[1] and rows[-1].row.why and rows[-2].row.why:
             break
     good = [r for r in rows if r.row.why is None]
-    if not good:
+    if not good and term.spec.orders is None:
         raise reasons[0]
-    best = _fewest(good)
+    best = _fewest(good) if good else rows[0]
     if method == "arx" and term.spec.delay is None:
         late = [tried((best.row.numerator, best.row.denominator), delay) for delay in range(1, DELAY + 1)]
         rows += late
         # a delay costs no coefficient
         best = max([best, *(r for r in late if r.row.why is None)], key=lambda r: _number(r.row.fit_left_out))
+    if best.full is None:  # too little to leave any out: orders that are given need no choice
+        return Choice(best.bound, None, tuple(r.row for r in rows))
     table = tuple(replace(r.row, chosen=r is best) for r in rows)
-    full = cast(FittedResponse, best.full)
-    return Choice(best.bound, None if method == "arx" else _near(best.bound, full), table)
+    return Choice(best.bound, None if method == "arx" else _near(best.bound, best.full), table)
 
 
 @dataclass(frozen=True)
