@@ -125,7 +125,9 @@ def find_time(
         [[c for c in filled[i] if is_clocked(c)] for i in clocks],
     )
     numbers = [i for i in words if share(i, is_number, 0.6)]
-    if len(standing) == len(dates) and not (_parts_go_on(names, data) or any(_rise(filled[i]) for i in numbers)):
+    if len(standing) == len(dates) and not (
+        _parts_go_on(names, data) or any(_numbers_go_on(filled[i]) for i in numbers)
+    ):
         standing = set()
     dates = [i for i in dates if i not in standing]
     if dates:
@@ -167,7 +169,7 @@ def _standing(dates: Mapping[int, Sequence[Cell]], clocks: Sequence[Sequence[Cel
     return {i for i, cells in dates.items() if len(set(cells)) == 1 and not (running and not _tell_the_hour(cells))}
 
 
-def _rise(cells: Sequence[Cell]) -> bool:
+def _numbers_go_on(cells: Sequence[Cell]) -> bool:
     """Whether numbers grow from row to row, as seconds from a start do."""
     values = [v for c in cells if (v := number_of(c)) is not None]
     return len(values) > 1 and all(a < b for a, b in pairwise(values))
