@@ -316,6 +316,16 @@ def test_a_time_of_day_that_disagrees_with_parts_is_none_of_them(read: Any) -> N
     assert [s.name for s in data.recording.signals] == ["Elapsed", "T1"]
 
 
+def test_a_time_of_day_that_most_rows_lack_is_no_part_of_the_time(read: Any) -> None:
+    """When something was switched on, beside the minute in which the row was written."""
+    text = parts_beside(
+        "Year;Month;Day;Hour;Minute;Event;T1", lambda i, t: [*in_five(t), "" if i % 3 else f"{t:%H:%M:%S}"]
+    )
+    data = read(text, by="table")
+    np.testing.assert_array_equal(times(data), np.full(60, WANTED[0]))
+    assert not data.losses
+
+
 @pytest.mark.parametrize("clock", ["%H:%M:%S", "%I:%M:%S %p"])
 def test_milliseconds_behind_a_time_of_day_beside_parts_are_joined(read: Any, tmp_path: Path, clock: str) -> None:
     moments = [FIRST + timedelta(milliseconds=500 * i) for i in range(60)]
