@@ -316,6 +316,16 @@ def test_a_time_of_day_that_disagrees_with_parts_is_none_of_them(read: Any) -> N
     assert [s.name for s in data.recording.signals] == ["Elapsed", "T1"]
 
 
+def test_a_time_of_day_that_most_rows_lack_is_no_part_of_the_time(read: Any) -> None:
+    """When something was switched on, beside the minute in which the row was written."""
+    text = parts_beside(
+        "Year;Month;Day;Hour;Minute;Event;T1", lambda i, t: [*in_five(t), "" if i % 3 else f"{t:%H:%M:%S}"]
+    )
+    data = read(text, by="table")
+    np.testing.assert_array_equal(times(data), np.full(60, WANTED[0]))
+    assert not data.losses
+
+
 @pytest.mark.parametrize("clock", ["%H:%M:%S", "%I:%M:%S %p"])
 def test_milliseconds_behind_a_time_of_day_beside_parts_are_joined(read: Any, tmp_path: Path, clock: str) -> None:
     moments = [FIRST + timedelta(milliseconds=500 * i) for i in range(60)]
@@ -367,6 +377,18 @@ def test_a_date_that_is_the_same_in_all_rows_is_not_their_time(read: Any, stamp:
     data = read(parts_beside(f"Calibrated;{header};T1", lambda i, t: [stamp, *cells(i, t)]), by="table")
     np.testing.assert_array_equal(times(data), WANTED[0] + np.arange(60) * 1_000_000_000)
     assert [s.name for s in data.recording.signals] == ["Calibrated", "T1"]
+
+
+@pytest.mark.parametrize("stamp", ["2025-11-03", "2025-11-03 07:00:00"])
+def test_a_date_that_is_the_same_in_all_rows_is_not_their_time_beside_seconds_from_a_start(
+    read: Any, stamp: str
+) -> None:
+    data = read("Calibrated;Time [s];T1\n" + "".join(f"{stamp};{i};{20 + i}\n" for i in range(60)), by="table")
+    assert data.recording.clock == "relative"
+    np.testing.assert_array_equal(times(data), np.arange(60) * 1_000_000_000)
+    # numbers under such a name that do not go on either are no better
+    data = read("Measured;Time [s];T1\n" + "".join(f"{stamp};5;{20 + i}\n" for i in range(60)), by="table")
+    assert data.recording.clock == "absolute"
 
 
 def test_a_date_that_is_the_same_in_all_rows_is_the_time_where_nothing_else_is(read: Any) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+from dataclasses import replace
 from importlib.util import module_from_spec, spec_from_file_location
 from pathlib import Path
 
@@ -15,6 +16,8 @@ from thermodata.modelling.anew import could_fall, fit_anew
 from thermodata.modelling.coordinate import Searched
 from thermodata.modelling.drivers import start_deviation, start_value
 from thermodata.modelling.joint import fitted_problem
+from thermodata.modelling.labels import alike, fastest_first
+from thermodata.modelling.profile import Profile
 from thermodata.modelling.search import Problem, search
 from thermodata.modelling.uncertainty import _Estimate
 from thermodata.plugin import Float1D, Float2D
@@ -117,3 +120,29 @@ def test_of_a_driver_at_rest_the_start_is_known_by_its_noise() -> None:
     rng = np.random.default_rng(4)
     said = [start_deviation(20.0 + rng.normal(0, 0.02, 600), 60.0) for _ in range(200)]
     assert np.median(said) == pytest.approx(0.02 / np.sqrt(5), rel=0.3)
+
+
+@pytest.mark.parametrize("along", [False, True])
+def test_a_like_lag_that_is_passed_ends_where_a_search_ends(along: bool) -> None:
+    """Slopes of the optimum took it for a point on the wrong side of the border, whose error is many times as large."""
+    text = {"schema": "thermodata/model/1", "name": "m", "campaign": "c", "step": "60 s", "response": {"channel": "y"}}
+    effect = {"effect": "transfer_function", "drivers": {"u": "T"}, "orders": [2, 2]}
+    model = Model.model_validate(text | {"effects": [effect]})
+    tests = []
+    for seed in (1, 2):
+        test, rng = _test(seed), np.random.default_rng(seed)
+        warm = test.values["T"] - 20
+        y = 1.2 * lag(warm, 1200, 60) + 2.0 * lag(warm, 6000, 60) + rng.normal(0, 0.3, len(warm))
+        tests.append(replace(test, values={**test.values, "y": y}))
+    fit = fit_model(model, Dataset(60.0, tuple(tests), CHANNELS), uncertainty=False)
+    problem, x, _ = fitted_problem(fit.responses[0], tests)
+    x = fastest_first(problem, x)
+    estimate = _Estimate(problem, x, problem.gains(problem.matrix(x)))
+    for place, by in ((0, 0.2), (1, -0.2)):
+        of = Searched(place, problem.free[place], alike(problem))
+        way = estimate.along(place, [0, 1]) if along else None
+        profile = Profile(problem, x, of, lambda moved: 1.0, way, estimate.slopes())
+        at = float(x[1 - place]) + by
+        part = of.held(problem, at, of.others(x))
+        searched = part.residual(search(part, np.clip(of.others(x), *part.box())))
+        assert profile.least + profile.rise(at) == pytest.approx(searched @ searched, rel=1e-3)

@@ -15,6 +15,7 @@ from thermodata.effect.lag import lag
 from thermodata.errors import SpecError, UsageError
 from thermodata.modelling import fit_model
 from thermodata.modelling.left_out import folds, left_out_fit
+from thermodata.modelling.left_out_error import LeftOut
 from thermodata.modelling.orders import free_run_fit
 from thermodata.modelling.transfer import GivenFunction
 from thermodata.plugin import Float1D
@@ -267,6 +268,35 @@ def test_a_delay_that_the_file_leaves_open_is_chosen_beside_given_orders(spec: S
     assert [r.delay for r in rows] == [0, 1, 2]
     best = max(rows, key=lambda r: r.fit_left_out or -np.inf)
     assert [r.delay for r in rows if r.chosen] == [best.delay] == [1]
+
+
+def test_given_orders_of_an_arx_are_fitted_where_too_little_is_left_to_choose_its_delay(spec: Spec) -> None:
+    data = _data(_test(1, "calibration", hours=2), _test(2, "calibration", hours=0.4))
+    given = FUNCTION | {"method": "arx", "orders": [4, 4]}
+    fitted, said = (fit_model(spec(given | more), data).responses[0] for more in ({}, {"delay": 0}))
+    assert [(r.delay, r.chosen) for r in fitted.tried] == [(0, False), (1, False), (2, False)]
+    assert all("too few" in r.why for r in fitted.tried)
+    assert fitted.terms[0].bound.spec.delay == 0
+    np.testing.assert_array_equal(fitted.predict(data.tests[0]), said.predict(data.tests[0]))
+    with pytest.raises(UsageError, match="too few"):
+        fit_model(spec(given), _data(data.tests[1]))
+
+
+@pytest.mark.parametrize("steps", [0, 1])
+def test_a_delay_that_all_tests_chose_is_not_chosen_again_in_each_fold(
+    spec: Spec, steps: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    data = _data(*(_late(_test(k, "calibration"), steps, 0.02) for k in range(3)))
+    model = spec(FUNCTION | {"method": "arx", "orders": [2, 2]})
+    left = LeftOut(model, data)
+    assert left.whole.responses[0].terms[0].bound.spec.delay == steps
+
+    def again(*_: object) -> None:
+        raise AssertionError("chosen again")
+
+    monkeypatch.setattr("thermodata.modelling.fit.choose_orders", again)
+    said = spec(FUNCTION | {"method": "arx", "orders": [2, 2], "delay": steps})
+    assert left.errors(model) == left.errors(said)
 
 
 def test_arx_is_refused_on_measuring_windows_with_the_reason(spec: Spec) -> None:

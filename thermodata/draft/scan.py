@@ -91,7 +91,8 @@ def scan(folder: Path, progress: Progress | None = None) -> Scan:
     ordered = [str(p) for p in paths]
     damaged = list(dict.fromkeys((str(f.path), _damage(f)) for f in sampled if _damage(f)))
     position = {p: i for i, p in enumerate(ordered)}
-    ignored.sort(key=lambda item: position[item[0]])
+    for found_out in (ignored, failed):
+        found_out.sort(key=lambda item: position[item[0]])
     return Scan(
         tuple(sorted(sampled, key=lambda f: position[str(f.path)])),
         tuple(ignored),

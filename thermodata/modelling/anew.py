@@ -29,9 +29,9 @@ class Refit:
 
 
 def fit_anew(problem: Problem, x: Float1D, slopes: Float2D, enough: float) -> Refit | None:
-    """From a point near the optimum of a problem; None where STEPS do not lead there. slopes: of the prediction to
-    what the problem searches, its gains as they are, shape (n, k); enough: fall of the squared error, as a share of it,
-    that no step is taken for."""
+    """From a point near the optimum of a problem, within its bounds; None where STEPS do not lead there. slopes: of
+    the prediction to what the problem searches, its gains as they are, shape (n, k); enough: fall of the squared error,
+    as a share of it, that no step is taken for."""
     low, high = problem.box()
     residual = problem.residual(x)
     slopes = -_beside(_free_columns(problem, x), slopes)  # of the residual, once the gains are solved

@@ -10,9 +10,9 @@ import numpy as np
 from thermodata.modelling.fit import fit_model
 from thermodata.modelling.fitted import FittedModel
 from thermodata.modelling.fitted_response import FittedResponse
+from thermodata.modelling.orders import leaves_open
 from thermodata.modelling.resolve import term_ids
 from thermodata.modelling.roles import Key, resolve_roles
-from thermodata.modelling.transfer import NAME as TRANSFER
 from thermodata.schema.model import EffectSpec, Model
 from thermodata.view.dataset import Dataset, TestData
 
@@ -89,7 +89,8 @@ class LeftOut:
         return fit_model(spec.model_copy(update={**roles, "in_sample": False}), self.data, uncertainty=False)
 
     def _with_orders(self, spec: Model) -> Model:
-        """Orders that the file leaves open as all tests chose them: a choice anew in each fold costs sixteen fits."""
+        """Orders and delays that the file leaves open as all tests chose them: chosen anew they cost up to sixteen fits
+        a fold."""
         chosen = {
             t.id: {"orders": t.bound.spec.orders, "delay": t.bound.spec.delay}
             for response in reversed(self.whole.responses)
@@ -97,8 +98,8 @@ class LeftOut:
         }
         effects: list[EffectSpec] = []
         for name, effect in zip(term_ids(spec.effects), spec.effects, strict=True):
-            is_open = effect.effect == TRANSFER and effect.orders is None and name in chosen
-            effects.append(effect.model_copy(update=chosen[name]) if is_open else effect)
+            found = chosen.get(name) if leaves_open(effect) else None
+            effects.append(effect.model_copy(update=found) if found else effect)
         return spec.model_copy(update={"effects": effects})
 
 

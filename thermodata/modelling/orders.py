@@ -20,6 +20,7 @@ from thermodata.modelling.left_out import folds, left_out_fit
 from thermodata.modelling.score import fit_percent
 from thermodata.modelling.transfer import MOST, NAME, FreeFunction
 from thermodata.plugin import Effect
+from thermodata.schema.model import EffectSpec
 from thermodata.view.dataset import TestData
 
 AS_GOOD = 0.5  # points of FIT
@@ -63,13 +64,12 @@ class Choice:
 
 def open_orders(bound: BoundResponse) -> list[int]:
     """Places of the terms whose orders, or whose delay, the file leaves open."""
-    return [
-        i
-        for i, t in enumerate(bound.terms)
-        if t.spec.effect == NAME
-        and isinstance(t.effect, FreeFunction)
-        and (t.spec.orders is None or (t.spec.method == "arx" and t.spec.delay is None))
-    ]
+    return [i for i, t in enumerate(bound.terms) if isinstance(t.effect, FreeFunction) and leaves_open(t.spec)]
+
+
+def leaves_open(spec: EffectSpec) -> bool:
+    """Whether an effect is a transfer function of which the file does not say all orders, or the delay of an ARX."""
+    return spec.effect == NAME and (spec.orders is None or (spec.method == "arx" and spec.delay is None))
 
 
 def choose_orders(
@@ -96,7 +96,8 @@ def choose_orders(
     found_at: dict[tuple[int, int], FittedResponse] = {}
 
     def tried(orders: tuple[int, int], delay: int | None) -> _Trial:
-        trial = with_orders(bound, i, orders, delay)
+        # a delay of none is chosen as well: what chose it does not ask again
+        trial = with_orders(bound, i, orders, delay or 0 if method == "arx" else None)
         row = Tried(bound.name, term.id, method, *orders, None, None, None, delay=delay or 0)
         try:
             full = identify(
@@ -122,17 +123,18 @@ def choose_orders(
         if method == "varpro" and orders[0] > orders[1] and rows[-1].row.why and rows[-2].row.why:
             break
     good = [r for r in rows if r.row.why is None]
-    if not good:
+    if not good and term.spec.orders is None:
         raise reasons[0]
-    best = _fewest(good)
+    best = _fewest(good) if good else rows[0]
     if method == "arx" and term.spec.delay is None:
         late = [tried((best.row.numerator, best.row.denominator), delay) for delay in range(1, DELAY + 1)]
         rows += late
         # a delay costs no coefficient
         best = max([best, *(r for r in late if r.row.why is None)], key=lambda r: _number(r.row.fit_left_out))
+    if best.full is None:  # too little to leave any out: orders that are given need no choice
+        return Choice(best.bound, None, tuple(r.row for r in rows))
     table = tuple(replace(r.row, chosen=r is best) for r in rows)
-    full = cast(FittedResponse, best.full)
-    return Choice(best.bound, None if method == "arx" else _near(best.bound, full), table)
+    return Choice(best.bound, None if method == "arx" else _near(best.bound, best.full), table)
 
 
 @dataclass(frozen=True)

@@ -94,7 +94,11 @@ class Profile:
         if self._enough is None and self.least > 0:
             allowed = self.allowed(self.residual - part.residual(near))
             self._enough = NEAR * allowed / self.least if np.isfinite(allowed) and allowed > 0 else None
-        if self._slopes is not None:
+        low, high = part.box()
+        if np.any((near < low) | (near > high)):
+            # a like lag was passed: at the border both are one, and slopes of the optimum say nothing of it
+            near = np.clip(near, low, high)
+        elif self._slopes is not None:
             refit = fit_anew(part, near, self._slopes, self._enough or ROUGHLY)
             if refit is not None:
                 return refit.x, refit.residual
@@ -114,7 +118,10 @@ class Profile:
         else:
             onward = last + (at - inner[0]) / (inner[0] - inner[1]) * (last - self._near[inner[1]])
         part = self.of.held(self.problem, at, last)
-        onward = np.clip(onward, *part.box())
+        low, high = part.box()
+        if np.any((last < low) | (last > high)):
+            return last
+        onward = np.clip(onward, low, high)
         squares = [float(r @ r) for r in (part.residual(last), part.residual(onward))]
         return onward if squares[1] < squares[0] else last
 

@@ -11,10 +11,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from thermodata.errors import StoreError, unknown_name
+from thermodata.errors import unknown_name
 from thermodata.plugin import Float1D
 from thermodata.schema.flag import INVALID
-from thermodata.store.base.connection import fetch, quoted
+from thermodata.store.base.connection import damaged_file, fetch, quoted
 from thermodata.store.views.wide import file_list
 
 if TYPE_CHECKING:
@@ -130,13 +130,7 @@ def _damage_named(files: Sequence[Path]) -> Iterator[None]:
         damaged = next(((p, problem) for p, problem in found if problem), None)
         if damaged is None:
             raise
-        raise StoreError(
-            "a file of the store is damaged",
-            where=str(damaged[0]),
-            got=damaged[1],
-            hint="ingest the campaign again: what can be made anew is made anew; "
-            "'thermodata check' lists what is damaged",
-        ) from error
+        raise damaged_file(*damaged) from error
 
 
 def _facts(con: duckdb.DuckDBPyConnection, table: str, files: Sequence[Path]) -> tuple[set[str], Extent]:

@@ -82,8 +82,9 @@ def find_parts(names: Sequence[str], data: Sequence[Sequence[Cell]]) -> tuple[tu
 
 
 def _agree(clock: int, parts: Sequence[int], data: Sequence[Sequence[Cell]]) -> bool:
-    """Whether a time of day says of nearly all rows what the columns of hours and minutes say; of none, always."""
-    rows = [r for r in data if all(r[i] not in ("", None) for i in (clock, *parts))]
+    """Whether a time of day says of nearly all rows what the columns of hours and minutes say; of none, always. One
+    that many rows lack would lose their time."""
+    rows = [r for r in data if all(r[i] not in ("", None) for i in parts)]
 
     def agrees(row: Sequence[Cell]) -> bool:
         ns = _clock_ns(row[clock])

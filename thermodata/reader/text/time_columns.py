@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping, Sequence
+from itertools import pairwise
 from typing import Any
 
 from thermodata.errors import FormatError, QuestionError, UsageError, nearest
 from thermodata.reader.open_questions import UNKNOWN
-from thermodata.reader.text.cell import Cell, is_clocked, is_dated, is_number, is_stamp, mostly
+from thermodata.reader.text.cell import Cell, is_clocked, is_dated, is_number, is_stamp, mostly, number_of
 from thermodata.reader.text.date_parts import find_parts
 from thermodata.reader.text.header import split_unit
 from thermodata.reader.text.time_header import is_time_header, unit_of_time
@@ -123,7 +124,10 @@ def find_time(
         {i: [c for c in filled[i] if is_dated(c)] for i in dates},
         [[c for c in filled[i] if is_clocked(c)] for i in clocks],
     )
-    if standing and len(standing) == len(dates) and not _parts_go_on(names, data):
+    numbers = [i for i in words if share(i, is_number, 0.6)]
+    if len(standing) == len(dates) and not (
+        _parts_go_on(names, data) or any(_numbers_go_on(filled[i]) for i in numbers)
+    ):
         standing = set()
     dates = [i for i in dates if i not in standing]
     if dates:
@@ -134,7 +138,6 @@ def find_time(
         return (*found, *_milliseconds(found[-1] + 1, names, [r[found[-1]] for r in data], data))
     if clocks:
         return (clocks[0],)
-    numbers = [i for i in words if share(i, is_number, 0.6)]
     if numbers:
         # a "t" may be many things beside a column that is called time
         return (min(numbers, key=lambda i: split_unit(names[i])[0].strip(" .:") == "t"),)
@@ -164,6 +167,12 @@ def _standing(dates: Mapping[int, Sequence[Cell]], clocks: Sequence[Sequence[Cel
     measured. A day stands beside a time of day that goes on."""
     running = any(len(set(cells)) > 1 for cells in clocks)
     return {i for i, cells in dates.items() if len(set(cells)) == 1 and not (running and not _tell_the_hour(cells))}
+
+
+def _numbers_go_on(cells: Sequence[Cell]) -> bool:
+    """Whether numbers grow from row to row, as seconds from a start do."""
+    values = [v for c in cells if (v := number_of(c)) is not None]
+    return len(values) > 1 and all(a < b for a, b in pairwise(values))
 
 
 def _parts_go_on(names: list[str], data: list[list[Cell]]) -> bool:

@@ -117,10 +117,15 @@ def damaged_data(folder: Path, error: Exception) -> StoreError | None:
     elif not any(word in text for word in _DAMAGE) or ".parquet" not in text:
         return None
     problem, _, todo = text.partition("damaged store: ")[2].partition("; try: ")
+    return damaged_file(folder, problem or text, todo)
+
+
+def damaged_file(where: Path, got: str, todo: str = "") -> StoreError:
+    """The refusal of a file of the store that is gone, cut or altered. todo: what to do, by default to make it anew."""
     return StoreError(
         "a file of the store is damaged",
-        where=str(folder),
-        got=problem or text,
+        where=str(where),
+        got=got,
         hint=(todo or "ingest the campaign again: what can be made anew is made anew")
         + "; 'thermodata check' lists what is damaged",
     )
