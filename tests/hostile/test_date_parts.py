@@ -391,6 +391,24 @@ def test_a_date_that_is_the_same_in_all_rows_is_not_their_time_beside_seconds_fr
     assert data.recording.clock == "absolute"
 
 
+@pytest.mark.parametrize(("step_s", "clock"), [(6000, "relative"), (86_400, "absolute")])
+def test_days_are_no_time_beside_seconds_that_go_on_where_a_day_has_many_rows(
+    read: Any, step_s: int, clock: str
+) -> None:
+    days = [3 + i * step_s // 86_400 for i in range(25)]
+    text = "".join(f"2025-11-{day:02d};{i * step_s};{20 + i}\n" for i, day in enumerate(days))
+    data = read("Date;Time [s];T1\n" + text, by="table")
+    assert data.recording.clock == clock
+    assert [s.name for s in data.recording.signals] == [*(["Date"] if clock == "relative" else ["Time [s]"]), "T1"]
+    np.testing.assert_array_equal(np.diff(times(data)), step_s * 1_000_000_000)
+
+
+def test_days_with_a_time_of_day_beside_seconds_that_go_on_are_the_time(read: Any) -> None:
+    rows = "".join(f"2025-11-03;{8 + i // 60:02d}:{i % 60:02d}:00;{60 * i};{20 + i}\n" for i in range(60))
+    data = read("Date;Clock;Time [s];T1\n" + rows, by="table")
+    assert data.recording.clock == "absolute"
+
+
 def test_a_date_that_is_the_same_in_all_rows_is_the_time_where_nothing_else_is(read: Any) -> None:
     rows = "".join(f"2026-02-28 23:40:00;{i}\n" for i in range(60))
     data = read("Measured;T1\n" + rows, by="table")

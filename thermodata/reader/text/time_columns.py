@@ -125,9 +125,10 @@ def find_time(
         [[c for c in filled[i] if is_clocked(c)] for i in clocks],
     )
     numbers = [i for i in words if share(i, is_number, 0.6)]
-    if len(standing) == len(dates) and not (
-        _parts_go_on(names, data) or any(_numbers_go_on(filled[i]) for i in numbers)
-    ):
+    counting = any(_numbers_go_on(filled[i]) for i in numbers)
+    if counting and not clocks:
+        standing |= {i for i in dates if _days_of_many_rows(filled[i])}
+    if len(standing) == len(dates) and not (counting or _parts_go_on(names, data)):
         standing = set()
     dates = [i for i in dates if i not in standing]
     if dates:
@@ -167,6 +168,11 @@ def _standing(dates: Mapping[int, Sequence[Cell]], clocks: Sequence[Sequence[Cel
     measured. A day stands beside a time of day that goes on."""
     running = any(len(set(cells)) > 1 for cells in clocks)
     return {i for i, cells in dates.items() if len(set(cells)) == 1 and not (running and not _tell_the_hour(cells))}
+
+
+def _days_of_many_rows(cells: Sequence[Cell]) -> bool:
+    """Whether dates without a time of day repeat: they can't tell the rows of a day apart."""
+    return len(set(cells)) < len(cells) and not _tell_the_hour(cells)
 
 
 def _numbers_go_on(cells: Sequence[Cell]) -> bool:
