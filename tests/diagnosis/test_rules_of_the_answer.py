@@ -163,6 +163,7 @@ class TestAnswer:
         assert of(claim(FIRST)) == [first, None, None]
         assert of(nothing("unknown")) == [first, None, None]
         assert of(nothing("refine", member(FIRST, "a mode"))) == [None, twin, None]
+        assert of(nothing("unknown", member(FIRST, "a mode"))) == [None, twin, None], "something else is missing"
 
     def test_others_come_by_what_they_would_give_and_what_was_dropped_as_it_was_judged(
         self, monkeypatch: pytest.MonkeyPatch, spec: Model

@@ -118,8 +118,8 @@ def _diagnosis(
 ) -> Diagnosis:
     problem = investigation.problem
     shown = _shown(investigation, judgement)
-    refining = judgement.refinements
-    head = next((s for s, m in shown if not s.candidate.within and not any(m is r for r in refining)), None)
+    # what refines the model is no missing cause, also where more is missing than it gives
+    head = next((s for s, m in shown if not s.candidate.within and (m is None or m.refines is None)), None)
 
     def claimed(member: Judged | None) -> bool:
         return any(member is c for c in judgement.claims)
