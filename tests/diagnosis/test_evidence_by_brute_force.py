@@ -17,6 +17,7 @@ from scipy.special import logsumexp
 from scipy.stats import kstest, multivariate_normal
 
 from thermodata.diagnosis.candidates import CandidateEffect
+from thermodata.diagnosis.directions import Weighted, log_evidence
 from thermodata.diagnosis.discrepancy import Noise
 from thermodata.diagnosis.evidence import Columns, columns, moments, of_each_series, weigh
 from thermodata.diagnosis.invariance import spread_of_gain
@@ -27,7 +28,6 @@ from thermodata.diagnosis.problem import Problem
 from thermodata.diagnosis.ranking import rank_in
 from thermodata.diagnosis.scored import Scored
 from thermodata.diagnosis.selection import _likeliest_beside, beside
-from thermodata.diagnosis.side_by_side import SideBySide, log_evidence
 from thermodata.plugin import Float1D, Float2D, Gain, Param
 
 from .hand_made import Parts, problem
@@ -361,18 +361,19 @@ def test_chance_draws_how_the_known_effects_act_otherwise_and_not_their_gains(sh
     assert (away > 1e4) is moves
 
 
-def test_tests_side_by_side_give_the_evidence_of_each_by_itself() -> None:
-    """Of unequal length, and with an offset each; where one has two offsets, it is left to the slow way."""
+@pytest.mark.parametrize("at_s", [[], [10], [4, 21]])
+def test_weighted_directions_give_the_evidence_of_the_covariance(at_s: list[int]) -> None:
+    """Of tests of unequal length, with one free offset each or more, under several sizes of one memory and another."""
     rng = np.random.default_rng(3)
     parts = [Parts(rng.normal(size=n), base=rng.normal(size=(n, 2)), slack=rng.normal(size=(n, 1))) for n in (30, 17)]
-    one, noise = problem(*parts), Noise(0.3, 0.8, 900.0, 0.7)
-    beside = SideBySide(one)
-    expected = known(one, noise)
-    gram, cross, energy, logdet, rows = beside.products(noise)
-    np.testing.assert_allclose(gram, expected.gram.sum(axis=0), rtol=1e-9)
-    np.testing.assert_allclose(cross, expected.cross.sum(axis=0), rtol=1e-9)
-    found = log_evidence(gram, cross, energy, logdet, rows, expected.precision)
-    assert beside.fits
-    assert found == pytest.approx(expected.log_evidence, rel=1e-9)
-    stepped = one.split({one.blocks[0].test.key: [float(one.blocks[0].t_s[10]) + 1.0]})
-    assert not SideBySide(stepped).fits
+    one = problem(*parts)
+    one = one.split({one.blocks[0].test.key: [float(one.blocks[0].t_s[i]) + 1.0 for i in at_s]})
+    weighted = Weighted(one)
+    for noise in (Noise(0.3, 0.8, 900.0, 0.7), Noise(0.1, 3.0, 900.0, 0.7), Noise(0.3, 0.8, 90_000.0, 0.7)):
+        expected = known(one, noise)
+        gram, cross, energy, logdet, rows = weighted.products(noise)
+        np.testing.assert_allclose(gram, expected.gram.sum(axis=0), rtol=1e-8)
+        np.testing.assert_allclose(cross, expected.cross.sum(axis=0), rtol=1e-8)
+        assert rows == 30 + 17 - 2 - len(at_s)
+        found = log_evidence(gram, cross, energy, logdet, rows, expected.precision)
+        assert found == pytest.approx(expected.log_evidence, rel=1e-9)

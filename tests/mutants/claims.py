@@ -280,7 +280,9 @@ MUTANTS = [
         "known effects count twice",
     ),
     products("discrepancy.py", " + np.log(sizes).sum()", "", "free offsets are for nothing"),
-    products("side_by_side.py", " - np.log(precision).sum()", "", "known effects are for nothing"),
+    products("directions.py", " - np.log(precision).sum()", "", "known effects are for nothing"),
+    products("directions.py", " + _left(self._problem)[1]", "", "searched noise: free offsets are for nothing"),
+    products("directions.py", " + noise.white**2", "", "searched noise: no white noise"),
     products("ranking.py", "others = np.delete(tests, i)", "others = tests", "the left-out test is seen"),
     products(
         "ranking.py", "float(without @ without)", "float(without @ without) / 2", "errors are half of what they are"

@@ -16,7 +16,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.linalg.lapack import dtrtrs
 
-from thermodata.diagnosis.problem import Problem
+from thermodata.diagnosis.problem import Block, Problem
 from thermodata.plugin import Float1D, Float2D
 
 # a model is never better than this share of what it leaves: without it, a misfit of 0.05 um that repeats outweighs all
@@ -50,10 +50,10 @@ class Whitened:
         self._offsets: list[Float2D] = []
         self.rows, self.logdet = 0, 0.0
         for i, block in enumerate(problem.blocks):
-            covariance = noise.slow**2 * np.exp(-_distances(problem, i) / noise.tau_s)
+            covariance = noise.slow**2 * np.exp(-distances(problem, i) / noise.tau_s)
             covariance[np.diag_indices_from(covariance)] += noise.white**2
             factor: Float2D = np.asarray(np.linalg.cholesky(covariance), dtype=np.float64)
-            members = (block.segment[:, None] == np.unique(block.segment)[None]).astype(np.float64)
+            members = offsets_of(block)
             q, sizes = _orthogonal(halved(factor, members))
             self._factors.append(factor)
             self._offsets.append(q)
@@ -91,7 +91,13 @@ def halved(factor: Float2D, right: Float2D, *, transposed: bool = False) -> Floa
     return np.asarray(solution, dtype=np.float64)
 
 
-def _distances(problem: Problem, test: int) -> Float2D:
+def offsets_of(block: Block) -> Float2D:
+    """A column for each free offset of a test, 1 where it counts, shape (m, offsets)."""
+    return np.asarray(block.segment[:, None] == np.unique(block.segment)[None], dtype=np.float64)
+
+
+def distances(problem: Problem, test: int) -> Float2D:
+    """Between the samples of a test in time [s], shape (m, m)."""
     kept = problem.kept.setdefault("distances", {})
     if test not in kept:
         t = problem.blocks[test].t_s

@@ -9,9 +9,9 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 
+from thermodata.diagnosis.directions import Products, Weighted, log_evidence
 from thermodata.diagnosis.discrepancy import LEAST_WHITE, Noise, Whitened, ascend, bounds_of, halved, left_over
 from thermodata.diagnosis.problem import Problem
-from thermodata.diagnosis.side_by_side import Products, SideBySide, log_evidence
 from thermodata.plugin import Float1D, Float2D, Int1D
 
 FloatND = NDArray[np.float64]
@@ -84,17 +84,16 @@ def likeliest_of(problem: Problem, parts: Sequence[Int1D], start: Noise | None =
     """The same beside each of some parts of what is known: indices of its columns, of base and slack together. The
     searches pass through the same noises, and each is whitened once."""
     every = max(1, round(problem.rows / SEARCHED))
-    thin = problem.thinned(every) if every > 1 else problem
+    thin = _thinned(problem, every) if every > 1 else problem
     first, bounds = bounds_of(problem)
-    tests = SideBySide(thin)
+    tests = Weighted(thin)
     made: dict[bytes, Products] = {}
 
     def products(x: Float1D) -> Products:
         # the price of other time constants changes no covariance
         key = np.round(x[:3], 9).tobytes()
         if key not in made:
-            noise = _of(x)
-            made[key] = tests.products(noise) if tests.fits else _summed(thin, noise)
+            made[key] = tests.products(_of(x))
         return made[key]
 
     def evidence(x: Float1D, part: Int1D) -> float:
@@ -112,12 +111,10 @@ def _of(x: Float1D) -> Noise:
     return Noise(*(float(v) for v in np.exp(x)))
 
 
-def _summed(problem: Problem, noise: Noise) -> Products:
-    """As `SideBySide.products`, test by test."""
-    space, white, response = _whitened(problem, noise)
-    gram: Float2D = np.sum([w.T @ w for w in white], axis=0)
-    cross: Float1D = np.sum([w.T @ y for w, y in zip(white, response, strict=True)], axis=0)
-    return gram, cross, float(sum(y @ y for y in response)), space.logdet, space.rows
+def _thinned(problem: Problem, every: int) -> Problem:
+    """What its samples alone say is kept with the whole problem, for the next search."""
+    kept = problem.kept.setdefault("thinned", {}).setdefault(every, {})
+    return replace(problem.thinned(every), kept=kept)
 
 
 def _whitened(problem: Problem, noise: Noise) -> tuple[Whitened, tuple[Float2D, ...], tuple[Float1D, ...]]:
