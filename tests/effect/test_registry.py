@@ -22,6 +22,8 @@ LIBRARY = {
     "floor": "ambient",
     "feed_screw": "feed_{a}",
     "feed_motor": "feed_{a}",
+    "guideway": "guide_{a}",
+    "spindle_gearbox": "gearbox",
     "table_bearing": "table",
     "tool_elongation": "tool",
     "cutting_power": "cutting",

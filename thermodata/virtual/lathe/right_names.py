@@ -48,7 +48,7 @@ RIGHT: Mapping[str, Right] = {
     "turret_gear": _right([("lag", "C08_turret"), ("lag", "n_tool")], "C08_turret n_tool", ""),
     "hot_part": _right([("workpiece", "C12_part"), ("cutting_power", "P_S")], "C12_part P_S", "workpiece cutting"),
     "probe_bracket": _right([("probe_temperature", "C09_bracket")], "C09_bracket", "probe"),
-    "guide_friction": _right([("lag", "C03_guide")], "C03_guide", ""),
+    "guide_friction": _right([("guideway", "C03_guide"), ("lag", "C03_guide")], "C03_guide", "guide_z"),
     "ring_expansion": _right([("centrifugal_shift", "n_S")], "n_S", "centrifugal"),
     "seat_play": _right([], "TS_brg_f C04_foot", ""),
     "chip_heap": _right([], "", ""),

@@ -1,4 +1,4 @@
-"""Linear axes and the table: friction of screw and nut, feed motor, screw growth, table bearing."""
+"""Linear axes and the table: friction of screw, nut and guideway, feed motor, screw growth, table bearing."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from thermodata.effect.lag import lag, step_of
 from thermodata.effect.law import Law
 from thermodata.plugin import Drivers, Float1D, Float2D, Need
 
-from .shared import REFERENCE_FEED_M_MIN, Lagged, exponent, gain, power_of, tau
+from .shared import REFERENCE_FEED_M_MIN, REFERENCE_TURNING_RPM, Lagged, exponent, gain, power_of, tau
 
 
 class FeedScrew(Lagged):
@@ -64,6 +64,29 @@ class FeedMotor(Lagged):
     needs = (Need("temperature", "temperature", ("axis.{a}.motor",)),)
     params = (tau(60, 30, 180),)
     gains = (gain("um/K", 0.2, 4, "displacement at rest a kelvin of the motor"),)
+
+
+class Guideway(Lagged):
+    """Friction in the guideway warms the slide and what carries it, and bends them.
+
+        d = k F_tau{dT}
+
+    k [um/K], tau [min], dT [K] of the guideway.
+    Source: as feed_screw, for a slower and larger body; bounds: docs/method.md#bounds-of-the-effects
+    """
+
+    name = "guideway"
+    family = "guide_{a}"
+    meaning = "friction of the guideway warms slide and bed: k F{dT of the guideway}"
+    equation = "d = k F_tau{dT}"
+    telltale = (
+        "follows the feed of one axis, slower than its screw, and remains where a linear scale closes the loop; told "
+        "apart by a sensor at the nut"
+    )
+    source = "as feed_screw, for a slower and larger body; bounds: docs/method.md#bounds-of-the-effects"
+    needs = (Need("temperature", "temperature", ("axis.{a}.guide",)),)
+    params = (tau(60, 2, 720),)
+    gains = (gain("um/K", 0.2, 20, "displacement at rest a kelvin of the guideway"),)
 
 
 class ScrewGrowth:
@@ -130,18 +153,27 @@ class TableBearing(Lagged):
 class RotaryAxis(Lagged):
     """A swivelling or turning axis grows with its temperature.
 
-        d = k F_tau{dT}
+        d = k F_tau{dT}, or k F_tau{(|n| / 10 rpm)^p} where no sensor is at the axis
 
-    k [um/K], tau [min], dT [K].
+    k [um/K] ([um] at 10 rpm), tau [min], p [1], dT [K], n [rpm].
     Source: as feed_motor, for a turning axis; bounds: docs/method.md#bounds-of-the-effects
     """
 
     name = "rotary_axis"
     family = "rotary_{a}"
-    meaning = "growth with the temperature of a rotary axis: k F{dT}"
-    equation = "d = k F_tau{dT}"
+    meaning = "growth with the temperature of a rotary axis: k F{dT}, or k F{(n/10 rpm)^p} without a sensor"
+    equation = "d = k F_tau{dT}, or k F_tau{(|n| / 10 rpm)^p} where no sensor is at the axis"
     telltale = "follows the axis while all linear axes stand; told apart by moving it alone"
     source = "as feed_motor, for a turning axis; bounds: docs/method.md#bounds-of-the-effects"
-    needs = (Need("temperature", "temperature", ("rotary.{a}",)),)
-    params = (tau(60, 5, 360),)
-    gains = (gain("um/K", 0.1, 10, "displacement at rest a kelvin"),)
+    needs = (
+        Need("temperature", "temperature", ("rotary.{a}",), True),
+        Need("speed", "rotational_speed", ("rotary.{a}",), True),
+    )
+    params = (tau(60, 5, 360), exponent(1.0))
+    gains = (gain("um/K", 0.1, 10, "displacement at rest a kelvin (um at 10 rpm where the speed drives it)"),)
+    driven = ("abs(speed / 10) ** exponent",)
+
+    def drive(self, drivers: Drivers, p: Mapping[str, float]) -> Float1D:
+        if "speed" in drivers.values:
+            return power_of(drivers.values["speed"], REFERENCE_TURNING_RPM, p["exponent"])
+        return drivers.values["temperature"]

@@ -30,23 +30,27 @@ class ToolElongation(Lagged):
 
 
 class CuttingPower(Lagged):
-    """Heat of the cut, by the power of the spindle.
+    """Heat of the cut, by the power of the spindle, or by its load where the log has no power.
 
-        d = k F_tau{P}
+        d = k F_tau{P}, or k F_tau{load / 100 %}
 
-    k [um/kW], tau [min], P [kW].
+    k [um/kW] ([um] at full load), tau [min], P [kW], load [%].
     Source: [mares2017] eq. 8, gamma1; bounds: docs/method.md#bounds-of-the-effects
     """
 
     name = "cutting_power"
     family = "cutting"
-    meaning = "heat of cutting from the spindle's power: k F{P}"
-    equation = "d = k F_tau{P}"
+    meaning = "heat of cutting from the spindle's power: k F{P}, or from its load: k F{load/100 %}"
+    equation = "d = k F_tau{P}, or k F_tau{load / 100 %}"
     telltale = "follows the load; told apart by the same path as an air cut"
     source = "[mares2017] eq. 8, gamma1; bounds: docs/method.md#bounds-of-the-effects"
-    needs = (Need("power", "power", ("spindle",)),)
+    needs = (Need("power", "power", ("spindle",), True), Need("load", "load", ("spindle",), True))
     params = (tau(30, 1, 240),)
-    gains = (gain("um/kW", 5, 300, "displacement at rest a kilowatt"),)
+    gains = (gain("um/kW", 5, 300, "displacement at rest a kilowatt (um at full load where the load drives it)"),)
+    driven = ("power", "load / 100")
+
+    def drive(self, drivers: Drivers, p: Mapping[str, float]) -> Float1D:
+        return drivers.values["power"] if "power" in drivers.values else drivers.values["load"] / 100.0
 
 
 class Coolant(Lagged):
@@ -88,9 +92,9 @@ class CoolantTemperature(Lagged):
     equation = "d = k F_tau{dT}"
     telltale = "a ripple with the cycle of the chiller, 5 to 40 min; told apart by a step of its set point"
     source = "[mayr2012] on fluids; bounds: docs/method.md#bounds-of-the-effects"
-    needs = (Need("temperature", "temperature", ("coolant",)),)
+    needs = (Need("temperature", "temperature", ("coolant", "chiller")),)
     params = (tau(15, 1, 240),)
-    gains = (gain("um/K", 0.1, 20, "displacement at rest a kelvin of the coolant"),)
+    gains = (gain("um/K", 0.1, 20, "displacement at rest a kelvin of the fluid"),)
 
 
 class Hydraulics(Lagged):

@@ -13,6 +13,7 @@ from thermodata.plugin import Drivers, Float1D, Float2D, Gain, Need, Param
 # Speeds are divided by one fixed value and not by a test's own highest, or a gain would not carry over tests.
 REFERENCE_SPEED_RPM = 10_000.0
 REFERENCE_FEED_M_MIN = 10.0
+REFERENCE_TURNING_RPM = 10.0  # of a rotary axis
 
 
 def tau(start: float, lower: float, upper: float, name: str = "tau", meaning: str = "time constant") -> Param:

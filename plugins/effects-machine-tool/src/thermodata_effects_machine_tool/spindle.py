@@ -92,6 +92,26 @@ class SpindleMotor(Lagged):
     gains = (gain("um/K", 0.1, 5, "displacement at rest a kelvin of the winding"),)
 
 
+class SpindleGearbox(Lagged):
+    """The gearbox between motor and spindle warms the headstock.
+
+        d = k F_tau{dT}
+
+    k [um/K], tau [min], dT [K] of the gearbox or its oil.
+    Source: as spindle_motor, for a larger body; bounds: docs/method.md#bounds-of-the-effects
+    """
+
+    name = "spindle_gearbox"
+    family = "gearbox"
+    meaning = "heat of the gearbox into the headstock: k F{dT of the gearbox}; goes on after a stop"
+    equation = "d = k F_tau{dT}"
+    telltale = "changes with the gear at one speed, slower than the bearings; told apart by one speed in two gears"
+    source = "as spindle_motor, for a larger body; bounds: docs/method.md#bounds-of-the-effects"
+    needs = (Need("temperature", "temperature", ("spindle.gearbox",)),)
+    params = (tau(60, 5, 360),)
+    gains = (gain("um/K", 0.1, 10, "displacement at rest a kelvin of the gearbox"),)
+
+
 class SpindleFriction(Lagged):
     """Friction heat of the spindle, by its speed, where no sensor sees it.
 
