@@ -83,7 +83,7 @@ class TestAnswer:
             names = [c.effect.name for c in asked[3]]
             self.opened.append((names, [t.test for t in asked[5]]))
             parameters = {c.id: {f"{c.effect.name}.gain": Parameter(value=2.0, unit="um/K")} for c in asked[3]}
-            return Confirmation(1.0, 0.5, 1.0, 0.5, 0.8, parameters)
+            return Confirmation(1.0, 0.5, 1.0, 0.5 if holds else 1.0, 0.8, parameters)
 
         monkeypatch.setattr(answering, "fit_model", lambda *a, **k: SimpleNamespace(responses=[response]))
         monkeypatch.setattr(answering, "investigate", lambda *a, **k: found)

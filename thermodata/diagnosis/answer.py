@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -10,10 +10,11 @@ import numpy as np
 from thermodata.diagnosis import ladder, next_test
 from thermodata.diagnosis.artefact import noise_with_treads
 from thermodata.diagnosis.confirm import Confirmation, confirm, on_all_open
-from thermodata.diagnosis.investigate import BorneOut, Investigation, investigate
+from thermodata.diagnosis.investigate import Investigation, investigate
 from thermodata.diagnosis.judge import Judged, Judgement, equivalents
-from thermodata.diagnosis.locked import Foretold
+from thermodata.diagnosis.locked import Looked
 from thermodata.diagnosis.null import p_value
+from thermodata.diagnosis.opened import kept_where_they_hold
 from thermodata.diagnosis.problem import Problem
 from thermodata.diagnosis.rules import blunt, claimable, explained, failed_rules, probability
 from thermodata.diagnosis.scored import Scored
@@ -25,7 +26,6 @@ from thermodata.schema.diagnosis import Candidate, Diagnosis
 from thermodata.view.dataset import Dataset, TestData
 
 SHOWN = 15
-TWINS_TRIED = 4
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,52 +51,26 @@ def answer(fitted: FittedModel, data: Dataset, library: Mapping[str, Effect], mo
     if not judgement.claims:
         locked = []
     else:
+        added: dict[tuple[str, ...], Confirmation] = {}
+
+        def confirmed(claims: Sequence[Judged]) -> Confirmation:
+            chosen = [c.scored.candidate for c in claims]
+            key = tuple(c.id for c in chosen)
+            if key not in added:
+                added[key] = confirm(fitted.spec, index, data, chosen, usable, locked, refitted)
+            return added[key]
+
+        def look(claims: Sequence[Judged]) -> Looked | None:
+            foretold = investigation.borne_out(claims)
+            if foretold is None:
+                return None
+            return Looked(foretold, confirmed(claims).foretold, investigation.measure.floor)
+
         judgement = kept_where_they_hold(
-            judgement,
-            investigation.borne_out,
-            lambda twin: claimable(twin, investigation.measure, response.unit),
-            response.unit,
+            judgement, look, lambda twin: claimable(twin, investigation.measure, response.unit), response.unit
         )
-        asked = judgement.claims or investigation.judgement.claims
-        chosen = [c.scored.candidate for c in asked]
-        confirmation = confirm(fitted.spec, index, data, chosen, usable, locked, refitted)
+        confirmation = confirmed(judgement.claims or investigation.judgement.claims)
     return Answer(_diagnosis(investigation, judgement, confirmation, data, model_id), tuple(locked))
-
-
-def kept_where_they_hold(
-    judgement: Judgement, ask: BorneOut, claimable: Callable[[Scored], bool], unit: str
-) -> Judgement:
-    """The claims that hold on the locked tests together, else with a twin in the place of the largest, else without
-    the smallest; "unknown" where none does. claimable: whether a twin keeps the rules of a claim itself. unit: of the
-    response."""
-    claims = judgement.claims
-    first: Foretold | None = None
-    while claims:
-        for tried in (claims, *_with_twins(claims, claimable)):
-            found = ask(tried)
-            if found is None or found.holds:
-                return replace(judgement, claims=tried)
-            first = first or found
-        claims = claims[:-1]
-    assert first is not None
-    name = judgement.claims[0].scored.candidate.id
-    reason = (
-        f"{name} explains the open tests, but on the locked ones the error does not fall by half of what it "
-        f"adds ({first.before:.2f} -> {first.after:.2f} {unit})"
-    )
-    return replace(judgement, verdict="unknown", claims=(), reason=reason)
-
-
-def _with_twins(claims: Sequence[Judged], claimable: Callable[[Scored], bool]) -> list[tuple[Judged, ...]]:
-    """What can't be told apart is one claim, and one member that does not hold is no reason against the others."""
-    largest = claims[0]
-    # a twin of the model's own effects refines them: it is no cause, however it does on the locked tests
-    kin = (None, largest.scored.candidate.kin)
-    alike = equivalents(largest.scored, largest.beside)
-    # in its place, the same sharper cause stands beside the twin
-    placed = [replace(t, beaten=largest.scored.beaten) for t in alike if t.candidate.kin in kin]
-    twins = [t for t in placed if claimable(t)]
-    return [(replace(largest, scored=twin), *claims[1:]) for twin in twins[:TWINS_TRIED]]
 
 
 def worst_response(fitted: FittedModel, tests: Sequence[TestData]) -> int:
@@ -239,7 +213,8 @@ def _why(
         locked = ""
         if held and held.before is not None and held.after is not None:
             together = " with all that is claimed" if len(judgement.claims) > 1 else ""
-            locked = f"; on the locked tests{together} from {held.before:.2f} to {held.after:.2f} {unit}"
+            part = f", which bear it out in {2 - s.doubts} of 2 ways" if s.doubts else ""
+            locked = f"; on the locked tests{together} from {held.before:.2f} to {held.after:.2f} {unit}{part}"
         return f"{numbers}; chance does as well in {chance:.1%} of responses in which nothing is missing{locked}"
     if member is not None and member.refines:
         return f"{numbers}; a refinement, not a missing cause: {member.refines}"
@@ -261,7 +236,7 @@ def _beside_the_model(s: Scored, investigation: Investigation) -> Scored:
     # with nothing beside it, what falls is the model's own error; in the little noise that is left the known effects
     # are pulled further towards what is missing, and foretell other tests worse than the model does
     judged = investigation.judgement.judged
-    if len(judged) == 1 and judged[0].scored is s:
+    if len(judged) == 1 and judged[0].scored.columns is s.columns:
         s = replace(s, sse_before=alone.sse_before)
     return alone if _fall(alone) >= _fall(s) else s
 

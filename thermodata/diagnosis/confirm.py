@@ -36,10 +36,15 @@ class Confirmation:
     each: tuple[tuple[tuple[str, str], float, float], ...] = ()
 
     @property
+    def foretold(self) -> Foretold | None:
+        """By shape; None where there are no locked tests."""
+        before, after = self.shape_before, self.shape_after
+        return None if before is None or after is None else Foretold(before, after, self.changed)
+
+    @property
     def holds(self) -> bool:
         """Whether the locked tests bear it out (`locked.Foretold.holds`)."""
-        before, after = self.shape_before, self.shape_after
-        return before is None or after is None or Foretold(before, after, self.changed).holds
+        return self.foretold is None or self.foretold.holds
 
 
 def extended(spec: Model, candidates: Sequence[CandidateEffect]) -> Model:

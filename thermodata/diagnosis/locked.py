@@ -36,12 +36,51 @@ class Foretold:
     gained: float = 0.0
 
     @property
+    def falls(self) -> bool:
+        return self.after < (1 - LEAST) * self.before
+
+    @property
     def holds(self) -> bool:
         """Whether the error falls by what a cause would take away. What a cause adds is not to be found in what is left
         afterwards, so the squared error falls by the square of what is added; a proxy's falls by less."""
         keeps = self.before**2 - self.after**2 >= KEPT * self.changed**2
         enough = keeps or self.after < (1 - MUCH) * self.before or self.gained >= PROBABLE
-        return self.after < (1 - LEAST) * self.before and enough
+        return self.falls and enough
+
+    def says(self, floor: float) -> bool:
+        """Whether there is more to be foretold than what is left alone: else these tests excite nothing of it."""
+        return max(self.before, self.after) > floor
+
+
+@dataclass(frozen=True, slots=True)
+class Looked:
+    """The locked tests of some claims, looked at in two ways. foretold: by the known effects, free to act otherwise as
+    the noise has it. added: by the model as it stands, with the claims added; None where it can't predict them. floor:
+    an error that is left alone."""
+
+    foretold: Foretold
+    added: Foretold | None
+    floor: float
+
+    @property
+    def saying(self) -> list[Foretold]:
+        """Those of the two that say something."""
+        return [f for f in (self.foretold, self.added) if f is not None and f.says(self.floor)]
+
+    @property
+    def doubts(self) -> int:
+        """In how many ways the claims are not borne out."""
+        return sum(not f.holds for f in self.saying)
+
+    @property
+    def refuted(self) -> bool:
+        """Whether the error falls in no way."""
+        return bool(self.saying) and not any(f.falls for f in self.saying)
+
+    @property
+    def worst(self) -> Foretold:
+        """The first that doubts, to be told."""
+        return next((f for f in self.saying if not f.holds), self.foretold)
 
 
 def foretell(problem: Problem, opened: int, noise: Noise, kept: Sequence[Scored], claims: Sequence[Scored]) -> Foretold:

@@ -17,6 +17,7 @@ P_LIMIT = 0.01
 # error where it acts, whether another member is sharper, and whether it is passive (docs/method.md#probability)
 PROBABILITY = (2.6, 2.15, 0.9, -1.1, -2.65)
 FALLS = (-0.2, 1.0)  # further, and a fall says nothing more
+DOUBT = -0.6  # and, once the lock is open, for each of two ways in which the locked tests do not bear it out
 CLAIMED = 0.65  # a claim is this probable at least;
 # where nobody declared any place it names a channel, not physics, and there is nothing that it could be taken for
 PLACELESS_CLAIMED = 0.5
@@ -157,7 +158,7 @@ def surely(scored: Scored) -> Rule:
     return Rule(
         "probability",
         "that it is what is missing, by its log evidence a sample, the fall of the error, whether an effect beside it "
-        "is sharper, and whether it reads a body that makes no heat",
+        "is sharper, whether it reads a body that makes no heat, and what the locked tests say",
         sure,
         limit,
         "least",
@@ -172,6 +173,8 @@ def _in_short(scored: Scored) -> str:
     more = ["an effect beside it is sharper"] if scored.beaten else []
     if scored.candidate.passive:
         more.append("it reads a body that makes no heat, or one whose place nobody declared")
+    if scored.doubts:
+        more.append(f"the locked tests do not bear it out in {scored.doubts} of 2 ways")
     return "; ".join([f"its evidence is {sharpness(scored):.2f} a sample, and {falls}", *more])
 
 
@@ -211,7 +214,7 @@ def _steadies(scored: Scored) -> bool:
 def probability(scored: Scored) -> float:
     """That a sound candidate is what is missing: the share that was right among those like it, on simulated machines
     (development seeds)."""
-    return _probability(sharpness(scored), scored.drop, scored.beaten, scored.candidate.passive)
+    return _probability(sharpness(scored), scored.drop, scored.beaten, scored.candidate.passive, scored.doubts)
 
 
 def at_best(scored: Scored, samples: int) -> float:
@@ -219,10 +222,10 @@ def at_best(scored: Scored, samples: int) -> float:
     return _probability(scored.evidence / max(samples, 1), FALLS[1], False, scored.candidate.passive)
 
 
-def _probability(a_sample: float, drop: float, beside_sharper: bool, is_passive: bool) -> float:
+def _probability(a_sample: float, drop: float, beside_sharper: bool, is_passive: bool, doubts: int = 0) -> float:
     level, sharp, fall, beaten, passive = PROBABILITY
     odds = level + sharp * np.log10(max(a_sample, 1e-4)) + fall * float(np.clip(drop, *FALLS))
-    odds += beaten * beside_sharper + passive * is_passive
+    odds += beaten * beside_sharper + passive * is_passive + DOUBT * doubts
     return float(1 / (1 + np.exp(-odds)))
 
 

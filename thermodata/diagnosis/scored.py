@@ -24,7 +24,8 @@ class Scored:
     size and times from the other tests, what is known fitted beside it to all. size: RMS of the contribution in each
     test. spread: of its gain between tests. shape: whitened contribution without what the known effects can do, unit
     length. credit: of a member, its log evidence beside the likelier members alone; None for all else. beaten: whether
-    another cause that was selected has more evidence a sample."""
+    another cause that was selected has more evidence a sample. doubts: of a claim, in how many of two ways the locked
+    tests do not bear it out (`locked.Looked`)."""
 
     candidate: CandidateEffect
     columns: Columns
@@ -41,6 +42,7 @@ class Scored:
     shape: Float1D
     credit: float | None = None
     beaten: bool = False
+    doubts: int = 0
 
     @property
     def acts(self) -> Bool1D:
