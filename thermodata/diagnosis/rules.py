@@ -17,7 +17,7 @@ P_LIMIT = 0.01
 # error where it acts, whether another member is sharper, and whether it is passive (docs/method.md#probability)
 PROBABILITY = (2.6, 2.15, 0.9, -1.1, -2.65)
 FALLS = (-0.2, 1.0)  # further, and a fall says nothing more
-DOUBT = -0.6  # and, once the lock is open, for each of two ways in which the locked tests do not bear it out
+DOUBT = -0.55  # and, once the lock is open, for each of two ways in which the locked tests do not bear it out
 CLAIMED = 0.65  # a claim is this probable at least;
 # where nobody declared any place it names a channel, not physics, and there is nothing that it could be taken for
 PLACELESS_CLAIMED = 0.5
