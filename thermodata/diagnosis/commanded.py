@@ -19,7 +19,7 @@ from thermodata.plugin import Bool1D, Float1D, Int1D
 COMMANDS = ("rotational_speed", "feed", "power", "state", "load", "flow")
 POWERS = (1, 2)
 COMMAND_S = 600.0  # between a change and its step, for clocks differ
-MOVED = 0.2  # share of a command's range over all tests that makes it a change
+MOVED = 0.1  # share of a command's range over all tests, in the power by which it acts, that makes it a change
 ELSEWHERE_S = 1200.0  # nearer to the step, a change sees the step itself
 FORETOLD = 0.2  # least share of the step that the others foretell, and of what they foretell that it is
 ALIKE = 0.15  # least share of the others' squared jumps that goes with the command
@@ -28,11 +28,11 @@ HOLE_STEPS = 1.6  # a longer interval than this many usual ones is a hole
 
 @dataclass(frozen=True, slots=True)
 class _Course:
-    """A command in one block. change: power -> shape (m,), over three intervals; rows: where that is a change of its
-    own. hole: shape (m,), where nobody logged the command, or just after."""
+    """A command in one block. change: power -> shape (m,), over three intervals; rows: power -> where that is a change
+    of its own. hole: shape (m,), where nobody logged the command, or just after."""
 
     change: Mapping[int, Float1D]
-    rows: Int1D
+    rows: Mapping[int, Int1D]
     hole: Bool1D
 
 
@@ -54,9 +54,9 @@ class Commands:
         own, jump = command[block], float(self._jumps[block][i])
         if own is None or not np.isfinite(jump):
             return False
-        near = own.rows[np.abs(own.rows - i) <= int(COMMAND_S / self._step_s) + 1]
-        for row in near.tolist():
-            for power in POWERS:
+        for power in POWERS:
+            near = own.rows[power][np.abs(own.rows[power] - i) <= int(COMMAND_S / self._step_s) + 1]
+            for row in near.tolist():
                 x, y = self._elsewhere(command, self._jumps, block, i, i - row, power)
                 if tells(jump, float(own.change[power][row]), x, y, at_once=abs(i - row) <= 1):
                     return True
@@ -79,7 +79,8 @@ class Commands:
         for k, course in enumerate(command):
             if course is None:
                 continue
-            rows = course.rows[(course.rows + lag >= 0) & (course.rows + lag < len(jumps[k]))]
+            rows = course.rows[power]
+            rows = rows[(rows + lag >= 0) & (rows + lag < len(jumps[k]))]
             if k == block:
                 rows = rows[np.abs(rows + lag - i) > int(ELSEWHERE_S / self._step_s)]
             there = jumps[k][rows + lag]
@@ -122,7 +123,9 @@ def _courses(blocks: Sequence[Block], name: str) -> list[_Course | None]:
     """Of one command, None for each block that lacks it."""
     held = [_held(b, name) for b in blocks]
     values = [v for v, _ in held if len(v)]
-    span = float(np.ptp(np.concatenate(values))) if values else 0.0
+    every = np.concatenate(values) if values else np.zeros(1)
+    # the power by which a command acts decides what is a change: of the square, a fast spindle's is the larger
+    span = {p: float(np.ptp(every**p)) for p in POWERS}
     return [_course(b, v, hole, span) if len(v) else None for b, (v, hole) in zip(blocks, held, strict=True)]
 
 
@@ -137,7 +140,7 @@ def _held(block: Block, name: str) -> tuple[Float1D, Bool1D]:
     return np.asarray(test.values[name][last]), np.abs(block.t_s - test.t_s[last]) > HOLE_STEPS * step
 
 
-def _course(block: Block, value: Float1D, old: Bool1D, span: float) -> _Course:
+def _course(block: Block, value: Float1D, old: Bool1D, span: Mapping[int, float]) -> _Course:
     change = {p: over_three(value**p, block.t_s) for p in POWERS}
-    rows = np.flatnonzero(np.abs(np.nan_to_num(change[1])) > MOVED * span) if span > 0 else np.empty(0, np.int64)
+    rows = {p: np.flatnonzero(np.abs(np.nan_to_num(change[p])) > MOVED * span[p]) for p in POWERS}
     return _Course(change, rows, old | np.concatenate([[False], old[:-1]]))
