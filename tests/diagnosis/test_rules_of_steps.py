@@ -9,8 +9,10 @@ import pytest
 
 from thermodata.diagnosis.artefact import (
     _step_score,
+    beyond_slopes,
     find_steps,
     is_a_step,
+    is_at_once,
     noise_with_treads,
     tread_of_response,
 )
@@ -226,13 +228,94 @@ def test_what_happens_between_two_samples_is_whole_over_three_intervals() -> Non
     assert np.isnan(over_three(x, t)[5])
 
 
-@pytest.mark.parametrize(("last", "step"), [(0.32, True), (0.35, False)])
-def test_four_fifths_of_a_step_happen_within_three_intervals(last: float, step: bool) -> None:
-    """Of what the means over both sides see of it, where the rest comes three samples later."""
-    r = rough(300) * 0.02 + 5.0 * ((1 - last) * (np.arange(300) >= 100) + last * (np.arange(300) >= 103))
-    score, size = _step_score(np.asarray(r), np.arange(300) * 60.0, SIDE)
-    assert size[100] == pytest.approx(5.0 * (1 - last / 2), abs=0.1)
-    assert bool(score[98:103].max() > 12) is step
+@pytest.mark.parametrize(("residual", "at_once"), [(0.71, True), (0.69, False), (2.0, True)])
+def test_seven_tenths_of_a_step_stand_out_from_the_slopes_beside_it(residual: float, at_once: bool) -> None:
+    for size in (4.0, -4.0):
+        assert is_at_once(size, 4.0 * residual, 4.0) is at_once
+
+
+@pytest.mark.parametrize(
+    ("response", "at_once"), [(0.31, True), (0.29, False), (-1.0, False), (3.3, True), (3.4, False)]
+)
+def test_the_response_makes_the_step_and_not_a_much_larger_one(response: float, at_once: bool) -> None:
+    """Three tenths of it, and its inverse."""
+    for size in (4.0, -4.0):
+        assert is_at_once(size, 4.0, 4.0 * response) is at_once
+
+
+def test_in_a_hole_nothing_is_at_once() -> None:
+    assert not is_at_once(4.0, float("nan"), 4.0)
+    assert not is_at_once(4.0, 4.0, float("nan"))
+
+
+MINUTES = np.arange(300) * 60.0
+
+
+def beside(x: Float1D, i: int, sign: float = 1.0) -> float:
+    return beyond_slopes(np.asarray(x, dtype=float), MINUTES, i, sign, SIDE)
+
+
+@pytest.mark.parametrize("slope", [-3.0, -0.3, 0.3, 3.0])
+@pytest.mark.parametrize("i", range(95, 107))
+def test_a_bend_leaves_nothing_beyond_its_slopes(slope: float, i: int) -> None:
+    k = np.arange(300)
+    for bend in (slope * np.maximum(k - 100, 0), slope * np.minimum(k - 100, 0), slope * k):
+        assert beside(bend, i, slope) <= 1e-9
+
+
+@pytest.mark.parametrize("slope", [-1.0, 0.0, 1.0])
+def test_a_step_on_a_slope_is_whole_beyond_it(slope: float) -> None:
+    """Also one that goes against the slope, and one that a mean parts."""
+    k = np.arange(300)
+    assert beside(slope * k + 5.0 * (k >= 100), 100) == pytest.approx(5.0)
+    assert beside(slope * k - 5.0 * (k >= 100), 100, -1.0) == pytest.approx(5.0)
+    assert beside(slope * k + 5.0 * (k >= 100) - 2.0 * (k == 100), 100) == pytest.approx(5.0)
+
+
+@pytest.mark.parametrize(("long", "beyond"), [(3, 1.0), (4, 0.75 - 3 / 28), (5, 0.6 - 6 / 70), (13, 0.0), (20, 0.0)])
+def test_a_ramp_leaves_the_less_the_longer_it_lasts(long: int, beyond: float) -> None:
+    """In its middle: three intervals of it, beyond the slope over the five on either side."""
+    ramp = np.clip(np.arange(300) - (100 - (long + 1) // 2), 0, long) / long
+    assert beside(ramp, 100) == pytest.approx(beyond, abs=1e-9)
+
+
+def test_slopes_are_known_beside_a_hole() -> None:
+    """By the clock: what moves on over a hole is no steeper."""
+    t = MINUTES.copy()
+    t[103:] += 1800.0
+    assert beyond_slopes(t / 60.0 + 5.0 * (t >= t[100]), t, 100, 1.0, SIDE) == pytest.approx(5.0)
+
+
+@pytest.mark.parametrize("least_side", [4, 5, 20])
+def test_slopes_stay_within_the_sides_of_a_step(least_side: int) -> None:
+    """Where samples are coarse a side has four of them."""
+    x = 5.0 * (np.arange(2 * least_side) >= least_side)
+    assert beyond_slopes(x, 60.0 * np.arange(len(x)), least_side, 1.0, least_side) == pytest.approx(5.0)
+
+
+def heat_begins(slip: float = 0.0, n: int = 300) -> Float1D:
+    """0.3 um a minute for a quarter of an hour, begun by a quick one, as in a sound test of a machining centre."""
+    k = np.arange(n)
+    course = -0.3 * np.clip(k - 100, 0, 15) - 1.2 * (1 - np.exp(-np.maximum(k - 100, 0) / 1.5))
+    return rough(n) + course + slip * (k >= 104)
+
+
+def test_a_bend_is_no_slip_and_a_slip_in_it_is_one() -> None:
+    assert steps(heat_begins()) == []
+    assert [at for at, _ in steps(heat_begins(-4.0))] == [103.5 * 60.0]
+    assert [at for at, _ in steps(heat_begins(4.0))] == [103.5 * 60.0]
+
+
+def test_what_only_the_model_does_is_no_slip() -> None:
+    """A driver read in steps of 1 K makes the prediction jump, and so the residual."""
+    slow = 3.0 * np.sin(np.arange(300) / 60)
+    assert steps(stepped(100), response=slow + rough(300)) == []
+    assert len(steps(stepped(100), response=slow + stepped(100))) == 1
+
+
+def test_what_a_model_leaves_of_a_much_larger_jump_is_no_slip() -> None:
+    assert len(steps(stepped(100), response=3.0 * stepped(100))) == 1
+    assert steps(stepped(100), response=3.6 * stepped(100)) == []
 
 
 @pytest.mark.parametrize(("size", "step"), [(2.51, True), (2.49, False), (-2.51, True)])

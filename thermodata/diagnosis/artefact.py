@@ -1,7 +1,8 @@
 """Artefacts of the measurement, looked for within a test: steps of a probe, and drift.
 
 They do not transfer between tests, so leave-one-test-out cannot see them. A step that a command makes elsewhere too
-(speed, feed, a switch) is no artefact: centrifugal shifts look like steps. Nor is one tread of a coarse reading.
+(speed, feed, a switch) is no artefact: centrifugal shifts look like steps. Nor is one tread of a coarse reading, nor a
+bend where heat begins or ends, nor what only the model does.
 """
 
 from __future__ import annotations
@@ -25,7 +26,9 @@ MOST_STEPS = 3
 NOISES = 3.0  # a step is larger than this many times the noise,
 LEAST_UM = 0.5  # and than this
 SHARP = 0.4  # least share of a step that happens between two samples: halves where a mean parts it
-WITHIN = 0.8  # and within three intervals
+WITHIN = 0.7  # and within three intervals, beyond what the steeper of the slopes beside it makes
+SEEN = 0.3  # the same of the response, and its inverse at most: a model jumps, too, where its drivers do
+BESIDE = 5  # intervals that a slope beside a step is taken over
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,7 +43,8 @@ def find_steps(problem: Problem) -> list[Step]:
     """Sudden offsets in the residual that no command explains, at most three a test.
 
     The jump between neighbouring samples must exceed Z_LIMIT times the robust size of all jumps over the same
-    span, and the level before and after must differ by as much for SIDE_S.
+    span, and the level before and after must differ by as much for SIDE_S. It must stand out from the slopes right
+    beside it, and the response itself must make it.
     """
     commands = Commands(problem)
     tread = tread_of_response(problem)
@@ -64,7 +68,7 @@ def noise_with_treads(problem: Problem) -> float:
 
 
 def _steps_in(block: Block, problem: Problem, tread: float, explained: Callable[[int], bool]) -> list[Step]:
-    r, t = block.residual, block.t_s
+    r, y, t = block.residual, block.response, block.t_s
     side = max(4, int(SIDE_S / problem.step_s))
     if len(r) < 3 * side:
         return []
@@ -76,11 +80,14 @@ def _steps_in(block: Block, problem: Problem, tread: float, explained: Callable[
         i = int(np.argmax(score))
         if not is_a_step(float(score[i]), float(size[i]), problem.noise, tread):
             break
+        # what happens there is judged where it stands out most: the shoulders of a bend are no slips
         looked[max(0, i - side // 2) : i + side // 2] = True
-        if explained(i):
+        own, seen = (beyond_slopes(x, t, i, float(size[i]), side) for x in (r, y))
+        if not is_at_once(float(size[i]), own, seen) or explained(i):
             continue
         steps.append(Step(block.test, float((t[i - 1] + t[i]) / 2), float(size[i]), float(score[i])))
-        r = r - np.where(np.arange(len(r)) >= i, size[i], 0.0)
+        since = np.where(np.arange(len(r)) >= i, size[i], 0.0)
+        r, y = r - since, y - since
     return steps
 
 
@@ -92,7 +99,7 @@ def is_a_step(z: float, size: float, noise: float, tread: float = 0.0) -> bool:
 def _step_score(r: Float1D, t: Float1D, side: int) -> tuple[Float1D, Float1D]:
     """For a step before each sample: how far the extrapolations of both sides lie apart, by robust scale.
 
-    Lines on both sides, so that a slope is not taken for a step; and means of the near thirds, so that a bend is not.
+    Lines on both sides, so that a slope is not taken for a step; and means of the near thirds, so that a bend is less.
     """
     m = len(r)
     near = max(2, side // 3)
@@ -110,9 +117,28 @@ def _step_score(r: Float1D, t: Float1D, side: int) -> tuple[Float1D, Float1D]:
     jump = np.abs(np.diff(r, prepend=r[0]))
     sharp = jump > SHARP * np.abs(size)
     # over a hole the machine had time to move: what nobody saw is not called a slip
-    sharp &= over_three(r, t) * np.sign(size) >= WITHIN * np.abs(size)
+    sharp &= np.isfinite(over_three(r, t))
     scale = 1.4826 * float(np.median(np.abs(smaller - np.median(smaller)))) + 1e-9
     return np.where(sharp, np.abs(size) / scale, 0.0), size
+
+
+def is_at_once(size: float, in_residual: float, in_response: float) -> bool:
+    """Whether a step of a size is more than a bend and is the displacement's own, by what `beyond_slopes` has of it."""
+    return in_residual >= WITHIN * abs(size) and SEEN * abs(size) <= in_response <= abs(size) / SEEN
+
+
+def beyond_slopes(x: Float1D, t: Float1D, i: int, sign: float, side: int) -> float:
+    """What x (shape (m,)) changes by over the three intervals around the one before sample i, in the direction of sign,
+    beyond what the steeper of the slopes just before and after them makes in that time.
+
+    A bend leaves nothing, however sharp: of its two slopes the steeper is taken off. Nor does a ramp, where it lasts as
+    long as the slopes are taken over. side: samples that there are before and after, at least. NaN where a hole is.
+    """
+    many = min(BESIDE + 1, side - 1)  # samples
+    rise = float(over_three(x[i - 2 : i + 2], t[i - 2 : i + 2])[2])
+    before, after = slice(i - 1 - many, i - 1), slice(i + 1, i + 1 + many)
+    steeper = max(np.sign(sign) * np.polyfit(t[s] - t[i], x[s], 1)[0] for s in (before, after))
+    return float(np.sign(sign) * rise - steeper * (t[i + 1] - t[i - 2]))
 
 
 def _lines(r: Float1D, t: Float1D, side: int) -> tuple[Float1D, Float1D]:
