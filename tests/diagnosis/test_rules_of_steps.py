@@ -157,8 +157,10 @@ def test_a_slip_just_when_the_only_change_happens_is_not_told_from_it() -> None:
     assert in_tests(slipped(jumps_of(1.0), 105)) == [("t0", 5)]
 
 
-def test_what_a_command_did_while_nobody_logged_it_may_explain() -> None:
-    """Where it makes such steps elsewhere: the model, too, does not know what it did."""
+@pytest.mark.parametrize(("at", "explained"), [(180, False), (181, True), (220, True), (260, True), (261, False)])
+def test_what_a_command_did_while_nobody_logged_it_may_explain(at: int, explained: bool) -> None:
+    """Where it makes such steps elsewhere: the model, too, does not know what it did between the last logged sample
+    and the next one."""
 
     def unlogged(test: tuple[Float1D, Float1D]) -> tuple[Float1D, Float1D]:
         hole = (np.arange(400) > 180) & (np.arange(400) < 260)
@@ -166,8 +168,9 @@ def test_what_a_command_did_while_nobody_logged_it_may_explain() -> None:
 
     still = jumps_of(0.0, 0.0)
     shifting, idle = jumps_of(1.0, 0.0, 1.0, of=5.0), jumps_of(1.0, 0.0, 1.0)
-    assert in_tests(unlogged(slipped(still, 220)), shifting, shifting) == []
-    assert in_tests(unlogged(slipped(still, 220)), idle, idle) == [("t0", 5)]
+    found = [] if explained else [("t0", 5)]
+    assert in_tests(unlogged(slipped(still, at)), shifting, shifting) == found
+    assert in_tests(unlogged(slipped(still, at)), idle, idle) == [("t0", 5)]
 
 
 TENS = np.array([1.0, -1.0] * 10)

@@ -29,7 +29,7 @@ HOLE_STEPS = 1.6  # a longer interval than this many usual ones is a hole
 @dataclass(frozen=True, slots=True)
 class _Course:
     """A command in one block. change: power -> shape (m,), over three intervals; rows: power -> where that is a change
-    of its own. hole: shape (m,), where nobody logged the command, or just after."""
+    of its own. hole: shape (m,), whether the interval before a sample is one in which nobody logged the command."""
 
     change: Mapping[int, Float1D]
     rows: Mapping[int, Int1D]
@@ -143,4 +143,8 @@ def _held(block: Block, name: str) -> tuple[Float1D, Bool1D]:
 def _course(block: Block, value: Float1D, old: Bool1D, span: Mapping[int, float]) -> _Course:
     change = {p: over_three(value**p, block.t_s) for p in POWERS}
     rows = {p: np.flatnonzero(np.abs(np.nan_to_num(change[p])) > MOVED * span[p]) for p in POWERS}
-    return _Course(change, rows, old | np.concatenate([[False], old[:-1]]))
+    # a hole begins after the last logged sample and ends before the next one
+    hole = old.copy()
+    hole[1:] |= old[:-1]
+    hole[:-1] |= old[1:]
+    return _Course(change, rows, hole)
