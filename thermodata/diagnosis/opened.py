@@ -33,7 +33,7 @@ def kept_where_they_hold(
             told = tuple(replace(c, scored=replace(c.scored, doubts=found.doubts)) for c in tried)
             if not found.refuted and all(blunt(c.scored) is None for c in told):
                 standing.append(told)
-            first = first or found.worst
+            first = first or found.doubting[0]
         if standing:
             return replace(judgement, claims=min(standing, key=lambda told: told[0].scored.doubts))
         claims = claims[:-1]
