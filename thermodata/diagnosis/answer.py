@@ -64,7 +64,7 @@ def answer(fitted: FittedModel, data: Dataset, library: Mapping[str, Effect], mo
             foretold = investigation.borne_out(claims)
             if foretold is None:
                 return None
-            return Looked(foretold, confirmed(claims).foretold, investigation.measure.floor)
+            return Looked(foretold, confirmed(claims).on(foretold.tests), investigation.measure.floor)
 
         judgement = kept_where_they_hold(
             judgement, look, lambda twin: claimable(twin, investigation.measure, response.unit), response.unit

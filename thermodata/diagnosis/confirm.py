@@ -9,13 +9,26 @@ import numpy as np
 
 from thermodata.diagnosis.candidates import CandidateEffect
 from thermodata.diagnosis.locked import Foretold
+from thermodata.diagnosis.problem import freed
 from thermodata.modelling.fit import fit_model
 from thermodata.modelling.fitted import FittedModel
 from thermodata.modelling.fitted_response import FittedResponse
 from thermodata.modelling.resolve import term_ids
+from thermodata.plugin import Bool1D, Float1D
 from thermodata.schema.model import Model
 from thermodata.schema.result import Parameter
 from thermodata.view.dataset import Dataset, TestData
+
+
+@dataclass(frozen=True, slots=True)
+class Shape:
+    """Of one locked test, a free offset: sums of squares of the error before and after, and of what is changed."""
+
+    key: tuple[str, str]
+    rows: int
+    before: float
+    after: float
+    changed: float
 
 
 @dataclass(frozen=True, slots=True)
@@ -24,7 +37,7 @@ class Confirmation:
 
     before, after: as scored, from the mean of the first samples on. shape_before, shape_after: with a free offset a
     test: one unlucky zero must not hide that the shape fits. changed: RMS of what the addition changes there. each:
-    (key, error before, error after) of every locked test.
+    (key, error before, error after) of every locked test. shapes: of every one, too.
     """
 
     before: float | None
@@ -34,6 +47,20 @@ class Confirmation:
     changed: float
     parameters: dict[str, dict[str, Parameter]]
     each: tuple[tuple[tuple[str, str], float, float], ...] = ()
+    shapes: tuple[Shape, ...] = ()
+
+    def on(self, tests: frozenset[tuple[str, str]] | None) -> Foretold | None:
+        """By shape, on some of the locked tests; None where none of them can be predicted."""
+        if tests is None:
+            return self.foretold
+        some = [s for s in self.shapes if s.key in tests]
+        rows = sum(s.rows for s in some)
+        if not rows:
+            return None
+        before, after, changed = (
+            float(np.sqrt(sum(getattr(s, name) for s in some) / rows)) for name in ("before", "after", "changed")
+        )
+        return Foretold(before, after, changed, tests=tests)
 
     @property
     def foretold(self) -> Foretold | None:
@@ -91,12 +118,28 @@ def confirm(
         tuple(
             (t.key, a, b) for t in usable if (a := rmse(ours, [t])) is not None and (b := rmse(theirs, [t])) is not None
         ),
+        tuple(_shape(ours, theirs, t) for t in usable),
     )
 
 
+def _shape(ours: FittedResponse, theirs: FittedResponse, test: TestData) -> Shape:
+    left, more = ours.residual(test), theirs.residual(test)
+    before, after, changed = (
+        _shape_of(x, test, mask)
+        for x, mask in ((left, ours.mask(test)), (more, theirs.mask(test)), (more - left, theirs.mask(test)))
+    )
+    return Shape(test.key, len(before), *(float(x @ x) for x in (before, after, changed)))
+
+
+def _shape_of(values: Float1D, test: TestData, mask: Bool1D) -> Float1D:
+    """Where it counts, with the best offset, and the best start of a test that began warm."""
+    some = values[mask][:, None]
+    return freed(some, test, test.t_s[mask], np.zeros(len(some), dtype=np.int64))[:, 0] if len(some) else some[:, 0]
+
+
 def _changed(ours: FittedResponse, theirs: FittedResponse, tests: Sequence[TestData]) -> float:
-    parts = [(theirs.residual(t) - ours.residual(t))[theirs.mask(t)] for t in tests]
-    whole = np.concatenate([p - p.mean() for p in parts if len(p)] or [np.zeros(1)])
+    parts = [_shape_of(theirs.residual(t) - ours.residual(t), t, theirs.mask(t)) for t in tests]
+    whole = np.concatenate([p for p in parts if len(p)] or [np.zeros(1)])
     return float(np.sqrt(np.mean(whole**2)))
 
 
@@ -114,9 +157,12 @@ def _parameters(
 def rmse(fitted: FittedResponse, tests: Sequence[TestData], *, free: bool = False) -> float | None:
     """Free-run error over all samples that count, in the response's unit; None where there are none.
 
-    free: with the best offset for each test, instead of the one from its first samples.
+    free: with the best offset for each test, instead of the one from its first samples, and the best start of one that
+    began warm.
     """
-    parts = [fitted.residual(t)[fitted.mask(t)] for t in tests]
-    parts = [p - p.mean() if free and len(p) else p for p in parts]
+    masks = [fitted.mask(t) for t in tests]
+    parts = [fitted.residual(t)[m] for t, m in zip(tests, masks, strict=True)]
+    if free:
+        parts = [_shape_of(fitted.residual(t), t, m) for t, m in zip(tests, masks, strict=True)]
     whole = np.concatenate(parts) if parts else np.empty(0)
     return float(np.sqrt(np.mean(whole**2))) if len(whole) else None

@@ -19,20 +19,23 @@ def kept_where_they_hold(
     claimable: Callable[[Scored], bool],
     unit: str,
 ) -> Judgement:
-    """The claims that are probable together once the lock is open, else with a twin in the place of the largest, else
-    without the smallest; "unknown" where none is. look: what the locked tests say of some claims; None where there are
-    none. claimable: whether a twin keeps the rules of a claim itself. unit: of the response."""
+    """The claims that are probable together once the lock is open, or with a twin in the place of the largest, with the
+    fewest doubts; else without the smallest; "unknown" where none is. look: what the locked tests say of some claims;
+    None where there are none. claimable: whether a twin keeps the rules of a claim itself. unit: of the response."""
     claims = judgement.claims
     first: Foretold | None = None
     while claims:
+        standing: list[tuple[Judged, ...]] = []
         for tried in (claims, *_with_twins(claims, claimable)):
             found = look(tried)
             if found is None or not found.doubts:
                 return replace(judgement, claims=tried)
             told = tuple(replace(c, scored=replace(c.scored, doubts=found.doubts)) for c in tried)
             if not found.refuted and all(blunt(c.scored) is None for c in told):
-                return replace(judgement, claims=told)
-            first = first or found.worst
+                standing.append(told)
+            first = first or found.doubting[0]
+        if standing:
+            return replace(judgement, claims=min(standing, key=lambda told: told[0].scored.doubts))
         claims = claims[:-1]
     assert first is not None
     name = judgement.claims[0].scored.candidate.id
