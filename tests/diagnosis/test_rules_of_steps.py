@@ -309,6 +309,19 @@ def test_a_bend_is_no_slip_and_a_slip_in_it_is_one() -> None:
     assert [at for at, _ in steps(heat_begins(4.0))] == [103.5 * 60.0]
 
 
+def test_the_shoulder_of_a_bend_is_no_slip() -> None:
+    """What stands out most is judged, and nothing within ten minutes of it: a spindle that starts, and stops for every
+    new tool. Residual and response of a sound machine."""
+    left = [1.1, 1.8, 0.0, -0.9, -1.6, -2.0, -1.5, -0.5, -0.6, -1.1, -1.0, -0.7, 0.2, -0.2, -0.4, -0.7, -0.2]
+    read = [-0.5, 0.5, 0.0, -1.2, -2.4, -3.5, -5.6, -3.6, -4.2, -5.2, -5.6, -7.6, -5.5, -6.0, -6.5, -7.0, -8.6]
+    r, y = (rough(300) + np.interp(np.arange(300), np.arange(98, 98 + len(x)), x) for x in (left, read))
+    _, size = _step_score(r, MINUTES, SIDE)
+    assert abs(size[100]) > abs(size[101])
+    assert not is_at_once(size[100], beside(r, 100, size[100]), beside(y, 100, size[100]))
+    assert is_at_once(size[101], beside(r, 101, size[101]), beside(y, 101, size[101]))
+    assert steps(r, response=y) == []
+
+
 def test_what_only_the_model_does_is_no_slip() -> None:
     """A driver read in steps of 1 K makes the prediction jump, and so the residual."""
     slow = 3.0 * np.sin(np.arange(300) / 60)

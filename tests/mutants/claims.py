@@ -361,6 +361,7 @@ MUTANTS = [
     diagnosis("artefact.py", "tread + max(", "0 * tread + max(", "treads are slips"),
     diagnosis("artefact.py", "WITHIN = 0.7", "WITHIN = 0.0", "where heat begins is a slip"),
     diagnosis("artefact.py", "SEEN = 0.3", "SEEN = 0.01", "what the model does is a slip"),
+    diagnosis("artefact.py", "looked[max(0, i - side // 2) : i + side // 2]", "looked[i]", "a shoulder is a slip"),
     diagnosis("artefact.py", "steeper * (t", "0 * steeper * (t", "bends are slips"),
     diagnosis("artefact.py", "SHARP = 0.4", "SHARP = 0.0", "steep rises are slips"),
     diagnosis("artefact.py", "LEAST_UM = 0.5", "LEAST_UM = 0.0", "trifles are slips"),
