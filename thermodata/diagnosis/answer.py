@@ -12,12 +12,13 @@ from thermodata.diagnosis.artefact import noise_with_treads
 from thermodata.diagnosis.confirm import Confirmation, confirm, on_all_open
 from thermodata.diagnosis.investigate import Investigation, investigate
 from thermodata.diagnosis.judge import Judged, Judgement, equivalents
-from thermodata.diagnosis.locked import Looked
+from thermodata.diagnosis.locked import Foretold, Looked
 from thermodata.diagnosis.null import p_value
 from thermodata.diagnosis.opened import kept_where_they_hold
 from thermodata.diagnosis.problem import Problem
 from thermodata.diagnosis.rules import blunt, claimable, explained, failed_rules, probability
 from thermodata.diagnosis.scored import Scored
+from thermodata.diagnosis.suspect import suspect
 from thermodata.diagnosis.unexplained import characterise
 from thermodata.modelling.fit import fit_model
 from thermodata.modelling.fitted import FittedModel
@@ -95,13 +96,13 @@ def _diagnosis(
     # what refines the model is no missing cause, also where more is missing than it gives
     head = next((s for s, m in shown if not s.candidate.within and (m is None or m.refines is None)), None)
 
-    def claimed(member: Judged | None) -> bool:
-        return any(member is c for c in judgement.claims)
-
     advice = None
     if judgement.claims:
         claim = judgement.claims[0]
         advice = next_test.to_separate(claim.scored, equivalents(claim.scored, claim.beside), data.channels)
+    refused = [j.scored.candidate for j in judgement.refused]
+    if advice is None and refused:
+        advice = next_test.to_decide(refused, data.channels)
     elif judgement.verdict in ("unknown", "not_testable"):
         advice = next_test.to_find(
             len({b.test.key for b in problem.blocks}), investigation.spots, shown[0][0] if shown else None
@@ -117,19 +118,24 @@ def _diagnosis(
         explainable=max((float(np.clip(_fall(s), 0.0, 1.0)) for s in scored), default=None),
         weak_spots=investigation.spots,
         candidates=[
-            _candidate(i + 1, s, member, s is head or claimed(member), investigation, judgement, confirmation)
+            _candidate(i + 1, s, member, s is head, investigation, judgement, confirmation)
             for i, (s, member) in enumerate(shown)
         ],
         artefacts=investigation.artefacts,
-        unknown=characterise(problem, investigation.spots) if judgement.verdict == "unknown" else None,
+        unknown=characterise(
+            problem, investigation.spots, suspect(judgement, head, investigation.measure, problem.unit)
+        )
+        if judgement.verdict == "unknown"
+        else None,
         next_test=advice,
         chance=ladder.chance(investigation.measure),
     )
 
 
 def _shown(investigation: Investigation, judgement: Judgement) -> list[tuple[Scored, Judged | None]]:
-    """Claims, refinements, then all others by what they would give; what was dropped as it was judged last."""
-    first = [*judgement.claims, *judgement.refinements]
+    """Claims, what the locked tests refused, refinements, then all others by what they would give; what was dropped as
+    it was judged last."""
+    first = [*judgement.claims, *judgement.refused, *judgement.refinements]
     order: list[tuple[Scored, Judged | None]] = [(j.scored, j) for j in first]
     rest = [j for j in judgement.judged if not any(j.scored.columns is f.scored.columns for f in first)]
     others: list[tuple[Scored, Judged | None]] = [(j.scored, j) for j in rest]
@@ -152,7 +158,9 @@ def _candidate(
     confirmation: Confirmation | None,
 ) -> Candidate:
     problem, measure = investigation.problem, investigation.measure
-    claimed = any(member is c for c in judgement.claims)
+    claimed = _among(member, judgement.claims)
+    heads = heads or claimed or _among(member, judgement.refused)
+    refining = _among(member, judgement.refinements)
     beside = member.beside if member else investigation.selection.first.ranked if investigation.selection else ()
     held = confirmation if claimed else None
     told = _beside_the_model(s, investigation)
@@ -165,8 +173,8 @@ def _candidate(
         gain_by=s.candidate.gain_by,
         phases=list(s.candidate.phases),
         claimed=claimed,
-        refinement=_refining(member, judgement),
-        # measured for what heads the list, and for claims; nothing is known of the share of the others
+        refinement=refining,
+        # measured for what heads the list, and for what was claimed; nothing is known of the share of the others
         probability=probability(s) if heads else None,
         p_value=p_value(s.evidence, measure.chance),
         rmse_um_before=_rmse(told.sse_before, told),
@@ -181,12 +189,12 @@ def _candidate(
         evidence=float(s.evidence) if np.isfinite(s.evidence) else None,
         rungs=ladder.rungs(s, measure, problem.unit),
         left_out=ladder.left_out(told, problem),
-        courses=ladder.courses(s, problem) if heads or claimed or _refining(member, judgement) else [],
+        courses=ladder.courses(s, problem) if heads or refining else [],
     )
 
 
-def _refining(member: Judged | None, judgement: Judgement) -> bool:
-    return any(member is r for r in judgement.refinements)
+def _among(member: Judged | None, some: Sequence[Judged]) -> bool:
+    return any(member is one for one in some)
 
 
 def _why(
@@ -210,12 +218,10 @@ def _why(
     )
     chance = p_value(s.evidence, investigation.measure.chance)
     if claimed:
-        locked = ""
-        if held and held.before is not None and held.after is not None:
-            together = " with all that is claimed" if len(judgement.claims) > 1 else ""
-            part = f", which bear it out in {2 - s.doubts} of 2 ways" if s.doubts else ""
-            locked = f"; on the locked tests{together} from {held.before:.2f} to {held.after:.2f} {unit}{part}"
+        locked = _on_locked(s, held, unit, together=len(judgement.claims) > 1) if held else ""
         return f"{numbers}; chance does as well in {chance:.1%} of responses in which nothing is missing{locked}"
+    if _among(member, judgement.refused):
+        return f"{numbers}; not claimed: {_refused(judgement)}"
     if member is not None and member.refines:
         return f"{numbers}; a refinement, not a missing cause: {member.refines}"
     failed = failed_rules(s, investigation.measure, unit)
@@ -224,7 +230,32 @@ def _why(
         return f"{numbers}; not claimed: {failed[0]}"
     if judgement.claims:
         return f"{numbers}; not claimed: {judgement.claims[0].scored.candidate.id} explains it, or more"
+    if judgement.refused:
+        first = judgement.refused[0].scored.candidate.id
+        return f"{numbers}; not claimed: {first}, which the locked tests do not bear out, explains it, or more"
     return f"{numbers}; not claimed: {judgement.reason}"
+
+
+def _on_locked(s: Scored, held: Confirmation, unit: str, *, together: bool) -> str:
+    """The errors as scored; where they do not fall, beside them those that the claim holds by."""
+    if held.before is None or held.after is None:
+        return ""
+    what = " with all that is claimed" if together else ""
+    figures = f"; on the locked tests{what} from {held.before:.2f} to {held.after:.2f} {unit}"
+    if held.foretold is not None and not Foretold(held.before, held.after, held.changed).falls:
+        figures += (
+            f" from their first samples on, and from {held.foretold.before:.2f} to {held.foretold.after:.2f} {unit} "
+            "with a free offset a test"
+        )
+    return figures + (f", which bear it out in {2 - s.doubts} of 2 ways" if s.doubts else "")
+
+
+def _refused(judgement: Judgement) -> str:
+    """Why what keeps every rule on the open tests is no claim."""
+    if not judgement.claims:
+        return judgement.reason
+    claims = " with ".join(c.scored.candidate.id for c in judgement.claims)
+    return f"it explains the open tests, but the locked ones bear out {claims} without it only"
 
 
 def _beside_the_model(s: Scored, investigation: Investigation) -> Scored:
