@@ -11,13 +11,13 @@ import pytest
 
 from thermodata.diagnosis import confirm as confirming
 from thermodata.diagnosis.candidates import CandidateEffect
-from thermodata.diagnosis.confirm import Confirmation, extended, on_all_open, rmse
+from thermodata.diagnosis.confirm import Confirmation, Shape, extended, on_all_open, rmse
 from thermodata.diagnosis.discrepancy import Noise
 from thermodata.diagnosis.evidence import columns
 from thermodata.diagnosis.judge import Judged, Judgement
 from thermodata.diagnosis.locked import Foretold, Looked, foretell
 from thermodata.diagnosis.opened import kept_where_they_hold
-from thermodata.diagnosis.problem import Problem
+from thermodata.diagnosis.problem import Block, Problem
 from thermodata.diagnosis.ranking import rank_in
 from thermodata.diagnosis.rules import blunt, probability
 from thermodata.diagnosis.scored import Scored
@@ -66,6 +66,7 @@ def test_without_locked_tests_a_claim_stands() -> None:
 
 # ---- what the open tests foretell
 
+FALLS, SLIGHTLY, RISES = Foretold(1.0, 0.4, 1.0), Foretold(1.0, 0.9, 1.0), Foretold(1.0, 1.2, 1.0)
 NOISE = Noise(0.1, 1e-3, 900.0, 0.5)  # all but white: then it is least squares
 
 
@@ -133,6 +134,59 @@ def test_the_locked_tests_estimate_nothing() -> None:
     assert found.after == pytest.approx(left(one, ["T_a", "T_b"]), rel=0.05)
     assert found.after > found.before
     assert not found.holds
+
+
+def resting(one: Problem, locked: Sequence[int], share: float) -> Problem:
+    """The same with the first cause at a share of itself in some of the locked tests."""
+
+    def rests(i: int, block: Block) -> Block:
+        if i not in locked:
+            return block
+        a = block.test.values["T_a"]
+        moved = (share - 1.0) * 2.0 * a
+        test = replace(block.test, values={**block.test.values, "T_a": share * a})
+        return replace(block, test=test, response=block.response + moved - moved.mean())
+
+    return replace(one, blocks=tuple(rests(i, b) for i, b in enumerate(one.blocks)), kept={})
+
+
+def test_locked_tests_in_which_a_claim_rests_are_not_asked_of_it() -> None:
+    """At 1 % of itself; the other cause acts in all of them."""
+    one = resting(world(), [3], 0.01)
+    a, b = cause(one, "T_a"), cause(one, "T_b")
+    found = foretold(one, [b], [a])
+    assert found.tests == {one.blocks[4].test.key}
+    assert found.holds
+    assert foretold(one, [], [a, b]).tests == {one.blocks[i].test.key for i in (3, 4)}
+    nowhere = resting(world(), [3, 4], 0.01)
+    rests = foretold(nowhere, [cause(nowhere, "T_b")], [cause(nowhere, "T_a")])
+    assert (rests.tests, rests.before, rests.after) == (frozenset(), 0.0, 0.0)
+    assert not rests.says(0.0)
+
+
+@pytest.mark.parametrize(("doubts_of_twin", "kept_name"), [(0, "t"), (1, "a"), (2, "a")])
+def test_a_twin_with_fewer_doubts_takes_the_place(doubts_of_twin: int, kept_name: str) -> None:
+    """Of a claim that would stand with one."""
+    twin = (looked(FALLS, FALLS), looked(FALLS, RISES), looked(SLIGHTLY, RISES))[doubts_of_twin]
+    of = {"a": looked(FALLS, RISES), "t": twin}
+    found = kept_where_they_hold(
+        judged("a", twins="t"), lambda claims: of[claims[0].scored.candidate.effect.name], lambda t: True, "um"
+    )
+    assert "".join(c.scored.candidate.effect.name for c in found.claims) == kept_name
+
+
+def test_by_shape_on_some_of_the_locked_tests() -> None:
+    shapes = (Shape(("c", "x"), 10, 40.0, 10.0, 90.0), Shape(("c", "y"), 30, 120.0, 270.0, 30.0))
+    one = Confirmation(2.0, 2.0, 2.0, 2.65, 1.7, {}, (), shapes)
+    assert one.on(None) == Foretold(2.0, 2.65, 1.7)
+    only = one.on(frozenset({("c", "x")}))
+    assert only is not None
+    assert (only.before, only.after, only.changed) == pytest.approx((2.0, 1.0, 3.0))
+    both = one.on(frozenset({("c", "x"), ("c", "y")}))
+    assert both is not None
+    assert (both.before, both.after) == pytest.approx((2.0, np.sqrt(7.0)))
+    assert one.on(frozenset({("c", "z")})) is None
+    assert one.on(frozenset()) is None
 
 
 # ---- what is kept of the claims
@@ -221,9 +275,6 @@ def test_a_claim_that_the_locked_tests_contradict_is_withdrawn_with_its_own_figu
     assert "a:T_a explains the open tests" in found.reason
     assert "(1.00 -> 1.00 um)" in found.reason, "of all claims, not of the last twin"
     assert [j.scored.candidate.effect.name for j in found.judged] == ["a"]
-
-
-FALLS, SLIGHTLY, RISES = Foretold(1.0, 0.4, 1.0), Foretold(1.0, 0.9, 1.0), Foretold(1.0, 1.2, 1.0)
 
 
 @pytest.mark.parametrize(

@@ -53,11 +53,15 @@ def answer(fitted: FittedModel, data: Dataset, library: Mapping[str, Effect], mo
         locked = []
     else:
         added: dict[tuple[str, ...], Confirmation] = {}
+        asked: dict[tuple[str, ...], frozenset[tuple[str, str]] | None] = {}
+
+        def names(claims: Sequence[Judged]) -> tuple[str, ...]:
+            return tuple(c.scored.candidate.id for c in claims)
 
         def confirmed(claims: Sequence[Judged]) -> Confirmation:
-            chosen = [c.scored.candidate for c in claims]
-            key = tuple(c.id for c in chosen)
+            key = names(claims)
             if key not in added:
+                chosen = [c.scored.candidate for c in claims]
                 added[key] = confirm(fitted.spec, index, data, chosen, usable, locked, refitted)
             return added[key]
 
@@ -65,12 +69,14 @@ def answer(fitted: FittedModel, data: Dataset, library: Mapping[str, Effect], mo
             foretold = investigation.borne_out(claims)
             if foretold is None:
                 return None
-            return Looked(foretold, confirmed(claims).foretold, investigation.measure.floor)
+            asked[names(claims)] = foretold.tests
+            return Looked(foretold, confirmed(claims).on(foretold.tests), investigation.measure.floor)
 
         judgement = kept_where_they_hold(
             judgement, look, lambda twin: claimable(twin, investigation.measure, response.unit), response.unit
         )
-        confirmation = confirmed(judgement.claims or investigation.judgement.claims)
+        if kept := judgement.claims:
+            confirmation = replace(confirmed(kept), asked=asked.get(names(kept)))
     return Answer(_diagnosis(investigation, judgement, confirmation, data, model_id), tuple(locked))
 
 
@@ -242,10 +248,12 @@ def _on_locked(s: Scored, held: Confirmation, unit: str, *, together: bool) -> s
         return ""
     what = " with all that is claimed" if together else ""
     figures = f"; on the locked tests{what} from {held.before:.2f} to {held.after:.2f} {unit}"
-    if held.foretold is not None and not Foretold(held.before, held.after, held.changed).falls:
+    shape = held.on(held.asked)
+    if shape is not None and not Foretold(held.before, held.after, held.changed).falls:
+        acts = " where it acts" if shape.tests is not None and len(shape.tests) < len(held.shapes) else ""
         figures += (
-            f" from their first samples on, and from {held.foretold.before:.2f} to {held.foretold.after:.2f} {unit} "
-            "with a free offset a test"
+            f" from their first samples on, and{acts} from {shape.before:.2f} to {shape.after:.2f} {unit} with a free "
+            "offset a test"
         )
     return figures + (f", which bear it out in {2 - s.doubts} of 2 ways" if s.doubts else "")
 

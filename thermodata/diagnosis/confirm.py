@@ -19,12 +19,23 @@ from thermodata.view.dataset import Dataset, TestData
 
 
 @dataclass(frozen=True, slots=True)
+class Shape:
+    """Of one locked test, a free offset: sums of squares of the error before and after, and of what is changed."""
+
+    key: tuple[str, str]
+    rows: int
+    before: float
+    after: float
+    changed: float
+
+
+@dataclass(frozen=True, slots=True)
 class Confirmation:
     """Errors on the locked tests, None where there are none; parameters of the added effects, by candidate.
 
     before, after: as scored, from the mean of the first samples on. shape_before, shape_after: with a free offset a
     test: one unlucky zero must not hide that the shape fits. changed: RMS of what the addition changes there. each:
-    (key, error before, error after) of every locked test.
+    (key, error before, error after) of every locked test. shapes: of every one, too. asked: the keys of those that decide; None: all.
     """
 
     before: float | None
@@ -34,6 +45,21 @@ class Confirmation:
     changed: float
     parameters: dict[str, dict[str, Parameter]]
     each: tuple[tuple[tuple[str, str], float, float], ...] = ()
+    shapes: tuple[Shape, ...] = ()
+    asked: frozenset[tuple[str, str]] | None = None
+
+    def on(self, tests: frozenset[tuple[str, str]] | None) -> Foretold | None:
+        """By shape, on some of the locked tests; None where none of them can be predicted."""
+        if tests is None:
+            return self.foretold
+        some = [s for s in self.shapes if s.key in tests]
+        rows = sum(s.rows for s in some)
+        if not rows:
+            return None
+        before, after, changed = (
+            float(np.sqrt(sum(getattr(s, name) for s in some) / rows)) for name in ("before", "after", "changed")
+        )
+        return Foretold(before, after, changed, tests=tests)
 
     @property
     def foretold(self) -> Foretold | None:
@@ -91,6 +117,17 @@ def confirm(
         tuple(
             (t.key, a, b) for t in usable if (a := rmse(ours, [t])) is not None and (b := rmse(theirs, [t])) is not None
         ),
+        tuple(_shape(ours, theirs, t) for t in usable),
+    )
+
+
+def _shape(ours: FittedResponse, theirs: FittedResponse, test: TestData) -> Shape:
+    before, after = ours.residual(test)[ours.mask(test)], theirs.residual(test)[theirs.mask(test)]
+    changed = (theirs.residual(test) - ours.residual(test))[theirs.mask(test)]
+    return Shape(
+        test.key,
+        len(before),
+        *(float(np.sum((x - x.mean()) ** 2)) if len(x) else 0.0 for x in (before, after, changed)),
     )
 
 

@@ -15,9 +15,9 @@ from thermodata.diagnosis.discrepancy import Noise
 from thermodata.diagnosis.evidence import columns, moments, weigh
 from thermodata.diagnosis.known import Known, known
 from thermodata.diagnosis.problem import Problem
-from thermodata.diagnosis.scored import Scored
+from thermodata.diagnosis.scored import ACTS, Scored
 from thermodata.diagnosis.selection import extended
-from thermodata.plugin import Float1D, Int1D
+from thermodata.plugin import Bool1D, Float1D, Int1D
 
 KEPT = 0.5  # share of what is added that must take away as much of the squared error as it is itself,
 LEAST = 0.02  # and the least fall of the error: it never rises;
@@ -27,13 +27,15 @@ PROBABLE = 0.5  # and so much log probability a sample: few slow tests can't tel
 
 @dataclass(frozen=True, slots=True)
 class Foretold:
-    """RMS on the locked tests, a free offset a test, in the response's unit. changed: of what the claims change.
-    gained: log probability a sample that the claims add to the locked tests, given the open ones, in their noise."""
+    """RMS on the locked tests that are asked, a free offset a test, in the response's unit. changed: of what the claims
+    change. gained: log probability a sample that the claims add to these tests, given the open ones, in their noise.
+    tests: the keys of those that are asked; None: all."""
 
     before: float
     after: float
     changed: float
     gained: float = 0.0
+    tests: frozenset[tuple[str, str]] | None = None
 
     @property
     def falls(self) -> bool:
@@ -85,30 +87,42 @@ class Looked:
 
 def foretell(problem: Problem, opened: int, noise: Noise, kept: Sequence[Scored], claims: Sequence[Scored]) -> Foretold:
     """problem: the first `opened` blocks are of open tests, the others of locked ones. kept: what is selected beside
-    the claims."""
-    tests, locked = np.arange(opened), range(opened, len(problem.blocks))
-    without = known(_with(problem, tests, noise, kept), noise)
-    among = known(_with(problem, tests, noise, [*kept, *claims]), noise)
+    the claims. Asked are the locked tests in which a claim acts: another one says how well the rest of the model is
+    known, and nothing of the claims. Errors of 0 where there is none."""
+    tests = np.arange(opened)
+    beside, _ = _with(problem, tests, noise, kept)
+    without = known(beside, noise)
+    with_claims, acts = _with(beside, tests, noise, claims)
+    locked = [i for i in range(opened, len(problem.blocks)) if acts[i] or not claims]
+    keys = frozenset(problem.blocks[i].test.key for i in locked)
+    if not locked:
+        return Foretold(0.0, 0.0, 0.0, tests=keys)
+    among = known(with_claims, noise)
     before, after = _left(without, tests, locked), _left(among, tests, locked)
-    gained = _log_probability(among, tests) - _log_probability(without, tests)
+    asked = np.concatenate([tests, locked]).astype(np.int64)
+    gained = _log_probability(among, asked, tests) - _log_probability(without, asked, tests)
     return Foretold(
         _rms(before),
         _rms(after),
         _rms([a - b for a, b in zip(before, after, strict=True)]),
         gained / sum(len(r) for r in before),
+        keys,
     )
 
 
-def _with(problem: Problem, tests: Int1D, noise: Noise, chosen: Sequence[Scored]) -> Problem:
-    """Each effect as the open tests have it, beside those before it."""
+def _with(problem: Problem, tests: Int1D, noise: Noise, chosen: Sequence[Scored]) -> tuple[Problem, Bool1D]:
+    """(each effect as the open tests have it, beside those before it; whether one of them acts in each test)."""
+    acts = np.zeros(len(problem.blocks), dtype=np.bool_)
     for one in chosen:
         made = columns(problem, one.candidate)
         if made is None:
             continue
         base = known(problem, noise)
         weighed = weigh(base, made, moments(base, made), tests)
+        size = np.array([_rms([b[:, weighed.best[0]] @ weighed.coefficients]) for b in made.blocks])
+        acts |= size >= ACTS * size[tests].max()
         problem = extended(problem, made, weighed)
-    return problem
+    return problem, acts
 
 
 def _left(base: Known, tests: Int1D, locked: Sequence[int]) -> list[Float1D]:
@@ -122,9 +136,9 @@ def _one(problem: Problem, test: int, theta: Float1D) -> Float1D:
     return np.asarray(block.response - np.hstack([block.base, block.slack]) @ theta)
 
 
-def _log_probability(base: Known, tests: Int1D) -> float:
-    """Of the other tests, given these, but for what the noise alone makes of it: of all less that of these."""
-    return base.log_probability(base.every) - base.log_probability(tests)
+def _log_probability(base: Known, both: Int1D, tests: Int1D) -> float:
+    """Of the other tests among both, given these, but for what the noise alone makes of it: of both less of these."""
+    return base.log_probability(both) - base.log_probability(tests)
 
 
 def _rms(parts: Sequence[Float1D]) -> float:

@@ -19,22 +19,26 @@ def kept_where_they_hold(
     claimable: Callable[[Scored], bool],
     unit: str,
 ) -> Judgement:
-    """The claims that are probable together once the lock is open, else with a twin in the place of the largest, else
-    without the smallest; "unknown" where none is. What goes is kept as refused. look: what the locked tests say of
-    some claims; None where there are none. claimable: whether a twin keeps the rules of a claim itself. unit: of the
-    response."""
+    """The claims that are probable together once the lock is open, or with a twin in the place of the largest, with the
+    fewest doubts; else without the smallest; "unknown" where none is. What goes is kept as refused. look: what the
+    locked tests say of some claims; None where there are none. claimable: whether a twin keeps the rules of a claim
+    itself. unit: of the response."""
     claims = judgement.claims
     first: Foretold | None = None
     refused: tuple[Judged, ...] = ()
     while claims:
+        standing: list[tuple[Judged, ...]] = []
         for tried in (claims, *_with_twins(claims, claimable)):
             found = look(tried)
             if found is None or not found.doubts:
                 return replace(judgement, claims=tried, refused=refused[len(tried) :])
             told = tuple(replace(c, scored=replace(c.scored, doubts=found.doubts)) for c in tried)
             if not found.refuted and all(blunt(c.scored) is None for c in told):
-                return replace(judgement, claims=told, refused=refused[len(told) :])
+                standing.append(told)
             first, refused = first or found.worst, refused or told
+        if standing:
+            kept = min(standing, key=lambda told: told[0].scored.doubts)
+            return replace(judgement, claims=kept, refused=refused[len(kept) :])
         claims = claims[:-1]
     assert first is not None
     names = [c.scored.candidate.id for c in refused]
