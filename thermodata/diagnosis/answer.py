@@ -247,6 +247,7 @@ def _on_locked(s: Scored, held: Confirmation, unit: str, *, together: bool) -> s
     if held.before is None or held.after is None:
         return ""
     what = " with all that is claimed" if together else ""
+    what += ", in none of which it acts enough to be asked," if held.asked == frozenset() else ""
     figures = f"; on the locked tests{what} from {held.before:.2f} to {held.after:.2f} {unit}"
     shape = held.on(held.asked)
     if shape is not None and not Foretold(held.before, held.after, held.changed).falls:

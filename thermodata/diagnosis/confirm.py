@@ -35,7 +35,8 @@ class Confirmation:
 
     before, after: as scored, from the mean of the first samples on. shape_before, shape_after: with a free offset a
     test: one unlucky zero must not hide that the shape fits. changed: RMS of what the addition changes there. each:
-    (key, error before, error after) of every locked test. shapes: of every one, too. asked: the keys of those that decide; None: all.
+    (key, error before, error after) of every locked test. shapes: of every one, too. asked: the keys of those that
+    decide, for a claim acts there; None: all.
     """
 
     before: float | None
