@@ -132,7 +132,7 @@ def test_locked_tests_are_made_more_probable_by_the_difference_of_two_conditiona
     open_tests = replace(one, blocks=one.blocks[:3], kept={})
     claim = rank_in(open_tests, [made(open_tests)], NOISE).ranked[0]
     found = foretell(one, 3, NOISE, [], [claim])
-    without, among = known(one, NOISE), known(_with(one, opened, NOISE, [claim]), NOISE)
+    without, among = known(one, NOISE), known(_with(one, opened, NOISE, [claim])[0], NOISE)
 
     def conditional(base: Known) -> float:
         return log_density(base.problem, range(4), base) - log_density(base.problem, range(3), base)

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 import pytest
 
 from thermodata.diagnosis.candidates import CandidateEffect, candidates, grid
 from thermodata.diagnosis.present import Present
+from thermodata.effect import effects
 from thermodata.plugin import Effect, Need, Param
 from thermodata.view.dataset import ChannelInfo
 
@@ -160,6 +161,25 @@ def test_the_same_effect_on_other_channels_is_the_same() -> None:
     channels = {c: CHANNELS[c] for c in ("T_nut", "T_oil")}
     (found,) = candidates({"screw": twice}, channels, (has("screw", "T_nut", family="feed_x"),), "dZ")
     assert (found.id, found.kin) == ("screw:T_oil", "same")
+
+
+@dataclass(frozen=True)
+class Caused(PlainEffect):
+    cause: str = "cutting heat"
+
+
+@pytest.mark.parametrize(("other", "expected"), [("cutting heat", "same"), ("the sun", None)])
+def test_one_heat_read_elsewhere_is_the_same_in_any_family(other: str, expected: str | None) -> None:
+    """The spindle's power, and what the cut warms."""
+    needs = (Need("u", "temperature"),)
+    library = {n: Caused(n, n, needs=needs, cause=c) for n, c in (("power", "cutting heat"), ("part", other))}
+    channels = {c: CHANNELS[c] for c in ("T_nut", "T_oil")}
+    found = candidates(library, channels, (has("power", "T_nut", family="power"),), "dZ")
+    assert next(c.kin for c in found if c.id == "part:T_oil") == expected
+    assert {e.name for e in effects().values() if getattr(e, "cause", "") == "cutting heat"} == {
+        "cutting_power",
+        "workpiece",
+    }
 
 
 def test_a_distributed_machine_acts_five_times_faster_and_slower() -> None:

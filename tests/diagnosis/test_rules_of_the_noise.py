@@ -11,7 +11,7 @@ from thermodata.diagnosis.candidates import CandidateEffect
 from thermodata.diagnosis.discrepancy import Noise, Whitened, ascend, bounds_of, left_over
 from thermodata.diagnosis.evidence import columns
 from thermodata.diagnosis.known import known, likeliest, likeliest_of
-from thermodata.diagnosis.problem import Problem
+from thermodata.diagnosis.problem import Problem, freed, start_directions
 from thermodata.plugin import Float1D, Gain, Param
 
 from .hand_made import Parts, PlainEffect, problem
@@ -156,6 +156,64 @@ def test_whitened_noise_is_white_and_offsets_are_gone() -> None:
     np.testing.assert_allclose(
         space.projected(0, space.of(0, one.blocks[0].residual[:, None])), space.of(0, one.blocks[0].residual[:, None])
     )
+
+
+# ---- a warm start
+
+
+def started(one: Problem, state: str) -> Problem:
+    """The same with the state in which its tests began."""
+    blocks = (replace(b, test=replace(b.test, start_state=state)) for b in one.blocks)
+    return replace(one, blocks=tuple(blocks), kept={})
+
+
+def fading(one: Problem, tau_s: float, size: float) -> Problem:
+    """With what fades from the start of each test added to its response."""
+    moved = (size * np.exp(-(b.t_s - b.test.t_s[0]) / tau_s) for b in one.blocks)
+    return replace(
+        one,
+        blocks=tuple(replace(b, response=b.response + m - m.mean()) for b, m in zip(one.blocks, moved, strict=True)),
+        kept={},
+    )
+
+
+@pytest.mark.parametrize("tau_s", [600.0, 5000.0, 12_000.0])
+def test_what_fades_from_a_warm_start_explains_nothing_and_costs_nothing(tau_s: float) -> None:
+    """A decay between those that are freed is within 2 % of their sum."""
+    quiet = of_noise(0.3, 1.0, tests=3)
+    noise = Noise(0.3, 1.0, 7200.0, 0.5)
+    warm = known(started(quiet, "warm"), noise).log_evidence
+    assert known(started(fading(quiet, tau_s, 10.0), "warm"), noise).log_evidence == pytest.approx(warm, abs=1.0)
+    assert known(fading(quiet, tau_s, 10.0), noise).log_evidence < known(quiet, noise).log_evidence - 20
+    space = Whitened(started(quiet, "warm"), noise)
+    assert space.rows == 3 * (150 - 6)
+
+
+def test_the_search_of_the_noise_knows_warm_starts_too() -> None:
+    quiet = started(of_noise(0.3, 1.0, tests=3), "warm")
+    loud = started(fading(of_noise(0.3, 1.0, tests=3), 3000.0, 30.0), "warm")
+    found, expected = likeliest(loud), likeliest(quiet)
+    assert found.slow == pytest.approx(expected.slow, rel=0.3)
+    assert likeliest(started(loud, "balance")).slow > 2 * expected.slow
+
+
+def test_a_test_is_freed_of_its_start_and_its_offsets() -> None:
+    """Compressed and split alike; one at balance of its offsets alone."""
+    one = fading(of_noise(0.01, 0.0, tests=1, n=200), 3750.0, 10.0)
+    for state, left in (("balance", 1.0), ("warm", 0.02)):
+        block = started(one, state).blocks[0]
+        free = freed(block.response[:, None] + 5.0, block.test, block.t_s, block.segment)[:, 0]
+        assert free.std() <= left * block.response.std() + 1e-12
+        assert bool(free.std() > 0.5 * block.response.std()) is (state == "balance")
+    split = started(one, "warm").split({one.blocks[0].test.key: [float(one.blocks[0].t_s[99]) + 1.0]}).blocks[0]
+    for part in (0, 1):
+        assert abs(split.response[split.segment == part].mean()) < 1e-9
+    assert split.response.std() < 0.02 * one.blocks[0].response.std()
+
+
+def test_a_test_of_a_few_samples_keeps_its_start() -> None:
+    one = started(fading(of_noise(0.01, 0.0, tests=1, n=6), 3750.0, 10.0), "warm").blocks[0]
+    assert start_directions(one.test, one.t_s, one.segment).shape == (6, 0)
 
 
 # ---- priors

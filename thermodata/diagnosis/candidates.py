@@ -188,11 +188,14 @@ def _kin(
     near = names <= model.read or _near(names, model.read, channels)
     if refines(effect) or (family == GENERIC and near):
         return "same"
+    acting = [library[p.effect] for p in model.acting if p.effect in library]
+    if hasattr(effect, "cause") and any(hasattr(own, "cause") and cause(own) == cause(effect) for own in acting):
+        return "same"
     if family not in model.families:
         return None
     # a temperature is the state of one body; a speed makes heat, and force
     again = names <= model.read and all(channels[n].quantity == "temperature" for n in names)
-    if again or any(cause(library[p.effect]) == cause(effect) for p in model.acting if p.effect in library):
+    if again or any(cause(own) == cause(effect) for own in acting):
         return "same"
     return "near" if near else "related"
 

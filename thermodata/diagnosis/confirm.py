@@ -9,10 +9,12 @@ import numpy as np
 
 from thermodata.diagnosis.candidates import CandidateEffect
 from thermodata.diagnosis.locked import Foretold
+from thermodata.diagnosis.problem import freed
 from thermodata.modelling.fit import fit_model
 from thermodata.modelling.fitted import FittedModel
 from thermodata.modelling.fitted_response import FittedResponse
 from thermodata.modelling.resolve import term_ids
+from thermodata.plugin import Bool1D, Float1D
 from thermodata.schema.model import Model
 from thermodata.schema.result import Parameter
 from thermodata.view.dataset import Dataset, TestData
@@ -123,18 +125,23 @@ def confirm(
 
 
 def _shape(ours: FittedResponse, theirs: FittedResponse, test: TestData) -> Shape:
-    before, after = ours.residual(test)[ours.mask(test)], theirs.residual(test)[theirs.mask(test)]
-    changed = (theirs.residual(test) - ours.residual(test))[theirs.mask(test)]
-    return Shape(
-        test.key,
-        len(before),
-        *(float(np.sum((x - x.mean()) ** 2)) if len(x) else 0.0 for x in (before, after, changed)),
+    left, more = ours.residual(test), theirs.residual(test)
+    before, after, changed = (
+        _shape_of(x, test, mask)
+        for x, mask in ((left, ours.mask(test)), (more, theirs.mask(test)), (more - left, theirs.mask(test)))
     )
+    return Shape(test.key, len(before), *(float(x @ x) for x in (before, after, changed)))
+
+
+def _shape_of(values: Float1D, test: TestData, mask: Bool1D) -> Float1D:
+    """Where it counts, with the best offset, and the best start of a test that began warm."""
+    some = values[mask][:, None]
+    return freed(some, test, test.t_s[mask], np.zeros(len(some), dtype=np.int64))[:, 0] if len(some) else some[:, 0]
 
 
 def _changed(ours: FittedResponse, theirs: FittedResponse, tests: Sequence[TestData]) -> float:
-    parts = [(theirs.residual(t) - ours.residual(t))[theirs.mask(t)] for t in tests]
-    whole = np.concatenate([p - p.mean() for p in parts if len(p)] or [np.zeros(1)])
+    parts = [_shape_of(theirs.residual(t) - ours.residual(t), t, theirs.mask(t)) for t in tests]
+    whole = np.concatenate([p for p in parts if len(p)] or [np.zeros(1)])
     return float(np.sqrt(np.mean(whole**2)))
 
 
@@ -152,9 +159,12 @@ def _parameters(
 def rmse(fitted: FittedResponse, tests: Sequence[TestData], *, free: bool = False) -> float | None:
     """Free-run error over all samples that count, in the response's unit; None where there are none.
 
-    free: with the best offset for each test, instead of the one from its first samples.
+    free: with the best offset for each test, instead of the one from its first samples, and the best start of one that
+    began warm.
     """
-    parts = [fitted.residual(t)[fitted.mask(t)] for t in tests]
-    parts = [p - p.mean() if free and len(p) else p for p in parts]
+    masks = [fitted.mask(t) for t in tests]
+    parts = [fitted.residual(t)[m] for t, m in zip(tests, masks, strict=True)]
+    if free:
+        parts = [_shape_of(fitted.residual(t), t, m) for t, m in zip(tests, masks, strict=True)]
     whole = np.concatenate(parts) if parts else np.empty(0)
     return float(np.sqrt(np.mean(whole**2))) if len(whole) else None

@@ -1,7 +1,8 @@
 """The evidence of the known effects under many noises in turn, at the cost of one weighted product each.
 
 A search asks for hundreds of noises and few memories of the slow one. For one memory all its sizes share directions:
-with an orthonormal basis K of what the free offsets of a test leave, and the correlation R of its slow noise,
+with an orthonormal basis K of what the free columns of a test leave (its offsets, a warm start), and the correlation R
+of its slow noise,
 
     K'RK = V diag(l) V',    U = K V,    cov(U'y) = diag(slow^2 l + white^2)
 
@@ -16,7 +17,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from thermodata.diagnosis.discrepancy import Noise, distances, halved, offsets_of
+from thermodata.diagnosis.discrepancy import Noise, distances, free_of, halved
 from thermodata.diagnosis.problem import Problem
 from thermodata.plugin import Float1D, Float2D
 
@@ -76,13 +77,13 @@ def directions(problem: Problem, tau_s: float) -> Directions:
 
 
 def _left(problem: Problem) -> tuple[list[Float2D], float]:
-    """(a test each, an orthonormal basis of what its free offsets leave, shape (m, m - offsets), and the log
-    determinant of the offsets' Gram matrix of all tests)."""
-    kept = problem.kept.setdefault("offsets", {})
+    """(a test each, an orthonormal basis of what its free columns leave, shape (m, m - columns), and the log
+    determinant of their Gram matrices, of all tests)."""
+    kept = problem.kept.setdefault("free", {})
     if "left" not in kept:
-        members = [offsets_of(b) for b in problem.blocks]
+        members = [free_of(b) for b in problem.blocks]
         bases = [np.linalg.qr(m, mode="complete")[0][:, m.shape[1] :] for m in members]
-        kept["left"] = bases, float(sum(np.log(m.sum(axis=0)).sum() for m in members))
+        kept["left"] = bases, float(sum(np.linalg.slogdet(m.T @ m)[1] for m in members))
     found: tuple[list[Float2D], float] = kept["left"]
     return found
 

@@ -16,7 +16,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.linalg.lapack import dtrtrs
 
-from thermodata.diagnosis.problem import Block, Problem
+from thermodata.diagnosis.problem import Block, Problem, start_directions
 from thermodata.plugin import Float1D, Float2D
 
 # a model is never better than this share of what it leaves: without it, a misfit of 0.05 um that repeats outweighs all
@@ -53,7 +53,7 @@ class Whitened:
             covariance = noise.slow**2 * np.exp(-distances(problem, i) / noise.tau_s)
             covariance[np.diag_indices_from(covariance)] += noise.white**2
             factor: Float2D = np.asarray(np.linalg.cholesky(covariance), dtype=np.float64)
-            members = offsets_of(block)
+            members = free_of(block)
             q, sizes = _orthogonal(halved(factor, members))
             self._factors.append(factor)
             self._offsets.append(q)
@@ -91,9 +91,11 @@ def halved(factor: Float2D, right: Float2D, *, transposed: bool = False) -> Floa
     return np.asarray(solution, dtype=np.float64)
 
 
-def offsets_of(block: Block) -> Float2D:
-    """A column for each free offset of a test, 1 where it counts, shape (m, offsets)."""
-    return np.asarray(block.segment[:, None] == np.unique(block.segment)[None], dtype=np.float64)
+def free_of(block: Block) -> Float2D:
+    """A column for each free offset of a test, 1 where it counts, and what fades from a warm start, (m, columns)."""
+    offsets = np.asarray(block.segment[:, None] == np.unique(block.segment)[None], dtype=np.float64)
+    start = start_directions(block.test, block.t_s, block.segment)
+    return np.hstack([offsets, start]) if start.size else offsets
 
 
 def distances(problem: Problem, test: int) -> Float2D:

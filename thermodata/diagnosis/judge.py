@@ -17,6 +17,7 @@ from thermodata.diagnosis.rules import (
     contradicts,
     failed_rules,
     halves,
+    is_plain,
     sharpness,
 )
 from thermodata.diagnosis.scored import Scored
@@ -77,7 +78,9 @@ def judge(
         return Judgement("effect", claims, kept, judged, "")
     left = selection.left
     halved = left > measure.noises and any(halves(j.alone, left) for j in judged)
-    if left <= measure.floor and not halved:
+    # what a known effect takes for its own leaves no error, and is plain all the same
+    plain = left > measure.noises and any(is_plain(s) for s in selection.dropped)
+    if left <= measure.floor and not halved and not plain:
         why = (
             f"the error on left-out tests, {left:.2g} {problem.unit}, is at the floor of "
             f"{measure.floor:.2g} {problem.unit} (noise, and {FLOOR_SHARE:.0%} of the response)"
@@ -85,7 +88,7 @@ def judge(
         return Judgement("none", (), (), judged, why)
     standing = [j for j in judged if j.refines is None]
     more_than_noise = left if left > measure.noises else 0.0
-    if not any(contradicts(j.scored, j.alone, more_than_noise) for j in standing):
+    if not plain and not any(contradicts(j.scored, j.alone, more_than_noise) for j in standing):
         rest, limit = min([left, *(j.alone.error_of_all for j in kept)]), measure.good(refined=bool(kept))
         if rest <= limit:
             return Judgement(
@@ -113,7 +116,7 @@ def _enough(rest: float, limit: float, unit: str, measure: Measure) -> str:
 
 def _against(left: float, floor: float) -> str:
     if left <= floor:
-        return f"no more than the floor of {floor:.2g}, but half of them goes with what is logged"
+        return f"no more than the floor of {floor:.2g}, but much of them goes with what is logged"
     return f"above the floor of {floor:.2g}"
 
 

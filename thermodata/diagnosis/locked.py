@@ -65,24 +65,28 @@ class Looked:
     floor: float
 
     @property
-    def saying(self) -> list[Foretold]:
-        """Those of the two that say something."""
-        return [f for f in (self.foretold, self.added) if f is not None and f.says(self.floor)]
+    def doubting(self) -> list[Foretold]:
+        """Those of the two that do not bear the claims out. With a lag more the others of the model as it stands stay
+        as simple as they are, and less is taken away than it adds: there it is enough that the error falls."""
+        found = [] if self.foretold.holds else [self.foretold]
+        found += [] if self.added is None or self.added.falls else [self.added]
+        return [f for f in found if f.says(self.floor)]
 
     @property
     def doubts(self) -> int:
-        """In how many ways the claims are not borne out."""
-        return sum(not f.holds for f in self.saying)
+        """In how many of the two ways the claims are not borne out."""
+        return len(self.doubting)
 
     @property
     def refuted(self) -> bool:
-        """Whether the error falls in no way."""
-        return bool(self.saying) and not any(f.falls for f in self.saying)
+        """Whether the error falls in neither way."""
+        saying = [f for f in (self.foretold, self.added) if f is not None and f.says(self.floor)]
+        return bool(saying) and not any(f.falls for f in saying)
 
     @property
-    def worst(self) -> Foretold:
-        """The first that doubts, to be told."""
-        return next((f for f in self.saying if not f.holds), self.foretold)
+    def rests(self) -> bool:
+        """Whether what is claimed acts in none of the locked tests."""
+        return self.foretold.tests is not None and not self.foretold.tests
 
 
 def foretell(problem: Problem, opened: int, noise: Noise, kept: Sequence[Scored], claims: Sequence[Scored]) -> Foretold:

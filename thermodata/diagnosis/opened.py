@@ -35,7 +35,7 @@ def kept_where_they_hold(
             told = tuple(replace(c, scored=replace(c.scored, doubts=found.doubts)) for c in tried)
             if not found.refuted and all(blunt(c.scored) is None for c in told):
                 standing.append(told)
-            first, refused = first or found.worst, refused or told
+            first, refused = first or found.doubting[0], refused or told
         if standing:
             kept = min(standing, key=lambda told: told[0].scored.doubts)
             return replace(judgement, claims=kept, refused=refused[len(kept) :])

@@ -12,6 +12,7 @@ from typing import Any
 
 import numpy as np
 
+from thermodata.modelling.nuisance import unknown_start
 from thermodata.plugin import Bool1D, Float1D, Float2D, Int1D
 from thermodata.view.dataset import Dataset, TestData
 
@@ -20,6 +21,7 @@ MIN_ROWS = 10
 FEW_TESTS = 3
 FOLDS_WANTED = 4
 PART_ROWS = 100
+ALIKE = 1e-4  # of the largest: decays that differ by less are one
 
 
 @dataclass(frozen=True, slots=True)
@@ -27,7 +29,7 @@ class Block:
     """One test, or a part of one in time, compressed.
 
     t_s: shape (m,). response, residual: shape (m,), measured and left over by the fitted model, in the response's
-    unit, free offsets removed. base: shape (m, k), what the model can still do (its gains, and its nonlinear
+    unit, without what is free (`freed`). base: shape (m, k), what the model can still do (its gains, and its nonlinear
     parameters to first order). slack: shape (m, s), what it may do at a price. segment: shape (m,), one free offset
     each. group: shape (n,), the compressed row of every row of the grid, -1 where it does not count.
     """
@@ -44,8 +46,8 @@ class Block:
     size: int
 
     def compress(self, columns: Float2D) -> Float2D:
-        """Columns on the full grid, shape (n, k), to this block's samples, shape (m, k), free offsets removed."""
-        return center(_group_mean(columns, self.group, self.weight, self.size), self.segment)
+        """Columns on the full grid, shape (n, k), to this block's samples, shape (m, k), without what is free."""
+        return freed(_group_mean(columns, self.group, self.weight, self.size), self.test, self.t_s, self.segment)
 
 
 @dataclass(frozen=True, slots=True)
@@ -84,17 +86,37 @@ class Problem:
         for block in self.blocks:
             times = at.get(block.test.key, [])
             segment = np.searchsorted(np.sort(np.asarray(times, dtype=float)), block.t_s, side="right").astype(np.int64)
+            both = np.column_stack([block.response, block.residual, block.base, block.slack])
+            free, k = freed(both, block.test, block.t_s, segment), 2 + block.base.shape[1]
             blocks.append(
                 replace(
                     block,
                     segment=segment,
-                    response=center(block.response[:, None], segment)[:, 0],
-                    residual=center(block.residual[:, None], segment)[:, 0],
-                    base=center(block.base, segment),
-                    slack=center(block.slack, segment),
+                    response=free[:, 0],
+                    residual=free[:, 1],
+                    base=free[:, 2:k],
+                    slack=free[:, k:],
                 )
             )
         return replace(self, blocks=tuple(blocks), kept={})
+
+
+def freed(columns: Float2D, test: TestData, t_s: Float1D, segment: Int1D) -> Float2D:
+    """Columns, shape (m, k), without what nobody knows of a test: an offset in each segment, and, where it began warm,
+    what fades from its start."""
+    result = center(columns, segment)
+    start = start_directions(test, t_s, segment)
+    return result - start @ (start.T @ result) if start.size else result
+
+
+def start_directions(test: TestData, t_s: Float1D, segment: Int1D) -> Float2D:
+    """An orthonormal basis of what fades from the start beside the offsets, shape (m, directions): (m, 0) where a test
+    began at balance, or is too short to tell."""
+    decays = unknown_start(test, t_s)
+    if not decays.size or len(t_s) <= decays.shape[1] + len(np.unique(segment)):
+        return np.empty((len(t_s), 0))
+    directions, size, _ = np.linalg.svd(center(decays, segment), full_matrices=False)
+    return np.asarray(directions[:, size > ALIKE * size[0]])
 
 
 def center(columns: Float2D, segment: Int1D) -> Float2D:
@@ -152,12 +174,12 @@ def build_problem(
             empty, none = np.empty(0), np.empty((0, 0))
             segment = np.zeros(len(names), dtype=np.int64)
             block = Block(test, empty, empty, empty, none, none, segment, group, keep.astype(float), len(names))
-            y = block.compress(both)
             t_s = _group_mean(test.t_s[:, None], group, block.weight, block.size)[:, 0]
+            block = replace(block, t_s=t_s)
+            y = block.compress(both)
             blocks.append(
                 replace(
                     block,
-                    t_s=t_s,
                     response=y[:, 0],
                     residual=y[:, 1],
                     base=block.compress(own),

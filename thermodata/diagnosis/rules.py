@@ -38,6 +38,7 @@ FLOOR_SHARE = 0.1  # a residual under this share of the response (FIT 90) is lef
 # missing is more (docs/method.md#verdicts)
 GOOD_SHARE, REFINED_SHARE = 0.25, 0.4
 PLAUSIBLE = 0.3  # a sound candidate of this probability contradicts that nothing is missing, though it is not claimed
+PLAIN = 0.25  # evidence a sample: something is so plainly missing that no rule which it breaks says otherwise
 NOISE_TIMES = 5.0
 HALVES = 0.5  # what leaves no more than this share of the error contradicts that nothing is missing
 
@@ -199,6 +200,12 @@ def contradicts(scored: Scored, alone: Scored, left: float) -> bool:
     """Whether nothing can't be said to be missing beside it. alone: as it was chosen. left: the error of left-out tests
     without it, where that is more than noise."""
     return probability(scored) >= PLAUSIBLE or halves(alone, left)
+
+
+def is_plain(scored: Scored) -> bool:
+    """Whether its evidence alone says that something is missing, though a rule forbids that it be named."""
+    own = scored.candidate.kin != "same" and not scored.candidate.within
+    return own and sharpness(scored) >= PLAIN
 
 
 def claimable(scored: Scored, measure: Measure, unit: str) -> bool:

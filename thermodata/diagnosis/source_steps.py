@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from thermodata.diagnosis.one_way import Normal
-from thermodata.diagnosis.problem import Block, Problem, center
+from thermodata.diagnosis.problem import Block, Problem, freed
 from thermodata.plugin import Bool1D, Float1D, Float2D, Int1D
 from thermodata.view.dataset import TestData
 
@@ -61,7 +61,7 @@ def _averaged(blocks: Sequence[Block], step_s: float) -> SteppedTest:
     mean /= np.bincount(row, minlength=len(names))[:, None]
     steps = int(np.floor((float(t_s.max()) - start) / step_s)) + 1
     segment = names[:, 0].astype(np.int64)
-    free = center(mean[:, 1:], segment)
+    free = freed(mean[:, 1:], blocks[0].test, mean[:, 0], segment)
     return SteppedTest(
         blocks[0].test, mean[:, 0], free[:, 0], free[:, 1:], segment, start + step_s * np.arange(steps + 1.0)
     )
@@ -81,9 +81,8 @@ def source_columns(test: SteppedTest, sign: int, tau_s: float, seen: Bool1D | No
     """sign: 1, -1, or 0 for both ways. seen: the rows that count, all by default."""
     source = (sign or 1) * box_columns(test.t_s, test.edges, tau_s)
     if seen is None:
-        return SourceColumns(
-            center(source, test.segment), test.known, test.residual, np.ones(len(test.t_s), dtype=np.bool_)
-        )
+        free = freed(source, test.test, test.t_s, test.segment)
+        return SourceColumns(free, test.known, test.residual, np.ones(len(test.t_s), dtype=np.bool_))
     both = np.column_stack([test.residual, test.known, source])
     for one in np.unique(test.segment):
         rows = test.segment == one

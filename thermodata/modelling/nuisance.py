@@ -21,6 +21,13 @@ WARM = "warm"
 DECAYS_S = (600.0, 1500.0, 3750.0, 9375.0, 23437.0)
 
 
+def unknown_start(test: TestData, t_s: Float1D) -> Float2D:
+    """What fades from the start of a test that began warm, at some of its times [s], shape (m, decays); (m, 0) of one
+    that began at balance."""
+    taus = DECAYS_S if test.start_state == WARM else ()
+    return np.asarray(np.exp(-(t_s - test.t_s[0])[:, None] / np.asarray(taus).reshape(1, -1)), dtype=np.float64)
+
+
 class Nuisance:
     """Of one test, on the samples that count, shape (m,)."""
 
@@ -28,8 +35,7 @@ class Nuisance:
         self.root = _root_weights(test, mask, bound)
         self.free: Float2D | None = None
         if test.start_state == WARM and mask.sum() > len(DECAYS_S) + 1:
-            since = test.t_s[mask] - test.t_s[0]
-            free = np.column_stack([np.ones(len(since)), *(np.exp(-since / tau) for tau in DECAYS_S)])
+            free = np.column_stack([np.ones(mask.sum()), unknown_start(test, test.t_s[mask])])
             self.free = np.linalg.qr(free if self.root is None else free * self.root[:, None])[0]
 
     def without(self, values: Float2D) -> Float2D:

@@ -8,6 +8,9 @@ from thermodata.plugin import Drivers, Float1D, Need
 
 from .shared import Lagged, gain, tau
 
+# one heat, read by the spindle's power or by what the cut warms: `cause` of these effects
+CUTTING_HEAT = "cutting heat"
+
 
 class ToolElongation(Lagged):
     """The tool grows with its temperature.
@@ -39,6 +42,7 @@ class CuttingPower(Lagged):
     """
 
     name = "cutting_power"
+    cause = CUTTING_HEAT
     family = "cutting"
     meaning = "heat of cutting from the spindle's power: k F{P}, or from its load: k F{load/100 %}"
     equation = "d = k F_tau{P}, or k F_tau{load / 100 %}"
@@ -127,6 +131,7 @@ class Workpiece(Lagged):
     """
 
     name = "workpiece"
+    cause = CUTTING_HEAT
     family = "workpiece"
     meaning = "growth of the part: k F{dT}; only with a part"
     equation = "d = k F_tau{dT}"
