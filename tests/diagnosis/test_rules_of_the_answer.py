@@ -200,6 +200,9 @@ class TestAnswer:
         refused = self.answered(monkeypatch, spec, claim(FIRST), holds=False).next_test or ""
         assert "with the role locked, from a cold start, in which T_a moves much" in refused
         assert "add tests" not in refused
+        rests = self.answered(monkeypatch, spec, claim(OTHER), asked_in=frozenset()).next_test or ""
+        assert "other:T_a rests in all locked tests; to bear it out, run a test with the role locked" in rests
+        assert self.answered(monkeypatch, spec, claim(OTHER)).next_test is None
         never = self.answered(monkeypatch, spec, nothing("unknown")).next_test or ""
         assert "add tests that each heat one source alone" in never
         assert "role locked" not in never

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from thermodata.diagnosis.judge import Judged, Judgement
-from thermodata.diagnosis.next_test import to_decide, to_find, to_separate
+from thermodata.diagnosis.next_test import to_bear_out, to_decide, to_find, to_separate
 from thermodata.diagnosis.suspect import suspect
 from thermodata.diagnosis.unexplained import characterise
 from thermodata.diagnosis.weak import describe_state, weak_spots
@@ -269,6 +269,19 @@ def test_claims_that_were_refused_together_are_each_moved() -> None:
     assert advice.count("in which T_a moves much") == 1
     assert "; and one in which n moves much" in advice
     assert "they are what is missing" in advice
+
+
+@pytest.mark.parametrize(
+    ("names", "words"),
+    [
+        ("a", "a:T_a rests in all locked tests; to bear it out, run a test"),
+        ("ab", "rest in all locked tests; to bear them out, run a test"),
+    ],
+)
+def test_a_claim_that_rests_in_the_locked_tests_asks_for_one_that_moves_it(names: str, words: str) -> None:
+    advice = to_bear_out([candidate(n) for n in names], CHANNELS)
+    assert words in advice
+    assert "with the role locked, from a cold start, in which T_a moves much" in advice
 
 
 # ---- what is likely it

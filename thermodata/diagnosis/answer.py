@@ -12,14 +12,15 @@ from thermodata.diagnosis.artefact import noise_with_treads
 from thermodata.diagnosis.confirm import Confirmation, confirm, on_all_open
 from thermodata.diagnosis.investigate import Investigation, investigate
 from thermodata.diagnosis.judge import Judged, Judgement, equivalents
-from thermodata.diagnosis.locked import Foretold, Looked
+from thermodata.diagnosis.locked import Looked
 from thermodata.diagnosis.null import p_value
 from thermodata.diagnosis.opened import kept_where_they_hold
 from thermodata.diagnosis.problem import Problem
-from thermodata.diagnosis.rules import blunt, claimable, explained, failed_rules, probability
+from thermodata.diagnosis.rules import claimable, explained, probability
 from thermodata.diagnosis.scored import Scored
 from thermodata.diagnosis.suspect import suspect
 from thermodata.diagnosis.unexplained import characterise
+from thermodata.diagnosis.why import among, why
 from thermodata.modelling.fit import fit_model
 from thermodata.modelling.fitted import FittedModel
 from thermodata.plugin import Effect
@@ -102,17 +103,6 @@ def _diagnosis(
     # what refines the model is no missing cause, also where more is missing than it gives
     head = next((s for s, m in shown if not s.candidate.within and (m is None or m.refines is None)), None)
 
-    advice = None
-    if judgement.claims:
-        claim = judgement.claims[0]
-        advice = next_test.to_separate(claim.scored, equivalents(claim.scored, claim.beside), data.channels)
-    refused = [j.scored.candidate for j in judgement.refused]
-    if advice is None and refused:
-        advice = next_test.to_decide(refused, data.channels)
-    elif judgement.verdict in ("unknown", "not_testable"):
-        advice = next_test.to_find(
-            len({b.test.key for b in problem.blocks}), investigation.spots, shown[0][0] if shown else None
-        )
     scored, alone = [s for s, _ in shown if len(s.rows)], investigation.selection
     return Diagnosis(
         model=model_id,
@@ -133,9 +123,31 @@ def _diagnosis(
         )
         if judgement.verdict == "unknown"
         else None,
-        next_test=advice,
+        next_test=_advice(investigation, judgement, confirmation, shown[0][0] if shown else None, data),
         chance=ladder.chance(investigation.measure),
     )
+
+
+def _advice(
+    investigation: Investigation,
+    judgement: Judgement,
+    confirmation: Confirmation | None,
+    first: Scored | None,
+    data: Dataset,
+) -> str | None:
+    claims, refused = ([j.scored.candidate for j in some] for some in (judgement.claims, judgement.refused))
+    if claims:
+        claim = judgement.claims[0]
+        apart = next_test.to_separate(claim.scored, equivalents(claim.scored, claim.beside), data.channels)
+        if apart is not None:
+            return apart
+    if refused:
+        return next_test.to_decide(refused, data.channels)
+    if claims and confirmation is not None and confirmation.asked == frozenset():
+        return next_test.to_bear_out(claims, data.channels)
+    if judgement.verdict not in ("unknown", "not_testable"):
+        return None
+    return next_test.to_find(len({b.test.key for b in investigation.problem.blocks}), investigation.spots, first)
 
 
 def _shown(investigation: Investigation, judgement: Judgement) -> list[tuple[Scored, Judged | None]]:
@@ -164,9 +176,9 @@ def _candidate(
     confirmation: Confirmation | None,
 ) -> Candidate:
     problem, measure = investigation.problem, investigation.measure
-    claimed = _among(member, judgement.claims)
-    heads = heads or claimed or _among(member, judgement.refused)
-    refining = _among(member, judgement.refinements)
+    claimed = among(member, judgement.claims)
+    heads = heads or claimed or among(member, judgement.refused)
+    refining = among(member, judgement.refinements)
     beside = member.beside if member else investigation.selection.first.ranked if investigation.selection else ()
     held = confirmation if claimed else None
     told = _beside_the_model(s, investigation)
@@ -191,80 +203,12 @@ def _candidate(
         locked_rmse_um_after=held.after if held else None,
         parameters=held.parameters.get(s.candidate.id, {}) if held else {},
         equivalent=[t.candidate.id for t in equivalents(s, beside)] if rank <= 5 else [],
-        why=_why(s, member, claimed, problem, investigation, judgement, held),
+        why=why(s, member, claimed, problem, investigation, judgement, held),
         evidence=float(s.evidence) if np.isfinite(s.evidence) else None,
         rungs=ladder.rungs(s, measure, problem.unit),
         left_out=ladder.left_out(told, problem),
         courses=ladder.courses(s, problem) if heads or refining else [],
     )
-
-
-def _among(member: Judged | None, some: Sequence[Judged]) -> bool:
-    return any(member is one for one in some)
-
-
-def _why(
-    s: Scored,
-    member: Judged | None,
-    claimed: bool,
-    problem: Problem,
-    investigation: Investigation,
-    judgement: Judgement,
-    held: Confirmation | None,
-) -> str:
-    unit, count = problem.unit, int(s.acts.sum())
-    others = [j.scored.candidate.id for j in judgement.judged if member is not None and j.alone is not member.alone]
-    beside = f", beside {' and '.join(others)}," if others else ""
-    improves = round(s.better * count)
-    way = "falls" if s.error_after < s.error_before else "does not fall"
-    numbers = (
-        f"where it acts ({count} of {len(s.rows)} tests){beside} the error {way} "
-        f"({s.error_before:.2f} -> {s.error_after:.2f} {unit}), its size from the other tests, and it makes "
-        f"{improves} of {count} more probable; its gain differs between tests by {s.spread:.0%}"
-    )
-    chance = p_value(s.evidence, investigation.measure.chance)
-    if claimed:
-        locked = _on_locked(s, held, unit, together=len(judgement.claims) > 1) if held else ""
-        return f"{numbers}; chance does as well in {chance:.1%} of responses in which nothing is missing{locked}"
-    if _among(member, judgement.refused):
-        return f"{numbers}; not claimed: {_refused(judgement)}"
-    if member is not None and member.refines:
-        return f"{numbers}; a refinement, not a missing cause: {member.refines}"
-    failed = failed_rules(s, investigation.measure, unit)
-    failed += [why for why in [blunt(s)] if why]
-    if failed:
-        return f"{numbers}; not claimed: {failed[0]}"
-    if judgement.claims:
-        return f"{numbers}; not claimed: {judgement.claims[0].scored.candidate.id} explains it, or more"
-    if judgement.refused:
-        first = judgement.refused[0].scored.candidate.id
-        return f"{numbers}; not claimed: {first}, which the locked tests do not bear out, explains it, or more"
-    return f"{numbers}; not claimed: {judgement.reason}"
-
-
-def _on_locked(s: Scored, held: Confirmation, unit: str, *, together: bool) -> str:
-    """The errors as scored; where they do not fall, beside them those that the claim holds by."""
-    if held.before is None or held.after is None:
-        return ""
-    what = " with all that is claimed" if together else ""
-    what += ", in none of which it acts enough to be asked," if held.asked == frozenset() else ""
-    figures = f"; on the locked tests{what} from {held.before:.2f} to {held.after:.2f} {unit}"
-    shape = held.on(held.asked)
-    if shape is not None and not Foretold(held.before, held.after, held.changed).falls:
-        acts = " where it acts" if shape.tests is not None and len(shape.tests) < len(held.shapes) else ""
-        figures += (
-            f" from their first samples on, and{acts} from {shape.before:.2f} to {shape.after:.2f} {unit} with a free "
-            "offset a test"
-        )
-    return figures + (f", which bear it out in {2 - s.doubts} of 2 ways" if s.doubts else "")
-
-
-def _refused(judgement: Judgement) -> str:
-    """Why what keeps every rule on the open tests is no claim."""
-    if not judgement.claims:
-        return judgement.reason
-    claims = " with ".join(c.scored.candidate.id for c in judgement.claims)
-    return f"it explains the open tests, but the locked ones bear out {claims} without it only"
 
 
 def _beside_the_model(s: Scored, investigation: Investigation) -> Scored:

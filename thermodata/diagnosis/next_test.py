@@ -67,12 +67,23 @@ def to_decide(refused: Sequence[CandidateEffect], channels: Mapping[str, Channel
     """The advice where the open tests point to causes and the locked ones do not bear them out. refused: at least one,
     the largest first."""
     names = " with ".join(one.id for one in refused)
-    them, they_are = ("it", "it is") if len(refused) == 1 else ("them", "they are")
-    moved = "; and one ".join(dict.fromkeys(_moved(one, channels) for one in refused))
+    them = "it" if len(refused) == 1 else "them"
+    return f"the open tests point to {names}, the locked ones do not bear {them} out: {_with_lock(refused, channels)}"
+
+
+def to_bear_out(claims: Sequence[CandidateEffect], channels: Mapping[str, ChannelInfo]) -> str:
+    """The advice where what is claimed acts in none of the locked tests."""
+    names = " with ".join(one.id for one in claims)
+    them, rest = ("it", "rests") if len(claims) == 1 else ("them", "rest")
+    return f"{names} {rest} in all locked tests; to bear {them} out, {_with_lock(claims, channels)}"
+
+
+def _with_lock(some: Sequence[CandidateEffect], channels: Mapping[str, ChannelInfo]) -> str:
+    them, they_are = ("it", "it is") if len(some) == 1 else ("them", "they are")
+    moved = "; and one ".join(dict.fromkeys(_moved(one, channels) for one in some))
     return (
-        f"the open tests point to {names}, the locked ones do not bear {them} out: run a test with the role locked, "
-        f"from a cold start, {moved}. If the error there falls with {them} (diagnose again; thermodata confirm tells "
-        f"each test), {they_are} what is missing; if it does not, something else is"
+        f"run a test with the role locked, from a cold start, {moved}. If the error there falls with {them} (diagnose "
+        f"again; thermodata confirm tells each test), {they_are} what is missing; if it does not, something else is"
     )
 
 
