@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -16,12 +17,13 @@ from thermodata.diagnosis.goes_with import (
     strong_and_weak_tests,
 )
 from thermodata.diagnosis.missing_heat import Course, MissingHeat
+from thermodata.diagnosis.suspect import Suspect
 from thermodata.diagnosis.unexplained import characterise
 from thermodata.effect.lag import lag
 from thermodata.plugin import Float1D
 from thermodata.view.dataset import ChannelInfo, TestData
 
-from .hand_made import STEP_S, Parts, a_test, problem
+from .hand_made import STEP_S, Parts, a_test, candidate, problem
 
 STEPS = 40  # of 10 min, ten rows each
 CHANNELS = {
@@ -182,10 +184,10 @@ def test_hours_are_not_told_of_what_is_mostly_on(on_at: range, told: bool) -> No
 # ---- in words
 
 
-def said(*found: Companion, **changed: object) -> str:
+def said(*found: Companion, suspect: Suspect | None = None, **changed: object) -> str:
     asked = replace(half(20, 0), **changed)  # type: ignore[arg-type]
     tests = [c.test for c in asked.courses]
-    return where(asked, found, tests[:1], tests[1:2])
+    return where(asked, found, tests[:1], tests[1:2], suspect)
 
 
 WITH_SPINDLE = Companion(CHANNELS["n"], "with", 0.96, 0.04, None)
@@ -211,6 +213,26 @@ def test_where_nothing_goes_with_it_the_data_are_said_to_be_silent() -> None:
 def test_a_logged_temperature_that_goes_with_it_is_no_sensor_to_add() -> None:
     text = said(Companion(CHANNELS["T"], "with", None, None, 0.9))
     assert "T is logged and already goes with it: try it as a driver before a new sensor" in text
+
+
+def test_what_the_locked_tests_refused_is_pointed_to_and_nothing_is_to_be_logged() -> None:
+    told = "It may be sun:S: the open tests say so"
+    sun = Suspect((candidate("sun", channels=("S",)),), "the open tests say so")
+    silent = said(NOT_COLUMN, suspect=sun)
+    assert told in silent
+    assert "What is logged near column does not go with it" in silent
+    assert "can't say" not in silent
+    assert "not logged" not in silent
+    near = said(WITH_SPINDLE, suspect=sun)
+    assert near.index(told) < near.index("If it is not, a sensor would see it first near spindle")
+    assert told not in said(NOT_COLUMN)
+
+
+@pytest.mark.parametrize("verdict", ["with", "not"])
+def test_a_channel_of_what_was_refused_is_neither_tried_nor_ruled_out(verdict: Any) -> None:
+    column = Suspect((candidate("column", channels=("T",)),), "the open tests say so")
+    text = said(Companion(CHANNELS["T"], verdict, None, None, 0.5), suspect=column)
+    assert text.endswith("It may be column:T: the open tests say so")
 
 
 @pytest.mark.parametrize(("agreed", "told"), [(0.79, True), (0.81, False)])

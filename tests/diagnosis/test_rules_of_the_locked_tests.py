@@ -239,6 +239,14 @@ def test_the_smallest_claim_goes_before_all_go() -> None:
     assert kept(judged("a", "b", "c", twins="t"), lambda n: n == "t")[2] == "t"
 
 
+@pytest.mark.parametrize(("holds", "claims", "refused"), [("abc", "abc", ""), ("t", "t", "bc"), ("", "", "abc")])
+def test_what_goes_is_kept_as_refused_with_its_doubts(holds: str, claims: str, refused: str) -> None:
+    found, _, names = kept(judged("a", "b", "c", twins="t"), lambda n: n == holds)
+    assert names == claims
+    assert "".join(j.scored.candidate.effect.name for j in found.refused) == refused
+    assert all(j.scored.doubts == 1 for j in found.refused)
+
+
 def test_a_twin_keeps_the_rules_of_a_claim_itself() -> None:
     _, seen, names = kept(judged("a", twins="tu"), lambda n: n in "tu", unsound="t")
     assert (seen, names) == (["a", "u"], "u")

@@ -8,14 +8,16 @@ from typing import Any
 import numpy as np
 import pytest
 
-from thermodata.diagnosis.next_test import to_find, to_separate
+from thermodata.diagnosis.judge import Judged, Judgement
+from thermodata.diagnosis.next_test import to_bear_out, to_decide, to_find, to_separate
+from thermodata.diagnosis.suspect import suspect
 from thermodata.diagnosis.unexplained import characterise
 from thermodata.diagnosis.weak import describe_state, weak_spots
 from thermodata.plugin import Float1D
 from thermodata.schema.diagnosis import WeakSpot
 from thermodata.view.dataset import ChannelInfo, TestData
 
-from .hand_made import Parts, a_test, candidate, problem, scored
+from .hand_made import Parts, a_test, candidate, measure, problem, scored
 
 # ---- weak spots: windows of half an hour, 30 samples of 60 s
 
@@ -220,6 +222,7 @@ def test_a_channel_that_is_logged_and_ranks_first_comes_before_a_new_sensor(drop
     assert "log what is not logged yet" in advice
 
 
+UNKNOWN = Judgement("unknown", (), (), (), "because")
 CHANNELS = {
     "T_a": ChannelInfo("T_a", "temperature", "degC", at="axis.x.nut"),
     "T_b": ChannelInfo("T_b", "temperature", "degC", at="axis.x.nut"),
@@ -241,3 +244,73 @@ def test_twins_are_told_apart_by_what_drives_the_claimed_one() -> None:
     assert advice("T_a", "T_b", same_effect=True) is None
     assert advice("T_a", "T_a") is None, "one channel by another name is no rival"
     assert to_separate(scored("a"), [], CHANNELS) is None
+
+
+@pytest.mark.parametrize(
+    ("channels", "moved"),
+    [
+        (("T_a",), "in which T_a moves much (heated through by its own source"),
+        (("n", "T_a"), "in which n and T_a move much (speeds in steps"),
+        (("T_hall",), "in which T_hall moves much (through a day and a night, the machine at rest)"),
+        (("P",), "in which P moves much (at a high load"),
+        (("unknown",), "in which unknown moves much (heated through"),
+    ],
+)
+def test_a_refusal_is_decided_by_a_locked_test_that_moves_its_channels(channels: tuple[str, ...], moved: str) -> None:
+    more = {"T_hall": ChannelInfo("T_hall", "temperature", "degC", at="hall.top"), "P": ChannelInfo("P", "power", "kW")}
+    advice = to_decide([candidate("a", channels=channels)], CHANNELS | more)
+    assert f"run a test with the role locked, from a cold start, {moved}" in advice
+    assert "If the error there falls with it" in advice
+
+
+def test_claims_that_were_refused_together_are_each_moved() -> None:
+    advice = to_decide([candidate("a"), candidate("b", channels=("n",)), candidate("c")], CHANNELS)
+    assert "point to a:T_a with b:n with c:T_a, the locked ones do not bear them out" in advice
+    assert advice.count("in which T_a moves much") == 1
+    assert "; and one in which n moves much" in advice
+    assert "they are what is missing" in advice
+
+
+@pytest.mark.parametrize(
+    ("names", "words"),
+    [
+        ("a", "a:T_a rests in all locked tests; to bear it out, run a test"),
+        ("ab", "rest in all locked tests; to bear them out, run a test"),
+    ],
+)
+def test_a_claim_that_rests_in_the_locked_tests_asks_for_one_that_moves_it(names: str, words: str) -> None:
+    advice = to_bear_out([candidate(n) for n in names], CHANNELS)
+    assert words in advice
+    assert "with the role locked, from a cold start, in which T_a moves much" in advice
+
+
+# ---- what is likely it
+
+
+@pytest.mark.parametrize(
+    ("evidence", "said"),
+    [
+        (13.0, None),  # 29 %: less is not plausible
+        (15.0, "causes like it were right in 32% of cases only (limit 65%)"),
+        (60.0, "causes like it were right in 64% of cases only (limit 65%)"),
+        (390.0, "alone it keeps the rules of a claim, but not beside what else was chosen"),
+    ],
+)
+def test_what_only_its_probability_or_the_choice_stopped_is_likely_it(evidence: float, said: str | None) -> None:
+    found = suspect(UNKNOWN, scored("a", evidence=evidence, after=0.35), measure(), "um")
+    assert (found and found.told.startswith("It may be a:T_a: ")) == (True if said else None)
+    assert said is None or (found is not None and said in found.told)
+
+
+def test_what_breaks_a_rule_of_a_claim_is_not_likely_it() -> None:
+    assert suspect(UNKNOWN, scored("a", after=0.95, evidence=300.0), measure(), "um") is None
+    assert suspect(UNKNOWN, None, measure(), "um") is None
+
+
+def test_what_the_locked_tests_refused_is_likely_it_before_what_heads_the_list() -> None:
+    one = scored("a", channels=("T_a", "n"))
+    refused = Judgement("unknown", (), (), (), "", (Judged(one, one, None, ()),))
+    found = suspect(refused, scored("b"), measure(), "um")
+    assert found is not None
+    assert found.told == "It may be a:T_a,n: the open tests say so, the locked ones do not bear it out"
+    assert found.channels == {"T_a", "n"}

@@ -20,15 +20,17 @@ BESIDE = {
     "locked.py": ("the_locked_tests",),
     "logging_faults.py": ("logging_faults",),
     "next_test.py": ("what_is_shown",),
+    "opened.py": ("the_locked_tests",),
     "preference.py": ("selection",),
-    "problem.py": ("compression",),
+    "problem.py": ("compression", "the_noise"),
     "ranking.py": ("selection",),
     "refinement.py": ("refinement",),
-    "rules.py": ("a_claim", "the_verdict"),
+    "rules.py": ("a_claim", "the_verdict", "the_locked_tests"),
     "scored.py": ("a_claim",),
     "selection.py": ("selection",),
     "unexplained.py": ("what_is_shown",),
     "weak.py": ("what_is_shown",),
+    "why.py": ("the_answer",),
 }
 BRUTE_FORCE = ("tests/diagnosis/test_evidence_by_brute_force.py",)
 CHECKS = ("tests/modelling/test_rules_of_checks.py",)
@@ -110,13 +112,15 @@ MUTANTS = [
     diagnosis("judge.py", "if not any(again(j, other) for other in claims)", "", "one cause is claimed twice"),
     diagnosis("judge.py", " and not j.scored.candidate.passive", "", "a casting makes a cause less sure"),
     diagnosis(
-        "answer.py", "replace(t, beaten=largest.scored.beaten)", "t", "a dull twin is claimed in a claim's place"
+        "opened.py", "replace(t, beaten=largest.scored.beaten)", "t", "a dull twin is claimed in a claim's place"
     ),
     diagnosis("judge.py", "beaten=True", "beaten=False", "what a sharper cause leaves is claimed"),
     diagnosis(
         "judge.py", "for j in members if j.refines is None and", "for j in members if", "a mode makes a cause less sure"
     ),
-    diagnosis("judge.py", "if left <= measure.floor and not halved:", "if left < 0:", "'none' is never said"),
+    diagnosis(
+        "judge.py", "if left <= measure.floor and not halved and not plain:", "if left < 0:", "'none' is never said"
+    ),
     diagnosis("judge.py", "if j.refines is None and blunt(j.scored) is None", "if j.refines is None", "proxies"),
     diagnosis("judge.py", "if j.refines is None and blunt", "if blunt", "a refinement is claimed as a cause"),
     diagnosis("rules.py", "SHARE = 0.25, 0.4", "SHARE = 0.9, 0.4", "much is left and nothing is said to be missing"),
@@ -131,7 +135,10 @@ MUTANTS = [
     diagnosis("rules.py", "STRONG = 0.4", "STRONG = 0.04", "left-out tests that hardly gain are not heard"),
     diagnosis("rules.py", "HALVES = 0.5", "HALVES = 0.1", "a test at rest that is all wrong lacks nothing"),
     diagnosis("rules.py", "HALVES = 0.5", "HALVES = 0.9", "what helps a little contradicts that nothing is missing"),
-    diagnosis("judge.py", "left > measure.noises and any", "any", "noise is to be explained"),
+    diagnosis("judge.py", "left > measure.noises and any(halves", "any(halves", "noise is to be explained"),
+    diagnosis("judge.py", "left > measure.noises and any(is_plain", "any(is_plain", "noise is plain"),
+    diagnosis("rules.py", "PLAIN = 0.25", "PLAIN = 2.5", "none is said of what is plain"),
+    diagnosis("rules.py", "DOUBT = -0.55", "DOUBT = 0.0", "locked tests weigh nothing"),
     diagnosis("judge.py", "[left, *(j.alone.error_of_all for j in kept)]", "[left]", "a refined model is unknown"),
     diagnosis(
         "rules.py", "max(samples, 1), FALLS[1], False", "max(samples, 1), 0.0, False", "a second look is not taken"
@@ -163,11 +170,16 @@ MUTANTS = [
     diagnosis("locked.py", "MUCH = 0.25", "MUCH = 0.9", "a large fall does not bear a claim out"),
     diagnosis("locked.py", "PROBABLE = 0.5", "PROBABLE = 0.0", "a proxy survives the locked tests"),
     diagnosis("locked.py", "PROBABLE = 0.5", "PROBABLE = 9.0", "one slow test withdraws a cause"),
-    products("locked.py", "base.every) - base.log_probability(tests)", "base.every)", "open tests speak twice"),
+    products(
+        "locked.py",
+        "base.log_probability(both) - base.log_probability(tests)",
+        "base.log_probability(both)",
+        "open tests speak twice",
+    ),
     diagnosis(
         "locked.py",
-        "tests, locked = np.arange(opened)",
-        "tests, locked = np.arange(len(problem.blocks))",
+        "    tests = np.arange(opened)\n",
+        "    tests = np.arange(len(problem.blocks))\n",
         "the locked tests take part in the estimate",
     ),
     diagnosis("locked.py", "[p - p.mean() for p in parts]", "parts", "one unlucky zero withdraws a claim"),
@@ -178,12 +190,18 @@ MUTANTS = [
         "before, after = self.before, self.after",
         "one unlucky zero withdraws a claim",
     ),
-    diagnosis("confirm.py", "p - p.mean() if free and len(p) else p", "p", "one unlucky zero withdraws a claim"),
+    diagnosis("confirm.py", "    if free:\n", "    if not free:\n", "one unlucky zero withdraws a claim"),
     diagnosis("confirm.py", '"verify_on": [], ', "", "verification tests are no part of the choice"),
     diagnosis("confirm.py", "if set(some) & set(", "if not set(some) & set(", "parameters of another claim"),
-    diagnosis("answer.py", "if found is None or found.holds:", "if True:", "a refuted claim stands"),
-    diagnosis("answer.py", "claims = claims[:-1]", "claims = ()", "one bad claim withdraws the good ones"),
-    diagnosis("answer.py", "TWINS_TRIED = 4", "TWINS_TRIED = 0", "a twin that holds is not found"),
+    diagnosis("opened.py", "if found is None or not found.doubts:", "if True:", "a refuted claim stands"),
+    diagnosis("opened.py", "not found.refuted and all(", "all(", "what falls in no way stands by its evidence"),
+    diagnosis("opened.py", "doubts=found.doubts", "doubts=0", "doubts are for nothing"),
+    diagnosis("opened.py", "key=lambda told: told[0].scored.doubts", "key=id", "a twin that holds is passed over"),
+    diagnosis("opened.py", "claims = claims[:-1]", "claims = ()", "one bad claim withdraws the good ones"),
+    diagnosis("locked.py", "if acts[i] or not claims", "", "a test in which a claim rests decides of it"),
+    diagnosis("problem.py", "result - start @ (start.T @ result)", "result", "a warm start is to be explained"),
+    diagnosis("discrepancy.py", "np.hstack([offsets, start])", "offsets", "a warm start counts as evidence"),
+    diagnosis("opened.py", "TWINS_TRIED = 4", "TWINS_TRIED = 0", "a twin that holds is not found"),
     diagnosis(
         "answer.py",
         "if not judgement.claims:\n        locked = []",
@@ -196,7 +214,12 @@ MUTANTS = [
     diagnosis("answer.py", "if heads else None", "", "a share that nobody measured is told"),
     diagnosis("answer.py", "len(judged) == 1 and", "False and", "the model's own error is another twice"),
     diagnosis("answer.py", "len(judged) == 1 and", "judged and", "what stands beside a claim is forgotten"),
-    diagnosis("answer.py", "== 1 and judged[0].scored is s", "== 1", "what was dropped falls from the wrong error"),
+    diagnosis(
+        "answer.py",
+        "== 1 and judged[0].scored.columns is s.columns",
+        "== 1",
+        "what was dropped falls from the wrong error",
+    ),
     # ---- selection
     diagnosis("selection.py", "\nTRIED = 5", "\nTRIED = 1", "what is missing hides the right one as noise"),
     diagnosis("selection.py", "STANDS = 0.15", "STANDS = 0.95", "what is missing hides the right one as noise"),

@@ -99,7 +99,7 @@ def test_no_error_falls_upward() -> None:
         found("effect", [claim("screw", locked_rmse_um_before=0.5, locked_rmse_um_after=0.6, **rises)])
     )
     assert "error on left-out tests (falls where it acts only; over all: 0.610 -> 0.800 um)" in text
-    assert "locked tests (held by their shape; from their first samples on: 0.500 -> 0.600 um)" in text
+    assert "locked tests (judged by their shape where it acts; from their first samples on: 0.500 -> 0.600 um)" in text
     assert "falls where" not in verdict_sentence(found("effect", [claim("screw")]))
 
 

@@ -16,9 +16,11 @@ from thermodata.diagnosis.locked import Looked
 from thermodata.diagnosis.null import p_value
 from thermodata.diagnosis.opened import kept_where_they_hold
 from thermodata.diagnosis.problem import Problem
-from thermodata.diagnosis.rules import blunt, claimable, explained, failed_rules, probability
+from thermodata.diagnosis.rules import claimable, explained, probability
 from thermodata.diagnosis.scored import Scored
+from thermodata.diagnosis.suspect import suspect
 from thermodata.diagnosis.unexplained import characterise
+from thermodata.diagnosis.why import among, why
 from thermodata.modelling.fit import fit_model
 from thermodata.modelling.fitted import FittedModel
 from thermodata.plugin import Effect
@@ -52,11 +54,15 @@ def answer(fitted: FittedModel, data: Dataset, library: Mapping[str, Effect], mo
         locked = []
     else:
         added: dict[tuple[str, ...], Confirmation] = {}
+        asked: dict[tuple[str, ...], frozenset[tuple[str, str]] | None] = {}
+
+        def names(claims: Sequence[Judged]) -> tuple[str, ...]:
+            return tuple(c.scored.candidate.id for c in claims)
 
         def confirmed(claims: Sequence[Judged]) -> Confirmation:
-            chosen = [c.scored.candidate for c in claims]
-            key = tuple(c.id for c in chosen)
+            key = names(claims)
             if key not in added:
+                chosen = [c.scored.candidate for c in claims]
                 added[key] = confirm(fitted.spec, index, data, chosen, usable, locked, refitted)
             return added[key]
 
@@ -64,12 +70,14 @@ def answer(fitted: FittedModel, data: Dataset, library: Mapping[str, Effect], mo
             foretold = investigation.borne_out(claims)
             if foretold is None:
                 return None
+            asked[names(claims)] = foretold.tests
             return Looked(foretold, confirmed(claims).on(foretold.tests), investigation.measure.floor)
 
         judgement = kept_where_they_hold(
             judgement, look, lambda twin: claimable(twin, investigation.measure, response.unit), response.unit
         )
-        confirmation = confirmed(judgement.claims or investigation.judgement.claims)
+        if kept := judgement.claims:
+            confirmation = replace(confirmed(kept), asked=asked.get(names(kept)))
     return Answer(_diagnosis(investigation, judgement, confirmation, data, model_id), tuple(locked))
 
 
@@ -95,17 +103,6 @@ def _diagnosis(
     # what refines the model is no missing cause, also where more is missing than it gives
     head = next((s for s, m in shown if not s.candidate.within and (m is None or m.refines is None)), None)
 
-    def claimed(member: Judged | None) -> bool:
-        return any(member is c for c in judgement.claims)
-
-    advice = None
-    if judgement.claims:
-        claim = judgement.claims[0]
-        advice = next_test.to_separate(claim.scored, equivalents(claim.scored, claim.beside), data.channels)
-    elif judgement.verdict in ("unknown", "not_testable"):
-        advice = next_test.to_find(
-            len({b.test.key for b in problem.blocks}), investigation.spots, shown[0][0] if shown else None
-        )
     scored, alone = [s for s, _ in shown if len(s.rows)], investigation.selection
     return Diagnosis(
         model=model_id,
@@ -117,19 +114,46 @@ def _diagnosis(
         explainable=max((float(np.clip(_fall(s), 0.0, 1.0)) for s in scored), default=None),
         weak_spots=investigation.spots,
         candidates=[
-            _candidate(i + 1, s, member, s is head or claimed(member), investigation, judgement, confirmation)
+            _candidate(i + 1, s, member, s is head, investigation, judgement, confirmation)
             for i, (s, member) in enumerate(shown)
         ],
         artefacts=investigation.artefacts,
-        unknown=characterise(problem, investigation.spots) if judgement.verdict == "unknown" else None,
-        next_test=advice,
+        unknown=characterise(
+            problem, investigation.spots, suspect(judgement, head, investigation.measure, problem.unit)
+        )
+        if judgement.verdict == "unknown"
+        else None,
+        next_test=_advice(investigation, judgement, confirmation, shown[0][0] if shown else None, data),
         chance=ladder.chance(investigation.measure),
     )
 
 
+def _advice(
+    investigation: Investigation,
+    judgement: Judgement,
+    confirmation: Confirmation | None,
+    first: Scored | None,
+    data: Dataset,
+) -> str | None:
+    claims, refused = ([j.scored.candidate for j in some] for some in (judgement.claims, judgement.refused))
+    if claims:
+        claim = judgement.claims[0]
+        apart = next_test.to_separate(claim.scored, equivalents(claim.scored, claim.beside), data.channels)
+        if apart is not None:
+            return apart
+    if refused:
+        return next_test.to_decide(refused, data.channels)
+    if claims and confirmation is not None and confirmation.asked == frozenset():
+        return next_test.to_bear_out(claims, data.channels)
+    if judgement.verdict not in ("unknown", "not_testable"):
+        return None
+    return next_test.to_find(len({b.test.key for b in investigation.problem.blocks}), investigation.spots, first)
+
+
 def _shown(investigation: Investigation, judgement: Judgement) -> list[tuple[Scored, Judged | None]]:
-    """Claims, refinements, then all others by what they would give; what was dropped as it was judged last."""
-    first = [*judgement.claims, *judgement.refinements]
+    """Claims, what the locked tests refused, refinements, then all others by what they would give; what was dropped as
+    it was judged last."""
+    first = [*judgement.claims, *judgement.refused, *judgement.refinements]
     order: list[tuple[Scored, Judged | None]] = [(j.scored, j) for j in first]
     rest = [j for j in judgement.judged if not any(j.scored.columns is f.scored.columns for f in first)]
     others: list[tuple[Scored, Judged | None]] = [(j.scored, j) for j in rest]
@@ -152,7 +176,9 @@ def _candidate(
     confirmation: Confirmation | None,
 ) -> Candidate:
     problem, measure = investigation.problem, investigation.measure
-    claimed = any(member is c for c in judgement.claims)
+    claimed = among(member, judgement.claims)
+    heads = heads or claimed or among(member, judgement.refused)
+    refining = among(member, judgement.refinements)
     beside = member.beside if member else investigation.selection.first.ranked if investigation.selection else ()
     held = confirmation if claimed else None
     told = _beside_the_model(s, investigation)
@@ -165,8 +191,8 @@ def _candidate(
         gain_by=s.candidate.gain_by,
         phases=list(s.candidate.phases),
         claimed=claimed,
-        refinement=_refining(member, judgement),
-        # measured for what heads the list, and for claims; nothing is known of the share of the others
+        refinement=refining,
+        # measured for what heads the list, and for what was claimed; nothing is known of the share of the others
         probability=probability(s) if heads else None,
         p_value=p_value(s.evidence, measure.chance),
         rmse_um_before=_rmse(told.sse_before, told),
@@ -177,54 +203,12 @@ def _candidate(
         locked_rmse_um_after=held.after if held else None,
         parameters=held.parameters.get(s.candidate.id, {}) if held else {},
         equivalent=[t.candidate.id for t in equivalents(s, beside)] if rank <= 5 else [],
-        why=_why(s, member, claimed, problem, investigation, judgement, held),
+        why=why(s, member, claimed, problem, investigation, judgement, held),
         evidence=float(s.evidence) if np.isfinite(s.evidence) else None,
         rungs=ladder.rungs(s, measure, problem.unit),
         left_out=ladder.left_out(told, problem),
-        courses=ladder.courses(s, problem) if heads or claimed or _refining(member, judgement) else [],
+        courses=ladder.courses(s, problem) if heads or refining else [],
     )
-
-
-def _refining(member: Judged | None, judgement: Judgement) -> bool:
-    return any(member is r for r in judgement.refinements)
-
-
-def _why(
-    s: Scored,
-    member: Judged | None,
-    claimed: bool,
-    problem: Problem,
-    investigation: Investigation,
-    judgement: Judgement,
-    held: Confirmation | None,
-) -> str:
-    unit, count = problem.unit, int(s.acts.sum())
-    others = [j.scored.candidate.id for j in judgement.judged if member is not None and j.alone is not member.alone]
-    beside = f", beside {' and '.join(others)}," if others else ""
-    improves = round(s.better * count)
-    way = "falls" if s.error_after < s.error_before else "does not fall"
-    numbers = (
-        f"where it acts ({count} of {len(s.rows)} tests){beside} the error {way} "
-        f"({s.error_before:.2f} -> {s.error_after:.2f} {unit}), its size from the other tests, and it makes "
-        f"{improves} of {count} more probable; its gain differs between tests by {s.spread:.0%}"
-    )
-    chance = p_value(s.evidence, investigation.measure.chance)
-    if claimed:
-        locked = ""
-        if held and held.before is not None and held.after is not None:
-            together = " with all that is claimed" if len(judgement.claims) > 1 else ""
-            part = f", which bear it out in {2 - s.doubts} of 2 ways" if s.doubts else ""
-            locked = f"; on the locked tests{together} from {held.before:.2f} to {held.after:.2f} {unit}{part}"
-        return f"{numbers}; chance does as well in {chance:.1%} of responses in which nothing is missing{locked}"
-    if member is not None and member.refines:
-        return f"{numbers}; a refinement, not a missing cause: {member.refines}"
-    failed = failed_rules(s, investigation.measure, unit)
-    failed += [why for why in [blunt(s)] if why]
-    if failed:
-        return f"{numbers}; not claimed: {failed[0]}"
-    if judgement.claims:
-        return f"{numbers}; not claimed: {judgement.claims[0].scored.candidate.id} explains it, or more"
-    return f"{numbers}; not claimed: {judgement.reason}"
 
 
 def _beside_the_model(s: Scored, investigation: Investigation) -> Scored:

@@ -37,7 +37,8 @@ class Confirmation:
 
     before, after: as scored, from the mean of the first samples on. shape_before, shape_after: with a free offset a
     test: one unlucky zero must not hide that the shape fits. changed: RMS of what the addition changes there. each:
-    (key, error before, error after) of every locked test. shapes: of every one, too.
+    (key, error before, error after) of every locked test. shapes: of every one, too. asked: the keys of those that
+    decide, for a claim acts there; None: all.
     """
 
     before: float | None
@@ -48,6 +49,7 @@ class Confirmation:
     parameters: dict[str, dict[str, Parameter]]
     each: tuple[tuple[tuple[str, str], float, float], ...] = ()
     shapes: tuple[Shape, ...] = ()
+    asked: frozenset[tuple[str, str]] | None = None
 
     def on(self, tests: frozenset[tuple[str, str]] | None) -> Foretold | None:
         """By shape, on some of the locked tests; None where none of them can be predicted."""

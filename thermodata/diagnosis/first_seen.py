@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 from thermodata.diagnosis.goes_with import Companion
 from thermodata.diagnosis.missing_heat import TAUS_S, MissingHeat
+from thermodata.diagnosis.suspect import Suspect
 from thermodata.view.dataset import TestData
 
 SURE = 0.8  # of the draws of tests must agree
@@ -14,9 +15,20 @@ NAMED = 4
 SMALL_S, LARGE_S = 900.0, 5400.0
 
 
-def where(heat: MissingHeat, found: Sequence[Companion], strong: Sequence[TestData], weak: Sequence[TestData]) -> str:
-    """A sentence or two; what the data can't say is said to be so."""
-    return ". ".join([_capital(_body(heat)), _when(found, strong, weak), _place(heat, found, strong)])
+def where(
+    heat: MissingHeat,
+    found: Sequence[Companion],
+    strong: Sequence[TestData],
+    weak: Sequence[TestData],
+    suspect: Suspect | None = None,
+) -> str:
+    """A sentence or two; what the data can't say is said to be so. suspect: what is likely it, and is logged."""
+    said = [_capital(_body(heat)), _when(found, strong, weak)]
+    if suspect is not None:
+        # one channel alone says little for or against an effect of several, or of heat that it doesn't measure
+        found = [c for c in found if c.info.name not in suspect.channels]
+        said.append(suspect.told)
+    return ". ".join([*said, *_place(found, strong, suspect), *_direction(heat)])
 
 
 def minutes(seconds: float) -> str:
@@ -67,29 +79,39 @@ def _when(found: Sequence[Companion], strong: Sequence[TestData], weak: Sequence
     return _capital("; ".join(parts))
 
 
-def _place(heat: MissingHeat, found: Sequence[Companion], strong: Sequence[TestData]) -> str:
+def _place(found: Sequence[Companion], strong: Sequence[TestData], suspect: Suspect | None) -> list[str]:
+    """Where a sensor would see it; beside a suspect, where else, for nothing has to be logged that it is."""
     near = _places([c for c in found if c.verdict == "with"])
     # the least alike first
     far = [p for p in _places([c for c in reversed(found) if c.verdict == "not"]) if p not in near]
     followed = [c.info.name for c in found if c.verdict == "with" and c.follows is not None]
     said = []
     if near:
-        said.append(f"A sensor would see it first near {_or(near)}" + (f" rather than near {_or(far)}" if far else ""))
-    else:
+        sensor = "If it is not, a" if suspect else "A"
+        said.append(
+            f"{sensor} sensor would see it first near {_or(near)}" + (f" rather than near {_or(far)}" if far else "")
+        )
+    elif suspect is None:
         said.append(
             "No logged channel goes with it, so the data can't say where it is"
             + (f", only where it is not: near {_or(far)}" if far else "")
             + f"; note what runs in {strong[0].test} and is not logged"
         )
+    elif far:
+        said.append(f"What is logged near {_or(far)} does not go with it")
     if followed:
         said.append(
             f"{', '.join(followed[:NAMED])} {'is' if len(followed) == 1 else 'are'} logged and already "
             f"{'goes' if len(followed) == 1 else 'go'} with it: try {'it' if len(followed) == 1 else 'them'} as a "
             "driver before a new sensor"
         )
-    if heat.sign and heat.agreed < SURE:
-        said.append(f"Only {heat.agreed:.0%} of the draws of the tests agree on the direction: more tests are needed")
-    return ". ".join(said)
+    return said
+
+
+def _direction(heat: MissingHeat) -> list[str]:
+    if not heat.sign or heat.agreed >= SURE:
+        return []
+    return [f"Only {heat.agreed:.0%} of the draws of the tests agree on the direction: more tests are needed"]
 
 
 def _test(test: TestData) -> str:

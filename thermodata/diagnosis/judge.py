@@ -49,13 +49,14 @@ class Judged:
 @dataclass(frozen=True, slots=True)
 class Judgement:
     """claims: missing causes, in the order of their choice. refinements: of effects that the model has. judged: all
-    members."""
+    members. refused: what would be claimed, but for the locked tests, with their doubts (`opened`)."""
 
     verdict: Verdict
     claims: tuple[Judged, ...]
     refinements: tuple[Judged, ...]
     judged: tuple[Judged, ...]
     reason: str
+    refused: tuple[Judged, ...] = ()
 
 
 def judge(

@@ -24,6 +24,19 @@ _PROTOCOL = {
     "flow": "switching it on and off while all else rests",
 }
 
+_MOVED = {
+    "rotational_speed": "speeds in steps up to the highest, each for an hour, then at rest",
+    "feed": "this axis alone for hours, then at rest",
+    "temperature": "heated through by its own source while the others rest, then cooling",
+    "temperature_difference": "one side heated through by its own source while the others rest, then cooling",
+    "state": "on for hours while all else rests, then off",
+    "flow": "on for hours while all else rests, then off",
+}
+_LOADED = "at a high load for hours, then at rest"
+# nobody heats the hall: it moves by itself
+_SURROUNDINGS = ("hall", "outside")
+_BY_DAY = "through a day and a night, the machine at rest"
+
 
 def to_separate(chosen: Scored, twins: Sequence[Scored], channels: Mapping[str, ChannelInfo]) -> str | None:
     """The advice where several candidates explain the same."""
@@ -48,6 +61,42 @@ def to_separate(chosen: Scored, twins: Sequence[Scored], channels: Mapping[str, 
     quantity = channels[own[0]].quantity if own and own[0] in channels else "temperature"
     how = _PROTOCOL.get(quantity, _PROTOCOL["temperature"])
     return f"to tell {mine.id} from {other.id}: {how}"
+
+
+def to_decide(refused: Sequence[CandidateEffect], channels: Mapping[str, ChannelInfo]) -> str:
+    """The advice where the open tests point to causes and the locked ones do not bear them out. refused: at least one,
+    the largest first."""
+    names = " with ".join(one.id for one in refused)
+    them = "it" if len(refused) == 1 else "them"
+    return f"the open tests point to {names}, the locked ones do not bear {them} out: {_with_lock(refused, channels)}"
+
+
+def to_bear_out(claims: Sequence[CandidateEffect], channels: Mapping[str, ChannelInfo]) -> str:
+    """The advice where what is claimed acts in none of the locked tests."""
+    names = " with ".join(one.id for one in claims)
+    them, rest = ("it", "rests") if len(claims) == 1 else ("them", "rest")
+    return f"{names} {rest} in all locked tests; to bear {them} out, {_with_lock(claims, channels)}"
+
+
+def _with_lock(some: Sequence[CandidateEffect], channels: Mapping[str, ChannelInfo]) -> str:
+    them, they_are = ("it", "it is") if len(some) == 1 else ("them", "they are")
+    moved = "; and one ".join(dict.fromkeys(_moved(one, channels) for one in some))
+    return (
+        f"run a test with the role locked, from a cold start, {moved}. If the error there falls with {them} (diagnose "
+        f"again; thermodata confirm tells each test), {they_are} what is missing; if it does not, something else is"
+    )
+
+
+def _moved(one: CandidateEffect, channels: Mapping[str, ChannelInfo]) -> str:
+    if one.protocol is not None:
+        return f"for {one.id}: {one.protocol}"
+    first = next((channels[c] for c in one.channels if c in channels), None)
+    if first is not None and (first.at or "").startswith(_SURROUNDINGS):
+        how = _BY_DAY
+    else:
+        how = _MOVED.get(first.quantity if first is not None else "temperature", _LOADED)
+    verb = "moves" if len(one.channels) == 1 else "move"
+    return f"in which {' and '.join(one.channels)} {verb} much ({how})"
 
 
 def to_find(tests: int, spots: Sequence[WeakSpot], first: Scored | None = None) -> str:

@@ -20,30 +20,34 @@ def kept_where_they_hold(
     unit: str,
 ) -> Judgement:
     """The claims that are probable together once the lock is open, or with a twin in the place of the largest, with the
-    fewest doubts; else without the smallest; "unknown" where none is. look: what the locked tests say of some claims;
-    None where there are none. claimable: whether a twin keeps the rules of a claim itself. unit: of the response."""
+    fewest doubts; else without the smallest; "unknown" where none is. What goes is kept as refused. look: what the
+    locked tests say of some claims; None where there are none. claimable: whether a twin keeps the rules of a claim
+    itself. unit: of the response."""
     claims = judgement.claims
     first: Foretold | None = None
+    refused: tuple[Judged, ...] = ()
     while claims:
         standing: list[tuple[Judged, ...]] = []
         for tried in (claims, *_with_twins(claims, claimable)):
             found = look(tried)
             if found is None or not found.doubts:
-                return replace(judgement, claims=tried)
+                return replace(judgement, claims=tried, refused=refused[len(tried) :])
             told = tuple(replace(c, scored=replace(c.scored, doubts=found.doubts)) for c in tried)
             if not found.refuted and all(blunt(c.scored) is None for c in told):
                 standing.append(told)
-            first = first or found.doubting[0]
+            first, refused = first or found.doubting[0], refused or told
         if standing:
-            return replace(judgement, claims=min(standing, key=lambda told: told[0].scored.doubts))
+            kept = min(standing, key=lambda told: told[0].scored.doubts)
+            return replace(judgement, claims=kept, refused=refused[len(kept) :])
         claims = claims[:-1]
     assert first is not None
-    name = judgement.claims[0].scored.candidate.id
+    names = [c.scored.candidate.id for c in refused]
+    explain, it_adds = ("explains", "it adds") if len(names) == 1 else ("explain", "they add")
     reason = (
-        f"{name} explains the open tests, but on the locked ones the error does not fall by half of what it "
-        f"adds ({first.before:.2f} -> {first.after:.2f} {unit})"
+        f"{' with '.join(names)} {explain} the open tests, but on the locked ones the error does not fall by half of "
+        f"what {it_adds} ({first.before:.2f} -> {first.after:.2f} {unit})"
     )
-    return replace(judgement, verdict="unknown", claims=(), reason=reason)
+    return replace(judgement, verdict="unknown", claims=(), refused=refused, reason=reason)
 
 
 def _with_twins(claims: Sequence[Judged], claimable: Callable[[Scored], bool]) -> list[tuple[Judged, ...]]:

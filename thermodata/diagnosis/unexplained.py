@@ -9,6 +9,7 @@ import numpy as np
 from thermodata.diagnosis import first_seen, goes_with
 from thermodata.diagnosis.missing_heat import TAUS_S, Course, missing_heat
 from thermodata.diagnosis.problem import Problem
+from thermodata.diagnosis.suspect import Suspect
 from thermodata.plugin import Float1D
 from thermodata.schema.diagnosis import WeakSpot
 from thermodata.schema.missing_heat import HeatCompanion, HeatCourse, MissingHeat, Unknown
@@ -16,18 +17,18 @@ from thermodata.schema.missing_heat import HeatCompanion, HeatCourse, MissingHea
 DIGITS = 4  # of a course, which is many numbers
 
 
-def characterise(problem: Problem, spots: Sequence[WeakSpot]) -> Unknown:
+def characterise(problem: Problem, spots: Sequence[WeakSpot], suspect: Suspect | None = None) -> Unknown:
     """How fast the autocorrelation decays, which hours of the day stand out, the states of the weak spots; and the
-    missing heat itself, estimated."""
+    missing heat itself, estimated. suspect: what is likely it."""
     return Unknown(
         time_constants_h=_time_constants(problem),
         hours_of_day=_hours(problem),
         states=list(dict.fromkeys(s.state for s in spots[:5])),
-        heat=_heat(problem),
+        heat=_heat(problem, suspect),
     )
 
 
-def _heat(problem: Problem) -> MissingHeat | None:
+def _heat(problem: Problem, suspect: Suspect | None) -> MissingHeat | None:
     heat = missing_heat(problem)
     if heat is None:
         return None
@@ -47,7 +48,7 @@ def _heat(problem: Problem) -> MissingHeat | None:
         weak_tests=[t.test for t in weak],
         goes_with=[_companion(c) for c in found if c.verdict == "with"],
         goes_not_with=[_companion(c) for c in reversed(found) if c.verdict == "not"],
-        where=first_seen.where(heat, found, strong, weak),
+        where=first_seen.where(heat, found, strong, weak, suspect),
         courses=[_course(c) for c in heat.courses],
     )
 

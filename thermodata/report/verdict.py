@@ -109,12 +109,13 @@ def _left_out(some: Sequence[Candidate]) -> str:
 
 
 def _locked(claims: Sequence[Candidate]) -> str:
-    """Locked tests are scored with all claims together, from their first samples; a claim holds there by its shape."""
+    """Locked tests are scored with all claims together, from their first samples; a claim is judged by its shape."""
     before, after = claims[0].locked_rmse_um_before, claims[0].locked_rmse_um_after
     if before is None or after is None:
         return ""
     all_of = "" if len(claims) == 1 else " with both" if len(claims) == 2 else f" with all {len(claims)}"
-    return "; " + _from_to(f"locked tests{all_of}", before, after, "held by their shape; from their first samples on")
+    rises = "judged by their shape where it acts; from their first samples on"
+    return "; " + _from_to(f"locked tests{all_of}", before, after, rises)
 
 
 def _from_to(

@@ -1,0 +1,82 @@
+"""What an answer says of one candidate: its figures, and why it is claimed or not, in a sentence."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from thermodata.diagnosis.confirm import Confirmation
+from thermodata.diagnosis.investigate import Investigation
+from thermodata.diagnosis.judge import Judged, Judgement
+from thermodata.diagnosis.locked import Foretold
+from thermodata.diagnosis.null import p_value
+from thermodata.diagnosis.problem import Problem
+from thermodata.diagnosis.rules import blunt, failed_rules
+from thermodata.diagnosis.scored import Scored
+
+
+def why(
+    s: Scored,
+    member: Judged | None,
+    claimed: bool,
+    problem: Problem,
+    investigation: Investigation,
+    judgement: Judgement,
+    held: Confirmation | None,
+) -> str:
+    unit, count = problem.unit, int(s.acts.sum())
+    others = [j.scored.candidate.id for j in judgement.judged if member is not None and j.alone is not member.alone]
+    beside = f", beside {' and '.join(others)}," if others else ""
+    improves = round(s.better * count)
+    way = "falls" if s.error_after < s.error_before else "does not fall"
+    numbers = (
+        f"where it acts ({count} of {len(s.rows)} tests){beside} the error {way} "
+        f"({s.error_before:.2f} -> {s.error_after:.2f} {unit}), its size from the other tests, and it makes "
+        f"{improves} of {count} more probable; its gain differs between tests by {s.spread:.0%}"
+    )
+    chance = p_value(s.evidence, investigation.measure.chance)
+    if claimed:
+        locked = _on_locked(s, held, unit, together=len(judgement.claims) > 1) if held else ""
+        return f"{numbers}; chance does as well in {chance:.1%} of responses in which nothing is missing{locked}"
+    if among(member, judgement.refused):
+        return f"{numbers}; not claimed: {_refused(judgement)}"
+    if member is not None and member.refines:
+        return f"{numbers}; a refinement, not a missing cause: {member.refines}"
+    failed = failed_rules(s, investigation.measure, unit)
+    failed += [why for why in [blunt(s)] if why]
+    if failed:
+        return f"{numbers}; not claimed: {failed[0]}"
+    if judgement.claims:
+        return f"{numbers}; not claimed: {judgement.claims[0].scored.candidate.id} explains it, or more"
+    if judgement.refused:
+        first = judgement.refused[0].scored.candidate.id
+        return f"{numbers}; not claimed: {first}, which the locked tests do not bear out, explains it, or more"
+    return f"{numbers}; not claimed: {judgement.reason}"
+
+
+def _on_locked(s: Scored, held: Confirmation, unit: str, *, together: bool) -> str:
+    """The errors as scored; where they do not fall, beside them those that the claim holds by."""
+    if held.before is None or held.after is None:
+        return ""
+    what = " with all that is claimed" if together else ""
+    what += ", in none of which it acts enough to be asked," if held.asked == frozenset() else ""
+    figures = f"; on the locked tests{what} from {held.before:.2f} to {held.after:.2f} {unit}"
+    shape = held.on(held.asked)
+    if shape is not None and not Foretold(held.before, held.after, held.changed).falls:
+        acts = " where it acts" if shape.tests is not None and len(shape.tests) < len(held.shapes) else ""
+        figures += (
+            f" from their first samples on, and{acts} from {shape.before:.2f} to {shape.after:.2f} {unit} with a free "
+            "offset a test"
+        )
+    return figures + (f", which bear it out in {2 - s.doubts} of 2 ways" if s.doubts else "")
+
+
+def _refused(judgement: Judgement) -> str:
+    """Why what keeps every rule on the open tests is no claim."""
+    if not judgement.claims:
+        return judgement.reason
+    claims = " with ".join(c.scored.candidate.id for c in judgement.claims)
+    return f"it explains the open tests, but the locked ones bear out {claims} without it only"
+
+
+def among(member: Judged | None, some: Sequence[Judged]) -> bool:
+    return any(member is one for one in some)
