@@ -30,6 +30,26 @@ def test_it_would_rather_ask_than_be_wrong() -> None:
 
 
 @pytest.mark.parametrize(
+    ("name", "unit", "at"),
+    [
+        ("S1_nAkt", "1/min", "spindle"),
+        ("S1_Leistung", "kW", "spindle"),
+        ("S2_Auslast", "%", "spindle"),
+        ("S1_TempMotor", "°C", "spindle.motor"),
+        ("S1_Temp", "°C", None),  # a sensor may be counted so
+        ("S12", "°C", None),
+        ("B_nIst", "1/min", "rotary.b"),
+        ("A1_Drehzahl", "1/min", "rotary.a"),
+        ("C_nAct", "1/min", "table"),
+        ("nIst", "1/min", "spindle"),
+    ],
+)
+def test_spindles_and_rotary_axes_are_told_by_their_letter(name: str, unit: str, at: str | None) -> None:
+    """A speed of B is no spindle's."""
+    assert guess(name, unit).at == at
+
+
+@pytest.mark.parametrize(
     ("name", "quantity", "unit"),
     [
         ("/thermo.speed", "rotational_speed", None),

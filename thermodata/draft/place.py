@@ -17,9 +17,13 @@ _LINEAR = re.compile(rf"(?<!\S)(?:{_BESIDE})?([xyz])(?!\S)|(?<!\S)([xyz])(?:{_AF
 _ROTARY = re.compile(
     r"(?<!\S)(?:axis|achse|osa|ax|rotary|act|ist|pos|mot|motor|load|curr|current|torque|speed|"
     r"drehzahl|otacky) ?([abc])(?!\S)"
-    r"|(?<!\S)([abc])(?: \d)? ?(?:axis|achse|osa|act|actm|actw|abs|pos|load|mot|motor)(?!\S)"
+    r"|(?<!\S)([abc])(?: \d)? ?(?:axis|achse|osa|act|actm|actw|abs|pos|load|mot|motor|"
+    r"n|speed|drehzahl|otacky|rpm)(?!\S)"
     r"|(?<!\S)([abc]) ?轴"
 )
+# a control counts its spindles; a sensor that is counted so has a temperature
+_SPINDLE_1 = re.compile(r"^s \d(?!\S)")
+_BY_DRIVE = ("rotational_speed", "power", "load", "current", "torque")
 _SIDES = ("front", "rear", "left", "right")
 _PLAIN = (
     "headstock",
@@ -59,6 +63,8 @@ def place_of(text: str, quantity: str) -> Place:
     if "not spindle" in said:
         said -= {"spindle"}
         said |= {"screw"}
+    if _SPINDLE_1.search(text) and (quantity in _BY_DRIVE or "motor" in said):
+        said |= {"spindle"}
     rule: Callable[[set[str], str | None], Place] | None = _RULES.get(quantity)
     return rule(said, axis) if rule else Place(None)
 
