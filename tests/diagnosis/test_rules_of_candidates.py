@@ -177,6 +177,7 @@ def test_one_heat_read_elsewhere_is_the_same_in_any_family(other: str, expected:
     found = candidates(library, channels, (has("power", "T_nut", family="power"),), "dZ")
     assert next(c.kin for c in found if c.id == "part:T_oil") == expected
     assert {e.name for e in effects().values() if getattr(e, "cause", "") == "cutting heat"} == {
+        "cutting_load",
         "cutting_power",
         "workpiece",
     }

@@ -83,11 +83,6 @@ class Looked:
         saying = [f for f in (self.foretold, self.added) if f is not None and f.says(self.floor)]
         return bool(saying) and not any(f.falls for f in saying)
 
-    @property
-    def rests(self) -> bool:
-        """Whether what is claimed acts in none of the locked tests."""
-        return self.foretold.tests is not None and not self.foretold.tests
-
 
 def foretell(problem: Problem, opened: int, noise: Noise, kept: Sequence[Scored], claims: Sequence[Scored]) -> Foretold:
     """problem: the first `opened` blocks are of open tests, the others of locked ones. kept: what is selected beside

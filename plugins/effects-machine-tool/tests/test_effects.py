@@ -7,12 +7,12 @@ from importlib.metadata import entry_points
 import numpy as np
 import pytest
 from thermodata_effects_machine_tool.ambient import AmbientSkin
-from thermodata_effects_machine_tool.axis import FeedScrew, RotaryAxis, ScrewGrowth
+from thermodata_effects_machine_tool.axis import FeedScrew, RotaryFriction, ScrewGrowth
 from thermodata_effects_machine_tool.generic import Step, WarmStart
 from thermodata_effects_machine_tool.measuring import RunoutAlias, SensorDrift
 from thermodata_effects_machine_tool.moments import Homing, Lubrication, ToolChange, rises
 from thermodata_effects_machine_tool.positioned import Overhang, ScaleGrowth
-from thermodata_effects_machine_tool.process import CuttingPower
+from thermodata_effects_machine_tool.process import CuttingLoad
 from thermodata_effects_machine_tool.spindle import CentrifugalShift, SpindleFriction, SpindleHeatingCooling
 
 from thermodata.effect import all_effects, effects
@@ -75,21 +75,15 @@ def test_a_screw_grows_with_position() -> None:
     assert far == pytest.approx([1.2, 2.0])
 
 
-def test_the_load_stands_in_for_the_power_of_the_spindle() -> None:
-    """In shares of full load: a gain is comparable between machines."""
-    p = {"tau": 10.0}
-    by_load = CuttingPower().basis(_drivers(load=np.full(len(T), 40.0)), p)
-    by_power = CuttingPower().basis(_drivers(power=np.full(len(T), 4.0)), p)
+def test_the_load_is_a_share_of_full_load() -> None:
+    """A gain is comparable between machines."""
+    by_load = CuttingLoad().basis(_drivers(load=np.full(len(T), 40.0)), {"tau": 10.0})
     assert by_load[-1, 0] == pytest.approx(0.4, rel=1e-3)
-    assert by_power[-1, 0] == pytest.approx(4.0, rel=1e-3)
 
 
-def test_the_speed_stands_in_for_a_turning_axis_without_a_sensor() -> None:
-    p = {"tau": 30.0, "exponent": 2.0}
-    by_speed = RotaryAxis().basis(_drivers(speed=np.full(len(T), -5.0)), p)
-    by_temperature = RotaryAxis().basis(_drivers(temperature=np.full(len(T), 3.0)), p)
+def test_friction_of_a_turning_axis_settles_at_a_power_of_its_speed() -> None:
+    by_speed = RotaryFriction().basis(_drivers(speed=np.full(len(T), -5.0)), {"tau": 30.0, "exponent": 2.0})
     assert by_speed[-1, 0] == pytest.approx(0.25, rel=1e-3)
-    assert by_temperature[-1, 0] == pytest.approx(3.0, rel=1e-3)
 
 
 def test_the_feed_stands_in_for_a_nut_without_a_sensor() -> None:

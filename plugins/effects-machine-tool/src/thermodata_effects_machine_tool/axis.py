@@ -153,27 +153,42 @@ class TableBearing(Lagged):
 class RotaryAxis(Lagged):
     """A swivelling or turning axis grows with its temperature.
 
-        d = k F_tau{dT}, or k F_tau{(|n| / 10 rpm)^p} where no sensor is at the axis
+        d = k F_tau{dT}
 
-    k [um/K] ([um] at 10 rpm), tau [min], p [1], dT [K], n [rpm].
+    k [um/K], tau [min], dT [K].
     Source: as feed_motor, for a turning axis; bounds: docs/method.md#bounds-of-the-effects
     """
 
     name = "rotary_axis"
     family = "rotary_{a}"
-    meaning = "growth with the temperature of a rotary axis: k F{dT}, or k F{(n/10 rpm)^p} without a sensor"
-    equation = "d = k F_tau{dT}, or k F_tau{(|n| / 10 rpm)^p} where no sensor is at the axis"
+    meaning = "growth with the temperature of a rotary axis: k F{dT}"
+    equation = "d = k F_tau{dT}"
     telltale = "follows the axis while all linear axes stand; told apart by moving it alone"
     source = "as feed_motor, for a turning axis; bounds: docs/method.md#bounds-of-the-effects"
-    needs = (
-        Need("temperature", "temperature", ("rotary.{a}",), True),
-        Need("speed", "rotational_speed", ("rotary.{a}",), True),
-    )
+    needs = (Need("temperature", "temperature", ("rotary.{a}",)),)
+    params = (tau(60, 5, 360),)
+    gains = (gain("um/K", 0.1, 10, "displacement at rest a kelvin"),)
+
+
+class RotaryFriction(Lagged):
+    """Friction heat of a swivelling or turning axis, by its speed, where no sensor sees it.
+
+        d = k F_tau{(|n| / 10 rpm)^p}
+
+    k [um] at 10 rpm, tau [min], p [1], n [rpm].
+    Source: as spindle_friction, for a slow axis; bounds: docs/method.md#bounds-of-the-effects
+    """
+
+    name = "rotary_friction"
+    family = "rotary_{a}"
+    meaning = "friction heat of a rotary axis from its speed, where no sensor sees it: k F{(n/10 rpm)^p}"
+    equation = "d = k F_tau{(|n| / 10 rpm)^p}"
+    telltale = "follows the axis while all linear axes stand; told apart by moving it alone at two speeds"
+    source = "as spindle_friction, for a slow axis; bounds: docs/method.md#bounds-of-the-effects"
+    needs = (Need("speed", "rotational_speed", ("rotary.{a}",)),)
     params = (tau(60, 5, 360), exponent(1.0))
-    gains = (gain("um/K", 0.1, 10, "displacement at rest a kelvin (um at 10 rpm where the speed drives it)"),)
+    gains = (gain("um", 0.1, 60, "displacement at rest at 10 rpm"),)
     driven = ("abs(speed / 10) ** exponent",)
 
     def drive(self, drivers: Drivers, p: Mapping[str, float]) -> Float1D:
-        if "speed" in drivers.values:
-            return power_of(drivers.values["speed"], REFERENCE_TURNING_RPM, p["exponent"])
-        return drivers.values["temperature"]
+        return power_of(drivers.values["speed"], REFERENCE_TURNING_RPM, p["exponent"])

@@ -33,28 +33,49 @@ class ToolElongation(Lagged):
 
 
 class CuttingPower(Lagged):
-    """Heat of the cut, by the power of the spindle, or by its load where the log has no power.
+    """Heat of the cut, by the power of the spindle.
 
-        d = k F_tau{P}, or k F_tau{load / 100 %}
+        d = k F_tau{P}
 
-    k [um/kW] ([um] at full load), tau [min], P [kW], load [%].
+    k [um/kW], tau [min], P [kW].
     Source: [mares2017] eq. 8, gamma1; bounds: docs/method.md#bounds-of-the-effects
     """
 
     name = "cutting_power"
     cause = CUTTING_HEAT
     family = "cutting"
-    meaning = "heat of cutting from the spindle's power: k F{P}, or from its load: k F{load/100 %}"
-    equation = "d = k F_tau{P}, or k F_tau{load / 100 %}"
+    meaning = "heat of cutting from the spindle's power: k F{P}"
+    equation = "d = k F_tau{P}"
     telltale = "follows the load; told apart by the same path as an air cut"
     source = "[mares2017] eq. 8, gamma1; bounds: docs/method.md#bounds-of-the-effects"
-    needs = (Need("power", "power", ("spindle",), True), Need("load", "load", ("spindle",), True))
+    needs = (Need("power", "power", ("spindle",)),)
     params = (tau(30, 1, 240),)
-    gains = (gain("um/kW", 5, 300, "displacement at rest a kilowatt (um at full load where the load drives it)"),)
-    driven = ("power", "load / 100")
+    gains = (gain("um/kW", 5, 300, "displacement at rest a kilowatt"),)
+
+
+class CuttingLoad(Lagged):
+    """Heat of the cut, by the load of the spindle, which a control shows where it shows no power.
+
+        d = k F_tau{load / 100 %}
+
+    k [um] at full load, tau [min], load [%].
+    Source: as cutting_power, for a spindle of a few kilowatts; bounds: docs/method.md#bounds-of-the-effects
+    """
+
+    name = "cutting_load"
+    cause = CUTTING_HEAT
+    family = "cutting"
+    meaning = "heat of cutting from the spindle's load: k F{load/100 %}"
+    equation = "d = k F_tau{load / 100 %}"
+    telltale = "twin of cutting_power; told apart from other heat by the same path as an air cut"
+    source = "as cutting_power, for a spindle of a few kilowatts; bounds: docs/method.md#bounds-of-the-effects"
+    needs = (Need("load", "load", ("spindle",)),)
+    params = (tau(30, 1, 240),)
+    gains = (gain("um", 5, 300, "displacement at rest at full load"),)
+    driven = ("load / 100",)
 
     def drive(self, drivers: Drivers, p: Mapping[str, float]) -> Float1D:
-        return drivers.values["power"] if "power" in drivers.values else drivers.values["load"] / 100.0
+        return drivers.values["load"] / 100.0
 
 
 class Coolant(Lagged):
@@ -82,7 +103,7 @@ class Coolant(Lagged):
 
 
 class CoolantTemperature(Lagged):
-    """Parts that coolant or chiller wash follow its temperature.
+    """Parts that the coolant washes follow its temperature.
 
         d = k F_tau{dT}
 
@@ -92,11 +113,31 @@ class CoolantTemperature(Lagged):
 
     name = "coolant_temperature"
     family = "coolant"
-    meaning = "parts that the coolant or the chiller washes follow its temperature: k F{dT}; a line at 5-40 min"
+    meaning = "parts that the coolant washes follow its temperature: k F{dT}; a line at 5-40 min"
     equation = "d = k F_tau{dT}"
     telltale = "a ripple with the cycle of the chiller, 5 to 40 min; told apart by a step of its set point"
     source = "[mayr2012] on fluids; bounds: docs/method.md#bounds-of-the-effects"
-    needs = (Need("temperature", "temperature", ("coolant", "chiller")),)
+    needs = (Need("temperature", "temperature", ("coolant",)),)
+    params = (tau(15, 1, 240),)
+    gains = (gain("um/K", 0.1, 20, "displacement at rest a kelvin of the coolant"),)
+
+
+class ChillerTemperature(Lagged):
+    """Spindle, drives or frame follow the circuit that cools them.
+
+        d = k F_tau{dT}
+
+    k [um/K], tau [min], dT [K] of the fluid.
+    Source: [mayr2012] on fluids; bounds: docs/method.md#bounds-of-the-effects
+    """
+
+    name = "chiller_temperature"
+    family = "chiller"
+    meaning = "what the cooling circuit holds follows its temperature: k F{dT}; a line at 5-40 min"
+    equation = "d = k F_tau{dT}"
+    telltale = "a ripple with the cycle of the chiller, 5 to 40 min; told apart by a step of its set point"
+    source = "[mayr2012] on fluids; bounds: docs/method.md#bounds-of-the-effects"
+    needs = (Need("temperature", "temperature", ("chiller",)),)
     params = (tau(15, 1, 240),)
     gains = (gain("um/K", 0.1, 20, "displacement at rest a kelvin of the fluid"),)
 
