@@ -203,7 +203,7 @@ def _candidate(
         locked_rmse_um_after=held.after if held else None,
         parameters=held.parameters.get(s.candidate.id, {}) if held else {},
         equivalent=[t.candidate.id for t in equivalents(s, beside)] if rank <= 5 else [],
-        why=why(s, member, claimed, problem, investigation, judgement, held),
+        why=why(s, member, investigation, judgement, held),
         evidence=float(s.evidence) if np.isfinite(s.evidence) else None,
         rungs=ladder.rungs(s, measure, problem.unit),
         left_out=ladder.left_out(told, problem),

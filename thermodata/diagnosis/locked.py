@@ -1,4 +1,5 @@
-"""What the whole set foretells of the locked tests, and what it would foretell without its claims.
+"""What the whole set foretells of the locked tests, and what it would foretell without its claims; and what these tests
+say of the claims, in two ways.
 
 The open tests alone choose and estimate; noise, time constants and gains come from them. Where several effects are
 missing, one alone says little there, so the claims are asked beside all that was selected with them.
@@ -20,7 +21,7 @@ from thermodata.diagnosis.selection import extended
 from thermodata.plugin import Bool1D, Float1D, Int1D
 
 KEPT = 0.5  # share of what is added that must take away as much of the squared error as it is itself,
-LEAST = 0.02  # and the least fall of the error: it never rises;
+LEAST = 0.02  # and the least fall of the error;
 MUCH = 0.25  # a fall of the error that is enough by itself,
 PROBABLE = 0.5  # and so much log probability a sample: few slow tests can't tell a fall from half of it
 

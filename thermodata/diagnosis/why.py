@@ -9,21 +9,15 @@ from thermodata.diagnosis.investigate import Investigation
 from thermodata.diagnosis.judge import Judged, Judgement
 from thermodata.diagnosis.locked import Foretold
 from thermodata.diagnosis.null import p_value
-from thermodata.diagnosis.problem import Problem
 from thermodata.diagnosis.rules import blunt, failed_rules
 from thermodata.diagnosis.scored import Scored
 
 
 def why(
-    s: Scored,
-    member: Judged | None,
-    claimed: bool,
-    problem: Problem,
-    investigation: Investigation,
-    judgement: Judgement,
-    held: Confirmation | None,
+    s: Scored, member: Judged | None, investigation: Investigation, judgement: Judgement, held: Confirmation | None
 ) -> str:
-    unit, count = problem.unit, int(s.acts.sum())
+    """member: the same, as it was judged; None where it was not selected. held: of what is claimed, on locked tests."""
+    unit, count = investigation.problem.unit, int(s.acts.sum())
     others = [j.scored.candidate.id for j in judgement.judged if member is not None and j.alone is not member.alone]
     beside = f", beside {' and '.join(others)}," if others else ""
     improves = round(s.better * count)
@@ -34,7 +28,7 @@ def why(
         f"{improves} of {count} more probable; its gain differs between tests by {s.spread:.0%}"
     )
     chance = p_value(s.evidence, investigation.measure.chance)
-    if claimed:
+    if among(member, judgement.claims):
         locked = _on_locked(s, held, unit, together=len(judgement.claims) > 1) if held else ""
         return f"{numbers}; chance does as well in {chance:.1%} of responses in which nothing is missing{locked}"
     if among(member, judgement.refused):
