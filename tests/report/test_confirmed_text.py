@@ -28,10 +28,17 @@ from thermodata.schema import diagnosis as results
             "less than half of what a cause of its size takes away",
         ),
         (True, (None, None), (None, None), "lag:t4 holds on the locked tests"),
+        (
+            None,
+            (14.2, 13.9),
+            (None, None),
+            "lag:t4 rests in every locked test, so these say nothing of it (14.2 -> 13.9 um): a test that moves it "
+            "would, locked, from a cold start",
+        ),
     ],
 )
 def test_words_and_figures_agree(
-    holds: bool, scored: tuple[float | None, float | None], shape: tuple[float | None, float | None], said: str
+    holds: bool | None, scored: tuple[float | None, float | None], shape: tuple[float | None, float | None], said: str
 ) -> None:
     result = results.Confirmed(
         model="m",
@@ -49,3 +56,28 @@ def test_words_and_figures_agree(
     text = confirmed_text(result)
     assert text.splitlines()[0] == said
     assert text.endswith("opened 2 times so far")
+
+
+def test_the_tests_that_were_asked_are_named_where_not_all_were() -> None:
+    tests = [
+        results.TestConfirmed(campaign="c", test=name, rmse_um_before=2.0, rmse_um_after=1.0, acts=name != "idle")
+        for name in ("idle", "day1", "day2")
+    ]
+    result = results.Confirmed(
+        model="m",
+        response="dX",
+        candidate="lag:t4",
+        holds=True,
+        locked_rmse_um_before=2.0,
+        locked_rmse_um_after=1.0,
+        locked_shape_um_before=1.5,
+        locked_shape_um_after=0.5,
+        parameters={},
+        tests=tests,
+        looks=1,
+    )
+    first = confirmed_text(result).splitlines()[0]
+    assert first == (
+        "lag:t4 holds on the locked tests in which it acts (day1, day2): 1.50 -> 0.500 um about each test's mean; from "
+        "their first samples on, over all, 2.00 -> 1.00 um"
+    )

@@ -103,6 +103,14 @@ def test_no_error_falls_upward() -> None:
     assert "falls where" not in verdict_sentence(found("effect", [claim("screw")]))
 
 
+def test_locked_tests_in_which_a_claim_rests_are_not_said_to_have_judged_it() -> None:
+    rests = {"locked_rmse_um_before": 0.5, "locked_rmse_um_after": 0.6, "locked_tests_asked": 0}
+    text = verdict_sentence(found("effect", [claim("screw", **rests)]))
+    assert text.endswith("; it acts in no locked test, so these were not asked (0.500 -> 0.600 um)")
+    text = verdict_sentence(found("effect", [claim("screw", **rests), claim("sun", **rests)]))
+    assert "; they act in no locked test" in text
+
+
 def test_what_is_unknown_does_not_deny_what_is_named_below() -> None:
     text = verdict_sentence(
         found("unknown", [one("mode", refinement=True, probability=0.9), one("sun", probability=0.35)])

@@ -201,6 +201,7 @@ def _candidate(
         fit_after=_fit(told.sse_after, told, measure.spread),
         locked_rmse_um_before=held.before if held else None,
         locked_rmse_um_after=held.after if held else None,
+        locked_tests_asked=None if held is None or held.asked is None else len(held.asked),
         parameters=held.parameters.get(s.candidate.id, {}) if held else {},
         equivalent=[t.candidate.id for t in equivalents(s, beside)] if rank <= 5 else [],
         why=why(s, member, investigation, judgement, held),

@@ -10,6 +10,7 @@ import numpy as np
 from thermodata.diagnosis.candidates import CandidateEffect
 from thermodata.diagnosis.locked import Foretold
 from thermodata.diagnosis.problem import freed
+from thermodata.diagnosis.scored import ACTS
 from thermodata.modelling.fit import fit_model
 from thermodata.modelling.fitted import FittedModel
 from thermodata.modelling.fitted_response import FittedResponse
@@ -38,7 +39,8 @@ class Confirmation:
     before, after: as scored, from the mean of the first samples on. shape_before, shape_after: with a free offset a
     test: one unlucky zero must not hide that the shape fits. changed: RMS of what the addition changes there. each:
     (key, error before, error after) of every locked test. shapes: of every one, too. asked: the keys of those that
-    decide, for a claim acts there; None: all.
+    decide, for a claim acts there; None: all. acts: the keys of those in which the candidates themselves act, fitted
+    beside the model as it stands (`ACTS`).
     """
 
     before: float | None
@@ -50,6 +52,7 @@ class Confirmation:
     each: tuple[tuple[tuple[str, str], float, float], ...] = ()
     shapes: tuple[Shape, ...] = ()
     asked: frozenset[tuple[str, str]] | None = None
+    acts: frozenset[tuple[str, str]] = frozenset()
 
     def on(self, tests: frozenset[tuple[str, str]] | None) -> Foretold | None:
         """By shape, on some of the locked tests; None where none of them can be predicted."""
@@ -71,9 +74,9 @@ class Confirmation:
         return None if before is None or after is None else Foretold(before, after, self.changed)
 
     @property
-    def holds(self) -> bool:
-        """Whether the locked tests bear it out (`locked.Foretold.holds`)."""
-        return self.foretold is None or self.foretold.holds
+    def where_it_acts(self) -> Foretold | None:
+        """By shape, on the locked tests in which the candidates act; None where they rest in all of them."""
+        return self.on(self.acts)
 
 
 def extended(spec: Model, candidates: Sequence[CandidateEffect]) -> Model:
@@ -121,7 +124,34 @@ def confirm(
             (t.key, a, b) for t in usable if (a := rmse(ours, [t])) is not None and (b := rmse(theirs, [t])) is not None
         ),
         tuple(_shape(ours, theirs, t) for t in usable),
+        acts=_acting(ours, theirs, any(c.becomes for c in candidates), tests, usable),
     )
+
+
+def _acting(
+    ours: FittedResponse,
+    theirs: FittedResponse,
+    changed: bool,
+    tests: Sequence[TestData],
+    locked: Sequence[TestData],
+) -> frozenset[tuple[str, str]]:
+    """The keys of the locked tests in which what is added does enough of what it does in the open test in which it does
+    most; of an effect that is changed, what the change does. Other effects move as well when one is added: they say
+    nothing of it."""
+    had = {t.id for t in ours.terms}
+
+    def size(test: TestData) -> float:
+        if not (ours.can_predict(test) and theirs.can_predict(test)):
+            return 0.0
+        if changed:
+            what = theirs.predict(test) - ours.predict(test)
+        else:
+            what = np.sum([t.contribution(test) for t in theirs.terms if t.id not in had], axis=0)
+        values = what[theirs.mask(test)]
+        return float(values.std()) if len(values) else 0.0
+
+    most = max(map(size, tests), default=0.0)
+    return frozenset(t.key for t in locked if most > 0 and size(t) >= ACTS * most)
 
 
 def _shape(ours: FittedResponse, theirs: FittedResponse, test: TestData) -> Shape:

@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     from thermodata.store.base.counting import Tell
 
 # raise it where a rule of the diagnosis changes: answers of older rules are then given anew
-RULES_VERSION = 17
+RULES_VERSION = 18
 
 
 def _key(model: Loaded) -> str:
@@ -96,18 +96,22 @@ def confirm_choice(store: Store, ref: str, candidate: str | int) -> tuple[Confir
         )
     confirmation = confirm(model.fitted.spec, index, model.data, [chosen], usable, locked)
     count_locked_look(store, model.identity, [t.key for t in locked], f"confirming {name}, by choice")
+    shape = confirmation.where_it_acts
     result = Confirmed(
         model=model.identity,
         response=response.name,
         candidate=name,
-        holds=confirmation.holds,
+        holds=None if shape is None else shape.holds,
         locked_rmse_um_before=confirmation.before,
         locked_rmse_um_after=confirmation.after,
-        locked_shape_um_before=confirmation.shape_before,
-        locked_shape_um_after=confirmation.shape_after,
+        locked_shape_um_before=None if shape is None else shape.before,
+        locked_shape_um_after=None if shape is None else shape.after,
         parameters=confirmation.parameters[chosen.id],
         tests=[
-            TestConfirmed(campaign=c, test=t, rmse_um_before=b, rmse_um_after=a) for (c, t), b, a in confirmation.each
+            TestConfirmed(
+                campaign=key[0], test=key[1], rmse_um_before=b, rmse_um_after=a, acts=key in confirmation.acts
+            )
+            for key, b, a in confirmation.each
         ],
         looks=max(locked_looks(store, t.campaign, t.test) for t in locked),
     )

@@ -103,7 +103,8 @@ class Confirmation(Shown):
         self.result = result
 
     @property
-    def holds(self) -> bool:
+    def holds(self) -> bool | None:
+        """None where the effect rests in all locked tests."""
         return self.result.holds
 
     def summary(self) -> str:

@@ -31,17 +31,27 @@ def confirmed_text(result: Confirmed) -> str:
 
 def _confirmed_sentence(result: Confirmed) -> str:
     """It holds by its shape, with a free offset a test; where the error as scored says otherwise both are told."""
+    before, after = result.locked_rmse_um_before, result.locked_rmse_um_after
+    scored = "" if before is None or after is None else f"{number(before)} -> {number(after)} um"
+    if result.holds is None:
+        return (
+            f"{result.candidate} rests in every locked test, so these say nothing of it"
+            + (f" ({scored})" if scored else "")
+            + ": a test that moves it would, locked, from a cold start"
+        )
     said = "holds" if result.holds else "does not hold"
     head = f"{result.candidate} {said} on the locked tests"
-    before, after = result.locked_rmse_um_before, result.locked_rmse_um_after
     if before is None or after is None:
         return head
-    scored = f"{number(before)} -> {number(after)} um"
-    if result.holds == (after < before) or result.locked_shape_um_before is None:
+    shape = ""
+    if result.locked_shape_um_before is not None:
+        figures = f"{number(result.locked_shape_um_before)} -> {number(result.locked_shape_um_after)} um"
+        shape = f"{figures} about each test's mean"
+    if shape and not all(t.acts for t in result.tests):
+        where = ", ".join(t.test for t in result.tests if t.acts)
+        return f"{head} in which it acts ({where}): {shape}; from their first samples on, over all, {scored}"
+    if result.holds == (after < before) or not shape:
         return f"{head}: {scored}"
-    shape = (
-        f"{number(result.locked_shape_um_before)} -> {number(result.locked_shape_um_after)} um about each test's mean"
-    )
     if result.holds:
         return f"{head} by its shape, {shape}; from their first samples on the error rises, {scored}"
     return f"{head}: {scored}, and {shape}, less than half of what a cause of its size takes away"

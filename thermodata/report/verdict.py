@@ -114,6 +114,9 @@ def _locked(claims: Sequence[Candidate]) -> str:
     if before is None or after is None:
         return ""
     all_of = "" if len(claims) == 1 else " with both" if len(claims) == 2 else f" with all {len(claims)}"
+    if claims[0].locked_tests_asked == 0:
+        acts = "it acts" if len(claims) == 1 else "they act"
+        return f"; {acts} in no locked test, so these were not asked ({number(before)} -> {number(after)} um)"
     rises = "judged by their shape where it acts; from their first samples on"
     return "; " + _from_to(f"locked tests{all_of}", before, after, rises)
 

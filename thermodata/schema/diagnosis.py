@@ -107,6 +107,7 @@ class Candidate(Result):
     fit_after: with it
     locked_rmse_um_before: error on the locked tests without it; for a claimed one only
     locked_rmse_um_after: with it
+    locked_tests_asked: in how many locked tests the claims act, and are asked; null where it is not known
     parameters: of the effect, fitted to all open tests; for a claimed one only
     equivalent: ids that the data cannot tell from it
     why: the evidence in a sentence
@@ -133,6 +134,7 @@ class Candidate(Result):
     fit_after: float | None
     locked_rmse_um_before: float | None = None
     locked_rmse_um_after: float | None = None
+    locked_tests_asked: int | None = None
     parameters: dict[str, Parameter] = {}
     equivalent: list[str] = []
     why: str = ""
@@ -203,12 +205,14 @@ class TestConfirmed(Result):
     test: id
     rmse_um_before: free-run error without the effect, in the response's unit
     rmse_um_after: with it
+    acts: whether the effect does there at least a fifth of what it does in the open test in which it does most
     """
 
     campaign: str
     test: str
     rmse_um_before: float
     rmse_um_after: float
+    acts: bool = True
 
 
 class Confirmed(Result):
@@ -217,10 +221,11 @@ class Confirmed(Result):
     model: id of the model that the effect was tried on
     response: name
     candidate: effect:channels
-    holds: whether the locked error falls by the share that a claim of the diagnosis must show
+    holds: whether the locked error falls by what a cause would take away, in the tests in which the effect acts; null
+        where it rests in all of them, and nothing can be said
     locked_rmse_um_before: error over all locked tests without the effect, in the response's unit
     locked_rmse_um_after: with it
-    locked_shape_um_before: the same with a free offset for each test, which is what `holds` goes by
+    locked_shape_um_before: the same over those in which it acts, a free offset for each, which is what `holds` goes by
     locked_shape_um_after: with it
     parameters: of the effect, fitted to all open tests
     tests: each locked test
@@ -230,7 +235,7 @@ class Confirmed(Result):
     model: str
     response: str
     candidate: str
-    holds: bool
+    holds: bool | None
     locked_rmse_um_before: float | None
     locked_rmse_um_after: float | None
     locked_shape_um_before: float | None = None
