@@ -123,8 +123,8 @@ def kin(effect: PlainEffect, channel: str, *present: Present) -> object:
         "n": "spindle",
     }
     channels = {c: ChannelInfo(c, "temperature", "degC", at=place) for c, place in at.items()}
-    library = {e.name: e for e in (effect, NUT)}
-    found = candidates(library, channels, present, "dZ")
+    two = PlainEffect("bent", "feed_x", needs=(Need("u", "temperature"), Need("v", "temperature")))
+    found = candidates({e.name: e for e in (effect, NUT, two)}, channels, present, "dZ")
     return next(c.kin for c in found if c.effect is effect and c.channels == (channel,))
 
 
@@ -161,6 +161,23 @@ def test_the_same_effect_on_other_channels_is_the_same() -> None:
     channels = {c: CHANNELS[c] for c in ("T_nut", "T_oil")}
     (found,) = candidates({"screw": twice}, channels, (has("screw", "T_nut", family="feed_x"),), "dZ")
     assert (found.id, found.kin) == ("screw:T_oil", "same")
+
+
+@pytest.mark.parametrize(
+    ("present", "expected"),
+    [
+        ((has("bent", "T_nut", "T_axis", family="feed_x"),), "part"),
+        ((has("bent", "T_nut", "T_axis", family="feed_x"), has("screw", "T_nut", family="feed_x")), "same"),
+        ((has("bent", "T_nut", "T_axis", family="sun"), has("screw", "T_other", family="feed_x")), "same"),
+        ((has("bent", "T_axis", "n", family="feed_x"),), "near"),
+    ],
+)
+def test_one_of_the_temperatures_that_an_effect_reads_together_is_a_part_of_it(
+    present: tuple[Present, ...], expected: str
+) -> None:
+    """The air, where the model has its gradient alone: two states, not two readings of one."""
+    made = PlainEffect("mount", "feed_x", needs=(Need("u", "temperature"),))
+    assert kin(made, "T_nut", *present) == expected
 
 
 @dataclass(frozen=True)

@@ -89,6 +89,15 @@ def test_what_reads_the_same_cause_again_is_another_mode_of_it(after: float, res
     assert said(cause("same", after=after), response) == MODE
 
 
+@pytest.mark.parametrize(("evidence", "expected"), [(401.0, None), (399.0, MODE)])
+def test_a_part_of_what_the_model_reads_together_is_a_cause_where_it_is_evident(
+    evidence: float, expected: str | None
+) -> None:
+    """From 0.4 a sample on, of a thousand, whatever it takes away."""
+    for after in (0.9, 0.01):
+        assert said(cause("part", evidence=evidence, after=after), 100.0) == expected
+
+
 @pytest.mark.parametrize(("size", "expected"), [(0.599, MODE), (0.601, None)])
 @pytest.mark.parametrize("kin", ["near", "related"])
 def test_kin_is_a_mode_where_it_is_under_three_fifths_of_the_largest_effect(

@@ -17,7 +17,7 @@ from .hand_made import measure, of_tests, scored
 
 NOISE = Noise(0.1, 1.0, 3600.0, 0.5)
 UNKNOWN: Any = None  # the known effects of a ranking: no rule of a verdict reads them
-HOPELESS = scored("hopeless", before=1.0, after=0.95)
+HOPELESS = scored("hopeless", before=1.0, after=0.95, evidence=50.0)
 
 
 def selection(

@@ -303,7 +303,7 @@ def test_what_only_its_probability_or_the_choice_stopped_is_likely_it(evidence: 
 
 
 def test_what_breaks_a_rule_of_a_claim_is_not_likely_it() -> None:
-    assert suspect(UNKNOWN, scored("a", after=0.95, evidence=300.0), measure(), "um") is None
+    assert suspect(UNKNOWN, scored("a", after=0.95, evidence=80.0), measure(), "um") is None
     assert suspect(UNKNOWN, None, measure(), "um") is None
 
 

@@ -30,10 +30,11 @@ from thermodata.schema.places import is_casting
 from thermodata.view.dataset import ChannelInfo, TestData
 
 InTest = Callable[[Mapping[str, float]], Float2D]  # parameters -> columns of a test, shape (n, gains)
-# "same": another mode of an effect that the model has, another reading of its channels or of the same cause. "near": an
+# "same": another mode of an effect that the model has, another reading of its channels or of the same cause. "part":
+# one of several temperatures that an effect of its family reads together, as the air beside its gradient. "near": an
 # effect of a family that the model has, at its place. "related": one elsewhere. "itself": an effect of the model with
 # other gains (`gain_by`)
-Kin = Literal["same", "near", "related", "itself"] | None
+Kin = Literal["same", "part", "near", "related", "itself"] | None
 STATIC = "static"
 NOT_DRIVERS = frozenset({"displacement", "tilt", "label"})
 # a distributed machine also acts with these multiples of an effect's time constant
@@ -193,10 +194,12 @@ def _kin(
         return "same"
     if family not in model.families:
         return None
-    # a temperature is the state of one body; a speed makes heat, and force
-    again = names <= model.read and all(channels[n].quantity == "temperature" for n in names)
-    if again or any(cause(own) == cause(effect) for own in acting):
+    if any(cause(own) == cause(effect) for own in acting):
         return "same"
+    # a temperature is the state of one body; a speed makes heat, and force
+    if names <= model.read and all(channels[n].quantity == "temperature" for n in names):
+        kindred = [p.channels for p in model.own if p.family == family]
+        return "part" if names not in kindred and any(names < some for some in kindred) else "same"
     return "near" if near else "related"
 
 

@@ -17,7 +17,7 @@ from thermodata.diagnosis.known import known, rms
 from thermodata.diagnosis.known_effects import from_other_zero, is_warm, owners
 from thermodata.diagnosis.present import GENERIC
 from thermodata.diagnosis.problem import Block, Problem
-from thermodata.diagnosis.rules import acting_size, blunt, sharpness
+from thermodata.diagnosis.rules import STRONG, acting_size, blunt, sharpness
 from thermodata.diagnosis.scored import Scored
 from thermodata.diagnosis.selection import beside
 from thermodata.modelling.fitted_response import FittedResponse
@@ -54,7 +54,7 @@ class Refinement:
         if isinstance(scored.candidate, ChangedEffect):
             return scored.candidate.in_words(scored, self.fitted, self.problem, self.noise)
         kin, most = scored.candidate.kin, scored.drop >= MOST
-        if refines(scored.candidate.effect) or kin == "same":
+        if refines(scored.candidate.effect) or kin == "same" or (kin == "part" and sharpness(scored) < STRONG):
             return MODE
         good = scored.error_before <= GOOD * rms(self.problem.response_blocks)
         largest = max(self._size(i) for i in range(len(self.fitted.terms)))

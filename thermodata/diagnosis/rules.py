@@ -28,7 +28,8 @@ OVERWHELMING = 0.5
 DROP_LIMIT = 0.15  # fall of the error on left-out tests in which it acts,
 STEADYING_DROP_LIMIT = 0.3  # and of any casting, or two temperatures: what is slow steadies a misfit a little
 LEAST_TESTS = 2  # in which it acts: no other foretells what acts in one only
-BETTER_LIMIT = 0.6  # share of these tests that it makes more probable
+BETTER_LIMIT = 0.6  # share of these tests that it makes more probable,
+SURE_BETTER_LIMIT = 0.4  # and where it is as probable as a claim asks, for that counts the same tests by how much
 SPREAD_LIMIT = 0.5  # of its gain between tests, as a share,
 FORETOLD = 0.5  # unless left-out tests are foretold to this share of their error: few tests can't tell a spread
 WORTH_SHARE = 0.1  # of the response: less is not worth a name
@@ -88,6 +89,8 @@ def rules(scored: Scored, measure: Measure, unit: str) -> list[Rule]:
     fall = STEADYING_DROP_LIMIT if _steadies(scored) else DROP_LIMIT
     told, worth = explained(scored), WORTH_SHARE * measure.spread
     strong, overwhelming = sharpness(scored) >= STRONG, sharpness(scored) >= OVERWHELMING
+    sure = probability(scored) >= limit_of(scored)
+    better = SURE_BETTER_LIMIT if sure else BETTER_LIMIT
     unasked = "; not asked where the evidence is {:g} a sample"
     return [
         Rule(
@@ -101,11 +104,12 @@ def rules(scored: Scored, measure: Measure, unit: str) -> list[Rule]:
         ),
         Rule(
             "fall",
-            f"fall of the error where it acts, its size from the other tests{unasked.format(STRONG)}",
+            f"fall of the error where it acts, its size from the other tests{unasked.format(STRONG)}, or it is as "
+            "probable as a claim asks",
             scored.drop,
             fall,
             "least",
-            strong or scored.drop >= fall,
+            strong or sure or scored.drop >= fall,
             f"in the {count} tests in which it acts the error falls by {max(scored.drop, 0):.0%} only, its size from "
             f"the others (limit {fall:.0%})",
         ),
@@ -113,20 +117,20 @@ def rules(scored: Scored, measure: Measure, unit: str) -> list[Rule]:
             "tests",
             "share of these tests that it makes more probable",
             scored.better,
-            BETTER_LIMIT,
+            better,
             "least",
-            scored.better >= BETTER_LIMIT,
+            scored.better >= better,
             f"it makes {round(scored.better * count)} of the {count} tests in which it acts more probable (limit "
-            f"{BETTER_LIMIT:.0%})",
+            f"{better:.0%})",
         ),
         Rule(
             "gain",
             f"how much its gain differs between tests; not asked where the error falls by {FORETOLD:.0%}, or the "
-            f"evidence is {OVERWHELMING:g} a sample",
+            f"evidence is {STRONG:g} a sample",
             scored.spread,
             SPREAD_LIMIT,
             "most",
-            overwhelming or scored.spread <= SPREAD_LIMIT or scored.drop >= FORETOLD,
+            strong or scored.spread <= SPREAD_LIMIT or scored.drop >= FORETOLD,
             f"its gain differs between tests by {scored.spread:.0%} (limit {SPREAD_LIMIT:.0%}): a cause acts alike "
             "everywhere",
         ),
