@@ -83,6 +83,13 @@ MUTANTS = [
         "rules.py", "STEADYING_DROP_LIMIT = 0.3", "STEADYING_DROP_LIMIT = 0.15", "what steadies a misfit is claimed"
     ),
     diagnosis("rules.py", "BETTER_LIMIT = 0.6", "BETTER_LIMIT = 0.4", "a few tests carry a claim"),
+    diagnosis("rules.py", "SURE_BETTER_LIMIT = 0.4", "SURE_BETTER_LIMIT = 0.0", "a test or two carry a sure claim"),
+    diagnosis(
+        "rules.py", "strong or sure or scored.drop", "strong or scored.drop", "a sure cause is refused for its fall"
+    ),
+    diagnosis("rules.py", "SURE_BETTER_LIMIT if sure else", "BETTER_LIMIT if sure else", "a sure cause is refused"),
+    diagnosis("refinement.py", 'kin == "part" and', "False and", "the air is claimed beside its gradient"),
+    diagnosis("candidates.py", '"part" if names not in', '"same" if names not in', "the air is a mode of its gradient"),
     diagnosis("rules.py", "SPREAD_LIMIT = 0.5", "SPREAD_LIMIT = 0.9", "a proxy of another gain a test is claimed"),
     diagnosis("rules.py", "FORETOLD = 0.5", "FORETOLD = 0.3", "a proxy of another gain a test is claimed"),
     diagnosis("rules.py", "WORTH_SHARE = 0.1 ", "WORTH_SHARE = 0.0 ", "trifles are claimed"),

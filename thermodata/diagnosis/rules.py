@@ -22,14 +22,14 @@ CLAIMED = 0.65  # a claim is this probable at least;
 # where nobody declared any place it names a channel, not physics, and there is nothing that it could be taken for
 PLACELESS_CLAIMED = 0.5
 # so much evidence a sample outweighs what left-out tests say: how far their error falls, for the known effects take
-# part of what is missing; and even how many they are, and that the gain differs between them
+# part of what is missing, and that the gain differs between them; and even how many they are
 STRONG = 0.4
 OVERWHELMING = 0.5
 DROP_LIMIT = 0.15  # fall of the error on left-out tests in which it acts,
 STEADYING_DROP_LIMIT = 0.3  # and of any casting, or two temperatures: what is slow steadies a misfit a little
 LEAST_TESTS = 2  # in which it acts: no other foretells what acts in one only
 BETTER_LIMIT = 0.6  # share of these tests that it makes more probable,
-SURE_BETTER_LIMIT = 0.4  # and where it is as probable as a claim asks, for that counts the same tests by how much
+SURE_BETTER_LIMIT = 0.4  # and of what is as probable as a claim asks: its few tests say much
 SPREAD_LIMIT = 0.5  # of its gain between tests, as a share,
 FORETOLD = 0.5  # unless left-out tests are foretold to this share of their error: few tests can't tell a spread
 WORTH_SHARE = 0.1  # of the response: less is not worth a name
