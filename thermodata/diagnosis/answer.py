@@ -10,6 +10,7 @@ import numpy as np
 from thermodata.diagnosis import ladder, next_test
 from thermodata.diagnosis.artefact import noise_with_treads
 from thermodata.diagnosis.confirm import Confirmation, confirm, on_all_open
+from thermodata.diagnosis.detection import Limit
 from thermodata.diagnosis.investigate import Investigation, investigate
 from thermodata.diagnosis.judge import Judged, Judgement, equivalents
 from thermodata.diagnosis.locked import Looked
@@ -24,7 +25,7 @@ from thermodata.diagnosis.why import among, why
 from thermodata.modelling.fit import fit_model
 from thermodata.modelling.fitted import FittedModel
 from thermodata.plugin import Effect
-from thermodata.schema.diagnosis import Candidate, Diagnosis
+from thermodata.schema.diagnosis import Candidate, DetectionLimit, Diagnosis
 from thermodata.view.dataset import Dataset, TestData
 
 SHOWN = 15
@@ -78,7 +79,8 @@ def answer(fitted: FittedModel, data: Dataset, library: Mapping[str, Effect], mo
         )
         if kept := judgement.claims:
             confirmation = replace(confirmed(kept), asked=asked.get(names(kept)))
-    return Answer(_diagnosis(investigation, judgement, confirmation, data, model_id), tuple(locked))
+    terms = [t.id for t in refitted.responses[index].terms]
+    return Answer(_diagnosis(investigation, judgement, confirmation, data, model_id, terms), tuple(locked))
 
 
 def worst_response(fitted: FittedModel, tests: Sequence[TestData]) -> int:
@@ -96,8 +98,14 @@ def worst_response(fitted: FittedModel, tests: Sequence[TestData]) -> int:
 
 
 def _diagnosis(
-    investigation: Investigation, judgement: Judgement, confirmation: Confirmation | None, data: Dataset, model_id: str
+    investigation: Investigation,
+    judgement: Judgement,
+    confirmation: Confirmation | None,
+    data: Dataset,
+    model_id: str,
+    terms: Sequence[str],
 ) -> Diagnosis:
+    """terms: ids of the model's effects."""
     problem = investigation.problem
     shown = _shown(investigation, judgement)
     # what refines the model is no missing cause, also where more is missing than it gives
@@ -124,7 +132,21 @@ def _diagnosis(
         if judgement.verdict == "unknown"
         else None,
         next_test=_advice(investigation, judgement, confirmation, shown[0][0] if shown else None, data),
+        response_um=investigation.measure.spread,
+        limits=[_limit(one, terms) for one in investigation.limits] if not judgement.claims else [],
         chance=ladder.chance(investigation.measure),
+    )
+
+
+def _limit(one: Limit, terms: Sequence[str]) -> DetectionLimit:
+    return DetectionLimit(
+        id=one.candidate.id,
+        effect=one.candidate.effect.name,
+        family=one.candidate.family,
+        drivers=list(one.candidate.channels),
+        least_um=one.least if np.isfinite(one.least) else None,
+        seen=one.beyond,
+        like=None if one.like is None else terms[one.like],
     )
 
 

@@ -130,11 +130,11 @@ def moments(known: Known, columns: Columns) -> Moments:
 
 def weigh(known: Known, columns: Columns, moments: Moments, tests: Int1D) -> Weighed:
     """What some tests say."""
-    left, right = _beyond_known(known, moments, tests)
+    left, right = beyond_known(known, moments, tests)
     return _weigh(columns, left, right)
 
 
-def _beyond_known(known: Known, moments: Moments, tests: Int1D) -> tuple[FloatND, FloatND]:
+def beyond_known(known: Known, moments: Moments, tests: Int1D) -> tuple[FloatND, FloatND]:
     """M, shape (points, c, c), and b, (points, c), once the known effects have explained what they can."""
     cross = moments.known[tests].sum(axis=0)
     points, c, k = cross.shape
@@ -170,7 +170,7 @@ def of_each_series(known: Known, columns: Columns, series: Sequence[Float2D]) ->
         if block.any():
             white = known.space.of(i, block.reshape(m, points * c))
             right += (white.T @ values).reshape(points, c, count)
-    left, _ = _beyond_known(known, products, tests)
+    left, _ = beyond_known(known, products, tests)
     right -= products.known.sum(axis=0) @ solved(factor, cross)
     deviation = SIZES[:, None] * columns.width
     scaled = deviation[None, :, :, None] * left[:, None] * deviation[None, :, None, :]

@@ -11,11 +11,12 @@ from threadpoolctl import threadpool_limits
 from thermodata.diagnosis.artefact import as_artefacts, find_steps
 from thermodata.diagnosis.by_phase import heating_and_cooling_apart
 from thermodata.diagnosis.candidates import CandidateEffect, candidates
+from thermodata.diagnosis.detection import Limit, limits
 from thermodata.diagnosis.evidence import Columns, columns
 from thermodata.diagnosis.gain_by import gains_by_condition
 from thermodata.diagnosis.judge import Judged, Judgement, judge
-from thermodata.diagnosis.known import rms
-from thermodata.diagnosis.known_effects import otherwise, remembered
+from thermodata.diagnosis.known import Known, known, rms
+from thermodata.diagnosis.known_effects import otherwise, owners, remembered
 from thermodata.diagnosis.locked import Foretold, foretell
 from thermodata.diagnosis.logging_faults import (
     clock_offsets,
@@ -31,10 +32,10 @@ from thermodata.diagnosis.ranking import rank_in
 from thermodata.diagnosis.refinement import Refinement
 from thermodata.diagnosis.rules import Measure, at_best, failed_rules, limit_of
 from thermodata.diagnosis.scored import Scored
-from thermodata.diagnosis.selection import Selection, any_stands_out, first_ranking, select
+from thermodata.diagnosis.selection import Selection, any_stands_out, beside, first_ranking, select
 from thermodata.diagnosis.weak import weak_spots
 from thermodata.modelling.fitted_response import FittedResponse
-from thermodata.plugin import Effect
+from thermodata.plugin import Effect, Int1D
 from thermodata.schema.diagnosis import Artefact, WeakSpot
 from thermodata.view.dataset import ChannelInfo, Dataset, TestData
 
@@ -47,7 +48,8 @@ BorneOut = Callable[[Sequence[Judged]], Foretold | None]
 
 @dataclass(frozen=True, slots=True)
 class Investigation:
-    """problem: in the samples in which candidates are weighed. selection: None where nothing can be left out."""
+    """problem: in the samples in which candidates are weighed. selection: None where nothing can be left out. limits:
+    how large what is not named would have to be, where nothing is claimed."""
 
     problem: Problem
     selection: Selection | None
@@ -56,6 +58,7 @@ class Investigation:
     judgement: Judgement
     measure: Measure
     borne_out: BorneOut
+    limits: tuple[Limit, ...] = ()
 
 
 def investigate(
@@ -103,6 +106,7 @@ def investigate(
     # thousands of small products: threads of the linear algebra library would wait for each other
     with threadpool_limits(1):
         selection, judgement, measure = _judged(fitted, problem, asked, seed)
+        unseen = () if judgement.claims or selection is None else _limits(fitted, problem, selection, measure)
         selection = _with_unforetold(problem, selection, [c for c in by_condition if c.unforetold])
     asked_about = fitted if as_fitted is None else as_fitted
     spots = weak_spots([(t, asked_about.residual(t), asked_about.mask(t)) for t in tests], problem.noise)
@@ -117,12 +121,12 @@ def investigate(
 
     def borne_out(claims: Sequence[Judged]) -> Foretold | None:
         blocks = compressed(WEIGHED_ROWS, [*tests, *locked]).blocks if locked else ()
-        unseen = tuple(b for b in blocks if b.test.key in {t.key for t in locked})
-        if selection is None or not unseen:
+        closed = tuple(b for b in blocks if b.test.key in {t.key for t in locked})
+        if selection is None or not closed:
             return None
         chosen = {id(c.alone.columns) for c in claims}
         kept = [m.scored for m in selection.members if id(m.alone.columns) not in chosen]
-        both = replace(problem, blocks=(*problem.blocks, *unseen), kept={})
+        both = replace(problem, blocks=(*problem.blocks, *closed), kept={})
         claimed, refining = [c.scored for c in claims], [j.scored for j in judgement.refinements]
         with threadpool_limits(1):
             beside_all = foretell(both, len(problem.blocks), selection.noise, kept, claimed)
@@ -131,7 +135,7 @@ def investigate(
                 return beside_all
             return foretell(both, len(problem.blocks), selection.noise, refining, claimed)
 
-    return Investigation(problem, selection, artefacts, spots, judgement, measure, borne_out)
+    return Investigation(problem, selection, artefacts, spots, judgement, measure, borne_out, unseen)
 
 
 def _judged(
@@ -160,6 +164,23 @@ def _judged(
     if not judgement.claims and any_stands_out(problem, first, selection, passive, may_be):
         selection, judgement = judged(everything)
     return selection, judgement, measure
+
+
+def _limits(fitted: FittedResponse, problem: Problem, selection: Selection, measure: Measure) -> tuple[Limit, ...]:
+    """Beside what was selected, in the noise that is left."""
+    full = known(beside(problem, [m.alone for m in selection.members]), selection.noise)
+    pool = [s.columns for s in selection.first.ranked]
+    return tuple(limits(full, pool, measure.spread, _owners(fitted, full)))
+
+
+def _owners(fitted: FittedResponse, full: Known) -> Int1D:
+    """Of each known column the number of its effect in the model; -1 for what was selected."""
+    block = full.problem.blocks[0]
+    found = [
+        [*numbers, *[-1] * (columns.shape[1] - len(numbers))]
+        for numbers, columns in zip(owners(fitted), (block.base, block.slack), strict=True)
+    ]
+    return np.array(found[0] + found[1], dtype=np.int64)
 
 
 def _with_unforetold(

@@ -240,6 +240,12 @@ def _probability(a_sample: float, drop: float, beside_sharper: bool, is_passive:
     return float(1 / (1 + np.exp(-odds)))
 
 
+def sharpness_asked(fall: float) -> float:
+    """The evidence a sample that a claim asks of what is active and stands alone. fall: of the error where it acts."""
+    level, sharp, by_fall = PROBABILITY[:3]
+    return float(10 ** ((np.log(CLAIMED / (1 - CLAIMED)) - level - by_fall * float(np.clip(fall, *FALLS))) / sharp))
+
+
 def limit_of(scored: Scored) -> float:
     """The least probability of a claim."""
     return PLACELESS_CLAIMED if scored.candidate.placeless else CLAIMED

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from thermodata.report.could_hide import could_hide
 from thermodata.report.fit_text import spots_text
 from thermodata.report.glossary import explained
 from thermodata.report.table import table
@@ -102,6 +103,8 @@ def diagnosis_text(found: Diagnosis, top: int = 8) -> str:
             f"the missing heat, estimated\n  {heat.where}\n"
             + "\n".join(f"  {what}: {text}" for what, text in heat_lines(heat))
         )
+    if hides := could_hide(found):
+        parts.append(hides)
     if found.next_test:
         parts.append(f"next test: {found.next_test}")
     parts.append(explained("left-out", *(["locked"] if any(c.locked_rmse_um_after for c in found.candidates) else [])))

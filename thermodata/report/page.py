@@ -11,6 +11,7 @@ import numpy as np
 from thermodata.chart import Chart, HeatMap, effect_styles
 from thermodata.chart.decimate import block_mean
 from thermodata.report.bars import waterfall
+from thermodata.report.could_hide import could_hide
 from thermodata.report.data import ReportData, TestPart
 from thermodata.report.error_rows import error_rows, headline_error
 from thermodata.report.figures import overview_map, part_chart, points_for, residual_scale
@@ -73,6 +74,7 @@ def render(data: ReportData) -> str:
         how=HOW,
         left=what_is_left(data),
         verdict=typeset(capital(verdict_sentence(data.diagnosis))) if data.diagnosis else "",
+        could_hide=typeset(capital(could_hide(data.diagnosis))) if data.diagnosis else "",
         reason=typeset(capital(verdict_sentence(data.reason))) if data.reason else "",
         tests=[_test(data, part, f"test{i}") for i, part in enumerate(data.tests)],
         parameters=[

@@ -163,6 +163,27 @@ class Artefact(Result):
     why: str
 
 
+class DetectionLimit(Result):
+    """How large an effect that is not named would have to be to be claimed on these tests.
+
+    id: of the candidate
+    effect: of the library
+    family: its family, of the place that it is bound to
+    drivers: channels
+    least_um: RMS where it acts, in the response's unit, of the least that would be claimed; null where none would
+    seen: share of what it does that the model's effects can't do, 0 to 1
+    like: id of the effect of the model that does most of it
+    """
+
+    id: str
+    effect: str
+    family: str
+    drivers: list[str]
+    least_um: float | None
+    seen: float
+    like: str | None = None
+
+
 class Diagnosis(Result):
     """Answer of diagnose.
 
@@ -180,6 +201,8 @@ class Diagnosis(Result):
     artefacts: faults of the logs
     unknown: for the verdict unknown
     next_test: which test to run, or which sensor to add
+    response_um: RMS of the response about each test's mean, in its unit
+    limits: what was not claimed and could have been, the one that could hide most first; where nothing is claimed
     chance: quantiles (0 to 1 in even steps) of the best log evidence in responses in which nothing is missing
     """
 
@@ -195,6 +218,8 @@ class Diagnosis(Result):
     artefacts: list[Artefact]
     unknown: Unknown | None = None
     next_test: str | None = None
+    response_um: float | None = None
+    limits: list[DetectionLimit] = []
     chance: list[float] = []
 
 

@@ -10,7 +10,9 @@ from starlette.responses import Response
 from thermodata.chart.pack import script_json
 from thermodata.effect import effects
 from thermodata.effect.unbound import unbound
+from thermodata.report.could_hide import could_hide
 from thermodata.report.course_chart import course_chart
+from thermodata.report.headline import capital
 from thermodata.report.verdict import claims_of, explainable, listed, told, verdict_sentence
 from thermodata.report.words import number
 from thermodata.schema.diagnosis import Diagnosis
@@ -72,6 +74,7 @@ def show(request: Request) -> Response:
         headline=_headline(found) if found else "What does it miss?",
         about=_about(found, model) if found else "",
         told=shown,
+        hides=capital(could_hide(found)) if found else "",
         nothing={"title": nothing[0], "text": nothing[1]},
         charts={c.rank: script_json(course_chart(c, model.unit).as_json()) for c in shown if c.courses},
         most={c.rank: max((r.rmse_um_before for r in c.left_out), default=1.0) for c in shown},

@@ -1,0 +1,65 @@
+"""What a verdict without a claim can't exclude, in words."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+
+from thermodata.report.could_hide import could_hide
+from thermodata.schema.diagnosis import DetectionLimit, Diagnosis
+
+
+def one(effect: str, least: float | None, seen: float = 0.9, family: str = "", like: str | None = "base") -> Any:
+    return DetectionLimit(
+        id=f"{effect}:T", effect=effect, family=family or effect, drivers=["T"], least_um=least, seen=seen, like=like
+    )
+
+
+def found(*limits: DetectionLimit, response: float | None = 9.0) -> Diagnosis:
+    return Diagnosis(
+        model="m",
+        response="dZ",
+        verdict="none",
+        noise_um=0.1,
+        rmse_um=0.3,
+        explainable=None,
+        weak_spots=[],
+        candidates=[],
+        artefacts=[],
+        response_um=response,
+        limits=list(limits),
+    )
+
+
+def test_what_would_have_to_be_large_is_named_with_what_it_hides_behind() -> None:
+    text = could_hide(
+        found(one("guideway", 13.6, seen=0.09, like="feed_screw"), one("floor", 4.0), one("coolant", 2.9))
+    )
+    assert text == (
+        "these tests can't exclude guideway (T) up to 13.6 um, for feed_screw does 91 % of it; floor (T) up to 4.00 um "
+        "(RMS where it acts; the response has 9.00 um)"
+    )
+
+
+def test_where_all_would_have_been_seen_that_is_said() -> None:
+    text = could_hide(found(one("coolant", 2.9), one("floor", 0.5)))
+    assert text.startswith("an effect of the library that acts by more than 2.90 um (RMS where it acts; the response")
+    assert text.endswith("would have been named here; coolant (T) could hide most")
+
+
+def test_of_one_effect_the_sensor_counts_that_shows_it_best() -> None:
+    twice = found(one("floor", 8.0), one("floor", 1.0), one("feed_screw", 7.0, family="feed_x"))
+    assert could_hide(twice).count("floor") == 0
+    assert "feed_screw (T) up to 7.00 um" in could_hide(twice)
+
+
+def test_what_no_size_would_show_and_how_many_more() -> None:
+    text = could_hide(found(*[one(f"e{i}", None, seen=0.0) for i in range(6)]))
+    assert text.count("of any size, for base does 100 % of it") == 4
+    assert "; 2 more (" in text
+
+
+@pytest.mark.parametrize(("limits", "response"), [((), 9.0), ((one("floor", 5.0),), None)])
+def test_nothing_is_said_where_nothing_is_known(limits: tuple[DetectionLimit, ...], response: float | None) -> None:
+    assert could_hide(found(*limits, response=response)) == ""
