@@ -68,10 +68,12 @@ def following(test: TestData) -> TestData:
 def test_what_moves_with_a_known_effect_hides_behind_it() -> None:
     apart = make_data(slow)
     together = replace(apart, tests=tuple(following(t) for t in apart.tests))
-    alone, hidden = limit(diagnosed(apart)), limit(diagnosed(together))
-    assert alone.seen > 0.5
-    assert hidden.seen < 0.1
-    assert hidden.like == "spindle_bearing"
+    found = diagnosed(together)
+    alone, hidden = limit(diagnosed(apart)), limit(found)
+    assert (alone.seen > 0.5, alone.behind) == (True, None)
+    assert (hidden.seen < 0.1, hidden.behind, hidden.large) == (True, "spindle_bearing", True)
+    if found.verdict in ("none", "refine"):
+        assert "which spindle_bearing would hide: a test in which" in (found.next_test or "")
     assert hidden.least_um is None or hidden.least_um > 3 * (alone.least_um or 0)
 
 

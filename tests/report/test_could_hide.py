@@ -10,9 +10,17 @@ from thermodata.report.could_hide import could_hide
 from thermodata.schema.diagnosis import DetectionLimit, Diagnosis
 
 
-def one(effect: str, least: float | None, seen: float = 0.9, family: str = "", like: str | None = "base") -> Any:
+def one(effect: str, least: float | None, seen: float = 0.9, family: str = "", behind: str | None = None) -> Any:
+    """Large from 3 um on."""
     return DetectionLimit(
-        id=f"{effect}:T", effect=effect, family=family or effect, drivers=["T"], least_um=least, seen=seen, like=like
+        id=f"{effect}:T",
+        effect=effect,
+        family=family or effect,
+        drivers=["T"],
+        least_um=least,
+        seen=seen,
+        behind=behind,
+        large=least is None or least > 3,
     )
 
 
@@ -34,7 +42,7 @@ def found(*limits: DetectionLimit, response: float | None = 9.0) -> Diagnosis:
 
 def test_what_would_have_to_be_large_is_named_with_what_it_hides_behind() -> None:
     text = could_hide(
-        found(one("guideway", 13.6, seen=0.09, like="feed_screw"), one("floor", 4.0), one("coolant", 2.9))
+        found(one("guideway", 13.6, seen=0.09, behind="feed_screw"), one("floor", 4.0), one("coolant", 2.9))
     )
     assert text == (
         "these tests can't exclude guideway (T) up to 13.6 um, for feed_screw does 91 % of it; floor (T) up to 4.00 um "
@@ -55,7 +63,7 @@ def test_of_one_effect_the_sensor_counts_that_shows_it_best() -> None:
 
 
 def test_what_no_size_would_show_and_how_many_more() -> None:
-    text = could_hide(found(*[one(f"e{i}", None, seen=0.0) for i in range(6)]))
+    text = could_hide(found(*[one(f"e{i}", None, seen=0.0, behind="base") for i in range(6)]))
     assert text.count("of any size, for base does 100 % of it") == 4
     assert "; 2 more (" in text
 

@@ -10,7 +10,7 @@ import numpy as np
 from thermodata.diagnosis import ladder, next_test
 from thermodata.diagnosis.artefact import noise_with_treads
 from thermodata.diagnosis.confirm import Confirmation, confirm, on_all_open
-from thermodata.diagnosis.detection import Limit
+from thermodata.diagnosis.detection import LARGE, Limit
 from thermodata.diagnosis.investigate import Investigation, investigate
 from thermodata.diagnosis.judge import Judged, Judgement, equivalents
 from thermodata.diagnosis.locked import Looked
@@ -131,14 +131,14 @@ def _diagnosis(
         )
         if judgement.verdict == "unknown"
         else None,
-        next_test=_advice(investigation, judgement, confirmation, shown[0][0] if shown else None, data),
+        next_test=_advice(investigation, judgement, confirmation, shown[0][0] if shown else None, data, terms),
         response_um=investigation.measure.spread,
-        limits=[_limit(one, terms) for one in investigation.limits] if not judgement.claims else [],
+        limits=[_limit(one, terms, investigation.measure.spread) for one in investigation.limits],
         chance=ladder.chance(investigation.measure),
     )
 
 
-def _limit(one: Limit, terms: Sequence[str]) -> DetectionLimit:
+def _limit(one: Limit, terms: Sequence[str], spread: float) -> DetectionLimit:
     return DetectionLimit(
         id=one.candidate.id,
         effect=one.candidate.effect.name,
@@ -146,7 +146,8 @@ def _limit(one: Limit, terms: Sequence[str]) -> DetectionLimit:
         drivers=list(one.candidate.channels),
         least_um=one.least if np.isfinite(one.least) else None,
         seen=one.beyond,
-        like=None if one.like is None else terms[one.like],
+        behind=terms[one.like] if one.like is not None and one.hides else None,
+        large=one.least > LARGE * spread,
     )
 
 
@@ -156,6 +157,7 @@ def _advice(
     confirmation: Confirmation | None,
     first: Scored | None,
     data: Dataset,
+    terms: Sequence[str],
 ) -> str | None:
     claims, refused = ([j.scored.candidate for j in some] for some in (judgement.claims, judgement.refused))
     if claims:
@@ -167,6 +169,12 @@ def _advice(
         return next_test.to_decide(refused, data.channels)
     if claims and confirmation is not None and confirmation.asked == frozenset():
         return next_test.to_bear_out(claims, data.channels)
+    if judgement.verdict in ("none", "refine"):
+        large = LARGE * investigation.measure.spread
+        for one in investigation.limits:
+            if one.least > large and one.hides and one.like is not None:
+                return next_test.to_exclude(one.candidate, terms[one.like], data.channels)
+        return None
     if judgement.verdict not in ("unknown", "not_testable"):
         return None
     return next_test.to_find(len({b.test.key for b in investigation.problem.blocks}), investigation.spots, first)

@@ -26,6 +26,8 @@ from thermodata.plugin import Int1D
 
 CHOICE = 6.0  # log evidence that the choice among 50 points and sizes costs, and the width of the gain
 LEAST_BEYOND = 1e-4  # of its energy: less beyond the known effects, and no size shows
+LARGE = 1 / 3  # of the response: an effect that would have to be larger to be seen is worth a word
+HIDES = 0.5  # of its energy, at most, is left beyond the known effects of what they hide
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,6 +39,11 @@ class Limit:
     least: float
     beyond: float
     like: int | None
+
+    @property
+    def hides(self) -> bool:
+        """Whether a known effect takes it for its own; else slow noise covers it."""
+        return self.like is not None and self.beyond < HIDES
 
 
 def limits(known: Known, pool: Sequence[Columns], spread: float, owners: Int1D) -> list[Limit]:

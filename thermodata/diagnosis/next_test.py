@@ -78,6 +78,13 @@ def to_bear_out(claims: Sequence[CandidateEffect], channels: Mapping[str, Channe
     return f"{names} {rest} in all locked tests; to bear {them} out, {_with_lock(claims, channels)}"
 
 
+def to_exclude(hidden: CandidateEffect, like: str, channels: Mapping[str, ChannelInfo]) -> str:
+    """The advice where nothing is missing, but something large could hide. like: the effect of the model behind which
+    it would."""
+    moved = _moved(hidden, channels)
+    return f"to exclude {hidden.id}, which {like} would hide: a test {moved}, while what drives {like} rests"
+
+
 def _with_lock(some: Sequence[CandidateEffect], channels: Mapping[str, ChannelInfo]) -> str:
     them, they_are = ("it", "it is") if len(some) == 1 else ("them", "they are")
     moved = "; and one ".join(dict.fromkeys(_moved(one, channels) for one in some))

@@ -10,7 +10,6 @@ if TYPE_CHECKING:
     from thermodata.schema.diagnosis import DetectionLimit, Diagnosis
 
 SHOWN = 4
-LARGE = 1 / 3  # of the response: an effect that would have to be larger to be seen is worth a word
 
 
 def could_hide(found: Diagnosis) -> str:
@@ -20,7 +19,7 @@ def could_hide(found: Diagnosis) -> str:
     if not least or not found.response_um:
         return ""
     size = f"RMS where it acts; the response has {number(found.response_um)} um"
-    large = [one for one in least if one.least_um is None or one.least_um > LARGE * found.response_um]
+    large = [one for one in least if one.large]
     if not large:
         return (
             f"an effect of the library that acts by more than {number(least[0].least_um)} um ({size}) would have been "
@@ -49,6 +48,5 @@ def _name(one: DetectionLimit) -> str:
 
 def _one(one: DetectionLimit) -> str:
     size = "of any size" if one.least_um is None else f"up to {number(one.least_um)} um"
-    # a slow noise hides what nothing known is like
-    behind = f", for {one.like} does {percent(1 - one.seen)} of it" if one.like and one.seen < 0.5 else ""
+    behind = f", for {one.behind} does {percent(1 - one.seen)} of it" if one.behind else ""
     return f"{_name(one)} {size}{behind}"

@@ -172,7 +172,8 @@ class DetectionLimit(Result):
     drivers: channels
     least_um: RMS where it acts, in the response's unit, of the least that would be claimed; null where none would
     seen: share of what it does that the model's effects can't do, 0 to 1
-    like: id of the effect of the model that does most of it
+    behind: id of the effect of the model that would take it for its own; null where slow noise covers it
+    large: whether it would have to be larger than a third of the response
     """
 
     id: str
@@ -181,7 +182,8 @@ class DetectionLimit(Result):
     drivers: list[str]
     least_um: float | None
     seen: float
-    like: str | None = None
+    behind: str | None = None
+    large: bool = False
 
 
 class Diagnosis(Result):
