@@ -124,6 +124,23 @@ def test_what_explains_under_a_tenth_of_the_response_is_not_worth_a_name(spread:
     assert refused(LITTLE, failed_rules(scored(after=0.0), measure(spread=spread), "um")) is fails
 
 
+@pytest.mark.parametrize(
+    ("evidence", "size", "spread", "fails"),
+    [
+        (200.0, 2.01, 0.199, False),
+        (200.0, 1.99, 0.199, True),  # a fifth of the response
+        (200.0, 2.01, 0.201, True),  # by a gain that differs by a fifth
+        (90.0, 2.01, 0.199, True),  # and as probable as a claim asks
+    ],
+)
+def test_what_surely_does_a_fifth_of_the_response_is_worth_a_name_though_the_error_hardly_falls(
+    evidence: float, size: float, spread: float, fails: bool
+) -> None:
+    """The known effects take for their own what it does: it explains 0.5 of 10."""
+    one = scored(evidence=evidence, after=np.sqrt(0.75), size=size, spread=spread)
+    assert refused(LITTLE, [w for w in failed_rules(one, measure(spread=10.0), "um") if LITTLE in w]) is fails
+
+
 @pytest.mark.parametrize(("acting", "fails"), [(2, False), (1, True)])
 def test_no_other_test_foretells_what_acts_in_one_only(acting: int, fails: bool) -> None:
     one = scored(size=[1.0] * acting + [0.0] * (10 - acting))
@@ -133,7 +150,7 @@ def test_no_other_test_foretells_what_acts_in_one_only(acting: int, fails: bool)
 @pytest.mark.parametrize(
     ("outweighed", "otherwise"),
     [
-        (400.0, {"before": 0.1, "after": 0.01}),
+        (400.0, {"before": 0.1, "after": 0.01, "size": 0.3}),
         (400.0, {"spread": 0.9, "after": 0.6}),
         (500.0, {"size": [1.0] + [0.0] * 9}),
     ],

@@ -14,7 +14,7 @@ from thermodata.diagnosis import selection as selecting
 from thermodata.diagnosis.candidates import CandidateEffect
 from thermodata.diagnosis.discrepancy import Noise
 from thermodata.diagnosis.evidence import Columns, columns
-from thermodata.diagnosis.preference import preferred
+from thermodata.diagnosis.preference import gives_way, preferred
 from thermodata.diagnosis.problem import Problem
 from thermodata.diagnosis.ranking import Ranked, rank_in
 from thermodata.diagnosis.scored import Scored
@@ -325,6 +325,27 @@ def test_a_lag_that_drove_out_the_name_that_is_preferred_to_it_gives_way_to_it(
     assert [name(s) for s in found.dropped] == ["named"]
     assert name(found.members[0].alone) == "lag"
     assert found.members[0].scored.credit == (90.0 if taken == "named" else 100.0)
+
+
+@pytest.mark.parametrize(
+    ("lag", "named", "channel", "evidence", "after", "gives"),
+    [
+        ("generic", "cutting", "n", 100.0, 0.429, True),
+        ("generic", "cutting", "n", 99.9, 0.429, False),  # less likely
+        ("generic", "cutting", "n", 100.0, 0.431, False),  # of a fall of 0.6, less than 95 %
+        ("generic", "cutting", "T_b", 100.0, 0.4, False),  # of another channel
+        ("generic", "generic", "n", 100.0, 0.4, False),
+        ("cutting", "cutting", "n", 100.0, 0.4, False),
+    ],
+)
+def test_a_lag_gives_way_to_a_name_that_is_as_likely_on_its_channel(
+    lag: str, named: str, channel: str, evidence: float, after: float, gives: bool
+) -> None:
+    """Though neither is clearly better, and the name was never chosen before. The lag leaves 0.4 of the error."""
+    own = scored("lag", family=lag, channels=("n",), evidence=100.0)
+    best = scored("load", family=named, channels=(channel,), evidence=evidence, after=after)
+    ranking: Any = SimpleNamespace(ranked=(best, own))
+    assert gives_way(own, best, ranking) is gives
 
 
 # ---- rankings

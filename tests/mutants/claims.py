@@ -93,6 +93,10 @@ MUTANTS = [
     diagnosis("rules.py", "SPREAD_LIMIT = 0.5", "SPREAD_LIMIT = 0.9", "a proxy of another gain a test is claimed"),
     diagnosis("rules.py", "FORETOLD = 0.5", "FORETOLD = 0.3", "a proxy of another gain a test is claimed"),
     diagnosis("rules.py", "WORTH_SHARE = 0.1 ", "WORTH_SHARE = 0.0 ", "trifles are claimed"),
+    diagnosis("rules.py", "WORTH_SPREAD = 0.2, 0.2", "WORTH_SPREAD = 0.0, 0.2", "a trifle that is sure is claimed"),
+    diagnosis("rules.py", "WORTH_SPREAD = 0.2, 0.2", "WORTH_SPREAD = 0.2, 0.9", "a proxy that is balanced is claimed"),
+    diagnosis("rules.py", "(sure and _does_much", "(False and _does_much", "what a known effect hides is not named"),
+    diagnosis("rules.py", "(sure and _does_much", "(_does_much", "what is slow and large stands beside a cause"),
     diagnosis("rules.py", "FLOOR_SHARE = 0.1 ", "FLOOR_SHARE = 0.3 ", "a real error is left alone"),
     diagnosis("rules.py", "NOISE_TIMES = 5.0", "NOISE_TIMES = 2.0", "noise is to be explained"),
     diagnosis("judge.py", "\nALIKE = 0.9 ", "\nALIKE = 0.99 ", "twins are said to be told apart"),
@@ -282,6 +286,10 @@ MUTANTS = [
         "a lag that drove out a name takes its place",
     ),
     diagnosis("preference.py", " or _clearly(best, own))", " or True)", "members are swapped by a hair"),
+    diagnosis(
+        "preference.py", "better or _is_its_name(own, best)", "better", "a lag stands where its name is as likely"
+    ),
+    diagnosis("preference.py", "best.evidence >= own.evidence and", "", "a name that is less likely is taken"),
     # ---- products
     products("null.py", "DRAWS = 199", "DRAWS = 99", "p cannot fall below its limit"),
     products("null.py", "1 + np.sum(chance >= evidence)", "np.sum(chance >= evidence)", "chance has no chance"),

@@ -20,7 +20,7 @@ from thermodata.diagnosis.candidates import CandidateEffect, refines
 from thermodata.diagnosis.evidence import Columns, beyond_known, moments
 from thermodata.diagnosis.known import Known
 from thermodata.diagnosis.present import CONTROL, GENERIC
-from thermodata.diagnosis.rules import STRONG, WORTH_SHARE, sharpness_asked
+from thermodata.diagnosis.rules import STRONG, WORTH_SHARE, WORTH_SIZE, sharpness_asked
 from thermodata.diagnosis.scored import ACTS
 from thermodata.plugin import Int1D
 
@@ -86,7 +86,7 @@ def _limit(known: Known, one: Columns, spread: float, owners: Int1D) -> Limit | 
         sure = np.sqrt(2 * (sharpness_asked(0.0) * rows + CHOICE) / beyond[point])
         plain = np.sqrt(2 * (STRONG * rows + CHOICE) / beyond[point])
         worth = WORTH_SHARE * spread / (size * np.sqrt(share))
-        found.append((size * max(sure, min(worth, plain)), share))
+        found.append((max(size * sure, min(size * worth, size * plain, WORTH_SIZE * spread)), share))
     found.sort()
     least, share = found[len(found) // 2]
     middle = int(np.flatnonzero(moved)[np.argsort(beyond[moved] / own[moved])[moved.sum() // 2]])

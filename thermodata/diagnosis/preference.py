@@ -47,7 +47,16 @@ def preferred(ranked: Sequence[Scored]) -> Scored | None:
 
 def gives_way(own: Scored, best: Scored, ranking: Ranked) -> bool:
     """Whether a member is swapped for the preferred of those ranked beside the others."""
-    return (_drove_out(own, best, ranking) or _clearly(best, own)) and _foretells_more(best, own)
+    better = (_drove_out(own, best, ranking) or _clearly(best, own)) and _foretells_more(best, own)
+    return better or _is_its_name(own, best)
+
+
+def _is_its_name(own: Scored, best: Scored) -> bool:
+    """Whether a lag stands for an effect with a name that is as likely on the same channels."""
+    mine, theirs = own.candidate, best.candidate
+    lag = mine.family in UNNAMED and not mine.within and theirs.family not in UNNAMED and not theirs.within
+    same = set(mine.channels) == set(theirs.channels)
+    return lag and same and best.evidence >= own.evidence and best.drop >= NAMED_SHARE * own.drop
 
 
 def _drove_out(own: Scored, best: Scored, ranking: Ranked) -> bool:

@@ -32,7 +32,10 @@ BETTER_LIMIT = 0.6  # share of these tests that it makes more probable,
 SURE_BETTER_LIMIT = 0.4  # and of what is as probable as a claim asks: its few tests say much
 SPREAD_LIMIT = 0.5  # of its gain between tests, as a share,
 FORETOLD = 0.5  # unless left-out tests are foretold to this share of their error: few tests can't tell a spread
-WORTH_SHARE = 0.1  # of the response: less is not worth a name
+WORTH_SHARE = 0.1  # of the response: less is not worth a name,
+# unless what is as probable as a claim asks does so much of the response, by a gain that differs so little between
+# tests: then the known effects take for their own what it does, and the error hardly shows it
+WORTH_SIZE, WORTH_SPREAD = 0.2, 0.2
 FLOOR_SHARE = 0.1  # a residual under this share of the response (FIT 90) is left alone
 # what lags leave of a distributed machine that lacks nothing is under this share of its response (FIT 75), or, where
 # modes of the model are found that refine it, what they leave under that (FIT 60); what is left where a cause is
@@ -145,15 +148,21 @@ def rules(scored: Scored, measure: Measure, unit: str) -> list[Rule]:
         ),
         Rule(
             "worth",
-            f"what it explains where it acts{unasked.format(STRONG)}",
+            f"what it explains where it acts{unasked.format(STRONG)}, or it is as probable as a claim asks and "
+            f"does {WORTH_SIZE:.0%} of the response by a gain that is alike in all tests",
             told,
             worth,
             "least",
-            strong or told >= worth,
+            strong or told >= worth or (sure and _does_much(scored, measure)),
             f"it explains {told:.2g} {unit} where it acts, of {measure.spread:.2g} {unit} (limit {WORTH_SHARE:.0%})",
             unit,
         ),
     ]
+
+
+def _does_much(scored: Scored, measure: Measure) -> bool:
+    """Whether it does much of the response, and surely so."""
+    return scored.spread <= WORTH_SPREAD and acting_size(scored) >= WORTH_SIZE * measure.spread
 
 
 def surely(scored: Scored) -> Rule:
