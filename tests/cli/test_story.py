@@ -301,6 +301,8 @@ def test_diagnose_add_by_rank_and_report(say: Say, tmp_path: Path) -> None:
         "artefacts",
         "unknown",
         "next_test",
+        "response_um",
+        "limits",
     }
     assert found["verdict"] == "effect"
     first = found["candidates"][0]

@@ -53,6 +53,8 @@ DIAGNOSIS = {
     "artefacts",
     "unknown",
     "next_test",
+    "response_um",
+    "limits",
 }
 SPOT = {"campaign", "test", "from_s", "to_s", "rmse_um", "state"}
 CANDIDATE = {
@@ -73,6 +75,7 @@ CANDIDATE = {
     "fit_after",
     "locked_rmse_um_before",
     "locked_rmse_um_after",
+    "locked_tests_asked",
     "parameters",
     "equivalent",
     "why",
