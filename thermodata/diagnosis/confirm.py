@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -124,30 +124,27 @@ def confirm(
             (t.key, a, b) for t in usable if (a := rmse(ours, [t])) is not None and (b := rmse(theirs, [t])) is not None
         ),
         tuple(_shape(ours, theirs, t) for t in usable),
-        acts=_acting(ours, theirs, any(c.becomes for c in candidates), tests, usable),
+        acts=_acting(ours, theirs, [name for c in candidates for name in c.becomes], tests, usable),
     )
 
 
 def _acting(
     ours: FittedResponse,
     theirs: FittedResponse,
-    changed: bool,
+    changed: Collection[str],
     tests: Sequence[TestData],
     locked: Sequence[TestData],
 ) -> frozenset[tuple[str, str]]:
     """The keys of the locked tests in which what is added does enough of what it does in the open test in which it does
-    most; of an effect that is changed, what the change does. Other effects move as well when one is added: they say
-    nothing of it."""
-    had = {t.id for t in ours.terms}
+    most. Other effects move as well when one is added: they say nothing of it. changed: ids of effects that become
+    others, which act where they do anything at all."""
+    had = {t.id for t in ours.terms} - set(changed)
+    new = [t for t in theirs.terms if t.id not in had]
 
     def size(test: TestData) -> float:
-        if not (ours.can_predict(test) and theirs.can_predict(test)):
+        if not new or not (ours.can_predict(test) and theirs.can_predict(test)):
             return 0.0
-        if changed:
-            what = theirs.predict(test) - ours.predict(test)
-        else:
-            what = np.sum([t.contribution(test) for t in theirs.terms if t.id not in had], axis=0)
-        values = what[theirs.mask(test)]
+        values = np.sum([t.contribution(test) for t in new], axis=0)[theirs.mask(test)]
         return float(values.std()) if len(values) else 0.0
 
     most = max(map(size, tests), default=0.0)
