@@ -316,15 +316,18 @@ def test_arx_is_refused_on_measuring_windows_with_the_reason(spec: Spec) -> None
     assert np.std(gap) < 0.1 * np.std(y)
 
 
-@pytest.mark.parametrize(("step", "limit"), [(60, 0.5), (1, 3.0)])
-def test_sixteen_orders_of_a_record_of_28800_samples_are_quick(spec: Spec, step: int, limit: float) -> None:
-    """8 h at 1 Hz; processor seconds, twice what is asked, for a machine that is busy."""
-    test = _test(1, "calibration", step=step)
+def test_sixty_times_the_samples_take_no_more_than_six_times_as_long(spec: Spec) -> None:
+    """Sixteen orders of 8 h at 1 Hz and in steps of 60 s, processor time in one run: many samples are tried on means."""
     model = spec(FUNCTION | {"method": "oe"})
     fit_model(model, _data(_test(2, "calibration", hours=2)))
-    start = time.process_time()
-    fit_model(model, _data(test))
-    assert time.process_time() - start < 2 * limit
+
+    def seconds(step: int) -> float:
+        data = _data(_test(1, "calibration", step=step))
+        start = time.process_time()
+        fit_model(model, data)
+        return time.process_time() - start
+
+    assert seconds(1) < 6 * max(seconds(60), seconds(60))
 
 
 def test_a_lag_more_fits_no_worse(spec: Spec) -> None:
