@@ -317,7 +317,7 @@ def test_arx_is_refused_on_measuring_windows_with_the_reason(spec: Spec) -> None
 
 
 def test_sixty_times_the_samples_take_no_more_than_six_times_as_long(spec: Spec) -> None:
-    """Sixteen orders of 8 h at 1 Hz and in steps of 60 s, processor time in one run: many samples are tried on means."""
+    """Sixteen orders of 8 h at 1 Hz and at 60 s, processor time in one run: many samples are tried on means."""
     model = spec(FUNCTION | {"method": "oe"})
     fit_model(model, _data(_test(2, "calibration", hours=2)))
 
