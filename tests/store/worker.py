@@ -1,4 +1,4 @@
-"""A process of its own for the store's tests: `worker.py ingest STORE CAMPAIGN`, `worker.py read STORE N`."""
+"""A process of its own for the store's tests: `worker.py ingest STORE CAMPAIGN`, `worker.py read STORE CAMPAIGNS`."""
 
 from __future__ import annotations
 
@@ -19,11 +19,13 @@ def main(what: str, store: str, argument: str) -> None:
         print(ingest(opened, Path(argument), lambda text: print(text, flush=True)).changed, flush=True)
         return
     opened = Store(store)
-    for _ in range(int(argument)):
+    campaigns = 0
+    while campaigns < int(argument):
         # the tables and the views of a reader are always of one commit
         with opened.reader() as con:
+            (campaigns,) = con.execute("select count(*) from campaign").fetchone() or (0,)
             tests = con.execute("select count(*) from test").fetchone()
-            rows = con.execute("select count(distinct test) from sample").fetchone()
+            rows = con.execute("select count(distinct (campaign, test)) from sample").fetchone()
             assert tests == rows, (tests, rows)
     print("read", flush=True)
 
