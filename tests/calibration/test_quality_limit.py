@@ -93,3 +93,46 @@ def test_a_probe_that_stands_from_the_first_row_on_is_held_not_saturated() -> No
     flags, events = run(clock(), dZ=("displacement", x), T=("temperature", t), n=("rotational_speed", speed))
     assert "saturated" not in {flag for _, flag in kinds(events)}
     assert (flags["dZ"][10:990] & (Flag.HELD | Flag.STUCK)).all()
+
+
+def day(seed: int = 1) -> Float1D:
+    """A pyranometer in steps of 0.1 W/m2 that reads 5 W/m2 by night, for 48 h; thin clouds pass."""
+    hours = np.linspace(0, 48, N)
+    sun = np.clip(np.sin(2 * np.pi * (hours - 6) / 24), 0, None)
+    clouds = 1 + 0.03 * np.random.default_rng(seed).standard_normal(N)
+    return np.asarray(5 + np.round(600 * sun * clouds, 1), dtype=np.float64)
+
+
+def test_the_night_of_an_irradiance_is_neither_held_nor_saturated() -> None:
+    x, moved = day(), temperature()
+    flags, events = run(clock(), G=("irradiance", x), T=("temperature", moved))
+    assert not flags["G"].any(), events
+    for other in ("humidity", "pressure"):
+        flags, _ = run(clock(), G=(other, x / 8), T=("temperature", moved))
+        assert (flags["G"] & (Flag.HELD | Flag.SATURATED)).any(), "these are never that constant"
+
+
+def test_a_lamp_by_night_is_no_fault_either() -> None:
+    x = day()
+    x[100:400] = 17.0  # of 5 to 650
+    flags, events = run(clock(), G=("irradiance", x), T=("temperature", temperature()))
+    assert not flags["G"].any(), events
+    x[100:400] = 60.0
+    flags, _ = run(clock(), G=("irradiance", x), T=("temperature", temperature()))
+    assert (flags["G"][100:400] & (Flag.HELD | Flag.STUCK)).all()
+
+
+@pytest.mark.parametrize("code", [None, 32767.0])
+def test_an_irradiance_that_stands_still_by_day_is_held(code: float | None) -> None:
+    """Also where a logger's code makes its range a wide one."""
+    x = day()
+    if code is not None:
+        x[2000:2010] = code
+    noon = slice(N // 8 * 2 - 150, N // 8 * 2 + 150)
+    x[noon] = 400.0
+    flags, _ = run(clock(), G=("irradiance", x), T=("temperature", temperature()))
+    assert (flags["G"][noon] & (Flag.HELD | Flag.STUCK)).all()
+    assert not flags["G"][: noon.start].any()
+    night = (flags["G"] & Flag.OUT_OF_RANGE) == 0
+    night[noon.start : noon.stop + 1] = False
+    assert not (flags["G"][night] & (Flag.HELD | Flag.STUCK | Flag.SATURATED)).any()

@@ -40,6 +40,9 @@ ANALOG = frozenset(
 )
 # ... and which can't leave and come back within a few samples. (Position, speed, power and flow can.)
 _INERT = frozenset({"displacement", "tilt", "temperature", "temperature_difference", "humidity"})
+# Quantities that rest at their lowest reading, exactly: by night no sun shines.
+RESTING = frozenset({"irradiance"})
+_RESTS = 0.03  # of its range above the lowest: a lamp in the hall
 MOST_EVENTS = 2000  # of a channel and flag; `concise` makes fewer of them
 
 
@@ -114,6 +117,8 @@ def _column(
         for start, stop, stuck, why in held_runs(x, t_ns, stats[name], others, stats, column.elsewhere):
             if (flags[start:stop] & np.uint16(Flag.SATURATED | Flag.OUT_OF_RANGE)).all():
                 continue  # at the end of its range a reading stands still
+            if column.quantity in RESTING and _rests(x[(flags & np.uint16(Flag.OUT_OF_RANGE)) == 0], x[start]):
+                continue
             flag = Flag.STUCK if stuck else Flag.HELD
             flags[start:stop] |= np.uint16(flag)
             events.append(_event(name, str(flag.name).lower(), t_ns, start, stop, why))
@@ -135,6 +140,12 @@ def _column(
                 flags[start:stop] |= np.uint16(flag)
                 events.append(_event(name, str(flag.name).lower(), t_ns, start, stop, why))
     return flags, _capped(events)
+
+
+def _rests(sound: Float1D, reading: float) -> bool:
+    """Whether a reading is next to the lowest one. sound: readings that may be; a logger's code is none."""
+    low, high = sound.min(initial=np.inf), sound.max(initial=-np.inf)
+    return bool(reading <= low + _RESTS * (high - low))
 
 
 def _limits(name: str, column: ColumnInput, flags: Array, t_ns: Int1D, stats: RunStats | None) -> list[QualityEvent]:
@@ -166,7 +177,7 @@ def _limits(name: str, column: ColumnInput, flags: Array, t_ns: Int1D, stats: Ru
         if code.any():
             mark(Flag.OUT_OF_RANGE, code, "a logger's code for 'no value'")
         elif not (flags & np.uint16(Flag.SATURATED)).any():
-            for hit, _, why in clipped(y, stats, column.quantity):
+            for hit, _, why in clipped(y, stats, column.quantity, rests=column.quantity in RESTING):
                 mark(Flag.SATURATED, hit, why)
     for flag in (Flag.OUT_OF_RANGE, Flag.SATURATED) if flags.any() else ():
         given = ((flags & np.uint16(flag)) != 0) & ~told

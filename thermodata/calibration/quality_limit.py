@@ -95,12 +95,12 @@ def sentinels(x: Float1D, own: RunStats) -> Bool1D:
     return hit & (np.abs(x - middle) > 3 * max(spread, own.step))
 
 
-def clipped(x: Float1D, own: RunStats, quantity: str) -> Iterator[tuple[Bool1D, float, str]]:
+def clipped(x: Float1D, own: RunStats, quantity: str, *, rests: bool = False) -> Iterator[tuple[Bool1D, float, str]]:
     """(where, limit, why) for each end of the range that x, shape (n,), runs into.
 
     A fine and noisy channel does not repeat its extreme by chance. A smooth one must come to the very same value
     more than once. A jump to the limit is told apart from a held or stuck reading by coming back to it, and only
-    for sensors that have a full scale in reach (displacement, voltage).
+    for sensors that have a full scale in reach (displacement, voltage). rests: the lowest reading is where it rests.
     """
     if not own.float_like or own.step <= 0:
         return
@@ -110,6 +110,8 @@ def clipped(x: Float1D, own: RunStats, quantity: str) -> Iterator[tuple[Bool1D, 
     for limit, side in ((float(values.max()), "upper"), (float(values.min()), "lower")):
         at: Bool1D = x == limit
         count = int(at.sum())
+        if rests and side == "lower":
+            continue
         if count < 10 or limit == 0.0 or count > 0.5 * len(values) or is_staircase(values, own):
             continue
         starts, stops = true_runs(at)
