@@ -50,9 +50,11 @@ def candidate(
     passive: bool = False,
     refines: tuple[str, ...] = (),
     kin: Kin = None,
+    around: bool = False,
 ) -> CandidateEffect:
     binding = {f"u{i or ''}": channel for i, channel in enumerate(channels)}
-    return CandidateEffect(PlainEffect(name, family, refines=refines), binding, family, placeless, passive, kin=kin)
+    effect = PlainEffect(name, family, refines=refines)
+    return CandidateEffect(effect, binding, family, placeless, passive, kin=kin, around=around)
 
 
 def columns_of(candidate: CandidateEffect, contribution: Sequence[Float1D]) -> Columns:
@@ -70,6 +72,7 @@ def scored(
     passive: bool = False,
     refines: tuple[str, ...] = (),
     kin: Kin = None,
+    around: bool = False,
     evidence: float = 390.0,
     gained: float | Sequence[float] = 50.0,
     before: float | Sequence[float] = 1.0,
@@ -84,7 +87,14 @@ def scored(
     """Ten equal tests with ROWS rows in all. before, after: the error (RMS) of all tests, or of each. contribution: at
     a coefficient of 1."""
     asked = candidate(
-        name, family=family, channels=channels, placeless=placeless, passive=passive, refines=refines, kin=kin
+        name,
+        family=family,
+        channels=channels,
+        placeless=placeless,
+        passive=passive,
+        refines=refines,
+        kin=kin,
+        around=around,
     )
     rows = np.full(TESTS, ROWS / TESTS)
     return Scored(

@@ -86,5 +86,5 @@ def test_the_limits_are_of_names_that_the_model_lacks() -> None:
 
 @pytest.mark.parametrize("fall", [0.0, 0.5])
 def test_the_sharpness_that_a_claim_asks_makes_it_as_probable(fall: float) -> None:
-    one = scored(evidence=1000 * sharpness_asked(fall), after=1 - fall)
+    one = scored(evidence=1000 * sharpness_asked(fall, scored().candidate), after=1 - fall)
     assert probability(one) == pytest.approx(CLAIMED)

@@ -239,5 +239,5 @@ def test_the_advice_is_the_same_work_with_each_value() -> None:
     said = next_test.to_separate(cause, [differs], {})
     assert said == f"to tell coolant:T_c from {ID}: the same work with each value of conditions.tool"
     spots: list[WeakSpot] = []
-    assert "do the same work with each value of conditions.tool" in next_test.to_find(8, spots, differs)
-    assert "T_b is logged and ranks first" in next_test.to_find(8, spots, plain)
+    assert "do the same work with each value of conditions.tool" in next_test.to_find(8, spots, {}, differs)
+    assert "T_b is logged and ranks first" in next_test.to_find(8, spots, {}, plain)

@@ -73,10 +73,10 @@ def test_the_left_out_error_falls_by_15_percent_and_by_30_where_anything_slow_wo
 @pytest.mark.parametrize(
     ("evidence", "better", "kind", "fails"),
     [
-        (120.0, 4, {}, ""),
-        (119.5, 6, {}, FALL),  # just below 65 %
-        (120.0, 3, {}, FEW),
-        (66.0, 4, {"placeless": True}, ""),
+        (147.5, 4, {}, ""),
+        (146.8, 6, {}, FALL),  # just below 65 %
+        (147.5, 3, {}, FEW),
+        (77.5, 4, {"placeless": True}, ""),
         (390.0, 6, {"passive": True}, FALL),
         (390.0, 4, {"beaten": True}, ""),
     ],
@@ -168,16 +168,17 @@ def test_evidence_outweighs_what_left_out_tests_say(outweighed: float, otherwise
 @pytest.mark.parametrize(
     ("after", "kind", "evidence", "fails"),
     [
-        (0.4, {}, 67.4, False),
-        (0.4, {}, 67.0, True),
-        (0.8, {}, 99.1, False),
-        (0.8, {}, 98.6, True),
-        (0.4, {"beaten": True}, 218.6, False),
-        (0.4, {"beaten": True}, 218.0, True),
-        (0.4, {"passive": True}, 1149.0, False),
-        (0.4, {"passive": True}, 1147.0, True),
-        (0.4, {"placeless": True}, 34.8, False),
-        (0.4, {"placeless": True}, 34.5, True),
+        (0.4, {}, 73.9, False),
+        (0.4, {}, 73.6, True),
+        (0.8, {}, 117.0, False),
+        (0.8, {}, 116.7, True),
+        (0.4, {"beaten": True}, 73.9, False),
+        (0.4, {"beaten": True, "around": True}, 486.0, False),
+        (0.4, {"beaten": True, "around": True}, 484.0, True),
+        (0.4, {"passive": True}, 1182.0, False),
+        (0.4, {"passive": True}, 1180.0, True),
+        (0.4, {"placeless": True}, 38.7, False),
+        (0.4, {"placeless": True}, 38.4, True),
     ],
 )
 def test_a_cause_is_right_in_two_of_three_cases_and_in_half_where_nothing_has_a_place(
@@ -194,35 +195,37 @@ def test_a_cause_is_right_in_two_of_three_cases_and_in_half_where_nothing_has_a_
 @pytest.mark.parametrize(
     ("evidence", "after", "kind", "share"),
     [
-        (1000.0, 0.4, {}, 0.95851),
-        (100.0, 0.4, {}, 0.72909),
-        (100.0, 0.8, {}, 0.65249),
-        (100.0, 1.5, {}, 0.56709),
-        (0.1, 0.4, {}, 4.2355e-3),
-        (-50.0, 0.4, {}, 4.2355e-3),
-        (100.0, 0.4, {"beaten": True}, 0.47253),
-        (100.0, 0.4, {"passive": True}, 0.15976),
+        (1000.0, 0.4, {}, 0.95730),
+        (100.0, 0.4, {}, 0.71300),
+        (100.0, 0.8, {}, 0.61538),
+        (100.0, 1.5, {}, 0.50750),
+        (0.1, 0.4, {}, 3.3682e-3),
+        (-50.0, 0.4, {}, 3.3682e-3),
+        (100.0, 0.4, {"beaten": True}, 0.71300),
+        (100.0, 0.4, {"around": True}, 0.71300),
+        (100.0, 0.4, {"beaten": True, "around": True}, 0.29111),
+        (100.0, 0.4, {"passive": True}, 0.14931),
     ],
 )
 def test_the_probability_is_that_of_its_sharpness_and_of_what_it_is(
     evidence: float, after: float, kind: dict[str, bool], share: float
 ) -> None:
-    """1 / (1 + exp(-2.6 - 2.15 log10(sharpness) - 0.9 fall + 1.1 if beaten + 2.65 if passive)); the least sharpness is
-    1e-4, and an error that rises by more than a fifth says no more."""
+    """1 / (1 + exp(-2.45 - 2.2 log10(sharpness) - 1.1 fall + 1.8 if it is the air, beaten, + 2.65 if passive)); the
+    least sharpness is 1e-4, and an error that rises by more than a fifth says no more."""
     assert probability(scored(evidence=evidence, after=after, **kind)) == pytest.approx(share, rel=1e-3)
 
 
-@pytest.mark.parametrize(("samples", "share"), [(1000, 0.97069), (10000, 0.79413), (0, 0.99995)])
+@pytest.mark.parametrize(("samples", "share"), [(1000, 0.97208), (10000, 0.79413), (0, 0.99996)])
 def test_at_best_left_out_tests_are_foretold_and_nothing_is_sharper(samples: int, share: float) -> None:
-    """Whatever it was found to foretell: 1 / (1 + exp(-2.6 - 2.15 log10(1000 / samples) - 0.9))."""
-    one = scored(evidence=1000.0, after=1.4, beaten=True)
+    """Whatever it was found to foretell: 1 / (1 + exp(-2.45 - 2.2 log10(1000 / samples) - 1.1))."""
+    one = scored(evidence=1000.0, after=1.4, beaten=True, around=True)
     assert at_best(one, samples) == pytest.approx(share, rel=1e-3)
 
 
 @pytest.mark.parametrize(
     ("kind", "words"),
     [
-        ({"beaten": True}, "an effect beside it is sharper"),
+        ({"beaten": True, "around": True}, "an effect beside it is sharper, and leaves what is slow, as the air is"),
         ({"passive": True}, "it reads a body that makes no heat, or one whose place nobody declared"),
     ],
 )

@@ -269,3 +269,26 @@ def test_a_gain_without_a_lag_leaves_the_lag_to_be_asked_for_as_another_mode_of_
     library = {e.name: e for e in (replace(NUT, params=ONE_MODE), replace(LAG, params=ONE_MODE))}
     found = {c.id: c.kin for c in candidates(library, CHANNELS, (has("static", "T_nut", modes=0),), "dZ")}
     assert (found["screw:T_nut"], found["lag:T_nut"]) == ("same", "same")
+
+
+def test_what_is_read_around_the_machine_alone_is_known() -> None:
+    library = {e.name: e for e in (LAG, replace(NUT, name="layers", needs=_two("hall.top", "hall.bottom")))}
+    air = {
+        c.name: c
+        for c in (
+            ChannelInfo("T_top", "temperature", "degC", at="Hall.top"),
+            ChannelInfo("T_low", "temperature", "degC", at="hall.bottom"),
+            ChannelInfo("T_floor", "temperature", "degC", at="floor"),
+            ChannelInfo("T_out", "temperature", "degC", at="outside"),
+            ChannelInfo("door", "state", "1", at="hall.door"),
+            ChannelInfo("T_oil", "temperature", "degC", at="hydraulics"),
+            ChannelInfo("T_free", "temperature", "degC"),
+        )
+    }
+    found = {c.id: c.around for c in candidates(library, air, (), "dZ")}
+    assert {name for name, around in found.items() if around} == {"lag:T_top", "lag:T_low", "lag:T_floor", "lag:T_out"}
+    assert "layers:T_top,T_low" in found
+
+
+def _two(one: str, other: str) -> tuple[Need, ...]:
+    return (Need("a", "temperature", (one,)), Need("b", "temperature", (other,)))

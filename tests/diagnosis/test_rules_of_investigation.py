@@ -107,9 +107,9 @@ FAR = scored("far", before=1.0, after=0.95)
 
 
 # evidence a sample of a passive one whose error falls to nothing: log10 of it is (log(0.65 / 0.35) - 0.9 + 0.05) / 2.15
-LEAST_OF_PASSIVE = 10 ** ((np.log(0.65 / 0.35) - 0.9 + 0.05) / 2.15)
+LEAST_OF_PASSIVE = 10 ** ((np.log(0.65 / 0.35) - 1.1 + 0.2) / 2.2)
 # and of one without any place: (log(0.5 / 0.5) - 0.9 - 2.6) / 2.15
-LEAST_OF_PLACELESS = 10 ** (-3.5 / 2.15)
+LEAST_OF_PLACELESS = 10 ** (-3.55 / 2.2)
 
 
 class TestJudged:

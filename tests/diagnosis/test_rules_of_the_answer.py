@@ -148,7 +148,7 @@ class TestAnswer:
     def test_what_the_locked_tests_refused_comes_first_with_the_probability_that_they_leave_it(
         self, monkeypatch: pytest.MonkeyPatch, spec: Model
     ) -> None:
-        """Though another one would give more, and a refinement stands. Two doubts take 91 to 78 %, and 0.3 to 0.1 %."""
+        """Though another one would give more, and a refinement stands. Two doubts take 91 to 77 %, and 0.2 to 0.1 %."""
         mode = member(TWIN, "it is another mode of what the model has")
         more = scored("more", channels=("T_m",), after=0.05, shape=(0.0, 1.0))
         judgement = claim(FIRST, OTHER, beside=[mode])
@@ -156,7 +156,7 @@ class TestAnswer:
         assert found.verdict == "unknown"
         told = [(c.effect, c.refinement, c.probability and round(c.probability, 3)) for c in found.candidates]
         assert told == [
-            ("first", False, 0.777),
+            ("first", False, 0.772),
             ("other", False, 0.001),
             ("twin", True, None),
             ("more", False, None),
@@ -190,7 +190,7 @@ class TestAnswer:
             ("twin", False),
         ]
         assert found.candidates[1].why.endswith("but the locked ones bear out other:T_a without it only")
-        assert found.candidates[1].probability == pytest.approx(0.777, abs=1e-3)
+        assert found.candidates[1].probability == pytest.approx(0.772, abs=1e-3)
         assert "the open tests point to first:T_a" in (found.next_test or "")
         assert found.unknown is None
 
@@ -282,12 +282,31 @@ class TestAnswer:
             found = self.answered(monkeypatch, spec, judgement)
             return [None if c.probability is None else round(c.probability, 3) for c in found.candidates]
 
-        first, other, twin = 0.913, 0.003, 0.909
+        first, other, twin = 0.911, 0.002, 0.906
         assert of(claim(OTHER, FIRST)) == [other, first, None]
         assert of(claim(FIRST)) == [first, None, None]
         assert of(nothing("unknown")) == [first, None, None]
         assert of(nothing("refine", member(FIRST, "a mode"))) == [None, twin, None]
-        assert of(nothing("unknown", member(FIRST, "a mode"))) == [None, twin, None], "something else is missing"
+        assert of(nothing("unknown", member(FIRST, "a mode"))) == [twin, None, None], "something else is missing"
+
+    def test_the_likeliest_comes_first_of_what_is_not_claimed(
+        self, monkeypatch: pytest.MonkeyPatch, spec: Model
+    ) -> None:
+        """Of the sound members and of what would give most; a mode of the model, and what breaks a rule, is no head."""
+        dull = replace(FIRST, evidence=20.0)
+        ranked = (dull, TWIN)
+
+        def order(*members: Judged, verdict: Verdict = "unknown") -> list[str]:
+            found = self.answered(monkeypatch, spec, nothing(verdict, *members), ranked=ranked)
+            assert [c.probability is not None for c in found.candidates].count(True) == 1
+            return [c.effect for c in found.candidates if c.probability is not None or not c.refinement]
+
+        assert order() == ["first", "twin"]
+        assert order(member(TWIN)) == ["twin", "first"]
+        assert order(member(TWIN, "another mode")) == ["first", "twin"]
+        assert order(member(replace(TWIN, evidence=10.0))) == ["first", "twin"]
+        broken = replace(TWIN, gained=-TWIN.gained)
+        assert order(member(broken)) == ["first", "twin"]
 
     def test_others_come_by_what_they_would_give_and_what_was_dropped_as_it_was_judged(
         self, monkeypatch: pytest.MonkeyPatch, spec: Model
@@ -299,7 +318,7 @@ class TestAnswer:
         as_ranked = self.answered(monkeypatch, spec, nothing("unknown"))
         assert [c.effect for c in as_ranked.candidates] == ["first", "twin", "other"]
         standing = self.answered(monkeypatch, spec, nothing("unknown", member(replace(TWIN, evidence=60.0))))
-        assert "not claimed: causes like it were right in 64% of cases only" in standing.candidates[1].why
+        assert "not claimed: causes like it were right in 62% of cases only" in standing.candidates[1].why
 
     @pytest.mark.parametrize(
         ("verdict", "advice", "characterised"),

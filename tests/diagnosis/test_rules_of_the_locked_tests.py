@@ -249,7 +249,7 @@ def test_a_twin_keeps_the_rules_of_a_claim_itself() -> None:
 
 def test_a_twin_stands_beside_the_same_sharper_cause() -> None:
     """What could be claimed alone may not be in the place of a claim that another one beats."""
-    one, twin = scored("a", evidence=400.0, beaten=True), scored("t", evidence=150.0)
+    one, twin = scored("a", evidence=400.0, beaten=True), scored("t", evidence=150.0, around=True)
     own = Judged(one, one, None, (one, twin))
     judgement = Judgement("effect", (own,), (), (own,), "")
     seen, ask = asked(lambda n: n == "t")

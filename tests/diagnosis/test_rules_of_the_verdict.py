@@ -71,21 +71,24 @@ def test_a_member_is_claimed_as_it_is_beside_the_others_and_as_it_was_chosen() -
     assert found.judged == found.claims
 
 
-@pytest.mark.parametrize(("evidence", "claimed"), [(219.0, ["a", "b"]), (218.0, ["a"])])
+@pytest.mark.parametrize(("evidence", "claimed"), [(486.0, ["a", "b"]), (484.0, ["a"])])
 @pytest.mark.parametrize("family", ["feed_y", "generic"])
-def test_what_is_dull_beside_a_sharper_cause_is_no_claim_whatever_its_name(
+def test_the_air_beside_a_sharper_cause_is_no_claim_whatever_its_name(
     evidence: float, claimed: list[str], family: str
 ) -> None:
-    """22 hundredths a sample, of a thousand, where 7 would do alone: it may be what the sharper one leaves."""
-    second = scored("b", evidence=evidence, family=family)
-    for order in ((scored("a"), second), (second, scored("a"))):
+    """49 hundredths a sample, of a thousand, where 8 would do alone: it may be what the sharper one leaves, for
+    that is slow. What else is dull is as likely beside it as alone."""
+    sharp, second = scored("a", evidence=900.0), scored("b", evidence=evidence, family=family, around=True)
+    for order in ((sharp, second), (second, sharp)):
         found = verdict(*order)
         assert sorted(names(found.claims)) == claimed
         assert {j.scored.candidate.effect.name: j.scored.beaten for j in found.judged} == {"a": False, "b": True}
-    assert names(verdict(scored("b", evidence=68.0)).claims) == ["b"]
+    assert names(verdict(sharp, scored("b", evidence=75.0, family=family)).claims) == ["a", "b"]
+    dull = scored("b", evidence=75.0, around=True)
+    assert names(verdict(dull).claims) == ["b"]
     bed = scored("bed", family="generic", passive=True)
-    assert names(verdict(scored("b", evidence=68.0), bed).claims) == ["b"], "what makes no heat is no rival"
-    assert names(verdict(scored("b", evidence=68.0), scored("mode"), refined=["mode"]).claims) == ["b"]
+    assert names(verdict(dull, bed).claims) == ["b"], "what makes no heat is no rival"
+    assert names(verdict(dull, scored("mode"), refined=["mode"]).claims) == ["b"]
 
 
 @pytest.mark.parametrize(
@@ -132,7 +135,7 @@ def test_a_blunt_cause_is_not_claimed_and_is_no_refinement_either() -> None:
     found = verdict(blunt)
     assert (found.verdict, found.claims, names(found.judged)) == ("unknown", (), ["blunt"])
     assert (
-        "the best, blunt:T_a, fails because causes like it were right in 63% of cases only (limit 65%)" in found.reason
+        "the best, blunt:T_a, fails because causes like it were right in 60% of cases only (limit 65%)" in found.reason
     )
     beside = verdict(blunt, scored("mode"), refined=["mode"])
     assert (beside.verdict, beside.refinements) == ("unknown", ()), "something is missing too"
@@ -162,10 +165,10 @@ def test_nothing_is_missing_where_what_refines_the_model_leaves_little(after: fl
     assert words in found.reason
 
 
-@pytest.mark.parametrize(("evidence", "expected"), [(19.3, "none"), (19.9, "unknown")])
+@pytest.mark.parametrize(("evidence", "expected"), [(23.6, "none"), (24.0, "unknown")])
 @pytest.mark.parametrize("refined", [False, True])
 def test_nothing_is_not_missing_beside_a_plausible_cause(evidence: float, expected: str, refined: bool) -> None:
-    """Of a probability of 30 % though it may not be claimed, which is 0.0196 a sample of a thousand, where the error
+    """Of a probability of 30 % though it may not be claimed, which is 0.0238 a sample of a thousand, where the error
     falls by a quarter."""
     dull = scored("dull", before=0.4, after=0.3, evidence=evidence)
     mode = [scored("mode", before=0.4, after=0.39)] if refined else []

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -207,7 +206,7 @@ def test_the_states_of_the_five_worst_spots_are_said_once() -> None:
 @pytest.mark.parametrize(("tests", "said"), [(7, "add tests"), (8, "log what is not logged")])
 def test_eight_tests_are_enough_to_look_for_a_sensor(tests: int, said: str) -> None:
     spot = WeakSpot(campaign="c", test="t", from_s=0, to_s=1, rmse_um=1.0, state="coolant on")
-    advice = to_find(tests, [spot])
+    advice = to_find(tests, [spot], CHANNELS)
     assert said in advice
     assert advice.startswith(f"{tests} tests")
     assert ("coolant on" in advice) == (tests == 8)
@@ -215,8 +214,8 @@ def test_eight_tests_are_enough_to_look_for_a_sensor(tests: int, said: str) -> N
 
 @pytest.mark.parametrize(("drop", "named"), [(0.31, True), (0.29, False)])
 def test_a_channel_that_is_logged_and_ranks_first_comes_before_a_new_sensor(drop: float, named: bool) -> None:
-    first = SimpleNamespace(candidate=candidate("screw", channels=("T_nut",)), drop=drop)
-    advice = to_find(8, [], first)  # type: ignore[arg-type]
+    first = scored("screw", channels=("T_nut",), after=1 - drop)
+    advice = to_find(8, [], CHANNELS, first)
     assert ("T_nut is logged and ranks first" in advice) is named
     assert ("thermodata confirm" in advice) is named
     assert "log what is not logged yet" in advice
@@ -290,9 +289,9 @@ def test_a_claim_that_rests_in_the_locked_tests_asks_for_one_that_moves_it(names
 @pytest.mark.parametrize(
     ("evidence", "said"),
     [
-        (13.0, None),  # 29 %: less is not plausible
-        (15.0, "causes like it were right in 32% of cases only (limit 65%)"),
-        (60.0, "causes like it were right in 64% of cases only (limit 65%)"),
+        (14.0, None),  # 29 %: less is not plausible
+        (18.0, "causes like it were right in 34% of cases only (limit 65%)"),
+        (69.0, "causes like it were right in 65% of cases only (limit 65%)"),
         (390.0, "alone it keeps the rules of a claim, but not beside what else was chosen"),
     ],
 )

@@ -78,6 +78,7 @@ CANDIDATE = {
     "locked_tests_asked",
     "parameters",
     "equivalent",
+    "unread",
     "why",
     "evidence",
     "rungs",

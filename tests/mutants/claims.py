@@ -25,10 +25,11 @@ BESIDE = {
     "problem.py": ("compression", "the_noise"),
     "ranking.py": ("selection",),
     "refinement.py": ("refinement",),
-    "rules.py": ("a_claim", "the_verdict", "the_locked_tests"),
+    "rules.py": ("a_claim", "the_verdict", "the_locked_tests", "unread_parts"),
     "scored.py": ("a_claim",),
     "selection.py": ("selection",),
     "unexplained.py": ("what_is_shown",),
+    "unread.py": ("unread_parts",),
     "weak.py": ("what_is_shown",),
     "why.py": ("the_answer",),
 }
@@ -62,10 +63,22 @@ def calibration(file: str, old: str, new: str, why: str) -> Mutant:
 MUTANTS = [
     # ---- a claim
     diagnosis("rules.py", "P_LIMIT = 0.01", "P_LIMIT = 0.9", "chance is claimed as a cause"),
-    diagnosis("rules.py", "(2.6, 2.15, ", "(4.6, 2.15, ", "an answer is too sure of itself"),
-    diagnosis("rules.py", "2.15, 0.9, ", "2.15, 0.0, ", "an answer is sure of what hardly lowers the error"),
-    diagnosis("rules.py", "-1.1, -2.65)", "0.0, -2.65)", "what a sharper cause leaves is claimed"),
-    diagnosis("rules.py", "-1.1, -2.65)", "-1.1, 0.0)", "a casting that follows the cause is claimed"),
+    diagnosis("rules.py", "(2.45, 2.2, ", "(4.45, 2.2, ", "an answer is too sure of itself"),
+    diagnosis("rules.py", "2.2, 1.1, ", "2.2, 0.0, ", "an answer is sure of what hardly lowers the error"),
+    diagnosis("rules.py", "-1.8, -2.65, ", "0.0, -2.65, ", "what a sharper cause leaves is claimed"),
+    diagnosis("rules.py", "-2.65, -1.2)", "0.0, -1.2)", "a casting that follows the cause is claimed"),
+    diagnosis("rules.py", "-2.65, -1.2)", "-2.65, 0.0)", "the nut is claimed where the guideway has no sensor"),
+    diagnosis(
+        "unread.py", "and Part(heat, name) not in known", "", "a guideway that the model has is named beside the nut"
+    ),
+    diagnosis("unread.py", "if own or len(others) > 1", "if own", "a feed is as sure of the nut as the nut is"),
+    diagnosis("unread.py", "not (warm and any", "not (any", "a feed is as sure of the nut as the nut is"),
+    diagnosis("rules.py", "(beaten and of.around)", "beaten", "a second cause is doubted for the first"),
+    diagnosis("candidates.py", "around = len(names) == 1 and", "around =", "the layers of the hall's air are doubted"),
+    diagnosis("unread.py", "warm > 1 or", "", "the layers of the hall's air are doubted"),
+    diagnosis("unread.py", " or (heat == AIR and not warm)", "", "the sun is doubted"),
+    diagnosis("rules.py", " and not scored.candidate.of_motion", "", "a feed is as sure of the nut as the nut is"),
+    diagnosis("rules.py", "TOLD_APART = 0.85", "TOLD_APART = 0.5", "a claim does not say what else it may be"),
     diagnosis(
         "rules.py", "FALLS = (-0.2, 1.0)", "FALLS = (-9.0, 1.0)", "a misfit of the known effects refutes a cause"
     ),

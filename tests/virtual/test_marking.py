@@ -101,6 +101,16 @@ def test_a_cause_that_is_not_logged_may_be_told_by_its_family_only() -> None:
     assert outcome_of("effect", *marks_of(("nut_z",), [AIR]), nothing=True) == "false claim"
 
 
+def test_a_claim_that_names_the_part_tells_it() -> None:
+    """For nothing that is logged tells the guideway from the nut, and the answer says so."""
+    nut = said("feed_screw:C01_nutZ", unread=["axis.z.guide"])
+    assert marks_of(("guide_friction",), [nut]) == (["told"], 0)
+    assert marks_of(("guide_friction",), [SCREW]) == (["wrong"], 1)
+    assert marks_of(("nut_x",), [nut]) == (["wrong"], 1), "another axis"
+    assert marks_of(("guide_friction",), [said("lag:v_Z", unread=["axis.z.nut", "axis.z.guide"])]) == (["told"], 0)
+    assert outcome_of("effect", *marks_of(("guide_friction",), [nut]), nothing=True) == "family"
+
+
 def test_a_refinement_is_neither_claimed_nor_ranked_first() -> None:
     better = said("spindle_friction:n_S", 1, refinement=True, probability=0.99)
     found = answered("refine", better, said("feed_screw:C01_nutZ", 2, claimed=False))

@@ -17,7 +17,7 @@ from thermodata.diagnosis.locked import Looked
 from thermodata.diagnosis.null import p_value
 from thermodata.diagnosis.opened import kept_where_they_hold
 from thermodata.diagnosis.problem import Problem
-from thermodata.diagnosis.rules import claimable, explained, probability
+from thermodata.diagnosis.rules import Measure, claimable, elsewhere, explained, failed_rules, probability
 from thermodata.diagnosis.scored import Scored
 from thermodata.diagnosis.suspect import suspect
 from thermodata.diagnosis.unexplained import characterise
@@ -165,6 +165,8 @@ def _advice(
         apart = next_test.to_separate(claim.scored, equivalents(claim.scored, claim.beside), data.channels)
         if apart is not None:
             return apart
+        if (log := next_test.to_log(claim.scored, data.channels)) is not None:
+            return log
     if refused:
         return next_test.to_decide(refused, data.channels)
     if claims and confirmation is not None and confirmation.asked == frozenset():
@@ -177,12 +179,13 @@ def _advice(
         return None
     if judgement.verdict not in ("unknown", "not_testable"):
         return None
-    return next_test.to_find(len({b.test.key for b in investigation.problem.blocks}), investigation.spots, first)
+    tests = len({b.test.key for b in investigation.problem.blocks})
+    return next_test.to_find(tests, investigation.spots, data.channels, first)
 
 
 def _shown(investigation: Investigation, judgement: Judgement) -> list[tuple[Scored, Judged | None]]:
     """Claims, what the locked tests refused, refinements, then all others by what they would give; what was dropped as
-    it was judged last."""
+    it was judged last. Where nothing is claimed the likeliest of the others comes before them."""
     first = [*judgement.claims, *judgement.refused, *judgement.refinements]
     order: list[tuple[Scored, Judged | None]] = [(j.scored, j) for j in first]
     rest = [j for j in judgement.judged if not any(j.scored.columns is f.scored.columns for f in first)]
@@ -193,7 +196,17 @@ def _shown(investigation: Investigation, judgement: Judgement) -> list[tuple[Sco
             if len(s.rows) and not any(s.columns is k.columns for k, _ in (*order, *others)):
                 others.append((s, None))
     others.sort(key=lambda item: -explained(item[0]))
+    head = _likeliest(others, investigation.measure, investigation.problem.unit)
+    if head is not None and not judgement.claims and not judgement.refused:
+        others.sort(key=lambda item: item[0] is not head)
     return [*order, *others][:SHOWN]
+
+
+def _likeliest(others: Sequence[tuple[Scored, Judged | None]], measure: Measure, unit: str) -> Scored | None:
+    """Of what would give most, and of the sound members; what refines the model is no cause."""
+    causes = [(s, m) for s, m in others if not s.candidate.within and (m is None or m.refines is None)]
+    sound = [s for s, m in causes if m is not None and not failed_rules(s, measure, unit)]
+    return max([*(s for s, _ in causes[:1]), *sound], key=probability, default=None)
 
 
 def _candidate(
@@ -234,6 +247,7 @@ def _candidate(
         locked_tests_asked=None if held is None or held.asked is None else len(held.asked),
         parameters=held.parameters.get(s.candidate.id, {}) if held else {},
         equivalent=[t.candidate.id for t in equivalents(s, beside)] if rank <= 5 else [],
+        unread=list(elsewhere(s)) if heads else [],
         why=why(s, member, investigation, judgement, held),
         evidence=float(s.evidence) if np.isfinite(s.evidence) else None,
         rungs=ladder.rungs(s, measure, problem.unit),

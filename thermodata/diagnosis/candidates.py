@@ -19,6 +19,7 @@ from thermodata.diagnosis.present import (
     modes,
     stands_for,
 )
+from thermodata.diagnosis.unread import parts_of, unread
 from thermodata.effect.binding import bindings, candidate_id, family_of
 from thermodata.effect.places import holds
 from thermodata.modelling.candidate import with_effect
@@ -26,7 +27,7 @@ from thermodata.modelling.drivers import has_drivers, make_drivers
 from thermodata.modelling.lead import columns, with_lead
 from thermodata.plugin import Effect, Float2D, Param
 from thermodata.schema.model import EffectSpec, Model
-from thermodata.schema.places import is_casting
+from thermodata.schema.places import is_around, is_casting
 from thermodata.view.dataset import ChannelInfo, TestData
 
 InTest = Callable[[Mapping[str, float]], Float2D]  # parameters -> columns of a test, shape (n, gains)
@@ -49,7 +50,9 @@ class CandidateEffect:
     placeless: nobody declared where any temperature sits, so it can only be a plain lag. passive: no effect has a name
     for it, and it reads the temperature of a casting, or one of which nobody declared where it sits, while others have
     a place. log_prior: how much less probable than others before any data. kin: how near it is to what the model has
-    already (`Kin`). unforetold: why left-out tests can't be asked of it; None where they can."""
+    already (`Kin`). unforetold: why left-out tests can't be asked of it; None where they can. unread: places of
+    other parts that it may be (`diagnosis.unread`). around: whether it reads nothing but one temperature of the air,
+    the floor or the outside. of_motion: whether it reads no temperature."""
 
     effect: Effect
     binding: Mapping[str, str]
@@ -59,6 +62,9 @@ class CandidateEffect:
     log_prior: float = 0.0
     kin: Kin = None
     unforetold: str | None = None
+    unread: tuple[str, ...] = ()
+    around: bool = False
+    of_motion: bool = False
 
     @property
     def channels(self) -> tuple[str, ...]:
@@ -130,6 +136,7 @@ def candidates(
     # a sensor that failed goes with anything that happened when it did
     usable = {n: c for n, c in channels.items() if n != response and c.quantity not in NOT_DRIVERS and c.faulty is None}
     placed = any(c.at is not None for c in usable.values() if c.quantity == "temperature")
+    known = {part for p in acting if p.effect in library for part in parts_of(library[p.effect], p.channels, channels)}
     found: list[CandidateEffect] = []
     for effect in library.values():
         # a static gain is a lag whose time constant is zero, and the grid of a lag begins there
@@ -146,7 +153,22 @@ def candidates(
                 continue
             kin = _kin(effect, family, names, model, library, usable)
             passive = placed and family in (GENERIC, CONTROL) and any(_follows(usable[n]) for n in names)
-            found.append(CandidateEffect(effect, binding, family, nowhere, passive, kin=kin))
+            other = unread(effect, binding.values(), usable, known)
+            around = len(names) == 1 and all(_is_around(usable[n]) for n in names)
+            of_motion = all(usable[n].quantity != "temperature" for n in names)
+            found.append(
+                CandidateEffect(
+                    effect,
+                    binding,
+                    family,
+                    nowhere,
+                    passive,
+                    kin=kin,
+                    unread=other,
+                    around=around,
+                    of_motion=of_motion,
+                )
+            )
     named = {c.channels for c in found if c.family not in (GENERIC, CONTROL)}
     return [replace(c, log_prior=UNNAMED) if _says_little(c, named) else c for c in found]
 
@@ -171,6 +193,10 @@ class _Model:
 def _follows(channel: ChannelInfo) -> bool:
     """Whether it is warm for what is warm elsewhere, for all that is known of its place."""
     return channel.quantity == "temperature" and (channel.at is None or is_casting(channel.at))
+
+
+def _is_around(channel: ChannelInfo) -> bool:
+    return channel.quantity == "temperature" and is_around(channel.at)
 
 
 def _says_little(candidate: CandidateEffect, named: Container[tuple[str, ...]]) -> bool:

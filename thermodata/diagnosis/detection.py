@@ -83,7 +83,7 @@ def _limit(known: Known, one: Columns, spread: float, owners: Int1D) -> Limit | 
         if share < LEAST_BEYOND:
             found.append((np.inf, share))
             continue
-        sure = np.sqrt(2 * (sharpness_asked(0.0) * rows + CHOICE) / beyond[point])
+        sure = np.sqrt(2 * (sharpness_asked(0.0, one.candidate) * rows + CHOICE) / beyond[point])
         plain = np.sqrt(2 * (STRONG * rows + CHOICE) / beyond[point])
         worth = WORTH_SHARE * spread / (size * np.sqrt(share))
         found.append((max(size * sure, min(size * worth, size * plain, WORTH_SIZE * spread)), share))

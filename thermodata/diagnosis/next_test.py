@@ -5,8 +5,11 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 from thermodata.diagnosis.candidates import CandidateEffect
+from thermodata.diagnosis.rules import elsewhere
 from thermodata.diagnosis.scored import Scored
+from thermodata.diagnosis.unread import reads
 from thermodata.schema.diagnosis import WeakSpot
+from thermodata.schema.places import is_around
 from thermodata.view.dataset import ChannelInfo
 
 # machines whose one missing cause was named rightly, by number of open tests (sealed seeds; docs/benchmark.md)
@@ -33,8 +36,6 @@ _MOVED = {
     "flow": "on for hours while all else rests, then off",
 }
 _LOADED = "at a high load for hours, then at rest"
-# nobody heats the hall: it moves by itself
-_SURROUNDINGS = ("hall", "outside")
 _BY_DAY = "through a day and a night, the machine at rest"
 
 
@@ -61,6 +62,14 @@ def to_separate(chosen: Scored, twins: Sequence[Scored], channels: Mapping[str, 
     quantity = channels[own[0]].quantity if own and own[0] in channels else "temperature"
     how = _PROTOCOL.get(quantity, _PROTOCOL["temperature"])
     return f"to tell {mine.id} from {other.id}: {how}"
+
+
+def to_log(one: Scored, channels: Mapping[str, ChannelInfo]) -> str | None:
+    """The sensor that tells its heat from that of another part; None where each of them has one."""
+    bare = [place for place in elsewhere(one) if not reads(channels, place)]
+    if not bare:
+        return None
+    return f"to tell {one.candidate.id} from heat at {' and '.join(bare)}: log a temperature there"
 
 
 def to_decide(refused: Sequence[CandidateEffect], channels: Mapping[str, ChannelInfo]) -> str:
@@ -98,7 +107,7 @@ def _moved(one: CandidateEffect, channels: Mapping[str, ChannelInfo]) -> str:
     if one.protocol is not None:
         return f"for {one.id}: {one.protocol}"
     first = next((channels[c] for c in one.channels if c in channels), None)
-    if first is not None and (first.at or "").startswith(_SURROUNDINGS):
+    if first is not None and is_around(first.at):
         how = _BY_DAY
     else:
         how = _MOVED.get(first.quantity if first is not None else "temperature", _LOADED)
@@ -106,7 +115,9 @@ def _moved(one: CandidateEffect, channels: Mapping[str, ChannelInfo]) -> str:
     return f"in which {' and '.join(one.channels)} {verb} much ({how})"
 
 
-def to_find(tests: int, spots: Sequence[WeakSpot], first: Scored | None = None) -> str:
+def to_find(
+    tests: int, spots: Sequence[WeakSpot], channels: Mapping[str, ChannelInfo], first: Scored | None = None
+) -> str:
     """The advice where nothing could be claimed. tests: those that took part; spots: where the model fails most.
     first: the candidate that ranks first, whose channels are logged and are no advice to log."""
     if tests < ENOUGH_TESTS:
@@ -117,12 +128,15 @@ def to_find(tests: int, spots: Sequence[WeakSpot], first: Scored | None = None) 
         )
     worst = spots[0].state if spots else "no state in particular"
     logged = ""
+    log = to_log(first, channels) if first is not None and first.drop >= WORTH_A_TEST else None
+    if log is not None:
+        return f"{tests} tests took part, so more of the same will not tell; {log}"
     if first is not None and first.candidate.protocol is not None and first.drop >= WORTH_A_TEST:
         logged = f"do {first.candidate.protocol}; if nothing differs, "
     elif first is not None and first.drop >= WORTH_A_TEST:
-        channels = ", ".join(first.candidate.channels)
+        names = ", ".join(first.candidate.channels)
         logged = (
-            f"{channels} is logged and ranks first, so run a test that moves it alone, or open the locked tests for "
+            f"{names} is logged and ranks first, so run a test that moves it alone, or open the locked tests for "
             f"{first.candidate.id} (thermodata confirm); if it is not that, "
         )
     return (

@@ -7,6 +7,7 @@ from typing import Literal
 
 import numpy as np
 
+from thermodata.diagnosis.candidates import CandidateEffect
 from thermodata.diagnosis.null import p_value
 from thermodata.diagnosis.present import CONTROL
 from thermodata.diagnosis.scored import Scored
@@ -14,13 +15,16 @@ from thermodata.plugin import Float1D
 
 P_LIMIT = 0.01
 # that a sound candidate is the cause: a logistic curve over the logarithm of its evidence a sample, the fall of the
-# error where it acts, whether another member is sharper, and whether it is passive (docs/method.md#probability)
-PROBABILITY = (2.6, 2.15, 0.9, -1.1, -2.65)
+# error where it acts, whether it is the air beside something sharper, whether it is passive, and whether another part
+# may be what it stands for (docs/method.md#probability)
+PROBABILITY = (2.45, 2.2, 1.1, -1.8, -2.65, -1.2)
 FALLS = (-0.2, 1.0)  # further, and a fall says nothing more
 DOUBT = -0.55  # and, once the lock is open, for each of two ways in which the locked tests do not bear it out
 CLAIMED = 0.65  # a claim is this probable at least;
 # where nobody declared any place it names a channel, not physics, and there is nothing that it could be taken for
 PLACELESS_CLAIMED = 0.5
+# what is so probable is told from other parts by its timing: they are not named beside it
+TOLD_APART = 0.85
 # so much evidence a sample outweighs what left-out tests say: how far their error falls, for the known effects take
 # part of what is missing, and that the gain differs between them; and even how many they are
 STRONG = 0.4
@@ -171,8 +175,9 @@ def surely(scored: Scored) -> Rule:
     sure, limit = probability(scored), limit_of(scored)
     return Rule(
         "probability",
-        "that it is what is missing, by its log evidence a sample, the fall of the error, whether an effect beside it "
-        "is sharper, whether it reads a body that makes no heat, and what the locked tests say",
+        "that it is what is missing, by its log evidence a sample, the fall of the error, whether it is the air "
+        "beside something sharper, whether it reads a body that makes no heat, whether another part may be it, "
+        "and what the locked tests say",
         sure,
         limit,
         "least",
@@ -184,9 +189,12 @@ def surely(scored: Scored) -> Rule:
 def _in_short(scored: Scored) -> str:
     """What its probability hangs on."""
     falls = f"where it acts the error falls by {max(scored.drop, 0):.0%}"
-    more = ["an effect beside it is sharper"] if scored.beaten else []
+    beaten = scored.beaten and scored.candidate.around
+    more = ["an effect beside it is sharper, and leaves what is slow, as the air is"] if beaten else []
     if scored.candidate.passive:
         more.append("it reads a body that makes no heat, or one whose place nobody declared")
+    if scored.candidate.unread:
+        more.append(f"{' and '.join(scored.candidate.unread)} may be it as well, and nothing that it reads tells")
     if scored.doubts:
         more.append(f"the locked tests do not bear it out in {scored.doubts} of 2 ways")
     return "; ".join([f"its evidence is {sharpness(scored):.2f} a sample, and {falls}", *more])
@@ -234,25 +242,33 @@ def _steadies(scored: Scored) -> bool:
 def probability(scored: Scored) -> float:
     """That a sound candidate is what is missing: the share that was right among those like it, on simulated machines
     (development seeds)."""
-    return _probability(sharpness(scored), scored.drop, scored.beaten, scored.candidate.passive, scored.doubts)
+    return _probability(sharpness(scored), scored.drop, scored.candidate, beaten=scored.beaten, doubts=scored.doubts)
 
 
 def at_best(scored: Scored, samples: int) -> float:
     """Its probability if left-out tests were foretold without any error, and nothing beside it were sharper."""
-    return _probability(scored.evidence / max(samples, 1), FALLS[1], False, scored.candidate.passive)
+    return _probability(scored.evidence / max(samples, 1), FALLS[1], scored.candidate)
 
 
-def _probability(a_sample: float, drop: float, beside_sharper: bool, is_passive: bool, doubts: int = 0) -> float:
-    level, sharp, fall, beaten, passive = PROBABILITY
+def _probability(a_sample: float, drop: float, of: CandidateEffect, *, beaten: bool = False, doubts: int = 0) -> float:
+    level, sharp, fall, air_beaten, by_casting, by_another_part = PROBABILITY
     odds = level + sharp * np.log10(max(a_sample, 1e-4)) + fall * float(np.clip(drop, *FALLS))
-    odds += beaten * beside_sharper + passive * is_passive + DOUBT * doubts
+    odds += air_beaten * (beaten and of.around) + by_casting * of.passive + by_another_part * bool(of.unread)
+    odds += DOUBT * doubts
     return float(1 / (1 + np.exp(-odds)))
 
 
-def sharpness_asked(fall: float) -> float:
-    """The evidence a sample that a claim asks of what is active and stands alone. fall: of the error where it acts."""
-    level, sharp, by_fall = PROBABILITY[:3]
-    return float(10 ** ((np.log(CLAIMED / (1 - CLAIMED)) - level - by_fall * float(np.clip(fall, *FALLS))) / sharp))
+def sharpness_asked(fall: float, of: CandidateEffect) -> float:
+    """The evidence a sample that a claim asks of what stands alone. fall: of the error where it acts."""
+    sharp = PROBABILITY[1]
+    known = _probability(1.0, fall, of)  # a sharpness of 1 adds nothing
+    return float(10 ** ((np.log(CLAIMED / (1 - CLAIMED)) - np.log(known / (1 - known))) / sharp))
+
+
+def elsewhere(scored: Scored) -> tuple[str, ...]:
+    """Places of other parts that it may be as well. A motion has the timing of no part."""
+    told = probability(scored) >= TOLD_APART and not scored.candidate.of_motion
+    return () if told else scored.candidate.unread
 
 
 def limit_of(scored: Scored) -> float:

@@ -51,6 +51,11 @@ def named(one: Candidate) -> str:
     return f"{name}{by_phase}{f' with a gain for each {one.gain_by}' if one.gain_by else ''}"
 
 
+def other_heat(one: Candidate) -> str:
+    """'heat at axis.z.guide', which may be it as well; '' where its channels tell it from all else."""
+    return f"heat at {' or '.join(one.unread)}" if one.unread else ""
+
+
 def verdict_sentence(found: Diagnosis) -> str:
     """The verdict in one sentence with its figures: every claim, every refinement."""
     claims, refined = claims_of(found), refinements_of(found)
@@ -92,12 +97,18 @@ def noise_words(found: Diagnosis) -> str:
 
 
 def _missing(claims: Sequence[Candidate]) -> str:
-    names = [
-        named(c) + (f", probability {probability(c.probability)}" if c.probability is not None else "") for c in claims
-    ]
+    names = [", ".join(filter(None, [_or_elsewhere(c), _how_sure(c)])) for c in claims]
     # commas stand within a name and its probability
     text = f"missing: {names[0] if len(names) == 1 else ', and '.join([', '.join(names[:-1]), names[-1]])}"
     return f"{text}; {_left_out(claims)}{_locked(claims)}"
+
+
+def _or_elsewhere(one: Candidate) -> str:
+    return f"{named(one)} or {other_heat(one)}" if one.unread else named(one)
+
+
+def _how_sure(one: Candidate) -> str:
+    return "" if one.probability is None else f"probability {probability(one.probability)}"
 
 
 def _left_out(some: Sequence[Candidate]) -> str:

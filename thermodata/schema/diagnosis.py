@@ -110,6 +110,7 @@ class Candidate(Result):
     locked_tests_asked: in how many locked tests the claims act, and are asked; null where it is not known
     parameters: of the effect, fitted to all open tests; for a claimed one only
     equivalent: ids that the data cannot tell from it
+    unread: places of other parts that it may be as well, for nothing that it reads tells them apart
     why: the evidence in a sentence
     evidence: log Bayes factor of the model with it against the model without
     rungs: every rule of a claim with its value and limit
@@ -137,6 +138,7 @@ class Candidate(Result):
     locked_tests_asked: int | None = None
     parameters: dict[str, Parameter] = {}
     equivalent: list[str] = []
+    unread: list[str] = []
     why: str = ""
     evidence: float | None = None
     rungs: list[Rung] = []

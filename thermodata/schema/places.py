@@ -77,6 +77,7 @@ PLACES: dict[str, str] = {
 _DIAMETER = "table.d"
 # a tool change, a cut or the coolant makes any reading there jump, and no mass holds it
 _AT_TOOL = ("tcp", "tool", "stator", "probe")
+_AROUND = ("hall", "floor", "outside")
 # castings: heat passes through them, and none begins there
 _CASTINGS = ("headstock", "ram", "saddle", "crossbeam", "column", "bed")
 
@@ -89,6 +90,11 @@ def is_at_tool(place: str | None) -> bool:
 def is_casting(place: str | None) -> bool:
     """Whether a dotted place is on a body that makes no heat of its own: what is read there came from elsewhere."""
     return place is not None and place.lower().partition(".")[0] in _CASTINGS
+
+
+def is_around(place: str | None) -> bool:
+    """Whether a dotted place is not of the machine, but around it: nobody heats it, and it moves by itself."""
+    return place is not None and place.lower().partition(".")[0] in _AROUND
 
 
 def is_known(place: str) -> bool:

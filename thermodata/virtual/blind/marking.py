@@ -6,7 +6,9 @@ from collections.abc import Sequence
 from itertools import product
 
 from thermodata.schema.diagnosis import Candidate, Diagnosis
+from thermodata.virtual.lathe.causes import CAUSES
 from thermodata.virtual.lathe.right_names import Mark, mark
+from thermodata.virtual.lathe.sensors import BY_NAME
 
 ORDER: tuple[Mark, ...] = ("exact", "equivalent", "family", "wrong")
 FOUND = ("exact", "equivalent", "told")
@@ -73,7 +75,9 @@ def _fit(cause: str, claim: Candidate, broken: str | None) -> str | None:
 
 
 def _told(cause: str, claim: Candidate) -> bool:
-    """Whether the claim names the cause among those that it can't be told from."""
+    """Whether the claim names the cause among those that it can't be told from, or the part that it is."""
+    if any(BY_NAME[sensor].at in claim.unread for sensor in CAUSES[cause].sensors):
+        return True
     for name in claim.equivalent:
         effect, _, channels = name.partition(":")
         if mark(cause, effect, channels.split(","), "") == "exact":

@@ -57,7 +57,8 @@ def rows(trials: Trials) -> list[Row]:
 
 
 def row(name: str, trials: Trials) -> Row:
-    """Counts of some trials. named, false_claims and verdicts: hits, of, interval of 95 %."""
+    """Counts of some trials. named, false_claims and verdicts: hits, of, interval of 95 %. claimed_beside: claims of
+    something else where the cause is not logged, that name it or its family too."""
     able = [t for t in trials if asked(t)]
     rest = [t for t in trials if not asked(t)]
     tried = [t for t in able if t["rivals"]]
@@ -79,6 +80,7 @@ def row(name: str, trials: Trials) -> Row:
         "verdicts_asked": _verdicts(able),
         "nothing_to_name": len(rest),
         "false_claims": share_of(sum(t["outcome"] == "false claim" for t in rest), len(rest)),
+        "claimed_beside": sum(t["outcome"] == "family" for t in rest),
         "verdicts": _verdicts(rest),
         "known_again": sum(t["known_again"] > 0 for t in trials),
         "refined": sum(bool(t["refinements"]) for t in trials),

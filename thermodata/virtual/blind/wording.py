@@ -40,12 +40,14 @@ def with_a_cause(found: Sequence[Row]) -> list[Row]:
 
 
 def without(found: Sequence[Row]) -> list[Row]:
-    """Rows where nothing could be: what is said instead. beside: refinements of nothing that the model has."""
+    """Rows where nothing could be: what is said instead. beside it: claims that name what is not logged, or its family,
+    beside something else. beside: refinements of nothing that the model has."""
     return [
         {
             "without": r["stratum"],
             "n": r["nothing_to_name"],
             "false claim": interval(r["false_claims"]),
+            "beside it": r["claimed_beside"],
             **{v.replace("_", " "): interval(r["verdicts"][v]) for v in ("none", "refine", "unknown", "not_testable")},
             "known again": r["known_again"],
             "beside": r["refined_beside_the_base"],

@@ -1,0 +1,161 @@
+"""Which other part of its axis a candidate may be (diagnosis/unread.py), and what that does to a claim."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import pytest
+
+from thermodata.diagnosis.candidates import candidates
+from thermodata.diagnosis.next_test import to_find, to_log
+from thermodata.diagnosis.present import Present
+from thermodata.diagnosis.rules import TOLD_APART, at_best, blunt, elsewhere, probability, sharpness_asked
+from thermodata.diagnosis.scored import Scored
+from thermodata.effect import effects
+from thermodata.report.headline import causes
+from thermodata.report.verdict import verdict_sentence
+from thermodata.schema.diagnosis import Candidate, Diagnosis
+from thermodata.view.dataset import ChannelInfo
+
+from .hand_made import scored
+
+NUT = ChannelInfo("T_nut", "temperature", "degC", at="axis.z.nut")
+HOUSE = ChannelInfo("T_house", "temperature", "degC", at="axis.z.bearing")
+GUIDE = ChannelInfo("T_guide", "temperature", "degC", at="Axis.Z.guide")
+MOTOR = ChannelInfo("T_motor", "temperature", "degC", at="axis.z.motor")
+FEED = ChannelInfo("v", "feed", "m/min", at="axis.z")
+OTHER = ChannelInfo("T_nut_x", "temperature", "degC", at="axis.x.nut")
+LOW = ChannelInfo("T_low", "temperature", "degC", at="hall.bottom")
+HIGH = ChannelInfo("T_high", "temperature", "degC", at="hall.top")
+HOLDER = ChannelInfo("T_holder", "temperature", "degC", at="fixture")
+PROBE = ChannelInfo("T_probe", "temperature", "degC", at="probe")
+SUN = ChannelInfo("sun", "irradiance", "W/m^2", at="hall.window")
+OIL = ChannelInfo("T_oil", "temperature", "degC", at="hydraulics")
+
+
+def unread(*logged: ChannelInfo, has: tuple[Present, ...] = ()) -> dict[str, tuple[str, ...]]:
+    found = candidates(effects(), {c.name: c for c in logged}, has, "dZ")
+    return {c.id: c.unread for c in found if c.unread}
+
+
+def test_a_temperature_tells_its_part_from_those_that_have_a_sensor() -> None:
+    assert unread(NUT)["feed_screw:T_nut"] == ("axis.z.guide",)
+    assert unread(GUIDE)["guideway:T_guide"] == ("axis.z.nut",)
+    assert unread(NUT, GUIDE) == {}
+    assert "guideway:T_guide" not in unread(HOUSE, GUIDE), "the house is the screw's"
+    assert unread(NUT, OTHER)["feed_screw:T_nut_x"] == ("axis.x.guide",), "each axis for itself"
+
+
+def test_a_motor_warms_with_both() -> None:
+    assert unread(MOTOR)["feed_motor:T_motor"] == ("axis.z.nut", "axis.z.guide")
+    assert unread(MOTOR, NUT)["lag:T_motor"] == ("axis.z.guide",)
+
+
+def test_a_motion_tells_no_part_from_another() -> None:
+    found = unread(NUT, GUIDE, FEED)
+    assert found["feed_screw:v"] == ("axis.z.guide",)
+    assert found["lag:v"] == ("axis.z.nut", "axis.z.guide")
+    assert set(found) == {"feed_screw:v", "lag:v"}
+    by_motion = {c.id: c.of_motion for c in candidates(effects(), {c.name: c for c in (NUT, FEED)}, (), "dZ")}
+    assert by_motion == {"feed_screw:T_nut": False, "feed_screw:v": True, "lag:T_nut": False, "lag:v": True}
+
+
+def test_what_the_model_has_is_no_other_part() -> None:
+    guideway = Present("guideway", frozenset({"T_guide"}), "guide_z")
+    assert "feed_screw:v" not in unread(NUT, GUIDE, FEED, has=(guideway,))
+    assert "lag:v" not in unread(NUT, GUIDE, FEED, has=(guideway,)), "only one is left"
+    by_feed = Present("feed_screw", frozenset({"v"}), "feed_z")
+    assert "guideway:T_guide" not in unread(GUIDE, FEED, has=(by_feed,)), "named for the screw"
+
+
+def test_what_holds_the_probes_stands_in_the_same_air_as_the_frame() -> None:
+    found = unread(LOW)
+    assert found["ambient_frame:T_low"] == ("fixture",)
+    assert found["lag:T_low"] == ("fixture",)
+    assert unread(LOW, HOLDER) == {}
+    assert unread(LOW, PROBE) == {}
+    assert unread(HOLDER)["probe_temperature:T_holder"] == ("hall",)
+    known = Present("probe_temperature", frozenset({"T_holder"}), "probe")
+    assert "ambient_frame:T_low" not in unread(LOW, replace(HOLDER, faulty="stuck"), has=(known,))
+
+
+def test_a_difference_of_two_airs_and_the_sun_are_neither() -> None:
+    found = unread(LOW, HIGH, SUN)
+    assert "vertical_gradient:T_high,T_low" not in found
+    assert "sun:sun" not in found
+    assert "lag:T_high" in found
+
+
+def test_nothing_elsewhere_is_asked() -> None:
+    assert unread(OIL) == {}
+
+
+def on_axis(evidence: float, *places: str) -> Scored:
+    one = scored(evidence=evidence, after=0.4)
+    return replace(one, candidate=replace(one.candidate, unread=places))
+
+
+@pytest.mark.parametrize(("evidence", "claimed"), [(258.0, False), (260.0, True)])
+def test_it_is_less_probable_and_says_why(evidence: float, claimed: bool) -> None:
+    """1 / (1 + exp(-2.45 - 2.2 log10(sharpness) - 1.1 * 0.6 + 1.2)): 65 % at 0.26 a sample; alone at 0.07."""
+    alone, beside = on_axis(evidence), on_axis(evidence, "axis.z.guide")
+    assert blunt(alone) is None
+    assert (blunt(beside) is None) == claimed
+    assert probability(beside) < probability(alone)
+    if not claimed:
+        assert "axis.z.guide may be it as well" in str(blunt(beside))
+    assert at_best(beside, 1000) < at_best(alone, 1000)
+    assert sharpness_asked(0.6, beside.candidate) > sharpness_asked(0.6, alone.candidate)
+
+
+def test_what_is_sure_is_told_apart_by_its_timing() -> None:
+    dull, sharp = on_axis(600.0, "axis.z.guide"), on_axis(3000.0, "axis.z.guide")
+    assert probability(dull) < TOLD_APART < probability(sharp)
+    assert elsewhere(dull) == ("axis.z.guide",)
+    assert elsewhere(sharp) == ()
+    moved = replace(sharp, candidate=replace(sharp.candidate, of_motion=True))
+    assert elsewhere(moved) == ("axis.z.guide",), "a motion has the timing of no part"
+
+
+def test_the_sensor_that_tells_them_apart_is_advised() -> None:
+    one, channels = on_axis(600.0, "axis.z.guide"), {"T_nut": NUT}
+    advice = "to tell plain:T_a from heat at axis.z.guide: log a temperature there"
+    assert to_log(one, channels) == advice
+    assert to_log(one, {"T_guide": GUIDE}) is None, "it is logged"
+    assert advice in to_find(9, (), channels, one)
+    assert advice not in to_find(9, (), {"T_guide": GUIDE}, one)
+    assert advice not in to_find(9, (), channels, on_axis(600.0))
+
+
+def test_a_claim_names_it() -> None:
+    claim = Candidate(
+        rank=1,
+        id="feed_screw:T_nut",
+        effect="feed_screw",
+        family="feed_z",
+        drivers=["T_nut"],
+        claimed=True,
+        probability=0.8,
+        p_value=0.005,
+        rmse_um_before=4.0,
+        rmse_um_after=2.0,
+        fit_before=None,
+        fit_after=None,
+        unread=["axis.z.guide"],
+    )
+    found = Diagnosis(
+        model="m",
+        response="dZ",
+        verdict="effect",
+        noise_um=0.1,
+        rmse_um=4.0,
+        explainable=0.7,
+        weak_spots=[],
+        candidates=[claim],
+        artefacts=[],
+    )
+    assert "missing: feed_screw (T_nut) or heat at axis.z.guide, probability 80 %;" in verdict_sentence(found)
+    said = "feed_screw (T_nut), or heat at axis.z.guide; these tests can't tell which; 80 % sure"
+    assert causes([claim]) == said
+    plain = claim.model_copy(update={"unread": []})
+    assert causes([plain]) == "feed_screw (T_nut); 80 % sure"
