@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from quality_data import N, clock, kinds, noisy, run
 
-from thermodata.plugin import Float1D
+from thermodata.plugin import Array, Float1D
 from thermodata.schema.flag import Flag
 
 
@@ -114,7 +114,7 @@ def test_the_night_of_an_irradiance_is_neither_held_nor_saturated() -> None:
 
 def test_a_lamp_by_night_is_no_fault_either() -> None:
     x = day()
-    x[100:400] = 17.0  # of 5 to 650
+    x[100:400] = 17.0
     flags, events = run(clock(), G=("irradiance", x), T=("temperature", temperature()))
     assert not flags["G"].any(), events
     x[100:400] = 60.0
@@ -136,3 +136,28 @@ def test_an_irradiance_that_stands_still_by_day_is_held(code: float | None) -> N
     night = (flags["G"] & Flag.OUT_OF_RANGE) == 0
     night[noon.start : noon.stop + 1] = False
     assert not (flags["G"][night] & (Flag.HELD | Flag.STUCK | Flag.SATURATED)).any()
+
+
+def irradiance_flags(x: Float1D) -> Array:
+    flags, _ = run(clock(), G=("irradiance", x), T=("temperature", temperature()))
+    return np.asarray(flags["G"] & (Flag.HELD | Flag.STUCK | Flag.SATURATED))
+
+
+@pytest.mark.parametrize("reading", [0.0, 5.0, 20.0])
+def test_a_cable_that_is_off_by_day_is_no_night(reading: float) -> None:
+    """It leaps to a night's reading, and back."""
+    x = day()
+    noon = slice(N // 4 - 150, N // 4 + 150)
+    x[noon] = reading
+    assert irradiance_flags(x)[noon].all()
+    x[: noon.start] = reading  # off from the night on
+    assert not irradiance_flags(x).any(), "its night may have been as long"
+
+
+def test_the_lowest_reading_of_a_day_is_no_night() -> None:
+    hours = np.linspace(8, 16, N)
+    x = np.round(600 * np.sin(2 * np.pi * (hours - 6) / 24) + np.random.default_rng(3).normal(0, 5, N), 1)
+    for low in (250.0, 400.0):
+        stands = x.copy()
+        stands[1000:2200] = low
+        assert irradiance_flags(stands)[1000:2200].all()

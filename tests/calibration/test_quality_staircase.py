@@ -74,3 +74,14 @@ def switched(seed: int, tau: float) -> np.ndarray:
 @pytest.mark.parametrize("tau", [20.0, 200.0, 1500.0])
 def test_a_machine_that_is_switched_is_no_staircase(tau: float) -> None:
     assert [noisy_tread_of([switched(seed, tau)]) for seed in SEEDS] == [0.0] * len(SEEDS)
+
+
+@pytest.mark.parametrize(("resolution", "noise"), [(0.001, 0.02), (0.01, 0.05), (0.1, 5.0)])
+def test_a_sensor_that_is_stuck_for_long_makes_no_staircase_of_its_noise(resolution: float, noise: float) -> None:
+    """Nearly all samples that equal the one before are of that one stretch, and it is on any spacing."""
+    x = noisy(5, noise=0) / 5 + 25 + np.random.default_rng(5).normal(0, noise, N)
+    x = np.round(x / resolution) * resolution
+    x[1000:2200] = x[1000]
+    flags, events = run(clock(), T=("temperature", x), dZ=("displacement", noisy(2)))
+    assert (flags["T"][1000:2200] & (Flag.HELD | Flag.STUCK)).all(), events
+    assert not flags["T"][2201:].any()

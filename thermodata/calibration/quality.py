@@ -40,9 +40,9 @@ ANALOG = frozenset(
 )
 # ... and which can't leave and come back within a few samples. (Position, speed, power and flow can.)
 _INERT = frozenset({"displacement", "tilt", "temperature", "temperature_difference", "humidity"})
-# Quantities that rest at their lowest reading, exactly: by night no sun shines.
-RESTING = frozenset({"irradiance"})
-_RESTS = 0.03  # of its range above the lowest: a lamp in the hall
+# Quantities that rest, exactly, and up to where: by night no sun shines, but for a lamp and the sensor's offset [W/m2].
+RESTS_BELOW = {"irradiance": 30.0}
+_DAWN = 300.0 / 3600e9  # [W/m2/ns] the clear sky's steepest dawn; what comes quicker is no night that begins or ends
 MOST_EVENTS = 2000  # of a channel and flag; `concise` makes fewer of them
 
 
@@ -117,7 +117,7 @@ def _column(
         for start, stop, stuck, why in held_runs(x, t_ns, stats[name], others, stats, column.elsewhere):
             if (flags[start:stop] & np.uint16(Flag.SATURATED | Flag.OUT_OF_RANGE)).all():
                 continue  # at the end of its range a reading stands still
-            if column.quantity in RESTING and _rests(x[(flags & np.uint16(Flag.OUT_OF_RANGE)) == 0], x[start]):
+            if _rests(x, t_ns, start, stop, column.quantity):
                 continue
             flag = Flag.STUCK if stuck else Flag.HELD
             flags[start:stop] |= np.uint16(flag)
@@ -142,10 +142,18 @@ def _column(
     return flags, _capped(events)
 
 
-def _rests(sound: Float1D, reading: float) -> bool:
-    """Whether a reading is next to the lowest one. sound: readings that may be; a logger's code is none."""
-    low, high = sound.min(initial=np.inf), sound.max(initial=-np.inf)
-    return bool(reading <= low + _RESTS * (high - low))
+def _rests(x: Float1D, t_ns: Int1D, start: int, stop: int, quantity: str) -> bool:
+    """Whether samples [start, stop), one reading, are a rest: low, and come or gone at the pace of a dawn on one side
+    at least. A cable that is off leaps on both."""
+    low = RESTS_BELOW.get(quantity)
+    if low is None or not x[start] <= low:
+        return False
+
+    def dawns(a: int, b: int) -> bool:
+        # a reading that is none says nothing
+        return a < 0 or b >= len(x) or not abs(x[b] - x[a]) > low + _DAWN * float(t_ns[b] - t_ns[a])
+
+    return dawns(start - 1, start) or dawns(stop - 1, stop)
 
 
 def _limits(name: str, column: ColumnInput, flags: Array, t_ns: Int1D, stats: RunStats | None) -> list[QualityEvent]:
@@ -177,7 +185,7 @@ def _limits(name: str, column: ColumnInput, flags: Array, t_ns: Int1D, stats: Ru
         if code.any():
             mark(Flag.OUT_OF_RANGE, code, "a logger's code for 'no value'")
         elif not (flags & np.uint16(Flag.SATURATED)).any():
-            for hit, _, why in clipped(y, stats, column.quantity, rests=column.quantity in RESTING):
+            for hit, _, why in clipped(y, stats, column.quantity, rests_below=RESTS_BELOW.get(column.quantity)):
                 mark(Flag.SATURATED, hit, why)
     for flag in (Flag.OUT_OF_RANGE, Flag.SATURATED) if flags.any() else ():
         given = ((flags & np.uint16(flag)) != 0) & ~told

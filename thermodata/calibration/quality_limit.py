@@ -95,12 +95,15 @@ def sentinels(x: Float1D, own: RunStats) -> Bool1D:
     return hit & (np.abs(x - middle) > 3 * max(spread, own.step))
 
 
-def clipped(x: Float1D, own: RunStats, quantity: str, *, rests: bool = False) -> Iterator[tuple[Bool1D, float, str]]:
+def clipped(
+    x: Float1D, own: RunStats, quantity: str, *, rests_below: float | None = None
+) -> Iterator[tuple[Bool1D, float, str]]:
     """(where, limit, why) for each end of the range that x, shape (n,), runs into.
 
     A fine and noisy channel does not repeat its extreme by chance. A smooth one must come to the very same value
     more than once. A jump to the limit is told apart from a held or stuck reading by coming back to it, and only
-    for sensors that have a full scale in reach (displacement, voltage). rests: the lowest reading is where it rests.
+    for sensors that have a full scale in reach (displacement, voltage). rests_below: a lowest reading under that is
+    where it rests.
     """
     if not own.float_like or own.step <= 0:
         return
@@ -110,9 +113,9 @@ def clipped(x: Float1D, own: RunStats, quantity: str, *, rests: bool = False) ->
     for limit, side in ((float(values.max()), "upper"), (float(values.min()), "lower")):
         at: Bool1D = x == limit
         count = int(at.sum())
-        if rests and side == "lower":
+        if side == "lower" and rests_below is not None and limit <= rests_below:
             continue
-        if count < 10 or limit == 0.0 or count > 0.5 * len(values) or is_staircase(values, own):
+        if count < 10 or limit == 0.0 or count > 0.5 * len(values) or is_staircase(x, own):
             continue
         starts, stops = true_runs(at)
         creeps = _approach(x, starts, stops) < 20 * own.step

@@ -89,8 +89,14 @@ def true_runs(hit: Bool1D) -> tuple[Int1D, Int1D]:
 def is_staircase(x: Float1D, own: RunStats) -> bool:
     """Whether a channel stands on treads that are coarse beside its changes, though means, or steps of several at
     once, make finer differences: on a tread it repeats a value, and an extreme, as a matter of course."""
-    tread = exact_tread_of([x])
-    return own.step < 2.5 * tread
+    if not own.step < 2.5 * exact_tread_of([x]):
+        return False
+    if not len(own.starts):
+        return True
+    # a sensor that is stuck stands on any tread: a staircase is one without its longest stretch, too
+    longest = int(np.argmax(own.lengths))
+    start, stop = own.starts[longest], own.starts[longest] + own.lengths[longest]
+    return bool(own.step < 2.5 * exact_tread_of([x[:start], x[stop:]]))
 
 
 def held_runs(
