@@ -24,7 +24,7 @@ from thermodata.schema.diagnosis import Diagnosis, WeakSpot
 from thermodata.schema.missing_heat import Unknown
 from thermodata.schema.model import Model
 from thermodata.schema.result import Parameter
-from thermodata.view.dataset import Dataset
+from thermodata.view.dataset import ChannelInfo, Dataset
 
 from .hand_made import Parts, a_test, measure, problem, scored
 from .stand_ins import Fitted, Response
@@ -65,6 +65,7 @@ class TestAnswer:
         dropped: Sequence[Scored] = (),
         shown: tuple[float, float] = (1.0, 0.5),
         asked_in: frozenset[tuple[str, str]] | None = None,
+        channels: Sequence[ChannelInfo] = (),
     ) -> Diagnosis:
         """holds: whether all claims do, or the only ones that do together. shown: errors on the locked tests as scored,
         where the shape's fall from 1.0 to 0.5. asked_in: the locked tests that a claim is asked of."""
@@ -99,7 +100,7 @@ class TestAnswer:
         monkeypatch.setattr(answering, "fit_model", lambda *a, **k: SimpleNamespace(responses=[response]))
         monkeypatch.setattr(answering, "investigate", lambda *a, **k: found)
         monkeypatch.setattr(answering, "confirm", confirm)
-        got = answering.answer(fitted, Dataset(60.0, tuple(given), {}), {}, "m")
+        got = answering.answer(fitted, Dataset(60.0, tuple(given), {c.name: c for c in channels}), {}, "m")
         self.looked_at = [t.test for t in got.locked]
         return got.diagnosis
 
@@ -133,6 +134,25 @@ class TestAnswer:
         assert found.unknown is None
         alone = self.answered(monkeypatch, spec, claim(FIRST))
         assert "on the locked tests from 1.00 to 0.50 um" in alone.candidates[0].why
+
+    @pytest.mark.parametrize("guide", ["T_g", "T_b", "T_x"])
+    def test_another_part_is_named_and_its_sensor_advised_unless_another_claim_or_a_twin_reads_it(
+        self, monkeypatch: pytest.MonkeyPatch, spec: Model, guide: str
+    ) -> None:
+        """T_b is claimed too, T_x reads a twin, and nobody asks for T_g, which is faulty."""
+        faulty = "stuck" if guide == "T_g" else None
+        channels = [ChannelInfo(guide, "temperature", "degC", at="axis.z.guide", faulty=faulty)]
+        nut = replace(FIRST, candidate=replace(FIRST.candidate, unread=("axis.z.guide",)), evidence=500.0)
+        twin = replace(TWIN, candidate=replace(TWIN.candidate, binding={"u": "T_x"}))
+        other = replace(OTHER, candidate=replace(OTHER.candidate, binding={"u": "T_b"}))
+        beside = (nut, twin, other) if guide == "T_x" else (nut, other)
+        judged = replace(claim(other, nut), claims=(member(other, ranked=beside), member(nut, ranked=beside)))
+        found = self.answered(monkeypatch, spec, judged, ranked=beside, channels=channels)
+        named = {c.effect: c.unread for c in found.candidates}
+        assert named["other"] == []
+        assert named["first"] == (["axis.z.guide"] if guide == "T_g" else [])
+        advised = found.next_test == "to tell first:T_a from heat at axis.z.guide: log a temperature there"
+        assert advised == (guide == "T_g"), found.next_test
 
     def test_a_claim_that_does_not_hold_is_unknown_and_counted(
         self, monkeypatch: pytest.MonkeyPatch, spec: Model

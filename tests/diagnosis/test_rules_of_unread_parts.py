@@ -15,6 +15,7 @@ from thermodata.effect import effects
 from thermodata.report.headline import causes
 from thermodata.report.verdict import verdict_sentence
 from thermodata.schema.diagnosis import Candidate, Diagnosis
+from thermodata.schema.places import heat_at
 from thermodata.view.dataset import ChannelInfo
 
 from .hand_made import scored
@@ -88,6 +89,39 @@ def test_a_difference_of_two_airs_and_the_sun_are_neither() -> None:
 
 def test_nothing_elsewhere_is_asked() -> None:
     assert unread(OIL) == {}
+    assert unread(replace(NUT, at="rotary.c.bearing")) == {}
+    assert unread(replace(NUT, at="axis.c.bearing")) == {}
+
+
+@pytest.mark.parametrize("word", ["drive", "scale", "guideway", "left.nut"])
+def test_of_a_place_that_is_no_part_nothing_is_said(word: str) -> None:
+    assert unread(replace(NUT, at=f"axis.z.{word}")) == {}
+
+
+def test_only_what_moves_an_axis_makes_its_heat() -> None:
+    assert unread(replace(FEED, quantity="position")) == {}
+    assert unread(replace(FEED, quantity="state")) == {}
+    assert unread(replace(NUT, quantity="temperature_difference")) == {}
+    at_the_motor = unread(replace(FEED, at="axis.z.motor"))
+    assert at_the_motor["feed_screw:v"] == ("axis.z.guide",), "the effect is named for the screw"
+    assert unread(replace(FEED, quantity="load"))["lag:v"] == ("axis.z.nut", "axis.z.guide")
+
+
+def test_the_response_reads_its_own_part() -> None:
+    channels = {c.name: c for c in (NUT, GUIDE, FEED)}
+    found = {c.id: c.unread for c in candidates(effects(), channels, (), "T_nut")}
+    assert found["guideway:T_guide"] == ()
+
+
+def test_a_reference_is_no_part_that_the_model_has() -> None:
+    against = Present("column_bending", frozenset({"T_oil", "T_nut"}), "column")
+    assert unread(NUT, OIL, FEED, has=(against,))["lag:v"] == ("axis.z.nut", "axis.z.guide")
+
+
+def test_heats_in_words() -> None:
+    assert heat_at(["axis.z.nut", "axis.z.guide"], " or ") == "heat at axis.z.nut or axis.z.guide"
+    assert heat_at(["hall"], " or ") == "the air of the hall"
+    assert heat_at(["hall", "fixture"], " and ") == "heat at fixture and the air of the hall"
 
 
 def on_axis(evidence: float, *places: str) -> Scored:
@@ -122,6 +156,7 @@ def test_the_sensor_that_tells_them_apart_is_advised() -> None:
     advice = "to tell plain:T_a from heat at axis.z.guide: log a temperature there"
     assert to_log(one, channels) == advice
     assert to_log(one, {"T_guide": GUIDE}) is None, "it is logged"
+    assert to_log(one, {"T_guide": replace(GUIDE, faulty="stuck")}) == advice
     assert advice in to_find(9, (), channels, one)
     assert advice not in to_find(9, (), {"T_guide": GUIDE}, one)
     assert advice not in to_find(9, (), channels, on_axis(600.0))

@@ -188,7 +188,8 @@ def test_two_processes_ingest_while_one_reads(tmp_path: Path) -> None:
             out, err = process.communicate(timeout=60)
             assert process.returncode == 0, out + err
     finally:
-        running[-1].kill()  # it reads until both campaigns are there, which may be never
+        for process in running:
+            process.kill()  # one reads until both campaigns are there, which may be never
     assert count(store, "campaign") == 2
     assert count(store, "sample") == 2 * 7460
 

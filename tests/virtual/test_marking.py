@@ -107,6 +107,9 @@ def test_a_claim_that_names_the_part_tells_it() -> None:
     assert marks_of(("guide_friction",), [nut]) == (["told"], 0)
     assert marks_of(("guide_friction",), [SCREW]) == (["wrong"], 1)
     assert marks_of(("nut_x",), [nut]) == (["wrong"], 1), "another axis"
+    holder = said("probe_temperature:C09_bracket", unread=["hall"])
+    assert marks_of(("hall_air",), [holder]) == (["told"], 0), "each air of the hall"
+    assert marks_of(("lost_stretch",), [said("guideway:C03_guide", unread=["axis.z.nut"])]) == (["wrong"], 1), "unknown"
     assert marks_of(("guide_friction",), [said("lag:v_Z", unread=["axis.z.nut", "axis.z.guide"])]) == (["told"], 0)
     assert outcome_of("effect", *marks_of(("guide_friction",), [nut]), nothing=True) == "family"
 

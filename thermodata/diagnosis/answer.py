@@ -9,6 +9,7 @@ import numpy as np
 
 from thermodata.diagnosis import ladder, next_test
 from thermodata.diagnosis.artefact import noise_with_treads
+from thermodata.diagnosis.candidates import CandidateEffect
 from thermodata.diagnosis.confirm import Confirmation, confirm, on_all_open
 from thermodata.diagnosis.detection import LARGE, Limit
 from thermodata.diagnosis.investigate import Investigation, investigate
@@ -21,6 +22,7 @@ from thermodata.diagnosis.rules import Measure, claimable, elsewhere, explained,
 from thermodata.diagnosis.scored import Scored
 from thermodata.diagnosis.suspect import suspect
 from thermodata.diagnosis.unexplained import characterise
+from thermodata.diagnosis.unread import reads
 from thermodata.diagnosis.why import among, why
 from thermodata.modelling.fit import fit_model
 from thermodata.modelling.fitted import FittedModel
@@ -122,7 +124,7 @@ def _diagnosis(
         explainable=max((float(np.clip(_fall(s), 0.0, 1.0)) for s in scored), default=None),
         weak_spots=investigation.spots,
         candidates=[
-            _candidate(i + 1, s, member, s is head, investigation, judgement, confirmation)
+            _candidate(i + 1, s, member, s is head, investigation, judgement, confirmation, data)
             for i, (s, member) in enumerate(shown)
         ],
         artefacts=investigation.artefacts,
@@ -165,8 +167,9 @@ def _advice(
         apart = next_test.to_separate(claim.scored, equivalents(claim.scored, claim.beside), data.channels)
         if apart is not None:
             return apart
-        if (log := next_test.to_log(claim.scored, data.channels)) is not None:
-            return log
+        for other in judgement.claims:
+            if (log := next_test.to_log(other.scored, data.channels)) is not None:
+                return log
     if refused:
         return next_test.to_decide(refused, data.channels)
     if claims and confirmation is not None and confirmation.asked == frozenset():
@@ -217,6 +220,7 @@ def _candidate(
     investigation: Investigation,
     judgement: Judgement,
     confirmation: Confirmation | None,
+    data: Dataset,
 ) -> Candidate:
     problem, measure = investigation.problem, investigation.measure
     claimed = among(member, judgement.claims)
@@ -225,6 +229,7 @@ def _candidate(
     beside = member.beside if member else investigation.selection.first.ranked if investigation.selection else ()
     held = confirmation if claimed else None
     told = _beside_the_model(s, investigation)
+    twins = [t.candidate for t in equivalents(s, beside)] if rank <= 5 else []
     return Candidate(
         rank=rank,
         id=s.candidate.id,
@@ -246,14 +251,21 @@ def _candidate(
         locked_rmse_um_after=held.after if held else None,
         locked_tests_asked=None if held is None or held.asked is None else len(held.asked),
         parameters=held.parameters.get(s.candidate.id, {}) if held else {},
-        equivalent=[t.candidate.id for t in equivalents(s, beside)] if rank <= 5 else [],
-        unread=list(elsewhere(s)) if heads else [],
+        equivalent=[t.id for t in twins],
+        unread=_unread(s, [*twins, *(j.scored.candidate for j in judgement.claims)], data) if heads else [],
         why=why(s, member, investigation, judgement, held),
         evidence=float(s.evidence) if np.isfinite(s.evidence) else None,
         rungs=ladder.rungs(s, measure, problem.unit),
         left_out=ladder.left_out(told, problem),
         courses=ladder.courses(s, problem) if heads or refining else [],
     )
+
+
+def _unread(s: Scored, named: Sequence[CandidateEffect], data: Dataset) -> list[str]:
+    """Places of other parts that it may be; not those that a temperature reads which the answer names beside it."""
+    others = {n for one in named for n in one.channels if n not in s.candidate.channels}
+    beside = {n: channel for n, channel in data.channels.items() if n in others}
+    return [place for place in elsewhere(s) if not reads(beside, place)]
 
 
 def _beside_the_model(s: Scored, investigation: Investigation) -> Scored:

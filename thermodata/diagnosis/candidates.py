@@ -19,7 +19,7 @@ from thermodata.diagnosis.present import (
     modes,
     stands_for,
 )
-from thermodata.diagnosis.unread import parts_of, unread
+from thermodata.diagnosis.unread import is_motion, part_of, parts_of, unread
 from thermodata.effect.binding import bindings, candidate_id, family_of
 from thermodata.effect.places import holds
 from thermodata.modelling.candidate import with_effect
@@ -52,7 +52,8 @@ class CandidateEffect:
     a place. log_prior: how much less probable than others before any data. kin: how near it is to what the model has
     already (`Kin`). unforetold: why left-out tests can't be asked of it; None where they can. unread: places of
     other parts that it may be (`diagnosis.unread`). around: whether it reads nothing but one temperature of the air,
-    the floor or the outside. of_motion: whether it reads no temperature."""
+    the floor or the outside. of_motion: whether it reads nothing but
+    motions."""
 
     effect: Effect
     binding: Mapping[str, str]
@@ -137,6 +138,9 @@ def candidates(
     usable = {n: c for n, c in channels.items() if n != response and c.quantity not in NOT_DRIVERS and c.faulty is None}
     placed = any(c.at is not None for c in usable.values() if c.quantity == "temperature")
     known = {part for p in acting if p.effect in library for part in parts_of(library[p.effect], p.channels, channels)}
+    # a temperature that is modelled reads its own part
+    if response in channels and channels[response].quantity == "temperature":
+        known |= {part for part in [part_of(channels[response].at)] if part}
     found: list[CandidateEffect] = []
     for effect in library.values():
         # a static gain is a lag whose time constant is zero, and the grid of a lag begins there
@@ -155,7 +159,7 @@ def candidates(
             passive = placed and family in (GENERIC, CONTROL) and any(_follows(usable[n]) for n in names)
             other = unread(effect, binding.values(), usable, known)
             around = len(names) == 1 and all(_is_around(usable[n]) for n in names)
-            of_motion = all(usable[n].quantity != "temperature" for n in names)
+            of_motion = all(is_motion(usable[n].quantity) for n in names)
             found.append(
                 CandidateEffect(
                     effect,

@@ -9,7 +9,7 @@ from thermodata.diagnosis.rules import elsewhere
 from thermodata.diagnosis.scored import Scored
 from thermodata.diagnosis.unread import reads
 from thermodata.schema.diagnosis import WeakSpot
-from thermodata.schema.places import is_around
+from thermodata.schema.places import heat_at, is_around
 from thermodata.view.dataset import ChannelInfo
 
 # machines whose one missing cause was named rightly, by number of open tests (sealed seeds; docs/benchmark.md)
@@ -66,10 +66,11 @@ def to_separate(chosen: Scored, twins: Sequence[Scored], channels: Mapping[str, 
 
 def to_log(one: Scored, channels: Mapping[str, ChannelInfo]) -> str | None:
     """The sensor that tells its heat from that of another part; None where each of them has one."""
-    bare = [place for place in elsewhere(one) if not reads(channels, place)]
+    sound = {name: channel for name, channel in channels.items() if channel.faulty is None}
+    bare = [place for place in elsewhere(one) if not reads(sound, place)]
     if not bare:
         return None
-    return f"to tell {one.candidate.id} from heat at {' and '.join(bare)}: log a temperature there"
+    return f"to tell {one.candidate.id} from {heat_at(bare, ' and ')}: log a temperature there"
 
 
 def to_decide(refused: Sequence[CandidateEffect], channels: Mapping[str, ChannelInfo]) -> str:

@@ -14,7 +14,11 @@ from thermodata.effect.places import holds
 from thermodata.plugin import Effect
 
 AXIS = "axis."
+LINEAR = "xyzuvw"
 AIR = "air"
+# what moves or drives an axis, and so makes its heat; where it stands, or whether it is clamped, makes none
+MAKES_HEAT = frozenset({"feed", "rotational_speed", "power", "load", "current", "torque"})
+TEMPERATURE = "temperature"
 
 
 @dataclass(frozen=True, slots=True)
@@ -28,14 +32,19 @@ class Part:
 # of each kind of heat its parts, and the places that read them, the one to log first
 RUBS: Mapping[str, tuple[str, ...]] = {"screw": ("nut", "screw", "bearing"), "guide": ("guide",)}
 STANDS_IN_AIR: Mapping[str, tuple[str, ...]] = {"frame": ("hall", "outside"), "holder": ("fixture", "probe")}
+MOTOR = "motor"  # it warms with all that its axis rubs
 
 
 def parts_of(effect: Effect, names: Iterable[str], channels: Mapping[str, Described]) -> frozenset[Part]:
-    """The parts that an effect stands for: where its channels sit, or, of a motion, those that it is named for."""
-    at = [part for n in names if n in channels and (part := _part(channels[n].at))]
-    named = {p.name for need in effect.needs for place in need.places if (p := _part(place)) and p.name in RUBS}
-    whole = {Part(p.heat, name) for p in at if not p.name for name in named}
-    return frozenset({p for p in at if p.name} or whole)
+    """The parts that an effect stands for: where its temperatures sit, or those that it is named for, of a motion. None
+    where its channels sit in more than one heat: what it subtracts is a reference."""
+    at = [(channels[n].quantity, part_of(channels[n].at)) for n in names if n in channels]
+    heat = _one_heat(part for _, part in at)
+    if heat is None:
+        return frozenset()
+    named = {p.name for need in effect.needs for place in need.places if (p := part_of(place)) and p.name in RUBS}
+    read = {part for quantity, part in at if part and part.name and quantity == TEMPERATURE}
+    return frozenset(read or {Part(heat, name) for name in named if heat != AIR})
 
 
 def unread(
@@ -43,14 +52,15 @@ def unread(
 ) -> tuple[str, ...]:
     """Places of the parts that it may be as well; none for what doesn't sit in one heat. channels: the usable ones.
     known: parts that the model has."""
-    at = [_part(channels[n].at) for n in names]
-    warm = sum(channels[n].quantity == "temperature" for n in names)
-    heats = {part.heat if part else "" for part in at}
-    heat = heats.pop() if len(heats) == 1 else ""
+    heat = _one_heat(part_of(channels[n].at) for n in names)
+    warm = sum(channels[n].quantity == TEMPERATURE for n in names)
+    moving = all(is_motion(channels[n].quantity) for n in names)
     # a difference of two temperatures is of neither; what else there is in the hall warms nothing by itself
-    if not heat or warm > 1 or (heat == AIR and not warm):
+    if heat is None or not (warm == len(names) == 1 or (moving and heat != AIR)):
         return ()
     own = {part.name for part in parts_of(effect, names, channels)}
+    if not own <= {*RUBS, *STANDS_IN_AIR, MOTOR}:
+        return ()  # an amplifier, a scale, a place that nobody knows: whose heat that is can't be told
     others = [
         places[0]
         for name, places in _places(heat).items()
@@ -64,7 +74,12 @@ def unread(
 
 def reads(channels: Mapping[str, Described], place: str) -> bool:
     """Whether a temperature is logged at a place."""
-    return any(c.quantity == "temperature" and holds(place, c.at) for c in channels.values())
+    return any(c.quantity == TEMPERATURE and holds(place, c.at) for c in channels.values())
+
+
+def is_motion(quantity: str) -> bool:
+    """Whether it makes the heat of an axis, and has the timing of no part."""
+    return quantity in MAKES_HEAT
 
 
 def _places(heat: str) -> dict[str, tuple[str, ...]]:
@@ -74,13 +89,20 @@ def _places(heat: str) -> dict[str, tuple[str, ...]]:
     return {part: tuple(f"{heat}.{word}" for word in words) for part, words in RUBS.items()}
 
 
-def _part(place: str | None) -> Part | None:
-    """Of a place: the part, one without a name for an axis as a whole; None elsewhere."""
+def _one_heat(parts: Iterable[Part | None]) -> str | None:
+    heats = {part.heat if part else None for part in parts}
+    return heats.pop() if len(heats) == 1 else None
+
+
+def part_of(place: str | None) -> Part | None:
+    """Of a place: the part, one without a name for a linear axis as a whole; None elsewhere."""
     for name, places in STANDS_IN_AIR.items():
         if any(holds(p, place) for p in places):
             return Part(AIR, name)
     if place is None or not place.lower().startswith(AXIS):
         return None
     axis, _, below = place.lower().removeprefix(AXIS).partition(".")
+    if axis != "{a}" and axis[:1] not in tuple(LINEAR):
+        return None
     word = below.partition(".")[0]
     return Part(AXIS + axis, next((part for part, words in RUBS.items() if word in words), word))

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from thermodata.report.words import duration, number, percent
+from thermodata.schema.places import heat_at
 
 if TYPE_CHECKING:
     from thermodata.schema.diagnosis import Candidate, Diagnosis
@@ -53,7 +54,7 @@ def named(one: Candidate) -> str:
 
 def other_heat(one: Candidate) -> str:
     """'heat at axis.z.guide', which may be it as well; '' where its channels tell it from all else."""
-    return f"heat at {' or '.join(one.unread)}" if one.unread else ""
+    return heat_at(one.unread, " or ")
 
 
 def verdict_sentence(found: Diagnosis) -> str:

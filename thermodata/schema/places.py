@@ -7,6 +7,8 @@ candidates named. Any other place is allowed: it stays generic, and no effect th
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 PLACES: dict[str, str] = {
     "tcp": "tool centre point: where a displacement counts",
     "stator": "the spindle's standing part: a displacement without the tool",
@@ -95,6 +97,12 @@ def is_casting(place: str | None) -> bool:
 def is_around(place: str | None) -> bool:
     """Whether a dotted place is not of the machine, but around it: nobody heats it, and it moves by itself."""
     return place is not None and place.lower().partition(".")[0] in _AROUND
+
+
+def heat_at(places: Sequence[str], link: str) -> str:
+    """'heat at axis.z.nut or axis.z.guide', 'the air of the hall'. link: ' or ', ' and '."""
+    bodies = [f"heat at {link.join(some)}"] if (some := [p for p in places if p != "hall"]) else []
+    return link.join([*bodies, *(["the air of the hall"] if "hall" in places else [])])
 
 
 def is_known(place: str) -> bool:

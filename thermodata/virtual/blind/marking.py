@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from itertools import product
 
+from thermodata.effect.places import holds
 from thermodata.schema.diagnosis import Candidate, Diagnosis
 from thermodata.virtual.lathe.causes import CAUSES
 from thermodata.virtual.lathe.right_names import Mark, mark
@@ -76,7 +77,8 @@ def _fit(cause: str, claim: Candidate, broken: str | None) -> str | None:
 
 def _told(cause: str, claim: Candidate) -> bool:
     """Whether the claim names the cause among those that it can't be told from, or the part that it is."""
-    if any(BY_NAME[sensor].at in claim.unread for sensor in CAUSES[cause].sensors):
+    places = [BY_NAME[sensor].at for sensor in CAUSES[cause].sensors]
+    if CAUSES[cause].known and any(holds(part, place) for part in claim.unread for place in places):
         return True
     for name in claim.equivalent:
         effect, _, channels = name.partition(":")
