@@ -279,11 +279,11 @@ def test_the_text_keeps_the_rules_of_the_language(dialect: str, real: str) -> No
 
 
 def test_an_independent_parser_takes_the_structured_text() -> None:
-    made = program([driven(name) for name in LAWFUL], 1.0)
-    for real in ("REAL", "LREAL"):
-        text = structured_text(made, real)
+    """Every effect with 64 bits; the other type is another word in the same places."""
+    for names, real in ((LAWFUL, "LREAL"), (LAWFUL[:2], "REAL")):
+        text = structured_text(program([driven(name) for name in names], 1.0), real)
         assert blark.parse_source_code(text).exception is None
-        assert blark.parse_source_code(text.replace(":=", "=:", 1)).exception is not None
+    assert blark.parse_source_code(text.replace(":=", "=:", 1)).exception is not None
 
 
 def test_units_version_and_parameters_stand_in_the_comments() -> None:

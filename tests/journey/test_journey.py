@@ -79,6 +79,7 @@ CANDIDATE = {
     "parameters",
     "equivalent",
     "unread",
+    "also_on",
     "why",
     "evidence",
     "rungs",

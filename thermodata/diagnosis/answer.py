@@ -17,6 +17,7 @@ from thermodata.diagnosis.judge import Judged, Judgement, equivalents
 from thermodata.diagnosis.locked import Looked
 from thermodata.diagnosis.null import p_value
 from thermodata.diagnosis.opened import kept_where_they_hold
+from thermodata.diagnosis.other_axes import OtherAxes
 from thermodata.diagnosis.problem import Problem
 from thermodata.diagnosis.rules import Measure, claimable, elsewhere, explained, failed_rules, probability
 from thermodata.diagnosis.scored import Scored
@@ -50,7 +51,14 @@ def answer(fitted: FittedModel, data: Dataset, library: Mapping[str, Effect], mo
     refitted = fit_model(open_spec, data, uncertainty=False) if usable else fitted
     locked = [t for t in fitted.tests(data, "locked") if response.can_predict(t)]
     investigation = investigate(
-        refitted.responses[index], data, usable, library, seed, as_fitted=response, locked=locked
+        refitted.responses[index],
+        data,
+        usable,
+        library,
+        seed,
+        as_fitted=response,
+        locked=locked,
+        others=OtherAxes(open_spec, response.name, data, library),
     )
     judgement, confirmation = investigation.judgement, None
     if not judgement.claims:
@@ -253,6 +261,7 @@ def _candidate(
         parameters=held.parameters.get(s.candidate.id, {}) if held else {},
         equivalent=[t.id for t in twins],
         unread=_unread(s, [*twins, *(j.scored.candidate for j in judgement.claims)], data) if heads else [],
+        also_on=dict(s.also_on),
         why=why(s, member, investigation, judgement, held),
         evidence=float(s.evidence) if np.isfinite(s.evidence) else None,
         rungs=ladder.rungs(s, measure, problem.unit),

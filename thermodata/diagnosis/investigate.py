@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 from threadpoolctl import threadpool_limits
 
-from thermodata.diagnosis.artefact import as_artefacts, find_steps
+from thermodata.diagnosis.artefact import Step, as_artefacts, find_steps
 from thermodata.diagnosis.by_phase import heating_and_cooling_apart
 from thermodata.diagnosis.candidates import CandidateEffect, candidates
 from thermodata.diagnosis.detection import Limit, limits
@@ -26,13 +27,14 @@ from thermodata.diagnosis.logging_faults import (
     wrong_parameters,
 )
 from thermodata.diagnosis.null import best_of_chance
+from thermodata.diagnosis.other_axes import OtherAxes
 from thermodata.diagnosis.present import present
 from thermodata.diagnosis.problem import TARGET_ROWS, Base, Problem, build_problem
 from thermodata.diagnosis.ranking import rank_in
 from thermodata.diagnosis.refinement import Refinement
-from thermodata.diagnosis.rules import Measure, at_best, failed_rules, limit_of
+from thermodata.diagnosis.rules import Measure, at_best, failed_rules, limit_of, may_be_borne_out
 from thermodata.diagnosis.scored import Scored
-from thermodata.diagnosis.selection import Selection, any_stands_out, beside, first_ranking, select
+from thermodata.diagnosis.selection import Member, Selection, any_stands_out, beside, first_ranking, select
 from thermodata.diagnosis.weak import weak_spots
 from thermodata.modelling.fitted_response import FittedResponse
 from thermodata.plugin import Effect, Int1D
@@ -42,6 +44,8 @@ from thermodata.view.dataset import ChannelInfo, Dataset, TestData
 # rows of all tests in which candidates are weighed: the covariance of a test costs the cube of its rows
 WEIGHED_ROWS = 2400
 
+# what other axes say of a candidate: (channel, probability there)
+Witness = Callable[[Scored], tuple[tuple[str, float], ...]]
 # what the locked tests say of some claims; None where there are none
 BorneOut = Callable[[Sequence[Judged]], Foretold | None]
 
@@ -70,42 +74,30 @@ def investigate(
     *,
     as_fitted: FittedResponse | None = None,
     locked: Sequence[TestData] = (),
+    others: OtherAxes | None = None,
 ) -> Investigation:
     """fitted: to all tests that take part in the choice (never the locked ones). as_fitted: the model that is asked
-    about, whose weak spots are shown; by default the same."""
+    about, whose weak spots are shown; by default the same. others: what other axes say; None: nothing."""
     info = data.channels[fitted.name]
     base = remembered(fitted)
-
-    def compressed(rows: int, tests: Sequence[TestData] = tests) -> Problem:
-        return build_problem(
-            data,
-            tests,
-            fitted.name,
-            info.unit,
-            measured=fitted.measured,
-            residual=fitted.residual,
-            mask=fitted.mask,
-            base=base,
-            slack=lambda test: otherwise(fitted, test),
-            rows=rows,
-        )
-
-    fine = compressed(TARGET_ROWS)
+    fine = _compressed(fitted, data, tests, base, TARGET_ROWS)
     steps = find_steps(fine)
-    at: dict[tuple[str, str], list[float]] = {}
-    for step in steps:
-        at.setdefault(step.test.key, []).append(step.at_s)
     faults = _faults(fitted, data, fine, base)
-    problem = compressed(WEIGHED_ROWS).split(at)
+    problem = _without_steps(_compressed(fitted, data, tests, base, WEIGHED_ROWS), steps)
     asked = candidates(library, data.channels, present(fitted), fitted.name)
     weighed = {b.test.key for b in problem.blocks}
     among = [t for t in tests if t.key in weighed]
     by_condition = gains_by_condition(fitted, among, data.tests)
     asked += [c for c in by_condition if c.unforetold is None]
     asked += heating_and_cooling_apart(fitted, among, data.tests)
+
+    def causes(response: FittedResponse, among: Sequence[TestData]) -> list[Scored]:
+        return causes_of(response, data, among, library, seed)
+
+    witness = None if others is None else partial(others.say, causes=causes)
     # thousands of small products: threads of the linear algebra library would wait for each other
     with threadpool_limits(1):
-        selection, judgement, measure = _judged(fitted, problem, asked, seed)
+        selection, judgement, measure = _judged(fitted, problem, asked, seed, witness)
         unseen = () if judgement.claims or selection is None else _limits(fitted, problem, selection, measure)
         selection = _with_unforetold(problem, selection, [c for c in by_condition if c.unforetold])
     asked_about = fitted if as_fitted is None else as_fitted
@@ -120,7 +112,7 @@ def investigate(
     ]
 
     def borne_out(claims: Sequence[Judged]) -> Foretold | None:
-        blocks = compressed(WEIGHED_ROWS, [*tests, *locked]).blocks if locked else ()
+        blocks = _compressed(fitted, data, [*tests, *locked], base, WEIGHED_ROWS).blocks if locked else ()
         closed = tuple(b for b in blocks if b.test.key in {t.key for t in locked})
         if selection is None or not closed:
             return None
@@ -138,8 +130,46 @@ def investigate(
     return Investigation(problem, selection, artefacts, spots, judgement, measure, borne_out, unseen)
 
 
+def causes_of(
+    fitted: FittedResponse, data: Dataset, tests: Sequence[TestData], library: Mapping[str, Effect], seed: int = 0
+) -> list[Scored]:
+    """The sound causes that a response misses, as they are judged beside each other; refinements are none."""
+    base = remembered(fitted)
+    steps = find_steps(_compressed(fitted, data, tests, base, TARGET_ROWS))
+    problem = _without_steps(_compressed(fitted, data, tests, base, WEIGHED_ROWS), steps)
+    asked = candidates(library, data.channels, present(fitted), fitted.name)
+    _, judgement, _ = _judged(fitted, problem, asked, seed)
+    return [j.scored for j in judgement.judged if j.refines is None]
+
+
+def _compressed(fitted: FittedResponse, data: Dataset, tests: Sequence[TestData], base: Base, rows: int) -> Problem:
+    return build_problem(
+        data,
+        tests,
+        fitted.name,
+        data.channels[fitted.name].unit,
+        measured=fitted.measured,
+        residual=fitted.residual,
+        mask=fitted.mask,
+        base=base,
+        slack=lambda test: otherwise(fitted, test),
+        rows=rows,
+    )
+
+
+def _without_steps(problem: Problem, steps: Sequence[Step]) -> Problem:
+    at: dict[tuple[str, str], list[float]] = {}
+    for step in steps:
+        at.setdefault(step.test.key, []).append(step.at_s)
+    return problem.split(at)
+
+
 def _judged(
-    fitted: FittedResponse, problem: Problem, asked: Sequence[CandidateEffect], seed: int
+    fitted: FittedResponse,
+    problem: Problem,
+    asked: Sequence[CandidateEffect],
+    seed: int,
+    witness: Witness | None = None,
 ) -> tuple[Selection | None, Judgement, Measure]:
     spread = rms(problem.response_blocks) if problem.blocks else 0.0
     first = first_ranking(problem, asked)
@@ -151,7 +181,12 @@ def _judged(
 
     def judged(among: Sequence[Columns]) -> tuple[Selection, Judgement]:
         found = select(problem, first, lambda scored: not failed_rules(scored, measure, problem.unit), among=among)
-        return found, judge(problem, found, measure, Refinement(fitted, problem, found.noise))
+        refines = Refinement(fitted, problem, found.noise)
+        told = judge(problem, found, measure, refines)
+        if witness is None or not (heard := _heard(told, witness)):
+            return found, told
+        found = replace(found, members=tuple(_seen(m, heard) for m in found.members))
+        return found, judge(problem, found, measure, refines)
 
     def may_be(scored: Scored) -> bool:
         return at_best(scored, problem.rows) >= limit_of(scored)
@@ -164,6 +199,18 @@ def _judged(
     if not judgement.claims and any_stands_out(problem, first, selection, passive, may_be):
         selection, judgement = judged(everything)
     return selection, judgement, measure
+
+
+def _heard(judgement: Judgement, witness: Witness) -> dict[int, tuple[tuple[str, float], ...]]:
+    """What other axes say of members that are no claim without them, by their columns' identity."""
+    standing = [j.scored for j in judgement.judged if j.refines is None and may_be_borne_out(j.scored)]
+    said = {id(s.columns): witness(s) for s in standing}
+    return {columns: told for columns, told in said.items() if told}
+
+
+def _seen(member: Member, heard: Mapping[int, tuple[tuple[str, float], ...]]) -> Member:
+    said = heard.get(id(member.scored.columns))
+    return member if said is None else replace(member, scored=replace(member.scored, also_on=said))
 
 
 def _limits(fitted: FittedResponse, problem: Problem, selection: Selection, measure: Measure) -> tuple[Limit, ...]:

@@ -56,7 +56,8 @@ def _with_twins(claims: Sequence[Judged], claimable: Callable[[Scored], bool]) -
     # a twin of the model's own effects refines them: it is no cause, however it does on the locked tests
     kin = (None, largest.scored.candidate.kin)
     alike = equivalents(largest.scored, largest.beside)
-    # in its place, the same sharper cause stands beside the twin
-    placed = [replace(t, beaten=largest.scored.beaten) for t in alike if t.candidate.kin in kin]
+    # in its place, the same sharper cause stands beside the twin, and other axes say the same
+    own = largest.scored
+    placed = [replace(t, beaten=own.beaten, also_on=own.also_on) for t in alike if t.candidate.kin in kin]
     twins = [t for t in placed if claimable(t)]
     return [(replace(largest, scored=twin), *claims[1:]) for twin in twins[:TWINS_TRIED]]

@@ -18,6 +18,9 @@ P_LIMIT = 0.01
 # error where it acts, whether it is the air beside something sharper, whether it is passive, and whether another part
 # may be what it stands for (docs/method.md#probability)
 PROBABILITY = (2.45, 2.2, 1.1, -1.8, -2.65, -1.2)
+# and, where another axis misses the same, this share of the odds that it is what is missing there; other axes are asked
+# of what is so probable without them at least
+BORNE_OUT, WORTH_ASKING = 0.5, 0.3
 FALLS = (-0.2, 1.0)  # further, and a fall says nothing more
 DOUBT = -0.55  # and, once the lock is open, for each of two ways in which the locked tests do not bear it out
 CLAIMED = 0.65  # a claim is this probable at least;
@@ -177,7 +180,7 @@ def surely(scored: Scored) -> Rule:
         "probability",
         "that it is what is missing, by its log evidence a sample, the fall of the error, whether it is the air "
         "beside something sharper, whether it reads a body that makes no heat, whether another part may be it, "
-        "and what the locked tests say",
+        "whether another axis misses it as well, and what the locked tests say",
         sure,
         limit,
         "least",
@@ -195,9 +198,15 @@ def _in_short(scored: Scored) -> str:
         more.append("it reads a body that makes no heat, or one whose place nobody declared")
     if scored.candidate.unread:
         more.append(f"{' and '.join(scored.candidate.unread)} may be it as well, and nothing that it reads tells")
+    more += [also_missing(scored)] if scored.also_on else []
     if scored.doubts:
         more.append(f"the locked tests do not bear it out in {scored.doubts} of 2 ways")
     return "; ".join([f"its evidence is {sharpness(scored):.2f} a sample, and {falls}", *more])
+
+
+def also_missing(scored: Scored) -> str:
+    """'dX misses it as well (97 %)', for each other axis."""
+    return " and ".join(f"{channel} misses it as well ({p:.0%})" for channel, p in scored.also_on)
 
 
 def failed_rules(scored: Scored, measure: Measure, unit: str) -> list[str]:
@@ -242,7 +251,17 @@ def _steadies(scored: Scored) -> bool:
 def probability(scored: Scored) -> float:
     """That a sound candidate is what is missing: the share that was right among those like it, on simulated machines
     (development seeds)."""
-    return _probability(sharpness(scored), scored.drop, scored.candidate, beaten=scored.beaten, doubts=scored.doubts)
+    own = _probability(sharpness(scored), scored.drop, scored.candidate, beaten=scored.beaten, doubts=scored.doubts)
+    there = max((p for _, p in scored.also_on), default=0.0)
+    if there <= 0.5:
+        return own
+    odds = np.log(own / (1 - own)) + BORNE_OUT * np.log(there / (1 - there))
+    return float(1 / (1 + np.exp(-odds)))
+
+
+def may_be_borne_out(scored: Scored) -> bool:
+    """Whether it is no claim, and would be one if another axis spoke for it."""
+    return not scored.also_on and WORTH_ASKING <= probability(scored) < limit_of(scored)
 
 
 def at_best(scored: Scored, samples: int) -> float:

@@ -25,7 +25,8 @@ class Scored:
     test. spread: of its gain between tests. shape: whitened contribution without what the known effects can do, unit
     length. credit: of a member, its log evidence beside the likelier members alone; None for all else. beaten: whether
     another cause that was selected has more evidence a sample. doubts: of a claim, in how many of two ways the locked
-    tests do not bear it out (`locked.Looked`)."""
+    tests do not bear it out (`locked.Looked`). also_on: (channel, probability there) of each other axis on which it is
+    missing too, where that was asked."""
 
     candidate: CandidateEffect
     columns: Columns
@@ -43,6 +44,7 @@ class Scored:
     credit: float | None = None
     beaten: bool = False
     doubts: int = 0
+    also_on: tuple[tuple[str, float], ...] = ()
 
     @property
     def acts(self) -> Bool1D:

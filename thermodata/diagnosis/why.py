@@ -9,7 +9,7 @@ from thermodata.diagnosis.investigate import Investigation
 from thermodata.diagnosis.judge import Judged, Judgement
 from thermodata.diagnosis.locked import Foretold
 from thermodata.diagnosis.null import p_value
-from thermodata.diagnosis.rules import blunt, failed_rules
+from thermodata.diagnosis.rules import also_missing, blunt, failed_rules
 from thermodata.diagnosis.scored import Scored
 
 
@@ -30,7 +30,9 @@ def why(
     chance = p_value(s.evidence, investigation.measure.chance)
     if among(member, judgement.claims):
         locked = _on_locked(s, held, unit, together=len(judgement.claims) > 1) if held else ""
-        return f"{numbers}; chance does as well in {chance:.1%} of responses in which nothing is missing{locked}"
+        elsewhere = f"; {also_missing(s)}" if s.also_on else ""
+        of_chance = f"chance does as well in {chance:.1%} of responses in which nothing is missing"
+        return f"{numbers}; {of_chance}{elsewhere}{locked}"
     if among(member, judgement.refused):
         return f"{numbers}; not claimed: {_refused(judgement)}"
     if member is not None and member.refines:

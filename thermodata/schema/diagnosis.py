@@ -111,6 +111,8 @@ class Candidate(Result):
     parameters: of the effect, fitted to all open tests; for a claimed one only
     equivalent: ids that the data cannot tell from it
     unread: places of other parts that it may be as well, for nothing that it reads tells them apart
+    also_on: displacements along other axes at the same place that miss it too, each with its probability there; asked
+        only where that decides
     why: the evidence in a sentence
     evidence: log Bayes factor of the model with it against the model without
     rungs: every rule of a claim with its value and limit
@@ -139,6 +141,7 @@ class Candidate(Result):
     parameters: dict[str, Parameter] = {}
     equivalent: list[str] = []
     unread: list[str] = []
+    also_on: dict[str, float] = {}
     why: str = ""
     evidence: float | None = None
     rungs: list[Rung] = []
