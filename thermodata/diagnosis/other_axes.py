@@ -4,12 +4,12 @@ and each axis has a probe, a noise and a model's error of its own.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 
 from thermodata.diagnosis.candidates import CandidateEffect
 from thermodata.diagnosis.present import CONTROL, GENERIC
-from thermodata.diagnosis.rules import probability
+from thermodata.diagnosis.rules import probability, surely
 from thermodata.diagnosis.scored import Scored
 from thermodata.errors import ThermodataError
 from thermodata.modelling.fit import fit_model
@@ -33,32 +33,32 @@ class OtherAxes:
     response: str
     data: Dataset
     library: Mapping[str, Effect]
-    _found: dict[str, Sequence[Scored]] | None = field(default=None, repr=False)
+    _found: dict[str, Sequence[Scored]] = field(default_factory=dict, repr=False)
 
     def say(self, one: Scored, causes: Causes) -> tuple[tuple[str, float], ...]:
-        """(channel, probability there) of each other axis on which the same cause is missing."""
-        if self._found is None:
-            self._found = dict(self._asked(causes))
-        told = []
-        for channel, found in self._found.items():
-            same = [probability(s) for s in found if is_same(one.candidate, s.candidate)]
-            if same:
-                told.append((channel, max(same)))
-        return tuple(told)
-
-    def _asked(self, causes: Causes) -> Iterator[tuple[str, Sequence[Scored]]]:
+        """(channel, probability there) of each other axis on which the same cause is missing; of the first ones only
+        where these are enough for a claim."""
         if not _goes_for_any_axis(self.spec, self.library):
-            return
+            return ()
+        told: tuple[tuple[str, float], ...] = ()
         for channel in beside(self.response, self.data.channels):
-            try:
-                fitted = fit_model(
-                    self.spec.model_copy(update={"response": Response(channel=channel)}), self.data, uncertainty=False
-                )
-            except ThermodataError:
-                continue  # it was not measured where the model's drivers were
-            response = fitted.responses[0]
-            tests = [t for t in fitted.tests(self.data) if response.can_predict(t)]
-            yield channel, causes(response, tests)
+            if channel not in self._found:
+                self._found[channel] = self._missing_on(channel, causes)
+            same = [probability(s) for s in self._found[channel] if is_same(one.candidate, s.candidate)]
+            if same:
+                told = (*told, (channel, max(same)))
+                if surely(replace(one, also_on=told)).holds:
+                    break
+        return told
+
+    def _missing_on(self, channel: str, causes: Causes) -> Sequence[Scored]:
+        spec = self.spec.model_copy(update={"response": Response(channel=channel)})
+        try:
+            fitted = fit_model(spec, self.data, uncertainty=False)
+        except ThermodataError:
+            return ()  # it was not measured where the model's drivers were
+        response = fitted.responses[0]
+        return causes(response, [t for t in fitted.tests(self.data) if response.can_predict(t)])
 
 
 def is_same(one: CandidateEffect, other: CandidateEffect) -> bool:
