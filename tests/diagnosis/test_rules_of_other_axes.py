@@ -10,21 +10,17 @@ import numpy as np
 import pytest
 
 from thermodata.diagnosis import other_axes
-from thermodata.diagnosis.answer import answer
 from thermodata.diagnosis.other_axes import OtherAxes, beside, is_same
 from thermodata.diagnosis.rules import CLAIMED, WORTH_ASKING, blunt, may_be_borne_out, probability
 from thermodata.diagnosis.scored import Scored
 from thermodata.effect import effects
 from thermodata.errors import UsageError
-from thermodata.modelling.fit import fit_model
-from thermodata.schema.diagnosis import Diagnosis
 from thermodata.schema.model import EffectSpec, Model, Response
 from thermodata.view.dataset import ChannelInfo, Dataset
 
 from . import stand_ins
-from .conftest import CHANNELS, base, make_data
+from .conftest import CHANNELS
 from .hand_made import candidate, scored
-from .test_answer import of_nut
 
 Z = CHANNELS["dZ"]
 X, Y = (replace(Z, name=f"d{a}", axis=a) for a in "XY")
@@ -139,41 +135,3 @@ def test_only_what_might_be_a_claim_with_them_is_asked_about() -> None:
     at_limit = [scored(evidence=e) for e in np.geomspace(1, 390, 40)]
     assert {may_be_borne_out(s) for s in at_limit} == {True, False}
     assert all(may_be_borne_out(s) == (WORTH_ASKING <= probability(s) < CLAIMED) for s in at_limit)
-
-
-@pytest.fixture(scope="module")
-def on_two_axes() -> dict[bool, Diagnosis]:
-    """A screw in a drift along Z, and plain along X; with dX and without."""
-    found = {}
-    for logged in (True, False):
-        rng = np.random.default_rng(3)
-
-        def add(channels: dict[str, Any], t: np.ndarray, rng: np.random.Generator = rng) -> np.ndarray:
-            slow = np.cumsum(rng.normal(0, 0.15, len(t)))
-            return 0.5 * of_nut(channels, t) + slow - slow.mean()
-
-        data = make_data(add, tests=5)
-        tests = []
-        for i, test in enumerate(data.tests):
-            own = np.random.default_rng(100 + i)
-            bearing = test.values["dZ"] * 0 + 2 * (test.values["T_bearing"] - test.values["T_bearing"][0])
-            values = {
-                **test.values,
-                "dX": bearing + of_nut(dict(test.values), test.t_s) + own.normal(0, 0.1, len(bearing)),
-            }
-            valid = {**test.valid, "dX": np.ones(len(bearing), bool)}
-            channels = {**CHANNELS, "dX": X} if logged else CHANNELS
-            tests.append(replace(test, values=values, valid=valid, channels=channels))
-        data = replace(data, tests=tuple(tests), channels={**CHANNELS, "dX": X} if logged else CHANNELS)
-        found[logged] = answer(fit_model(base(), data, uncertainty=False), data, effects(), "m").diagnosis
-    return found
-
-
-def test_a_weak_cause_is_claimed_where_another_axis_misses_it_plainly(on_two_axes: dict[bool, Diagnosis]) -> None:
-    with_x, without = on_two_axes[True], on_two_axes[False]
-    assert without.candidates[0].effect == "feed_screw"
-    assert not any(c.claimed for c in without.candidates)
-    (claim,) = (c for c in with_x.candidates if c.claimed)
-    assert claim.effect == "feed_screw"
-    assert claim.also_on["dX"] > 0.9
-    assert "dX misses it as well (" in claim.why
