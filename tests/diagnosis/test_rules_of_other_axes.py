@@ -11,7 +11,7 @@ import pytest
 
 from thermodata.diagnosis import other_axes
 from thermodata.diagnosis.other_axes import OtherAxes, beside, is_same
-from thermodata.diagnosis.rules import CLAIMED, WORTH_ASKING, blunt, may_be_borne_out, probability
+from thermodata.diagnosis.rules import CLAIMED, blunt, may_be_borne_out, probability
 from thermodata.diagnosis.scored import Scored
 from thermodata.effect import effects
 from thermodata.errors import UsageError
@@ -134,4 +134,4 @@ def test_only_what_might_be_a_claim_with_them_is_asked_about() -> None:
     assert not may_be_borne_out(scored(evidence=3900.0)), "it is a claim without them"
     at_limit = [scored(evidence=e) for e in np.geomspace(1, 390, 40)]
     assert {may_be_borne_out(s) for s in at_limit} == {True, False}
-    assert all(may_be_borne_out(s) == (WORTH_ASKING <= probability(s) < CLAIMED) for s in at_limit)
+    assert all(may_be_borne_out(s) == (0.3 <= probability(s) < CLAIMED) for s in at_limit)
