@@ -69,7 +69,8 @@ class Scaling:
 @dataclass(frozen=True, slots=True)
 class Signal:
     """One column of a stream. dtype is numpy's name ("float64", "int16", "bool") or "str" for text;
-    unit is the text as written in the file."""
+    unit is the text as written in the file. held: the log is written on change: a value stands until the next row, and
+    no row is no gap."""
 
     name: str
     stream: str
@@ -77,6 +78,7 @@ class Signal:
     dtype: str = "float64"
     scaling: Scaling | None = None
     properties: Mapping[str, str] = field(default_factory=lambda: _NOTHING)
+    held: bool = False
 
 
 @dataclass(frozen=True, slots=True)

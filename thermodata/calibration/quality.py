@@ -50,7 +50,8 @@ MOST_EVENTS = 2000  # of a channel and flag; `concise` makes fewer of them
 class ColumnInput:
     """A column. values: shape (n,), in the canonical unit (text for a label). flags: those that it already has
     (from the reader and from `calibrate`), kept and reported. range: (low, high) in the canonical unit. at: its place,
-    where it is known. elsewhere: how it reads in other tests, where this one does not tell."""
+    where it is known. elsewhere: how it reads in other tests, where this one does not tell. held: it is written on
+    change: that it stands still says nothing."""
 
     values: Array
     quantity: str
@@ -58,6 +59,7 @@ class ColumnInput:
     range: tuple[float, float] | None = None
     at: str | None = None
     elsewhere: RunStats | None = None
+    held: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -79,7 +81,7 @@ def flag_stream(t_ns: Int1D, columns: Mapping[str, ColumnInput]) -> tuple[dict[s
     t_ns: shape (n,), as recorded; need not be in order: times that go back or stand still are flagged.
     """
     t_ns = np.asarray(t_ns)
-    time = time_flags(t_ns)
+    time = time_flags(t_ns, on_change=bool(columns) and all(c.held for c in columns.values()))
     events = [QualityEvent(None, *event) for event in time.events]
     stats = {name: run_stats(x) for name, c in columns.items() if (x := _analog(c)) is not None}
     flags: dict[str, Array] = {}
@@ -93,7 +95,7 @@ def flag_stream(t_ns: Int1D, columns: Mapping[str, ColumnInput]) -> tuple[dict[s
 
 
 def _analog(column: ColumnInput) -> Float1D | None:
-    if column.quantity not in ANALOG or column.values.dtype.kind not in "iuf" or len(column.values) < 3:
+    if column.held or column.quantity not in ANALOG or column.values.dtype.kind not in "iuf" or len(column.values) < 3:
         return None
     return np.asarray(column.values, dtype=np.float64)
 

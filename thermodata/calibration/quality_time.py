@@ -25,8 +25,9 @@ class TimeFlags:
     period_ns: float
 
 
-def time_flags(t_ns: Int1D) -> TimeFlags:
-    """Flags of the times, shape (n,).
+def time_flags(t_ns: Int1D, *, on_change: bool = False) -> TimeFlags:
+    """Flags of the times, shape (n,). on_change: a row is written where something changes: pauses and rates say
+    nothing.
 
     DUPLICATE_TIME and CLOCK_SUSPECT: a sample no later than one before it (its time was covered already), or a
     lone sample with a time far ahead. GAP: the first sample after a pause. RATE_CHANGE: the first at a new rate.
@@ -43,6 +44,8 @@ def time_flags(t_ns: Int1D) -> TimeFlags:
     if not len(dt):
         return TimeFlags(flags, events, 0.0)
     period = float(np.median(dt))
+    if on_change:
+        return TimeFlags(flags, events, period)
     local = _rates(t, dt, rows, flags, events)
     threshold = _GAP * local
     high = float(np.quantile(dt, 0.95))

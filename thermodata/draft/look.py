@@ -152,7 +152,8 @@ def flagged(
         }
         if seen is not None:
             told[signal.name]["values"] = {"low": seen.low, "high": seen.high, "median": seen.median}
-            inputs[signal.name] = ColumnInput(_canonical(column, quantity, unit), quantity, own[signal.name])
+            values = _canonical(column, quantity, unit)
+            inputs[signal.name] = ColumnInput(values, quantity, own[signal.name], held=signal.held)
     flags, events = flag_stream(t_ns, inputs) if t_ns.size and inputs else ({}, [])
     for name, column in flags.items():
         told[name]["flags"] = {

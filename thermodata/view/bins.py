@@ -24,7 +24,8 @@ Key = tuple[str, str]
 class Series:
     """One channel of one test in the bins that have a valid sample.
 
-    k: shape (n,), increasing bin numbers. value: shape (n,). period_s: of its source. held: a state.
+    k: shape (n,), increasing bin numbers. value: shape (n,); of what is held NaN where it has none from then on.
+    period_s: of its source. held: it stands until the next bin.
     """
 
     k: Int1D
@@ -135,7 +136,7 @@ def _collect(
         period = float((k.max() - k.min() + 1) * step_s / rows.sum())
     for column in columns:
         value = np.concatenate([numbers[column.name][s] for s in slices]).astype(float)
-        good = np.isfinite(value)
+        good = np.isfinite(value) | column.on_change
         series = Series(k[good].astype(np.int64), value[good], column.held, period)
         old = binned.series.get(column.name)
         # a channel in two groups is another source's empty column in one of them

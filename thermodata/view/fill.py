@@ -17,11 +17,10 @@ def on_grid(k: Int1D, value: Float1D, first: int, size: int) -> Float1D:
     return out
 
 
-def hold(value: Float1D) -> Float1D:
-    """The last value until the next one; NaN before the first."""
-    known = np.isfinite(value)
-    last = np.maximum.accumulate(np.where(known, np.arange(value.size), -1))
-    return np.where(last >= 0, value[np.maximum(last, 0)], np.nan)
+def hold(k: Int1D, value: Float1D, first: int, size: int) -> Float1D:
+    """On the grid, each bin's value until the next one's, be it NaN; NaN before the first. Shape (size,)."""
+    last = np.searchsorted(k - first, np.arange(size), side="right") - 1
+    return np.where(last >= 0, value[np.maximum(last, 0)], np.nan) if k.size else np.full(size, np.nan)
 
 
 def reach_bins(period_s: float, step_s: float) -> float:

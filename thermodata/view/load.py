@@ -124,10 +124,10 @@ def _test_data(
 
 
 def _on_grid(series: Series, binned: Binned, quantity: str, size: int, step_s: float) -> tuple[Float1D, Bool1D]:
-    value = on_grid(series.k, series.value, binned.first, size)
     if series.held:
-        value = hold(value)
+        value = hold(series.k, series.value, binned.first, size)
         return value, np.isfinite(value)
+    value = on_grid(series.k, series.value, binned.first, size)
     if quantity not in RESPONSES:
         value = bridge(value, reach_bins(series.period_s, step_s))
     return value, np.isfinite(value)

@@ -278,6 +278,7 @@ def _tidy_rows(
     rows: list[Row] = []
     for file in result.files:
         meta: dict[str, Any] = {"channels": file.columns, "to_s": file.to_s, "base": base}
+        meta |= {"held": list(file.held)} if file.held else {}
         meta |= {"levels": file.levels} if file.levels else {}
         meta |= {"notes": list(result.notes)} if result.notes and file is result.files[-1] else {}
         meta |= {"verdict": dict(verdict)} if verdict else {}

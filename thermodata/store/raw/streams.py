@@ -82,6 +82,7 @@ class RawStream:
                         if s.scaling is None
                         else {"kind": s.scaling.kind, "properties": dict(s.scaling.properties)},
                         "properties": {k: str(v) for k, v in s.properties.items()},
+                        **({"held": True} if s.held else {}),
                     }
                     for s in self.signals
                 ],
@@ -110,6 +111,7 @@ class RawStream:
                 s["dtype"],
                 None if s["scaling"] is None else Scaling(s["scaling"]["kind"], s["scaling"]["properties"]),
                 s["properties"],
+                s.get("held", False),
             )
             for s in meta["signals"]
         )

@@ -33,6 +33,11 @@ class Bound:
     def is_text(self) -> bool:
         return self.channel.quantity == "label"
 
+    @property
+    def is_held(self) -> bool:
+        """Whether its log is written on change."""
+        return self.signal is not None and self.signal.held
+
 
 @dataclass(slots=True)
 class SourcePlan:

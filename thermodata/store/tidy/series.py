@@ -95,8 +95,8 @@ class TestSeries:
         return Chunk(self, (bound.source, bound.stream), start, stop, [bound]).values(bound)
 
     def sampled(self, name: str, t_ns: Int1D) -> tuple[Array, Array]:
-        """(values, flags) of a channel at other times, ascending: states are held, measurements run straight between
-        two samples; NaN before the first and after the last sample."""
+        """(values, flags) of a channel at other times, ascending: states, and what is written on change, are held,
+        measurements run straight between two samples; NaN before the first and after the last sample."""
         bound = self.plan.bound[name]
         if bound.channel.schedule is not None:
             return self.scheduled(bound, t_ns)
@@ -129,7 +129,7 @@ class TestSeries:
             held = values[index]
             held[before] = None
             return held, flags[index]
-        if bound.channel.quantity in _HELD:
+        if bound.channel.quantity in _HELD or bound.is_held:
             return np.where(before, np.nan, values[index]), flags[index]
         follows = np.minimum(index + 1, len(t) - 1)
         exact = t[index] == t_ns

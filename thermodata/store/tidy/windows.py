@@ -63,6 +63,7 @@ class Joined:
                     flags=c.flags,
                     at=c.bound.channel.at,
                     elsewhere=self.elsewhere.get(n),
+                    held=c.bound.is_held,
                 )
                 for n, c in columns.items()
             },

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -42,6 +42,7 @@ class TidyFile:
     columns: list[str]
     to_s: float = 0.0  # of the last row
     levels: dict[str, Any] = field(default_factory=dict)  # see `between.Sampler`
+    held: tuple[str, ...] = ()  # of the columns, what is written on change
 
 
 @dataclass(slots=True)
@@ -72,6 +73,7 @@ def write_member(
         result.problems.append(f"no rows of '{member[0]}' lie in the test's window")
         return result
     here = [b for b in series.plan.bound.values() if (b.source, b.stream) == member]
+    held = tuple(b.name for b in here if b.is_held)
     verdict = (verdict or Verdict()).of(b.name for b in here)
     rules = rules_of(series.plan.campaign, series.plan.test.id)
     flagged = Flagged(series, member, here, rows.history, rows.stop, result.problems, verdict)
@@ -93,7 +95,7 @@ def write_member(
             if part.name == "test":
                 _count(result, channels)
         result.events += overruled(rules, flagged.events + _passed(series, line, rows.start, rows.stop, here, verdict))
-        result.files += [part.finish() for part in parts]
+        result.files += [replace(part.finish(), held=held) for part in parts]
         result.files[-1].levels = sampler.levels()
     finally:
         for part in parts:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -23,7 +23,8 @@ SCHEDULE = "schedule"
 
 @dataclass(frozen=True, slots=True)
 class Column:
-    """A channel's column of a group. held: its last value stands until the next one; text: no number."""
+    """A channel's column of a group. held: its last value stands until the next one; text: no number. on_change: of a
+    number that is held, that it stands until the next row, which may say that there is none."""
 
     name: str
     quantity: str
@@ -31,6 +32,7 @@ class Column:
     held: bool
     text: bool
     comment: str
+    on_change: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -89,8 +91,8 @@ def read_catalogue(con: duckdb.DuckDBPyConnection, folder: Path | None = None) -
     folder: the store's, to find out which files are gone or cut.
     """
     rows = con.execute(
-        "select campaign, source, stream, test, path, columns->>'$.channels', bytes, rows from file "
-        "where layer = 'tidy' and part = 'test' order by campaign, source, stream, test, path"
+        "select campaign, source, stream, test, path, columns->>'$.channels', columns->>'$.held', bytes, rows "
+        "from file where layer = 'tidy' and part = 'test' order by campaign, source, stream, test, path"
     ).fetchall()
     known = con.execute(
         "select campaign from campaign union select campaign from test union select campaign from file order by 1"
@@ -98,18 +100,18 @@ def read_catalogue(con: duckdb.DuckDBPyConnection, folder: Path | None = None) -
     described = _described(con)
     namer, campaign_namer = Namer(), Namer()
     campaigns = {campaign: campaign_namer(campaign) for (campaign,) in known}
-    files: dict[tuple[str, str, str, str | None], dict[str, list[str]]] = {}
+    files: dict[tuple[str, str, str, str | None, str | None], dict[str, list[str]]] = {}
     # files made before a campaign's channels changed stand in their own group: their columns differ
     sizes: dict[str, int | None] = {}
     lengths: dict[str, int] = {}
-    for campaign, source, stream, test, path, channels, size, length in rows:
+    for campaign, source, stream, test, path, channels, held, size, length in rows:
         sizes[path], lengths[path] = size, length or 0
-        files.setdefault((campaign, source, stream, channels), {}).setdefault(test, []).append(path)
+        files.setdefault((campaign, source, stream, channels, held), {}).setdefault(test, []).append(path)
     streams: dict[tuple[str, str], set[str]] = {}
-    for campaign, source, stream, _ in files:
+    for campaign, source, stream, *_ in files:
         streams.setdefault((campaign, source), set()).add(stream)
     groups = []
-    for (campaign, source, stream, channels), tests in files.items():
+    for (campaign, source, stream, channels, held), tests in files.items():
         paths = {test: tuple(p) for test, p in tests.items()}
         listed = [p for some in paths.values() for p in some]
         broken = [p for p in listed if folder is not None and not _as_long(folder / p, sizes[p])]
@@ -121,7 +123,7 @@ def read_catalogue(con: duckdb.DuckDBPyConnection, folder: Path | None = None) -
                 source,
                 stream,
                 namer(*suffix),
-                _columns(con, whole, channels, source, described.get(campaign, {})),
+                _columns(con, whole, channels, source, described.get(campaign, {}), json.loads(held or "[]")),
                 paths,
                 broken[0] if broken else None,
                 sum(lengths[p] for p in set(listed)),
@@ -162,6 +164,7 @@ def _columns(
     channels: str | None,
     source: str,
     described: Mapping[str, tuple[str, str, str]],
+    on_change: Collection[str] = (),
 ) -> tuple[Column, ...]:
     """The channels of a tidy file: the columns that have a flag column. Where no file is whole, what the catalogue
     says of them."""
@@ -180,7 +183,9 @@ def _columns(
         text = kind == "VARCHAR"
         quantity, unit, comment = described.get(name, ("label" if text else "", "", ""))
         held = text or quantity in HELD_QUANTITIES or source == SCHEDULE
-        columns.append(Column(name, quantity, unit or CANONICAL_UNIT.get(quantity, ""), held, text, comment))
+        number = name in on_change and not held
+        unit = unit or CANONICAL_UNIT.get(quantity, "")
+        columns.append(Column(name, quantity, unit, held or number, text, comment, number))
     return tuple(columns)
 
 

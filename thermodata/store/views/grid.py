@@ -3,7 +3,8 @@
 The grid is taken from the sources' own extent: point k stands at k * step from the test's start.
 
 `binned` is for fitting. Bin k holds the samples of [k * step, (k + 1) * step); a measurement is the mean of its
-valid ones. States, labels and schedules are held: the last valid value in the bin or before it. Where a source
+valid ones. States, labels and schedules are held: the last valid value in the bin or before it; so is what is written
+on change, until a row says that there is no value. Where a source
 is slower than the step (period over half a step), empty bins between valid ones are interpolated linearly, over
 at most INTERPOLATED_PERIODS of the source's period; every other bin without a valid sample is NULL.
 
@@ -104,6 +105,10 @@ def bin_index(step: str) -> str:
 def bin_value(column: Column) -> str:
     """SQL of a column's value in a bin: the mean of the valid samples, or the last of them where it is held."""
     value, flag = f"r.{quoted(column.name)}", f"r.{quoted(column.name + '__flag')}"
+    if column.on_change:
+        # NaN: from here on there is none
+        valid = f"{value} is not null and ({flag} & {int(INVALID)}) = 0"
+        return f"arg_max(case when {valid} then cast({value} as double) else 'nan'::double end, r.t_s)"
     if column.held:
         good = "" if column.text else f" and not isnan(cast({value} as double))"
         return f"arg_max({value}, r.t_s) filter (where {value} is not null and ({flag} & {int(INVALID)}) = 0{good})"
@@ -131,7 +136,7 @@ def _value(i: int, column: Column) -> str:
     n = f"{i}__{column.name}"
     v, pv, pk, nv, nk = (f"w.{quoted(f'{what}__{n}')}" for what in ("v", "pv", "pk", "nv", "nk"))
     if column.held:
-        return pv
+        return f"nullif({pv}, 'nan'::double)" if column.on_change else pv
     return (
         f"case when {v} is not null then {v} when {nk} - {pk} <= w.reach__{i} "
         f"then {pv} + ({nv} - {pv}) * (w.k - {pk}) / ({nk} - {pk}) end"

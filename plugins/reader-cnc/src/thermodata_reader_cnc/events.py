@@ -152,7 +152,7 @@ def recording(
 ) -> Recording:
     """The description of a log of changes."""
     signals = tuple(
-        Signal(t.name, plan.stream(key), None, t.dtype, None, (properties or {}).get(key, {}))
+        Signal(t.name, plan.stream(key), None, t.dtype, None, (properties or {}).get(key, {}), held=True)
         for key, fed in plan.items.items()
         for t in fed
     )

@@ -1,0 +1,90 @@
+"""What a log writes on change stands until the next row: in the grids, in what models are fitted to, in the flags."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from thermodata.calibration.quality import ColumnInput, flag_stream
+from thermodata.schema.flag import Flag
+from thermodata.store import Store
+from thermodata.store.ingest.run import ingest
+from thermodata.view.load import load_dataset
+
+CAMPAIGN = """\
+schema: thermodata/campaign/1
+id: shop
+machine: {id: x}
+sources:
+  daq: {reader: table, files: "raw/{test}.csv"}
+  nc: {reader: cnc, files: "raw/{test}.txt"}
+channels:
+  dZ: {source: daq, signal: dZ, quantity: displacement, unit: um, axis: Z, at: tcp}
+  n: {source: nc, signal: Sspeed, quantity: rotational_speed, unit: rpm, at: spindle}
+  T_b: {source: nc, signal: Btemp, quantity: temperature, unit: degC, at: spindle.bearing}
+tests:
+  - {id: one, kind: spindle, role: calibration}
+"""
+SAID = """\
+2026-05-04T08:00:00Z|Sspeed|0|Btemp|21.5
+2026-05-04T08:20:00Z|Sspeed|12000
+2026-05-04T09:20:30Z|Sspeed|UNAVAILABLE
+2026-05-04T09:40:00Z|Sspeed|8000
+2026-05-04T09:59:50Z|avail|AVAILABLE
+"""
+
+
+@pytest.fixture
+def store(tmp_path: Path) -> Store:
+    (tmp_path / "raw").mkdir()
+    (tmp_path / "campaign.yaml").write_text(CAMPAIGN)
+    (tmp_path / "raw" / "one.txt").write_text(SAID)
+    rows = [f"2026-05-04T{8 + s // 3600:02d}:{s // 60 % 60:02d}:{s % 60:02d}Z,{s % 7 / 10}" for s in range(0, 7200, 10)]
+    (tmp_path / "raw" / "one.csv").write_text("\n".join(["time,dZ [um]", *rows, ""]))
+    made = Store(tmp_path / "store", create=True)
+    ingest(made, tmp_path / "campaign.yaml")
+    return made
+
+
+MINUTES = np.arange(120)
+# of each minute the last value; none where the log says so, until the next one
+SPEED = np.select([MINUTES < 20, MINUTES < 80, MINUTES < 100], [0.0, 12000.0, np.nan], 8000.0)
+
+
+def test_a_grid_holds_it_and_ends_where_the_log_says_that_there_is_none(store: Store) -> None:
+    with store.reader() as con:
+        for grid in ("binned", "aligned"):
+            rows = con.execute(f"select n, T_b from {grid}('shop', 'one', '60 s') order by t_s").fetchnumpy()
+            speed = np.ma.filled(rows["n"].astype(float), np.nan)
+            # a point shows the last row at or before it, a bin the last one in it
+            at = SPEED.copy()
+            at[80] = np.nan if grid == "binned" else 12000.0
+            np.testing.assert_array_equal(speed, at, err_msg=grid)
+            assert (rows["T_b"] == 21.5).all()
+
+
+def test_models_are_fitted_to_what_it_held(store: Store) -> None:
+    (test,) = load_dataset(store, "shop", 60.0).tests
+    np.testing.assert_array_equal(test.values["n"], SPEED)
+    np.testing.assert_array_equal(test.valid["n"], np.isfinite(SPEED))
+    assert (test.values["T_b"] == 21.5).all()
+
+
+def test_no_row_is_no_gap_and_what_stands_still_is_sound(store: Store) -> None:
+    with store.reader() as con:
+        said = {flag for (flag,) in con.execute("select flag from quality_event").fetchall()}
+    assert said <= {"not_measuring", "out_of_range"}, "of the speed that was unavailable"
+    rng = np.random.default_rng(0)
+    t_ns = np.cumsum(np.where(np.arange(2000) % 700 == 300, 900, 1)).astype(np.int64) * 10**9
+    noisy = rng.normal(20, 1, 2000)
+    noisy[500:900] = noisy[500]
+    inputs = {
+        held: {n: ColumnInput(x, "temperature", held=held) for n, x in (("a", noisy), ("b", rng.normal(20, 1, 2000)))}
+        for held in (False, True)
+    }
+    flags = {held: flag_stream(t_ns, inputs[held])[0]["a"] for held in (False, True)}
+    assert (flags[False] & (Flag.HELD | Flag.STUCK))[501:899].all()
+    assert (flags[False] & Flag.GAP).any()
+    assert not (flags[True] & (Flag.HELD | Flag.STUCK | Flag.GAP | Flag.RATE_CHANGE)).any()
