@@ -16,6 +16,7 @@ from thermodata.store.tidy.plan import SourcePlan, TestPlan
 from thermodata.store.tidy.timeline import Timeline, make_timeline
 
 _NEAR_S = 60.0  # a start that a person wrote down is that exact
+_LONGER = 1.5  # than the probes' record: a log that begins and ends with them is not
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,38 +50,79 @@ class Span:
 
 
 def bases(plan: TestPlan) -> tuple[dict[str, int], list[str]]:
-    """What each source's relative clock counts from, so that a test's sources share one time line, and notes on it."""
-    absolute = [first_ns(s) for s in plan.sources.values() if s.raws and not is_relative(s)]
-    notes = []
-    base_ns = {}
-    if plan.test.start is not None and absolute:
-        apart_s = (min(absolute) - start_ns(plan.test.start, next(iter(plan.sources.values())))) / 1e9
+    """What each source's relative clock counts from, so that a test's sources share one time line, and notes on it.
+
+    A declared start is of the recording without dates; one whose probes have dates begins when they say.
+    """
+    known = [s for s in plan.sources.values() if s.raws]
+    dated, undated = ([s for s in known if is_relative(s) is relative] for relative in (False, True))
+    probes = [s for s in plan.reference if is_relative(s)]
+    start = plan.test.start
+    base_ns, notes = dict.fromkeys(plan.sources, 0), list[str]()
+    if start is not None and dated and not probes:
+        began = start_ns(start, plan)
+        apart_s = (min(map(first_ns, plan.reference)) - began) / 1e9
         if abs(apart_s) > _NEAR_S:
             plan.problems.append(
-                f"test '{plan.test.id}': start is {plan.test.start}, but its recordings have dates of their own, "
+                f"test '{plan.test.id}': start is {start}, but its recordings have dates of their own, "
                 f"{apart_s:+.0f} s from it: these count; try: take 'start' away, or set clock: {{offset: ...}}"
             )
-    for name, source in plan.sources.items():
-        base_ns[name] = 0
-        if source.raws and is_relative(source) and not absolute and plan.test.start is not None:
-            base_ns[name] = start_ns(plan.test.start, source)
-        if source.raws and is_relative(source) and absolute:
-            reference = [first_ns(s) for s in plan.reference if not is_relative(s)]
-            base_ns[name] = min(reference or absolute)
+    if start is not None and (probes or not dated):
+        for source in undated:
+            base_ns[source.name] = start_ns(start, plan, source)
+        plan.problems += _beside(plan, base_ns, dated, undated)
+    elif dated:
+        with_dates = [s for s in plan.reference if s in dated] or dated
+        for source in undated:
+            base_ns[source.name] = min(map(first_ns, with_dates))
             notes.append(
-                f"source '{name}' has a relative clock: taken to start with the test; "
+                f"source '{source.name}' has a relative clock: taken to start with the test; "
                 "set clock: {align_to: ...} or {offset: ...} where it does not"
             )
+        if probes and undated:
+            plan.problems += _too_long(plan, dated, probes)
     return base_ns, notes
 
 
-def start_ns(start: str, source: SourcePlan) -> int:
-    """The declared start of a test [ns UTC]: local to the source's timezone where it names no offset itself."""
+def _beside(plan: TestPlan, base_ns: dict[str, int], dated: list[SourcePlan], undated: list[SourcePlan]) -> list[str]:
+    """A start at which nothing that has dates was recorded."""
+    if not dated or not undated:
+        return []
+    begin = min(base_ns[s.name] + first_ns(s) for s in undated)
+    end = max(base_ns[s.name] + last_ns(s) for s in undated)
+    first, last = min(map(first_ns, dated)), max(map(last_ns, dated))
+    if begin <= last and first <= end:
+        return []
+    gap_s = (first - end if first > end else begin - last) / 1e9
+    return [
+        f"test '{plan.test.id}': from its start, {plan.test.start}, to its end nothing was recorded that has dates: "
+        f"{', '.join(s.name for s in dated)} is {gap_s:.0f} s {'later' if first > end else 'earlier'}; try: correct "
+        "'start', its time zone (timezone of the source), or the clock of the other: {offset: ...}"
+    ]
+
+
+def _too_long(plan: TestPlan, dated: list[SourcePlan], probes: list[SourcePlan]) -> list[str]:
+    """Probes without a date, beside a log that runs for so long that its first row is no start of theirs."""
+    log_s = (max(map(last_ns, dated)) - min(map(first_ns, dated))) / 1e9
+    own_s = max(last_ns(s) - first_ns(s) for s in probes) / 1e9
+    if log_s <= _LONGER * own_s + _NEAR_S:
+        return []
+    names = ", ".join(s.name for s in probes)
+    return [
+        f"test '{plan.test.id}': nothing says when '{names}' began: it lasts {own_s / 3600:.3g} h, what has dates "
+        f"{log_s / 3600:.3g} h, and is taken to begin with that; try: give the test its start: 2026-03-04 08:15"
+    ]
+
+
+def start_ns(start: str, plan: TestPlan, source: SourcePlan | None = None) -> int:
+    """The declared start of a test [ns UTC]: local to the source's timezone where it names no offset itself, else to
+    that of the probes' source, or of any other."""
     moment = datetime.fromisoformat(start)
     if moment.tzinfo is not None:
         moment, zone = moment.astimezone(UTC), None
     else:
-        zone = source.spec.timezone
+        asked = [*([source] if source else []), *plan.reference, *plan.sources.values()]
+        zone = next((s.spec.timezone for s in asked if s.spec.timezone is not None), None)
     return int(local_to_utc_ns(np.array([np.datetime64(moment.replace(tzinfo=None), "ns")]), zone)[0][0])
 
 

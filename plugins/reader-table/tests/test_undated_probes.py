@@ -1,0 +1,72 @@
+"""Probes whose log has no date, beside a logger that has one: when a test begins."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from thermodata.store import Store
+from thermodata.store.ingest.run import ingest
+
+DAQ = 'daq: {reader: table, files: "raw/{test}.csv", timezone: America/Chicago}'
+HALL = 'hall: {reader: table, files: "raw/hall.csv"}'
+CAMPAIGN = """\
+schema: thermodata/campaign/1
+id: shop
+machine: {id: x}
+sources:
+  %s
+  %s
+channels:
+  dZ: {source: daq, signal: dZ, quantity: displacement, unit: um, axis: Z, at: tcp}
+  T_hall: {source: hall, signal: T, quantity: temperature, unit: degC, at: hall}
+tests:
+  - {id: one, kind: etve, role: calibration%s}
+"""
+BEGAN = np.datetime64("2026-06-01T13:00:00")  # 08:00 in Chicago
+
+
+def ingested(
+    folder: Path, start: str, hall_from_s: float, hours: float = 2.2, sources: tuple[str, str] = (DAQ, HALL)
+) -> tuple[float, np.ndarray, list[str]]:
+    """(start of the test [s after BEGAN], the hall's air at t_s = 0, what was lost) of 2 h of probes. The hall is
+    warmer by 1 K an hour, from 20 degC when they began."""
+    (folder / "raw").mkdir(parents=True)
+    (folder / "campaign.yaml").write_text(CAMPAIGN % (*sources, f", start: {start}" if start else ""))
+    t = np.arange(0, 7200, 10)
+    (folder / "raw" / "one.csv").write_text("\n".join(["t [s],dZ [um]", *(f"{x},{x % 70 / 70}" for x in t), ""]))
+    air = np.arange(hall_from_s, hall_from_s + 3600 * hours, 60)
+    rows = [f"{BEGAN + np.timedelta64(round(x), 's')}Z,{20 + x / 3600:.3f}" for x in air]
+    (folder / "raw" / "hall.csv").write_text("\n".join(["time,T", *rows, ""]))
+    store = Store(folder / "store", create=True)
+    losses = [loss["reason"] for loss in ingest(store, folder / "campaign.yaml").losses]
+    with store.reader() as con:
+        (start_ns,) = con.execute("select start_ns from test").fetchone() or (0,)
+        grid = con.execute("select * from binned('shop', 'one', '60 s') where t_s >= 0 order by t_s").fetchnumpy()
+    at_zero = np.ma.compressed(grid.get("T_hall", np.ma.array([])))[:1]
+    return (start_ns - int(BEGAN.astype("datetime64[ns]").astype(int))) / 1e9, at_zero, losses
+
+
+@pytest.mark.parametrize("hall_from_s", [-15.0, -300.0, 240.0, -86400.0])
+@pytest.mark.parametrize("sources", [(DAQ, HALL), (HALL, DAQ)])
+def test_a_declared_start_is_when_they_began(tmp_path: Path, hall_from_s: float, sources: tuple[str, str]) -> None:
+    """Whatever else begins earlier or later, in the time zone of the probes, whichever source stands first."""
+    hours = 30.0 if hall_from_s < -3600 else 2.2
+    began, air, losses = ingested(tmp_path, "2026-06-01 08:00:00", hall_from_s, hours, sources)
+    assert (began, losses) == (0.0, [])
+    assert air[0] == pytest.approx(20 + max(hall_from_s, 0) / 3600, abs=0.02)
+
+
+def test_a_start_at_which_nothing_else_was_recorded_is_said(tmp_path: Path) -> None:
+    began, _, losses = ingested(tmp_path, "2026-06-02 08:00:00", -15.0)
+    assert began == 86400.0
+    assert any("nothing was recorded that has dates: hall is" in loss and "earlier" in loss for loss in losses), losses
+
+
+def test_without_a_start_they_begin_with_a_log_of_their_length_and_a_long_one_tells_nothing(tmp_path: Path) -> None:
+    began, _, losses = ingested(tmp_path / "alike", "", -15.0)
+    assert (began, losses) == (-15.0, [])
+    _, _, losses = ingested(tmp_path / "long", "", -86400.0, 30.0)
+    assert any("nothing says when 'daq' began" in loss for loss in losses), losses
