@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from thermodata.calibration.quality_between import POINTS, Course, Levels, offsets_between_tests
+from thermodata.calibration.quality_dead import dead_throughout
 from thermodata.calibration.quality_foreign import foreign_part
 from thermodata.calibration.quality_still import Reading, read_elsewhere
 from thermodata.calibration.quality_value import run_stats
@@ -35,11 +36,13 @@ class Verdict:
 
     offsets: channel -> (by how much its sensor is off [K], since when [s] or None: throughout). foreign: (from, to) [s]
     of another recording, and why. readings: channel -> how it reads in other tests (step, finest, chance, alternates).
+    dead: channels that stand still throughout.
     """
 
     offsets: Mapping[str, tuple[float, float | None]] = field(default_factory=dict)
     foreign: tuple[float | None, float | None, str] | None = None
     readings: Mapping[str, tuple[float, float, float, float]] = field(default_factory=dict)
+    dead: tuple[str, ...] = ()
 
     def of(self, channels: Iterable[str]) -> Verdict:
         """What concerns these channels."""
@@ -48,11 +51,12 @@ class Verdict:
             {c: o for c, o in self.offsets.items() if c in names},
             self.foreign,
             {c: r for c, r in self.readings.items() if c in names},
+            tuple(c for c in self.dead if c in names),
         )
 
     def to_json(self) -> dict[str, Any]:
         """Plain data; empty where there is nothing to say."""
-        if not (self.offsets or self.foreign or self.readings):
+        if not (self.offsets or self.foreign or self.readings or self.dead):
             return {}
         return json.loads(json.dumps({k: v for k, v in asdict(self).items() if v}))  # type: ignore[no-any-return]
 
@@ -190,11 +194,13 @@ def verdicts(tests: Sequence[tuple[Levels, Mapping[str, Reading]]]) -> dict[str,
     seen = {(x.test, c): r for x, known in tests for c, r in known.items()}
     for (test, channel), r in read_elsewhere(seen).items():
         readings.setdefault(test, {})[channel] = r.step, r.finest, r.chance, r.alternates
+    dead = dead_throughout([x for x, _ in tests])
     found: dict[str, Verdict] = {}
     for levels, _ in tests:
         part = foreign_part(levels)
         foreign = None if part is None else (_finite(part[0]), _finite(part[1]), part[2])
-        verdict = Verdict(offsets.get(levels.test, {}), foreign, readings.get(levels.test, {}))
+        still = tuple(sorted(channel for test, channel in dead if test == levels.test))
+        verdict = Verdict(offsets.get(levels.test, {}), foreign, readings.get(levels.test, {}), still)
         if verdict != Verdict():
             found[levels.test] = verdict
     return found

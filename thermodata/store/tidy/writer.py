@@ -110,6 +110,9 @@ def _pass(verdict: Verdict, t_s: Float1D, channels: Mapping[str, Column]) -> Non
         if name in channels:
             off = np.uint16(Flag.OFFSET) * (t_s > (-np.inf if since is None else since))
             channels[name].flags = channels[name].flags | off.astype(np.uint16)
+    for name in verdict.dead:
+        if name in channels:
+            channels[name].flags = channels[name].flags | np.uint16(Flag.STUCK)
     if verdict.foreign is not None:
         within = _within(t_s, verdict.foreign[0], verdict.foreign[1])
         if within.any():
@@ -147,6 +150,11 @@ def _passed(
         if found is not None:
             drifted = "since an earlier test" if since is None else "from here on, and in later tests"
             events.append(Event(name, "offset", *found, f"{size:+.1f} K against its neighbours {drifted}"))
+    for name in (b.name for b in here if b.name in verdict.dead):
+        found = stretch(None, None, 0)
+        if found is not None:
+            why = "one reading throughout, while the others move as they do elsewhere, and it does in other tests"
+            events.append(Event(name, "stuck", *found, why))
     if verdict.foreign is not None:
         found = stretch(verdict.foreign[0], verdict.foreign[1], 0)
         if found is not None:

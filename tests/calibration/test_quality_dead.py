@@ -1,0 +1,54 @@
+"""A temperature that stands still through whole tests (calibration/quality_dead.py)."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from thermodata.calibration.quality_between import POINTS, Course, Levels
+from thermodata.calibration.quality_dead import dead_throughout
+from thermodata.plugin import Float1D
+
+T_S = np.linspace(0, 6 * 3600, POINTS)
+
+
+def course(amount: float, digits: int = 1, quantity: str = "temperature", t_s: Float1D = T_S) -> Course:
+    """It warms by so many kelvins."""
+    return Course(t_s, np.round(20 + amount * (1 - np.exp(-t_s / 5000)), digits), quantity)
+
+
+def made(dead: Course, others: float = 1.0, moves: float = 6.0, count: int = 3, digits: int = 1) -> list[Levels]:
+    """Two tests in which everything moves, and one with the channel given and the others moved by a share of that."""
+    usual = [
+        Levels(name, None, None, {"T": course(moves, digits), **{f"T{i}": course(4.0 + i, 2) for i in range(count)}})
+        for name in ("a", "b")
+    ]
+    return [
+        *usual,
+        Levels("c", None, None, {"T": dead, **{f"T{i}": course((4.0 + i) * others, 2) for i in range(count)}}),
+    ]
+
+
+def test_a_sensor_that_stands_while_the_machine_moves_is_dead() -> None:
+    assert dead_throughout(made(course(0.0))) == {("c", "T")}
+    assert dead_throughout(made(course(1.0))) == set(), "it moves"
+
+
+@pytest.mark.parametrize(("others", "said"), [(0.6, True), (0.4, False)])
+def test_a_quiet_test_tells_nothing(others: float, said: bool) -> None:
+    assert bool(dead_throughout(made(course(0.0), others))) == said
+
+
+@pytest.mark.parametrize(
+    ("moves", "digits", "said"), [(1.4, 1, True), (0.8, 1, False), (6.0, 0, False), (14.0, 0, True)]
+)
+def test_a_reading_may_stand_that_moves_by_a_few_of_its_treads(moves: float, digits: int, said: bool) -> None:
+    assert bool(dead_throughout(made(course(0.0), moves=moves, digits=digits))) == said
+
+
+def test_what_can_not_be_told_is_left() -> None:
+    assert dead_throughout(made(course(0.0), count=2)) == set(), "too few others"
+    assert dead_throughout(made(course(0.0, quantity="displacement"))) == set()
+    assert dead_throughout(made(course(0.0, t_s=T_S / 7))) == set(), "under an hour"
+    assert dead_throughout(made(course(0.0, t_s=T_S[:12]))) == set(), "few points"
+    assert dead_throughout(made(course(0.0))[2:]) == set(), "it never moved"
