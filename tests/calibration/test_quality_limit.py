@@ -161,3 +161,15 @@ def test_the_lowest_reading_of_a_day_is_no_night() -> None:
         stands = x.copy()
         stands[1000:2200] = low
         assert irradiance_flags(stands)[1000:2200].all()
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_an_extreme_that_was_only_reached_is_no_end_of_a_range(seed: int) -> None:
+    """A bounded noise comes to its extreme again; what is cut off there piles up."""
+    rng = np.random.default_rng(seed)
+    x = np.round(20.5 + 2 * np.clip((np.arange(N) - 1500) / 3000, 0, None) ** 2 + rng.uniform(-0.05, 0.05, N), 2)
+    columns = {"p": ("displacement", noisy(2))}
+    assert "saturated" not in {flag for _, flag in kinds(run(clock(), T=("temperature", x), **columns)[1])}
+    cut = np.maximum(x, 20.5)
+    flags, _ = run(clock(), T=("temperature", cut), **columns)
+    assert (flags["T"][:1500][cut[:1500] == 20.5] & Flag.SATURATED).all()

@@ -39,6 +39,7 @@ _SENTINELS = np.array(
 )
 _HUGE = 1e30
 _HOT, _LEAP_K = 250.0, 100.0  # a broken Pt100 reads 850 degC from one sample to the next
+_PILES_UP = 2.0  # times as many samples at the end of a range as on the reading next to it
 _ANALOG_FULL_SCALE = frozenset({"displacement", "voltage", "tilt"})
 
 
@@ -116,6 +117,11 @@ def clipped(
         if side == "lower" and rests_below is not None and limit <= rests_below:
             continue
         if count < 10 or limit == 0.0 or count > 0.5 * len(values) or is_staircase(x, own):
+            continue
+        # what is cut off piles up there; an extreme that was only reached is seldomer than the reading next to it
+        inside = values[values != limit]
+        beside = int((values == (inside.max() if side == "upper" else inside.min())).sum())
+        if count <= _PILES_UP * beside:
             continue
         starts, stops = true_runs(at)
         creeps = _approach(x, starts, stops) < 20 * own.step

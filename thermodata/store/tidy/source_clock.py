@@ -79,7 +79,7 @@ def bases(plan: TestPlan) -> tuple[dict[str, int], list[str]]:
                 f"source '{source.name}' has a relative clock: taken to start with the test; "
                 "set clock: {align_to: ...} or {offset: ...} where it does not"
             )
-        if probes and undated:
+        if probes and with_dates is dated:
             plan.problems += _too_long(plan, dated, probes)
     return base_ns, notes
 
