@@ -33,6 +33,12 @@ def test_it_would_rather_ask_than_be_wrong() -> None:
     ("name", "unit", "at"),
     [
         ("S1_nAkt", "1/min", "spindle"),
+        ("n_B", "1/min", "rotary.b"),
+        ("n_C", "U/min", "table"),
+        ("n_S", "1/min", "spindle"),
+        ("Hallenboden", "°C", "floor"),
+        ("Halle", "°C", "hall"),
+        ("Hallentor_offen", None, "hall.door"),
         ("S1_Leistung", "kW", "spindle"),
         ("S2_Auslast", "%", "spindle"),
         ("S1_TempMotor", "°C", "spindle.motor"),

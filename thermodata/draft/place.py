@@ -38,6 +38,7 @@ _PLAIN = (
     "bed",
     "outside",
 )
+_TURNING = re.compile(r"(?:^| )n ([abc])(?: |$)")
 _ON_AXIS = ("nut", "screw", "scale", "guide")
 
 
@@ -65,6 +66,9 @@ def place_of(text: str, quantity: str) -> Place:
         said |= {"screw"}
     if _SPINDLE_1.search(text) and (quantity in _BY_DRIVE or "motor" in said):
         said |= {"spindle"}
+    # what turns is the spindle, but for n_B and n_C beside it
+    turning = _TURNING.search(text) if quantity == "rotational_speed" and axis is None else None
+    axis = turning[1] if turning else axis
     rule: Callable[[set[str], str | None], Place] | None = _RULES.get(quantity)
     return rule(said, axis) if rule else Place(None)
 

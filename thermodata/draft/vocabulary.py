@@ -108,8 +108,8 @@ PLACE_WORDS: dict[str, str] = {
     "indoor",
     "pneumatics": "druckluft compressed~air pneumat stlacen 压缩空气 气源 airpressure",
     "outside": "outdoor outside aussen. aussent ^venk[uo] 室外",
-    "floor": "floor. boden. bodent fundament foundation podlah ^zaklad 地面 地基 地板",
-    "door": "door doors. tur. tuer. schutztur tor. dvere dveri vrata vrat. gate. 门 門",
+    "floor": "floor. boden. bodent hallenboden fussboden fundament foundation podlah ^zaklad 地面 地基 地板",
+    "door": "door doors. tur. tuer. schutztur tor. hallentor hallentur hallentuer dvere dveri vrata vrat. gate. 门 門",
     "enclosure": "machine~door schutztur schutztuer safety~door guard~door 防护门 安全门 workspace. arbeitsraum "
     "pracovni~prostor",
     "window": "window fenster okno. okna. 窗",

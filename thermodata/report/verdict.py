@@ -11,6 +11,8 @@ from thermodata.schema.places import heat_at
 if TYPE_CHECKING:
     from thermodata.schema.diagnosis import Candidate, Diagnosis
 
+NOT_EXCLUDED = 0.1
+"""A cause of this probability is named though none is said to be missing."""
 NOISY = 1.5
 """An error up to so many times the noise is noise."""
 
@@ -65,14 +67,24 @@ def verdict_sentence(found: Diagnosis) -> str:
         return "; ".join(filter(None, [_missing(claims), beside]))
     if found.verdict == "unknown":
         return "; ".join(filter(None, [_unclaimed(found), beside]))
+    open_still = _not_excluded(found)
     if found.verdict == "refine" and beside:
-        return f"no cause is missing; {beside}, {_left_out(refined)}"
+        return "; ".join(filter(None, ["no cause is missing", f"{beside}, {_left_out(refined)}", open_still]))
+    if found.verdict == "none":
+        return "; ".join(filter(None, [f"no effect is missing: {_left_over(found)}", open_still]))
     return {
         "effect": "missing: an effect that the data point to",
         "refine": "no cause is missing, but an effect that is there acts otherwise than modelled",
-        "none": f"no effect is missing: {_left_over(found)}",
         "not_testable": "these tests can't tell which effect is missing",
     }[found.verdict]
+
+
+def _not_excluded(found: Diagnosis) -> str:
+    """The likeliest cause where none is said to be missing, if it is one in so many cases; else ''."""
+    first = next((c for c in found.candidates if not c.refinement and not c.gain_by and not c.phases), None)
+    if first is None or (first.probability or 0.0) < NOT_EXCLUDED:
+        return ""
+    return f"not excluded: {_or_elsewhere(first)}, probability {probability(first.probability)}"
 
 
 def _left_over(found: Diagnosis) -> str:
