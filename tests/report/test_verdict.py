@@ -186,6 +186,6 @@ def test_a_cause_that_is_not_excluded_is_named_though_none_is_said_to_be_missing
     mode = [one("mode", refinement=True)]
     screw = one("screw", probability=0.24, unread=["axis.z.guide"])
     text = verdict_sentence(found(verdict, [*mode, screw]))
-    assert text.endswith("; not excluded: screw (T) or heat at axis.z.guide, probability 24 %")
+    assert text.endswith("; not excluded: screw (T) or heat at axis.z.guide")
     for slight in (one("screw", probability=0.09), one("screw", probability=None)):
         assert "not excluded" not in verdict_sentence(found(verdict, [*mode, slight]))

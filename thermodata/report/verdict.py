@@ -84,7 +84,7 @@ def _not_excluded(found: Diagnosis) -> str:
     first = next((c for c in found.candidates if not c.refinement and not c.gain_by and not c.phases), None)
     if first is None or (first.probability or 0.0) < NOT_EXCLUDED:
         return ""
-    return f"not excluded: {_or_elsewhere(first)}, probability {probability(first.probability)}"
+    return f"not excluded: {_or_elsewhere(first)}"
 
 
 def _left_over(found: Diagnosis) -> str:
