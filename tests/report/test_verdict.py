@@ -183,9 +183,10 @@ def test_the_reason_of_a_version_stands_as_far_back_as_its_answer_has_claims() -
 
 @pytest.mark.parametrize("verdict", ["none", "refine"])
 def test_a_cause_that_is_not_excluded_is_named_though_none_is_said_to_be_missing(verdict: str) -> None:
-    mode = [one("mode", refinement=True)]
+    mode = [one("mode", refinement=True, drivers=["T_b"])]
     screw = one("screw", probability=0.24, unread=["axis.z.guide"])
     text = verdict_sentence(found(verdict, [*mode, screw]))
     assert text.endswith("; not excluded: screw (T) or heat at axis.z.guide")
-    for slight in (one("screw", probability=0.09), one("screw", probability=None)):
+    again = one("lag", probability=0.24, drivers=["T_b"])
+    for slight in (one("screw", probability=0.09), one("screw", probability=None), again):
         assert "not excluded" not in verdict_sentence(found(verdict, [*mode, slight]))

@@ -80,9 +80,12 @@ def verdict_sentence(found: Diagnosis) -> str:
 
 
 def _not_excluded(found: Diagnosis) -> str:
-    """The likeliest cause where none is said to be missing, if it is one in so many cases; else ''."""
+    """The likeliest cause where none is said to be missing, if it is one in so many cases, and by another channel than
+    what is refined; else ''."""
     first = next((c for c in found.candidates if not c.refinement and not c.gain_by and not c.phases), None)
     if first is None or (first.probability or 0.0) < NOT_EXCLUDED:
+        return ""
+    if any(set(first.drivers) <= set(c.drivers) for c in refinements_of(found)):
         return ""
     return f"not excluded: {_or_elsewhere(first)}"
 
