@@ -5,7 +5,7 @@ Within a test a dead sensor is a sensor at rest; its other tests tell how far it
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 
 import numpy as np
 
@@ -22,40 +22,27 @@ _AS_ELSEWHERE = 0.5  # of what the others move by in their other tests: a quiet 
 
 def dead_throughout(tests: Sequence[Levels]) -> set[tuple[str, str]]:
     """(test, channel) of each temperature that stands through a test of an hour and more, to the last digit."""
-    courses = {
-        (t.test, name): x
-        for t in tests
-        for name, course in t.series.items()
-        if course.quantity == "temperature"
-        and (x := _known(course.values)).size >= _LEAST_POINTS
-        and float(course.t_s[-1] - course.t_s[0]) >= _LEAST_S
-    }
-    ranges = {key: float(np.ptp(x)) for key, x in courses.items()}
+    courses: dict[str, dict[str, Float1D]] = {}
+    for test in tests:
+        for name, course in test.series.items():
+            x = course.values[np.isfinite(course.values)]
+            long = len(course.t_s) > 0 and float(course.t_s[-1] - course.t_s[0]) >= _LEAST_S
+            if course.quantity == "temperature" and long and x.size >= _LEAST_POINTS:
+                courses.setdefault(name, {})[test.test] = x
+    ranges = {name: {test: float(np.ptp(x)) for test, x in own.items()} for name, own in courses.items()}
     # how far a channel moves in the tests in which it does
-    usual = {
-        name: float(np.median(moves))
-        for name in dict.fromkeys(n for _, n in courses)
-        if (moves := [r for (_, n), r in ranges.items() if n == name and r > 0])
-    }
-    found = set()
-    for (test, name), span in ranges.items():
-        if span > 0 or name not in usual:
-            continue
-        tread = min((_tread(x) for (_, n), x in courses.items() if n == name), default=np.inf)
-        if usual[name] < _TREADS * tread:
-            continue
-        moved = [n for t, n in courses if t == test and n in usual and ranges[t, n] > 0]
-        others = [ranges[test, n] / usual[n] for n in moved]
-        if len(others) >= _LEAST_OTHERS and float(np.median(others)) >= _AS_ELSEWHERE:
-            found.add((test, name))
-    return found
+    usual = {name: float(np.median(r)) for name, own in ranges.items() if (r := [x for x in own.values() if x > 0])}
+    standing = [n for n in usual if min(ranges[n].values()) == 0 and usual[n] >= _TREADS * _tread(courses[n].values())]
+    moved: dict[str, list[float]] = {}
+    for name in usual if standing else ():
+        for key, span in ranges[name].items():
+            if span > 0:
+                moved.setdefault(key, []).append(span / usual[name])
+    alive = {t for t, r in moved.items() if len(r) >= _LEAST_OTHERS and float(np.median(r)) >= _AS_ELSEWHERE}
+    return {(test, name) for name in standing for test, span in ranges[name].items() if span == 0 and test in alive}
 
 
-def _known(values: Float1D) -> Float1D:
-    return values[np.isfinite(values)]
-
-
-def _tread(x: Float1D) -> float:
-    """The least difference of two readings of a test; inf where it shows too few."""
-    readings = np.unique(x)
-    return float(np.diff(readings).min()) if len(readings) >= _LEAST_READINGS else np.inf
+def _tread(courses: Iterable[Float1D]) -> float:
+    """The least difference of two readings of a test; inf where all show too few."""
+    readings = [np.unique(x) for x in courses]
+    return min((float(np.diff(x).min()) for x in readings if len(x) >= _LEAST_READINGS), default=np.inf)

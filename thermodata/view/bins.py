@@ -11,7 +11,7 @@ import numpy as np
 from thermodata.plugin import Float1D, Int1D
 from thermodata.store.base.connection import quoted
 from thermodata.store.views.catalogue import Column, Group, read_catalogue
-from thermodata.store.views.grid import bin_index, bin_value
+from thermodata.store.views.grid import bin_index, bin_value, held_sums
 from thermodata.store.views.wide import file_list
 
 if TYPE_CHECKING:
@@ -24,14 +24,14 @@ Key = tuple[str, str]
 class Series:
     """One channel of one test in the bins that have a valid sample.
 
-    k: shape (n,), increasing bin numbers. value: shape (n,); of what is held NaN where it has none from then on.
-    period_s: of its source. held: it stands until the next bin.
+    k: shape (n,), increasing bin numbers. value: shape (n,). period_s: of its source. stands: shape (n,), what stands
+    from the end of each bin until the next one, NaN where nothing does; None of what is not held.
     """
 
     k: Int1D
     value: Float1D
-    held: bool
     period_s: float
+    stands: Float1D | None = None
 
 
 @dataclass(slots=True)
@@ -87,10 +87,14 @@ def _bin_group(
     columns = [c for c in group.columns if not c.text and wanted(c.name)]
     # file_index instead of filename: hashing a number a row instead of a text is twice as fast
     values = "".join(f", {bin_value(c)} as {quoted(c.name)}" for c in columns)
+    step, rows = repr(float(step_s)), f"read_parquet({file_list(files)}, hive_partitioning = false)"
+    if sums := [held_sums(c, step) for c in columns if c.on_change]:
+        values += "".join(f", {s}" for s in sums) + ", min(r.t_s) as first__s"
+        rows = f"(select *, file_index, lead(t_s) over (partition by file_index order by t_s) as next__s from {rows})"
     result = con.execute(
-        f"select file_index as file__index, {bin_index(repr(float(step_s)))} as bin__k, count(*) as rows__n, "
+        f"select r.file_index as file__index, {bin_index(step)} as bin__k, count(*) as rows__n, "
         f"min(epoch_ns(r.t) - cast(round(r.t_s * 1e9) as bigint)) as zero__ns{values} "
-        f"from read_parquet({file_list(files)}, hive_partitioning = false) r group by 1, 2 order by 1, 2"
+        f"from {rows} r group by 1, 2 order by 1, 2"
     ).fetchnumpy()
     numbers = {
         name: np.ma.filled(array.astype(float), np.nan)
@@ -117,6 +121,27 @@ def _bin_group(
         )
 
 
+def _joined(numbers: dict[str, Float1D | Int1D], name: str, slices: Sequence[slice]) -> Float1D:
+    return np.concatenate([numbers[name][s] for s in slices]).astype(float)
+
+
+def _series(column: Column, k: Int1D, told: Callable[[str], Float1D], step_s: float, period: float) -> Series:
+    """k: bins that have rows, shape (n,). told: a column of the aggregate query, shape (n,)."""
+    value = told(column.name)
+    if not column.on_change:
+        good = np.isfinite(value)
+        return Series(k[good], value[good], period, value[good] if column.held else None)
+    # a history stands before its test
+    order = np.argsort(k, kind="stable")
+    k, stands = k[order], value[order]
+    total, lasted, first_s = (told(name)[order] for name in (f"{column.name}__sum", f"{column.name}__for", "first__s"))
+    until_then = np.concatenate([[np.nan], stands[:-1]])
+    before = np.where(np.isfinite(until_then), np.maximum(first_s - k * step_s, 0.0), 0.0)
+    lasted = lasted + before
+    mean = (total + np.nan_to_num(until_then) * before) / np.where(lasted > 0, lasted, np.nan)
+    return Series(k, mean, period, stands)
+
+
 def _collect(
     by_test: dict[Key, Binned],
     group: Group,
@@ -135,9 +160,7 @@ def _collect(
     if not period:
         period = float((k.max() - k.min() + 1) * step_s / rows.sum())
     for column in columns:
-        value = np.concatenate([numbers[column.name][s] for s in slices]).astype(float)
-        good = np.isfinite(value) | column.on_change
-        series = Series(k[good].astype(np.int64), value[good], column.held, period)
+        series = _series(column, k.astype(np.int64), lambda name: _joined(numbers, name, slices), step_s, period)
         old = binned.series.get(column.name)
         # a channel in two groups is another source's empty column in one of them
         if old is None or series.k.size > old.k.size:

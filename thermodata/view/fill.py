@@ -17,10 +17,16 @@ def on_grid(k: Int1D, value: Float1D, first: int, size: int) -> Float1D:
     return out
 
 
-def hold(k: Int1D, value: Float1D, first: int, size: int) -> Float1D:
-    """On the grid, each bin's value until the next one's, be it NaN; NaN before the first. Shape (size,)."""
-    last = np.searchsorted(k - first, np.arange(size), side="right") - 1
-    return np.where(last >= 0, value[np.maximum(last, 0)], np.nan) if k.size else np.full(size, np.nan)
+def hold(k: Int1D, value: Float1D, stands: Float1D, first: int, size: int) -> Float1D:
+    """On the grid, each bin's value, and from it to the next bin what stands there, be it NaN; NaN before the first.
+    Shape (size,). k: in any order; of a bin that is told twice the last stands."""
+    out = np.full(size, np.nan)
+    if k.size:
+        order = np.argsort(k, kind="stable")
+        last = np.searchsorted(k[order] - first, np.arange(size), side="right") - 1
+        out = np.where(last >= 0, stands[order][np.maximum(last, 0)], np.nan)
+        out[k[order] - first] = value[order]
+    return out
 
 
 def reach_bins(period_s: float, step_s: float) -> float:

@@ -124,8 +124,8 @@ def _test_data(
 
 
 def _on_grid(series: Series, binned: Binned, quantity: str, size: int, step_s: float) -> tuple[Float1D, Bool1D]:
-    if series.held:
-        value = hold(series.k, series.value, binned.first, size)
+    if series.stands is not None:
+        value = hold(series.k, series.value, series.stands, binned.first, size)
         return value, np.isfinite(value)
     value = on_grid(series.k, series.value, binned.first, size)
     if quantity not in RESPONSES:

@@ -32,6 +32,10 @@ SAID = """\
 2026-05-04T08:20:00Z|Sspeed|12000
 2026-05-04T09:20:30Z|Sspeed|UNAVAILABLE
 2026-05-04T09:40:00Z|Sspeed|8000
+2026-05-04T09:50:15Z|Sspeed|4000
+2026-05-04T09:52:00Z|Sspeed|0
+2026-05-04T09:52:10Z|Sspeed|6000
+2026-05-04T09:52:50Z|Sspeed|0
 2026-05-04T09:59:50Z|avail|AVAILABLE
 """
 
@@ -49,8 +53,9 @@ def store(tmp_path: Path) -> Store:
 
 
 MINUTES = np.arange(120)
-# of each minute the last value; none where the log says so, until the next one
-SPEED = np.select([MINUTES < 20, MINUTES < 80, MINUTES < 100], [0.0, 12000.0, np.nan], 8000.0)
+# of each minute the mean over the time in which it had a value
+SPEED = np.select([MINUTES < 20, MINUTES < 81, MINUTES < 100, MINUTES < 110], [0.0, 12000.0, np.nan, 8000.0], 0.0)
+SPEED[110:113] = 5000.0, 4000.0, 4000.0
 
 
 def test_a_grid_holds_it_and_ends_where_the_log_says_that_there_is_none(store: Store) -> None:
@@ -58,18 +63,35 @@ def test_a_grid_holds_it_and_ends_where_the_log_says_that_there_is_none(store: S
         for grid in ("binned", "aligned"):
             rows = con.execute(f"select n, T_b from {grid}('shop', 'one', '60 s') order by t_s").fetchnumpy()
             speed = np.ma.filled(rows["n"].astype(float), np.nan)
-            # a point shows the last row at or before it, a bin the last one in it
             at = SPEED.copy()
-            at[80] = np.nan if grid == "binned" else 12000.0
-            np.testing.assert_array_equal(speed, at, err_msg=grid)
+            if grid == "aligned":  # the last row at or before each point
+                at[110:113] = 8000.0, 4000.0, 0.0
+            np.testing.assert_allclose(speed, at, err_msg=grid)
             assert (rows["T_b"] == 21.5).all()
 
 
 def test_models_are_fitted_to_what_it_held(store: Store) -> None:
     (test,) = load_dataset(store, "shop", 60.0).tests
-    np.testing.assert_array_equal(test.values["n"], SPEED)
+    np.testing.assert_allclose(test.values["n"], SPEED)
     np.testing.assert_array_equal(test.valid["n"], np.isfinite(SPEED))
     assert (test.values["T_b"] == 21.5).all()
+
+
+def test_what_moves_within_a_bin_counts_by_its_time(store: Store) -> None:
+    """Whatever the step: a coarse bin has the mean of the fine ones."""
+    fine, coarse = (load_dataset(store, "shop", step).tests[0] for step in (10.0, 60.0))
+    whole = np.nanmean(fine.values["n"].reshape(-1, 6), axis=1)
+    told = np.isfinite(whole)
+    np.testing.assert_allclose(whole[told], coarse.values["n"][told])
+
+
+def test_a_displacement_is_never_made_up(store: Store, tmp_path: Path) -> None:
+    text = (tmp_path / "campaign.yaml").read_text()
+    text = text.replace("rotational_speed, unit: rpm, at: spindle", "displacement, unit: um, axis: X, at: tcp")
+    (tmp_path / "campaign.yaml").write_text(text)
+    ingest(store, tmp_path / "campaign.yaml")
+    (test,) = load_dataset(store, "shop", 60.0).tests
+    assert test.valid["n"].sum() < 10, "bins with rows only"
 
 
 def test_no_row_is_no_gap_and_what_stands_still_is_sound(store: Store) -> None:

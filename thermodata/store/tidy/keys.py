@@ -12,13 +12,12 @@ from thermodata.schema.campaign import Channel
 from thermodata.store.base.files import key_of
 from thermodata.store.tidy import derive
 from thermodata.store.tidy.overrule import rules_of
-from thermodata.store.tidy.plan import SCHEDULE, Bound, TestPlan
+from thermodata.store.tidy.plan import MEASURED, SCHEDULE, Bound, TestPlan
 from thermodata.store.tidy.series import Member
 from thermodata.store.tidy.source_clock import Clock, Span
 
 # counts the changes of calibration, flagging and layout that make older tidy files out of date
 TIDY_VERSION = "7"
-MEASURED = ("displacement", "tilt", "angle")
 
 
 def member_key(

@@ -17,6 +17,9 @@ from thermodata.store.tidy import schedule
 SCHEDULE = "schedule"
 
 
+MEASURED = ("displacement", "tilt", "angle")
+
+
 @dataclass(frozen=True, slots=True)
 class Bound:
     """A channel of a test and where its values come from. signal is None for derived and scheduled channels;
@@ -35,8 +38,8 @@ class Bound:
 
     @property
     def is_held(self) -> bool:
-        """Whether its log is written on change."""
-        return self.signal is not None and self.signal.held
+        """Whether its log is written on change. What a model explains is never made up between two rows."""
+        return self.signal is not None and self.signal.held and self.channel.quantity not in MEASURED
 
 
 @dataclass(slots=True)

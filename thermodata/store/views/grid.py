@@ -3,8 +3,8 @@
 The grid is taken from the sources' own extent: point k stands at k * step from the test's start.
 
 `binned` is for fitting. Bin k holds the samples of [k * step, (k + 1) * step); a measurement is the mean of its
-valid ones. States, labels and schedules are held: the last valid value in the bin or before it; so is what is written
-on change, until a row says that there is no value. Where a source
+valid ones. States, labels and schedules are held: the last valid value in the bin or before it. A number that is
+written on change is held too, until a row says that there is none, and a bin has its mean over the time. Where a source
 is slower than the step (period over half a step), empty bins between valid ones are interpolated linearly, over
 at most INTERPOLATED_PERIODS of the source's period; every other bin without a valid sample is NULL.
 
@@ -117,10 +117,27 @@ def bin_value(column: Column) -> str:
     return f"avg(case when ({flag} & {int(INVALID)}) = 0 and not isnan({number}) then {number} end)"
 
 
+def held_sums(column: Column, step: str) -> str:
+    """SQL of what a number that is written on change was for in its bin, from its first row there on: the sum of value
+    times time, and the time in which it had one. Rows need `next__s`, the time of the next one."""
+    value, flag = f"r.{quoted(column.name)}", f"r.{quoted(column.name + '__flag')}"
+    valid = f"{value} is not null and ({flag} & {int(INVALID)}) = 0 and not isnan(cast({value} as double))"
+    until = f"least(coalesce(r.next__s, 'infinity'::double), ({bin_index(step)} + 1) * {step})"
+    lasts = f"greatest({until} - r.t_s, 0)"
+    return (
+        f"sum(case when {valid} then cast({value} as double) * {lasts} else 0 end) as {quoted(column.name + '__sum')}, "
+        f"sum(case when {valid} then {lasts} else 0 end) as {quoted(column.name + '__for')}"
+    )
+
+
 def _filled(i: int, column: Column) -> str:
     """Window expressions for a column of source i: its last and next bins that hold a value."""
     value, n = f"s__{i}.{quoted(column.name)}", f"{i}__{column.name}"
     last = f"last_value({value} ignore nulls) over before as {quoted('pv__' + n)}"
+    if column.on_change:
+        own = ", ".join(f"s__{i}.{quoted(f'{column.name}__{w}')} as {quoted(f'{w}__{n}')}" for w in ("sum", "for"))
+        until_then = f"last_value({value} ignore nulls) over earlier as {quoted('nv__' + n)}"
+        return f"{value} as {quoted('v__' + n)}, {last}, {until_then}, {own}, s__{i}.first__s as {quoted('nk__' + n)}"
     if column.held:
         return last
     at = f"case when {value} is not null then g.k end"
@@ -135,8 +152,17 @@ def _filled(i: int, column: Column) -> str:
 def _value(i: int, column: Column) -> str:
     n = f"{i}__{column.name}"
     v, pv, pk, nv, nk = (f"w.{quoted(f'{what}__{n}')}" for what in ("v", "pv", "pk", "nv", "nk"))
+    if column.on_change:
+        # what it was when the bin began counts until its first row; nv: NaN where there was none
+        total, lasted = (f"w.{quoted(f'{what}__{n}')}" for what in ("sum", "for"))
+        before = f"greatest({nk} - w.k * p__step, 0)"
+        known = f"{nv} is not null and not isnan({nv})"
+        return (
+            f"case when {v} is null then nullif({pv}, 'nan'::double) when {known} "
+            f"then ({total} + {nv} * {before}) / nullif({lasted} + {before}, 0) else {total} / nullif({lasted}, 0) end"
+        )
     if column.held:
-        return f"nullif({pv}, 'nan'::double)" if column.on_change else pv
+        return pv
     return (
         f"case when {v} is not null then {v} when {nk} - {pk} <= w.reach__{i} "
         f"then {pv} + ({nv} - {pv}) * (w.k - {pk}) / ({nk} - {pk}) end"
@@ -147,7 +173,11 @@ def _binned(campaign: str, groups: list[Group], channels: tuple[str, ...]) -> st
     bins = []
     for i, group in enumerate(groups):
         values = ", ".join(f"{bin_value(c)} as {quoted(c.name)}" for c in group.columns)
-        bins.append(f"s__{i} as (select {bin_index('p__step')} as b__k, {values} from {_source(i)} group by 1)")
+        source, sums = _source(i), [held_sums(c, "p__step") for c in group.columns if c.on_change]
+        if sums:
+            values = ", ".join([values, *sums, "min(r.t_s) as first__s"])
+            source = f"(select *, lead(t_s) over (order by t_s) as next__s from {source}) r"
+        bins.append(f"s__{i} as (select {bin_index('p__step')} as b__k, {values} from {source} group by 1)")
     reach = ", ".join(
         f"(select case when period > p__step / 2 then {INTERPOLATED_PERIODS} * period / p__step "
         f"else 0 end from e__{i}) as reach__{i}"
@@ -160,7 +190,8 @@ def _binned(campaign: str, groups: list[Group], channels: tuple[str, ...]) -> st
         f"with {_grid(campaign, groups)}, {', '.join(bins)}, "
         f"w as (select g.k, g.t0, {reach}, {windows} from g {joins} window "
         f"before as (order by g.k rows between unbounded preceding and current row), "
-        f"behind as (order by g.k rows between current row and unbounded following)) "
+        f"behind as (order by g.k rows between current row and unbounded following), "
+        f"earlier as (order by g.k rows between unbounded preceding and 1 preceding)) "
         f"select {_head(campaign, 'w')}, {', '.join(out)} from w order by w.k"
     )
 
