@@ -23,11 +23,12 @@ _AS_ELSEWHERE = 0.5  # of what the others move by in their other tests: a quiet 
 def dead_throughout(tests: Sequence[Levels]) -> set[tuple[str, str]]:
     """(test, channel) of each temperature that stands through a test of an hour and more, to the last digit."""
     courses: dict[str, dict[str, Float1D]] = {}
-    for test in tests:
+    for test in tests if len(tests) > 1 else ():
         for name, course in test.series.items():
+            if course.quantity != "temperature" or len(course.t_s) < _LEAST_POINTS:
+                continue
             x = course.values[np.isfinite(course.values)]
-            long = len(course.t_s) > 0 and float(course.t_s[-1] - course.t_s[0]) >= _LEAST_S
-            if course.quantity == "temperature" and long and x.size >= _LEAST_POINTS:
+            if x.size >= _LEAST_POINTS and float(course.t_s[-1] - course.t_s[0]) >= _LEAST_S:
                 courses.setdefault(name, {})[test.test] = x
     ranges = {name: {test: float(np.ptp(x)) for test, x in own.items()} for name, own in courses.items()}
     # how far a channel moves in the tests in which it does
