@@ -46,6 +46,9 @@ def shown(rows: Rows) -> tuple[object, ...]:
 @settings(deadline=None, max_examples=400)
 @given(TABLES, st.sampled_from(["\n", "\r\n"]), st.booleans(), st.sampled_from([None, 3]), st.booleans())
 @example([["08:00", "1.5", "on", "3", "TRUE"], ["08:01", "OL", "on", "3", "TRUE"]], "\n", False, None, False)
+@example(
+    [["08:00", "1.5", "on", "3", "TRUE"], ["08:01", "", "on", "3", ""], ["", "", '""', ""]], "\n", False, None, False
+)
 def test_three_ways_give_the_same_rows(
     table: list[list[str]], end: str, exact: bool, least: int | None, blank_rows: bool
 ) -> None:

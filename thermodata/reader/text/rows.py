@@ -210,7 +210,7 @@ def _as_text(data: bytes, line: int, grid: Grid) -> Rows | None:
     for row in invalid:
         cells = fields(row.text.rstrip("\r"), grid.delimiter, grid.quoted)
         fits = side.add(line + row.number - 1, cells)
-        if not fits and row.text.strip(f"{grid.delimiter} \t\r\n"):
+        if not fits and any(cell.strip() for cell in cells):
             size = len(row.text.encode())
             bad.append(BadLine(line + row.number - 1, row.actual_columns, row.text[:_SHOWN].rstrip("\r"), size))
     lines = np.delete(np.arange(line, line + table.num_rows + len(invalid), dtype=np.int64), numbers)
