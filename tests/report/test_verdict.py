@@ -120,6 +120,13 @@ def test_what_is_unknown_does_not_deny_what_is_named_below() -> None:
     assert verdict_sentence(found("unknown", [])) == "something is missing that nothing logged explains"
 
 
+@pytest.mark.parametrize(("locked", "said"), [(None, False), (2.9, False), (3.1, True)])
+def test_what_only_the_locked_tests_show_is_said_of_them(locked: float | None, said: bool) -> None:
+    for candidates in ([], [one("sun", probability=0.35)]):
+        text = verdict_sentence(found("unknown", candidates, rmse_um=1.5, locked_rmse_um=locked))
+        assert ("missing on the locked tests, which an earlier claim left with 3.1" in text) is said
+
+
 def test_every_verdict_has_words_without_any_candidate() -> None:
     said = {v: verdict_sentence(found(v, [])) for v in ("effect", "refine", "none", "unknown", "not_testable")}
     assert len(set(said.values())) == len(said)

@@ -14,6 +14,7 @@ from thermodata.diagnosis.confirm import Confirmation, confirm, on_all_open
 from thermodata.diagnosis.detection import LARGE, Limit
 from thermodata.diagnosis.investigate import Investigation, investigate
 from thermodata.diagnosis.judge import Judged, Judgement, equivalents
+from thermodata.diagnosis.left_on_locked import contradicted
 from thermodata.diagnosis.locked import Looked
 from thermodata.diagnosis.null import p_value
 from thermodata.diagnosis.opened import kept_where_they_hold
@@ -40,8 +41,17 @@ class Answer:
     locked: tuple[TestData, ...]  # the locked tests that were looked at
 
 
-def answer(fitted: FittedModel, data: Dataset, library: Mapping[str, Effect], model_id: str, seed: int = 0) -> Answer:
-    """Diagnose the response that the model predicts worst; locked tests are opened for a claim only, once."""
+def answer(
+    fitted: FittedModel,
+    data: Dataset,
+    library: Mapping[str, Effect],
+    model_id: str,
+    seed: int = 0,
+    *,
+    left_on_locked: Mapping[str, float] | None = None,
+) -> Answer:
+    """Diagnose the response that the model predicts worst; locked tests are opened for a claim only, once.
+    left_on_locked: response -> their error, where it is known already."""
     tests = fitted.tests(data)
     index = worst_response(fitted, tests)
     response = fitted.responses[index]
@@ -61,7 +71,9 @@ def answer(fitted: FittedModel, data: Dataset, library: Mapping[str, Effect], mo
         others=OtherAxes(open_spec, response.name, data, library),
     )
     judgement, confirmation = investigation.judgement, None
+    known = (left_on_locked or {}).get(response.name)
     if not judgement.claims:
+        judgement = contradicted(judgement, known, response, locked)
         locked = []
     else:
         added: dict[tuple[str, ...], Confirmation] = {}
@@ -90,7 +102,8 @@ def answer(fitted: FittedModel, data: Dataset, library: Mapping[str, Effect], mo
         if kept := judgement.claims:
             confirmation = replace(confirmed(kept), asked=asked.get(names(kept)))
     terms = [t.id for t in refitted.responses[index].terms]
-    return Answer(_diagnosis(investigation, judgement, confirmation, data, model_id, terms), tuple(locked))
+    found = _diagnosis(investigation, judgement, confirmation, data, model_id, terms)
+    return Answer(found.model_copy(update={"locked_rmse_um": known}), tuple(locked))
 
 
 def worst_response(fitted: FittedModel, tests: Sequence[TestData]) -> int:

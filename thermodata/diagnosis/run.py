@@ -14,6 +14,7 @@ from thermodata.diagnosis.by_phase import named_apart
 from thermodata.diagnosis.candidates import CandidateEffect
 from thermodata.diagnosis.confirm import confirm
 from thermodata.diagnosis.gain_by import named
+from thermodata.diagnosis.left_on_locked import left_on_locked
 from thermodata.effect import effect as find_effect
 from thermodata.effect import effects
 from thermodata.errors import UsageError
@@ -29,13 +30,14 @@ if TYPE_CHECKING:
     from thermodata.store.base.counting import Tell
 
 # raise it where a rule of the diagnosis changes: answers of older rules are then given anew
-RULES_VERSION = 22
+RULES_VERSION = 24
 
 
-def _key(model: Loaded) -> str:
-    """What an answer is made from: the model, its data as they are now, the library of effects, and the rules."""
+def _key(model: Loaded, left: dict[str, float] | None = None) -> str:
+    """What an answer is made from: the model, its data as they are now, the library of effects, the rules, and what is
+    known of the locked tests already."""
     library = {name: repr((e.needs, e.params, e.gains)) for name, e in effects().items()}
-    made_from = [model.identity, model.data.data_version, sorted(library.items()), RULES_VERSION, __version__]
+    made_from = [model.identity, model.data.data_version, sorted(library.items()), RULES_VERSION, __version__, left]
     return hashlib.sha256(json.dumps(made_from).encode()).hexdigest()
 
 
@@ -44,7 +46,7 @@ def kept_diagnosis(store: Store, ref: str) -> Diagnosis | None:
     from thermodata.store.catalogue.models import kept_answer
 
     model = load(store, ref)
-    text = kept_answer(store, model.identity, "diagnose", _key(model))
+    text = kept_answer(store, model.identity, "diagnose", _key(model, left_on_locked(store, model)))
     return None if text is None else Diagnosis.model_validate_json(text)
 
 
@@ -55,12 +57,13 @@ def diagnose(store: Store, ref: str, tell: Tell | None = None) -> Diagnosis:
     from thermodata.store.catalogue.models import count_locked_look, keep_answer, kept_answer, save_diagnosis
 
     model = load(store, ref)
-    key = _key(model)
+    left = left_on_locked(store, model)
+    key = _key(model, left)
     kept = kept_answer(store, model.identity, "diagnose", key)
     if kept is not None:
         return Diagnosis.model_validate_json(kept)
     with watched(tell):
-        outcome = answer(model.fitted, model.data, effects(), model.identity)
+        outcome = answer(model.fitted, model.data, effects(), model.identity, left_on_locked=left)
     if outcome.locked:
         claimed = ", ".join(c.id for c in outcome.diagnosis.candidates if c.claimed) or "a claim that did not hold"
         count_locked_look(store, model.identity, [t.key for t in outcome.locked], f"confirming {claimed}")

@@ -66,7 +66,8 @@ def times(n: int) -> str:
 def diagnosis_text(found: Diagnosis, top: int = 8) -> str:
     """A diagnosis for a person."""
     left = f"error on left-out tests {number(found.rmse_um)} um"
-    figures = [left, noise_words(found), explainable(found)]
+    locked = "" if found.locked_rmse_um is None else f"on locked tests {number(found.locked_rmse_um)} um"
+    figures = [left, locked, noise_words(found), explainable(found)]
     parts = [f"{verdict_sentence(found)}\n{', '.join(filter(None, figures))}"]
     if found.candidates:
         parts.append(_candidates_text(found.candidates[:top]))

@@ -15,6 +15,8 @@ NOT_EXCLUDED = 0.1
 """A cause of this probability is named though none is said to be missing."""
 NOISY = 1.5
 """An error up to so many times the noise is noise."""
+FAR = 2.0
+"""An error on locked tests of so many times that on left-out ones says that these lack something."""
 
 
 def probability(share: float | None) -> str:
@@ -160,10 +162,13 @@ def _from_to(
 def _unclaimed(found: Diagnosis) -> str:
     """What is missing has no name; the likeliest candidate is told with it, for it stands below."""
     first = next((c for c in found.candidates if c.probability is not None and not c.refinement), None)
+    locked, left = found.locked_rmse_um, found.rmse_um
+    far = locked is not None and left is not None and locked >= FAR * left
+    seen = f" on the locked tests, which an earlier claim left with {number(locked)} um" if far else ""
     if first is None:
-        return "something is missing that nothing logged explains"
+        return f"something is missing{seen} that nothing logged explains"
     return (
-        "something is missing, and the evidence suffices to name no cause; the likeliest that was logged is "
+        f"something is missing{seen}, and the evidence suffices to name no cause; the likeliest that was logged is "
         f"{named(first)}, probability {probability(first.probability)}"
     )
 

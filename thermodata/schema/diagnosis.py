@@ -202,6 +202,8 @@ class Diagnosis(Result):
     noise_um: short-term noise of the response, in its unit; of a staircase at least what its treads leave
     noise_over_s: averaging time of the samples that the noise lies between [s]; null where it was not kept
     rmse_um: error on left-out tests without any candidate
+    locked_rmse_um: error on the locked tests, known from when claims that the model has were confirmed; null where
+        none were
     explainable: largest fall of the squared error that a candidate gives, 0 to 1
     weak_spots: where the model fails, by cost
     candidates: best first
@@ -219,6 +221,7 @@ class Diagnosis(Result):
     noise_um: float | None
     noise_over_s: float | None = None
     rmse_um: float | None
+    locked_rmse_um: float | None = None
     explainable: float | None
     weak_spots: list[WeakSpot]
     candidates: list[Candidate]
