@@ -8,8 +8,9 @@ from pathlib import Path
 from markupsafe import Markup
 
 from thermodata.cli import main
+from thermodata.schema.missing_heat import HeatCourse, MissingHeat, Unknown
 from thermodata.store import Store
-from thermodata.store.catalogue.models import load_diagnosis
+from thermodata.store.catalogue.models import load_diagnosis, save_diagnosis
 from thermodata.web.pages.drawn import among, pair
 from thermodata.web.pages.missing import RUNG_TARGET, STUMBLES
 
@@ -80,6 +81,47 @@ def test_abstaining_is_told_as_clearly_as_claiming(lab: Path) -> None:
     assert headline[1] == "none"
     assert "o effect is missing" in headline[2]
     assert "not claimed" in text
+
+
+def test_what_nothing_logged_explains_is_drawn_and_the_next_test_is_said_beside_a_candidate(lab: Path) -> None:
+    store = Store(lab / "thermodata.store")
+    model = store.connect().execute("select model from model").fetchone()[0]
+    found = load_diagnosis(store, model)
+    course = HeatCourse(
+        campaign="small",
+        test="day1",
+        from_s=0.0,
+        step_s=600.0,
+        source_um=[0.0, 8.0, 8.0, 0.0],
+        contribution_um=[-2.0, 0.0, 2.0, 0.5],
+        residual_um=[None, 0.1, 2.1, 0.4],
+    )
+    heat = MissingHeat(
+        time_constant_h=0.67,
+        time_constant_low_h=None,
+        time_constant_high_h=1.5,
+        direction="+",
+        agreed=0.93,
+        explained=0.99,
+        left_out=0.91,
+        hours_of_day=[],
+        strong_tests=["day1"],
+        weak_tests=["day2"],
+        goes_with=[],
+        goes_not_with=[],
+        where="a body near <coolant>",
+        courses=[course, course.model_copy(update={"test": "day2"})],
+    )
+    unclaimed = [c.model_copy(update={"claimed": False}) for c in found.candidates]
+    unknown = Unknown(time_constants_h=[0.7], hours_of_day=[], states=[], heat=heat)
+    changed = {"verdict": "unknown", "candidates": unclaimed, "unknown": unknown, "next_test": "run <axis> Z alone"}
+    save_diagnosis(store, model, found.model_copy(update=changed))
+    text = client_of(lab)[0].get("/missing").text
+    card = re.search(r'<section class="card" id="heat">(.*?)</section>', text, re.S)[1]
+    assert "a body near &lt;coolant&gt;" in card
+    assert re.findall(r'<script type="application/json" id="(heat\d)">', card) == ["heat0", "heat1"]
+    assert re.search(r'day1 <span class="badge bad">strong.*day2 <span class="badge">absent', card, re.S)
+    assert "Run &lt;axis&gt; Z alone" in re.search(r'id="next">(.*?)</section>', text, re.S)[1]
 
 
 def test_pictures_without_a_script() -> None:

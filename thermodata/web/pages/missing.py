@@ -13,8 +13,9 @@ from thermodata.effect.unbound import unbound
 from thermodata.report.could_hide import could_hide
 from thermodata.report.course_chart import course_chart
 from thermodata.report.headline import capital
+from thermodata.report.heat_charts import heat_charts
 from thermodata.report.verdict import claims_of, explainable, listed, told, verdict_sentence
-from thermodata.report.words import number
+from thermodata.report.words import heat_lines, number
 from thermodata.schema.diagnosis import Diagnosis
 from thermodata.store import Store
 from thermodata.store.base.connection import fetch
@@ -61,6 +62,8 @@ def show(request: Request) -> Response:
         )
     found = load_diagnosis(store, model.model)
     shown = told(found) if found else []
+    heat = found.unknown.heat if found and found.unknown else None
+    drawn = heat_charts(heat.courses, model.unit, heat.direction is not None) if heat else []
     nothing = _NOTHING.get(found.verdict if found else "", _NOTHING["none"])
     return page(
         request,
@@ -75,6 +78,9 @@ def show(request: Request) -> Response:
         about=_about(found, model) if found else "",
         told=shown,
         hides=capital(could_hide(found)) if found else "",
+        heat=heat,
+        heat_lines=heat_lines(heat) if heat else [],
+        heat_charts=[script_json(chart.as_json()) for chart in drawn],
         nothing={"title": nothing[0], "text": nothing[1]},
         charts={c.rank: script_json(course_chart(c, model.unit).as_json()) for c in shown if c.courses},
         most={c.rank: max((r.rmse_um_before for r in c.left_out), default=1.0) for c in shown},
