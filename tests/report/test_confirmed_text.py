@@ -58,6 +58,28 @@ def test_words_and_figures_agree(
     assert text.endswith("opened 2 times so far")
 
 
+@pytest.mark.parametrize(
+    ("holds", "probability", "said"),
+    [(False, 0.88, True), (False, None, False), (True, 0.88, False), (None, 0.88, False)],
+)
+def test_a_claim_that_does_not_hold_alone_is_not_left_as_a_contradiction(
+    holds: bool | None, probability: float | None, said: bool
+) -> None:
+    result = results.Confirmed(
+        model="m",
+        response="dX",
+        candidate="lag:t4",
+        holds=holds,
+        locked_rmse_um_before=2.0,
+        locked_rmse_um_after=1.9,
+        parameters={},
+        tests=[],
+        looks=1,
+        probability=probability,
+    )
+    assert ("The diagnosis claims it all the same, with 88 %" in confirmed_text(result)) is said
+
+
 def test_the_tests_that_were_asked_are_named_where_not_all_were() -> None:
     tests = [
         results.TestConfirmed(campaign="c", test=name, rmse_um_before=2.0, rmse_um_after=1.0, acts=name != "idle")

@@ -88,7 +88,8 @@ def confirm_choice(store: Store, ref: str, candidate: str | int) -> tuple[Confir
     name, key = chosen.id, _key(model)
     kept = kept_answer(store, model.identity, f"confirm {name}", key)
     if kept is not None:
-        return Confirmed.model_validate_json(kept), True
+        known = Confirmed.model_validate_json(kept)
+        return known.model_copy(update={"probability": _claimed_with(store, model.identity, name)}), True
     usable = [t for t in tests if response.can_predict(t)]
     locked = [t for t in model.fitted.tests(model.data, "locked") if response.can_predict(t)]
     if not locked:
@@ -117,9 +118,18 @@ def confirm_choice(store: Store, ref: str, candidate: str | int) -> tuple[Confir
             for key, b, a in confirmation.each
         ],
         looks=max(locked_looks(store, t.campaign, t.test) for t in locked),
+        probability=_claimed_with(store, model.identity, name),
     )
     keep_answer(store, model.identity, f"confirm {name}", key, result.model_dump_json())
     return result, False
+
+
+def _claimed_with(store: Store, model: str, candidate: str) -> float | None:
+    from thermodata.store.catalogue.models import load_diagnosis
+
+    found = load_diagnosis(store, model)
+    claimed = [c for c in found.candidates if c.claimed and c.id == candidate] if found is not None else []
+    return claimed[0].probability if claimed else None
 
 
 def _chosen(model: Loaded, response: FittedResponse, name: str) -> CandidateEffect:

@@ -20,6 +20,11 @@ if TYPE_CHECKING:
 def confirmed_text(result: Confirmed) -> str:
     """A confirmation for a person."""
     head = _confirmed_sentence(result)
+    if result.holds is False and result.probability is not None:
+        head += (
+            f". The diagnosis claims it all the same, with {probability(result.probability)}: it also asks what these "
+            "tests say where the effects of the model may act otherwise than by their fitted lags"
+        )
     rows = [t.model_dump() for t in result.tests]
     columns = [
         ("campaign", "campaign"),

@@ -265,6 +265,7 @@ class Confirmed(Result):
     parameters: of the effect, fitted to all open tests
     tests: each locked test
     looks: how often the locked tests have been opened so far, this look included; the most of any test
+    probability: that the stored diagnosis claims it with; null where it does not
     """
 
     model: str
@@ -278,3 +279,4 @@ class Confirmed(Result):
     parameters: dict[str, Parameter]
     tests: list[TestConfirmed]
     looks: int
+    probability: float | None = None
