@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 from thermodata.report.could_hide import could_hide
 from thermodata.report.fit_text import spots_text
 from thermodata.report.glossary import explained
+from thermodata.report.log_faults import log_faults
 from thermodata.report.table import table
 from thermodata.report.verdict import explainable, noise_words, probability, told, verdict_sentence
 from thermodata.report.words import duration, heat_lines, number
@@ -83,10 +84,10 @@ def diagnosis_text(found: Diagnosis, top: int = 8) -> str:
         parts.append(
             "artefacts\n"
             + "\n".join(
-                f"  ! {a.kind} in {a.campaign}/{a.test}"
+                f"  ! {a.kind} in {', '.join('/'.join(filter(None, t)) for t in a.tests)}"
                 + ("" if a.size_um is None else f" at {duration(a.at_s)}: {number(a.size_um)} um")
                 + f". {a.why}"
-                for a in found.artefacts
+                for a in log_faults(found.artefacts)
             )
         )
     if found.unknown:

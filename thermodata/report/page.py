@@ -18,6 +18,7 @@ from thermodata.report.figures import overview_map, part_chart, points_for, resi
 from thermodata.report.glossary import HOW, NOISE
 from thermodata.report.headline import capital, headline, sentences
 from thermodata.report.heat_charts import heat_charts
+from thermodata.report.log_faults import log_faults
 from thermodata.report.system_charts import system_charts
 from thermodata.report.verdict import probability, told, verdict_sentence
 from thermodata.report.words import base_role, change, duration, heat_lines, number, typeset
@@ -64,6 +65,7 @@ def render(data: ReportData) -> str:
         styles=styles,
         **page_values(_figures(data, styles, spots)),
         waterfall=waterfall(data.versions),
+        faults=log_faults(data.diagnosis.artefacts) if data.diagnosis else [],
         heat=heat,
         heat_lines=[(what, typeset(text)) for what, text in heat_lines(heat)] if heat else [],
         weak=[(rank, w, _box(data, w)) for rank, w in spots],

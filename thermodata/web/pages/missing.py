@@ -14,6 +14,7 @@ from thermodata.report.could_hide import could_hide
 from thermodata.report.course_chart import course_chart
 from thermodata.report.headline import capital
 from thermodata.report.heat_charts import heat_charts
+from thermodata.report.log_faults import log_faults
 from thermodata.report.verdict import claims_of, explainable, listed, told, verdict_sentence
 from thermodata.report.words import heat_lines, number
 from thermodata.schema.diagnosis import Diagnosis
@@ -78,6 +79,7 @@ def show(request: Request) -> Response:
         about=_about(found, model) if found else "",
         told=shown,
         hides=capital(could_hide(found)) if found else "",
+        faults=log_faults(found.artefacts) if found else [],
         heat=heat,
         heat_lines=heat_lines(heat) if heat else [],
         heat_charts=[script_json(chart.as_json()) for chart in drawn],

@@ -1,0 +1,32 @@
+"""Faults of the logs as a person reads them: the same fault of several tests is told once."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from thermodata.schema.diagnosis import Artefact
+
+
+@dataclass(frozen=True, slots=True)
+class LogFault:
+    """tests: (campaign, test) of each that has it; at_s, size_um: where it is one moment of one test."""
+
+    kind: str
+    tests: tuple[tuple[str, str], ...]
+    at_s: float | None
+    size_um: float | None
+    why: str
+
+
+def log_faults(artefacts: Sequence[Artefact]) -> list[LogFault]:
+    """In their order; those of the same kind, for the same reason and of no moment stand together."""
+    found: dict[object, LogFault] = {}
+    for a in artefacts:
+        of_moment = a.at_s is not None or a.size_um is not None
+        key = (a.kind, a.why, (a.campaign, a.test, a.at_s) if of_moment else None)
+        tests = (*(found[key].tests if key in found else ()), (a.campaign, a.test))
+        found[key] = LogFault(a.kind, tests, a.at_s, a.size_um, a.why)
+    return list(found.values())
