@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from thermodata.diagnosis.candidates import Kin
 from thermodata.diagnosis.judge import equivalents
 from thermodata.diagnosis.rules import (
     Measure,
@@ -147,6 +148,13 @@ def test_no_other_test_foretells_what_acts_in_one_only(acting: int, fails: bool)
     assert refused(ALONE, failed_rules(one, measure(), "um")) is fails
 
 
+@pytest.mark.parametrize(("kin", "fails"), [(None, False), ("related", True), ("near", True)])
+def test_one_test_does_not_tell_a_cause_from_another_mode_of_what_the_model_has(kin: Kin, fails: bool) -> None:
+    """However evident: the one lag of the known effect has to hold all that its body does there."""
+    one = scored(size=[1.0] + [0.0] * 9, evidence=5000.0, kin=kin)
+    assert refused(ALONE, failed_rules(one, measure(), "um")) is fails
+
+
 @pytest.mark.parametrize(
     ("outweighed", "otherwise"),
     [
@@ -226,7 +234,7 @@ def test_at_best_left_out_tests_are_foretold_and_nothing_is_sharper(samples: int
     ("kind", "words"),
     [
         ({"beaten": True, "around": True}, "an effect beside it is sharper, and leaves what is slow, as the air is"),
-        ({"passive": True}, "it reads a body that makes no heat, or one whose place nobody declared"),
+        ({"passive": True}, "it reads a body that makes no heat, one beside the machine, or one whose place"),
     ],
 )
 def test_why_it_is_less_probable_is_said(kind: dict[str, bool], words: str) -> None:

@@ -94,13 +94,17 @@ def test_a_lag_is_placeless_where_no_temperature_has_a_place(at: str | None, pla
 
 
 def test_a_lag_of_a_body_that_makes_no_heat_is_passive() -> None:
-    """Castings, and what nobody declared where it sits, while something else has a place."""
+    """Castings, what stands beside the machine, and what nobody declared where it sits, while something else has a
+    place."""
     at = {"T_bed": "bed.feet", "T_head": "headstock", "T_nut": "axis.x.nut", "T_rib": "rear_wall", "T_free": None}
+    at |= {"T_box": "cabinet", "T_cnc": "cnc", "T_amplifier": "axis.x.drive"}
     channels = {n: ChannelInfo(n, "temperature", "degC", at=place) for n, place in at.items()}
     channels |= {"n": ChannelInfo("n", "rotational_speed", "rpm")}
     library = {e.name: e for e in (LAG, replace(NUT, name="anywhere", needs=(Need("u", "temperature"),)))}
     found = {c.id for c in candidates(library, channels, (), "dZ") if c.passive}
-    assert found == {"lag:T_bed", "lag:T_head", "lag:T_free"}, "no speed, no name, no place of which nothing is known"
+    assert found == {f"lag:T_{n}" for n in ("bed", "head", "free", "box", "cnc")}, (
+        "no speed, no name, no place of which nothing is known"
+    )
     nowhere = {n: replace(c, at=None) for n, c in channels.items()}
     assert not any(c.passive for c in candidates(library, nowhere, (), "dZ")), "then all are alike"
 
@@ -178,6 +182,16 @@ def test_one_of_the_temperatures_that_an_effect_reads_together_is_a_part_of_it(
     """The air, where the model has its gradient alone: two states, not two readings of one."""
     made = PlainEffect("mount", "feed_x", needs=(Need("u", "temperature"),))
     assert kin(made, "T_nut", *present) == expected
+
+
+@pytest.mark.parametrize(("axis", "expected"), [("c", "same"), ("a", None)])
+def test_the_heat_of_a_turning_axis_is_one_by_its_temperature_and_by_its_speed(axis: str, expected: str | None) -> None:
+    channels = {
+        "T_c": ChannelInfo("T_c", "temperature", "degC", at="rotary.c"),
+        "n": ChannelInfo("n", "rotational_speed", "rpm", at=f"rotary.{axis}"),
+    }
+    found = candidates(effects(), channels, (has("rotary_axis", "T_c", family="rotary_c"),), "dZ")
+    assert next(c.kin for c in found if c.id == "rotary_friction:n") == expected
 
 
 @dataclass(frozen=True)

@@ -43,9 +43,26 @@ def task(count: int = 3) -> Problem:
 
 def test_a_point_that_changes_nothing_is_not_ranked_again() -> None:
     found = basis(task(), CandidateEffect(Scaled(), {"u": "T_a"}, "feed_x"))
-    assert len(found.points) == 5, "five time constants, four exponents"
-    assert {p["exponent"] for p in found.points} == {1.0}, "the first of those alike"
-    assert [o.shape for o in found.others] == [(120, 5, 2, 1)] * 3
+    assert len(found.points) == 10, "the time constants of an effect that has no exponent"
+    assert {p["exponent"] for p in found.points} == {1.5}, "where it starts"
+    assert [o.shape for o in found.others] == [(120, 10, 2, 1)] * 3
+
+
+@dataclass(frozen=True)
+class Powered(Scaled):
+    """The driver, to the power of an exponent, over the time constant."""
+
+    def basis(self, drivers: Drivers, p: Mapping[str, float]) -> Float2D:
+        return (np.abs(drivers.values["u"]) ** p["exponent"] / p["tau"])[:, None]
+
+
+@pytest.mark.parametrize(("resting", "points"), [(0, 20), (2, 20), (3, 1)])
+def test_an_exponent_counts_where_it_changes_a_column_of_any_test(resting: int, points: int) -> None:
+    courses = [np.zeros(120) if i < resting else 2.0 * np.cos(np.arange(120) / 9) for i in range(3)]
+    asked = problem(*(Parts(np.sin(np.arange(120.0)), values={"T_a": c}) for c in courses))
+    found = basis(asked, CandidateEffect(Powered(), {"u": "T_a"}, "feed_x"))
+    assert len(found.points) == points, "all points of what never moves are one"
+    assert not any(b.any() for b in found.own) or len({p["exponent"] for p in found.points}) == 4
 
 
 def test_columns_are_kept_beside_a_second_effect_and_not_with_other_offsets() -> None:

@@ -102,7 +102,12 @@ MUTANTS = [
     diagnosis("rules.py", "PLACELESS_CLAIMED = 0.5", "PLACELESS_CLAIMED = 0.7", "nothing is ever claimed"),
     diagnosis("candidates.py", "passive = placed and family", "passive = family", "without places nothing is claimed"),
     diagnosis("candidates.py", "channel.at is None or is_casting", "is_casting", "a sensor of no place is a cause"),
-    diagnosis("candidates.py", " or is_casting(channel.at))", ")", "a casting that follows the cause is claimed"),
+    diagnosis("candidates.py", " or is_casting(channel.at)", "", "a casting that follows the cause is claimed"),
+    diagnosis("candidates.py", " or is_beside(channel.at)", "", "an electrical cabinet is claimed"),
+    diagnosis("rules.py", " and scored.candidate.kin is None", "", "one test makes a cause of another mode"),
+    diagnosis(
+        "basis.py", "left, tests = list(params), {", "left, tests = [], {", "a lag has a finer grid than its name"
+    ),
     diagnosis(
         "rules.py", "OVERWHELMING = 0.5", "OVERWHELMING = 0.3", "left-out tests that speak against it are not heard"
     ),

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from thermodata.diagnosis.candidates import CandidateEffect, grid
 from thermodata.diagnosis.problem import Problem
-from thermodata.plugin import Float2D
+from thermodata.plugin import Float2D, Param
 
 KEPT_BYTES = 256 * 2**20  # of columns; what is beyond is made anew
 
@@ -49,7 +49,9 @@ def basis(problem: Problem, candidate: CandidateEffect) -> Basis:
 
 
 def _made(problem: Problem, candidate: CandidateEffect) -> Basis:
-    points = grid(candidate.effect.params, problem.step_s)
+    points = grid(_acting(problem, candidate), problem.step_s)
+    held = {p.name: p.start for p in candidate.effect.params}
+    points = [{**held, **p} for p in points]
     asked = [q for p in points for q in (p, *candidate.slack_params(p))]
     full: dict[int, Float2D] = {}
     compressed = []
@@ -66,6 +68,22 @@ def _made(problem: Problem, candidate: CandidateEffect) -> Basis:
     own = [np.ascontiguousarray(each[:, kept, 0]) for each in compressed]
     others = [each[:, kept, 1:] - each[:, kept, :1] for each in compressed]
     return Basis([points[i] for i in kept], own, others)
+
+
+def _acting(problem: Problem, candidate: CandidateEffect) -> list[Param]:
+    """The parameters that change a column in any test: an exponent of a speed means nothing where a temperature drives
+    the effect, and a grid of time constants alone is finer."""
+    params = candidate.effect.params
+    if len(params) < 2:
+        return list(params)
+    held = {p.name: p.start for p in params}
+    left, tests = list(params), {id(b.test): b.test for b in problem.blocks}
+    for test in tests.values():
+        at = candidate.in_test(test)
+        left = [p for p in left if np.array_equal(at({**held, p.name: p.lower}), at({**held, p.name: p.upper}))]
+        if not left:
+            break
+    return [p for p in params if p not in left] or list(params)
 
 
 def _first_alike(compressed: Sequence[NDArray[np.float64]]) -> list[int]:

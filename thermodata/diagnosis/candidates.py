@@ -27,7 +27,7 @@ from thermodata.modelling.drivers import has_drivers, make_drivers
 from thermodata.modelling.lead import columns, with_lead
 from thermodata.plugin import Effect, Float2D, Param
 from thermodata.schema.model import EffectSpec, Model
-from thermodata.schema.places import is_around, is_casting
+from thermodata.schema.places import is_around, is_beside, is_casting
 from thermodata.view.dataset import ChannelInfo, TestData
 
 InTest = Callable[[Mapping[str, float]], Float2D]  # parameters -> columns of a test, shape (n, gains)
@@ -48,12 +48,11 @@ UNNAMED = -3.0
 class CandidateEffect:
     """An effect and the channels it would be driven by. family: with the axis that its channels sit on.
     placeless: nobody declared where any temperature sits, so it can only be a plain lag. passive: no effect has a name
-    for it, and it reads the temperature of a casting, or one of which nobody declared where it sits, while others have
-    a place. log_prior: how much less probable than others before any data. kin: how near it is to what the model has
-    already (`Kin`). unforetold: why left-out tests can't be asked of it; None where they can. unread: places of
-    other parts that it may be (`diagnosis.unread`). around: whether it reads nothing but one temperature of the air,
-    the floor or the outside. of_motion: whether it reads nothing but
-    motions."""
+    for it, and it reads the temperature of a casting, of what stands beside the machine, or one of which nobody
+    declared where it sits, while others have a place. log_prior: how much less probable than others before any data.
+    kin: how near it is to what the model has already (`Kin`). unforetold: why left-out tests can't be asked of it; None
+    where they can. unread: places of other parts that it may be (`diagnosis.unread`). around: whether it reads nothing
+    but one temperature of the air, the floor or the outside. of_motion: whether it reads nothing but motions."""
 
     effect: Effect
     binding: Mapping[str, str]
@@ -196,7 +195,8 @@ class _Model:
 
 def _follows(channel: ChannelInfo) -> bool:
     """Whether it is warm for what is warm elsewhere, for all that is known of its place."""
-    return channel.quantity == "temperature" and (channel.at is None or is_casting(channel.at))
+    follows = channel.at is None or is_casting(channel.at) or is_beside(channel.at)
+    return channel.quantity == "temperature" and follows
 
 
 def _is_around(channel: ChannelInfo) -> bool:
@@ -219,12 +219,13 @@ def _kin(
     near = names <= model.read or _near(names, model.read, channels)
     if refines(effect) or (family == GENERIC and near):
         return "same"
-    acting = [library[p.effect] for p in model.acting if p.effect in library]
-    if hasattr(effect, "cause") and any(hasattr(own, "cause") and cause(own) == cause(effect) for own in acting):
+    acting = [(library[p.effect], p.family) for p in model.acting if p.effect in library]
+    shared = {_heat(own, of) for own, of in acting if hasattr(own, "cause")}
+    if hasattr(effect, "cause") and _heat(effect, family) in shared:
         return "same"
     if family not in model.families:
         return None
-    if any(cause(own) == cause(effect) for own in acting):
+    if any(cause(own) == cause(effect) for own, _ in acting):
         return "same"
     # a temperature is the state of one body; a speed makes heat, and force
     if names <= model.read and all(channels[n].quantity == "temperature" for n in names):
@@ -243,6 +244,11 @@ def cause(effect: Effect) -> str:
     """The heat or motion that an effect stands for: bearing friction, whether by temperature or by speed."""
     found: str = getattr(effect, "cause", effect.name)
     return found
+
+
+def _heat(effect: Effect, family: str) -> tuple[str, str]:
+    """The heat that an effect stands for, and the axis where each has its own."""
+    return cause(effect), family if "{" in effect.family else ""
 
 
 def refines(effect: Effect) -> tuple[str, ...]:

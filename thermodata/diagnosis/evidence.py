@@ -52,6 +52,11 @@ class Columns:
     def gains(self) -> int:
         return int(self.scale.shape[1])
 
+    @property
+    def on_a_line(self) -> bool:
+        """Whether its points differ in one parameter only: then each one's neighbours stand beside it."""
+        return len({name for p in self.points for name, value in p.items() if value != self.points[0][name]}) == 1
+
 
 @dataclass(frozen=True, slots=True)
 class Moments:

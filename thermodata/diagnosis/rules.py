@@ -102,6 +102,7 @@ def rules(scored: Scored, measure: Measure, unit: str) -> list[Rule]:
     sure = probability(scored) >= limit_of(scored)
     better = SURE_BETTER_LIMIT if sure else BETTER_LIMIT
     unasked = "; not asked where the evidence is {:g} a sample"
+    alone = overwhelming and scored.candidate.kin is None
     return [
         Rule(
             "chance",
@@ -146,11 +147,11 @@ def rules(scored: Scored, measure: Measure, unit: str) -> list[Rule]:
         ),
         Rule(
             "others",
-            f"tests in which it acts{unasked.format(OVERWHELMING)}",
+            f"tests in which it acts{unasked.format(OVERWHELMING)} and the model has nothing of its family",
             count,
             LEAST_TESTS,
             "least",
-            overwhelming or count >= LEAST_TESTS,
+            alone or count >= LEAST_TESTS,
             "it acts in one test only: no other foretells it",
         ),
         Rule(
@@ -195,7 +196,7 @@ def _in_short(scored: Scored) -> str:
     beaten = scored.beaten and scored.candidate.around
     more = ["an effect beside it is sharper, and leaves what is slow, as the air is"] if beaten else []
     if scored.candidate.passive:
-        more.append("it reads a body that makes no heat, or one whose place nobody declared")
+        more.append("it reads a body that makes no heat, one beside the machine, or one whose place nobody declared")
     if scored.candidate.unread:
         more.append(f"{' and '.join(scored.candidate.unread)} may be it as well, and nothing that it reads tells")
     more += [also_missing(scored)] if scored.also_on else []

@@ -286,7 +286,7 @@ def extended(problem: Problem, made: Columns, weighed: Weighed) -> Problem:
         here = full[:, point]
         own = here[:, :gains] * np.where(coefficients[:gains] == 0, 1.0, coefficients[:gains])
         spare = [here[:, gains:].reshape(len(here), -1, gains) @ coefficients[:gains]]
-        if len(made.candidate.effect.params) == 1:
+        if made.on_a_line:
             spare += [(full[:, p, :gains] @ coefficients[:gains] - own.sum(axis=1))[:, None] for p in neighbours]
         blocks.append(replace(block, base=np.hstack([block.base, own]), slack=np.hstack([block.slack, *spare])))
     return replace(problem, blocks=tuple(blocks))

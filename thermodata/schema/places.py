@@ -82,6 +82,8 @@ _AT_TOOL = ("tcp", "tool", "stator", "probe")
 _AROUND = ("hall", "floor", "outside")
 # castings: heat passes through them, and none begins there
 _CASTINGS = ("headstock", "ram", "saddle", "crossbeam", "column", "bed")
+# no body between tool and part: what is read there warms with whichever drive works
+_BESIDE = ("cabinet", "cnc")
 
 
 def is_at_tool(place: str | None) -> bool:
@@ -92,6 +94,11 @@ def is_at_tool(place: str | None) -> bool:
 def is_casting(place: str | None) -> bool:
     """Whether a dotted place is on a body that makes no heat of its own: what is read there came from elsewhere."""
     return place is not None and place.lower().partition(".")[0] in _CASTINGS
+
+
+def is_beside(place: str | None) -> bool:
+    """Whether a dotted place is of the machine, but on no body between tool and part: the cabinet, the control."""
+    return place is not None and place.lower().partition(".")[0] in _BESIDE
 
 
 def is_around(place: str | None) -> bool:

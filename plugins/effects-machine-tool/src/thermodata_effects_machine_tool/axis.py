@@ -12,6 +12,9 @@ from thermodata.plugin import Drivers, Float1D, Float2D, Need
 
 from .shared import REFERENCE_FEED_M_MIN, REFERENCE_TURNING_RPM, Lagged, exponent, gain, power_of, tau
 
+ROTARY_HEAT = "heat of a rotary axis"
+"""By its temperature or by its speed it is the same."""
+
 
 class FeedScrew(Lagged):
     """Friction in nut and bearings warms the feed screw, and it grows.
@@ -160,6 +163,7 @@ class RotaryAxis(Lagged):
     """
 
     name = "rotary_axis"
+    cause = ROTARY_HEAT
     family = "rotary_{a}"
     meaning = "growth with the temperature of a rotary axis: k F{dT}"
     equation = "d = k F_tau{dT}"
@@ -180,6 +184,7 @@ class RotaryFriction(Lagged):
     """
 
     name = "rotary_friction"
+    cause = ROTARY_HEAT
     family = "rotary_{a}"
     meaning = "friction heat of a rotary axis from its speed, where no sensor sees it: k F{(n/10 rpm)^p}"
     equation = "d = k F_tau{(|n| / 10 rpm)^p}"
