@@ -10,6 +10,7 @@ from .shared import Lagged, gain, tau
 
 # one heat, read by the spindle's power or by what the cut warms: `cause` of these effects
 CUTTING_HEAT = "cutting heat"
+COOLANT_HEAT = "heat of the coolant"
 
 
 class ToolElongation(Lagged):
@@ -88,6 +89,7 @@ class Coolant(Lagged):
     """
 
     name = "coolant"
+    cause = COOLANT_HEAT
     family = "coolant"
     meaning = "coolant switched on and off: k F{state}, or k F{flow / 10 l/min}"
     equation = "d = k F_tau{on}, or k F_tau{q / 10 l/min}"
@@ -112,6 +114,7 @@ class CoolantTemperature(Lagged):
     """
 
     name = "coolant_temperature"
+    cause = COOLANT_HEAT
     family = "coolant"
     meaning = "parts that the coolant washes follow its temperature: k F{dT}; a line at 5-40 min"
     equation = "d = k F_tau{dT}"
