@@ -105,8 +105,19 @@ MUTANTS = [
     diagnosis("candidates.py", " or is_casting(channel.at)", "", "a casting that follows the cause is claimed"),
     diagnosis("candidates.py", " or is_beside(channel.at)", "", "an electrical cabinet is claimed"),
     diagnosis("rules.py", " and scored.candidate.kin is None", "", "one test makes a cause of another mode"),
-    diagnosis(
-        "basis.py", "left, tests = list(params), {", "left, tests = [], {", "a lag has a finer grid than its name"
+    Mutant(
+        "thermodata/diagnosis/basis.py",
+        "left, tests = list(params), {",
+        "left, tests = [], {",
+        "a lag has a finer grid than its name",
+        ("tests/diagnosis/test_what_is_kept.py",),
+    ),
+    Mutant(
+        "thermodata/diagnosis/left_on_locked.py",
+        "left <= HALVES * spread",
+        "left <= spread",
+        "nothing is missing, though the locked tests say otherwise",
+        ("tests/diagnosis/test_left_on_locked.py",),
     ),
     diagnosis(
         "rules.py", "OVERWHELMING = 0.5", "OVERWHELMING = 0.3", "left-out tests that speak against it are not heard"
