@@ -258,7 +258,8 @@ class TestAnswer:
                 (1.0, 1.2),
                 frozenset({("c", "y")}),
                 "on the locked tests from 1.00 to 1.20 um from their first samples on, and where it acts from 0.50 to "
-                "1.00 um with a free offset a test, which bear it out in 1 of 2 ways",
+                "1.00 um with a free offset a test: added as it stands it makes them worse, and they bear it out only "
+                "where the effects of the model may act otherwise than by their fitted lags",
             ),
             (
                 (1.0, 1.2),

@@ -103,6 +103,20 @@ def test_no_error_falls_upward() -> None:
     assert "falls where" not in verdict_sentence(found("effect", [claim("screw")]))
 
 
+@pytest.mark.parametrize(("shape", "said"), [((0.4, 0.3), "judged by their shape"), ((0.4, 0.5), "get worse")])
+def test_locked_tests_that_get_worse_by_their_shape_too_are_not_called_judged_by_it(
+    shape: tuple[float, float], said: str
+) -> None:
+    before, after = shape
+    locked = {"locked_rmse_um_before": 0.5, "locked_rmse_um_after": 0.6}
+    one = claim("screw", **locked, locked_shape_um_before=before, locked_shape_um_after=after)
+    text = verdict_sentence(found("effect", [one]))
+    assert said in text
+    assert ("locked tests get worse (0.500 -> 0.600 um, by their shape 0.400 -> 0.500 um)" in text) is (
+        said == "get worse"
+    )
+
+
 def test_locked_tests_in_which_a_claim_rests_are_not_said_to_have_judged_it() -> None:
     rests = {"locked_rmse_um_before": 0.5, "locked_rmse_um_after": 0.6, "locked_tests_asked": 0}
     text = verdict_sentence(found("effect", [claim("screw", **rests)]))

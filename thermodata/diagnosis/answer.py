@@ -249,6 +249,7 @@ def _candidate(
     refining = among(member, judgement.refinements)
     beside = member.beside if member else investigation.selection.first.ranked if investigation.selection else ()
     held = confirmation if claimed else None
+    shape = held.on(held.asked) if held else None
     told = _beside_the_model(s, investigation)
     twins = [t.candidate for t in equivalents(s, beside)] if rank <= 5 else []
     return Candidate(
@@ -270,6 +271,8 @@ def _candidate(
         fit_after=_fit(told.sse_after, told, measure.spread),
         locked_rmse_um_before=held.before if held else None,
         locked_rmse_um_after=held.after if held else None,
+        locked_shape_um_before=shape.before if shape else None,
+        locked_shape_um_after=shape.after if shape else None,
         locked_tests_asked=None if held is None or held.asked is None else len(held.asked),
         parameters=held.parameters.get(s.candidate.id, {}) if held else {},
         equivalent=[t.id for t in twins],

@@ -12,6 +12,8 @@ from thermodata.diagnosis.null import p_value
 from thermodata.diagnosis.rules import also_missing, blunt, failed_rules
 from thermodata.diagnosis.scored import Scored
 
+_OTHERWISE = "the effects of the model may act otherwise than by their fitted lags"
+
 
 def why(
     s: Scored, member: Judged | None, investigation: Investigation, judgement: Judgement, held: Confirmation | None
@@ -29,7 +31,8 @@ def why(
     )
     chance = p_value(s.evidence, investigation.measure.chance)
     if among(member, judgement.claims):
-        locked = _on_locked(s, held, unit, together=len(judgement.claims) > 1) if held else ""
+        together, floor = len(judgement.claims) > 1, investigation.measure.floor
+        locked = _on_locked(s, held, unit, together=together, floor=floor) if held else ""
         elsewhere = f"; {also_missing(s)}" if s.also_on else ""
         of_chance = f"chance does as well in {chance:.1%} of responses in which nothing is missing"
         return f"{numbers}; {of_chance}{elsewhere}{locked}"
@@ -49,8 +52,9 @@ def why(
     return f"{numbers}; not claimed: {judgement.reason}"
 
 
-def _on_locked(s: Scored, held: Confirmation, unit: str, *, together: bool) -> str:
-    """The errors as scored; where they do not fall, beside them those that the claim holds by."""
+def _on_locked(s: Scored, held: Confirmation, unit: str, *, together: bool, floor: float) -> str:
+    """The errors as scored; where they do not fall, beside them those that the claim holds by. floor: an error that is
+    left alone."""
     if held.before is None or held.after is None:
         return ""
     what = " with all that is claimed" if together else ""
@@ -63,7 +67,12 @@ def _on_locked(s: Scored, held: Confirmation, unit: str, *, together: bool) -> s
             f" from their first samples on, and{acts} from {shape.before:.2f} to {shape.after:.2f} {unit} with a free "
             "offset a test"
         )
-    return figures + (f", which bear it out in {2 - s.doubts} of 2 ways" if s.doubts else "")
+    if s.doubts != 1:
+        return figures + (", which do not bear it out" if s.doubts else "")
+    # the other way is that the model's effects may act otherwise
+    if shape is not None and shape.says(floor) and not shape.falls:
+        return f"{figures}: added as it stands it makes them worse, and they bear it out only where {_OTHERWISE}"
+    return f"{figures}, which bear it out as it stands, and not where {_OTHERWISE}"
 
 
 def _refused(judgement: Judgement) -> str:

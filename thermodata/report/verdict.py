@@ -146,17 +146,22 @@ def _locked(claims: Sequence[Candidate]) -> str:
     if claims[0].locked_tests_asked == 0:
         acts = "it acts" if len(claims) == 1 else "they act"
         return f"; {acts} in no locked test, so these were not asked ({number(before)} -> {number(after)} um)"
-    rises = "judged by their shape where it acts; from their first samples on"
-    return "; " + _from_to(f"locked tests{all_of}", before, after, rises)
+    figures = f"{number(before)} -> {number(after)} um"
+    shape = claims[0].locked_shape_um_before, claims[0].locked_shape_um_after
+    if after < before:
+        return f"; locked tests{all_of} {figures}"
+    if shape[0] is not None and shape[1] is not None and shape[1] >= shape[0]:
+        return (
+            f"; locked tests get worse{all_of} ({figures}, by their shape {number(shape[0])} -> {number(shape[1])} um)"
+        )
+    return f"; locked tests{all_of} (judged by their shape where it acts; from their first samples on: {figures})"
 
 
-def _from_to(
-    what: str, before: float | None, after: float | None, rises: str = "falls where it acts only; over all"
-) -> str:
+def _from_to(what: str, before: float | None, after: float | None) -> str:
     if before is None or after is None:
         return f"{what} not known"
     figures = f"{number(before)} -> {number(after)} um"
-    return f"{what} {figures}" if after < before else f"{what} ({rises}: {figures})"
+    return f"{what} {figures}" if after < before else f"{what} (falls where it acts only; over all: {figures})"
 
 
 def _unclaimed(found: Diagnosis) -> str:

@@ -107,6 +107,8 @@ class Candidate(Result):
     fit_after: with it
     locked_rmse_um_before: error on the locked tests without it; for a claimed one only
     locked_rmse_um_after: with it
+    locked_shape_um_before: the same over those in which the claims act, a free offset for each
+    locked_shape_um_after: with it
     locked_tests_asked: in how many locked tests the claims act, and are asked; null where it is not known
     parameters: of the effect, fitted to all open tests; for a claimed one only
     equivalent: ids that the data cannot tell from it
@@ -137,6 +139,8 @@ class Candidate(Result):
     fit_after: float | None
     locked_rmse_um_before: float | None = None
     locked_rmse_um_after: float | None = None
+    locked_shape_um_before: float | None = None
+    locked_shape_um_after: float | None = None
     locked_tests_asked: int | None = None
     parameters: dict[str, Parameter] = {}
     equivalent: list[str] = []
