@@ -33,6 +33,14 @@ def test_a_rung_does_not_hold_exactly_where_its_rule_fails(seed: int) -> None:
         # where the evidence overwhelms, or left-out tests are foretold, some are not asked
         if r.value is not None and r.name in ("chance", "tests", "probability"):
             assert r.holds is (r.value <= r.limit if r.at == "most" else r.value >= r.limit)
+        met = r.value is not None and (r.value <= r.limit if r.at == "most" else r.value >= r.limit)
+        assert r.asked is (met or not r.holds), "what misses its limit and holds was not asked"
+
+
+def test_a_rule_that_is_outweighed_is_not_asked() -> None:
+    one = scored(evidence=5000.0, after=0.99)
+    (fall,) = (r for r in rungs(one, measure(spread=0.0), "um") if r.name == "fall")
+    assert (fall.holds, fall.asked) == (True, False)
 
 
 def test_chance_is_told_by_its_quantiles() -> None:

@@ -17,6 +17,7 @@ from thermodata.diagnosis.investigate import Investigation
 from thermodata.diagnosis.judge import Judged, Judgement, Verdict
 from thermodata.diagnosis.locked import Foretold
 from thermodata.diagnosis.ranking import Ranked
+from thermodata.diagnosis.rules import Measure
 from thermodata.diagnosis.scored import Scored
 from thermodata.diagnosis.selection import Selection
 from thermodata.diagnosis.suspect import Suspect
@@ -66,6 +67,7 @@ class TestAnswer:
         shown: tuple[float, float] = (1.0, 0.5),
         asked_in: frozenset[tuple[str, str]] | None = None,
         channels: Sequence[ChannelInfo] = (),
+        against: Measure | None = None,
     ) -> Diagnosis:
         """holds: whether all claims do, or the only ones that do together. shown: errors on the locked tests as scored,
         where the shape's fall from 1.0 to 0.5. asked_in: the locked tests that a claim is asked of."""
@@ -87,7 +89,7 @@ class TestAnswer:
             self.asked.append([c.scored.candidate.effect.name for c in claims])
             return Foretold(1.0, 0.5 if hold(self.asked[-1]) else 1.0, 0.5, tests=asked_in)
 
-        found = Investigation(asked, selection, [], [SPOT], judgement, measure(floor=0.2), borne_out)
+        found = Investigation(asked, selection, [], [SPOT], judgement, against or measure(floor=0.2), borne_out)
 
         def confirm(*asked: Any) -> Confirmation:
             names = [c.effect.name for c in asked[3]]
@@ -226,6 +228,18 @@ class TestAnswer:
         never = self.answered(monkeypatch, spec, nothing("unknown")).next_test or ""
         assert "add tests that each heat one source alone" in never
         assert "role locked" not in never
+
+    @pytest.mark.parametrize(("acting", "evidence", "repeat"), [(1, 390.0, True), (2, 390.0, False), (1, 2.0, False)])
+    def test_what_acts_in_one_test_is_asked_for_again(
+        self, monkeypatch: pytest.MonkeyPatch, spec: Model, acting: int, evidence: float, repeat: bool
+    ) -> None:
+        size = [1.0] * acting + [0.0] * (10 - acting)
+        first = scored("first", size=size, evidence=evidence)
+        chance = measure(floor=0.2, chance=[3.0] * 199)
+        told = self.answered(monkeypatch, spec, nothing("unknown"), ranked=(first,), against=chance).next_test or ""
+        assert told.startswith("first:T_a ranks first, and T_a acts in t0 only") is repeat
+        assert ("run another one in which T_a moves much" in told) is repeat
+        assert self.answered(monkeypatch, spec, nothing("none"), ranked=(first,)).next_test is None
 
     def test_what_is_said_of_the_missing_heat_knows_what_was_refused(
         self, monkeypatch: pytest.MonkeyPatch, spec: Model

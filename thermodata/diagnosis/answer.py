@@ -7,7 +7,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from thermodata.diagnosis import ladder, next_test
+from thermodata.diagnosis import ladder
+from thermodata.diagnosis.advice import advice
 from thermodata.diagnosis.artefact import noise_with_treads
 from thermodata.diagnosis.candidates import CandidateEffect
 from thermodata.diagnosis.confirm import Confirmation, confirm, on_all_open
@@ -154,7 +155,7 @@ def _diagnosis(
         )
         if judgement.verdict == "unknown"
         else None,
-        next_test=_advice(investigation, judgement, confirmation, shown[0][0] if shown else None, data, terms),
+        next_test=advice(investigation, judgement, confirmation, shown[0][0] if shown else None, data, terms),
         response_um=investigation.measure.spread,
         limits=[_limit(one, terms, investigation.measure.spread) for one in investigation.limits],
         chance=ladder.chance(investigation.measure),
@@ -172,39 +173,6 @@ def _limit(one: Limit, terms: Sequence[str], spread: float) -> DetectionLimit:
         behind=terms[one.like] if one.like is not None and one.hides else None,
         large=one.least > LARGE * spread,
     )
-
-
-def _advice(
-    investigation: Investigation,
-    judgement: Judgement,
-    confirmation: Confirmation | None,
-    first: Scored | None,
-    data: Dataset,
-    terms: Sequence[str],
-) -> str | None:
-    claims, refused = ([j.scored.candidate for j in some] for some in (judgement.claims, judgement.refused))
-    if claims:
-        claim = judgement.claims[0]
-        apart = next_test.to_separate(claim.scored, equivalents(claim.scored, claim.beside), data.channels)
-        if apart is not None:
-            return apart
-        for other in judgement.claims:
-            if (log := next_test.to_log(other.scored, data.channels)) is not None:
-                return log
-    if refused:
-        return next_test.to_decide(refused, data.channels)
-    if claims and confirmation is not None and confirmation.asked == frozenset():
-        return next_test.to_bear_out(claims, data.channels)
-    if judgement.verdict in ("none", "refine"):
-        large = LARGE * investigation.measure.spread
-        for one in investigation.limits:
-            if one.least > large and one.hides and one.like is not None:
-                return next_test.to_exclude(one.candidate, terms[one.like], data.channels)
-        return None
-    if judgement.verdict not in ("unknown", "not_testable"):
-        return None
-    tests = len({b.test.key for b in investigation.problem.blocks})
-    return next_test.to_find(tests, investigation.spots, data.channels, first)
 
 
 def _shown(investigation: Investigation, judgement: Judgement) -> list[tuple[Scored, Judged | None]]:

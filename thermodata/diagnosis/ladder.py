@@ -25,6 +25,7 @@ def rungs(scored: Scored, measure: Measure, unit: str) -> list[Rung]:
             unit=rule.unit,
             at=rule.at,
             holds=bool(rule.holds),
+            asked=bool(rule.asked),
         )
         for rule in (*rules(scored, measure, unit), surely(scored))
     ]

@@ -116,6 +116,15 @@ def _moved(one: CandidateEffect, channels: Mapping[str, ChannelInfo]) -> str:
     return f"in which {' and '.join(one.channels)} {verb} much ({how})"
 
 
+def to_repeat(first: CandidateEffect, test: str, channels: Mapping[str, ChannelInfo]) -> str:
+    """The advice where what ranks first acts in one test only. test: its name."""
+    verb = "acts" if len(first.channels) == 1 else "act"
+    return (
+        f"{first.id} ranks first, and {' and '.join(first.channels)} {verb} in {test} only, so no other test foretells "
+        f"it: run another one {_moved(first, channels)}, and diagnose again"
+    )
+
+
 def to_find(
     tests: int, spots: Sequence[WeakSpot], channels: Mapping[str, ChannelInfo], first: Scored | None = None
 ) -> str:

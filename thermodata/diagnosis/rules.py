@@ -92,6 +92,11 @@ class Rule:
     fails: str
     unit: str = "1"
 
+    @property
+    def asked(self) -> bool:
+        """Whether it decides: what misses the limit and holds is outweighed."""
+        return not self.holds or (self.value >= self.limit if self.at == "least" else self.value <= self.limit)
+
 
 def rules(scored: Scored, measure: Measure, unit: str) -> list[Rule]:
     """Every rule that a sound candidate keeps, in the order in which they are asked."""

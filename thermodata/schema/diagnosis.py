@@ -37,6 +37,7 @@ class Rung(Result):
     unit: of value and limit; 1 for shares
     at: whether the value has to be at least or at most the limit
     holds: whether the rule is met
+    asked: whether it decides; false where the value misses the limit and something stronger outweighs it
     """
 
     name: str
@@ -46,6 +47,7 @@ class Rung(Result):
     unit: str
     at: Literal["least", "most"]
     holds: bool
+    asked: bool = True
 
 
 class LeftOut(Result):
