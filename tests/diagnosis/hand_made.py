@@ -51,10 +51,11 @@ def candidate(
     refines: tuple[str, ...] = (),
     kin: Kin = None,
     around: bool = False,
+    of_motion: bool = False,
 ) -> CandidateEffect:
     binding = {f"u{i or ''}": channel for i, channel in enumerate(channels)}
     effect = PlainEffect(name, family, refines=refines)
-    return CandidateEffect(effect, binding, family, placeless, passive, kin=kin, around=around)
+    return CandidateEffect(effect, binding, family, placeless, passive, kin=kin, around=around, of_motion=of_motion)
 
 
 def columns_of(candidate: CandidateEffect, contribution: Sequence[Float1D]) -> Columns:
@@ -73,6 +74,7 @@ def scored(
     refines: tuple[str, ...] = (),
     kin: Kin = None,
     around: bool = False,
+    of_motion: bool = False,
     evidence: float = 390.0,
     gained: float | Sequence[float] = 50.0,
     before: float | Sequence[float] = 1.0,
@@ -95,6 +97,7 @@ def scored(
         refines=refines,
         kin=kin,
         around=around,
+        of_motion=of_motion,
     )
     rows = np.full(TESTS, ROWS / TESTS)
     return Scored(

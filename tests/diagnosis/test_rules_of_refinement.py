@@ -109,6 +109,24 @@ def test_kin_is_a_mode_where_it_is_under_three_fifths_of_the_largest_effect(
     assert said(dull(kin, size=size, after=0.399), known=known, families="feed_x feed_y") is None, "it takes most"
 
 
+@pytest.mark.parametrize(
+    ("kin", "of_motion", "after", "expected"),
+    [
+        ("related", True, 0.41, MODE),
+        ("near", True, 0.41, MODE),
+        ("related", True, 0.399, None),  # it takes most
+        ("related", False, 0.41, None),
+        (None, True, 0.41, None),
+    ],
+)
+@pytest.mark.parametrize("response", [1.0, 100.0])
+def test_a_motion_is_another_mode_of_the_part_that_the_model_has(
+    kin: Kin, of_motion: bool, after: float, expected: str | None, response: float
+) -> None:
+    """However sure and large it is, and whether the model is poor or good."""
+    assert said(cause(kin, of_motion=of_motion, after=after), response) == expected
+
+
 @pytest.mark.parametrize("kin", ["near", "related"])
 def test_kin_that_is_surely_a_cause_is_no_mode_however_small(kin: Kin) -> None:
     known = (WAVE, 0.1 * OTHER)

@@ -104,6 +104,9 @@ MUTANTS = [
     diagnosis("candidates.py", "channel.at is None or is_casting", "is_casting", "a sensor of no place is a cause"),
     diagnosis("candidates.py", " or is_casting(channel.at)", "", "a casting that follows the cause is claimed"),
     diagnosis("candidates.py", " or is_beside(channel.at)", "", "an electrical cabinet is claimed"),
+    diagnosis(
+        "refinement.py", "of_motion and kin in", "of_motion and kin not in", "a speed is a cause beside its motor"
+    ),
     diagnosis("rules.py", " and scored.candidate.kin is None", "", "one test makes a cause of another mode"),
     Mutant(
         "thermodata/diagnosis/basis.py",

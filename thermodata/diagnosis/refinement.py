@@ -56,6 +56,9 @@ class Refinement:
         kin, most = scored.candidate.kin, scored.drop >= MOST
         if refines(scored.candidate.effect) or kin == "same" or (kin == "part" and sharpness(scored) < STRONG):
             return MODE
+        # a motion has the timing of no part: what one lag of a known part leaves follows the same motion
+        if scored.candidate.of_motion and kin in ("near", "related") and not most:
+            return MODE
         good = scored.error_before <= GOOD * rms(self.problem.response_blocks)
         largest = max(self._size(i) for i in range(len(self.fitted.terms)))
         # what is surely a cause is one, however small beside its kin
