@@ -42,12 +42,22 @@ def found(*limits: DetectionLimit, response: float | None = 9.0) -> Diagnosis:
 
 def test_what_would_have_to_be_large_is_named_with_what_it_hides_behind() -> None:
     text = could_hide(
-        found(one("guideway", 13.6, seen=0.09, behind="feed_screw"), one("floor", 4.0), one("coolant", 2.9))
+        found(
+            one("guideway", 13.6, seen=0.09, behind="feed_screw"),
+            one("floor", 4.0),
+            one("coolant", 2.9),
+            response=15.0,
+        )
     )
     assert text == (
         "these tests can't exclude guideway (T) up to 13.6 um, for feed_screw does 91 % of it; floor (T) up to 4.00 um "
-        "(RMS where it acts; the response has 9.00 um)"
+        "(RMS where it acts; the response has 15.0 um)"
     )
+
+
+def test_more_than_all_that_was_measured_is_no_bound() -> None:
+    assert "floor (T) of any size" in could_hide(found(one("floor", 9.1)))
+    assert "floor (T) up to 8.90 um" in could_hide(found(one("floor", 8.9)))
 
 
 def test_where_all_would_have_been_seen_that_is_said() -> None:

@@ -25,7 +25,7 @@ def could_hide(found: Diagnosis) -> str:
             f"an effect of the library that acts by more than {number(least[0].least_um)} um ({size}) would have been "
             f"named here; {_name(least[0])} could hide most"
         )
-    told = "; ".join(_one(one) for one in large[:SHOWN])
+    told = "; ".join(_one(one, found.response_um) for one in large[:SHOWN])
     rest = f"; {len(large) - SHOWN} more" if len(large) > SHOWN else ""
     return f"these tests can't exclude {told}{rest} ({size})"
 
@@ -46,7 +46,9 @@ def _name(one: DetectionLimit) -> str:
     return f"{one.effect} ({', '.join(one.drivers)})"
 
 
-def _one(one: DetectionLimit) -> str:
-    size = "of any size" if one.least_um is None else f"up to {number(one.least_um)} um"
+def _one(one: DetectionLimit, response: float) -> str:
+    # more than all that was measured is no bound
+    unbound = one.least_um is None or one.least_um > response
+    size = "of any size" if unbound else f"up to {number(one.least_um)} um"
     behind = f", for {one.behind} does {percent(1 - one.seen)} of it" if one.behind else ""
     return f"{_name(one)} {size}{behind}"
