@@ -12,6 +12,7 @@ from threadpoolctl import threadpool_limits
 from thermodata.diagnosis.artefact import Step, as_artefacts, find_steps
 from thermodata.diagnosis.by_phase import heating_and_cooling_apart
 from thermodata.diagnosis.candidates import CandidateEffect, candidates
+from thermodata.diagnosis.clocks import Timing, as_artefact, clock_is_off, timings, with_clocks_right
 from thermodata.diagnosis.detection import Limit, limits
 from thermodata.diagnosis.evidence import Columns, columns
 from thermodata.diagnosis.gain_by import gains_by_condition
@@ -81,8 +82,9 @@ def investigate(
     info = data.channels[fitted.name]
     base = remembered(fitted)
     fine = _compressed(fitted, data, tests, base, TARGET_ROWS)
-    steps = find_steps(fine)
-    faults = _faults(fitted, data, fine, base)
+    clocks = timings(fine, data.channels)
+    steps = find_steps(with_clocks_right(fine, clocks, data.channels))
+    faults = _faults(fitted, data, fine, base, clocks)
     problem = _without_steps(_compressed(fitted, data, tests, base, WEIGHED_ROWS), steps)
     asked = candidates(library, data.channels, present(fitted), fitted.name)
     weighed = {b.test.key for b in problem.blocks}
@@ -135,7 +137,8 @@ def causes_of(
 ) -> list[Scored]:
     """The sound causes that a response misses, as they are judged beside each other; refinements are none."""
     base = remembered(fitted)
-    steps = find_steps(_compressed(fitted, data, tests, base, TARGET_ROWS))
+    fine = _compressed(fitted, data, tests, base, TARGET_ROWS)
+    steps = find_steps(with_clocks_right(fine, timings(fine, data.channels), data.channels))
     problem = _without_steps(_compressed(fitted, data, tests, base, WEIGHED_ROWS), steps)
     asked = candidates(library, data.channels, present(fitted), fitted.name)
     _, judgement, _ = _judged(fitted, problem, asked, seed)
@@ -262,11 +265,14 @@ def clocks_beside(channels: Mapping[str, ChannelInfo], drivers: Iterable[str], r
     return {n: s for n in drivers if n in channels and (s := channels[n].source) and s != home}
 
 
-def _faults(fitted: FittedResponse, data: Dataset, problem: Problem, base: Base) -> list[Artefact]:
-    """Clocks and probes, where there is a model to hold them against."""
+def _faults(
+    fitted: FittedResponse, data: Dataset, problem: Problem, base: Base, clocks: Sequence[Timing]
+) -> list[Artefact]:
+    """Clocks, by what acts at once or else by the model; and probes, where there is a model to hold them against."""
+    off = [as_artefact(c, problem) for c in clocks if clock_is_off(c, problem.step_s)]
     if not problem.blocks or not problem.blocks[0].base.shape[1]:
-        return []
+        return off
     drivers = {n for one in present(fitted) for n in one.channels}
-    sources = clocks_beside(data.channels, drivers, fitted.name)
-    moved = clock_offsets(problem, base, sources)
-    return [*moved, *turned_probes(problem)]
+    told = {c.source for c in clocks if c.tells}
+    sources = {n: s for n, s in clocks_beside(data.channels, drivers, fitted.name).items() if s not in told}
+    return [*off, *clock_offsets(problem, base, sources), *turned_probes(problem)]

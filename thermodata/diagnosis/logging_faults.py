@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
 from thermodata.diagnosis.candidates import NOT_DRIVERS
+from thermodata.diagnosis.clocks import moved
 from thermodata.diagnosis.problem import Block, Problem
 from thermodata.plugin import Float2D
 from thermodata.schema.diagnosis import Artefact
@@ -75,21 +76,12 @@ def shift_that_explains(now: float, errors: Mapping[float, float], energy: float
 def _error(problem: Problem, base: Callable[[TestData], Float2D], shift_s: Mapping[str, float]) -> float:
     columns, responses = [], []
     for block in problem.blocks:
-        columns.append(block.compress(base(_shifted(block.test, shift_s)) if shift_s else base(block.test)))
+        columns.append(block.compress(base(moved(block.test, shift_s)) if shift_s else base(block.test)))
         responses.append(block.response)
     gram = sum(c.T @ c for c in columns)
     cross = sum(c.T @ y for c, y in zip(columns, responses, strict=True))
     theta = np.linalg.lstsq(np.atleast_2d(gram), np.atleast_1d(cross), rcond=1e-9)[0]
     return float(sum(np.sum((y - c @ theta) ** 2) for c, y in zip(columns, responses, strict=True)))
-
-
-def _shifted(test: TestData, shift_s: Mapping[str, float]) -> TestData:
-    """The test with some channels later by shift_s; ends hold their value."""
-    values = {
-        name: np.interp(test.t_s - shift_s[name], test.t_s, v) if name in shift_s else v
-        for name, v in test.values.items()
-    }
-    return replace(test, values=values)
 
 
 def turned_probes(problem: Problem) -> list[Artefact]:

@@ -1,0 +1,124 @@
+"""A clock that is off, by what commands move at once (diagnosis/clocks.py), just inside and outside each limit."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from thermodata.diagnosis.clocks import (
+    Timing,
+    as_artefact,
+    beyond_trend,
+    clock_is_off,
+    timings,
+    with_clocks_right,
+)
+from thermodata.diagnosis.problem import Problem
+from thermodata.view.dataset import ChannelInfo
+
+from .hand_made import Parts, problem
+
+CHANNELS = {
+    "dZ": ChannelInfo("dZ", "displacement", "um", source="daq"),
+    "n": ChannelInfo("n", "rotational_speed", "rpm", source="nc"),
+    "T": ChannelInfo("T", "temperature", "degC", source="nc"),
+}
+
+
+def off_by(samples: int, *, at_once: float = 5.0, lag: float = 60.0, tests: int = 5) -> Problem:
+    """Tests whose response follows the speed, that many um at once and 20 um with a lag [samples]; the speed is logged
+    so many samples late. step: 60 s."""
+    rng = np.random.default_rng(4)
+
+    def one() -> Parts:
+        n = np.repeat(rng.integers(0, 5, 20), rng.integers(11, 29, 20)).astype(float) / 4
+        heat = np.zeros(len(n))
+        for i in range(1, len(n)):
+            heat[i] = heat[i - 1] + (n[i] - heat[i - 1]) / lag
+        y = at_once * n**2 + 20 * heat + 0.1 * rng.normal(size=len(n))
+        logged = n[np.clip(np.arange(len(n)) - samples, 0, len(n) - 1)]
+        return Parts(y - y.mean(), response=y - y.mean(), values={"n": 3000 * logged, "T": heat})
+
+    return replace(problem(*(one() for _ in range(tests))), response="dZ")
+
+
+@pytest.mark.parametrize("samples", [-25, -11, -3, 3, 11, 25])
+def test_a_clock_that_is_off_is_told_by_what_the_speed_moves_at_once(samples: int) -> None:
+    asked = off_by(samples)
+    (found,) = timings(asked, CHANNELS)
+    assert (found.source, found.shift_s) == ("nc", -60.0 * samples)
+    assert clock_is_off(found, asked.step_s)
+    said = as_artefact(found, asked)
+    assert said.kind == "clock_offset"
+    assert f"source 'nc' moved by {-samples:+d} min (give or take 2)" in said.why
+
+
+@pytest.mark.parametrize("samples", [-2, 0, 2])
+def test_a_clock_that_is_nearly_right_is_not_off(samples: int) -> None:
+    asked = off_by(samples)
+    assert not any(clock_is_off(t, asked.step_s) for t in timings(asked, CHANNELS))
+
+
+@pytest.mark.parametrize("samples", [0, 11])
+def test_heat_that_lags_tells_no_clock(samples: int) -> None:
+    asked = off_by(samples, at_once=0.0)
+    assert not any(clock_is_off(t, asked.step_s) for t in timings(asked, CHANNELS))
+
+
+def test_what_acts_at_once_in_one_test_only_tells_no_clock() -> None:
+    """A slip beside a command is foretold by no other test."""
+    asked = off_by(0, at_once=0.0)
+    first = asked.blocks[0]
+    late = np.flatnonzero(np.diff(first.test.values["n"]))[5] + 11
+    slipped = first.response + 12.0 * (np.arange(len(first.response)) >= late)
+    asked = replace(asked, blocks=(replace(first, response=slipped), *asked.blocks[1:]))
+    assert not any(clock_is_off(t, asked.step_s) for t in timings(asked, CHANNELS))
+
+
+def test_of_one_test_and_without_commands_of_another_source_nothing_is_said() -> None:
+    assert timings(off_by(11, tests=1), CHANNELS) == []
+    same = {name: replace(c, source="daq") for name, c in CHANNELS.items()}
+    assert timings(off_by(11), same) == []
+    assert timings(off_by(11), {"dZ": CHANNELS["dZ"], "T": CHANNELS["T"]}) == []
+
+
+@pytest.mark.parametrize(
+    ("changed", "step_s", "off"),
+    [
+        ({"share": 0.101}, 60.0, True),
+        ({"share": 0.099}, 60.0, False),
+        ({"share": 0.401, "unmoved": 0.2}, 60.0, True),
+        ({"share": 0.399, "unmoved": 0.2}, 60.0, False),
+        ({"shift_s": 151.0}, 10.0, True),
+        ({"shift_s": -149.0}, 10.0, False),
+        ({"shift_s": -360.0}, 120.0, True),
+        ({"shift_s": 240.0}, 120.0, False),
+    ],
+)
+def test_a_clock_is_off_where_the_others_foretell_much_more_once_it_is_moved(
+    changed: dict[str, float], step_s: float, off: bool
+) -> None:
+    plain = {"shift_s": 300.0, "share": 0.5, "unmoved": 0.0}
+    assert clock_is_off(Timing("nc", **{**plain, **changed}), step_s) is off
+
+
+def test_commands_are_put_where_they_act_and_temperatures_are_left() -> None:
+    asked = off_by(11)
+    right = with_clocks_right(asked, timings(asked, CHANNELS), CHANNELS)
+    for moved, sound, as_logged in zip(right.blocks, off_by(0).blocks, asked.blocks, strict=True):
+        assert np.array_equal(moved.test.values["n"][:-11], sound.test.values["n"][:-11])
+        assert moved.test.values["T"] is as_logged.test.values["T"]
+    sound = off_by(0)
+    assert with_clocks_right(sound, timings(sound, CHANNELS), CHANNELS) is sound
+
+
+def test_a_jump_is_beyond_the_slope_around_it_and_none_over_a_hole() -> None:
+    t = np.arange(40) * 60.0
+    x = 0.5 * np.arange(40.0) + 3.0 * (np.arange(40) >= 20)
+    jump = beyond_trend(x[:, None], t)[:, 0]
+    assert jump[19] == pytest.approx(3.0 - 3.0 / 5)
+    assert jump[10] == pytest.approx(0.0)
+    assert np.isnan(jump[:5]).all()
+    assert np.isnan(beyond_trend(x[:, None], t + 600.0 * (np.arange(40) >= 20))[15:25]).all()
