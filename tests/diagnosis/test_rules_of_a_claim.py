@@ -142,6 +142,12 @@ def test_what_surely_does_a_fifth_of_the_response_is_worth_a_name_though_the_err
     assert refused(LITTLE, [w for w in failed_rules(one, measure(spread=10.0), "um") if LITTLE in w]) is fails
 
 
+@pytest.mark.parametrize(("after", "fails"), [(1.99, False), (2.01, True)])
+def test_what_doubles_the_error_of_the_other_tests_is_no_cause_however_evident(after: float, fails: bool) -> None:
+    found = failed_rules(scored(evidence=5000.0, after=after), measure(spread=0.0), "um")
+    assert refused("the error more than doubles where it acts (1.00 -> 2.01 um)", found) is fails
+
+
 @pytest.mark.parametrize(("acting", "fails"), [(2, False), (1, True)])
 def test_no_other_test_foretells_what_acts_in_one_only(acting: int, fails: bool) -> None:
     one = scored(size=[1.0] * acting + [0.0] * (10 - acting))

@@ -107,6 +107,7 @@ MUTANTS = [
     diagnosis(
         "refinement.py", "of_motion and kin in", "of_motion and kin not in", "a speed is a cause beside its motor"
     ),
+    diagnosis("rules.py", "DOUBLES = -1.0", "DOUBLES = -9.0", "a part is claimed against all other tests"),
     diagnosis("rules.py", " and scored.candidate.kin is None", "", "one test makes a cause of another mode"),
     Mutant(
         "thermodata/diagnosis/basis.py",

@@ -33,6 +33,7 @@ TOLD_APART = 0.85
 STRONG = 0.4
 OVERWHELMING = 0.5
 DROP_LIMIT = 0.15  # fall of the error on left-out tests in which it acts,
+DOUBLES = -1.0  # but no cause doubles that error, however evident: then tests go against each other
 STEADYING_DROP_LIMIT = 0.3  # and of any casting, or two temperatures: what is slow steadies a misfit a little
 LEAST_TESTS = 2  # in which it acts: no other foretells what acts in one only
 BETTER_LIMIT = 0.6  # share of these tests that it makes more probable,
@@ -125,9 +126,8 @@ def rules(scored: Scored, measure: Measure, unit: str) -> list[Rule]:
             scored.drop,
             fall,
             "least",
-            strong or sure or scored.drop >= fall,
-            f"in the {count} tests in which it acts the error falls by {max(scored.drop, 0):.0%} only, its size from "
-            f"the others (limit {fall:.0%})",
+            scored.drop >= fall or ((strong or sure) and scored.drop >= DOUBLES),
+            _too_little(scored, fall, unit),
         ),
         Rule(
             "tests",
@@ -171,6 +171,19 @@ def rules(scored: Scored, measure: Measure, unit: str) -> list[Rule]:
             unit,
         ),
     ]
+
+
+def _too_little(scored: Scored, fall: float, unit: str) -> str:
+    """Why the error falls too little, its size from the other tests."""
+    if scored.drop < DOUBLES:
+        return (
+            f"its size from the other tests, the error more than doubles where it acts ({scored.error_before:.2f} -> "
+            f"{scored.error_after:.2f} {unit}): tests go against each other, as where a probe or a sign is turned"
+        )
+    return (
+        f"in the {int(scored.acts.sum())} tests in which it acts the error falls by {max(scored.drop, 0):.0%} only, its "
+        f"size from the others (limit {fall:.0%})"
+    )
 
 
 def _does_much(scored: Scored, measure: Measure) -> bool:
