@@ -181,8 +181,8 @@ def _too_little(scored: Scored, fall: float, unit: str) -> str:
             f"{scored.error_after:.2f} {unit}): tests go against each other, as where a probe or a sign is turned"
         )
     return (
-        f"in the {int(scored.acts.sum())} tests in which it acts the error falls by {max(scored.drop, 0):.0%} only, its "
-        f"size from the others (limit {fall:.0%})"
+        f"in the {int(scored.acts.sum())} tests in which it acts the error falls by {max(scored.drop, 0):.0%} only, "
+        f"its size from the others (limit {fall:.0%})"
     )
 
 
