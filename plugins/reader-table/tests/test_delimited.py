@@ -202,7 +202,7 @@ def test_a_column_of_thousands_beside_decimals_is_asked(tmp_path: Path) -> None:
 
 def test_one_odd_cell_is_a_loss_and_no_question(tmp_path: Path) -> None:
     data = read(tmp_path, _speeds(["0"] * 10 + ["8,000"] + ["950"] * 9))
-    assert [loss.reason for loss in data.losses][0].startswith("'8,000' may be thousands or a fraction")
+    assert next(loss.reason for loss in data.losses).startswith("'8,000' may be thousands or a fraction")
 
 
 def test_thousands_that_leave_no_choice_are_read(tmp_path: Path) -> None:
@@ -233,3 +233,15 @@ def test_rows_that_end_with_a_delimiter_or_rarely_with_a_remark_keep_their_heade
     rows = "".join(f"2025-06-10 07:{k:02d}:00;{k}.5;3.5;{tail if k == 5 else ''}\n" for k in range(20))
     data = read(tmp_path, "time;T [degC];U\n" + rows)
     np.testing.assert_array_equal(data.values["table", "T [degC]"], np.arange(20) + 0.5)
+
+
+@pytest.mark.parametrize("name", ["ts_ms", "time [ms]"])
+def test_milliseconds_since_1970_are_dates_and_others_count_from_their_start(tmp_path: Path, name: str) -> None:
+    text = f"{name};T\n" + "".join(f"{1749540600000 + 20000 * k};2.5\n" for k in range(5))
+    data = read(tmp_path, text)
+    assert data.recording.clock == "absolute"
+    assert data.t_ns["table"][0] == utc("2025-06-10T07:30:00")
+    assert "unix_ms" in " ".join(data.recording.notes)
+    started = read(tmp_path, f"{name};T\n" + "".join(f"{20000 * k};2.5\n" for k in range(5)))
+    assert started.recording.clock == "relative"
+    assert started.t_ns["table"].tolist() == [20 * S * k for k in range(5)]
