@@ -22,6 +22,8 @@ Say = Callable[..., Said]
         ("T_chladic_vstup", "degC", "chiller.supply", False),
         ("T_chladici_kapalina", "degC", "coolant", True),
         ("T_Fuehr_Z", "degC", "axis.z.guide", False),
+        ("T_prac_vretenik", "degC", None, False),
+        ("T_vretenik", "degC", "headstock", True),
         ("TC07_gway_Z", "degC", "axis.z.guide", False),
         ("n_WSS", "rpm", "rotary.c", False),
         ("Workhead.nAct", "rpm", "rotary.c", False),
@@ -29,7 +31,7 @@ Say = Callable[..., Said]
         ("ot_vretene", "rpm", "spindle", True),
     ],
 )
-def test_a_word_of_the_trade_is_its_place(name: str, unit: str, at: str, sure: bool) -> None:
+def test_a_word_of_the_trade_is_its_place(name: str, unit: str, at: str | None, sure: bool) -> None:
     said = guess(name, unit)
     assert (said.at, said.sure) == (at, sure)
 
