@@ -42,6 +42,12 @@ def test_a_czech_probe_is_a_displacement_and_its_sensor_of_a_temperature_none() 
     assert guess("snimac_teploty", None).quantity == "temperature"
 
 
+@pytest.mark.parametrize(("name", "at"), [("ot_vreteno", "spindle"), ("ot_prac_vret", "rotary.c")])
+def test_a_speed_in_czech_is_one_without_its_unit(name: str, at: str) -> None:
+    said = guess(name, None)
+    assert (said.quantity, said.at) == ("rotational_speed", at)
+
+
 def _draft(folder: Path, header: str, say: Say) -> dict[str, str]:
     (folder / "raw").mkdir(parents=True)
     width = header.count(";")

@@ -18,7 +18,7 @@ QUANTITY_WORDS: dict[str, str] = {
     "spindle~velocity spindel~speed umdrehung revolution n~act n~ist n~actual n~spindle n~soll "
     "s~act~speed acts. sspeed. srpm. spd. act~speed actspeed speed.~act speed. ^speed rpms. "
     "转速 轉速 回转速度 主轴速度 vact~spindle "
-    "n. rotvel ot~vret ot~vretene ot~prac~vret ot~prac~vretene",
+    "n. rotvel ot~vret ot~vretene ot~vreteno ot~vretena ot~prac~vret ot~prac~vretene",
     "feed": "vorschub feedrate feed. ^feed~rate feed~act actfeed posuv 进给 進給 frt. actf. fact. pathfeed "
     "v~act v~actual vact. vaxis. bahngeschw feed~speed",
     "power": "power. ^power leistung wirkl vykon prikon 功率 pwr. watt. p~act p~mech p~elec p~el. puissance "
