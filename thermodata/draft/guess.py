@@ -30,6 +30,8 @@ _IMPLIED = {
     "torque": "N m",
     "voltage": "V",
 }
+_SHARES = ("load", "humidity")
+_MOST_OF_ONE = 2.5  # an overload of a drive that is logged as a share of 1
 _PLAUSIBLE = {
     "temperature": (-40.0, 200.0),
     "rotational_speed": (-60_000.0, 60_000.0),
@@ -108,14 +110,18 @@ def _unit(found: Guess, unit: str | None, written: str | None, values: Values | 
     if written is not None:
         basis = ("name",) if found.basis == ("name", "unit") else found.basis
         return _in_range(replace(found, unit=written, basis=basis), values)
+    if unit is not None and quantity in _SHARES:
+        return _share(found, unit, values)
     implied = _IMPLIED.get(quantity)
     if implied and values is not None and _plausible(quantity, values):
         basis = found.basis if "values" in found.basis else (*found.basis, "values")
-        return replace(found, unit=implied, sure=False, basis=basis)
+        # the file says '-' or '1', which an ingest would hold against the unit
+        return replace(found, unit=implied, sure=False, basis=basis, instead_of=unit)
     if quantity == "temperature" and values is not None and values.low > 200 and values.high < 450:
-        return replace(found, unit="K", sure=False, basis=(*found.basis, "values"))
+        return replace(found, unit="K", sure=False, basis=(*found.basis, "values"), instead_of=unit)
     if implied and values is None and quantity in ("temperature", "rotational_speed"):
-        return replace(found, unit=implied, sure=False, questions=(*found.questions, f"unit: {implied}?"))
+        asked = f"unit: {implied}?"
+        return replace(found, unit=implied, sure=False, questions=(*found.questions, asked), instead_of=unit)
     hint = {
         "displacement": "um, mm or V?",
         "feed": "m/min or mm/min?",
@@ -125,6 +131,15 @@ def _unit(found: Guess, unit: str | None, written: str | None, values: Values | 
     }.get(quantity, "")
     asked = f"unit: {hint} ({range_text(values)})" if hint else f"unit? ({range_text(values)})"
     return replace(found, unit=None, sure=False, questions=(*found.questions, asked))
+
+
+def _share(found: Guess, unit: str, values: Values | None) -> Guess:
+    """A load or a humidity whose file says '-' or '1': of 1, where it stays below, or else of 100."""
+    if values is not None and values.high > _MOST_OF_ONE:
+        basis = (*found.basis, "values")
+        return replace(found, unit="%", instead_of=unit, sure=False, basis=basis)
+    asked = f'unit: the file says \'{unit}\', so 1 is read as 100 %; if 1 is 1 %: unit: "%", instead_of: "{unit}"'
+    return replace(found, unit=unit, sure=False, questions=(*found.questions, f"{asked} ({range_text(values)})"))
 
 
 def _plausible(quantity: str, values: Values) -> bool:

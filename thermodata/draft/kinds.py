@@ -56,6 +56,10 @@ _AGREE = {
 }
 
 
+_LINEAR = re.compile(r"(?<!\S)[xyz]\d*(?!\S)")
+_TURNS = "rotary drehtisch rundtisch rundachse otocn 转台 [bc]~axis achse~[bc] osa~[bc]"
+
+
 @dataclass(frozen=True, slots=True)
 class Kind:
     """kind: as in a campaign file; comment: how sure; question: what to look at, or None; conditions: condition ->
@@ -90,10 +94,12 @@ def kind_of(test: str, files: Sequence[RawFile]) -> Kind:
     folders = [part for f in files for part in reversed(f.path.parts[:-1])]
     said = said_by(list(dict.fromkeys([test, *(f.path.stem for f in files), *folders])))
     by_name = next((kind for kind, listed in _KINDS if says(listed, text)), None)
+    if by_name == "rotary_axis" and _LINEAR.search(text) and not says(_TURNS, text):
+        by_name = "linear_axis"  # 'tisch_Z': the table travels
     conditions, comments, doubts = _conditions(said, moved, files)
     if by_name is None and ({"speed", "schedule"} & conditions.keys() or said.speeds):
         by_name = "spectrum" if conditions.get("schedule", "").count(",") >= 2 else "spindle"
-    elif by_name is None and ("feed" in conditions or re.search(r"(?<!\S)[xyz]\d*(?!\S)", text)):
+    elif by_name is None and ("feed" in conditions or _LINEAR.search(text)):
         by_name = "linear_axis"
     elif by_name is None and "air" in conditions:
         by_name = "etve"

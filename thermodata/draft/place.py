@@ -64,6 +64,8 @@ def place_of(text: str, quantity: str) -> Place:
     if "not spindle" in said:
         said -= {"spindle"}
         said |= {"screw"}
+    if "workhead" in said:
+        said -= {"spindle"}  # a grinder turns its part by a spindle of its own
     if _SPINDLE_1.search(text) and (quantity in _BY_DRIVE or "motor" in said):
         said |= {"spindle"}
     # what turns is the spindle, but for n_B and n_C beside it
@@ -83,8 +85,10 @@ def _temperature(said: set[str], axis: str | None) -> Place:
     if on_axis:
         part = "bearing" if on_axis == "screw" and "bearing" in said else on_axis
         if axis and axis in "xyz":
-            return Place(f"axis.{axis}.{part}", True)
+            return Place(f"axis.{axis}.{part}", part != "guide")
         return Place(None, question=f"at: which axis's {part}? e.g. axis.z.{part}")
+    if "workhead" in said:
+        return Place(None, question="at: where on the workhead? e.g. rotary.c")
     if "bearing" in said:
         return _bearing(said, axis)
     if said & {"motor", "drive"}:
@@ -126,7 +130,7 @@ def _temperature(said: set[str], axis: str | None) -> Place:
     if "cnc" in said:
         return Place("cnc")
     if axis and axis in "xyz":
-        return Place(None, question=f"at: axis.{axis}.motor, .nut, .screw, .scale or .bearing?")
+        return Place(None, question=f"at: axis.{axis}.motor, .nut, .screw, .scale, .guide or .bearing?")
     return Place(None, question="at: where on the machine?")
 
 
@@ -168,6 +172,8 @@ def _speed(said: set[str], axis: str | None) -> Place:
     for other in ("fan", "pump", "tool", "chiller"):
         if other in said:
             return Place(other if other != "tool" else "spindle", question=f"at: the speed of the {other}?")
+    if "workhead" in said:
+        return Place("rotary.c")
     if "spindle" in said and not axis:
         return Place("spindle", True)
     if "table" in said:
@@ -183,6 +189,8 @@ def _speed(said: set[str], axis: str | None) -> Place:
 
 def _driven(said: set[str], axis: str | None) -> Place:
     """Power, load, current and torque."""
+    if "workhead" in said:
+        return Place("rotary.c")
     if "spindle" in said and not axis:
         return Place("spindle", True)
     if axis:

@@ -20,6 +20,7 @@ from thermodata.draft.place import axis_of
 from thermodata.draft.quantity import Guess
 from thermodata.draft.raw_file import RawFile
 from thermodata.draft.scan import Scan
+from thermodata.draft.siblings import beside_each_other
 from thermodata.draft.sources import Group, sources_of
 from thermodata.draft.table import TestTable, closed_workbooks, find_table, is_called_table
 from thermodata.draft.units import rate_at_end
@@ -47,6 +48,7 @@ def plan(campaign: str, folder: Path, found: Scan) -> Draft:
     notes: list[str] = []
     for g in groups:
         made, left = _channels(g, [j for j in jumps if j.file in g.calibrations], taken, calibrations)
+        made = beside_each_other(made)
         channels += made
         notes += left
         by_signal[g.source] = {

@@ -18,7 +18,8 @@ _AIR = {"hall", "floor", "bearing", "coolant", "outside", "window"}
 @dataclass(frozen=True, slots=True)
 class Guess:
     """A channel as it would stand in a campaign file. quantity None: no quantity fits, `why_not` says why. unit None:
-    none, or the file's own. sure: what was concluded leaves no doubt; basis: what it rests on ('name', 'unit',
+    none, or the file's own; instead_of: the file's, where `unit` replaces it. sure: what was concluded leaves no
+    doubt; basis: what it rests on ('name', 'unit',
     'values'); questions: what a person has to say."""
 
     quantity: str | None
@@ -29,6 +30,7 @@ class Guess:
     basis: tuple[str, ...] = ()
     questions: tuple[str, ...] = ()
     why_not: str | None = None
+    instead_of: str | None = None
 
     def comment(self) -> str:
         """'sure: name and unit', 'guess: name only', or '? at: where on the machine?'."""

@@ -130,7 +130,7 @@ def _air(texts: Sequence[str], conditions: dict[str, str], guessed: set[str], qu
         guessed.add("air")
     elif match := _first(_AT, texts):
         conditions["air"] = f"{_value(match[2]):g} degC"
-    elif match := _first(_SOME_DEGREES, texts):
+    elif (match := _first(_SOME_DEGREES, texts)) and not re.match(r"-?0\d", match[1]):  # '02_C' is number 2 of axis C
         questions.append(f"{_value(match[1]):g} degC, says the name: of what? e.g. conditions: {{air: ...}}")
     if match := _first(_CONDITIONED, texts):
         conditions["air_conditioning"] = "off" if match[1] in _WITHOUT else "on"

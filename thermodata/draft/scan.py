@@ -72,7 +72,9 @@ def scan(folder: Path, progress: Progress | None = None) -> Scan:
                 found = described_files(who, full, path)
             except _UNREAD as error:
                 failed.append((str(path), who.name))
-                ignored.append((str(path), f"reader '{who.name}' claims it and can't read it: {short(error)}"))
+                ignored.append(
+                    (str(path), f"reader '{who.name}' claims it and can't read it: {short(error)}{_try(error)}")
+                )
                 continue
             ignored += [(str(path), why) for why in found[0].besides]
             for made in found:
@@ -100,6 +102,11 @@ def scan(folder: Path, progress: Progress | None = None) -> Scan:
         tuple(dict.fromkeys(p for p, _ in ignored)),
         tuple(failed),
     )
+
+
+def _try(error: Exception) -> str:
+    hint = getattr(error, "hint", None)
+    return f"; try: {hint}" if hint else ""
 
 
 def _files(folder: Path) -> Iterator[PurePosixPath]:

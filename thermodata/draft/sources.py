@@ -97,8 +97,9 @@ def sources_of(files: Sequence[RawFile], jumps: Sequence[RawFile]) -> list[Group
 
 def _kind(file: RawFile) -> tuple[object, ...]:
     """What the files of one source have in common: who reads them, and what has to be declared for it."""
-    # a day above 12 settles the order of day and month in some files, and is asked of the others
-    told = [a.declare for a in file.asked if "format" not in a.declare.get("time", {})]
+    # a day above 12 settles the order of day and month in some files, and is asked of the others; so is the decimal
+    # mark where only some tests turn at thousands
+    told = [a.declare for a in file.asked if "format" not in a.declare.get("time", {}) and "decimal" not in a.declare]
     return file.reader, file.path.suffix.lower(), file.sheet is not None, repr(told)
 
 

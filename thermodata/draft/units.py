@@ -6,6 +6,7 @@ import re
 
 from thermodata.errors import UsageError
 from thermodata.schema.quantity import CANONICAL_UNIT, linear_conversion, normal_unit
+from thermodata.schema.unit_scale import scaled_unit
 
 _BY_UNIT: dict[str, tuple[str, ...]] = {
     "degC": ("temperature", "temperature_difference"),
@@ -68,7 +69,7 @@ def quantities_of(unit: str) -> tuple[str, ...]:
     bare = re.sub(r"\s", "", unit).strip("[]()").lower()
     if bare in ("hz", "s-1", "1/s", "s^-1") or bare in ("um/m", "µm/m", "μm/m"):
         return ()  # a frequency or a strain, unless the name knows better
-    normal = normal_unit(unit)
+    normal = normal_unit(scaled_unit(unit)[1])
     if normal in _BY_UNIT:
         return _BY_UNIT[normal]
     return tuple(q for q in CANONICAL_UNIT if q not in _LOOSE and converts(unit, q))

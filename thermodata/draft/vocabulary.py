@@ -18,7 +18,7 @@ QUANTITY_WORDS: dict[str, str] = {
     "spindle~velocity spindel~speed umdrehung revolution n~act n~ist n~actual n~spindle n~soll "
     "s~act~speed acts. sspeed. srpm. spd. act~speed actspeed speed.~act speed. ^speed rpms. "
     "转速 轉速 回转速度 主轴速度 vact~spindle "
-    "n. rotvel",
+    "n. rotvel ot~vret ot~vretene ot~vreteno ot~vretena ot~prac~vret ot~prac~vretene",
     "feed": "vorschub feedrate feed. ^feed~rate feed~act actfeed posuv 进给 進給 frt. actf. fact. pathfeed "
     "v~act v~actual vact. vaxis. bahngeschw feed~speed",
     "power": "power. ^power leistung wirkl vykon prikon 功率 pwr. watt. p~act p~mech p~elec p~el. puissance "
@@ -45,7 +45,7 @@ QUANTITY_WORDS: dict[str, str] = {
     "dilatac "
     "ausdehn capacitive~s kapazitiv elongat prodlouz nci. d~x d~y d~z dx. dy. dz. ex. ey. ez. "
     "delta~x delta~y delta~z err~x err~y err~z error~x error~y error~z deltax. deltay. deltaz. "
-    "disp. tcp~x tcp~y tcp~z growth. drop. weg. wege. drift.",
+    "disp. tcp~x tcp~y tcp~z snimac~x snimac~y snimac~z growth. drop. weg. wege. drift.",
     "tilt": "tilt neigung naklon inclin pitch. roll. yaw. 倾斜 倾角 drot. rx. ry. rz. d~rx d~ry d~rz",
     "angle": "angle. winkel uhel. uhlu. 角度 转角",
     "voltage": "voltage spannung napeti 电压 電壓 volt. volts. uzk. u~zk u~dc udc. dc~link zwischenkreis dcvolt",
@@ -61,6 +61,8 @@ QUANTITY_WORDS: dict[str, str] = {
 PLACE_WORDS: dict[str, str] = {
     "spindle": "mot~s. current~s. curr~s. load~s. s~load. s~temp. s~mot. s~current. spindel "
     "spindle vreten 主轴 主軸 电主轴 spdl. spnd. spin. sp. hsp. spi. spindl",
+    "workhead": "workhead werkstuckspindel werkstueckspindel wss. prac~vret prac~vretene prac~vreteno prac~vretenik "
+    "pracovni~vreteno pracovni~vretene workspindle work~spindle",
     "not spindle": "gewindespindel kugelspindel spindelmutter kugelgewinde leadspindle",
     "bearing": "bearing bearings. lager ^lozis ^loz. 轴承 軸承 brg. brng. bear. lagerung roulement",
     "front": "front vorn vorder ^predni pred. predn. 前 fr. frt~b nose. spindlenose nase. vl.",
@@ -74,7 +76,8 @@ PLACE_WORDS: dict[str, str] = {
     "nut": "nut. mutter ^matic matka. 螺母 丝母 螺帽 ballnut nuts.",
     "screw": "screw gewindetrieb kgt. kugelgewinde sroub srouby 丝杠 丝杆 絲杠 滚珠 bsc. leadscrew gewindespindel",
     "scale": "scale. scales. massstab masstab glasmass pravitk 光栅 光柵 linear~encoder glass~scale wegmesssystem",
-    "guide": "guideway guide. guides. ^fuhrung fuehrung linearfuhr vedeni. 导轨 導軌 rail. rails. slideway",
+    "guide": "guideway gway. fuehr. fuhr. guide. guides. ^fuhrung fuehrung linearfuhr vedeni. 导轨 導軌 rail. rails. "
+    "slideway",
     "gearbox": "gearbox getriebe prevodovk 齿轮箱 变速箱 gear.",
     "drive": "drive. drives. umrichter inverter amplifier verstarker menic 驱动器 变频器 converter",
     "column": "column stander staender saule. saeule. maschinensaule stojan sloup 立柱 col.",
@@ -89,11 +92,11 @@ PLACE_WORDS: dict[str, str] = {
     "workpiece": "workpiece werkstuck werkstueck obrobek obrobku 工件 part~temp wkp.",
     "fixture": "fixture vorrichtung pripravek pripravku 夹具 halterung drzak. sensorhalter",
     "probe": "probe. probes. taster. messtaster sonda. sondy. 测头 touchprobe",
-    "coolant": "coolant kuhlm kuehlm kss. kuhlschm kuehlschm chladic ^chlaz chladiv emulz emulsion 冷却液 冷卻液 "
+    "coolant": "coolant kuhlm kuehlm kss. kuhlschm kuehlschm chladici ^chlaz chladiv emulz emulsion 冷却液 冷卻液 "
     "切削液 冷却 "
     "cooling kuhlung kuehlung cool. kuhlflu kuhlkreis cutting~fluid cutfluid kuhlen.",
-    "chiller": "chiller ruckkuhl rueckkuhl kuhlaggregat 冷水机 水冷机 油冷机 oilcooler oil~cooler oelkuhler water. "
-    "wasser "
+    "chiller": "chiller chladic. chladice. ruckkuhl rueckkuhl kuhlaggregat 冷水机 水冷机 油冷机 oilcooler "
+    "oil~cooler oelkuhler water. wasser "
     "^vod[ay]. kuhlwasser 冷却水 chlazeni~vretene",
     "supply": "supply. inlet. in. vorlauf zulauf ^privod vstup. 入口 进口 进水 供液 进油 vl. input.",
     "return": "return. outlet. out. rucklauf ruecklauf ablauf zpatec ^odvod vystup. 出口 回水 回油 回液 rl. output.",

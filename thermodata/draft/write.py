@@ -105,6 +105,7 @@ def _channel(c: DraftChannel) -> str:
         "signal": c.signal,
         "quantity": said.quantity,
         "unit": said.unit,
+        "instead_of": said.instead_of,
         "axis": said.axis,
         "at": said.at,
         "relative_to": "table" if moves else None,

@@ -11,6 +11,7 @@ from functools import lru_cache
 from typing import Any, Literal, get_args
 
 from thermodata.errors import UsageError, nearest
+from thermodata.schema.unit_scale import scaled_unit
 from thermodata.schema.unit_spelling import UNIT_SPELLING
 
 Quantity = Literal[
@@ -124,9 +125,10 @@ def _registry() -> Any:
 @lru_cache(maxsize=4096)
 def linear_conversion(unit: str, target: str) -> tuple[float, float]:
     """(factor, offset) with value_target = factor * value_unit + offset; UsageError where they don't convert."""
-    source, goal = normal_unit(unit), normal_unit(target)
+    (scale, bare), (goal_scale, bare_goal) = scaled_unit(unit), scaled_unit(target)
+    source, goal = normal_unit(bare), normal_unit(bare_goal)
     if source == goal:
-        return 1.0, 0.0
+        return scale / goal_scale, 0.0
     try:
         registry = _registry()
         at_0 = float(registry.Quantity(0.0, source).to(goal).magnitude)
@@ -138,7 +140,7 @@ def linear_conversion(unit: str, target: str) -> tuple[float, float]:
             got=unit,
             hint="declare the channel's unit in the campaign file (unit: ...)",
         ) from error
-    return at_1 - at_0, at_0
+    return (at_1 - at_0) * scale / goal_scale, at_0 / goal_scale
 
 
 def delta_factor(unit: str, target: str) -> float:
@@ -151,7 +153,7 @@ def is_unit(text: str) -> bool:
     """Whether the text is a unit at all (a lab's or pint's spelling)."""
     if not text.strip():
         return False
-    normal = normal_unit(text)
+    normal = normal_unit(scaled_unit(text)[1])
     if normal in AT_HAND:
         return True
     try:

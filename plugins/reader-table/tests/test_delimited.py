@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from thermodata_reader_table import Reader
 
-from thermodata.errors import FormatError, UsageError
+from thermodata.errors import FormatError, QuestionError, UsageError
 from thermodata.plugin import Head, Source
 from thermodata.testing.reader import Data, load
 
@@ -183,3 +183,65 @@ def test_a_first_row_whose_time_is_destroyed_is_told_and_no_header(tmp_path: Pat
     assert {name for _, name in data.values} == {"T1 [degC]", "dZ [um]"}
     assert len(data.t_ns["table"]) == 29
     assert [x.where for x in data.losses] == ["x.csv line 2"]
+
+
+def _speeds(cells: list[str]) -> str:
+    return "time,n (rpm),T (C)\n" + "".join(
+        f'2025-06-10 07:{k:02d}:00,"{cell}",20.{k:02d}\n' for k, cell in enumerate(cells)
+    )
+
+
+def test_a_column_of_thousands_beside_decimals_is_asked(tmp_path: Path) -> None:
+    with pytest.raises(QuestionError) as asked:
+        read(tmp_path, _speeds(["0"] * 10 + ["8,000"] * 6 + ["950"] * 4))
+    assert "6 of 10 numbers other than 0 in column 'n (rpm)' look like thousands ('8,000')" in asked.value.ask
+    assert "declare table: {decimal: '.'} where '8,000' is 8000" in str(asked.value.hint)
+    data = read(tmp_path, _speeds(["0"] * 10 + ["8,000"] * 6 + ["950"] * 4), decimal=".")
+    assert data.values["table", "n (rpm)"].tolist() == [0.0] * 10 + [8000.0] * 6 + [950.0] * 4
+
+
+def test_one_odd_cell_is_a_loss_and_no_question(tmp_path: Path) -> None:
+    data = read(tmp_path, _speeds(["0"] * 10 + ["8,000"] + ["950"] * 9))
+    assert next(loss.reason for loss in data.losses).startswith("'8,000' may be thousands or a fraction")
+
+
+def test_thousands_that_leave_no_choice_are_read(tmp_path: Path) -> None:
+    data = read(tmp_path, _speeds(["0"] * 10 + ["8,000.0"] * 10))
+    assert data.values["table", "n (rpm)"].max() == 8000.0
+
+
+_NODES = "SourceTimestamp;NodeId;Value;StatusCode\n" + "".join(
+    f"2025-06-10T07:{k:02d}:00Z;ns=2;s=M.nSp;{100 * k}.00;Good\n" for k in range(20)
+)
+
+
+def test_a_header_with_fewer_cells_than_its_rows_is_refused(tmp_path: Path) -> None:
+    with pytest.raises(FormatError) as refused:
+        read(tmp_path, _NODES)
+    assert refused.value.what == "the header has fewer cells than the rows below it"
+    assert str(refused.value.got).startswith("4 in the header, 5 in the rows: '2025-06-10")
+    assert refused.value.where == "x.csv line 1, rows from line 2"
+    assert "declare table: {header_rows: 1}" in str(refused.value.hint)
+
+
+def test_last_columns_without_a_name_are_read_where_the_header_is_declared(tmp_path: Path) -> None:
+    assert "column 5" in [s.name for s in read(tmp_path, _NODES, header_rows=1).recording.signals]
+
+
+@pytest.mark.parametrize("tail", ["", "coffee"])
+def test_rows_that_end_with_a_delimiter_or_rarely_with_a_remark_keep_their_header(tmp_path: Path, tail: str) -> None:
+    rows = "".join(f"2025-06-10 07:{k:02d}:00;{k}.5;3.5;{tail if k == 5 else ''}\n" for k in range(20))
+    data = read(tmp_path, "time;T [degC];U\n" + rows)
+    np.testing.assert_array_equal(data.values["table", "T [degC]"], np.arange(20) + 0.5)
+
+
+@pytest.mark.parametrize("name", ["ts_ms", "time [ms]"])
+def test_milliseconds_since_1970_are_dates_and_others_count_from_their_start(tmp_path: Path, name: str) -> None:
+    text = f"{name};T\n" + "".join(f"{1749540600000 + 20000 * k};2.5\n" for k in range(5))
+    data = read(tmp_path, text)
+    assert data.recording.clock == "absolute"
+    assert data.t_ns["table"][0] == utc("2025-06-10T07:30:00")
+    assert "unix_ms" in " ".join(data.recording.notes)
+    started = read(tmp_path, f"{name};T\n" + "".join(f"{20000 * k};2.5\n" for k in range(5)))
+    assert started.recording.clock == "relative"
+    assert started.t_ns["table"].tolist() == [20 * S * k for k in range(5)]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 
 from thermodata.errors import FormatError, QuestionError
 from thermodata.reader.open_questions import UNKNOWN
@@ -14,6 +14,7 @@ from thermodata.reader.text.number import (
     clean,
     decimal_mark,
     is_number,
+    may_be_thousands,
     to_bool,
     to_float,
 )
@@ -23,6 +24,7 @@ _TEXT_NAME = re.compile(r"(?i)comment|note|alarm|message|text|label|remark|bemer
 _PLAIN = re.compile(r"(?:[+-]?\d{1,15}(?:[.,]\d{1,15})?(?:\n|\Z))+", re.ASCII)
 _INTEGER = re.compile(r"[+-]?\d{1,19}", re.ASCII)
 _FRACTIONS = 200  # cells of a column that are asked for their decimal mark
+_SHARE = 0.1  # of a column's numbers other than 0; fewer are told as losses
 _ONE_GROUP = re.compile(r"[+-]?[1-9]\d{0,2}\.\d{3}", re.ASCII)
 _BARE_THOUSANDS = re.compile(r"[+-]?\d{4,}", re.ASCII)
 _GROUPED = re.compile(r"[+-]?[1-9]\d{0,2}(,\d{3})+", re.ASCII)
@@ -88,6 +90,35 @@ def find_decimal(columns: Iterable[Sequence[str]], delimiter: str, where: str) -
     if all(_GROUPED.fullmatch(c) for c in commas):
         raise _either("commas", f'"{commas[0]}"', "commas", where)
     return ","
+
+
+def ask_for_thousands(columns: Mapping[str, Sequence[str]], decimal: str | None, where: str) -> None:
+    """QuestionError where a tenth of a column's numbers other than 0 have the file's other mark before three digits:
+    unread, they would leave the zeros alone, and a spindle would seem to rest. columns: cells by name."""
+    if decimal is None:
+        return
+    for name, cells in columns.items():
+        parted = [c for c in map(clean, cells) if may_be_thousands(c, decimal)]
+        if len(parted) < 2:
+            continue
+        others = sum(bool(to_float(clean(c), decimal)) for c in cells)
+        if len(parted) < _SHARE * (len(parted) + others):
+            continue
+        said = (
+            f"{len(parted)} of {len(parted) + others} numbers other than 0 in column '{name}' look like thousands "
+            f"('{parted[0]}'), beside decimals with '{decimal}'"
+        )
+        raise QuestionError(
+            "numbers that may be written with thousands separators",
+            where=where,
+            expected="a decimal mark that is declared",
+            got=said,
+            hint=f"declare table: {{decimal: '{decimal}'}} where '{parted[0]}' is "
+            f"{re.sub('[.,]', '', parted[0])}; else write numbers of one kind",
+            ask=f"decimal: '.' or ','? {said}; with decimal: '{decimal}' they are read as thousands",
+            declare={"decimal": UNKNOWN},
+            meanwhile={"decimal": decimal},
+        )
 
 
 def _either(marks: str, got: str, between: str, where: str) -> QuestionError:

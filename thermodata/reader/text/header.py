@@ -9,6 +9,7 @@ from itertools import pairwise
 
 from thermodata.reader.text.cell import TIME_WORD, Cell, is_number, is_stamp
 from thermodata.reader.text.number import clean
+from thermodata.schema.unit_scale import scaled_unit
 from thermodata.schema.unit_spelling import UNIT_SPELLING
 
 _BASE = (
@@ -16,6 +17,8 @@ _BASE = (
     r"inch|thou|deg|U|rev|mas|arcsec|ppm|RH|dB|psi|inc|imp|1|bit|counts?|digits?)"
 )
 _UNIT = re.compile(rf"^{_BASE}(?:\s?\^?-?[1-4]|[²³⁻¹]+)?(?:\s?[/*·.]\s?{_BASE}(?:\^?-?[1-4]|[²³⁻¹]+)?){{0,3}}$")
+# '°C*10', 'x1000 rpm': a unit and a factor whose sense (of the unit, or of the value) only the lab knows
+_TIMES_TEN = re.compile(r"\s*[*·×x]\s*10+$|^[*·×x]\s*10+\s*")
 _TRAILING = re.compile(
     r"^(?P<name>.*?)(?P<gap>\s*)"
     r"(?:\[(?P<square>[^\[\]]*)\]|\((?P<round>[^()]*)\)|(?P<fullwidth>（[^（）]*）))$",
@@ -26,10 +29,11 @@ _TRAILING = re.compile(
 @lru_cache(maxsize=4096)
 def looks_like_unit(text: str) -> bool:
     """Whether a text reads as a unit: an alias (U/min, Grd C, °C) or SI symbols with / * and powers."""
-    bare = re.sub(r"\s+", "", text).strip("[]()")
+    unit = scaled_unit(text)[1].strip()
+    bare = re.sub(r"\s+", "", unit).strip("[]()")
     if not bare or bare.isdigit():
         return False
-    return bare.casefold() in UNIT_SPELLING or _UNIT.match(text.strip()) is not None
+    return bare.casefold() in UNIT_SPELLING or _UNIT.match(unit) is not None
 
 
 @lru_cache(maxsize=4096)
@@ -44,6 +48,9 @@ def split_unit(header: str) -> tuple[str, str | None]:
         return header, None
     unit = (match["square"] or match["round"] or (match["fullwidth"] or "").strip("（）")).strip()
     if looks_like_unit(unit):
+        return match["name"].strip(), unit
+    bare = _TIMES_TEN.sub("", unit)
+    if bare != unit and looks_like_unit(bare):
         return match["name"].strip(), unit
     # a word of its own in square brackets is a unit that we don't know; an index or an address is none
     if match["square"] and match["gap"] and re.match(r"^[^\W\d][^;,]{0,15}$", unit) and not re.match(r"^u\d", unit):

@@ -149,6 +149,11 @@ def why_none(cell: str, kind: str, decimal: str = ".") -> str:
     return f"expected a number, got '{shown}'"
 
 
+def may_be_thousands(cell: str, decimal: str) -> bool:
+    """Whether a cell (as `clean` gives it) holds the mark that is not the decimal one before its only three digits."""
+    return _ONE_GROUP[decimal].fullmatch(_PADDED_SIGN.sub(r"\1", spelled(cell))) is not None
+
+
 def is_number(cell: str) -> bool:
     """Whether a cell is a number with either decimal mark."""
     text = _PADDED_SIGN.sub(r"\1", spelled(clean(cell)))

@@ -12,7 +12,7 @@ from thermodata.errors import FormatError
 from thermodata.plugin import Source
 from thermodata.reader.open_questions import UNKNOWN, unanswered
 from thermodata.reader.text import delimiter as delimiters
-from thermodata.reader.text.columns import dtype_of, find_decimal
+from thermodata.reader.text.columns import ask_for_thousands, dtype_of, find_decimal
 from thermodata.reader.text.date_parts import PART, column_times, row_time
 from thermodata.reader.text.grid import TIME, Grid
 from thermodata.reader.text.layout import STREAM, Group, Layout, find
@@ -20,6 +20,7 @@ from thermodata.reader.text.lines import WHOLE, Sample, last_line_is_whole, samp
 from thermodata.reader.text.long_rows import refuse_long
 from thermodata.reader.text.number import clean
 from thermodata.reader.text.quality_columns import Pairs, quality_pairs, worded
+from thermodata.reader.text.short_header import refuse_short_header
 from thermodata.reader.text.time_formats import find_formats
 from thermodata.reader.text.timestamp import TimeFormat
 from thermodata.reader.time_units import SECONDS
@@ -162,7 +163,13 @@ def _kept(asked: _Asked) -> Table:
             expected="a table",
             got=repr(first.head[0][:60]) if first.head else "nothing",
         )
-    return find_table(head, first, source, path.name, asked.stream)
+    table = find_table(head, first, source, path.name, asked.stream)
+    numbered = (
+        bool(table.layout.names) and table.layout.names[0] == "column 1"
+    )  # of rows, which their header leaves out
+    if (source.table or {}).get("header_rows") is None and not (table.blanks or numbered):
+        refuse_short_header(head, table.layout.first, len(table.layout.names), table.delimiter, table.quoted, path.name)
+    return table
 
 
 def find_table(head: Sequence[str], first: Sample, source: Source, where: str, stream: str) -> Table:
@@ -232,6 +239,9 @@ def find_table(head: Sequence[str], first: Sample, source: Source, where: str, s
     if declared == UNKNOWN:
         raise unanswered("decimal", "'.' or ','", where)
     decimal = declared or find_decimal(numbers, delimiter, where)
+    if declared is None:
+        named = {n: cells_of[n] for n, kind in zip(layout.names, kinds, strict=True) if kind == "float64"}
+        ask_for_thousands(named, decimal, where)
     header = frozenset(bare_line(line) for line in head[: layout.first] if bare_line(line))
     notes = tuple(dict.fromkeys([*([first.note] if first.note else []), *layout.notes, *_notes(layout, kinds, groups)]))
     return Table(

@@ -15,6 +15,7 @@ from thermodata.reader.text.header import split_unit
 from thermodata.reader.text.time_header import is_time_header, unit_of_time
 from thermodata.reader.text.time_questions import (
     ZONED_ROWS,
+    epoch_in,
     joined_question,
     no_time,
     size_of_clock,
@@ -102,6 +103,12 @@ def time_of(
             f"time column '{name}' has no unit: by its size it is {text}; declare table: {{time: {{unit: ...}}}} "
             "if that is wrong"
         )
+    elif unit is None and (epoch := epoch_in(str(text), cells)) is not None:
+        notes.append(
+            f"time column '{name}' counts {text} since 1970 by its size: {epoch}; "
+            "declare table: {time: {unit: ...}} if that is wrong"
+        )
+        text = epoch
     return columns, check_unit(str(text), where), None, notes
 
 

@@ -15,7 +15,7 @@ from thermodata.reader.text.cell import Cell, is_clocked, is_number, is_stamp, m
 from thermodata.reader.text.odd_stamps import guess_format
 from thermodata.reader.text.time_header import is_time_header
 from thermodata.reader.text.zone_words import HOURS, SEVERAL, word_behind
-from thermodata.reader.time_units import SECONDS, found_epoch
+from thermodata.reader.time_units import EPOCHS, SECONDS, found_epoch
 
 _FEWEST_ROWS = 10  # of a table whose period is asked for: less is a list of anything
 ZONED_ROWS = 40  # of its beginning and its end, for the zone may be another one then
@@ -53,7 +53,8 @@ def time_question(names: list[str], data: list[list[Cell]], where: str) -> Quest
     rising = _rising(data)
     if rising is not None and all(name == f"column {i + 1}" for i, name in enumerate(names)):
         return unit_question(names[0], rising, where, 1)
-    unit = low if (low := names[0].strip().lower()) in SECONDS else "s"
+    epoch = None if rising is None else found_epoch(rising)
+    unit = epoch or (low if (low := names[0].strip().lower()) in SECONDS else "s")
     other = f"; or is '{names[0]}' the time? then time: {{column: 1, unit: {unit}}}" if rising is not None else ""
     return QuestionError(
         "no time column found",
@@ -97,6 +98,14 @@ def size_of_clock(name: str, cells: Sequence[Cell], where: str) -> str:
             meanwhile={"time": {"unit": "excel"}},
         )
     raise unit_question(name, values, where)
+
+
+def epoch_in(unit: str, cells: Sequence[Cell]) -> str | None:
+    """The count since 1970 that times in a unit are by their size; None where they may count from a start."""
+    values = np.array([v for c in cells if (v := number_of(c)) is not None], np.float64)
+    epoch = found_epoch(values) if values.size else None
+    seconds = SECONDS.get(unit.strip().strip("[]()").lower())
+    return epoch if epoch and epoch.startswith("unix") and EPOCHS[epoch].seconds == seconds else None
 
 
 def joined_question(

@@ -1,0 +1,85 @@
+"""Names whose sense their neighbours give, and words of one trade: the draft guesses or asks, and is never sure."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from thermodata.draft.guess import guess
+from thermodata.draft.kinds import kind_of
+from thermodata.draft.said_by_names import said_by
+
+from .conftest import Said
+
+Say = Callable[..., Said]
+
+
+@pytest.mark.parametrize(
+    ("name", "unit", "at", "sure"),
+    [
+        ("T_chladic_vstup", "degC", "chiller.supply", False),
+        ("T_chladici_kapalina", "degC", "coolant", True),
+        ("T_Fuehr_Z", "degC", "axis.z.guide", False),
+        ("T_prac_vretenik", "degC", None, False),
+        ("T_vretenik", "degC", "headstock", True),
+        ("TC07_gway_Z", "degC", "axis.z.guide", False),
+        ("n_WSS", "rpm", "rotary.c", False),
+        ("Workhead.nAct", "rpm", "rotary.c", False),
+        ("ot_prac_vret", "rpm", "rotary.c", False),
+        ("ot_vretene", "rpm", "spindle", True),
+    ],
+)
+def test_a_word_of_the_trade_is_its_place(name: str, unit: str, at: str | None, sure: bool) -> None:
+    said = guess(name, unit)
+    assert (said.at, said.sure) == (at, sure)
+
+
+def test_a_czech_probe_is_a_displacement_and_its_sensor_of_a_temperature_none() -> None:
+    said = guess("snimac_X", None)
+    assert (said.quantity, said.at, said.axis) == ("displacement", "tcp", "X")
+    assert guess("snimac_teploty", None).quantity == "temperature"
+
+
+@pytest.mark.parametrize(("name", "at"), [("ot_vreteno", "spindle"), ("ot_prac_vret", "rotary.c")])
+def test_a_speed_in_czech_is_one_without_its_unit(name: str, at: str) -> None:
+    said = guess(name, None)
+    assert (said.quantity, said.at) == ("rotational_speed", at)
+
+
+def _draft(folder: Path, header: str, say: Say) -> dict[str, str]:
+    (folder / "raw").mkdir(parents=True)
+    width = header.count(";")
+    rows = [f"12.06.2025 07:00:{k:02d}" + f";{20 + k % 7},5" * width for k in range(50)]
+    (folder / "raw" / "01_lauf.csv").write_text("\n".join([header, *rows]) + "\n", encoding="utf-8")
+    assert say("init", folder).code == 0
+    lines = (folder / "campaign.yaml").read_text(encoding="utf-8").splitlines()
+    return {line.split(":")[0].strip(): line for line in lines if "source: " in line}
+
+
+def test_r_beside_f_is_rear_and_beside_l_right(tmp_path: Path, say: Say) -> None:
+    found = _draft(tmp_path / "a", "Zeit;TC15_column_R [°C];TC16_column_F [°C]", say)
+    assert "at: column.rear}   # guess" in found["TC15_column_R"]
+    assert "at: column.front}   # guess" in found["TC16_column_F"]
+    found = _draft(tmp_path / "b", "Zeit;TC15_column_R [°C];TC16_column_L [°C]", say)
+    assert "at: column.right}   # sure" in found["TC15_column_R"]
+
+
+def test_two_speeds_without_a_name_at_one_spindle_are_asked(tmp_path: Path, say: Say) -> None:
+    found = _draft(tmp_path / "a", "Zeit;n_Spindel [1/min];n_Nebenantrieb [1/min]", say)
+    assert "# ? at: spindle, rotary.c or table? n_Spindel is drafted at the spindle, too" in found["n_Nebenantrieb"]
+    assert "# sure" in found["n_Spindel"]
+    found = _draft(tmp_path / "b", "Zeit;nAct [1/min];T_Halle [°C]", say)
+    assert "at: spindle}   # guess" in found["nAct"]
+
+
+def test_a_table_that_travels_is_a_linear_axis_and_one_that_turns_a_rotary() -> None:
+    assert (kind_of("01_tisch_Z", []).kind, kind_of("01_tisch_Z", []).conditions) == ("linear_axis", {"axis": "Z"})
+    assert kind_of("01_tisch", []).kind == "rotary_axis"
+    assert kind_of("01_drehtisch_Z", []).kind == "rotary_axis"
+
+
+def test_a_running_number_before_an_axis_is_no_temperature() -> None:
+    assert said_by(["02_C"]).questions == ()
+    assert "2 degC" in said_by(["2C"]).questions[0]

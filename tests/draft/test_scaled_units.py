@@ -1,0 +1,76 @@
+"""Units with factors, and units that say nothing: what is drafted ingests as what the file holds, or is asked."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from thermodata.draft.guess import guess
+from thermodata.reader.text import split_unit
+
+from .conftest import Said
+
+Say = Callable[..., Said]
+
+
+@pytest.mark.parametrize(
+    ("header", "name", "unit"),
+    [
+        ("nSp [10^3/min]", "nSp", "10^3/min"),
+        ("T_Lager_vorn [1/10 °C]", "T_Lager_vorn", "1/10 °C"),
+        ("dY (0,1 µm)", "dY", "0,1 µm"),
+        ("T_Bett [°C*10]", "T_Bett", "°C*10"),
+        ("n [x1000 rpm]", "n", "x1000 rpm"),
+        ("dX [100 um]", "dX [100 um]", None),
+        ("nckServoData [u1; 1]", "nckServoData [u1; 1]", None),
+    ],
+)
+def test_a_factor_in_brackets_belongs_to_the_unit(header: str, name: str, unit: str | None) -> None:
+    assert split_unit(header) == (name, unit)
+
+
+def test_a_factor_whose_sense_nobody_knows_is_asked() -> None:
+    said = guess("T_Bett [°C*10]", "°C*10")
+    assert (said.quantity, said.unit) == ("temperature", None)
+    assert "'°C*10', which is no unit known here" in said.questions[0]
+
+
+def _folder(folder: Path, header: str, row: Callable[[int], str]) -> Path:
+    (folder / "raw").mkdir(parents=True)
+    lines = [header, *(f"12.06.2025 07:{k // 60:02d}:{k % 60:02d};{row(k)}" for k in range(240))]
+    (folder / "raw" / "01_lauf.csv").write_text("\n".join(lines) + "\n", encoding="utf-8")
+    return folder
+
+
+def test_thousands_of_turns_and_tenths_of_a_degree_are_ingested_as_such(tmp_path: Path, say: Say) -> None:
+    folder = _folder(
+        tmp_path / "a",
+        "Zeit;nSp [10^3/min];T_Lager_vorn [1/10 °C];Auslastung Spindel [-]",
+        lambda k: f"{8 * (k > 60)},000;{194 + k // 40};0,{k % 9}00",
+    )
+    assert say("init", folder).code == 0
+    store = tmp_path / "store"
+    said = say("--store", store, "ingest", folder / "campaign.yaml")
+    assert said.code == 0, said.err
+    shown = say(
+        "--store", store, "sql", "--csv", "SELECT channel, max(value) m FROM sample GROUP BY ALL ORDER BY channel"
+    ).out
+    found = dict(re.findall(r"^(\w+),([\d.]+)", shown, re.MULTILINE))
+    assert {k: pytest.approx(float(v)) for k, v in found.items()} == {
+        "nSp": 8000.0,
+        "T_Lager_vorn": 19.9,
+        "Auslastung_Spindel": 80.0,  # a share of 1 in per cent
+    }
+
+
+def test_a_share_that_may_be_of_one_is_asked_and_one_of_a_hundred_is_said(tmp_path: Path, say: Say) -> None:
+    asked = _folder(tmp_path / "a", "Zeit;Auslastung Spindel [-];T_Halle [°C]", lambda k: f"0,{k % 9};20,{k % 3}")
+    say("init", asked)
+    assert "1 is read as 100 %" in (asked / "campaign.yaml").read_text(encoding="utf-8")
+    percent = _folder(tmp_path / "b", "Zeit;Auslastung Spindel [-];T_Halle [°C]", lambda k: f"{k % 90},5;20,{k % 3}")
+    say("init", percent)
+    assert 'unit: "%", instead_of: "-"' in (percent / "campaign.yaml").read_text(encoding="utf-8")
+    assert say("--store", tmp_path / "store", "ingest", percent / "campaign.yaml").code == 0

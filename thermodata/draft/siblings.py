@@ -1,0 +1,47 @@
+"""What a channel's name means beside the names of the others: 'column R' beside 'column F', speeds beside a speed."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from dataclasses import replace
+
+from thermodata.draft.naming import words
+from thermodata.draft.parts import DraftChannel
+from thermodata.draft.vocabulary import places_in
+from thermodata.reader.text import split_unit
+
+
+def beside_each_other(channels: Sequence[DraftChannel]) -> list[DraftChannel]:
+    """The channels, the letters of sides read together, and speeds that would all be the spindle's asked."""
+    return _speeds(_sides(list(channels)))
+
+
+def _own(channel: DraftChannel) -> str:
+    return words(split_unit(channel.signal)[0].rsplit("/", 1)[-1])
+
+
+def _sides(channels: list[DraftChannel]) -> list[DraftChannel]:
+    """R beside F is rear beside front, where no L is there: right has its left."""
+    ends = [(c.source, m[1]) if (m := re.search(r"column ([frl])$", _own(c))) else None for c in channels]
+    made = []
+    for channel, end in zip(channels, ends, strict=True):
+        letters = {e[1] for e in ends if e and end and e[0] == end[0]}
+        if end and letters == {"f", "r"} and channel.said.at in ("column", "column.right"):
+            side = "front" if end[1] == "f" else "rear"
+            channel = replace(channel, said=replace(channel.said, at=f"column.{side}", sure=False))
+        made.append(channel)
+    return made
+
+
+def _speeds(channels: list[DraftChannel]) -> list[DraftChannel]:
+    """A speed whose name does not say spindle is asked where another one of its source stands there."""
+    turning = [c for c in channels if c.said.quantity == "rotational_speed" and c.said.at == "spindle"]
+    made = []
+    for channel in channels:
+        others = [c.name for c in turning if c is not channel and c.source == channel.source]
+        if channel in turning and others and "spindle" not in places_in(_own(channel)) and not channel.said.questions:
+            asked = f"at: spindle, rotary.c or table? {', '.join(others[:3])} is drafted at the spindle, too"
+            channel = replace(channel, said=replace(channel.said, sure=False, questions=(asked,)))
+        made.append(channel)
+    return made
