@@ -16,7 +16,9 @@ def refuse_short_header(head: Sequence[str], first: int, width: int, delimiter: 
 
     head: lines of the file; first: how many stand above the data; width: cells of most rows.
     """
-    above = [fields(line, delimiter, quoted) for line in head[:first] if line.count('"') % 2 == 0]
+    if any(line.count('"') % 2 for line in head[:first]):
+        return  # a name in quotes goes over lines, so a line is no header
+    above = [fields(line, delimiter, quoted) for line in head[:first]]
     longest = max(map(len, above), default=0)
     # a note or two above rows without a header name nothing
     if longest >= width or 2 * longest <= width:
