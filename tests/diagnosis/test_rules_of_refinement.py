@@ -110,21 +110,25 @@ def test_kin_is_a_mode_where_it_is_under_three_fifths_of_the_largest_effect(
 
 
 @pytest.mark.parametrize(
-    ("kin", "of_motion", "after", "expected"),
+    ("kin", "of_motion", "after", "cosine", "expected"),
     [
-        ("related", True, 0.41, MODE),
-        ("near", True, 0.41, MODE),
-        ("related", True, 0.399, None),  # it takes most
-        ("related", False, 0.41, None),
-        (None, True, 0.41, None),
+        ("related", True, 0.41, 0.51, MODE),
+        ("near", True, 0.41, -0.51, MODE),
+        ("related", True, 0.41, 0.49, None),  # it acts otherwise
+        ("related", True, 0.399, 0.51, None),  # it takes most
+        ("related", False, 0.41, 0.51, None),
+        (None, True, 0.41, 0.51, None),
     ],
 )
 @pytest.mark.parametrize("response", [1.0, 100.0])
-def test_a_motion_is_another_mode_of_the_part_that_the_model_has(
-    kin: Kin, of_motion: bool, after: float, expected: str | None, response: float
+def test_a_motion_that_acts_like_the_part_that_the_model_has_is_another_mode_of_it(
+    kin: Kin, of_motion: bool, after: float, cosine: float, expected: str | None, response: float
 ) -> None:
     """However sure and large it is, and whether the model is poor or good."""
-    assert said(cause(kin, of_motion=of_motion, after=after), response) == expected
+    does = cosine * WAVE + np.sqrt(1 - cosine**2) * OTHER
+    one = cause(kin, of_motion=of_motion, after=after, contribution=[does] * 3)
+    assert said(one, response) == expected
+    assert said(one, response, families="feed_y") is None, "of another family"
 
 
 @pytest.mark.parametrize("kin", ["near", "related"])

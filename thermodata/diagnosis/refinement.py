@@ -33,6 +33,7 @@ MOST = 0.6
 REPLACED = 0.1
 WORTH = 20.0  # log evidence: an effect that was worth less was never there to be replaced
 LIKE = 0.9  # and both act alike (cosine)
+AT_ALL_LIKE = 0.5  # another mode of a known part acts at all as it does
 SMALL = 0.6  # of the known effect's size: kin that does less is another mode of it
 OPPOSITE = -0.8  # cosine with the known effect driven by the candidate's temperature,
 SHARE = (0.2, 1.5)  # and how much of it that takes away
@@ -57,7 +58,7 @@ class Refinement:
         if refines(scored.candidate.effect) or kin == "same" or (kin == "part" and sharpness(scored) < STRONG):
             return MODE
         # a motion has the timing of no part: what one lag of a known part leaves follows the same motion
-        if scored.candidate.of_motion and kin in ("near", "related") and not most:
+        if scored.candidate.of_motion and kin in ("near", "related") and not most and self._like_its_family(scored):
             return MODE
         good = scored.error_before <= GOOD * rms(self.problem.response_blocks)
         largest = max(self._size(i) for i in range(len(self.fitted.terms)))
@@ -83,6 +84,12 @@ class Refinement:
         if alone < WORTH or self._likeness(scored, term) < LIKE:
             return False
         return self._cost(beside(self.problem, [scored]), term) < REPLACED * alone
+
+    def _like_its_family(self, scored: Scored) -> bool:
+        """Whether it acts at all like a known effect of its family."""
+        family = scored.candidate.family
+        own = [number for number, term in enumerate(self.fitted.terms) if term.family == family]
+        return any(self._likeness(scored, number) >= AT_ALL_LIKE for number in own)
 
     def _cost(self, problem: Problem, term: int) -> float:
         """Log evidence that dropping a known effect costs."""
