@@ -10,6 +10,7 @@ from .shared import Lagged, gain, tau
 
 # one heat, read by the spindle's power or by what the cut warms: `cause` of these effects
 CUTTING_HEAT = "cutting heat"
+# one fluid, read by its switch, its flow or its temperature
 COOLANT_HEAT = "heat of the coolant"
 
 
