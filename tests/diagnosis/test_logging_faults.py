@@ -20,14 +20,6 @@ def artefacts(data: Dataset, spec: Model) -> list[Artefact]:
     return answer(fit_model(spec, data, uncertainty=False), data, effects(), "m").diagnosis.artefacts
 
 
-def test_a_probe_mounted_the_other_way_round_in_one_test_is_named(spec: Model) -> None:
-    data = make_data()
-    tests = list(data.tests)
-    tests[3] = replace(tests[3], values={**tests[3].values, "dZ": -tests[3].values["dZ"]})
-    found = artefacts(replace(data, tests=tuple(tests)), spec)
-    assert [(a.kind, a.test) for a in found if a.kind == "sign"] == [("sign", "t3")]
-
-
 def of_two_sources(data: Dataset) -> Dataset:
     sources = {n: replace(c, source="daq" if n == "dZ" else "nc") for n, c in data.channels.items()}
     return replace(data, channels=sources)

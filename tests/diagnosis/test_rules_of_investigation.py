@@ -132,7 +132,7 @@ class TestJudged:
         self.among: list[list[str]] = []
         known: Any = None
         first = Ranked(known, tuple(ranked))
-        build = investigating.build_problem
+        build = investigating.compressed
 
         def first_ranking(problem: Problem, candidates: Sequence[CandidateEffect]) -> Ranked | None:
             self.asked = [c.id for c in candidates]
@@ -148,9 +148,9 @@ class TestJudged:
                 first, tuple(Member(m, m, tuple(ranked)) for m in chosen), (), NOISE, ranked[0].error_before
             )
 
-        def built(*of: Any, **named: Any) -> Problem:
-            self.rows.append(named["rows"])
-            return build(*of, **named)
+        def built(fitted: Any, data: Any, tests: Any, rows: int, base: Any) -> Problem:
+            self.rows.append(rows)
+            return build(fitted, data, tests, rows, base)
 
         def any_stands_out(
             problem: Problem, given: Ranked, found: Selection, some: Sequence[Columns], may: Any
@@ -163,7 +163,7 @@ class TestJudged:
         monkeypatch.setattr(investigating, "any_stands_out", any_stands_out)
         monkeypatch.setattr(investigating, "select", select)
         monkeypatch.setattr(investigating, "_limits", lambda *of: ())  # asked of hand-made columns, of no rows
-        monkeypatch.setattr(investigating, "build_problem", built)
+        monkeypatch.setattr(investigating, "compressed", built)
         monkeypatch.setattr(investigating, "best_of_chance", lambda known, pool, seed: np.full(199, 100.0))
         monkeypatch.setattr(
             investigating,

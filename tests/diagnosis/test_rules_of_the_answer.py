@@ -101,6 +101,7 @@ class TestAnswer:
 
         monkeypatch.setattr(answering, "fit_model", lambda *a, **k: SimpleNamespace(responses=[response]))
         monkeypatch.setattr(answering, "investigate", lambda *a, **k: found)
+        monkeypatch.setattr(answering, "turned_probes", lambda *a: [])
         monkeypatch.setattr(answering, "confirm", confirm)
         got = answering.answer(fitted, Dataset(60.0, tuple(given), {c.name: c for c in channels}), {}, "m")
         self.looked_at = [t.test for t in got.locked]

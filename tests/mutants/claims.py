@@ -29,6 +29,7 @@ BESIDE = {
     "rules.py": ("a_claim", "the_verdict", "the_locked_tests", "unread_parts", "other_axes"),
     "scored.py": ("a_claim",),
     "selection.py": ("selection",),
+    "turned.py": ("turned_probes",),
     "unexplained.py": ("what_is_shown",),
     "unread.py": ("unread_parts",),
     "weak.py": ("what_is_shown",),
@@ -431,12 +432,24 @@ MUTANTS = [
     diagnosis(
         "logging_faults.py", "inside = abs(best) < max(SHIFTS_S)", "inside = True", "slow effects pass as clocks"
     ),
-    diagnosis("logging_faults.py", "ALL_DROP = 0.5", "ALL_DROP = 0.05", "sound probes are turned"),
+    diagnosis("logging_faults.py", "ALL_DROP = 0.5", "ALL_DROP = 0.05", "sound gains are wrong"),
     diagnosis("logging_faults.py", "LEAST_FIT = 60.0", "LEAST_FIT = 0.0", "a poor model speaks of the logs"),
     diagnosis(
         "logging_faults.py", "        tests.mend(i, factor)\n", "        pass\n", "sound tests are blamed for one"
     ),
-    diagnosis("logging_faults.py", "fit = min(fit,", "fit = max(fit,", "a test that turned does not fit is turned"),
+    diagnosis("turned.py", "ALL_DROP = 0.6", "ALL_DROP = 0.05", "sound probes are turned"),
+    diagnosis("turned.py", "LEAST_FIT = 40.0", "LEAST_FIT = 0.0", "a test that nothing foretells is turned"),
+    diagnosis("turned.py", "LEAST_TESTS = 3", "LEAST_TESTS = 2", "one of two tests is turned"),
+    diagnosis("turned.py", "(np.sum(signs < 0) + together) >= len(signs)", "1 >= len(signs)", "most tests are turned"),
+    diagnosis("turned.py", "(1, 2) if", "(1,) if", "two that are turned hide each other"),
+    diagnosis("turned.py", "lags, ridge) for ridge", "[], ridge) for ridge", "a missing effect hides a turned probe"),
+    Mutant(
+        "thermodata/diagnosis/answer.py",
+        "(t.campaign, t.test) not in wrong",
+        "True",
+        "a turned test takes part in the choice",
+        ("tests/diagnosis/test_rules_of_turned_probes.py",),
+    ),
     diagnosis("logging_faults.py", "GAIN_OFF = 0.15", "GAIN_OFF = 0.01", "sound gains are suspected"),
     diagnosis(
         "logging_faults.py", "    0.9  # a factor must", "    0.2  # a factor must", "missing effects pass as gains"

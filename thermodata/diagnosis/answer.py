@@ -24,6 +24,7 @@ from thermodata.diagnosis.problem import Problem
 from thermodata.diagnosis.rules import Measure, claimable, elsewhere, explained, failed_rules, probability
 from thermodata.diagnosis.scored import Scored
 from thermodata.diagnosis.suspect import suspect
+from thermodata.diagnosis.turned import turned_probes
 from thermodata.diagnosis.unexplained import characterise
 from thermodata.diagnosis.unread import reads
 from thermodata.diagnosis.why import among, why
@@ -31,6 +32,7 @@ from thermodata.modelling.fit import fit_model
 from thermodata.modelling.fitted import FittedModel
 from thermodata.plugin import Effect
 from thermodata.schema.diagnosis import Candidate, DetectionLimit, Diagnosis
+from thermodata.schema.model import Model
 from thermodata.view.dataset import Dataset, TestData
 
 SHOWN = 15
@@ -58,8 +60,12 @@ def answer(
     response = fitted.responses[index]
     usable = [t for t in tests if response.can_predict(t)]
     # the choice takes part in all open tests: gains that only a verification test excites must not be guesses
-    open_spec = on_all_open(fitted.spec, usable, fitted.tests(data, "locked"))
-    refitted = fit_model(open_spec, data, uncertainty=False) if usable else fitted
+    open_spec, refitted = _on_all_open(fitted, data, usable)
+    turned = turned_probes(refitted.responses[index], data, usable, library)
+    if turned:
+        wrong = {(a.campaign, a.test) for a in turned}
+        usable = [t for t in usable if (t.campaign, t.test) not in wrong]
+        open_spec, refitted = _on_all_open(fitted, data, usable)
     locked = [t for t in fitted.tests(data, "locked") if response.can_predict(t)]
     investigation = investigate(
         refitted.responses[index],
@@ -70,6 +76,7 @@ def answer(
         as_fitted=response,
         locked=locked,
         others=OtherAxes(open_spec, response.name, data, library),
+        left_out=turned,
     )
     judgement, confirmation = investigation.judgement, None
     known = (left_on_locked or {}).get(response.name)
@@ -105,6 +112,12 @@ def answer(
     terms = [t.id for t in refitted.responses[index].terms]
     found = _diagnosis(investigation, judgement, confirmation, data, model_id, terms)
     return Answer(found.model_copy(update={"locked_rmse_um": known}), tuple(locked))
+
+
+def _on_all_open(fitted: FittedModel, data: Dataset, usable: Sequence[TestData]) -> tuple[Model, FittedModel]:
+    """The model calibrated on so many open tests; as it is fitted where there are none."""
+    spec = on_all_open(fitted.spec, usable, fitted.tests(data, "locked"))
+    return spec, fit_model(spec, data, uncertainty=False) if usable else fitted
 
 
 def worst_response(fitted: FittedModel, tests: Sequence[TestData]) -> int:

@@ -13,24 +13,25 @@ from thermodata.diagnosis.artefact import Step, as_artefacts, find_steps
 from thermodata.diagnosis.by_phase import heating_and_cooling_apart
 from thermodata.diagnosis.candidates import CandidateEffect, candidates
 from thermodata.diagnosis.clocks import Timing, as_artefact, clock_is_off, timings, with_clocks_right
+from thermodata.diagnosis.compressed import WEIGHED_ROWS, compressed
 from thermodata.diagnosis.detection import Limit, limits
 from thermodata.diagnosis.evidence import Columns, columns
 from thermodata.diagnosis.gain_by import gains_by_condition
 from thermodata.diagnosis.judge import Judged, Judgement, judge
 from thermodata.diagnosis.known import Known, known, rms
-from thermodata.diagnosis.known_effects import otherwise, owners, remembered
+from thermodata.diagnosis.known_effects import owners, remembered
 from thermodata.diagnosis.locked import Foretold, foretell
 from thermodata.diagnosis.logging_faults import (
     clock_offsets,
     faulty_sensors,
     first_of_each,
-    turned_probes,
+    wrong_gains,
     wrong_parameters,
 )
 from thermodata.diagnosis.null import best_of_chance
 from thermodata.diagnosis.other_axes import OtherAxes
 from thermodata.diagnosis.present import present
-from thermodata.diagnosis.problem import TARGET_ROWS, Base, Problem, build_problem
+from thermodata.diagnosis.problem import TARGET_ROWS, Base, Problem
 from thermodata.diagnosis.ranking import rank_in
 from thermodata.diagnosis.refinement import Refinement
 from thermodata.diagnosis.rules import Measure, at_best, failed_rules, limit_of, may_be_borne_out
@@ -41,9 +42,6 @@ from thermodata.modelling.fitted_response import FittedResponse
 from thermodata.plugin import Effect, Int1D
 from thermodata.schema.diagnosis import Artefact, WeakSpot
 from thermodata.view.dataset import ChannelInfo, Dataset, TestData
-
-# rows of all tests in which candidates are weighed: the covariance of a test costs the cube of its rows
-WEIGHED_ROWS = 2400
 
 # what other axes say of a candidate: (channel, probability there)
 Witness = Callable[[Scored], tuple[tuple[str, float], ...]]
@@ -76,16 +74,18 @@ def investigate(
     as_fitted: FittedResponse | None = None,
     locked: Sequence[TestData] = (),
     others: OtherAxes | None = None,
+    left_out: Sequence[Artefact] = (),
 ) -> Investigation:
     """fitted: to all tests that take part in the choice (never the locked ones). as_fitted: the model that is asked
-    about, whose weak spots are shown; by default the same. others: what other axes say; None: nothing."""
+    about, whose weak spots are shown; by default the same. others: what other axes say; None: nothing. left_out: faults
+    for which a test takes no part."""
     info = data.channels[fitted.name]
     base = remembered(fitted)
-    fine = _compressed(fitted, data, tests, base, TARGET_ROWS)
+    fine = compressed(fitted, data, tests, TARGET_ROWS, base)
     clocks = timings(fine, data.channels)
     steps = find_steps(with_clocks_right(fine, clocks, data.channels))
     faults = _faults(fitted, data, fine, base, clocks)
-    problem = _without_steps(_compressed(fitted, data, tests, base, WEIGHED_ROWS), steps)
+    problem = _without_steps(compressed(fitted, data, tests, WEIGHED_ROWS, base), steps)
     asked = candidates(library, data.channels, present(fitted), fitted.name)
     weighed = {b.test.key for b in problem.blocks}
     among = [t for t in tests if t.key in weighed]
@@ -109,12 +109,12 @@ def investigate(
     if selection is not None:
         faults += wrong_parameters(problem, _error_of(asked_about, tests), selection.left, measure.floor)
     artefacts = [
-        *first_of_each([*as_artefacts(steps, info.unit), *faults]),
+        *first_of_each([*left_out, *as_artefacts(steps, info.unit), *faults]),
         *faulty_sensors(data, fitted.name),
     ]
 
     def borne_out(claims: Sequence[Judged]) -> Foretold | None:
-        blocks = _compressed(fitted, data, [*tests, *locked], base, WEIGHED_ROWS).blocks if locked else ()
+        blocks = compressed(fitted, data, [*tests, *locked], WEIGHED_ROWS, base).blocks if locked else ()
         closed = tuple(b for b in blocks if b.test.key in {t.key for t in locked})
         if selection is None or not closed:
             return None
@@ -137,27 +137,12 @@ def causes_of(
 ) -> list[Scored]:
     """The sound causes that a response misses, as they are judged beside each other; refinements are none."""
     base = remembered(fitted)
-    fine = _compressed(fitted, data, tests, base, TARGET_ROWS)
+    fine = compressed(fitted, data, tests, TARGET_ROWS, base)
     steps = find_steps(with_clocks_right(fine, timings(fine, data.channels), data.channels))
-    problem = _without_steps(_compressed(fitted, data, tests, base, WEIGHED_ROWS), steps)
+    problem = _without_steps(compressed(fitted, data, tests, WEIGHED_ROWS, base), steps)
     asked = candidates(library, data.channels, present(fitted), fitted.name)
     _, judgement, _ = _judged(fitted, problem, asked, seed)
     return [j.scored for j in judgement.judged if j.refines is None]
-
-
-def _compressed(fitted: FittedResponse, data: Dataset, tests: Sequence[TestData], base: Base, rows: int) -> Problem:
-    return build_problem(
-        data,
-        tests,
-        fitted.name,
-        data.channels[fitted.name].unit,
-        measured=fitted.measured,
-        residual=fitted.residual,
-        mask=fitted.mask,
-        base=base,
-        slack=lambda test: otherwise(fitted, test),
-        rows=rows,
-    )
 
 
 def _without_steps(problem: Problem, steps: Sequence[Step]) -> Problem:
@@ -275,4 +260,4 @@ def _faults(
     drivers = {n for one in present(fitted) for n in one.channels}
     told = {c.source for c in clocks if c.tells}
     sources = {n: s for n, s in clocks_beside(data.channels, drivers, fitted.name).items() if s not in told}
-    return [*off, *clock_offsets(problem, base, sources), *turned_probes(problem)]
+    return [*off, *clock_offsets(problem, base, sources), *wrong_gains(problem)]

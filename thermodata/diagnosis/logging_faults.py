@@ -1,4 +1,4 @@
-"""Faults of the logs that look like physics: a clock that is off, a probe whose sign or gain is wrong in one test."""
+"""Faults of the logs that look like physics: a clock that is off, a probe whose gain is wrong in one test."""
 
 from __future__ import annotations
 
@@ -22,8 +22,7 @@ ALL_DROP = 0.5  # mending a test must take away this share of the squared error 
 GAIN_DROP = (
     0.9  # a factor must take away nearly all of a test's error: a missing effect also makes a test larger or smaller
 )
-# [%] of the model with the fault mended, in all tests and in that one as the others foretell it: what a poor model says
-# of a log is worse than silence
+# [%] of the model with the fault mended: what a poor model says of a log is worse than silence
 LEAST_FIT = 60.0
 LEAST_TESTS = 4  # of fewer nobody can say which one is wrong
 NOISES = 5.0  # a test with a smaller error than this many times the noise has no wrong gain
@@ -84,10 +83,10 @@ def _error(problem: Problem, base: Callable[[TestData], Float2D], shift_s: Mappi
     return float(sum(np.sum((y - c @ theta) ** 2) for c, y in zip(columns, responses, strict=True)))
 
 
-def turned_probes(problem: Problem) -> list[Artefact]:
-    """Tests whose response goes against, or by another factor than, what the model and the other tests say.
+def wrong_gains(problem: Problem) -> list[Artefact]:
+    """Tests whose response goes by another factor than what the model and the other tests say.
 
-    Asked by mending one test at a time and refitting all: a joint fit to a turned test is wrong for every test. For
+    Asked by mending one test at a time and refitting all: a joint fit to a wrong test is wrong for every test. For
     the same reason what explains most is mended before anything else is asked, and a sound test is not blamed for it.
     """
     blocks = problem.blocks
@@ -97,7 +96,7 @@ def turned_probes(problem: Problem) -> list[Artefact]:
     found: dict[int, Artefact] = {}
     while (worst := _worst(tests, problem, set(found))) is not None:
         i, factor, squared = worst
-        found[i] = _wrong_factor(blocks[i], factor, squared)
+        found[i] = _wrong_gain(blocks[i], factor, squared)
         tests.mend(i, factor)
     return [found[i] for i in sorted(found)]
 
@@ -161,53 +160,34 @@ def _worst(tests: _Tests, problem: Problem, mended: set[int]) -> tuple[int, floa
         said = tests.by_the_others(i)
         factor, before = said.factor, said.error()
         rms = float(np.sqrt(max(before, 0.0) / tests.rows[i]))
-        tried = [-1.0, factor] if gain_is_wrong(factor, before, said.error(factor), rms, problem.noise) else [-1.0]
-        for one in tried:
-            left, fit = tests.error(i, one)
-            fit = min(fit, fit_percent(said.error(one), said.energy))
-            if a_fault_explains(as_it_is, left, fit) and left < least:
-                best, least = (i, one, before), left
+        if not gain_is_wrong(factor, before, said.error(factor), rms, problem.noise):
+            continue
+        left, fit = tests.error(i, factor)
+        if a_fault_explains(as_it_is, left, fit) and left < least:
+            best, least = (i, factor, before), left
     return best
 
 
-def _wrong_factor(block: Block, factor: float, squared: float) -> Artefact:
-    if factor < 0:
-        return _fault(
-            "sign",
-            block,
-            squared,
-            "turned round, this test fits the same model as the others: its sign is wrong; check the probe's side and "
-            "its calibration",
-        )
-    return _fault(
-        "gain",
-        block,
-        squared,
-        f"the displacement is {factor:.2f} times what the other tests predict: check the probe's gain in this test, "
-        "or whether the machine was another",
+def _wrong_gain(block: Block, factor: float, squared: float) -> Artefact:
+    return Artefact(
+        kind="gain",
+        campaign=block.test.campaign,
+        test=block.test.test,
+        at_s=None,
+        size_um=float(np.sqrt(squared / max(len(block.response), 1))),
+        why=f"the displacement is {factor:.2f} times what the other tests predict: check the probe's gain in this "
+        "test, or whether the machine was another",
     )
 
 
 def a_fault_explains(as_it_is: float, mended: float, fit: float) -> bool:
-    """Squared errors of all tests: as they are, and with one test mended; fit [%]: of the model then, the poorer of
-    all tests and of that test as the others foretell it."""
+    """Squared errors of all tests: as they are, and with one test mended; fit [%]: of the model then."""
     return mended < (1 - ALL_DROP) * as_it_is and fit >= LEAST_FIT
 
 
 def gain_is_wrong(factor: float, before: float, after: float, rms: float, noise: float) -> bool:
     """before, after: squared error of a test without and with the factor. rms: of the test without it."""
     return factor > 0 and abs(factor - 1) > GAIN_OFF and after < (1 - GAIN_DROP) * before and rms > NOISES * noise
-
-
-def _fault(kind: str, block: Block, squared: float, why: str) -> Artefact:
-    return Artefact(
-        kind=kind,
-        campaign=block.test.campaign,
-        test=block.test.test,
-        at_s=None,
-        size_um=float(np.sqrt(squared / max(len(block.response), 1))),
-        why=why,
-    )
 
 
 def faulty_sensors(data: Dataset, response: str) -> list[Artefact]:
@@ -252,7 +232,5 @@ def wrong_parameters(problem: Problem, now: float, refitted: float, floor: float
 
 
 def first_of_each(artefacts: Sequence[Artefact]) -> list[Artefact]:
-    """A test that was cut into parts says a fault once, and one that is turned has no steps to speak of."""
-    turned = {(a.campaign, a.test) for a in artefacts if a.kind == "sign"}
-    artefacts = [a for a in artefacts if a.kind != "step" or (a.campaign, a.test) not in turned]
+    """A test that was cut into parts says a fault once."""
     return list({(a.kind, a.campaign, a.test, a.at_s): a for a in reversed(artefacts)}.values())[::-1]
