@@ -16,7 +16,7 @@ from thermodata.diagnosis.clocks import (
     with_clocks_right,
 )
 from thermodata.diagnosis.problem import Problem
-from thermodata.view.dataset import ChannelInfo
+from thermodata.view.dataset import ChannelInfo, Dataset
 
 from .hand_made import Parts, problem
 
@@ -44,7 +44,7 @@ def off_by(samples: int, *, at_once: float = 5.0, lag: float = 60.0, tests: int 
     return replace(problem(*(one() for _ in range(tests))), response="dZ")
 
 
-@pytest.mark.parametrize("samples", [-25, -11, -3, 3, 11, 25])
+@pytest.mark.parametrize("samples", [-120, -60, -25, -11, -3, 3, 11, 25, 57, 65, 118])
 def test_a_clock_that_is_off_is_told_by_what_the_speed_moves_at_once(samples: int) -> None:
     asked = off_by(samples)
     (found,) = timings(asked, CHANNELS)
@@ -104,14 +104,14 @@ def test_a_clock_is_off_where_the_others_foretell_much_more_once_it_is_moved(
     assert clock_is_off(Timing("nc", **{**plain, **changed}), step_s) is off
 
 
-def test_commands_are_put_where_they_act_and_temperatures_are_left() -> None:
-    asked = off_by(11)
-    right = with_clocks_right(asked, timings(asked, CHANNELS), CHANNELS)
-    for moved, sound, as_logged in zip(right.blocks, off_by(0).blocks, asked.blocks, strict=True):
-        assert np.array_equal(moved.test.values["n"][:-11], sound.test.values["n"][:-11])
-        assert moved.test.values["T"] is as_logged.test.values["T"]
-    sound = off_by(0)
-    assert with_clocks_right(sound, timings(sound, CHANNELS), CHANNELS) is sound
+def test_all_that_a_source_logged_is_put_where_it_happened() -> None:
+    asked, right = off_by(11), off_by(0)
+    data = Dataset(60.0, tuple(b.test for b in asked.blocks), CHANNELS)
+    moved = with_clocks_right(data, timings(asked, CHANNELS))
+    for test, at, as_logged in zip(moved.tests, right.blocks, asked.blocks, strict=True):
+        assert np.array_equal(test.values["n"][:-11], at.test.values["n"][:-11])
+        assert np.array_equal(test.values["T"][:-11], as_logged.test.values["T"][11:])
+    assert with_clocks_right(data, []).tests[0].values["n"] is data.tests[0].values["n"]
 
 
 def test_a_jump_is_beyond_the_slope_around_it_and_none_over_a_hole() -> None:

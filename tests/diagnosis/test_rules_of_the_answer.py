@@ -20,6 +20,7 @@ from thermodata.diagnosis.ranking import Ranked
 from thermodata.diagnosis.rules import Measure
 from thermodata.diagnosis.scored import Scored
 from thermodata.diagnosis.selection import Selection
+from thermodata.diagnosis.sound import Sound
 from thermodata.diagnosis.suspect import Suspect
 from thermodata.schema.diagnosis import Diagnosis, WeakSpot
 from thermodata.schema.missing_heat import Unknown
@@ -99,9 +100,9 @@ class TestAnswer:
             shapes = tuple(Shape(("c", t), 1, s**-2.0, (s * after) ** 2, 0.25) for t, s in (("z", 1.0), ("y", 2.0)))
             return Confirmation(*shown, 1.0, after, 0.8, parameters, shapes=shapes)
 
-        monkeypatch.setattr(answering, "fit_model", lambda *a, **k: SimpleNamespace(responses=[response]))
+        refitted: Any = SimpleNamespace(responses=[response])
+        monkeypatch.setattr(answering, "sound", lambda _, __, data, tests, ___: Sound(spec, refitted, data, tests))
         monkeypatch.setattr(answering, "investigate", lambda *a, **k: found)
-        monkeypatch.setattr(answering, "turned_probes", lambda *a: [])
         monkeypatch.setattr(answering, "confirm", confirm)
         got = answering.answer(fitted, Dataset(60.0, tuple(given), {c.name: c for c in channels}), {}, "m")
         self.looked_at = [t.test for t in got.locked]

@@ -53,7 +53,7 @@ def test_turned_tests_are_named_and_the_cause_is_named_without_them(spec: Model,
 
 def test_the_cause_is_not_named_where_a_turned_test_takes_part(spec: Model, monkeypatch: pytest.MonkeyPatch) -> None:
     """What leaving it out is for."""
-    monkeypatch.setattr("thermodata.diagnosis.answer.turned_probes", lambda *_: [])
+    monkeypatch.setattr("thermodata.diagnosis.sound.turned_probes", lambda *_: [])
     told = found(with_turned(make_data(by_the_nut), "t1", "t4"), spec)
     assert told.verdict != "effect" or told.candidates[0].rmse_um_after > 1.0  # type: ignore[operator]
 

@@ -32,6 +32,7 @@ BESIDE = {
     "turned.py": ("turned_probes",),
     "unexplained.py": ("what_is_shown",),
     "unread.py": ("unread_parts",),
+    "windows.py": ("steps",),
     "weak.py": ("what_is_shown",),
     "why.py": ("the_answer",),
 }
@@ -444,7 +445,7 @@ MUTANTS = [
     diagnosis("turned.py", "(1, 2) if", "(1,) if", "two that are turned hide each other"),
     diagnosis("turned.py", "lags, ridge) for ridge", "[], ridge) for ridge", "a missing effect hides a turned probe"),
     Mutant(
-        "thermodata/diagnosis/answer.py",
+        "thermodata/diagnosis/sound.py",
         "(t.campaign, t.test) not in wrong",
         "True",
         "a turned test takes part in the choice",
@@ -465,6 +466,11 @@ MUTANTS = [
     diagnosis("artefact.py", "steeper * (t", "0 * steeper * (t", "bends are slips"),
     diagnosis("artefact.py", "SHARP = 0.4", "SHARP = 0.0", "steep rises are slips"),
     diagnosis("artefact.py", "LEAST_UM = 0.5", "LEAST_UM = 0.0", "trifles are slips"),
+    diagnosis("commanded.py", '(*COMMANDS, "temperature")', "COMMANDS", "another workpiece is a slip"),
+    diagnosis("artefact.py", "windows is not None", "False", "a slip between two windows is none"),
+    diagnosis("artefact.py", "<= 2 * windows.step_s", "< 0", "a slip within a window is two"),
+    diagnosis("windows.py", "LEAST_WINDOWS = 12", "LEAST_WINDOWS = 9", "a few holes are windows"),
+    diagnosis("windows.py", "lasts < np.maximum", "lasts < 9 * np.maximum", "holes are windows"),
     diagnosis("commanded.py", "COMMAND_S = 600.0", "COMMAND_S = 0.0", "shifts of a late clock are slips"),
     diagnosis("commanded.py", "HOLE_STEPS = 1.6", "HOLE_STEPS = 99.0", "what nobody saw is a slip"),
     diagnosis("commanded.py", "MOVED = 0.1", "MOVED = 0.9", "small commands explain nothing"),

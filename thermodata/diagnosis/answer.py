@@ -11,7 +11,7 @@ from thermodata.diagnosis import ladder
 from thermodata.diagnosis.advice import advice
 from thermodata.diagnosis.artefact import noise_with_treads
 from thermodata.diagnosis.candidates import CandidateEffect
-from thermodata.diagnosis.confirm import Confirmation, confirm, on_all_open
+from thermodata.diagnosis.confirm import Confirmation, confirm
 from thermodata.diagnosis.detection import LARGE, Limit
 from thermodata.diagnosis.investigate import Investigation, investigate
 from thermodata.diagnosis.judge import Judged, Judgement, equivalents
@@ -23,16 +23,14 @@ from thermodata.diagnosis.other_axes import OtherAxes
 from thermodata.diagnosis.problem import Problem
 from thermodata.diagnosis.rules import Measure, claimable, elsewhere, explained, failed_rules, probability
 from thermodata.diagnosis.scored import Scored
+from thermodata.diagnosis.sound import sound
 from thermodata.diagnosis.suspect import suspect
-from thermodata.diagnosis.turned import turned_probes
 from thermodata.diagnosis.unexplained import characterise
 from thermodata.diagnosis.unread import reads
 from thermodata.diagnosis.why import among, why
-from thermodata.modelling.fit import fit_model
 from thermodata.modelling.fitted import FittedModel
 from thermodata.plugin import Effect
 from thermodata.schema.diagnosis import Candidate, DetectionLimit, Diagnosis
-from thermodata.schema.model import Model
 from thermodata.view.dataset import Dataset, TestData
 
 SHOWN = 15
@@ -59,13 +57,8 @@ def answer(
     index = worst_response(fitted, tests)
     response = fitted.responses[index]
     usable = [t for t in tests if response.can_predict(t)]
-    # the choice takes part in all open tests: gains that only a verification test excites must not be guesses
-    open_spec, refitted = _on_all_open(fitted, data, usable)
-    turned = turned_probes(refitted.responses[index], data, usable, library)
-    if turned:
-        wrong = {(a.campaign, a.test) for a in turned}
-        usable = [t for t in usable if (t.campaign, t.test) not in wrong]
-        open_spec, refitted = _on_all_open(fitted, data, usable)
+    asked_of = sound(fitted, index, data, usable, library)
+    refitted, data, usable = asked_of.fitted, asked_of.data, list(asked_of.tests)
     locked = [t for t in fitted.tests(data, "locked") if response.can_predict(t)]
     investigation = investigate(
         refitted.responses[index],
@@ -75,8 +68,8 @@ def answer(
         seed,
         as_fitted=response,
         locked=locked,
-        others=OtherAxes(open_spec, response.name, data, library),
-        left_out=turned,
+        others=OtherAxes(asked_of.spec, response.name, data, library),
+        known_faults=asked_of.faults,
     )
     judgement, confirmation = investigation.judgement, None
     known = (left_on_locked or {}).get(response.name)
@@ -112,12 +105,6 @@ def answer(
     terms = [t.id for t in refitted.responses[index].terms]
     found = _diagnosis(investigation, judgement, confirmation, data, model_id, terms)
     return Answer(found.model_copy(update={"locked_rmse_um": known}), tuple(locked))
-
-
-def _on_all_open(fitted: FittedModel, data: Dataset, usable: Sequence[TestData]) -> tuple[Model, FittedModel]:
-    """The model calibrated on so many open tests; as it is fitted where there are none."""
-    spec = on_all_open(fitted.spec, usable, fitted.tests(data, "locked"))
-    return spec, fit_model(spec, data, uncertainty=False) if usable else fitted
 
 
 def worst_response(fitted: FittedModel, tests: Sequence[TestData]) -> int:

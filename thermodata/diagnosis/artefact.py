@@ -16,6 +16,7 @@ import numpy as np
 from thermodata.calibration.tread import tread_of
 from thermodata.diagnosis.commanded import Commands, over_three
 from thermodata.diagnosis.problem import Block, Problem
+from thermodata.diagnosis.windows import in_windows
 from thermodata.plugin import Float1D
 from thermodata.schema.diagnosis import Artefact
 from thermodata.view.dataset import TestData
@@ -40,18 +41,28 @@ class Step:
 
 
 def find_steps(problem: Problem) -> list[Step]:
-    """Sudden offsets in the residual that no command explains, at most three a test.
+    """Sudden offsets in the residual that no command explains, at most three a test. From window to window, too,
+    where a test was measured in windows.
 
     The jump between neighbouring samples must exceed Z_LIMIT times the robust size of all jumps over the same
     span, and the level before and after must differ by as much for SIDE_S. It must stand out from the slopes right
     beside it, and the response itself must make it.
     """
-    commands = Commands(problem)
-    tread = tread_of_response(problem)
-    steps = []
+    steps = _steps(problem, tread_of_response(problem))
+    windows = in_windows(problem)
+    if windows is not None:
+        known = {(s.test.key, s.at_s) for s in steps}
+        for step in _steps(windows, tread_of_response(problem)):
+            if not any(step.test.key == key and abs(step.at_s - at) <= 2 * windows.step_s for key, at in known):
+                steps.append(step)
+    return sorted(steps, key=lambda s: -s.z)
+
+
+def _steps(problem: Problem, tread: float) -> list[Step]:
+    commands, steps = Commands(problem), []
     for k, block in enumerate(problem.blocks):
         steps += _steps_in(block, problem, tread, partial(commands.explain, k))
-    return sorted(steps, key=lambda s: -s.z)
+    return steps
 
 
 def tread_of_response(problem: Problem) -> float:
@@ -161,8 +172,8 @@ def as_artefacts(steps: list[Step], unit: str) -> list[Artefact]:
             test=s.test.test,
             at_s=s.at_s,
             size_um=s.size,
-            why=f"the displacement jumps by {s.size:+.1f} {unit} between two samples, {s.z:.0f} times the usual "
-            "change, and stays; no speed, feed or switch does that elsewhere: a probe or fixture slipped",
+            why=f"the displacement jumps by {s.size:+.1f} {unit} from one measurement to the next, {s.z:.0f} times "
+            "the usual change, and stays; no speed, feed or switch does that elsewhere: a probe or fixture slipped",
         )
         for s in steps
     ]

@@ -13,12 +13,13 @@ import numpy as np
 
 from thermodata.diagnosis.commanded import COMMANDS, POWERS
 from thermodata.diagnosis.problem import Block, Problem
-from thermodata.plugin import Float1D, Float2D
+from thermodata.plugin import Float1D, Float2D, Int1D
 from thermodata.schema.diagnosis import Artefact
-from thermodata.view.dataset import ChannelInfo, TestData
+from thermodata.view.dataset import ChannelInfo, Dataset, TestData
 
 MOST_S = 1800.0  # shifts that are asked, either way,
-MOST_SAMPLES = 60  # and no more than these
+MOST_SAMPLES = 60  # and no more than these;
+HOURS, ABOUT_S = (1, 2), 300.0  # and whole hours, give or take: a time zone, or daylight saving
 AROUND = 5  # samples on either side of a jump that its slope is taken over
 RIDGE = 0.1  # of a column's squares: what hardly changes in the other tests must not foretell a large jump
 LEAST_SHARE = 0.1  # of the squared jumps, which the other tests foretell at the best shift
@@ -63,12 +64,11 @@ def clock_is_off(timing: Timing, step_s: float) -> bool:
     return late and timing.tells and timing.share >= BEATS * timing.unmoved
 
 
-def with_clocks_right(problem: Problem, found: Iterable[Timing], channels: Mapping[str, ChannelInfo]) -> Problem:
-    """The same with the commands of sources whose clock is off where they act."""
-    off = {n: t.shift_s for t in found if clock_is_off(t, problem.step_s) for n, _ in commands_of(t.source, channels)}
-    if not off:
-        return problem
-    return replace(problem, blocks=tuple(replace(b, test=moved(b.test, off)) for b in problem.blocks), kept={})
+def with_clocks_right(data: Dataset, off: Iterable[Timing]) -> Dataset:
+    """The same with all that the sources logged whose clock is off where it happened."""
+    late = {t.source: t.shift_s for t in off}
+    shift_s = {n: late[c.source] for n, c in data.channels.items() if c.source in late}
+    return replace(data, tests=tuple(moved(t, shift_s) for t in data.tests))
 
 
 def moved(test: TestData, shift_s: Mapping[str, float]) -> TestData:
@@ -90,7 +90,8 @@ def as_artefact(timing: Timing, problem: Problem) -> Artefact:
         size_um=None,
         why=f"with the clock of source '{timing.source}' moved by {minutes:+.0f} min (give or take {known_to:.0f}) its "
         f"commands foretell {timing.share:.0%} of the squared jumps of the displacement in tests left out, unmoved "
-        f"{max(timing.unmoved, 0.0):.0%}: check the time zone and the clocks, or declare clock: {{offset: ...}}",
+        f"{max(timing.unmoved, 0.0):.0%}. The choice is made with it moved; check the time zone and the "
+        "clocks, or declare clock: {offset: ...}",
     )
 
 
@@ -105,11 +106,18 @@ def _timing(problem: Problem, source: str, names: list[str]) -> Timing | None:
         return None
     held = [h[:, acts] / size[acts] for h in held]
     jumps = [beyond_trend(b.response[:, None], b.t_s)[:, 0] for b in problem.blocks]
-    shifts = np.arange(-most, most + 1)
+    shifts = _shifts(most, problem.step_s)
     shares = np.array([_foretold(problem.blocks, held, jumps, k * problem.step_s) for k in shifts])
     best = int(np.argmax(shares))
-    unmoved = float(shares[most - 1 : most + 2].max())
+    unmoved = float(shares[np.abs(shifts) <= 1].max())
     return Timing(source, float(shifts[best] * problem.step_s), float(shares[best]), unmoved)
+
+
+def _shifts(most: int, step_s: float) -> Int1D:
+    """In samples, in order."""
+    about = np.arange(-int(ABOUT_S / step_s), int(ABOUT_S / step_s) + 1)
+    hours = [sign * round(h * 3600.0 / step_s) + about for h in HOURS for sign in (-1, 1)]
+    return np.unique(np.concatenate([np.arange(-most, most + 1), *hours])).astype(np.int64)
 
 
 def _powers(test: TestData, names: list[str]) -> Float2D:

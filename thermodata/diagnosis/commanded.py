@@ -3,7 +3,7 @@
 A centrifugal shift looks like a slip of the probe, but it comes with every change of the speed. A pump that cycles is
 never far from a slip, but its other changes make no step. So a change explains a step only where the other changes of
 the same channel, at the same distance in time, foretell it: by a straight line through zero, jump of the residual over
-change of the command, or of its square (centrifugal force).
+change of the command, or of its square (centrifugal force). So does a temperature, where a body is changed for another.
 """
 
 from __future__ import annotations
@@ -17,6 +17,8 @@ from thermodata.diagnosis.problem import Block, Problem
 from thermodata.plugin import Bool1D, Float1D, Int1D
 
 COMMANDS = ("rotational_speed", "feed", "power", "state", "load", "flow")
+# a temperature jumps where one body takes the place of another: a workpiece, a pallet, a tool
+JUMPING = (*COMMANDS, "temperature")
 POWERS = (1, 2)
 COMMAND_S = 600.0  # between a change and its step, for clocks differ
 MOVED = 0.1  # share of a command's range over all tests, in the power by which it acts, that makes it a change
@@ -43,7 +45,7 @@ class Commands:
         self._step_s = problem.step_s
         self._jumps = [over_three(b.residual, b.t_s) for b in problem.blocks]
         self._moves = [over_three(b.response, b.t_s) for b in problem.blocks]
-        names = sorted({n for b in problem.blocks for n, c in b.test.channels.items() if c.quantity in COMMANDS})
+        names = sorted({n for b in problem.blocks for n, c in b.test.channels.items() if c.quantity in JUMPING})
         self._commands = [_courses(problem.blocks, n) for n in names]
 
     def explain(self, block: int, i: int) -> bool:

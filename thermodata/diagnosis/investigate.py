@@ -12,7 +12,7 @@ from threadpoolctl import threadpool_limits
 from thermodata.diagnosis.artefact import Step, as_artefacts, find_steps
 from thermodata.diagnosis.by_phase import heating_and_cooling_apart
 from thermodata.diagnosis.candidates import CandidateEffect, candidates
-from thermodata.diagnosis.clocks import Timing, as_artefact, clock_is_off, timings, with_clocks_right
+from thermodata.diagnosis.clocks import timings
 from thermodata.diagnosis.compressed import WEIGHED_ROWS, compressed
 from thermodata.diagnosis.detection import Limit, limits
 from thermodata.diagnosis.evidence import Columns, columns
@@ -74,17 +74,16 @@ def investigate(
     as_fitted: FittedResponse | None = None,
     locked: Sequence[TestData] = (),
     others: OtherAxes | None = None,
-    left_out: Sequence[Artefact] = (),
+    known_faults: Sequence[Artefact] = (),
 ) -> Investigation:
     """fitted: to all tests that take part in the choice (never the locked ones). as_fitted: the model that is asked
-    about, whose weak spots are shown; by default the same. others: what other axes say; None: nothing. left_out: faults
-    for which a test takes no part."""
+    about, whose weak spots are shown; by default the same. others: what other axes say; None: nothing. known_faults:
+    that were mended before, or left out."""
     info = data.channels[fitted.name]
     base = remembered(fitted)
     fine = compressed(fitted, data, tests, TARGET_ROWS, base)
-    clocks = timings(fine, data.channels)
-    steps = find_steps(with_clocks_right(fine, clocks, data.channels))
-    faults = _faults(fitted, data, fine, base, clocks)
+    steps = find_steps(fine)
+    faults = _faults(fitted, data, fine, base)
     problem = _without_steps(compressed(fitted, data, tests, WEIGHED_ROWS, base), steps)
     asked = candidates(library, data.channels, present(fitted), fitted.name)
     weighed = {b.test.key for b in problem.blocks}
@@ -109,7 +108,7 @@ def investigate(
     if selection is not None:
         faults += wrong_parameters(problem, _error_of(asked_about, tests), selection.left, measure.floor)
     artefacts = [
-        *first_of_each([*left_out, *as_artefacts(steps, info.unit), *faults]),
+        *first_of_each([*known_faults, *as_artefacts(steps, info.unit), *faults]),
         *faulty_sensors(data, fitted.name),
     ]
 
@@ -138,7 +137,7 @@ def causes_of(
     """The sound causes that a response misses, as they are judged beside each other; refinements are none."""
     base = remembered(fitted)
     fine = compressed(fitted, data, tests, TARGET_ROWS, base)
-    steps = find_steps(with_clocks_right(fine, timings(fine, data.channels), data.channels))
+    steps = find_steps(fine)
     problem = _without_steps(compressed(fitted, data, tests, WEIGHED_ROWS, base), steps)
     asked = candidates(library, data.channels, present(fitted), fitted.name)
     _, judgement, _ = _judged(fitted, problem, asked, seed)
@@ -250,14 +249,11 @@ def clocks_beside(channels: Mapping[str, ChannelInfo], drivers: Iterable[str], r
     return {n: s for n in drivers if n in channels and (s := channels[n].source) and s != home}
 
 
-def _faults(
-    fitted: FittedResponse, data: Dataset, problem: Problem, base: Base, clocks: Sequence[Timing]
-) -> list[Artefact]:
-    """Clocks, by what acts at once or else by the model; and probes, where there is a model to hold them against."""
-    off = [as_artefact(c, problem) for c in clocks if clock_is_off(c, problem.step_s)]
+def _faults(fitted: FittedResponse, data: Dataset, problem: Problem, base: Base) -> list[Artefact]:
+    """Clocks, where nothing acts at once, and gains of probes, where there is a model to hold them against."""
     if not problem.blocks or not problem.blocks[0].base.shape[1]:
-        return off
+        return []
     drivers = {n for one in present(fitted) for n in one.channels}
-    told = {c.source for c in clocks if c.tells}
+    told = {c.source for c in timings(problem, data.channels) if c.tells}
     sources = {n: s for n, s in clocks_beside(data.channels, drivers, fitted.name).items() if s not in told}
-    return [*off, *clock_offsets(problem, base, sources), *wrong_gains(problem)]
+    return [*clock_offsets(problem, base, sources), *wrong_gains(problem)]

@@ -1,0 +1,70 @@
+"""What a diagnosis asks of: the open tests as far as they are sound, clocks put right and turned probes left out.
+
+Nothing is changed but in what is asked: each fault is said, and the log stays as it is until somebody declares it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+
+from thermodata.diagnosis.clocks import as_artefact, clock_is_off, timings, with_clocks_right
+from thermodata.diagnosis.compressed import compressed
+from thermodata.diagnosis.confirm import on_all_open
+from thermodata.diagnosis.problem import TARGET_ROWS
+from thermodata.diagnosis.turned import turned_probes
+from thermodata.modelling.fit import fit_model
+from thermodata.modelling.fitted import FittedModel
+from thermodata.plugin import Effect
+from thermodata.schema.diagnosis import Artefact
+from thermodata.schema.model import Model
+from thermodata.view.dataset import Dataset, TestData
+
+
+@dataclass(frozen=True, slots=True)
+class Sound:
+    """spec, fitted: the model, calibrated on `tests`. data: clocks that are off moved. tests: open, and sound. faults:
+    what was mended or left out."""
+
+    spec: Model
+    fitted: FittedModel
+    data: Dataset
+    tests: tuple[TestData, ...]
+    faults: tuple[Artefact, ...] = ()
+
+
+def sound(
+    fitted: FittedModel, index: int, data: Dataset, tests: Sequence[TestData], library: Mapping[str, Effect]
+) -> Sound:
+    """index: of the response among the model's responses. tests: open ones that can be predicted.
+
+    All of them take part: gains that only a verification test excites must not be guesses.
+    """
+    found = _fitted_to(fitted, data, tests)
+    if not tests:
+        return found
+    found = _clocks_right(found, index)
+    turned = turned_probes(found.fitted.responses[index], found.data, found.tests, library)
+    if not turned:
+        return found
+    wrong = {(a.campaign, a.test) for a in turned}
+    upright = [t for t in found.tests if (t.campaign, t.test) not in wrong]
+    return replace(_fitted_to(fitted, found.data, upright), faults=(*found.faults, *turned))
+
+
+def _fitted_to(fitted: FittedModel, data: Dataset, tests: Sequence[TestData]) -> Sound:
+    """As it is fitted where there are no tests."""
+    spec = on_all_open(fitted.spec, tests, fitted.tests(data, "locked"))
+    return Sound(spec, fit_model(spec, data, uncertainty=False) if tests else fitted, data, tuple(tests))
+
+
+def _clocks_right(found: Sound, index: int) -> Sound:
+    response, channels = found.fitted.responses[index], found.data.channels
+    problem = compressed(response, found.data, found.tests, TARGET_ROWS)
+    off = [t for t in timings(problem, channels) if clock_is_off(t, problem.step_s)]
+    if not off:
+        return found
+    data = with_clocks_right(found.data, off)
+    keys = {t.key for t in found.tests}
+    right = _fitted_to(found.fitted, data, [t for t in data.tests if t.key in keys])
+    return replace(right, faults=tuple(as_artefact(t, problem) for t in off))
