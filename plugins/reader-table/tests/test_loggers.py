@@ -107,3 +107,54 @@ def test_dates_in_chinese_and_korean(tmp_path: Path) -> None:
         path.write_text("日期,时间,主轴温度（℃）\n" + rows, encoding="utf-8")
         assert list(read(path)[0]) == ["主轴温度（℃）"]
         assert Reader().describe(path, Source()).start_ns == np.datetime64("2026-03-27T06:00:00", "ns").astype(int)
+
+
+STAMPS = [f"2026-03-27 06:{i // 60:02d}:{i % 60:02d}" for i in range(90)]
+
+
+def test_names_that_stand_above_units_and_kinds_of_reading(tmp_path: Path) -> None:
+    """TOA5: what the logger is, names, units, and what was done with the readings."""
+    path = tmp_path / "cr.dat"
+    head = [
+        '"TOA5","CR","CR1000X","12345","CR1000X.Std.05","CPU:t.CR1X","4711","Therm"',
+        '"TIMESTAMP","RECORD","T_front_Avg","T_rear_Avg","gap"',
+        '"TS","RN","Deg C","Deg C","mV"',
+        '"","","Avg","Avg","Smp"',
+    ]
+    rows = [f'"{t}",{i},{20 + i / 10:.1f},21.5,{i}.25' for i, t in enumerate(STAMPS)]
+    path.write_text("\n".join([*head, *rows, ""]))
+    units, values = read(path)
+    assert units == {"RECORD": None, "T_front_Avg": "Deg C", "T_rear_Avg": "Deg C", "gap": "mV"}
+    assert values["T_front_Avg"].tolist() == [float(f"{20 + i / 10:.1f}") for i in range(90)]
+
+
+def test_a_row_that_is_called_units_above_minimum_and_maximum(tmp_path: Path) -> None:
+    path = tmp_path / "gm.csv"
+    head = [
+        '"Device Type","GM"',
+        '"Ch.","","","0001","","0002",""',
+        '"Tag","","","spindle","","bed",""',
+        '"Unit","","","°C","","K",""',
+        '"Date","Time","n","MIN","MAX","MIN","MAX"',
+    ]
+    rows = [f'"{t[:10]}","{t[11:]}","0","{20 + i}","{21 + i}","{30 + i}","{31 + i}"' for i, t in enumerate(STAMPS)]
+    path.write_text("\n".join([*head, *rows, ""]), encoding="utf-8")
+    units, values = read(path)
+    assert units == {"n": None, "spindle/MIN": "°C", "spindle/MAX": "°C", "bed/MIN": "K", "bed/MAX": "K"}
+    assert values["bed/MIN"][:2].tolist() == [30.0, 31.0]
+
+
+def test_rows_of_devices_and_rates_below_the_names_are_no_names(tmp_path: Path) -> None:
+    path = tmp_path / "catman.asc"
+    head = [
+        "T0 = 27.03.2026 06:00:00",
+        "",
+        "Zeit  1 - Standard-Messrate [s]\tT vorn [°C]\tWeg Z [µm]",
+        "MX840B_0_hw\tMX840B_1_hw\tMX840B_2_hw",
+        "dt = 10\tdt = 10\tdt = 10",
+    ]
+    rows = [f"{10 * i},0000\t{20 + i},25\t{i},125" for i in range(90)]
+    path.write_text("\n".join([*head, *rows, ""]), encoding="utf-8")
+    units, values = read(path)
+    assert units == {"T vorn [°C]": "°C", "Weg Z [µm]": "µm"}
+    assert values["T vorn [°C]"][:2].tolist() == [20.25, 21.25]

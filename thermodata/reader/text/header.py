@@ -1,4 +1,4 @@
-"""Names and units of a table's columns, from the rows above its data."""
+"""What a header cell says: a name, a unit, the number of a row. Which rows are a header: `header_rows`."""
 
 from __future__ import annotations
 
@@ -7,8 +7,7 @@ from collections.abc import Sequence
 from functools import lru_cache
 from itertools import pairwise
 
-from thermodata.reader.text.cell import TIME_WORD, Cell, is_number, is_stamp
-from thermodata.reader.text.number import clean
+from thermodata.reader.text.cell import TIME_WORD, Cell, is_stamp
 from thermodata.schema.unit_scale import scaled_unit
 from thermodata.schema.unit_spelling import UNIT_SPELLING
 
@@ -56,115 +55,6 @@ def split_unit(header: str) -> tuple[str, str | None]:
     if match["square"] and match["gap"] and re.match(r"^[^\W\d][^;,]{0,15}$", unit) and not re.match(r"^u\d", unit):
         return match["name"].strip(), unit
     return header, None
-
-
-# ---- the rows above the data --------------------------------------------------------------------
-
-
-def names_and_units(
-    rows: Sequence[Sequence[Cell]], width: int, units_row: int | None
-) -> tuple[list[str], list[str | None]]:
-    """Names and units from the rows before the data; rows that do not span the table are preamble."""
-    texts = [[clean(str(c)) if c is not None else "" for c in r] + [""] * (width - len(r)) for r in rows]
-    units: list[str | None] = [None] * width
-    if units_row is not None and 0 <= units_row < len(texts):
-        units = [u.strip("[]() ") or None for u in texts.pop(units_row)]
-    spanning = [texts[i] for i in _spanning(texts, width)]
-    if units_row is None and len(spanning) >= 2:
-        filled = [c for c in spanning[-1] if c]
-        if sum(looks_like_unit(c) or c.startswith("[") for c in filled) * 2 > len(filled):
-            units = [u.strip("[]() ") or None for u in spanning.pop()]
-        elif _units_among(spanning[-2], spanning[-1]):
-            units = [u if looks_like_unit(u) else None for u in spanning.pop()]
-    names = spanning[-1] if spanning else [""] * width
-    at = next((i for i in range(len(texts) - 1, 0, -1) if texts[i] is names), 0)
-    if at and any(texts[at - 1]):
-        names = _under(texts[at - 1], names)
-    found = [split_unit(n)[1] for n in names]
-    return names, [u or f for u, f in zip(units, found, strict=True)]
-
-
-def _spanning(rows: Sequence[Sequence[Cell]], width: int) -> list[int]:
-    """Which rows before the data span the table, and are no preamble; the last may leave out what is merged with
-    the row above it. A row of numbers below names is none."""
-    filled = [[c for c in r[:width] if c not in ("", None)] for r in rows]
-    found = [i for i, cells in enumerate(filled) if len(cells) * 2 > width or len(rows) == 1]
-    while len(found) > 1 and are_numbers(filled[found[-1]]):
-        found.pop()
-    last = len(rows) - 1
-    if (
-        found
-        and found[-1] == last - 1
-        and len(filled[last]) > 1
-        and not any(is_number(c) or is_stamp(c) for c in filled[last])
-        and not _are_units(filled[found[-1]])
-        and not _ends_early(rows[last], rows[found[-1]], width)
-    ):
-        found.append(last)
-    return found
-
-
-def _ends_early(row: Sequence[Cell], above: Sequence[Cell], width: int) -> bool:
-    """Whether a row of few cells is cut off or foreign, and leaves nothing out that is merged with the row above it:
-    that names every column, and the row's cells are its first."""
-    named = [c not in ("", None) for c in above[:width]]
-    said = [c not in ("", None) for c in row[:width]]
-    few = said.index(False) if False in said else len(said)
-    return len(named) == width and all(named) and few < width and not any(said[few:])
-
-
-def lines_between(rows: Sequence[Sequence[Cell]], width: int, skip: int) -> list[str]:
-    """A note for lines between the header and the data that are part of neither."""
-    spanning = _spanning(rows, width)
-    odd = (
-        [i + skip + 1 for i in range(spanning[-1] + 1, len(rows)) if any(c not in ("", None) for c in rows[i][:width])]
-        if spanning
-        else []
-    )
-    return [f"line {odd[0]} between header and data is not read ({len(odd)} such)"] if odd else []
-
-
-def are_numbers(cells: Sequence[Cell]) -> bool:
-    """Whether a row is one of data: numbers, or all but one and some with decimals, which channels' numbers have not
-    (a row whose time was destroyed)."""
-    numbers = [str(c) for c in cells if is_number(c)]
-    decimals = any(re.search(r"[.,]\d+$", n) and not n.endswith(".0") for n in numbers)
-    return len(numbers) == len(cells) or (decimals and len(cells) > 2 and len(numbers) == len(cells) - 1)
-
-
-def _are_units(cells: Sequence[Cell]) -> bool:
-    """Whether most filled cells of a row are units."""
-    return sum(looks_like_unit(str(c)) or str(c).startswith("[") for c in cells) * 2 > len(cells)
-
-
-def _units_among(above: Sequence[str], row: Sequence[str]) -> bool:
-    """Whether a row below names that are all different repeats itself in units, beside words that are none
-    ("NO.", "Time" and the letters of alarms, below "Number" and "Date&Time")."""
-    said = [c for c in row if c]
-    named = [c for c in above if c]
-    units = [c for c in said if looks_like_unit(c)]
-    again = len(set(said)) < len(said) or any(a == c for a, c in zip(above, row, strict=True) if looks_like_unit(c))
-    return (
-        len(set(named)) == len(named) >= len(said)
-        and again
-        and len(units) * 3 >= len(said)
-        and len(units) > sum(map(looks_like_unit, named))
-    )
-
-
-def _under(above: list[str], names: list[str]) -> list[str]:
-    """Names below a row of groups, which are written once, over the first of their columns (merged cells): the group
-    tells names apart that repeat, and is the name where there is none below it."""
-    filled = [n or a for a, n in zip(above, names, strict=True)]
-    below = [n for n in names if n]
-    if len(set(below)) == len(below):
-        return filled
-    carried, group = [], ""
-    for cell in above:
-        group = cell or group
-        carried.append(group)
-    apart = [f"{g}/{n}" if g and n and g != n else n or a for g, n, a in zip(carried, names, above, strict=True)]
-    return apart if sum(map(bool, above)) > 1 and len(set(apart)) >= len(set(filled)) else filled
 
 
 def numbered_rows(header: Sequence[Cell], heads: Sequence[str], data: Sequence[Sequence[Cell]]) -> bool:

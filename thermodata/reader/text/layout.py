@@ -10,7 +10,8 @@ from typing import Any, Literal
 from thermodata.errors import FormatError, UsageError
 from thermodata.reader.open_questions import UNKNOWN, unanswered
 from thermodata.reader.text.cell import WORDS, Cell, is_dated, is_empty, is_number, is_stamp, mostly
-from thermodata.reader.text.header import are_numbers, lines_between, names_and_units, numbered_rows, unique
+from thermodata.reader.text.header import numbered_rows, unique
+from thermodata.reader.text.header_rows import are_numbers, lines_between, names_and_units
 from thermodata.reader.text.time_columns import column, time_of
 from thermodata.reader.text.time_formats import Stamps
 from thermodata.reader.text.time_groups import Span, spans

@@ -1,0 +1,196 @@
+"""Names and units of a table's columns, from the rows above its data: groups, names, units, and what is neither."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+
+from thermodata.reader.text.cell import TIME_WORD, Cell, is_number, is_stamp
+from thermodata.reader.text.header import looks_like_unit, split_unit
+from thermodata.reader.text.number import clean
+
+# what loggers write before a row that describes the columns, and below the names for what was done with the readings
+_OF_UNITS = re.compile(r"(?i)units?|einheit(en)?|jednotk[ay]|unité|unità|unidad|単位|单位")
+_OF_TEXTS = re.compile(r"(?i)comments?|kommentar|description|beschreibung|bezeichnung|label|tag( no)?|name|ch")
+_STATISTIC = re.compile(r"(?i)avg|smp|min|max|tot|std|med|mean|last|tmn|tmx|sample|average")
+_FIRST_WORD = re.compile(r"^[^\W\d_]+")
+
+
+def names_and_units(
+    rows: Sequence[Sequence[Cell]], width: int, units_row: int | None
+) -> tuple[list[str], list[str | None]]:
+    """Names and units from the rows before the data; rows that do not span the table are preamble."""
+    texts = [[clean(str(c)) if c is not None else "" for c in r] + [""] * (width - len(r)) for r in rows]
+    units: list[str | None] = [None] * width
+    if units_row is None:
+        units_row = _labelled_units(texts)
+    if units_row is not None and 0 <= units_row < len(texts):
+        row = texts.pop(units_row)
+        units = _as_units(_merged(row, texts[units_row - 1], texts[-1]) if 0 < units_row < len(texts) else row)
+    spanning = [texts[i] for i in _spanning(texts, width)]
+    named = _named(spanning, width)
+    if units_row is None and len(spanning) >= 2:
+        if named is not None and (below := next((r for r in spanning[named + 1 :] if _mostly_units(r)), None)):
+            units = [u if looks_like_unit(u or "") else None for u in _as_units(below)]
+        elif _mostly_units(spanning[-1]):
+            units = _as_units(spanning.pop())
+        elif _units_among(spanning[-2], spanning[-1]):
+            units = [u if looks_like_unit(u) else None for u in spanning.pop()]
+    if named is not None:
+        spanning = spanning[: named + 1]
+    names = spanning[-1] if spanning else [""] * width
+    at = next((i for i in range(len(texts) - 1, 0, -1) if texts[i] is names), 0)
+    if at and any(texts[at - 1]):
+        names = _under(texts[at - 1], names)
+    found = [split_unit(n)[1] for n in names]
+    return names, [u or f for u, f in zip(units, found, strict=True)]
+
+
+def _as_units(cells: Sequence[str]) -> list[str | None]:
+    return [u.strip("[]() ") or None for u in cells]
+
+
+def _merged(row: Sequence[str], above: Sequence[str], last: Sequence[str]) -> list[str]:
+    """A row of units whose cells stand for those to their right too, where the row above it leaves the same ones out
+    and the last one does not (a channel with its minimum and maximum)."""
+    out, start = list(row), 0
+    for k in range(1, min(len(row), len(above))):
+        start = k if above[k] else start
+        if start and not row[k] and last[k]:
+            out[k] = row[start]
+    return out
+
+
+def _labelled_units(texts: Sequence[Sequence[str]]) -> int | None:
+    """The row that is called units by its first cell and holds some; None where there is none."""
+    for i, row in enumerate(texts):
+        first, *others = [c for c in row if c] or [""]
+        if _OF_UNITS.fullmatch(first.strip(" :")) and row[0] and any(map(looks_like_unit, others)):
+            return i
+    return None
+
+
+def _named(spanning: Sequence[Sequence[str]], width: int) -> int | None:
+    """The row of names where others stand below it that are none: it names every column, the time among them, and the
+    rows below it repeat themselves (a kind of average, a rate) or write no time into the column of the time. None where
+    the last row, but for one of units, holds the names."""
+    for i in range(len(spanning) - 2, -1, -1):
+        row = spanning[i][:width]
+        times = [k for k, c in enumerate(row) if _says_time(c)]
+        if not times or not all(row) or len(set(row)) < width or any(is_number(c) or is_stamp(c) for c in row):
+            continue
+        below = [r for r in spanning[i + 1 :] if not _mostly_units(r)]
+        return i if below and all(_names_nothing(r, times) for r in below) else None
+    return None
+
+
+def _names_nothing(row: Sequence[str], times: Sequence[int]) -> bool:
+    """Whether a row below names holds none: statistics, or the same word again and again, or words where the time
+    stands that neither name one nor say that the row is one of descriptions."""
+    filled = [c for c in row if c]
+    if all(map(_STATISTIC.fullmatch, filled)) or len(set(filled)) == 1:
+        return True
+    said = [row[k] for k in times if row[k]]
+    return bool(said) and not _is_label(row[0]) and not any(map(_says_time, said))
+
+
+def _is_label(cell: str) -> bool:
+    """Whether a first cell says what its row holds, as "Comment" and "Tag" do."""
+    return cell.endswith(":") or _OF_TEXTS.fullmatch(cell.strip(" .")) is not None
+
+
+def _says_time(cell: str) -> bool:
+    """Whether a cell is a word for time, or begins with one: 'Zeit  1 - Standard [s]', 'Date Time, GMT+01:00'."""
+    first = _FIRST_WORD.match(cell)
+    word = split_unit(cell)[0]
+    return TIME_WORD.match(word) is not None or (
+        first is not None and len(first[0]) > 1 and TIME_WORD.match(first[0]) is not None
+    )
+
+
+def _spanning(rows: Sequence[Sequence[Cell]], width: int) -> list[int]:
+    """Which rows before the data span the table, and are no preamble; the last may leave out what is merged with
+    the row above it. A row of numbers below names is none."""
+    filled = [[c for c in r[:width] if c not in ("", None)] for r in rows]
+    found = [i for i, cells in enumerate(filled) if len(cells) * 2 > width or len(rows) == 1]
+    while len(found) > 1 and are_numbers(filled[found[-1]]):
+        found.pop()
+    last = len(rows) - 1
+    if (
+        found
+        and found[-1] == last - 1
+        and len(filled[last]) > 1
+        and not any(is_number(c) or is_stamp(c) for c in filled[last])
+        and not _are_units(filled[found[-1]])
+        and not _ends_early(rows[last], rows[found[-1]], width)
+    ):
+        found.append(last)
+    return found
+
+
+def _ends_early(row: Sequence[Cell], above: Sequence[Cell], width: int) -> bool:
+    """Whether a row of few cells is cut off or foreign, and leaves nothing out that is merged with the row above it:
+    that names every column, and the row's cells are its first."""
+    named = [c not in ("", None) for c in above[:width]]
+    said = [c not in ("", None) for c in row[:width]]
+    few = said.index(False) if False in said else len(said)
+    return len(named) == width and all(named) and few < width and not any(said[few:])
+
+
+def lines_between(rows: Sequence[Sequence[Cell]], width: int, skip: int) -> list[str]:
+    """A note for lines between the header and the data that are part of neither."""
+    spanning = _spanning(rows, width)
+    odd = (
+        [i + skip + 1 for i in range(spanning[-1] + 1, len(rows)) if any(c not in ("", None) for c in rows[i][:width])]
+        if spanning
+        else []
+    )
+    return [f"line {odd[0]} between header and data is not read ({len(odd)} such)"] if odd else []
+
+
+def are_numbers(cells: Sequence[Cell]) -> bool:
+    """Whether a row is one of data: numbers, or all but one and some with decimals, which channels' numbers have not
+    (a row whose time was destroyed)."""
+    numbers = [str(c) for c in cells if is_number(c)]
+    decimals = any(re.search(r"[.,]\d+$", n) and not n.endswith(".0") for n in numbers)
+    return len(numbers) == len(cells) or (decimals and len(cells) > 2 and len(numbers) == len(cells) - 1)
+
+
+def _are_units(cells: Sequence[Cell]) -> bool:
+    """Whether most filled cells of a row are units."""
+    return sum(looks_like_unit(str(c)) or str(c).startswith("[") for c in cells) * 2 > len(cells)
+
+
+def _mostly_units(row: Sequence[str]) -> bool:
+    return _are_units([c for c in row if c])
+
+
+def _units_among(above: Sequence[str], row: Sequence[str]) -> bool:
+    """Whether a row below names that are all different repeats itself in units, beside words that are none
+    ("NO.", "Time" and the letters of alarms, below "Number" and "Date&Time")."""
+    said = [c for c in row if c]
+    named = [c for c in above if c]
+    units = [c for c in said if looks_like_unit(c)]
+    again = len(set(said)) < len(said) or any(a == c for a, c in zip(above, row, strict=True) if looks_like_unit(c))
+    return (
+        len(set(named)) == len(named) >= len(said)
+        and again
+        and len(units) * 3 >= len(said)
+        and len(units) > sum(map(looks_like_unit, named))
+    )
+
+
+def _under(above: list[str], names: list[str]) -> list[str]:
+    """Names below a row of groups, which are written once, over the first of their columns (merged cells): the group
+    tells names apart that repeat, and is the name where there is none below it."""
+    filled = [n or a for a, n in zip(above, names, strict=True)]
+    below = [n for n in names if n]
+    if len(set(below)) == len(below):
+        return filled
+    carried, group = [], ""
+    for k, cell in enumerate(above):
+        label = k == 0 and _is_label(cell)  # which says what its row holds
+        group = "" if label else cell or group
+        carried.append(group)
+    apart = [f"{g}/{n}" if g and n and g != n else n or a for g, n, a in zip(carried, names, above, strict=True)]
+    return apart if sum(map(bool, above)) > 1 and len(set(apart)) >= len(set(filled)) else filled
