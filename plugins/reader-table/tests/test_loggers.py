@@ -88,6 +88,23 @@ def test_milliseconds_in_a_column_behind_the_time_are_part_of_it(tmp_path: Path)
     assert set(np.diff(t_ns)) == {100_000_000}
 
 
+@pytest.mark.parametrize(("name", "cell"), [("us", "{0:6d}"), ("µs", "{0}"), ("sec", "{1:.3f}")])
+def test_parts_of_a_second_in_a_column_behind_the_time_are_part_of_it(tmp_path: Path, name: str, cell: str) -> None:
+    path = tmp_path / "fast.csv"
+    part = [cell.format(i % 10 * 100_000, i % 10 / 10) for i in range(40)]
+    rows = [f"2026/03/27,06:00:{i // 10:02d},{part[i]},{20 + i / 10:.1f}" for i in range(40)]
+    path.write_text("\n".join([f"Date,Time,{name},CH1", *rows, ""]), encoding="utf-8")
+    assert list(read(path)[0]) == ["CH1"]
+    t_ns = np.concatenate([b.t_ns for b in Reader().blocks(path, Source()) if isinstance(b, Block)])
+    assert set(np.diff(t_ns)) == {100_000_000}
+
+
+def test_numbers_that_are_no_part_of_a_second_stay_a_signal(tmp_path: Path) -> None:
+    path = tmp_path / "slow.csv"
+    path.write_text("Date,Time,s,CH1\n" + "".join(f"2026/03/27,06:00:{i:02d},{i}.5,20.5\n" for i in range(40)))
+    assert list(read(path)[0]) == ["s", "CH1"]
+
+
 def test_quoted_numbers_with_a_decimal_comma_between_commas(tmp_path: Path) -> None:
     path = tmp_path / "sheet.csv"
     path.write_text("Time [s],T [°C]\n" + "".join(f'{i},"{20 + i},5"\n' for i in range(20)), encoding="utf-8")

@@ -24,7 +24,7 @@ from thermodata.reader.text.time_questions import (
     worded_time,
     zone_question,
 )
-from thermodata.reader.text.timestamp import MILLISECONDS
+from thermodata.reader.text.timestamp import part_of_a_second
 from thermodata.reader.time_units import SECONDS, check_unit
 
 _FRACTION = re.compile(r":\d\d:\d\d[.,:]\d+\s*([AaPp]\.?[Mm]\.?)?$")
@@ -143,7 +143,7 @@ def find_time(
         sample = filled[first][0]
         has_clock = ":" in sample if isinstance(sample, str) else not clocks or _tell_the_hour(filled[first])
         found = (first,) if has_clock or not clocks else (first, clocks[0])
-        return (*found, *_milliseconds(found[-1] + 1, names, [r[found[-1]] for r in data], data))
+        return (*found, *_parts_of_a_second(found[-1] + 1, names, [r[found[-1]] for r in data], data))
     if clocks:
         return (clocks[0],)
     if numbers:
@@ -226,11 +226,12 @@ def _tells_all(columns: tuple[int, ...], parts: tuple[int, ...], data: list[list
     return len(columns) > 1 or _tell_the_hour(cells)
 
 
-def _milliseconds(column: int, names: list[str], times: Sequence[Cell], data: list[list[Cell]]) -> tuple[int, ...]:
-    """The column of text behind a date and time of whole seconds that holds their milliseconds, where there is one."""
-    if column >= len(names) or not MILLISECONDS.match(names[column]):
+def _parts_of_a_second(column: int, names: list[str], times: Sequence[Cell], data: list[list[Cell]]) -> tuple[int, ...]:
+    """The column of text behind a date and time of whole seconds that holds their parts, where there is one."""
+    form = part_of_a_second(names[column]) if column < len(names) else None
+    if form is None or form.pattern is None:
         return ()
     pairs = [(t, r[column]) for t, r in zip(times, data, strict=True) if is_stamp(t)]  # a repeated header is none
     whole = all(isinstance(t, str) and not _FRACTION.search(t.strip()) for t, _ in pairs)
-    good = all(isinstance(c, str) and re.match(r"^\d{1,3}$", c.strip()) for _, c in pairs)
+    good = all(isinstance(c, str) and form.pattern.fullmatch(c) for _, c in pairs)
     return (column,) if pairs and whole and good else ()

@@ -20,7 +20,7 @@ from thermodata.reader.open_questions import UNKNOWN, unanswered
 from thermodata.reader.text import timestamp
 from thermodata.reader.text.date_parts import declared_parts
 from thermodata.reader.text.local_clock import DayCount
-from thermodata.reader.text.timestamp import DATE, DATETIME, ELAPSED, MILLISECOND, MILLISECONDS, TIME_OF_DAY, TimeFormat
+from thermodata.reader.text.timestamp import DATE, DATETIME, ELAPSED, TIME_OF_DAY, TimeFormat
 from thermodata.reader.time_units import EPOCHS, SECONDS, to_ns
 from thermodata.reader.zone import NAT, local_to_utc_ns
 
@@ -74,8 +74,9 @@ def find_formats(
     if declared is not None and len(columns) > 1 and len(declared.split()) == len(columns):
         wanted = declared.split()
     for k, (name, cells) in list(enumerate(zip(names, columns, strict=True)))[len(forms) :]:
-        if k and MILLISECONDS.match(name):
-            forms.append(MILLISECOND)
+        behind = timestamp.part_of_a_second(name) if k else None
+        if behind is not None:
+            forms.append(behind)
             continue
         form = None
         for text in wanted[k : k + 1] if len(wanted) == len(columns) else wanted:

@@ -61,9 +61,9 @@ _OTHERS = frozenset("bBaAjGVUWuwcxX")
 
 @dataclass(frozen=True, slots=True)
 class TimeFormat:
-    """How the cells of one time column read. role: datetime, date, time, millisecond, offset (milliseconds since a
-    start), relative (numbers), or part (of the time of a column before it). zoned: whether the cells name their offset
-    from UTC: None where either may come."""
+    """How the cells of one time column read. role: datetime, date, time, millisecond, microsecond or fraction (of a
+    second, behind whole ones), offset (milliseconds since a start), relative (numbers), or part (of the time of a
+    column before it). zoned: whether the cells name their offset from UTC: None where either may come."""
 
     role: str
     pattern: re.Pattern[str] | None
@@ -90,6 +90,18 @@ ELAPSED = _format(
 OFFSET_MS = _format("offset", r"(?P<oms>\d{1,12})(?:\.(?P<of>\d{1,6})\d*|\.)?", "milliseconds", zone=False)
 MILLISECOND = _format("millisecond", r"(?P<ms>\d{1,3})(?:[.,]0*)?", "0...999", zone=False)
 MILLISECONDS = re.compile(r"(?i)^(ms|msec|millise[ck]\w*|millis|毫秒)\b")  # the name of such a column
+# parts of a second in a column behind whole ones: the name of such a column, and how its cells read
+_PARTS_OF_A_SECOND = (
+    (MILLISECONDS, MILLISECOND),
+    (
+        re.compile(r"(?i)^([uµμ]s|[uµμ]sec|mi[ck]rose[ck]\w*|micros|微秒)\b"),
+        _format("microsecond", r"(?P<us>\d{1,6})(?:[.,]0*)?", "0...999999", zone=False),
+    ),
+    (
+        re.compile(r"(?i)^(s|sec|seconds?)$"),
+        _format("fraction", r"0?[.,](?P<f>\d{1,9})\d*", "0.000...0.999", zone=False),
+    ),
+)
 _TEXTS = {"ymd": "YYYY-MM-DD", "dmy": "DD.MM.YYYY", "mdy": "MM/DD/YYYY", "cjk": "YYYY年MM月DD日"}
 DATE = {order: _format("date", body, _TEXTS[order], zone=False) for order, body in _DATES.items()}
 DATETIME = {
@@ -97,6 +109,11 @@ DATETIME = {
     order: _format("datetime", f"{body}(?:{_BETWEEN}{_TIME})?", f"{_TEXTS[order]} HH:MM:SS")
     for order, body in _DATES.items()
 }
+
+
+def part_of_a_second(name: str) -> TimeFormat | None:
+    """How a column of this name behind whole seconds tells their parts; None where its name says nothing of them."""
+    return next((form for known, form in _PARTS_OF_A_SECOND if known.match(name)), None)
 
 
 def with_zone(form: TimeFormat, zoned: bool) -> TimeFormat:
@@ -261,6 +278,8 @@ def parse_one(cell: str, form: TimeFormat) -> int:
     g = match.groupdict()
     if g.get("ms") is not None:
         return int(g["ms"]) * 1_000_000
+    if g.get("us") is not None:
+        return int(g["us"]) * 1000
     if g.get("oms") is not None:
         return int(g["oms"]) * 1_000_000 + int((g["of"] or "0").ljust(6, "0"))
     total = 0
@@ -317,6 +336,8 @@ def _assemble(fields: dict[str, npt.NDArray[np.int64]], match: re.Match[str]) ->
     groups = match.groupdict()
     if "ms" in fields:
         return fields["ms"] * 1_000_000
+    if "us" in fields:
+        return fields["us"] * 1000
     if "oms" in fields:
         return fields["oms"] * 1_000_000 + fields.get("of", np.zeros_like(fields["oms"]))
     size = next(iter(fields.values())).shape
