@@ -7,22 +7,41 @@ import re
 from collections.abc import Sequence
 
 from thermodata.errors import FormatError
-from thermodata.reader.text.number import clean
+from thermodata.reader.text.number import clean, is_number
 
 NAME_WORDS = (
+    *(
+        "tagname",
+        "varname",
+        "nodeid",
+        "node",
+        "displayname",
+        "browsename",
+        "tag",
+        "itemid",
+        "tagpath",
+        "series",
+        "metric",
+    ),
     *("name", "point", "channel", "sensor", "sensorid", "sensorname", "signal", "variable", "parameter", "measurand"),
     *("messstelle", "messpunkt", "kanal", "groesse", "größe", "kanál", "veličina", "senzor"),
 )
 VALUE_WORDS = ("value", "wert", "messwert", "reading", "hodnota", "measurement")
 
 
-def refuse_long(names: Sequence[str], rows: Sequence[Sequence[str]], where: str) -> None:
-    """FormatError for a table whose header says that a column names what another one holds the value of, where that
-    column has several names."""
+_FEWEST_ROWS = 10
+_MOST_NAMES = 200  # that one column may hold
+_SHARED = 0.6  # of the rows: no more times than this, where each is told of several names
+
+
+def refuse_long(names: Sequence[str], rows: Sequence[Sequence[str]], where: str, times: Sequence[int] = ()) -> None:
+    """FormatError for a table in which a column names what another one holds the value of: by its header, where that
+    column has several names, or by its rows, where each time comes once for each of several names. times: of the time."""
     bare = [re.sub(r"[\s_.#()-]", "", name).casefold() for name in names]
     tag = next((i for i, n in enumerate(bare) if n in NAME_WORDS), None)
-    value = next((i for i, n in enumerate(bare) if n in VALUE_WORDS), None)
-    if tag is None or value is None:
+    if tag is None or not any(n in VALUE_WORDS for n in bare):
+        tag = next((i for i in range(len(names)) if i not in times and _names_rows(rows, i, times)), None)
+    if tag is None:
         return
     said = dict.fromkeys(clean(row[tag]) for row in rows if len(row) > tag)
     said.pop("", None)
@@ -33,5 +52,17 @@ def refuse_long(names: Sequence[str], rows: Sequence[Sequence[str]], where: str)
         where=where,
         expected="a column a signal",
         got=f"'{names[tag]}' holds " + ", ".join(list(said)[:4]) + (", ..." if len(said) > 4 else ""),
-        hint="with a column of dates and times the reader cnc takes it apart; else pivot it: a column a name",
+        hint="with a column of dates and times, and columns called tag and value, the reader cnc takes it apart; else "
+        "pivot it: a column a name",
     )
+
+
+def _names_rows(rows: Sequence[Sequence[str]], column: int, times: Sequence[int]) -> bool:
+    """Whether a column of words tells apart the rows that share their times, each of which comes for several words."""
+    if not times or len(rows) < _FEWEST_ROWS:
+        return False
+    words = [row[column] for row in rows]
+    if not 1 < len(set(words)) <= min(_MOST_NAMES, len(words) // 3) or any(map(is_number, words)) or not all(words):
+        return False
+    stamps = [tuple(row[k] for k in times) for row in rows]
+    return len(set(stamps)) <= _SHARED * len(rows) and len(set(zip(stamps, words, strict=True))) == len(rows)

@@ -1,4 +1,5 @@
-"""Long tables of an OPC UA (or SIMATIC) logger: a row a value, with time, tag, value and status under many names.
+"""Long tables of an OPC UA (or SIMATIC) logger or of a historian (InfluxDB, PI): a row a value, with time, tag, value
+and status under many names.
 
 A value holds until the next one: the source's time stands still while it does not change. A bad status flags it.
 Where the table is sorted by tag, each tag is a stream of its own, for there is no common order of time.
@@ -6,8 +7,7 @@ Where the table is sorted by tag, each tag is a stream of its own, for there is 
 
 from __future__ import annotations
 
-import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Generator, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
 from pathlib import Path
@@ -16,99 +16,24 @@ from thermodata.errors import FormatError
 from thermodata.plugin import Block, Loss, Recording, Source
 from thermodata.reader.text import timestamp
 from thermodata.reader.text.delimiter import fields
-from thermodata.reader.text.grid import BadLine, Grid
+from thermodata.reader.text.grid import BadLine
 from thermodata.reader.text.lines import ODD, chunks, from_line, sample, split_last_line
 from thermodata.reader.text.locate import line_of, lines_of
-from thermodata.reader.text.long_rows import NAME_WORDS, VALUE_WORDS
 from thermodata.reader.text.losses import NAMED
 from thermodata.reader.text.number import clean, to_float
 from thermodata.reader.text.rows import parse
-from thermodata.reader.text.status import BAD, is_good, zero_is_good
-from thermodata.reader.text.time_formats import find_format
-from thermodata.reader.text.timestamp import TimeFormat
+from thermodata.reader.text.status import BAD, is_good
 from thermodata.reader.zone import NAT
 from thermodata.schema.flag import Flag
 from thermodata_reader_cnc import events
 from thermodata_reader_cnc.events import GONE, Event, HeldTable
+from thermodata_reader_cnc.opcua.long_layout import Layout, find_layout
 
 EXAMPLE = b"DateTime,TagName,TagVal,TagQuality\n2024-01-01 00:00:00,T1,20.5,192\n2024-01-01 00:00:01,T2,20.5,192\n"
 _LOOK = 4 << 20
 _PART = 1 << 20  # bytes, and lines, whose cells are held as text at once
 _LINES = 20_000
 _MOST_HELD = 1 << 16  # bytes of a value in quotes that goes over two parts
-_TIMES = (
-    "sourcetimestamp",
-    "sourcetime",
-    "datetime",
-    "timestamp",
-    "timestring",
-    "servertimestamp",
-    "servertime",
-    "time",
-    "receivedat",
-    "zeitstempel",
-    "zeit",
-    "čas",
-)
-_TAGS = ("tagname", "varname", "nodeid", "node", "displayname", "browsename", "tag", "itemid", *NAME_WORDS)
-_VALUES = ("tagval", "tagvalue", "varvalue", *VALUE_WORDS)
-_UNITS = ("unit", "units", "einheit", "jednotka", "engineeringunits")
-_STATUS = ("statusname", "statustext", "tagquality", "quality", "statuscode", "status", "validity")
-
-
-@dataclass(frozen=True, slots=True)
-class Layout:
-    """Columns of the parts. times: the first that a row has is its time. tag, status: None where there is none."""
-
-    delimiter: str
-    row: int
-    width: int
-    times: tuple[int, ...]
-    tag: int | None
-    value: int
-    status: int | None
-    form: TimeFormat
-    zero_good: bool
-    unit: int | None = None
-
-    @property
-    def grid(self) -> Grid:
-        """All wanted cells as text: what a value is, its tag decides."""
-        wanted = {*self.times, self.tag, self.value, self.status}
-        kinds = tuple("str" if k in wanted else None for k in range(self.width))
-        return Grid(self.delimiter, ".", kinds, quoted=True, exact=True)
-
-
-def find_layout(lines: Sequence[str], where: str) -> Layout | None:
-    """The layout by a header row among the first ten lines, or None. FormatError: no order of day and month."""
-    for row, line in enumerate(lines[:10]):
-        for delimiter in (",", ";", "\t"):
-            names = [re.sub(r"[\s_.#()-]", "", clean(c)).casefold() for c in line.split(delimiter)]
-            times = tuple(names.index(n) for n in _TIMES if n in names)
-            tag = next((names.index(n) for n in _TAGS if n in names), None)
-            value = next((names.index(n) for n in _VALUES if n in names), None)
-            status = next((names.index(n) for n in _STATUS if n in names), None)
-            if value is None or not times or (tag is None and ("sourcetimestamp" not in names or status is None)):
-                continue
-            body = [fields(text, delimiter) for text in lines[row + 1 : row + 2000]]
-            body = [cells for cells in body if len(cells) == len(names)]
-            stamps = [text for cells in body if (text := _time(cells, times))]
-            try:
-                form = find_format(stamps, where)
-            except FormatError as error:
-                if error.what.startswith("day and month"):
-                    raise
-                continue
-            if form.role != "datetime":
-                continue
-            zero = status is None or zero_is_good((cells[status] for cells in body), names[status])
-            unit = next((names.index(n) for n in _UNITS if n in names), None)
-            return Layout(delimiter, row, len(names), times, tag, value, status, form, zero, unit)
-    return None
-
-
-def _time(cells: Sequence[str], times: Sequence[int]) -> str:
-    return next((text for k in times if (text := clean(cells[k]))), "")
 
 
 def claims(lines: Sequence[str]) -> str | None:
@@ -122,21 +47,24 @@ def claims(lines: Sequence[str]) -> str | None:
     return "OPC UA: a long table of time, tag and value"
 
 
-def _events(layout: Layout, data: bytes, line: int, name: str) -> Iterator[Event | Loss]:
-    """What whole lines in UTF-8 report, in order. line: the number of the first, 0-based in the file."""
+def _events(layout: Layout, data: bytes, line: int, name: str) -> Generator[Event | Loss, None, bool]:
+    """What whole lines in UTF-8 report, in order; whether the table ends in them. line: the number of the first,
+    0-based in the file."""
     rows, part = parse(data, line, layout.grid), f"{name} line"
-    empty: list[str | None] = [None] * rows.n
-    stamps = [rows.columns[k].values.tolist() for k in layout.times]
+    columns = {k: rows.columns[k].values.tolist() for k in layout.wanted}
+    stamps = [columns[k] for k in layout.times]
     times = [next((text for text in each if text), "") for each in zip(*stamps, strict=True)]
     ns = timestamp.parse(times, layout.form)
-    losses = _not_rows(layout, rows.bad, rows.nul, rows.line[ns == NAT].tolist(), data, line, name)
-    values = rows.columns[layout.value].values.tolist()
-    tags = ["Value"] * rows.n if layout.tag is None else rows.columns[layout.tag].values.tolist()
-    statuses = empty if layout.status is None else rows.columns[layout.status].values.tolist()
+    losses, end = _not_rows(layout, rows.bad, rows.nul, rows.line[ns == NAT].tolist(), data, line, name)
+    values = columns[layout.value]
+    tags = layout.named(columns, rows.n)
+    statuses = [None] * rows.n if layout.status is None else columns[layout.status]
     each_row = zip(rows.line.tolist(), times, (ns != NAT).tolist(), stamps[0], tags, values, statuses, strict=True)
     for number, time, good, stamp, tag, value, status in each_row:
         while losses and losses[0][0] <= number:
             yield losses.pop(0)[1]
+        if end is not None and number >= end:
+            break
         if not good:
             continue
         if not tag:
@@ -149,6 +77,7 @@ def _events(layout: Layout, data: bytes, line: int, name: str) -> Iterator[Event
             value = value.replace(",", ".")  # a value with a decimal comma is quoted, or stands between other marks
         yield Event(time, tag, value or GONE, number + 1, part, flag)
     yield from (loss for _, loss in losses)
+    return end is not None
 
 
 def _not_rows(
@@ -159,14 +88,22 @@ def _not_rows(
     data: bytes,
     line: int,
     name: str,
-) -> list[tuple[int, Loss]]:
-    """(line, loss) of what is no row, in order."""
+) -> tuple[list[tuple[int, Loss]], int | None]:
+    """((line, loss) of what is no row, in order; the line at which columns are named anew)."""
     lines = data.split(b"\n") if undated else []
     texts = {each.line: each.text for each in bad}
     texts.update({k: lines[k - line].decode("utf-8", "replace").rstrip("\r") for k in undated})
+    end = min((k for k, text in texts.items() if layout.is_other_header(text)), default=None)
     found = [(k, 0, f"{count} NUL bytes") for k, count in nul]
-    found += [(k, 1, f"expected {layout.width} cells with a time, got '{text[:80]}'") for k, text in texts.items()]
-    return [(k, Loss(f"{name} line {k + 1}", reason=reason)) for k, _, reason in sorted(found)]
+    found += [
+        (k, 1, f"expected {layout.width} cells with a time, got '{text[:80]}'")
+        for k, text in texts.items()
+        if not layout.is_header(text) and k != end
+    ]
+    if end is not None:
+        found = [each for each in found if each[0] < end]
+        found.append((end, 1, f"a table with other columns begins, and the reading ends: '{texts[end][:80]}'"))
+    return [(k, Loss(f"{name} line {k + 1}", reason=reason)) for k, _, reason in sorted(found)], end
 
 
 @dataclass(frozen=True, slots=True)
@@ -182,7 +119,9 @@ class _Look:
 
 def _look(path: Path, source: Source) -> _Look:
     first = sample(path, source.encoding, _LOOK)
-    layout = find_layout(first.head, path.name)
+    said = (source.table or {}).get("time")
+    declared = said.get("format") if isinstance(said, Mapping) else None
+    layout = find_layout(first.head, path.name, declared, first.rest)
     if layout is None:
         raise FormatError(
             "no long table",
@@ -222,13 +161,14 @@ def _look(path: Path, source: Source) -> _Look:
 def _units(layout: Layout, lines: Sequence[str], where: str) -> dict[str, str]:
     """The unit of each tag, where rows name one; FormatError where a tag has several."""
     units: dict[str, str] = {}
-    if layout.unit is None or layout.tag is None:
+    if layout.unit is None or not layout.tags:
         return units
     for line in lines:
         cells = [clean(c) for c in fields(line, layout.delimiter)]
         if len(cells) != layout.width or not cells[layout.unit]:
             continue
-        tag, unit = cells[layout.tag], cells[layout.unit]
+        tag = layout.named({k: [c] for k, c in enumerate(cells)}, 1)[0]
+        unit = cells[layout.unit]
         if units.setdefault(tag, unit) != unit:
             raise FormatError(
                 f"'{tag}' has several units",
@@ -294,7 +234,8 @@ def _all(path: Path, look: _Look) -> Iterator[Event | Loss]:
         if not chunk.last and data.count(b'"') % 2:
             cut = data.rfind(b"\n", 0, data.rfind(b'"')) + 1
             data, held = (data[:cut], data[cut:]) if len(data) - cut < _MOST_HELD else (data, b"")
-        yield from _events(look.layout, data, line, path.name)
+        if (yield from _events(look.layout, data, line, path.name)):
+            return
         text = tail.decode("utf-8", "replace")
         if text.strip("\0 \r"):
             yield Loss(f"{path.name} last line", reason=f"it has no line end and may be cut: '{text[:60]}'")

@@ -1,0 +1,181 @@
+"""Where a long table holds its parts: the time, the tag, the value and its status, under the names that loggers and
+historians give them. InfluxDB parts a tag into columns, of which those count that differ."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+from thermodata.errors import FormatError
+from thermodata.reader.text.delimiter import fields
+from thermodata.reader.text.grid import Grid
+from thermodata.reader.text.long_rows import NAME_WORDS, VALUE_WORDS
+from thermodata.reader.text.number import clean
+from thermodata.reader.text.odd_stamps import guess_format
+from thermodata.reader.text.status import zero_is_good
+from thermodata.reader.text.time_formats import find_format
+from thermodata.reader.text.timestamp import UNIX_MS, TimeFormat, declared_format
+
+_TIMES = (
+    *("sourcetimestamp", "sourcetime", "datetime", "timestamp", "timestring", "servertimestamp", "servertime", "time"),
+    *("tstamp", "ts", "receivedat", "zeitstempel", "zeit", "čas"),
+)
+_VALUES = ("tagval", "tagvalue", "varvalue", "floatvalue", *VALUE_WORDS)
+_UNITS = ("unit", "units", "einheit", "jednotka", "engineeringunits")
+_STATUS = (*("statusname", "statustext", "tagquality", "quality", "statuscode", "status", "validity", "dataintegrity"),)
+_ROWS = 2000  # below the header, by which the times are known
+
+
+@dataclass(frozen=True, slots=True)
+class Layout:
+    """Columns of the parts. header: its line; times: the first that a row has is its time; tags: columns that name what
+    is measured, together; constant: (column, cell) of those that name the same in all that was looked at; status: None
+    where there is none; annotated: lines that begin with '#' are none of it."""
+
+    delimiter: str
+    row: int
+    header: str
+    width: int
+    times: tuple[int, ...]
+    tags: tuple[int, ...]
+    known: Mapping[tuple[str, ...], str]
+    value: int
+    status: int | None
+    form: TimeFormat
+    zero_good: bool
+    unit: int | None
+    annotated: bool
+
+    @property
+    def wanted(self) -> set[int]:
+        """The columns that say something of an event."""
+        found = {*self.times, *self.tags, self.value}
+        return found if self.status is None else {*found, self.status}
+
+    @property
+    def grid(self) -> Grid:
+        """All wanted cells as text: what a value is, its tag decides."""
+        kinds = tuple("str" if k in self.wanted else None for k in range(self.width))
+        return Grid(self.delimiter, ".", kinds, quoted=True, exact=True)
+
+    def named(self, columns: dict[int, list[str | None]], n: int) -> list[str]:
+        """The tag of each of n rows, by the cells of each wanted column."""
+        if not self.tags:
+            return ["Value"] * n
+        tags = [[c or "" for c in columns[k]] for k in self.tags]
+        if len(tags) == 1:
+            return tags[0]
+        return [self.known.get(each) or "/".join(filter(None, each)) for each in zip(*tags, strict=True)]
+
+    def is_header(self, line: str) -> bool:
+        """Whether a line repeats the header, or is an annotation: no loss."""
+        return clean_line(line) == self.header or (self.annotated and line.startswith("#"))
+
+    def is_other_header(self, line: str) -> bool:
+        """Whether a line names columns anew, in another order or with others among them."""
+        cells = [bare(c) for c in fields(line, self.delimiter)]
+        named = [bare(c) for c in fields(self.header, self.delimiter)]
+        return named[self.value] in cells and any(named[k] in cells for k in self.times) and not self.is_header(line)
+
+
+def clean_line(line: str) -> str:
+    return line.strip("\r\n \ufeff")
+
+
+def bare(name: str) -> str:
+    """A name without what names are written with: 'Tag Name', '_TAG_NAME'."""
+    return re.sub(r"[\s_.#()-]", "", clean(name)).casefold()
+
+
+def find_layout(
+    lines: Sequence[str], where: str, declared: str | None = None, later: Sequence[str] = ()
+) -> Layout | None:
+    """The layout by a header row among the first ten lines, or None. declared: the format of the times; later: further
+    lines, by which columns that differ are known. FormatError: no order of day and month."""
+    for row, line in enumerate(lines[:10]):
+        for delimiter in (",", ";", "\t"):
+            raw = [clean(c) for c in fields(line, delimiter)]
+            names = [bare(c) for c in raw]
+            times = tuple(names.index(n) for n in _TIMES if n in names)
+            value = next((names.index(n) for n in _VALUES if n in names), None)
+            status = next((names.index(n) for n in _STATUS if n in names), None)
+            influx = {"_time", "_value"} <= set(raw)
+            if value is None or not times:
+                continue
+            if influx:
+                times, status = (raw.index("_time"),), None
+                tags, known = _series(raw, [fields(x, delimiter) for x in (*lines[row + 1 :], *later)])
+            else:
+                tag = next((names.index(n) for n in NAME_WORDS if n in names), None)
+                tags, known = () if tag is None else (tag,), {}
+            if not tags and ("sourcetimestamp" not in names or status is None):
+                continue
+            body = [fields(text, delimiter) for text in lines[row + 1 : row + _ROWS] if not text.startswith("#")]
+            body = [cells for cells in body if len(cells) == len(names)]
+            form = _form([text for cells in body if (text := _time(cells, times))], where, declared)
+            if form is None:
+                continue
+            zero = status is None or zero_is_good((cells[status] for cells in body), names[status])
+            unit = next((names.index(n) for n in _UNITS if n in names), None)
+            return Layout(
+                delimiter,
+                row,
+                clean_line(line),
+                len(names),
+                times,
+                tags,
+                known,
+                value,
+                status,
+                form,
+                zero,
+                unit,
+                influx,
+            )
+    return None
+
+
+def _series(
+    names: Sequence[str], rows: Sequence[Sequence[str]]
+) -> tuple[tuple[int, ...], Mapping[tuple[str, ...], str]]:
+    """(columns that tell series apart, the name of each series by the fewest of them) of an export of InfluxDB: its
+    field, what it is tagged with, and its measurement."""
+    keys = [k for word in ("_field", "", "_measurement") for k, n in enumerate(names) if _is_key(n, word)]
+    body = [r for r in rows if len(r) == len(names) and not r[0].startswith("#")]
+    found = dict.fromkeys(tuple(clean(r[k]) for k in keys) for r in body)
+    found.pop(tuple(names[k] for k in keys), None)  # headers that are repeated
+    telling: list[int] = []
+    for i in range(len(keys)):
+        if len({tuple(each[j] for j in (*telling, i)) for each in found}) > len(
+            {tuple(each[j] for j in telling) for each in found}
+        ):
+            telling.append(i)
+    return tuple(keys), {each: "/".join(filter(None, (each[i] for i in telling or [0]))) for each in found}
+
+
+def _is_key(name: str, word: str) -> bool:
+    """Whether a column is the one of this word; for none, whether it holds a tag."""
+    return name == word if word else bool(name) and name[0] != "_" and name not in ("result", "table")
+
+
+def _form(stamps: Sequence[str], where: str, declared: str | None) -> TimeFormat | None:
+    """How the times are written; None where they are no dates. FormatError: no order of day and month."""
+    if stamps and all(re.fullmatch(r"\d{12,13}", s) for s in stamps):
+        return UNIX_MS
+    order = declared if declared in ("dmy", "mdy", "ymd") else None
+    if declared and not order and "%" in declared:
+        return declared_format(declared)
+    try:
+        form = find_format(stamps, where, order=order)
+    except FormatError as error:
+        if error.what.startswith("day and month"):
+            raise
+        spelled = guess_format(stamps) if stamps else None
+        # the name of a month leaves nothing to confirm
+        return declared_format(spelled) if spelled and "%b" in spelled and "%Y" in spelled else None
+    return form if form.role == "datetime" else None
+
+
+def _time(cells: Sequence[str], times: Sequence[int]) -> str:
+    return next((text for k in times if (text := clean(cells[k]))), "")
