@@ -77,6 +77,24 @@ def test_a_table_with_a_row_a_value_is_left_to_its_reader() -> None:
     assert Reader().sniff(Head("kepware.csv", len(text), text.encode())) is None
 
 
+@pytest.mark.parametrize("by_name", [True, False])
+def test_rows_that_name_what_they_measure_are_refused_whatever_their_header_says(tmp_path: Path, by_name: bool) -> None:
+    pairs = [(f"06:00:{i:02d}", p) for i in range(30) for p in ("front", "rear")]
+    rows = [f"2026-03-27 {t},{p},20.5" for t, p in (sorted(pairs, key=lambda x: x[1]) if by_name else pairs)]
+    path = tmp_path / "long.csv"
+    path.write_text("\n".join(["when,where,how much", *rows, ""]))
+    with pytest.raises(FormatError, match="a long table") as said:
+        read(path)
+    assert "front, rear" in str(said.value)
+
+
+def test_a_state_beside_times_that_repeat_makes_no_long_table(tmp_path: Path) -> None:
+    rows = [f"2026-03-27 06:{i // 6:02d},{'RUN' if i > 20 else 'STOP'},{20 + i / 10:.1f}" for i in range(60)]
+    path = tmp_path / "minutes.csv"
+    path.write_text("\n".join(["Time,Mode,T1", *rows, ""]))
+    assert list(read(path)[0]) == ["Mode", "T1"]
+
+
 def test_milliseconds_in_a_column_behind_the_time_are_part_of_it(tmp_path: Path) -> None:
     path = tmp_path / "fast.csv"
     rows = [f"{i + 1},2026/03/27 06:00:{i // 10:02d},{i % 10 * 100},+   {20 + i / 10:.1f}" for i in range(40)]

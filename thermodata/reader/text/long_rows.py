@@ -36,7 +36,7 @@ _SHARED = 0.6  # of the rows: no more times than this, where each is told of sev
 
 def refuse_long(names: Sequence[str], rows: Sequence[Sequence[str]], where: str, times: Sequence[int] = ()) -> None:
     """FormatError for a table in which a column names what another one holds the value of: by its header, where that
-    column has several names, or by its rows, where each time comes once for each of several names. times: of the time."""
+    column has several names, or by its rows, where each time comes once for each of several names."""
     bare = [re.sub(r"[\s_.#()-]", "", name).casefold() for name in names]
     tag = next((i for i, n in enumerate(bare) if n in NAME_WORDS), None)
     if tag is None or not any(n in VALUE_WORDS for n in bare):

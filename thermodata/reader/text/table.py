@@ -214,7 +214,7 @@ def find_table(head: Sequence[str], first: Sample, source: Source, where: str, s
     top_rows = map(cells, top[layout.first :]) if quoted else rows[layout.first :]
     later = map(cells, (*head[max(len(top), layout.first) : layout.first + _TYPED_ROWS], *first.rest))
     body = [r for r in (*top_rows, *later) if len(r) == width]
-    refuse_long(layout.names, body, where)
+    refuse_long(layout.names, body, where, layout.time)
     groups = tuple(_timed(g, layout, body, head, cells, first, stream, where) for g in layout.groups)
     dated = _dated(body, groups[0]) if groups else body
     cells_of = {name: [r[i] for r in dated] for i, name in enumerate(layout.names)}
