@@ -9,7 +9,7 @@ import pytest
 from thermodata_reader_cnc import Reader
 from thermodata_reader_cnc.sinumerik import trace_records
 
-from thermodata.errors import FormatError
+from thermodata.errors import FormatError, QuestionError
 from thermodata.plugin import Source
 from thermodata.reader.registry import head
 from thermodata.schema.flag import Flag
@@ -214,6 +214,28 @@ def kit_files(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Path]:
         "xml": written(folder, xml(60), "trace.xml"),
         "csv": written(folder, '"Time","/Nck/!SD/nckServoDataActCurr32 [u1; 1]"\n' + rows, "trace.csv"),
     }
+
+
+def counted(name: str, step: float = 10.0) -> str:
+    rows = "".join(f"{i * step:g},{20 + i / 4}\n" for i in range(40))
+    return f"{name},/Nck/MachineAxis/aaTemp[1]\n{rows}"
+
+
+@pytest.mark.parametrize(
+    ("name", "step_ns"),
+    [("Time", 10_000_000_000), ("Time [ms]", 10_000_000), ("Tick_ms", 10_000_000), ("t / min", 600_000_000_000)],
+)
+def test_the_time_of_a_trace_csv_is_in_the_unit_that_its_name_says(tmp_path: Path, name: str, step_ns: int) -> None:
+    data = load(Reader(), written(tmp_path, counted(name), "trace.csv"), Source())
+    assert set(np.diff(data.t_ns["trace"])) == {step_ns}
+
+
+def test_a_count_that_is_called_no_time_is_asked_for_its_unit(tmp_path: Path) -> None:
+    path = written(tmp_path, counted("Tick"), "trace.csv")
+    with pytest.raises(QuestionError, match="'Tick' has no unit"):
+        load(Reader(), path, Source())
+    data = load(Reader(), path, Source(table={"time": {"unit": "ms"}}))
+    assert set(np.diff(data.t_ns["trace"])) == {10_000_000}
 
 
 @pytest.mark.parametrize("number", range(len(reader_checks(Reader, [(Path("x"), Source())]))))

@@ -1,23 +1,26 @@
-"""Sinumerik Trace as CSV: time in seconds, then signals named by their paths (`/Nck/!SD/... [u1; 1]`)."""
+"""Sinumerik Trace as CSV: time in seconds, or in the unit that is said of it, then signals named by their paths
+(`/Nck/!SD/... [u1; 1]`)."""
 
 from __future__ import annotations
 
 import re
 from collections import Counter
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
 
 from thermodata.errors import FormatError
 from thermodata.plugin import Block, Loss, Recording, Signal, Source
+from thermodata.reader.open_questions import unit_question
 from thermodata.reader.text.delimiter import fields
 from thermodata.reader.text.lines import chunks, from_line, sample, split_last_line
 from thermodata.reader.text.locate import line_of
 from thermodata.reader.text.losses import Losses
-from thermodata.reader.text.number import clean, is_number
-from thermodata.reader.time_units import to_ns
+from thermodata.reader.text.number import clean, is_number, to_float
+from thermodata.reader.text.time_header import unit_of_time
+from thermodata.reader.time_units import SECONDS, check_unit, to_ns
 from thermodata.reader.zone import NAT
 from thermodata_reader_cnc.number_rows import everywhere, number_rows
 
@@ -25,12 +28,15 @@ STREAM = "trace"
 _PATH = re.compile(r"[/+](?:Nck|Channel|Bag|Tool|DriveVsa|Hmi)/", re.IGNORECASE)
 _MOST_ROWS = 2000
 _TIME = re.compile(r"^(time|zeit|t)\b", re.IGNORECASE)
+_UNIT = re.compile(r"[ _/(\[](s|sec|ms|us|µs|min|h)[)\]]?$")  # behind what else a count is called: "Tick_ms"
+_LOOKED_AT = 200  # rows, for what is said of a time
 EXAMPLE = b'"Time","/Nck/!SD/nckServoDataActCurr32 [u1; 1]"\n0.000,1.5\n0.002,1.6\n0.004,1.7\n'
 
 
 @dataclass(frozen=True, slots=True)
 class Header:
-    """first: 0-based line of the first data. time: its column. names: '' for columns that are none."""
+    """first: 0-based line of the first data. time: its column; seconds: of its unit, None where nobody says that;
+    names: '' for columns that are none."""
 
     first: int
     delimiter: str
@@ -38,6 +44,7 @@ class Header:
     names: tuple[str, ...]
     width: int
     decimal: str
+    seconds: float | None = 1.0
 
 
 def find_header(lines: Sequence[str]) -> Header | None:
@@ -117,7 +124,15 @@ def _header_of(names: list[str], first: int, delimiter: str, width: int, data: S
     time = next((k for k, name in enumerate(names) if _TIME.match(name)), 0)
     decimal = "," if delimiter != "," and any("," in text for text in data) else "."
     width = max(width, len(names))
-    return Header(first, delimiter, time, tuple((names + [""] * width)[:width]), width, decimal)
+    names = (names + [""] * width)[:width]
+    return Header(first, delimiter, time, tuple(names), width, decimal, _seconds(names[time]))
+
+
+def _seconds(name: str) -> float | None:
+    """The unit of the time [s] by the name of its column: a trace counts seconds where that is called a time. None
+    where another name says no unit."""
+    unit = unit_of_time(name) or next(iter(_UNIT.findall(name)), "s" if not name or _TIME.match(name) else None)
+    return None if unit is None else SECONDS.get(unit.casefold())
 
 
 def claims(lines: Sequence[str]) -> str | None:
@@ -135,6 +150,14 @@ def _header(path: Path, source: Source) -> tuple[Header, str, bool]:
             expected="columns named /Nck/... or /Channel/...",
             got=first.head[0][:80] if first.head else "nothing",
         )
+    said = (source.table or {}).get("time") or {}
+    unit = said.get("unit") if isinstance(said, Mapping) else None
+    if unit is not None:
+        header = replace(header, seconds=SECONDS.get(check_unit(str(unit), path.name)))
+    if header.seconds is None:
+        cells = (fields(line, header.delimiter) for line in first.head[header.first : header.first + _LOOKED_AT])
+        values = [to_float(clean(c[header.time]), header.decimal) for c in cells if len(c) == header.width]
+        raise unit_question(header.names[header.time], np.array([v for v in values if v is not None]), path.name)
     return header, first.encoding, first.ends_with_newline
 
 
@@ -153,7 +176,7 @@ def blocks(path: Path, source: Source) -> Iterator[Block | Loss]:
     for chunk in from_line(chunks(path, encoding), header.first):
         data, tail = split_last_line(chunk.data) if chunk.last else (chunk.data, b"")
         rows = number_rows(data, chunk.line, header.delimiter, header.decimal, ["float64"] * header.width)
-        t_ns = to_ns(rows.columns[header.time], 1.0)
+        t_ns = to_ns(rows.columns[header.time], header.seconds or 1.0)
         good = t_ns != NAT
         t_ns = t_ns[good]
         for bad in rows.bad:
