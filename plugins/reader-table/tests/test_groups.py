@@ -47,6 +47,11 @@ def held(data: Data, stream: str, name: str, t: list[float], values: list[Any]) 
         ("Time.0 [s];CH1;Time.1 [s];CH2;n", ("Time.0 [s]", "Time.1 [s]"), ("CH1", "CH2")),
         ("CH1 time;CH1;CH2 time;CH2;n", ("CH1 time", "CH2 time"), ("CH1", "CH2")),
         ("Zeit 1 [s];a;Zeit 2 [s];b;c", ("Zeit 1 [s]", "Zeit 2 [s]"), ("a", "b")),
+        (
+            "Zeit  1 - Standard [s];a;Zeit  2 - Fast [s];b;c",
+            ("Zeit  1 - Standard [s]", "Zeit  2 - Fast [s]"),
+            ("a", "b"),
+        ),
         ("CH1;;CH2;;\nTime;Value;Time;Value;n", ("CH1/Time", "CH2/Time"), ("CH1/Value", "CH2/Value")),
     ],
 )
@@ -155,3 +160,11 @@ def test_a_line_below_the_header_that_is_no_header_is_told(tmp_path: Path, line:
     assert [s.name for s in data.recording.signals] == ["T", "n", "p"]
     told = (*data.recording.notes, *(loss.reason for loss in data.losses))
     assert any("between header and data is not read" in x or x.startswith("expected 4 cells, got") for x in told)
+
+
+def test_a_second_time_of_another_pace_is_asked_and_one_that_goes_along_is_a_signal(tmp_path: Path) -> None:
+    head = "Slow time [s];T1;Fast time [s];dZ\n"
+    with pytest.raises(FormatError, match="two time columns that run apart"):
+        read(tmp_path, head + rows([10.0 * a for a in A], VA, A, VA))
+    data = read(tmp_path, head + rows(A, VA, [a + 0.001 for a in A], VA))
+    assert {n for _, n in data.values} == {"T1", "Fast time [s]", "dZ"}

@@ -20,6 +20,7 @@ from thermodata.reader.text.header import split_unit
 from thermodata.reader.time_units import EPOCHS, SECONDS
 
 _NUMBERED = re.compile(r"^(?P<word>.*?)[ _.#-]*(?P<number>\d{1,3})$")
+_COUNTED = re.compile(r"^(?P<word>[^\W\d_]+)\s*\d{1,2}\s*[-–:]\s")  # 'Zeit  2 - fast': the rates of catman
 _HINT = (
     "declare table: {time: [{column: 1, unit: s}, {column: 3, unit: s}]}, each with the columns behind it, or "
     "with signals: [...]; or one time for all: table: {time: {column: 1}}"
@@ -70,6 +71,9 @@ def time_name(header: str) -> _Name | None:
     match = _NUMBERED.match(last)
     if match and TIME_WORD.match(match["word"]):
         return _Name(match["word"].casefold(), "", True)
+    match = _COUNTED.match(last)
+    if match and TIME_WORD.match(match["word"]):
+        return _Name(match["word"].casefold(), "", True)
     parts = re.split(r"[\s_.:()\[\]-]+", last.strip("()[] "))
     for word, rest in ((parts[0], parts[1:]), (parts[-1], parts[:-1])):
         if len(word) > 1 and rest and TIME_WORD.match(word):
@@ -94,6 +98,7 @@ def spans(
         if all(said[i].word != first.word or said[i].bare != first.bare for i in run[:1]):
             notes += _other(runs[0][0], run[0], said, names, units, data, where)
         elif not first.bare and not (_beside(run, said, names) and _beside(runs[0], said, names)):
+            _ask_if_apart(runs[0][0], run[0], names, units, data, where)
             notes.append(_kept(names[run[0]]))
         else:
             own.append(run)
@@ -171,22 +176,47 @@ def _other(
     apart from the first is asked."""
     if said[second].word == "t" and units[second] is None:
         return []  # a temperature that rises
-    alone = sum(is_empty(r[first]) != is_empty(r[second]) for r in data)
-    if not alone and (not said[second].bare or second == len(names) - 1):
+    apart = _apart(first, second, units, data)
+    if apart is None or (apart >= 0 and (not said[second].bare or second == len(names) - 1)):
         return [_kept(names[second])]
+    if apart == 0:
+        return []
+    raise _question(first, second, names, where)
+
+
+def _ask_if_apart(
+    first: int,
+    second: int,
+    names: Sequence[str],
+    units: Sequence[str | None],
+    data: Sequence[Sequence[Cell]],
+    where: str,
+) -> None:
+    """FormatError where a second time of the same word is another clock than the first: what stands behind it would
+    get times that are not its own."""
+    if second < len(names) - 1 and _apart(first, second, units, data):
+        raise _question(first, second, names, where)
+
+
+def _apart(first: int, second: int, units: Sequence[str | None], data: Sequence[Sequence[Cell]]) -> float | None:
+    """By how much two times differ: 0 where they are one clock (but for an offset), -1 where one stands alone in a row;
+    None where that cannot be told, for one is a date."""
+    if sum(is_empty(r[first]) != is_empty(r[second]) for r in data):
+        return -1.0
     pairs = [(number_of(r[first]), number_of(r[second])) for r in data]
     rows = np.array([(a, b) for a, b in pairs if a is not None and b is not None]).reshape(-1, 2)
-    if not alone and rows.shape[0] < 2:
-        return [_kept(names[second])]  # a date and a number of seconds
-    if not alone:
-        a, b = (
-            rows[:, k] * SECONDS.get((units[i] or "s").strip("[]() ").lower(), 1.0)
-            for k, i in ((0, first), (1, second))
-        )
-        step = float(np.median(np.abs(np.diff(a)))) or 1.0
-        if np.ptp(b - a) <= max(2 * step, 1e-3 * float(np.ptp(a))):
-            return []
-    raise FormatError(
+    if rows.shape[0] < 2:
+        return None  # a date and a number of seconds
+    a, b = (
+        rows[:, k] * SECONDS.get((units[i] or "s").strip("[]() ").lower(), 1.0) for k, i in ((0, first), (1, second))
+    )
+    step = float(np.median(np.abs(np.diff(a)))) or 1.0
+    spread = float(np.ptp(b - a))
+    return spread if spread > max(2 * step, 1e-3 * float(np.ptp(a))) else 0.0
+
+
+def _question(first: int, second: int, names: Sequence[str], where: str) -> FormatError:
+    return FormatError(
         "two time columns that run apart",
         where=where,
         got=f"'{names[first]}' and '{names[second]}'",
