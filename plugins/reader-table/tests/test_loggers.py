@@ -123,6 +123,26 @@ def test_numbers_that_are_no_part_of_a_second_stay_a_signal(tmp_path: Path) -> N
     assert list(read(path)[0]) == ["s", "CH1"]
 
 
+@pytest.mark.parametrize(
+    ("header", "utc"),
+    [
+        ("Date Time, GMT+01:00", "10:30"),
+        ("Date Time, GMT-04:00", "15:30"),
+        ("time_utc", "11:30"),
+        ("Time (UTC)", "11:30"),
+        ("Time (UTC+2)", "09:30"),
+        ("Time", "09:30"),
+    ],
+)
+def test_the_zone_that_a_header_says_counts_all_year(tmp_path: Path, header: str, utc: str) -> None:
+    """A logger that stays in winter time, in July, in a source with daylight saving."""
+    path = tmp_path / "hall.csv"
+    path.write_text(f'"#","{header}","T1"\n' + "".join(f"{i},2026-07-27 11:30:{i:02d},20.5\n" for i in range(40)))
+    start = Reader().describe(path, Source(timezone="Europe/Prague")).start_ns
+    assert start == np.datetime64(f"2026-07-27T{utc}", "ns").astype(int)
+    assert not any("no time zone" in n for n in Reader().describe(path, Source()).notes) or header == "Time"
+
+
 def test_quoted_numbers_with_a_decimal_comma_between_commas(tmp_path: Path) -> None:
     path = tmp_path / "sheet.csv"
     path.write_text("Time [s],T [°C]\n" + "".join(f'{i},"{20 + i},5"\n' for i in range(20)), encoding="utf-8")

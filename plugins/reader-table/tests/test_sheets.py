@@ -153,6 +153,14 @@ def test_the_date_system_of_1904(tmp_path: Path) -> None:
         np.testing.assert_array_equal(np.diff(data.t_ns["table"]), [3600 * 10**9] * 3)
 
 
+def test_the_zone_that_a_header_says_is_that_of_the_dates_below_it(tmp_path: Path) -> None:
+    source = Source(timezone="Europe/Prague")
+    for header, utc in (("time", "2020-03-01T07:00"), ("Time (UTC)", "2020-03-01T08:00")):
+        rows: list[list[object]] = [[header, "T"], *([43891 + (8 + i) / 24, i] for i in range(4))]
+        data = read(tmp_path, {"a": sheet(rows, (1,))}, source)
+        assert data.t_ns["table"][0] == np.datetime64(utc, "ns").astype(int)
+
+
 def test_durations_as_times_and_as_values(tmp_path: Path) -> None:
     rows: list[list[object]] = [["time", "T", "running"], *([i * 0.5, i, i / 86400] for i in range(5))]
     data = read(tmp_path, {"a": sheet(rows, (2, 0, 2))})

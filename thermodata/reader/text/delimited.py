@@ -75,6 +75,10 @@ def _zone_notes(table: Table, source: Source, start: int) -> list[str]:
     timed = table.groups[0]
     if timed.zoned or (timed.group.epoch is not None):
         return []
+    if timed.stated is not None:
+        said = [] if source.timezone in (None, timed.stated) else [f"the declared {source.timezone} is not used"]
+        names = "', '".join(table.layout.names[i] for i in timed.group.time)
+        return ["; ".join([f"times in {timed.stated} by their header '{names}'", *said])]
     if source.timezone is None:
         return local_to_utc_ns(np.array([start], np.int64).view("datetime64[ns]"), None)[1]
     last = (table.sample.rest or table.sample.head)[-50:]

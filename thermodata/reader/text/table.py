@@ -23,6 +23,7 @@ from thermodata.reader.text.quality_columns import Pairs, quality_pairs, worded
 from thermodata.reader.text.short_header import refuse_short_header
 from thermodata.reader.text.time_formats import find_formats
 from thermodata.reader.text.timestamp import TimeFormat
+from thermodata.reader.text.zone_words import stated_zone
 from thermodata.reader.time_units import SECONDS
 from thermodata.reader.zone import NAT
 
@@ -34,11 +35,13 @@ _FEW_ROWS = 400  # whose times are read one by one, for Arrow takes longer to lo
 
 @dataclass(frozen=True, slots=True)
 class TimedGroup:
-    """Columns with one time, and how that is written. formats: one a time column, none for numbers."""
+    """Columns with one time, and how that is written. formats: one a time column, none for numbers; stated: the zone
+    that their headers say, None where they say none."""
 
     stream: str
     group: Group
     formats: tuple[TimeFormat, ...]
+    stated: str | None = None
 
     @property
     def of_day(self) -> bool:
@@ -294,7 +297,7 @@ def _timed(
 ) -> TimedGroup:
     name = stream if group.stream == STREAM else group.stream
     if not group.dated:
-        return TimedGroup(name, group, ())
+        return TimedGroup(name, group, (), stated_zone(layout.names[i] for i in group.time))
 
     def more(k: int) -> list[str]:
         rows = map(cells, (*head[layout.first :], *first.rest))
@@ -302,7 +305,7 @@ def _timed(
 
     columns = [[r[i] for r in body[:_TYPED_ROWS]] for i in group.time]
     names = [layout.names[i] for i in group.time]
-    return TimedGroup(name, group, find_formats(names, columns, group.form, where, more))
+    return TimedGroup(name, group, find_formats(names, columns, group.form, where, more), stated_zone(names))
 
 
 def _dated(body: Sequence[list[str]], timed: TimedGroup) -> list[list[str]]:

@@ -46,7 +46,7 @@ class RowReader:
         self.losses = Losses(table.name, max(size, 1))
         self.sure = table.decimal is not None
         self.grid = table.grid(table.decimal or ("," if table.delimiter != "," else "."))
-        self.clocks = [_Clock(timed, source.timezone) for timed in table.groups]
+        self.clocks = [_Clock(timed, timed.stated or source.timezone) for timed in table.groups]
         wide = len(table.layout.names) + 8
         self.rows_of_a_block = max(1, int(source.options.get("block_rows", _BLOCK_VALUES // wide)))
         self.stopped = False

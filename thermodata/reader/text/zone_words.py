@@ -6,6 +6,7 @@ CST may be Chicago, Shanghai or Havana: such a word is asked about, never taken 
 from __future__ import annotations
 
 import re
+from collections.abc import Iterable
 
 _HOUR_NS = 3600 * 1_000_000_000
 # hours east of Greenwich; those of Europe in English, German and Czech, those of the United States by RFC 5322
@@ -57,3 +58,21 @@ def word_behind(cell: str) -> str | None:
     match = _BEHIND.search(cell.strip())
     word = match["word"].strip("()") if match else ""
     return word if word and word.isupper() and word not in HOURS and word not in ("AM", "PM") else None
+
+
+_STATED = re.compile(
+    r"(?:^|[\s_,;(\[])(?:GMT|UTC)(?:\s?(?P<sign>[+\u2212-])(?P<hours>\d{1,2})(?::?(?P<minutes>\d\d))?)?(?=$|[\s,;)\]])",
+    re.IGNORECASE,
+)
+
+
+def stated_zone(headers: Iterable[str]) -> str | None:
+    """The zone that the headers of a time say it is in, as an IANA name: 'Date Time, GMT+01:00', 'time_utc'. None where
+    they say none, or one that is no whole hours from UTC."""
+    for header in headers:
+        match = _STATED.search(header)
+        if match is None or int(match["minutes"] or 0) or int(match["hours"] or 0) > 12:
+            continue
+        hours = int(match["hours"] or 0)
+        return f"Etc/GMT{'-' if match['sign'] == '+' else '+'}{hours}" if hours else "UTC"  # signs as POSIX has them
+    return None

@@ -24,6 +24,7 @@ from thermodata.reader.text.time_formats import (
     times_of_numbers,
     times_of_texts,
 )
+from thermodata.reader.text.zone_words import stated_zone
 from thermodata.reader.time_units import SECONDS, to_ns
 from thermodata.reader.zone import NAT
 
@@ -120,17 +121,18 @@ class Table:
             rows = len(self.columns[0]) if self.columns else 0
             return Stamps(to_ns(np.arange(rows) * float(group.seconds or 1.0), 1.0), False, ())
         columns = [self.columns[i] for i in group.time]
+        zone = stated_zone(self.layout.names[i] for i in group.time) or self.source.timezone
         if not group.dated:
             unit = group.epoch or next(u for u, seconds in SECONDS.items() if seconds == group.seconds)
-            return times_of_numbers(self._numbers(columns[0])[0], unit, self.source.timezone)
+            return times_of_numbers(self._numbers(columns[0])[0], unit, zone)
         if declared_parts(group.form, len(columns)):
             parts = [[_part(cell) for cell in cells] for cells in columns]
             forms = find_formats([self.layout.names[i] for i in group.time], parts, group.form, self.where)
-            return times_of_dates(column_times(parts, forms).view("datetime64[ns]"), self.source.timezone)
+            return times_of_dates(column_times(parts, forms).view("datetime64[ns]"), zone)
         joined = [_joined(cells) for cells in zip(*columns, strict=True)]
         if any(isinstance(j, str) and j for j in joined):
             texts = [j if isinstance(j, str) else str(j).replace(" 00:00:00", " 0:00:00") for j in joined]
-            return times_of_texts(texts, self.source.timezone, group.form, self.where)
+            return times_of_texts(texts, zone, group.form, self.where)
         if any(isinstance(j, dt.timedelta) for j in joined):
             micro = dt.timedelta(microseconds=1)
             t = np.array([(j // micro) * 1000 if isinstance(j, dt.timedelta) else NAT for j in joined], np.int64)
@@ -138,7 +140,7 @@ class Table:
                 return times_of_day(t)
             return Stamps(t, False, ("durations: counted as the cells say",))
         naive = np.array([j.isoformat() if isinstance(j, dt.datetime) else "NaT" for j in joined], "datetime64[ns]")
-        return times_of_dates(naive, self.source.timezone)
+        return times_of_dates(naive, zone)
 
     def _numbers(self, cells: tuple[Any, ...]) -> tuple[Array, list[str], Bool1D]:
         """(values, cells that are no numbers, which say overload): texts by the policy of all texts."""
