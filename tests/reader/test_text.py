@@ -75,6 +75,28 @@ def test_unit_in_brackets(header: str, name: str, unit: str | None) -> None:
     assert split_unit(header) == (name, unit)
 
 
+@pytest.mark.parametrize(
+    ("header", "name", "unit"),
+    [
+        ("Temp, °C (LGR S/N: 10384870, SEN S/N: 10384870, LBL: hall air)", "Temp hall air", "°C"),
+        ("RH, % (LGR S/N: 10384870, SEN S/N: 10384870)", "RH", "%"),
+        ("Host Connected (LGR S/N: 10384870)", "Host Connected", None),
+        ("Kanal 1 [°C] vorn", "Kanal 1 vorn", "°C"),
+        ("101 (C)- T_front", "101 T_front", "C"),
+        ("103 (Vdc)- gap", "103 gap", "Vdc"),
+        ("M00: °C", "M00", "°C"),
+        ("M02: V", "M02", "V"),
+        ("M00: Lager", "M00: Lager", None),
+        ("M00: T", "M00: T", None),
+        ("Achse [C] Ist", "Achse [C] Ist", None),
+        ("T[2] mean", "T[2] mean", None),
+        ("Motor (A) current", "Motor (A) current", None),
+    ],
+)
+def test_the_unit_of_a_header_may_stand_within_it(header: str, name: str, unit: str | None) -> None:
+    assert split_unit(header) == (name, unit)
+
+
 def test_decimal_mark_from_the_data() -> None:
     assert decimal_mark(["1", "2,5", "x"]) == ","
     assert decimal_mark(["1", "2.5e-3"]) == "."

@@ -39,9 +39,15 @@ def looks_like_unit(text: str) -> bool:
 def split_unit(header: str) -> tuple[str, str | None]:
     """(name, unit or None): 'ch3(um)' -> ('ch3', 'um'), 'Temp [degC]' -> ('Temp', 'degC').
 
-    Brackets that hold no unit stay in the name: 'Excitation (Trigger)', 'nckServoData [u1; 1]', 'T[2]'.
+    Brackets that hold no unit stay in the name: 'Excitation (Trigger)', 'nckServoData [u1; 1]', 'T[2]'. Where loggers
+    write a unit elsewhere, see `_unit_within`.
     """
     header = header.strip()
+    found = _unit_at_end(header)
+    return found if found[1] is not None else _unit_within(header)
+
+
+def _unit_at_end(header: str) -> tuple[str, str | None]:
     match = _TRAILING.match(header)
     if not match or not match["name"].strip():
         return header, None
@@ -54,6 +60,38 @@ def split_unit(header: str) -> tuple[str, str | None]:
     # a word of its own in square brackets is a unit that we don't know; an index or an address is none
     if match["square"] and match["gap"] and re.match(r"^[^\W\d][^;,]{0,15}$", unit) and not re.match(r"^u\d", unit):
         return match["name"].strip(), unit
+    return header, None
+
+
+# 'Temp, °C (LGR S/N: 1, LBL: hall)': a unit behind a comma, and numbers of devices
+_DEVICE = re.compile(r"\s*\((?P<device>[^()]*\bS/N\b[^()]*)\)$")
+_LABEL = re.compile(r"\bLBL: *(?P<label>[^,]+)")
+# '101 (C)- T_front', '101 <front> (C)', 'M00: °C': a unit behind the number of a channel
+_OF_CHANNEL = re.compile(
+    r"^(?:(?P<number>\d{1,4}) \((?P<round>[^()]+)\)[ -]*(?P<name>.+)|(?P<code>[A-Za-z]{0,3}\d{1,4}): *(?P<unit>\S+))$"
+)
+_SQUARE = re.compile(r"^(?P<before>[^\[\]]*[^\[\]\s])\s*\[(?P<unit>[^\[\]]{2,})\]\s+(?P<behind>[^\[\]]+)$")
+
+
+def _unit_within(header: str) -> tuple[str, str | None]:
+    """The same of a header with its unit elsewhere than at its end: 'Kanal 1 [°C] vorn' -> ('Kanal 1 vorn', '°C').
+    A letter alone may be an axis, so it is a unit behind the number of a channel only."""
+    device = _DEVICE.search(header)
+    if device is not None:
+        name, _, unit = header[: device.start()].rpartition(", ")
+        label = _LABEL.search(device["device"])
+        behind = f" {label['label'].strip()}" if label else ""
+        if name and looks_like_unit(unit):
+            return name + behind, unit
+        return header[: device.start()] + behind, None
+    match = _OF_CHANNEL.match(header)
+    if match is not None:
+        unit = match["round"] or match["unit"]
+        if looks_like_unit(unit) and (match["round"] or len(unit) > 1 or unit == "V"):
+            return f"{match['number']} {match['name']}" if match["number"] else match["code"], unit
+    match = _SQUARE.match(header)
+    if match is not None and looks_like_unit(match["unit"]):
+        return f"{match['before']} {match['behind']}", match["unit"].strip()
     return header, None
 
 
