@@ -110,13 +110,13 @@ def test_words_for_nothing(word: str) -> None:
     assert not is_overload(word)
 
 
-@pytest.mark.parametrize("word", ["OL", "-OL", "+OVER", "Overload", "BURNOUT", "over range"])
+@pytest.mark.parametrize("word", ["OL", "-OL", "+OVER", "Overload", "BURNOUT", "over range", "+++++++", "Open TC"])
 def test_words_for_overload(word: str) -> None:
     assert is_overload(word)
     assert not is_empty(word)
 
 
-@pytest.mark.parametrize("word", ["ERR", "open", "0", "nothing", "-----", "o"])
+@pytest.mark.parametrize("word", ["ERR", "open", "0", "nothing", "-" * 13, "o"])
 def test_other_words_are_neither(word: str) -> None:
     assert not is_empty(word)
     assert not is_overload(word)

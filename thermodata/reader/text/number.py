@@ -29,15 +29,23 @@ from thermodata.reader.text import arrow
 
 EMPTY = frozenset(
     (
-        *("", "-", "--", "---", "----", "*", "***", "****", "?", "???", "null", "none", "unavailable"),
+        *("", *("-" * n for n in range(1, 13)), "*", "***", "****", "?", "???", "null", "none", "unavailable"),
         *("na", "n/a", "#n/a", "n.a.", "#nv", "nan", "+nan", "-nan", "nan(ind)", "-nan(ind)"),
         *("1.#qnan", "-1.#qnan", "1.#ind", "-1.#ind", "1,#qnan", "-1,#qnan", "1,#ind", "-1,#ind"),
     )
 )
 OVERLOAD = frozenset(
-    sign + word
-    for sign in ("", "+", "-")
-    for word in ("ol", "ovl", "ovld", "ovr", "over", "overload", "overflow", "overrange", "over range", "burnout")
+    (
+        *("+" * n for n in range(3, 13)),
+        *(
+            sign + word
+            for sign in ("", "+", "-")
+            for word in (
+                *("ol", "ovl", "ovld", "ovr", "over", "overload", "overflow", "overrange", "over range"),
+                *("burnout", "open tc"),
+            )
+        ),
+    )
 )
 TRUE = frozenset({"true", "wahr"})
 FALSE = frozenset({"false", "falsch"})
