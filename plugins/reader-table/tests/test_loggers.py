@@ -213,3 +213,34 @@ def test_rows_of_devices_and_rates_below_the_names_are_no_names(tmp_path: Path) 
     units, values = read(path)
     assert units == {"T vorn [°C]": "°C", "Weg Z [µm]": "µm"}
     assert values["T vorn [°C]"][:2].tolist() == [20.25, 21.25]
+
+
+def test_lines_of_dashes_and_of_plus_signs_are_no_values(tmp_path: Path) -> None:
+    path = tmp_path / "marks.csv"
+    cells = ["-----", "+++++++", "-------", "20.5"]
+    path.write_text("Time [s],T1\n" + "".join(f"{i},{cells[i % 4]}\n" for i in range(40)))
+    found = list(Reader().blocks(path, Source()))
+    assert all(isinstance(b, Block) for b in found)
+    assert np.array_equal(read(path)[1]["T1"][:4], [np.nan, np.nan, np.nan, 20.5], equal_nan=True)
+
+
+def test_a_recorders_elapsed_time_of_three_digits_below_comments_and_units(tmp_path: Path) -> None:
+    path = tmp_path / "nr.csv"
+    head = ["NR-X", "#BeginData", "Elapsed time,CH1,CH2", "Comment,front,gap", "Unit,degC,mV"]
+    rows = [f"{i // 120:03d}:{i // 2 % 60:02d}:{i % 2 * 30:02d}.000,{20 + i / 100:.2f},{i}" for i in range(3600)]
+    path.write_text("\n".join([*head, *rows, ""]))
+    assert "table" in (Reader().sniff(Head("nr.csv", path.stat().st_size, path.read_bytes()[:65536])) or "")
+    units, values = read(path)
+    assert units == {"front": "degC", "gap": "mV"}
+    assert len(values["gap"]) == 3600
+    t_ns = np.concatenate([b.t_ns for b in Reader().blocks(path, Source()) if isinstance(b, Block)])
+    assert set(np.diff(t_ns)) == {30 * 10**9}
+
+
+def test_cells_with_units_in_them_are_refused_with_what_to_do(tmp_path: Path) -> None:
+    path = tmp_path / "panel.csv"
+    rows = "".join(f'"2026-03-27 06:00:{i:02d}","{20 + i} °C","{i} µm"\n' for i in range(40))
+    path.write_text('"Time","T1","dZ"\n' + rows, encoding="utf-8")
+    with pytest.raises(FormatError, match="hold their units") as said:
+        read(path)
+    assert "without their units" in str(said.value)

@@ -15,6 +15,7 @@ from thermodata.reader.text.header_rows import are_numbers, lines_between, names
 from thermodata.reader.text.time_columns import column, time_of
 from thermodata.reader.text.time_formats import Stamps
 from thermodata.reader.text.time_groups import Span, spans
+from thermodata.reader.text.unit_cells import refuse_units_in_cells
 from thermodata.reader.time_units import EPOCHS, SECONDS
 from thermodata.reader.zone import NAT
 
@@ -289,6 +290,8 @@ def _first_data(body: Sequence[Sequence[Cell]], width: int, where: str) -> int:
         if words and alone and not dated:
             continue  # "Serial;4711" above the header; a row above one that is repeated is data
         return i
+    dated = [r for r in _second_half(body) if len(r) == width and any(map(is_stamp, r))]
+    refuse_units_in_cells([c for r in dated for c in r if not is_stamp(c)], where)
     raise FormatError(
         "no data rows found",
         where=where,

@@ -23,6 +23,7 @@ from thermodata.reader.text.quality_columns import Pairs, quality_pairs, worded
 from thermodata.reader.text.short_header import refuse_short_header
 from thermodata.reader.text.time_formats import find_formats
 from thermodata.reader.text.timestamp import TimeFormat
+from thermodata.reader.text.unit_cells import refuse_units_in_cells
 from thermodata.reader.text.zone_words import stated_zone
 from thermodata.reader.time_units import SECONDS
 from thermodata.reader.zone import NAT
@@ -237,6 +238,10 @@ def find_table(head: Sequence[str], first: Sample, source: Source, where: str, s
             kinds.append(dtype_of(column, name, unit))
     if not any(kind is not None for i, kind in enumerate(kinds) if i not in times):
         raise FormatError("no column beside the time", where=where, expected="values", got=", ".join(layout.names))
+    if all(kind in (None, "str") for i, kind in enumerate(kinds) if i not in times):
+        refuse_units_in_cells(
+            [c for i, name in enumerate(layout.names) if i not in times for c in cells_of[name]], where
+        )
     numbers = [cells_of[name] for name, kind in zip(layout.names, kinds, strict=True) if kind == "float64"]
     declared = said.get("decimal")
     if declared == UNKNOWN:

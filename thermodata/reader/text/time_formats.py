@@ -26,6 +26,7 @@ from thermodata.reader.zone import NAT, local_to_utc_ns
 
 _FEW, _MANY = 40, 4000
 _DAY_NS = 86_400 * 10**9
+_HUNDREDS = re.compile(r"\s*\d{3,}:")  # hours in three digits
 _HINT = "declare table: {time: {format: dmy}} or mdy, or strptime's letters: '%d/%m/%Y %H:%M:%S'"
 _ORDERS = ("dmy", "mdy", "ymd")  # what may be declared in place of letters
 
@@ -122,10 +123,12 @@ def find_format(
 
 
 def _goes_on(cells: Sequence[str]) -> bool:
-    """Whether durations reach beyond a day, and never fall: a damaged time of day is none."""
+    """Whether durations reach beyond a day, or leave room for it (000:10:00), and never fall: a damaged time of day is
+    none."""
     ns = timestamp.parse(list(cells), ELAPSED)
     ns = ns[ns != NAT]
-    return bool(ns.size and ns.max() >= _DAY_NS and (np.diff(ns) >= 0).all())
+    roomy = all(_HUNDREDS.match(c) for c in cells if c.strip())
+    return bool(ns.size and (roomy or ns.max() >= _DAY_NS) and (np.diff(ns) >= 0).all())
 
 
 def _order(
