@@ -13,6 +13,9 @@ import pytest
 import scipy.io
 
 from thermodata.errors import FormatError, QuestionError
+from thermodata.plugin import Source
+from thermodata.reader import reader as named
+from thermodata.testing.reader import load
 
 from .conftest import Lab
 
@@ -334,3 +337,26 @@ def test_times_in_an_odd_spelling_are_asked_for_in_parquet_too(lab: Lab) -> None
     assert lab("init", lab.folder).code == 0
     assert lab("ingest", lab.folder / "campaign.yaml").code == 0
     np.testing.assert_allclose(lab.values("T_spindle", "a")[0], N * 10.0)
+
+
+def test_a_year_of_two_digits_at_either_end_is_asked_for(lab: Lab) -> None:
+    """What is 26/03/14 to a recorder of East Asia would be 12 years older with its year at the end."""
+    this = np.datetime64("now").item().year
+    short, old = f"{this % 100:02d}", f"{(this - 12) % 100:02d}"
+    rows = "".join(f"{short}/03/{old},08:00:{i:02d},20.5\n" for i in range(40))
+    lab.write("raw/a.csv", f"Date,Time,T1 [degC]\n{rows}")
+    said = lab.ingest({"T1": {"signal": "T1", "quantity": "temperature"}})
+    assert "two digits" in said.out + said.err
+    for declared, year in (("%y/%m/%d", this), ("dmy", this - 12)):
+        found = load(named("table"), lab.folder / "raw/a.csv", Source(table={"time": {"format": declared}}))
+        assert np.datetime64(int(found.t_ns["table"][0]), "ns").astype("datetime64[Y]").item().year == year
+
+
+def test_a_year_of_two_digits_behind_a_day_is_read_as_ever(lab: Lab) -> None:
+    this = np.datetime64("now").item().year
+    rows = "".join(f"01/03/{this % 100:02d},08:00:{i:02d},20.5\n" for i in range(40))
+    path = lab.write("raw/a.csv", f"Date,Time,T1 [degC]\n{rows}")
+    found = load(named("table"), path, Source(table={"time": {"format": "dmy"}}))
+    assert np.datetime64(int(found.t_ns["table"][0]), "ns").astype("datetime64[Y]").item().year == this
+    path = lab.write("raw/b.csv", f"Date,Time,T1 [degC]\n{rows.replace('01/03/', '31/03/')}")
+    assert load(named("table"), path, Source()).recording.clock == "absolute"

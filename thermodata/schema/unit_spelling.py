@@ -45,6 +45,7 @@ UNIT_SPELLING: dict[str, str] = {
     "degreescelsius": "degC",
     "stc": "degC",
     "degf": "degF",
+    "f": "degF",
     "°f": "degF",
     "fahrenheit": "degF",
     "um": "um",

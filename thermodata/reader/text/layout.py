@@ -290,8 +290,8 @@ def _first_data(body: Sequence[Sequence[Cell]], width: int, where: str) -> int:
         if words and alone and not dated:
             continue  # "Serial;4711" above the header; a row above one that is repeated is data
         return i
-    dated = [r for r in _second_half(body) if len(r) == width and any(map(is_stamp, r))]
-    refuse_units_in_cells([c for r in dated for c in r if not is_stamp(c)], where)
+    below = [r for r in _second_half(body) if len(r) == width and any(map(is_stamp, r))]
+    refuse_units_in_cells([c for r in below for c in r if not is_stamp(c)], where)
     raise FormatError(
         "no data rows found",
         where=where,

@@ -9,6 +9,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from datetime import UTC, datetime
 from functools import partial
 
 import numpy as np
@@ -26,6 +27,7 @@ from thermodata.reader.zone import NAT, local_to_utc_ns
 
 _FEW, _MANY = 40, 4000
 _DAY_NS = 86_400 * 10**9
+_SHORT = re.compile(r"\s*(\d{2})[-/](\d{2})[-/](\d{2})(?!\d)")
 _HUNDREDS = re.compile(r"\s*\d{3,}:")  # hours in three digits
 _HINT = "declare table: {time: {format: dmy}} or mdy, or strptime's letters: '%d/%m/%Y %H:%M:%S'"
 _ORDERS = ("dmy", "mdy", "ymd")  # what may be declared in place of letters
@@ -111,6 +113,8 @@ def find_format(
             known = {o: form for o, form in forms.items() if order is None or o in ("", order)}
             orders = [o for o, form in known.items() if share(few, form) > enough]
             if orders:
+                if order is None:
+                    _ask_for_year(few, where)
                 return forms[_order(orders, cells, more, forms, where)]
     full = [c for c in cells if c.strip()]
     raise FormatError(
@@ -159,6 +163,30 @@ def _order(
         got=first,
         hint=_HINT,
         ask=f"format of the dates: dmy or mdy? {first} may be either",
+        declare={"time": {"format": UNKNOWN}},
+        meanwhile={"time": {"format": "dmy"}},
+    )
+
+
+def _ask_for_year(cells: Sequence[str], where: str) -> None:
+    """QuestionError where all dates may begin with a year of two digits, as loggers of East Asia write them, and would
+    be older with their year at the end: 26/03/14 is of 2026 or of 2014."""
+    parts = [m for c in cells if (m := _SHORT.match(c))]
+    latest = datetime.now(UTC).year % 100
+    if not parts or 10 * len(parts) < 9 * len([c for c in cells if c.strip()]):
+        return
+    for first, middle, last in ((int(x) for x in m.groups()) for m in parts):
+        if not (last < first <= latest and 1 <= middle <= 12 and last >= 1):
+            return
+    got = parts[0].group().strip()
+    raise QuestionError(
+        "dates with a year of two digits at either end",
+        where=where,
+        expected="a year of four digits, or its place declared",
+        got=got,
+        hint="declare table: {time: {format: '%y/%m/%d %H:%M:%S'}} in the letters of the dates, or {format: dmy}",
+        ask=f"format of the dates: dmy, or year first ('%y/%m/%d %H:%M:%S', in the letters of the dates)? '{got}' may "
+        "be either",
         declare={"time": {"format": UNKNOWN}},
         meanwhile={"time": {"format": "dmy"}},
     )
