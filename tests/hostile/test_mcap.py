@@ -67,3 +67,24 @@ def test_null_in_a_field_of_integers_that_only_comes_late_is_no_value(lab: Lab) 
     lab.ingest(X, LOG)
     _, values = lab.values("pos")
     np.testing.assert_array_equal(values, [np.nan if n is None else n for n in numbers])
+
+
+def test_stamps_of_a_recorder_that_wrote_in_bursts_are_told_and_may_be_the_times(lab: Lab) -> None:
+    def stamped(burst: int) -> bytes:
+        stamps = [T0 + k * 10 * S for k in range(120)]
+        logs = [T0 + (k // burst) * burst * 10 * S + k * 1000 + 5_000_000 for k in range(120)]
+        header = [{"stamp": {"sec": t // S, "nanosec": t % S}} for t in stamps]
+        return recording((log, {"header": h, "x": k / 8}) for k, (log, h) in enumerate(zip(logs, header, strict=True)))
+
+    lab.write("raw/a.mcap", stamped(30))
+    said = lab.ingest(X, LOG)
+    assert "header.stamp changes its distance from them by 290 s" in said.out
+    assert lab.ingest(X, {**LOG, "options": {"time": "header.stamp"}}).code == 0
+    np.testing.assert_allclose(lab.values("pos")[0], np.arange(120) * 10.0)
+    lab.write("raw/a.mcap", stamped(1))
+    assert "changes its distance" not in lab.ingest(X, LOG).out
+    drafted = lab.folder / "new"
+    drafted.mkdir()
+    (drafted / "b.mcap").write_bytes(stamped(30))
+    lab("init", drafted)
+    assert "# ? time: topic '/axis'" in (drafted / "campaign.yaml").read_text()

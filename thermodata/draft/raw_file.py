@@ -18,7 +18,7 @@ from thermodata.reader.open_questions import UNKNOWN
 from thermodata.reader.registry import claims, reader
 
 _MOST_QUESTIONS = 4
-_ASSUMED = "counted as 1 s each|taken as seconds from a start"
+_ASSUMED = "counted as 1 s each|taken as seconds from a start|changes its distance from them"
 _UNIT: Mapping[str, Any] = {"time": {"unit": UNKNOWN}}
 
 

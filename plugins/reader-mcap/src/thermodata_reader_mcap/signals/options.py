@@ -11,7 +11,7 @@ from thermodata_reader_mcap.encodings.field_paths import Path
 
 LOG, PUBLISH = "log_time", "publish_time"
 _SCALES = {"s": 10**9, "ms": 10**6, "us": 10**3, "ns": 1}
-_STAMPS = (("sec", "nanosec"), ("secs", "nsecs"), ("seconds", "nanos"), ("sec", "nsec"))
+STAMPS = (("sec", "nanosec"), ("secs", "nsecs"), ("seconds", "nanos"), ("sec", "nsec"))
 
 
 @dataclass(frozen=True, slots=True)
@@ -34,7 +34,7 @@ class Options:
         """Paths that may hold the time: seconds and nanoseconds, or one number in `scale`."""
         if self.stamp is None:
             return []
-        pairs = [((*self.stamp, a), (*self.stamp, b)) for a, b in _STAMPS]
+        pairs = [((*self.stamp, a), (*self.stamp, b)) for a, b in STAMPS]
         return [*pairs, (self.stamp,)] if self.scale else list(pairs)
 
 

@@ -20,7 +20,8 @@ from thermodata_reader_mcap.container.records import ATTACHMENT, CHUNK, MESSAGE_
 from thermodata_reader_mcap.container.summary import Summary, summary
 from thermodata_reader_mcap.encodings.decoder import Decoder
 from thermodata_reader_mcap.encodings.topic import Topic
-from thermodata_reader_mcap.signals.options import PUBLISH, Options, options
+from thermodata_reader_mcap.signals.options import LOG, PUBLISH, Options, options
+from thermodata_reader_mcap.signals.stamps_apart import apart
 from thermodata_reader_mcap.signals.topic_discovery import discover, readers
 
 WHOLE = 8 << 20  # uncompressed bytes that are looked at completely
@@ -137,11 +138,17 @@ def plan(view: memoryview, name: str, source: Source) -> Plan:
     relative = times.size > 0 and int(times.max()) < EARLIEST_NS
     if relative:
         notes.append("log times count from the start of the recording")
+    elif chosen_options.time == LOG:
+        notes += [
+            note
+            for topic in found.topics.values()
+            if (note := apart(topic, batches, {c: r for c, r in found.readers.items() if c.topic == topic.name}))
+        ]
     stamped = {}
     different = {c.topic for c, b in batches.items() if not _same(b)}
     for topic in found.topics:
         same = not chosen_options.publish and topic not in different
-        if chosen_options.time != "log_time":
+        if chosen_options.time != LOG:
             stamped[topic] = "log_time"
         elif not same:
             stamped[topic] = PUBLISH
