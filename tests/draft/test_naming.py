@@ -114,6 +114,9 @@ def test_values_decide_where_neither_name_nor_unit_does() -> None:
     assert guess("T_bearing_front", None, values=slow).comment() == "guess: name and values"
     kelvin = values_of(np.linspace(293.0, 303.0, 500))
     assert guess("T1", None, values=kelvin).unit == "K"
+    unix = guess("/probe.t", None, values=values_of(1.77e9 + np.arange(500.0)))
+    assert unix.quantity is None
+    assert "1970" in (unix.why_not or "")
     counts = guess("T1", "degC", values=values_of(np.full(50, 30_000.0)))
     assert any("raw counts" in q for q in counts.questions)
 

@@ -4,10 +4,13 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+import numpy as np
+
 from thermodata.draft import units
 from thermodata.draft.place import axis_of
 from thermodata.draft.values import Values
 from thermodata.draft.vocabulary import DIFFERENCE, foreign_in, places_in, quantities_in, says
+from thermodata.reader.time_units import found_epoch
 from thermodata.schema.quantity import normal_unit
 
 _WEAK = ("a time stamp", "a number")  # words that stand beside others: 'Temp block 3'
@@ -55,6 +58,8 @@ def quantity_of(own: str, text: str, unit: str | None, dtype: str, values: Value
     foreign = foreign_in(own)
     if dtype == "bool":
         return Guess("state", sure=True, basis=("type",))
+    if bare and values is not None and _since_a_date(values):
+        return Guess(None, unit, why_not="a count of seconds since 1970: none of the quantities")
     if bare and not foreign and _on_off(own, named, values):
         return Guess(
             "state",
@@ -69,6 +74,11 @@ def quantity_of(own: str, text: str, unit: str | None, dtype: str, values: Value
         assert unit is not None
         return _by_unit(named, unit, own, values)
     return _by_name(named, own, values, dtype)
+
+
+def _since_a_date(values: Values) -> bool:
+    """Whether numbers are Unix time, in whatever unit of it, by their size."""
+    return (found_epoch(np.array([values.low, values.high], np.float64)) or "").startswith("unix")
 
 
 def _on_off(own: str, named: tuple[str, ...], values: Values | None) -> bool:
