@@ -251,3 +251,13 @@ def test_a_busy_machine_drafts_the_same(tmp_path: Path, say: Say, monkeypatch: p
     monkeypatch.setattr(sample.time, "monotonic", slow)
     say("init", tmp_path)
     assert (tmp_path / "campaign.yaml").read_text() == quiet
+
+
+def test_a_clock_that_is_set_back_to_its_start_is_drafted(tmp_path: Path, say: Say) -> None:
+    seconds = np.arange(361) * 10 - np.where(np.arange(361) < 180, 0, 3600)
+    rows = [str(t).replace("T", " ") for t in np.datetime64("2026-03-14T08:00:00") + seconds]
+    body = "".join(f"{t},{20 + i / 100},{i / 50}\n" for i, t in enumerate(rows))
+    (tmp_path / "day1.csv").write_text(f"Time,T_front [degC],dZ [um]\n{body}")
+    assert rows[0] == rows[-1]
+    assert say("init", tmp_path).code == 0
+    assert "dZ" in load_campaign(tmp_path / "campaign.yaml").channels

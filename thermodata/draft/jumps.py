@@ -90,7 +90,8 @@ def staircase(course: Course) -> tuple[tuple[Step, ...], float] | None:
     fine = np.isfinite(course.values)
     t: Float1D = (course.t_ns[fine] - course.t_ns[0]) / 1e9
     x = course.values[fine]
-    grows = np.concatenate([[True], np.diff(t) > 0]) if t.size else np.zeros(0, bool)
+    # of a clock that was set back, what came before
+    grows = np.concatenate([[True], t[1:] > np.maximum.accumulate(t)[:-1]]) if t.size else np.zeros(0, bool)
     t, x = t[grows], x[grows]
     if t.size < 40 or t[-1] > _LONGEST_S or np.ptp(x) <= 0:
         return None
