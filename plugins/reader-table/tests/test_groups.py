@@ -45,6 +45,7 @@ def held(data: Data, stream: str, name: str, t: list[float], values: list[Any]) 
         ("t1;T1;t2;T2;T3", ("t1", "t2"), ("T1", "T2")),
         ("Time;CH1;Time;CH2;n", ("Time", "Time#2"), ("CH1", "CH2")),
         ("Time.0 [s];CH1;Time.1 [s];CH2;n", ("Time.0 [s]", "Time.1 [s]"), ("CH1", "CH2")),
+        ("Time [s];a;Time [s];b;c", ("Time [s]", "Time [s]#2"), ("a", "b")),
         ("CH1 time;CH1;CH2 time;CH2;n", ("CH1 time", "CH2 time"), ("CH1", "CH2")),
         ("Zeit 1 [s];a;Zeit 2 [s];b;c", ("Zeit 1 [s]", "Zeit 2 [s]"), ("a", "b")),
         (

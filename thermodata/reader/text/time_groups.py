@@ -63,7 +63,7 @@ def one_time(table: Mapping[str, Any] | None, where: str) -> Mapping[str, Any]:
 
 def time_name(header: str) -> _Name | None:
     """None where a header does not name a time."""
-    name = re.sub(r"#\d+$", "", split_unit(header)[0]).strip()
+    name = split_unit(re.sub(r"#\d+$", "", header))[0].strip()
     last = name.rsplit("/", 1)[-1].strip()
     for text in (name, last):
         if TIME_WORD.match(text):
