@@ -244,3 +244,12 @@ def test_cells_with_units_in_them_are_refused_with_what_to_do(tmp_path: Path) ->
     with pytest.raises(FormatError, match="hold their units") as said:
         read(path)
     assert "without their units" in str(said.value)
+
+
+def test_dates_behind_an_apostrophe_are_dates(tmp_path: Path) -> None:
+    path = tmp_path / "lr.csv"
+    rows = "".join(f'"\'2026-03-27","06:00:{i:02d}.500",{20 + i / 10:.2E}\n' for i in range(40))
+    path.write_text('"Date","Time","CH1-1[C]"\n' + rows)
+    recording = Reader().describe(path, Source())
+    assert recording.start_ns == np.datetime64("2026-03-27T06:00:00.500", "ns").astype(int)
+    assert list(read(path)[0]) == ["CH1-1[C]"]

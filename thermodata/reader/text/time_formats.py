@@ -27,7 +27,7 @@ from thermodata.reader.zone import NAT, local_to_utc_ns
 
 _FEW, _MANY = 40, 4000
 _DAY_NS = 86_400 * 10**9
-_SHORT = re.compile(r"\s*(\d{2})[-/](\d{2})[-/](\d{2})(?!\d)")
+_SHORT = re.compile(r"\s*'?(\d{2})[-/](\d{2})[-/](\d{2})(?!\d)")
 _HUNDREDS = re.compile(r"\s*\d{3,}:")  # hours in three digits
 _HINT = "declare table: {time: {format: dmy}} or mdy, or strptime's letters: '%d/%m/%Y %H:%M:%S'"
 _ORDERS = ("dmy", "mdy", "ymd")  # what may be declared in place of letters
@@ -178,15 +178,15 @@ def _ask_for_year(cells: Sequence[str], where: str) -> None:
     for first, middle, last in ((int(x) for x in m.groups()) for m in parts):
         if not (last < first <= latest and 1 <= middle <= 12 and last >= 1):
             return
-    got = parts[0].group().strip()
+    got = parts[0].group().strip(" '")
+    letters = f"%y{got[2]}%m{got[2]}%d" + (" %H:%M:%S" if any(":" in c for c in cells) else "")
     raise QuestionError(
         "dates with a year of two digits at either end",
         where=where,
         expected="a year of four digits, or its place declared",
         got=got,
-        hint="declare table: {time: {format: '%y/%m/%d %H:%M:%S'}} in the letters of the dates, or {format: dmy}",
-        ask=f"format of the dates: dmy, or year first ('%y/%m/%d %H:%M:%S', in the letters of the dates)? '{got}' may "
-        "be either",
+        hint=f"declare table: {{time: {{format: '{letters}'}}}}, or {{format: dmy}}",
+        ask=f"format of the dates: '{letters}' or dmy? {got} may be either",
         declare={"time": {"format": UNKNOWN}},
         meanwhile={"time": {"format": "dmy"}},
     )

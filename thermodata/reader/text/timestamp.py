@@ -75,7 +75,7 @@ class TimeFormat:
 
 
 def _compile(body: str) -> re.Pattern[str]:
-    return re.compile(r"\s*" + body + r"\s*", re.ASCII)
+    return re.compile(r"\s*'?" + body + r"\s*", re.ASCII)  # an apostrophe keeps a spreadsheet from reading a date
 
 
 def _format(role: str, body: str, text: str, zone: bool = True) -> TimeFormat:
