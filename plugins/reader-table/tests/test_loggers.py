@@ -180,6 +180,8 @@ def test_names_that_stand_above_units_and_kinds_of_reading(tmp_path: Path) -> No
     path.write_text("\n".join([*head, *rows, ""]))
     units, values = read(path)
     assert units == {"RECORD": None, "T_front_Avg": "Deg C", "T_rear_Avg": "Deg C", "gap": "mV"}
+    notes = Reader().describe(path, Source()).notes
+    assert any("line 4 between header and data is not read (1 such)" in note for note in notes)
     assert values["T_front_Avg"].tolist() == [float(f"{20 + i / 10:.1f}") for i in range(90)]
 
 
@@ -197,6 +199,20 @@ def test_a_row_that_is_called_units_above_minimum_and_maximum(tmp_path: Path) ->
     units, values = read(path)
     assert units == {"n": None, "spindle/MIN": "°C", "spindle/MAX": "°C", "bed/MIN": "K", "bed/MAX": "K"}
     assert values["bed/MIN"][:2].tolist() == [30.0, 31.0]
+    assert not any("is not read" in note for note in Reader().describe(path, Source()).notes)
+
+
+def test_names_of_times_below_a_row_of_units_leave_the_channels_their_names(tmp_path: Path) -> None:
+    path = tmp_path / "event.csv"
+    head = [
+        '"Tag","","","spindle","bed"',
+        '"Unit","","","°C","K"',
+        '"Date","Time","sec","",""',
+    ]
+    rows = [f'"{t[:10]}","{t[11:]}","0.500","{20 + i}","{30 + i}"' for i, t in enumerate(STAMPS)]
+    path.write_text("\n".join([*head, *rows, ""]), encoding="utf-8")
+    assert read(path)[0] == {"spindle": "°C", "bed": "K"}
+    assert not any("is not read" in note for note in Reader().describe(path, Source()).notes)
 
 
 def test_rows_of_devices_and_rates_below_the_names_are_no_names(tmp_path: Path) -> None:

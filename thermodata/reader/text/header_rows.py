@@ -20,7 +20,7 @@ def names_and_units(
     rows: Sequence[Sequence[Cell]], width: int, units_row: int | None
 ) -> tuple[list[str], list[str | None]]:
     """Names and units from the rows before the data; rows that do not span the table are preamble."""
-    texts = [[clean(str(c)) if c is not None else "" for c in r] + [""] * (width - len(r)) for r in rows]
+    texts = [_texts(r, width) for r in rows]
     units: list[str | None] = [None] * width
     if units_row is None:
         units_row = _labelled_units(texts)
@@ -44,6 +44,10 @@ def names_and_units(
         names = _under(texts[at - 1], names)
     found = [split_unit(n)[1] for n in names]
     return names, [u or f for u, f in zip(units, found, strict=True)]
+
+
+def _texts(row: Sequence[Cell], width: int) -> list[str]:
+    return [clean(str(c)) if c is not None else "" for c in row] + [""] * (width - len(row))
 
 
 def _as_units(cells: Sequence[str]) -> list[str | None]:
@@ -138,13 +142,16 @@ def _ends_early(row: Sequence[Cell], above: Sequence[Cell], width: int) -> bool:
 
 
 def lines_between(rows: Sequence[Sequence[Cell]], width: int, skip: int) -> list[str]:
-    """A note for lines between the header and the data that are part of neither."""
-    spanning = _spanning(rows, width)
-    odd = (
-        [i + skip + 1 for i in range(spanning[-1] + 1, len(rows)) if any(c not in ("", None) for c in rows[i][:width])]
-        if spanning
-        else []
-    )
+    """A note for lines between the names and the data that are part of neither, nor units."""
+    texts = [_texts(r, width)[:width] for r in rows]
+    called = _labelled_units(texts)
+    at = [i for i in range(len(texts)) if i != called]
+    spanning = _spanning([texts[i] for i in at], width)
+    if not spanning:
+        return []
+    named = _named([texts[at[i]] for i in spanning], width)
+    below = at[spanning[-1 if named is None else named] + 1 :]
+    odd = [i + skip + 1 for i in below if any(texts[i]) and (named is None or not _mostly_units(texts[i]))]
     return [f"line {odd[0]} between header and data is not read ({len(odd)} such)"] if odd else []
 
 
