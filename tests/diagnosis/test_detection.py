@@ -48,6 +48,14 @@ def screw(size: float) -> Add:
     return add
 
 
+def test_what_heads_the_list_is_not_said_to_be_hidden() -> None:
+    """It is selected, and hides itself: that a known effect does nearly all of it would contradict the list."""
+    found = diagnosed(make_data(screw(6.0)))
+    assert (found.verdict, found.candidates[0].id) == ("unknown", SCREW)
+    assert found.limits, "others are told"
+    assert SCREW not in [one.id for one in found.limits]
+
+
 def test_what_exceeds_its_limit_is_claimed_and_what_does_not_is_not() -> None:
     nothing = diagnosed(make_data(slow))
     assert nothing.verdict != "effect"

@@ -27,6 +27,7 @@ from thermodata.plugin import Int1D
 CHOICE = 6.0  # log evidence that the choice among 50 points and sizes costs, and the width of the gain
 LEAST_BEYOND = 1e-4  # of its energy: less beyond the known effects, and no size shows
 LARGE = 1 / 3  # of the response: an effect that would have to be larger to be seen is worth a word
+SELECTED = -1  # the owner of what is none of the model's
 HIDES = 0.5  # of its energy, at most, is left beyond the known effects of what they hide
 
 
@@ -49,7 +50,7 @@ class Limit:
 def limits(known: Known, pool: Sequence[Columns], spread: float, owners: Int1D) -> list[Limit]:
     """Of each effect with a name that the model lacks, the median over its time constants, the largest first. known:
     beside all that was selected, in the noise that is left. spread: RMS of the response. owners: of each known column,
-    the number of its effect (-1: none of the model's)."""
+    the number of its effect (-1: none of the model's). What was selected, or is most like it, is told by that."""
     found = [
         limit
         for one in pool
@@ -90,15 +91,18 @@ def _limit(known: Known, one: Columns, spread: float, owners: Int1D) -> Limit | 
     found.sort()
     least, share = found[len(found) // 2]
     middle = int(np.flatnonzero(moved)[np.argsort(beyond[moved] / own[moved])[moved.sum() // 2]])
-    return Limit(one.candidate, least, share, _most_like(known, one, middle, owners))
+    like = _most_like(known, one, middle, owners)
+    if like == SELECTED:
+        return None if share < HIDES else Limit(one.candidate, least, share, None)
+    return Limit(one.candidate, least, share, like)
 
 
 def _most_like(known: Known, one: Columns, point: int, owners: Int1D) -> int | None:
-    """The known effect that alone can do most of it."""
+    """The known effect that alone can do most of it, or what was selected."""
     white = [known.space.of(i, b[:, point, :1])[:, 0] for i, b in enumerate(one.blocks)]
     energy = sum(float(w @ w) for w in white)
     best: tuple[float, int] | None = None
-    for number in sorted({int(o) for o in owners} - {-1}):
+    for number in sorted({int(o) for o in owners}):
         mine = np.flatnonzero(owners == number)
         gram = sum(x[:, mine].T @ x[:, mine] for x in known.white) + np.diag(known.precision[mine])
         cross = np.sum([x[:, mine].T @ w for x, w in zip(known.white, white, strict=True)], axis=0)

@@ -178,7 +178,7 @@ def _too_little(scored: Scored, fall: float, unit: str) -> str:
     if scored.drop < DOUBLES:
         return (
             f"its size from the other tests, the error more than doubles where it acts ({scored.error_before:.2f} -> "
-            f"{scored.error_after:.2f} {unit}): tests go against each other, as where a probe or a sign is turned"
+            f"{scored.error_after:.2f} {unit}): tests go against each other"
         )
     return (
         f"in the {int(scored.acts.sum())} tests in which it acts the error falls by {max(scored.drop, 0):.0%} only, "
