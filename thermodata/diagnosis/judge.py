@@ -103,7 +103,7 @@ def judge(
         f"{left:.2g} {problem.unit} remain on left-out tests, {_against(left, measure.floor)}, and nothing "
         f"logged explains them{because}"
     )
-    return Judgement("unknown", (), (), judged, why)
+    return Judgement("unknown", (), kept, judged, why)
 
 
 def _enough(rest: float, limit: float, unit: str, measure: Measure) -> str:

@@ -68,7 +68,8 @@ def verdict_sentence(found: Diagnosis) -> str:
     if found.verdict == "effect" and claims:
         return "; ".join(filter(None, [_missing(claims), beside]))
     if found.verdict == "unknown":
-        return "; ".join(filter(None, [_unclaimed(found), beside]))
+        again = f"{beside}, {_left_out(refined)}: add {'it' if len(refined) == 1 else 'them'} and ask again"
+        return "; ".join(filter(None, [_unclaimed(found), again if beside else ""]))
     open_still = _not_excluded(found)
     if found.verdict == "refine" and beside:
         return "; ".join(filter(None, ["no cause is missing", f"{beside}, {_left_out(refined)}", open_still]))
