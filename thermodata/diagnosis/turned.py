@@ -53,7 +53,7 @@ def turned(problem: Problem, lags: Sequence[CandidateEffect]) -> list[Artefact]:
     now = _least(said, signs)
     while (found := _plainest(said, signs, now)) is not None:
         signs, now = found
-    return [_artefact(blocks[i], now[i], _fit(now[i], left[i])) for i in np.flatnonzero(signs < 0)]
+    return [_artefact(problem, blocks[i], now[i], _fit(now[i], left[i])) for i in np.flatnonzero(signs < 0)]
 
 
 def _plainest(said: Sequence[_Foretold], signs: Float1D, now: Float1D) -> tuple[Float1D, Float1D] | None:
@@ -133,7 +133,7 @@ def _fit(squared: float, energy: float) -> float:
     return (1 - float(np.sqrt(squared / energy))) * 100 if energy > 0 else 0.0
 
 
-def _artefact(block: Block, squared: float, fit: float) -> Artefact:
+def _artefact(problem: Problem, block: Block, squared: float, fit: float) -> Artefact:
     return Artefact(
         kind="sign",
         campaign=block.test.campaign,
@@ -141,5 +141,6 @@ def _artefact(block: Block, squared: float, fit: float) -> Artefact:
         at_s=None,
         size_um=float(np.sqrt(squared / max(len(block.response), 1))),
         why=f"turned round, this test is as all that is logged foretells it from the other tests (FIT {fit:.0f}): its "
-        "sign is wrong. It takes no part in the choice; check the probe's side and its calibration",
+        "sign is wrong. It takes no part in the choice; check on which side the probe stood, and give the test a "
+        f"calibration of its own (in the campaign file, below tests: channels: {problem.response}: calibration)",
     )
