@@ -1,4 +1,5 @@
-"""Which encoding a text is in: declared, marked, UTF-8, or cp1250/cp1252 by the letters that differ.
+"""Which encoding a text is in: declared, marked, UTF-8, or cp1250/cp1252 by the letters
+that stand beside those that differ.
 
 Nothing is ever dropped: `errors="ignore"` turns "µm" into "m", a factor of a million.
 """
@@ -10,26 +11,33 @@ import re
 from pathlib import Path
 
 from thermodata.errors import FormatError
+from thermodata.reader.text.letters import western_not_central
 
 _PART = 4 * 1024 * 1024
 _BOMS = ((codecs.BOM_UTF8, "utf-8-sig"), (codecs.BOM_UTF16_LE, "utf-16"), (codecs.BOM_UTF16_BE, "utf-16"))
 
-# Bytes that mean different things in cp1250 and cp1252, and which of the two makes sense of them in a log.
-# µ ° ± § ä ö ü ß é á í š ž are the same in both.
-_CENTRAL = dict.fromkeys("čěřůňďČĚŘŮŇĎŤťążćęŁłńőű".encode("cp1250"), 1)
-_WESTERN = dict.fromkeys("²¼½¾àãåÀÅÃ".encode("cp1252"), 2)
-_CUBIC = re.compile(rb"m\xb3(?![A-Za-z\x80-\xff])")  # m³ in cp1252, mł in cp1250
 
-
-def _single_byte(data: bytes) -> str:
-    """cp1250 or cp1252, by the letters that differ."""
+def _single_byte(data: bytes) -> tuple[str, bytes | None]:
+    """(cp1250 or cp1252, a word that either could write where nothing tells which). µ ° ± § ä ö ü ß é á í š ž are the
+    same in both."""
     undefined_1250 = any(b in data for b in (b"\x83", b"\x88", b"\x98"))
     undefined_1252 = any(b in data for b in (b"\x8d", b"\x8f", b"\x9d"))
     if undefined_1250 != undefined_1252:
-        return "cp1252" if undefined_1250 else "cp1250"
-    western = 3 * len(_CUBIC.findall(data)) + sum(w * data.count(bytes((b,))) for b, w in _WESTERN.items())
-    central = sum(w * data.count(bytes((b,))) for b, w in _CENTRAL.items())
-    return "cp1252" if western > central else "cp1250"
+        return ("cp1252" if undefined_1250 else "cp1250"), None
+    western, word = western_not_central(data)
+    return ("cp1252" if western > 0 else "cp1250"), (word if western == 0 else None)
+
+
+def _refuse_unproven(word: bytes | None) -> None:
+    """FormatError for a word that has other letters in cp1250 than in cp1252 and may be of either."""
+    if word is not None:
+        raise FormatError(
+            "text in an encoding that the file does not name",
+            where=f"the word {word.decode('cp1252', 'replace')!r}",
+            expected="UTF-8, or an encoding that is declared",
+            got=f"cp1252: {word.decode('cp1252', 'replace')!r}; cp1250: {word.decode('cp1250', 'replace')!r}",
+            hint="declare the source's encoding: cp1252 (Western Europe) or cp1250 (Central Europe)",
+        )
 
 
 _RUN = re.compile(rb"[\x80-\xff]{4,}")
@@ -64,8 +72,9 @@ def _refuse_other_scripts(data: bytes) -> None:
 
 def find_encoding(data: bytes, declared: str | None = None) -> tuple[str, str | None]:
     """(encoding, note or None) of a file's bytes. Order: declared, byte order mark, UTF-8, UTF-16 without a
-    mark, then cp1250 or cp1252 by the letters that differ. FormatError: the declared one is unknown or fails, the text
-    is of another script (Chinese, Japanese, Cyrillic: never guessed), or no single-byte encoding reads it."""
+    mark, then cp1250 or cp1252 by what stands beside the letters that differ. FormatError: the declared one is unknown
+    or fails, the text is of another script (Chinese, Japanese, Cyrillic: never guessed), either of the two may be
+    meant, or no single-byte encoding reads it."""
     if declared is not None:
         try:
             name = codecs.lookup(declared).name
@@ -88,7 +97,8 @@ def find_encoding(data: bytes, declared: str | None = None) -> tuple[str, str | 
         return "utf-8", None
     except UnicodeDecodeError as error:
         _refuse_other_scripts(data)
-        name = _single_byte(data)
+        name, unproven = _single_byte(data)
+        _refuse_unproven(unproven)
         _try(data, name)
         return name, f"not UTF-8 (byte {error.start}); read as {name}: declare encoding if that is wrong"
 
@@ -156,7 +166,7 @@ def decode_head(start: bytes) -> str | None:
         control = sum(start.count(bytes((b,))) for b in range(1, 32) if b not in (9, 10, 12, 13, 26))
         if control:
             return None
-        return start.decode(_single_byte(start), "replace")
+        return start.decode(_single_byte(start)[0], "replace")
 
 
 def is_wide(encoding: str) -> bool:
