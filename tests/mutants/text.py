@@ -23,6 +23,7 @@ BESIDE = {
     "table_rows.py": ("delimited",),
     "time_formats.py": ("time_formats",),
     "timestamp.py": ("timestamp",),
+    "zone_words.py": ("timestamp",),
 }
 
 
@@ -82,9 +83,9 @@ MUTANTS = [
         "timestamp.py", "hour = hour % 12 + (12 if groups[", "hour = hour + (12 if groups[", "12 AM is noon, in columns"
     ),
     text("timestamp.py", "if not 1 <= hour <= 12:", "if not 0 <= hour <= 23:", "13 PM is a time"),
-    text("timestamp.py", '(-1 if text[0] == "-" else 1)', '(1 if text[0] == "-" else -1)', "zones are turned"),
+    text("zone_words.py", '(-1 if rest[0] == "-" else 1)', '(1 if rest[0] == "-" else -1)', "zones are turned"),
     text("timestamp.py", "total -= offset_ns(groups", "total += offset_ns(groups", "zones are turned, in columns"),
-    text("timestamp.py", "int(digits[2:] or 0) * 60)", "0)", "zones of half hours"),
+    text("zone_words.py", "int(minutes or 0) * 60)", "0)", "zones of half hours"),
     text("timestamp.py", '{"f": 9, "of": 6}[name]', '{"f": 6, "of": 6}[name]', "fractions are a thousandth"),
     text("timestamp.py", 'int(g["f"].ljust(9, "0"))', 'int(g["f"].rjust(9, "0"))', "fractions without their zeros"),
     text("timestamp.py", "& ((year % 100 != 0) | (year % 400 == 0))", "", "a 29 February 2100"),
@@ -104,7 +105,7 @@ MUTANTS = [
         "what parts a time may be anything",
     ),
     text("timestamp.py", "moment.tzinfo or UTC", "UTC", "a declared offset is left out"),
-    text("timestamp.py", "(_ZONE if zoned else", '(f"{_ZONE}?" if zoned else', "local times among those of UTC"),
+    text("timestamp.py", "(ZONE if zoned else", '(f"{ZONE}?" if zoned else', "local times among those of UTC"),
     # ---- how times are written
     text("time_formats.py", 'return "dmy"\n', 'return "mdy"\n', "month first though dots stand between"),
     text(
