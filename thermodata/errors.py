@@ -78,6 +78,10 @@ class CalibrationError(UsageError):
     """A calibration contradicts itself or its declaration."""
 
 
+class RailError(CalibrationError):
+    """The probe of a jump test stands at its end of range: nothing contradicts, and nothing is calibrated with it."""
+
+
 class PluginError(ThermodataError):
     """A plugin broke its contract (its bug, not the data's)."""
 

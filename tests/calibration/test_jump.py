@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from thermodata.calibration.jump import evaluate_jump
 from thermodata.calibration.plateaus import find_steps
 from thermodata.calibration.result import CalibrationResult
-from thermodata.errors import CalibrationError
+from thermodata.errors import CalibrationError, RailError
 from thermodata.plugin import Float1D, Int1D
 from thermodata.schema.campaign import JumpCalibration
 from thermodata.store.catalogue.ddl import TABLES
@@ -285,3 +285,27 @@ def test_a_recording_of_a_few_samples_is_refused_not_a_defect(n: int) -> None:
         evaluate_jump("jump_z", spec([100.0, -100.0]), t_ns[:n], volts[:n], {})
     assert find_steps(t_ns[:n] / 1e9, volts[:n], 10.0) == ([], 0.0)
     assert find_steps(t_ns[:n] / 1e9 * 1e-6, volts[:n], 10.0) == ([], 0.0)
+
+
+def test_a_probe_that_stands_on_its_rail_is_said_to_stand_there() -> None:
+    """Moves that aren't found because the voltage ends at 0 V, at 10 V, or nowhere."""
+    moves = [100.0, 50.0, -200.0, -50.0, 100.0]
+    t_ns, volts = recording(moves, noise_v=0.02)
+    for clipped, said in (
+        (np.maximum(volts - 6, 0.0), "got: 0 V in"),
+        (np.minimum(volts - 2, 10.0), "got: 10 V in"),
+    ):
+        with pytest.raises(RailError, match="stands at its end of range") as caught:
+            jump(moves, (t_ns, clipped))
+        assert said in str(caught.value)
+        assert "% of the record" in str(caught.value)
+        assert "try: set the probe nearer to the middle of its range" in str(caught.value)
+    with pytest.raises(CalibrationError, match="are not found") as other:
+        jump([100.0, -37.0, 81.0, -19.0], (t_ns, volts))
+    assert not isinstance(other.value, RailError)
+
+
+def test_coarse_volts_without_noise_are_no_rail() -> None:
+    t_ns, volts = recording([100.0, 50.0, -200.0, -50.0, 100.0], noise_v=0.0)
+    with pytest.raises(CalibrationError, match="are not found"):  # each plateau is one voltage: its last is no rail
+        jump([100.0, -37.0, 81.0, -19.0], (t_ns, np.round(volts, 2)))

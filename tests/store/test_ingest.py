@@ -289,6 +289,19 @@ def test_a_contradictory_calibration_is_refused_and_nothing_is_stored(store: Sto
     assert rows(store, "select count(*) from campaign") == [(0,)]
 
 
+def test_a_jump_test_on_its_rail_costs_the_channels_that_use_it_and_no_others(store: Store, campaign: Path) -> None:
+    write_log(campaign.parent / "raw/jump.npz", {"main": {"t_ns": times(400, 0.1), "Z": np.full(400, 9.99)}})
+    edit(campaign, "tests:", JUMP % "")
+    edit(campaign, "calibration: lvdt}", "calibration: jump}")
+    summary = ingest(store, campaign)
+    said = "\n".join(str(loss["reason"]) for loss in summary.losses)
+    assert "9.99 V in 100 % of the record" in said
+    assert "stands at its end of range" in said
+    assert "calibration 'jump' is not available" in said
+    assert rows(store, "select count(*) from calibration where calibration = 'jump'") == [(0,)]
+    assert rows(store, "select count(*) from temperature") == [(4800,)]
+
+
 @pytest.mark.parametrize("path", ["../other/*.npz", "/etc/*", "raw/../../x.npz"])
 def test_a_pattern_may_not_leave_the_campaigns_folder(store: Store, campaign: Path, path: str) -> None:
     edit(campaign, "raw/{test}_*.npz", path)

@@ -16,11 +16,12 @@ from thermodata.calibration.facing import facing_axis, geometric_sign
 from thermodata.calibration.jump_fit import JumpFit, answer, fit_plateaus
 from thermodata.calibration.plateaus import Match, Plateau, Step, find_steps, match_moves, plateaus
 from thermodata.calibration.result import CalibrationResult
-from thermodata.errors import CalibrationError
+from thermodata.errors import CalibrationError, RailError
 from thermodata.plugin import Array, Bool1D, Float1D, Int1D
 from thermodata.schema.campaign import JumpCalibration
 
 _LEAST_SAMPLES = 20
+_LEAST_ON_RAIL = 0.05  # of a jump test's samples
 
 
 _AS_LARGE = 0.7  # of the smallest commanded move: a step that may be one of them
@@ -41,8 +42,9 @@ def evaluate_jump(
     probes' signals, shape (n,) each, for cross-talk. spec.moves: successive relative moves in machine coordinates
     [um]. The recording may begin and end with anything else. Offset: displacement 0 at the first plateau.
 
-    Raises CalibrationError: the moves aren't found, they can be read with either sign, or the sign contradicts
-    `facing` with `increases_with`. Weaknesses that don't forbid use are rows of `checks`.
+    Raises RailError: the probe stands at its end of range and the moves aren't found; CalibrationError: they aren't
+    found otherwise, can be read with either sign, or the sign contradicts `facing` with `increases_with`. Weaknesses
+    that don't forbid use are rows of `checks`.
     """
     where = f"calibrations.{name}"
     axis = facing_axis(name, spec.facing, spec.axis)
@@ -51,7 +53,7 @@ def evaluate_jump(
     t_s, v, probes = _clean(name, np.asarray(t_ns), np.asarray(volts), probes)
     steps, match = _matched(t_s, v, moves, spec.dwell)
     if match is None:
-        raise _not_found(name, spec, moves, steps, t_s, probes)
+        raise _on_rail(name, spec, v, unit) or _not_found(name, spec, moves, steps, t_s, probes)
     if match.rivals:
         raise CalibrationError(
             f"jump test '{name}': the moves can be read with either sign",
@@ -156,6 +158,29 @@ def _clean(
         )
     t = t_ns[keep]
     return ((t - t[0]) / 1e9, v[keep], {k: np.asarray(x, dtype=np.float64)[keep] for k, x in probes.items()})
+
+
+def _on_rail(name: str, spec: JumpCalibration, v: Float1D, unit: str) -> RailError | None:
+    """The error of a probe that stands at the end of its range: its largest or smallest reading, again and again, where
+    the others have noise on them."""
+    found: list[tuple[float, float]] = []
+    for end in sorted({float(v.min()), float(v.max())}):
+        there = v == end
+        share = float(there.mean())
+        elsewhere = v[~there]
+        repeats = float(np.mean(np.diff(elsewhere) == 0)) if elsewhere.size > 1 else 0.0
+        if share >= _LEAST_ON_RAIL and float(np.mean(there[1:] & there[:-1])) >= 0.5 * share and repeats < 0.3:
+            found.append((end, share))
+    if not found:
+        return None
+    said = " and ".join(f"{end:.4g} {unit} in {100 * share:.0f} % of the record" for end, share in found)
+    return RailError(
+        f"jump test '{name}': the probe '{spec.signal}' stands at its end of range, where it does not show the moves",
+        where=f"calibrations.{name}",
+        expected="a probe that stays within its range through all moves",
+        got=said,
+        hint="set the probe nearer to the middle of its range, or move by less, and repeat the jump test",
+    )
 
 
 def _not_found(

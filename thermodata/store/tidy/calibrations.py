@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from pathlib import Path
 
 from thermodata.calibration.result import CalibrationResult
-from thermodata.errors import CalibrationError, ThermodataError, UsageError
+from thermodata.errors import CalibrationError, RailError, ThermodataError, UsageError
 from thermodata.plugin import Array, Int1D
 from thermodata.schema.campaign import Campaign, JumpCalibration, LinearCalibration
 from thermodata.schema.quantity import linear_conversion
@@ -23,7 +23,8 @@ def evaluate(
     """(results by name, problems). jump_files: calibration -> the raw streams of its file, where there are any.
 
     CalibrationError where a calibration contradicts itself: nothing is ingested with it. A jump test that
-    can't be read or found is a problem, and the channels that use it are left without values.
+    can't be read or found, or whose probe stands at its end of range, is a problem, and the channels that use it are
+    left without values.
     """
     from thermodata.calibration.jump import evaluate_jump
     from thermodata.calibration.static import evaluate_linear, evaluate_scale
@@ -48,7 +49,11 @@ def evaluate(
             except ThermodataError as error:
                 problems.append(f"calibration '{name}': " + "; ".join(str(error).splitlines()))
                 continue
-            results[name] = evaluate_jump(name, spec, t_ns, volts, others, unit=unit)
+            try:
+                results[name] = evaluate_jump(name, spec, t_ns, volts, others, unit=unit)
+            except RailError as error:  # the probe's own trouble: the other channels don't lean on it
+                problems.append(f"calibration '{name}': " + "; ".join(str(error).splitlines()))
+                continue
             beside = results[name].detail["steps_beside"]
             if beside:
                 many = len(spec.moves)
