@@ -261,3 +261,28 @@ def test_a_clock_that_is_set_back_to_its_start_is_drafted(tmp_path: Path, say: S
     assert rows[0] == rows[-1]
     assert say("init", tmp_path).code == 0
     assert "dZ" in load_campaign(tmp_path / "campaign.yaml").channels
+
+
+PUMPS = {
+    "a switch": ("KSS ein [-]", lambda i: str(int(20 < i < 80))),
+    "a flow": ("KSS Durchfluss [l/min]", lambda i: f"{12.5 * (20 < i < 80):.1f}"),
+    "none": ("Halle [°C]", lambda i: f"{21 + i / 1000:.3f}"),
+}
+
+
+@pytest.mark.parametrize(("test", "pump", "kind"), [
+    ("t1", "a switch", "other"), ("t1", "a flow", "other"), ("fluids", "none", "other"), ("Kuehlung", "none", "other"),
+    ("night", "none", "etve"),
+])  # fmt: skip
+def test_a_test_in_which_only_pumps_run_is_none_of_the_environment(
+    tmp_path: Path, say: Say, test: str, pump: str, kind: str
+) -> None:
+    name, value = PUMPS[pump]
+    rows = [f"{10 * i};0;{20 + 0.01 * i:.2f};{value(i)}" for i in range(120)]
+    head = f"Time [s];Drehzahl Spindel [1/min];Spindellager vorn [°C];{name}"
+    (tmp_path / f"{test}.csv").write_text("\n".join([head, *rows]) + "\n", "utf-8")
+    assert say("init", tmp_path).code == 0
+    (found,) = load_campaign(tmp_path / "campaign.yaml").tests
+    assert found.kind == kind
+    text = (tmp_path / "campaign.yaml").read_text("utf-8")
+    assert ("? kind" in text) == (kind == "other")

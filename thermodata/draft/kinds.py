@@ -45,6 +45,11 @@ _ROLES: tuple[tuple[str, str], ...] = (
     ("verification", "verif valid overe pruf check. 验证"),
     ("calibration", "train. training identif fit. ident. 辨识 建模"),
 )
+# a test of these is none of the environment, also where nobody logs their switches
+_FLUIDS = (
+    "fluid. fluids. fluide. fluides. fluidi. ^kuhl ^kuehl kss. coolant. cooling. ^pump. pumps. ^pumpe pompa. pompe. "
+    "^hydraul ^idraul emuls ^refriger arrosage. ^lubri ^schmier ^chlaz ^chlad ^cerpadl kapalin 冷却 液压"
+)
 _AGREE = {
     "spindle": {"spindle", "spectrum"},
     "spectrum": {"spindle", "spectrum"},
@@ -55,6 +60,11 @@ _AGREE = {
     "rotary_axis": {"rotary_axis", "mixed"},
 }
 
+
+# what a pump shows by where it runs and where it rests
+_DRIVEN = ("flow", "pressure", "power", "load", "current", "rotational_speed")
+_PUMPED = ("coolant", "hydraulics", "pump")  # fans, chillers and lubrication come and go by themselves
+_SWITCHED = 0.8  # of its largest reading: it was off as well as on
 
 _LINEAR = re.compile(r"(?<!\S)[xyz]\d*(?!\S)")
 _TURNS = "rotary drehtisch rundtisch rundachse otocn 转台 [bc]~axis achse~[bc] osa~[bc]"
@@ -106,6 +116,9 @@ def kind_of(test: str, files: Sequence[RawFile]) -> Kind:
     by_data = _by_data(moved)
     hint = next((role for role, listed in _ROLES if says(listed, text)), None)
     kind, comment, question = _decided(by_name, by_data, moved)
+    if by_name is None and by_data == "etve" and says(_FLUIDS, text):
+        kind, comment = "other", ""
+        question = "kind: the name speaks of pumps or fluids, whose switches are not logged; nothing else moves: etve?"
     if kind == "linear_axis" and "axis" not in conditions:
         letter = axis_of(text) or (next(iter(moved.axes)) if len(moved.axes) == 1 else None)
         if letter:
@@ -215,8 +228,10 @@ def _add(found: _Moved, quantity: str | None, at: str, largest: float, span: flo
         found.seen = True
         if span > 5:
             found.axes.add(axis)
-    elif quantity == "state" and span > 0 and not at.startswith("hall"):
-        found.switched = True
+    elif quantity == "state":
+        found.switched |= span > 0 and not at.startswith("hall")
+    elif quantity in _DRIVEN and at.startswith(_PUMPED):
+        found.switched |= span > _SWITCHED * largest
 
 
 def _plateaus(speed: Float1D) -> tuple[float, ...]:
