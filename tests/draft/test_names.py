@@ -68,3 +68,36 @@ def test_the_field_of_a_message_says_what_it_is_not_its_topic(name: str, quantit
     found = guess(name, None)
     assert found.quantity == quantity
     assert unit is None or found.unit == unit
+
+
+@pytest.mark.parametrize(
+    ("name", "at"),
+    [
+        ("Arbeitsraum Luft", "enclosure"),
+        ("WS.AirTemp", "enclosure"),
+        ("Air enceinte", "enclosure"),
+        ("Aria zona lavoro", "enclosure"),
+        ("Workspace air", "enclosure"),
+        ("Raumluft", "hall"),
+        ("ENV.AirMid", "hall"),
+        ("TAB.BrgTemp", "table.bearing"),
+        ("Lager Rundtisch", "table.bearing"),
+        ("Tisch Lager", "table.bearing"),
+        ("Cuscinetto tavola", "table.bearing"),
+        ("Palier plateau", "table.bearing"),
+        ("Table bearing", "table.bearing"),
+        ("Cuscinetto ant. mandrino", "spindle.bearing.front"),
+        ("Palier arrière broche", "spindle.bearing.rear"),
+        ("Montante sx", "column.left"),
+        ("Montante dx", "column.right"),
+        ("Montant gauche", "column.left"),
+        ("Montant droit", "column.right"),
+        ("Hall haut", "hall.top"),
+        ("Hall bas", "hall.bottom"),
+        ("Hall air", "hall"),
+        ("Palier vis X", "axis.x.bearing"),
+    ],
+)
+def test_places_of_italian_and_french_labs_and_the_air_of_the_working_space(name: str, at: str) -> None:
+    """The air in which the part is cut is not the hall's, and a bearing beside a table is not the spindle's."""
+    assert guess(name, "°C").at == at

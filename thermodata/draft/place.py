@@ -113,6 +113,8 @@ def _temperature(said: set[str], axis: str | None) -> Place:
         return Place(found[0], len(found) == 1)
     if "table" in said:
         return Place("table", not said & {"hall"})
+    if "workspace" in said:
+        return Place("enclosure", said <= {"workspace", "enclosure", "hall"})
     if "spindle" in said:
         return Place("spindle", said == {"spindle"})
     if "window" in said or "sun" in said:
@@ -243,7 +245,7 @@ def _displacement(said: set[str], axis: str | None) -> Place:
 
 
 def _humidity(said: set[str], axis: str | None) -> Place:
-    return Place("hall", "hall" in said)
+    return Place("enclosure") if "workspace" in said else Place("hall", "hall" in said)
 
 
 def _irradiance(said: set[str], axis: str | None) -> Place:

@@ -64,25 +64,30 @@ PLACE_WORDS: dict[str, str] = {
     "workhead": "workhead werkstuckspindel werkstueckspindel wss. prac~vret prac~vretene prac~vreteno prac~vretenik "
     "pracovni~vreteno pracovni~vretene workspindle work~spindle",
     "not spindle": "gewindespindel kugelspindel spindelmutter kugelgewinde leadspindle",
-    "bearing": "bearing bearings. lager ^lozis ^loz. 轴承 軸承 brg. brng. bear. lagerung roulement",
-    "front": "front vorn vorder ^predni pred. predn. 前 fr. frt~b nose. spindlenose nase. vl.",
-    "rear": "rear back. hinten hinter ^zadni zad. zadn. 后 後 tail. rr.",
-    "upper": "upper top. ^ober oben. obere ^horni nahore nahoru 上 up.",
-    "lower": "lower bottom bot. ^unter unten. ^spodni ^dolni dole. 下 low. dn.",
-    "left": "left links. link. linke levy. leva. leve. levo. 左 l.",
-    "right": "right rechts. recht. rechte pravy. prava. prave. pravo. 右 r.",
+    "bearing": "bearing bearings. lager ^lozis ^loz. 轴承 軸承 brg. brng. bear. lagerung roulement cuscinett palier. "
+    "paliers.",
+    "front": "front vorn vorder ^predni pred. predn. 前 fr. frt~b nose. spindlenose nase. vl. avant. ant. anteriore.",
+    "rear": "rear back. hinten hinter ^zadni zad. zadn. 后 後 tail. rr. arriere. post. posteriore.",
+    "upper": "upper top. ^ober oben. obere ^horni nahore nahoru 上 up. haut. haute. alto. alta. superieur ^superiore",
+    "lower": "lower bottom bot. ^unter unten. ^spodni ^dolni dole. 下 low. dn. bas. basse. basso. bassa. inferieur "
+    "^inferiore",
+    "left": "left links. link. linke levy. leva. leve. levo. 左 l. sx. sinistr gauche.",
+    "right": "right rechts. recht. rechte pravy. prava. prave. pravo. 右 r. dx. destra. destro. droit. droite.",
     "middle": "middle. mitte. mittl stredni. stred. center. centre. 中间 中部",
     "motor": "motor mot. mtr. servo. servomotor 电机 電機 马达 伺服 wicklung winding vinuti 绕组 statorwick motors.",
     "nut": "nut. mutter ^matic matka. 螺母 丝母 螺帽 ballnut nuts.",
-    "screw": "screw gewindetrieb kgt. kugelgewinde sroub srouby 丝杠 丝杆 絲杠 滚珠 bsc. leadscrew gewindespindel",
+    "screw": "screw gewindetrieb kgt. kugelgewinde sroub srouby 丝杠 丝杆 絲杠 滚珠 bsc. leadscrew gewindespindel vis. "
+    "vite. viti.",
     "scale": "scale. scales. massstab masstab glasmass pravitk 光栅 光柵 linear~encoder glass~scale wegmesssystem",
     "guide": "guideway gway. fuehr. fuhr. guide. guides. ^fuhrung fuehrung linearfuhr vedeni. 导轨 導軌 rail. rails. "
     "slideway",
     "gearbox": "gearbox getriebe prevodovk 齿轮箱 变速箱 gear.",
     "drive": "drive. drives. umrichter inverter amplifier verstarker menic 驱动器 变频器 converter",
-    "column": "column stander staender saule. saeule. maschinensaule stojan sloup 立柱 col.",
+    "column": "column stander staender saule. saeule. maschinensaule stojan sloup 立柱 col. montante. "
+    "montanti. montant. colonna. colonne.",
     "bed": "bed. bett. maschinenbett ^loze. lozi. 床身 底座 machinebase base. bedplate podstav machine~base",
-    "table": "table. tables. tisch ^stul. ^stol. stolu. stole. 工作台 转台 轉台 drehtisch rotarytable worktable",
+    "table": "table. tables. tisch ^stul. ^stol. stolu. stole. 工作台 转台 轉台 drehtisch rotarytable worktable tab. "
+    "tavola. plateau.",
     "headstock": "headstock spindelstock spindelkasten spindelgehaus spindelkopf vretenik 主轴箱 床头箱 spindle~head "
     "spindlehead spindle~housing spindle~box head~stock 主轴头",
     "ram": "ram. pinole ^smykadl 滑枕 quill.",
@@ -115,6 +120,10 @@ PLACE_WORDS: dict[str, str] = {
     "door": "door doors. tur. tuer. schutztur tor. hallentor hallentur hallentuer dvere dveri vrata vrat. gate. 门 門",
     "enclosure": "machine~door schutztur schutztuer safety~door guard~door 防护门 安全门 workspace. arbeitsraum "
     "pracovni~prostor",
+    # the air in which the part is cut: of the machine, and not of the hall
+    "workspace": "workspace. work~space working~space working~area machining~area arbeitsraum pracovni~prostor ws~air "
+    "air~ws "
+    "zona~lavoro zona~di~lavoro vano~lavoro enceinte. zone~travail zone~de~travail espace~de~travail",
     "window": "window fenster okno. okna. 窗",
     "sun": "sun. sonne. slunce. solar. sunlight",
     "cnc": "cnc. cnc~temp steuerung. ridici. 数控 control~unit ncu. ipc.",

@@ -66,6 +66,7 @@ PLACES: dict[str, str] = {
     "cabinet": "the electrical cabinet",
     "cnc": "the control",
     "cnc.compensation": "what the control itself adds to an axis",
+    "enclosure": "the air of the working space, within the machine's enclosure",
     "hall": "the air around the machine",
     "hall.top": "that air above, at the height of the machine's top",
     "hall.bottom": "that air below, near the floor",
