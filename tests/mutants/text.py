@@ -12,6 +12,7 @@ BESIDE = {
     "grid.py": ("three_ways", "rows_width"),
     "header.py": ("delimited",),
     "layout.py": ("delimited",),
+    "letters.py": ("letters",),
     "lines.py": ("lines", "locate"),
     "local_clock.py": ("local_clock",),
     "locate.py": ("locate",),
@@ -106,6 +107,12 @@ MUTANTS = [
     ),
     text("timestamp.py", "moment.tzinfo or UTC", "UTC", "a declared offset is left out"),
     text("timestamp.py", "(ZONE if zoned else", '(f"{ZONE}?" if zoned else', "local times among those of UTC"),
+    # ---- which letters a byte stands for
+    text("letters.py", "bool(of_west) - bool(of_east)", "bool(of_east) - bool(of_west)", "a Polish letter is a power"),
+    text("letters.py", "_UNPROVEN else 0.0)", "0.0 else 0.0)", "a letter that may be either is not asked"),
+    text("letters.py", 'if len(word) == 1 and word != b"\\xe0":', "if False:", "a lone letter is no word"),
+    text("letters.py", "total += 0.6 * math.log(", "total -= 0.6 * math.log(", "words speak against themselves"),
+    text("letters.py", '_SIGNS.sub(b" ", data) if signs else data', "data", "a power is a Polish letter"),
     # ---- how times are written
     text("time_formats.py", 'return "dmy"\n', 'return "mdy"\n', "month first though dots stand between"),
     text(

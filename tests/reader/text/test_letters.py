@@ -47,6 +47,8 @@ def test_each_word_of_a_log_is_read_as_it_was_written(words: str, encoding: str,
 def test_a_unit_with_a_power_does_not_make_a_log_western_that_is_none() -> None:
     text = "Čas;Průtok přední [l/min];Výkon čerpadla [W];Otáčky vřetena"
     assert decode(text.encode("cp1250") + b";q [W/m2]")[0].startswith(text)
+    for one in ("q [W/m²]", "V [m³/h]", "a [m/s²]", "T [ºC]", "Nº 4"):
+        assert decode(one.encode("cp1252"))[0] == one
     assert decode(b"q [W/m\xb2];V [m\xb3/h];T [\xbaC]")[0] == "q [W/m²];V [m³/h];T [ºC]"
 
 
@@ -55,6 +57,9 @@ def test_a_letter_that_may_be_either_is_asked() -> None:
         decode(b"T \xe8 [V]")
     assert "cp1252: 'è'; cp1250: 'č'" in str(caught.value)
     assert "declare the source's encoding: cp1252" in str(caught.value)
+    for weak in (b"T d\xf2n", b"T k\xf2n", b"t\xe8k"):  # no word that is known, nor letters as they stand in one
+        with pytest.raises(FormatError, match="does not name"):
+            decode(weak)
     assert decode(b"T \xe8 [V]", "cp1250")[0] == "T č [V]"
 
 
