@@ -52,3 +52,15 @@ def test_none_that_fits_names_the_nearest() -> None:
         match_signal("nActSped", SIGNALS)
     with pytest.raises(UsageError, match="the file has none"):
         match_signal("x", [])
+
+
+@pytest.mark.parametrize(
+    ("wanted", "inside", "encoding"),
+    [("Pièce", "Pičce [°C]", "cp1252"), ("Palier arrière broche", "log/Palier arričre broche", "cp1252"),
+     ("Otáčky", "Otáèky", "cp1250")],
+)  # fmt: skip
+def test_a_name_that_was_read_in_another_encoding_says_which_to_declare(
+    wanted: str, inside: str, encoding: str
+) -> None:
+    with pytest.raises(UsageError, match=f"declare 'encoding: {encoding}' for the source"):
+        match_signal(wanted, [Signal(inside, "log"), *SIGNALS])

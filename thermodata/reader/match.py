@@ -56,5 +56,18 @@ def match_signal(wanted: str, signals: Sequence[Signal]) -> Signal:
         f"no signal '{wanted}' in the file",
         expected=", ".join(close or listed) or "the file has none",
         got=wanted,
-        hint=f"did you mean '{close[0]}'?" if close else None,
+        hint=_other_encoding(wanted, close) or (f"did you mean '{close[0]}'?" if close else None),
     )
+
+
+def _other_encoding(wanted: str, close: Sequence[str]) -> str | None:
+    """What to declare where a name of the file is the wanted one in another encoding: 'Pičce' is 'Pièce' in cp1252."""
+    for name in close:
+        for read, meant in (("cp1250", "cp1252"), ("cp1252", "cp1250")):
+            try:
+                other = name.encode(read).decode(meant)
+            except UnicodeError:
+                continue
+            if other != name and wanted.casefold() in (spell(other).casefold() for spell in _SPELLINGS):
+                return f"declare 'encoding: {meant}' for the source: '{name}' is '{other}' then"
+    return None
