@@ -6,7 +6,7 @@ whether the model has it or not, so the displacement itself is asked, in its jum
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -64,11 +64,10 @@ def clock_is_off(timing: Timing, step_s: float) -> bool:
     return late and timing.tells and timing.share >= BEATS * timing.unmoved
 
 
-def with_clocks_right(data: Dataset, off: Iterable[Timing]) -> Dataset:
-    """The same with all that the sources logged whose clock is off where it happened."""
-    late = {t.source: t.shift_s for t in off}
-    shift_s = {n: late[c.source] for n, c in data.channels.items() if c.source in late}
-    return replace(data, tests=tuple(moved(t, shift_s) for t in data.tests))
+def with_clocks_right(data: Dataset, late: Mapping[str, float]) -> Dataset:
+    """The same with all that sources logged later by so many seconds. late: source -> s."""
+    shift_s = {n: late[c.source] for n, c in data.channels.items() if c.source is not None and c.source in late}
+    return replace(data, tests=tuple(moved(t, shift_s) for t in data.tests)) if shift_s else data
 
 
 def moved(test: TestData, shift_s: Mapping[str, float]) -> TestData:

@@ -9,6 +9,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from thermodata.diagnosis.clocks import as_artefact, clock_is_off, timings, with_clocks_right
+from thermodata.diagnosis.clocks_by_heat import as_artefact as by_heat
+from thermodata.diagnosis.clocks_by_heat import late_logs
 from thermodata.diagnosis.compressed import compressed
 from thermodata.diagnosis.confirm import on_all_open
 from thermodata.diagnosis.problem import TARGET_ROWS
@@ -59,12 +61,19 @@ def _fitted_to(fitted: FittedModel, data: Dataset, tests: Sequence[TestData]) ->
 
 
 def _clocks_right(found: Sound, index: int) -> Sound:
-    response, channels = found.fitted.responses[index], found.data.channels
-    problem = compressed(response, found.data, found.tests, TARGET_ROWS)
-    off = [t for t in timings(problem, channels) if clock_is_off(t, problem.step_s)]
-    if not off:
-        return found
-    data = with_clocks_right(found.data, off)
+    """By what commands move at once; then, by heat, of the logs that no such command is in."""
+    response, data = found.fitted.responses[index], found.data
     keys = {t.key for t in found.tests}
+    problem = compressed(response, data, found.tests, TARGET_ROWS)
+    known = timings(problem, data.channels)
+    off = [t for t in known if clock_is_off(t, problem.step_s)]
+    data = with_clocks_right(data, {t.source: t.shift_s for t in off})
+    tests = [t for t in data.tests if t.key in keys]
+    told = {t.source for t in known if t.tells}
+    late = late_logs(tests, data.channels, response.name, data.step_s, told)
+    data = with_clocks_right(data, {one.source: one.shift_s for one in late if one.source is not None})
+    faults = [*(as_artefact(t, problem) for t in off), *(by_heat(one, tests[0].campaign) for one in late)]
+    if data is found.data:
+        return replace(found, faults=tuple(faults))
     right = _fitted_to(found.fitted, data, [t for t in data.tests if t.key in keys])
-    return replace(right, faults=tuple(as_artefact(t, problem) for t in off))
+    return replace(right, faults=tuple(faults))

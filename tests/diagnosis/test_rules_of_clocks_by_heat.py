@@ -1,0 +1,170 @@
+"""Logs that disagree about the time, told by heat (diagnosis/clocks_by_heat.py), just inside and outside each limit."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from thermodata.diagnosis.answer import answer
+from thermodata.diagnosis.clocks_by_heat import Disagreement, as_artefact, disagreements, late_logs
+from thermodata.effect import effects
+from thermodata.effect.lag import lag
+from thermodata.modelling.fit import fit_model
+from thermodata.schema.model import Model
+from thermodata.view.dataset import ChannelInfo, Dataset, TestData
+
+from .conftest import make_data
+
+STEP_S = 60.0
+CHANNELS = {
+    "dZ": ChannelInfo("dZ", "displacement", "um", source="daq"),
+    "n": ChannelInfo("n", "rotational_speed", "rpm", source="nc"),
+    "v": ChannelInfo("v", "feed", "m/min", source="nc"),
+    "T_front": ChannelInfo("T_front", "temperature", "degC", source="log"),
+    "T_nut": ChannelInfo("T_nut", "temperature", "degC", source="log"),
+    "T_hall": ChannelInfo("T_hall", "temperature", "degC", source="log"),
+}
+RNG = 7
+
+
+def later(values: np.ndarray, minutes: float) -> np.ndarray:
+    t = np.arange(len(values)) * STEP_S
+    return np.asarray(np.interp(t - minutes * 60, t, values))
+
+
+def logged(minutes: dict[str, float] | None = None, tests: int = 4, heat: float = 1.0) -> list[TestData]:
+    """Tests of nine hours in which a bearing follows the speed, a nut the feed, and the displacement both; minutes: by
+    which sources are late."""
+    rng, made = np.random.default_rng(RNG), []
+    for k in range(tests):
+        n = np.repeat(rng.choice([0.0, 3000.0, 6000.0, 9000.0], 18), 30)
+        v = np.repeat(rng.choice([0.0, 0.0, 10.0], 18), 30)
+        t = np.arange(len(n)) * STEP_S
+        front = heat * lag(n / 500, 1200, STEP_S) + 0.1 * rng.normal(size=len(n))
+        nut = heat * lag(v, 2400, STEP_S) + 0.1 * rng.normal(size=len(n))
+        hall = np.sin(t / 20_000 + k) + 0.05 * rng.normal(size=len(n))
+        moved = lag(front, 900, STEP_S) + lag(nut, 900, STEP_S)
+        values = {"dZ": moved, "n": n, "v": v, "T_front": 20 + front, "T_nut": 20 + nut, "T_hall": 20 + hall}
+        late = {name: (minutes or {}).get(str(CHANNELS[name].source), 0.0) for name in values}
+        values = {name: later(x, late[name]) for name, x in values.items()}
+        valid = {name: np.ones(len(n), bool) for name in values}
+        made.append(TestData("c", f"t{k}", "mixed", "calibration", t, values, valid, np.ones(len(n), bool)))
+    return made
+
+
+def plain(tests: list[TestData]) -> list[tuple[str, str, float]]:
+    return [(d.warmed, d.by, d.shift_s / 60) for d in disagreements(tests, CHANNELS, STEP_S) if d.plain]
+
+
+@pytest.mark.parametrize("minutes", [-120, -60, -40, 40, 60, 120])
+def test_temperatures_that_are_late_are_told_by_the_commands_that_warm_them(minutes: float) -> None:
+    [(warmed, by, shift)] = plain(logged({"log": minutes}))
+    assert (warmed, by) == ("log", "nc")
+    assert shift == pytest.approx(minutes, abs=4)
+
+
+@pytest.mark.parametrize("minutes", [-4, 0, 4])
+def test_logs_that_agree_are_left_alone(minutes: float) -> None:
+    assert plain(logged({"log": minutes})) == []
+
+
+def test_what_does_not_warm_tells_nothing() -> None:
+    assert plain(logged({"log": 60}, heat=0.0)) == []
+
+
+def test_three_tests_are_needed() -> None:
+    assert len(plain(logged({"log": 60}, tests=3))) == 1
+    assert disagreements(logged({"log": 60}, tests=2), CHANNELS, STEP_S) == []
+
+
+def test_one_temperature_alone_tells_nothing() -> None:
+    tests = [replace(t, values={n: v for n, v in t.values.items() if n != "T_nut"}) for t in logged({"log": 60})]
+    [found] = disagreements(tests, CHANNELS, STEP_S)
+    assert found.telling == 1
+    assert not found.plain
+
+
+@pytest.mark.parametrize(
+    ("changed", "is_plain"),
+    [
+        ({}, True),
+        ({"share": 0.301, "unmoved": 0.0}, True),
+        ({"share": 0.299, "unmoved": 0.0}, False),
+        ({"unmoved": 0.151}, False),
+        ({"unmoved": 0.149}, True),
+        ({"telling": 1}, False),
+        ({"shift_s": -600.0}, True),
+        ({"shift_s": 540.0}, False),
+    ],
+)
+def test_a_disagreement_is_plain_where_much_more_is_foretold_once_it_is_mended(
+    changed: dict[str, float], is_plain: bool
+) -> None:
+    found = {"shift_s": 3600.0, "share": 0.6, "unmoved": 0.1, "telling": 2, **changed}
+    assert Disagreement("log", "nc", **found).plain is is_plain  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize(
+    ("home", "right", "late", "source", "shift"),
+    [
+        ("nc", (), {"log": 60}, "log", -60),
+        ("log", (), {"nc": 60}, "nc", -60),
+        ("daq", ("nc",), {"log": 60}, "log", -60),
+        ("daq", (), {"log": 60}, "log", -60),
+        ("daq", (), {"nc": 60}, "nc", -60),
+    ],
+)
+def test_the_log_that_disagrees_with_the_displacement_too_is_late(
+    home: str, right: tuple[str, ...], late: dict[str, float], source: str, shift: float
+) -> None:
+    """By its own source, by what commands move at once, or by its own heat."""
+    channels = {**CHANNELS, "dZ": replace(CHANNELS["dZ"], source=home)}
+    [found] = late_logs(logged(late), channels, "dZ", STEP_S, right)
+    assert found.source == source
+    assert found.shift_s / 60 == pytest.approx(shift, abs=4)
+    assert f"the choice is made with '{source}' moved by" in as_artefact(found, "c").why
+
+
+def without_a_word(tests: list[TestData]) -> list[TestData]:
+    """Their displacement is noise."""
+    rng = np.random.default_rng(1)
+    return [replace(t, values={**t.values, "dZ": rng.normal(size=len(t.t_s))}) for t in tests]
+
+
+def test_the_log_of_the_displacement_is_right_whatever_that_says() -> None:
+    channels = {**CHANNELS, "dZ": replace(CHANNELS["dZ"], source="log")}
+    [found] = late_logs(without_a_word(logged({"nc": 60})), channels, "dZ", STEP_S)
+    assert found.source == "nc"
+
+
+def test_where_the_displacement_says_nothing_neither_log_is_moved() -> None:
+    [found] = late_logs(without_a_word(logged({"log": 60})), CHANNELS, "dZ", STEP_S)
+    assert found.source is None
+    assert "nothing tells which" in as_artefact(found, "c").why
+
+
+def test_the_choice_is_made_with_the_log_moved(spec: Model) -> None:
+    """Temperatures an hour late: the cause is named as where they are not, and the clock is said."""
+
+    def nut(channels: dict[str, np.ndarray], t: np.ndarray) -> np.ndarray:
+        return np.asarray(lag(9 * (channels["T_nut_X"] - channels["T_nut_X"][0]), 1200, 120.0))
+
+    data = make_data(nut)
+    rng = np.random.default_rng(5)
+    feeds = [np.repeat(rng.choice([0.0, 1.0], 36), 10) for _ in data.tests]
+    tests = []
+    for test, feed in zip(data.tests, feeds, strict=True):
+        warm = 22 + lag(feed * 8, 2400, 120.0)
+        values = {**test.values, "T_nut_X": warm, "feed_X": feed}
+        values["dZ"] = test.values["dZ"] - nut(test.values, test.t_s) + nut(values, test.t_s)
+        late = {n: np.interp(test.t_s - 3600, test.t_s, v) if n.startswith("T_") else v for n, v in values.items()}
+        tests.append(replace(test, values=late, valid={**test.valid, "feed_X": test.valid["dZ"]}))
+    channels = {**data.channels, "feed_X": ChannelInfo("feed_X", "feed", "m/min", at="axis.x", axis="X")}
+    channels = {n: replace(c, source="log" if n.startswith("T_") else "nc") for n, c in channels.items()}
+    off = Dataset(data.step_s, tuple(tests), channels)
+    found = answer(fit_model(spec, off, uncertainty=False), off, effects(), "m").diagnosis
+    assert [a.kind for a in found.artefacts] == ["clock_offset"]
+    assert "'log' moved by -58 min" in found.artefacts[0].why
+    assert [c.family for c in found.candidates if c.claimed] == ["feed_x"]
