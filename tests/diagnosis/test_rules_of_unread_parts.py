@@ -121,6 +121,7 @@ def test_a_reference_is_no_part_that_the_model_has() -> None:
 def test_heats_in_words() -> None:
     assert heat_at(["axis.z.nut", "axis.z.guide"], " or ") == "heat at axis.z.nut or axis.z.guide"
     assert heat_at(["hall"], " or ") == "the air of the hall"
+    assert heat_at(["enclosure"], " or ") == "the air of the working space"
     assert heat_at(["hall", "fixture"], " and ") == "heat at fixture and the air of the hall"
 
 

@@ -107,10 +107,13 @@ def is_around(place: str | None) -> bool:
     return place is not None and place.lower().partition(".")[0] in _AROUND
 
 
+AIRS = {"hall": "the air of the hall", "enclosure": "the air of the working space"}
+
+
 def heat_at(places: Sequence[str], link: str) -> str:
     """'heat at axis.z.nut or axis.z.guide', 'the air of the hall'. link: ' or ', ' and '."""
-    bodies = [f"heat at {link.join(some)}"] if (some := [p for p in places if p != "hall"]) else []
-    return link.join([*bodies, *(["the air of the hall"] if "hall" in places else [])])
+    bodies = [f"heat at {link.join(some)}"] if (some := [p for p in places if p not in AIRS]) else []
+    return link.join([*bodies, *(air for place, air in AIRS.items() if place in places)])
 
 
 def is_known(place: str) -> bool:
