@@ -44,3 +44,9 @@ def test_the_terminal_names_all_tests_of_a_fault_in_one_line() -> None:
     assert "  ! sensor in shop/one, shop/two. T_a is stuck\n" in text
     assert "  ! step in shop/one at 30 s: 5.00 um. a slip\n" in text
     assert "  ! parameters in shop. refit it" in text
+
+
+def test_a_size_without_a_moment_is_told_without_one() -> None:
+    turned = Artefact(kind="sign", campaign="shop", test="two", at_s=None, size_um=2.94, why="it is turned")
+    text = diagnosis_text(diagnosis().model_copy(update={"artefacts": [turned]}))
+    assert "  ! sign in shop/two: 2.94 um. it is turned" in text

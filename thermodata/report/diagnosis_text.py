@@ -85,7 +85,8 @@ def diagnosis_text(found: Diagnosis, top: int = 8) -> str:
             "artefacts\n"
             + "\n".join(
                 f"  ! {a.kind} in {', '.join('/'.join(filter(None, t)) for t in a.tests)}"
-                + ("" if a.size_um is None else f" at {duration(a.at_s)}: {number(a.size_um)} um")
+                + ("" if a.at_s is None else f" at {duration(a.at_s)}")
+                + ("" if a.size_um is None else f": {number(a.size_um)} um")
                 + f". {a.why}"
                 for a in log_faults(found.artefacts)
             )
