@@ -212,6 +212,8 @@ def test_what_a_command_did_while_nobody_logged_it_may_explain(at: int, explaine
     found = [] if explained else [("t0", 5)]
     assert in_tests(unlogged(slipped(still, at)), shifting, shifting) == found
     assert in_tests(unlogged(slipped(still, at)), idle, idle) == [("t0", 5)]
+    warm = in_tests(unlogged(slipped(still, at)), shifting, shifting, quantity="temperature")
+    assert ("t0", 5) in warm, "all heat moves a temperature: what it did unseen excuses nothing"
 
 
 TENS = np.array([1.0, -1.0] * 10)

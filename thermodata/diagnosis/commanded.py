@@ -45,8 +45,8 @@ class Commands:
         self._step_s = problem.step_s
         self._jumps = [over_three(b.residual, b.t_s) for b in problem.blocks]
         self._moves = [over_three(b.response, b.t_s) for b in problem.blocks]
-        names = sorted({n for b in problem.blocks for n, c in b.test.channels.items() if c.quantity in JUMPING})
-        self._commands = [_courses(problem.blocks, n) for n in names]
+        found = {n: c.quantity for b in problem.blocks for n, c in b.test.channels.items() if c.quantity in JUMPING}
+        self._commands = [_courses(problem.blocks, n, hides=found[n] in COMMANDS) for n in sorted(found)]
 
     def explain(self, block: int, i: int) -> bool:
         """Whether a command makes the step before sample i of a block."""
@@ -121,14 +121,15 @@ def over_three(values: Float1D, t_s: Float1D) -> Float1D:
     return change
 
 
-def _courses(blocks: Sequence[Block], name: str) -> list[_Course | None]:
-    """Of one command, None for each block that lacks it."""
+def _courses(blocks: Sequence[Block], name: str, *, hides: bool) -> list[_Course | None]:
+    """Of one command, None for each block that lacks it. hides: whether it may do something while nobody logs it, as a
+    command does and a temperature, which all heat moves, does not."""
     held = [_held(b, name) for b in blocks]
     values = [v for v, _ in held if len(v)]
     every = np.concatenate(values) if values else np.zeros(1)
     # the power by which a command acts decides what is a change: of the square, a fast spindle's is the larger
     span = {p: float(np.ptp(every**p)) for p in POWERS}
-    return [_course(b, v, hole, span) if len(v) else None for b, (v, hole) in zip(blocks, held, strict=True)]
+    return [_course(b, v, hole & hides, span) if len(v) else None for b, (v, hole) in zip(blocks, held, strict=True)]
 
 
 def _held(block: Block, name: str) -> tuple[Float1D, Bool1D]:
