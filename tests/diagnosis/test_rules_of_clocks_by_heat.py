@@ -74,6 +74,12 @@ def test_what_does_not_warm_tells_nothing() -> None:
     assert plain(logged({"log": 60}, heat=0.0)) == []
 
 
+@pytest.mark.parametrize(("step_s", "asked"), [(240.0, True), (241.0, False)])
+def test_a_coarse_grid_tells_nothing(step_s: float, asked: bool) -> None:
+    """One sample of it is as much as bodies are late by."""
+    assert bool(disagreements(logged({"log": 15}), CHANNELS, step_s)) is asked  # so many samples
+
+
 def test_three_tests_are_needed() -> None:
     assert len(plain(logged({"log": 60}, tests=3))) == 1
     assert disagreements(logged({"log": 60}, tests=2), CHANNELS, STEP_S) == []

@@ -472,6 +472,8 @@ MUTANTS = [
     diagnosis("artefact.py", "<= 2 * windows.step_s", "< 0", "a slip within a window is two"),
     diagnosis("clocks_by_heat.py", "LEAST_SHARE = 0.3", "LEAST_SHARE = 0.2", "a weak temperature moves a clock"),
     diagnosis("clocks_by_heat.py", "BEATS = 4.0", "BEATS = 1.0", "a slow body moves a clock"),
+    diagnosis("clocks_by_heat.py", "step_s > UNMOVED_S", "False", "one coarse sample moves a clock"),
+    diagnosis("commanded.py", "hole & hides", "hole", "a warm room excuses every slip that nobody saw"),
     diagnosis("clocks_by_heat.py", "LEAST_TELLING = 2", "LEAST_TELLING = 1", "one temperature moves a clock"),
     diagnosis("clocks_by_heat.py", "TWO_HOURS_S, ABOUT_S = 7200.0", "TWO_HOURS_S, ABOUT_S = 0.0", "two hours pass"),
     diagnosis("clocks_by_heat.py", "if of.warmed == home:", "if False:", "the right log is moved"),

@@ -141,6 +141,8 @@ def disagreement(
     tests: Sequence[TestData], names: Sequence[str], drives: Sequence[str], step_s: float, *, warmed: str, by: str
 ) -> Disagreement | None:
     """names: of the temperatures, or of what else heat moves; drives: of the commands. None where nothing tells."""
+    if step_s > UNMOVED_S:
+        return None  # one sample is as much as bodies are late by
     every = max(1, round(EVERY_S / step_s))
     over = max(1, round(OVER_S / (every * step_s)))
     long = [t for t in tests if len(t.t_s) // every > 2 * over]
