@@ -193,6 +193,18 @@ def problem(*tests: Parts, noise: float = 0.0, step_s: float = STEP_S) -> Proble
     return Problem("dZ", "um", step_s, blocks, noise)
 
 
+def of_one_model(factors: Sequence[float]) -> Problem:
+    """Tests that follow one column of the model, each by its own factor."""
+    rng = np.random.default_rng(1)
+
+    def one(factor: float) -> Parts:
+        base = rng.normal(size=(200, 1))
+        y: Float1D = factor * base[:, 0] + 0.01 * rng.normal(size=200)
+        return Parts(y, response=y, base=base)
+
+    return problem(*map(one, factors), noise=0.01)
+
+
 def of_tests(count: int) -> Problem:
     """A problem whose tests are only counted."""
     return problem(*(Parts(np.zeros(4)) for _ in range(count)))

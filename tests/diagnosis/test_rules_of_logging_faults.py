@@ -22,7 +22,7 @@ from thermodata.plugin import Float1D, Float2D
 from thermodata.schema.diagnosis import Artefact
 from thermodata.view.dataset import ChannelInfo, TestData
 
-from .hand_made import Parts, of_tests, problem
+from .hand_made import Parts, of_one_model, of_tests, problem
 
 
 def artefact(kind: str, test: str = "t0", at_s: float | None = None) -> Artefact:
@@ -115,18 +115,6 @@ def test_a_gain_is_wrong_where_one_factor_explains_a_whole_test(changed: dict[st
     """A factor 15 % off that takes away nine tenths of an error of more than five times the noise."""
     plain = {"factor": 1.5, "before": 1.0, "after": 0.01, "rms": 1.0, "noise": 0.01}
     assert gain_is_wrong(**{**plain, **changed}) is wrong
-
-
-def of_one_model(factors: list[float]) -> Problem:
-    """Tests that follow one column, each by its own factor."""
-    rng = np.random.default_rng(1)
-
-    def one(factor: float) -> Parts:
-        base = rng.normal(size=(200, 1))
-        y: Float1D = factor * base[:, 0] + 0.01 * rng.normal(size=200)
-        return Parts(y, response=y, base=base)
-
-    return problem(*map(one, factors), noise=0.01)
 
 
 @pytest.mark.parametrize(

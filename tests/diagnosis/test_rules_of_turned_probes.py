@@ -9,7 +9,6 @@ import numpy as np
 import pytest
 
 from thermodata.diagnosis.answer import answer
-from thermodata.diagnosis.problem import Problem
 from thermodata.diagnosis.turned import is_turned, turned
 from thermodata.effect import effects
 from thermodata.effect.lag import lag
@@ -20,7 +19,7 @@ from thermodata.schema.model import Model
 from thermodata.view.dataset import Dataset
 
 from .conftest import STEP_S, make_data
-from .hand_made import Parts, problem
+from .hand_made import Parts, of_one_model, problem
 
 
 def by_the_nut(channels: dict[str, Any], t: np.ndarray) -> Float1D:
@@ -70,18 +69,6 @@ def test_turning_a_test_must_take_away_most_of_all_error_and_foretell_it(
     after: float, fit: float, is_one: bool
 ) -> None:
     assert is_turned(1.0, after, fit) is is_one
-
-
-def of_one_model(factors: list[float]) -> Problem:
-    """Tests that follow one column of the model, each by its own factor."""
-    rng = np.random.default_rng(1)
-
-    def one(factor: float) -> Parts:
-        base = rng.normal(size=(200, 1))
-        y: Float1D = factor * base[:, 0] + 0.01 * rng.normal(size=200)
-        return Parts(y, response=y, base=base)
-
-    return problem(*map(one, factors), noise=0.01)
 
 
 @pytest.mark.parametrize(
