@@ -300,6 +300,7 @@ def test_diagnose_add_by_rank_and_report(say: Say, tmp_path: Path) -> None:
         "weak_spots",
         "candidates",
         "artefacts",
+        "put_right",
         "unknown",
         "next_test",
         "response_um",

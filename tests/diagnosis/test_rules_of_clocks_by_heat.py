@@ -173,4 +173,6 @@ def test_the_choice_is_made_with_the_log_moved(spec: Model) -> None:
     found = answer(fit_model(spec, off, uncertainty=False), off, effects(), "m").diagnosis
     assert [a.kind for a in found.artefacts] == ["clock_offset"]
     assert "'log' moved by -58 min" in found.artefacts[0].why
+    assert found.put_right is not None
+    assert found.put_right.moved_s == {"log": pytest.approx(-58 * 60, abs=31)}
     assert [c.family for c in found.candidates if c.claimed] == ["feed_x"]

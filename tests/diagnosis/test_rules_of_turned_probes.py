@@ -14,7 +14,7 @@ from thermodata.effect import effects
 from thermodata.effect.lag import lag
 from thermodata.modelling.fit import fit_model
 from thermodata.plugin import Float1D
-from thermodata.schema.diagnosis import Diagnosis
+from thermodata.schema.diagnosis import Diagnosis, PutRight
 from thermodata.schema.model import Model
 from thermodata.view.dataset import Dataset
 
@@ -58,8 +58,11 @@ def test_the_cause_is_not_named_where_a_turned_test_takes_part(spec: Model, monk
 
 
 def test_a_fault_that_leaves_a_test_out_says_so(spec: Model) -> None:
-    [told] = [a for a in found(with_turned(make_data(by_the_nut), "t3"), spec).artefacts if a.kind == "sign"]
+    answer = found(with_turned(make_data(by_the_nut), "t3"), spec)
+    [told] = [a for a in answer.artefacts if a.kind == "sign"]
     assert "takes no part in the choice" in told.why
+    assert answer.put_right == PutRight(left_out=[(told.campaign, "t3")])
+    assert found(make_data(by_the_nut), spec).put_right is None
 
 
 @pytest.mark.parametrize(

@@ -52,6 +52,7 @@ DIAGNOSIS = {
     "weak_spots",
     "candidates",
     "artefacts",
+    "put_right",
     "unknown",
     "next_test",
     "response_um",

@@ -14,7 +14,7 @@ from thermodata.report.error_rows import error_rows
 from thermodata.report.headline import headline
 from thermodata.report.page import render
 from thermodata.report.verdict import explainable, listed, named, probability, told, verdict_sentence
-from thermodata.schema.diagnosis import Candidate, Diagnosis
+from thermodata.schema.diagnosis import Candidate, Diagnosis, PutRight
 
 from .conftest import diagnosis
 
@@ -213,3 +213,28 @@ def test_a_cause_that_is_not_excluded_is_named_though_none_is_said_to_be_missing
     again = one("lag", probability=0.24, drivers=["T_b"])
     for slight in (one("screw", probability=0.09), one("screw", probability=None), again):
         assert "not excluded" not in verdict_sentence(found(verdict, [*mode, slight]))
+
+
+@pytest.mark.parametrize(
+    ("right", "said"),
+    [
+        (PutRight(left_out=[("shop", "day2")]), "judged without day2, where the probe is turned round"),
+        (PutRight(moved_s={"nc": 3660.0}), "judged with the clock of nc moved by +61 min"),
+        (
+            PutRight(left_out=[("shop", "day2"), ("shop", "day3")], moved_s={"nc": 3600.0, "hall": -3600.0}),
+            "judged without day2 and day3, where the probe is turned round, and with the clocks of nc moved by +60 min "
+            "and of hall moved by -60 min",
+        ),
+    ],
+)
+@pytest.mark.parametrize("verdict", ["effect", "unknown", "none", "refine", "not_testable"])
+def test_what_was_put_right_in_the_logs_stands_beside_any_verdict(verdict: str, right: PutRight, said: str) -> None:
+    answer = found(verdict, [claim("screw")] if verdict == "effect" else [], put_right=right)
+    assert verdict_sentence(answer) == f"{verdict_sentence(answer.model_copy(update={'put_right': None}))}; {said}"
+
+
+def test_the_head_of_the_page_says_what_was_put_right(data: ReportData) -> None:
+    right = PutRight(left_out=[("demo", "day9")])
+    page = render(dataclasses.replace(data, diagnosis=found("effect", [claim("screw")], put_right=right)))
+    head = page[: page.index("<h2")]
+    assert "judged without day9, where the probe is turned round" in head

@@ -6,7 +6,7 @@ Nothing is changed but in what is asked: each fault is said, and the log stays a
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 from thermodata.diagnosis.clocks import as_artefact, clock_is_off, timings, with_clocks_right
 from thermodata.diagnosis.clocks_by_heat import as_artefact as by_heat
@@ -18,7 +18,7 @@ from thermodata.diagnosis.turned import turned_probes
 from thermodata.modelling.fit import fit_model
 from thermodata.modelling.fitted import FittedModel
 from thermodata.plugin import Effect
-from thermodata.schema.diagnosis import Artefact
+from thermodata.schema.diagnosis import Artefact, PutRight
 from thermodata.schema.model import Model
 from thermodata.view.dataset import Dataset, TestData
 
@@ -26,13 +26,14 @@ from thermodata.view.dataset import Dataset, TestData
 @dataclass(frozen=True, slots=True)
 class Sound:
     """spec, fitted: the model, calibrated on `tests`. data: clocks that are off moved. tests: open, and sound. faults:
-    what was mended or left out."""
+    as they are told. put_right: what was mended or left out."""
 
     spec: Model
     fitted: FittedModel
     data: Dataset
     tests: tuple[TestData, ...]
     faults: tuple[Artefact, ...] = ()
+    put_right: PutRight = field(default_factory=PutRight)
 
 
 def sound(
@@ -51,7 +52,11 @@ def sound(
         return found
     wrong = {(a.campaign, a.test) for a in turned}
     upright = [t for t in found.tests if (t.campaign, t.test) not in wrong]
-    return replace(_fitted_to(fitted, found.data, upright), faults=(*found.faults, *turned))
+    return replace(
+        _fitted_to(fitted, found.data, upright),
+        faults=(*found.faults, *turned),
+        put_right=found.put_right.model_copy(update={"left_out": sorted(wrong)}),
+    )
 
 
 def _fitted_to(fitted: FittedModel, data: Dataset, tests: Sequence[TestData]) -> Sound:
@@ -67,13 +72,15 @@ def _clocks_right(found: Sound, index: int) -> Sound:
     problem = compressed(response, data, found.tests, TARGET_ROWS)
     known = timings(problem, data.channels)
     off = [t for t in known if clock_is_off(t, problem.step_s)]
-    data = with_clocks_right(data, {t.source: t.shift_s for t in off})
+    moved = {t.source: t.shift_s for t in off}
+    data = with_clocks_right(data, moved)
     tests = [t for t in data.tests if t.key in keys]
     told = {t.source for t in known if t.tells}
     late = late_logs(tests, data.channels, response.name, data.step_s, told)
-    data = with_clocks_right(data, {one.source: one.shift_s for one in late if one.source is not None})
+    by_their_heat = {one.source: one.shift_s for one in late if one.source is not None}
+    data = with_clocks_right(data, by_their_heat)
     faults = [*(as_artefact(t, problem) for t in off), *(by_heat(one, tests[0].campaign) for one in late)]
     if data is found.data:
         return replace(found, faults=tuple(faults))
     right = _fitted_to(found.fitted, data, [t for t in data.tests if t.key in keys])
-    return replace(right, faults=tuple(faults))
+    return replace(right, faults=tuple(faults), put_right=PutRight(moved_s=moved | by_their_heat))

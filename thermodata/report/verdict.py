@@ -62,7 +62,24 @@ def other_heat(one: Candidate) -> str:
 
 
 def verdict_sentence(found: Diagnosis) -> str:
-    """The verdict in one sentence with its figures: every claim, every refinement."""
+    """The verdict in one sentence with its figures: every claim, every refinement, and what of the logs was put right
+    before."""
+    return "; ".join(filter(None, [_verdict(found), put_right(found)]))
+
+
+def put_right(found: Diagnosis) -> str:
+    """'judged without day2, where the probe is turned round, and with the clock of nc moved by +61 min'; '' where the
+    logs were taken as they are."""
+    if found.put_right is None:
+        return ""
+    tests = [test for _, test in found.put_right.left_out]
+    clocks = [f"of {source} moved by {s / 60:+.0f} min" for source, s in found.put_right.moved_s.items()]
+    parts = [f"without {listed(tests)}, where the probe is turned round,"] if tests else []
+    parts += [f"with the clock{'s' if len(clocks) > 1 else ''} {listed(clocks)}"] if clocks else []
+    return f"judged {listed(parts).removesuffix(',')}"
+
+
+def _verdict(found: Diagnosis) -> str:
     claims, refined = claims_of(found), refinements_of(found)
     beside = f"what the model has can be refined by {listed([named(c) for c in refined])}" if refined else ""
     if found.verdict == "effect" and claims:

@@ -174,6 +174,17 @@ class Artefact(Result):
     why: str
 
 
+class PutRight(Result):
+    """What was put right in the logs before the question was asked; the logs themselves stay as they are.
+
+    left_out: (campaign, test) of each test in which a probe is turned
+    moved_s: source -> by how much its clock was moved [s]
+    """
+
+    left_out: list[tuple[str, str]] = []
+    moved_s: dict[str, float] = {}
+
+
 class DetectionLimit(Result):
     """How large an effect that is not named would have to be to be claimed on these tests.
 
@@ -214,6 +225,7 @@ class Diagnosis(Result):
     weak_spots: where the model fails, by cost
     candidates: best first
     artefacts: faults of the logs
+    put_right: those that the answer was found without; null where the logs were taken as they are
     unknown: for the verdict unknown
     next_test: which test to run, or which sensor to add
     response_um: RMS of the response about each test's mean, in its unit
@@ -232,6 +244,7 @@ class Diagnosis(Result):
     weak_spots: list[WeakSpot]
     candidates: list[Candidate]
     artefacts: list[Artefact]
+    put_right: PutRight | None = None
     unknown: Unknown | None = None
     next_test: str | None = None
     response_um: float | None = None
