@@ -47,7 +47,7 @@ def test_each_word_of_a_log_is_read_as_it_was_written(words: str, encoding: str,
 def test_a_unit_with_a_power_does_not_make_a_log_western_that_is_none() -> None:
     text = "Čas;Průtok přední [l/min];Výkon čerpadla [W];Otáčky vřetena"
     assert decode(text.encode("cp1250") + b";q [W/m2]")[0].startswith(text)
-    for one in ("q [W/m²]", "V [m³/h]", "a [m/s²]", "T [ºC]", "Nº 4"):
+    for one in ("q [W/m²]", "V [m³/h]", "a [m/s²]", "T [ºC]", "Nº 4", "Tª columna"):
         assert decode(one.encode("cp1252"))[0] == one
     assert decode(b"q [W/m\xb2];V [m\xb3/h];T [\xbaC]")[0] == "q [W/m²];V [m³/h];T [ºC]"
 

@@ -97,9 +97,11 @@ _MOST = 20_000  # letters that are looked at in a file
 _WORD_LIMIT = 4.0  # what one word may say, in natural logarithms of odds
 _UNSEEN = 0.02  # the share of what was never seen beside a letter
 _UNPROVEN = 1.0  # what a whole file must say, in the same
-# what is no letter there: powers, ordinal marks, °C with the mark of an ordinal, fractions
-_SIGNS = re.compile(rb"(?<![\x80-\xff])(?:k?[cm]?m|s)[\xb2\xb3\xb9](?![A-Za-z\x80-\xff])|\xba[CFK](?![a-z])|[nN1-9]\xba"
-                    rb"|\d[\xbc-\xbe](?![A-Za-z])|\xbf(?=[A-Z])|(?<![A-Za-z])\xb2")  # fmt: skip
+# what is no letter there: powers, ordinal marks (Nº, Tª), °C with the mark of an ordinal, fractions
+_SIGNS = re.compile(
+    rb"(?<![\x80-\xff])(?:k?[cm]?m|s)[\xb2\xb3\xb9](?![A-Za-z\x80-\xff])|\xba[CFK](?![a-z])|[nN1-9]\xba"
+    rb"|(?<![A-Za-z])T\xaa(?![a-z])|\d[\xbc-\xbe](?![A-Za-z])|\xbf(?=[A-Z])|(?<![A-Za-z])\xb2"
+)
 
 Table = dict[tuple[int, str, bytes], int]
 
