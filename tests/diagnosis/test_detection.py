@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from thermodata.diagnosis.answer import answer
-from thermodata.diagnosis.rules import CLAIMED, probability, sharpness_asked
+from thermodata.diagnosis.probability import CLAIMED, probability, sharpness_asked
 from thermodata.effect import effects
 from thermodata.effect.lag import lag
 from thermodata.modelling.fit import fit_model

@@ -10,16 +10,8 @@ import pytest
 
 from thermodata.diagnosis.candidates import Kin
 from thermodata.diagnosis.judge import equivalents
-from thermodata.diagnosis.rules import (
-    Measure,
-    acting_size,
-    at_best,
-    blunt,
-    explained,
-    failed_rules,
-    probability,
-    sharpness,
-)
+from thermodata.diagnosis.probability import at_best, probability, sharpness
+from thermodata.diagnosis.rules import Measure, acting_size, blunt, explained, failed_rules
 
 from .hand_made import measure, scored
 

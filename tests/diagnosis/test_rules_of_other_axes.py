@@ -11,7 +11,8 @@ import pytest
 
 from thermodata.diagnosis import other_axes
 from thermodata.diagnosis.other_axes import OtherAxes, beside, is_same
-from thermodata.diagnosis.rules import CLAIMED, blunt, may_be_borne_out, probability
+from thermodata.diagnosis.probability import CLAIMED, may_be_borne_out, probability
+from thermodata.diagnosis.rules import blunt
 from thermodata.diagnosis.scored import Scored
 from thermodata.effect import effects
 from thermodata.errors import UsageError

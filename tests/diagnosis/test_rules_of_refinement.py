@@ -13,9 +13,9 @@ from thermodata.diagnosis import refinement
 from thermodata.diagnosis.candidates import Kin
 from thermodata.diagnosis.discrepancy import Noise
 from thermodata.diagnosis.known_effects import from_other_zero, is_warm
+from thermodata.diagnosis.probability import CLAIMED, PROBABILITY
 from thermodata.diagnosis.problem import Problem
 from thermodata.diagnosis.refinement import Refinement
-from thermodata.diagnosis.rules import CLAIMED, PROBABILITY
 from thermodata.diagnosis.scored import Scored
 from thermodata.effect import effects
 from thermodata.effect.lag import lag

@@ -17,9 +17,10 @@ from thermodata.diagnosis.evidence import columns
 from thermodata.diagnosis.judge import Judged, Judgement
 from thermodata.diagnosis.locked import Foretold, Looked, foretell
 from thermodata.diagnosis.opened import kept_where_they_hold
+from thermodata.diagnosis.probability import probability
 from thermodata.diagnosis.problem import Block, Problem
 from thermodata.diagnosis.ranking import rank_in
-from thermodata.diagnosis.rules import blunt, probability
+from thermodata.diagnosis.rules import blunt
 from thermodata.diagnosis.scored import Scored
 from thermodata.modelling.resolve import term_ids
 from thermodata.schema.model import Model

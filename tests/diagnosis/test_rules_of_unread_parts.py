@@ -9,7 +9,8 @@ import pytest
 from thermodata.diagnosis.candidates import candidates
 from thermodata.diagnosis.next_test import to_find, to_log
 from thermodata.diagnosis.present import Present
-from thermodata.diagnosis.rules import TOLD_APART, at_best, blunt, elsewhere, probability, sharpness_asked
+from thermodata.diagnosis.probability import TOLD_APART, at_best, elsewhere, probability, sharpness_asked
+from thermodata.diagnosis.rules import blunt
 from thermodata.diagnosis.scored import Scored
 from thermodata.effect import effects
 from thermodata.report.headline import causes

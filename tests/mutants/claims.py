@@ -10,6 +10,7 @@ BESIDE = {
     "artefact.py": ("steps",),
     "candidates.py": ("candidates", "unread_parts"),
     "clocks_by_heat.py": ("clocks_by_heat",),
+    "compressed.py": ("compression",),
     "commanded.py": ("steps",),
     "confirm.py": ("the_locked_tests",),
     "discrepancy.py": ("the_noise",),
@@ -27,6 +28,7 @@ BESIDE = {
     "problem.py": ("compression", "the_noise"),
     "ranking.py": ("selection",),
     "refinement.py": ("refinement",),
+    "probability.py": ("a_claim", "the_locked_tests", "unread_parts", "other_axes"),
     "rules.py": ("a_claim", "the_verdict", "the_locked_tests", "unread_parts", "other_axes"),
     "scored.py": ("a_claim",),
     "selection.py": ("selection",),
@@ -67,17 +69,17 @@ def calibration(file: str, old: str, new: str, why: str) -> Mutant:
 MUTANTS = [
     # ---- a claim
     diagnosis("rules.py", "P_LIMIT = 0.01", "P_LIMIT = 0.9", "chance is claimed as a cause"),
-    diagnosis("rules.py", "(2.45, 2.2, ", "(4.45, 2.2, ", "an answer is too sure of itself"),
-    diagnosis("rules.py", "2.2, 1.1, ", "2.2, 0.0, ", "an answer is sure of what hardly lowers the error"),
-    diagnosis("rules.py", "-1.8, -2.65, ", "0.0, -2.65, ", "what a sharper cause leaves is claimed"),
-    diagnosis("rules.py", "-2.65, -1.2)", "0.0, -1.2)", "a casting that follows the cause is claimed"),
-    diagnosis("rules.py", "-2.65, -1.2)", "-2.65, 0.0)", "the nut is claimed where the guideway has no sensor"),
+    diagnosis("probability.py", "(2.45, 2.2, ", "(4.45, 2.2, ", "an answer is too sure of itself"),
+    diagnosis("probability.py", "2.2, 1.1, ", "2.2, 0.0, ", "an answer is sure of what hardly lowers the error"),
+    diagnosis("probability.py", "-1.8, -2.65, ", "0.0, -2.65, ", "what a sharper cause leaves is claimed"),
+    diagnosis("probability.py", "-2.65, -1.2)", "0.0, -1.2)", "a casting that follows the cause is claimed"),
+    diagnosis("probability.py", "-2.65, -1.2)", "-2.65, 0.0)", "the nut is claimed where the guideway has no sensor"),
     diagnosis(
         "unread.py", "and Part(heat, name) not in known", "", "a guideway that the model has is named beside the nut"
     ),
     diagnosis("unread.py", "if own or len(others) > 1", "if own", "a feed is as sure of the nut as the nut is"),
     diagnosis("unread.py", "not (warm and any", "not (any", "a feed is as sure of the nut as the nut is"),
-    diagnosis("rules.py", "(beaten and of.around)", "beaten", "a second cause is doubted for the first"),
+    diagnosis("probability.py", "(beaten and of.around)", "beaten", "a second cause is doubted for the first"),
     diagnosis("candidates.py", "around = len(names) == 1 and", "around =", "the layers of the hall's air are doubted"),
     diagnosis("unread.py", "warm == len(names) == 1", "warm", "the layers of the hall's air are doubted"),
     diagnosis("unread.py", "(moving and heat != AIR)", "(heat != AIR)", "where an axis stands is taken for its heat"),
@@ -87,22 +89,26 @@ MUTANTS = [
     diagnosis("next_test.py", "if channel.faulty is None}", "}", "a sensor that failed is as good as one"),
     diagnosis("answer.py", "if not reads(beside, place)", "", "what another claim reads is named beside this one"),
     diagnosis("candidates.py", "known |= {", "known & {", "a nut that is modelled is named beside its guideway"),
-    diagnosis("rules.py", "BORNE_OUT, WORTH_ASKING = 0.5", "BORNE_OUT, WORTH_ASKING = 1.5", "another axis decides"),
-    diagnosis("rules.py", "WORTH_ASKING = 0.5, 0.3", "WORTH_ASKING = 0.5, 0.6", "another axis is hardly asked"),
-    diagnosis("rules.py", "if there <= 0.5:", "if there <= 0.0:", "another axis speaks against a claim"),
+    diagnosis(
+        "probability.py", "BORNE_OUT, WORTH_ASKING = 0.5", "BORNE_OUT, WORTH_ASKING = 1.5", "another axis decides"
+    ),
+    diagnosis("probability.py", "WORTH_ASKING = 0.5, 0.3", "WORTH_ASKING = 0.5, 0.6", "another axis is hardly asked"),
+    diagnosis("probability.py", "if there <= 0.5:", "if there <= 0.0:", "another axis speaks against a claim"),
     diagnosis("other_axes.py", "and info.faulty is None", "", "a probe that failed is asked"),
     diagnosis("other_axes.py", "not in (GENERIC, CONTROL)", "is not None", "any lag is the same as any other"),
     diagnosis("other_axes.py", " or set(one.channels) == set(other.channels)", "", "a lag of the nut is not the nut"),
     diagnosis("other_axes.py", ".holds:", ".holds is None:", "all axes are asked though one is enough"),
     diagnosis("other_axes.py", "and e.acts_on is None", "", "what acts on one axis is fitted to another"),
     diagnosis("other_axes.py", "return not fixed or", "return True or", "a gain of one axis is held on another"),
-    diagnosis("rules.py", " and not scored.candidate.of_motion", "", "a feed is as sure of the nut as the nut is"),
-    diagnosis("rules.py", "TOLD_APART = 0.85", "TOLD_APART = 0.5", "a claim does not say what else it may be"),
     diagnosis(
-        "rules.py", "FALLS = (-0.2, 1.0)", "FALLS = (-9.0, 1.0)", "a misfit of the known effects refutes a cause"
+        "probability.py", " and not scored.candidate.of_motion", "", "a feed is as sure of the nut as the nut is"
     ),
-    diagnosis("rules.py", "\nCLAIMED = 0.65", "\nCLAIMED = 0.55", "what is slow stands in for a cause"),
-    diagnosis("rules.py", "PLACELESS_CLAIMED = 0.5", "PLACELESS_CLAIMED = 0.7", "nothing is ever claimed"),
+    diagnosis("probability.py", "TOLD_APART = 0.85", "TOLD_APART = 0.5", "a claim does not say what else it may be"),
+    diagnosis(
+        "probability.py", "FALLS = (-0.2, 1.0)", "FALLS = (-9.0, 1.0)", "a misfit of the known effects refutes a cause"
+    ),
+    diagnosis("probability.py", "\nCLAIMED = 0.65", "\nCLAIMED = 0.55", "what is slow stands in for a cause"),
+    diagnosis("probability.py", "PLACELESS_CLAIMED = 0.5", "PLACELESS_CLAIMED = 0.7", "nothing is ever claimed"),
     diagnosis("candidates.py", "passive = placed and family", "passive = family", "without places nothing is claimed"),
     diagnosis("candidates.py", "channel.at is None or is_casting", "is_casting", "a sensor of no place is a cause"),
     diagnosis("candidates.py", " or is_casting(channel.at)", "", "a casting that follows the cause is claimed"),
@@ -136,9 +142,7 @@ MUTANTS = [
     ),
     diagnosis("rules.py", "BETTER_LIMIT = 0.6", "BETTER_LIMIT = 0.4", "a few tests carry a claim"),
     diagnosis("rules.py", "SURE_BETTER_LIMIT = 0.4", "SURE_BETTER_LIMIT = 0.0", "a test or two carry a sure claim"),
-    diagnosis(
-        "rules.py", "strong or sure or scored.drop", "strong or scored.drop", "a sure cause is refused for its fall"
-    ),
+    diagnosis("rules.py", "(strong or sure) and", "strong and", "a sure cause is refused for its fall"),
     diagnosis("rules.py", "SURE_BETTER_LIMIT if sure else", "BETTER_LIMIT if sure else", "a sure cause is refused"),
     diagnosis("refinement.py", 'kin == "part" and', "False and", "the air is claimed beside its gradient"),
     diagnosis("candidates.py", '"part" if names not in', '"same" if names not in', "the air is a mode of its gradient"),
@@ -175,7 +179,10 @@ MUTANTS = [
     diagnosis("judge.py", "if not any(again(j, other) for other in claims)", "", "one cause is claimed twice"),
     diagnosis("judge.py", " and not j.scored.candidate.passive", "", "a casting makes a cause less sure"),
     diagnosis(
-        "opened.py", "replace(t, beaten=largest.scored.beaten)", "t", "a dull twin is claimed in a claim's place"
+        "opened.py",
+        "replace(t, beaten=own.beaten, also_on=own.also_on)",
+        "t",
+        "a dull twin is claimed in a claim's place",
     ),
     diagnosis("judge.py", "beaten=True", "beaten=False", "what a sharper cause leaves is claimed"),
     diagnosis(
@@ -201,11 +208,9 @@ MUTANTS = [
     diagnosis("judge.py", "left > measure.noises and any(halves", "any(halves", "noise is to be explained"),
     diagnosis("judge.py", "left > measure.noises and any(is_plain", "any(is_plain", "noise is plain"),
     diagnosis("rules.py", "PLAIN = 0.25", "PLAIN = 2.5", "none is said of what is plain"),
-    diagnosis("rules.py", "DOUBT = -0.55", "DOUBT = 0.0", "locked tests weigh nothing"),
+    diagnosis("probability.py", "DOUBT = -0.55", "DOUBT = 0.0", "locked tests weigh nothing"),
     diagnosis("judge.py", "[left, *(j.alone.error_of_all for j in kept)]", "[left]", "a refined model is unknown"),
-    diagnosis(
-        "rules.py", "max(samples, 1), FALLS[1], False", "max(samples, 1), 0.0, False", "a second look is not taken"
-    ),
+    diagnosis("probability.py", "max(samples, 1), FALLS[1], ", "max(samples, 1), 0.0, ", "a second look is not taken"),
     diagnosis(
         "selection.py", "(_only(first, some), beside_all))", "(beside_all,))", "what stands out alone is not seen"
     ),
@@ -267,8 +272,8 @@ MUTANTS = [
     diagnosis("opened.py", "TWINS_TRIED = 4", "TWINS_TRIED = 0", "a twin that holds is not found"),
     diagnosis(
         "answer.py",
-        "if not judgement.claims:\n        locked = []",
-        "if not judgement.claims:\n        pass",
+        "locked)\n        locked = []",
+        "locked)",
         "locked tests are said to be opened without a claim",
     ),
     diagnosis(
@@ -410,7 +415,7 @@ MUTANTS = [
     diagnosis("problem.py", "FEW_TESTS = 3", "FEW_TESTS = 9", "parts of one test pass as tests"),
     diagnosis("problem.py", "PART_ROWS = 100", "PART_ROWS = 10", "parts too short to tell anything"),
     diagnosis("problem.py", "* 1.4826 / np.sqrt(6.0)", "* 1.4826", "the noise is too large, the floor too high"),
-    diagnosis("investigate.py", "WEIGHED_ROWS = 2400", "WEIGHED_ROWS = 240", "candidates are weighed by few rows"),
+    diagnosis("compressed.py", "WEIGHED_ROWS = 2400", "WEIGHED_ROWS = 240", "candidates are weighed by few rows"),
     diagnosis("investigate.py", "if beside_all.holds or ", "if True or ", "a blunt member withdraws a claim"),
     diagnosis("investigate.py", "selection.noise, refining, claimed", "selection.noise, kept, claimed", "asked twice"),
     diagnosis(

@@ -20,8 +20,9 @@ from thermodata.diagnosis.locked import Looked
 from thermodata.diagnosis.null import p_value
 from thermodata.diagnosis.opened import kept_where_they_hold
 from thermodata.diagnosis.other_axes import OtherAxes
+from thermodata.diagnosis.probability import elsewhere, probability
 from thermodata.diagnosis.problem import Problem
-from thermodata.diagnosis.rules import Measure, claimable, elsewhere, explained, failed_rules, probability
+from thermodata.diagnosis.rules import Measure, claimable, explained, failed_rules
 from thermodata.diagnosis.scored import Scored
 from thermodata.diagnosis.sound import sound
 from thermodata.diagnosis.suspect import suspect

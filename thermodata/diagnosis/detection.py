@@ -20,7 +20,8 @@ from thermodata.diagnosis.candidates import CandidateEffect, refines
 from thermodata.diagnosis.evidence import Columns, beyond_known, moments
 from thermodata.diagnosis.known import Known
 from thermodata.diagnosis.present import CONTROL, GENERIC
-from thermodata.diagnosis.rules import STRONG, WORTH_SHARE, WORTH_SIZE, sharpness_asked
+from thermodata.diagnosis.probability import sharpness_asked
+from thermodata.diagnosis.rules import STRONG, WORTH_SHARE, WORTH_SIZE
 from thermodata.diagnosis.scored import ACTS
 from thermodata.plugin import Int1D
 

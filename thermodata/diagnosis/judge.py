@@ -9,17 +9,9 @@ from typing import Literal
 import numpy as np
 
 from thermodata.diagnosis.present import CONTROL, GENERIC
+from thermodata.diagnosis.probability import sharpness
 from thermodata.diagnosis.problem import Problem
-from thermodata.diagnosis.rules import (
-    FLOOR_SHARE,
-    Measure,
-    blunt,
-    contradicts,
-    failed_rules,
-    halves,
-    is_plain,
-    sharpness,
-)
+from thermodata.diagnosis.rules import FLOOR_SHARE, Measure, blunt, contradicts, failed_rules, halves, is_plain
 from thermodata.diagnosis.scored import Scored
 from thermodata.diagnosis.selection import Selection
 

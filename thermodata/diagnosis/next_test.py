@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 from thermodata.diagnosis.candidates import CandidateEffect
-from thermodata.diagnosis.rules import elsewhere
+from thermodata.diagnosis.probability import elsewhere
 from thermodata.diagnosis.scored import Scored
 from thermodata.diagnosis.unread import reads
 from thermodata.schema.diagnosis import WeakSpot

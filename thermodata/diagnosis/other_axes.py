@@ -9,7 +9,8 @@ from dataclasses import dataclass, field, replace
 
 from thermodata.diagnosis.candidates import CandidateEffect
 from thermodata.diagnosis.present import CONTROL, GENERIC
-from thermodata.diagnosis.rules import probability, surely
+from thermodata.diagnosis.probability import probability
+from thermodata.diagnosis.rules import surely
 from thermodata.diagnosis.scored import Scored
 from thermodata.errors import ThermodataError
 from thermodata.modelling.fit import fit_model

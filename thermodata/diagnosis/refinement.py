@@ -16,8 +16,9 @@ from thermodata.diagnosis.discrepancy import Noise
 from thermodata.diagnosis.known import known, rms
 from thermodata.diagnosis.known_effects import from_other_zero, is_warm, owners
 from thermodata.diagnosis.present import GENERIC
+from thermodata.diagnosis.probability import sharpness
 from thermodata.diagnosis.problem import Block, Problem
-from thermodata.diagnosis.rules import STRONG, acting_size, blunt, sharpness
+from thermodata.diagnosis.rules import STRONG, acting_size, blunt
 from thermodata.diagnosis.scored import Scored
 from thermodata.diagnosis.selection import beside
 from thermodata.modelling.fitted_response import FittedResponse

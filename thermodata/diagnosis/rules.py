@@ -7,27 +7,13 @@ from typing import Literal
 
 import numpy as np
 
-from thermodata.diagnosis.candidates import CandidateEffect
 from thermodata.diagnosis.null import p_value
 from thermodata.diagnosis.present import CONTROL
+from thermodata.diagnosis.probability import limit_of, probability, sharpness
 from thermodata.diagnosis.scored import Scored
 from thermodata.plugin import Float1D
 
 P_LIMIT = 0.01
-# that a sound candidate is the cause: a logistic curve over the logarithm of its evidence a sample, the fall of the
-# error where it acts, whether it is the air beside something sharper, whether it is passive, and whether another part
-# may be what it stands for (docs/method.md#probability)
-PROBABILITY = (2.45, 2.2, 1.1, -1.8, -2.65, -1.2)
-# and, where another axis misses the same, this share of the odds that it is what is missing there; other axes are asked
-# of what is so probable without them at least
-BORNE_OUT, WORTH_ASKING = 0.5, 0.3
-FALLS = (-0.2, 1.0)  # further, and a fall says nothing more
-DOUBT = -0.55  # and, once the lock is open, for each of two ways in which the locked tests do not bear it out
-CLAIMED = 0.65  # a claim is this probable at least;
-# where nobody declared any place it names a channel, not physics, and there is nothing that it could be taken for
-PLACELESS_CLAIMED = 0.5
-# what is so probable is told from other parts by its timing: they are not named beside it
-TOLD_APART = 0.85
 # so much evidence a sample outweighs what left-out tests say: how far their error falls, for the known effects take
 # part of what is missing, and that the gain differs between them; and even how many they are
 STRONG = 0.4
@@ -265,58 +251,6 @@ def claimable(scored: Scored, measure: Measure, unit: str) -> bool:
 def _steadies(scored: Scored) -> bool:
     """Whether it may follow anything slow: a casting, or a difference of any two temperatures."""
     return scored.candidate.passive or scored.candidate.family == CONTROL
-
-
-def probability(scored: Scored) -> float:
-    """That a sound candidate is what is missing: the share that was right among those like it, on simulated machines
-    (development seeds)."""
-    own = _probability(sharpness(scored), scored.drop, scored.candidate, beaten=scored.beaten, doubts=scored.doubts)
-    there = max((p for _, p in scored.also_on), default=0.0)
-    if there <= 0.5:
-        return own
-    odds = np.log(own / (1 - own)) + BORNE_OUT * np.log(there / (1 - there))
-    return float(1 / (1 + np.exp(-odds)))
-
-
-def may_be_borne_out(scored: Scored) -> bool:
-    """Whether it is no claim, and would be one if another axis spoke for it."""
-    return not scored.also_on and WORTH_ASKING <= probability(scored) < limit_of(scored)
-
-
-def at_best(scored: Scored, samples: int) -> float:
-    """Its probability if left-out tests were foretold without any error, and nothing beside it were sharper."""
-    return _probability(scored.evidence / max(samples, 1), FALLS[1], scored.candidate)
-
-
-def _probability(a_sample: float, drop: float, of: CandidateEffect, *, beaten: bool = False, doubts: int = 0) -> float:
-    level, sharp, fall, air_beaten, by_casting, by_another_part = PROBABILITY
-    odds = level + sharp * np.log10(max(a_sample, 1e-4)) + fall * float(np.clip(drop, *FALLS))
-    odds += air_beaten * (beaten and of.around) + by_casting * of.passive + by_another_part * bool(of.unread)
-    odds += DOUBT * doubts
-    return float(1 / (1 + np.exp(-odds)))
-
-
-def sharpness_asked(fall: float, of: CandidateEffect) -> float:
-    """The evidence a sample that a claim asks of what stands alone. fall: of the error where it acts."""
-    sharp = PROBABILITY[1]
-    known = _probability(1.0, fall, of)  # a sharpness of 1 adds nothing
-    return float(10 ** ((np.log(CLAIMED / (1 - CLAIMED)) - np.log(known / (1 - known))) / sharp))
-
-
-def elsewhere(scored: Scored) -> tuple[str, ...]:
-    """Places of other parts that it may be as well. A motion has the timing of no part."""
-    told = probability(scored) >= TOLD_APART and not scored.candidate.of_motion
-    return () if told else scored.candidate.unread
-
-
-def limit_of(scored: Scored) -> float:
-    """The least probability of a claim."""
-    return PLACELESS_CLAIMED if scored.candidate.placeless else CLAIMED
-
-
-def sharpness(scored: Scored) -> float:
-    """Log evidence a sample."""
-    return (scored.evidence if scored.credit is None else scored.credit) / max(float(scored.rows.sum()), 1.0)
 
 
 def explained(scored: Scored) -> float:
