@@ -184,7 +184,19 @@ def test_one_of_the_temperatures_that_an_effect_reads_together_is_a_part_of_it(
     assert kin(made, "T_nut", *present) == expected
 
 
-@pytest.mark.parametrize(("axis", "expected"), [("c", "same"), ("a", None)])
+@pytest.mark.parametrize(
+    ("present", "expected"),
+    [
+        ((has("bent", "T_nut", "T_axis", family="feed_x"),), "part"),
+        ((has("bent", "T_nut", "T_axis", family="feed_x"), has("screw", "T_nut", family="feed_x")), "same"),
+        ((has("screw", "T_axis", family="feed_x"),), "same"),
+    ],
+)
+def test_so_is_a_plain_lag_of_one_of_them(present: tuple[Present, ...], expected: str) -> None:
+    assert kin(LAG, "T_nut", *present) == expected
+
+
+@pytest.mark.parametrize(("axis", "expected"), [("c", "heat"), ("a", None)])
 def test_the_heat_of_a_turning_axis_is_one_by_its_temperature_and_by_its_speed(axis: str, expected: str | None) -> None:
     channels = {
         "T_c": ChannelInfo("T_c", "temperature", "degC", at="rotary.c"),
@@ -199,8 +211,8 @@ class Caused(PlainEffect):
     cause: str = "cutting heat"
 
 
-@pytest.mark.parametrize(("other", "expected"), [("cutting heat", "same"), ("the sun", None)])
-def test_one_heat_read_elsewhere_is_the_same_in_any_family(other: str, expected: str | None) -> None:
+@pytest.mark.parametrize(("other", "expected"), [("cutting heat", "heat"), ("the sun", None)])
+def test_one_heat_read_elsewhere_is_told_in_any_family(other: str, expected: str | None) -> None:
     """The spindle's power, and what the cut warms."""
     needs = (Need("u", "temperature"),)
     library = {n: Caused(n, n, needs=needs, cause=c) for n, c in (("power", "cutting heat"), ("part", other))}

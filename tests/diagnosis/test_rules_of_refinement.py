@@ -43,7 +43,8 @@ def model(*families: str) -> Any:
     """A term of one gain and no parameter each."""
     return SimpleNamespace(
         terms=tuple(
-            SimpleNamespace(id=f"term{i}", family=f, effect=PlainEffect(f"known{i}", f)) for i, f in enumerate(families)
+            SimpleNamespace(id=f"term{i}", family=f, effect=PlainEffect(f"known{i}", f), binding={"u": f"T_{i}"})
+            for i, f in enumerate(families)
         )
     )
 
@@ -96,6 +97,42 @@ def test_a_part_of_what_the_model_reads_together_is_a_cause_where_it_is_evident(
     """From 0.4 a sample on, of a thousand, whatever it takes away."""
     for after in (0.9, 0.01):
         assert said(cause("part", evidence=evidence, after=after), 100.0) == expected
+
+
+def evidence_of(sure: float, fall: float) -> float:
+    """Of a thousand samples, so that a cause whose error falls so much is so probable."""
+    level, sharp, by_fall, *_ = PROBABILITY
+    return float(1000 * 10 ** ((np.log(sure / (1 - sure)) - level - fall * by_fall) / sharp))
+
+
+@pytest.mark.parametrize(
+    ("after", "sure", "of", "expected"),
+    [
+        (0.399, 0.851, {}, None),
+        (0.401, 0.851, {}, MODE),  # it takes away too little
+        (0.399, 0.849, {}, MODE),  # it is not sure enough
+        (0.399, 0.851, {"of_motion": True}, MODE),  # it has the timing of no part
+        (0.399, 0.851, {"contribution": [WAVE] * 3}, MODE),  # it takes the place of what is known
+    ],
+)
+def test_another_reading_of_a_known_heat_is_a_cause_where_it_surely_acts_beside_it(
+    after: float, sure: float, of: dict[str, Any], expected: str | None
+) -> None:
+    """The coolant's switch beside its temperature."""
+    assert said(cause("heat", name="known0", after=after, evidence=evidence_of(sure, 1 - after), **of)) == expected
+
+
+@pytest.mark.parametrize(("worth", "expected"), [(0.51, None), (0.49, MODE)])
+def test_it_acts_beside_what_is_known_where_that_is_worth_half_of_what_it_was(
+    worth: float, expected: str | None, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    told = iter([100.0 * worth, 100.0])
+    monkeypatch.setattr(Refinement, "_cost", lambda *_: next(told))
+    assert said(cause("heat", name="known0", after=0.1, evidence=900.0)) == expected
+
+
+def test_a_plain_function_that_stands_for_the_heat_is_no_effect_to_act_beside() -> None:
+    assert said(cause("heat", name="other", after=0.1, evidence=900.0)) == MODE
 
 
 @pytest.mark.parametrize(("size", "expected"), [(0.599, MODE), (0.601, None)])

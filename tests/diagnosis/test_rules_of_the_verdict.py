@@ -186,7 +186,8 @@ def test_nothing_is_not_missing_beside_what_halves_the_error(after: float, expec
 
 
 @pytest.mark.parametrize(
-    ("evidence", "kin", "expected"), [(249.0, None, "none"), (251.0, None, "unknown"), (251.0, "same", "none")]
+    ("evidence", "kin", "expected"),
+    [(249.0, None, "none"), (251.0, None, "unknown"), (251.0, "same", "none"), (251.0, "heat", "none")],
 )
 @pytest.mark.parametrize("floor", [0.2, 0.41])
 def test_nothing_is_not_missing_beside_what_is_plain_though_a_rule_forbids_it(

@@ -145,7 +145,16 @@ MUTANTS = [
     diagnosis("rules.py", "(strong or sure) and", "strong and", "a sure cause is refused for its fall"),
     diagnosis("rules.py", "SURE_BETTER_LIMIT if sure else", "BETTER_LIMIT if sure else", "a sure cause is refused"),
     diagnosis("refinement.py", 'kin == "part" and', "False and", "the air is claimed beside its gradient"),
-    diagnosis("candidates.py", '"part" if names not in', '"same" if names not in', "the air is a mode of its gradient"),
+    diagnosis("candidates.py", "return names not in read and", "return False and", "the air is a mode of its gradient"),
+    diagnosis(
+        "candidates.py", '"part" if warm and _one', '"same" if warm and _one', "the air's lag is a mode of its gradient"
+    ),
+    diagnosis(
+        "candidates.py",
+        '"heat" if other else',
+        '"same" if other else',
+        "the coolant's switch is a mode of its temperature",
+    ),
     diagnosis("rules.py", "SPREAD_LIMIT = 0.5", "SPREAD_LIMIT = 0.9", "a proxy of another gain a test is claimed"),
     diagnosis("rules.py", "FORETOLD = 0.5", "FORETOLD = 0.3", "a proxy of another gain a test is claimed"),
     diagnosis("rules.py", "WORTH_SHARE = 0.1 ", "WORTH_SHARE = 0.0 ", "trifles are claimed"),
@@ -219,6 +228,13 @@ MUTANTS = [
     # ---- refinement
     diagnosis("refinement.py", "GOOD = 0.4", "GOOD = 0.9", "what a poor model lacks is a refinement"),
     diagnosis("refinement.py", "MOST = 0.6", "MOST = 0.3", "another mode is claimed as a cause"),
+    diagnosis("refinement.py", "\nKEPT = 0.5", "\nKEPT = 0.0", "a known heat is missing by another reading"),
+    diagnosis("refinement.py", "drop < MOST or prob", "drop < 0 or prob", "a mode of a known heat is a cause"),
+    diagnosis(
+        "refinement.py", "(scored) < TOLD_APART", "(scored) < 0.65", "what may be a mode of a known heat is a cause"
+    ),
+    diagnosis("refinement.py", "if scored.candidate.of_motion or ", "if ", "the speed is a cause beside its bearing"),
+    diagnosis("refinement.py", 'if kin == "heat" and not', "if False and not", "the coolant is missing twice"),
     diagnosis("refinement.py", "REPLACED = 0.1", "REPLACED = 0.5", "a cause that overlaps takes a place"),
     diagnosis("refinement.py", "WORTH = 20.0", "WORTH = 0.0", "an effect that was never there is replaced"),
     diagnosis("refinement.py", "LIKE = 0.9 ", "LIKE = 0.1 ", "a cause takes the place of a stranger"),

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Container, Iterable, Mapping
+from collections.abc import Callable, Container, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import product
 from typing import Literal
@@ -31,11 +31,12 @@ from thermodata.schema.places import is_around, is_beside, is_casting
 from thermodata.view.dataset import ChannelInfo, TestData
 
 InTest = Callable[[Mapping[str, float]], Float2D]  # parameters -> columns of a test, shape (n, gains)
-# "same": another mode of an effect that the model has, another reading of its channels or of the same cause. "part":
-# one of several temperatures that an effect of its family reads together, as the air beside its gradient. "near": an
-# effect of a family that the model has, at its place. "related": one elsewhere. "itself": an effect of the model with
-# other gains (`gain_by`)
-Kin = Literal["same", "part", "near", "related", "itself"] | None
+# "same": another mode of an effect that the model has, or another reading of its channels. "heat": another effect of
+# the same cause, by other channels, as the coolant's switch beside its temperature. "part": one of several
+# temperatures that an effect of the model reads together, as the air beside its gradient. "near": an effect of a family
+# that the model has, at its place. "related": one elsewhere. "itself": an effect of the model with other gains
+# (`gain_by`)
+Kin = Literal["same", "heat", "part", "near", "related", "itself"] | None
 STATIC = "static"
 NOT_DRIVERS = frozenset({"displacement", "tilt", "label"})
 # a distributed machine also acts with these multiples of an effect's time constant
@@ -217,21 +218,29 @@ def _kin(
     channels: Mapping[str, ChannelInfo],
 ) -> Kin:
     near = names <= model.read or _near(names, model.read, channels)
-    if refines(effect) or (family == GENERIC and near):
+    if refines(effect):
         return "same"
-    acting = [(library[p.effect], p.family) for p in model.acting if p.effect in library]
-    shared = {_heat(own, of) for own, of in acting if hasattr(own, "cause")}
-    if hasattr(effect, "cause") and _heat(effect, family) in shared:
-        return "same"
+    # a temperature is the state of one body; a speed makes heat, and force
+    warm = all(channels[n].quantity == "temperature" for n in names)
+    if family == GENERIC and near:
+        return "part" if warm and _one_of_several(names, [p.channels for p in model.own]) else "same"
+    acting = [(library[p.effect], p) for p in model.acting if p.effect in library]
+    of_it = [p for own, p in acting if hasattr(effect, "cause") and _heat(own, p.family) == _heat(effect, family)]
+    if of_it:
+        other = all(p.effect != effect.name and not names & p.channels for p in of_it)
+        return "heat" if other else "same"
     if family not in model.families:
         return None
     if any(cause(own) == cause(effect) for own, _ in acting):
         return "same"
-    # a temperature is the state of one body; a speed makes heat, and force
-    if names <= model.read and all(channels[n].quantity == "temperature" for n in names):
-        kindred = [p.channels for p in model.own if p.family == family]
-        return "part" if names not in kindred and any(names < some for some in kindred) else "same"
+    if names <= model.read and warm:
+        return "part" if _one_of_several(names, [p.channels for p in model.own if p.family == family]) else "same"
     return "near" if near else "related"
+
+
+def _one_of_several(names: frozenset[str], read: Sequence[frozenset[str]]) -> bool:
+    """Whether an effect of the model reads it together with others, and none reads it alone."""
+    return names not in read and any(names < some for some in read)
 
 
 def _near(names: frozenset[str], read: frozenset[str], channels: Mapping[str, ChannelInfo]) -> bool:

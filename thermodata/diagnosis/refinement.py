@@ -10,13 +10,13 @@ from dataclasses import replace
 
 import numpy as np
 
-from thermodata.diagnosis.candidates import CandidateEffect, refines
+from thermodata.diagnosis.candidates import CandidateEffect, cause, refines
 from thermodata.diagnosis.changed import ChangedEffect
 from thermodata.diagnosis.discrepancy import Noise
 from thermodata.diagnosis.known import known, rms
 from thermodata.diagnosis.known_effects import from_other_zero, is_warm, owners
 from thermodata.diagnosis.present import GENERIC
-from thermodata.diagnosis.probability import sharpness
+from thermodata.diagnosis.probability import TOLD_APART, probability, sharpness
 from thermodata.diagnosis.problem import Block, Problem
 from thermodata.diagnosis.rules import STRONG, acting_size, blunt
 from thermodata.diagnosis.scored import Scored
@@ -33,6 +33,7 @@ MOST = 0.6
 # a known effect is replaced where, beside the candidate, it is worth this share of what it was worth alone
 REPLACED = 0.1
 WORTH = 20.0  # log evidence: an effect that was worth less was never there to be replaced
+KEPT = 0.5  # and stands beside it where it is worth this share
 LIKE = 0.9  # and both act alike (cosine)
 AT_ALL_LIKE = 0.5  # another mode of a known part acts at all as it does
 SMALL = 0.6  # of the known effect's size: kin that does less is another mode of it
@@ -58,7 +59,8 @@ class Refinement:
         kin, most = scored.candidate.kin, scored.drop >= MOST
         if refines(scored.candidate.effect) or kin == "same" or (kin == "part" and sharpness(scored) < STRONG):
             return MODE
-        # a motion has the timing of no part: what one lag of a known part leaves follows the same motion
+        if kin == "heat" and not self._acts_beside(scored):
+            return MODE
         if scored.candidate.of_motion and kin in ("near", "related") and not most and self._like_its_family(scored):
             return MODE
         good = scored.error_before <= GOOD * rms(self.problem.response_blocks)
@@ -78,10 +80,26 @@ class Refinement:
                 return f"it acts as {term.id} would if its temperature counted from {channel}"
         return None
 
-    def _replaces(self, scored: Scored, term: int) -> bool:
+    def _acts_beside(self, scored: Scored) -> bool:
+        """Whether what is known as the cause of other effects is surely missing as it acts by these channels: what the
+        model has of that cause is worth as much beside it."""
+        # a motion has the timing of no part: what one lag of a known part leaves follows the same motion
+        if scored.candidate.of_motion or scored.drop < MOST or probability(scored) < TOLD_APART:
+            return False
+        own = [n for n, term in enumerate(self.fitted.terms) if cause(term.effect) == cause(scored.candidate.effect)]
+        return bool(own) and all(self._is_kept(scored, number) for number in own)
+
+    def _is_kept(self, scored: Scored, term: int) -> bool:
+        """Whether a known effect is worth as much beside it."""
+        return self._cost(beside(self.problem, [scored]), term) >= KEPT * self._alone(term)
+
+    def _alone(self, term: int) -> float:
         if term not in self._worth:
             self._worth[term] = self._cost(self.problem, term)
-        alone = self._worth[term]
+        return self._worth[term]
+
+    def _replaces(self, scored: Scored, term: int) -> bool:
+        alone = self._alone(term)
         if alone < WORTH or self._likeness(scored, term) < LIKE:
             return False
         return self._cost(beside(self.problem, [scored]), term) < REPLACED * alone

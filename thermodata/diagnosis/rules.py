@@ -239,7 +239,7 @@ def contradicts(scored: Scored, alone: Scored, left: float) -> bool:
 
 def is_plain(scored: Scored) -> bool:
     """Whether its evidence alone says that something is missing, though a rule forbids that it be named."""
-    own = scored.candidate.kin != "same" and not scored.candidate.within
+    own = scored.candidate.kin not in ("same", "heat") and not scored.candidate.within
     return own and sharpness(scored) >= PLAIN
 
 
