@@ -225,7 +225,10 @@ def test_a_known_effect_is_replaced_where_it_is_worth_a_tenth_beside_what_acts_a
 def test_what_takes_most_away_replaces_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
     assert replacing(monkeypatch, 100.0, 1.0, after=0.401) == PLACE
     assert replacing(monkeypatch, 100.0, 1.0, after=0.399) is None
-    assert replacing(monkeypatch, 100.0, 1.0, after=0.399, kin="near") == PLACE, "but what sits at its place"
+    for sure, expected in ((0.849, PLACE), (0.851, None)):
+        evidence = evidence_of(sure, 1 - 0.399)
+        found = replacing(monkeypatch, 100.0, 1.0, after=0.399, kin="near", evidence=evidence)
+        assert found == expected, "but what sits at its place, unless it surely is missing"
 
 
 def test_what_sits_at_its_place_takes_it_however_poor_the_model_is(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -229,11 +229,16 @@ MUTANTS = [
     diagnosis("refinement.py", "GOOD = 0.4", "GOOD = 0.9", "what a poor model lacks is a refinement"),
     diagnosis("refinement.py", "MOST = 0.6", "MOST = 0.3", "another mode is claimed as a cause"),
     diagnosis("refinement.py", "\nKEPT = 0.5", "\nKEPT = 0.0", "a known heat is missing by another reading"),
-    diagnosis("refinement.py", "drop < MOST or prob", "drop < 0 or prob", "a mode of a known heat is a cause"),
+    diagnosis("refinement.py", "drop >= MOST and prob", "drop >= 0 and prob", "a mode of a known heat is a cause"),
     diagnosis(
-        "refinement.py", "(scored) < TOLD_APART", "(scored) < 0.65", "what may be a mode of a known heat is a cause"
+        "refinement.py", "(scored) >= TOLD_APART", "(scored) >= 0.65", "what may be a mode of a known heat is a cause"
     ),
-    diagnosis("refinement.py", "if scored.candidate.of_motion or ", "if ", "the speed is a cause beside its bearing"),
+    diagnosis(
+        "refinement.py",
+        "return not scored.candidate.of_motion and ",
+        "return ",
+        "the speed is a cause beside its bearing",
+    ),
     diagnosis("refinement.py", 'if kin == "heat" and not', "if False and not", "the coolant is missing twice"),
     diagnosis("refinement.py", "REPLACED = 0.1", "REPLACED = 0.5", "a cause that overlaps takes a place"),
     diagnosis("refinement.py", "WORTH = 20.0", "WORTH = 0.0", "an effect that was never there is replaced"),
@@ -247,7 +252,10 @@ MUTANTS = [
     diagnosis("refinement.py", "SHARE = (0.2, 1.5)", "SHARE = (0.0, 9.0)", "any heat counts from another zero"),
     diagnosis("refinement.py", "family == AIR or not", "family == 'x' or not", "the air counts from another zero"),
     diagnosis("refinement.py", 'or kin == "same"', "", "the same effect is missing again"),
-    diagnosis("refinement.py", 'kin == "near" or (good', "(good", "what sits at its place is missing"),
+    diagnosis(
+        "refinement.py", 'kin == "near" and not _is_surely_missing(scored)', 'kin == "near"', "the motor is its bearing"
+    ),
+    diagnosis("refinement.py", 'kin == "near" and', "False and", "what sits at its place is missing"),
     # ---- locked tests
     diagnosis("locked.py", "KEPT = 0.5", "KEPT = 0.0", "a proxy survives the locked tests"),
     diagnosis("locked.py", "LEAST = 0.02", "LEAST = -9.0", "locked tests never withdraw a claim"),

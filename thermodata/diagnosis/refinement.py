@@ -69,7 +69,8 @@ class Refinement:
         if good and kin is not None and not most and blunt(scored) and acting_size(scored) < SMALL * largest:
             return MODE
         # what reads the same heat elsewhere stands for the known effect, however much else is missing
-        may_replace = kin == "near" or (good and not most and (kin is not None or scored.candidate.family == GENERIC))
+        near = kin == "near" and not _is_surely_missing(scored)
+        may_replace = near or (good and not most and (kin is not None or scored.candidate.family == GENERIC))
         for number, term in enumerate(self.fitted.terms):
             if may_replace and self._replaces(scored, number):
                 return f"it takes the place of {term.id}"
@@ -83,8 +84,7 @@ class Refinement:
     def _acts_beside(self, scored: Scored) -> bool:
         """Whether what is known as the cause of other effects is surely missing as it acts by these channels: what the
         model has of that cause is worth as much beside it."""
-        # a motion has the timing of no part: what one lag of a known part leaves follows the same motion
-        if scored.candidate.of_motion or scored.drop < MOST or probability(scored) < TOLD_APART:
+        if not _is_surely_missing(scored):
             return False
         own = [n for n, term in enumerate(self.fitted.terms) if cause(term.effect) == cause(scored.candidate.effect)]
         return bool(own) and all(self._is_kept(scored, number) for number in own)
@@ -162,6 +162,12 @@ class Refinement:
             alike.append((columns[:, point] @ scored.weighed.coefficients, block.compress(other[:, None])[:, 0]))
         own, theirs = (np.concatenate(side) for side in zip(*alike, strict=True))
         return channels[0] if _takes_away(own, theirs) else None
+
+
+def _is_surely_missing(scored: Scored) -> bool:
+    """Whether it takes away most, and is told from other parts by its timing. A motion has the timing of no part: what
+    one lag of a known part leaves follows the same motion."""
+    return not scored.candidate.of_motion and scored.drop >= MOST and probability(scored) >= TOLD_APART
 
 
 def _surrounds(candidate: CandidateEffect) -> bool:
