@@ -252,29 +252,46 @@ def contributions(factors: Sequence[float]) -> tuple[Problem, list[Float1D]]:
     return replace(one, blocks=blocks), u
 
 
+EVERY = np.ones(4, dtype=np.bool_)
+
+
+@pytest.mark.parametrize("rests", [(), (3,), (0, 2)])
 @pytest.mark.parametrize("factors", [(1.0, 1.0, 1.0, 1.0), (0.2, 1.0, 1.8, 1.0), (1.0, 0.0, 0.0, 1.5)])
-def test_the_spread_of_the_gain_is_weighed_by_its_marginal_likelihood(factors: Sequence[float]) -> None:
-    """Each test a factor, N(mean, spread^2), the mean free: as an offset of all tests together."""
+def test_the_spread_of_the_gain_is_weighed_by_its_marginal_likelihood(
+    factors: Sequence[float], rests: Sequence[int]
+) -> None:
+    """Each test in which it acts a factor, N(mean, spread^2), the mean free: as an offset of all these tests together.
+    Where it rests, a free one of its own."""
     one, own = contributions(factors)
     base = known(one, NOISE)
     tests = range(len(factors))
     x, y = stacked(one, tests)
-    free = null_space(np.column_stack([offsets(one, tests), np.concatenate(own)]).T)
-    each = block_diag(*[np.outer(c, c) for c in own])
+    acts = np.array([i not in rests for i in tests])
+    alone = block_diag(*[c[:, None] for c in own])
+    free = null_space(np.column_stack([offsets(one, tests), alone[:, acts].sum(axis=1), alone[:, ~acts]]).T)
+    each = alone[:, acts] @ alone[:, acts].T
     spreads = np.array([0.0, 0.05, 0.1, 0.15, 0.2, 0.3, 0.4, 0.5, 0.7, 1.0, 1.5])
     log = []
     for s in spreads:
         covariance = noise_of(one, tests) + (x / base.precision) @ x.T + s**2 * each
         log.append(multivariate_normal(np.zeros(free.shape[1]), free.T @ covariance @ free).logpdf(free.T @ y))
     weight = np.exp(np.array(log) - max(log))
-    assert spread_of_gain(base, own) == pytest.approx(weight @ spreads / weight.sum(), abs=1e-4)
+    assert spread_of_gain(base, own, acts) == pytest.approx(weight @ spreads / weight.sum(), abs=1e-4)
 
 
 def test_a_cause_has_one_gain_and_a_proxy_several() -> None:
     alike, own = contributions((1.0, 1.0, 1.0, 1.0))
     apart, _ = contributions((0.1, 1.0, 2.5, 0.2))
-    assert spread_of_gain(known(alike, NOISE), own) < 0.3
-    assert spread_of_gain(known(apart, NOISE), own) > 0.6
+    assert spread_of_gain(known(alike, NOISE), own, EVERY) < 0.3
+    assert spread_of_gain(known(apart, NOISE), own, EVERY) > 0.6
+
+
+def test_where_it_rests_its_gain_is_not_asked() -> None:
+    """A bearing that follows the air for a night, and what the air leaves over."""
+    apart, own = contributions((1.0, 1.0, 1.0, 9.0))
+    acts = np.array([True, True, True, False])
+    assert spread_of_gain(known(apart, NOISE), own, EVERY) > 0.6
+    assert spread_of_gain(known(apart, NOISE), own, acts) < 0.3
 
 
 @pytest.mark.parametrize(("second", "expected"), [(0.9e-3, True), (1.1e-3, False)])
@@ -284,7 +301,7 @@ def test_what_acts_in_one_test_only_may_have_any_gain(second: float, expected: b
     base = known(one, NOISE)
     energy = [float(np.linalg.norm(base.space.of(i, c[:, None]))) for i, c in enumerate(own)]
     parts = [own[0] / energy[0], second * own[1] / energy[1], 0 * own[2], 0 * own[3]]
-    assert (spread_of_gain(base, parts) == 1.0) is expected
+    assert (spread_of_gain(base, parts, EVERY) == 1.0) is expected
 
 
 # ---- chance

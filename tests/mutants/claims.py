@@ -155,6 +155,10 @@ MUTANTS = [
         '"same" if other else',
         "the coolant's switch is a mode of its temperature",
     ),
+    products(
+        "invariance.py", "active = moves & acts", "active = moves", "a cause is refused for a test in which it rests"
+    ),
+    products("invariance.py", "across @ held[:, :-1]", "0 * across @ held[:, :-1]", "where it rests its gain is held"),
     diagnosis("rules.py", "SPREAD_LIMIT = 0.5", "SPREAD_LIMIT = 0.9", "a proxy of another gain a test is claimed"),
     diagnosis("rules.py", "FORETOLD = 0.5", "FORETOLD = 0.3", "a proxy of another gain a test is claimed"),
     diagnosis("rules.py", "WORTH_SHARE = 0.1 ", "WORTH_SHARE = 0.0 ", "trifles are claimed"),

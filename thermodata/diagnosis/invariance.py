@@ -12,17 +12,21 @@ from collections.abc import Sequence
 import numpy as np
 
 from thermodata.diagnosis.known import Known, solved
-from thermodata.plugin import Float1D
+from thermodata.plugin import Bool1D, Float1D, Float2D, Int1D
 
 SPREADS = np.array([0.0, 0.05, 0.1, 0.15, 0.2, 0.3, 0.4, 0.5, 0.7, 1.0, 1.5])
 
 
-def spread_of_gain(known: Known, contribution: Sequence[Float1D]) -> float:
-    """Standard deviation of the factor between tests, as a share of 1: the mean over its likelihood, flat over
-    `SPREADS`. contribution: a test each, shape (m,)."""
+def spread_of_gain(known: Known, contribution: Sequence[Float1D], acts: Bool1D) -> float:
+    """Standard deviation of the factor between the tests in which it acts, as a share of 1: the mean over its
+    likelihood, flat over `SPREADS`. contribution: a test each, shape (m,). acts: shape (tests,).
+
+    Where it rests its factor is left free: what else moves there, which it hardly does, says nothing of its gain.
+    """
     white = [known.space.of(i, c[:, None])[:, 0] for i, c in enumerate(contribution)]
     size = np.array([w @ w for w in white])
-    active = size > 1e-6 * size.max()
+    moves = size > 1e-6 * size.max()
+    active = moves & acts
     if active.sum() < 2:
         return 1.0
     cross = np.stack([x.T @ w for x, w in zip(known.white, white, strict=True)])
@@ -30,11 +34,20 @@ def spread_of_gain(known: Known, contribution: Sequence[Float1D]) -> float:
     precision = np.diag(size) - cross @ solved(factor, cross.T)
     right = np.array([w @ y for w, y in zip(white, known.response, strict=True)])
     right = right - cross @ known.mean(known.every)
-    precision, right = precision[np.ix_(active, active)], right[active]
     precision[np.diag_indices_from(precision)] += 1e-9 * size.max()
+    precision, right = _of_some(precision, right, np.flatnonzero(active), np.flatnonzero(moves & ~acts))
     weight = np.array([_log_likelihood(precision, right, s) for s in SPREADS])
     weight = np.exp(weight - weight.max())
     return float(weight @ SPREADS / weight.sum())
+
+
+def _of_some(precision: Float2D, right: Float1D, some: Int1D, free: Int1D) -> tuple[Float2D, Float1D]:
+    """What the data say of some factors, others left free."""
+    own, across = precision[np.ix_(some, some)], precision[np.ix_(some, free)]
+    if not len(free):
+        return own, right[some]
+    held = np.linalg.solve(precision[np.ix_(free, free)], np.column_stack([across.T, right[free]]))
+    return own - across @ held[:, :-1], right[some] - across @ held[:, -1]
 
 
 def _log_likelihood(precision: np.ndarray, right: Float1D, spread: float) -> float:

@@ -12,7 +12,7 @@ from thermodata.diagnosis.evidence import Columns, Moments, Weighed, moments, we
 from thermodata.diagnosis.invariance import spread_of_gain
 from thermodata.diagnosis.known import FloatND, Known, known, solved
 from thermodata.diagnosis.problem import Block, Problem
-from thermodata.diagnosis.scored import Scored
+from thermodata.diagnosis.scored import Scored, acting
 from thermodata.plugin import Float1D, Float2D
 
 SCORED = 15  # candidates whose left-out tests are computed
@@ -70,7 +70,7 @@ def score(problem: Problem, base: Known, one: Columns, products: Moments, w: Wei
         own_before=own_before,
         own_after=own_after,
         size=size,
-        spread=spread_of_gain(base, contribution),
+        spread=spread_of_gain(base, contribution, acting(size)),
         shape=_shape(base, contribution),
     )
 

@@ -49,7 +49,7 @@ class Scored:
     @property
     def acts(self) -> Bool1D:
         """The tests in which it does something."""
-        return np.asarray(self.size >= ACTS * self.size.max(initial=0.0))
+        return acting(self.size)
 
     @property
     def error_before(self) -> float:
@@ -79,3 +79,8 @@ class Scored:
     def _error(self, sse: Float1D) -> float:
         acts = self.acts
         return float(np.sqrt(np.mean(sse[acts] / self.rows[acts]))) if len(sse) and acts.any() else 0.0
+
+
+def acting(size: Float1D) -> Bool1D:
+    """Where a contribution does something. size: its RMS in each test."""
+    return np.asarray(size >= ACTS * size.max(initial=0.0))
