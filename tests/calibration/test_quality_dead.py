@@ -46,6 +46,14 @@ def test_a_reading_may_stand_that_moves_by_a_few_of_its_treads(moves: float, dig
     assert bool(dead_throughout(made(course(0.0), moves=moves, digits=digits))) == said
 
 
+@pytest.mark.parametrize(("moves", "said"), [(0.6, True), (0.3, False)])
+def test_a_reading_may_stand_that_hardly_moved_in_another_test(moves: float, said: bool) -> None:
+    """A motor at rest in a steady hall, while another axis feeds."""
+    tests = made(course(0.0))
+    rest = Levels("d", None, None, {"T": course(moves), **{f"T{i}": course(4.0 + i, 2) for i in range(3)}})
+    assert bool(dead_throughout([*tests, rest])) == said
+
+
 def test_what_can_not_be_told_is_left() -> None:
     assert dead_throughout(made(course(0.0), count=2)) == set(), "too few others"
     assert dead_throughout(made(course(0.0, quantity="displacement"))) == set()

@@ -16,6 +16,7 @@ _LEAST_POINTS = 16  # of a test, or nothing is said
 _LEAST_S = 3600.0
 _LEAST_READINGS = 6  # different ones in a test in which it moves: what counts in whole kelvins may stand
 _TREADS = 10.0  # that it moves by elsewhere
+_NEVER_STILL = 4.0  # and in each other test at least: a motor that rests in a steady hall moves by two or three
 _LEAST_OTHERS = 3
 _AS_ELSEWHERE = 0.5  # of what the others move by in their other tests: a quiet test tells nothing
 
@@ -33,7 +34,12 @@ def dead_throughout(tests: Sequence[Levels]) -> set[tuple[str, str]]:
     ranges = {name: {test: float(np.ptp(x)) for test, x in own.items()} for name, own in courses.items()}
     # how far a channel moves in the tests in which it does
     usual = {name: float(np.median(r)) for name, own in ranges.items() if (r := [x for x in own.values() if x > 0])}
-    standing = [n for n in usual if min(ranges[n].values()) == 0 and usual[n] >= _TREADS * _tread(courses[n].values())]
+    standing = []
+    for name, most in usual.items():
+        tread = _tread(courses[name].values())
+        least = min(r for r in ranges[name].values() if r > 0)
+        if min(ranges[name].values()) == 0 and most >= _TREADS * tread and least >= _NEVER_STILL * tread:
+            standing.append(name)
     moved: dict[str, list[float]] = {}
     for name in usual if standing else ():
         for key, span in ranges[name].items():

@@ -129,13 +129,14 @@ def _beside_each_other(members: Sequence[Judged]) -> tuple[Judged, ...]:
 
 
 def _causes(claims: Sequence[Judged]) -> tuple[Judged, ...]:
-    """Without what a sharper one of the same family says of the same channels: it is one cause, in two modes."""
+    """Without what a sharper one of the same family says of the same channels: it is one cause, in two modes; nor the
+    same twice, where two members gave way to it."""
 
     def again(j: Judged, other: Judged) -> bool:
         mine, theirs = j.scored.candidate, other.scored.candidate
         named = mine.family == theirs.family and mine.family not in (GENERIC, CONTROL)
         shared = not set(mine.channels).isdisjoint(theirs.channels)
-        return named and shared and sharpness(j.scored) < sharpness(other.scored)
+        return (mine.id == theirs.id or (named and shared)) and sharpness(j.scored) < sharpness(other.scored)
 
     return tuple(j for j in claims if not any(again(j, other) for other in claims))
 
