@@ -8,6 +8,7 @@ import pytest
 from thermodata.diagnosis.investigate import clocks_beside, gains_are_wrong_only_where_nothing_is_missing
 from thermodata.diagnosis.judge import Judgement
 from thermodata.diagnosis.logging_faults import (
+    CLOCK_DROP,
     a_fault_explains,
     clock_offsets,
     first_of_each,
@@ -31,18 +32,26 @@ def artefact(kind: str, test: str = "t0", at_s: float | None = None) -> Artefact
 
 @pytest.mark.parametrize(("error", "expected"), [(0.599, 300.0), (0.601, None)])
 def test_a_moved_clock_must_take_away_two_fifths_of_the_squared_error(error: float, expected: float | None) -> None:
-    assert shift_that_explains(1.0, {-300.0: 0.9, 300.0: error, 900.0: 0.95}, 100.0) == expected
+    assert shift_that_explains(1.0, {-300.0: 0.9, 300.0: error, 900.0: 0.95}, 100.0, CLOCK_DROP) == expected
+
+
+@pytest.mark.parametrize(("lateness", "warm", "said"), [(0.9, True, True), (1.2, True, False), (1.2, False, True)])
+def test_of_temperatures_alone_three_quarters(lateness: float, warm: bool, said: bool) -> None:
+    """A sensor that lags is late as a clock is."""
+    asked, sources = late_by(120.0, lateness)
+    found = clock_offsets(asked, driver, sources, ["T"] if warm else [])
+    assert bool(found) is said
 
 
 @pytest.mark.parametrize(("shift", "expected"), [(600.0, 600.0), (900.0, None), (-900.0, None)])
 def test_a_smallest_error_at_the_end_of_the_range_is_no_clock(shift: float, expected: float | None) -> None:
-    assert shift_that_explains(1.0, {300.0: 0.5, shift: 0.1}, 100.0) == expected
+    assert shift_that_explains(1.0, {300.0: 0.5, shift: 0.1}, 100.0, CLOCK_DROP) == expected
 
 
 @pytest.mark.parametrize(("energy", "expected"), [(0.626, 300.0), (0.624, None)])
 def test_of_a_poor_model_no_clock_is_said_to_be_off(energy: float, expected: float | None) -> None:
     """FIT 60, moved: 1 - sqrt(0.1 / 0.625)."""
-    assert shift_that_explains(1.0, {-300.0: 0.9, 300.0: 0.1, 900.0: 0.95}, energy) == expected
+    assert shift_that_explains(1.0, {-300.0: 0.9, 300.0: 0.1, 900.0: 0.95}, energy, CLOCK_DROP) == expected
 
 
 def late_by(shift_s: float, lateness: float = 0.0) -> tuple[Problem, dict[str, str]]:
@@ -67,7 +76,7 @@ def driver(test: TestData) -> Float2D:
 )
 def test_a_clock_that_is_off_is_named_with_its_shift(shift_s: float, minutes: str | None) -> None:
     asked, sources = late_by(shift_s)
-    found = clock_offsets(asked, driver, sources)
+    found = clock_offsets(asked, driver, sources, [])
     assert [a.kind for a in found] == ([] if minutes is None else ["clock_offset"])
     assert all("source 'nc'" in a.why and minutes is not None and minutes in a.why for a in found)
 

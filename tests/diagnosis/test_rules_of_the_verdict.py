@@ -105,6 +105,15 @@ def test_a_family_on_the_same_channels_is_one_cause(second: dict[str, Any], clai
         assert sorted(names(verdict(*order).claims)) == claimed
 
 
+@pytest.mark.parametrize("evidence", [800.0, 900.0])
+@pytest.mark.parametrize("family", ["feed_x", "generic"])
+def test_two_members_that_gave_way_to_one_candidate_are_one_claim(family: str, evidence: float) -> None:
+    sharper, duller = scored("a", evidence=900.0, family=family), scored("a", evidence=evidence, family=family)
+    for order in ((sharper, duller), (duller, sharper)):
+        (claim,) = verdict(*order).claims
+        assert claim.scored.evidence == 900.0
+
+
 @pytest.mark.parametrize("family", ["generic", "control"])
 def test_what_has_no_name_is_of_no_family(family: str) -> None:
     both = scored("a", evidence=900.0, family=family), scored("b", evidence=800.0, family=family)

@@ -186,6 +186,7 @@ MUTANTS = [
     # ---- verdict
     diagnosis("judge.py", "if len(problem.blocks) < 2:", "if len(problem.blocks) < 1:", "one test makes a claim"),
     diagnosis("judge.py", "MOST_CLAIMS = 3", "MOST_CLAIMS = 9", "everything is claimed at once"),
+    diagnosis("judge.py", "once[j.scored.candidate.id] is j and ", "", "one cause is claimed twice"),
     diagnosis("judge.py", "named and shared and", "named and", "a second axis of a family is never claimed"),
     diagnosis("judge.py", "named and shared and", "shared and", "two causes at one channel are one"),
     diagnosis("judge.py", " and mine.family not in (GENERIC, CONTROL)", "", "two lags are one"),
@@ -463,7 +464,8 @@ MUTANTS = [
         "an unlucky zero passes as wrong parameters",
     ),
     # ---- faults of the logs
-    diagnosis("logging_faults.py", "CLOCK_DROP = 0.4", "CLOCK_DROP = 0.05", "sound clocks are suspected"),
+    diagnosis("logging_faults.py", "WARM_CLOCK_DROP = 0.75", "WARM_CLOCK_DROP = 0.4", "a sensor that lags is a clock"),
+    diagnosis("logging_faults.py", "\nCLOCK_DROP = 0.4", "CLOCK_DROP = 0.05", "sound clocks are suspected"),
     diagnosis(
         "logging_faults.py", "inside = abs(best) < max(SHIFTS_S)", "inside = True", "slow effects pass as clocks"
     ),

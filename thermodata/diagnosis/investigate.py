@@ -257,4 +257,5 @@ def _faults(fitted: FittedResponse, data: Dataset, problem: Problem, base: Base)
     drivers = {n for one in present(fitted) for n in one.channels}
     told = {c.source for c in timings(problem, data.channels) if c.tells}
     sources = {n: s for n, s in clocks_beside(data.channels, drivers, fitted.name).items() if s not in told}
-    return [*clock_offsets(problem, base, sources), *wrong_gains(problem)]
+    warm = {n for n in sources if data.channels[n].quantity == "temperature"}
+    return [*clock_offsets(problem, base, sources, warm), *wrong_gains(problem)]

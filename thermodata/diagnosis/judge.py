@@ -136,9 +136,11 @@ def _causes(claims: Sequence[Judged]) -> tuple[Judged, ...]:
         mine, theirs = j.scored.candidate, other.scored.candidate
         named = mine.family == theirs.family and mine.family not in (GENERIC, CONTROL)
         shared = not set(mine.channels).isdisjoint(theirs.channels)
-        return (mine.id == theirs.id or (named and shared)) and sharpness(j.scored) < sharpness(other.scored)
+        return named and shared and sharpness(j.scored) < sharpness(other.scored)
 
-    return tuple(j for j in claims if not any(again(j, other) for other in claims))
+    sharpest_first = sorted(claims, key=lambda j: -sharpness(j.scored))
+    once = {j.scored.candidate.id: j for j in reversed(sharpest_first)}
+    return tuple(j for j in claims if once[j.scored.candidate.id] is j and not any(again(j, o) for o in claims))
 
 
 def equivalents(chosen: Scored, ranked: Sequence[Scored]) -> list[Scored]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -16,7 +16,9 @@ from thermodata.view.dataset import Dataset, TestData
 
 SHIFTS_S = (-900.0, -600.0, -450.0, -300.0, -180.0, -120.0, 120.0, 180.0, 300.0, 450.0, 600.0, 900.0)
 MISFIT_TIMES = 3.0  # a fit that leaves this many times what a refit leaves has wrong parameters
-CLOCK_DROP = 0.4  # fall of the squared error that makes a shift worth a name
+CLOCK_DROP = 0.4  # fall of the squared error that makes a shift worth a name;
+# of temperatures alone this: a sensor that lags, or the slow share of a distributed machine, is late as a clock is
+WARM_CLOCK_DROP = 0.75
 GAIN_OFF = 0.15  # a factor further from 1 than this: the gain is wrong
 ALL_DROP = 0.5  # mending a test must take away this share of the squared error of all
 GAIN_DROP = (
@@ -28,11 +30,14 @@ LEAST_TESTS = 4  # of fewer nobody can say which one is wrong
 NOISES = 5.0  # a test with a smaller error than this many times the noise has no wrong gain
 
 
-def clock_offsets(problem: Problem, base: Callable[[TestData], Float2D], sources: Mapping[str, str]) -> list[Artefact]:
+def clock_offsets(
+    problem: Problem, base: Callable[[TestData], Float2D], sources: Mapping[str, str], warm: Collection[str]
+) -> list[Artefact]:
     """Sources whose drivers would explain more if their clock were moved, the same in all tests.
 
-    base(test): the model's columns, shape (n, k). sources: channel -> source, of the model's drivers. The smallest
-    error must lie at a shift, not at zero and not at the end of the range, where something slower is at work.
+    base(test): the model's columns, shape (n, k). sources: channel -> source, of the model's drivers. warm: those that
+    are temperatures. The smallest error must lie at a shift, not at zero and not at the end of the range, where
+    something slower is at work.
     """
     artefacts = []
     now = _error(problem, base, {})
@@ -40,7 +45,7 @@ def clock_offsets(problem: Problem, base: Callable[[TestData], Float2D], sources
     for source in sorted(set(sources.values())):
         names = {c for c, s in sources.items() if s == source}
         errors = {d: _error(problem, base, dict.fromkeys(names, d)) for d in SHIFTS_S}
-        best = shift_that_explains(now, errors, energy)
+        best = shift_that_explains(now, errors, energy, WARM_CLOCK_DROP if names <= {*warm} else CLOCK_DROP)
         if best is not None:
             rms = [float(np.sqrt(e / max(problem.rows, 1))) for e in (now, errors[best])]
             artefacts.append(
@@ -58,17 +63,16 @@ def clock_offsets(problem: Problem, base: Callable[[TestData], Float2D], sources
     return artefacts
 
 
-def shift_that_explains(now: float, errors: Mapping[float, float], energy: float) -> float | None:
+def shift_that_explains(now: float, errors: Mapping[float, float], energy: float, drop: float) -> float | None:
     """The shift [s] with the smallest squared error, where that says that the clock is off.
 
-    now: the squared error unmoved. energy: the squared response, by which a model is judged that explains nothing.
+    now: the squared error unmoved. drop: the share of it that a clock takes away at least. energy: the squared
+    response, by which a model is judged that explains nothing.
     """
     best = min(errors, key=lambda d: errors[d])
     inside = abs(best) < max(SHIFTS_S)
     return (
-        best
-        if inside and errors[best] < (1 - CLOCK_DROP) * now and fit_percent(errors[best], energy) >= LEAST_FIT
-        else None
+        best if inside and errors[best] < (1 - drop) * now and fit_percent(errors[best], energy) >= LEAST_FIT else None
     )
 
 
