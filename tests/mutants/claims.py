@@ -156,7 +156,10 @@ MUTANTS = [
         "the coolant's switch is a mode of its temperature",
     ),
     products(
-        "invariance.py", "active = moves & acts", "active = moves", "a cause is refused for a test in which it rests"
+        "invariance.py", "in (moves, moves & acts)", "in (moves,)", "a cause is refused for a test in which it rests"
+    ),
+    products(
+        "invariance.py", "in (moves, moves & acts)", "in (moves & acts,)", "tests in which it rests don't speak for it"
     ),
     products("invariance.py", "across @ held[:, :-1]", "0 * across @ held[:, :-1]", "where it rests its gain is held"),
     diagnosis("rules.py", "SPREAD_LIMIT = 0.5", "SPREAD_LIMIT = 0.9", "a proxy of another gain a test is claimed"),
@@ -190,7 +193,7 @@ MUTANTS = [
     diagnosis("judge.py", "named and shared and", "named and", "a second axis of a family is never claimed"),
     diagnosis("judge.py", "named and shared and", "shared and", "two causes at one channel are one"),
     diagnosis("judge.py", " and mine.family not in (GENERIC, CONTROL)", "", "two lags are one"),
-    diagnosis("judge.py", "if not any(again(j, other) for other in claims)", "", "one cause is claimed twice"),
+    diagnosis("judge.py", " and not any(again(j, o) for o in claims)", "", "one cause is claimed twice"),
     diagnosis("judge.py", " and not j.scored.candidate.passive", "", "a casting makes a cause less sure"),
     diagnosis(
         "opened.py",
@@ -388,9 +391,7 @@ MUTANTS = [
         "SPREADS = np.array([0.5,",
         "a cause is said to differ between tests",
     ),
-    products(
-        "invariance.py", "    if active.sum() < 2:", "    if active.sum() < 1:", "one test says that gains are alike"
-    ),
+    products("invariance.py", "if moves.sum() < 2:", "if moves.sum() < 1:", "one test says that gains are alike"),
     products("invariance.py", "size > 1e-6 * size.max()", "size > 1e-3 * size.max()", "weak tests are not asked"),
     products("invariance.py", " - np.log(weight)))", "))", "spreads are weighed as if their mean were known"),
     products("invariance.py", "quad = spread**2 *", "quad = 0.0 *", "spreads are weighed against nothing"),

@@ -18,16 +18,16 @@ SPREADS = np.array([0.0, 0.05, 0.1, 0.15, 0.2, 0.3, 0.4, 0.5, 0.7, 1.0, 1.5])
 
 
 def spread_of_gain(known: Known, contribution: Sequence[Float1D], acts: Bool1D) -> float:
-    """Standard deviation of the factor between the tests in which it acts, as a share of 1: the mean over its
-    likelihood, flat over `SPREADS`. contribution: a test each, shape (m,). acts: shape (tests,).
+    """Standard deviation of the factor between tests, as a share of 1: the mean over its likelihood, flat over
+    `SPREADS`. contribution: a test each, shape (m,). acts: in which tests it does something, shape (tests,).
 
-    Where it rests its factor is left free: what else moves there, which it hardly does, says nothing of its gain.
+    Of all tests, or of those in which it acts, the factors of the others left free, whichever is less: where it rests
+    its gain may speak for it, and not against it, for what else moves there it hardly moves.
     """
     white = [known.space.of(i, c[:, None])[:, 0] for i, c in enumerate(contribution)]
     size = np.array([w @ w for w in white])
     moves = size > 1e-6 * size.max()
-    active = moves & acts
-    if active.sum() < 2:
+    if moves.sum() < 2:
         return 1.0
     cross = np.stack([x.T @ w for x, w in zip(known.white, white, strict=True)])
     factor = known.factor(known.every)
@@ -35,14 +35,19 @@ def spread_of_gain(known: Known, contribution: Sequence[Float1D], acts: Bool1D) 
     right = np.array([w @ y for w, y in zip(white, known.response, strict=True)])
     right = right - cross @ known.mean(known.every)
     precision[np.diag_indices_from(precision)] += 1e-9 * size.max()
-    precision, right = _of_some(precision, right, np.flatnonzero(active), np.flatnonzero(moves & ~acts))
+    asked = {tuple(np.flatnonzero(some)) for some in (moves, moves & acts) if some.sum() > 1}
+    return min(_spread(*_of_some(precision, right, np.array(some), moves)) for some in asked)
+
+
+def _spread(precision: Float2D, right: Float1D) -> float:
     weight = np.array([_log_likelihood(precision, right, s) for s in SPREADS])
     weight = np.exp(weight - weight.max())
     return float(weight @ SPREADS / weight.sum())
 
 
-def _of_some(precision: Float2D, right: Float1D, some: Int1D, free: Int1D) -> tuple[Float2D, Float1D]:
-    """What the data say of some factors, others left free."""
+def _of_some(precision: Float2D, right: Float1D, some: Int1D, moves: Bool1D) -> tuple[Float2D, Float1D]:
+    """What the data say of some factors; those of the other tests in which it moves are free."""
+    free = np.setdiff1d(np.flatnonzero(moves), some)
     own, across = precision[np.ix_(some, some)], precision[np.ix_(some, free)]
     if not len(free):
         return own, right[some]
