@@ -29,6 +29,13 @@ Say = Callable[..., Said]
         ("Workhead.nAct", "rpm", "rotary.c", False),
         ("ot_prac_vret", "rpm", "rotary.c", False),
         ("ot_vretene", "rpm", "spindle", True),
+        ("T7 stojan vpředu", "degC", "column.front", True),
+        ("T8 stojan vzadu", "degC", "column.rear", True),
+        ("T3 olej převodovky", "degC", "spindle.gearbox", False),
+        ("Getriebe_Oel", "degC", "spindle.gearbox", False),
+        ("Hydr_Oel", "degC", "hydraulics", True),
+        ("Traghuelse", "degC", "ram", True),
+        ("Kuehler_VL", "degC", "chiller.supply", False),
     ],
 )
 def test_a_word_of_the_trade_is_its_place(name: str, unit: str, at: str | None, sure: bool) -> None:

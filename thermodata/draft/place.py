@@ -101,10 +101,10 @@ def _temperature(said: set[str], axis: str | None) -> Place:
         return Place("hydraulics", True)
     if "lubrication" in said:
         return Place("lubrication", True)
-    if "oil" in said:
-        return Place(None, question="at: hydraulics or lubrication?")
     if "gearbox" in said:
         return Place("spindle.gearbox")
+    if "oil" in said:
+        return Place(None, question="at: hydraulics or lubrication?")
     if "column" in said:
         side = _side(said) or {"upper": "top", "lower": "bottom"}.get(_side(said, ("upper", "lower")) or "")
         return Place(f"column.{side}" if side else "column", bool(side) and len(said) == 2)

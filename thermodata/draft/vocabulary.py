@@ -66,8 +66,9 @@ PLACE_WORDS: dict[str, str] = {
     "not spindle": "gewindespindel kugelspindel spindelmutter kugelgewinde leadspindle",
     "bearing": "bearing bearings. lager ^lozis ^loz. 轴承 軸承 brg. brng. bear. lagerung roulement cuscinett palier. "
     "paliers.",
-    "front": "front vorn vorder ^predni pred. predn. 前 fr. frt~b nose. spindlenose nase. vl. avant. ant. anteriore.",
-    "rear": "rear back. hinten hinter ^zadni zad. zadn. 后 後 tail. rr. arriere. post. posteriore.",
+    "front": "front vorn vorder ^predni pred. predn. vpredu. 前 fr. frt~b nose. spindlenose nase. vl. avant. ant. "
+    "anteriore.",
+    "rear": "rear back. hinten hinter ^zadni zad. zadn. vzadu. 后 後 tail. rr. arriere. post. posteriore.",
     "upper": "upper top. ^ober oben. obere ^horni nahore nahoru 上 up. haut. haute. alto. alta. superieur ^superiore",
     "lower": "lower bottom bot. ^unter unten. ^spodni ^dolni dole. 下 low. dn. bas. basse. basso. bassa. inferieur "
     "^inferiore",
@@ -90,7 +91,7 @@ PLACE_WORDS: dict[str, str] = {
     "tavola. plateau.",
     "headstock": "headstock spindelstock spindelkasten spindelgehaus spindelkopf vretenik 主轴箱 床头箱 spindle~head "
     "spindlehead spindle~housing spindle~box head~stock 主轴头",
-    "ram": "ram. pinole ^smykadl 滑枕 quill.",
+    "ram": "ram. pinole traghuls traghuels ^smykadl 滑枕 quill.",
     "saddle": "saddle schlitten ^sane. 滑座 滑板 滑台 carriage crossslide cross~slide slide. sani.",
     "crossbeam": "crossbeam querbalken querbal traverse. ^pricni 横梁 gantry. cross~rail crossrail beam. portal.",
     "tool": "tool. werkzeug nastroj 刀具 刀柄 toolholder",
@@ -100,8 +101,8 @@ PLACE_WORDS: dict[str, str] = {
     "coolant": "coolant kuhlm kuehlm kss. kuhlschm kuehlschm chladici ^chlaz chladiv emulz emulsion 冷却液 冷卻液 "
     "切削液 冷却 "
     "cooling kuhlung kuehlung cool. kuhlflu kuhlkreis cutting~fluid cutfluid kuhlen.",
-    "chiller": "chiller chladic. chladice. ruckkuhl rueckkuhl kuhlaggregat 冷水机 水冷机 油冷机 oilcooler "
-    "oil~cooler oelkuhler water. wasser "
+    "chiller": "chiller chladic. chladice. kuhler. kuehler. ruckkuhl rueckkuhl kuhlaggregat 冷水机 水冷机 油冷机 "
+    "oilcooler oil~cooler oelkuhler water. wasser "
     "^vod[ay]. kuhlwasser 冷却水 chlazeni~vretene",
     "supply": "supply. inlet. in. vorlauf zulauf ^privod vstup. 入口 进口 进水 供液 进油 vl. input.",
     "return": "return. outlet. out. rucklauf ruecklauf ablauf zpatec ^odvod vystup. 出口 回水 回油 回液 rl. output.",
