@@ -139,7 +139,7 @@ def test_it_is_less_probable_and_says_why(evidence: float, claimed: bool) -> Non
     assert (blunt(beside) is None) == claimed
     assert probability(beside) < probability(alone)
     if not claimed:
-        assert "axis.z.guide may be it as well" in str(blunt(beside))
+        assert "what it reads does not tell it from heat at axis.z.guide" in str(blunt(beside))
     assert at_best(beside, 1000) < at_best(alone, 1000)
     assert sharpness_asked(0.6, beside.candidate) > sharpness_asked(0.6, alone.candidate)
 

@@ -12,6 +12,7 @@ from thermodata.diagnosis.present import CONTROL
 from thermodata.diagnosis.probability import limit_of, probability, sharpness
 from thermodata.diagnosis.scored import Scored
 from thermodata.plugin import Float1D
+from thermodata.schema.places import heat_at
 
 P_LIMIT = 0.01
 # so much evidence a sample outweighs what left-out tests say: how far their error falls, for the known effects take
@@ -202,7 +203,7 @@ def _in_short(scored: Scored) -> str:
     if scored.candidate.passive:
         more.append("it reads a body that makes no heat, one beside the machine, or one whose place nobody declared")
     if scored.candidate.unread:
-        more.append(f"{' and '.join(scored.candidate.unread)} may be it as well, and nothing that it reads tells")
+        more.append(f"what it reads does not tell it from {heat_at(scored.candidate.unread, ' or ')}")
     more += [also_missing(scored)] if scored.also_on else []
     if scored.doubts:
         more.append(f"the locked tests do not bear it out in {scored.doubts} of 2 ways")
