@@ -11,7 +11,7 @@ import pytest
 from thermodata.report.collect import _reason
 from thermodata.report.data import ReportData
 from thermodata.report.error_rows import error_rows
-from thermodata.report.headline import headline
+from thermodata.report.headline import headline, sentences
 from thermodata.report.page import render
 from thermodata.report.verdict import explainable, listed, named, probability, told, verdict_sentence
 from thermodata.schema.diagnosis import Candidate, Diagnosis, PutRight
@@ -238,3 +238,11 @@ def test_the_head_of_the_page_says_what_was_put_right(data: ReportData) -> None:
     page = render(dataclasses.replace(data, diagnosis=found("effect", [claim("screw")], put_right=right)))
     head = page[: page.index("<h2")]
     assert "judged without day9, where the probe is turned round" in head
+
+
+def test_a_verdict_without_a_claim_is_headed_by_its_first_words_and_told_to_its_end(data: ReportData) -> None:
+    right = PutRight(left_out=[("demo", "day9")])
+    told_so = dataclasses.replace(data, versions=data.versions[:1], diagnosis=found("none", [], put_right=right))
+    assert headline(told_so).startswith("No effect is missing: ")
+    assert ";" not in headline(told_so)
+    assert sentences(told_so)[0] == "Judged without day9, where the probe is turned round."

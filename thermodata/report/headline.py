@@ -24,7 +24,7 @@ def headline(data: ReportData) -> str:
         claims = claims_of(data.diagnosis)
         if claims:
             return f"{responses} misses {causes(claims)}"
-        return capital(verdict_sentence(data.diagnosis))
+        return capital(verdict_sentence(data.diagnosis).partition("; ")[0])
     return f"{data.name} models {responses}; thermodata diagnose {data.name} says what it misses"
 
 
@@ -84,6 +84,9 @@ def sentences(data: ReportData) -> list[str]:
             lines.append(f"These tests can't tell {claim.id} from {listed(claim.equivalent)}")
     if data.diagnosis and (data.added or claims_of(data.diagnosis)):
         lines.append(("Now: " if data.added else "") + capital(verdict_sentence(data.diagnosis)))
+    elif data.diagnosis:
+        # its first words are the headline
+        lines.insert(0, capital(verdict_sentence(data.diagnosis).partition("; ")[2]))
     return [line if line.endswith(".") else f"{line}." for line in lines if line]
 
 
