@@ -466,7 +466,7 @@ MUTANTS = [
     ),
     # ---- faults of the logs
     diagnosis("logging_faults.py", "WARM_CLOCK_DROP = 0.75", "WARM_CLOCK_DROP = 0.4", "a sensor that lags is a clock"),
-    diagnosis("logging_faults.py", "\nCLOCK_DROP = 0.4", "CLOCK_DROP = 0.05", "sound clocks are suspected"),
+    diagnosis("logging_faults.py", "\nCLOCK_DROP = 0.4", "\nCLOCK_DROP = 0.05", "sound clocks are suspected"),
     diagnosis(
         "logging_faults.py", "inside = abs(best) < max(SHIFTS_S)", "inside = True", "slow effects pass as clocks"
     ),
