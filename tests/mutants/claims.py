@@ -10,7 +10,7 @@ BESIDE = {
     "artefact.py": ("steps",),
     "candidates.py": ("candidates", "unread_parts"),
     "clocks_by_heat.py": ("clocks_by_heat",),
-    "compressed.py": ("compression",),
+    "compressed.py": ("compression", "investigation"),
     "commanded.py": ("steps",),
     "confirm.py": ("the_locked_tests",),
     "discrepancy.py": ("the_noise",),
