@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 
 from thermodata.diagnosis.answer import answer
-from thermodata.diagnosis.clocks_by_heat import Disagreement, as_artefact, disagreements, late_logs
+from thermodata.diagnosis.clocks_by_heat import Logs, as_artefact, late_in_one, late_logs
+from thermodata.diagnosis.heat_balance import Disagreement, Pair
 from thermodata.effect import effects
 from thermodata.effect.lag import lag
 from thermodata.modelling.fit import fit_model
@@ -34,9 +35,11 @@ def later(values: np.ndarray, minutes: float) -> np.ndarray:
     return np.asarray(np.interp(t - minutes * 60, t, values))
 
 
-def logged(minutes: dict[str, float] | None = None, tests: int = 4, heat: float = 1.0) -> list[TestData]:
+def logged(
+    minutes: dict[str, float] | None = None, tests: int = 4, heat: float = 1.0, only: tuple[int, ...] | None = None
+) -> list[TestData]:
     """Tests of nine hours in which a bearing follows the speed, a nut the feed, and the displacement both; minutes: by
-    which sources are late."""
+    which sources are late, in all tests or in some only."""
     rng, made = np.random.default_rng(RNG), []
     for k in range(tests):
         n = np.repeat(rng.choice([0.0, 3000.0, 6000.0, 9000.0], 18), 30)
@@ -47,7 +50,8 @@ def logged(minutes: dict[str, float] | None = None, tests: int = 4, heat: float 
         hall = np.sin(t / 20_000 + k) + 0.05 * rng.normal(size=len(n))
         moved = lag(front, 900, STEP_S) + lag(nut, 900, STEP_S)
         values = {"dZ": moved, "n": n, "v": v, "T_front": 20 + front, "T_nut": 20 + nut, "T_hall": 20 + hall}
-        late = {name: (minutes or {}).get(str(CHANNELS[name].source), 0.0) for name in values}
+        off = (minutes or {}) if only is None or k in only else {}
+        late = {name: off.get(str(CHANNELS[name].source), 0.0) for name in values}
         values = {name: later(x, late[name]) for name, x in values.items()}
         valid = {name: np.ones(len(n), bool) for name in values}
         made.append(TestData("c", f"t{k}", "mixed", "calibration", t, values, valid, np.ones(len(n), bool)))
@@ -55,7 +59,7 @@ def logged(minutes: dict[str, float] | None = None, tests: int = 4, heat: float 
 
 
 def plain(tests: list[TestData]) -> list[tuple[str, str, float]]:
-    return [(d.warmed, d.by, d.shift_s / 60) for d in disagreements(tests, CHANNELS, STEP_S) if d.plain]
+    return [(d.warmed, d.by, d.shift_s / 60) for d in Logs(tests, CHANNELS, "dZ", STEP_S).disagreements() if d.plain]
 
 
 @pytest.mark.parametrize("minutes", [-120, -60, -40, 40, 60, 120])
@@ -77,17 +81,17 @@ def test_what_does_not_warm_tells_nothing() -> None:
 @pytest.mark.parametrize(("step_s", "asked"), [(240.0, True), (241.0, False)])
 def test_a_coarse_grid_tells_nothing(step_s: float, asked: bool) -> None:
     """One sample of it is as much as bodies are late by."""
-    assert bool(disagreements(logged({"log": 15}), CHANNELS, step_s)) is asked  # so many samples
+    assert bool(Logs(logged({"log": 15}), CHANNELS, "dZ", step_s).disagreements()) is asked  # so many samples
 
 
 def test_three_tests_are_needed() -> None:
     assert len(plain(logged({"log": 60}, tests=3))) == 1
-    assert disagreements(logged({"log": 60}, tests=2), CHANNELS, STEP_S) == []
+    assert Logs(logged({"log": 60}, tests=2), CHANNELS, "dZ", STEP_S).disagreements() == []
 
 
 def test_one_temperature_alone_tells_nothing() -> None:
     tests = [replace(t, values={n: v for n, v in t.values.items() if n != "T_nut"}) for t in logged({"log": 60})]
-    [found] = disagreements(tests, CHANNELS, STEP_S)
+    [found] = Logs(tests, CHANNELS, "dZ", STEP_S).disagreements()
     assert found.telling == 1
     assert not found.plain
 
@@ -103,6 +107,8 @@ def test_one_temperature_alone_tells_nothing() -> None:
         ({"telling": 1}, False),
         ({"shift_s": -600.0}, True),
         ({"shift_s": 540.0}, False),
+        ({"own": 0.499}, True),
+        ({"own": 0.501}, False),
     ],
 )
 def test_a_disagreement_is_plain_where_much_more_is_foretold_once_it_is_mended(
@@ -133,6 +139,37 @@ def test_the_log_that_disagrees_with_the_displacement_too_is_late(
     assert f"the choice is made with '{source}' moved by" in as_artefact(found, "c").why
 
 
+def in_one(tests: list[TestData]) -> list[tuple[str, str | None, float]]:
+    return [(f.of.test, f.source, f.shift_s / 60) for f in late_in_one(tests, CHANNELS, "dZ", STEP_S, {})]
+
+
+@pytest.mark.parametrize("minutes", [-120, -60, -40, 40, 60, 120])
+@pytest.mark.parametrize("source", ["log", "nc"])
+def test_a_log_that_is_late_in_one_test_is_told_by_the_others(source: str, minutes: float) -> None:
+    assert in_one(logged({source: minutes}, only=(2,))) == [("t2", source, pytest.approx(-minutes, abs=4))]
+
+
+@pytest.mark.parametrize("minutes", [-4, 0, 4])
+def test_a_test_whose_logs_agree_is_left_alone(minutes: float) -> None:
+    assert in_one(logged({"log": minutes}, only=(2,))) == []
+
+
+def test_of_half_of_the_tests_nobody_can_say_which_are_right() -> None:
+    assert len(in_one(logged({"log": 60}, tests=7, only=(0, 1)))) == 2
+    assert in_one(logged({"log": 60}, tests=4, only=(0, 1))) == []
+
+
+@pytest.mark.parametrize(("told", "source"), [(True, "log"), (False, None)])
+def test_of_one_test_a_clock_that_is_known_there_is_not_moved(told: bool, source: str | None) -> None:
+    tests = without_a_word(logged({"log": 60}, only=(2,)))
+    right = {("c", "t2"): {"nc"}} if told else {("c", "t1"): {"nc"}}
+    [found] = late_in_one(tests, CHANNELS, "dZ", STEP_S, right)
+    assert found.source == source
+    said = as_artefact(found, "other")
+    assert (said.campaign, said.test) == ("c", "t2")
+    assert "as they do in the other tests" in said.why
+
+
 def without_a_word(tests: list[TestData]) -> list[TestData]:
     """Their displacement is noise."""
     rng = np.random.default_rng(1)
@@ -143,6 +180,19 @@ def test_the_log_of_the_displacement_is_right_whatever_that_says() -> None:
     channels = {**CHANNELS, "dZ": replace(CHANNELS["dZ"], source="log")}
     [found] = late_logs(without_a_word(logged({"nc": 60})), channels, "dZ", STEP_S)
     assert found.source == "nc"
+
+
+@pytest.mark.parametrize(
+    ("said", "source"),
+    [((0.16, 0.0), "log"), ((0.0, 0.16), "nc"), ((0.14, -1.0), None), ((0.4, 0.26), None), ((0.42, 0.26), "log")],
+)
+def test_the_displacement_decides_where_it_says_more_of_one_time_than_of_the_other(
+    said: tuple[float, float], source: str | None, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """said: what is foretold of its rises with the commands where they are, and moved."""
+    monkeypatch.setattr(Pair, "foretold", lambda *_: said)
+    [found] = late_logs(logged({"log": 60}), CHANNELS, "dZ", STEP_S)
+    assert found.source == source
 
 
 def test_where_the_displacement_says_nothing_neither_log_is_moved() -> None:
@@ -174,5 +224,7 @@ def test_the_choice_is_made_with_the_log_moved(spec: Model) -> None:
     assert [a.kind for a in found.artefacts] == ["clock_offset"]
     assert "'log' moved by -58 min" in found.artefacts[0].why
     assert found.put_right is not None
-    assert found.put_right.moved_s == {"log": pytest.approx(-58 * 60, abs=31)}
+    [clock] = found.put_right.clocks
+    assert (clock.source, clock.test) == ("log", "")
+    assert clock.moved_s == pytest.approx(-58 * 60, abs=31)
     assert [c.family for c in found.candidates if c.claimed] == ["feed_x"]

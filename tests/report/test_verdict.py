@@ -14,7 +14,7 @@ from thermodata.report.error_rows import error_rows
 from thermodata.report.headline import headline, sentences
 from thermodata.report.page import render
 from thermodata.report.verdict import explainable, listed, named, probability, told, verdict_sentence
-from thermodata.schema.diagnosis import Candidate, Diagnosis, PutRight
+from thermodata.schema.diagnosis import Candidate, ClockMoved, Diagnosis, PutRight
 
 from .conftest import diagnosis
 
@@ -219,11 +219,17 @@ def test_a_cause_that_is_not_excluded_is_named_though_none_is_said_to_be_missing
     ("right", "said"),
     [
         (PutRight(left_out=[("shop", "day2")]), "judged without day2, where the probe is turned round"),
-        (PutRight(moved_s={"nc": 3660.0}), "judged with the clock of nc moved by +61 min"),
+        (PutRight(clocks=[ClockMoved(source="nc", moved_s=3660.0)]), "judged with the clock of nc moved by +61 min"),
         (
-            PutRight(left_out=[("shop", "day2"), ("shop", "day3")], moved_s={"nc": 3600.0, "hall": -3600.0}),
+            PutRight(
+                left_out=[("shop", "day2"), ("shop", "day3")],
+                clocks=[
+                    ClockMoved(source="nc", moved_s=3600.0),
+                    ClockMoved(source="hall", campaign="shop", test="day1", moved_s=-3600.0),
+                ],
+            ),
             "judged without day2 and day3, where the probe is turned round, and with the clocks of nc moved by +60 min "
-            "and of hall moved by -60 min",
+            "and of hall moved by -60 min in day1",
         ),
     ],
 )

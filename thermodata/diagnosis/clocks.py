@@ -1,4 +1,5 @@
-"""When a source's commands act, by what the displacement does at once: whether its clock is early or late.
+"""When a source's commands act, by what the displacement does at once: whether its clock is early or late, in all tests
+or in one.
 
 What is slow cannot tell: heat that lags looks like a clock that is off. What a command moves between two samples can,
 whether the model has it or not, so the displacement itself is asked, in its jumps beyond the slopes around them.
@@ -6,15 +7,16 @@ whether the model has it or not, so the displacement itself is asked, in its jum
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 from thermodata.diagnosis.commanded import COMMANDS, POWERS
-from thermodata.diagnosis.problem import Block, Problem
+from thermodata.diagnosis.known import FloatND
+from thermodata.diagnosis.problem import Problem
 from thermodata.plugin import Float1D, Float2D, Int1D
-from thermodata.schema.diagnosis import Artefact
+from thermodata.schema.diagnosis import Artefact, ClockMoved
 from thermodata.view.dataset import ChannelInfo, Dataset, TestData
 
 MOST_S = 1800.0  # shifts that are asked, either way,
@@ -30,13 +32,16 @@ GIVE_OR_TAKE = 2  # samples between the shift found and the right one, at most
 
 @dataclass(frozen=True, slots=True)
 class Timing:
-    """shift_s: by which a source's commands foretell most when moved later. share: of the squared jumps, foretold by
-    the other tests at that shift. unmoved: the most within a sample of none."""
+    """shift_s: by which a source's commands foretell most when moved later; of one test beyond what all are moved by.
+    share: of the squared jumps, foretold by the other tests at that shift. unmoved: the most within a sample of none.
+    campaign, test: the one that is asked of; '' for all of them."""
 
     source: str
     shift_s: float
     share: float
     unmoved: float
+    campaign: str = ""
+    test: str = ""
 
     @property
     def tells(self) -> bool:
@@ -44,14 +49,52 @@ class Timing:
         return self.share >= LEAST_SHARE
 
 
-def timings(problem: Problem, channels: Mapping[str, ChannelInfo]) -> list[Timing]:
+@dataclass(frozen=True, slots=True)
+class Timings:
+    """in_all: of each source. in_one: of each source in each test, as its commands act in the others."""
+
+    in_all: tuple[Timing, ...]
+    in_one: tuple[Timing, ...]
+    step_s: float
+
+    @property
+    def off(self) -> list[Timing]:
+        """Of single tests only where they are fewer than half: else nobody can say which are right."""
+        found = [t for t in self.in_all if clock_is_off(t, self.step_s)]
+        for source in [t.source for t in self.in_all]:
+            of_source = [t for t in self.in_one if t.source == source]
+            single = [t for t in of_source if clock_is_off(t, self.step_s)]
+            found += single if 2 * len(single) < len(of_source) else []
+        return found
+
+    @property
+    def told(self) -> frozenset[str]:
+        """Sources whose clock is known by what they command."""
+        return frozenset(t.source for t in self.in_all if t.tells)
+
+    @property
+    def told_in_one(self) -> dict[tuple[str, str], frozenset[str]]:
+        """The same by what they command in a test."""
+        tests = dict.fromkeys((t.campaign, t.test) for t in self.in_one)
+        return {
+            key: frozenset(t.source for t in self.in_one if (t.campaign, t.test) == key and t.tells) for key in tests
+        }
+
+
+def timings(problem: Problem, channels: Mapping[str, ChannelInfo]) -> Timings:
     """Of each source beside the response's own that logged commands."""
-    if len(problem.blocks) < 2:
-        return []
     home = channels[problem.response].source
     sources = sorted({c.source for c in channels.values() if c.source and c.source != home})
-    found = [_timing(problem, s, [n for n, c in commands_of(s, channels)]) for s in sources]
-    return [t for t in found if t is not None]
+    in_all: list[Timing] = []
+    in_one: list[Timing] = []
+    for source in sources:
+        sums = _sums(problem, [n for n, c in commands_of(source, channels)])
+        if sums is not None and len(sums.tests) > 1:
+            of_all = sums.in_all(source)
+            in_all.append(of_all)
+            at_s = of_all.shift_s if clock_is_off(of_all, problem.step_s) else 0.0
+            in_one += [sums.in_one(source, i, at_s) for i in range(len(sums.tests))]
+    return Timings(tuple(in_all), tuple(in_one), problem.step_s)
 
 
 def commands_of(source: str, channels: Mapping[str, ChannelInfo]) -> list[tuple[str, ChannelInfo]]:
@@ -64,10 +107,18 @@ def clock_is_off(timing: Timing, step_s: float) -> bool:
     return late and timing.tells and timing.share >= BEATS * timing.unmoved
 
 
-def with_clocks_right(data: Dataset, late: Mapping[str, float]) -> Dataset:
-    """The same with all that sources logged later by so many seconds. late: source -> s."""
-    shift_s = {n: late[c.source] for n, c in data.channels.items() if c.source is not None and c.source in late}
-    return replace(data, tests=tuple(moved(t, shift_s) for t in data.tests)) if shift_s else data
+def with_clocks_right(data: Dataset, clocks: Sequence[ClockMoved]) -> Dataset:
+    """The same with what sources logged, in all tests or in one, later by so many seconds; moves add up."""
+    if not clocks:
+        return data
+    return replace(data, tests=tuple(moved(t, _shift_s(t, data.channels, clocks)) for t in data.tests))
+
+
+def _shift_s(test: TestData, channels: Mapping[str, ChannelInfo], clocks: Sequence[ClockMoved]) -> dict[str, float]:
+    """Channel -> by how much it is moved in a test."""
+    here = [c for c in clocks if not c.test or (c.campaign, c.test) == test.key]
+    moves = {n: sum(c.moved_s for c in here if c.source == info.source) for n, info in channels.items()}
+    return {n: shift_s for n, shift_s in moves.items() if shift_s}
 
 
 def moved(test: TestData, shift_s: Mapping[str, float]) -> TestData:
@@ -81,20 +132,74 @@ def moved(test: TestData, shift_s: Mapping[str, float]) -> TestData:
 
 def as_artefact(timing: Timing, problem: Problem) -> Artefact:
     minutes, known_to = timing.shift_s / 60, GIVE_OR_TAKE * problem.step_s / 60
+    of = "in this test, by how they act in the others" if timing.test else "in tests left out"
     return Artefact(
         kind="clock_offset",
-        campaign=problem.blocks[0].test.campaign,
-        test="",
+        campaign=timing.campaign or problem.blocks[0].test.campaign,
+        test=timing.test,
         at_s=None,
         size_um=None,
         why=f"with the clock of source '{timing.source}' moved by {minutes:+.0f} min (give or take {known_to:.0f}) its "
-        f"commands foretell {timing.share:.0%} of the squared jumps of the displacement in tests left out, unmoved "
+        f"commands foretell {timing.share:.0%} of the squared jumps of the displacement {of}, unmoved "
         f"{max(timing.unmoved, 0.0):.0%}. The choice is made with it moved; check the time zone and the "
         "clocks, or declare clock: {offset: ...}",
     )
 
 
-def _timing(problem: Problem, source: str, names: list[str]) -> Timing | None:
+@dataclass(frozen=True, slots=True)
+class _Sums:
+    """Of each test and shift, what commands do between samples beside the jumps of the displacement. tests: their keys.
+    shifts_s: shape (s,). gram: shape (tests, s, k, k). cross: shape (tests, s, k). energy: of the jumps, shape
+    (tests,)."""
+
+    tests: tuple[tuple[str, str], ...]
+    step_s: float
+    shifts_s: Float1D
+    gram: FloatND
+    cross: FloatND
+    energy: Float1D
+
+    def in_all(self, source: str) -> Timing:
+        left = np.array([self._left(i, self._gains(i)) for i in range(len(self.tests))])
+        shares = 1 - left.sum(axis=0) / max(float(self.energy.sum()), 1e-300)
+        found, none = self._timing(source, shares, 0.0), self._nearest(0.0)
+        best = left[:, self._nearest(found.shift_s)]
+        if np.sum(best < left[:, none]) > np.sum(best > left[:, none]):
+            return found
+        # one test that is off by much pulls at what is best for all
+        return replace(found, shift_s=0.0, share=float(shares[none]))
+
+    def in_one(self, source: str, i: int, at_s: float) -> Timing:
+        """at_s: by which all the others are moved."""
+        left = self._left(i, self._gains(i)[self._nearest(at_s)])
+        campaign, test = self.tests[i]
+        found = self._timing(source, 1 - left / max(float(self.energy[i]), 1e-300), at_s)
+        return replace(found, campaign=campaign, test=test)
+
+    def _nearest(self, shift_s: float) -> int:
+        return int(np.argmin(np.abs(self.shifts_s - shift_s)))
+
+    def _gains(self, i: int) -> Float2D:
+        """At which commands act in the other tests, at each shift, shape (s, k)."""
+        whole, of_all = self.gram.sum(axis=0), self.cross.sum(axis=0)
+        diagonal = np.einsum("skk->sk", whole)
+        held = RIDGE * diagonal + 1e-12 * diagonal.sum(axis=1, keepdims=True) + 1e-300
+        ridge = held[:, :, None] * np.eye(held.shape[1])
+        return np.asarray(np.linalg.solve(whole - self.gram[i] + ridge, (of_all - self.cross[i])[..., None])[..., 0])
+
+    def _left(self, i: int, gains: FloatND) -> Float1D:
+        """Squared jumps of a test at each shift, less what gains, shape (s, k) or (k,), foretell of them."""
+        gains = np.broadcast_to(gains, self.cross[i].shape)
+        along = np.einsum("sk,sk->s", gains, self.cross[i])
+        return np.asarray(self.energy[i] - 2 * along + np.einsum("sj,sjk,sk->s", gains, self.gram[i], gains))
+
+    def _timing(self, source: str, shares: Float1D, all_s: float) -> Timing:
+        best, near = int(np.argmax(shares)), np.abs(self.shifts_s - all_s) <= 1.01 * self.step_s
+        return Timing(source, float(self.shifts_s[best] - all_s), float(shares[best]), float(shares[near].max()))
+
+
+def _sums(problem: Problem, names: list[str]) -> _Sums | None:
+    """None where no command ever changes."""
     most = min(int(MOST_S / problem.step_s), MOST_SAMPLES)
     held = [_powers(b.test, names) for b in problem.blocks]
     if not names or most < 1:
@@ -103,13 +208,22 @@ def _timing(problem: Problem, source: str, names: list[str]) -> Timing | None:
     acts = size > 0
     if not acts.any():
         return None
-    held = [h[:, acts] / size[acts] for h in held]
-    jumps = [beyond_trend(b.response[:, None], b.t_s)[:, 0] for b in problem.blocks]
-    shifts = _shifts(most, problem.step_s)
-    shares = np.array([_foretold(problem.blocks, held, jumps, k * problem.step_s) for k in shifts])
-    best = int(np.argmax(shares))
-    unmoved = float(shares[np.abs(shifts) <= 1].max())
-    return Timing(source, float(shifts[best] * problem.step_s), float(shares[best]), unmoved)
+    tests = list(dict.fromkeys(b.test.key for b in problem.blocks))
+    shifts_s = np.asarray(_shifts(most, problem.step_s) * problem.step_s, dtype=np.float64)
+    many = int(acts.sum())
+    gram, cross = np.zeros((len(tests), len(shifts_s), many, many)), np.zeros((len(tests), len(shifts_s), many))
+    energy = np.zeros(len(tests))
+    for block, columns in zip(problem.blocks, held, strict=True):
+        i, jump = tests.index(block.test.key), beyond_trend(block.response[:, None], block.t_s)[:, 0]
+        used = np.isfinite(jump)
+        y = jump[used]
+        energy[i] += float(y @ y)
+        for s, shift_s in enumerate(shifts_s):
+            logged = np.interp(block.t_s - shift_s, block.test.t_s, np.arange(len(block.test.t_s)))
+            x = beyond_trend(columns[np.round(logged).astype(np.int64)][:, acts] / size[acts], block.t_s)[used]
+            gram[i, s] += x.T @ x
+            cross[i, s] += x.T @ y
+    return _Sums(tuple(tests), problem.step_s, shifts_s, gram, cross, energy)
 
 
 def _shifts(most: int, step_s: float) -> Int1D:
@@ -130,27 +244,6 @@ def _powers(test: TestData, names: list[str]) -> Float2D:
             value = test.values[name][known[np.clip(last, 0, None)]]
         columns.append(np.column_stack([value**p for p in POWERS]))
     return np.column_stack(columns)
-
-
-def _foretold(blocks: tuple[Block, ...], held: list[Float2D], jumps: list[Float1D], shift_s: float) -> float:
-    """Share of the squared jumps of each test that commands, later by shift_s, foretell as they act in the others."""
-    gram, cross, energy = [], [], []
-    for b, columns, jump in zip(blocks, held, jumps, strict=True):
-        row = np.round(np.interp(b.t_s - shift_s, b.test.t_s, np.arange(len(b.test.t_s)))).astype(np.int64)
-        x = beyond_trend(columns[row], b.t_s)
-        used = np.isfinite(jump)
-        x, y = x[used], jump[used]
-        gram.append(x.T @ x)
-        cross.append(x.T @ y)
-        energy.append(float(y @ y))
-    whole, of_all = np.sum(gram, axis=0), np.sum(cross, axis=0)
-    diagonal = np.diag(whole)
-    ridge = np.diag(RIDGE * diagonal + 1e-12 * diagonal.sum() + 1e-300)
-    left = 0.0
-    for g, c, e in zip(gram, cross, energy, strict=True):
-        gains = np.linalg.solve(whole - g + ridge, of_all - c)
-        left += e - 2 * float(gains @ c) + float(gains @ g @ gains)
-    return 1 - left / max(sum(energy), 1e-300)
 
 
 def beyond_trend(x: Float2D, t_s: Float1D) -> Float2D:

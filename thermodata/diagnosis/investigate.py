@@ -255,7 +255,7 @@ def _faults(fitted: FittedResponse, data: Dataset, problem: Problem, base: Base)
     if not problem.blocks or not problem.blocks[0].base.shape[1]:
         return []
     drivers = {n for one in present(fitted) for n in one.channels}
-    told = {c.source for c in timings(problem, data.channels) if c.tells}
+    told = timings(problem, data.channels).told
     sources = {n: s for n, s in clocks_beside(data.channels, drivers, fitted.name).items() if s not in told}
     warm = {n for n in sources if data.channels[n].quantity == "temperature"}
     return [*clock_offsets(problem, base, sources, warm), *wrong_gains(problem)]

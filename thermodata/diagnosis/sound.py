@@ -7,10 +7,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from functools import partial
 
-from thermodata.diagnosis.clocks import as_artefact, clock_is_off, timings, with_clocks_right
+from thermodata.diagnosis.clocks import as_artefact, timings, with_clocks_right
 from thermodata.diagnosis.clocks_by_heat import as_artefact as by_heat
-from thermodata.diagnosis.clocks_by_heat import late_logs
+from thermodata.diagnosis.clocks_by_heat import late_in_one, late_logs
 from thermodata.diagnosis.compressed import compressed
 from thermodata.diagnosis.confirm import on_all_open
 from thermodata.diagnosis.problem import TARGET_ROWS
@@ -18,7 +19,7 @@ from thermodata.diagnosis.turned import turned_probes
 from thermodata.modelling.fit import fit_model
 from thermodata.modelling.fitted import FittedModel
 from thermodata.plugin import Effect
-from thermodata.schema.diagnosis import Artefact, PutRight
+from thermodata.schema.diagnosis import Artefact, ClockMoved, PutRight
 from thermodata.schema.model import Model
 from thermodata.view.dataset import Dataset, TestData
 
@@ -67,20 +68,27 @@ def _fitted_to(fitted: FittedModel, data: Dataset, tests: Sequence[TestData]) ->
 
 def _clocks_right(found: Sound, index: int) -> Sound:
     """By what commands move at once; then, by heat, of the logs that no such command is in."""
-    response, data = found.fitted.responses[index], found.data
-    keys = {t.key for t in found.tests}
-    problem = compressed(response, data, found.tests, TARGET_ROWS)
-    known = timings(problem, data.channels)
-    off = [t for t in known if clock_is_off(t, problem.step_s)]
-    moved = {t.source: t.shift_s for t in off}
-    data = with_clocks_right(data, moved)
-    tests = [t for t in data.tests if t.key in keys]
-    told = {t.source for t in known if t.tells}
-    late = late_logs(tests, data.channels, response.name, data.step_s, told)
-    by_their_heat = {one.source: one.shift_s for one in late if one.source is not None}
-    data = with_clocks_right(data, by_their_heat)
-    faults = [*(as_artefact(t, problem) for t in off), *(by_heat(one, tests[0].campaign) for one in late)]
-    if data is found.data:
+    response, keys = found.fitted.responses[index], {t.key for t in found.tests}
+    problem = compressed(response, found.data, found.tests, TARGET_ROWS)
+    known = timings(problem, found.data.channels)
+    off = known.off
+    clocks = [ClockMoved(source=t.source, campaign=t.campaign, test=t.test, moved_s=t.shift_s) for t in off]
+    faults = [as_artefact(t, problem) for t in off]
+
+    for late_of in (partial(late_logs, right=known.told), partial(late_in_one, right=known.told_in_one)):
+        data = with_clocks_right(found.data, clocks)
+        tests = [t for t in data.tests if t.key in keys]
+        late = late_of(tests, data.channels, response.name, data.step_s)
+        faults += [by_heat(one, tests[0].campaign) for one in late]
+        clocks += [
+            ClockMoved(source=one.source, campaign=one.of.campaign, test=one.of.test, moved_s=one.shift_s)
+            for one in late
+            if one.source is not None
+        ]
+        if late or any(not c.test for c in clocks):
+            break  # of a log that is off in all tests, and moved, the ends of each are not known
+    if not clocks:
         return replace(found, faults=tuple(faults))
+    data = with_clocks_right(found.data, clocks)
     right = _fitted_to(found.fitted, data, [t for t in data.tests if t.key in keys])
-    return replace(right, faults=tuple(faults), put_right=PutRight(moved_s=moved | by_their_heat))
+    return replace(right, faults=tuple(faults), put_right=PutRight(clocks=clocks))

@@ -73,7 +73,10 @@ def put_right(found: Diagnosis) -> str:
     if found.put_right is None:
         return ""
     tests = [test for _, test in found.put_right.left_out]
-    clocks = [f"of {source} moved by {s / 60:+.0f} min" for source, s in found.put_right.moved_s.items()]
+    clocks = [
+        f"of {c.source} moved by {c.moved_s / 60:+.0f} min{f' in {c.test}' if c.test else ''}"
+        for c in found.put_right.clocks
+    ]
     parts = [f"without {listed(tests)}, where the probe is turned round,"] if tests else []
     parts += [f"with the clock{'s' if len(clocks) > 1 else ''} {listed(clocks)}"] if clocks else []
     return f"judged {listed(parts).removesuffix(',')}"

@@ -174,15 +174,30 @@ class Artefact(Result):
     why: str
 
 
+class ClockMoved(Result):
+    """A clock that was moved before the question was asked.
+
+    source: whose
+    campaign: of the test; '' for all
+    test: in which; '' for all
+    moved_s: by how much later all that it logged is taken to have happened [s]
+    """
+
+    source: str
+    campaign: str = ""
+    test: str = ""
+    moved_s: float
+
+
 class PutRight(Result):
     """What was put right in the logs before the question was asked; the logs themselves stay as they are.
 
     left_out: (campaign, test) of each test in which a probe is turned
-    moved_s: source -> by how much its clock was moved [s]
+    clocks: those that were moved
     """
 
     left_out: list[tuple[str, str]] = []
-    moved_s: dict[str, float] = {}
+    clocks: list[ClockMoved] = []
 
 
 class DetectionLimit(Result):

@@ -16,6 +16,7 @@ from thermodata.diagnosis.clocks import (
     with_clocks_right,
 )
 from thermodata.diagnosis.problem import Problem
+from thermodata.schema.diagnosis import ClockMoved
 from thermodata.view.dataset import ChannelInfo, Dataset
 
 from .hand_made import Parts, problem
@@ -27,12 +28,14 @@ CHANNELS = {
 }
 
 
-def off_by(samples: int, *, at_once: float = 5.0, lag: float = 60.0, tests: int = 5) -> Problem:
+def off_by(
+    samples: int, *, at_once: float = 5.0, lag: float = 60.0, tests: int = 5, apart: dict[int, int] | None = None
+) -> Problem:
     """Tests whose response follows the speed, that many um at once and 20 um with a lag [samples]; the speed is logged
-    so many samples late. step: 60 s."""
+    so many samples late, in single tests (apart: number -> samples) by others. step: 60 s."""
     rng = np.random.default_rng(4)
 
-    def one() -> Parts:
+    def one(samples: int) -> Parts:
         n = np.repeat(rng.integers(0, 5, 20), rng.integers(11, 29, 20)).astype(float) / 4
         heat = np.zeros(len(n))
         for i in range(1, len(n)):
@@ -41,13 +44,13 @@ def off_by(samples: int, *, at_once: float = 5.0, lag: float = 60.0, tests: int 
         logged = n[np.clip(np.arange(len(n)) - samples, 0, len(n) - 1)]
         return Parts(y - y.mean(), response=y - y.mean(), values={"n": 3000 * logged, "T": heat})
 
-    return replace(problem(*(one() for _ in range(tests))), response="dZ")
+    return replace(problem(*(one((apart or {}).get(k, samples)) for k in range(tests))), response="dZ")
 
 
 @pytest.mark.parametrize("samples", [-120, -60, -25, -11, -3, 3, 11, 25, 57, 65, 118])
 def test_a_clock_that_is_off_is_told_by_what_the_speed_moves_at_once(samples: int) -> None:
     asked = off_by(samples)
-    (found,) = timings(asked, CHANNELS)
+    (found,) = timings(asked, CHANNELS).in_all
     assert (found.source, found.shift_s) == ("nc", -60.0 * samples)
     assert clock_is_off(found, asked.step_s)
     said = as_artefact(found, asked)
@@ -58,13 +61,54 @@ def test_a_clock_that_is_off_is_told_by_what_the_speed_moves_at_once(samples: in
 @pytest.mark.parametrize("samples", [-2, 0, 2])
 def test_a_clock_that_is_nearly_right_is_not_off(samples: int) -> None:
     asked = off_by(samples)
-    assert not any(clock_is_off(t, asked.step_s) for t in timings(asked, CHANNELS))
+    assert timings(asked, CHANNELS).off == []
 
 
 @pytest.mark.parametrize("samples", [0, 11])
 def test_heat_that_lags_tells_no_clock(samples: int) -> None:
     asked = off_by(samples, at_once=0.0)
-    assert not any(clock_is_off(t, asked.step_s) for t in timings(asked, CHANNELS))
+    assert timings(asked, CHANNELS).off == []
+
+
+@pytest.mark.parametrize("samples", [-120, -60, -11, -3, 3, 25, 57, 118])
+def test_a_clock_that_is_off_in_one_test_is_told_by_how_its_commands_act_in_the_others(samples: int) -> None:
+    asked = off_by(0, apart={2: samples})
+    (found,) = timings(asked, CHANNELS).off
+    assert (found.source, found.test, found.shift_s) == ("nc", asked.blocks[2].test.test, -60.0 * samples)
+    said = as_artefact(found, asked)
+    assert (said.kind, said.test) == ("clock_offset", found.test)
+    assert f"source 'nc' moved by {-samples:+d} min (give or take 2)" in said.why
+    assert "in this test, by how they act in the others" in said.why
+
+
+def test_a_clock_that_is_off_by_another_time_in_one_test_is_told_beside_the_others() -> None:
+    asked, right = off_by(3, apart={2: 60}), off_by(0)
+    of_all, of_one = timings(asked, CHANNELS).off
+    assert (of_all.test, of_all.shift_s) == ("", -180.0)
+    assert (of_one.test, of_one.shift_s) == (asked.blocks[2].test.test, -3420.0)
+    data = Dataset(60.0, tuple(b.test for b in asked.blocks), CHANNELS)
+    clocks = [
+        ClockMoved(source=t.source, campaign=t.campaign, test=t.test, moved_s=t.shift_s) for t in (of_all, of_one)
+    ]
+    for test, at in zip(with_clocks_right(data, clocks).tests, right.blocks, strict=True):
+        assert np.array_equal(test.values["n"][:-60], at.test.values["n"][:-60])
+
+
+def test_one_test_that_is_off_far_is_not_taken_for_the_clock_of_all() -> None:
+    """Of three tests it pulls the best shift of all."""
+    asked = off_by(0, tests=3, apart={1: 15})
+    (found,) = timings(asked, CHANNELS).off
+    assert (found.test, found.shift_s) == (asked.blocks[1].test.test, -900.0)
+
+
+@pytest.mark.parametrize("samples", [-2, 2])
+def test_a_clock_that_is_nearly_right_in_one_test_is_not_off(samples: int) -> None:
+    assert timings(off_by(0, apart={2: samples}), CHANNELS).off == []
+
+
+def test_of_half_of_the_tests_nobody_can_say_which_are_right() -> None:
+    assert len(timings(off_by(0, apart={0: 25, 1: -20}), CHANNELS).off) == 2
+    assert timings(off_by(0, tests=4, apart={0: 25, 1: -20}), CHANNELS).off == []
 
 
 def test_what_acts_at_once_in_one_test_only_tells_no_clock() -> None:
@@ -74,14 +118,14 @@ def test_what_acts_at_once_in_one_test_only_tells_no_clock() -> None:
     late = np.flatnonzero(np.diff(first.test.values["n"]))[5] + 11
     slipped = first.response + 12.0 * (np.arange(len(first.response)) >= late)
     asked = replace(asked, blocks=(replace(first, response=slipped), *asked.blocks[1:]))
-    assert not any(clock_is_off(t, asked.step_s) for t in timings(asked, CHANNELS))
+    assert timings(asked, CHANNELS).off == []
 
 
 def test_of_one_test_and_without_commands_of_another_source_nothing_is_said() -> None:
-    assert timings(off_by(11, tests=1), CHANNELS) == []
+    assert timings(off_by(11, tests=1), CHANNELS).in_all == ()
     same = {name: replace(c, source="daq") for name, c in CHANNELS.items()}
-    assert timings(off_by(11), same) == []
-    assert timings(off_by(11), {"dZ": CHANNELS["dZ"], "T": CHANNELS["T"]}) == []
+    assert timings(off_by(11), same).in_all == ()
+    assert timings(off_by(11), {"dZ": CHANNELS["dZ"], "T": CHANNELS["T"]}).in_all == ()
 
 
 @pytest.mark.parametrize(
@@ -107,11 +151,13 @@ def test_a_clock_is_off_where_the_others_foretell_much_more_once_it_is_moved(
 def test_all_that_a_source_logged_is_put_where_it_happened() -> None:
     asked, right = off_by(11), off_by(0)
     data = Dataset(60.0, tuple(b.test for b in asked.blocks), CHANNELS)
-    moved = with_clocks_right(data, {t.source: t.shift_s for t in timings(asked, CHANNELS)})
+    moved = with_clocks_right(
+        data, [ClockMoved(source=t.source, moved_s=t.shift_s) for t in timings(asked, CHANNELS).off]
+    )
     for test, at, as_logged in zip(moved.tests, right.blocks, asked.blocks, strict=True):
         assert np.array_equal(test.values["n"][:-11], at.test.values["n"][:-11])
         assert np.array_equal(test.values["T"][:-11], as_logged.test.values["T"][11:])
-    assert with_clocks_right(data, {}) is data
+    assert with_clocks_right(data, []) is data
 
 
 def test_a_jump_is_beyond_the_slope_around_it_and_none_over_a_hole() -> None:
