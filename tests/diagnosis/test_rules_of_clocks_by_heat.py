@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from thermodata.diagnosis.answer import answer
-from thermodata.diagnosis.clocks_by_heat import Logs, as_artefact, late_in_one, late_logs
+from thermodata.diagnosis.clocks_by_heat import as_artefact, compared, late_in_one, late_logs
 from thermodata.diagnosis.heat_balance import Disagreement, Pair
 from thermodata.effect import effects
 from thermodata.effect.lag import lag
@@ -59,7 +59,9 @@ def logged(
 
 
 def plain(tests: list[TestData]) -> list[tuple[str, str, float]]:
-    return [(d.warmed, d.by, d.shift_s / 60) for d in Logs(tests, CHANNELS, "dZ", STEP_S).disagreements() if d.plain]
+    return [
+        (d.warmed, d.by, d.shift_s / 60) for d in compared(tests, CHANNELS, "dZ", STEP_S).disagreements() if d.plain
+    ]
 
 
 @pytest.mark.parametrize("minutes", [-120, -60, -40, 40, 60, 120])
@@ -81,17 +83,17 @@ def test_what_does_not_warm_tells_nothing() -> None:
 @pytest.mark.parametrize(("step_s", "asked"), [(240.0, True), (241.0, False)])
 def test_a_coarse_grid_tells_nothing(step_s: float, asked: bool) -> None:
     """One sample of it is as much as bodies are late by."""
-    assert bool(Logs(logged({"log": 15}), CHANNELS, "dZ", step_s).disagreements()) is asked  # so many samples
+    assert bool(compared(logged({"log": 15}), CHANNELS, "dZ", step_s).disagreements()) is asked  # so many samples
 
 
 def test_three_tests_are_needed() -> None:
     assert len(plain(logged({"log": 60}, tests=3))) == 1
-    assert Logs(logged({"log": 60}, tests=2), CHANNELS, "dZ", STEP_S).disagreements() == []
+    assert compared(logged({"log": 60}, tests=2), CHANNELS, "dZ", STEP_S).disagreements() == []
 
 
 def test_one_temperature_alone_tells_nothing() -> None:
     tests = [replace(t, values={n: v for n, v in t.values.items() if n != "T_nut"}) for t in logged({"log": 60})]
-    [found] = Logs(tests, CHANNELS, "dZ", STEP_S).disagreements()
+    [found] = compared(tests, CHANNELS, "dZ", STEP_S).disagreements()
     assert found.telling == 1
     assert not found.plain
 
@@ -133,14 +135,14 @@ def test_the_log_that_disagrees_with_the_displacement_too_is_late(
 ) -> None:
     """By its own source, by what commands move at once, or by its own heat."""
     channels = {**CHANNELS, "dZ": replace(CHANNELS["dZ"], source=home)}
-    [found] = late_logs(logged(late), channels, "dZ", STEP_S, right)
+    [found] = late_logs(compared(logged(late), channels, "dZ", STEP_S), right)
     assert found.source == source
     assert found.shift_s / 60 == pytest.approx(shift, abs=4)
     assert f"the choice is made with '{source}' moved by" in as_artefact(found, "c").why
 
 
 def in_one(tests: list[TestData]) -> list[tuple[str, str | None, float]]:
-    return [(f.of.test, f.source, f.shift_s / 60) for f in late_in_one(tests, CHANNELS, "dZ", STEP_S, {})]
+    return [(f.of.test, f.source, f.shift_s / 60) for f in late_in_one(compared(tests, CHANNELS, "dZ", STEP_S), {})]
 
 
 @pytest.mark.parametrize("minutes", [-120, -60, -40, 40, 60, 120])
@@ -163,7 +165,7 @@ def test_of_half_of_the_tests_nobody_can_say_which_are_right() -> None:
 def test_of_one_test_a_clock_that_is_known_there_is_not_moved(told: bool, source: str | None) -> None:
     tests = without_a_word(logged({"log": 60}, only=(2,)))
     right = {("c", "t2"): {"nc"}} if told else {("c", "t1"): {"nc"}}
-    [found] = late_in_one(tests, CHANNELS, "dZ", STEP_S, right)
+    [found] = late_in_one(compared(tests, CHANNELS, "dZ", STEP_S), right)
     assert found.source == source
     said = as_artefact(found, "other")
     assert (said.campaign, said.test) == ("c", "t2")
@@ -178,7 +180,7 @@ def without_a_word(tests: list[TestData]) -> list[TestData]:
 
 def test_the_log_of_the_displacement_is_right_whatever_that_says() -> None:
     channels = {**CHANNELS, "dZ": replace(CHANNELS["dZ"], source="log")}
-    [found] = late_logs(without_a_word(logged({"nc": 60})), channels, "dZ", STEP_S)
+    [found] = late_logs(compared(without_a_word(logged({"nc": 60})), channels, "dZ", STEP_S))
     assert found.source == "nc"
 
 
@@ -191,12 +193,12 @@ def test_the_displacement_decides_where_it_says_more_of_one_time_than_of_the_oth
 ) -> None:
     """said: what is foretold of its rises with the commands where they are, and moved."""
     monkeypatch.setattr(Pair, "foretold", lambda *_: said)
-    [found] = late_logs(logged({"log": 60}), CHANNELS, "dZ", STEP_S)
+    [found] = late_logs(compared(logged({"log": 60}), CHANNELS, "dZ", STEP_S))
     assert found.source == source
 
 
 def test_where_the_displacement_says_nothing_neither_log_is_moved() -> None:
-    [found] = late_logs(without_a_word(logged({"log": 60})), CHANNELS, "dZ", STEP_S)
+    [found] = late_logs(compared(without_a_word(logged({"log": 60})), CHANNELS, "dZ", STEP_S))
     assert found.source is None
     assert "nothing tells which" in as_artefact(found, "c").why
 

@@ -8,7 +8,7 @@ moved until that is best: in all tests, then in one, as they act in the others u
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass
 
 from thermodata.diagnosis.commanded import COMMANDS
@@ -30,32 +30,17 @@ class Late:
     of: Disagreement
 
 
-def late_logs(
-    tests: Sequence[TestData],
-    channels: Mapping[str, ChannelInfo],
-    response: str,
-    step_s: float,
-    right: Collection[str] = (),
-) -> list[Late]:
+def late_logs(logs: Logs, right: Collection[str] = ()) -> list[Late]:
     """Of each source the plainest. right: sources whose clock is known to agree with that of the response."""
-    logs = Logs(tests, channels, response, step_s)
     return _plainest(logs, [d for d in logs.disagreements() if d.plain], lambda _: right)
 
 
-def late_in_one(
-    tests: Sequence[TestData],
-    channels: Mapping[str, ChannelInfo],
-    response: str,
-    step_s: float,
-    right: Mapping[tuple[str, str], Collection[str]],
-) -> list[Late]:
+def late_in_one(logs: Logs, right: Mapping[tuple[str, str], Collection[str]]) -> list[Late]:
     """Logs of single tests, as the others foretell them; of fewer than half of the tests, else nobody can say which
     are right. right: test -> sources whose clock is known there."""
-    logs = Logs(tests, channels, response, step_s)
-    found = _plainest(
-        logs, [d for d in logs.in_one() if d.plain], lambda d: right.get((d.campaign, d.test), frozenset())
-    )
-    return found if 2 * len({(f.of.campaign, f.of.test) for f in found}) < len(tests) else []
+    plain = [d for d in logs.in_one() if d.plain]
+    found = _plainest(logs, plain, lambda d: right.get((d.campaign, d.test), frozenset()))
+    return found if 2 * len({(f.of.campaign, f.of.test) for f in found}) < len(logs.tests) else []
 
 
 def _plainest(
@@ -97,15 +82,16 @@ class Logs:
     channels: Mapping[str, ChannelInfo]
     response: str
     step_s: float
+    pairs: tuple[Pair, ...] = ()
 
     def disagreements(self) -> list[Disagreement]:
         """Of each source of temperatures with each other source of commands, where its temperatures tell."""
-        found = [pair.in_all() for pair in self._pairs()]
+        found = [pair.in_all() for pair in self.pairs]
         return [d for d in found if d is not None]
 
     def in_one(self) -> list[Disagreement]:
         """The same of each test, by the others."""
-        found = [pair.in_one(i) for pair in self._pairs() for i in range(len(pair.tests))]
+        found = [pair.in_one(i) for pair in self.pairs for i in range(len(pair.tests))]
         return [d for d in found if d is not None]
 
     def which(self, of: Disagreement, right: Collection[str]) -> Late:
@@ -116,29 +102,27 @@ class Logs:
             return warmed
         if of.warmed == home:
             return by
-        drives = _of(self._commands(), of.by)
+        drives = _of(_commands(self.channels), of.by)
         own = pair_of(self.tests, [self.response], drives, self.step_s, warmed=home or "", by=of.by)
         where_it_is, moved = (0.0, 0.0) if own is None else own.foretold(of.campaign, of.test, (0.0, of.shift_s))
         if max(where_it_is, moved) < DECIDES or abs(where_it_is - moved) < DECIDES:
             return Late(None, of.shift_s, of)
         return warmed if where_it_is > moved else by
 
-    def _commands(self) -> dict[str, str]:
-        return {n: c.source for n, c in self.channels.items() if c.quantity in COMMANDS and c.source}
 
-    def _pairs(self) -> Iterator[Pair]:
-        warm = {
-            n: c.source
-            for n, c in self.channels.items()
-            if c.quantity == "temperature" and c.faulty is None and c.source
-        }
-        commands = self._commands()
-        for by in sorted(set(commands.values())):
-            for warmed in sorted(set(warm.values()) - {by}):
-                names, drives = _of(warm, warmed), _of(commands, by)
-                pair = pair_of(self.tests, names, drives, self.step_s, warmed=warmed, by=by)
-                if pair is not None:
-                    yield pair
+def compared(tests: Sequence[TestData], channels: Mapping[str, ChannelInfo], response: str, step_s: float) -> Logs:
+    """Each source of temperatures with each other source of commands."""
+    warm = {n: c.source for n, c in channels.items() if c.quantity == "temperature" and c.faulty is None and c.source}
+    commands, pairs = _commands(channels), []
+    for by in sorted(set(commands.values())):
+        for warmed in sorted(set(warm.values()) - {by}):
+            names, drives = _of(warm, warmed), _of(commands, by)
+            pairs.append(pair_of(tests, names, drives, step_s, warmed=warmed, by=by))
+    return Logs(tests, channels, response, step_s, tuple(p for p in pairs if p is not None))
+
+
+def _commands(channels: Mapping[str, ChannelInfo]) -> dict[str, str]:
+    return {n: c.source for n, c in channels.items() if c.quantity in COMMANDS and c.source}
 
 
 def _of(sources: Mapping[str, str], source: str) -> list[str]:

@@ -7,11 +7,10 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from functools import partial
 
 from thermodata.diagnosis.clocks import as_artefact, timings, with_clocks_right
 from thermodata.diagnosis.clocks_by_heat import as_artefact as by_heat
-from thermodata.diagnosis.clocks_by_heat import late_in_one, late_logs
+from thermodata.diagnosis.clocks_by_heat import compared, late_in_one, late_logs
 from thermodata.diagnosis.compressed import compressed
 from thermodata.diagnosis.confirm import on_all_open
 from thermodata.diagnosis.problem import TARGET_ROWS
@@ -75,18 +74,18 @@ def _clocks_right(found: Sound, index: int) -> Sound:
     clocks = [ClockMoved(source=t.source, campaign=t.campaign, test=t.test, moved_s=t.shift_s) for t in off]
     faults = [as_artefact(t, problem) for t in off]
 
-    for late_of in (partial(late_logs, right=known.told), partial(late_in_one, right=known.told_in_one)):
-        data = with_clocks_right(found.data, clocks)
-        tests = [t for t in data.tests if t.key in keys]
-        late = late_of(tests, data.channels, response.name, data.step_s)
-        faults += [by_heat(one, tests[0].campaign) for one in late]
-        clocks += [
-            ClockMoved(source=one.source, campaign=one.of.campaign, test=one.of.test, moved_s=one.shift_s)
-            for one in late
-            if one.source is not None
-        ]
-        if late or any(not c.test for c in clocks):
-            break  # of a log that is off in all tests, and moved, the ends of each are not known
+    data = with_clocks_right(found.data, clocks)
+    tests = [t for t in data.tests if t.key in keys]
+    logs = compared(tests, data.channels, response.name, data.step_s)
+    late = late_logs(logs, known.told)
+    if not late and all(c.test for c in clocks):  # of a log that was moved in all tests the ends are not known
+        late = late_in_one(logs, known.told_in_one)
+    faults += [by_heat(one, tests[0].campaign) for one in late]
+    clocks += [
+        ClockMoved(source=one.source, campaign=one.of.campaign, test=one.of.test, moved_s=one.shift_s)
+        for one in late
+        if one.source is not None
+    ]
     if not clocks:
         return replace(found, faults=tuple(faults))
     data = with_clocks_right(found.data, clocks)
