@@ -52,6 +52,9 @@ _SYLLABLES = """
 """
 _PINYIN = dict(pair.split(":") for pair in _SYLLABLES.split())
 
+# signs of China, kana, and the syllables of Hangul
+_EASTERN = "\u2e80-\u9fff\uac00-\ud7a3"
+
 
 def without_marks(text: str) -> str:
     """Without diacritics, but with signs of scripts that have no letters as they are."""
@@ -65,7 +68,7 @@ def words(name: str) -> str:
     bare = _MTCONNECT.sub(lambda m: f"{'spindle' if m[1] == 'S' else m[1]}{m[2]} {m[3]}", without_marks(name))
     bare = re.sub(r"(?<=[a-z0-9])(?=[A-Z])|(?<=[A-Z])(?=[A-Z][a-z])", " ", bare)
     bare = re.sub(r"(?<=[^\W\d_])(?=\d)|(?<=\d)(?=[^\W\d_])", " ", bare)
-    bare = re.sub(r"(?<=[A-Za-z])(?=[\u2e80-\u9fff])|(?<=[\u2e80-\u9fff])(?=[A-Za-z])", " ", bare)
+    bare = re.sub(rf"(?<=[A-Za-z])(?=[{_EASTERN}])|(?<=[{_EASTERN}])(?=[A-Za-z])", " ", bare)
     return " ".join(re.split(r"[\W_]+", bare)).strip().lower()
 
 

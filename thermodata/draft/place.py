@@ -66,6 +66,7 @@ def place_of(text: str, quantity: str) -> Place:
         said |= {"screw"}
     if "workhead" in said:
         said -= {"spindle"}  # a grinder turns its part by a spindle of its own
+    said = _by_the_machine(said)
     if _SPINDLE_1.search(text) and (quantity in _BY_DRIVE or "motor" in said):
         said |= {"spindle"}
     # what turns is the spindle, but for n_B and n_C beside it
@@ -73,6 +74,14 @@ def place_of(text: str, quantity: str) -> Place:
     axis = turning[1] if turning else axis
     rule: Callable[[set[str], str | None], Place] | None = _RULES.get(quantity)
     return rule(said, axis) if rule else Place(None)
+
+
+def _by_the_machine(said: set[str]) -> set[str]:
+    """What leaves the chiller goes to the machine."""
+    out, into = "out of the chiller" in said, "into the chiller" in said
+    if out == into:
+        return said
+    return said - {"supply", "return"} | {"supply" if out else "return"}
 
 
 def _side(said: set[str], sides: tuple[str, ...] = _SIDES) -> str | None:

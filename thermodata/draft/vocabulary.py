@@ -1,4 +1,5 @@
-"""What labs write, by what it means: English, German, Czech and Chinese, with the abbreviations of the trade.
+"""What labs write, by what it means: English, German, Czech and Chinese, with the abbreviations of the trade; further
+languages stand in draft/languages.py.
 
 Case, diacritics and humps are gone before matching (draft/naming.py). A word is looked for anywhere in the name
 ('lager' finds 'Spindellager'); 'nut.' is a whole word only, '^hall' the beginning of one. Signs of Chinese are
@@ -10,7 +11,10 @@ from __future__ import annotations
 import re
 from functools import lru_cache
 
-QUANTITY_WORDS: dict[str, str] = {
+from thermodata.draft.languages import in_all_languages
+from thermodata.draft.naming import without_marks
+
+_QUANTITY_WORDS: dict[str, str] = {
     "temperature": "temper temp teplot ^tepl tmp. t. theta. pt~100 pt~1000 rtd. rtds. thermocouple thermoel thermistor "
     "^thermo. ntc. tc. celsius degc. waerme. temperatura 温度 溫度 温 溫",
     "rotational_speed": "drehzahl drehz. otack otacek otac. rpm. rpm rotat~speed rotation~speed spindle~speed "
@@ -58,7 +62,7 @@ QUANTITY_WORDS: dict[str, str] = {
     "zavren.",
 }
 
-PLACE_WORDS: dict[str, str] = {
+_PLACE_WORDS: dict[str, str] = {
     "spindle": "mot~s. current~s. curr~s. load~s. s~load. s~temp. s~mot. s~current. spindel "
     "spindle vreten 主轴 主軸 电主轴 spdl. spnd. spin. sp. hsp. spi. spindl",
     "workhead": "workhead werkstuckspindel werkstueckspindel wss. prac~vret prac~vretene prac~vreteno prac~vretenik "
@@ -104,6 +108,17 @@ PLACE_WORDS: dict[str, str] = {
     "chiller": "chiller chladic. chladice. kuhler. kuehler. ruckkuhl rueckkuhl kuhlaggregat 冷水机 水冷机 油冷机 "
     "oilcooler oil~cooler oelkuhler water. wasser "
     "^vod[ay]. kuhlwasser 冷却水 chlazeni~vretene",
+    # the way out of the device that cools is the way into the machine
+    "out of the chiller": "chiller~out chiller~outlet chiller~output chiller~ausgang chiller~austritt kuhler~ausgang "
+    "kuhler~austritt kuehler~austritt kuhlgerat~austritt ruckkuhler~austritt chladic~vystup vystup~chladic "
+    "vystup~z~chladic chladice~vystup 冷水机出 水冷机出 油冷机出 チラー出口 冷却装置出口 칠러~출구 칠러출구 "
+    "sortie~groupe uscita~chiller "
+    "chiller~uscita salida~enfriador chiller~wylot chiller~cikis чиллера~выход выход~чиллера",
+    "into the chiller": "chiller~in chiller~inlet chiller~input chiller~eingang chiller~eintritt kuhler~eingang "
+    "kuhler~eintritt kuehler~eintritt kuhlgerat~eintritt ruckkuhler~eintritt chladic~vstup vstup~chladic "
+    "vstup~do~chladic chladice~vstup 冷水机进 水冷机进 油冷机进 チラー入口 冷却装置入口 칠러~입구 칠러입구 "
+    "entree~groupe ingresso~chiller "
+    "chiller~ingresso entrada~enfriador chiller~wlot chiller~giris чиллера~вход вход~чиллера",
     "supply": "supply. inlet. in. vorlauf zulauf ^privod vstup. 入口 进口 进水 供液 进油 vl. input.",
     "return": "return. outlet. out. rucklauf ruecklauf ablauf zpatec ^odvod vystup. 出口 回水 回油 回液 rl. output.",
     "tank": "tank. tanks. nadrz behalter 水箱 油箱 reservoir",
@@ -133,8 +148,11 @@ PLACE_WORDS: dict[str, str] = {
     "fan": "fan. fans. lufter ventilator 风扇 风机 vetra",
 }
 
+QUANTITY_WORDS = {key: in_all_languages(key, own) for key, own in _QUANTITY_WORDS.items()}
+PLACE_WORDS = {key: in_all_languages(key, own) for key, own in _PLACE_WORDS.items()}
+
 # Names of what no quantity of a channel holds; the words to the right are told in the draft.
-FOREIGN: tuple[tuple[str, str], ...] = (
+_FOREIGN: tuple[tuple[str, str], ...] = (
     (
         "a time stamp",
         "timestamp ^stamp. stamp. nsec. nanosec. publish~time log~time uptime zeitstempel zeit. ^cas. "
@@ -163,16 +181,22 @@ FOREIGN: tuple[tuple[str, str], ...] = (
     ("a density, a mass or a concentration", "density weight. mass. concentrat dichte. gewicht. ph."),
     ("a duty or quality figure", "duty. quality. snr. rssi."),
 )
+FOREIGN = tuple((what, in_all_languages(what, own)) for what, own in _FOREIGN)
 
-SETPOINT = (
+SETPOINT = in_all_languages(
+    "setpoint",
     "soll. ^soll. sollwert set. setpoint. setp. cmd. command. commanded. nominal. nom. target. zadan ziel. "
     "pozadov "
-    "设定 目标 指令 给定 demand. desired. reference. ref. programmed. prog."
+    "设定 目标 指令 给定 demand. desired. reference. ref. programmed. prog.",
 )
-LIMIT = "limit. limits. max. min. maximum. minimum. threshold. grenze. grenzwert warn. warning. 上限 下限 mezni."
-DIFFERENCE = (
+LIMIT = in_all_languages(
+    "limit",
+    "limit. limits. max. min. maximum. minimum. threshold. grenze. grenzwert warn. warning. 上限 下限 mezni.",
+)
+DIFFERENCE = in_all_languages(
+    "difference",
     "diff. difference differenz rozdil. rozdilu. delta~t deltat. dt. gradient. spread. 温差 温升 "
-    "ubertemp temperature~rise rise."
+    "ubertemp temperature~rise rise.",
 )
 
 
@@ -182,7 +206,7 @@ def pattern(listed: str) -> re.Pattern[str]:
     parts = []
     for word in listed.split():
         whole, first = word.endswith("."), word.startswith("^")
-        core = word.strip("^.").replace(".~", "~").replace("~", " ")
+        core = without_marks(word.strip("^.").replace(".~", "~").replace("~", " "))
         core = core if "[" in core else re.escape(core).replace(r"\ ", r"\s?")
         phrase = "~" in word and not first
         left = r"(?<!\S)" if whole or first or phrase else ""
