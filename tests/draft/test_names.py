@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Mapping
 from pathlib import Path
 
 import pytest
 
 from thermodata.draft.guess import guess
+from thermodata.draft.languages import LANGUAGES
+from thermodata.draft.vocabulary import FOREIGN, PLACE_WORDS, QUANTITY_WORDS
 
 NAMES = Path(__file__).with_name("names.txt")
 
@@ -27,6 +30,29 @@ def test_it_would_rather_ask_than_be_wrong() -> None:
     assert len(lines) > 200
     assert told["wrong"] <= 0.01 * len(lines), [x for x in lines if verdict(x) == "wrong"]
     assert told["right"] >= 0.90 * len(lines), told
+
+
+@pytest.mark.parametrize("words", LANGUAGES)
+def test_words_of_a_language_stand_by_the_keys_of_the_vocabulary(words: Mapping[str, str]) -> None:
+    keys = {*QUANTITY_WORDS, *PLACE_WORDS, *(what for what, _ in FOREIGN), "setpoint", "limit", "difference"}
+    assert set(words) <= keys
+
+
+@pytest.mark.parametrize(
+    ("name", "at"),
+    [
+        ("chladič výstup", "chiller.supply"),
+        ("Kühler Eintritt", "chiller.return"),
+        ("chiller_out", "chiller.supply"),
+        ("spindle chiller outlet", "chiller.supply"),
+        ("冷水机出水温度", "chiller.supply"),
+        ("チラー入口温度", "chiller.return"),
+        ("Chiller Rücklauf", "chiller.return"),
+        ("Chiller Vorlauf", "chiller.supply"),
+    ],
+)
+def test_what_leaves_the_chiller_goes_to_the_machine(name: str, at: str) -> None:
+    assert guess(name, "°C").at == at
 
 
 @pytest.mark.parametrize(
