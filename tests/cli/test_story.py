@@ -362,6 +362,33 @@ def test_the_same_question_opens_no_lock_again_and_a_choice_of_ones_own_is_count
     assert say("--store", store, "confirm", base, "99").code == 2
 
 
+def test_what_diagnose_puts_right_confirm_and_add_put_right_too(say: Say, tmp_path: Path) -> None:
+    """A probe that is turned in one test would spoil the fit of both."""
+    path, store = write_campaign(tmp_path / "c"), tmp_path / "s"
+    turned = next(iter(TESTS))
+    log = tmp_path / "c" / "raw" / f"{turned}.csv"
+    head, rows = log.read_text().splitlines()[0], np.loadtxt(log, delimiter=",", skiprows=1)
+    rows[:, 1] *= -1
+    np.savetxt(log, rows, fmt="%.4f", delimiter=",", header=head, comments="")
+    assert say("--store", store, "ingest", path).code == 0
+    base = json.loads(say("--store", store, "fit", tmp_path / "c" / "baseline.yaml", "--json").out)["model"]
+    found = json.loads(say("--store", store, "diagnose", base, "--json").out)
+    assert [test for _, test in found["put_right"]["left_out"]] == [turned]
+    claimed = next(c for c in found["candidates"] if c["claimed"])
+    assert claimed["effect"] == "feed_screw"
+
+    held = json.loads(say("--store", store, "confirm", base, claimed["id"], "--json").out)
+    assert (held["holds"], held["put_right"]) == (True, found["put_right"])
+    assert held["locked_rmse_um_after"] == pytest.approx(claimed["locked_rmse_um_after"])
+    assert f"judged without {turned}" in say("--store", store, "confirm", base, claimed["id"]).out
+
+    better = json.loads(say("--store", store, "add", base, claimed["id"], "--plain", "--json").out)
+    assert better["notes"][0].startswith(f"made without {turned}: its probe is turned")
+    scored = {s["test"]: s for s in better["scores"]}
+    assert turned not in scored
+    assert scored["day1"]["rmse_um"] < 1.0
+
+
 def test_a_campaign_without_locked_tests_has_nothing_to_confirm_on(say: Say, tmp_path: Path) -> None:
     path, store = write_campaign(tmp_path / "c"), tmp_path / "s"
     path.write_text(path.read_text(encoding="utf-8").replace("role: locked", "role: verification"), encoding="utf-8")

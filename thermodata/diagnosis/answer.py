@@ -31,7 +31,7 @@ from thermodata.diagnosis.unread import reads
 from thermodata.diagnosis.why import among, why
 from thermodata.modelling.fitted import FittedModel
 from thermodata.plugin import Effect
-from thermodata.schema.diagnosis import Candidate, DetectionLimit, Diagnosis, PutRight
+from thermodata.schema.diagnosis import Candidate, DetectionLimit, Diagnosis
 from thermodata.view.dataset import Dataset, TestData
 
 SHOWN = 15
@@ -105,7 +105,7 @@ def answer(
             confirmation = replace(confirmed(kept), asked=asked.get(names(kept)))
     terms = [t.id for t in refitted.responses[index].terms]
     found = _diagnosis(investigation, judgement, confirmation, data, model_id, terms)
-    beside = {"locked_rmse_um": known, "put_right": asked_of.put_right if asked_of.put_right != PutRight() else None}
+    beside = {"locked_rmse_um": known, "put_right": asked_of.told}
     return Answer(found.model_copy(update=beside), tuple(locked))
 
 

@@ -15,6 +15,7 @@ from thermodata.diagnosis.candidates import CandidateEffect
 from thermodata.diagnosis.confirm import confirm
 from thermodata.diagnosis.gain_by import named
 from thermodata.diagnosis.left_on_locked import left_on_locked
+from thermodata.diagnosis.sound import sound
 from thermodata.effect import effect as find_effect
 from thermodata.effect import effects
 from thermodata.errors import UsageError
@@ -91,14 +92,17 @@ def confirm_choice(store: Store, ref: str, candidate: str | int) -> tuple[Confir
         known = Confirmed.model_validate_json(kept)
         return known.model_copy(update={"probability": _claimed_with(store, model.identity, name)}), True
     usable = [t for t in tests if response.can_predict(t)]
-    locked = [t for t in model.fitted.tests(model.data, "locked") if response.can_predict(t)]
+    asked_of = sound(model.fitted, index, model.data, usable, effects())
+    locked = [t for t in model.fitted.tests(asked_of.data, "locked") if response.can_predict(t)]
     if not locked:
         raise UsageError(
             "no locked test to confirm on",
             expected="a test with role: locked, in which the model's channels were logged",
             hint="give a test of the campaign the role locked, before anybody has looked at it",
         )
-    confirmation = confirm(model.fitted.spec, index, model.data, [chosen], usable, locked)
+    confirmation = confirm(
+        model.fitted.spec, index, asked_of.data, [chosen], asked_of.tests, locked, asked_of.fitted if usable else None
+    )
     count_locked_look(store, model.identity, [t.key for t in locked], f"confirming {name}, by choice")
     shape = confirmation.where_it_acts
     result = Confirmed(
@@ -119,6 +123,7 @@ def confirm_choice(store: Store, ref: str, candidate: str | int) -> tuple[Confir
         ],
         looks=max(locked_looks(store, t.campaign, t.test) for t in locked),
         probability=_claimed_with(store, model.identity, name),
+        put_right=asked_of.told,
     )
     keep_answer(store, model.identity, f"confirm {name}", key, result.model_dump_json())
     return result, False

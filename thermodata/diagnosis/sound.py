@@ -35,6 +35,11 @@ class Sound:
     faults: tuple[Artefact, ...] = ()
     put_right: PutRight = field(default_factory=PutRight)
 
+    @property
+    def told(self) -> PutRight | None:
+        """What was put right; None where nothing was."""
+        return self.put_right if self.put_right != PutRight() else None
+
 
 def sound(
     fitted: FittedModel, index: int, data: Dataset, tests: Sequence[TestData], library: Mapping[str, Effect]

@@ -23,6 +23,7 @@ from thermodata.modelling.roles import find_tests
 from thermodata.modelling.second_lag import is_lag_of, with_second_lags
 from thermodata.modelling.table import prediction_tables
 from thermodata.modelling.transfer import NAME
+from thermodata.modelling.unsound import heeding
 from thermodata.schema.model import EffectSpec, Model
 from thermodata.schema.result import FitResult, Score
 from thermodata.view.dataset import Dataset
@@ -131,9 +132,10 @@ def compare_against(store: Store, refs: Sequence[str], reference: str, tests: Se
 def add(store: Store, ref: str, candidate: str | int | EffectSpec, *, plain: bool = False) -> FitResult:
     """A new version with one effect more: a rank or id of the stored diagnosis, or any 'effect:channels'; or with
     one that it has changed, 'gain_by:effect,condition' or 'phases:effect,heating,cooling'; and with second lags where
-    left-out tests want them (`second_lag`). plain: no second lags.
+    left-out tests want them (`second_lag`). plain: no second lags. Tests whose log the stored diagnosis found wrong
+    are left out (`unsound`).
     `before` has the parent's scores, `added` the ids of what is new, `notes` why."""
-    from thermodata.store.catalogue.models import find_model
+    from thermodata.store.catalogue.models import find_model, load_diagnosis
 
     parent = find_model(store, ref)
     old = load(store, parent.model)
@@ -142,10 +144,11 @@ def add(store: Store, ref: str, candidate: str | int | EffectSpec, *, plain: boo
     else:
         grown = with_candidate(parent.spec, chosen_id(store, parent.model, candidate), old.data.channels)
     before = make_result(old.fitted, old.data, parent.model).scores
-    notes = list[str]()
+    diagnosis = load_diagnosis(store, parent.model)
+    grown, notes = heeding(grown, old.data, diagnosis.put_right if diagnosis is not None else None)
     if not plain:
         refined = with_second_lags(grown, old.data)
-        grown, notes = refined.spec, refined.notes
+        grown, notes = refined.spec, [*notes, *refined.notes]
     had = term_ids(parent.spec.effects)
     added = [i for i in term_ids(grown.effects) if i not in had]
     return fit(store, grown, parent=parent.model, before=before, added=added, notes=notes)

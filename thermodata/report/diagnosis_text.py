@@ -9,7 +9,7 @@ from thermodata.report.fit_text import spots_text
 from thermodata.report.glossary import explained
 from thermodata.report.log_faults import log_faults
 from thermodata.report.table import table
-from thermodata.report.verdict import explainable, noise_words, probability, told, verdict_sentence
+from thermodata.report.verdict import explainable, noise_words, probability, put_right, told, verdict_sentence
 from thermodata.report.words import duration, heat_lines, number
 
 if TYPE_CHECKING:
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 def confirmed_text(result: Confirmed) -> str:
     """A confirmation for a person."""
-    head = _confirmed_sentence(result)
+    head = "; ".join(filter(None, [_confirmed_sentence(result), put_right(result.put_right)]))
     if result.holds is False and result.probability is not None:
         head += (
             f". The diagnosis claims it all the same, with {probability(result.probability)}: it also asks what these "

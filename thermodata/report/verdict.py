@@ -9,7 +9,7 @@ from thermodata.report.words import duration, number, percent
 from thermodata.schema.places import heat_at
 
 if TYPE_CHECKING:
-    from thermodata.schema.diagnosis import Candidate, Diagnosis
+    from thermodata.schema.diagnosis import Candidate, Diagnosis, PutRight
 
 NOT_EXCLUDED = 0.1
 """A cause of this probability is named though none is said to be missing."""
@@ -64,18 +64,17 @@ def other_heat(one: Candidate) -> str:
 def verdict_sentence(found: Diagnosis) -> str:
     """The verdict in one sentence with its figures: every claim, every refinement, and what of the logs was put right
     before."""
-    return "; ".join(filter(None, [_verdict(found), put_right(found)]))
+    return "; ".join(filter(None, [_verdict(found), put_right(found.put_right)]))
 
 
-def put_right(found: Diagnosis) -> str:
+def put_right(found: PutRight | None) -> str:
     """'judged without day2, where the probe is turned round, and with the clock of nc moved by +61 min'; '' where the
     logs were taken as they are."""
-    if found.put_right is None:
+    if found is None:
         return ""
-    tests = [test for _, test in found.put_right.left_out]
+    tests = [test for _, test in found.left_out]
     clocks = [
-        f"of {c.source} moved by {c.moved_s / 60:+.0f} min{f' in {c.test}' if c.test else ''}"
-        for c in found.put_right.clocks
+        f"of {c.source} moved by {c.moved_s / 60:+.0f} min{f' in {c.test}' if c.test else ''}" for c in found.clocks
     ]
     parts = [f"without {listed(tests)}, where the probe is turned round,"] if tests else []
     parts += [f"with the clock{'s' if len(clocks) > 1 else ''} {listed(clocks)}"] if clocks else []

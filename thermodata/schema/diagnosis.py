@@ -300,6 +300,7 @@ class Confirmed(Result):
     tests: each locked test
     looks: how often the locked tests have been opened so far, this look included; the most of any test
     probability: that the stored diagnosis claims it with; null where it does not
+    put_right: what of the logs was put right before, as a diagnosis does; null where nothing was
     """
 
     model: str
@@ -314,3 +315,4 @@ class Confirmed(Result):
     tests: list[TestConfirmed]
     looks: int
     probability: float | None = None
+    put_right: PutRight | None = None

@@ -1,0 +1,62 @@
+"""A version of a model heeds what a diagnosis found wrong with the logs."""
+
+from __future__ import annotations
+
+import pytest
+
+from thermodata.modelling.unsound import heeding
+from thermodata.schema.diagnosis import ClockMoved, PutRight
+from thermodata.schema.model import Model
+from thermodata.view.dataset import Dataset
+
+from .conftest import CHANNELS, STEP, Spec, make_test
+
+
+@pytest.fixture
+def data() -> Dataset:
+    roles = ("calibration", "calibration", "verification", "locked")
+    return Dataset(STEP, tuple(make_test(k, role) for k, role in enumerate(roles)), CHANNELS, "v1")
+
+
+@pytest.fixture
+def model(spec: Spec) -> Model:
+    return spec("spindle_bearing")
+
+
+def keys(data: Dataset, *numbers: int) -> list[tuple[str, str]]:
+    return [data.tests[k].key for k in numbers]
+
+
+def named(data: Dataset, *numbers: int) -> list[str]:
+    return ["/".join(key) for key in keys(data, *numbers)]
+
+
+def test_a_test_with_a_turned_probe_takes_no_part(model: Model, data: Dataset) -> None:
+    grown, notes = heeding(model, data, PutRight(left_out=keys(data, 1)))
+    assert (grown.calibrate_on, grown.verify_on) == (named(data, 0), named(data, 2))
+    assert [n.partition(";")[0] for n in notes] == [f"made without {data.tests[1].test}: its probe is turned"]
+
+
+def test_nor_does_one_whose_clock_is_off_by_itself(model: Model, data: Dataset) -> None:
+    campaign, test = data.tests[2].key
+    clock = ClockMoved(source="nc", campaign=campaign, test=test, moved_s=3600.0)
+    grown, notes = heeding(model, data, PutRight(clocks=[clock]))
+    assert (grown.calibrate_on, grown.verify_on) == (named(data, 0, 1), [])
+    assert notes == [
+        f"made without {test}: the clock of nc is off in it; mend it in the campaign file, ingest, and fit again"
+    ]
+
+
+def test_a_clock_that_is_off_in_all_tests_is_told_and_nothing_left_out(model: Model, data: Dataset) -> None:
+    same, [note] = heeding(model, data, PutRight(clocks=[ClockMoved(source="nc", moved_s=-3600.0)]))
+    assert same is model
+    assert note.startswith("the clock of nc is off by -60 min")
+
+
+@pytest.mark.parametrize("found", [None, PutRight(), PutRight(left_out=[("other", "test")])])
+def test_sound_logs_change_nothing(model: Model, data: Dataset, found: PutRight | None) -> None:
+    assert heeding(model, data, found) == (model, [])
+
+
+def test_a_model_keeps_a_test_to_calibrate_on(model: Model, data: Dataset) -> None:
+    assert heeding(model, data, PutRight(left_out=keys(data, 0, 1)))[0] is model
