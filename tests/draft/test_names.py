@@ -41,8 +41,6 @@ def test_words_of_a_language_stand_by_the_keys_of_the_vocabulary(words: Mapping[
 @pytest.mark.parametrize(
     ("name", "at"),
     [
-        ("chladič výstup", "chiller.supply"),
-        ("Kühler Eintritt", "chiller.return"),
         ("chiller_out", "chiller.supply"),
         ("spindle chiller outlet", "chiller.supply"),
         ("冷水机出水温度", "chiller.supply"),
@@ -53,6 +51,28 @@ def test_words_of_a_language_stand_by_the_keys_of_the_vocabulary(words: Mapping[
 )
 def test_what_leaves_the_chiller_goes_to_the_machine(name: str, at: str) -> None:
     assert guess(name, "°C").at == at
+
+
+@pytest.mark.parametrize("name", ["chladič výstup", "T_chladic_vstup", "Kühler Eintritt", "Temp. Rückkühler Austritt"])
+def test_whether_a_cooler_is_the_chiller_or_what_is_cooled_is_asked(name: str) -> None:
+    found = guess(name, "°C")
+    assert found.at == "chiller"
+    assert any("chiller.supply or .return?" in q for q in found.questions)
+
+
+@pytest.mark.parametrize(
+    ("name", "unit", "at"),
+    [
+        ("Enclosure air", "°C", "enclosure"),
+        ("Machine interior temp", "°C", "enclosure"),
+        ("Hall air", "°C", "hall"),
+        ("防护门开", None, "enclosure"),
+        ("Machine door open", None, "enclosure"),
+        ("Door open", None, "hall.door"),
+    ],
+)
+def test_the_air_within_the_machine_is_not_the_hall(name: str, unit: str | None, at: str) -> None:
+    assert guess(name, unit).at == at
 
 
 @pytest.mark.parametrize(

@@ -19,7 +19,7 @@ Say = Callable[..., Said]
 @pytest.mark.parametrize(
     ("name", "unit", "at", "sure"),
     [
-        ("T_chladic_vstup", "degC", "chiller.supply", False),
+        ("T_chladic_vstup", "degC", "chiller", False),
         ("T_chladici_kapalina", "degC", "coolant", True),
         ("T_Fuehr_Z", "degC", "axis.z.guide", False),
         ("T_prac_vretenik", "degC", None, False),

@@ -102,6 +102,8 @@ def _temperature(said: set[str], axis: str | None) -> Place:
         return _bearing(said, axis)
     if said & {"motor", "drive"}:
         return _motor(said, axis)
+    if "in or out of a cooler" in said:
+        return Place("chiller", question="at: chiller.supply or .return? out of the cooler, or out of the machine?")
     if "chiller" in said or ("coolant" in said and "spindle" in said):
         return Place("chiller" + _way(said))
     if "coolant" in said:
@@ -232,8 +234,8 @@ def _fluid(said: set[str], axis: str | None) -> Place:
 
 
 def _state(said: set[str], axis: str | None) -> Place:
-    if "door" in said and "enclosure" not in said:
-        return Place("hall.door")
+    if "door" in said:
+        return Place("enclosure" if "enclosure" in said else "hall.door")
     if "coolant" in said:
         return Place("coolant", True)
     if "hydraulics" in said:

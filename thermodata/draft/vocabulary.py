@@ -85,7 +85,7 @@ _PLACE_WORDS: dict[str, str] = {
     "vite. viti.",
     "scale": "scale. scales. massstab masstab glasmass pravitk 光栅 光柵 linear~encoder glass~scale wegmesssystem",
     "guide": "guideway gway. fuehr. fuhr. guide. guides. ^fuhrung fuehrung linearfuhr vedeni. 导轨 導軌 rail. rails. "
-    "slideway",
+    "slideway 滑块",
     "gearbox": "gearbox getriebe prevodovk 齿轮箱 变速箱 gear.",
     "drive": "drive. drives. umrichter inverter amplifier verstarker menic 驱动器 变频器 converter",
     "column": "column stander staender saule. saeule. maschinensaule stojan sloup 立柱 col. montante. "
@@ -109,19 +109,21 @@ _PLACE_WORDS: dict[str, str] = {
     "oilcooler oil~cooler oelkuhler water. wasser "
     "^vod[ay]. kuhlwasser 冷却水 chlazeni~vretene",
     # the way out of the device that cools is the way into the machine
-    "out of the chiller": "chiller~out chiller~outlet chiller~output chiller~ausgang chiller~austritt kuhler~ausgang "
-    "kuhler~austritt kuehler~austritt kuhlgerat~austritt ruckkuhler~austritt chladic~vystup vystup~chladic "
-    "vystup~z~chladic chladice~vystup 冷水机出 水冷机出 油冷机出 チラー出口 冷却装置出口 칠러~출구 칠러출구 "
-    "sortie~groupe uscita~chiller "
-    "chiller~uscita salida~enfriador chiller~wylot chiller~cikis чиллера~выход выход~чиллера",
-    "into the chiller": "chiller~in chiller~inlet chiller~input chiller~eingang chiller~eintritt kuhler~eingang "
-    "kuhler~eintritt kuehler~eintritt kuhlgerat~eintritt ruckkuhler~eintritt chladic~vstup vstup~chladic "
-    "vstup~do~chladic chladice~vstup 冷水机进 水冷机进 油冷机进 チラー入口 冷却装置入口 칠러~입구 칠러입구 "
-    "entree~groupe ingresso~chiller "
-    "chiller~ingresso entrada~enfriador chiller~wlot chiller~giris чиллера~вход вход~чиллера",
+    "out of the chiller": "chiller~out chiller~outlet chiller~output chiller~ausgang chiller~austritt chiller~vystup "
+    "冷水机出 水冷机出 油冷机出 チラー出口 冷却装置出口 칠러~출구 칠러출구 "
+    "sortie~groupe uscita~chiller chiller~uscita chiller~saida "
+    "salida~enfriadora salida~enfriador chiller~wylot chiller~cikis чиллера~выход выход~чиллера",
+    "into the chiller": "chiller~in chiller~inlet chiller~input chiller~eingang chiller~eintritt chiller~vstup "
+    "冷水机进 水冷机进 油冷机进 チラー入口 冷却装置入口 칠러~입구 칠러입구 "
+    "entree~groupe ingresso~chiller chiller~ingresso chiller~entrada "
+    "entrada~enfriadora entrada~enfriador chiller~wlot chiller~giris чиллера~вход вход~чиллера",
+    # a cooler is the device to one lab, and what is cooled to the next
+    "in or out of a cooler": "kuhler~ausgang kuhler~austritt kuehler~austritt kuhlgerat~austritt ruckkuhler~austritt "
+    "kuhler~eingang kuhler~eintritt kuehler~eintritt kuhlgerat~eintritt ruckkuhler~eintritt chladic~vystup "
+    "vystup~chladic vystup~z~chladic chladice~vystup chladic~vstup vstup~chladic vstup~do~chladic chladice~vstup",
     "supply": "supply. inlet. in. vorlauf zulauf ^privod vstup. 入口 进口 进水 供液 进油 vl. input.",
     "return": "return. outlet. out. rucklauf ruecklauf ablauf zpatec ^odvod vystup. 出口 回水 回油 回液 rl. output.",
-    "tank": "tank. tanks. nadrz behalter 水箱 油箱 reservoir",
+    "tank": "液箱 tank. tanks. nadrz behalter 水箱 油箱 reservoir",
     "hydraulics": "hydraul 液压 液壓 hyd. hydr.",
     "oil": "oil. oel. ol. olej ^oil 油温 油 oltemp oeltemp",
     "lubrication": "lubric schmier mazan mazac 润滑 潤滑 lube.",
@@ -137,7 +139,8 @@ _PLACE_WORDS: dict[str, str] = {
     "enclosure": "machine~door schutztur schutztuer safety~door guard~door 防护门 安全门 workspace. arbeitsraum "
     "pracovni~prostor",
     # the air in which the part is cut: of the machine, and not of the hall
-    "workspace": "workspace. work~space working~space working~area machining~area arbeitsraum pracovni~prostor ws~air "
+    "workspace": "enclosure. machine~interior workspace. work~space working~space working~area machining~area "
+    "arbeitsraum pracovni~prostor ws~air "
     "air~ws "
     "zona~lavoro zona~di~lavoro vano~lavoro enceinte. zone~travail zone~de~travail espace~de~travail",
     "window": "window fenster okno. okna. 窗",
