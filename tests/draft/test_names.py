@@ -11,8 +11,10 @@ import pytest
 from thermodata.draft.guess import guess
 from thermodata.draft.languages import LANGUAGES
 from thermodata.draft.vocabulary import FOREIGN, PLACE_WORDS, QUANTITY_WORDS
+from thermodata.reader.text.header import split_unit
 
 NAMES = Path(__file__).with_name("names.txt")
+LANGUAGE_NAMES = Path(__file__).with_name("names_of_languages.txt")
 
 
 def verdict(line: str) -> str:
@@ -30,6 +32,27 @@ def test_it_would_rather_ask_than_be_wrong() -> None:
     assert len(lines) > 200
     assert told["wrong"] <= 0.01 * len(lines), [x for x in lines if verdict(x) == "wrong"]
     assert told["right"] >= 0.90 * len(lines), told
+
+
+def verdict_of_language(line: str) -> str:
+    """As `verdict`, of a name with its unit, as a header has it; 'unplaced' where only the place is missing."""
+    _, header, quantities, places = line.split("|")
+    found = guess(*split_unit(header))
+    fitting = places.split(",")
+    if (found.quantity or "-") not in quantities.split(","):
+        return "unsure" if found.questions or found.quantity is None or not found.sure else "wrong"
+    if quantities == "-" or "-" in fitting or (found.at or "") in fitting:
+        return "right"
+    return "unsure" if found.questions or found.at is None or not found.sure else "wrong"
+
+
+@pytest.mark.parametrize("language", ["es", "fr", "hu", "it", "ja", "ko", "pl", "pt", "ru", "sv", "tr", "zh"])
+def test_names_of_other_languages_are_read_or_asked(language: str) -> None:
+    lines = [x for x in LANGUAGE_NAMES.read_text("utf-8").splitlines() if x.startswith(f"{language}|")]
+    told = Counter(verdict_of_language(line) for line in lines)
+    assert len(lines) == 60
+    assert told["wrong"] == 0, [x for x in lines if verdict_of_language(x) == "wrong"]
+    assert told["right"] >= 48, told
 
 
 @pytest.mark.parametrize("words", LANGUAGES)
