@@ -180,7 +180,8 @@ class Need:
 
 @dataclass(frozen=True, slots=True)
 class Param:
-    """A nonlinear parameter (time constant, exponent)."""
+    """A nonlinear parameter (time constant, exponent). lower, upper: what a fit may reach. reach: the same, wider, of
+    an effect that is added to a model: a diagnosis holds what lies beyond the bounds less likely, and cuts nothing."""
 
     name: str
     unit: str
@@ -188,6 +189,7 @@ class Param:
     lower: float
     upper: float
     meaning: str
+    reach: tuple[float, float] | None = None
 
 
 @dataclass(frozen=True, slots=True)

@@ -253,6 +253,15 @@ def test_the_grid_keeps_to_the_bounds_and_to_what_a_sample_resolves() -> None:
     assert narrow == pytest.approx(np.linspace(1.0, 9.9, 4))
 
 
+def test_the_grid_goes_on_beyond_the_bounds_twice_as_far_apart() -> None:
+    usual = [p["tau"] for p in grid([Param("tau", "min", 30, 10, 120, "")], 60.0)]
+    taus = [p["tau"] for p in grid([Param("tau", "min", 30, 10, 120, "", reach=(1, 360))], 60.0)]
+    assert [t for t in taus if 10 <= t <= 120] == pytest.approx(usual)
+    assert (taus[0], taus[-1]) == (pytest.approx(1), pytest.approx(360))
+    apart = np.diff(np.log(taus)) / np.log(usual[1] / usual[0])
+    np.testing.assert_allclose(apart, [*[2.0] * 4, *[1.0] * 9, *[2.0] * 2], rtol=0.1)
+
+
 SCREW = PlainEffect("screw", "feed_{a}", needs=(Need("u", "temperature", ("axis.{a}.nut",)),))
 TWO_MODES = replace(
     NUT,

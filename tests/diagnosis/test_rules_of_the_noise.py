@@ -264,6 +264,23 @@ def test_a_gain_beyond_what_is_plausible_costs_a_quarter_of_its_squared_logarith
     np.testing.assert_allclose(found.prior[0], -3.0 - np.log(5) - 0.25 * np.log(over) ** 2)
 
 
+@pytest.mark.parametrize(("log_prior", "beyond"), [(0.0, -3.0), (-0.7, -3.0), (-4.0, -4.0)])
+def test_a_time_constant_beyond_its_bounds_is_as_likely_as_a_lag_without_a_name(
+    log_prior: float, beyond: float
+) -> None:
+    """What lies within loses nothing by it."""
+    tau = Param("tau", "min", 30, 10, 120, "")
+    gains = (Gain("gain", "um/K", (0.0, np.inf), "any", ""),)
+    plain = columns(*two(Lagged(params=(tau,), gains=gains), log_prior))
+    found = columns(*two(Lagged(params=(replace(tau, reach=(1, 360)),), gains=gains), log_prior))
+    assert plain is not None
+    assert found is not None
+    usual = [10 <= p["tau"] <= 120 for p in found.points]
+    assert 0 < sum(usual) < len(usual)
+    np.testing.assert_allclose(found.prior[usual], plain.prior[0, 0])
+    np.testing.assert_allclose(found.prior[np.logical_not(usual)], plain.prior[0, 0] - log_prior + beyond)
+
+
 def test_a_driver_that_never_moves_is_not_weighed() -> None:
     one, asked = two(PlainEffect())
     assert columns(one, replace(asked, binding={"u": "T_still"})) is None

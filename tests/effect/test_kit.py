@@ -62,6 +62,10 @@ class StartsOutside(Good):
     params = (Param("a", "1", 3.0, 0.5, 2.0, "a factor"),)
 
 
+class ReachesLess(Good):
+    params = (Param("a", "1", 1.0, 0.5, 2.0, "a factor", reach=(1.0, 3.0)),)
+
+
 class Flat(Good):
     def basis(self, drivers: Drivers, p: Mapping[str, float]) -> Float2D:
         return drivers.values["u"] * p["a"]
@@ -165,6 +169,7 @@ def test_a_good_effect_passes() -> None:
         (TwiceTheName, kit.its_names_are_unique),
         (NoSuchQuantity, kit.it_needs_quantities_that_exist),
         (StartsOutside, kit.its_bounds_hold_its_start),
+        (ReachesLess, kit.its_bounds_hold_its_start),
         (Flat, kit.it_gives_one_column_a_gain),
         (Blows, kit.it_is_finite_at_every_bound),
         (NeverRests, kit.it_is_zero_at_rest),

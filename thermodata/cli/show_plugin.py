@@ -97,8 +97,10 @@ def _text(answer: Mapping[str, Any]) -> str:
         }
         for role in answer["roles"]
     ]
+    from thermodata.effect.describe import bounds_text
+
     numbers = [
-        {**p, "bounds": f"{p['lower']:g} to {p['upper']:g}, from {p['start']:g}", "how": "searched"}
+        {**p, "bounds": bounds_text(p["lower"], p["upper"], p["start"], p["reach"]), "how": "searched"}
         for p in answer["parameters"]
     ] + [
         {

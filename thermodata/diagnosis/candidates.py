@@ -25,7 +25,7 @@ from thermodata.effect.places import holds
 from thermodata.modelling.candidate import with_effect
 from thermodata.modelling.drivers import has_drivers, make_drivers
 from thermodata.modelling.lead import columns, with_lead
-from thermodata.plugin import Effect, Float2D, Param
+from thermodata.plugin import Effect, Float1D, Float2D, Param
 from thermodata.schema.model import EffectSpec, Model
 from thermodata.schema.places import is_around, is_beside, is_casting
 from thermodata.view.dataset import ChannelInfo, TestData
@@ -267,7 +267,8 @@ def refines(effect: Effect) -> tuple[str, ...]:
 
 
 def grid(params: Iterable[Param], step_s: float) -> list[dict[str, float]]:
-    """Points of the nonlinear parameters: time constants evenly in their logarithm, others evenly."""
+    """Points of the nonlinear parameters: time constants evenly in their logarithm, and half as close beyond
+    their bounds; others evenly."""
     params = tuple(params)
     if not params:
         return [{}]
@@ -276,8 +277,19 @@ def grid(params: Iterable[Param], step_s: float) -> list[dict[str, float]]:
     for p in params:
         seconds = SECONDS.get(p.unit)
         lower = max(p.lower, step_s / 4 / seconds) if seconds else p.lower
-        if seconds or (p.lower > 0 and p.upper / p.lower > 10):
+        if p.reach is not None:
+            axes.append(_within_and_beyond((lower, max(p.upper, lower)), p.reach, count))
+        elif seconds or (p.lower > 0 and p.upper / p.lower > 10):
             axes.append(np.geomspace(max(lower, 1e-9), max(p.upper, lower), count))
         else:
             axes.append(np.linspace(p.lower, p.upper, min(count, 4)))
     return [{p.name: float(v) for p, v in zip(params, values, strict=True)} for values in product(*axes)]
+
+
+def _within_and_beyond(bounds: tuple[float, float], reach: tuple[float, float], count: int) -> Float1D:
+    """count points within the bounds, and those beyond them twice as far apart."""
+    (first, last), within = bounds, np.geomspace(*bounds, count)
+    apart = 2 * np.log(last / first) / (count - 1)
+    below, above = (max(round(float(np.log(ratio) / apart)), 0) for ratio in (first / reach[0], reach[1] / last))
+    shorter, longer = np.geomspace(reach[0], first, below + 1)[:-1], np.geomspace(last, reach[1], above + 1)[1:]
+    return np.concatenate([shorter, within, longer])

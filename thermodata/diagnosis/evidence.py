@@ -13,17 +13,17 @@ and points and sizes are averaged by their prior. A candidate with more to choos
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from thermodata.diagnosis.basis import basis
-from thermodata.diagnosis.candidates import CandidateEffect
+from thermodata.diagnosis.candidates import UNNAMED, CandidateEffect
 from thermodata.diagnosis.discrepancy import halved
 from thermodata.diagnosis.known import FloatND, Known, rms, solved
 from thermodata.diagnosis.problem import Problem
-from thermodata.plugin import Float1D, Float2D, Int1D
+from thermodata.plugin import Float1D, Float2D, Int1D, Param
 
 # prior standard deviations of a contribution, as multiples of the response: from what can hardly be seen to what is
 # balanced by another effect
@@ -104,15 +104,23 @@ def columns(problem: Problem, candidate: CandidateEffect) -> Columns | None:
         for o, w in zip(made.own, made.others, strict=True)
     )
     width = np.concatenate([np.ones(gains), np.full(ways * gains, SPREAD)])
-    return Columns(candidate, made.points, blocks, scale, width, _prior(candidate, scale))
+    return Columns(candidate, made.points, blocks, scale, width, _prior(candidate, made.points, scale))
 
 
-def _prior(candidate: CandidateEffect, scale: Float2D) -> Float2D:
+def _prior(candidate: CandidateEffect, points: Sequence[Mapping[str, float]], scale: Float2D) -> Float2D:
+    """Logarithms, shape (points, sizes). With a time constant beyond its bounds an effect is as likely as a lag without
+    a name."""
     largest = np.array([g.magnitude[1] for g in candidate.effect.gains])
     over = np.maximum(SIZES[None, :, None] * scale[:, None, :] / largest, 1.0)
-    weight = candidate.log_prior - BEYOND * np.log(over).max(axis=2) ** 2
-    result: Float2D = weight - np.log(weight.size)
+    within = np.array([_within_bounds(candidate.effect.params, p) for p in points])
+    named = np.where(within, candidate.log_prior, min(candidate.log_prior, UNNAMED))
+    weight = named[:, None] - BEYOND * np.log(over).max(axis=2) ** 2
+    result: Float2D = weight - np.log(max(int(within.sum()), 1) * len(SIZES))
     return result
+
+
+def _within_bounds(params: Sequence[Param], point: Mapping[str, float]) -> bool:
+    return all(p.reach is None or p.lower <= point[p.name] <= p.upper for p in params)
 
 
 def moments(known: Known, columns: Columns) -> Moments:

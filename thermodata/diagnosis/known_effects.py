@@ -60,8 +60,9 @@ def _term_columns(term: FittedTerm, test: TestData) -> list[Float2D]:
     columns = [term.columns(test) * np.where(gains == 0, 1.0, gains)]
     for param in moving:
         value = values.params[param.name]
-        up = {**values.params, param.name: min(value * np.exp(TANGENT), param.upper)}
-        down = {**values.params, param.name: max(value * np.exp(-TANGENT), param.lower)}
+        lower, upper = term.bound.spec.bounds.get(param.name, (param.lower, param.upper))
+        up = {**values.params, param.name: min(value * np.exp(TANGENT), upper)}
+        down = {**values.params, param.name: max(value * np.exp(-TANGENT), lower)}
         change = term.bound.columns(test, up) - term.bound.columns(test, down)
         width = np.log(up[param.name] / down[param.name]) if down[param.name] > 0 else 2 * TANGENT
         columns.append((change @ gains)[:, None] / max(float(width), 1e-9))

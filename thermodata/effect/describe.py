@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import inspect
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 from thermodata.plugin import Effect
@@ -25,7 +26,8 @@ class Role:
 
 @dataclass(frozen=True, slots=True)
 class Searched:
-    """A nonlinear parameter, with start and bounds in `unit`."""
+    """A nonlinear parameter, with start and bounds in `unit`. reach: those of an effect that is added; None where they
+    are no wider."""
 
     name: str
     unit: str
@@ -33,6 +35,13 @@ class Searched:
     lower: float
     upper: float
     meaning: str
+    reach: tuple[float, float] | None = None
+
+
+def bounds_text(lower: float, upper: float, start: float, reach: Sequence[float] | None) -> str:
+    """'10 to 120, from 40; added: 1 to 360'."""
+    added = f"; added: {reach[0]:g} to {reach[1]:g}" if reach else ""
+    return f"{lower:g} to {upper:g}, from {start:g}{added}"
 
 
 @dataclass(frozen=True, slots=True)
@@ -80,7 +89,9 @@ def describe(effect: Effect) -> Description:
         roles=tuple(
             Role(n.role, n.quantity, CANONICAL_UNIT.get(n.quantity), tuple(n.places), n.optional) for n in effect.needs
         ),
-        parameters=tuple(Searched(p.name, p.unit, p.start, p.lower, p.upper, p.meaning) for p in effect.params),
+        parameters=tuple(
+            Searched(p.name, p.unit, p.start, p.lower, p.upper, p.meaning, p.reach) for p in effect.params
+        ),
         gains=tuple(
             Solved(
                 g.name,

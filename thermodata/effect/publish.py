@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable
 
-from thermodata.effect.describe import NOT_STATED, Description, describe
+from thermodata.effect.describe import NOT_STATED, Description, bounds_text, describe
 from thermodata.effect.registry import INSTALL, all_effects
 from thermodata.errors import UsageError
 from thermodata.schema.markdown import code, table
@@ -70,7 +70,7 @@ def _section(d: Description) -> str:
         if all(r.optional for r in d.roles):
             parts.append("Exactly one of these drives it.\n")
     numbers = [
-        (p.name, "searched", p.unit, f"{p.lower:g} to {p.upper:g}, from {p.start:g}", "", p.meaning)
+        (p.name, "searched", p.unit, bounds_text(p.lower, p.upper, p.start, p.reach), "", p.meaning)
         for p in d.parameters
     ]
     numbers += [

@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 from thermodata.effect import effect as find_effect
+from thermodata.effect import effects
 from thermodata.effect.binding import Described, bindings
 from thermodata.errors import UsageError, unknown_name
 from thermodata.modelling.resolve import term_ids
@@ -79,9 +80,19 @@ def candidate_spec(candidate: str, channels: Mapping[str, Described]) -> EffectS
 
 
 def with_effect(spec: Model, effect: EffectSpec) -> Model:
-    """A new model: the same, and one effect more. Verification tests take part in the choice, so they are fitted too
-    and their scores say so."""
-    return spec.model_copy(update={"effects": [*spec.effects, effect], "in_sample": True})
+    """A new model: the same, and one effect more, with bounds as wide as it may reach. Verification tests take part in
+    the choice, so they are fitted too and their scores say so."""
+    return spec.model_copy(update={"effects": [*spec.effects, _reaching(effect)], "in_sample": True})
+
+
+def _reaching(effect: EffectSpec) -> EffectSpec:
+    """A sensor within the very body leaves less to lag than the bounds of the effect know."""
+    if effect.effect not in effects():
+        return effect
+    reach = {p.name: p.reach for p in find_effect(effect.effect).params if p.reach is not None}
+    held = {*effect.fixed, *effect.bounds}
+    bounds = {name: r for name, r in reach.items() if name not in held}
+    return effect.model_copy(update={"bounds": {**effect.bounds, **bounds}}) if bounds else effect
 
 
 def with_gain_by(spec: Model, term: str, by: str) -> Model:

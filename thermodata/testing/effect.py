@@ -102,6 +102,8 @@ def its_bounds_hold_its_start(effect: Effect) -> Iterator[str]:
     for p in effect.params:
         if not (np.isfinite([p.lower, p.start, p.upper]).all() and p.lower <= p.start <= p.upper and p.lower < p.upper):
             yield f"{p.name}: {p.lower} <= {p.start} <= {p.upper} does not hold"
+        if p.reach is not None and not p.reach[0] <= p.lower < p.upper <= p.reach[1]:
+            yield f"{p.name}: {p.lower} to {p.upper} does not lie within its reach, {p.reach}"
     for g in effect.gains:
         if not 0 <= g.magnitude[0] <= g.magnitude[1] or g.sign not in ("+", "-", "any"):
             yield f"{g.name}: magnitude {g.magnitude}, sign {g.sign!r}"

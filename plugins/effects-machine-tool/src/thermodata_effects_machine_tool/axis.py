@@ -39,7 +39,7 @@ class FeedScrew(Lagged):
         Need("temperature", "temperature", ("axis.{a}.nut", "axis.{a}.screw", "axis.{a}.bearing"), True),
         Need("feed", "feed", ("axis.{a}",), True),
     )
-    params = (tau(60, 18, 240), exponent(1.0))
+    params = (tau(60, 18, 240, reach=(1, 360)), exponent(1.0))
     gains = (gain("um/K", 0.5, 5, "displacement at rest a kelvin (um at 10 m/min where the feed drives it)"),)
     driven = ("abs(feed / 10) ** exponent",)
 
@@ -65,7 +65,7 @@ class FeedMotor(Lagged):
     telltale = "twin of feed_screw: the same axis moves; told apart by a sensor at the nut"
     source = "[straka2021] input syst (feed motor); bounds: docs/method.md#bounds-of-the-effects"
     needs = (Need("temperature", "temperature", ("axis.{a}.motor",)),)
-    params = (tau(60, 30, 180),)
+    params = (tau(60, 30, 180, reach=(1, 360)),)
     gains = (gain("um/K", 0.2, 4, "displacement at rest a kelvin of the motor"),)
 
 
@@ -170,7 +170,7 @@ class RotaryAxis(Lagged):
     telltale = "follows the axis while all linear axes stand; told apart by moving it alone"
     source = "as feed_motor, for a turning axis; bounds: docs/method.md#bounds-of-the-effects"
     needs = (Need("temperature", "temperature", ("rotary.{a}",)),)
-    params = (tau(60, 5, 360),)
+    params = (tau(60, 5, 360, reach=(1, 360)),)
     gains = (gain("um/K", 0.1, 10, "displacement at rest a kelvin"),)
 
 

@@ -16,9 +16,16 @@ REFERENCE_FEED_M_MIN = 10.0
 REFERENCE_TURNING_RPM = 10.0  # of a rotary axis
 
 
-def tau(start: float, lower: float, upper: float, name: str = "tau", meaning: str = "time constant") -> Param:
-    """A time constant [min]: where its search starts, and its bounds."""
-    return Param(name, "min", start, lower, upper, meaning)
+def tau(
+    start: float,
+    lower: float,
+    upper: float,
+    name: str = "tau",
+    meaning: str = "time constant",
+    reach: tuple[float, float] | None = None,
+) -> Param:
+    """A time constant [min]: where its search starts, its bounds, and those of an effect that is added."""
+    return Param(name, "min", start, lower, upper, meaning, reach)
 
 
 def gain(unit: str, smallest: float, largest: float, meaning: str, name: str = "gain") -> Gain:

@@ -88,7 +88,7 @@ class SpindleMotor(Lagged):
     telltale = "large at low speed, where the bearings stay cool; told apart by 500 against 9000 rpm"
     source = "[horejs2022] motor temperatures of SP1 to SP3; bounds: docs/method.md#bounds-of-the-effects"
     needs = (Need("temperature", "temperature", ("spindle.motor",)),)
-    params = (tau(40, 10, 120),)
+    params = (tau(40, 10, 120, reach=(1, 360)),)
     gains = (gain("um/K", 0.1, 5, "displacement at rest a kelvin of the winding"),)
 
 
