@@ -12,6 +12,7 @@ from thermodata.draft.values import Values
 from thermodata.draft.vocabulary import DIFFERENCE, foreign_in, places_in, quantities_in, says
 from thermodata.reader.time_units import found_epoch
 from thermodata.schema.quantity import normal_unit
+from thermodata.schema.unit_spelling import bare_unit
 
 _WEAK = ("a time stamp", "a number")  # words that stand beside others: 'Temp block 3'
 # what creeps there between 5 and 80 is a temperature
@@ -133,15 +134,11 @@ def _by_unit(named: tuple[str, ...], unit: str, own: str, values: Values | None)
 
 def _loosely(unit: str, quantity: str) -> bool:
     """Whether a unit that several quantities share can be this one: %, deg, Hz, um/m."""
-    normal = normal_unit(unit)
-    allowed = {
-        "percent": ("load", "humidity"),
-        "turn/second": ("rotational_speed",),
-        "urad": ("tilt",),
-        "deg": ("tilt", "angle"),
-        "rpm": ("rotational_speed",),
-    }
-    return quantity in allowed.get(normal, ())
+    if quantity in ("tilt", "angle"):
+        return units.is_inclination(unit) and (quantity == "tilt" or "m/m" not in bare_unit(unit))
+    if quantity in ("load", "humidity"):
+        return normal_unit(unit) == "percent"
+    return quantity == "rotational_speed" and units.converts(unit, quantity)
 
 
 def _kelvin(named: tuple[str, ...], unit: str, values: Values | None) -> Guess:

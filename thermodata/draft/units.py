@@ -7,6 +7,7 @@ import re
 from thermodata.errors import UsageError
 from thermodata.schema.quantity import CANONICAL_UNIT, linear_conversion, normal_unit
 from thermodata.schema.unit_scale import scaled_unit
+from thermodata.schema.unit_spelling import bare_unit
 
 _BY_UNIT: dict[str, tuple[str, ...]] = {
     "degC": ("temperature", "temperature_difference"),
@@ -38,10 +39,14 @@ _BY_UNIT: dict[str, tuple[str, ...]] = {
     "inch": ("position",),
     "in": ("position",),
 }
+_FREQUENCY = re.compile(r"[munkMG]?hz|1?/(?:ms|s|sec|h|d)|(?:ms|s|h|d)(?:\^?-1|⁻¹)|cps", re.IGNORECASE)
+_SLOPE = re.compile(r"[uμnm]?m/m")
+_ANGLE = re.compile(r"[uμnm]?rad|m?deg|°|grad|gon|arcsec|arcmin|mas", re.IGNORECASE)
+_ENERGY = re.compile(r"(?:Wh|J|[Cc]al|BTU)$")  # pint takes an energy for a torque
 _LOOSE = ("label", "state", "load", "humidity", "tilt", "angle")  # pint turns any bare number into these
 # A unit at the end of a name, after a separator: unmistakable ones only.
 _IN_NAME = re.compile(
-    r"(?:^|[_.\s-])(degC|°C|℃|Celsius|rpm|RPM|kW|um|µm|μm|mm|lpm|bar|mbar|kPa|MPa|mA|mV|Nm|urad|pct|"
+    r"(?:^|[_.\s-])(degC|[°º]C|℃|Celsius|rpm|RPM|kW|um|µm|μm|mm|lpm|bar|mbar|kPa|MPa|mA|mV|Nm|urad|pct|"
     r"(?:mm|m|l|1|U)[_/](?:min))$"
 )
 
@@ -66,13 +71,18 @@ def quantities_of(unit: str) -> tuple[str, ...]:
 
     What is only a number with a name ('%', 'deg') is left to the name where several fit.
     """
-    bare = re.sub(r"\s", "", unit).strip("[]()").lower()
-    if bare in ("hz", "s-1", "1/s", "s^-1") or bare in ("um/m", "µm/m", "μm/m"):
-        return ()  # a frequency or a strain, unless the name knows better
-    normal = normal_unit(scaled_unit(unit)[1])
+    bare, normal = bare_unit(unit), normal_unit(scaled_unit(unit)[1])
+    if _FREQUENCY.fullmatch(bare) or _SLOPE.fullmatch(bare) or _ENERGY.search(bare):
+        return ()  # a frequency, a strain, or an energy, unless the name knows better
     if normal in _BY_UNIT:
         return _BY_UNIT[normal]
     return tuple(q for q in CANONICAL_UNIT if q not in _LOOSE and converts(unit, q))
+
+
+def is_inclination(unit: str) -> bool:
+    """Whether a unit is one of angles or of slopes, which a name may make a tilt: 'mm/m', 'µm/m', 'arcsec'."""
+    bare = bare_unit(unit)
+    return _SLOPE.fullmatch(bare) is not None or _ANGLE.fullmatch(bare) is not None
 
 
 def converts(unit: str, quantity: str) -> bool:

@@ -45,7 +45,8 @@ temperature goes into an effect relative to the start of its test, so that 0 is 
 
 A unit is written as labs write it. The spellings below are read before pint is asked, which misreads some of them
 without a word (`1/min` as 0.159 rpm). Case and blanks do not count, but for `nm` (nanometre) and `Nm` (newton metre).
-Any other unit that pint knows is allowed where it converts.
+Any other unit that pint knows is allowed where it converts, with a prefix that is usual with it: `Mm` is none
+(`thermodata/schema/unit_reading.py`). A unit may be scaled: `10^3/min`, `1/10 °C`, `°C/10`, `x0.1 °C`.
 
 """
 

@@ -11,8 +11,9 @@ from functools import lru_cache
 from typing import Any, Literal, get_args
 
 from thermodata.errors import UsageError, nearest
+from thermodata.schema.unit_reading import usual
 from thermodata.schema.unit_scale import scaled_unit
-from thermodata.schema.unit_spelling import UNIT_SPELLING
+from thermodata.schema.unit_spelling import UNIT_SPELLING, bare_unit, plain_letters, spelled
 
 Quantity = Literal[
     "displacement",
@@ -99,19 +100,23 @@ _QUANTITY_TEXT = re.compile(r"^\s*([+-]?(?:\d+(?:[.,]\d*)?|[.,]\d+)(?:[eE][+-]?\
 
 def normal_unit(text: str) -> str:
     """The unit in pint's spelling, from what a lab wrote."""
-    bare = re.sub(r"\s+", "", text).strip("[]()")
+    bare = bare_unit(text)
     # "nm" in lower case is nanometres; torque is written with a capital N
     if bare == "nm":
         return "nm"
-    known = UNIT_SPELLING.get(bare.casefold())
-    if known is not None:
-        return known
     # in these the case of the prefix counts: mOhm and MOhm, mNm and MNm
-    if torque := re.fullmatch(r"(k|m|M|c|d|da|u|µ|μ)?N[·.*]?(m|mm|cm)", bare):
+    known = spelled(text)
+    if known is not None:
+        return _powers(known)
+    if torque := re.fullmatch(r"(k|m|M|c|d|da|u|μ)?N[·.*]?(m|mm|cm)", bare):
         return f"{torque[1] or ''}N*{torque[2]}"
-    if resistance := re.fullmatch(r"([kMmGuµμ]?)(?:[Oo]hms?|OHM|Ω|Ω)", bare):
+    if resistance := re.fullmatch(r"([kMmGuμ]?)(?:[Oo]hms?|OHM|Ω|\u2126)", bare):
         return f"{resistance[1]}ohm"
-    return re.sub(r"\b([kcdm]?m)\^?([23])(?![\d.])", r"\1**\2", text.strip())
+    return _powers(plain_letters(text).replace("º", "°").strip())
+
+
+def _powers(unit: str) -> str:
+    return re.sub(r"\b([kcdm]?m|ft|in)\^?([23])(?![\d.])", r"\1**\2", unit)
 
 
 @lru_cache(maxsize=1)
@@ -120,6 +125,29 @@ def _registry() -> Any:
 
     registry: Any = pint.UnitRegistry(autoconvert_offset_to_baseunit=False, cache_folder=None)
     return registry
+
+
+def _read(unit: str) -> Any:
+    """Pint's unit; ValueError where it takes a lab's word for a prefix and a unit that nobody writes."""
+    registry = _registry()
+    read = registry.parse_units(unit)
+    if not usual(registry, read._units):
+        raise ValueError(f"read as {read}")
+    return read
+
+
+_TURNING = ("turn", "kiloturn", "revolutions_per_minute", "kilorevolutions_per_minute", "revolution", "kilorevolution")
+
+
+def _turns(read: Any) -> float:
+    """The power of turns in a unit: 1 for rpm, -1 for mm by the turn."""
+    return float(sum(power for name, power in read._units.items() if name in _TURNING))
+
+
+def _per_time_only(read: Any) -> bool:
+    """Whether a unit is 1/time without an angle: Hz, 1/d."""
+    angles = any("radian" in name or "degree" in name or "arc" in name or name == "grade" for name in read._units)
+    return read.dimensionality == {"[time]": -1} and not angles and _turns(read) == 0
 
 
 @lru_cache(maxsize=4096)
@@ -131,8 +159,13 @@ def linear_conversion(unit: str, target: str) -> tuple[float, float]:
         return scale / goal_scale, 0.0
     try:
         registry = _registry()
-        at_0 = float(registry.Quantity(0.0, source).to(goal).magnitude)
-        at_1 = float(registry.Quantity(1.0, source).to(goal).magnitude)
+        read, wanted = _read(source), _read(goal)
+        if _per_time_only(read) and _turns(wanted) == 1:
+            read = read * registry.turn  # what is counted by the second is turns, not radians
+        if _turns(read) < 0 <= _turns(wanted):
+            raise ValueError("a length by the turn is no length")
+        at_0 = float(registry.Quantity(0.0, read).to(wanted).magnitude)
+        at_1 = float(registry.Quantity(1.0, read).to(wanted).magnitude)
     except Exception as error:
         raise UsageError(
             f"unit '{unit}' does not convert to '{target}'",
@@ -157,7 +190,7 @@ def is_unit(text: str) -> bool:
     if normal in AT_HAND:
         return True
     try:
-        _registry().parse_units(normal)
+        _read(normal)
     except Exception:
         return False
     return True

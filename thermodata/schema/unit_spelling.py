@@ -6,6 +6,10 @@ this table comes first. Keys are casefolded, with blanks removed; a unit that ca
 
 from __future__ import annotations
 
+import re
+import unicodedata
+from functools import lru_cache
+
 UNIT_SPELLING: dict[str, str] = {
     "1/min": "rpm",
     "u/min": "rpm",
@@ -44,6 +48,12 @@ UNIT_SPELLING: dict[str, str] = {
     "degreec": "degC",
     "degreescelsius": "degC",
     "stc": "degC",
+    "°cel": "degC",
+    "degrc": "degC",
+    "degr.c": "degC",
+    "deg_c": "degC",
+    "grad_c": "degC",
+    "oc": "degC",
     "degf": "degF",
     "f": "degF",
     "°f": "degF",
@@ -55,13 +65,19 @@ UNIT_SPELLING: dict[str, str] = {
     "microns": "um",
     "micrometer": "um",
     "mikrometer": "um",
+    "mikron": "um",
+    "mkm": "um",
+    "mil": "thou",
+    "mils": "thou",
     "urad": "urad",
     "µrad": "urad",
     "μrad": "urad",
     "um/m": "urad",
+    "μm/m": "urad",
     "µm/m": "urad",
     "deg": "deg",
     "°": "deg",
+    "gon": "gon",
     "grad": "deg",
     "volts": "V",
     "vdc": "V",
@@ -79,7 +95,22 @@ UNIT_SPELLING: dict[str, str] = {
     "rh": "percent",
     "%r.h.": "percent",
     "%rf": "percent",
+    "%r.f.": "percent",
+    "proz.": "percent",
     "kw": "kW",
+    "hp": "horsepower",
+    "kpa": "kPa",
+    "kgf/cm2": "kgf/cm**2",
+    "kgf/cm²": "kgf/cm**2",
+    "kg/cm2": "kgf/cm**2",
+    "kg/cm²": "kgf/cm**2",
+    "kp/cm2": "kgf/cm**2",
+    "kp/cm²": "kgf/cm**2",
+    "barg": "bar",
+    "bar(g)": "bar",
+    "bara": "bar",
+    "bar(a)": "bar",
+    "torr": "torr",
     "nm": "N*m",
     "n·m": "N*m",
     "n*m": "N*m",
@@ -93,8 +124,13 @@ UNIT_SPELLING: dict[str, str] = {
     "ohms": "ohm",
     "l/min": "l/min",
     "lpm": "l/min",
+    "gpm": "gallon/min",
+    "usgpm": "gallon/min",
+    "cfm": "ft**3/min",
     "m/min": "m/min",
     "mm/min": "mm/min",
+    "ipm": "inch/min",
+    "fpm": "ft/min",
     "1": "dimensionless",
     "-": "dimensionless",
     "bool": "dimensionless",
@@ -119,10 +155,64 @@ UNIT_SPELLING: dict[str, str] = {
     "minuten": "min",
 }
 
+# in these the case of a letter counts: PS is a horse's power, ps a time
+_IN_THIS_CASE = {"PS": "metric_horsepower", "CV": "metric_horsepower"}
+_TURN = r"(?:u|umdr|rev|revs|r|tr|tours?|giri|rot|obr|ot|turns?)\.?"
+_TIME = r"(?P<time>ms|s|sec|sek|min|h|hr|d)"
+_TURNS_PER = re.compile(rf"(?P<kilo>k?){_TURN}/{_TIME}", re.IGNORECASE)
+_PER_TIME = re.compile(rf"1?/{_TIME}")
+_PER_TIME_RAISED = re.compile(r"(?P<time>ms|s|min|h|d)(?:(?:\^|\*\*)?-1|⁻¹)")
+_PER_TURN = re.compile(rf"(?P<length>mm|um|μm|in|inch)/{_TURN}", re.IGNORECASE)
+_FOOT_POUND = re.compile(
+    r"(?P<length>ft|in)[-.·*]?lbf?|lbf?[-.·*]?(?P<behind>ft|in)|(?P<kilo>kgf|kp)[.·*]?(?P<metric>m|cm)", re.IGNORECASE
+)
+_GRAD = re.compile(r"(?<![^\W\d_])grad(?![^\W\d_])", re.IGNORECASE)
+# full-width letters, and signs that hold a whole unit (㎜ ㎛ ㎾ ℓ): what keyboards of East Asia write
+_WIDE = re.compile("[\uff01-\uff5e\u3351\u3371-\u33df\u2113\u2103\u2109]")
+_LITRE = "\u3351"
+_ALIKE = str.maketrans({"º": "°", "˚": "°", "µ": "μ", "−": "-", "∙": "·", "⋅": "·", "×": "*"})
+
+
+@lru_cache(maxsize=4096)
+def plain_letters(text: str) -> str:
+    """A unit without full-width letters and signs that hold a whole unit: '㎏f/㎠' -> 'kgf/cm2', 'ｒｐｍ' -> 'rpm'."""
+    return _WIDE.sub(lambda m: "l" if m[0] == _LITRE else unicodedata.normalize("NFKC", m[0]), text)
+
+
+def bare_unit(text: str) -> str:
+    """A unit without blanks, without brackets around it and in plain letters: '[deg C]' -> 'degC'."""
+    bare = re.sub(r"\s+", "", plain_letters(text)).translate(_ALIKE)
+    enclosed = re.fullmatch(r"[\[(]*([^\[\]()]*)[\])]*", bare)
+    return enclosed[1] if enclosed else bare
+
+
+@lru_cache(maxsize=4096)
+def spelled(text: str) -> str | None:
+    """Pint's spelling of what labs write, None where it is not one of theirs. Turns count as turns, and 'Grad' is a
+    degree wherever it stands (pint takes it for 10**9 radians, and 'grad' for 1/400 of a turn)."""
+    bare = bare_unit(text)
+    if found := _IN_THIS_CASE.get(bare) or UNIT_SPELLING.get(bare.casefold()):
+        return found
+    if turns := _TURNS_PER.fullmatch(bare):
+        return f"{'kilo' if turns['kilo'] else ''}turn/{_time(turns['time'])}"
+    if turns := _PER_TIME.fullmatch(bare) or _PER_TIME_RAISED.fullmatch(bare):
+        return f"turn/{_time(turns['time'])}"
+    if feed := _PER_TURN.fullmatch(bare):
+        return f"{feed['length'].lower()}/turn"
+    if torque := _FOOT_POUND.fullmatch(bare):
+        if torque["kilo"]:
+            return f"kgf*{torque['metric'].lower()}"
+        return f"force_pound*{'foot' if (torque['length'] or torque['behind']).lower() == 'ft' else 'inch'}"
+    return _GRAD.sub("deg", bare) if _GRAD.search(bare) else None
+
+
+def _time(written: str) -> str:
+    return {"s": "second", "sec": "second", "sek": "second", "hr": "h"}.get(written.lower(), written.lower())
+
 
 def spellings() -> dict[str, tuple[str, ...]]:
     """Pint's spelling -> what labs write for it, in alphabetical order."""
     found: dict[str, list[str]] = {}
-    for written, unit in UNIT_SPELLING.items():
+    for written, unit in (UNIT_SPELLING | _IN_THIS_CASE).items():
         found.setdefault(unit, []).append(written)
     return {unit: tuple(sorted(found[unit])) for unit in sorted(found, key=str.casefold)}

@@ -9,18 +9,23 @@ from itertools import pairwise
 
 from thermodata.reader.text.cell import TIME_WORD, Cell, is_stamp
 from thermodata.schema.unit_scale import scaled_unit
-from thermodata.schema.unit_spelling import UNIT_SPELLING
+from thermodata.schema.unit_spelling import bare_unit, plain_letters, spelled
 
 _BASE = (
     r"(?:[kMGmunµμcdh]?(?:m|g|s|A|V|W|K|N|Pa|Hz|J|C|F|bar|l|L|rad|Ohm|ohm|Ω|VA|Wh|mol|lm|lx|T)|min|h|d|rpm|RPM|"
     r"inch|thou|deg|U|rev|mas|arcsec|ppm|RH|dB|psi|inc|imp|1|bit|counts?|digits?)"
 )
 _UNIT = re.compile(rf"^{_BASE}(?:\s?\^?-?[1-4]|[²³⁻¹]+)?(?:\s?[/*·.]\s?{_BASE}(?:\^?-?[1-4]|[²³⁻¹]+)?){{0,3}}$")
+# what counts by the time, in units that are words as well where they stand alone
+_RATE = re.compile(r"^(?:in|inch|ft|gal|cc|[°º][CF]?)\s?/\s?(?:s|sec|min|h)$")
+# what holds a sign of degrees, per cent or inches is a unit, known or not: '0.05 °C', '%FS', '"'
+_HAS_SIGN = re.compile(r"^[^;\[\]]{0,12}[°º˚%‰\"″][^;\[\]]{0,12}$")
 # '°C*10', 'x1000 rpm': a unit and a factor whose sense (of the unit, or of the value) only the lab knows
 _TIMES_TEN = re.compile(r"\s*[*·×x]\s*10+$|^[*·×x]\s*10+\s*")
+_WORDS = ("HP", "CV", "OC")  # in round brackets: high pressure, a controlled value, an overcurrent
 _TRAILING = re.compile(
     r"^(?P<name>.*?)(?P<gap>\s*)"
-    r"(?:\[(?P<square>[^\[\]]*)\]|\((?P<round>[^()]*)\)|(?P<fullwidth>（[^（）]*）))$",
+    r"(?:\[(?P<square>[^\[\]]*)\]|\((?P<round>[^()]*(?:\([ag]\))?)\)|(?P<fullwidth>（[^（）]*）|［[^［］]*］))$",
     re.DOTALL,
 )
 
@@ -29,10 +34,11 @@ _TRAILING = re.compile(
 def looks_like_unit(text: str) -> bool:
     """Whether a text reads as a unit: an alias (U/min, Grd C, °C) or SI symbols with / * and powers."""
     unit = scaled_unit(text)[1].strip()
-    bare = re.sub(r"\s+", "", unit).strip("[]()")
+    bare = bare_unit(unit)
     if not bare or bare.isdigit():
         return False
-    return bare.casefold() in UNIT_SPELLING or _UNIT.match(unit) is not None
+    plain = plain_letters(unit)
+    return spelled(unit) is not None or any(p.match(plain) is not None for p in (_UNIT, _RATE))
 
 
 @lru_cache(maxsize=4096)
@@ -51,14 +57,16 @@ def _unit_at_end(header: str) -> tuple[str, str | None]:
     match = _TRAILING.match(header)
     if not match or not match["name"].strip():
         return header, None
-    unit = (match["square"] or match["round"] or (match["fullwidth"] or "").strip("（）")).strip()
-    if looks_like_unit(unit):
+    unit = (match["square"] or match["round"] or (match["fullwidth"] or "").strip("（）［］")).strip()
+    if looks_like_unit(unit) and match["round"] not in _WORDS:
         return match["name"].strip(), unit
     bare = _TIMES_TEN.sub("", unit)
     if bare != unit and looks_like_unit(bare):
         return match["name"].strip(), unit
     # a word of its own in square brackets is a unit that we don't know; an index or an address is none
     if match["square"] and match["gap"] and re.match(r"^[^\W\d][^;,]{0,15}$", unit) and not re.match(r"^u\d", unit):
+        return match["name"].strip(), unit
+    if match["square"] and _HAS_SIGN.match(unit):
         return match["name"].strip(), unit
     return header, None
 

@@ -1,0 +1,100 @@
+"""Units as labs write them, each against the truth: read exactly, or no unit, never another one."""
+
+from __future__ import annotations
+
+import math
+
+import pytest
+
+from thermodata.draft.units import quantities_of
+from thermodata.errors import UsageError
+from thermodata.reader.text import split_unit
+from thermodata.schema.quantity import is_unit, linear_conversion
+
+_DEG, _RAD = 1 / 360, 1 / (2 * math.pi)  # turns
+
+_EXACT: list[tuple[str, str, float]] = [
+    *((u, "rpm", 60 * _DEG) for u in ("°/s", "deg/s", "Grad/s", "grad/s", "º/s", "deg / s")),
+    *((u, "rpm", _DEG) for u in ("°/min", "deg/min", "Grad/min")),
+    *((u, "rpm", 60 * _RAD) for u in ("rad/s", "rad / s")),
+    ("mrad/s", "rpm", 0.06 * _RAD),
+    ("rad/min", "rpm", _RAD),
+    *((u, "rpm", 60.0) for u in ("U/s", "1/s", "s-1", "s⁻¹", "/s", "tr/s", "rev/s", "r/s", "Hz", "cps", "rps", "㎐")),
+    *((u, "rpm", 1 / 60) for u in ("1/h", "U/h", "h-1", "rev/h")),
+    *((u, "rpm", 1 / 1440) for u in ("1/d", "U/d")),
+    ("mHz", "rpm", 0.06),
+    ("kHz", "rpm", 60_000.0),
+    *(
+        (u, "rpm", 1.0)
+        for u in ("min⁻¹", "min−1", "ｒｐｍ", "rot/min", "obr/min", "giri/min", "tours/min", "Umdr./min")
+    ),
+    *((u, "rpm", 1000.0) for u in ("krpm", "kU/min")),
+    *((u, "kW", 0.73549875) for u in ("PS", "CV", "ＰＳ")),
+    *((u, "kW", 0.745699871582) for u in ("hp", "HP")),
+    ("㎾", "kW", 1.0),
+    ("kVA", "kW", 1.0),
+    *((u, "l/min", 3.785411784) for u in ("gpm", "GPM", "gal/min", "US gpm")),
+    *((u, "l/min", 1.0) for u in ("L/min", "ℓ/min", "lpm", "LPM", "㍑/min")),
+    *((u, "l/min", 1000 / 60) for u in ("m3/h", "m³/h", "㎥/h", "m^3/h")),
+    ("cfm", "l/min", 28.316846592),
+    *((u, "um", 25.4) for u in ("mil", "mils", "thou")),
+    *((u, "um", 1000.0) for u in ("㎜", "ｍｍ")),
+    *((u, "um", 1.0) for u in ("㎛", "μ", "µ", "mkm", "Mikron", "μｍ")),
+    *((u, "bar", 0.980665) for u in ("kgf/cm2", "kgf/cm²", "㎏f/㎠", "kg/cm2", "kp/cm²", "at")),
+    *((u, "bar", 10.0) for u in ("MPa", "㎫", "N/mm²", "N/mm2")),
+    *((u, "bar", 0.01) for u in ("kPa", "㎪", "KPa")),
+    *((u, "bar", 1.0) for u in ("bar(g)", "barg", "bar")),
+    ("Torr", "bar", 101325 / 760 / 1e5),
+    *((u, "N m", 1.3558179483314) for u in ("ft-lb", "lb-ft", "lbf·ft", "ft.lb", "lbf ft")),
+    ("in-lb", "N m", 0.1129848290276),
+    *((u, "N m", 9.80665) for u in ("kgf·m", "kgfm", "kgf.m")),
+    *((u, "degC", 1.0) for u in ("ºC", "℃", "°Ｃ", "oC", "deg_C", "Grad C", "°Cel")),
+    *((u, "degC", 0.1) for u in ("°C/10", "0.1 °C", "1/10 °C", "x0.1 degC", "×0,1 °C", "0.1ºC", "℃/10")),
+    ("mm/1000", "um", 1.0),
+    *((u, "%", 1.0) for u in ("％", "% r.F.", "Proz.")),
+    *((u, "urad", 1.0) for u in ("µm/m", "μm/m", "um/m", "㎛/m")),
+    ("Grad", "deg", 1.0),
+    ("gon", "deg", 0.9),
+    ("㏀", "Ohm", 1000.0),
+    ("ipm", "m/min", 0.0254),
+    ("W/㎡", "W/m2", 1.0),
+]
+
+
+@pytest.mark.parametrize(("written", "target", "factor"), _EXACT)
+def test_a_unit_is_what_a_lab_means_by_it(written: str, target: str, factor: float) -> None:
+    assert linear_conversion(written, target) == pytest.approx((factor, 0.0), rel=1e-9)
+    assert split_unit(f"Kanal 7 [{written}]") == ("Kanal 7", written)
+
+
+@pytest.mark.parametrize(
+    "written",
+    [
+        *("Mm", "hm", "Min", "MIN", "PA", "PSi", "cd", "dc", "dez", "Dez", "ch", "pu", "my", "slpm", "scfm", "Nl/min"),
+        *("%FS", "dC", "kC", "m°C", "kVAr", "nMm", "Gs", "Tm", "EV", "das", "mmin"),
+    ],
+)
+def test_what_only_a_table_of_prefixes_makes_a_unit_is_none(written: str) -> None:
+    assert not is_unit(written)
+    assert quantities_of(written) == ()
+
+
+@pytest.mark.parametrize(("written", "target"), [("mm/U", "um"), ("mm/rev", "um"), ("kWh", "rpm"), ("gpm", "m/min")])
+def test_a_length_by_the_turn_is_no_length(written: str, target: str) -> None:
+    with pytest.raises(UsageError, match="does not convert"):
+        linear_conversion(written, target)
+
+
+def test_an_energy_is_no_torque_and_a_rate_no_speed_unless_the_name_says_so() -> None:
+    assert [quantities_of(u) for u in ("kWh", "1/h", "MHz", "s⁻¹", "Hz", "µm/m")] == [()] * 6
+
+
+@pytest.mark.parametrize("header", ["Pumpe (HP)", "Ventil (CV)", "Wasser (in)", "Luft (at)", "Eingang [1]x"])
+def test_words_in_round_brackets_are_no_units(header: str) -> None:
+    assert split_unit(header) == (header, None)
+
+
+@pytest.mark.parametrize("unit", ["0.05 °C", "%FS", '"', "°Brix"])
+def test_what_holds_a_sign_of_a_unit_is_one_that_is_not_known(unit: str) -> None:
+    assert split_unit(f"Kanal 7 [{unit}]") == ("Kanal 7", unit)
+    assert not is_unit(unit)
