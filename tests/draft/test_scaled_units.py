@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
 from thermodata.draft.guess import guess
+from thermodata.draft.values import Values
 from thermodata.reader.text import split_unit
 
 from .conftest import Said
@@ -74,3 +76,59 @@ def test_a_share_that_may_be_of_one_is_asked_and_one_of_a_hundred_is_said(tmp_pa
     say("init", percent)
     assert 'unit: "%", instead_of: "-"' in (percent / "campaign.yaml").read_text(encoding="utf-8")
     assert say("--store", tmp_path / "store", "ingest", percent / "campaign.yaml").code == 0
+
+
+@pytest.mark.parametrize("unit", ["°C/10", "0.1 °C", "1/10 °C", "x0.1 degC"])
+def test_tenths_of_a_degree_are_never_kelvin(unit: str, tmp_path: Path, say: Say) -> None:
+    folder = _folder(tmp_path / "a", f"Zeit;T_Lager_vorn [{unit}]", lambda k: f"{230 + k // 40}")
+    assert say("init", folder).code == 0
+    store = tmp_path / "store"
+    assert say("--store", store, "ingest", folder / "campaign.yaml").code == 0
+    shown = say("--store", store, "sql", "--csv", "SELECT max(value) m FROM sample").out
+    assert float(shown.split()[-1]) == pytest.approx(23.5)
+
+
+def test_a_temperature_without_a_unit_that_is_too_cold_for_kelvin_is_asked() -> None:
+    tenths = Values(500, 230, 240, 235, 1, 0.5, 9, True, 230)
+    assert (guess("T_Lager_vorn", None, values=tenths).unit) is None
+    kelvin = replace(tenths, low=293.15, high=296.4, median=295, whole=False)
+    assert (guess("T_Lager_vorn", None, values=kelvin).unit) == "K"
+    either = replace(tenths, low=285, high=300, median=290)
+    assert "K, or tenths of a degree" in guess("T_Lager_vorn", None, values=either).questions[0]
+
+
+@pytest.mark.parametrize(
+    ("header", "unit", "truth"),
+    [
+        ("A axis speed [°/s]", "°/s", 10.0),
+        ("Drehzahl C-Achse [Grad/s]", "Grad/s", 10.0),
+        ("Drehzahl A [°/min]", "°/min", 1 / 6),
+        ("Drehzahl Spindel [1/h]", "1/h", 1.0),
+    ],
+)
+def test_a_speed_in_degrees_or_by_the_hour_is_ingested_in_rpm(
+    header: str, unit: str, truth: float, tmp_path: Path, say: Say
+) -> None:
+    folder = _folder(tmp_path / "a", f"Zeit;{header}", lambda k: f"{60 * (k > 60)},0")
+    assert say("init", folder).code == 0
+    drafted = (folder / "campaign.yaml").read_text(encoding="utf-8")
+    assert re.search(rf'unit: "?{re.escape(unit)}"?[,}}]', drafted)
+    store = tmp_path / "store"
+    assert say("--store", store, "ingest", folder / "campaign.yaml").code == 0
+    shown = say("--store", store, "sql", "--csv", "SELECT channel, max(value) m FROM sample GROUP BY ALL").out
+    channel, value = shown.split()[-1].split(",")
+    assert channel != "min"
+    assert float(value) == pytest.approx(truth)
+
+
+def test_a_unit_of_slopes_is_a_tilt_where_the_name_says_so() -> None:
+    for unit in ("µm/m", "μm/m", "mm/m", "arcsec", "mrad"):
+        assert guess("Inclinazione montante", unit).quantity == "tilt"
+        assert guess("Segnale 7", unit).quantity is None
+
+
+@pytest.mark.parametrize("name", ["Chiller saída ºC", "Retorno fluido de corte ºC", "Hallenluft °C"])
+def test_degrees_at_the_end_of_a_name_are_its_unit(name: str) -> None:
+    said = guess(name, None)
+    assert (said.quantity, said.unit) == ("temperature", name[-2:])
+    assert not any(q.startswith("unit") for q in said.questions)

@@ -30,6 +30,7 @@ _IMPLIED = {
     "torque": "N m",
     "voltage": "V",
 }
+_COLDEST_K = 250.0  # of a machine and its hall; 235 is 23.5 degC in tenths
 _SHARES = ("load", "humidity")
 _MOST_OF_ONE = 2.5  # an overload of a drive that is logged as a share of 1
 _PLAUSIBLE = {
@@ -117,7 +118,10 @@ def _unit(found: Guess, unit: str | None, written: str | None, values: Values | 
         basis = found.basis if "values" in found.basis else (*found.basis, "values")
         # the file says '-' or '1', which an ingest would hold against the unit
         return replace(found, unit=implied, sure=False, basis=basis, instead_of=unit)
-    if quantity == "temperature" and values is not None and values.low > 200 and values.high < 450:
+    if quantity == "temperature" and values is not None and values.low > _COLDEST_K and values.high < 450:
+        if values.whole:
+            asked = f"unit: K, or tenths of a degree (0.1 degC)? ({range_text(values)})"
+            return replace(found, unit=None, sure=False, questions=(*found.questions, asked))
         return replace(found, unit="K", sure=False, basis=(*found.basis, "values"), instead_of=unit)
     if implied and values is None and quantity in ("temperature", "rotational_speed"):
         asked = f"unit: {implied}?"
